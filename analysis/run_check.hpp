@@ -48,6 +48,18 @@ struct UncrushedOverlap {
   geometry::Point place_in_world;  ///< about where [m]
 };
 
+/// Crushed ice and the work that crushed it may differ by this factor, where more is crushed than the share above.
+inline constexpr double kMostWorkFactor = 1.5;
+
+/// Two bodies whose crushed ice is not what the work on record crushes.
+struct UnpaidOverlap {
+  simulation::ContactState::Body first, second;
+  double time = 0;      ///< at which it is most [s]
+  double area = 0;      ///< crushed [m²]
+  double expected = 0;  ///< σ_c times the volume on record [J]
+  double work = 0;      ///< on record [J]
+};
+
 /// What re-deriving a run's geometry found.
 struct RunCheck {
   std::size_t shapes = 0;
@@ -72,18 +84,23 @@ struct RunCheck {
   bool has_crushed = false;           ///< the run states what was crushed: overlaps were compared with it
   std::size_t uncrushed_pairs = 0;    ///< over all instants
   std::vector<UncrushedOverlap> uncrushed;  ///< the first of these
+  std::size_t paid_pairs = 0;               ///< whose crushed ice was compared with the work that it took
+  std::vector<UnpaidOverlap> unpaid;        ///< those of them that differ
+  double most_expected = 0;                 ///< Σ σ_c V over all pairs at the instant it is most [J]
+  double work_then = 0;                     ///< Σ of the work on record at that instant [J]
   std::size_t undecided = 0;                ///< pairs whose overlap geometry failed to find
 
   bool is_sound() const {
     return invalid.empty() && recorded_area.wrong == 0 && balance.wrong == 0 && overlapping_siblings == 0 &&
-           uncrushed_pairs == 0 && undecided == 0;
+           uncrushed_pairs == 0 && unpaid.empty() && undecided == 0;
   }
 };
 
 /// Finds validity, areas, balances and shared areas exactly, for the doubles on record; areas are rounded
 /// once for the report. Measures overlaps at every frame, or at one instant only. Frames are right to 1 mm
-/// (frames.hpp). What bodies share at a frame is compared with what was crushed there (crushed.csv), hulls
-/// and structures included; runs of versions that did not record it are measured only.
+/// (frames.hpp). What bodies share at a frame is compared with what was crushed or tilted there (crushed.csv),
+/// and what was crushed with the work that it took, hulls and structures included; runs of versions that did not
+/// record it are measured only.
 /// `on_part` is called often, with how much is done (0..1).
 RunCheck check_run(const io::Run& run, std::optional<double> only_at = {},
                    const std::function<void(double)>& on_part = {});

@@ -41,6 +41,16 @@ CrushedArea crushed_overlap_at(const Overlap& overlap, double depth, double thic
   return {(area - inner_area) / sine, std::max(0.0, slope - slope_at(inner, inner_area)) / sine};
 }
 
+double crushed_volume(const Overlap& overlap, double reached_area, double thickness, double hull_angle) {
+  if (overlap.area <= 0 || overlap.depth <= 0 || reached_area <= 0) return 0;
+  const double p = std::clamp(overlap.depth * overlap.width / overlap.area, 1.0, 3.0);
+  const double depth = overlap.depth * std::pow(reached_area / overlap.area, 1 / p);
+  const double reach = thickness * std::tan(hull_angle) / depth;
+  if (reach < kVertical) return thickness * reached_area;
+  const double left = reach < 1 ? -std::expm1((p + 1) * std::log1p(-reach)) : 1;
+  return thickness * reached_area * left / ((p + 1) * reach);
+}
+
 RecedingCrush crushed_receding(const Overlap& overlap, double depth, double thickness, double hull_angle,
                                double recession) {
   RecedingCrush result{depth, crushed_overlap_at(overlap, depth, thickness, hull_angle)};
@@ -58,7 +68,9 @@ RecedingCrush crushed_receding(const Overlap& overlap, double depth, double thic
     result.penetration = next > shallow && next < deep ? next : 0.5 * (shallow + deep);
     result.crushed = crushed_overlap_at(overlap, result.penetration, thickness, hull_angle);
   }
-  result.crushed.slope /= 1 + recession * result.crushed.slope;
+  const double growth = 1 + recession * result.crushed.slope;
+  result.share = 1 / growth;
+  result.crushed.slope /= growth;
   return result;
 }
 

@@ -38,11 +38,16 @@ struct CrushedArea {
 /// continued by its power law to `depth` [m].
 CrushedArea crushed_overlap_at(const Overlap& overlap, double depth, double thickness, double hull_angle);
 
-/// The same where the ice edge recedes from the hull while it is pressed: of the depth, ξ is crushed and the
+/// What crushed of the ice where an overlap reached that area, V = ∫ S(ξ − z tan θ_s) dz over the thickness,
+/// dV/dξ = A_c cos θ_s; at a vertical wall h S. S is continued by its power law [m³].
+double crushed_volume(const Overlap& overlap, double reached_area, double thickness, double hull_angle);
+
+/// A_c where the ice edge recedes from the hull while it is pressed: of the depth, ξ is crushed and the
 /// rest is what the edge has given way, depth = ξ + r A_c(ξ).
 struct RecedingCrush {
   double penetration = 0;  ///< ξ [m]
   CrushedArea crushed;     ///< A_c(ξ), and how it grows with the depth (not with ξ)
+  double share = 1;        ///< dξ/d depth [-]
 };
 
 /// `recession` r ≥ 0 [m/m²], at 0 that of crushed_overlap_at. r must not change while A_c grows: where it

@@ -199,14 +199,22 @@ ContactState::Body contact_body(const Population& population, BodyIndex body) {
 
 std::vector<CrushedOverlap> Simulation::crushed_overlaps() const {
   const Population& population = world_->population;
-  std::vector<std::tuple<BodyIndex, BodyIndex, double>> pairs;
-  population.pairs.for_loaded_overlaps([&](BodyIndex a, BodyIndex b, double area) { pairs.emplace_back(a, b, area); });
-  std::ranges::sort(pairs);
+  const dynamics::Bodies& bodies = population.bodies;
+  std::vector<std::tuple<BodyIndex, BodyIndex, CrushedOverlap>> pairs;
+  population.pairs.for_loaded_overlaps([&](BodyIndex a, BodyIndex b, double area, const dynamics::Booked& booked) {
+    pairs.emplace_back(a, b,
+                       CrushedOverlap{.on = contact_body(population, a),
+                                      .by = contact_body(population, b),
+                                      .area = std::max(0.0, area - booked.tilted),
+                                      .share = area / std::min(bodies.area[a], bodies.area[b]),
+                                      .tilted = booked.tilted,
+                                      .volume = booked.volume,
+                                      .work = booked.work});
+  });
+  std::ranges::sort(pairs, {}, [](const auto& pair) { return std::pair(std::get<0>(pair), std::get<1>(pair)); });
   std::vector<CrushedOverlap> overlaps;
   overlaps.reserve(pairs.size());
-  for (const auto& [a, b, area] : pairs)
-    overlaps.push_back({contact_body(population, a), contact_body(population, b), area,
-                        area / std::min(population.bodies.area[a], population.bodies.area[b])});
+  for (const auto& pair : pairs) overlaps.push_back(std::get<2>(pair));
   return overlaps;
 }
 

@@ -61,12 +61,15 @@ struct ContactState {
   bool is_crushing = false;        ///< it presses with all that crushing ice carries
 };
 
-/// Two bodies with an overlap that their contacts have pressed: ice that was crushed there.
+/// Two bodies with an overlap that their contacts have pressed: ice that was crushed there, or gave way.
 struct CrushedOverlap {
   ContactState::Body on;
   ContactState::Body by;
-  double area = 0;   ///< [m²]
-  double share = 0;  ///< of the smaller of the two bodies
+  double area = 0;    ///< crushed [m²]
+  double share = 0;   ///< of the smaller of the two bodies, with what is tilted
+  double tilted = 0;  ///< where the ice edge tilted or bent down under a hull [m²]
+  double volume = 0;  ///< of the ice that the work crushed; under an inclined hull a wedge of the area's [m³]
+  double work = 0;    ///< that crushed it, friction aside [J]
 };
 
 /// A run in progress: the scene's world, stepped.

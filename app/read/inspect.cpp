@@ -114,6 +114,19 @@ void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check, c
                       "{:.6g} m2 beyond it allowed",
                       name(pair.first), name(pair.second), pair.time, pair.place_in_world.x, pair.place_in_world.y,
                       pair.shared, pair.crushed, pair.allowed));
+    add(fmt::format("work       {} of more than that; {} from the work on record by more than a factor of {:g}",
+                    counted(check.paid_pairs, "crushed overlap"),
+                    check.unpaid.size() == 1 ? "1 differs" : fmt::format("{} differ", check.unpaid.size()),
+                    analysis::kMostWorkFactor));
+    add(fmt::format(
+        "           most at once, smaller overlaps included: {:.6g} kJ by what is crushed, {:.6g} kJ on record",
+        1e-3 * check.most_expected, 1e-3 * check.work_then));
+    for (std::size_t i = 0; i < std::min(check.unpaid.size(), analysis::kMostUncrushed); ++i) {
+      const analysis::UnpaidOverlap& pair = check.unpaid[i];
+      add(fmt::format("           {} and {} at {:.6g} s: {:.6g} m2 crushed, which takes {:.6g} kJ; {:.6g} kJ on record",
+                      name(pair.first), name(pair.second), pair.time, pair.area, 1e-3 * pair.expected,
+                      1e-3 * pair.work));
+    }
   }
 }
 
@@ -191,6 +204,14 @@ void write_hulls(JsonWriter& json, const analysis::RunCheck& check, const simula
     json.key("t_s").value(pair.time).key("place_m").value(pair.place_in_world);
     json.key("shared_m2").value(pair.shared).key("crushed_m2").value(pair.crushed);
     json.key("allowed_beyond_m2").value(pair.allowed);
+  });
+  json.key("compared_with_work").value(check.paid_pairs).key("most_expected_J").value(check.most_expected);
+  json.key("crushing_then_J").value(check.work_then);
+  json.key("unpaid").object_lines(check.unpaid, [&](const analysis::UnpaidOverlap& pair) {
+    write_body("first", pair.first);
+    write_body("second", pair.second);
+    json.key("t_s").value(pair.time).key("crushed_m2").value(pair.area);
+    json.key("expected_J").value(pair.expected).key("crushing_J").value(pair.work);
   });
 }
 

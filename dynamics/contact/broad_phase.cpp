@@ -340,8 +340,8 @@ ContactMemory BroadPhase::contact_memory_of(const Bodies& bodies, BodyIndex pare
       if (record.loaded_area == 0) continue;
       CrushedIce crushed = record.crushed;
       if (pair.b == parent) crushed.a_from_b = inverse(crushed.a_from_b);
-      memory.pressed.push_back(
-          {other, transform(water_from_b, record.last_point_in_b), record.reach, record.loaded_area, crushed});
+      memory.pressed.push_back({other, transform(water_from_b, record.last_point_in_b), record.reach,
+                                record.loaded_area, crushed, record.booked});
     }
   }
   std::sort(memory.outside.begin(), memory.outside.end(),
@@ -373,6 +373,7 @@ void BroadPhase::pass_contact_memory(const Bodies& bodies, BodyIndex fragment, c
       record.last_point_in_b = inverse_transform(water_from_body(bodies, pair.b), old.place);
       record.reach = old.reach;
       record.loaded_area = old.loaded_area;
+      record.booked = old.booked;
       record.crushed = old.crushed;  // a fragment has its floe's frame
       if (pair.b == fragment) record.crushed.a_from_b = inverse(record.crushed.a_from_b);
       record.is_inherited = true;

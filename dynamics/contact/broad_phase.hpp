@@ -22,6 +22,7 @@ struct PressedOverlap {
   double reach = 0;        ///< [m]
   double loaded_area = 0;  ///< [m²]
   CrushedIce crushed;      ///< its pose is that of the other's frame in the broken body's
+  Booked booked;
 };
 
 /// A body that one that breaks does not touch, neither inside the other.
@@ -88,13 +89,18 @@ class BroadPhase {
     });
   }
 
-  /// Calls use(a, b, area) for each pair, in no order: the overlap of its bodies that has pressed [m²].
+  /// Calls use(a, b, area, booked) for each pair, in no order: the overlap of its bodies that has pressed [m²],
+  /// and what became of it.
   template <class Use>
   void for_loaded_overlaps(Use use) const {
     for (const Pair& pair : pairs_) {
       double area = 0;
-      for (const PersistentContact& record : pair.records()) area += record.loaded_area;
-      if (area > 0 && !pair.is_dropped) use(pair.a, pair.b, area);
+      Booked booked;
+      for (const PersistentContact& record : pair.records()) {
+        area += record.loaded_area;
+        booked += record.booked;
+      }
+      if (area > 0 && !pair.is_dropped) use(pair.a, pair.b, area, booked);
     }
   }
 

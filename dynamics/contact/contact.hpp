@@ -20,6 +20,27 @@ constexpr geometry::Pose inverse(const geometry::Pose& a_from_b) {
   return relative_pose(a_from_b, {});
 }
 
+/// What became of the overlap of a contact that has pressed. By the law of crushing ice.
+struct Booked {
+  double loaded = 0;   ///< of the loaded area what is booked [m²]
+  double crushed = 0;  ///< of that, the area that work crushed [m²]
+  double tilted = 0;   ///< and the area where the floe's edge gave way: it tilted or bent down [m²]
+  double volume = 0;   ///< of the ice that work crushed [m³]
+  double work = 0;     ///< that crushed it [J]
+
+  friend Booked operator*(double share, const Booked& b) {
+    return {share * b.loaded, share * b.crushed, share * b.tilted, share * b.volume, share * b.work};
+  }
+  Booked& operator+=(const Booked& b) {
+    loaded += b.loaded;
+    crushed += b.crushed;
+    tilted += b.tilted;
+    volume += b.volume;
+    work += b.work;
+    return *this;
+  }
+};
+
 /// The ice that a contact crushed and that is not cut off yet. By the law of crushing ice.
 struct CrushedIce {
   geometry::Pose a_from_b;  ///< of the two bodies' frames, where the largest overlap pressed
@@ -39,6 +60,7 @@ struct PersistentContact {
   double reach = 0;                  ///< of the contact from last_point_in_b, at the last step [m]
   RestitutionMemory restitution;
   CrushedIce crushed;
+  Booked booked;
   bool has_crushed = false;
   bool is_pierced = false;    ///< of a pierced body, at the last step
   bool was_refused = false;   ///< a fracture here was rejected by geometry: not tried again

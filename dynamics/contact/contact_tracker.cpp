@@ -106,7 +106,12 @@ PersistentContact ContactTracker::record_of(const Contact& c, const Patch& patch
 void ContactTracker::keep_what_pressed(const Contact& c, const Patch& patch, PersistentContact& record) const {
   for (const PersistentContact& old : records_) {
     if (distance(old.last_point_in_b, patch.middle) > tolerance_ + old.reach) continue;
-    record.loaded_area = std::max(record.loaded_area, std::min(old.loaded_area, c.area));
+    const double kept = std::min(old.loaded_area, c.area);
+    if (kept > record.loaded_area) {
+      record.loaded_area = kept;
+      record.booked = kept / old.loaded_area * old.booked;
+      record.booked.loaded = kept;
+    }
     if (old.crushed.area > record.crushed.area) record.crushed = old.crushed;
   }
   if (record.loaded_area > 0) record.loaded_depth = loaded_depth_of(c, record.loaded_area);
@@ -122,6 +127,7 @@ void ContactTracker::join_left_over(std::span<Contact> contacts, std::span<const
       if (!patch_of(contacts[i], manifolds[i], bodies).holds(old.last_point_in_b)) continue;
       updated_[i].loaded_depth = std::max(updated_[i].loaded_depth, old.loaded_depth);
       updated_[i].loaded_area += old.loaded_area;
+      updated_[i].booked += old.booked;
       if (old.crushed.area > updated_[i].crushed.area) updated_[i].crushed = old.crushed;
       is_joined = true;
     }

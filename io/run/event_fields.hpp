@@ -52,7 +52,10 @@ inline constexpr FieldMeaning kRule = derived({"", "the rule, in words"});
 template <class Line>
 void criterion(Line& line, Is<simulation::TiltCriterion> auto& c, bool) {
   const bool tilts = c.least_deflection != 0;
-  line("kind", std::string_view(tilts ? "edge deflection >= least deflection" : "a cusp broken off at the hull"),
+  line("kind",
+       std::string_view(!tilts                              ? "a cusp broken off at the hull"
+                        : c.deflection < c.least_deflection ? "covered share > 1/2"
+                                                            : "edge deflection >= least deflection"),
        kRule);
   line("deflection_m", c.deflection, optional(tilts, {"m", "of the floe's edge", "deflection"}));
   line("least_deflection_m", c.least_deflection,
@@ -60,6 +63,8 @@ void criterion(Line& line, Is<simulation::TiltCriterion> auto& c, bool) {
   line("vertical_force_N", c.vertical_force, optional(tilts, {"N", "on the edge in the step", "vertical force"}));
   line("tilting_capacity_N", c.capacity,
        optional(tilts, {"N", "the force that turns the floe over", "tilting capacity", 0}));
+  line("covered_share", c.covered_share,
+       optional(tilts, {"", "of the floe what the hull covers; more than half goes under too", "covered", 0}));
 }
 
 template <class Line>

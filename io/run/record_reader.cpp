@@ -97,6 +97,10 @@ RunCrushed crushed_of(std::string_view line, const Run& run) {
   crushed.overlap.on = body_of(line, run);
   crushed.overlap.by = body_of(line, run);
   crushed.overlap.area = take_number(line);
+  if (line.empty()) return crushed;  // of a version that did not book it
+  crushed.overlap.tilted = take_number(line);
+  crushed.overlap.volume = take_number(line);
+  crushed.overlap.work = take_number(line);
   return crushed;
 }
 

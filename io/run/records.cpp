@@ -57,7 +57,7 @@ void append_contact(std::string& text, double time, const simulation::ContactSta
 }
 
 std::string_view crushed_header() {
-  return "t_s,ship,floe_id,by_ship,by_floe_id,crushed_m2\n";
+  return "t_s,ship,floe_id,by_ship,by_floe_id,crushed_m2,tilted_m2,crushed_m3,crushing_J\n";
 }
 
 void append_crushed(std::string& text, double time, const simulation::CrushedOverlap& overlap, std::string_view on_ship,
@@ -65,7 +65,7 @@ void append_crushed(std::string& text, double time, const simulation::CrushedOve
   append_number(text, time);
   append_body(text, on_ship, overlap.on.floe);
   append_body(text, by_ship, overlap.by.floe);
-  append_csv(text, {overlap.area});
+  append_csv(text, {overlap.area, overlap.tilted, overlap.volume, overlap.work});
   text += '\n';
 }
 

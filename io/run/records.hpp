@@ -29,8 +29,8 @@ std::string_view contacts_header();
 void append_contact(std::string& text, double time, const simulation::ContactState& contact, std::string_view on_ship,
                     std::string_view by_ship);
 
-/// crushed.csv: the overlap of two bodies at a frame that their contacts have pressed. Pairs below this share
-/// of the smaller body are left out.
+/// crushed.csv: the overlap of two bodies at a frame that their contacts have pressed, as it is booked. Pairs below
+/// this share of the smaller body are left out.
 inline constexpr double kLeastCrushedShare = 1e-3;
 std::string_view crushed_header();
 void append_crushed(std::string& text, double time, const simulation::CrushedOverlap& overlap, std::string_view on_ship,

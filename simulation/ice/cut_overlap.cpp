@@ -1,6 +1,8 @@
 #include "simulation/ice/cut_overlap.hpp"
 
+#include "geometry/exact/measures.hpp"
 #include "simulation/ice/pieces.hpp"
+#include "simulation/world/limits.hpp"
 
 namespace polynya::simulation {
 namespace {
@@ -33,6 +35,17 @@ RejectedCut rejected_cut(const GrindCriterion& criterion, const geometry::Polygo
   rejected.reason = reason_of(error);
   rejected.input = {number, floe, std::move(tool), {}};
   return rejected;
+}
+
+/// Whether a cut leaves two floes or more, slivers and what would be brash aside.
+bool is_parted(const Setup& setup, const geometry::CutResult& cut) {
+  int floes = 0;
+  for (const geometry::Piece& piece : cut.pieces) {
+    const geometry::Measures measures = geometry::measure(piece.shape.polygon);
+    floes += piece.part == geometry::Part::kOutside && can_be_floe(measures) &&
+             measures.area >= setup.scene.fracture.smallest_floe_area;
+  }
+  return floes > 1;
 }
 
 }  // namespace
@@ -68,6 +81,7 @@ bool cut_overlap(const Setup& setup, const Clock& clock, const OverlapCut& overl
   if (outcome) {
     criterion.overlap_area = outcome->ledger.area_inside;
     if (criterion.overlap_area < criterion.least_area) return false;
+    if (overlap.when == CutWhen::kParts && !is_parted(setup, *outcome)) return false;
     Event event = event_of(population, clock, overlap, ground, Grind{{}, criterion});
     replace_by_pieces(setup, clock, {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
                       *outcome, population, accounts, journal);

@@ -76,6 +76,11 @@ std::vector<geometry::Pose> poses_of(const dynamics::Bodies& bodies, const Touch
   return poses;
 }
 
+/// Whether that is most of a floe: a hull that takes no ice, as a cone, has come over it and crushed it.
+bool is_most(const Population& population, const Contact& c, double area) {
+  return area > 0.5 * population.bodies.area[c.b];
+}
+
 bool is_tilted(const Population& population, BodyIndex ship, BodyIndex floe) {
   return std::ranges::any_of(population.tilted, [&](const TiltedFloe& tilted) {
     return tilted.ship == ship && population.body_of(tilted.floe) == floe;
@@ -120,11 +125,12 @@ void shed_parted(const Setup& setup, const Clock& clock, const dynamics::PartedC
 void shed_touching(const Setup& setup, const Clock& clock, const Touching& touching, Population& population,
                    Accounts& accounts, Journal& journal) {
   const Contact& c = touching.contacts.front();
-  const double crushed = touching.crushed_area();
-  if (crushed == 0 || is_carved(population.bodies, c.a, c.b)) return;
-  if (!can_cut(population, accounts, c.a, c.b)) return;
+  if (is_carved(population.bodies, c.a, c.b) || !can_cut(population, accounts, c.a, c.b)) return;
+  const double crushed = touching.crushed_area();  // records of bodies that broke may be gone
+  if (crushed == 0) return;
   const double least = kLeastCrushedShare * smaller_area(population, c.a, c.b);
-  if (crushed < least || (touching.is_pressing() && !touching.is_vertical())) return;
+  if (crushed < least || (touching.is_pressing() && !touching.is_vertical() && !is_most(population, c, crushed)))
+    return;
   if (population.is_hull(c.a) && is_tilted(population, c.a, c.b)) return;
   const OverlapCut cut{c.a, c.b, poses_of(population.bodies, touching), touching.largest().middle(), {crushed, least}};
   std::vector<dynamics::CrushedIce> kept;  // the pieces inherit none of it

@@ -7,12 +7,15 @@ namespace {
 
 using dynamics::Contact;
 
+/// The share of a floe that a hull may cover: of a compact floe with more its middle is below the waterline.
+constexpr double kMostCovered = 0.5;
+
 /// All contacts of one ship with one floe: they follow each other.
 struct Pressed {
   int ship = 0;
   FloeId floe = 0;
   std::span<Contact> contacts;
-  std::span<const HullSlope> slopes;
+  std::span<HullSlope> slopes;
   std::pair<int, FloeId> key() const { return {ship, floe}; }
 };
 
@@ -24,7 +27,7 @@ bool can_go_under(const Setup& setup, int ship) {
 /// cannot.
 template <class Use>
 void for_pressed(const Setup& setup, const Population& population, std::vector<Contact>& contacts,
-                 const std::vector<HullSlope>& slopes, Use use) {
+                 std::vector<HullSlope>& slopes, Use use) {
   std::size_t first = 0;
   while (first < slopes.size()) {
     const Contact& c = contacts[first];
@@ -74,7 +77,27 @@ void scale(Contact& c, double share) {
   c.gives_way = true;
 }
 
-/// Turns the floe's edge, and enters that it goes under where it is deep enough.
+/// Of what the overlaps grow in the step, what the edge's own way down leaves to be crushed.
+void share_growth(const Pressed& pressed, double lowered, double dt) {
+  for (std::size_t i = 0; i < pressed.contacts.size(); ++i) {
+    HullSlope& slope = pressed.slopes[i];
+    const double way = dt * pressed.contacts[i].approach_speed;
+    if (slope.vertical_share > 0 && way > 0)
+      slope.crushed_share *= std::clamp(1 - lowered * slope.tangent / way, 0.0, 1.0);
+  }
+}
+
+/// The share of a floe that a hull covers which presses it down; 0 where it does not.
+double covered_share(const Population& population, const Pressed& pressed) {
+  const bool presses_down =
+      std::ranges::any_of(pressed.slopes, [](const HullSlope& slope) { return slope.vertical_share > 0; });
+  double area = 0;
+  for (const Contact& c : pressed.contacts) area += c.area;
+  return presses_down ? area / population.floes[pressed.floe].area : 0;
+}
+
+/// Turns the floe's edge, and enters that it goes under where that is deep enough, or the hull covers most of it:
+/// then its middle is below the hull's waterline.
 void tilt(const Setup& setup, const Population& population, const Pressed& pressed, std::vector<TiltedFloe>& tilted,
           std::vector<PendingSubmersion>& submersions) {
   const fracture::TiltSettings& settings = setup.scene.fracture.going_under.tilting;
@@ -86,19 +109,21 @@ void tilt(const Setup& setup, const Population& population, const Pressed& press
     vertical_force += std::max(0.0, pressed.slopes[i].vertical_share) * c.total_normal_impulse() / dt;
     if (c.total_normal_impulse() > strongest->total_normal_impulse()) strongest = &c;
   }
+  const double covered = covered_share(population, pressed);
   const fracture::EdgeMotion before = edge_of(population.tilted, pressed.key());
-  if (vertical_force == 0 && before.deflection == 0) return;
+  if (vertical_force == 0 && before.deflection == 0 && covered <= kMostCovered) return;
   const fracture::TiltResistance resistance = resistance_of(setup, population, pressed.floe);
   const fracture::EdgeMotion edge = fracture::tilted(resistance, before, vertical_force, settings.damping, dt);
+  share_growth(pressed, edge.deflection - before.deflection, dt);
   if (edge.deflection > 0) tilted.push_back({pressed.floe, pressed.ship, edge});
   const double least = settings.edge_deflection * ice_of_floe(setup, population, pressed.floe).thickness;
-  if (edge.deflection < least) return;
+  if (edge.deflection < least && covered <= kMostCovered) return;
   submersions.push_back({.floe = pressed.floe,
                          .ship = pressed.ship,
                          .point_in_water = strongest->middle(),
                          .normal = strongest->normal,
                          .penetration = strongest->depth,
-                         .criterion = {edge.deflection, least, vertical_force, resistance.capacity}});
+                         .criterion = {edge.deflection, least, vertical_force, resistance.capacity, covered}});
 }
 
 }  // namespace

@@ -49,6 +49,7 @@ void press(const Setup& setup, bool can_bend, ShipContactLoad& load) {
   load.normal_force = fracture::crushing_force(load.ice, pressed.crushed.area);
   load.stiffness = fracture::crushing_force(load.ice, pressed.crushed.slope);
   load.penetration = pressed.penetration;
+  load.crushed_share = pressed.share;
   load.vertical_force = load.shares.vertical * load.normal_force;
   if (deepest > 0) load.mean_speed *= pressed.penetration / deepest;
 }

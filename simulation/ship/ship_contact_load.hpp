@@ -21,6 +21,7 @@ struct ShipContactLoad {
   double mean_speed = 0;          ///< of ξ's growth since first contact [m/s]
   double normal_force = 0;        ///< F_n on the facet while ice crushes [N]
   double stiffness = 0;           ///< dF_n/dξ [N/m]
+  double crushed_share = 1;       ///< of a growth of the depth: the rest is the edge that bends away [-]
   fracture::CrushingShares shares{};
 };
 

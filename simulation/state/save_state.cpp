@@ -14,12 +14,14 @@ Standing standing_of(const Population& population, FloeId id) {
   return population.floes[id].is_under ? Standing::kUnderHull : Standing::kFree;
 }
 
-/// Of all records, in their order. Only the law of crushing ice has any.
-std::vector<dynamics::CrushedIce> crushed_ice(const std::vector<dynamics::PairState>& pairs) {
-  std::vector<dynamics::CrushedIce> crushed;
+/// A member of all records, in their order. Only the law of crushing ice has these.
+template <class Member>
+std::vector<Member> members(const std::vector<dynamics::PairState>& pairs,
+                            Member dynamics::PersistentContact::*member) {
+  std::vector<Member> all;
   for (const dynamics::PairState& pair : pairs)
-    for (const dynamics::PersistentContact& record : pair.records) crushed.push_back(record.crushed);
-  return crushed;
+    for (const dynamics::PersistentContact& record : pair.records) all.push_back(record.*member);
+  return all;
 }
 
 template <class Archive>
@@ -41,7 +43,7 @@ void write(Archive& archive, const World& world, const std::vector<dynamics::Pai
     archive(motion_of(population.bodies, population.body_of(id)));
   }
   archive(population.tilted, population.submerged, pairs);
-  if (is_crush_law(world.setup)) archive(crushed_ice(pairs));
+  if (is_crush_law(world.setup)) archive(members(pairs, &dynamics::PersistentContact::crushed));
 }
 
 }  // namespace
@@ -53,7 +55,9 @@ std::string save_state(const World& world) {
   for (const dynamics::PairState& pair : pairs) separation_bound.push_back(pair.separation_bound);
   ByteWriter archive;
   write(archive, world, pairs);
-  archive(separation_bound, world.accounts.masses, world.accounts.counts.unresolved_splits);
+  archive(separation_bound);
+  if (is_crush_law(world.setup)) archive(members(pairs, &dynamics::PersistentContact::booked));
+  archive(world.accounts.masses, world.accounts.counts.unresolved_splits);
   return archive.take();
 }
 

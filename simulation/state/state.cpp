@@ -238,12 +238,28 @@ class StateLoader {
     bytes_.require(next == crushed.size(), "another number of crushed overlaps than of contacts");
   }
 
+  void load_booked(std::vector<dynamics::PairState>& pairs) {
+    std::vector<dynamics::Booked> booked;
+    bytes_(booked);
+    std::size_t next = 0;
+    for (dynamics::PairState& pair : pairs) {
+      for (dynamics::PersistentContact& record : pair.records) {
+        if (next < booked.size()) record.booked = booked[next];
+        ++next;
+        const dynamics::Booked& b = record.booked;
+        bytes_.require(std::min({b.loaded, b.crushed, b.tilted, b.volume}) >= 0, "a negative area that has pressed");
+      }
+    }
+    bytes_.require(next == booked.size(), "another number of booked overlaps than of contacts");
+  }
+
   void load_pairs() {
     std::vector<dynamics::PairState> pairs;
     std::vector<double> separation_bound;
     bytes_(pairs);
     if (is_crush_law(world_.setup)) load_crushed_ice(pairs);
     bytes_(separation_bound);
+    if (is_crush_law(world_.setup)) load_booked(pairs);
     bytes_.require(pairs.size() == separation_bound.size(), "another number of separation bounds than of pairs");
     const dynamics::Bodies& bodies = population_.bodies;
     for (std::size_t i = 0; i < pairs.size() && bytes_.is_well(); ++i) {

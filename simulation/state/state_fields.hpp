@@ -154,6 +154,10 @@ void fields(Archive& archive, Is<geometry::Pose> auto& p) {
   archive(p.position, p.rotation);
 }
 template <class Archive>
+void fields(Archive& archive, Is<dynamics::Booked> auto& b) {
+  archive(b.loaded, b.crushed, b.tilted, b.volume, b.work);
+}
+template <class Archive>
 void fields(Archive& archive, Is<dynamics::CrushedIce> auto& c) {
   archive(c.a_from_b, c.area);
 }

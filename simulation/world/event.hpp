@@ -33,6 +33,7 @@ struct TiltCriterion {
   double least_deflection = 0;  ///< c_g h; 0 of a cusp, which goes under as it breaks off [m]
   double vertical_force = 0;    ///< V on it in the step [N]
   double capacity = 0;          ///< V_rot [N]
+  double covered_share = 0;     ///< of its area what the hull covers: more than half is under too [-]
 };
 
 /// What decides that ice comes up, or stays under.

@@ -144,7 +144,7 @@ void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Populat
   });
 }
 
-const std::array<Stage, 28> kStages = {{
+const std::array<Stage, 30> kStages = {{
     {"steer", [](World& w) { steer(w.setup, w.clock, w.pilots, w.population); }},
     {"press walls", [](World& w) { press_walls(w.setup, w.clock, w.population, w.accounts.audit); }},
     {"keep motion", [](World& w) { keep_motion(w.population, w.step); }},
@@ -167,6 +167,7 @@ const std::array<Stage, 28> kStages = {{
        if (failure && !w.failure) w.failure = std::move(failure);
      }},
     {"tilt floes", [](World& w) { tilt_floes(w.setup, w.population, w.step); }},
+    {"book overlaps", [](World& w) { book_overlaps(w.setup, w.population, w.step); }},
     {"tally loads", [](World& w) { tally_loads(w.population, w.step.contacts, w.step.loads); }},
     {"water and thrust", [](World& w) { apply_forces(w.setup, w.threads, w.population, w.accounts.audit); }},
     {"pull of submerged ice",
@@ -187,6 +188,8 @@ const std::array<Stage, 28> kStages = {{
     {"carve channels", [](World& w) { carve_channels(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
     {"shed crushed ice",
      [](World& w) { shed_crushed_ice(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
+    {"cut through floes",
+     [](World& w) { cut_through_floes(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
     {"go under",
      [](World& w) { apply_submersions(w.setup, w.clock, w.step.submersions, w.population, w.accounts, w.journal); }},
     {"come up", [](World& w) { come_up(w.setup, w.clock, w.population, w.accounts, w.journal); }},

@@ -51,6 +51,10 @@ void enter_splits(const Setup& setup, const Population& population, StepData& st
 /// under.
 void tilt_floes(const Setup& setup, Population& population, StepData& step);
 
+/// By the law of crushing ice: books what overlaps have grown in the step, as crushed, with the work that it took,
+/// or as tilted, where the ice edge gave way.
+void book_overlaps(const Setup& setup, const Population& population, const StepData& step);
+
 /// Adds what the impulses did to the ships.
 void tally_loads(const Population& population, const std::vector<dynamics::Contact>& contacts,
                  std::vector<ShipLoads>& loads);
@@ -90,6 +94,11 @@ std::optional<std::string> overload_of(const Setup& setup, const Clock& clock, c
 void shed_crushed_ice(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
                       Accounts& accounts, Journal& journal);
 
+/// By the law of crushing ice: cuts floes that hulls have come through into those that are left of them. What is
+/// in the hull is brash.
+void cut_through_floes(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+                       Accounts& accounts, Journal& journal);
+
 /// Puts floes that tilted far enough under the hulls.
 void apply_submersions(const Setup& setup, const Clock& clock, const std::vector<PendingSubmersion>& pending,
                        Population& population, Accounts& accounts, Journal& journal);
@@ -113,7 +122,7 @@ struct Stage {
 };
 
 /// All of them, in their order.
-extern const std::array<Stage, 28> kStages;
+extern const std::array<Stage, 30> kStages;
 
 /// One time step: all stages.
 void step(World& world);

@@ -67,6 +67,8 @@ struct PendingFracture {
 struct HullSlope {
   double vertical_share = 0;  ///< V/H, down on the ice; ≤ 0 where it is too steep to press ice down
   double tangent = 0;         ///< tan θ_s
+  /// Of what the overlap grows in the step [-]; with the rest the ice edge gave way: it bent or tilted down.
+  double crushed_share = 1;
 };
 
 /// A floe whose edge was pressed down so far that it goes under.

@@ -203,6 +203,32 @@ TEST(RunCheck, OverlapsThatWereNotCrushedAreFoundHullsIncluded) {
   EXPECT_TRUE(check_run(run, 3).is_sound()) << "1 % of the smaller floe may be missing";
 }
 
+TEST(RunCheck, CrushedIceIsComparedWithTheWorkThatItTook) {
+  io::Run run = small_run();
+  run.has_crushed = true;
+  const fracture::Ice& ice = run.scene.scene.ice;
+  const double volume = 0.5 * ice.thickness;
+  const double work = ice.compressive_strength * volume;
+  run.crushed = {{3, {{-1, 1}, {-1, 2}, 0.5, 0, 0, volume, work}}, {3, {{-1, 1}, {-1, 3}, 0.1, 0, 0.4, 0, 0}}};
+  RunCheck check = check_run(run, 3);
+  EXPECT_TRUE(check.is_sound()) << "what is tilted takes no crushing";
+  EXPECT_EQ(check.paid_pairs, 1U);
+  EXPECT_NEAR(check.most_expected, work, 1e-9 * work);
+  EXPECT_EQ(check.work_then, work);
+  for (const double factor : {0.7, 1.45}) {
+    run.crushed.front().overlap.work = factor * work;
+    EXPECT_TRUE(check_run(run, 3).is_sound()) << factor;
+  }
+  for (const double factor : {0.0, 0.6, 1.55}) {
+    run.crushed.front().overlap.work = factor * work;
+    check = check_run(run, 3);
+    EXPECT_FALSE(check.is_sound()) << factor;
+    ASSERT_EQ(check.unpaid.size(), 1U);
+    EXPECT_EQ(check.unpaid.front().second.floe, 2);
+    EXPECT_NEAR(check.unpaid.front().expected, work, 1e-9 * work);
+  }
+}
+
 TEST(RunCheck, WhatIsWrongIsFound) {
   Ring swapped = square(5, 1, 2);
   std::swap(swapped[0], swapped[1]);

@@ -28,7 +28,7 @@ Scene squeezed_floe(Laws laws = Laws::kDefault) {
 
 double area_pressed(const Simulation& simulation) {
   double area = 0;
-  for (const CrushedOverlap& overlap : simulation.crushed_overlaps()) area += overlap.area;
+  for (const CrushedOverlap& overlap : simulation.crushed_overlaps()) area += overlap.area + overlap.tilted;
   return area;
 }
 
