@@ -46,6 +46,11 @@ def is_strip(split, areas):
     return len(pieces) > 1 and length > 8 * min(pieces) / length
 
 
+def way_at(rows, time):
+    """Of the stem into the floe [m]."""
+    return next(float(row["x_m"]) for row in rows if float(row["t_s"]) >= time) + 60
+
+
 def measured(arguments, name, one):
     folder, summary = run_scene(arguments, name, one)
     side = one["floes"][0]["rectangle"]["size_m"][0]
@@ -63,7 +68,7 @@ def measured(arguments, name, one):
     return {"splits": len(cracks), "beams": len(beams), "strips": sum(is_strip(e, areas) for e in cracks),
             "bends": len(bends), "speed": sum(inside) / len(inside), "way": min(way, side),
             "first": next((e["kind"] for e in events if e["kind"] in ("bend", "split")), "none"),
-            "first_split": cracks[0]["t_s"] if cracks else None,
+            "first_split": way_at(rows, cracks[0]["t_s"]) if cracks else None,
             "at_bend": opening[0] if opening else 0, "most": max(opening, default=0),
             "unresolved": summary["counts"]["unresolved_splits"]}
 
@@ -73,10 +78,11 @@ def crossover_side(h, force):
 
 
 def print_tables(found):
-    print("| h [m] | side [m] | first | splits | strips | as beams | bends | way inside [m] | mean speed inside [m/s] | "
-          "unresolved splits |\n|---|---|---|---|---|---|---|---|---|---|")
+    print("| h [m] | side [m] | first | first split after [m] | splits | strips | as beams | bends | way inside [m] | "
+          "mean speed inside [m/s] | unresolved splits |\n|---|---|---|---|---|---|---|---|---|---|---|")
     for (h, side), row in found.items():
-        print(f"| {h:g} | {side} | {row['first']} | {row['splits']} | {row['strips']} | {row['beams']} | {row['bends']} | "
+        after = "–" if row["first_split"] is None else f"{row['first_split']:.0f}"
+        print(f"| {h:g} | {side} | {row['first']} | {after} | {row['splits']} | {row['strips']} | {row['beams']} | {row['bends']} | "
               f"{row['way']:.0f} | {row['speed']:.2f} | {row['unresolved']} |")
     print("\n| h [m] | F_b at the first bend [kN] | L_s [m] | greatest F_b at a bend [kN] | L_s [m] |\n|---|---|---|---|---|")
     for h in sorted({h for h, _ in found}):
