@@ -82,9 +82,10 @@ def print_tables(found):
           "mean speed inside [m/s] | unresolved splits |\n|---|---|---|---|---|---|---|---|---|---|---|")
     for (h, side), row in found.items():
         after = "–" if row["first_split"] is None else f"{row['first_split']:.0f}"
-        print(f"| {h:g} | {side} | {row['first']} | {after} | {row['splits']} | {row['strips']} | {row['beams']} | {row['bends']} | "
-              f"{row['way']:.0f} | {row['speed']:.2f} | {row['unresolved']} |")
-    print("\n| h [m] | F_b at the first bend [kN] | L_s [m] | greatest F_b at a bend [kN] | L_s [m] |\n|---|---|---|---|---|")
+        print(f"| {h:g} | {side} | {row['first']} | {after} | {row['splits']} | {row['strips']} | {row['beams']} | "
+              f"{row['bends']} | {row['way']:.0f} | {row['speed']:.2f} | {row['unresolved']} |")
+    print("\n| h [m] | F_b of the stem, at the first bend [kN] | its L_s [m] | of the bow, the greatest at a bend [kN] | "
+          "its L_s [m] |\n|---|---|---|---|---|")
     for h in sorted({h for h, _ in found}):
         rows = [row for (of, _), row in found.items() if of == h]
         first = max((row["at_bend"] for row in rows), default=0)
@@ -126,7 +127,8 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     arguments = parser.parse_args()
     os.makedirs(arguments.work, exist_ok=True)
-    found = run_all(arguments, measured, {(h, side): scene(side, h) for h in arguments.thicknesses for side in arguments.sides})
+    scenes = {(h, side): scene(side, h) for h in arguments.thicknesses for side in arguments.sides}
+    found = run_all(arguments, measured, scenes)
     print_tables(found)
     if arguments.figure:
         draw(arguments.figure, found)
