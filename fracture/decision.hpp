@@ -12,7 +12,7 @@ struct FailureCriteria {
   double contact_force = 0;      ///< the true one of the contact in the step [N]
   double vertical_force = 0;     ///< V of the crushing contact, down on the ice [N]
   double bending_capacity = 0;   ///< V_b [N]
-  double flexural_strength = 0;  ///< σ_f that V_b is of, with the scatter of bending events; 0: no bend [Pa]
+  double flexural_strength = 0;  ///< σ_f that V_b, with the scatter of bending events, or a beam is of; 0: no bend [Pa]
 
   // The crack:
   double crack_length = 0;  ///< L, its path in ice; 0 where there is none [m]
@@ -28,6 +28,14 @@ struct FailureCriteria {
   double opening_force = 0;         ///< F, the lesser of them [N]
   double opening_capacity = 0;      ///< F_max [N]
   double fracture_toughness = 0;    ///< K_IC [Pa √m]
+
+  // Of a floe that breaks across as a beam (beam.hpp):
+  double section_stress = 0;  ///< σ where it breaks; 0 of all else [Pa]
+
+  /// Of a split by the true forces: what breaks the floe, over what it bears.
+  constexpr double split_share() const {
+    return section_stress > 0 ? section_stress / flexural_strength : opening_force / opening_capacity;
+  }
 };
 
 /// Small floes are pushed away; else a hard enough hit splits; else ice pressed down enough breaks off a

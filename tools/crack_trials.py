@@ -114,7 +114,7 @@ def judge(arguments, name, one):
     areas = run.births["area_m2"]
     found = {"splits": 0, "strips": 0, "begin": 0, "lead": 0, "turned": 0, "most": 0.0}
     for event in run.events:
-        if event["kind"] != "split":
+        if event["kind"] != "split" or not event["opening_capacity_N"] > 0:  # a beam that breaks is no crack
             continue
         found["splits"] += 1
         length, width = event["crack_length_m"], event["crack_width_m"]

@@ -125,7 +125,10 @@ void criterion(Line& line, Is<fracture::FailureCriteria> auto& c, bool is_split)
   line("vertical_force_N", c.vertical_force, {"N", "V of the contact, down on the ice"});
   line("bending_capacity_N", c.bending_capacity, {"N", "V_b, at which a cusp breaks off", {}, 0});
   line("flexural_strength_Pa", c.flexural_strength,
-       optional(c.flexural_strength > 0, {"Pa", "σ_f that V_b is of", {}, 0}));
+       optional(c.flexural_strength > 0, {"Pa", "σ_f that V_b, or the beam, is of", {}, 0}));
+  line("section_stress_Pa", c.section_stress,
+       optional(c.section_stress > 0,
+                {"Pa", "σ at the section where a floe below κ l breaks across as a beam", "stress of the section", 0}));
 }
 
 template <class Line, class Kind>

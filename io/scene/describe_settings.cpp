@@ -169,7 +169,8 @@ const Description<FractureSettings> kFracture{
          "is m² (the paper's story needs that number: docs/paper-comparison.md)",
          {{"fourth_root", CharacteristicLength::kFourthRoot}, {"as_printed", CharacteristicLength::kAsPrinted}},
          &FractureSettings::characteristic_length),
-     member("breakable_size_factor", "", from(0, 1000), "κ: floes with √area < κ l are pushed away, never broken",
+     member("breakable_size_factor", "", from(0, 1000),
+            "κ: floes with √area < κ l are pushed away; unless κ l > l, slender ones break across",
             &FractureSettings::breakable_size_factor),
      object("bending", kBending, "failure by bending"), object("splitting", kSplitting, "failure by splitting"),
      choice<CuspFate>(

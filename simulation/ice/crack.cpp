@@ -31,10 +31,13 @@ geometry::CrackSides measure_sides(const Setup& setup, const Population& populat
                                    const geometry::CrackPath& path, fracture::FailureCriteria& criteria) {
   const geometry::CrackSides sides = sides_of_crack(*population.bodies.boundary[floe], path);
   const double l = fracture::characteristic_length(ice_of_body(setup, population, floe), setup.scene.water.water);
-  const double mean_width = 2 * std::min(sides.left, sides.right) / path.length_in_ice;
-  criteria.crack_width = std::max(criteria.crack_width, mean_width);
+  criteria.crack_width = std::max(criteria.crack_width, mean_width_beside(path, sides));
   criteria.pares = fracture::pares(setup.scene.fracture.least_piece, l, path.length_in_ice, sides.left, sides.right);
   return sides;
+}
+
+double mean_width_beside(const geometry::CrackPath& path, const geometry::CrackSides& sides) {
+  return 2 * std::min(sides.left, sides.right) / path.length_in_ice;
 }
 
 void measure_crack_and_sides(const Setup& setup, const Population& population, BodyIndex floe,

@@ -26,6 +26,9 @@ void measure_crack(const dynamics::Bodies& bodies, BodyIndex floe, const geometr
 geometry::CrackSides measure_sides(const Setup& setup, const Population& population, BodyIndex floe,
                                    const geometry::CrackPath& path, fracture::FailureCriteria& criteria);
 
+/// Twice the mean width of the ice on a crack's narrower side [m].
+double mean_width_beside(const geometry::CrackPath& path, const geometry::CrackSides& sides);
+
 /// Both, one after the other.
 void measure_crack_and_sides(const Setup& setup, const Population& population, BodyIndex floe,
                              const geometry::CrackPath& path, fracture::FailureCriteria& criteria);

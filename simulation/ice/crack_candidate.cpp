@@ -51,25 +51,17 @@ std::optional<StraightCrack> straight_crack(const dynamics::Bodies& bodies, Body
   return crack;
 }
 
-/// Enters the length and width of the stretch of ice that takes the greatest force; `least_width` [m] is the
-/// width that each has at least.
+/// Of a crack through holes: enters the length and width of the stretch of ice that takes the greatest force;
+/// `least_width` [m] is the width that each has at least.
 void measure_hardest(const dynamics::Bodies& bodies, BodyIndex floe, const fracture::Ice& ice,
                      const StraightCrack& crack, double least_width, fracture::FailureCriteria& criteria) {
-  const auto widen = [&](fracture::FailureCriteria& c) {
-    c.crack_width = std::max(c.crack_width, least_width);
-    return fracture::lefm_splitting_force(ice, c.crack_length, c.crack_width);
-  };
-  if (crack.path.stretches == 1) {
-    measure_crack(bodies, floe, crack.path, criteria);
-    widen(criteria);
-    return;
-  }
   double most = 0;
   for (const CrackPath& ligament :
        ligaments_of(*bodies.boundary[floe], crack.from, crack.direction, kCrackMargin, crack.path)) {
     fracture::FailureCriteria own;
     measure_crack(bodies, floe, ligament, own);
-    const double force = widen(own);
+    own.crack_width = std::max(own.crack_width, least_width);
+    const double force = fracture::lefm_splitting_force(ice, own.crack_length, own.crack_width);
     if (force < most) continue;
     most = force;
     criteria.crack_length = own.crack_length;
@@ -133,7 +125,11 @@ std::optional<CrackCandidate> crack_candidate(const Setup& setup, const Populati
   candidate.begins_at = mouth.point + straight->to_first_ice * direction;
   candidate.path_in_body = straight->path;
   fracture::FailureCriteria& criteria = candidate.criteria;
-  measure_hardest(bodies, floe, ice, *straight, 0, criteria);
+  const bool crosses_holes = straight->path.stretches > 1;
+  if (crosses_holes)
+    measure_hardest(bodies, floe, ice, *straight, 0, criteria);
+  else
+    measure_crack(bodies, floe, straight->path, criteria);
   enter_opening(opening, ice, criteria);
   criteria.fracture_toughness = ice.fracture_toughness;
   if (!(candidate.share() >= least_share)) return std::nullopt;
@@ -142,8 +138,8 @@ std::optional<CrackCandidate> crack_candidate(const Setup& setup, const Populati
   if (leaves_strip(straight->path, sides)) {
     if (!turn_to_edge(setup, population, floe, *straight, candidate)) return std::nullopt;
   } else {
-    const double mean_width = 2 * std::min(sides.left, sides.right) / straight->path.length_in_ice;
-    measure_hardest(bodies, floe, ice, *straight, mean_width, criteria);
+    if (crosses_holes)
+      measure_hardest(bodies, floe, ice, *straight, mean_width_beside(straight->path, sides), criteria);
     criteria.opening_capacity = fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
   }
   if (criteria.pares || !(candidate.share() >= least_share)) return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "simulation/ice/beams.hpp"
 #include "simulation/ice/breaking.hpp"
 #include "simulation/ship/pressing.hpp"
 
@@ -19,26 +20,16 @@ constexpr double kAimedShare = 1.01;
 /// where one is stopped another may let go. Solved again so often at most.
 constexpr int kMostRounds = 8;
 
-/// The motion and memory that solving changes, of the bodies of one contact.
-struct Before {
-  geometry::Vector velocity[2];
-  double angular_velocity[2];
-  double last_impulse[2];
-  double loaded_depth;
-};
-
-std::vector<Before> keep_before(const dynamics::Bodies& bodies, const std::vector<Contact>& contacts) {
-  std::vector<Before> kept;
-  kept.reserve(contacts.size());
+void keep_start(const dynamics::Bodies& bodies, const std::vector<Contact>& contacts, std::vector<SolverStart>& kept) {
+  kept.clear();
   for (const Contact& c : contacts)
     kept.push_back({{bodies.velocity[c.a], bodies.velocity[c.b]},
                     {bodies.angular_velocity[c.a], bodies.angular_velocity[c.b]},
                     {c.record->last_impulse[0], c.record->last_impulse[1]},
                     c.record->loaded_depth});
-  return kept;
 }
 
-void go_back(const std::vector<Before>& kept, const std::vector<Contact>& contacts, dynamics::Bodies& bodies) {
+void go_back(const std::vector<SolverStart>& kept, const std::vector<Contact>& contacts, dynamics::Bodies& bodies) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& c = contacts[i];
     const BodyIndex both[] = {c.a, c.b};
@@ -52,7 +43,7 @@ void go_back(const std::vector<Before>& kept, const std::vector<Contact>& contac
 }
 
 double share_of(const PendingFracture& split) {
-  return split.criteria.opening_force / split.criteria.opening_capacity;
+  return split.criteria.split_share();
 }
 
 /// A contact of two bodies that was to be stopped, with what it had before.
@@ -114,8 +105,9 @@ class Instants {
       PendingFracture split = met.split;
       const double scale = reached(met);
       fracture::FailureCriteria& c = split.criteria;
-      for (double* force : {&c.contact_force, &c.flank_forces[0], &c.flank_forces[1], &c.opening_force})
-        *force *= scale;
+      for (double* load :
+           {&c.contact_force, &c.flank_forces[0], &c.flank_forces[1], &c.opening_force, &c.section_stress})
+        *load *= scale;
       if (share_of(split) >= 1 && share_of(split) <= kMostShare)
         splits.push_back(split);
       else
@@ -206,14 +198,18 @@ dynamics::SolverResult solve_to_splits(const Setup& setup, const dynamics::Solve
     find_splits(setup, population, step.contacts, step.splits);
     return result;
   }
-  const std::vector<Before> before = keep_before(bodies, step.contacts);
+  const auto find = [&] {
+    find_splits(setup, population, step.contacts, step.splits);
+    find_broken_beams(setup, population, step, step.splits);
+  };
+  keep_start(bodies, step.contacts, step.solver_start);
   Instants instants(step.contacts, setup.scene.time.step);
   dynamics::SolverResult result = solve();
-  find_splits(setup, population, step.contacts, step.splits);
+  find();
   for (int round = 0; round < kMostRounds && instants.stop(step.splits); ++round) {
-    go_back(before, step.contacts, bodies);
+    go_back(step.solver_start, step.contacts, bodies);
     result = solve();
-    find_splits(setup, population, step.contacts, step.splits);
+    find();
   }
   if (!instants.any()) return result;
   instants.enter(step.splits, counts);

@@ -29,6 +29,10 @@ std::string_view name_of(const Event& event) {
 DecidingLoad deciding_load(const fracture::FailureCriteria& c, bool is_split) {
   if (!is_split) return {"vertical force", ">=", "bending capacity", c.vertical_force, c.bending_capacity};
   if (c.splitting_force > 0) return {"collision force", ">", "splitting force", c.collision_force, c.splitting_force};
+  if (c.section_stress > 0) {
+    const double capacity = c.contact_force * c.flexural_strength / c.section_stress;
+    return {"contact force", ">=", "force that breaks a beam", c.contact_force, capacity};
+  }
   return {"opening force", ">=", "opening capacity", c.opening_force, c.opening_capacity};
 }
 

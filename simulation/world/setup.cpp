@@ -26,9 +26,10 @@ std::unique_ptr<const fracture::BendingModel> make_bending_model(const FractureS
 /// Of all ices of a scene, the scene's own first. κ l by Eq. (7) of [Sawamura2017].
 std::vector<IceLimits> limits_of(const Scene& scene) {
   const auto limits = [&](const fracture::Ice& ice) -> IceLimits {
-    return {scene.fracture.breakable_size_factor *
-                fracture::breakable_length(ice, scene.water.water, scene.fracture.characteristic_length),
-            fracture::lefm_splitting_force(ice, ice.thickness, ice.thickness)};
+    const double breakable = scene.fracture.breakable_size_factor *
+                             fracture::breakable_length(ice, scene.water.water, scene.fracture.characteristic_length);
+    return {breakable, fracture::lefm_splitting_force(ice, ice.thickness, ice.thickness),
+            breakable <= fracture::characteristic_length(ice, scene.water.water)};
   };
   std::vector<IceLimits> all{limits(scene.ice)};
   for (const fracture::Ice& ice : scene.own_ice) all.push_back(limits(ice));

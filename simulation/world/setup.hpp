@@ -29,6 +29,7 @@ inline constexpr double kRestInterval = 1;
 struct IceLimits {
   double breakable_size = 0;         ///< κ l: no smaller floe breaks [m]
   double least_splitting_force = 0;  ///< of the shortest crack, as long and wide as the ice is thick [N]
+  bool breaks_beams = false;         ///< κ l is not above l: slender floes below it break across as beams
 };
 
 /// What a run is computed with, the same from its first step to its last.

@@ -87,6 +87,14 @@ struct ShipMotion {
   double angular_velocity = 0;
 };
 
+/// The motion of the bodies of one contact and its memory before the step is solved: what solving changes.
+struct SolverStart {
+  geometry::Vector velocity[2];         ///< [m/s]
+  double angular_velocity[2] = {0, 0};  ///< [rad/s]
+  double last_impulse[2] = {0, 0};      ///< [N s]
+  double loaded_depth = 0;              ///< [m]
+};
+
 /// What one step works out; of the step before, between two steps.
 struct StepData {
   std::vector<dynamics::Contact> contacts;
@@ -101,6 +109,7 @@ struct StepData {
   std::vector<ShipMotion> start;              ///< per ship: its motion before the step's impulses
   std::vector<std::int64_t> touched_at_step;  ///< per body: the last step at which it touched something
   dynamics::ContactSolver solver;             ///< its reusable memory
+  std::vector<SolverStart> solver_start;      ///< per contact, where splits by the true forces are found
 };
 
 /// What has happened so far, in sums.

@@ -28,7 +28,7 @@ Shares shares_of(simulation::Simulation& simulation) {
     simulation.step();
     for (const simulation::Event& event : simulation.journal().events) {
       if (!event.is<simulation::Split>()) continue;
-      const double share = event.criteria().opening_force / event.criteria().opening_capacity;
+      const double share = event.criteria().split_share();
       ++shares.splits;
       shares.least = std::min(shares.least, share);
       shares.most = std::max(shares.most, share);

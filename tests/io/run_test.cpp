@@ -111,6 +111,10 @@ TEST(Run, AnEventOfASplitStatesAndReadsBackBothSides) {
     return simulation::deciding_load(read.criteria(), true).load;
   };
   EXPECT_EQ(again("\"opening force >= opening capacity\""), c.opening_force);
+  c.flexural_strength = 0.8e6;
+  c.section_stress = 0.81e6;
+  EXPECT_EQ(again("\"contact force >= force that breaks a beam\""), c.contact_force);
+  c.section_stress = 0;
   c.splitting_force = 10e6;
   c.collision_force = 11e6;
   EXPECT_EQ(again("\"collision force > splitting force\""), 11e6);

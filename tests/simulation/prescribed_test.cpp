@@ -109,6 +109,30 @@ TEST(Prescribed, APlateThatIsCutThroughIsTwo) {
   expect_closed(done.simulation);
 }
 
+/// A wall that closes flat crushes ice over all of its length at once: σ_c h w from the first step on, 588 MN for
+/// 300 m of .7 m, until the ice has taken its momentum, and never more (docs/decisions.md).
+TEST(Prescribed, AWallThatClosesFlatBearsOnAllOfTheIce) {
+  constexpr double kWidth = 300;  // [m]
+  for (const double step : {0.01, 0.002}) {
+    Build scene = Build().step(step).floe(rectangle(0, 0.05, kWidth, 100));
+    scene.ice.thickness = 0.7;
+    scene.fracture.splitting = fracture::SplittingModel::kNone;
+    scene.wall({kWidth, 100.001}, {0, 100.001}).wall({0, 0}, {kWidth, 0}, pressing(5e4));
+    const double bears = scene.ice.compressive_strength * 0.7 * kWidth;
+    EXPECT_NEAR(bears, 588e6, 1);
+    Simulation simulation(scene);
+    double most = 0;
+    while (simulation.time() < 3) {
+      simulation.step();
+      for (const dynamics::Contact& c : simulation.world().step.contacts)
+        most = std::max(most, c.steady_share * c.total_normal_impulse() / step);
+    }
+    EXPECT_LE(most, 1.001 * bears) << step;
+    EXPECT_GT(most, 0.5 * bears) << step;
+    expect_closed(simulation);
+  }
+}
+
 TEST(Prescribed, ALoadAboveAllThatIceBearsIsANumericalFailure) {
   World world(drifting_onto(cylinder_waterline(kRadius), -kRadius - 0.001, {0.2, 0.05}));
   for (int i = 0; i < 10; ++i) step(world);
