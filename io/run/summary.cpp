@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -122,6 +123,19 @@ void append(JsonWriter& json, const simulation::Counts& counts) {
   json.close('}');
 }
 
+/// The lengths of the steps that the run took.
+void append_levels(JsonWriter& json, const simulation::Counts& counts, double tick) {
+  json.key("levels").open('[');
+  for (int k = 0; k <= simulation::kMostLevels; ++k) {
+    const std::int64_t steps = counts.steps_at_level[static_cast<std::size_t>(k)];
+    const int level = k - simulation::kMostLevels;
+    if (steps == 0) continue;
+    json.open('{').key("level").value(level).key("step_s").value(std::ldexp(tick, level));
+    json.key("steps").value(steps).close('}');
+  }
+  json.close(']');
+}
+
 constexpr std::size_t kMostShipContacts = 5;  ///< that each have a warning
 
 /// A warning for each two ships or structures that came into contact, the first few of them.
@@ -166,6 +180,10 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
   warn(counts.unresolved_splits, "split",
        "did not run: their contacts could not be stopped at the force that splits (unresolved_splits)");
   warn(counts.unconverged_steps, "step", "used all sweeps of the contact solver (contact.iterations)");
+  warn(counts.crowded_ticks, "tick",
+       "broke more ice in each of their parts than a hull takes apart in a step: loads depend on the step; give a "
+       "shorter "
+       "time.step_s");
   warn(counts.database_out_of_range, "bending load",
        simulation.scene().fracture.bending == simulation::BendingModelKind::kFsiDatabase
            ? "outside the database's range: the force at which the ice broke and the cusp's radius are those "
@@ -229,6 +247,7 @@ std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
   json.key("scene_hash").value(scene.hash).key("finished").value(summary.finished);
   if (!summary.stopped_by.empty()) json.key("stopped_by").value(summary.stopped_by);
   json.key("steps").value(summary.steps).key("sim_time_s").value(summary.sim_time);
+  append_levels(json, summary.counts, scene.scene.time.step);
   json.key("wall_time_s").value(summary.wall_time).key("real_time_factor").value(summary.real_time_factor());
   json.key("forces_interval_s").value(recording_interval(scene.scene));
   json.key("peaks").open('[');

@@ -179,7 +179,7 @@ dynamics::SolverResult solve_to_splits(const Setup& setup, const dynamics::Solve
     return result;
   }
   const std::vector<Before> before = keep_before(bodies, step.contacts);
-  Instants instants(step.contacts, setup.scene.time.step);
+  Instants instants(step.contacts, setup.step);
   dynamics::SolverResult result = solve();
   find_splits(setup, population, step.contacts, step.splits);
   for (int round = 0; round < kMostRounds && instants.stop(step.splits); ++round) {

@@ -44,7 +44,8 @@ std::string save_state(const World& world) {
   for (const dynamics::PairState& pair : pairs) separation_bound.push_back(pair.separation_bound);
   ByteWriter archive;
   write(archive, world, pairs);
-  archive(separation_bound, world.accounts.masses, world.accounts.counts.unresolved_splits);
+  archive(separation_bound, world.accounts.masses, world.accounts.counts.unresolved_splits,
+          world.accounts.counts.steps_at_level, world.accounts.counts.crowded_ticks, world.clock.finer);
   return archive.take();
 }
 
