@@ -11,7 +11,8 @@ double longest_step(const Setup& setup, const Population& population, BodyIndex 
   double longest = setup.scene.time.step;
   population.pairs.for_bodies_at(bodies, hull, [&](BodyIndex other) {
     if (population.is_hull(other)) return;
-    const double way = kWayOverThickness * bodies.thickness[other];
+    const double way = std::min(kWayOverThickness * bodies.thickness[other],
+                                kWayOverCircle * setup.scene.contact.circle_radius);
     const double speed = length(bodies.velocity[hull] - bodies.velocity[other]);
     if (speed * longest > way) longest = way / speed;
   });

@@ -11,6 +11,8 @@ namespace polynya::simulation {
 /// The longest way of a hull in a step, relative to ice at it, in thicknesses: F grows to V_b within some tenths.
 /// Greater, ice is found late and loads fall.
 inline constexpr double kWayOverThickness = 0.1;
+/// And in radii of contact circles: farther on, a contact is lost from one step to the next.
+inline constexpr double kWayOverCircle = 0.25;
 
 /// Steps are made shorter from so many bends in one on. An overlap bends its ice once in a step: where a hull comes
 /// on by more than that takes away, overlaps join along it, and the hull passes through.
