@@ -92,8 +92,8 @@ Breakage breakage_of(const Setup& setup, const Clock& clock, const PendingFractu
   return {event_of<Bend>(clock, pending), fate_of_cusp(setup, pending.ship), &EnergyFlows::bending, &Counts::bends};
 }
 
-/// Passes the other bends of a floe that bent to the pieces, from `first` on, in which their contacts are: a fast
-/// hull breaks more than one cusp of a plate in a step. A piece too small to break takes none.
+/// In a part of a tick: passes the other bends of a floe that bent to the pieces, from `first` on, in which their
+/// contacts are: a fast hull breaks more than one cusp of a plate in a step. A piece too small to break takes none.
 void pass_bends(FloeId bent, FloeId first, std::span<PendingFracture> others, const Population& population) {
   for (PendingFracture& pending : others) {
     if (pending.floe != bent || pending.failure != fracture::Failure::kBend) continue;
@@ -127,7 +127,7 @@ void apply_fractures(const Setup& setup, const Clock& clock, std::vector<Pending
     if (outcome) {
       const FloeId first = population.floe_count();
       replace_by_pieces(setup, clock, breakage_of(setup, clock, pending), *outcome, population, accounts, journal);
-      if (setup.levels > 0 && pending.failure == fracture::Failure::kBend)
+      if (clock.parts > 1 && pending.failure == fracture::Failure::kBend)
         pass_bends(pending.floe, first, std::span(fractures).subspan(i + 1), population);
     } else {
       reject(setup, clock, pending, shape, outcome.error(), accounts.counts, journal);

@@ -45,7 +45,8 @@ std::string save_state(const World& world) {
   ByteWriter archive;
   write(archive, world, pairs);
   archive(separation_bound, world.accounts.masses, world.accounts.counts.unresolved_splits,
-          world.accounts.counts.steps_at_level, world.accounts.counts.crowded_ticks, world.clock.finer);
+          world.accounts.counts.steps_at_level, world.accounts.counts.crowded_ticks, world.clock.finer,
+          world.clock.bends);
   return archive.take();
 }
 

@@ -127,7 +127,7 @@ struct Counts {
   std::int64_t brash_pieces = 0;
   std::int64_t snap_rounded = 0;  ///< pieces whose nearest doubles were not a valid polygon
   std::int64_t database_out_of_range = 0;
-  std::int64_t crowded_ticks = 0;       ///< in the most parts, with more bends in each than kMostBends
+  std::int64_t crowded_ticks = 0;       ///< in the most parts, and yet with more bends in each than kCrowded
   std::int64_t unresolved_splits = 0;   ///< whose force could not be stopped where they run: they did not
   std::int64_t unconverged_steps = 0;   ///< steps in which the contact solver used all its sweeps
   double largest_residual = 0;          ///< by how much a contact missed its law after a step's last sweep [m/s]

@@ -11,8 +11,8 @@ double longest_step(const Setup& setup, const Population& population, BodyIndex 
   double longest = setup.scene.time.step;
   population.pairs.for_bodies_at(bodies, hull, [&](BodyIndex other) {
     if (population.is_hull(other)) return;
-    const double way = std::min(kWayOverThickness * bodies.thickness[other],
-                                kWayOverCircle * setup.scene.contact.circle_radius);
+    const double way =
+        std::min(kWayOverThickness * bodies.thickness[other], kWayOverCircle * setup.scene.contact.circle_radius);
     const double speed = length(bodies.velocity[hull] - bodies.velocity[other]);
     if (speed * longest > way) longest = way / speed;
   });
@@ -35,11 +35,16 @@ int parts_of_tick(const Setup& setup, const Clock& clock, const Population& popu
 bool follow_bends(const Setup& setup, std::int64_t bends, Clock& clock) {
   if (setup.levels == 0) return false;
   const double in_a_step = static_cast<double>(bends) / clock.parts;
-  const bool has_many = in_a_step > kMostBends;
+  clock.bends += kLastTick * (in_a_step - clock.bends);
   const bool is_finest = clock.parts == 1 << setup.levels;
-  if (has_many && !is_finest) clock.finer *= 2;
-  if (in_a_step < kFewBends && clock.finer > 1) clock.finer /= 2;
-  return has_many && is_finest;
+  if (clock.bends > kMostBends && !is_finest) {
+    clock.finer *= 2;
+    clock.bends /= 2;
+  } else if (clock.bends < kFewBends && clock.finer > 1) {
+    clock.finer /= 2;
+    clock.bends *= 2;
+  }
+  return is_finest && clock.bends > kCrowded;
 }
 
 }  // namespace polynya::simulation

@@ -68,7 +68,8 @@ struct Clock {
   std::int64_t steps = 0;        ///< whole ticks
   int part = 0;                  ///< of the tick at hand
   int parts = 1;                 ///< that it has
-  int finer = 1;                 ///< by how many times more parts, for the bends of the tick before (levels.hpp)
+  int finer = 1;                 ///< by how many times more parts, for the bends of the ticks before (levels.hpp)
+  double bends = 0;              ///< in a step, the mean of the ticks before
   double tick = 0;               ///< [s]
   double step = 0;               ///< Δt of the step at hand: tick / parts [s]
   geometry::Vector water_drift;  ///< velocity of the water frame over ground [m/s]
