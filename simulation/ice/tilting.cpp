@@ -131,9 +131,8 @@ void tilt_floes(const Setup& setup, Population& population, StepData& step) {
   };
   for (const TiltedFloe& floe : population.tilted) {
     if (!population.is_floating(floe.floe) || is_pressed(floe)) continue;
-    const fracture::EdgeMotion edge =
-        fracture::tilted(resistance_of(setup, population, floe.floe), floe.edge, 0,
-                         setup.scene.fracture.going_under.tilting.damping, setup.step);
+    const fracture::EdgeMotion edge = fracture::tilted(resistance_of(setup, population, floe.floe), floe.edge, 0,
+                                                       setup.scene.fracture.going_under.tilting.damping, setup.step);
     if (edge.deflection > 0) tilted.push_back({floe.floe, floe.ship, edge});
   }
   for_pressed(setup, population, step.contacts, step.slopes,

@@ -77,8 +77,7 @@ double opening_bound(const Setup& setup, std::span<const Contact> contacts) {
     const auto is_sharp = [&](Point tip) { return dot(c.ends[0] - tip, c.ends[1] - tip) > 0; };
     if (is_sharp(c.tip_of_a) || is_sharp(c.tip_of_b)) return std::numeric_limits<double>::infinity();
     const double slip = c.friction * c.friction;
-    const double normal =
-        c.is_broken ? c.breaking_force : c.steady_share / setup.step * c.total_normal_impulse();
+    const double normal = c.is_broken ? c.breaking_force : c.steady_share / setup.step * c.total_normal_impulse();
     sum += normal * std::sqrt(1 + slip);
   }
   if (friction >= 1) return std::numeric_limits<double>::infinity();
