@@ -41,7 +41,7 @@ Profile profile(const Case& at, double part, int threads) {
       load(at.file, [](simulation::Scene& scene) { scene.contact.law = simulation::ContactLaw::kCrush; }));
   world.threads = threads;
   dynamics::ThreadLimit limit(threads);
-  const auto steps = std::lround(at.until * part / world.clock.step);
+  const auto steps = std::lround(at.until * part / world.clock.tick);
   Profile result;
   Times& seconds = result.times;
   limit.execute([&] {

@@ -26,16 +26,6 @@ double clearance_of(const Bodies& bodies, const Pair& pair) {
   return std::max(0.0, clearance_left(bodies, pair.b, pose, pair.apart) - kPieceRounding);
 }
 
-Box box_in_water(const Bodies& bodies, BodyIndex i) {
-  const Pose pose = water_from_body(bodies, i);
-  if (bodies.boundary[i]->edges.size() > 64)
-    return geometry::grown({bodies.position[i], bodies.position[i]}, bodies.bounding_radius[i]);
-  Box box = {transform(pose, bodies.boundary[i]->edges.vertices.front()), {}};
-  box.high = box.low;
-  for (const Point p : bodies.boundary[i]->edges.vertices) extend(box, transform(pose, p));
-  return box;
-}
-
 /// Not two bodies of prescribed motion, which no impulse moves, but for a hull in fast ice: that crushes. Nor
 /// two walls, which stand for ice far away and may cross at their ends.
 bool can_press(const Bodies& bodies, BodyIndex a, BodyIndex b, bool presses_prescribed) {
@@ -45,6 +35,16 @@ bool can_press(const Bodies& bodies, BodyIndex a, BodyIndex b, bool presses_pres
 }
 
 }  // namespace
+
+Box box_in_water(const Bodies& bodies, BodyIndex i) {
+  const Pose pose = water_from_body(bodies, i);
+  if (bodies.boundary[i]->edges.size() > 64)
+    return geometry::grown({bodies.position[i], bodies.position[i]}, bodies.bounding_radius[i]);
+  Box box = {transform(pose, bodies.boundary[i]->edges.vertices.front()), {}};
+  box.high = box.low;
+  for (const Point p : bodies.boundary[i]->edges.vertices) extend(box, transform(pose, p));
+  return box;
+}
 
 BroadPhase::BroadPhase(const ContactRule& rule, double grid_cell) : rule_(rule), grid_(grid_cell) {}
 

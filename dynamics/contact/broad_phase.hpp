@@ -37,6 +37,9 @@ struct ContactMemory {
   std::vector<Outside> outside;  ///< by other
 };
 
+/// A box about a body where it is: the tightest of bodies of few edges, else that of its bounding circle.
+geometry::Box box_in_water(const Bodies& bodies, BodyIndex i);
+
 /// Finds which bodies overlap. A grid finds the pairs whose grown boxes meet; each pair keeps the edges that
 /// are near each other until the bodies have moved so far relative to each other that others might be. All
 /// bounds are conservative: what is culled cannot touch, so the contacts are those of a search over
@@ -87,6 +90,17 @@ class BroadPhase {
     grid_.for_each_near(box, [&](BodyIndex body) {
       if (overlaps(entries_[static_cast<std::size_t>(body)].box, box)) use(body);
     });
+  }
+
+  /// Calls use(other) for each body of a pair with this one whose box meets its box where they are now: the same
+  /// after a resume, though more pairs are kept then.
+  template <class Use>
+  void for_bodies_at(const Bodies& bodies, BodyIndex body, Use use) const {
+    const geometry::Box box = box_in_water(bodies, body);
+    for (const std::uint32_t slot : entries_[static_cast<std::size_t>(body)].pairs) {
+      const BodyIndex other = pairs_[slot].a == body ? pairs_[slot].b : pairs_[slot].a;
+      if (overlaps(box_in_water(bodies, other), box)) use(other);
+    }
   }
 
   /// Calls use(a, b, area, booked) for each pair, in no order: the overlap of its bodies that has pressed [m²],

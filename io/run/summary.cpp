@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -108,6 +109,7 @@ void append(JsonWriter& json, const simulation::Counts& counts) {
   json.key("database_out_of_range").value(counts.database_out_of_range);
   json.key("floated_cusps").value(counts.floated_cusps).key("brash_pieces").value(counts.brash_pieces);
   json.key("snap_rounded").value(counts.snap_rounded);
+  json.key("crowded_ticks").value(counts.crowded_ticks);
   json.key("unresolved_splits").value(counts.unresolved_splits);
   json.key("unconverged_steps").value(counts.unconverged_steps);
   json.key("largest_left_over_m_per_s").value(counts.largest_residual);
@@ -115,6 +117,17 @@ void append(JsonWriter& json, const simulation::Counts& counts) {
   json.key("unpaired_stretches").value(counts.unpaired_stretches);
   json.key("peak_contacts").value(counts.peak_contacts).key("peak_awake").value(counts.peak_awake);
   json.close('}');
+}
+
+/// The lengths of the steps that the run took.
+void append_levels(JsonWriter& json, const simulation::Counts& counts, double tick) {
+  std::vector<int> levels;
+  for (int k = 0; k <= simulation::kMostLevels; ++k)
+    if (counts.steps_at_level[static_cast<std::size_t>(k)] > 0) levels.push_back(k - simulation::kMostLevels);
+  json.key("levels").objects(levels, [&](int level) {
+    json.key("level").value(level).key("step_s").value(std::ldexp(tick, level));
+    json.key("steps").value(counts.steps_at_level[static_cast<std::size_t>(level + simulation::kMostLevels)]);
+  });
 }
 
 constexpr std::size_t kMostShipContacts = 5;  ///< that each have a warning
@@ -161,6 +174,10 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
   warn(counts.unresolved_splits, "split",
        "did not run: their contacts could not be stopped at the force that splits (unresolved_splits)");
   warn(counts.unconverged_steps, "step", "used all sweeps of the contact solver (contact.iterations)");
+  warn(counts.crowded_ticks, "tick",
+       "broke more ice in each of their parts than a hull takes apart in a step: loads depend on the step; give a "
+       "shorter "
+       "time.step_s");
   warn(counts.database_out_of_range, "bending load",
        simulation.scene().fracture.bending == simulation::BendingModelKind::kFsiDatabase
            ? "outside the database's range: the force at which the ice broke and the cusp's radius are those "
@@ -223,6 +240,7 @@ std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
     json.key("scene_hash").value(scene.hash).key("finished").value(summary.finished);
     if (!summary.stopped_by.empty()) json.key("stopped_by").value(summary.stopped_by);
     json.key("steps").value(summary.steps).key("sim_time_s").value(summary.sim_time);
+    append_levels(json, summary.counts, scene.scene.time.step);
     json.key("wall_time_s").value(summary.wall_time).key("real_time_factor").value(summary.real_time_factor());
     json.key("forces_interval_s").value(recording_interval(scene.scene));
     const std::vector<const ForceColumn*> columns = peak_columns(scene.scene);

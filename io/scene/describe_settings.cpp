@@ -19,8 +19,12 @@ const Description<GeographicOrigin> kOrigin{
             "of the scene's x axis from true north, clockwise; 90: x is east, y north", &GeographicOrigin::heading)}};
 
 const Description<StepSettings> kTime{
-    {member("step_s", "s", from(1e-5, 1), "time step Δt", &StepSettings::step),
-     member("until_s", "s", above(0, 1e7), "simulated time to run to", &StepSettings::until)}};
+    {member("step_s", "s", from(1e-5, 1), "a tick: the time step Δt, but for its parts", &StepSettings::step),
+     member("until_s", "s", above(0, 1e7), "simulated time to run to", &StepSettings::until),
+     member("levels", "", from(0, 5),
+            "a tick is taken in up to 2 to this power parts, where a hull goes far in thin ice; 0: all in one "
+            "step, as always by law impulse",
+            &StepSettings::levels)}};
 
 const Description<ShearSettings> kShear{
     {member("rate_per_s", "1/s", from(-1, 1),

@@ -249,14 +249,24 @@ class Hinter {
     add(Severity::kWarning, hull, "to_m", "all ice lies behind its face: exchange from_m and to_m");
   }
 
+  /// In the shortest step [s]: hulls take a tick in parts.
+  double shortest_step(bool is_hull) const {
+    const bool has_parts = is_hull && scene_.contact.law == simulation::ContactLaw::kCrush;
+    return has_parts ? std::ldexp(scene_.time.step, -scene_.time.levels) : scene_.time.step;
+  }
+
   void hint_at_step() {
-    double speed = 0;
-    for (const Ship& ship : scene_.ships) speed = std::max(speed, std::abs(ship.speed));
+    double speed = 0, way = 0;
+    const auto consider = [&](double of_one, bool is_hull) {
+      if (of_one * shortest_step(is_hull) <= way) return;
+      speed = of_one;
+      way = of_one * shortest_step(is_hull);
+    };
+    for (const Ship& ship : scene_.ships) consider(std::abs(ship.speed), true);
     for (const Wall& wall : scene_.walls)
-      speed = std::max(speed, wall.pressure ? wall.pressure->closing_speed : length(wall.velocity));
-    for (const simulation::FloeSpec& floe : scene_.floes) speed = std::max(speed, length(floe.velocity));
-    if (speed == 0 || scene_.floes.empty()) return;
-    const double way = speed * scene_.time.step;
+      consider(wall.pressure ? wall.pressure->closing_speed : length(wall.velocity), true);
+    for (const simulation::FloeSpec& floe : scene_.floes) consider(length(floe.velocity), false);
+    if (way == 0 || scene_.floes.empty()) return;
     double thickness = ice_of(scene_, scene_.floes.front().own_ice).thickness;  // of the thinnest
     for (const simulation::FloeSpec& floe : scene_.floes)
       thickness = std::min(thickness, ice_of(scene_, floe.own_ice).thickness);
@@ -270,7 +280,7 @@ class Hinter {
     add(Severity::kWarning, value_at("time", "step_s"), "time.step_s",
         fmt::format("at {:.3g} m/s bodies move {:.2g} m in a step, more than {}: loads depend on the step; "
                     "give {:.3g} s or less",
-                    speed, way, why, std::min(of_ice, of_circle) / speed));
+                    speed, way, why, std::min(of_ice, of_circle) * scene_.time.step / way));
   }
 
   const simulation::Scene& scene_;

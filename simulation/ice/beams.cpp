@@ -46,7 +46,7 @@ std::vector<OnBeam> contacts_of_beams(const Setup& setup, const Population& popu
   std::vector<OnBeam> found;
   for (std::size_t i = 0; i < step.contacts.size(); ++i) {
     const Contact& c = step.contacts[i];
-    const double force = normal_force_of(c, setup.scene.time.step);
+    const double force = normal_force_of(c, setup.step);
     if (!(force > 0)) continue;
     const double down = i < step.slopes.size() ? std::max(0.0, step.slopes[i].vertical_share) * force : 0;
     for (const BodyIndex body : {c.a, c.b})
@@ -80,7 +80,7 @@ Beam beam_of(const Setup& setup, const Population& population, const std::vector
   for (const OnBeam& one : on) {
     const Contact& c = contacts[one.contact];
     const Point at = transform(beam.frame_from_body, inverse_transform(water_from_body, c.centre_of_pressure()));
-    beam.loads.push_back({at, in_frame(force_on(c, floe, setup.scene.time.step)), one.down});
+    beam.loads.push_back({at, in_frame(force_on(c, floe, setup.step)), one.down});
   }
   const double length = std::sqrt(12 * beam.moments.xx / beam.moments.area);  // of a rectangle
   beam.elastic_share = fracture::elastic_share(ice_of_body(setup, population, floe), setup.scene.water.water, length);
@@ -155,7 +155,7 @@ PendingFracture break_of(const Setup& setup, const Population& population, const
   fracture::FailureCriteria& criteria = split.criteria;
   criteria.floe_size = floe_size(population, beam.floe);
   criteria.breakable_size = limits_of_body(setup, population, beam.floe).breakable_size;
-  criteria.contact_force = length(force_on(c, beam.floe, setup.scene.time.step));
+  criteria.contact_force = length(force_on(c, beam.floe, setup.step));
   criteria.crack_length = section.path.length_in_ice;
   criteria.section_stress = section.stress;
   criteria.flexural_strength = ice_of_body(setup, population, beam.floe).flexural_strength;
@@ -170,7 +170,7 @@ std::optional<PendingFracture> break_of_beam(const Setup& setup, const Populatio
   const Contact* strongest = nullptr;
   double sum = 0, down = 0, most = 0;
   for (const OnBeam& one : on) {
-    const double force = length(force_on(contacts[one.contact], floe, setup.scene.time.step));
+    const double force = length(force_on(contacts[one.contact], floe, setup.step));
     sum += force;
     down += one.down;
     if (force > most) strongest = &contacts[one.contact];

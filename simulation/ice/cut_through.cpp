@@ -12,7 +12,7 @@ constexpr double kInterval = 0.25;
 
 bool is_due(const Setup& setup, const Clock& clock) {
   const auto period = static_cast<std::int64_t>(std::max(1.0, std::floor(kInterval / setup.scene.time.step)));
-  return clock.steps % period == 0;
+  return clock.is_at_tick() && clock.steps % period == 0;
 }
 
 /// Whether a hull may have come through a floe: a hull that has not carves an overlap of one stretch of each

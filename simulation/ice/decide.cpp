@@ -62,7 +62,7 @@ bool measure_bending(const Setup& setup, const ShipContactLoad& load, PendingFra
     return capacity.is_in_range;
   }
   // The contact crushes with all of F_n only where the bodies' inertia can press that hard within the step.
-  const double crushing_impulse = load.shares.horizontal * load.normal_force * setup.scene.time.step;
+  const double crushing_impulse = load.shares.horizontal * load.normal_force * setup.step;
   const double pressed = crushing_impulse > 0 ? std::min(1.0, load.impulse / crushing_impulse) : 0;
   pending.criteria.vertical_force = pressed * load.shares.vertical * load.normal_force;
   return capacity.is_in_range;
@@ -115,7 +115,7 @@ bool is_just_born(const Population& population, const Clock& clock, BodyIndex bo
 
 /// Of floe against floe: vertical walls.
 void decide_between_floes(const Setup& setup, const Clock& clock, const Population& population, Contact& c) {
-  const double dt = setup.scene.time.step;
+  const double dt = setup.step;
   const fracture::Ice ice =
       fracture::crushed_between(ice_of_body(setup, population, c.a), ice_of_body(setup, population, c.b));
   if (is_crush_law(setup))
@@ -129,7 +129,7 @@ void decide_between_floes(const Setup& setup, const Clock& clock, const Populati
 void decide_at_ship(const Setup& setup, const Clock& clock, const Population& population, Contact& c, StepData& step,
                     Counts& counts) {
   const dynamics::Bodies& bodies = population.bodies;
-  const double dt = setup.scene.time.step;
+  const double dt = setup.step;
   ShipContactLoad load = load_of(setup, population, c);
   if (is_crush_law(setup)) {
     press_prescribed(setup, population, load);

@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <span>
 
+#include "geometry/cut/cut.hpp"
+#include "geometry/exact/point_in_ring.hpp"
 #include "simulation/ice/pieces.hpp"
+#include "simulation/ship/ship_contact_load.hpp"
 #include "simulation/world/step.hpp"
 
 namespace polynya::simulation {
@@ -88,12 +92,30 @@ Breakage breakage_of(const Setup& setup, const Clock& clock, const PendingFractu
   return {event_of<Bend>(clock, pending), fate_of_cusp(setup, pending.ship), &EnergyFlows::bending, &Counts::bends};
 }
 
+/// In a part of a tick: passes the other bends of a floe that bent to the pieces, from `first` on, in which their
+/// contacts are: a fast hull breaks more than one cusp of a plate in a step. A piece too small to break takes none.
+void pass_bends(FloeId bent, FloeId first, std::span<PendingFracture> others, const Population& population) {
+  for (PendingFracture& pending : others) {
+    if (pending.floe != bent || pending.failure != fracture::Failure::kBend) continue;
+    for (FloeId piece = first; piece < population.floe_count(); ++piece) {
+      const BodyIndex body = population.body_of(piece);
+      if (!population.is_floating(piece) || floe_size(population, body) < pending.criteria.breakable_size) continue;
+      const geometry::Pose pose = dynamics::water_from_body(population.bodies, body);
+      if (contains(population.floes[piece].shape.polygon, inverse_transform(pose, pending.point_in_water))) {
+        pending.floe = piece;
+        break;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void apply_fractures(const Setup& setup, const Clock& clock, std::vector<PendingFracture>& fractures,
                      Population& population, Accounts& accounts, Journal& journal) {
   std::ranges::stable_sort(fractures, {}, &PendingFracture::floe);
-  for (PendingFracture& pending : fractures) {
+  for (std::size_t i = 0; i < fractures.size(); ++i) {
+    PendingFracture& pending = fractures[i];
     if (!population.is_floating(pending.floe))
       continue;  // it broke in this step already; its pieces may break in the next
     const geometry::Shape& shape = population.floes[pending.floe].shape;
@@ -103,7 +125,10 @@ void apply_fractures(const Setup& setup, const Clock& clock, std::vector<Pending
       outcome = cut(setup, shape, pending);
     }
     if (outcome) {
+      const FloeId first = population.floe_count();
       replace_by_pieces(setup, clock, breakage_of(setup, clock, pending), *outcome, population, accounts, journal);
+      if (clock.parts > 1 && pending.failure == fracture::Failure::kBend)
+        pass_bends(pending.floe, first, std::span(fractures).subspan(i + 1), population);
     } else {
       reject(setup, clock, pending, shape, outcome.error(), accounts.counts, journal);
     }

@@ -76,7 +76,7 @@ std::vector<Carving> due_carvings(const Setup& setup, const Population& populati
     if (c.area < least_area) continue;
     if (!due.empty() && due.back().contact->a == c.a && due.back().contact->b == c.b) continue;
     if (is_refused(accounts, c.a, c.b)) continue;
-    const double time_ago = setup.scene.time.step + facet / c.approach_speed;
+    const double time_ago = setup.step + facet / c.approach_speed;
     due.push_back({population.floe_of(c.b), &c, tool_of(setup, bodies, c, time_ago), {c.area, least_area, c.width, 0}});
   }
   std::ranges::stable_sort(due, {}, &Carving::floe);
@@ -134,13 +134,13 @@ void press_prescribed(const Setup& setup, const Population& population, ShipCont
   load.vertical_force = load.shares.vertical * load.normal_force;
   load.shares.tangential *= share_of_friction(c, spans_facet);
   load.stiffness = fracture::crushing_force(load.ice, crushed.slope);
-  const double way = setup.scene.time.step * std::max(0.0, c.approach_speed);
+  const double way = setup.step * std::max(0.0, c.approach_speed);
   if (way * load.stiffness > most - load.normal_force) load.stiffness = (most - load.normal_force) / way;
 }
 
 void close_prescribed_gap(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c) {
   if (!is_prescribed(bodies, c) || c.approach_speed <= 0) return;
-  const double half_a_step = 0.5 * c.width * c.approach_speed * setup.scene.time.step;  // of area
+  const double half_a_step = 0.5 * c.width * c.approach_speed * setup.step;  // of area
   if (c.area + half_a_step >= c.record->loaded_area) c.record->loaded_depth = std::min(c.record->loaded_depth, c.depth);
 }
 
@@ -174,7 +174,7 @@ void carve_channels(const Setup& setup, const Clock& clock, const StepData& step
 std::optional<std::string> overload_of(const Setup& setup, const Clock& clock, const Population& population,
                                        const StepData& step) {
   if (!is_crush_law(setup)) return std::nullopt;
-  const double dt = setup.scene.time.step;
+  const double dt = setup.step;
   for (std::size_t i = 0; i < step.contacts.size(); ++i) {
     const Contact& c = step.contacts[i];
     if (c.is_rigid() || c.total_normal_impulse() <= 0) continue;

@@ -203,7 +203,7 @@ dynamics::SolverResult solve_to_splits(const Setup& setup, const dynamics::Solve
     find_broken_beams(setup, population, step, step.splits);
   };
   keep_start(bodies, step.contacts, step.solver_start);
-  Instants instants(step.contacts, setup.scene.time.step);
+  Instants instants(step.contacts, setup.step);
   dynamics::SolverResult result = solve();
   find();
   for (int round = 0; round < kMostRounds && instants.stop(step.splits); ++round) {

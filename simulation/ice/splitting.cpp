@@ -66,7 +66,7 @@ std::optional<PendingFracture> split_of(const Setup& setup, const Population& po
   split.crack_in_body = crack->path_in_body;
   split.criteria.floe_size = size;
   split.criteria.breakable_size = limits.breakable_size;
-  split.criteria.contact_force = length(force_on(c, floe, setup.scene.time.step));
+  split.criteria.contact_force = length(force_on(c, floe, setup.step));
   return split;
 }
 
@@ -88,7 +88,7 @@ void enter_true_forces(const Setup& setup, const Population& population, const s
   if (c == contacts.end()) return;
   const fracture::Ice& ice = ice_of_body(setup, population, c->b);
   fracture::FailureCriteria& criteria = pending.criteria;
-  criteria.contact_force = length(force_on(*c, c->b, setup.scene.time.step));
+  criteria.contact_force = length(force_on(*c, c->b, setup.step));
   PressedFloe pressed;
   press(setup, bodies, contacts_beside(contacts, *c), c->b, pressed);
   if (setup.scene.fracture.splitting == fracture::SplittingModel::kLefm) {

@@ -101,7 +101,7 @@ double covered_share(const Population& population, const Pressed& pressed) {
 void tilt(const Setup& setup, const Population& population, const Pressed& pressed, std::vector<TiltedFloe>& tilted,
           std::vector<PendingSubmersion>& submersions) {
   const fracture::TiltSettings& settings = setup.scene.fracture.going_under.tilting;
-  const double dt = setup.scene.time.step;
+  const double dt = setup.step;
   double vertical_force = 0;
   const Contact* strongest = &pressed.contacts.front();
   for (std::size_t i = 0; i < pressed.contacts.size(); ++i) {
@@ -129,7 +129,7 @@ void tilt(const Setup& setup, const Population& population, const Pressed& press
 }  // namespace
 
 void limit_by_tilt(const Setup& setup, const Population& population, StepData& step) {
-  const double dt = setup.scene.time.step;
+  const double dt = setup.step;
   for_pressed(setup, population, step.contacts, step.slopes, [&](const Pressed& pressed) {
     double expected = 0;
     for (std::size_t i = 0; i < pressed.contacts.size(); ++i) {
@@ -157,9 +157,8 @@ void tilt_floes(const Setup& setup, Population& population, StepData& step) {
   };
   for (const TiltedFloe& floe : population.tilted) {
     if (!population.is_floating(floe.floe) || is_pressed(floe)) continue;
-    const fracture::EdgeMotion edge =
-        fracture::tilted(resistance_of(setup, population, floe.floe), floe.edge, 0,
-                         setup.scene.fracture.going_under.tilting.damping, setup.scene.time.step);
+    const fracture::EdgeMotion edge = fracture::tilted(resistance_of(setup, population, floe.floe), floe.edge, 0,
+                                                       setup.scene.fracture.going_under.tilting.damping, setup.step);
     if (edge.deflection > 0) tilted.push_back({floe.floe, floe.ship, edge});
   }
   for_pressed(setup, population, step.contacts, step.slopes,

@@ -32,7 +32,7 @@ void add_piece(const Setup& setup, const dynamics::SubmersionPath& path, const P
   if (piece.path >= std::max(path.bow, path.sliding)) return;  // behind it
   if (piece.path < path.sliding) pull.area += piece.area;
   if (pull.speed <= 0) return;
-  const double to = piece.path + pull.speed * setup.scene.time.step;
+  const double to = piece.path + pull.speed * setup.step;
   const double work =
       piece.weight * (path.risen_over(piece.path, to) + setup.scene.ice.friction * path.slid_over(piece.path, to));
   if (work == 0) return;
@@ -62,7 +62,7 @@ void apply(const Setup& setup, BodyIndex ship, const Pull& pull, dynamics::Bodie
   const bool has_factor = setup.scene.ships[ship].hull.has_speed_factor;
   const double factor =
       has_factor ? dynamics::submersion_speed_factor(pull.speed, setup.underwater[ship].form.length) : 1;
-  double impulse = factor * pull.work / (pull.speed * setup.scene.time.step) * setup.scene.time.step;
+  double impulse = factor * pull.work / (pull.speed * setup.step) * setup.step;
   const bool is_free = bodies.inverse_mass[ship] != 0;
   if (is_free) impulse = std::min(impulse, bodies.mass[ship] * pull.speed);
   const double angular = impulse * pull.moment / pull.work;
@@ -91,7 +91,7 @@ void pull_of_submerged_ice(const Setup& setup, Population& population, std::vect
                            AuditSums& audit) {
   if (population.submerged.empty()) return;
   dynamics::Bodies& bodies = population.bodies;
-  const double dt = setup.scene.time.step;
+  const double dt = setup.step;
   std::vector<Pull> pulls(setup.scene.ships.size());
   const auto ships = static_cast<BodyIndex>(pulls.size());
   for (BodyIndex ship = 0; ship < ships; ++ship) pulls[ship].speed = speed_ahead(setup, bodies, ship);

@@ -77,8 +77,7 @@ double opening_bound(const Setup& setup, std::span<const Contact> contacts) {
     const auto is_sharp = [&](Point tip) { return dot(c.ends[0] - tip, c.ends[1] - tip) > 0; };
     if (is_sharp(c.tip_of_a) || is_sharp(c.tip_of_b)) return std::numeric_limits<double>::infinity();
     const double slip = c.friction * c.friction;
-    const double normal =
-        c.is_broken ? c.breaking_force : c.steady_share / setup.scene.time.step * c.total_normal_impulse();
+    const double normal = c.is_broken ? c.breaking_force : c.steady_share / setup.step * c.total_normal_impulse();
     sum += normal * std::sqrt(1 + slip);
   }
   if (friction >= 1) return std::numeric_limits<double>::infinity();
@@ -91,7 +90,7 @@ void press(const Setup& setup, const dynamics::Bodies& bodies, std::span<const C
   pressed.pushes.clear();
   for (const Contact& c : contacts) {
     if (c.total_normal_impulse() <= 0 && !c.is_broken) continue;
-    const Vector force = force_on(c, floe, setup.scene.time.step);
+    const Vector force = force_on(c, floe, setup.step);
     const auto pushes = corner_pushes(bodies, c, floe, force, setup.scene.ice.friction);
     if (pushes)
       pressed.pushes.insert(pressed.pushes.end(), pushes->begin(), pushes->end());

@@ -27,7 +27,7 @@ std::optional<Event> prescribed_contact(const Setup& setup, const Clock& clock, 
   const Vector velocity = bodies.velocity[other] - bodies.velocity[ship];
   const double speed = length(velocity);
   // The touch may lie in the step before, where rounding hid it.
-  const double earliest = -2 * setup.scene.time.step;
+  const double earliest = -2 * setup.step;
   const double reach = bodies.bounding_radius[ship] + bodies.bounding_radius[other] - earliest * speed;
   if (speed == 0 || distance(bodies.position[ship], bodies.position[other]) > reach) return std::nullopt;
   const auto touch = geometry::first_contact(waterline_in_water(setup, bodies, ship),

@@ -1,6 +1,7 @@
 #include "simulation/state/state.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -52,7 +53,15 @@ class StateLoader {
     for (std::uint64_t id = 0; id < floes && bytes_.is_well(); ++id) load_floe(static_cast<FloeId>(id));
     if (bytes_.is_well()) load_ice_at_hulls();
     if (bytes_.is_well()) load_pairs();
-    bytes_(world_.accounts.masses, world_.accounts.counts.unresolved_splits);
+    Counts& counts = world_.accounts.counts;
+    bytes_(world_.accounts.masses, counts.unresolved_splits, counts.steps_at_level, counts.crowded_ticks,
+           world_.clock.finer, world_.clock.bends);
+    for (const std::int64_t steps : counts.steps_at_level)
+      bytes_.require(steps >= 0 && steps <= kMostCounted, "a number of steps that cannot be");
+    const int finer = world_.clock.finer;
+    bytes_.require(finer >= 1 && finer <= 1 << world_.setup.levels && std::has_single_bit(static_cast<unsigned>(finer)),
+                   "parts of a tick that cannot be");
+    bytes_.require(world_.clock.bends >= 0 && world_.clock.bends <= kMostCounted, "a number of bends that cannot be");
     bytes_.require(bytes_.is_at_end(), "more bytes than it should have");
     if (bytes_.is_well()) {
       if (auto defect = validate_world(world_)) bytes_.fail(*std::move(defect));

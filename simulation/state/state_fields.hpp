@@ -173,6 +173,11 @@ void fields(Archive& archive, Is<std::pair<std::int64_t, std::int64_t>> auto& p)
 }
 
 template <class Archive>
+void fields(Archive& archive, Is<std::array<std::int64_t, kMostLevels + 1>> auto& counts) {
+  for (auto& count : counts) archive(count);
+}
+
+template <class Archive>
 void fields(Archive& archive, Is<Accounts> auto& a) {
   archive(a.ledger, a.audit, a.counts, a.loads, a.ship_contacts, a.refused_grinds);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -107,6 +108,9 @@ struct MassLedger {
   double imbalance = 0;
 };
 
+/// A tick is taken in at most 2^kMostLevels parts.
+inline constexpr int kMostLevels = 5;
+
 struct Counts {
   std::int64_t floes_initial = 0;
   std::int64_t floes_final = 0;
@@ -123,12 +127,15 @@ struct Counts {
   std::int64_t brash_pieces = 0;
   std::int64_t snap_rounded = 0;  ///< pieces whose nearest doubles were not a valid polygon
   std::int64_t database_out_of_range = 0;
+  std::int64_t crowded_ticks = 0;       ///< in the most parts, and yet with more bends in each than kCrowded
   std::int64_t unresolved_splits = 0;   ///< whose force could not be stopped where they run: they did not
   std::int64_t unconverged_steps = 0;   ///< steps in which the contact solver used all its sweeps
   double largest_residual = 0;          ///< by how much a contact missed its law after a step's last sweep [m/s]
   double energy_created = 0;            ///< by steps whose contacts gave more than they took [J]
   std::int64_t unpaired_stretches = 0;  ///< overlaps without a contact for a step: crossings not in pairs
-  std::int64_t steps = 0;
+  std::int64_t steps = 0;               ///< whole ticks
+  /// Steps that took 2^(k − kMostLevels) ticks.
+  std::array<std::int64_t, kMostLevels + 1> steps_at_level{};
   std::int64_t peak_contacts = 0;
   std::int64_t peak_awake = 0;
 };

@@ -125,12 +125,12 @@ void tally_loads(const Population& population, const std::vector<dynamics::Conta
 void record(const Setup& setup, const Clock& clock, const Population& population,
             const std::vector<ShipLoads>& step_loads, Accounts& accounts, Journal& journal) {
   for (std::size_t hull = 0; hull < step_loads.size(); ++hull)
-    add_step(accounts.loads[hull], step_loads[hull], setup.scene.time.step);
+    add_step(accounts.loads[hull], step_loads[hull], setup.step);
   for (std::size_t ship = 0; ship < setup.sailing.size(); ++ship)
     if (setup.sailing[ship].is_active) accounts.sailing[ship].ice_friction += step_loads[ship].ice.friction;
   Counts& counts = accounts.counts;
   counts.peak_awake = std::max(counts.peak_awake, static_cast<std::int64_t>(population.awake.size()));
-  if (clock.steps % setup.steps_per_sample != 0) return;
+  if (!clock.is_at_tick() || clock.steps % setup.steps_per_sample != 0) return;
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull)
     journal.samples.push_back(sample_of(setup, clock, population, hull, accounts));
   std::ranges::fill(accounts.loads, ShipLoads{});

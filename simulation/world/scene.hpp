@@ -26,8 +26,9 @@ namespace polynya::simulation {
 /// JSON form and its field table are io's (docs/scene.md).
 
 struct StepSettings {
-  double step = 0.005;  ///< Δt [s]
+  double step = 0.005;  ///< a tick, which is Δt where levels is 0 [s]
   double until = 550;   ///< simulated time to run to [s]
+  int levels = 5;       ///< a step is 2^-levels to 1 tick; by rigid impulses always a tick
   friend bool operator==(const StepSettings&, const StepSettings&) = default;
 };
 

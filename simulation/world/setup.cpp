@@ -41,6 +41,7 @@ std::vector<IceLimits> limits_of(const Scene& scene) {
 Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
     : scene(std::move(scene_of_run)),
       shortcuts(shortcuts_of_run),
+      step(scene.time.step),
       bending(make_bending_model(scene.fracture)),
       current(current_of(scene.water.shear)),
       ice_limits(limits_of(scene)) {
@@ -53,11 +54,24 @@ Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
   if (contact.law == ContactLaw::kCrush) {
     law = dynamics::CrushLaw{scene.time.step, contact.substeps, contact.is_warm_started};
     solver.tolerance = contact.tolerance;
+    levels = scene.time.levels;
     steps_per_rest = std::max<std::int64_t>(1, std::llround(kRestInterval / scene.time.step));
   } else {
     law = dynamics::RestitutionLaw{contact.restitution, scene.time.step};
     separation = {.time = contact.separation_time};  // crushed overlap is gone ice
   }
+}
+
+void take_parts(Setup& setup, Clock& clock, int parts) {
+  clock.parts = parts;
+  clock.step = setup.step = clock.tick / parts;
+  std::visit([&](auto& law) { law.step = setup.step; }, setup.law);
+}
+
+void advance(Clock& clock) {
+  if (++clock.part < clock.parts) return;
+  clock.part = 0;
+  ++clock.steps;
 }
 
 Underwater underwater_of(const Hull& hull) {

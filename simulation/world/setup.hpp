@@ -32,12 +32,13 @@ struct IceLimits {
   bool breaks_beams = false;         ///< κ l is not above l: slender floes below it break across as beams
 };
 
-/// What a run is computed with, the same from its first step to its last.
+/// What a run is computed with, the same from its first step to its last but for the step's length.
 struct Setup {
   explicit Setup(Scene scene, Shortcuts shortcuts = {});
 
   Scene scene;
   Shortcuts shortcuts;
+  double step = 0;  ///< Δt of the step at hand: a tick, Scene::time.step, or a part of it [s]
   std::unique_ptr<const fracture::BendingModel> bending;
   dynamics::ShearCurrent current;                          ///< in the water frame
   dynamics::ResponseLaw law;                               ///< of contacts
@@ -46,8 +47,9 @@ struct Setup {
   std::vector<Underwater> underwater;                      ///< per hull
   std::vector<Sailing> sailing;                            ///< per ship
   std::vector<IceLimits> ice_limits;                       ///< of the scene's ice, then of each own_ice
+  int levels = 0;                                          ///< Scene::time.levels; 0 where contacts give rigid impulses
   std::int64_t steps_per_sample = 1;
-  std::int64_t steps_per_rest = 1;  ///< between two steps that put floes to rest
+  std::int64_t steps_per_rest = 1;  ///< between two ticks that put floes to rest
 };
 
 /// Whether contacts answer by the law of crushing ice.
@@ -64,12 +66,25 @@ dynamics::ShearCurrent current_of(const ShearSettings& shear);
 
 /// How far a run has come.
 struct Clock {
-  std::int64_t steps = 0;
-  double step = 0;               ///< Δt [s]
+  std::int64_t steps = 0;        ///< whole ticks
+  int part = 0;                  ///< of the tick at hand
+  int parts = 1;                 ///< that it has
+  int finer = 1;                 ///< by how many times more parts, for the bends of the ticks before (levels.hpp)
+  double bends = 0;              ///< in a step, the mean of the ticks before
+  double tick = 0;               ///< [s]
+  double step = 0;               ///< Δt of the step at hand: tick / parts [s]
   geometry::Vector water_drift;  ///< velocity of the water frame over ground [m/s]
 
-  double time() const { return static_cast<double>(steps) * step; }  ///< [s]
-  geometry::Vector drift() const { return time() * water_drift; }    ///< of the water frame over ground [m]
+  double ticks() const { return static_cast<double>(steps) + static_cast<double>(part) / parts; }
+  bool is_at_tick() const { return part == 0; }
+  double time() const { return ticks() * tick; }                   ///< [s]
+  geometry::Vector drift() const { return time() * water_drift; }  ///< of the water frame over ground [m]
 };
+
+/// Has the next tick taken in so many equal parts.
+void take_parts(Setup& setup, Clock& clock, int parts);
+
+/// To the end of the step.
+void advance(Clock& clock);
 
 }  // namespace polynya::simulation

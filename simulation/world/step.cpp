@@ -1,9 +1,11 @@
 #include "simulation/world/step.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "simulation/ice/split_instant.hpp"
+#include "simulation/world/levels.hpp"
 #include "simulation/world/limits.hpp"
 
 namespace polynya::simulation {
@@ -76,7 +78,7 @@ void find_pairs(Population& population) {
 
 void find_contacts(const Setup& setup, int threads, Population& population, std::vector<dynamics::Contact>& contacts,
                    Counts& counts) {
-  population.pairs.find_contacts(population.bodies, setup.scene.time.step, contacts, threads);
+  population.pairs.find_contacts(population.bodies, setup.step, contacts, threads);
   counts.unpaired_stretches += population.pairs.take_unpaired_stretches();
   counts.peak_contacts = std::max(counts.peak_contacts, static_cast<std::int64_t>(contacts.size()));
 }
@@ -98,7 +100,7 @@ void solve_impulses(const Setup& setup, int threads, Population& population, Ste
 }
 
 void apply_forces(const Setup& setup, int threads, Population& population, AuditSums& audit) {
-  const double dt = setup.scene.time.step;
+  const double dt = setup.step;
   const WaterSettings& water = setup.scene.water;
   if (setup.scene.wind.blows()) blow(setup.scene.wind, population, dt, audit);
   enter_water(apply_water_drag(population.bodies, population.awake,
@@ -114,7 +116,7 @@ void apply_forces(const Setup& setup, int threads, Population& population, Audit
 
 std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clock, int threads,
                                             const std::vector<dynamics::Contact>& contacts, Population& population) {
-  const double dt = setup.scene.time.step;
+  const double dt = setup.step;
   if (setup.separation) separate(population.bodies, contacts, *setup.separation, dt);
   const double fastest = integrate(population.bodies, population.awake, dt, threads);
   if (fastest < kRunawaySpeed) return std::nullopt;
@@ -125,7 +127,7 @@ std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clo
 }
 
 void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Population& population, AuditSums& audit) {
-  if (!setup.shortcuts.sleeps || clock.steps % setup.steps_per_rest != 0) return;
+  if (!setup.shortcuts.sleeps || !clock.is_at_tick() || clock.steps % setup.steps_per_rest != 0) return;
   dynamics::Bodies& bodies = population.bodies;
   step.touched_at_step.resize(static_cast<std::size_t>(bodies.size()), -1);
   for (const dynamics::Contact& c : step.contacts) {
@@ -178,7 +180,7 @@ const std::array<Stage, 30> kStages = {{
        auto failure = integrate_motion(w.setup, w.clock, w.threads, w.step.contacts, w.population);
        if (failure && !w.failure) w.failure = std::move(failure);
      }},
-    {"advance the clock", [](World& w) { ++w.clock.steps; }},
+    {"advance the clock", [](World& w) { advance(w.clock); }},
     {"apply fractures",
      [](World& w) { apply_fractures(w.setup, w.clock, w.step.fractures, w.population, w.accounts, w.journal); }},
     {"grind",
@@ -200,7 +202,16 @@ const std::array<Stage, 30> kStages = {{
 }};
 
 void step(World& world) {
-  for (const Stage& stage : kStages) stage.run(world);
+  Counts& counts = world.accounts.counts;
+  const int parts = parts_of_tick(world.setup, world.clock, world.population);
+  take_parts(world.setup, world.clock, parts);
+  counts.steps_at_level[static_cast<std::size_t>(kMostLevels - std::countr_zero(static_cast<unsigned>(parts)))] +=
+      parts;
+  const std::int64_t bends = counts.bends;
+  for (int part = 0; part < parts; ++part) {
+    for (const Stage& stage : kStages) stage.run(world);
+  }
+  counts.crowded_ticks += follow_bends(world.setup, counts.bends - bends, world.clock);
 }
 
 }  // namespace polynya::simulation

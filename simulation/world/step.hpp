@@ -124,7 +124,7 @@ struct Stage {
 /// All of them, in their order.
 extern const std::array<Stage, 30> kStages;
 
-/// One time step: all stages.
+/// One tick: all stages, once or in each of its parts (levels.hpp).
 void step(World& world);
 
 }  // namespace polynya::simulation

@@ -5,7 +5,9 @@
 namespace polynya::simulation {
 
 World::World(Scene scene, Shortcuts shortcuts, Start start)
-    : setup(std::move(scene), shortcuts), clock{0, setup.scene.time.step, setup.scene.water.drift}, population(setup) {
+    : setup(std::move(scene), shortcuts),
+      clock{.tick = setup.scene.time.step, .step = setup.scene.time.step, .water_drift = setup.scene.water.drift},
+      population(setup) {
   accounts.loads.resize(hull_count(setup.scene));
   accounts.sailing.resize(setup.scene.ships.size());
   population.helms.resize(setup.scene.ships.size());

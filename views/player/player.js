@@ -11,6 +11,7 @@ function fillFacts({ run: { info, floes }, name }) {
     ...(count("submerge") && { "went under": count("submerge"), "came up": count("resurface"), ...(count("stay_under") && { "stayed under": count("stay_under") }) }),
     ...(count("mooring_break") && { "moorings broken": count("mooring_break") }),
     ships: info.ships.map((ship) => ship.name).join(", ") || "none",
+    ...(info.steps && { steps: info.steps.map(({ step_s, count }) => `${count} of ${step_s} s`).join(", ") }),
     frames: info.frames === info.frames_of_run ? info.frames : `${info.frames} of ${info.frames_of_run}`,
     ...(name !== info.scene && { "scene's name": info.scene }), seed: info.seed, scene: info.scene_hash, polynya: info.polynya,
   };

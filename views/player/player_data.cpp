@@ -166,6 +166,20 @@ void write_summary(io::JsonWriter& json, const io::Run& run) {
     json.key("stopped_by").value(by->text());
 }
 
+/// How many steps there were of each length; older runs do not have that.
+void write_levels(io::JsonWriter& json, const io::Run& run) {
+  const io::JsonValue* levels = run.summary.find("levels", io::JsonValue::Kind::kArray);
+  if (levels == nullptr) return;
+  json.key("steps").open('[');
+  for (const io::JsonValue& level : levels->items()) {
+    const io::JsonValue* step = level.find("step_s", io::JsonValue::Kind::kNumber);
+    const io::JsonValue* steps = level.find("steps", io::JsonValue::Kind::kNumber);
+    if (step && steps)
+      json.open('{').key("step_s").value(step->number()).key("count").value(steps->number()).close('}');
+  }
+  json.close(']');
+}
+
 std::string info_of(const io::Run& run, const PlayerData& data, const PlayerSelection& selection,
                     const HeldFloes& held) {
   std::string text;
@@ -182,6 +196,7 @@ std::string info_of(const io::Run& run, const PlayerData& data, const PlayerSele
   json.key("forces_interval_s").value(recording_interval(scene));
   json.key("splits_by_j_over_tau_c").value(splits_by_j_over_tau_c(scene));
   write_summary(json, run);
+  write_levels(json, run);
   write_ships(json, scene);
   write_events(json, run, held);
   write_water(json, scene.water);
