@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 #include "app/command_line/commands.hpp"
@@ -112,19 +113,10 @@ tl::unexpected<Failure> failure(const std::string& where, const io::ToolError& e
   return failure(is_invalid ? kRefused : kUsage, fmt::format("{}: {}", where, error.words));
 }
 
-template <class Tool>
-Outcome<std::vector<io::CutOp>> one_op(const char* where, io::ToolOutcome<Tool> tool, io::Keep keep) {
-  if (!tool) return failure(where, tool.error());
-  return std::vector<io::CutOp>{{std::move(*tool), keep}};
-}
-
-/// The cut by a tool of that many numbers, which `tool_of` makes.
-template <class ToolOf>
-Outcome<std::vector<io::CutOp>> op_of_numbers(const char* option, const std::string& text, std::size_t wanted,
-                                              io::Keep keep, ToolOf tool_of) {
-  const auto numbers = io::read_numbers(text, wanted);
-  if (!numbers) return failure(kUsage, fmt::format("{}: {}", option, numbers.error()));
-  return one_op(option, tool_of(*numbers), keep);
+Outcome<std::vector<io::CutOp>> one_op(const char* where, io::ToolOutcome<io::CutOp> op, io::Keep keep) {
+  if (!op) return failure(where, op.error());
+  op->keep = keep;
+  return std::vector<io::CutOp>{std::move(*op)};
 }
 
 Outcome<std::vector<io::CutOp>> read_ops(const Options& options) {
@@ -134,22 +126,21 @@ Outcome<std::vector<io::CutOp>> read_ops(const Options& options) {
     return failure(kUsage, fmt::format("one of --disc, --crack, --line, --polygon, --ops is needed, {} given",
                                        given == 0 ? "none is" : fmt::format("{} are", given)));
   }
-  using Numbers = std::vector<double>;
-  if (!options.disc.empty())
-    return op_of_numbers("--disc", options.disc, 3, options.keep,
-                         [&](const Numbers& n) { return io::disc_tool(n, options.sagitta); });
-  if (!options.crack.empty())
-    return op_of_numbers("--crack", options.crack, 3, options.keep, [](const Numbers& n) {
-      return io::ToolOutcome<io::CrackTool>(io::CrackTool{{n[0], n[1]}, n[2]});
-    });
-  if (!options.line.empty())
-    return op_of_numbers("--line", options.line, 4, options.keep, [](const Numbers& n) {
-      return io::line_tool({{n[0], n[1]}, {n[2], n[3]}});
-    });
+  for (const auto& [option, text, count] : {std::tuple{"--disc", &options.disc, std::size_t{3}},
+                                            {"--crack", &options.crack, std::size_t{3}},
+                                            {"--line", &options.line, std::size_t{4}}}) {
+    if (text->empty()) continue;
+    const auto numbers = io::read_numbers(*text, count);
+    if (!numbers) return failure(kUsage, fmt::format("{}: {}", option, numbers.error()));
+    return one_op(option, io::op_of_numbers(option + 2, *numbers, options.sagitta), options.keep);
+  }
   const std::string& file = options.polygon.empty() ? options.ops : options.polygon;
   auto text = read_input(file, options.polygon.empty() ? kLongestOps : io::kLongestFloeText);
   if (!text) return failure(kInputOutput, fmt::format("{}: {}", file, text.error()));
-  if (!options.polygon.empty()) return one_op(file.c_str(), io::polygon_tool(std::move(*text)), options.keep);
+  if (!options.polygon.empty()) {
+    const auto as_op = [](io::PolygonTool&& tool) { return io::CutOp{std::move(tool), {}}; };
+    return one_op(file.c_str(), io::polygon_tool(std::move(*text)).map(as_op), options.keep);
+  }
   auto ops = io::read_cut_ops(*text, {options.keep, options.sagitta});
   if (!ops) return failure(file, ops.error());
   return *std::move(ops);

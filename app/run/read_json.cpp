@@ -10,29 +10,11 @@
 namespace polynya::app {
 namespace {
 
-/// Lines and columns in a text, in one pass: each offset is at or behind the one before.
-class PlaceReader {
- public:
-  explicit PlaceReader(std::string_view text) : text_(text) {}
-  io::LineAndColumn at(std::size_t offset) {
-    const auto step = io::line_and_column(text_.substr(offset_), offset - offset_);
-    offset_ = offset;
-    place_.column = step.line > 1 ? step.column : place_.column + step.column - 1;
-    place_.line += step.line - 1;
-    return place_;
-  }
-
- private:
-  std::string_view text_;
-  std::size_t offset_ = 0;
-  io::LineAndColumn place_;
-};
-
 /// The place of every value of a document by its JSON pointer (RFC 6901): line and column, and behind them
 /// those of its key.
 class PlaceWriter {
  public:
-  explicit PlaceWriter(std::string_view text) : reader_(text) { json_.open('{'); }
+  explicit PlaceWriter(std::string_view text) : lines_(text) { json_.open('{'); }
 
   std::string places_of(const io::JsonValue& root) {
     add(root, {});
@@ -43,8 +25,8 @@ class PlaceWriter {
  private:
   void add(const io::JsonValue& value, std::optional<std::uint32_t> key_offset) {
     std::optional<io::LineAndColumn> key;
-    if (key_offset) key = reader_.at(*key_offset);
-    const io::LineAndColumn place = reader_.at(value.offset);
+    if (key_offset) key = lines_.at(*key_offset);
+    const io::LineAndColumn place = lines_.at(value.offset);
     json_.key(pointer_).open('[').value(place.line).value(place.column);
     if (key) json_.value(key->line).value(key->column);
     json_.close(']');
@@ -63,7 +45,7 @@ class PlaceWriter {
     pointer_.resize(length);
   }
 
-  PlaceReader reader_;
+  io::LineIndex lines_;
   std::string places_, pointer_;
   io::JsonWriter json_{places_};
 };

@@ -49,26 +49,22 @@ void print_ship(const io::ShipPreset& ship) {
   print_out("\nassumed: nobody has published it. recall: from memory. Sources: docs/references.md.\n");
 }
 
-void put(io::JsonValue& object, const char* key, io::JsonValue::Data value) {
-  object.members().push_back({key, 0, {std::move(value), 0}});
-}
-
 io::JsonValue described(std::string_view name, std::string_view title, io::JsonValue ship,
                         const io::ShipPreset* preset) {
   io::JsonValue reported{io::JsonValue::Array{}, 0};
   for (const io::ReportedSpeed& speed : preset ? preset->reported : std::vector<io::ReportedSpeed>{}) {
     io::JsonValue item{io::JsonValue::Object{}, 0};
-    put(item, "thickness_m", speed.thickness);
-    put(item, "speed_m_per_s", speed.speed);
-    if (speed.flexural_strength > 0) put(item, "flexural_strength_kPa", 1e-3 * speed.flexural_strength);
-    put(item, "source", std::string(speed.source));
+    item.set("thickness_m", speed.thickness);
+    item.set("speed_m_per_s", speed.speed);
+    if (speed.flexural_strength > 0) item.set("flexural_strength_kPa", 1e-3 * speed.flexural_strength);
+    item.set("source", std::string(speed.source));
     reported.items().push_back(std::move(item));
   }
   io::JsonValue root{io::JsonValue::Object{}, 0};
-  put(root, "name", std::string(name));
-  put(root, "title", std::string(title));
-  put(root, "ship", std::move(ship.data));
-  put(root, "reported", std::move(reported.data));
+  root.set("name", std::string(name));
+  root.set("title", std::string(title));
+  root.set("ship", std::move(ship.data));
+  root.set("reported", std::move(reported.data));
   return root;
 }
 
@@ -129,9 +125,9 @@ ExitCode show_text(std::string text, const std::string& name, bool is_file, cons
   io::JsonValue root = described(stem, title, std::move(ship->resolved), preset);
   if (ship->engine) {
     io::JsonValue engine{io::JsonValue::Object{}, 0};
-    put(engine, "bollard_pull_N", ship->engine->bollard_pull);
-    put(engine, "open_water_speed_m_per_s", ship->engine->open_water_speed);
-    put(root, "engine", std::move(engine.data));
+    engine.set("bollard_pull_N", ship->engine->bollard_pull);
+    engine.set("open_water_speed_m_per_s", ship->engine->open_water_speed);
+    root.set("engine", std::move(engine.data));
   }
   print_json(root);
   return kDone;

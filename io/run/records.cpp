@@ -11,22 +11,24 @@
 #include "io/text/shape_parts.hpp"
 
 namespace polynya::io {
-namespace {
-
-/// The two columns that name a ship or a floe.
-void append_body(std::string& text, std::string_view ship, simulation::FloeId floe) {
-  text += ',';
-  text += ship;
-  text += ',';
-  if (floe != simulation::kNoFloe) append_number(text, floe);
-}
-
-}  // namespace
-
 std::string_view ship_name(const simulation::Scene& scene, int ship) {
   const auto hull = static_cast<std::size_t>(ship);
   return ship < 0 || hull >= hull_count(scene) ? std::string_view{} : hull_of(scene, hull).name;
 }
+
+namespace {
+
+/// What a row of two bodies begins with: the time, and of each body the name of the ship or the number of the floe.
+void append_bodies(std::string& text, double time, const simulation::ContactState::Body& on,
+                   const simulation::ContactState::Body& by, const simulation::Scene& scene) {
+  append_number(text, time);
+  for (const simulation::ContactState::Body& body : {on, by}) {
+    text.append(1, ',').append(ship_name(scene, body.ship)) += ',';
+    if (body.floe != simulation::kNoFloe) append_number(text, body.floe);
+  }
+}
+
+}  // namespace
 
 std::string forces_header() {
   std::string header = "t_s,ship";
@@ -46,11 +48,9 @@ std::string_view contacts_header() {
   return "t_s,ship,floe_id,by_ship,by_floe_id,x_m,y_m,fx_N,fy_N,depth_m,is_crushing\n";
 }
 
-void append_contact(std::string& text, double time, const simulation::ContactState& contact, std::string_view on_ship,
-                    std::string_view by_ship) {
-  append_number(text, time);
-  append_body(text, on_ship, contact.on.floe);
-  append_body(text, by_ship, contact.by.floe);
+void append_contact(std::string& text, double time, const simulation::ContactState& contact,
+                    const simulation::Scene& scene) {
+  append_bodies(text, time, contact.on, contact.by, scene);
   append_csv(text,
              {contact.point_in_world.x, contact.point_in_world.y, contact.force.x, contact.force.y, contact.depth});
   text += contact.is_crushing ? ",1\n" : ",0\n";
@@ -60,11 +60,9 @@ std::string_view crushed_header() {
   return "t_s,ship,floe_id,by_ship,by_floe_id,crushed_m2,tilted_m2,crushed_m3,crushing_J\n";
 }
 
-void append_crushed(std::string& text, double time, const simulation::CrushedOverlap& overlap, std::string_view on_ship,
-                    std::string_view by_ship) {
-  append_number(text, time);
-  append_body(text, on_ship, overlap.on.floe);
-  append_body(text, by_ship, overlap.by.floe);
+void append_crushed(std::string& text, double time, const simulation::CrushedOverlap& overlap,
+                    const simulation::Scene& scene) {
+  append_bodies(text, time, overlap.on, overlap.by, scene);
   append_csv(text, {overlap.area, overlap.tilted, overlap.volume, overlap.work});
   text += '\n';
 }

@@ -26,15 +26,15 @@ void append_forces_row(std::string& text, const simulation::ShipSample& sample, 
 
 /// contacts.csv: who touched whom at a frame.
 std::string_view contacts_header();
-void append_contact(std::string& text, double time, const simulation::ContactState& contact, std::string_view on_ship,
-                    std::string_view by_ship);
+void append_contact(std::string& text, double time, const simulation::ContactState& contact,
+                    const simulation::Scene& scene);
 
 /// crushed.csv: the overlap of two bodies at a frame that their contacts have pressed, as it is booked. Pairs below
 /// this share of the smaller body are left out.
 inline constexpr double kLeastCrushedShare = 1e-3;
 std::string_view crushed_header();
-void append_crushed(std::string& text, double time, const simulation::CrushedOverlap& overlap, std::string_view on_ship,
-                    std::string_view by_ship);
+void append_crushed(std::string& text, double time, const simulation::CrushedOverlap& overlap,
+                    const simulation::Scene& scene);
 
 /// states.csv: a hash of everything at each frame.
 std::string_view states_header();

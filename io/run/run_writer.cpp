@@ -213,14 +213,11 @@ void RunWriter::frame(const simulation::Simulation& simulation) {
   file(kFrames).append(frames_.end());
   line_.clear();  // an instant's contacts are one record: no file holds a part of them
   for (const simulation::ContactState& contact : simulation.contact_states())
-    append_contact(line_, simulation.time(), contact, ship_name(scene_->scene, contact.on.ship),
-                   ship_name(scene_->scene, contact.by.ship));
+    append_contact(line_, simulation.time(), contact, scene_->scene);
   if (!line_.empty()) file(kContacts).append(line_);
   line_.clear();
   for (const simulation::CrushedOverlap& overlap : simulation.crushed_overlaps()) {
-    if (overlap.share >= kLeastCrushedShare)
-      append_crushed(line_, simulation.time(), overlap, ship_name(scene_->scene, overlap.on.ship),
-                     ship_name(scene_->scene, overlap.by.ship));
+    if (overlap.share >= kLeastCrushedShare) append_crushed(line_, simulation.time(), overlap, scene_->scene);
   }
   if (!line_.empty()) file(kCrushed).append(line_);
   line_.clear();

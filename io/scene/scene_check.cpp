@@ -25,9 +25,7 @@ constexpr std::size_t kMostOverlaps = 200;
 
 void check_water_and_time(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
   const auto& scene = draft.scene;
-  const auto report = [&](const std::string& path, std::string found, std::string allowed) {
-    problems.report(0, nearest_offset(given, path), path, std::move(found), std::move(allowed));
-  };
+  const ReportAt report{problems, given, ""};
   if (scene.ice.density >= scene.water.water.density)
     report("ice.density_kg_per_m3", fmt::format("{}: this ice sinks", scene.ice.density),
            fmt::format("a number < the water's density, {} [kg/m³]", scene.water.water.density));
@@ -148,17 +146,14 @@ double most_that_ice_bears(const simulation::Scene& scene) {
 /// A load that no ice bears, and a mass that it takes beyond the closing speed in one step.
 void check_load(const simulation::Scene& scene, const simulation::WallPressure& pressure, const JsonValue& given,
                 const std::string& path, ProblemCollector& problems) {
-  const auto report = [&](const std::string& key, std::string found, std::string allowed) {
-    problems.report(0, nearest_offset(given, "pressure." + key), path + "pressure." + key, std::move(found),
-                    std::move(allowed));
-  };
+  const ReportAt report{problems, given, path};
   if (const double most = most_that_ice_bears(scene); pressure.line_load >= most)
-    report("line_load_N_per_m",
+    report("pressure.line_load_N_per_m",
            fmt::format("{:g} N/m, which crushes the strongest ice of the scene without end", pressure.line_load),
            fmt::format("less than its σ_c h, {:.4g} [N/m]", most));
   const double gain = scene.time.step * pressure.line_load / pressure.mass_per_length;
   if (gain > pressure.closing_speed)
-    report("mass_kg_per_m",
+    report("pressure.mass_kg_per_m",
            fmt::format("{:g} kg/m, which the load takes to {:.3g} m/s in one step, beyond the closing speed",
                        pressure.mass_per_length, gain),
            fmt::format("at least {:.4g} [kg/m], or a shorter time.step_s",
@@ -171,18 +166,18 @@ void each_pressing_wall(const SceneDraft& draft, const JsonValue& given, Call ca
   std::size_t hull = hull_count(draft.scene) - draft.scene.walls.size();
   for (const simulation::Wall& wall : draft.scene.walls) {
     const std::size_t index = draft.hull_origins[hull++].group;
-    if (wall.pressure) call(*wall.pressure, given.find("walls")->items()[index], fmt::format("walls[{}].", index));
+    if (wall.pressure) call(*wall.pressure, given.find("walls")->items()[index], fmt::format("walls[{}]", index));
   }
 }
 
 void check_walls(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
   each_pressing_wall(draft, given, [&](const auto&, const JsonValue& item, const std::string& path) {
-    if (const JsonValue* velocity = item.find("velocity_m_per_s"))
-      problems.report(0, velocity->offset, path + "velocity_m_per_s", "a velocity of a wall with pressure",
-                      "either of them: the load moves the wall");
+    const ReportAt report{problems, item, path};
+    if (item.find("velocity_m_per_s"))
+      report("velocity_m_per_s", "a velocity of a wall with pressure", "either of them: the load moves the wall");
     if (draft.scene.contact.law == simulation::ContactLaw::kImpulse)
-      problems.report(0, nearest_offset(item, "pressure"), path + "pressure", "a load with contact.law impulse",
-                      "contact.law crush, or velocity_m_per_s: rigid impulses bear no definite load");
+      report("pressure", "a load with contact.law impulse",
+             "contact.law crush, or velocity_m_per_s: rigid impulses bear no definite load");
   });
 }
 

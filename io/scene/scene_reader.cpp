@@ -26,18 +26,11 @@ std::string hash_of(std::string_view text) {
   return fmt::format("{:016x}", hash);
 }
 
-void put(JsonValue& object, const std::string& key, JsonValue::Data data) {
-  if (!object.is(JsonKind::kObject)) return;
-  JsonValue* member = object.find(key);
-  if (!member) member = &object.members().emplace_back(JsonMember{key, object.offset, {nullptr, object.offset}}).value;
-  member->data = std::move(data);
-}
-
 void override_scene(JsonValue& root, const SceneOverrides& overrides) {
-  if (overrides.seed) put(root, "seed", static_cast<double>(*overrides.seed));
+  if (overrides.seed) root.set("seed", static_cast<double>(*overrides.seed));
   if (!overrides.until) return;
-  if (!root.find("time")) put(root, "time", JsonValue::Object{});
-  if (JsonValue* time = root.find("time")) put(*time, "until_s", *overrides.until);
+  if (!root.find("time")) root.set("time", JsonValue::Object{});
+  if (JsonValue* time = root.find("time")) time->set("until_s", *overrides.until);
 }
 
 /// Reads a scene's text into a draft. One use.
@@ -50,7 +43,7 @@ class SceneReader {
     JsonDocument document;
     if (!parse(document)) return tl::unexpected(problems_.take());
     assign(document.root, overrides.assignments, problems_);
-    if (!document.root.find("name")) put(document.root, "name", default_name);
+    if (!document.root.find("name")) document.root.set("name", default_name);
     override_scene(document.root, overrides);
     if (!complete(document.root)) return tl::unexpected(problems_.take());
     add_scene_hints(draft_, document.root, problems_);
@@ -82,7 +75,7 @@ class SceneReader {
     ship.given = given;
     if (const JsonValue* preset = given.find("ship", JsonKind::kText)) ship.preset = preset->text();
     JsonValue scene{JsonValue::Object{}, given.offset};
-    put(scene, "ships", JsonValue::Array{std::move(given)});
+    scene.set("ships", JsonValue::Array{std::move(given)});
     const bool is_valid = complete(scene);
     if (use == ShipUse::kLevelIce) check_for_level_ice(scene.find("ships")->items().front());
     if (!is_valid || problems_.count() > 0) return tl::unexpected(problems_of_ship());
@@ -111,22 +104,18 @@ class SceneReader {
 
   /// What the formulas and the course of `polynya performance` need, of a ship with its preset filled in.
   void check_for_level_ice(const JsonValue& ship) {
-    const auto report_at = [&](const JsonValue& at, const std::string& key, std::string found, std::string allowed) {
-      report(at.offset, "ships[0]." + key, std::move(found), std::move(allowed));
-    };
+    const ReportAt report_at{problems_, ship, "ships[0]"};
     const std::string reason = ": the formulas and the course in level ice need it";
     if (const JsonValue* hull = ship.find("hull", JsonKind::kObject)) {
-      if (const JsonValue* waterline = hull->find("waterline_m"))
-        report_at(*waterline, "hull.waterline_m", "a waterline point by point",
+      if (hull->find("waterline_m"))
+        report_at("hull.waterline_m", "a waterline point by point",
                   "length_m, beam_m and entrance_angle_deg, which the formulas and the course need");
-      if (!hull->find("draught_m")) report_at(*hull, "hull.draught_m", "nothing", "a number > 0, ≤ 1000 [m]" + reason);
+      if (!hull->find("draught_m")) report_at("hull.draught_m", "nothing", "a number > 0, ≤ 1000 [m]" + reason);
     }
     const JsonValue* propulsion = ship.find("propulsion", JsonKind::kObject);
     if (propulsion && !propulsion->members().empty() && !propulsion->find("engine"))
-      report_at(*propulsion, "propulsion.engine", "nothing",
-                "an engine, by which is known what the ship can push with");
-    if (const JsonValue* mooring = ship.find("mooring"))
-      report_at(*mooring, "mooring", "a mooring", "none: the ship sails");
+      report_at("propulsion.engine", "nothing", "an engine, by which is known what the ship can push with");
+    if (ship.find("mooring")) report_at("mooring", "a mooring", "none: the ship sails");
   }
 
   void report(std::uint32_t offset, std::string path, std::string found, std::string allowed) {
@@ -192,9 +181,7 @@ class SceneReader {
       const JsonValue* in = root && !object.empty() ? root->find(object) : root;
       return in && in->find(key) != nullptr;
     };
-    const auto report_at = [&](const std::string& key, std::string found, std::string allowed) {
-      report(nearest_offset(given, key), key, std::move(found), std::move(allowed));
-    };
+    const ReportAt report_at{problems_, given, ""};
     const bool has_draught =
         std::ranges::any_of(ships, [](const auto& ship) { return ship && ship->spec.hull.draught > 0; });
     simulation::FractureSettings& fracture = input_.scene.fracture;

@@ -42,7 +42,7 @@ class Completion {
  public:
   Completion(ShipInput& input, const JsonValue& given, const std::string& path, double density,
              ProblemCollector& problems)
-      : input_(input), item_(given), path_(path), density_(density), problems_(problems) {}
+      : input_(input), item_(given), density_(density), report_{problems, given, path} {}
 
   Ship run() {
     choose_water_and_speed();
@@ -63,11 +63,6 @@ class Completion {
   }
 
  private:
-  void report(std::string_view key, std::string found, std::string allowed) {
-    problems_.report(0, nearest_offset(item_, key), fmt::format("{}.{}", path_, key), std::move(found),
-                     std::move(allowed));
-  }
-
   /// Water acts on the hulls of ships with an engine, and a ship at constant speed starts at that speed,
   /// unless the scene states otherwise.
   void choose_water_and_speed() {
@@ -78,8 +73,8 @@ class Completion {
     if (!held) return;
     double& speed = input_.spec.speed;
     if (item_.find("speed_m_per_s") && speed != held->speed)
-      report("speed_m_per_s", show({speed}),
-             fmt::format("the constant speed, {} [m/s], or nothing", show({held->speed})));
+      report_("speed_m_per_s", show({speed}),
+              fmt::format("the constant speed, {} [m/s], or nothing", show({held->speed})));
     speed = held->speed;
   }
 
@@ -105,9 +100,9 @@ class Completion {
     if (has_form && ship_.moment_of_inertia == 0)
       ship_.moment_of_inertia = ship_.mass * std::pow(kGyrationOfLength * d.length, 2);
     const std::string from_form = ", or hull.draught_m and hull.block_coefficient, from which it follows";
-    if (ship_.mass == 0) report("mass_kg", "nothing", "a number ≥ 1, ≤ 1e+12 [kg]" + from_form);
+    if (ship_.mass == 0) report_("mass_kg", "nothing", "a number ≥ 1, ≤ 1e+12 [kg]" + from_form);
     if (ship_.moment_of_inertia == 0)
-      report("moment_of_inertia_kg_m2", "nothing", "a number ≥ 0.001, ≤ 1e+16 [kg m²]" + from_form);
+      report_("moment_of_inertia_kg_m2", "nothing", "a number ≥ 0.001, ≤ 1e+16 [kg m²]" + from_form);
     input_.spec.mass = ship_.mass;
     input_.spec.moment_of_inertia = ship_.moment_of_inertia;
     for (double* missing : {&ship_.mass, &ship_.moment_of_inertia})
@@ -124,8 +119,8 @@ class Completion {
       engine.bollard_pull =
           dynamics::bollard_pull(engine.power, diameter, input.propellers, input.has_nozzles.value_or(false));
     if (engine.bollard_pull == 0)
-      return report(key, "neither bollard_pull_kN nor power_MW with propeller_diameter_m",
-                    "bollard_pull_kN, or power_MW and propeller_diameter_m");
+      return report_(key, "neither bollard_pull_kN nor power_MW with propeller_diameter_m",
+                     "bollard_pull_kN, or power_MW and propeller_diameter_m");
     if (ship_.hull.draught > 0 && dimensions().block_coefficient <= 1)
       check_speed(engine, key + ".open_water_speed_m_per_s");
   }
@@ -138,44 +133,44 @@ class Completion {
     const std::string at =
         fmt::format("{:g}: the water's friction on the hull there is {:.4g} kN", v, 1e-3 * resistance);
     if (resistance > engine.bollard_pull)
-      return report(key, fmt::format("{}, the bollard pull {:.4g} kN", at, 1e-3 * engine.bollard_pull),
-                    "a speed that the engine can reach");
+      return report_(key, fmt::format("{}, the bollard pull {:.4g} kN", at, 1e-3 * engine.bollard_pull),
+                     "a speed that the engine can reach");
     if (engine.power > 0 && resistance * v > engine.power)
-      report(key, fmt::format("{}, which takes {:.4g} MW of {:.4g}", at, 1e-6 * resistance * v, 1e-6 * engine.power),
-             "a speed that the engine can reach");
+      report_(key, fmt::format("{}, which takes {:.4g} MW of {:.4g}", at, 1e-6 * resistance * v, 1e-6 * engine.power),
+              "a speed that the engine can reach");
   }
 
   void check_hull() {
     if (ship_.hull.draught <= 0)
-      return report("hull.draught_m", "nothing, and water acts on the hull", "a draught, or water.model none");
+      return report_("hull.draught_m", "nothing, and water acts on the hull", "a draught, or water.model none");
     const auto d = dimensions();
     if (!std::isfinite(d.block_coefficient)) return;  // no mass: reported
     if (d.block_coefficient < kLeastBlock || d.block_coefficient > 1)
-      return report("mass_kg",
-                    fmt::format("{:.4g}, a block coefficient of {:.3g} for {:.4g} × {:.4g} × {:.4g} m", ship_.mass,
-                                d.block_coefficient, d.length, d.beam, d.draught),
-                    fmt::format("a block coefficient of {:g} to 1", kLeastBlock));
+      return report_("mass_kg",
+                     fmt::format("{:.4g}, a block coefficient of {:.3g} for {:.4g} × {:.4g} × {:.4g} m", ship_.mass,
+                                 d.block_coefficient, d.length, d.beam, d.draught),
+                     fmt::format("a block coefficient of {:g} to 1", kLeastBlock));
     if (!clarke_derivatives(d).are_physical())
-      report("water.model",
-             fmt::format("manoeuvring, whose regression has no meaning for a hull of {:.4g} × {:.4g} × {:.4g} m",
-                         d.length, d.beam, d.draught),
-             "none, or a hull of ship's proportions");
+      report_("water.model",
+              fmt::format("manoeuvring, whose regression has no meaning for a hull of {:.4g} × {:.4g} × {:.4g} m",
+                          d.length, d.beam, d.draught),
+              "none, or a hull of ship's proportions");
   }
 
   void check_steering() {
     if (std::holds_alternative<simulation::NoSteering>(ship_.steering)) return;
     if (!std::holds_alternative<simulation::Engine>(ship_.propulsion))
-      return report("steering", "a rudder or thrusters without an engine", "propulsion.engine, or no steering");
+      return report_("steering", "a rudder or thrusters without an engine", "propulsion.engine, or no steering");
     auto* rudder = std::get_if<simulation::RudderSettings>(&ship_.steering);
     if (!rudder) return;
     const auto d = dimensions();
     const double most = kLargestRudder * d.length * d.draught;
     if (rudder->area > 0 && most > 0 && rudder->area > most)
-      return report("steering.rudder.area_m2", fmt::format("{:g}", rudder->area),
-                    fmt::format("at most a fifth of length times draught, {:.4g} [m²]", most));
+      return report_("steering.rudder.area_m2", fmt::format("{:g}", rudder->area),
+                     fmt::format("at most a fifth of length times draught, {:.4g} [m²]", most));
     if (rudder->area > 0) return;
     if (ship_.hull.draught <= 0)
-      return report("steering.rudder.area_m2", "nothing, and no hull.draught_m", "an area, or a draught");
+      return report_("steering.rudder.area_m2", "nothing, and no hull.draught_m", "an area, or a draught");
     rudder->area = kRudderShare * d.length * d.draught;
   }
 
@@ -184,22 +179,21 @@ class Completion {
     mooring.position_in_world = input.position.value_or(ship_.position_in_world);
     mooring.heading = input.heading.value_or(ship_.heading);
     if (std::holds_alternative<simulation::ConstantSpeed>(ship_.propulsion))
-      return report("mooring", "a mooring of a ship whose speed is prescribed", "thrust_N or an engine");
+      return report_("mooring", "a mooring of a ship whose speed is prescribed", "thrust_N or an engine");
     const geometry::Vector off =
         rotate_back(geometry::Rotation::by(mooring.heading), ship_.position_in_world - mooring.position_in_world);
     const double load = std::hypot(mooring.surge_stiffness * off.x, mooring.sway_stiffness * off.y);
     if (mooring.break_load > 0 && load > mooring.break_load)
-      report("mooring.break_load_N",
-             fmt::format("{:g}: the mooring is broken at the start, where it pulls with {:.4g} N", mooring.break_load,
-                         load),
-             "a greater load, or a ship nearer to mooring.position_m");
+      report_("mooring.break_load_N",
+              fmt::format("{:g}: the mooring is broken at the start, where it pulls with {:.4g} N", mooring.break_load,
+                          load),
+              "a greater load, or a ship nearer to mooring.position_m");
   }
 
   ShipInput& input_;
   const JsonValue& item_;
-  const std::string& path_;
   const double density_;
-  ProblemCollector& problems_;
+  const ReportAt report_;
   Ship ship_;
 };
 
@@ -221,32 +215,31 @@ bool are_near(Point a, Point b, Point c, Point d, double nearer_than) {
 class PilotCheck {
  public:
   PilotCheck(std::size_t ship, const JsonValue& item, SceneDraft& draft, ProblemCollector& problems)
-      : index_(ship), ship_(draft.scene.ships[ship]), item_(item), draft_(draft), problems_(problems) {}
+      : index_(ship),
+        ship_(draft.scene.ships[ship]),
+        item_(item),
+        draft_(draft),
+        report_{problems, item, hull_path(draft, ship)} {}
 
   void run() {
     if (!item_.find("pilot")) return;
     if (!std::holds_alternative<simulation::Engine>(ship_.propulsion))
-      return report("pilot", "a pilot of a ship without an engine", "propulsion.engine, or no pilot");
+      return report_("pilot", "a pilot of a ship without an engine", "propulsion.engine, or no pilot");
     std::visit([&](auto& pilot) { check(pilot); }, ship_.pilot);
   }
 
  private:
-  void report(const std::string& key, std::string found, std::string allowed) {
-    problems_.report(0, nearest_offset(item_, key), fmt::format("{}.{}", hull_path(draft_, index_), key),
-                     std::move(found), std::move(allowed));
-  }
-
   /// Whether the ship can be steered, which the pilot needs.
   bool has_steering(const std::string& key) {
     if (steering_most(ship_) > 0) return true;
-    report(key, "nothing to steer with", "steering.rudder or steering.azimuth");
+    report_(key, "nothing to steer with", "steering.rudder or steering.azimuth");
     return false;
   }
   void check_angle(const std::string& key, double angle) {
     const double most = steering_most(ship_);
     if (std::abs(angle) <= most * (1 + 1e-9)) return;
-    report(key, fmt::format("{:.4g}°", geometry::kDegreesPerRadian * angle),
-           fmt::format("at most {:.4g}° to either side", geometry::kDegreesPerRadian * most));
+    report_(key, fmt::format("{:.4g}°", geometry::kDegreesPerRadian * angle),
+            fmt::format("at most {:.4g}° to either side", geometry::kDegreesPerRadian * most));
   }
 
   void check(const simulation::ConstantPilot& pilot) {
@@ -259,8 +252,8 @@ class PilotCheck {
   void check(const simulation::TablePilot& pilot) {
     for (std::size_t i = 0; i < pilot.rows.size(); ++i) {
       if (i > 0 && pilot.rows[i].time <= pilot.rows[i - 1].time)
-        report(fmt::format("pilot.table.rows[{}].t_s", i), fmt::format("{:g}", pilot.rows[i].time),
-               fmt::format("a time after that of the row before, {:g} [s]", pilot.rows[i - 1].time));
+        report_(fmt::format("pilot.table.rows[{}].t_s", i), fmt::format("{:g}", pilot.rows[i].time),
+                fmt::format("a time after that of the row before, {:g} [s]", pilot.rows[i - 1].time));
       check_angle(fmt::format("pilot.table.rows[{}].steering_deg", i), pilot.rows[i].steering_angle);
     }
   }
@@ -270,17 +263,17 @@ class PilotCheck {
     const Vector ahead{std::cos(ship_.heading), std::sin(ship_.heading)};
     const Vector way = pilot.waypoints.front().position_in_world - ship_.position_in_world;
     if (dot(way, ahead) <= 0)
-      report("pilot.route.waypoints[0].position_m",
-             fmt::format("({:g}, {:g}), {:.4g} m behind the ship", pilot.waypoints.front().position_in_world.x,
-                         pilot.waypoints.front().position_in_world.y, -dot(way, ahead)),
-             "a first waypoint ahead of the ship, or another heading_deg");
+      report_("pilot.route.waypoints[0].position_m",
+              fmt::format("({:g}, {:g}), {:.4g} m behind the ship", pilot.waypoints.front().position_in_world.x,
+                          pilot.waypoints.front().position_in_world.y, -dot(way, ahead)),
+              "a first waypoint ahead of the ship, or another heading_deg");
     Point from = ship_.position_in_world;
     for (std::size_t i = 0; i < pilot.waypoints.size(); ++i) {
       const Point to = pilot.waypoints[i].position_in_world;
       if (const auto* structure = structure_on(from, to))
-        report(fmt::format("pilot.route.waypoints[{}].position_m", i),
-               fmt::format("a leg to ({:g}, {:g}) that leads through {}", to.x, to.y, structure->name),
-               "legs that stay half a beam clear of structures");
+        report_(fmt::format("pilot.route.waypoints[{}].position_m", i),
+                fmt::format("a leg to ({:g}, {:g}) that leads through {}", to.x, to.y, structure->name),
+                "legs that stay half a beam clear of structures");
       from = to;
     }
   }
@@ -305,12 +298,12 @@ class PilotCheck {
     const std::string key = "pilot.follow.ship";
     const std::string found = fmt::format("\"{}\"", pilot.ship);
     if (leader < 0 || leader >= std::ssize(draft_.scene.ships))
-      return report(key, found + (leader < 0 ? ", the name of no ship" : ", which is no ship"),
-                    "the name of another ship");
+      return report_(key, found + (leader < 0 ? ", the name of no ship" : ", which is no ship"),
+                     "the name of another ship");
     if (leader == static_cast<int>(index_))
-      return report(key, found + ": a ship cannot follow itself", "the name of another ship");
+      return report_(key, found + ": a ship cannot follow itself", "the name of another ship");
     if (follows_back(pilot))
-      report(key, found + ", which follows this ship", "a ship that follows no ship of the same line");
+      report_(key, found + ", which follows this ship", "a ship that follows no ship of the same line");
   }
 
   /// Whether the leaders of leaders lead back to this ship.
@@ -332,7 +325,7 @@ class PilotCheck {
   Ship& ship_;
   const JsonValue& item_;
   SceneDraft& draft_;
-  ProblemCollector& problems_;
+  const ReportAt report_;
 };
 
 }  // namespace
@@ -357,9 +350,9 @@ std::optional<simulation::Wall> complete_wall(const WallInput& input, const Json
                                               ProblemCollector& problems) {
   simulation::Wall wall = simulation::wall_between(input.from, input.to, input.depth);
   if (wall.length < kShortestWall) {
-    problems.report(0, nearest_offset(given, "to_m"), path + ".to_m",
-                    fmt::format("({:g}, {:g}), {:.3g} m from from_m", input.to.x, input.to.y, wall.length),
-                    fmt::format("a face of at least {:g} m", kShortestWall));
+    ReportAt{problems, given, path}(
+        "to_m", fmt::format("({:g}, {:g}), {:.3g} m from from_m", input.to.x, input.to.y, wall.length),
+        fmt::format("a face of at least {:g} m", kShortestWall));
     return std::nullopt;
   }
   wall.name = input.name;

@@ -51,14 +51,30 @@ Result<std::vector<double>> numbers_of(const JsonValue& value, std::size_t count
   return numbers;
 }
 
-ToolOutcome<LineTool> read_line(const JsonValue& value) {
+template <class Tool>
+ToolOutcome<CutOp> as_op(ToolOutcome<Tool> tool) {
+  return std::move(tool).map([](Tool&& made) { return CutOp{std::move(made), {}}; });
+}
+
+ToolOutcome<DiscTool> disc_tool(const std::vector<double>& centre_and_radius, double sagitta) {
+  DiscTool disc{{centre_and_radius[0], centre_and_radius[1]}, centre_and_radius[2], sagitta, {}};
+  if (!(disc.radius > 0)) return malformed("the radius is not > 0");
+  if (!(disc.sagitta > 0)) disc.sagitta = default_sagitta(disc.radius);
+  disc.polygon.outer = geometry::disc_polygon(disc.centre, disc.radius, disc.sagitta);
+  if (const auto found = geometry::find_defect(disc.polygon)) {
+    return invalid(fmt::format("the disc's polygon has no room among the doubles there: {}{}", name_of(found->defect),
+                               places_in_words(found->places, kMostPlaces)));
+  }
+  return disc;
+}
+
+ToolOutcome<CutOp> read_line(const JsonValue& value) {
   constexpr auto kForm = "[x0, y0, x1, y1] or a list of two or more [x, y]";
   const bool has_points =
       value.is(JsonKind::kArray) && !value.items().empty() && value.items().front().is(JsonKind::kArray);
   if (!has_points) {
     const auto n = numbers_of(value, 4, kForm);
-    if (!n) return malformed(n.error());
-    return line_tool({{(*n)[0], (*n)[1]}, {(*n)[2], (*n)[3]}});
+    return n ? op_of_numbers("line", *n, 0) : malformed(n.error());
   }
   std::vector<geometry::Point> path;
   for (const JsonValue& item : value.items()) {
@@ -66,29 +82,15 @@ ToolOutcome<LineTool> read_line(const JsonValue& value) {
     if (!n) return malformed(n.error());
     path.push_back({(*n)[0], (*n)[1]});
   }
-  return line_tool(std::move(path));
-}
-
-template <class Tool>
-ToolOutcome<CutOp> as_op(ToolOutcome<Tool> tool) {
-  if (!tool) return tl::unexpected(std::move(tool.error()));
-  return CutOp{std::move(*tool), {}};
+  return as_op(line_tool(std::move(path)));
 }
 
 ToolOutcome<CutOp> read_tool(std::string_view kind, const JsonValue& value, double sagitta) {
-  if (kind == "disc") {
-    const auto n = numbers_of(value, 3, "[x, y, radius]");
-    if (!n) return malformed(n.error());
-    return as_op(disc_tool(*n, sagitta));
-  }
-  if (kind == "crack") {
-    const auto n = numbers_of(value, 3, "[x, y, angle_deg]");
-    if (!n) return malformed(n.error());
-    return CutOp{CrackTool{{(*n)[0], (*n)[1]}, (*n)[2]}, {}};
-  }
-  if (kind == "line") return as_op(read_line(value));
-  if (value.is(JsonKind::kText)) return as_op(polygon_tool(value.text()));
-  return as_op(tool_of(read_floe_json(value)));
+  if (kind == "line") return read_line(value);
+  if (kind == "polygon")
+    return as_op(value.is(JsonKind::kText) ? polygon_tool(value.text()) : tool_of(read_floe_json(value)));
+  const auto n = numbers_of(value, 3, kind == "disc" ? "[x, y, radius]" : "[x, y, angle_deg]");
+  return n ? op_of_numbers(kind, *n, sagitta) : malformed(n.error());
 }
 
 ToolOutcome<Keep> read_keep(const JsonValue& value) {
@@ -171,22 +173,16 @@ Result<std::vector<double>> read_numbers(std::string_view text, std::size_t coun
   return numbers;
 }
 
-ToolOutcome<DiscTool> disc_tool(const std::vector<double>& centre_and_radius, double sagitta) {
-  DiscTool disc{{centre_and_radius[0], centre_and_radius[1]}, centre_and_radius[2], sagitta, {}};
-  if (!(disc.radius > 0)) return malformed("the radius is not > 0");
-  if (!(disc.sagitta > 0)) disc.sagitta = default_sagitta(disc.radius);
-  disc.polygon.outer = geometry::disc_polygon(disc.centre, disc.radius, disc.sagitta);
-  if (const auto found = geometry::find_defect(disc.polygon)) {
-    return invalid(fmt::format("the disc's polygon has no room among the doubles there: {}{}", name_of(found->defect),
-                               places_in_words(found->places, kMostPlaces)));
-  }
-  return disc;
-}
-
 ToolOutcome<LineTool> line_tool(std::vector<geometry::Point> path) {
   path.erase(std::unique(path.begin(), path.end()), path.end());
   if (path.size() < 2) return malformed("the line's ends are one point");
   return LineTool{std::move(path)};
+}
+
+ToolOutcome<CutOp> op_of_numbers(std::string_view kind, const std::vector<double>& n, double sagitta) {
+  if (kind == "disc") return as_op(disc_tool(n, sagitta));
+  if (kind == "line") return as_op(line_tool({{n[0], n[1]}, {n[2], n[3]}}));
+  return CutOp{CrackTool{{n[0], n[1]}, n[2]}, {}};
 }
 
 ToolOutcome<PolygonTool> polygon_tool(std::string text) {

@@ -63,7 +63,8 @@ double default_sagitta(double radius);
 /// Exactly `count` finite numbers, between commas; nothing else beside blanks.
 Result<std::vector<double>> read_numbers(std::string_view text, std::size_t count);
 
-ToolOutcome<DiscTool> disc_tool(const std::vector<double>& centre_and_radius, double sagitta);
+/// The cut of that kind by its numbers: "disc" x, y, radius, "crack" x, y, angle [°], "line" from x, y to x, y.
+ToolOutcome<CutOp> op_of_numbers(std::string_view kind, const std::vector<double>& numbers, double sagitta);
 ToolOutcome<LineTool> line_tool(std::vector<geometry::Point> path);
 /// The polygons of a text in any of the formats of floes (floe_text.hpp).
 ToolOutcome<PolygonTool> polygon_tool(std::string text);

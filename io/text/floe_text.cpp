@@ -13,6 +13,7 @@
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/shape_parts.hpp"
+#include "io/text/source_text.hpp"
 #include "io/text/wkt.hpp"
 
 namespace polynya::io {
@@ -330,21 +331,6 @@ LineCounts count_lines(std::string_view text) {
   return counts;
 }
 
-/// Where lines start, so that many places in a long text are found quickly.
-class LineIndex {
- public:
-  explicit LineIndex(std::string_view text) {
-    for (std::size_t at = text.find('\n'); at != std::string_view::npos; at = text.find('\n', at + 1))
-      ends_.push_back(at);
-  }
-  std::size_t line_of(std::size_t offset) const {
-    return 1 + static_cast<std::size_t>(std::ranges::lower_bound(ends_, offset) - ends_.begin());
-  }
-
- private:
-  std::vector<std::size_t> ends_;
-};
-
 /// Blanks for comments that begin a line with '#', which JSON's parser refuses.
 void blank_hash_comments(std::string& text) {
   for (std::size_t start = 0; start < text.size();) {
@@ -472,7 +458,7 @@ Result<FloeText> read_floe_text(std::string text) {
   const LineIndex lines(text);
   auto floes = read_kind(text);
   if (!floes) return floes;
-  for (FloeEntry& entry : floes->entries) entry.line = lines.line_of(entry.line);
+  for (FloeEntry& entry : floes->entries) entry.line = static_cast<std::size_t>(lines.line_of(entry.line));
   return floes;
 }
 

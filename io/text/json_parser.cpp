@@ -12,6 +12,20 @@
 namespace polynya::io {
 namespace {
 
+std::size_t end_of_text(std::string_view text, std::size_t at) {
+  for (++at; at < text.size() && text[at] != '"'; ++at) {
+    if (text[at] == '\\') ++at;
+  }
+  return std::min(at + 1, text.size());
+}
+
+/// Behind the comment that begins there; the offset itself where none does.
+std::size_t end_of_comment(std::string_view text, std::size_t at) {
+  if (text.substr(at, 2) == "//") return std::min(text.find('\n', at), text.size());
+  if (text.substr(at, 2) == "/*") return std::min(text.find("*/", at + 2), text.size() - 2) + 2;
+  return at;
+}
+
 /// Follows the parser's events through the text. The parser gives no positions, but between two events only
 /// blanks, comments, commas and colons can stand, so each event's own first byte can be found again.
 class PlaceFinder {
@@ -26,10 +40,8 @@ class PlaceFinder {
       if (c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ',' || c == ':') {
         if (c == ',') commas_.push_back(end_);
         ++end_;
-      } else if (text_.substr(end_, 2) == "//") {
-        end_ = std::min(text_.find_first_of("\r\n", end_), text_.size());
-      } else if (text_.substr(end_, 2) == "/*") {
-        end_ = std::min(text_.find("*/", end_ + 2), text_.size() - 2) + 2;
+      } else if (const std::size_t behind = end_of_comment(text_, end_); behind > end_) {
+        end_ = behind;
       } else {
         break;
       }
@@ -44,12 +56,7 @@ class PlaceFinder {
     while (end_ < text_.size() && is_of_number(text_[end_])) ++end_;
     begin_gap(end_);
   }
-  void pass_text() {
-    for (++end_; end_ < text_.size() && text_[end_] != '"'; ++end_) {
-      if (text_[end_] == '\\') ++end_;
-    }
-    begin_gap(end_ + 1);
-  }
+  void pass_text() { begin_gap(end_of_text(text_, end_)); }
   /// Just behind the last token.
   std::size_t gap() const { return gap_; }
   /// Where commas stand between the last token and what start_of_token() found.
@@ -324,20 +331,6 @@ bool is_not_finite(const std::string& token) {
 }
 
 constexpr std::string_view kOfTokens = "+-.0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
-
-std::size_t end_of_text(std::string_view text, std::size_t at) {
-  for (++at; at < text.size() && text[at] != '"'; ++at) {
-    if (text[at] == '\\') ++at;
-  }
-  return std::min(at + 1, text.size());
-}
-
-/// Behind the comment that begins there; the offset itself where none does.
-std::size_t end_of_comment(std::string_view text, std::size_t at) {
-  if (text.substr(at, 2) == "//") return std::min(text.find('\n', at), text.size());
-  if (text.substr(at, 2) == "/*") return std::min(text.find("*/", at + 2), text.size() - 2) + 2;
-  return at;
-}
 
 /// Puts an empty text, with blanks for its length, in place of every number that is not finite.
 void blank_unfinite(std::string& text) {

@@ -47,6 +47,8 @@ struct JsonValue {
     const JsonValue* found = find(key, Kind::kText);
     return found && found->text() == text;
   }
+  /// Gives a member of an object that value, and makes it where there is none; what is no object stays.
+  void set(std::string_view key, Data value);
   JsonValue* find(std::string_view key) { return const_cast<JsonValue*>(std::as_const(*this).find(key)); }
 };
 
@@ -62,6 +64,13 @@ inline const JsonValue* JsonValue::find(std::string_view key) const {
     if (member.key == key) return &member.value;
   }
   return nullptr;
+}
+
+inline void JsonValue::set(std::string_view key, Data value) {
+  if (!is(Kind::kObject)) return;
+  JsonValue* member = find(key);
+  if (!member) member = &members().emplace_back(JsonMember{std::string(key), offset, {nullptr, offset}}).value;
+  member->data = std::move(value);
 }
 
 /// Offset of the value at a dotted path of keys, or of the nearest object on the way to it.

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/text/json_parser.hpp"
@@ -58,6 +60,18 @@ class ProblemCollector {
   std::vector<Overlay> overlays_;  ///< of the first source, by their offsets, all behind its text
   std::vector<Entry> entries_;
   std::size_t beyond_ = 0;
+};
+
+/// Reports what is wrong with a member of a value of the first source, by the member's key: "hull.draught_m".
+struct ReportAt {
+  ProblemCollector& problems;
+  const JsonValue& value;
+  std::string path;  ///< of the value; empty: the root
+
+  void operator()(std::string_view key, std::string found, std::string allowed) const {
+    std::string place = path.empty() || key.empty() ? path : path + '.';
+    problems.report(0, nearest_offset(value, key), place.append(key), std::move(found), std::move(allowed));
+  }
 };
 
 }  // namespace polynya::io

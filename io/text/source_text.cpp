@@ -17,6 +17,21 @@ LineAndColumn line_and_column(std::string_view text, std::size_t offset) {
           .column = 1 + static_cast<int>(std::ranges::count_if(before.substr(line_start), is_character))};
 }
 
+LineIndex::LineIndex(std::string_view text) : text_(text) {
+  for (std::size_t at = text.find('\n'); at != std::string_view::npos; at = text.find('\n', at + 1))
+    ends_.push_back(at);
+}
+
+int LineIndex::line_of(std::size_t offset) const {
+  return 1 + static_cast<int>(std::ranges::lower_bound(ends_, offset) - ends_.begin());
+}
+
+LineAndColumn LineIndex::at(std::size_t offset) const {
+  const int line = line_of(offset);
+  const std::size_t start = line > 1 ? ends_[static_cast<std::size_t>(line) - 2] + 1 : 0;
+  return {line, line_and_column(text_.substr(start), offset - start).column};
+}
+
 Result<std::string> read_text_file(const std::filesystem::path& path, std::size_t longest) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);

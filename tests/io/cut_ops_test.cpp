@@ -73,7 +73,9 @@ TEST(CutOps, NumbersBetweenCommasAreReadToTheLastBit) {
 
 TEST(CutOps, DiscsKeepTheirSagitta) {
   for (const double radius : {1e-6, 1e-3, 0.5, 5.0, 30.0, 1000.0}) {
-    const auto disc = tests::checked(disc_tool({3, -2, radius}, 0));
+    const auto op = tests::checked(op_of_numbers("disc", {3, -2, radius}, 0));
+    const auto* disc = std::get_if<DiscTool>(&op->tool);
+    ASSERT_NE(disc, nullptr);
     const geometry::Ring& ring = disc->polygon.outer;
     EXPECT_GE(ring.size(), 36U);
     EXPECT_LE(disc->sagitta, 0.02);

@@ -22,14 +22,8 @@ using JsonKind = JsonValue::Kind;
 
 constexpr std::size_t kLongestFinal = std::size_t{1} << 31;  ///< [bytes]
 
-void put(JsonValue& object, std::string_view key, JsonValue value) {
-  if (JsonValue* there = object.find(key))
-    *there = std::move(value);
-  else
-    object.members().push_back({std::string(key), 0, std::move(value)});
-}
-JsonValue pair_of(double x, double y) {
-  return {JsonValue::Array{{x}, {y}}};
+JsonValue::Array pair_of(double x, double y) {
+  return {{x}, {y}};
 }
 
 /// Which floes are fast ice: the scene's, and of the pieces of one the largest that is ice still.
@@ -80,13 +74,13 @@ std::string floes_text(const io::Run& run, const io::MotionIndex& motions, doubl
 /// Brings a ship of the resolved scene to where it is.
 void place_ship(JsonValue& ship, const io::Motion& motion) {
   const geometry::Vector ahead{std::cos(motion.angle), std::sin(motion.angle)};
-  put(ship, "position_m", pair_of(motion.position.x, motion.position.y));
-  put(ship, "heading_deg", {std::remainder(geometry::kDegreesPerRadian * motion.angle, 360)});
+  ship.set("position_m", pair_of(motion.position.x, motion.position.y));
+  ship.set("heading_deg", std::remainder(geometry::kDegreesPerRadian * motion.angle, 360));
   const JsonValue* propulsion = ship.find("propulsion");
   if (propulsion && propulsion->find("constant_speed_m_per_s")) return;
-  put(ship, "speed_m_per_s", {dot(motion.velocity, ahead)});
-  put(ship, "sway_speed_m_per_s", {dot(motion.velocity, perpendicular(ahead))});
-  put(ship, "yaw_rate_deg_per_s", {geometry::kDegreesPerRadian * motion.angular_velocity});
+  ship.set("speed_m_per_s", dot(motion.velocity, ahead));
+  ship.set("sway_speed_m_per_s", dot(motion.velocity, perpendicular(ahead)));
+  ship.set("yaw_rate_deg_per_s", geometry::kDegreesPerRadian * motion.angular_velocity);
 }
 
 /// The clock starts again: rows of a table pilot that lie behind are cut off where it is now.
@@ -106,7 +100,7 @@ void shift_table(JsonValue& rows, double time) {
           member.value.data = std::lerp(member.value.number(), other->number(), -at / (end - at));
       }
     }
-    put(row, "t_s", {std::max(0.0, at)});
+    row.set("t_s", std::max(0.0, at));
     later.push_back(std::move(row));
   }
   rows.data = std::move(later);
@@ -117,7 +111,7 @@ void keep_heading(JsonValue& ship, double heading) {
   JsonValue* pilot = ship.find("steering") ? ship.find("pilot") : nullptr;
   for (const char* kind : {"hold_speed", "hold_heading", "ram"}) {
     JsonValue* settings = pilot ? pilot->find(kind) : nullptr;
-    if (settings && !settings->find("heading_deg")) put(*settings, "heading_deg", {heading});
+    if (settings && !settings->find("heading_deg")) settings->set("heading_deg", heading);
   }
 }
 
@@ -145,7 +139,7 @@ void place_walls(JsonValue& scene, const io::Run& run, const io::MotionIndex& mo
     JsonValue& wall = scene.find("walls")->items().at(i);
     for (const char* key : {"from_m", "to_m"}) {
       const JsonValue::Array& end = wall.find(key)->items();
-      put(wall, key, pair_of(end[0].number() + moved.x, end[1].number() + moved.y));
+      wall.set(key, pair_of(end[0].number() + moved.x, end[1].number() + moved.y));
     }
     if (walls[i].pressure) left_out.push_back(walls[i].name + ": it starts to press from rest");
   }
@@ -172,12 +166,12 @@ void place_ships(JsonValue& scene, const io::Run& run, const io::MotionIndex& mo
 void restart_clock(JsonValue& scene, const simulation::Scene& before, double time) {
   JsonValue* clock = scene.find("time");
   const double left = before.time.until - time;
-  if (clock && left >= before.time.step) put(*clock, "until_s", {left});
+  if (clock && left >= before.time.step) clock->set("until_s", left);
   JsonValue* water = scene.find("water");
   JsonValue* shear = water ? water->find("shear") : nullptr;
   if (!shear || before.water.shear.rate == 0) return;
   const geometry::Point origin = before.water.shear.origin + time * before.water.drift;
-  put(*shear, "origin_m", pair_of(origin.x, origin.y));
+  shear->set("origin_m", pair_of(origin.x, origin.y));
 }
 
 }  // namespace
@@ -200,13 +194,13 @@ io::Result<ContinuedScene> continued_scene(const io::Run& run, double time) {
   if (floes.empty()) floes = floes_text(run, motions, continued.time);
   JsonValue scene = io::parse_json(run.scene.resolved_text).root;
   const std::string name = fmt::format("{}-from-{:g}s", run.scene.scene.name.substr(0, 80), continued.time);
-  put(scene, "name", {name});
+  scene.set("name", name);
   restart_clock(scene, run.scene.scene, continued.time);
   place_ships(scene, run, motions, continued.time, continued.left_out);
   place_walls(scene, run, motions, continued.time, continued.left_out);
   JsonValue entry{JsonValue::Object{}};
-  entry.members().push_back({"file", 0, {std::string("floes.geojson")}});
-  put(scene, "floes", {JsonValue::Array{std::move(entry)}});
+  entry.set("file", std::string("floes.geojson"));
+  scene.set("floes", JsonValue::Array{std::move(entry)});
   continued.files = {{"scene.json", to_json_text(scene)}, {"floes.geojson", std::move(floes)}};
   return continued;
 }
