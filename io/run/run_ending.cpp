@@ -1,4 +1,4 @@
-// The end of a run folder: its last files, on the disk, and then no checkpoint any more.
+// The end of a run folder: its last files, on the disk, and then of its checkpoints only that of the end.
 
 #include "io/run/checkpoint.hpp"
 #include "io/run/records.hpp"
@@ -41,7 +41,7 @@ Result<> RunWriter::finish(const RunSummary& summary, const simulation::Simulati
   if (summary.finished) write_ice();
   if (written || !summary.finished) write(run_file::kSummary, to_json_text(summary, *scene_));
   if (!summary.finished) write_ice();
-  if (summary.finished && written) written = remove_checkpoints(folder());
+  if (summary.finished && written) written = remove_checkpoints(folder(), 1);
   return written;
 }
 
