@@ -16,7 +16,8 @@ def floes_by_kind(simulation):
     from . import scenery
     floes = simulation.floes
     rings = numpy.split(floes.world_vertices, floes.ring_offsets[1:-1]) if len(floes) else []
-    kinds = numpy.where(floes.is_under, scenery.UNDER, numpy.where(floes.generations > 0, scenery.BROKEN, scenery.WHOLE))
+    broken = numpy.where(floes.generations > 0, scenery.BROKEN, scenery.WHOLE)
+    kinds = numpy.where(floes.is_under, scenery.UNDER, broken)
     of_ring = numpy.repeat(kinds, numpy.diff(floes.floe_offsets))
     return [scenery.path_of([ring for ring, its in zip(rings, of_ring) if its == kind]) for kind in range(4)]
 
@@ -39,13 +40,15 @@ def draw(axes, floes, hulls, tracks=()):
     from matplotlib.patches import PathPatch
 
     from . import scenery
-    shown = [(path, {"facecolor": colour, "edgecolor": scenery.EDGE, "linewidth": 0.3}) for path, colour in zip(floes, scenery.COLOURS)]
-    shown += [(path, {"facecolor": colour, "edgecolor": "white", "linewidth": 0.4}) for path, colour in zip(hulls, (scenery.SHIP, scenery.WALL))]
+    style = lambda colour, edge, width: {"facecolor": colour, "edgecolor": edge, "linewidth": width}
+    shown = [(path, style(colour, scenery.EDGE, 0.3)) for path, colour in zip(floes, scenery.COLOURS)]
+    shown += [(path, style(colour, "white", 0.4)) for path, colour in zip(hulls, (scenery.SHIP, scenery.WALL))]
     axes.set_facecolor(scenery.WATER)
-    for order, (path, style) in enumerate(shown):
+    for order, (path, its) in enumerate(shown):
+        is_under = order == scenery.UNDER  # seen through the hulls
+        alpha = 0.5 if is_under else 0.9 if order > scenery.UNDER else None
         if len(path.vertices):
-            alpha = 0.5 if order == scenery.UNDER else 0.9 if order > scenery.UNDER else None
-            axes.add_artist(PathPatch(path, zorder=2 + order + (2 if order == scenery.UNDER else 0), alpha=alpha, **style))
+            axes.add_artist(PathPatch(path, zorder=2 + order + 2 * is_under, alpha=alpha, **its))
     for track in tracks:
         axes.plot(*track.T, color=scenery.TRACK, linewidth=0.8, zorder=9)
     x0, y0, x1, y1 = scenery.extent_of([path.vertices for path, _ in shown] + list(tracks))
@@ -56,7 +59,8 @@ def draw(axes, floes, hulls, tracks=()):
 def plot(self, axes=None):
     """plot(axes=None)
 
-    Draws ice and hulls as they are now, from above, by matplotlib: into these axes, or into a new figure's. Returns the axes."""
+    Draws ice and hulls as they are now, from above, by matplotlib: into these axes, or into a new figure's, which are
+    returned."""
     if axes is None:
         from matplotlib import pyplot
         axes = pyplot.figure(figsize=(7, 4.5), layout="constrained").add_subplot()
@@ -78,14 +82,20 @@ def image(fill):
 
 
 def page(title, rows, picture=""):
-    cells = "".join(f"<tr><th style='text-align:left'>{html.escape(name)}</th><td style='text-align:left'>{html.escape(str(value))}</td></tr>"
+    left = "style='text-align:left'"
+    cells = "".join(f"<tr><th {left}>{html.escape(name)}</th><td {left}>{html.escape(str(value))}</td></tr>"
                     for name, value in rows if value not in (None, ""))
     return f"<div><b>{html.escape(title)}</b>{picture and '<br>' + picture}<table>{cells}</table></div>"
 
 
 def html_of_simulation(self):
-    rows = [("time", f"{self.time:.6g} s"), ("floes", len(self.floes)), ("ships, structures, walls", ", ".join(ship.name for ship in self.ships))]
-    return page(f"{self.scene.name}, {self.time:.6g} s", rows, image(lambda axes: plot(self, axes)) if len(self.floes) <= MOST_FLOES else "")
+    picture = image(lambda axes: plot(self, axes)) if len(self.floes) <= MOST_FLOES else ""
+    return page(f"{self.scene.name}, {self.time:.6g} s", contents_of(self), picture)
+
+
+def contents_of(simulation):
+    names = ", ".join(ship.name for ship in simulation.ships)
+    return [("floes", len(simulation.floes)), ("ships, structures, walls", names)]
 
 
 def html_of_scene(self):
@@ -94,8 +104,8 @@ def html_of_scene(self):
     if any(problem.severity == "error" for _, problem in problems):
         return page("a scene that is wrong", problems)
     simulation = Simulation(self)
-    rows = [("until", f"{self.resolved['time']['until_s']:g} s"), ("floes", len(simulation.floes)),
-            ("ships, structures, walls", ", ".join(ship.name for ship in simulation.ships)), ("hash", self.hash), *problems]
+    until = f"{self.resolved['time']['until_s']:g} s"
+    rows = [("until", until), *contents_of(simulation), ("hash", self.hash), *problems]
     picture = image(lambda axes: plot(simulation, axes)) if len(simulation.floes) <= MOST_FLOES else ""
     return page(f"{self.name}, at the start", rows, picture)
 
@@ -104,28 +114,31 @@ def html_of_run(self):
     def fill(axes):
         from .scenery import Scenery
         scenery, frame = Scenery(self), self.frame(self.end_time)
-        draw(axes, scenery.floes(frame), scenery.hulls(frame), scenery.tracks(frame.time)).set_title(f"{self.end_time:.6g} s", fontsize="medium")
+        draw(axes, scenery.floes(frame), scenery.hulls(frame), scenery.tracks(frame.time))
+        axes.set_title(f"{self.end_time:.6g} s", fontsize="medium")
 
     counts = self.summary.get("counts", {})
     peaks = {peak["ship"]: peak.get("surge_N", {}).get("value", 0) for peak in self.summary.get("peaks", [])}
-    rows = [("folder", self.folder), ("state", "finished" if self.is_finished else f"stopped by {self.summary.get('stopped_by', '?')}"),
-            ("simulated", f"{self.end_time:.6g} s"), ("floes", f"{counts.get('floes_initial')} → {counts.get('floes_final')}"),
+    state = "finished" if self.is_finished else f"stopped by {self.summary.get('stopped_by', '?')}"
+    forces = ", ".join(f"{name} {1e-3 * value:.4g} kN" for name, value in peaks.items() if value)
+    rows = [("folder", self.folder), ("state", state), ("simulated", f"{self.end_time:.6g} s"),
+            ("floes", f"{counts.get('floes_initial')} → {counts.get('floes_final')}"),
             ("fractures", f"{counts.get('bends')} cusps by bending, {counts.get('splits')} splits"),
-            ("largest surge force of the ice", ", ".join(f"{name} {1e-3 * value:.4g} kN" for name, value in peaks.items() if value)),
-            *(("note", warning) for warning in self.summary.get("warnings", []))]
+            ("largest surge force of the ice", forces), *(("note", warning) for warning in self.summary.get("warnings", []))]
     return page(self.name, rows, image(fill) if len(self.births["floe_id"]) <= 3 * MOST_FLOES else "")
 
 
 def html_of_study(self):
     table = self.table
-    names = list(getattr(table, "columns", None) if hasattr(table, "columns") else table.dtype.names)
+    names = list(table.columns if hasattr(table, "columns") else table.dtype.names)
     columns = [names[0], *self.parameters, *[name for name in self.measures if name in names][:6]]
     head = "".join(f"<th>{html.escape(name)}</th>" for name in columns)
     shown = min(len(table), MOST_ROWS)
     values = [[value_of(list(table[name])[row]) for name in columns] for row in range(shown)]
     body = "".join("<tr>" + "".join(f"<td>{html.escape(value)}</td>" for value in row) + "</tr>" for row in values)
     left = f"<p>{len(table) - shown} more cases, {len(names)} columns in all: .table</p>"
-    return f"<div><b>{html.escape(self.name)}</b>: {self.summary['finished']} of {self.summary['cases']} cases<table><tr>{head}</tr>{body}</table>{left}</div>"
+    title = f"<b>{html.escape(self.name)}</b>: {self.summary['finished']} of {self.summary['cases']} cases"
+    return f"<div>{title}<table><tr>{head}</tr>{body}</table>{left}</div>"
 
 
 def value_of(value):

@@ -43,7 +43,8 @@ def metadata():
     lines = ["Metadata-Version: 2.1", f"Name: {NAME}", f"Version: {version()}", f"Summary: {SUMMARY}",
              "License: GPL-3.0-or-later", "Requires-Python: >=3.9", "Requires-Dist: numpy"]
     for extra, packages in EXTRAS.items():
-        lines += [f"Provides-Extra: {extra}"] + [f'Requires-Dist: {package}; extra == "{extra}"' for package in packages]
+        lines.append(f"Provides-Extra: {extra}")
+        lines += [f'Requires-Dist: {package}; extra == "{extra}"' for package in packages]
     return "\n".join(lines) + "\nDescription-Content-Type: text/markdown\n\n" + (ROOT / "README.md").read_text()
 
 
@@ -68,7 +69,8 @@ def built_tree():
     own = importlib.util.find_spec("pybind11")  # what pip brought for this build, else Debian's headers
     if own:
         forget.append(f"-Dpybind11_DIR={pathlib.Path(own.origin).parent / 'share' / 'cmake' / 'pybind11'}")
-    run("cmake", "--preset", "release", "-B", tree, *forget, "-DPOLYNYA_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}")
+    python = f"-DPython_EXECUTABLE={sys.executable}"
+    run("cmake", "--preset", "release", "-B", tree, *forget, "-DPOLYNYA_PYTHON=ON", python)
     run("cmake", "--build", tree, "--target", "polynya", "polynya_core")
     return tree
 
@@ -151,7 +153,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 def build_sdist(sdist_directory, config_settings=None):
     """What git has of this tree."""
     base = f"{NAME}-{version()}"
-    names = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.splitlines()
+    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True)
+    names = listed.stdout.splitlines()
     with tarfile.open(pathlib.Path(sdist_directory, base + ".tar.gz"), "w:gz") as archive:
         for name in names:
             archive.add(ROOT / name, f"{base}/{name}")
