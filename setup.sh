@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what Polynya needs from Debian's packages, and nothing else. Asks nothing.
-# Usage: ./setup.sh [group...]   groups: build (default), test, python, bench, view, export, slurm
+# Usage: ./setup.sh [group...]   groups: build (default), module (Python's), test, python, bench, view, export, slurm, package
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -10,7 +10,9 @@ declare -A packages=(
   [test]="libgtest-dev librapidcheck-dev libchipmunk-dev libgeos-dev python3 strace"
   [view]="chromium nodejs npm"
   [python]="python3 python3-numpy python3-scipy python3-matplotlib python3-pytest
-           python3-dev pybind11-dev ffmpeg"
+           python3-dev python3-venv pybind11-dev ffmpeg"
+  [module]="python3 python3-numpy python3-matplotlib python3-dev pybind11-dev"
+  [package]="lintian mmdebstrap"
   [slurm]="slurmctld slurmd slurm-client munge"
   [export]="python3-vtk9 python3-pandas python3-shapely gdal-bin"
   [bench]="libbenchmark-dev libbox2d-dev libchipmunk-dev libgeos-dev libpolyclipping-dev"

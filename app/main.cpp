@@ -51,7 +51,9 @@ int report_out_of_memory() {
 }
 
 int command_line(int count, char** words) {
-  return run_command_line({kExamples, kCodes, "polynya " + std::string(io::version())}, kCommands, count, words);
+  const std::string commit = kCommit.empty() ? "" : fmt::format(" ({})", kCommit);
+  return run_command_line({kExamples, kCodes, fmt::format("polynya {}{}", io::version(), commit)}, kCommands, count,
+                          words);
 }
 
 /// What the standard library throws, as an exit code.

@@ -11,6 +11,7 @@ import json
 import pathlib
 import subprocess
 
+import find_polynya  # noqa: F401
 import polynya
 
 polynya.require("numpy", "matplotlib")

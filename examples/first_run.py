@@ -9,6 +9,7 @@ and the floes as numpy arrays. Draws first-run.png: the ice at the end, and the 
 import argparse
 import pathlib
 
+import find_polynya  # noqa: F401
 import polynya
 
 polynya.require("numpy", "matplotlib")

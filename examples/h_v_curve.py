@@ -12,6 +12,7 @@ import concurrent.futures
 import os
 import pathlib
 
+import find_polynya  # noqa: F401
 import polynya
 
 polynya.require("numpy", "matplotlib")

@@ -11,6 +11,7 @@ import argparse
 import concurrent.futures
 import pathlib
 
+import find_polynya  # noqa: F401
 import polynya
 
 polynya.require("numpy", "scipy", "matplotlib")

@@ -9,6 +9,7 @@ some directions would cross, and turns into the cheapest one. Draws python-pilot
 import argparse
 import pathlib
 
+import find_polynya  # noqa: F401
 import polynya
 
 polynya.require("numpy", "matplotlib")

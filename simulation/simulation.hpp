@@ -35,6 +35,8 @@ struct FloeState {
   double area = 0;                                     ///< [m²]
   double mass = 0;                                     ///< [kg]
   bool is_fast = false;                                ///< held at its velocity
+  std::string_view under_hull_of;                      ///< of scenes that go on from a run: the ship's name, or none
+  double under_path = 0;                               ///< then how far that ship has come over it [m]
   const fracture::Ice* ice = nullptr;                  ///< valid as long as the simulation
   const geometry::Polygon* polygon_in_body = nullptr;  ///< valid as long as the floe
 };

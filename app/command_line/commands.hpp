@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "app/command_line/command_line.hpp"
 
 namespace polynya::app {
@@ -30,5 +32,8 @@ Command add_ships(CommandLine& app);
 Command add_study(CommandLine& app);
 Command add_validate(CommandLine& app);
 Command add_view(CommandLine& app);
+
+/// Of the source that the program is built of; empty outside of git (cmake/PolynyaCommit.cmake).
+extern const std::string_view kCommit;
 
 }  // namespace polynya::app

@@ -27,9 +27,11 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 4> kPythonCommands{"figures", "movie", "performance", "study"};
 constexpr auto kModule = "polynya.command";  ///< python/polynya/command.py starts every command of the package
 
-/// The folder that holds the Python package: beside the build's app/, or the installed one.
+/// The folder that holds the Python package: beside the build's app/, the installed one, or that of a wheel, whose
+/// program is in the package's bin/.
 std::optional<fs::path> package_folder(const fs::path& program) {
   const fs::path above = program.parent_path().parent_path();
+  if (fs::exists(above / "__init__.py")) return above.parent_path();
   for (const char* place : {"python", "lib/polynya/python"})
     if (fs::exists(above / place / "polynya" / "__init__.py")) return above / place;
   return {};

@@ -7,6 +7,7 @@
 #include "app/command_line/commands.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
+#include "app/read/view_scene.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/text/output_file.hpp"
 #include "views/player/player_page.hpp"
@@ -23,6 +24,7 @@ constexpr auto kExamples =
     "  polynya view runs/long --every 5 --from 100 --until 400\n"
     "  polynya view runs/wide --area 0,-200,900,200            only floes that come within 900 x 400 m\n"
     "  polynya view runs/6a runs/6b --out both.html            side by side, with one clock\n"
+    "  polynya view scene.json --watch                         a scene before it runs; anew when its file is saved\n"
     "\n"
     "Exit codes: 0 done, 2 usage (also: larger than --limit), 5 input/output.\n";
 
@@ -32,6 +34,7 @@ struct Options {
   std::string out;                  ///< empty: view.html in the run folder
   views::PlayerSelection part;
   std::vector<double> area;     ///< x0, y0, x1, y1 [m]; of `part` once it is checked
+  bool is_watched = false;      ///< a scene whose page is written again when its file changes
   double most_megabytes = 100;  ///< a larger page is refused [10⁶ bytes]
 };
 
@@ -181,6 +184,9 @@ std::string contents(const std::vector<ViewedRun>& viewed) {
 }
 
 int write_view(Options options) {
+  if (options.runs.size() == 1 && fs::is_regular_file(options.runs[0]))
+    return write_scene_view(options.runs[0], options.out, options.is_watched);
+  if (options.is_watched) return fail(kUsage, "--watch: takes the file of a scene");
   if (const std::string problem = problem_of(options); !problem.empty()) return fail(kUsage, problem);
   if (const auto& a = options.area; !a.empty()) options.part.area = {{a[0], a[1]}, {a[2], a[3]}};
   std::vector<ViewedRun> viewed;
@@ -206,13 +212,17 @@ int write_view(Options options) {
 }  // namespace
 
 Command add_view(CommandLine& app) {
-  CommandLine command =
-      app.add_command("view", "Write a page that plays a run, or two side by side, in any browser, offline", kExamples);
+  CommandLine command = app.add_command(
+      "view", "Write a page that plays a run, or two side by side, or shows a scene, in any browser, offline",
+      kExamples);
   auto options = std::make_shared<Options>();
-  command.option("run", options->runs, "RUN", "The run folder; two are shown side by side, with one clock")
+  command.option("run", options->runs, "RUN", "The run folder, two to be shown side by side, or a scene's file")
       .required()
       .takes(1, 2);
-  command.option("--out", options->out, "FILE", "The page; view.html in the run folder if not given");
+  command.option("--out", options->out, "FILE",
+                 "The page; view.html in the run folder, or beside the scene, if not given");
+  command.flag("--watch", options->is_watched,
+               "Of a scene: write the page again whenever the file is saved, until Ctrl-C");
   command.option("--label", options->labels, "NAME,NAME", "Names of two runs").separated_by(',');
   command.option("--every", options->part.frames.every, "N", "Only each N-th frame, and the last", whole(1, 1000000));
   command.option("--from", options->part.frames.from, "S", "Only from that time on [s]", finite());

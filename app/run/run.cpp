@@ -305,8 +305,9 @@ int run(const RunOptions& options) {
 
 struct ResumeOptions {
   std::string folder;
-  std::string checkpoint;     ///< empty: the newest
-  bool from_failure = false;  ///< only repeats the step that a failure was dumped for
+  std::string checkpoint;       ///< empty: the newest
+  std::optional<double> until;  ///< instead of the scene's [s]
+  bool from_failure = false;    ///< only repeats the step that a failure was dumped for
   DriverOptions driver;
 };
 
@@ -323,7 +324,7 @@ void offer_others(const fs::path& folder, const fs::path& refused) {
 /// The one step after a dump, and whether it fails as it did.
 int repeat_failure(const io::LoadedScene& scene, const fs::path& folder) {
   const fs::path path = folder / io::run_file::kFailure;
-  const auto dump = io::read_checkpoint_file(path, scene.hash);
+  const auto dump = io::read_checkpoint_file(path, scene.course_hash);
   if (!dump) return fail(kInputOutput, dump.error());
   auto simulation = io::simulation_at(scene, *dump);
   if (!simulation) return fail(kInputOutput, fmt::format("{}: {}", path.string(), simulation.error()));
@@ -349,14 +350,15 @@ std::string no_run_in(const fs::path& folder) {
   return fmt::format("{}: no run to resume: there is no {}", name, io::run_file::kScene);
 }
 
-/// A kill between the end of a run and the end of the command leaves checkpoints, or a part of the pictures.
-int report_finished(const fs::path& folder, bool no_map) {
-  print_err("polynya: {}: the run is finished; there is nothing to resume\n", folder.string());
+/// A kill between the end of a run and the end of the command leaves more than its last checkpoint, or a part of the
+/// pictures.
+int report_finished(const fs::path& folder, double end, bool no_map) {
+  print_err("polynya: {}: the run is finished, at {:.6g} s; to go on from there: --until\n", folder.string(), end);
   const bool is_drawn = fs::exists(folder / io::run_file::kFinalSvg) && fs::exists(folder / io::run_file::kFinalPng);
-  if (is_drawn && io::checkpoints_in(folder).empty()) return kDone;
+  if (is_drawn && io::checkpoints_in(folder).size() <= 1) return kDone;
   const auto lock = io::RunLock::take(folder);
-  if (!lock) return kDone;                            // another polynya holds it and does what is left
-  static_cast<void>(io::remove_checkpoints(folder));  // a later command tries again
+  if (!lock) return kDone;                               // another polynya holds it and does what is left
+  static_cast<void>(io::remove_checkpoints(folder, 1));  // a later command tries again
   if (is_drawn || no_map) return kDone;
   const auto map = draw_map(folder);
   return map ? kDone : fail(kInputOutput, map.error());
@@ -366,7 +368,8 @@ int resume_from_checkpoint(const io::LoadedScene& scene, io::RunLock lock, const
   const fs::path folder = lock.folder();
   const std::vector<fs::path> checkpoints = io::checkpoints_in(folder);
   if (checkpoints.empty() && options.checkpoint.empty()) {
-    print_err("polynya: {}: no checkpoint was written yet; from the start\n", folder.string());
+    print_err("polynya: {}: there is no checkpoint; from the start\n", folder.string());
+    if (const auto ready = io::set_end(folder, scene); !ready) return fail(kInputOutput, ready.error());
     auto writer = io::RunWriter::begin(std::move(lock), scene);
     if (!writer) return fail(kInputOutput, writer.error());
     return drive_run({scene, Simulation(scene.scene), std::move(*writer)}, options.driver);
@@ -390,13 +393,18 @@ int resume(const ResumeOptions& options) {
     const auto scene = load_scene(scene_file.string());
     return scene ? repeat_failure(*scene, folder) : scene.error();
   }
-  if (io::is_finished_run(folder)) return report_finished(folder, options.driver.no_map);
+  const auto finished = [&]() -> std::optional<double> {
+    const std::optional<double> end = io::finished_at(folder);
+    return end && options.until.value_or(0) <= *end ? end : std::nullopt;
+  };
+  if (const auto end = finished()) return report_finished(folder, *end, options.driver.no_map);
   auto lock = io::RunLock::take(folder);
   if (!lock) return fail(kInputOutput, lock.error());
-  if (io::is_finished_run(folder))
-    return report_finished(folder, options.driver.no_map);  // by another polynya meanwhile
+  if (const auto end = finished())
+    return report_finished(folder, *end, options.driver.no_map);  // by another polynya meanwhile
   watch_signals();
-  const auto scene = load_scene(scene_file.string(), {}, ProblemFormat::kText, options.driver.progress);
+  const auto scene = load_scene(scene_file.string(), {.until = options.until, .seed = {}, .assignments = {}},
+                                ProblemFormat::kText, options.driver.progress);
   if (!scene) return scene.error();
   return within_memory(folder, [&] { return resume_from_checkpoint(*scene, std::move(*lock), options); });
 }
@@ -424,18 +432,23 @@ Command add_run(CommandLine& app) {
 
 Command add_resume(CommandLine& app) {
   CommandLine command =
-      app.add_command("resume", "Resume a run that was stopped, killed or ran out of disk",
+      app.add_command("resume", "Resume a run that was stopped, killed or ran out of disk, or is to be longer",
                       "Examples:\n"
                       "  polynya resume runs/level-plate\n"
+                      "  polynya resume runs/level-plate --until 900        a finished one too\n"
                       "  polynya resume runs/level-plate --checkpoint runs/level-plate/checkpoint-000000012000.bin\n"
                       "  polynya resume runs/level-plate --from-failure     only the step that failed, once more\n");
   auto options = std::make_shared<ResumeOptions>();
   command.option("folder", options->folder, "RUN", "The run folder").required();
   auto checkpoint = command.option("--checkpoint", options->checkpoint, "FILE", "This one, instead of the newest");
+  auto until = command.option("--until", options->until, "S",
+                              "Simulated time to run to, instead of the run's; the same bytes as a run begun so [s]",
+                              between(1e-9, 1e7));
   command
       .flag("--from-failure", options->from_failure,
             "Repeat the step for which failure.bin was dumped; nothing is written")
-      .excludes(checkpoint);
+      .excludes(checkpoint)
+      .excludes(until);
   add_run_options(command, options->driver);
   return {command, [options] { return resume(*options); }};
 }

@@ -17,6 +17,7 @@ using JsonKind = JsonValue::Kind;
 
 constexpr std::string_view kFloeId = "floe_id";
 constexpr std::string_view kFastIce = "fast_ice";
+constexpr std::string_view kUnderHullOf = "under_hull_of";
 constexpr double kLargestId = 9007199254740991;  ///< 2^53 − 1
 
 constexpr FloeProperty kProperties[] = {
@@ -28,7 +29,8 @@ constexpr FloeProperty kProperties[] = {
     {"fracture_toughness_Pa_sqrt_m", "Pa √m", 1, 1e9, &FloeProperties::fracture_toughness},
     {"vx_m_per_s", "m/s", -20, 20, &FloeProperties::velocity_x},
     {"vy_m_per_s", "m/s", -20, 20, &FloeProperties::velocity_y},
-    {"angular_velocity_deg_per_s", "°/s", -360, 360, &FloeProperties::angular_velocity}};
+    {"angular_velocity_deg_per_s", "°/s", -360, 360, &FloeProperties::angular_velocity},
+    {"under_hull_path_m", "m", -1000, 1e5, &FloeProperties::under_hull_path}};
 
 std::string shown(const JsonValue& value) {
   std::string text;
@@ -181,6 +183,12 @@ FloeProperties read_floe_properties(const JsonValue& properties, const PropertyN
       result.is_fast = fast->boolean();
     else
       bad.push_back({fast, std::string(kFastIce), shown(*fast), "true or false"});
+  }
+  if (const JsonValue* ship = properties.find(kUnderHullOf); ship && !ship->is_null()) {
+    if (ship->is(JsonKind::kText))
+      result.under_hull_of = ship->text();
+    else
+      bad.push_back({ship, std::string(kUnderHullOf), shown(*ship), "the name of a ship"});
   }
   read_id(place_of(kFloeId, properties, names), result, bad);
   for (const FloeProperty& property : kProperties)

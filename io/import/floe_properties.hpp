@@ -27,6 +27,8 @@ struct FloeProperties {
   std::optional<double> velocity_y;            ///< [m/s]
   std::optional<double> angular_velocity;      ///< counter-clockwise [°/s]
   std::optional<bool> is_fast;                 ///< held at its velocity
+  std::optional<std::string> under_hull_of;    ///< the ship that it is under
+  std::optional<double> under_hull_path;       ///< then how far that has come over it [m]
 };
 
 /// A number among the properties. The names and ranges are those of the scene's keys; the first six are of

@@ -18,10 +18,14 @@ struct ActiveRun {
   double wall_time = 0;  ///< that it has taken before [s]
 };
 
+/// The step that a run ends with.
+std::int64_t last_step_of(const simulation::StepSettings& time);
+
 /// A run before its first step. The error is what is wrong with the folder (RunWriter::create).
 Result<ActiveRun> start_run(const std::filesystem::path& folder, const LoadedScene& scene, bool overwrite = false);
 
-/// A run at a checkpoint of its folder, read from `file`: the folder is cut back to it (RunWriter::resume).
+/// A run at a checkpoint of its folder, read from `file`: the folder is cut back to it (RunWriter::resume), and
+/// becomes that of a run to the scene's end, which may be another than it had.
 Result<ActiveRun> resume_run(RunLock lock, const LoadedScene& scene, const std::filesystem::path& file);
 
 /// The simulation of a checkpoint, checked against the hash it was saved with.

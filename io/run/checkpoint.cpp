@@ -95,7 +95,7 @@ Result<> remove_file(const std::filesystem::path& path) {
 
 template <class Archive>
 void fields(Archive& archive, Is<Checkpoint> auto& c) {
-  archive(c.program_version, c.scene_hash, c.steps, c.wall_time, c.progress, c.state, c.state_hash, c.failure);
+  archive(c.program_version, c.course_hash, c.steps, c.wall_time, c.progress, c.state, c.state_hash, c.failure);
 }
 
 }  // namespace
@@ -205,20 +205,20 @@ Result<> rewind_to(const std::filesystem::path& folder, const Checkpoint& checkp
   return sync_folder(folder);
 }
 
-Result<Checkpoint> read_checkpoint_file(const std::filesystem::path& path, std::string_view scene_hash) {
+Result<Checkpoint> read_checkpoint_file(const std::filesystem::path& path, std::string_view course_hash) {
   const auto problem = [&](const std::string& reason) { return fail(fmt::format("{}: {}", path.string(), reason)); };
   auto text = read_text_file(path, std::numeric_limits<std::size_t>::max());
   if (!text) return problem(text.error());
   auto checkpoint = read_checkpoint(*text);
   if (!checkpoint) return problem(checkpoint.error());
-  if (checkpoint->scene_hash != scene_hash)
-    return problem(fmt::format("of another run: its scene's hash is {}, that of this folder's scene.json {}",
-                               checkpoint->scene_hash, scene_hash));
+  if (checkpoint->course_hash != course_hash)
+    return problem("of another run: its scene is not this folder's scene.json");
   return checkpoint;
 }
 
-Result<> remove_checkpoints(const std::filesystem::path& folder) {
+Result<> remove_checkpoints(const std::filesystem::path& folder, std::size_t kept) {
   std::vector<std::filesystem::path> files = checkpoints_in(folder);
+  files.erase(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(std::min(kept, files.size())));
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();

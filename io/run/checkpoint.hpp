@@ -19,7 +19,7 @@ namespace polynya::io {
 /// of simulation/state/archive.hpp. Little-endian.
 struct Checkpoint {
   std::string program_version;  ///< that wrote it
-  std::string scene_hash;       ///< of the run's scene.json
+  std::string course_hash;      ///< of the run's scene (LoadedScene::course_hash): it may end at another time
   std::int64_t steps = 0;       ///< done
   double wall_time = 0;         ///< that the run has taken so far, all its parts together [s]
   RunProgress progress;         ///< of the run folder
@@ -49,10 +49,10 @@ Result<> write_checkpoint(const std::filesystem::path& folder, const Checkpoint&
 Result<> rewind_to(const std::filesystem::path& folder, const Checkpoint& checkpoint,
                    const std::filesystem::path& file);
 
-/// Reads a checkpoint of the folder whose scene has that hash.
-Result<Checkpoint> read_checkpoint_file(const std::filesystem::path& path, std::string_view scene_hash);
+/// Reads a checkpoint of the folder whose scene has that LoadedScene::course_hash.
+Result<Checkpoint> read_checkpoint_file(const std::filesystem::path& path, std::string_view course_hash);
 
-/// Removes the checkpoints, and what a crash left of one, from a folder.
-Result<> remove_checkpoints(const std::filesystem::path& folder);
+/// Removes the checkpoints but the newest `kept`, and what a crash left of one, from a folder.
+Result<> remove_checkpoints(const std::filesystem::path& folder, std::size_t kept = 0);
 
 }  // namespace polynya::io

@@ -13,7 +13,7 @@ using simulation::Simulation;
 /// The run at its newest checkpoint that can be read and is sound, or at its start.
 Simulation at_last_checkpoint(const ActiveRun& run) {
   for (const auto& path : checkpoints_in(run.writer.folder())) {
-    const auto checkpoint = read_checkpoint_file(path, run.scene.hash);
+    const auto checkpoint = read_checkpoint_file(path, run.scene.course_hash);
     if (!checkpoint || checkpoint->steps >= run.simulation.steps()) continue;
     auto there = Simulation::resumed(run.scene.scene, checkpoint->state);
     if (there && !failure_after_step(*there)) return std::move(*there);

@@ -109,6 +109,8 @@ void append_floe(GeojsonLayer& layer, const simulation::FloeState& floe) {
   json.key("vx_m_per_s").value(floe.velocity.x).key("vy_m_per_s").value(floe.velocity.y);
   json.key("angular_velocity_deg_per_s").value(geometry::kDegreesPerRadian * floe.angular_velocity);
   if (floe.is_fast) json.key("fast_ice").value(true);
+  if (!floe.under_hull_of.empty())
+    json.key("under_hull_of").value(floe.under_hull_of).key("under_hull_path_m").value(floe.under_path);
   layer.end_with(transform(floe.world_from_body, *floe.polygon_in_body));
 }
 

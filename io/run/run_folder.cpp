@@ -14,7 +14,10 @@
 #include "io/run/checkpoint.hpp"
 #include "io/run/event_records.hpp"
 #include "io/run/summary.hpp"
+#include "io/text/json_parser.hpp"
+#include "io/text/json_writer.hpp"
 #include "io/text/output_file.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::io {
 namespace {
@@ -60,7 +63,7 @@ Result<> check_claim(const fs::path& folder, Contents contents, bool overwrite) 
         fmt::format("{}: there are parts of a run in it, without its scene; name another folder with --out, or replace "
                     "them with --overwrite",
                     name));
-  if (is_finished_run(folder))
+  if (finished_at(folder))
     return fail(
         fmt::format("{}: there is a run in it already; name another folder with --out, or replace the run with "
                     "--overwrite",
@@ -99,17 +102,23 @@ Result<> remove_file(const fs::path& path) {
   return {};
 }
 
-/// Removes what polynya writes into a run folder. Whenever it is killed, what is left is a run that `resume`
-/// takes from the start, or the remains that --overwrite replaces: summary.json, which may call the run
-/// finished, goes first, and for good, and scene.json last.
-Result<> remove_run(const fs::path& folder) {
+/// What is written when a run has ended, and what commands make of it.
+std::vector<fs::path> made_at_end() {
   std::vector<fs::path> names{run_file::kFailure};
   for (const fs::path figure : run_file::kFigures) {
     names.push_back(figure);
     for (const char* suffix : {".png", ".pdf"}) names.push_back(fs::path(figure).replace_extension(suffix));
   }
-  for (const auto name : run_file::kAll)
-    if (name != run_file::kScene) names.emplace_back(name);
+  names.insert(names.end(), run_file::kMadeAtEnd.begin(), run_file::kMadeAtEnd.end());
+  return names;
+}
+
+/// Removes what polynya writes into a run folder. Whenever it is killed, what is left is a run that `resume`
+/// takes from the start, or the remains that --overwrite replaces: summary.json, which may call the run
+/// finished, goes first, and for good, and scene.json last.
+Result<> remove_run(const fs::path& folder) {
+  std::vector<fs::path> names = made_at_end();
+  names.insert(names.end(), run_file::kGrowing.begin(), run_file::kGrowing.end());
   names.emplace_back(run_file::kScene);
   Result<> removed = remove_file(folder / run_file::kSummary);
   if (removed) removed = sync_folder(folder);
@@ -155,6 +164,21 @@ FolderSize estimate_folder_size(const simulation::Scene& scene) {
     vertices += static_cast<double>(vertex_count(floe.polygon_in_world));
   const auto floes = static_cast<double>(scene.floes.size());
   return {kBirth * floes + kVertex * vertices, kState * floes + kVertex * (vertices + floes)};
+}
+
+Result<> set_end(const fs::path& folder, const LoadedScene& scene) {
+  const auto text = read_text_file(folder / run_file::kSummary, kLongestScene);
+  JsonValue summary = text ? parse_json(*text).root : JsonValue{};
+  if (!finished_at(folder) && summary.has("scene_hash", scene.hash)) return {};
+  if (!summary.is(JsonValue::Kind::kObject)) summary.data = JsonValue::Object{};
+  std::erase_if(summary.members(), [](const JsonMember& m) { return m.key == "finished" || m.key == "stopped_by"; });
+  summary.members().push_back({"finished", 0, {false}});
+  summary.members().push_back({"stopped_by", 0, {std::string("resumed to another end, or killed then")}});
+  Result<> done = write_whole_file(folder / run_file::kSummary, to_json_text(summary) + "\n", Durability::kSynced);
+  for (const fs::path& name : made_at_end())
+    if (done) done = remove_file(folder / name);
+  if (done) done = write_whole_file(folder / run_file::kScene, scene.resolved_text, Durability::kSynced);
+  return done;
 }
 
 bool is_marked_run_folder(const fs::path& folder) {

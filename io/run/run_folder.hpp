@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/scene/scene_reader.hpp"
 #include "io/text/result.hpp"
 #include "simulation/world/scene.hpp"
 
@@ -42,8 +43,9 @@ inline constexpr std::string_view kFigureEnergy = "figure-energy.svg";
 inline constexpr std::array kFigures{kFigureFloes, kFigureLoads, kFigureMotion, kFigureSizes, kFigureEnergy};
 inline constexpr std::string_view kFailure = "failure.bin";
 inline constexpr std::string_view kRejectedCuts = "rejected-cuts";  // a folder
-inline constexpr std::array kAll{kScene,   kSummary,      kForces,   kEvents,   kFloes, kFrames,  kStates,    kContacts,
-                                 kCrushed, kFinalGeojson, kFinalSvg, kFinalPng, kView,  kChannel, kChannelCsv};
+/// The files that grow, in the order they are flushed: what is named before what names it.
+inline constexpr std::array kGrowing{kFloes, kEvents, kFrames, kContacts, kCrushed, kStates, kForces};
+inline constexpr std::array kMadeAtEnd{kFinalGeojson, kFinalSvg, kFinalPng, kView, kChannel, kChannelCsv};
 }  // namespace run_file
 
 /// What reads runs takes no longer file; a run that writes one warns [bytes].
@@ -93,6 +95,11 @@ class RunLock {
 /// the files that polynya writes there, and nothing else; any other folder is refused even then, and nothing
 /// is written into it. The error names the folder, what is in it and what to do.
 Result<RunLock> claim_run_folder(const std::filesystem::path& folder, bool overwrite);
+
+/// Makes a folder that of a run to the end of the scene, which is that of its scene.json but for `time.until_s`,
+/// where the run has ended or was to end at another time: its summary is that of an unfinished one, what was made at
+/// and after its end is removed, and scene.json names the new end. A kill in between leaves a run that is resumed.
+Result<> set_end(const std::filesystem::path& folder, const LoadedScene& scene);
 
 /// Whether polynya marked the folder as a run's.
 bool is_marked_run_folder(const std::filesystem::path& folder);

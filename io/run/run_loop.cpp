@@ -13,7 +13,6 @@ namespace polynya::io {
 namespace {
 
 using simulation::Simulation;
-using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t kStepsBetweenReports = 16;  ///< looking at the clock costs as much as a small step
 
@@ -22,8 +21,8 @@ struct Stop {
   std::string reason;
 };
 
-double seconds_since(Clock::time_point then) {
-  return std::chrono::duration<double>(Clock::now() - then).count();
+double seconds_since(std::chrono::steady_clock::time_point then) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
 }
 
 /// Steps in a time [s], at least 1.
@@ -31,110 +30,151 @@ std::int64_t steps_in(double duration, double step) {
   return std::max<std::int64_t>(1, std::llround(duration / step));
 }
 
+}  // namespace
+
+RunRecorder::RunRecorder(Simulation& simulation, RunWriter& writer, const LoadedScene& scene, double wall_time)
+    : simulation_(&simulation),
+      writer_(&writer),
+      scene_(&scene),
+      wall_time_before_(wall_time),
+      steps_per_frame_(steps_in(scene.scene.record.frames_interval, scene.scene.time.step)) {}
+
+void RunRecorder::begin(simulation::Journal& journal) {
+  writer_->record(journal);
+  writer_->frame(*simulation_);
+}
+
+void RunRecorder::record_step() {
+  writer_->record(simulation_->journal());
+}
+
+void RunRecorder::frame_if_due() {
+  if (is_frame_due()) writer_->frame(*simulation_);
+}
+
+Result<> RunRecorder::checkpoint() {
+  auto progress = writer_->sync();
+  if (!progress) return fail(progress.error());
+  auto written =
+      write_checkpoint(writer_->folder(), checkpoint_of(*simulation_, *scene_, std::move(*progress), wall_time()));
+  last_checkpoint_ = Clock::now();
+  return written;
+}
+
+Result<> RunRecorder::end() {
+  auto written = checkpoint();
+  if (written && !is_frame_due()) writer_->frame(*simulation_);
+  return written;
+}
+
+double RunRecorder::wall_time() const {
+  return wall_time_before_ + seconds_since(start_);
+}
+
+double RunRecorder::checkpoint_age() const {
+  return seconds_since(last_checkpoint_);
+}
+
+namespace {
+
 class RunLoop {
  public:
-  RunLoop(ActiveRun& run, const RunControl& control) : run_(run), control_(control) {
+  RunLoop(ActiveRun& run, const RunControl& control)
+      : run_(run), control_(control), recorder_(run.simulation, run.writer, run.scene, run.wall_time) {
     const simulation::StepSettings& time = simulation().scene().time;
-    last_step_ = static_cast<std::int64_t>(std::ceil(time.until / time.step - 1e-9));
-    steps_per_frame_ = steps_in(simulation().scene().record.frames_interval, time.step);
+    last_step_ = last_step_of(time);
     if (control.checkpoint_every > 0) steps_per_checkpoint_ = steps_in(control.checkpoint_every, time.step);
   }
 
-  Stop advance() {
-    simulation().set_threads(control_.threads);
-    return advance_to_end().value_or(Stop{});
-  }
-
-  RunResult finish(const Stop& stop) {
-    RunResult result{stop.end, stop.reason, summarise(simulation(), writer(), stop.reason, wall_time())};
-    // Before the run is finished: that takes away the checkpoints from which the failure is sought.
-    const std::size_t floes = run_.scene.scene.floes.size();
-    const bool has_floes = control_.final_geojson || floes <= kMostFloesInFinal;
-    if (!has_floes)
-      result.summary.warnings.push_back(
-          fmt::format("no {} was written, of {} floes at the start: --final-geojson writes it, polynya export "
-                      "--geojson makes it of the last frame",
-                      run_file::kFinalGeojson, floes));
-    const bool is_failure = stop.end == RunEnd::kNumericalFailure || !result.summary.audit.is_closed();
-    if (is_failure && !writer().is_displaced()) result.dump = dump_failure(run_);
-    if (const auto written = writer().finish(result.summary, has_floes ? &simulation() : nullptr); !written) {
-      result.end = RunEnd::kFolderFailure;
-      result.reason = written.error();
-    }
-    return result;
-  }
+  Stop advance();
+  RunResult finish(const Stop& stop);
 
  private:
-  std::optional<Stop> advance_to_end() {
-    if (simulation().steps() == 0) {
-      writer().record(simulation().journal());
-      writer().frame(simulation());
-    }
-    while (simulation().steps() < last_step_)
-      if (auto stop = advance_step()) return stop;
-    return {};
-  }
-
-  std::optional<Stop> advance_step() {
-    simulation().step();
-    writer().record(simulation().journal());
-    if (auto failure = failure_of_step()) return Stop{RunEnd::kNumericalFailure, *failure};
-    const std::int64_t step = simulation().steps();
-    if (step % steps_per_frame_ == 0 || step == last_step_) writer().frame(simulation());
-    if (auto stop = stop_on_request()) return stop;
-    return work_between_steps();
-  }
-
-  std::optional<std::string> failure_of_step() const {
-    if (control_.check) return failure_after_step(run_.simulation);
-    if (auto failure = run_.simulation.numerical_failure()) return "numerical failure: " + *failure;
-    return {};
-  }
-
-  std::optional<Stop> stop_on_request() {
-    auto reason = control_.stop ? control_.stop() : std::nullopt;
-    if (!reason) return {};
-    if (const auto written = checkpoint(); !written) return Stop{RunEnd::kFolderFailure, written.error()};
-    return Stop{RunEnd::kStopped, *reason};
-  }
-
-  /// Checkpoints, flushing and progress, each where it is due.
-  std::optional<Stop> work_between_steps() {
-    const std::int64_t step = simulation().steps();
-    const bool is_report_due = step % kStepsBetweenReports == 0;
-    const bool is_checkpoint_due = (steps_per_checkpoint_ > 0 && step % steps_per_checkpoint_ == 0) ||
-                                   (is_report_due && control_.checkpoint_every_wall > 0 &&
-                                    seconds_since(last_checkpoint_) >= control_.checkpoint_every_wall);
-    if (!is_checkpoint_due && !is_report_due) return {};
-    if (!is_checkpoint_due) writer().flush_if_due();
-    if (const auto written = is_checkpoint_due ? checkpoint() : writer().status(); !written)
-      return Stop{RunEnd::kFolderFailure, written.error()};
-    if (!is_checkpoint_due && control_.progress)
-      control_.progress({simulation().time(), fractures_of(simulation().world().accounts.counts)});
-    return {};
-  }
-
-  Result<> checkpoint() {
-    auto progress = writer().sync();
-    if (!progress) return fail(progress.error());
-    auto written =
-        write_checkpoint(writer().folder(), checkpoint_of(simulation(), run_.scene, std::move(*progress), wall_time()));
-    last_checkpoint_ = Clock::now();
-    return written;
-  }
+  std::optional<Stop> advance_to_end();
+  std::optional<Stop> advance_step();
+  std::optional<Stop> stop_on_request();
+  std::optional<Stop> work_between_steps();
+  std::optional<std::string> failure_of_step() const;
 
   Simulation& simulation() { return run_.simulation; }
   RunWriter& writer() { return run_.writer; }
-  double wall_time() const { return run_.wall_time + seconds_since(start_); }
 
   ActiveRun& run_;
   const RunControl& control_;
+  RunRecorder recorder_;
   std::int64_t last_step_ = 0;
-  std::int64_t steps_per_frame_ = 1;
   std::int64_t steps_per_checkpoint_ = 0;  ///< 0: by the clock alone
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point last_checkpoint_ = start_;
 };
+
+Stop RunLoop::advance() {
+  simulation().set_threads(control_.threads);
+  return advance_to_end().value_or(Stop{});
+}
+
+std::optional<Stop> RunLoop::advance_to_end() {
+  if (simulation().steps() == 0) recorder_.begin(simulation().journal());
+  while (simulation().steps() < last_step_)
+    if (auto stop = advance_step()) return stop;
+  if (const auto written = recorder_.end(); !written) return Stop{RunEnd::kFolderFailure, written.error()};
+  return {};
+}
+
+std::optional<Stop> RunLoop::advance_step() {
+  simulation().step();
+  recorder_.record_step();
+  if (auto failure = failure_of_step()) return Stop{RunEnd::kNumericalFailure, *failure};
+  recorder_.frame_if_due();
+  if (auto stop = stop_on_request()) return stop;
+  return work_between_steps();
+}
+
+std::optional<std::string> RunLoop::failure_of_step() const {
+  if (control_.check) return failure_after_step(run_.simulation);
+  if (auto failure = run_.simulation.numerical_failure()) return "numerical failure: " + *failure;
+  return {};
+}
+
+std::optional<Stop> RunLoop::stop_on_request() {
+  auto reason = control_.stop ? control_.stop() : std::nullopt;
+  if (!reason) return {};
+  if (const auto written = recorder_.checkpoint(); !written) return Stop{RunEnd::kFolderFailure, written.error()};
+  return Stop{RunEnd::kStopped, *reason};
+}
+
+/// Checkpoints, flushing and progress, each where it is due.
+std::optional<Stop> RunLoop::work_between_steps() {
+  const std::int64_t step = simulation().steps();
+  const bool is_report_due = step % kStepsBetweenReports == 0;
+  const bool is_checkpoint_due = (steps_per_checkpoint_ > 0 && step % steps_per_checkpoint_ == 0) ||
+                                 (is_report_due && control_.checkpoint_every_wall > 0 &&
+                                  recorder_.checkpoint_age() >= control_.checkpoint_every_wall);
+  if (!is_checkpoint_due && !is_report_due) return {};
+  if (!is_checkpoint_due) writer().flush_if_due();
+  if (const auto written = is_checkpoint_due ? recorder_.checkpoint() : writer().status(); !written)
+    return Stop{RunEnd::kFolderFailure, written.error()};
+  if (!is_checkpoint_due && control_.progress)
+    control_.progress({simulation().time(), fractures_of(simulation().world().accounts.counts)});
+  return {};
+}
+
+RunResult RunLoop::finish(const Stop& stop) {
+  RunResult result{stop.end, stop.reason, summarise(simulation(), writer(), stop.reason, recorder_.wall_time())};
+  // Before the run is finished: that takes away the checkpoints from which the failure is sought.
+  const std::size_t floes = run_.scene.scene.floes.size();
+  const bool has_floes = control_.final_geojson || floes <= kMostFloesInFinal;
+  if (!has_floes)
+    result.summary.warnings.push_back(
+        fmt::format("no {} was written, of {} floes at the start: --final-geojson writes it, polynya export "
+                    "--geojson makes it of the last frame",
+                    run_file::kFinalGeojson, floes));
+  const bool is_failure = stop.end == RunEnd::kNumericalFailure || !result.summary.audit.is_closed();
+  if (is_failure && !writer().is_displaced()) result.dump = dump_failure(run_);
+  if (const auto written = writer().finish(result.summary, has_floes ? &simulation() : nullptr); !written) {
+    result.end = RunEnd::kFolderFailure;
+    result.reason = written.error();
+  }
+  return result;
+}
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -15,6 +16,34 @@ namespace polynya::io {
 struct RunStatus {
   double time = 0;             ///< simulated [s]
   std::int64_t fractures = 0;  ///< bends, splits and rejected cuts
+};
+
+/// What is written of a run between its steps, whoever takes them: run_to_end(), or Python.
+class RunRecorder {
+ public:
+  /// `wall_time` has been taken before [s].
+  RunRecorder(simulation::Simulation& simulation, RunWriter& writer, const LoadedScene& scene, double wall_time = 0);
+  /// Where nothing has been stepped yet: what there is, and a first frame.
+  void begin(simulation::Journal& journal);
+  void record_step();
+  void frame_if_due();
+  Result<> checkpoint();
+  /// At the end: a checkpoint, and behind it a frame where none was due. A longer run goes on from there, without the
+  /// frame that only this end has.
+  Result<> end();
+  double wall_time() const;       ///< of the run so far [s]
+  double checkpoint_age() const;  ///< by the clock [s]
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool is_frame_due() const { return simulation_->steps() % steps_per_frame_ == 0; }
+  simulation::Simulation* simulation_;
+  RunWriter* writer_;
+  const LoadedScene* scene_;
+  double wall_time_before_;
+  std::int64_t steps_per_frame_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_checkpoint_ = start_;
 };
 
 /// How a run is carried to its end.

@@ -17,9 +17,7 @@
 namespace polynya::io {
 namespace {
 
-/// The files that grow, in the order they are flushed: what is named before what names it.
-constexpr std::array kGrowing{run_file::kFloes,   run_file::kEvents, run_file::kFrames, run_file::kContacts,
-                              run_file::kCrushed, run_file::kStates, run_file::kForces};
+using run_file::kGrowing;
 enum : std::size_t { kFloes, kEvents, kFrames, kContacts, kCrushed, kStates, kForces };
 constexpr std::size_t kMuchBuffered = std::size_t{256} << 10;  ///< [bytes]
 constexpr auto kLongestWait = std::chrono::seconds(1);
@@ -125,6 +123,7 @@ Result<RunWriter> RunWriter::resume(RunLock lock, const LoadedScene& scene, cons
   const RunProgress& progress = checkpoint.progress;
   const std::filesystem::path folder = lock.folder();
   auto ready = check_progress(progress, folder, scene.scene);
+  if (ready) ready = set_end(folder, scene);
   if (ready) ready = rewind_to(folder, checkpoint, file);
   if (!ready) return fail(ready.error());
   std::vector<OutputFile> files;
@@ -298,7 +297,7 @@ Result<> RunWriter::finish(const RunSummary& summary, const simulation::Simulati
   if (summary.finished) write_ice();
   if (written || !summary.finished) write(run_file::kSummary, to_json_text(summary, *scene_));
   if (!summary.finished) write_ice();
-  if (summary.finished && written) written = remove_checkpoints(folder());
+  if (summary.finished && written) written = remove_checkpoints(folder(), 1);
   return written;
 }
 

@@ -37,8 +37,8 @@ class RunWriter {
   /// start.
   static Result<RunWriter> begin(RunLock lock, const LoadedScene& scene);
 
-  /// Continues the folder of a run that was interrupted: what its files have beyond the checkpoint is cut
-  /// off, newer checkpoints too. `file` is where the checkpoint was read.
+  /// Continues the folder of a run that was interrupted, or has come to an earlier end than the scene's: what its
+  /// files have beyond the checkpoint is cut off, newer checkpoints too. `file` is where the checkpoint was read.
   static Result<RunWriter> resume(RunLock lock, const LoadedScene& scene, const Checkpoint& checkpoint,
                                   const std::filesystem::path& file, const simulation::Simulation& simulation);
 
@@ -64,8 +64,15 @@ class RunWriter {
   const std::vector<ShipPeaks>& peaks() const { return peaks_; }
 
   /// Ends the run: everything buffered, final.geojson of a simulation, and last summary.json. All of it is on
-  /// the disk before a summary with "finished": true is, and that one before the checkpoints are removed.
+  /// the disk before a summary with "finished": true is, and that one before the checkpoints are removed but that of
+  /// the end.
   Result<> finish(const RunSummary& summary, const simulation::Simulation* simulation);
+
+  /// The same scene with the end that the run has come to instead of its own (set_end()); it outlives this.
+  Result<> end_with(const LoadedScene& scene) {
+    scene_ = &scene;
+    return set_end(folder(), scene);
+  }
 
   const std::filesystem::path& folder() const { return lock_.folder(); }
   /// Whether the folder and its files were removed, moved or replaced by another program.

@@ -221,12 +221,14 @@ RunSummary summarise(const Simulation& simulation, const RunWriter& writer, cons
   return summary;
 }
 
-bool is_finished_run(const std::filesystem::path& folder) {
+std::optional<double> finished_at(const std::filesystem::path& folder) {
   const auto text = read_text_file(folder / run_file::kSummary, kLongestScene);
-  if (!text) return false;
+  if (!text) return {};
   const JsonDocument summary = parse_json(*text);
   const JsonValue* finished = summary.root.find("finished", JsonValue::Kind::kBoolean);
-  return summary.faults.empty() && finished && finished->boolean();
+  if (!summary.faults.empty() || !finished || !finished->boolean()) return {};
+  const JsonValue* time = summary.root.find("sim_time_s", JsonValue::Kind::kNumber);
+  return time ? time->number() : 0;
 }
 
 std::string_view version() {

@@ -60,7 +60,7 @@ RunSummary summarise(const simulation::Simulation& simulation, const RunWriter& 
 
 std::string to_json_text(const RunSummary& summary, const LoadedScene& scene);
 
-/// Whether a run folder has a summary.json with "finished": true.
-bool is_finished_run(const std::filesystem::path& folder);
+/// The simulated time [s] at which the run of a folder has finished, by its summary.json; none where it has not.
+std::optional<double> finished_at(const std::filesystem::path& folder);
 
 }  // namespace polynya::io

@@ -194,7 +194,11 @@ const Description<FloeGroup> kFloeGroup{
             "there; of a run's floe file without being asked for",
             &FloeGroup::has_crushed_overlaps),
      member("source_floe_id", "", from(0, kLargestSeed),
-            "the floe_id that it has in the file it is from; written beside its own", &FloeGroup::source_floe)},
+            "the floe_id that it has in the file it is from; written beside its own", &FloeGroup::source_floe),
+     member("under_hull_of", "", {}, "the ship under whose hull it is at the start, as a run left it",
+            &FloeGroup::under_hull_of),
+     member("under_hull_path_m", "m", from(-1000, 1e5), "then how far that ship has come over it; 0 if not given",
+            &FloeGroup::under_hull_path)},
     {"lattice", "rectangle", "polygon", "field", "file"}};
 
 }  // namespace

@@ -177,7 +177,9 @@ FloeGroup FloeListReader::spelled_out(FileFloe& floe, bool is_of_run) const {
                   .velocity = group_.velocity,
                   .angular_velocity = group_.angular_velocity,
                   .has_crushed_overlaps = group_.has_crushed_overlaps,
-                  .source_floe = group_.source_floe};
+                  .source_floe = group_.source_floe,
+                  .under_hull_of = own.under_hull_of ? own.under_hull_of : group_.under_hull_of,
+                  .under_hull_path = own.under_hull_path ? own.under_hull_path : group_.under_hull_path};
   if (own.velocity_x || own.velocity_y) {
     geometry::Vector velocity{own.velocity_x.value_or(0), own.velocity_y.value_or(0)};
     if (!entry.is_fast)  // relative to the water there
@@ -207,10 +209,22 @@ Result<std::filesystem::path> FloeListReader::locate(const std::string& name) co
   return folder_ / name;
 }
 
+/// The number of the ship under whose hull a floe is; −1, and a report, where there is none with a draught.
+int FloeListReader::ship_over(const std::string& name, const Origin& origin) {
+  const auto& ships = draft_.scene.ships;
+  const auto ship = std::ranges::find(ships, name, &simulation::Ship::name);
+  if (ship != ships.end() && ship->hull.draught > 0) return static_cast<int>(ship - ships.begin());
+  problems_.report(origin.source, origin.offset, path_ + ".under_hull_of", show({name}),
+                   "the name of a ship with a hull.draught_m");
+  return -1;
+}
+
 void FloeListReader::add_floe(const FloeGroup& group, geometry::Polygon polygon, const GivenIce& given, Origin origin) {
   const std::int32_t own_ice = ice_.add_to(draft_.scene, given);
   draft_.scene.floes.push_back({std::move(polygon), group.velocity, group.angular_velocity, group.is_fast, own_ice,
-                                group.has_crushed_overlaps.value_or(false), group.source_floe.value_or(-1)});
+                                group.has_crushed_overlaps.value_or(false), group.source_floe.value_or(-1),
+                                group.under_hull_of ? ship_over(*group.under_hull_of, origin) : -1,
+                                group.under_hull_path.value_or(0)});
   draft_.floe_origins.push_back(origin);
 }
 

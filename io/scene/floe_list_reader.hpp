@@ -36,6 +36,7 @@ class FloeListReader {
   FloeGroup spelled_out(FileFloe& floe, bool is_of_run) const;
   void add_floe(const FloeGroup& group, geometry::Polygon polygon, const GivenIce& given, Origin origin);
   void check_fast_ice(bool is_fast);
+  int ship_over(const std::string& name, const Origin& origin);
   bool has_room_for(std::size_t count, const std::string& path);
   Result<std::filesystem::path> locate(const std::string& name) const;
   void report(std::uint32_t offset, std::string path, std::string found, std::string allowed) {

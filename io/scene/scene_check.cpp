@@ -254,6 +254,7 @@ void check_floes(const SceneDraft& draft, ProblemCollector& problems, std::vecto
           fmt::format("at least {:g} m², and a second moment above 0", simulation::kLeastFloeArea));
       continue;
     }
+    if (draft.scene.floes[i].under_ship >= 0) continue;  // the hull is over it, and other ice may be
     outlines.push_back(polygon);
     named.push_back({floe_path(draft, i), &origin, i});
   }

@@ -148,6 +148,8 @@ struct FloeGroup {
   std::optional<IceInput> ice = {};
   std::optional<bool> has_crushed_overlaps;
   std::optional<std::int64_t> source_floe;
+  std::optional<std::string> under_hull_of;  ///< the name of a ship
+  std::optional<double> under_hull_path;     ///< [m]
 };
 
 const Description<SceneInput>& scene_description();

@@ -19,11 +19,19 @@ namespace {
 using JsonKind = JsonValue::Kind;
 using simulation::BodyKind;
 
-/// FNV-1a, 64 bits.
-std::string hash_of(std::string_view text) {
+/// FNV-1a, 64 bits, of texts that follow each other.
+std::string hash_of(std::initializer_list<std::string_view> texts) {
   std::uint64_t hash = 14695981039346656037U;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
+  for (const std::string_view text : texts)
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
   return fmt::format("{:016x}", hash);
+}
+
+/// Of a resolved scene but for the value of time.until_s, the only key of that name; a text's quotes are escaped.
+std::string course_hash_of(std::string_view resolved) {
+  constexpr std::string_view kKey = R"("until_s":)";
+  const std::size_t value = resolved.find(kKey) + kKey.size();
+  return hash_of({resolved.substr(0, value), resolved.substr(resolved.find_first_of(",}", value))});
 }
 
 void override_scene(JsonValue& root, const SceneOverrides& overrides) {
@@ -49,15 +57,22 @@ class SceneReader {
     add_scene_hints(draft_, document.root, problems_);
     for (const FileReport& file : floes_.files) add_file_hints(file);
     std::vector<Problem> hints = problems_.take();
-    LoadedScene loaded{
-        std::move(draft_.scene),  std::move(input_.description), to_json_text(resolved_), "",
-        std::move(floes_.fields), std::move(floes_.files),       std::move(floes_.ice),   std::move(hints)};
+    LoadedScene loaded{std::move(draft_.scene),
+                       std::move(input_.description),
+                       to_json_text(resolved_),
+                       "",
+                       "",
+                       std::move(floes_.fields),
+                       std::move(floes_.files),
+                       std::move(floes_.ice),
+                       std::move(hints)};
     if (const std::size_t length = loaded.resolved_text.size(); length > longest) {
       report(0, "", fmt::format("{} bytes with every default filled in and floe files read in", length),
              fmt::format("at most {} bytes: fewer floes, or coordinates of fewer digits", longest));
       return tl::unexpected(problems_.take());
     }
-    loaded.hash = hash_of(loaded.resolved_text);
+    loaded.hash = hash_of({loaded.resolved_text});
+    loaded.course_hash = course_hash_of(loaded.resolved_text);
     return loaded;
   }
 

@@ -54,6 +54,7 @@ struct LoadedScene {
   std::string description;
   std::string resolved_text;  ///< JSON with every default filled in and files read in; reads back to the same scene
   std::string hash;           ///< of resolved_text: 16 hexadecimal digits, FNV-1a
+  std::string course_hash;    ///< of it without time.until_s: runs of one course that end at other times have the same
   std::vector<FieldReport> fields;
   std::vector<FileReport> files;
   std::vector<IceReport> ice;  ///< what was drawn of it, by floe groups and properties

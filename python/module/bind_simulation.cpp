@@ -78,8 +78,11 @@ void bind_simulation(py::module_& module) {
       .def("run", &Simulation::run, py::arg("until") = py::none(), py::arg("progress") = py::none(), kRunDoc)
       .def("events", &Simulation::events, kEventsDoc)
       .def("set_pilot", &Simulation::set_pilot, py::arg("ship"), py::arg("pilot"), kPilotDoc)
+      .def("_record", &Simulation::record, py::arg("folder"), py::arg("overwrite"))
+      .def("_end_recording", &Simulation::end_recording, py::arg("stopped_by"))
       .def("save", &Simulation::save,
            "save()\n\nAll that decides how the run continues, as bytes for resume(); with a checksum.")
+      .def_property_readonly("scene", &Simulation::given_scene, "The Scene that it is of.")
       .def_property_readonly(
           "time", [](const Simulation& s) { return s.between_steps().time(); }, "Simulated time [s].")
       .def_property_readonly(

@@ -35,9 +35,7 @@ simulation::Simulation start(const io::LoadedScene& loaded) {
 simulation::Simulation resumed(const io::LoadedScene& loaded, const std::string& bytes) {
   const auto checkpoint = io::read_checkpoint(bytes);
   if (!checkpoint) throw py::value_error("cannot resume: " + checkpoint.error());
-  if (checkpoint->scene_hash != loaded.hash)
-    throw py::value_error(fmt::format("cannot resume: saved of a scene of hash {}, this one has {}",
-                                      checkpoint->scene_hash, loaded.hash));
+  if (checkpoint->course_hash != loaded.course_hash) throw py::value_error("cannot resume: saved of another scene");
   auto simulation = io::simulation_at(loaded, *checkpoint);
   if (!simulation) throw py::value_error("cannot resume: " + simulation.error());
   return *std::move(simulation);
@@ -114,7 +112,10 @@ void Simulation::take_journal() {
     events_.back() = ',';  // in place of the line's end
   }
   for (const simulation::ShipSample& sample : journal.samples) samples_[sample.ship] = sample;
-  journal.clear();
+  if (recording_)
+    recording_->take_step();
+  else
+    journal.clear();
 }
 
 void Simulation::step_once() {
@@ -142,7 +143,7 @@ void Simulation::advance_to(std::int64_t last_step, const py::object& progress) 
     auto last_report = Clock::now();
     while (simulation_.steps() < last_step && !simulation_.numerical_failure()) {
       step_once();
-      if (pilot_error_) break;
+      if (pilot_error_ || (recording_ && recording_->failure())) break;
       if (const auto now = Clock::now(); now - last_report >= kBetweenReports) {
         last_report = now;
         const py::gil_scoped_acquire acquire;
@@ -151,6 +152,7 @@ void Simulation::advance_to(std::int64_t last_step, const py::object& progress) 
     }
   }
   if (pilot_error_) std::rethrow_exception(std::exchange(pilot_error_, nullptr));
+  if (recording_ && recording_->failure()) raise("FolderError", py::str(*recording_->failure()));
   raise_failure();
 }
 
@@ -170,6 +172,7 @@ void Simulation::run(std::optional<double> until, const py::object& progress) {
   if (!(std::abs(steps) <= kMostSteps))
     throw py::value_error(fmt::format("run: until is {} s, allowed: a finite time of at most {} steps",
                                       until.value_or(time.until), kMostSteps));
+  until_ = until.value_or(time.until);
   advance_to(static_cast<std::int64_t>(steps), progress);
   report(progress, simulation_.time());
 }
@@ -184,6 +187,27 @@ py::list Simulation::events() {
 py::bytes Simulation::save() const {
   refuse_while_stepping();  // also to pilots: the levers of the ships before theirs have moved
   return py::bytes(io::checkpoint_bytes(io::checkpoint_of(between_steps(), scene(), {}, 0)));
+}
+
+void Simulation::record(const std::string& folder, bool overwrite) {
+  at_rest();
+  if (recording_) throw std::runtime_error("record: this simulation is recorded already");
+  if (simulation_.steps() > 0)
+    throw std::runtime_error("record: the simulation has been stepped; a run folder begins before the first step");
+  recording_ = std::make_unique<Recording>(scene(), simulation_, folder, overwrite);
+}
+
+void Simulation::end_recording(const std::string& stopped_by) {
+  const std::unique_ptr<Recording> recording = std::move(recording_);
+  if (!recording) return;
+  const simulation::Simulation& here = at_rest();
+  simulation::StepSettings time = scene().scene.time;  // the end as it was given, where the run has come to just that
+  for (const double until : {time.until, until_, here.time()}) {
+    time.until = until;
+    if (io::last_step_of(time) == here.steps()) break;
+  }
+  const bool is_at_start = here.steps() == 0 && stopped_by.empty();
+  recording->end(time.until, is_at_start ? "closed before the first step" : stopped_by);
 }
 
 std::size_t Simulation::index_of(const py::object& ship, const char* caller) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "python/module/pilot.hpp"
+#include "python/module/recording.hpp"
 #include "python/module/scene.hpp"
 
 #include "simulation/simulation.hpp"
@@ -27,6 +28,10 @@ class Simulation {
   void run(std::optional<double> until, const py::object& progress);
   py::list events();
   py::bytes save() const;
+  /// Writes a run folder from the start on (Recording), until end_recording(), which gives a reason if it is not the
+  /// run's end.
+  void record(const std::string& folder, bool overwrite);
+  void end_recording(const std::string& stopped_by);
   /// Puts a callable in the place of a ship's own pilot; None gives the ship back to its own. The ship is an
   /// index or a name.
   void set_pilot(const py::object& ship, const py::object& pilot);
@@ -45,6 +50,7 @@ class Simulation {
   /// The last recorded row of a ship; none before the first.
   const std::optional<simulation::ShipSample>& last_sample(std::size_t ship) const { return samples_[ship]; }
   const io::LoadedScene& scene() const { return scene_->loaded(); }
+  const std::shared_ptr<Scene>& given_scene() const { return scene_; }
 
  private:
   class Stepping;
@@ -59,6 +65,8 @@ class Simulation {
 
   std::shared_ptr<Scene> scene_;
   simulation::Simulation simulation_;
+  std::unique_ptr<Recording> recording_;
+  double until_ = 0;    ///< that run() was last asked for [s]
   std::string events_;  ///< since the last call of events(): JSON objects, a comma behind each
   std::vector<std::optional<simulation::ShipSample>> samples_;  ///< per ship
   std::vector<py::object> pilots_;                              ///< per ship; None: its own

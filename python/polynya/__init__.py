@@ -52,6 +52,10 @@ def _compiled():
     try:
         from polynya import _core
         _module("numpy")  # which the compiled module asks for where it makes the first array
+        if not hasattr(_core.Simulation, "record"):
+            from polynya import recording, showing
+            _core.Simulation.record, _core.Simulation.plot = recording.record, showing.plot
+            _core.Simulation._repr_html_, _core.Scene._repr_html_ = showing.html_of_simulation, showing.html_of_scene
         return _core
     except ImportError as error:
         if error.name == "numpy":
@@ -66,9 +70,8 @@ def _compiled():
             f"polynya's compiled module is built for Python {version}, and this is {running} ({sys.executable}): use "
             f"/usr/bin/python3, or build Polynya again with -DPython_EXECUTABLE={sys.executable}") from None
     raise ImportError(
-        f"polynya's compiled module cannot be imported ({reason}): install what it needs with ./setup.sh python, build "
-        "Polynya again (cmake --preset dev && cmake --build --preset dev), and have build/dev/python in PYTHONPATH, not "
-        "the source's python folder") from reason
+        f"polynya's compiled module cannot be imported ({reason}): ./quickstart builds it and what it needs; then have "
+        "build/release/python in PYTHONPATH, not the source's python folder") from reason
 
 
 def _version():

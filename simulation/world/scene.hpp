@@ -205,6 +205,8 @@ struct FloeSpec {
   std::int32_t own_ice = kSceneIce;   ///< index in Scene::own_ice
   bool has_crushed_overlaps = false;  ///< what it shares with other bodies at the start has pressed already
   std::int64_t source_floe = -1;      ///< its id in the file that it is from; < 0: none
+  int under_ship = -1;                ///< the ship that it is under the hull of; < 0: it floats
+  double under_path = 0;              ///< then how far that ship has come over it [m]
   friend bool operator==(const FloeSpec&, const FloeSpec&) = default;
 };
 

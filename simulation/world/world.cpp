@@ -1,8 +1,28 @@
 #include <utility>
 
+#include "simulation/ice/going_under.hpp"
 #include "simulation/world/step.hpp"
 
 namespace polynya::simulation {
+
+namespace {
+
+/// The floes that are under hulls at the start, without what follows of their places.
+std::vector<SubmergedPiece> pieces_under(const std::vector<FloeSpec>& floes) {
+  std::vector<SubmergedPiece> pieces;
+  for (std::size_t i = 0; i < floes.size(); ++i)
+    if (floes[i].under_ship >= 0)
+      pieces.push_back({.floe = static_cast<FloeId>(i), .ship = floes[i].under_ship, .path = floes[i].under_path});
+  return pieces;
+}
+
+void put_under(const SubmergedPiece& piece, World& world) {
+  world.journal.events.push_back(submersion_event(world.clock, world.population, piece.floe, piece.ship));
+  go_under(world.setup, world.clock, piece.floe, piece.ship, world.population, world.accounts);
+  world.population.submerged.back().path = piece.path;
+}
+
+}  // namespace
 
 World::World(Scene scene, Shortcuts shortcuts, Start start)
     : setup(std::move(scene), shortcuts),
@@ -12,6 +32,7 @@ World::World(Scene scene, Shortcuts shortcuts, Start start)
   accounts.sailing.resize(setup.scene.ships.size());
   population.helms.resize(setup.scene.ships.size());
   if (start == Start::kEmpty) return;
+  const std::vector<SubmergedPiece> under = pieces_under(setup.scene.floes);
   add_scene(setup, std::exchange(setup.scene.floes, {}), clock, population, journal);
   for (FloeId id = 0; id < population.floe_count(); ++id) {
     accounts.ledger.initial_ice_area += population.floes[id].area;
@@ -20,6 +41,7 @@ World::World(Scene scene, Shortcuts shortcuts, Start start)
   accounts.counts.floes_initial = population.floe_count();
   take_helms(setup, clock, population);
   open_accounts(population.bodies, accounts.audit);
+  for (const SubmergedPiece& piece : under) put_under(piece, *this);
 }
 
 }  // namespace polynya::simulation

@@ -49,7 +49,7 @@ class BrokenAudit : public testing::Test {
     miskeep(simulation);
     ASSERT_TRUE(simulation.audit().is_closed());
     io::Checkpoint checkpoint;
-    checkpoint.scene_hash = scene->hash;
+    checkpoint.course_hash = scene->course_hash;
     checkpoint.steps = simulation.steps();
     checkpoint.progress = writer->sync().value();
     checkpoint.state = simulation.state();
@@ -60,7 +60,7 @@ class BrokenAudit : public testing::Test {
   /// The dump has the last state whose accounts close, and polynya gets the next one, the same each time.
   void expect_reproduced() {
     const auto scene = io::read_scene_file(folder_ / "run/scene.json");
-    const auto dump = checked(io::read_checkpoint_file(folder_ / "run" / io::run_file::kFailure, scene->hash));
+    const auto dump = checked(io::read_checkpoint_file(folder_ / "run" / io::run_file::kFailure, scene->course_hash));
     EXPECT_EQ(dump->steps, 632) << "√40 s = 632.5 steps";
     auto simulation = checked(Simulation::resumed(scene->scene, dump->state));
     EXPECT_TRUE(simulation->audit().is_closed());

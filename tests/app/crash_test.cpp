@@ -57,7 +57,7 @@ CrashTally crash_trials(int kills, unsigned seed) {
     }
     if (!std::filesystem::exists(run / io::run_file::kScene)) continue;
     EXPECT_EQ(first_difference(folder / "whole", run), "") << "after " << tally.kills << " kills";
-    EXPECT_TRUE(io::checkpoints_in(run).empty());
+    EXPECT_EQ(io::checkpoints_in(run).size(), 1U);
   }
   return tally;
 }

@@ -48,7 +48,7 @@ TEST_F(Resume, GivesTheBytesOfTheRunNobodyInterrupted) {
   EXPECT_EQ(resumed.code, 0) << resumed.err;
   EXPECT_HAS(resumed.err, checkpoints_[0].filename().string());
   EXPECT_EQ(difference(), "");
-  EXPECT_TRUE(io::checkpoints_in(folder_ / "run").empty()) << "a finished run keeps none";
+  EXPECT_EQ(io::checkpoints_in(folder_ / "run").size(), 1U) << "a finished run keeps that of its end";
   const Outcome again = resume();
   EXPECT_EQ(again.code, 0);
   EXPECT_HAS(again.err, "finished");
@@ -86,7 +86,7 @@ TEST_F(Resume, WhatIsDamagedMissingOrOfAnotherRunIsRefused) {
   expect_refused({}, "damaged");
 
   restore();
-  write_file(folder_ / "other.json", crash_scene("99"));
+  write_file(folder_ / "other.json", replaced(crash_scene("100"), "2e6", "3e6"));
   ASSERT_TRUE(kill_at_checkpoints("run other.json --out other --checkpoint-every 1", start_, folder_ / "other", 2));
   expect_refused({"--checkpoint", io::checkpoints_in(folder_ / "other").front()}, "of another run");
   expect_refused("--checkpoint scene.json", "not a checkpoint");
@@ -97,6 +97,37 @@ TEST_F(Resume, WhatIsDamagedMissingOrOfAnotherRunIsRefused) {
   expect_refused({}, "its columns are those of another version");
   write_file(folder_ / "run/forces.csv", forces.substr(0, 200));
   expect_refused({}, "forces.csv: 200 bytes; at the checkpoint there were");
+}
+
+/// Ends that fall between frames and on one; products of the shorter run, which no longer run has.
+TEST_F(Resume, AFinishedRunGoesOnToALaterEnd) {
+  write_file(folder_ / "scene.json", crash_scene("60"));
+  ASSERT_EQ(polynya("run scene.json --out run --until 30.3", start_).code, 0);
+  ASSERT_EQ(polynya("view run", start_).code, 0);
+  for (const char* until : {"41", "60.5"}) {
+    ASSERT_EQ(polynya({"run", "scene.json", "--out", "whole", "--until", until, "--overwrite"}, start_).code, 0);
+    const Outcome longer = resume({"--until", until});
+    EXPECT_EQ(longer.code, 0) << longer.err;
+    EXPECT_LACKS(longer.err, "from the start");
+    EXPECT_EQ(difference(), "");
+    EXPECT_EQ(read_file(folder_ / "run/final.svg"), read_file(folder_ / "whole/final.svg"));
+    EXPECT_FALSE(fs::exists(folder_ / "run/view.html"));
+  }
+  EXPECT_HAS(resume("--until 40").err, "the run is finished, at 60.5 s");
+  EXPECT_EQ(difference(), "");
+  // One of a version that kept no checkpoint.
+  fs::remove(io::checkpoints_in(folder_ / "run").front());
+  ASSERT_EQ(polynya("run scene.json --out whole --until 61 --overwrite", start_).code, 0);
+  EXPECT_HAS(resume("--until 61").err, "from the start");
+  EXPECT_EQ(difference(), "");
+}
+
+TEST_F(Resume, AKilledRunMayEndElsewhere) {
+  interrupt();
+  expect_refused("--until 0.5", "behind the end of the run at 0.5 s");
+  ASSERT_EQ(polynya("run scene.json --out whole --until 110 --overwrite", start_).code, 0);
+  EXPECT_EQ(resume("--until 110").code, 0);
+  EXPECT_EQ(difference(), "");
 }
 
 TEST_F(Resume, ASignalStopsWithACheckpointAndNobodyElseMayWriteMeanwhile) {

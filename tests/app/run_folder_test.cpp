@@ -59,7 +59,7 @@ void RunFolderTrial::leave_run(const std::string& name, std::int64_t end,
     if (step % 50 == 0) writer->frame(simulation);
     if (std::ranges::find(checkpoints, step) != checkpoints.end()) {
       io::Checkpoint checkpoint;
-      checkpoint.scene_hash = scene->hash;
+      checkpoint.course_hash = scene->course_hash;
       checkpoint.steps = step;
       checkpoint.progress = writer->sync().value();
       checkpoint.state = simulation.state();
@@ -240,7 +240,7 @@ TEST_F(RunFolderTrial, AFileTooLongToBeReadIsReported) {
   leave_run("run", 260, {250});
   const fs::path checkpoint = io::checkpoints_in(folder_ / "run").front();
   const auto scene = io::read_scene_file(folder_ / "run/scene.json");
-  auto longer = checked(io::read_checkpoint_file(checkpoint, scene->hash));
+  auto longer = checked(io::read_checkpoint_file(checkpoint, scene->course_hash));
   const fs::path contacts = folder_ / "run/contacts.csv";
   auto& sizes = longer->progress.file_sizes;
   *std::ranges::find(sizes, fs::file_size(contacts)) = io::kLongestRunFile + 1;  // a hole, which takes no space

@@ -24,7 +24,7 @@ int main(int count, char** words) {
     }
     polynya::io::Checkpoint checkpoint;
     checkpoint.program_version = "seed";
-    checkpoint.scene_hash = "0123456789abcdef";
+    checkpoint.course_hash = "0123456789abcdef";
     checkpoint.steps = until;
     checkpoint.progress.file_sizes = {1, 2, 3, 4, 5, 6};
     checkpoint.progress.recorded = {{0, {}}, {}};

@@ -41,7 +41,9 @@ TEST(RunFolder, RefusesWhatIsNotEmptyAndWritesNothingThere) {
 
 /// A run folder of this version or, without the mark, of an earlier one.
 void write_run(const fs::path& run, bool is_marked) {
-  for (const auto name : run_file::kAll) write_file(run / name, "old");
+  for (const auto name : run_file::kGrowing) write_file(run / name, "old");
+  for (const auto name : run_file::kMadeAtEnd) write_file(run / name, "old");
+  for (const auto name : {run_file::kScene, run_file::kSummary}) write_file(run / name, "old");
   for (const auto name : {"failure.bin", "figure-loads.svg", "figure-loads.png", "checkpoint-000000000100.bin",
                           "checkpoint-000000000200.bin.part", "summary.json.part", "rejected-cuts/000001.geojson",
                           "rejected-cuts/000001-ops.json", "rejected-cuts/000002.geojson.part"})

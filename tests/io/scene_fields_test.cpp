@@ -25,11 +25,12 @@ const std::string kSecond =
     scene({R"("origin": {"latitude_deg": 78.2, "longitude_deg": 15.6, "heading_deg": 30})",
            list("ships", {ship(R"("hull": {"length_m": null, "beam_m": null, "entrance_angle_deg": null, "draught_m": 3,
        "waterline_m": [[10, 0], [0, 4], [-10, 4], [-10, -4], [0, -4]], "angles_from_vertical_deg": [60, 38, 0, 0, 38]},
-       "mass_kg": 1e6, "position_m": [-500, 0], "propulsion": {"constant_speed_m_per_s": 1.5})")}),
+       "name": "presser", "mass_kg": 1e6, "position_m": [-500, 0], "propulsion": {"constant_speed_m_per_s": 1.5})")}),
            R"("structures": [{"radius_m": 3, "position_m": [-300, 500], "wall_angle_deg": 10}])",
            list("floes",
                 {R"({"polygon": {"outer_m": [[0, 0], [30, 0], [30, 30], [0, 30]],
        "holes_m": [[[10, 10], [10, 20], [20, 20]]]}})",
+                 square(-502, -2, 3, R"("under_hull_of": "presser", "under_hull_path_m": 4)"),
                  R"({"field": {"corner_m": [-700, 400], "extent_m": [200, 150], "floe_size_m": 9, "concentration": 0.83,
        "gap_m": 0.3, "most_corners": 6, "keep_clear_m": [[[-650, 420], [-600, 420], [-650, 440]]], "seed": 3}})"})});
 const std::string kThird = scene(
@@ -171,14 +172,14 @@ TEST(SceneFields, EveryFieldRoundTripsAndReachesTheScene) {
         return;
       const bool is_under_hull = path == ".fracture.cusp_fate" || path == ".fracture.going_under.enabled" ||
                                  path == ".fracture.resurface.enabled";
-      if (is_under_hull && !has_draught(base.scene)) return;  // no ice can go under these hulls
-      if (path == ".ships.pilot.follow.ship") {               // it must be a ship's name
+      if (is_under_hull && !has_draught(base.scene)) return;                       // no ice can go under these hulls
+      if (path == ".ships.pilot.follow.ship" || path == ".floes.under_hull_of") {  // it must be a ship's name
         seen.insert(path);
         return;
       }
-      if (path == ".contact.law" && base_text == kThird) return;  // its wall presses
-      if (path == ".ships.name" && base_text == fleet()) return;  // one of them is followed by its name
-      if (path == ".ships.water.model" && !base.scene.ships[0].water.acts) return;  // it needs a draught
+      if (path == ".contact.law" && base_text == kThird) return;                            // its wall presses
+      if (path == ".ships.name" && (base_text == fleet() || base_text == kSecond)) return;  // named elsewhere too
+      if (path == ".ships.water.model" && !base.scene.ships[0].water.acts) return;          // it needs a draught
       seen.insert(path);
       const auto before = value.data;
       change(field, value);

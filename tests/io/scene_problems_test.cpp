@@ -176,6 +176,17 @@ TEST(SceneProblems, OfWallsAndFastIce) {
         ""}});
 }
 
+TEST(SceneProblems, OfIceUnderAHull) {
+  const auto under = [](const std::string& name, const std::string& hull, double x = 100) {
+    return scene({list("ships", {ship("\"name\": \"presser\"" + hull)}),
+                  list("floes", {square(x, 0, 10, "\"under_hull_of\": \"" + name + "\"")})});
+  };
+  const std::string draught = R"(, "hull": {"draught_m": 6})";
+  expect_problems({{under("pressed", draught), "floes[0].under_hull_of", "draught_m"},
+                   {under("presser", ""), "floes[0].under_hull_of", "draught_m"}});
+  EXPECT_TRUE(read(under("presser", draught, -60))) << "the hull is over it";
+}
+
 TEST(SceneProblems, OfShipsThatSail) {
   const auto changed = [](const std::string& members) { return scene_of_ship(sailing_ship(members)); };
   const auto engine = [&](const std::string& members) {

@@ -246,6 +246,7 @@ def test_a_studys_table_is_the_files(study, pandas):
     for name, values in columns.items():
         for value, row in zip(values.tolist(), written):
             assert value == row[name] if isinstance(value, str) else str(value) == "nan" and row[name] == "" or value == float(row[name])
+    assert "2 of 2 cases" in found._repr_html_() and "ice.thickness_m" in found._repr_html_()
     assert found.run(1).end_time == 2
     with pytest.raises(IndexError, match="0 to 1"):
         found.run(2)

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "io/run/motion_index.hpp"
+#include "io/run/placed_floes.hpp"
 #include "io/run/run_loop.hpp"
 #include "io/text/json_parser.hpp"
 
@@ -129,6 +130,44 @@ TEST_F(SceneExport, TheClockOfATablePilotGoesOn) {
   EXPECT_NEAR(rows[0].lever, 0.5, 1e-12);
   EXPECT_EQ(rows[1].time, 10);
   EXPECT_EQ(rows[2].time, 50);
+}
+
+/// A ship that presses a plate under, in drifting water; the way is that of the frames.
+TEST_F(SceneExport, IceUnderAHullStaysThere) {
+  const std::string text = R"({"time": {"step_s": 0.01, "until_s": 30}, "water": {"drift_m_per_s": [0, 0.1]},
+    "ships": [{"name": "icebreaker", "hull": {"length_m": 40, "beam_m": 8, "entrance_angle_deg": 27, "stem_angle_deg": 30,
+      "draught_m": 2}, "mass_kg": 1e6, "moment_of_inertia_kg_m2": 1e8, "position_m": [-21, 0],
+      "propulsion": {"constant_speed_m_per_s": 2}}],
+    "floes": [{"rectangle": {"corner_m": [0, -25], "size_m": [100, 50]}}]})";
+  const io::Run whole = run("whole", load(text));
+  for (const double time : {20.0, 30.0}) {
+    const auto before = floes_under_hulls_at(whole, io::MotionIndex(whole), time);
+    ASSERT_GT(before.size(), 5U);
+    EXPECT_TRUE(checked(views::continued_scene(whole, time))->left_out.empty());
+    const io::LoadedScene scene = continued(whole, time);
+    EXPECT_EQ(load(scene.resolved_text).hash, scene.hash);
+    const io::Run rest = run(fmt::format("rest-{}", time), scene);
+    const auto after = floes_under_hulls_at(rest, io::MotionIndex(rest), 0);
+    ASSERT_EQ(after.size(), before.size());
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      EXPECT_NEAR(after[i].birth->area, before[i].birth->area, 1e-9);
+      EXPECT_LT(distance(after[i].motion->position, before[i].motion->position), 2e-3);
+    }
+    if (time == 30.0) continue;
+    // The ice comes up behind the ship as in the run that went on, but for where it finds room.
+    const auto area_under = [](const io::Run& of, double at) {
+      double area = 0;
+      for (const io::PlacedFloe& floe : floes_under_hulls_at(of, io::MotionIndex(of), at)) area += floe.birth->area;
+      return area;
+    };
+    EXPECT_NEAR(area_under(rest, 2), area_under(whole, 22), 0.2 * area_under(whole, 22));
+    const auto force = [](const io::Run& of, double at) {
+      const auto row = std::ranges::lower_bound(of.samples, at - 1e-6, {}, &simulation::ShipSample::time);
+      return row->from_submerged.surge;
+    };
+    EXPECT_LT(force(whole, 20.1), 0);
+    EXPECT_NEAR(force(rest, 0.1), force(whole, 20.1), 0.25 * std::abs(force(whole, 20.1)));
+  }
 }
 
 }  // namespace

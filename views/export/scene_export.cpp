@@ -12,6 +12,7 @@
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/source_text.hpp"
+#include "simulation/world/setup.hpp"
 
 namespace polynya::views {
 namespace {
@@ -44,10 +45,36 @@ std::vector<bool> fast_floes(const io::Run& run) {
   return is_fast;
 }
 
-/// The floes at a frame as final.geojson has them.
-std::string floes_text(const io::Run& run, const io::MotionIndex& motions, double time) {
+/// A floe's ship, and how far that has come over it: its way ahead through the water since the floe went under.
+void add_hull(const io::Run& run, const io::MotionIndex& motions, double time, simulation::FloeState& state) {
+  const auto went_under = std::ranges::find_if(run.events, [&](const simulation::Event& event) {
+    return event.is<simulation::Submerge>() && event.ice()->floe == state.floe;
+  });
+  const auto ship = static_cast<std::size_t>(went_under->ship);
+  const simulation::WaterSettings& water = run.scene.scene.water;
+  const auto speed_ahead = [&](double at) {
+    const auto motion = motions.ship_at(ship, at);
+    if (!motion) return 0.0;
+    const geometry::Vector current =
+        water.drift + simulation::current_of(water.shear).velocity_at(motion->position - at * water.drift);
+    return dot(motion->velocity - current, {std::cos(motion->angle), std::sin(motion->angle)});
+  };
+  state.under_hull_of = run.scene.scene.ships.at(ship).name;
+  const auto& specs = run.scene.scene.floes;
+  if (const auto id = static_cast<std::size_t>(state.floe); id < specs.size()) state.under_path = specs[id].under_path;
+  double from = went_under->time;
+  for (const io::Frame& frame : run.frames) {
+    if (frame.time <= from || from >= time) continue;
+    const double to = std::min(frame.time, time);
+    state.under_path += 0.5 * (speed_ahead(from) + speed_ahead(to)) * (to - from);
+    from = to;
+  }
+}
+
+/// Floes at a frame as final.geojson has them.
+std::string floes_text(const io::Run& run, const io::MotionIndex& motions, const std::vector<io::PlacedFloe>& placed,
+                       double time) {
   const std::vector<bool> is_fast = fast_floes(run);
-  const std::vector<io::PlacedFloe> placed = floes_at(run, motions, time);
   std::vector<simulation::FloeState> states;
   states.reserve(placed.size());
   for (const io::PlacedFloe& floe : placed) {
@@ -67,8 +94,16 @@ std::string floes_text(const io::Run& run, const io::MotionIndex& motions, doubl
     state.ice = &ice_of(run.scene.scene, birth.own_ice);
     state.is_fast = is_fast[static_cast<std::size_t>(birth.floe)];
     state.polygon_in_body = floe.polygon_in_body.get();
+    if (run.is_under(birth.floe, time)) add_hull(run, motions, time, state);
   }
   return io::to_geojson(states, time);
+}
+
+/// Adds the features of one collection to those of another.
+void add_features(std::string& collection, const std::string& other) {
+  const std::size_t end = collection.rfind("]}"), first = other.find('[') + 1;
+  const bool is_empty = collection.find_last_not_of(" \n", end - 1) == collection.find('[');
+  collection.replace(end, std::string::npos, (is_empty ? "" : ",") + other.substr(first));
 }
 
 /// Brings a ship of the resolved scene to where it is.
@@ -157,9 +192,6 @@ void place_ships(JsonValue& scene, const io::Run& run, const io::MotionIndex& mo
     JsonValue* table = pilot ? pilot->find("table") : nullptr;
     if (JsonValue* rows = table ? table->find("rows") : nullptr) shift_table(*rows, time);
   }
-  const auto under = floes_under_hulls_at(run, motions, time).size();
-  if (under > 0)
-    left_out.push_back(fmt::format("{} floe{} under hulls or waiting behind them", under, under == 1 ? "" : "s"));
 }
 
 /// The scene's own clock and current, from then on.
@@ -191,7 +223,9 @@ io::Result<ContinuedScene> continued_scene(const io::Run& run, double time) {
     io::append_number(begin, continued.time);
     if (final_floes && final_floes->starts_with(begin + ",")) floes = std::move(*final_floes);
   }
-  if (floes.empty()) floes = floes_text(run, motions, continued.time);
+  if (floes.empty()) floes = floes_text(run, motions, floes_at(run, motions, continued.time), continued.time);
+  if (const auto under = floes_under_hulls_at(run, motions, continued.time); !under.empty())
+    add_features(floes, floes_text(run, motions, under, continued.time));
   JsonValue scene = io::parse_json(run.scene.resolved_text).root;
   const std::string name = fmt::format("{}-from-{:g}s", run.scene.scene.name.substr(0, 80), continued.time);
   scene.set("name", name);

@@ -177,6 +177,7 @@ function floeActions(player, actions) {
     click(px, py) {
       const found = floeAt(run, places, ...view.toWorld(px, py));
       state.hovered = found;
+      if (player.plan) pickPlace(player, px, py);
       actions.select(found === state.selected ? -1 : found);
     },
     leave() {

@@ -40,16 +40,18 @@ function makeMapView(stage, canvases) {
   return view;
 }
 
+function includePoint(box, x, y) {
+  box.left = Math.min(box.left, x);
+  box.right = Math.max(box.right, x);
+  box.bottom = Math.min(box.bottom, y);
+  box.top = Math.max(box.top, y);
+}
+
 /** What a run covers at its start and at its end, with the ships' tracks. */
 function extentOf(run, motions, places, range) {
   const { floes, info, frames } = run;
   const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
-  const include = (x, y) => {
-    box.left = Math.min(box.left, x);
-    box.right = Math.max(box.right, x);
-    box.bottom = Math.min(box.bottom, y);
-    box.top = Math.max(box.top, y);
-  };
+  const include = (x, y) => includePoint(box, x, y);
   for (const time of range) {
     places.setTime(time);
     for (const i of places.living.subarray(0, places.count)) {

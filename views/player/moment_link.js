@@ -117,19 +117,21 @@ function keepMoment(player) {
   player.keepLink = watchMoment({ words: () => momentOf(player), goTo: (link) => goToMoment(player, link), isPlaying: () => player.state.isPlaying });
 }
 
-/** Puts the link into the clipboard, where the browser lets it. */
-async function copyLink(address) {
+/** Puts a text into the clipboard, where the browser lets it, and says so, or what else to do. */
+async function copyText(text, done, otherwise) {
   try {
-    await navigator.clipboard.writeText(address);
-    showToast("link copied");
+    await navigator.clipboard.writeText(text);
+    showToast(done);
   } catch {
-    const field = document.body.appendChild(make("textarea", {}, address));
+    const field = document.body.appendChild(make("textarea", {}, text));
     field.select();
     const isCopied = document.execCommand("copy");
     field.remove();
-    showToast(isCopied ? "link copied" : "copy the link from the address bar");
+    showToast(isCopied ? done : otherwise);
   }
 }
+
+const copyLink = (address) => copyText(address, "link copied", "copy the link from the address bar");
 
 /** A line on the map that goes after a while. */
 function showToast(words) {

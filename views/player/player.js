@@ -3,16 +3,16 @@
 // The page's words and controls.
 
 /** The panel with the numbers of the whole run. */
-function fillFacts({ run: { info, floes }, name }) {
+function fillFacts({ run: { info, floes }, name, plan }) {
   const count = (kind) => info.events.filter((event) => event.kind === kind).length;
   const facts = {
     "floes in all": info.floes === floes.count ? floes.count : `${info.floes} of ${floes.count}`,
-    ...(info.area_m && { area: `${info.area_m.map(shortNumber).join(", ")} m` }), bends: count("bend"), splits: count("split"), ...(count("grind") && { ground: count("grind") }), "rejected cuts": count("rejected_cut"),
+    ...(info.area_m && { area: `${info.area_m.map(shortNumber).join(", ")} m` }), ...(!plan && { bends: count("bend"), splits: count("split"), ...(count("grind") && { ground: count("grind") }), "rejected cuts": count("rejected_cut") }),
     ...(count("submerge") && { "went under": count("submerge"), "came up": count("resurface"), ...(count("stay_under") && { "stayed under": count("stay_under") }) }),
     ...(count("mooring_break") && { "moorings broken": count("mooring_break") }),
     ships: info.ships.map((ship) => ship.name).join(", ") || "none",
     ...(info.steps && { steps: info.steps.map(({ step_s, count }) => `${count} of ${step_s} s`).join(", ") }),
-    frames: info.frames === info.frames_of_run ? info.frames : `${info.frames} of ${info.frames_of_run}`,
+    ...(!plan && { frames: info.frames === info.frames_of_run ? info.frames : `${info.frames} of ${info.frames_of_run}` }),
     ...(name !== info.scene && { "scene's name": info.scene }), seed: info.seed, scene: info.scene_hash, polynya: info.polynya,
   };
   byId("facts").replaceChildren(...Object.entries(facts).flatMap(([fact, value]) => [make("dt", {}, fact), make("dd", {}, String(value))]));
@@ -42,6 +42,7 @@ function fillPage(player) {
     byId("badge").textContent = `unfinished: ${range[1].toFixed(1)} of ${info.until_s} s` + (info.stopped_by ? `, stopped by ${info.stopped_by}` : "");
   }
   fillFacts(player);
+  if (player.plan) fillPlan(player);
 
   const onClick = {
     play: () => actions.togglePlay(), "event-before": () => actions.stepEvent(-1), "event-after": () => actions.stepEvent(1),
@@ -145,7 +146,7 @@ function readPlayedRun() {
   return run;
 }
 
-/** Of one of two runs side by side its `label` and `axis_s`, the times on the axes of both; else nothing. */
+/** Of one of two runs side by side its `label` and `axis_s`, the times on the axes of both; of a scene that has not run its `plan`; else nothing. */
 const readOptions = () => JSON.parse(byId("page-options").textContent);
 
 /** What is shown when the page opens. */
@@ -171,7 +172,7 @@ function makePlayer(canvases) {
   const extremes = extremesOf(run);
   const colourings = makeColourings(run, places, extremes);
   return {
-    run, range, axis: options.axis_s ?? range, isOneOfTwo: "axis_s" in options, name: options.label ?? run.info.scene, state, view: makeMapView(byId("stage"), canvases), places, motions, box: extentOf(run, motions, places, range),
+    run, range, plan: options.plan, axis: options.axis_s ?? range, isOneOfTwo: "axis_s" in options, name: options.label ?? run.info.scene, state, view: makeMapView(byId("stage"), canvases), places, motions, box: extentOf(run, motions, places, range),
     colours: themeColours(), colourings, extremes, circlesOf: makeCircleSampler(run), cardIsStale: false, drawn: 0, drawTimes: [],
     forceScale: 40 / (typicalForce(run) || 1), // [px/N]
     arrowScale: 40 / (colourings.speed.edges.at(-1) || 1), // [px/(m/s)]
@@ -205,6 +206,7 @@ function startPlayer() {
   const canvases = [byId("ice"), byId("marks")];
   const player = makePlayer(canvases);
   const { run, axis, view } = player;
+  for (const [x, y] of player.plan?.routes.flatMap((route) => route.points_m) ?? []) includePoint(player.box, x, y);
   player.plotPanel = makePlotPanel(player);
   player.plot = player.plotPanel.plot;
   player.actions = makeActions(player);

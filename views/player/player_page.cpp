@@ -62,9 +62,9 @@ std::string as_json(std::string_view words) {
 
 }  // namespace
 
-std::string player_page(const io::Run& run, const PlayerData& data) {
+std::string player_page(const io::Run& run, const PlayerData& data, const std::string& options) {
   return filled(kPlayerTemplate, {{"{{title}}", io::escaped(run.scene.scene.name)},
-                                  {"{{options}}", "{}"},
+                                  {"{{options}}", in_script(options)},
                                   {"{{info}}", in_script(data.info)},
                                   {"{{columns}}", io::to_base64(data.columns.bytes())}});
 }

@@ -13,8 +13,8 @@ namespace polynya::views {
 extern const std::string_view kPlayerTemplate;
 extern const std::string_view kPairTemplate;
 
-/// One HTML file that shows a run and needs nothing else (docs/view.md).
-std::string player_page(const io::Run& run, const PlayerData& data);
+/// One HTML file that shows a run and needs nothing else (docs/view.md); with `options` a scene (scene_plan()).
+std::string player_page(const io::Run& run, const PlayerData& data, const std::string& options = "{}");
 
 /// A run of a page of two.
 struct ShownRun {

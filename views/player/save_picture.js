@@ -69,6 +69,7 @@ function makeMarksPicture(player, canvas) {
     if (state.layers.forces) notices.push(drawContactForces(marks, view, run, motions, places, state.time, colours, player.forceScale));
     if (state.layers.velocities) drawVelocities(marks, view, run, places, motions, colours, player.arrowScale);
     if (state.event !== null) drawChosenEvent(marks, view, run.info.events[state.event], colours);
+    if (player.plan) drawPlan(marks, player);
     drawScaleBar(marks, view, colours);
     showNotices(notices);
   };

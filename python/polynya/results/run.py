@@ -54,6 +54,10 @@ class Run:
         state = "" if self.is_finished else ", not finished"
         return f"<polynya run {self.name} in {self.folder}: {self.start_time:g} to {self.end_time:g} s, {len(self.times)} frames{state}>"
 
+    def _repr_html_(self):
+        from polynya.showing import html_of_run
+        return html_of_run(self)
+
     @property
     def name(self) -> str:
         """The scene's."""

@@ -45,6 +45,10 @@ class Study:
     def __repr__(self):
         return f"<polynya study {self.name} in {self.folder}: {self.summary['finished']} of {self.summary['cases']} cases>"
 
+    def _repr_html_(self):
+        from polynya.showing import html_of_study
+        return html_of_study(self)
+
     @property
     def name(self) -> str:
         """The study's, not its folder's."""

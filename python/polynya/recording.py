@@ -1,0 +1,51 @@
+"""A run folder of a simulation that Python steps: the one that `polynya run` leaves."""
+from __future__ import annotations
+
+import os
+import pathlib
+import subprocess
+
+from .program import program
+
+
+class Recording:
+    """Writes the folder while the simulation is stepped; ends it with the `with` block, or by `close()`.
+
+    The folder is that of `polynya run` of the scene up to the simulated time at which it is closed, byte for byte but for
+    the time by the clock, where no pilot of Python's has steered. An exception leaves a run that was stopped there, with a
+    checkpoint: `polynya resume` goes on from both kinds, with the scene's own pilots."""
+
+    def __init__(self, simulation, folder, overwrite, map):
+        self.folder = pathlib.Path(folder)
+        self._simulation, self._map, self._is_open = simulation, map, True
+        simulation._record(os.fspath(folder), overwrite)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, error, traceback):
+        self.close("" if kind is None else f"{kind.__name__}: {error}".rstrip(": "))
+
+    def close(self, stopped_by=""):
+        """Ends the run here, or with a reason stops it, so that it can be resumed. A second time it does nothing."""
+        if not self._is_open:
+            return
+        self._is_open = False
+        self._simulation._end_recording(stopped_by)
+        if self._map and not stopped_by:  # the program draws the map that a finished run lacks
+            subprocess.run([program(), "resume", self.folder], capture_output=True, check=False)
+
+    @property
+    def run(self):
+        """The folder as a polynya.Run, once it is closed."""
+        from .results.run import Run
+        return Run(self.folder)
+
+
+def record(self, folder, *, overwrite=False, map=True):
+    """record(folder, overwrite=False, map=True)
+
+    Writes a run folder as `polynya run` does (docs/run-folder.md), from the start on: before the first step. Returns a
+    Recording, which ends the folder where a `with` block does, or by its close(). `map` draws final.svg and final.png at
+    the end. FolderError where the folder cannot be had, or written."""
+    return Recording(self, folder, overwrite, map)

@@ -1,0 +1,136 @@
+// A scene before it runs: routes, wind and current, what validate warns of, places to copy. Of the page's options, `plan` (views/player/scene_plan.cpp).
+
+const currentCell = 110; // [px], of the grid of arrows
+const longestArrow = 40; // [px], of the fastest current on the screen
+
+/** The current over ground at a place [m/s]. */
+function currentAt(run, x, y) {
+  const [toX, toY] = run.carry(x, y, 0, 1);
+  return [toX - x, toY - y];
+}
+
+/** Arrows of the current across the map. Returns the fastest [m/s]. */
+function drawCurrent(context, view, run, colours) {
+  const arrows = [];
+  for (let px = currentCell / 2; px < view.width; px += currentCell)
+    for (let py = currentCell / 2; py < view.height; py += currentCell) arrows.push([px, py, ...currentAt(run, ...view.toWorld(px, py))]);
+  const fastest = Math.max(0, ...arrows.map(([, , vx, vy]) => Math.hypot(vx, vy)));
+  if (fastest === 0) return 0;
+  context.beginPath();
+  for (const [px, py, vx, vy] of arrows) {
+    const length = (longestArrow * Math.hypot(vx, vy)) / fastest;
+    if (length >= 3) traceArrow(context, px - (0.5 * length * vx) / Math.hypot(vx, vy), py + (0.5 * length * vy) / Math.hypot(vx, vy), vx, vy, length);
+  }
+  strokeTwice(context, colours.panel, colours.accent, 1.6);
+  return fastest;
+}
+
+function strokeTwice(context, under, over, width) {
+  for (const [wide, colour] of [[width + 2.4, under], [width, over]]) {
+    context.lineWidth = wide;
+    context.strokeStyle = colour;
+    context.stroke();
+  }
+}
+
+/** Words on the map, readable on ice and water. */
+function drawWords(context, words, x, y, colours, align = "left") {
+  context.font = "600 12px system-ui, sans-serif";
+  context.textAlign = align;
+  context.lineWidth = 3;
+  context.strokeStyle = colours.panel;
+  context.strokeText(words, x, y);
+  context.fillStyle = colours.ink;
+  context.fillText(words, x, y);
+}
+
+/** The wind as one arrow, and how fast it and the current are. */
+function drawWindAndWords(context, view, [wx, wy], fastest, colours) {
+  const wind = Math.hypot(wx, wy);
+  let y = 58;
+  if (wind > 0) {
+    context.beginPath();
+    traceArrow(context, view.width - 44 - (24 * wx) / wind, 34 + (24 * wy) / wind, wx, wy, 48);
+    strokeTwice(context, colours.panel, colours.ink, 3);
+    drawWords(context, `wind ${shortNumber(wind)} m/s`, view.width - 84, 38, colours, "right");
+    y += 20;
+  }
+  if (fastest > 0) drawWords(context, `current up to ${shortNumber(fastest)} m/s`, view.width - 16, wind > 0 ? y : 26, colours, "right");
+}
+
+function drawRoute(context, view, { points_m: points, speeds_m_per_s: speeds }, colours) {
+  context.beginPath();
+  for (const point of points) context.lineTo(...view.toScreen(...point));
+  context.setLineDash([10, 4]);
+  strokeTwice(context, colours.panel, colours.highlight, 2);
+  context.setLineDash([]);
+  points.slice(1).forEach((point, k) => {
+    const [x, y] = view.toScreen(...point);
+    context.beginPath();
+    context.arc(x, y, 4.5, 0, 2 * Math.PI);
+    context.fillStyle = colours.highlight;
+    context.fill();
+    const isAtEdge = x > view.width - 80;
+    drawWords(context, `${k + 1}: ${shortNumber(speeds[k])} m/s`, isAtEdge ? x - 8 : x + 8, y - 6, colours, isAtEdge ? "right" : "left");
+  });
+}
+
+function drawProblem(context, view, problem, number, colours) {
+  const [x, y] = view.toScreen(...problem.point_m);
+  context.beginPath();
+  context.moveTo(x, y - 32);
+  context.lineTo(x + 11, y - 13);
+  context.lineTo(x - 11, y - 13);
+  context.closePath();
+  context.fillStyle = problem.severity === "hint" ? colours.accent : colours.split;
+  context.fill();
+  context.strokeStyle = colours.panel;
+  context.lineWidth = 1.5;
+  context.stroke();
+  drawWords(context, String(number), x, y - 15, colours, "center");
+}
+
+function drawPlan(context, { plan, view, run, motions, colours, state }) {
+  const fastest = drawCurrent(context, view, run, colours);
+  plan.routes.forEach((route) => drawRoute(context, view, route, colours));
+  if (run.info.ships.length === 1) drawLabel(context, view, run.info.ships[0].name, motions.ship(0), colours);
+  plan.problems.forEach((problem, k) => problem.point_m && drawProblem(context, view, problem, k + 1, colours));
+  drawWindAndWords(context, view, plan.wind_m_per_s, fastest, colours);
+  if (!state.place) return;
+  const [x, y] = view.toScreen(...state.place);
+  context.beginPath();
+  for (const [dx, dy] of [[9, 0], [-9, 0], [0, 9], [0, -9]]) context.moveTo(x, y), context.lineTo(x + dx, y + dy);
+  strokeTwice(context, colours.panel, colours.highlight, 2);
+}
+
+/** Marks a place and puts its coordinates into the clipboard, as a scene has them: [x, y] in metres, to the pixel. */
+function pickPlace({ view, state }, px, py) {
+  const digits = Math.max(0, Math.ceil(Math.log10(view.scale)));
+  state.place = view.toWorld(px, py).map((value) => Number(value.toFixed(digits)));
+  state.marksDirty = true;
+  const words = `[${state.place.join(", ")}]`;
+  copyText(words, `${words} m, copied`, `${words} m`);
+}
+
+/** What the page says of a scene in place of a run: its problems; nothing that needs time. */
+function fillPlan({ plan, run }) {
+  document.body.classList.add("plan");
+  byId("badge").textContent = `not run; until ${run.info.until_s} s`;
+  byId("fit").title = "Whole scene (0)";
+  byId("facts").previousElementSibling.textContent = "Scene";
+  if (plan.problems.length > 0) {
+    const lines = plan.problems.map(({ severity, path, words, line }) => make("li", {}, `${severity}${line > 0 ? `, line ${line}` : ""}: ${path}: ${words}`));
+    byId("facts").closest("section").before(make("section", { id: "problems" }, make("h2", {}, "validate warns"), make("ol", {}, ...lines)));
+  }
+  if (plan.stamp_file) setInterval(() => lookForNewer(plan), 1000);
+}
+
+/** Loads the page again where a newer one has been written: a script beside it has the stamp of the newest, which pages on disk may load. */
+function lookForNewer({ stamp, stamp_file: file }) {
+  const script = make("script", { src: `${encodeURIComponent(file)}?${Date.now()}` });
+  script.onload = script.onerror = () => {
+    script.remove();
+    if (window.polynyaStamp && window.polynyaStamp !== stamp) location.reload();
+  };
+  document.head.append(script);
+}
