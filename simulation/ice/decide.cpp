@@ -60,7 +60,8 @@ bool measure_bending(const Setup& setup, const ShipContactLoad& load, PendingFra
   pending.criteria.flexural_strength = load.ice.flexural_strength;
   pending.cusp_radius = capacity.cusp_radius;
   if (is_crush_law(setup)) {  // the solver finds whether the load comes to V_b
-    pending.criteria.vertical_force = capacity.vertical_force;
+    // Where thrust keeps every section closed it never does.
+    pending.criteria.vertical_force = std::isfinite(capacity.vertical_force) ? capacity.vertical_force : 0;
     return capacity.is_in_range;
   }
   // The contact crushes with all of F_n only where the bodies' inertia can press that hard within the step.
