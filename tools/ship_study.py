@@ -2,6 +2,7 @@
 """A ship in level ice beside published formulas and reported speeds; the tables of docs/validation.md, "A ship in level ice".
 
   tools/ship_study.py resistance   the reference ship at constant speed, .25-3 m/s and .25-1.5 m, beside four formulas
+  tools/ship_study.py smooth       the same of a hull as smooth (friction .05) as those that Spencer and Jones come from
   tools/ship_study.py exponents    how its resistance grows with thickness, speed, strength and friction, beside Lindqvist's
   tools/ship_study.py speeds       what ships with reported speeds reach under full power (polynya performance)
 
@@ -58,6 +59,16 @@ def resistance(arguments):
               f"{1e-3 * formulas.spencer_jones(REFERENCE, ice, v):.0f} | {keinonen(h, v)} |")
 
 
+def smooth(arguments):
+    points = [(h, 1) for h in (0.25, 0.5, 1, 1.5)]
+    results = run_all(arguments, run, {("smooth", *point): level_ice(*point, friction=0.05) for point in points})
+    print("| h [m] | crushing and bending | submersion | sum | Spencer, Jones | Lindqvist |\n|---|---|---|---|---|---|")
+    for h, v in points:
+        r, ice = results["smooth", h, v], formulas.Ice(h, friction=0.05)
+        print(f"| {h:g} | {r['contact']:.0f} | {r['submerged']:.0f} | {r['contact'] + r['submerged']:.0f} | "
+              f"{1e-3 * formulas.spencer_jones(REFERENCE, ice, v):.0f} | {1e-3 * sum(formulas.lindqvist(REFERENCE, ice, v)):.0f} |")
+
+
 def exponents(arguments):
     """Of the sum and of the contact part, by least squares of the logarithms."""
     series = {"thickness h": [(h, level_ice(h, 1), formulas.Ice(h), 1) for h in (0.25, 0.5, 0.75, 1, 1.5)],
@@ -98,7 +109,7 @@ def speeds(arguments):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    studies = {"resistance": resistance, "exponents": exponents, "speeds": speeds}
+    studies = {"resistance": resistance, "smooth": smooth, "exponents": exponents, "speeds": speeds}
     parser.add_argument("study", choices=studies)
     parser.add_argument("--polynya", default="build/release/app/polynya")
     parser.add_argument("--work", default="/tmp/ship-study")

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "fracture/bending/edge_sections.hpp"
 #include "fracture/materials.hpp"
 
 namespace polynya::fracture {
@@ -20,6 +23,9 @@ struct BendingLoad {
   /// V of the contact at that penetration [N]; 0 where it is not known: then V follows from the wedge's
   /// angles, Eq. (2).
   double vertical_force = 0;
+  double thrust = 0;  ///< H / V of the contact, inwards over down [-]
+  /// The edge's true outline; none: an infinite wedge of 2α.
+  std::optional<EdgeOpenings> openings;
 };
 
 /// What the wedge bears before its cusp breaks off.
@@ -34,6 +40,12 @@ struct BendingCapacity {
 enum class RadialCracks {
   kIgnored,     ///< the wedge breaks as if it were whole
   kSplitWedge,  ///< it runs through and splits the wedge (docs/theory-bow.md)
+};
+
+/// What of the ice's outline decides where it breaks.
+enum class EdgeOutline {
+  kSections,  ///< its width at each distance from the first touch
+  kWedge,     ///< the wedge that it makes over 0.3 l
 };
 
 /// When a plate breaks by bending, and how large the cusp is. Without state of a run.

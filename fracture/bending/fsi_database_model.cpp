@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "fracture/bending/database_text.hpp"
+#include "fracture/bending/edge_sections.hpp"
+#include "geometry/shape/angle.hpp"
 
 namespace polynya::fracture {
 namespace {
@@ -64,6 +66,32 @@ DatabaseAnswer with_radial_cracks(const BendingDatabase& database, const WedgeGr
   }
 }
 
+/// The length over which a push is held up, in l: by the water alone at rest; of a fast push by the inertia of ice and
+/// water too. It is that with which a narrow wedge has the database's R: R ∝ λ^½ between the tip's load and λ
+/// gives it within 10 % up to 3 m/s (test FollowTheDatabaseWithSpeed).
+double effective_length(const BendingDatabase& database, const WedgeGroups& whole) {
+  constexpr double kNarrow = 60 * geometry::kRadiansPerDegree;  // such parts do not crack
+  WedgeGroups part = whole;
+  part.softness *= std::max(1.0, whole.opening_angle / kNarrow);
+  part.opening_angle = kNarrow;
+  WedgeGroups at_rest = part;
+  at_rest.froude = 0;
+  const double ratio = database.look_up(part).cusp_radius / database.look_up(at_rest).cusp_radius;
+  return ratio * ratio;
+}
+
+/// The hull's push on the edge at its penetration: on the upper part of the edge, a third of it below the top.
+EdgePush edge_push(const BendingLoad& load, double length, double effective_length) {
+  const double depth = load.penetration / load.ice.thickness;
+  EdgePush push;
+  push.length = length / load.ice.thickness;
+  push.effective_length = effective_length * push.length;
+  push.distance = 2 * depth / 3;
+  push.thrust = load.thrust;
+  push.lever = std::max(0.0, 0.5 - depth / (3 * std::tan(load.hull_angle)));
+  return push;
+}
+
 bool has_poisson_ratio_of(const BendingDatabase& database, const BendingLoad& load) {
   constexpr double kTolerance = 1e-9;  // of rounding: exact equality would count every other load as outside
   return std::abs(load.ice.poisson_ratio - database.settings().poisson_ratio) <= kTolerance;
@@ -85,7 +113,13 @@ BendingCapacity FsiDatabaseModel::capacity(const BendingLoad& load) const {
       load.vertical_force > 0 ? measured_groups(scaled_load, load) : looked_up_groups(scaled_load, load.penetration);
   const DatabaseAnswer answer =
       radial_cracks_ == RadialCracks::kSplitWedge ? with_radial_cracks(*database_, groups) : database_->look_up(groups);
-  return to_capacity(answer, scaled_load, has_poisson_ratio_of(*database_, load));
+  BendingCapacity capacity = to_capacity(answer, scaled_load, has_poisson_ratio_of(*database_, load));
+  if (!load.openings) return capacity;
+  const SectionBreak found =
+      weakest_section(*load.openings, edge_push(load, scaled_load.length_scale, effective_length(*database_, groups)));
+  capacity.vertical_force = found.force * scaled_load.force_scale;
+  capacity.cusp_radius = found.distance * load.ice.thickness;
+  return capacity;
 }
 
 BendingForecast FsiDatabaseModel::forecast(const BendingLoad& load) const {

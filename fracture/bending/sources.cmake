@@ -11,6 +11,7 @@ set(POLYNYA_BENDING_SOURCES
   bending/database_build.cpp
   bending/database_text.cpp
   bending/edge_deflection.cpp
+  bending/edge_sections.cpp
   bending/fsi_database_model.cpp
   bending/internal/fluid.cpp
   bending/internal/march.cpp

@@ -30,24 +30,38 @@ double angle_between(Vector unit, Vector v) {
 }  // namespace
 
 WedgeAngles wedge_angles(const EdgeList& edges, std::uint32_t tip_edge, Point tip, Vector inward, double length) {
+  WedgeAngles angles;
+  wedge_angles(edges, tip_edge, tip, inward, {&length, 1}, {&angles, 1});
+  return angles;
+}
+
+void wedge_angles(const EdgeList& edges, std::uint32_t tip_edge, Point tip, Vector inward,
+                  std::span<const double> lengths, std::span<WedgeAngles> angles) {
   Point from = tip;
   std::uint32_t e = tip_edge;
-  while (distance(tip, edges.to(e)) <= length) {
-    from = edges.to(e);
-    e = edges.next[e];
-    if (e == tip_edge) break;  // the whole ring is nearer than that
+  bool is_round = false;  // the whole ring is nearer than the length
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    while (!is_round && distance(tip, edges.to(e)) <= lengths[i]) {
+      from = edges.to(e);
+      e = edges.next[e];
+      is_round = e == tip_edge;
+    }
+    const Point ahead = is_round && from != tip ? from : exit_point(from, edges.to(e), tip, lengths[i]);
+    angles[i].front = angle_between(inward, ahead - tip);
   }
-  const Point ahead = e == tip_edge && from != tip ? from : exit_point(from, edges.to(e), tip, length);
 
   from = tip;
   e = tip_edge;
-  while (distance(tip, edges.from(e)) <= length) {
-    from = edges.from(e);
-    e = previous_edge(edges, e);
-    if (e == tip_edge) break;
+  is_round = false;
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    while (!is_round && distance(tip, edges.from(e)) <= lengths[i]) {
+      from = edges.from(e);
+      e = previous_edge(edges, e);
+      is_round = e == tip_edge;
+    }
+    const Point behind = is_round && from != tip ? from : exit_point(from, edges.from(e), tip, lengths[i]);
+    angles[i].back = angle_between(inward, behind - tip);
   }
-  const Point behind = e == tip_edge && from != tip ? from : exit_point(from, edges.from(e), tip, length);
-  return {angle_between(inward, ahead - tip), angle_between(inward, behind - tip)};
 }
 
 }  // namespace polynya::geometry

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "geometry/contact/contact_circles.hpp"
 
 namespace polynya::geometry {
@@ -15,5 +17,9 @@ struct WedgeAngles {
 /// Jagged edges and the short edges of earlier cusps so count by where they lead, not by which of them
 /// happens to be touched. `tip_edge` starts at the tip or holds it.
 WedgeAngles wedge_angles(const EdgeList& edges, std::uint32_t tip_edge, Point tip, Vector inward, double length);
+
+/// The same over several lengths, ascending, one of `angles` each.
+void wedge_angles(const EdgeList& edges, std::uint32_t tip_edge, Point tip, Vector inward,
+                  std::span<const double> lengths, std::span<WedgeAngles> angles);
 
 }  // namespace polynya::geometry

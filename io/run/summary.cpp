@@ -192,7 +192,11 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
                     "do not trust this run, and please report it with its failure.bin",
                     audit.energy_imbalance, audit.turnover, length(audit.momentum_imbalance), audit.momentum_turnover));
   }
-  if (simulation.scene().fracture.characteristic_length == fracture::CharacteristicLength::kAsPrinted)
+  const simulation::FractureSettings& fracture = simulation.scene().fracture;
+  if (fracture.bending_load_factor != 1 || fracture.cusp_radius_factor != 1)
+    warnings.push_back(fmt::format("calibrated: bending loads times {:.4g}, cusp radii times {:.4g} (fracture.bending)",
+                                   fracture.bending_load_factor, fracture.cusp_radius_factor));
+  if (fracture.characteristic_length == fracture::CharacteristicLength::kAsPrinted)
     warnings.emplace_back("fracture.characteristic_length is as_printed: Eq. (7) with the paper's misprint");
   return warnings;
 }

@@ -6,6 +6,7 @@ namespace polynya::io {
 namespace {
 
 using fracture::CharacteristicLength;
+using fracture::EdgeOutline;
 using fracture::Ice;
 using fracture::RadialCracks;
 using fracture::SplittingModel;
@@ -116,6 +117,17 @@ const Description<FractureSettings> kBending{
          "of model fsi-database: whether the crack that opens below a wide wedge before its cusp breaks "
          "splits the wedge, or is ignored",
          {{"split", RadialCracks::kSplitWedge}, {"ignored", RadialCracks::kIgnored}}, &FractureSettings::radial_cracks),
+     choice<EdgeOutline>(
+         "outline",
+         "of model fsi-database and contact law crush: whether the edge breaks at the weakest section of its true "
+         "outline, or as the wedge that it makes over 0.3 l",
+         {{"sections", EdgeOutline::kSections}, {"wedge", EdgeOutline::kWedge}}, &FractureSettings::outline),
+     member("load_factor", "", from(0.01, 100),
+            "calibration: the load V_b at which ice breaks by bending, times this; 1: as computed",
+            &FractureSettings::bending_load_factor),
+     member("cusp_radius_factor", "", from(0.01, 100),
+            "calibration: the radius R of the cusps that break off, times this; 1: as computed",
+            &FractureSettings::cusp_radius_factor),
      choice<bool>("deflection",
                   "of contact law crush: whether ice that bends under a hull recedes from it, so "
                   "that the hull comes farther before a cusp breaks, or only crushes until then",

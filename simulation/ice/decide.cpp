@@ -53,12 +53,15 @@ void find_crack(const Setup& setup, const dynamics::Bodies& bodies, const ShipCo
 
 /// V of the contact, V_b and the cusp. Returns whether the model answered for the load itself.
 bool measure_bending(const Setup& setup, const ShipContactLoad& load, PendingFracture& pending) {
-  const fracture::BendingCapacity capacity = setup.bending->capacity(bending_load(setup, load));
+  fracture::BendingCapacity capacity = setup.bending->capacity(bending_load(setup, load));
+  capacity.vertical_force *= setup.scene.fracture.bending_load_factor;
+  capacity.cusp_radius *= setup.scene.fracture.cusp_radius_factor;
   pending.criteria.bending_capacity = capacity.vertical_force;
   pending.criteria.flexural_strength = load.ice.flexural_strength;
   pending.cusp_radius = capacity.cusp_radius;
   if (is_crush_law(setup)) {  // the solver finds whether the load comes to V_b
-    pending.criteria.vertical_force = capacity.vertical_force;
+    // Where thrust keeps every section closed it never does.
+    pending.criteria.vertical_force = std::isfinite(capacity.vertical_force) ? capacity.vertical_force : 0;
     return capacity.is_in_range;
   }
   // The contact crushes with all of F_n only where the bodies' inertia can press that hard within the step.

@@ -1,6 +1,7 @@
 #include "simulation/ship/ship_contact_load.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "dynamics/contact/restitution_law.hpp"
@@ -36,6 +37,22 @@ geometry::WedgeAngles wedge_at(const Setup& setup, const dynamics::Bodies& bodie
   return geometry::wedge_angles(bodies.boundary[c.b]->edges, c.tip_edge_of_b,
                                 inverse_transform(water_from_floe, c.tip_of_b),
                                 rotate_back(water_from_floe.rotation, c.normal), kWedgeLengthOverL * l);
+}
+
+fracture::EdgeOpenings openings_at(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load) {
+  const Contact& c = load.contact;
+  const geometry::Pose water_from_floe = dynamics::water_from_body(bodies, c.b);
+  const Point tip = inverse_transform(water_from_floe, c.tip_of_b);
+  const geometry::Vector inward = rotate_back(water_from_floe.rotation, c.normal);
+  const double l = fracture::characteristic_length(load.ice, setup.scene.water.water);
+  std::array<double, fracture::kSectionCount> radii = fracture::kSectionRadii;
+  for (double& radius : radii) radius *= l;
+  std::array<geometry::WedgeAngles, fracture::kSectionCount> wedges;
+  geometry::wedge_angles(bodies.boundary[c.b]->edges, c.tip_edge_of_b, tip, inward, radii, wedges);
+  fracture::EdgeOpenings openings{};
+  for (std::size_t i = 0; i < openings.size(); ++i)
+    openings[i] = std::max(wedges[i].front + wedges[i].back, 2 * fracture::kSmallestHalfAngle);
+  return openings;
 }
 
 /// By the law of crushing ice, at the deepest overlap that pressed.
@@ -78,6 +95,8 @@ fracture::BendingLoad bending_load(const Setup& setup, const ShipContactLoad& lo
   bending.penetration = load.penetration;
   bending.vertical_to_crushing = load.shares.vertical;
   bending.vertical_force = load.vertical_force;
+  bending.openings = load.openings;
+  if (load.openings && load.shares.vertical > 0) bending.thrust = load.shares.horizontal / load.shares.vertical;
   return bending;
 }
 
@@ -93,6 +112,8 @@ ShipContactLoad load_of(const Setup& setup, const Population& population, const 
   load.mean_speed = c.record->age > 0 ? c.record->approach / c.record->age : c.approach_speed;
   const bool can_bend = floe_size(population, c.b) >= limits_of_body(setup, population, c.b).breakable_size;
   if (can_bend) load.wedge = wedge_at(setup, bodies, load);
+  if (can_bend && is_crush_law(setup) && setup.scene.fracture.outline == fracture::EdgeOutline::kSections)
+    load.openings = openings_at(setup, bodies, load);
   if (is_crush_law(setup))
     press(setup, can_bend, load);
   else

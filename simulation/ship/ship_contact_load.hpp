@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "dynamics/contact/contact.hpp"
 #include "fracture/bending/bending_model.hpp"
 #include "fracture/crushing.hpp"
@@ -16,12 +18,14 @@ struct ShipContactLoad {
   double impulse = 0;             ///< j of Eq. (5) [N s]
   double hull_angle = 0;          ///< θ_s [rad]
   geometry::WedgeAngles wedge{};  ///< of the ice, where its floe is large enough to break
-  double penetration = 0;         ///< ξ that is crushed [m]
-  double vertical_force = 0;      ///< V at ξ, by the law of crushing ice [N]
-  double mean_speed = 0;          ///< of ξ's growth since first contact [m/s]
-  double normal_force = 0;        ///< F_n on the facet while ice crushes [N]
-  double stiffness = 0;           ///< dF_n/dξ [N/m]
-  double crushed_share = 1;       ///< of a growth of the depth: the rest is the edge that bends away [-]
+  /// Of the ice, likewise, where its outline decides what it bears.
+  std::optional<fracture::EdgeOpenings> openings{};
+  double penetration = 0;     ///< ξ that is crushed [m]
+  double vertical_force = 0;  ///< V at ξ, by the law of crushing ice [N]
+  double mean_speed = 0;      ///< of ξ's growth since first contact [m/s]
+  double normal_force = 0;    ///< F_n on the facet while ice crushes [N]
+  double stiffness = 0;       ///< dF_n/dξ [N/m]
+  double crushed_share = 1;   ///< of a growth of the depth: the rest is the edge that bends away [-]
   fracture::CrushingShares shares{};
 };
 

@@ -106,6 +106,9 @@ struct FractureSettings {
   double breakable_size_factor = 1.0;  ///< κ: floes with √area < κ l are pushed, never broken [-]
   BendingModelKind bending = BendingModelKind::kFsiDatabase;
   fracture::RadialCracks radial_cracks = fracture::RadialCracks::kSplitWedge;  ///< of kFsiDatabase
+  fracture::EdgeOutline outline = fracture::EdgeOutline::kSections;  ///< of kFsiDatabase and ContactLaw::kCrush
+  double bending_load_factor = 1;                                    ///< on V_b: calibration to tests of a ship [-]
+  double cusp_radius_factor = 1;                                     ///< on R, likewise [-]
   bool follows_deflection = true;  ///< of ContactLaw::kCrush: ice that bends under a hull recedes from it
   double bending_scatter = 0;      ///< deviation / mean of each bending event's flexural strength, log-normal [-]
   fracture::SplittingModel splitting = fracture::SplittingModel::kLefm;

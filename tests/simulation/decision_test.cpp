@@ -146,6 +146,7 @@ Scene corner_under_a_wall(bool follows_deflection) {
   Scene scene = Build().without_drag().ship(bow).floe(shapes::diamond({0, 0}, 283 * std::sin(kHalfAngle)));
   scene.fracture.splitting = fracture::SplittingModel::kNone;
   scene.fracture.follows_deflection = follows_deflection;
+  scene.fracture.outline = fracture::EdgeOutline::kWedge;  // which that solution is of
   return scene;
 }
 

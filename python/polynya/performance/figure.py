@@ -57,11 +57,11 @@ def draw(rows, title, reported, path):
         axes.plot(
             [r["thickness_m"] for r in reported],
             [r["speed_m_per_s"] for r in reported],
-            "D",
+            "^",
             color="#d55e00",
             markersize=5,
             linestyle="none",
-            label="reported",
+            label="design points: at least",
         )
     axes.set(xlabel="thickness of level ice [m]", ylabel="speed [m/s]", ylim=(0, None), title=title)
     right = axes.secondary_yaxis("right", functions=(lambda v: v / KNOT, lambda v: v * KNOT))

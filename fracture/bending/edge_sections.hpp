@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace polynya::fracture {
+
+/// Where the ice beside a contact is measured: on circles about the first touch, evenly spaced in ln r.
+inline constexpr std::size_t kSectionCount = 12;
+inline constexpr double kSectionStep = 1.25;  ///< from one r to the next
+
+/// r / l of the sections.
+inline constexpr std::array<double, kSectionCount> kSectionRadii = [] {
+  std::array<double, kSectionCount> radii{0.08};
+  for (std::size_t i = 1; i < kSectionCount; ++i) radii[i] = kSectionStep * radii[i - 1];
+  return radii;
+}();
+
+/// The true outline of an edge of ice: the angle that the ice takes on each circle, between the places where
+/// its boundary first leaves it [rad]. The section there is r times that wide.
+using EdgeOpenings = std::array<double, kSectionCount>;
+
+/// A hull's push on an edge. Lengths in the thickness h.
+struct EdgePush {
+  double length = 0;            ///< l / h
+  double effective_length = 0;  ///< λ / h: l at rest; shorter where the inertia of ice and water holds the edge
+  double distance = 0;          ///< x̄, of the load from the first touch
+  double thrust = 0;            ///< η = H / V, inwards over down
+  double lever = 0;             ///< of the thrust above the middle plane
+};
+
+/// The section where an edge breaks.
+struct SectionBreak {
+  double force = 0;     ///< V_b / (σ_f h²); infinite where the thrust keeps every section closed
+  double distance = 0;  ///< R / h, from the first touch
+};
+
+/// The moment in the sections of a narrow wedge that floats, (ρ w'')'' + ρ w = 0, by its distance ρ from the tip in λ:
+/// of a unit force on its tip (per λ), and of a unit moment there. Tabulated up to 4 λ, held beyond.
+double moment_of_force(double distance);
+double moment_of_moment(double distance);
+
+/// How much more an edge bears than the bending of its sections alone, by the opening of the section that breaks:
+/// by three-dimensional elements (docs/theory-bow.md), of wedges that stay whole,
+double hold_of_whole(double opening);
+/// and of true edges that a radial crack has parted below, their parts held together above by the closed crack.
+double hold_of_cracked(double opening);
+
+/// The top fibre of a section of width w has
+///   σ h² / V = {6 [λ m_V(r/λ) − (x̄ + η e) m_M(r/λ)] − η} h / w
+/// by bending under V, by the thrust's lever, which lifts, and by the thrust itself, which closes. Where that
+/// is most, a cusp breaks off: at the narrowest section that is far enough from the load.
+SectionBreak weakest_section(const EdgeOpenings& openings, const EdgePush& push);
+
+}  // namespace polynya::fracture

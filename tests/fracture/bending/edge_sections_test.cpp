@@ -1,0 +1,138 @@
+// Where an edge of ice breaks by the sections of its outline: the beam's table, closed forms, and what thrust does.
+#include "fracture/bending/edge_sections.hpp"
+
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include "fracture/bending/fsi_database_model.hpp"
+#include "fracture/characteristic_length.hpp"
+#include "tests/fracture/bending/floating_beam.hpp"
+#include "tests/shapes.hpp"
+
+namespace polynya::fracture {
+namespace {
+
+using shapes::kDegree;
+
+EdgeOpenings wedge_of(double degrees) {
+  EdgeOpenings openings;
+  openings.fill(degrees * kDegree);
+  return openings;
+}
+
+/// Moments of the narrow wedge by finite differences of w and M = ρ w'', M'' = −ρ w, from ρ = 0 to 6 where both are
+/// taken as 0; at the tip M and M' are given. Column 0: by a unit force, 1: by a unit moment.
+Eigen::MatrixXd moments_of_beam(int intervals) {
+  const double d = 6.0 / intervals;
+  const int n = intervals + 1;
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n), b = Eigen::MatrixXd::Zero(2 * n, 2);
+  for (int i = 1; i < intervals; ++i) {
+    const double rho = i * d;
+    for (const auto& [j, c] : {std::pair{i - 1, 1.0}, {i, -2.0}, {i + 1, 1.0}}) {
+      a(i, j) = c * rho / (d * d);
+      a(n + i, n + j) = c / (d * d);
+    }
+    a(i, n + i) = -1;
+    a(n + i, i) = rho;
+  }
+  a(n, n) = 1;
+  b(n, 1) = 1;
+  a(0, n + 1) = 1 / d;
+  a(0, n) = -1 / d;
+  b(0, 0) = 1;
+  a(intervals, intervals) = a(2 * n - 1, 2 * n - 1) = 1;
+  return a.partialPivLu().solve(b).bottomRows(n);
+}
+
+TEST(EdgeSections, MomentsAreThoseOfTheNarrowWedge) {
+  const Eigen::MatrixXd moments = moments_of_beam(600);
+  for (int i = 0; i <= 400; ++i) {  // up to 4 λ, between the table's points too
+    EXPECT_NEAR(moment_of_force(0.01 * i), moments(i, 0), 5e-3) << i;
+    EXPECT_NEAR(moment_of_moment(0.01 * i), moments(i, 1), 5e-3) << i;
+  }
+}
+
+/// A narrow wedge under pressure on its tip, whose resultant lies at two thirds of the patch.
+TEST(EdgeSections, OfANarrowWedgeAreTheFloatingBeams) {
+  for (const double patch : {0.05, 0.1, 0.2, 0.3}) {
+    const BeamResponse beam = solve_floating_beam(BeamShape::kWedge, patch, 100);
+    const double l = 15;
+    const SectionBreak found = weakest_section(wedge_of(30), {l, l, 2 * patch * l / 3, 0, 0});
+    EXPECT_NEAR(found.force / (30 * kDegree / 6 / beam.peak_curvature), 1, 0.02) << patch;
+    EXPECT_NEAR(found.distance / (beam.peak_distance * l), 1, 0.08) << patch;
+  }
+}
+
+/// With neither water nor thrust a section bears σ_f h² θ r / 6 (r − x̄): the first one of a wedge far from the load.
+TEST(EdgeSections, BreakAtTheNeck) {
+  EdgeOpenings openings = wedge_of(80);
+  const double l = 15;
+  const EdgePush push{l, l, 0.2, 1.5, 0.4};
+  const SectionBreak wedge = weakest_section(openings, push);
+  for (std::size_t i = 0; i < kSectionCount; ++i)  // a promontory: the same tip on a wide edge
+    if (kSectionRadii[i] > 0.25) openings[i] = 170 * kDegree;
+  const SectionBreak neck = weakest_section(openings, push);
+  EXPECT_LT(neck.distance, 0.25 * 1.25 * l);
+  EXPECT_LT(neck.distance, 0.8 * wedge.distance);
+  EXPECT_GT(neck.distance, 2);
+}
+
+TEST(EdgeSections, ThrustClosesWhatIsNear) {
+  const double l = 15;
+  double force = 0, distance = 0;
+  for (const double thrust : {0.0, 0.5, 1.0, 2.0, 4.0}) {
+    const SectionBreak found = weakest_section(wedge_of(110), {l, l, 0.2, thrust, 0.4});
+    EXPECT_GT(found.force, force) << thrust;
+    EXPECT_GE(found.distance, distance) << thrust;
+    force = found.force;
+    distance = found.distance;
+  }
+  // Nothing opens where the thrust's lever and pressure exceed what the water lets V bend: 6 · .87 l < 7 η l / l …
+  EXPECT_TRUE(std::isinf(weakest_section(wedge_of(110), {l, l, 0.2, 60, 0.4}).force));
+}
+
+/// Elements of wedges with thrust, l 15 h, of docs/theory-bow.md: V and, whole, within 4 %.
+TEST(EdgeSections, OfWholeWedgesAreTheElements) {
+  struct Row {
+    double degrees, thrust, force;
+  };
+  const double depth = 0.36, slope = std::tan(38.2 * kDegree);
+  for (const auto& [degrees, thrust, force] :
+       {Row{40, 1.7, 0.150}, {40, 1, 0.141}, {60, 1.7, 0.233}, {60, 1, 0.219}, {80, 1.7, 0.331}, {80, 1, 0.308}}) {
+    const EdgePush push{15, 15, 2 * depth / 3, thrust, 0.5 - depth / (3 * slope)};
+    EXPECT_NEAR(weakest_section(wedge_of(degrees), push).force / force, 1, 0.04) << degrees << " " << thrust;
+  }
+}
+
+/// A fast push is held up by inertia too: the effective length gives the database's forces and radii, without thrust.
+TEST(EdgeSections, FollowTheDatabaseWithSpeed) {
+  BendingLoad load;
+  load.front_half_angle = load.back_half_angle = 30 * kDegree;
+  load.opening_angle = 60 * kDegree;
+  load.hull_angle = 38 * kDegree;
+  load.vertical_to_crushing = 0.5;
+  const FsiDatabaseModel model;
+  const auto ratio_at = [&](double speed) {
+    load.mean_approach_speed = speed;
+    load.openings.reset();
+    const BendingForecast pushed = model.forecast(load);
+    load.penetration = pushed.penetration;
+    load.openings = wedge_of(60);
+    const BendingCapacity sections = model.capacity(load);
+    return std::pair{sections.vertical_force / pushed.capacity.vertical_force,
+                     sections.cusp_radius / pushed.capacity.cusp_radius};
+  };
+  const auto [force, radius] = ratio_at(0.01);
+  EXPECT_NEAR(force, 1, 0.05);
+  EXPECT_NEAR(radius, 1, 0.15);
+  for (const double speed : {0.1, 0.3, 1.0, 3.0}) {
+    const auto [faster_force, faster_radius] = ratio_at(speed);
+    EXPECT_NEAR(faster_force / force, 1, 0.04) << speed;
+    EXPECT_NEAR(faster_radius / radius, 1, 0.12) << speed;
+  }
+}
+
+}  // namespace
+}  // namespace polynya::fracture

@@ -1,0 +1,243 @@
+#!/usr/bin/env python3
+"""Where the edges of a run break: three-dimensional elements of the true outlines beside the law of their sections.
+
+  tools/bow_edges.py wedges                         wedges, whole and cracked, without and with the hull's thrust
+  tools/bow_edges.py edges RUN... --out EDGES.json  the edges at which cusps of runs broke, with the thrust of that break
+  tools/bow_edges.py table EDGES.json...            of those, the tables of docs/theory-bow.md
+
+Runs of level ice at constant speed along x. Of each run cusps drawn evenly from its last three quarters; the hull has crushed as
+deep as the run states. The law is that of fracture/bending/edge_sections.hpp. Needs numpy, scipy and matplotlib.
+"""
+import argparse
+import json
+import math
+import os
+import time
+
+import numpy as np
+
+import bow_solid
+from bow_plate import centre_of, chord, outer_rings
+
+NU = 0.3
+RHO_G = 9810
+
+
+def narrow_wedge(reach=6.0, count=3000):
+    """Moment over that of a bare lever, of a narrow wedge on water, its tip loaded by a force 1 and by a moment 1; by r/l.
+
+    (ρ w'')'' + ρ w = 0, by finite differences of w and M = ρ w''."""
+    from scipy.sparse import lil_matrix
+    from scipy.sparse.linalg import splu
+    r = np.linspace(0, reach, count + 1)
+    d = r[1] - r[0]
+    n = count + 1
+    a = lil_matrix((2 * n, 2 * n))  # w, M
+    b = np.zeros((2 * n, 2))
+    for i in range(1, count):
+        for j, c in ((i - 1, 1), (i, -2), (i + 1, 1)):
+            a[i, j] = c * r[i] / d ** 2
+            a[n + i, n + j] = c / d ** 2
+        a[i, n + i] = -1
+        a[n + i, i] = r[i]
+    # At the tip M is given: 0, or 1. M'(0) = 1 or 0, with M'' = -ρ w = 0 there.
+    a[n, n] = 1
+    b[n] = 0, 1
+    a[0, n + 1], a[0, n] = 1 / d, -1 / d
+    b[0] = 1, 0
+    a[count, count], a[2 * n - 1, 2 * n - 1] = 1, 1
+    x = splu(a.tocsc()).solve(b)
+    return r, x[n:, 0], x[n:, 1]
+
+
+RADII, LEVER, HOLD = narrow_wedge()
+
+
+def stress_of_section(r, width, l, offset, thrust):
+    """σ h²/V of a section at r of that width; lengths in h. `offset` of the load from the tip with the thrust's lever."""
+    rho = r / l
+    return (6 * (l * np.interp(rho, RADII, LEVER) - offset * np.interp(rho, RADII, HOLD)) - thrust) / width
+
+
+def edges_of(run, count, seed=1):
+    """Of bends of a run: the outline from the tip, in thicknesses, and the hull's push."""
+    with open(os.path.join(run, "scene.json"), encoding="utf-8") as file:
+        scene = json.load(file)
+    ice, ship = scene["ice"], scene["ships"][0]
+    h = ice["thickness_m"]
+    l = (ice.get("youngs_modulus_Pa", 5.4e9) * h ** 3 / (12 * (1 - NU ** 2) * RHO_G)) ** 0.25
+    stem, friction = math.radians(ship["hull"]["stem_angle_deg"]), ice.get("friction", 0.2)
+    rings, made = outer_rings(run)
+    with open(os.path.join(run, "events.ndjson"), encoding="utf-8") as file:
+        bends = [e for e in map(json.loads, file) if e["kind"] == "bend" and len(e["children"]) >= 1 and e["normal"][0] < 0.9]
+    found = []
+    for e in np.random.default_rng(seed).permutation(bends[len(bends) // 4:]):
+        if len(found) == count:
+            break
+        new = [p for child in e["children"] if child in made for p in made[child]]
+        if len(new) < 4:
+            continue
+        tip, error = centre_of(new, e["cusp_radius_m"])
+        if error > 0.02 * e["cusp_radius_m"]:
+            continue
+        ring = (rings[e["floe"]] - tip) / h
+        ahead = np.roll(ring, -1, 0) - ring
+        share = np.clip(-(ring * ahead).sum(1) / np.maximum((ahead ** 2).sum(1), 1e-12), 0, 1)
+        nearest = ring + share[:, None] * ahead
+        k = int(np.argmin(np.hypot(*nearest.T)))
+        if math.hypot(*nearest[k]) > 0.05:
+            continue
+        if math.hypot(*ring[k]) < 0.06:
+            ring = np.roll(ring, -k, 0)
+        elif math.hypot(*ring[(k + 1) % len(ring)]) < 0.06:
+            ring = np.roll(ring, -k - 1, 0)
+        else:
+            ring = np.vstack([[0, 0], np.roll(ring, -k - 1, 0)])
+        ring[0] = 0
+        normal = np.array(e["normal"])
+        slope = normal[0] / math.tan(stem)
+        angle = math.atan(slope)
+        down = normal[0] * math.sin(angle)
+        down /= math.hypot(down, normal[1])
+        thrust = (math.cos(angle) + friction * math.sin(angle)) / (math.sin(angle) - friction * math.cos(angle) * down)
+        found.append({"run": os.path.basename(os.path.normpath(run)), "ring": ring.tolist(), "normal": normal.tolist(), "slope": slope,
+                      "thrust": thrust, "l": l / h, "h": h, "depth": e["penetration_m"] / h, "R run": e["cusp_radius_m"] / h,
+                      "V run": e["criterion"]["bending_capacity_N"] / (ice["flexural_strength_Pa"] * h ** 2)})
+    return found
+
+
+def openings(edge, radii):
+    """Angle of the ice on circles about the tip, between the first exits of the outline [rad]."""
+    ring = np.array(edge["ring"])
+    result = []
+    for r in radii:
+        forward, backward = chord(ring, 1, r), chord(ring, -1, r)
+        result.append((math.atan2(backward[1], backward[0]) - math.atan2(forward[1], forward[0])) % (2 * math.pi))
+    return np.array(result)
+
+
+def by_elements(edge, ratio, finest):
+    """V_b, R of the whole edge and, where the bottom cracks first, of the edge with a crack along the line to that place."""
+    thrusts = (edge["thrust"], 0.0)
+    arguments = (np.array(edge["ring"]), edge["normal"], edge["depth"], edge["slope"], edge["l"], ratio, finest)
+    whole, bare = bow_solid.breaking(bow_solid.Solid(*arguments), thrusts)
+    result = {"whole": whole, "bare": bare}
+    if whole["bottom"] < whole["V"]:
+        r = 0.3 * edge["l"]
+        forward = chord(np.array(edge["ring"]), 1, r)
+        middle = math.atan2(forward[1], forward[0]) + 0.5 * openings(edge, [r])[0]
+        result["cracked"] = bow_solid.breaking(bow_solid.Solid(*arguments, crack=(middle, 2 * edge["l"])), thrusts)[0]
+    return result
+
+
+def hold_of_whole(opening):
+    return 1 + 0.18 * np.maximum(0, opening - math.radians(45))
+
+
+def hold_of_cracked(opening):
+    return 1 + 0.4 * (np.clip(opening, math.radians(90), math.radians(150)) - math.radians(117))
+
+
+def by_sections(edge, share=None):
+    """V_b and R of the law; `share` of the crack as the outline has it, or as given."""
+    l = edge["l"]
+    r = np.geomspace(0.08, 0.931, 60) * l
+    opening = openings(edge, r)
+    offset = 2 / 3 * edge["depth"] + edge["thrust"] * max(0, 0.5 - edge["depth"] / (3 * edge["slope"]))
+    stress = stress_of_section(r, opening * r, l, offset, edge["thrust"])
+    if share is None:
+        share = np.clip((math.degrees(opening[r <= 0.5 * l].max()) - 90) / 15, 0, 1)
+    hold = share * hold_of_cracked(opening) + (1 - share) * hold_of_whole(opening)
+    force = np.where(stress > 0, hold / np.maximum(stress, 1e-9), np.inf)
+    best = int(np.argmin(force))
+    return force[best], r[best]
+
+
+def different(edges):
+    """Without edges that repeat: a settled bow breaks the same cusp again and again."""
+    kept = []
+    for edge in edges:
+        shape = openings(edge, np.geomspace(0.08, 0.931, 10) * edge["l"])
+        if not any(k["run"] == edge["run"] and np.abs(k["shape"] - shape).max() < 0.03 for k in kept):
+            kept.append(edge | {"shape": shape})
+    return kept
+
+
+def study_table(arguments):
+    three = lambda values: ", ".join(f"{v:.2f}" for v in np.percentile(values, [10, 50, 90]))
+    print("| edges | number | elements, cracked: V_b [σ_f h²] 10, 50, 90 % | R/h | whole: V_b | R/h | without thrust: V_b | R/h "
+          "| run: V_b | R/h |\n|" + "---|" * 10)
+    sets = {}
+    for path in arguments.files:
+        with open(path, encoding="utf-8") as file:
+            sets[os.path.basename(path)] = different(json.load(file))
+    for name, edges in sets.items():
+        of = lambda kind, key: [e["elements"].get(kind, e["elements"]["whole"])[key] for e in edges]
+        print(f"| {name} | {len(edges)} | " + " | ".join(three(of(kind, key)) for kind in ("cracked", "whole", "bare") for key in "VR")
+              + f" | {three([e['V run'] for e in edges])} | {three([e['R run'] for e in edges])} |")
+    print("\nThe law over the elements, 10, 50, 90 %, and the 90th percentile of the error\n\n"
+          "| edges | cracked: V_b | error | R | error | whole: V_b | error | R | error |\n|" + "---|" * 9)
+    for name, edges in sets.items():
+        cells = []
+        for kind, share in (("cracked", None), ("whole", 0.0)):
+            law = np.array([by_sections(e, share) for e in edges])
+            true = np.array([[e["elements"].get(kind, e["elements"]["whole"])[key] for key in "VR"] for e in edges])
+            for column in (0, 1):
+                ratio = law[:, column] / true[:, column]
+                cells += [three(ratio), f"{100 * np.percentile(abs(ratio - 1), 90):.0f} %"]
+        print(f"| {name} | " + " | ".join(cells) + " |")
+
+
+def study_wedges(_):
+    depth, slope, l = 0.36, math.tan(math.radians(38.2)), 15.0
+    print("| 2α | H/V | whole: V_b [σ_f h²] at R/l | cracked | sections alone | bottom cracks at |\n|" + "---|" * 6)
+    for degrees in (40, 60, 80, 90, 100, 112, 130, 150, 180):
+        solids = [bow_solid.Solid(bow_solid.wedge(degrees, 6 * l), (1, 0), depth, slope, l, 0.18, 0.2, crack=crack)
+                  for crack in (None, (0.0, 2 * l))]
+        thrusts = (0.0, 1.0, 1.7)
+        whole, cracked = (bow_solid.breaking(solid, thrusts) for solid in solids)
+        r = np.linspace(0.05, 1.5, 300) * l
+        for thrust, w, c in zip(thrusts, whole, cracked):
+            offset = 2 / 3 * depth + thrust * (0.5 - depth / (3 * slope))
+            stress = stress_of_section(r, r * math.radians(degrees), l, offset, thrust)
+            print(f"| {degrees}° | {thrust:g} | {w['V']:.3f} at {w['R'] / l:.2f} | {c['V']:.3f} at {c['R'] / l:.2f} | "
+                  f"{1 / stress.max():.3f} at {r[stress.argmax()] / l:.2f} | {w['bottom']:.3f} |", flush=True)
+
+
+def study_edges(arguments):
+    edges = []
+    for run in arguments.runs:
+        for edge in edges_of(run, arguments.cusps):
+            start = time.time()
+            try:
+                edge["elements"] = by_elements(edge, arguments.ratio, arguments.finest)
+            except (RuntimeError, np.linalg.LinAlgError, ValueError) as error:  # a mesh of a needle
+                print("skipped:", error, flush=True)
+                continue
+            edges.append(edge)
+            print(edge["run"], [(k, *(round(v[n], 3) for n in ("V", "R", "bottom"))) for k, v in edge["elements"].items()],
+                  f"{time.time() - start:.1f} s", flush=True)
+            with open(arguments.out, "w", encoding="utf-8") as file:
+                json.dump(edges, file)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    studies = parser.add_subparsers(dest="study", required=True)
+    studies.add_parser("wedges").set_defaults(function=study_wedges)
+    edges = studies.add_parser("edges")
+    edges.add_argument("runs", nargs="+")
+    edges.add_argument("--cusps", type=int, default=25)
+    edges.add_argument("--out", default="/tmp/bow-edges.json")
+    edges.add_argument("--ratio", type=float, default=0.18)
+    edges.add_argument("--finest", type=float, default=0.2)
+    edges.set_defaults(function=study_edges)
+    table = studies.add_parser("table")
+    table.add_argument("files", nargs="+")
+    table.set_defaults(function=study_table)
+    arguments = parser.parse_args()
+    arguments.function(arguments)
+
+
+if __name__ == "__main__":
+    main()
