@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "io/run/motion_index.hpp"
-#include "io/run/placed_floes.hpp"
+#include "io/run/motion_index.hpp"
 #include "io/run/run_loop.hpp"
 #include "io/text/json_parser.hpp"
 
