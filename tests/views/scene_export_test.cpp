@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "io/run/motion_index.hpp"
-#include "io/run/motion_index.hpp"
 #include "io/run/run_loop.hpp"
 #include "io/text/json_parser.hpp"
 
