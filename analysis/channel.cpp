@@ -17,7 +17,7 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/point_in_ring.hpp"
 #include "geometry/shape/outline.hpp"
-#include "io/run/placed_floes.hpp"
+#include "io/run/motion_index.hpp"
 #include "io/text/csv_row.hpp"
 #include "io/text/geojson_layer.hpp"
 
@@ -489,21 +489,14 @@ void append(io::JsonWriter& json, const Channel& channel) {
 }
 
 void append_floe(io::JsonWriter& json, const ChannelFloe& floe) {
-  json.open('{').key("floe_id").value(floe.floe).key("size_m").value(floe.size);
-  json.key("area_m2").value(floe.area).key("inside_m2").value(floe.inside).close('}');
+  json.key("floe_id").value(floe.floe).key("size_m").value(floe.size);
+  json.key("area_m2").value(floe.area).key("inside_m2").value(floe.inside);
 }
 
 void append_station(GeojsonLayer& layer, const ChannelStation& s, std::size_t number) {
   io::JsonWriter& json = layer.start().key("part").value("station");
-  json.key("station")
-      .value(number)
-      .key("along_m")
-      .value(s.along)
-      .key("passed_s")
-      .value(s.passed)
-      .key("port_m")
-      .value(s.port);
-  json.key("starboard_m").value(s.starboard).key("width_m").value(s.width());
+  json.key("station").value(number).key("along_m").value(s.along).key("passed_s").value(s.passed);
+  json.key("port_m").value(s.port).key("starboard_m").value(s.starboard).key("width_m").value(s.width());
   json.key("is_bounded").value(s.is_bounded()).key("ice_across_beam").value(s.ice_across_beam);
   json.key("channel_area_m2").value(s.channel_area).key("brash_area_m2").value(s.brash_area);
   json.key("brash_cover").value(s.brash_cover());
@@ -545,16 +538,12 @@ std::string to_csv(const Channel& channel) {
 }
 
 std::string to_json_text(const Channel& channel) {
-  std::string text;
-  io::JsonWriter json(text, io::JsonWriter::Layout::kIndented);
-  json.open('{');
-  append(json, channel);
-  json.key("floes").open('[');
-  for (const ChannelFloe& floe : channel.floes) append_floe(json, floe);
-  json.close(']').key("brash").open('[');
-  for (const ChannelFloe& piece : channel.brash_pieces) append_floe(json, piece);
-  json.close(']').close('}');
-  return text + "\n";
+  const auto write = [&](io::JsonWriter& json) {
+    append(json, channel);
+    json.key("floes").objects(channel.floes, [&](const ChannelFloe& floe) { append_floe(json, floe); });
+    json.key("brash").objects(channel.brash_pieces, [&](const ChannelFloe& piece) { append_floe(json, piece); });
+  };
+  return io::json_object(write, io::JsonWriter::Layout::kIndented);
 }
 
 std::string to_geojson(const Channel& channel) {

@@ -2,18 +2,61 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <set>
 
-#include "analysis/overlap_check.hpp"
+#include "analysis/work_check.hpp"
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/measures.hpp"
+#include "geometry/exact/point_in_ring.hpp"
 #include "geometry/exact/validity.hpp"
+#include "geometry/shape/box_tree.hpp"
+#include "io/run/motion_index.hpp"
 
 namespace polynya::analysis {
 namespace {
 
+using geometry::Box;
+using geometry::Point;
 using geometry::Polygon;
+using geometry::Vector;
 using simulation::FloeId;
+
+// What frames are right to (docs/run-folder.md).
+constexpr double kFrameDistance = 1e-3;  // [m]
+constexpr double kFrameAngle = 1e-5;     // [rad]
+
+bool is_same_place(const io::Motion& a, const io::Motion& b) {
+  return a.position == b.position && a.angle == b.angle;
+}
+
+double depth_in(const Polygon& polygon, Point point) {
+  if (!contains(polygon, point)) return 0;
+  double nearest = INFINITY;
+  const auto see_ring = [&](const geometry::Ring& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      nearest = std::min(nearest, distance_to_segment(point, ring[i], ring[(i + 1) % ring.size()]));
+  };
+  see_ring(polygon.outer);
+  std::ranges::for_each(polygon.holes, see_ring);
+  return nearest;
+}
+
+/// Of the deepest outer vertex of `a` in `b` [m].
+double deepest_vertex(const Polygon& a, const Polygon& b) {
+  const Box box = bounding_box(b.outer);
+  double depth = 0;
+  for (const Point p : a.outer) {
+    if (overlaps({p, p}, box)) depth = std::max(depth, depth_in(b, p));
+  }
+  return depth;
+}
+
+Box common_part(const Box& a, const Box& b) {
+  return {{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)},
+          {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y)}};
+}
 
 void see(Worst& worst, double value, double scale, FloeId floe) {
   if (!(std::abs(value) <= std::abs(worst.value))) {
@@ -61,6 +104,185 @@ void check_fracture(const io::Run& run, const simulation::Event& event, RunCheck
     }
   }
 }
+
+/// Measures what the bodies of a run share, exactly, at one instant after the other, into its check.
+class OverlapCheck {
+ public:
+  OverlapCheck(const io::Run& run, RunCheck& check) : run_(run), check_(check), motions_(run) {
+    for (std::size_t i = 0; i < hull_count(run.scene.scene); ++i)
+      hulls_.push_back(std::make_shared<Polygon>(Polygon{hull_of(run.scene.scene, i).hull.waterline, {}}));
+  }
+
+  void measure(double time) {
+    ++check_.instants;
+    place_bodies(time);
+    read_crushed(time);
+    double shared = 0;
+    double ice = 0;
+    for (const Placed& body : bodies_) ice += is_hull(body.body) ? 0 : body.area;
+    for_near_pairs([&](const Placed& a, const Placed& b) {
+      if (is_hull(a.body) && is_hull(b.body)) return;  // no ice; events.ndjson has their contacts
+      ++(is_hull(a.body) ? check_.hull_pairs : check_.pairs);
+      const Known& known = shared_by(a, b);
+      if (is_recorded_) compare_with_crushed(a, b, known.area, time);
+      const SharedIce pair{is_hull(a.body) ? simulation::kNoFloe : a.body, b.body, time, known.area, known.depth};
+      if (is_hull(a.body)) {
+        if (pair.area > check_.worst_with_hull.area) {
+          check_.worst_with_hull = pair;
+          check_.worst_hull = static_cast<int>(-1 - a.body);
+        }
+        return;
+      }
+      shared += known.area;
+      if (known.area > geometry::kTouchingArea) overlapping_.insert({a.body, b.body});
+      if (pair.area > check_.worst.area) check_.worst = pair;
+      if (pair.depth > check_.deepest.depth) check_.deepest = pair;
+    });
+    if (shared > check_.most_shared || check_.instants == 1) {
+      check_.most_shared = shared;
+      check_.most_shared_time = time;
+      check_.ice_then = ice;
+    }
+    check_.overlapping_pairs = overlapping_.size();
+  }
+
+ private:
+  using BodyKey = std::int64_t;  ///< a floe's id; -1 - the number of a hull
+
+  struct Placed {
+    BodyKey body = 0;
+    io::Motion motion;
+    geometry::Pose world_from_body;
+    geometry::Box box_in_world;
+    double area = 0;    ///< [m²]
+    double radius = 0;  ///< of its box about its middle [m]
+  };
+  /// What is known of a pair from the last instant it was measured.
+  struct Known {
+    bool is_set = false;
+    io::Motion a, b;
+    double area = 0;   ///< [m²]
+    double depth = 0;  ///< 0 where they share less than kTouchingArea [m]
+  };
+
+  static bool is_hull(BodyKey body) { return body < 0; }
+
+  std::shared_ptr<const Polygon> polygon_of(BodyKey body) const {
+    return is_hull(body) ? hulls_[static_cast<std::size_t>(-1 - body)] : run_.shape(body);
+  }
+
+  Point centre_of(BodyKey body) const { return is_hull(body) ? Point{} : run_.floe(body)->birth.centroid_in_body; }
+
+  simulation::ContactState::Body name_of(BodyKey body) const {
+    if (is_hull(body)) return {static_cast<int>(-1 - body), simulation::kNoFloe};
+    return {-1, body};
+  }
+
+  Placed placed(BodyKey body, const io::Motion& motion) const {
+    const auto polygon = polygon_of(body);
+    const auto rotation = geometry::Rotation::by(motion.angle);
+    Placed placed{body, motion, {motion.position - rotate(rotation, centre_of(body) - Point{}), rotation}, {}, 0, 0};
+    if (!is_hull(body)) placed.world_from_body = pose_of(run_.floe(body)->birth, motion);
+    const Box box = bounding_box(transform(placed.world_from_body, polygon->outer));
+    placed.box_in_world = grown(box, 1e-9 * (1 + length(box.high - box.low)));
+    placed.area = is_hull(body) ? geometry::measure(*polygon).area : run_.floe(body)->birth.area;
+    placed.radius = 0.5 * length(box.high - box.low);
+    return placed;
+  }
+
+  void place_bodies(double time) {
+    std::map<BodyKey, Placed> before;
+    for (Placed& body : bodies_) before[body.body] = body;
+    bodies_.clear();
+    const auto add = [&](BodyKey body, const std::optional<io::Motion>& motion) {
+      if (!motion) return;
+      const auto known = before.find(body);
+      const bool is_still = known != before.end() && is_same_place(known->second.motion, *motion);
+      bodies_.push_back(is_still ? known->second : placed(body, *motion));
+      bodies_.back().motion = *motion;
+    };
+    for (std::size_t hull = 0; hull < hulls_.size(); ++hull)
+      add(-1 - static_cast<BodyKey>(hull), motions_.ship_at(hull, time));
+    for (const io::RunFloe& floe : run_.floes) {
+      if (run_.is_alive(floe.birth.floe, time)) add(floe.birth.floe, motions_.floe_at(floe.birth.floe, time));
+    }
+  }
+
+  void read_crushed(double time) {
+    crushed_.clear();
+    is_recorded_ =
+        run_.has_crushed && std::ranges::any_of(run_.frames, [&](const io::Frame& f) { return f.time == time; });
+    const auto key = [](const simulation::ContactState::Body& body) {
+      return body.ship >= 0 ? -1 - BodyKey{body.ship} : body.floe;
+    };
+    auto row = std::ranges::lower_bound(run_.crushed, time, {}, &io::RunCrushed::time);
+    for (; row != run_.crushed.end() && row->time == time; ++row) {
+      const BodyKey on = key(row->overlap.on);
+      const BodyKey by = key(row->overlap.by);
+      crushed_[{std::min(on, by), std::max(on, by)}] = row->overlap.area + row->overlap.tilted;
+    }
+  }
+
+  template <class Use>
+  void for_near_pairs(Use use) const {
+    std::vector<Box> boxes;
+    boxes.reserve(bodies_.size());
+    for (const Placed& body : bodies_) boxes.push_back(body.box_in_world);
+    for (const auto& [i, j] : geometry::pairs_of_boxes(boxes)) {
+      const bool is_first = bodies_[i].body < bodies_[j].body;
+      use(is_first ? bodies_[i] : bodies_[j], is_first ? bodies_[j] : bodies_[i]);
+    }
+  }
+
+  const Known& shared_by(const Placed& a, const Placed& b) {
+    Known& known = known_[{a.body, b.body}];
+    if (known.is_set && is_same_place(known.a, a.motion) && is_same_place(known.b, b.motion)) return known;
+    const auto polygon_a = polygon_of(a.body);
+    const auto polygon_b = polygon_of(b.body);
+    const auto area = shared_area(*polygon_a, a.world_from_body, *polygon_b, b.world_from_body);
+    if (!area) ++check_.undecided;
+    known = {true, a.motion, b.motion, area.value_or(0), 0};
+    if (known.area > geometry::kTouchingArea) {
+      const Polygon first = polygon_in_world(*polygon_a, centre_of(a.body), a.motion);
+      const Polygon second = polygon_in_world(*polygon_b, centre_of(b.body), b.motion);
+      known.depth = std::max(deepest_vertex(first, second), deepest_vertex(second, first));
+    }
+    return known;
+  }
+
+  void compare_with_crushed(const Placed& a, const Placed& b, double shared, double time) {
+    const auto recorded = crushed_.find({a.body, b.body});
+    const double crushed = recorded != crushed_.end() ? recorded->second : 0;
+    const double smaller = std::min(a.area, b.area);
+    if (shared - crushed <= kUncrushedShare * smaller) return;
+    // A contact is found, and what has pressed is known, a step late; and frames are not exact.
+    const Box common = common_part(a.box_in_world, b.box_in_world);
+    const Placed& small = a.radius < b.radius ? a : b;
+    const Placed& large = a.radius < b.radius ? b : a;
+    const Vector arm = small.motion.position - large.motion.position;
+    const double speed =
+        length(small.motion.velocity - large.motion.velocity - cross(large.motion.angular_velocity, arm)) +
+        std::abs(small.motion.angular_velocity - large.motion.angular_velocity) * small.radius;
+    const double off = 2 * kFrameDistance + kFrameAngle * (a.radius + b.radius);
+    const double allowed =
+        kUncrushedShare * smaller + (run_.scene.scene.time.step * speed + off) * length(common.high - common.low);
+    if (shared - crushed <= allowed) return;
+    ++check_.uncrushed_pairs;
+    if (check_.uncrushed.size() < kMostUncrushed)
+      check_.uncrushed.push_back(
+          {name_of(a.body), name_of(b.body), time, shared, crushed, allowed, midpoint(common.low, common.high)});
+  }
+
+  const io::Run& run_;
+  RunCheck& check_;
+  io::MotionIndex motions_;
+  std::vector<std::shared_ptr<const geometry::Polygon>> hulls_;
+  std::vector<Placed> bodies_;                             ///< living
+  std::map<std::pair<BodyKey, BodyKey>, double> crushed_;  ///< at the instant [m²]
+  bool is_recorded_ = false;                               ///< the instant is that of a frame
+  std::map<std::pair<BodyKey, BodyKey>, Known> known_;
+  std::set<std::pair<BodyKey, BodyKey>> overlapping_;
+};
 
 }  // namespace
 

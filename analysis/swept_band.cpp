@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geometry/shape/outline.hpp"
-#include "io/run/placed_floes.hpp"
+#include "io/run/motion_index.hpp"
 
 namespace polynya::analysis {
 

@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "app/command_line/commands.hpp"
 #include "app/command_line/console.hpp"
+#include "io/text/child_process.hpp"
 #include "io/text/json_parser.hpp"
 
 namespace polynya::app {
@@ -42,26 +42,43 @@ std::string python() {
   return access(debians, X_OK) == 0 ? debians : "python3";
 }
 
+/// The line that starts a command of the package, and its environment; reports where there is no package.
+std::optional<std::vector<std::string>> python_line(const std::vector<std::string>& words) {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const auto package = package_folder(program);
+  if (!package) {
+    fail(kInputOutput, fmt::format("the Python package is neither in {0}/python nor in {0}/lib/polynya/python; build "
+                                   "or install polynya again",
+                                   program.parent_path().parent_path().string()));
+    return std::nullopt;
+  }
+  const char* const more = std::getenv("PYTHONPATH");
+  setenv("PYTHONPATH", (package->string() + (more && *more ? ":" + std::string(more) : "")).c_str(), 1);
+  setenv("PYTHONSAFEPATH", "1", 1);  // no module of the working folder
+  setenv("POLYNYA_PROGRAM", program.c_str(), 1);
+  std::vector<std::string> line{python(), "-m", kModule};
+  line.insert(line.end(), words.begin(), words.end());
+  flush_out();
+  return line;
+}
+
+int fail_without_python(const std::string& reason) {
+  return fail(kInputOutput, reason + "; this command needs Python: ./setup.sh python, or apt-get install python3");
+}
+
 /// What Python prints on stdout; nothing where it cannot be started or fails.
 std::string printed_by_python(const std::vector<std::string>& words) {
-  int ends[2];
-  if (pipe(ends) != 0) return "";
-  flush_out();
-  const pid_t child = fork();
-  if (child == 0) {
-    dup2(ends[1], STDOUT_FILENO);
-    close(ends[0]);
-    close(ends[1]);
-    _exit(become_python(words));
+  constexpr std::size_t kLongest = std::size_t{1} << 24;  // [bytes]
+  const auto line = python_line(words);
+  if (!line) return "";
+  const auto output = io::run_child(*line, kLongest);
+  if (!output) {
+    fail_without_python(output.error());
+    return "";
   }
-  close(ends[1]);
-  std::string text;
-  char block[1 << 12];
-  for (ssize_t count = 0; child > 0 && (count = read(ends[0], block, sizeof block)) > 0;)
-    text.append(block, static_cast<std::size_t>(count));
-  close(ends[0]);
-  int status = 0;
-  return child > 0 && waitpid(child, &status, 0) == child && status == 0 ? text : "";
+  write_err(output->err);
+  return output->code == 0 ? output->out : "";
 }
 
 /// Members of an object whose values are texts, as Python wrote them.
@@ -119,29 +136,14 @@ Command add_study(CommandLine& app) {
 }
 
 int become_python(const std::vector<std::string>& words) {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const auto package = package_folder(program);
-  if (!package)
-    return fail(kInputOutput,
-                fmt::format("the Python package is neither in {0}/python nor in {0}/lib/polynya/python; build "
-                            "or install polynya again",
-                            program.parent_path().parent_path().string()));
-  const char* const more = std::getenv("PYTHONPATH");
-  setenv("PYTHONPATH", (package->string() + (more && *more ? ":" + std::string(more) : "")).c_str(), 1);
-  setenv("PYTHONSAFEPATH", "1", 1);  // no module of the working folder
-  setenv("POLYNYA_PROGRAM", program.c_str(), 1);
-  std::vector<std::string> line{python(), "-m", kModule};
-  line.insert(line.end(), words.begin(), words.end());
+  auto line = python_line(words);
+  if (!line) return kInputOutput;
   std::vector<char*> arguments;
-  arguments.reserve(line.size() + 1);
-  for (std::string& word : line) arguments.push_back(word.data());
+  arguments.reserve(line->size() + 1);
+  for (std::string& word : *line) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  flush_out();
   execvp(arguments[0], arguments.data());
-  return fail(kInputOutput,
-              fmt::format("{}: {}; this command needs Python: ./setup.sh python, or apt-get install python3", line[0],
-                          std::strerror(errno)));
+  return fail_without_python(fmt::format("{}: {}", line->front(), std::strerror(errno)));
 }
 
 void describe_python_commands(std::vector<CommandDescription>& commands) {

@@ -312,8 +312,8 @@ tl::expected<fracture::BendingLoad, ExitCode> bending_load(const DatabaseLoadOpt
 }
 
 std::string describe(const fracture::BendingLoad& load) {
-  const double front = load.front_half_angle / geometry::kRadiansPerDegree,
-               back = load.back_half_angle / geometry::kRadiansPerDegree;
+  const double front = load.front_half_angle / geometry::kRadiansPerDegree;
+  const double back = load.back_half_angle / geometry::kRadiansPerDegree;
   const std::string wedge = front == back ? fmt::format("{:g} deg wedge", front + back)
                                           : fmt::format("wedge of {:g} + {:g} deg", front, back);
   return fmt::format("{:g} m of ice, {}, hull {:g} deg from the vertical, v_n {:g} m/s", load.ice.thickness, wedge,

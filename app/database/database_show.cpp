@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -49,117 +51,89 @@ bool can_bend(const BendingLoad& load) {
   return load.vertical_to_crushing > 0;
 }
 
-// as JSON
-
-/// A member; null where the ice cannot bend.
-void write_number(io::JsonWriter& json, std::string_view key, double value, bool is_known) {
-  json.key(key).value(is_known ? std::optional(value) : std::nullopt);
-}
-
-void write_published(io::JsonWriter& json, std::string_view name, const BendingCapacity& capacity, bool is_known) {
-  json.key(name).open('{');
-  write_number(json, "vertical_force_N", capacity.vertical_force, is_known);
-  write_number(json, "cusp_radius_m", capacity.cusp_radius, is_known);
-  json.key("in_range").value(is_known && capacity.is_in_range).close('}');
-}
-
-void write_outside(io::JsonWriter& json, const std::vector<fracture::OutsideRange>& ranges, bool is_known) {
-  json.key("outside").open('[');
-  if (!is_known) json.value("hull angle");
-  for (const fracture::OutsideRange& range : ranges)
-    if (is_known) json.value(range.name);
-  json.close(']');
-}
-
 void write_load(io::JsonWriter& json, const DatabaseLoadOptions& options, const BendingLoad& load) {
-  json.key("load").open('{');
-  const auto item = [&json](std::string_view key, double value) { json.key(key).value(value); };
-  item("thickness_m", load.ice.thickness);
-  item("density_kg_per_m3", load.ice.density);
-  item("youngs_modulus_Pa", load.ice.youngs_modulus);
-  item("poisson_ratio", load.ice.poisson_ratio);
-  item("flexural_strength_Pa", load.ice.flexural_strength);
-  item("compressive_strength_Pa", load.ice.compressive_strength);
-  item("friction", load.ice.friction);
-  item("water_density_kg_per_m3", load.water.density);
-  item("speed_m_per_s", load.mean_approach_speed);
   const double half_angle_deg = 0.5 * options.wedge_angle_deg.value_or(0);
-  item("front_angle_deg", options.front_angle_deg.value_or(half_angle_deg));
-  item("back_angle_deg", options.back_angle_deg.value_or(half_angle_deg));
-  item("hull_angle_deg", options.hull_angle_deg);
-  item("slip_speed_m_per_s", options.slip_speed);
-  item("vertical_to_crushing", load.vertical_to_crushing);
-  json.close('}');
+  for (const auto& [key, value] : {std::pair{"thickness_m", load.ice.thickness},
+                                   {"density_kg_per_m3", load.ice.density},
+                                   {"youngs_modulus_Pa", load.ice.youngs_modulus},
+                                   {"poisson_ratio", load.ice.poisson_ratio},
+                                   {"flexural_strength_Pa", load.ice.flexural_strength},
+                                   {"compressive_strength_Pa", load.ice.compressive_strength},
+                                   {"friction", load.ice.friction},
+                                   {"water_density_kg_per_m3", load.water.density},
+                                   {"speed_m_per_s", load.mean_approach_speed},
+                                   {"front_angle_deg", options.front_angle_deg.value_or(half_angle_deg)},
+                                   {"back_angle_deg", options.back_angle_deg.value_or(half_angle_deg)},
+                                   {"hull_angle_deg", options.hull_angle_deg},
+                                   {"slip_speed_m_per_s", options.slip_speed},
+                                   {"vertical_to_crushing", load.vertical_to_crushing}})
+    json.key(key).value(value);
 }
 
 void write_groups(io::JsonWriter& json, const fracture::ScaledLoad& scaled, const fracture::BendingForecast& forecast) {
-  json.key("groups").open('{');
   json.key("opening_angle_deg").value(scaled.groups.opening_angle * kDegree);
-  json.key("mass_ratio").value(scaled.groups.mass_ratio);
-  json.key("softness").value(scaled.groups.softness);
-  json.key("equivalent_softness").value(forecast.equivalent_softness);
-  json.key("froude").value(scaled.groups.froude);
-  json.key("characteristic_length_m").value(scaled.length_scale).close('}');
+  json.key("mass_ratio").value(scaled.groups.mass_ratio).key("softness").value(scaled.groups.softness);
+  json.key("equivalent_softness").value(forecast.equivalent_softness).key("froude").value(scaled.groups.froude);
+  json.key("characteristic_length_m").value(scaled.length_scale);
 }
 
-void print_json(const QueryOptions& options, const BendingDatabase& database, const BendingLoad& load,
-                const SlicePoint& answer) {
-  std::string text;
-  io::JsonWriter json(text, io::JsonWriter::Layout::kIndented);
+/// Numbers are null where the ice cannot bend.
+std::string json_of(const QueryOptions& options, const BendingDatabase& database, const BendingLoad& load,
+                    const SlicePoint& answer) {
   const bool is_known = can_bend(load);
-  const fracture::BendingForecast& forecast = answer.database;
-  json.open('{');
-  const auto item = [&](std::string_view key, double value) { write_number(json, key, value, is_known); };
-  item("vertical_force_N", forecast.capacity.vertical_force);
-  item("normal_force_N", forecast.normal_force);
-  item("time_s", forecast.time);
-  item("cusp_radius_m", forecast.capacity.cusp_radius);
-  item("penetration_m", forecast.penetration);
-  json.key("radial_crack_first").value(is_known && forecast.capacity.radial_crack_first);
-  json.key("in_range").value(is_known && forecast.capacity.is_in_range);
-  write_outside(json, forecast.outside, is_known);
-  write_published(json, "nevel", answer.nevel, is_known);
-  write_published(json, "kashtelyan", answer.kashtelyan, is_known);
-  write_load(json, options.load, load);
-  write_groups(json, fracture::scaled(load), forecast);
-  json.key("database").open('{').key("file");
-  json.value(options.file.empty() ? std::nullopt : std::optional(options.file));
-  json.key("fluid").value(fracture::fluid_name(database.settings().fluid));
-  json.key("hash").value("fnv1a64 " + fracture::database_hash(database)).close('}');
-  json.close('}');
-  print_out("{}\n", text);
-}
-
-// for people
-
-std::string kilonewtons(const BendingCapacity& capacity) {
-  return fmt::format("{:.4g} kN", capacity.vertical_force / 1e3);
-}
-
-std::string metres(double length) {
-  return fmt::format("{:.4g} m", length);
-}
-
-void print_row(const char* what, const std::string& database, const std::string& nevel = "",
-               const std::string& kashtelyan = "") {
-  const std::string line = fmt::format("{:<22}{:<20}{:<20}{}", what, database, nevel, kashtelyan);
-  print_out("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+  const auto write = [&](io::JsonWriter& json) {
+    const auto number = [&](std::string_view key, double value) {
+      json.key(key).value(is_known ? std::optional(value) : std::nullopt);
+    };
+    const auto published = [&](std::string_view key, const BendingCapacity& capacity) {
+      json.key(key).object([&] {
+        number("vertical_force_N", capacity.vertical_force);
+        number("cusp_radius_m", capacity.cusp_radius);
+        json.key("in_range").value(is_known && capacity.is_in_range);
+      });
+    };
+    const auto& [abscissa, forecast, nevel, kashtelyan] = answer;
+    number("vertical_force_N", forecast.capacity.vertical_force);
+    number("normal_force_N", forecast.normal_force);
+    number("time_s", forecast.time);
+    number("cusp_radius_m", forecast.capacity.cusp_radius);
+    number("penetration_m", forecast.penetration);
+    json.key("radial_crack_first").value(is_known && forecast.capacity.radial_crack_first);
+    json.key("in_range").value(is_known && forecast.capacity.is_in_range);
+    std::vector<std::string_view> outside;
+    for (const fracture::OutsideRange& range : forecast.outside) outside.push_back(range.name);
+    json.key("outside").list(is_known ? outside : std::vector<std::string_view>{"hull angle"});
+    published("nevel", nevel);
+    published("kashtelyan", kashtelyan);
+    json.key("load").object([&] { write_load(json, options.load, load); });
+    json.key("groups").object([&] { write_groups(json, fracture::scaled(load), forecast); });
+    json.key("database").open('{').key("file");
+    json.value(options.file.empty() ? std::nullopt : std::optional(options.file));
+    json.key("fluid").value(fracture::fluid_name(database.settings().fluid));
+    json.key("hash").value("fnv1a64 " + fracture::database_hash(database)).close('}');
+  };
+  return io::json_object(write, io::JsonWriter::Layout::kIndented);
 }
 
 void print_table(const SlicePoint& answer) {
   const auto& [abscissa, forecast, nevel, kashtelyan] = answer;
-  print_row("", "database", "Nevel", "Kashtelyan");
-  print_row("vertical force", kilonewtons(forecast.capacity), kilonewtons(nevel), kilonewtons(kashtelyan));
-  print_row("cusp radius", metres(forecast.capacity.cusp_radius), metres(nevel.cusp_radius),
-            metres(kashtelyan.cusp_radius));
-  print_row("normal force", fmt::format("{:.4g} kN", forecast.normal_force / 1e3));
-  print_row("penetration", metres(forecast.penetration));
-  print_row("time to the break",
-            std::isfinite(forecast.time) ? fmt::format("{:.4g} s", forecast.time) : "never: at rest");
-  print_row("radial crack first", forecast.capacity.radial_crack_first ? "yes" : "no");
-  const auto in_range = [](bool is_in_range) { return is_in_range ? "yes" : "no"; };
-  print_row("in range", in_range(forecast.capacity.is_in_range), in_range(nevel.is_in_range),
-            in_range(kashtelyan.is_in_range));
+  const auto row = [](const char* what, const std::string& database, const std::string& of_nevel = "",
+                      const std::string& of_kashtelyan = "") {
+    const std::string line = fmt::format("{:<22}{:<20}{:<20}{}", what, database, of_nevel, of_kashtelyan);
+    print_out("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+  };
+  const auto row_of_all = [&](const char* what, auto show) {
+    row(what, show(forecast.capacity), show(nevel), show(kashtelyan));
+  };
+  const auto yes_or_no = [](bool is_so) { return std::string(is_so ? "yes" : "no"); };
+  row("", "database", "Nevel", "Kashtelyan");
+  row_of_all("vertical force", [](const auto& c) { return fmt::format("{:.4g} kN", c.vertical_force / 1e3); });
+  row_of_all("cusp radius", [](const auto& c) { return fmt::format("{:.4g} m", c.cusp_radius); });
+  row("normal force", fmt::format("{:.4g} kN", forecast.normal_force / 1e3));
+  row("penetration", fmt::format("{:.4g} m", forecast.penetration));
+  row("time to the break", std::isfinite(forecast.time) ? fmt::format("{:.4g} s", forecast.time) : "never: at rest");
+  row("radial crack first", yes_or_no(forecast.capacity.radial_crack_first));
+  row_of_all("in range", [&](const auto& c) { return yes_or_no(c.is_in_range); });
 }
 
 void print_for_people(const QueryOptions& options, const BendingDatabase& database, const BendingLoad& load,
@@ -200,7 +174,7 @@ int query(const QueryOptions& options) {
   if (!database) return database.error();
   const SlicePoint answer = fracture::compare_models(fracture::FsiDatabaseModel(*database), *load);
   if (options.json)
-    print_json(options, **database, *load, answer);
+    write_out(json_of(options, **database, *load, answer));
   else
     print_for_people(options, **database, *load, answer);
   if (!can_bend(*load))
@@ -217,6 +191,11 @@ int query(const QueryOptions& options) {
 constexpr int kPoints = 161;
 constexpr double kWidestWedge = 170;  ///< towards 180 the crushed area grows without bound [deg]
 
+/// From a slice's abscissae to what is shown of them.
+double scale_of(SliceAxis axis) {
+  return axis == SliceAxis::kOpeningAngle ? kDegree : 1;
+}
+
 std::vector<double> evenly(double low, double high, bool is_log) {
   std::vector<double> values;
   for (int i = 0; i < kPoints; ++i) {
@@ -232,79 +211,70 @@ struct Member {
   BendingLoad load;
 };
 
-Member with_angle(BendingLoad load, double angle_deg) {
-  load.front_half_angle = load.back_half_angle = 0.5 * angle_deg / kDegree;
-  return {fmt::format("{:g}° wedge", angle_deg), load};
-}
-
-Member with_speed(BendingLoad load, double speed) {
-  load.mean_approach_speed = speed;
-  return {fmt::format("{:g} m/s", speed), load};
-}
-
-/// The load itself first, then its neighbours.
+/// The load itself first, then its neighbours: other speeds where the wedge's angle varies, else other wedges.
 std::vector<Member> family(const BendingLoad& load, SliceAxis axis) {
-  std::vector<Member> members;
-  if (axis == SliceAxis::kOpeningAngle) {
-    members.push_back(with_speed(load, load.mean_approach_speed));
-    for (const double speed : {0.1, 1.0, 4.0})
-      if (speed != load.mean_approach_speed) members.push_back(with_speed(load, speed));
-    return members;
+  const bool are_speeds = axis == SliceAxis::kOpeningAngle;
+  const double own = are_speeds ? load.mean_approach_speed : (load.front_half_angle + load.back_half_angle) * kDegree;
+  const auto name = [&](double value) { return fmt::format("{:g}{}", value, are_speeds ? " m/s" : "° wedge"); };
+  std::vector<Member> members{{name(own), load}};
+  for (const double value : are_speeds ? std::array{0.1, 1.0, 4.0} : std::array{45.0, 90.0, 135.0}) {
+    if (std::abs(value - own) <= 1e-9) continue;
+    BendingLoad& other = members.emplace_back(Member{name(value), load}).load;
+    if (are_speeds)
+      other.mean_approach_speed = value;
+    else
+      other.front_half_angle = other.back_half_angle = 0.5 * value / kDegree;
   }
-  const double angle = (load.front_half_angle + load.back_half_angle) * kDegree;
-  members.push_back({fmt::format("{:g}° wedge", angle), load});
-  for (const double other : {45.0, 90.0, 135.0})
-    if (std::abs(other - angle) > 1e-9) members.push_back(with_angle(load, other));
   return members;
 }
 
-/// A curve of a figure: a capacity of each point of a slice.
-template <class CapacityOf>
-void write_curve(io::JsonWriter& json, const std::string& name, const char* source,
-                 const std::vector<SlicePoint>& slice, CapacityOf capacity_of) {
+/// What a figure varies, from where to where, and how it is drawn.
+struct Figure {
+  const char* name;
+  const char* x_label;
+  SliceAxis axis;
+  double low, high;
+  bool is_x_log, is_radius_log;
+};
+
+struct Curve {
+  std::string name;
+  const char* source;
+  std::vector<SlicePoint> slice;
+  std::function<const BendingCapacity&(const SlicePoint&)> capacity_of;
+};
+
+void write_curve(io::JsonWriter& json, const Curve& curve) {
   std::vector<double> forces, radii;
   std::vector<int> is_in_range;
-  for (const SlicePoint& point : slice) {
-    const fracture::BendingCapacity& capacity = capacity_of(point);
+  for (const SlicePoint& point : curve.slice) {
+    const BendingCapacity& capacity = curve.capacity_of(point);
     forces.push_back(capacity.vertical_force);
     radii.push_back(capacity.cusp_radius);
     is_in_range.push_back(capacity.is_in_range ? 1 : 0);
   }
-  json.start_line();
-  json.open('{').key("name").value(name).key("source").value(source);
-  json.key("vertical_force_N").list(forces).key("cusp_radius_m").list(radii);
-  json.key("is_in_range").list(is_in_range).close('}');
+  json.key("name").value(curve.name).key("source").value(curve.source);
+  json.key("vertical_force_N").list(forces).key("cusp_radius_m").list(radii).key("is_in_range").list(is_in_range);
 }
 
-struct FigureText {
-  const char* name;
-  const char* x_label;
-  bool is_x_log;
-  bool is_radius_log;
-};
-
-void write_figure(io::JsonWriter& json, const FsiDatabaseModel& model, const BendingLoad& load, SliceAxis axis,
-                  const std::vector<double>& abscissae, const FigureText& text) {
-  const double scale = axis == SliceAxis::kOpeningAngle ? kDegree : 1;
-  std::vector<double> shown;
-  shown.reserve(abscissae.size());
-  for (const double value : abscissae) shown.push_back(value * scale);
-  json.start_line();
-  json.open('{').key("name").value(text.name).key("x_label").value(text.x_label);
-  json.key("is_x_log").value(text.is_x_log).key("is_radius_log").value(text.is_radius_log);
-  json.key("x").list(shown).key("curves").open('[');
-  const std::vector<Member> members = family(load, axis);
+void write_figure(io::JsonWriter& json, const FsiDatabaseModel& model, const BendingLoad& load, const Figure& figure) {
+  const std::vector<double> abscissae = evenly(figure.low, figure.high, figure.is_x_log);
+  std::vector<double> shown = abscissae;
+  for (double& value : shown) value *= scale_of(figure.axis);
+  json.key("name").value(figure.name).key("x_label").value(figure.x_label);
+  json.key("is_x_log").value(figure.is_x_log).key("is_radius_log").value(figure.is_radius_log);
+  const auto of_database = [](const SlicePoint& p) -> const auto& {
+    return p.database.capacity;
+  };
+  const std::vector<Member> members = family(load, figure.axis);
+  std::vector<Curve> curves;
   for (const Member& member : members)
-    write_curve(
-        json, "database, " + member.name, "database", slice(model, member.load, axis, abscissae),
-        [](const SlicePoint& p) -> const auto& { return p.database.capacity; });
-  const std::vector<SlicePoint> own = slice(model, load, axis, abscissae);
-  write_curve(
-      json, "Nevel, " + members.front().name, "Nevel", own, [](const SlicePoint& p) -> const auto& { return p.nevel; });
-  write_curve(
-      json, "Kashtelyan, " + members.front().name, "Kashtelyan", own,
-      [](const SlicePoint& p) -> const auto& { return p.kashtelyan; });
-  json.close(']').close('}');
+    curves.push_back(
+        {"database, " + member.name, "database", slice(model, member.load, figure.axis, abscissae), of_database});
+  const std::vector<SlicePoint> own = slice(model, load, figure.axis, abscissae);
+  curves.push_back({"Nevel, " + members.front().name, "Nevel", own, &SlicePoint::nevel});
+  curves.push_back({"Kashtelyan, " + members.front().name, "Kashtelyan", own, &SlicePoint::kashtelyan});
+  json.key("x").list(shown).key("curves").object_lines(curves, [&](const Curve& curve) { write_curve(json, curve); });
 }
 
 /// Slices of a database through one load as JSON, which polynya.figures.database draws: force and radius
@@ -314,20 +284,16 @@ std::string database_slices(const FsiDatabaseModel& model, const std::string& ti
   const std::vector<double>& grid = model.database().grid().opening_angles_deg;
   const double widest = std::min(grid.back(), kWidestWedge);
   const double narrowest = std::min(grid.front(), 0.5 * widest);
-  std::string text;
-  io::JsonWriter json(text);
-  json.open('{').key("title").value("Icebreaking database: " + title);
-  json.key("caption").value("Around " + describe(load) +
-                            ". Faint: outside of the table or of the published form's range.");
-  json.key("figures").open('[');
-  write_figure(json, model, load, SliceAxis::kSpeed, evenly(0.02, 8, true),
-               {"speed", "normal approach speed, m/s", true, false});
-  write_figure(json, model, load, SliceAxis::kOpeningAngle, evenly(narrowest / kDegree, widest / kDegree, false),
-               {"wedge-angle", "opening angle 2α of the wedge, °", false, false});
-  write_figure(json, model, load, SliceAxis::kThickness, evenly(0.1, 3, true),
-               {"thickness", "ice thickness, m", true, true});
-  json.close(']').close('}');
-  return text + '\n';
+  const Figure figures[] = {{"speed", "normal approach speed, m/s", SliceAxis::kSpeed, 0.02, 8, true, false},
+                            {"wedge-angle", "opening angle 2α of the wedge, °", SliceAxis::kOpeningAngle,
+                             narrowest / kDegree, widest / kDegree, false, false},
+                            {"thickness", "ice thickness, m", SliceAxis::kThickness, 0.1, 3, true, true}};
+  return io::json_object([&](io::JsonWriter& json) {
+    json.key("title").value("Icebreaking database: " + title);
+    json.key("caption").value("Around " + describe(load) +
+                              ". Faint: outside of the table or of the published form's range.");
+    json.key("figures").object_lines(figures, [&](const Figure& figure) { write_figure(json, model, load, figure); });
+  });
 }
 
 // ---- polynya database show
@@ -381,11 +347,10 @@ void print_slice(const FsiDatabaseModel& model, const BendingLoad& load, SliceAx
                  std::span<const double> values) {
   print_out("\n| {} | V kN | R m | t s | crack first | Nevel V kN | R m | Kashtelyan V kN | R m |\n", abscissa);
   print_out("|---|---|---|---|---|---|---|---|---|\n");
-  const double scale = axis == SliceAxis::kOpeningAngle ? kDegree : 1;
   for (const SlicePoint& point : slice(model, load, axis, values)) {
     const auto& [x, forecast, nevel, kashtelyan] = point;
-    print_out("| {:g} | {:.4g}{} | {:.3f} | {:.3g} | {} | {:.4g}{} | {:.3f} | {:.4g}{} | {:.3f} |\n", x * scale,
-              forecast.capacity.vertical_force / 1e3, star(forecast.capacity.is_in_range),
+    print_out("| {:g} | {:.4g}{} | {:.3f} | {:.3g} | {} | {:.4g}{} | {:.3f} | {:.4g}{} | {:.3f} |\n",
+              x * scale_of(axis), forecast.capacity.vertical_force / 1e3, star(forecast.capacity.is_in_range),
               forecast.capacity.cusp_radius, forecast.time, forecast.capacity.radial_crack_first ? "yes" : "no",
               nevel.vertical_force / 1e3, star(nevel.is_in_range), nevel.cusp_radius, kashtelyan.vertical_force / 1e3,
               star(kashtelyan.is_in_range), kashtelyan.cusp_radius);
@@ -455,8 +420,7 @@ Command add_database_show(CommandLine& app) {
   command.option("file", options->file, "FILE", "The database; the shipped one if not given", not_empty());
   command.option("--svg", options->svg_folder, "DIR",
                  "Draw the slices to speed.svg, wedge-angle.svg, thickness.svg, with their numbers in slices.json "
-                 "(needs "
-                 "Python and matplotlib: ./setup.sh python)",
+                 "(needs Python and matplotlib: ./setup.sh python)",
                  not_empty());
   add_point(command, options->load, false);
   add_load(command, options->load);

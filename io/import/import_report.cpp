@@ -71,13 +71,9 @@ void write_properties(JsonWriter& json, const FloeProperties& properties) {
   }
 }
 
-void write_place(JsonWriter& json, const FloeEntry& entry) {
-  json.key("feature").value(entry.feature).key("polygon").value(entry.member).key("line").value(entry.line);
-}
-
 void write_item(JsonWriter& json, const ImportItem& item, const std::vector<FloeEntry>& entries) {
-  json.open('{');
-  write_place(json, entries[item.source]);
+  const FloeEntry& entry = entries[item.source];
+  json.key("feature").value(entry.feature).key("polygon").value(entry.member).key("line").value(entry.line);
   json.key("area_before_m2").value(item.area_before).key("area_after_m2").value(item.area_after);
   json.key("pieces").value(item.pieces);
   if (!item.refused.empty()) json.key("refused").value(item.refused);
@@ -92,15 +88,10 @@ void write_item(JsonWriter& json, const ImportItem& item, const std::vector<Floe
     for (const std::size_t other : item.yields) json.value(entries[other].feature);
     json.close(']').close('}');
   }
-  if (item.dropped_pieces > 0)
-    json.key("dropped")
-        .open('{')
-        .key("pieces")
-        .value(item.dropped_pieces)
-        .key("area_m2")
-        .value(-item.dropped)
-        .close('}');
-  json.close('}');
+  if (item.dropped_pieces > 0) {
+    json.key("dropped").open('{').key("pieces").value(item.dropped_pieces);
+    json.key("area_m2").value(-item.dropped).close('}');
+  }
 }
 
 void write_totals(JsonWriter& json, const ImportTotals& totals) {
@@ -124,54 +115,45 @@ std::string term(double area, const char* what) {
 
 std::string to_geojson(const ImportOutcome& imported, const std::vector<SourceFloe>& floes,
                        const std::vector<FloeEntry>& entries) {
-  std::string text;
-  JsonWriter json(text);
-  json.open('{').key("type").value("FeatureCollection");
-  if (!imported.plane.target.empty() && imported.plane.shift == geometry::Vector{}) {
-    json.key("crs").open('{').key("type").value("name").key("properties").open('{');
-    json.key("name").value(imported.plane.target).close('}').close('}');
-  }
-  write_plane(json, imported.plane);
-  json.key("features").open('[');
-  const std::vector<std::int64_t> ids = ids_of(imported, floes);
-  for (std::size_t i = 0; i < imported.floes.size(); ++i) {
-    const ImportedFloe& floe = imported.floes[i];
-    json.start_line();
-    json.open('{').key("type").value("Feature").key("properties").open('{').key("floe_id").value(ids[i]);
-    json.key("area_m2").value(geometry::measure(floe.polygon).area);
-    write_properties(json, floes[floe.source].properties);
-    if (const std::string others = others_of(entries[floe.source]); !others.empty()) json.json(others);
-    json.close('}').key("geometry").polygon(floe.polygon).close('}');
-  }
-  json.close(']').close('}');
-  return text + "\n";
+  return json_object([&](JsonWriter& json) {
+    json.key("type").value("FeatureCollection");
+    if (!imported.plane.target.empty() && imported.plane.shift == geometry::Vector{}) {
+      json.key("crs").open('{').key("type").value("name").key("properties").open('{');
+      json.key("name").value(imported.plane.target).close('}').close('}');
+    }
+    write_plane(json, imported.plane);
+    json.key("features").open('[');
+    const std::vector<std::int64_t> ids = ids_of(imported, floes);
+    for (std::size_t i = 0; i < imported.floes.size(); ++i) {
+      const ImportedFloe& floe = imported.floes[i];
+      json.start_line();
+      json.open('{').key("type").value("Feature").key("properties").open('{').key("floe_id").value(ids[i]);
+      json.key("area_m2").value(geometry::measure(floe.polygon).area);
+      write_properties(json, floes[floe.source].properties);
+      if (const std::string others = others_of(entries[floe.source]); !others.empty()) json.json(others);
+      json.close('}').key("geometry").polygon(floe.polygon).close('}');
+    }
+    json.close(']');
+  });
 }
 
 std::string to_json_text(const ImportOutcome& imported, const std::string& file, const std::vector<FloeEntry>& entries,
                          const std::vector<NearMiss>& near_misses) {
-  std::string text;
-  JsonWriter json(text);
-  json.open('{').key("file").value(file);
-  json.key("system").value(imported.plane.system);
-  if (!imported.plane.target.empty()) json.key("plane").value(imported.plane.target);
-  write_plane(json, imported.plane);
-  json.start_line();
-  write_totals(json, imported.totals);
-  json.start_line();
-  json.key("near_misses").open('[');
-  for (const NearMiss& miss : near_misses) {
-    json.open('{').key("property").value(miss.key).key("meant").value(miss.meant);
-    json.key("factor").value(miss.factor).key("floes").value(miss.floes).close('}');
-  }
-  json.close(']');
-  json.start_line();
-  json.key("changed").open('[');
-  for (const ImportItem& item : imported.items) {
+  return json_object([&](JsonWriter& json) {
+    json.key("file").value(file);
+    json.key("system").value(imported.plane.system);
+    if (!imported.plane.target.empty()) json.key("plane").value(imported.plane.target);
+    write_plane(json, imported.plane);
     json.start_line();
-    write_item(json, item, entries);
-  }
-  json.close(']').close('}');
-  return text + "\n";
+    write_totals(json, imported.totals);
+    json.start_line();
+    json.key("near_misses").objects(near_misses, [&](const NearMiss& miss) {
+      json.key("property").value(miss.key).key("meant").value(miss.meant);
+      json.key("factor").value(miss.factor).key("floes").value(miss.floes);
+    });
+    json.start_line();
+    json.key("changed").object_lines(imported.items, [&](const ImportItem& item) { write_item(json, item, entries); });
+  });
 }
 
 std::string counts_in_words(const ImportTotals& totals) {

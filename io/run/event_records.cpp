@@ -212,12 +212,11 @@ std::vector<EventField> event_fields() {
 namespace {
 
 std::string floe_text(double time, const simulation::RejectedCut& cut) {
-  std::string text;
-  JsonWriter json(text);
-  json.open('{').key("type").value("Feature").key("properties").open('{').key("floe_id").value(cut.floe);
-  json.key("t_s").value(time).key("reason").value(cut.reason);
-  json.close('}').key("geometry").polygon(cut.input.polygon_in_body).close('}');
-  return text + "\n";
+  return json_object([&](JsonWriter& json) {
+    json.key("type").value("Feature").key("properties").open('{').key("floe_id").value(cut.floe);
+    json.key("t_s").value(time).key("reason").value(cut.reason);
+    json.close('}').key("geometry").polygon(cut.input.polygon_in_body);
+  });
 }
 
 std::string ops_text(const simulation::CutInput& cut) {

@@ -5,7 +5,10 @@
 #include <cstring>
 #include <vector>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "io/run/checkpoint.hpp"
@@ -119,15 +122,37 @@ Result<> remove_run(const fs::path& folder) {
 
 }  // namespace
 
+Result<RunLock> RunLock::take(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / run_file::kLock;
+  const auto refuse = [&](const std::string& reason) { return fail(fmt::format("{}: {}", file.string(), reason)); };
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (descriptor < 0)
+    return refuse(errno == ELOOP ? "a link; remove it if the folder is a run's" : std::strerror(errno));
+  RunLock lock(descriptor, folder);
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return refuse("not a regular file");
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    return fail(fmt::format("{}: another polynya is writing this run", folder.string()));
+  // File systems without locks go without.
+  if (!lock.is_in_place()) return refuse("removed by another program meanwhile; try again");
+  return lock;
+}
+
+bool RunLock::is_in_place() const {
+  return is_still_at(descriptor_, folder_ / run_file::kLock);
+}
+
+RunLock::~RunLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
 FolderSize estimate_folder_size(const simulation::Scene& scene) {
   // A vertex is two numbers of 16 to 18 digits; a floe's other members are those of append_birth,
   // append_floe.
   constexpr double kVertex = 40, kBirth = 160, kState = 470;  // [bytes]
   double vertices = 0;
-  for (const simulation::FloeSpec& floe : scene.floes) {
-    vertices += static_cast<double>(floe.polygon_in_world.outer.size());
-    for (const geometry::Ring& hole : floe.polygon_in_world.holes) vertices += static_cast<double>(hole.size());
-  }
+  for (const simulation::FloeSpec& floe : scene.floes)
+    vertices += static_cast<double>(vertex_count(floe.polygon_in_world));
   const auto floes = static_cast<double>(scene.floes.size());
   return {kBirth * floes + kVertex * vertices, kState * floes + kVertex * (vertices + floes)};
 }

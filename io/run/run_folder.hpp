@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
+#include <utility>
 
-#include "io/run/run_lock.hpp"
+#include "io/text/result.hpp"
 #include "simulation/world/scene.hpp"
 
 namespace polynya::io {
@@ -16,7 +17,7 @@ inline constexpr int kRunFolderVersion = 4;
 
 /// The files of a run (docs/run-folder.md).
 namespace run_file {
-inline constexpr std::string_view kLock = ".polynya";  ///< run_lock.hpp
+inline constexpr std::string_view kLock = ".polynya";  ///< RunLock
 inline constexpr std::string_view kScene = "scene.json";
 inline constexpr std::string_view kSummary = "summary.json";
 inline constexpr std::string_view kForces = "forces.csv";
@@ -58,6 +59,33 @@ struct FolderSize {
   double final_geojson = 0;  ///< where it is written
 };
 FolderSize estimate_folder_size(const simulation::Scene& scene);
+
+/// Keeps other processes from writing a run folder as long as it lives: a lock on the folder's file
+/// `.polynya`, which ends with the process, however that ends. The file stays: it marks the folder as a
+/// run's, and a file that is never replaced can be locked by one process only.
+class RunLock {
+ public:
+  /// Makes the file where there is none. The error names what is in the way.
+  static Result<RunLock> take(const std::filesystem::path& folder);
+  RunLock(RunLock&& other) noexcept
+      : descriptor_(std::exchange(other.descriptor_, -1)), folder_(std::move(other.folder_)) {}
+  RunLock& operator=(RunLock&& other) noexcept {
+    std::swap(descriptor_, other.descriptor_);
+    std::swap(folder_, other.folder_);
+    return *this;
+  }
+  ~RunLock();
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+  /// Whether the folder is still there under its name: it was neither removed, moved nor replaced.
+  bool is_in_place() const;
+
+ private:
+  RunLock(int descriptor, std::filesystem::path folder) : descriptor_(descriptor), folder_(std::move(folder)) {}
+  int descriptor_ = -1;
+  std::filesystem::path folder_;
+};
 
 /// Takes a folder for a new run, making it where there is none, and locks it: of several processes that take
 /// one folder, one gets it. A folder with anything in it is refused, but for what a run leaves that was

@@ -23,13 +23,12 @@ namespace {
 using simulation::Simulation;
 
 void append(JsonWriter& json, const ShipPeaks& peaks, const std::vector<const ForceColumn*>& columns) {
-  json.open('{').key("ship").value(peaks.ship);
+  json.key("ship").value(peaks.ship);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Peak& peak = peaks.of_column[i];
     json.key(columns[i]->name).open('{').key("value").value(peak.value);
     json.key("t_s").value(peak.time).close('}');
   }
-  json.close('}');
 }
 
 void append(JsonWriter& json, const simulation::AreaLedger& ledger, const simulation::MassLedger& masses) {
@@ -78,12 +77,8 @@ void append(JsonWriter& json, const simulation::Audit& audit, bool has_boundarie
   json.key("friction_J").value(e.friction).key("restitution_J").value(e.restitution);
   json.key("crushing_J").value(e.crushing).key("bending_J").value(e.bending);
   json.key("splitting_J").value(e.splitting).key("grinding_J").value(e.grinding);
-  json.key("submersion_J")
-      .value(e.submersion)
-      .key("submerged_ice_J")
-      .value(e.submerged_ice)
-      .key("rest_J")
-      .value(e.rest);
+  json.key("submersion_J").value(e.submersion).key("submerged_ice_J").value(e.submerged_ice);
+  json.key("rest_J").value(e.rest);
   json.key("imbalance_J").value(audit.energy_imbalance).key("turnover_J").value(audit.turnover);
   json.close('}');
   const auto vector = [&](const char* key, geometry::Vector v) { json.key(key).list(std::array{v.x, v.y}); };
@@ -222,25 +217,23 @@ std::string_view version() {
 }
 
 std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
-  std::string text;
-  JsonWriter json(text, JsonWriter::Layout::kIndented);
-  json.open('{').key("version").value(version()).key("folder_version").value(kRunFolderVersion);
-  json.key("scene").value(scene.scene.name).key("seed").value(scene.scene.seed);
-  json.key("scene_hash").value(scene.hash).key("finished").value(summary.finished);
-  if (!summary.stopped_by.empty()) json.key("stopped_by").value(summary.stopped_by);
-  json.key("steps").value(summary.steps).key("sim_time_s").value(summary.sim_time);
-  json.key("wall_time_s").value(summary.wall_time).key("real_time_factor").value(summary.real_time_factor());
-  json.key("forces_interval_s").value(recording_interval(scene.scene));
-  json.key("peaks").open('[');
-  const std::vector<const ForceColumn*> columns = peak_columns(scene.scene);
-  for (const ShipPeaks& peaks : summary.peaks) append(json, peaks, columns);
-  json.close(']');
-  append(json, summary.ledger, summary.masses);
-  append_ice_of_floes(json, scene.scene);
-  append(json, summary.audit, has_wind_or_walls(scene.scene));
-  append(json, summary.counts);
-  json.key("warnings").list(summary.warnings).close('}');
-  return text + "\n";
+  const auto write = [&](JsonWriter& json) {
+    json.key("version").value(version()).key("folder_version").value(kRunFolderVersion);
+    json.key("scene").value(scene.scene.name).key("seed").value(scene.scene.seed);
+    json.key("scene_hash").value(scene.hash).key("finished").value(summary.finished);
+    if (!summary.stopped_by.empty()) json.key("stopped_by").value(summary.stopped_by);
+    json.key("steps").value(summary.steps).key("sim_time_s").value(summary.sim_time);
+    json.key("wall_time_s").value(summary.wall_time).key("real_time_factor").value(summary.real_time_factor());
+    json.key("forces_interval_s").value(recording_interval(scene.scene));
+    const std::vector<const ForceColumn*> columns = peak_columns(scene.scene);
+    json.key("peaks").objects(summary.peaks, [&](const ShipPeaks& peaks) { append(json, peaks, columns); });
+    append(json, summary.ledger, summary.masses);
+    append_ice_of_floes(json, scene.scene);
+    append(json, summary.audit, has_wind_or_walls(scene.scene));
+    append(json, summary.counts);
+    json.key("warnings").list(summary.warnings);
+  };
+  return json_object(write, JsonWriter::Layout::kIndented);
 }
 
 }  // namespace polynya::io

@@ -30,9 +30,7 @@ void write_list(JsonWriter& json, int least, int most, WriteItems write_items) {
   json.key("type").value("array");
   if (least > 0) json.key("minItems").value(least);
   if (most > 0) json.key("maxItems").value(most);
-  json.key("items").open('{');
-  write_items();
-  json.close('}');
+  json.key("items").object(write_items);
 }
 
 void write_object(JsonWriter& json, const Object& object);
@@ -73,18 +71,9 @@ void write_type(JsonWriter& json, const Field& field) {
     case Kind::kVector:
       return write_vector(json, field);
     case Kind::kNumberOrVector:
-      json.key("oneOf").open('[').open('{');
-      write_number(json, field, "number");
-      json.close('}').open('{');
-      write_vector(json, field);
-      json.close('}').close(']');
-      return;
     case Kind::kNumberOrLaw:
-      json.key("oneOf").open('[').open('{');
-      write_number(json, field, "number");
-      json.close('}').open('{');
-      write_object(json, *field.object);
-      json.close('}').close(']');
+      json.key("oneOf").open('[').object([&] { write_number(json, field, "number"); });
+      json.object([&] { field.object ? write_object(json, *field.object) : write_vector(json, field); }).close(']');
       return;
     case Kind::kNumbers:
       return write_list(json, 0, 0, [&] { write_number(json, field, "number"); });
@@ -113,13 +102,8 @@ void write_object(JsonWriter& json, const Object& object) {
   json.key("type").value("object").key("additionalProperties").value(false);
   write_required(json, object, "");
   if (!object.alternatives.empty()) {
-    json.key("oneOf").open('[');
-    for (const auto alternative : object.alternatives) {
-      json.open('{');
-      write_required(json, object, alternative);
-      json.close('}');
-    }
-    json.close(']');
+    json.key("oneOf").objects(object.alternatives,
+                              [&](std::string_view alternative) { write_required(json, object, alternative); });
   }
   json.key("properties").open('{');
   if (&object == &scene_description()) json.key("$schema").open('{').key("type").value("string").close('}');
@@ -206,13 +190,11 @@ void append_settings(std::string& text, const Object& object, int depth) {
 }  // namespace
 
 std::string scene_schema() {
-  std::string text;
-  JsonWriter json(text, JsonWriter::Layout::kIndented);
-  json.open('{').key("$schema").value("https://json-schema.org/draft/2020-12/schema");
-  json.key("title").value("Polynya scene");
-  write_object(json, scene_description());
-  json.close('}');
-  return text + "\n";
+  const auto write = [](JsonWriter& json) {
+    json.key("$schema").value("https://json-schema.org/draft/2020-12/schema").key("title").value("Polynya scene");
+    write_object(json, scene_description());
+  };
+  return json_object(write, JsonWriter::Layout::kIndented);
 }
 
 std::string scene_tables() {

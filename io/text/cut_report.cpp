@@ -40,21 +40,17 @@ void write_tool(JsonWriter& json, const LineTool& line) {
 }
 
 void write_op(JsonWriter& json, const CutOp& op) {
-  json.open('{');
   std::visit([&](const auto& tool) { write_tool(json, tool); }, op.tool);
   if (std::holds_alternative<DiscTool>(op.tool) || std::holds_alternative<PolygonTool>(op.tool))
     json.key("keep").value(name_of(op.keep));
   if (op.must_cut) json.key("must_cut").value(true);
-  json.close('}');
 }
 
 void write_dangling(JsonWriter& json, const CutFloe& floe) {
-  json.key("dangling_length_m").value(floe.dangling_length).key("dangling").open('[');
-  for (const Dangling& one : floe.dangling) {
-    json.open('{').key("from_m").value(one.from).key("to_m").value(one.to);
-    json.key("length_m").value(distance(one.from, one.to)).close('}');
-  }
-  json.close(']');
+  json.key("dangling_length_m").value(floe.dangling_length);
+  json.key("dangling").objects(floe.dangling, [&](const Dangling& one) {
+    json.key("from_m").value(one.from).key("to_m").value(one.to).key("length_m").value(distance(one.from, one.to));
+  });
 }
 
 void write_rejection(JsonWriter& json, const std::optional<Rejection>& rejected) {
@@ -69,7 +65,7 @@ void write_rejection(JsonWriter& json, const std::optional<Rejection>& rejected)
 }
 
 void write_floe(JsonWriter& json, const CutFloe& floe) {
-  json.open('{').key("floe_id").value(floe.floe_id);
+  json.key("floe_id").value(floe.floe_id);
   json.key("feature").value(floe.feature).key("polygon").value(floe.member).key("line").value(floe.line);
   json.key("area_m2").value(floe.area).key("pieces").value(std::ssize(floe.pieces));
   json.key("area_of_pieces_m2").value(floe.area_of_pieces).key("removed_m2").value(floe.removed);
@@ -85,12 +81,20 @@ void write_floe(JsonWriter& json, const CutFloe& floe) {
     json.key("shapes").value(floe.repair->shapes).close('}');
   }
   write_rejection(json, floe.rejected);
-  json.key("parts").open('[');
-  for (const CutPiece& piece : floe.pieces) {
-    json.open('{').key("floe_id").value(piece.floe_id).key("part").value(name_of(piece.part));
-    json.key("area_m2").value(piece.area).close('}');
-  }
-  json.close(']').close('}');
+  json.key("parts").objects(floe.pieces, [&](const CutPiece& piece) {
+    json.key("floe_id").value(piece.floe_id).key("part").value(name_of(piece.part)).key("area_m2").value(piece.area);
+  });
+}
+
+void write_totals(JsonWriter& json, const CutTotals& totals) {
+  json.key("floes").value(totals.floes).key("area_m2").value(totals.area);
+  json.key("pieces").value(totals.pieces).key("area_of_pieces_m2").value(totals.area_of_pieces);
+  json.key("removed_m2").value(totals.removed).key("exact_defect_m2").value(totals.exact_defect);
+  json.key("rounding_defect_m2").value(totals.rounding_defect).key("slivers").value(totals.slivers);
+  json.key("area_slivers_m2").value(totals.area_slivers).key("snap_rounded").value(totals.snap_rounded);
+  json.key("dangling").value(totals.dangling).key("repaired").value(totals.repaired);
+  json.key("area_changed_by_repair_m2").value(totals.area_repaired);
+  json.key("rejected").value(totals.rejected);
 }
 
 }  // namespace
@@ -123,56 +127,41 @@ CutTotals totals_of(const CutReport& report) {
 }
 
 std::string to_ledger_json(const CutReport& report) {
-  std::string text;
-  JsonWriter json(text);
-  json.open('{').key("tools").open('[');
-  for (const CutOp& op : report.ops) write_op(json, op);
-  json.close(']').key("floes").open('[');
-  for (const CutFloe& floe : report.floes) {
+  return json_object([&](JsonWriter& json) {
+    json.key("tools").objects(report.ops, [&](const CutOp& op) { write_op(json, op); });
+    json.key("floes").object_lines(report.floes, [&](const CutFloe& floe) { write_floe(json, floe); });
     json.start_line();
-    write_floe(json, floe);
-  }
-  json.close(']');
-  const CutTotals totals = totals_of(report);
-  json.start_line();
-  json.key("totals").open('{').key("floes").value(totals.floes).key("area_m2").value(totals.area);
-  json.key("pieces").value(totals.pieces).key("area_of_pieces_m2").value(totals.area_of_pieces);
-  json.key("removed_m2").value(totals.removed).key("exact_defect_m2").value(totals.exact_defect);
-  json.key("rounding_defect_m2").value(totals.rounding_defect).key("slivers").value(totals.slivers);
-  json.key("area_slivers_m2").value(totals.area_slivers).key("snap_rounded").value(totals.snap_rounded);
-  json.key("dangling").value(totals.dangling).key("repaired").value(totals.repaired);
-  json.key("area_changed_by_repair_m2").value(totals.area_repaired);
-  json.key("rejected").value(totals.rejected).close('}').close('}');
-  return text + "\n";
+    json.key("totals").object([&] { write_totals(json, totals_of(report)); });
+  });
 }
 
 std::string to_floe_text(const CutReport& report, FloeFormat format) {
   std::string text;
+  const auto for_pieces = [&](auto use) {
+    for (const CutFloe& floe : report.floes)
+      for (const CutPiece& piece : floe.pieces) use(floe, piece);
+  };
   if (format == FloeFormat::kGeojson) {
-    JsonWriter json(text);
-    json.open('{').key("type").value("FeatureCollection");
-    write_crs(json, report.crs);
-    json.key("features").open('[');
-    for (const CutFloe& floe : report.floes) {
-      for (const CutPiece& piece : floe.pieces) {
+    return json_object([&](JsonWriter& json) {
+      json.key("type").value("FeatureCollection");
+      write_crs(json, report.crs);
+      json.key("features").open('[');
+      for_pieces([&](const CutFloe& floe, const CutPiece& piece) {
         json.start_line();
         write_feature(json, "", floe, piece);
-      }
-    }
-    json.close(']').close('}');
-    return text + "\n";
+      });
+      json.close(']');
+    });
   }
-  for (const CutFloe& floe : report.floes) {
-    for (const CutPiece& piece : floe.pieces) {
-      if (format == FloeFormat::kNdjson) {
-        JsonWriter json(text);
-        write_feature(json, report.crs, floe, piece);
-      } else {
-        append_wkt(text, piece.polygon);
-      }
-      text += '\n';
+  for_pieces([&](const CutFloe& floe, const CutPiece& piece) {
+    if (format == FloeFormat::kNdjson) {
+      JsonWriter json(text);
+      write_feature(json, report.crs, floe, piece);
+    } else {
+      append_wkt(text, piece.polygon);
     }
-  }
+    text += '\n';
+  });
   return text;
 }
 

@@ -1,17 +1,334 @@
 #include "io/text/floe_text.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "io/text/birth_shapes.hpp"
-#include "io/text/geojson_layer.hpp"
 #include "io/text/json_parser.hpp"
-#include "io/text/text_kind.hpp"
+#include "io/text/json_writer.hpp"
+#include "io/text/shape_parts.hpp"
 #include "io/text/wkt.hpp"
 
 namespace polynya::io {
 namespace {
+
+using JsonKind = JsonValue::Kind;
+
+/// Of one text: short lines can name a long boundary again and again.
+constexpr std::size_t kMostAssembled = 20'000'000;  ///< vertices, 320 MB
+
+/// The lines of a run's floes.ndjson among the entries of a text, which may hold only some of them: what is
+/// parts of a parent's shape is assembled from the entries before it.
+class BirthShapes {
+ public:
+  explicit BirthShapes(const FloeText& floes) : floes_(floes) {}
+
+  /// The next entry is this floe's.
+  void add_next(std::int64_t floe) { entry_of_[floe] = floes_.entries.size(); }
+
+  /// The shape of a line that has parts of its parent's. The error is what is wrong with it or missing.
+  Result<geometry::Polygon> assemble(const JsonValue& line) {
+    const auto shape = read_shape(line);
+    if (!shape) return fail(shape.error());
+    const auto id = floe_id_in(line, "parent_id");
+    if (!id) return fail("parts of a parent's shape, without a \"parent_id\"");
+    const auto found = entry_of_.find(*id);
+    if (found == entry_of_.end())
+      return fail(
+          fmt::format("parts of the shape of floe {}, of which no line stands before (`polynya inspect RUN "
+                      "--floe ID` prints a floe's shape whole)",
+                      *id));
+    const geometry::Polygon& parent = floes_.entries[found->second].polygon;
+    if (const auto checked = check_parts(*shape, ring_sizes(parent)); !checked) return fail(checked.error());
+    assembled_ += vertex_count(parent);
+    if (assembled_ > kMostAssembled)
+      return fail(fmt::format("more than {} vertices in the shapes of parents", kMostAssembled));
+    return assembled(*shape, parent);
+  }
+
+ private:
+  const FloeText& floes_;
+  std::unordered_map<std::int64_t, std::size_t> entry_of_;  ///< by floe id
+  std::size_t assembled_ = 0;                               ///< vertices
+};
+
+/// What Polynya writes of each piece in place of its parent's.
+constexpr std::string_view kOwnProperties[] = {"floe_id", "parent_id", "area_m2", "part"};
+
+/// Ends the reading of one feature.
+struct ParseError : std::runtime_error {
+  ParseError(std::string_view why, const std::string& detail) : std::runtime_error(detail), reason(why) {}
+  std::string_view reason;
+};
+
+class GeojsonEntries {
+ public:
+  GeojsonEntries(FloeText& floes, std::string_view text, BirthShapes& births)
+      : floes_(floes), text_(text), births_(births) {}
+
+  /// Everything in a GeoJSON value, as one feature after the other from `feature` on; lines are left as
+  /// offsets.
+  void read(const JsonValue& value, std::size_t feature) {
+    note_crs(value);
+    if (value.has("type", "FeatureCollection")) {
+      const JsonValue* features = value.find("features", JsonKind::kArray);
+      if (!features) {
+        feature_ = feature;
+        return refuse(value, "malformed", "a FeatureCollection without features");
+      }
+      for (const JsonValue& item : features->items()) read_feature(item, feature++);
+    } else {
+      read_feature(value, feature);
+    }
+  }
+
+ private:
+  FloeEntry& add_entry(const JsonValue& value) {
+    FloeEntry& entry = floes_.entries.emplace_back();
+    entry.feature = feature_;
+    entry.member = member_++;
+    entry.line = value.offset;
+    entry.floe_id = floe_id_;
+    return entry;
+  }
+
+  void refuse(const JsonValue& value, std::string_view reason, const std::string& detail) {
+    FloeEntry& entry = add_entry(value);
+    entry.refusal = reason;
+    entry.detail = detail;
+  }
+
+  void read_feature(const JsonValue& value, std::size_t feature) {
+    feature_ = feature;
+    member_ = 0;
+    floe_id_ = {};
+    properties_ = nullptr;
+    const JsonValue* geometry = &value;
+    if (value.has("type", "Feature")) {
+      note_crs(value);
+      geometry = value.find("geometry");
+      if (const JsonValue* properties = value.find("properties")) {
+        floe_id_ = floe_id_in(*properties, "floe_id");
+        properties_ = kept_of(*properties);
+      }
+      if (!geometry || geometry->is_null()) return refuse(value, "no-geometry", "a feature without geometry");
+    }
+    attempt(*geometry, [&] {
+      const bool is_birth = geometry->find("ring_m") || geometry->find("ring_parts_m");
+      if (is_birth && !geometry->find("type"))
+        read_birth(*geometry);
+      else
+        read_geometry(*geometry);
+    });
+  }
+
+  /// What is refused inside is recorded here, and what stands beside it is read.
+  template <class Read>
+  void attempt(const JsonValue& value, Read read) {
+    try {
+      read();
+    } catch (const ParseError& error) {
+      refuse(value, error.reason, error.what());
+    }
+  }
+
+  void note_crs(const JsonValue& value) {
+    const JsonValue* crs = value.find("crs");
+    if (!crs || text_.empty()) return;
+    const std::string found = compact_json(text_, crs->offset);
+    if (floes_.crs.empty()) floes_.crs = found;
+    floes_.has_other_crs = floes_.has_other_crs || found != floes_.crs;
+  }
+
+  /// A feature's properties without those that Polynya writes itself.
+  std::shared_ptr<const std::string> kept_of(const JsonValue& properties) const {
+    if (!properties.is(JsonKind::kObject) || text_.empty()) return nullptr;
+    std::string kept;
+    for (const JsonMember& member : properties.members()) {
+      if (std::ranges::find(kOwnProperties, member.key) != std::end(kOwnProperties)) continue;
+      if (!kept.empty()) kept += ',';
+      append_text(kept, member.key);
+      kept += ':' + compact_json(text_, member.value.offset);
+    }
+    return kept.empty() ? nullptr : std::make_shared<const std::string>(std::move(kept));
+  }
+
+  /// A line of a run's floes.ndjson.
+  void read_birth(const JsonValue& birth) {
+    floe_id_ = floe_id_in(birth, "floe_id");
+    geometry::Polygon polygon = shape_of(birth);
+    if (floe_id_) births_.add_next(*floe_id_);
+    add(birth, std::move(polygon));
+  }
+
+  geometry::Polygon shape_of(const JsonValue& birth) {
+    if (birth.find("ring_parts_m")) {
+      auto assembled = births_.assemble(birth);
+      if (!assembled) throw ParseError("malformed", assembled.error());
+      return std::move(*assembled);
+    }
+    geometry::Polygon polygon{ring_of(*birth.find("ring_m")), {}};
+    if (const JsonValue* holes = birth.find("holes_m")) {
+      for (const JsonValue& hole : list(*holes, "a list of holes")) polygon.holes.push_back(ring_of(hole));
+    }
+    return polygon;
+  }
+
+  void read_geometry(const JsonValue& value) {
+    const JsonValue* type = value.find("type", JsonKind::kText);
+    if (!type)
+      throw ParseError("malformed",
+                       fmt::format("found {}, expected an object with a GeoJSON type",
+                                   value.is(JsonKind::kObject) ? "an object without one" : name_of(value.kind())));
+    if (type->text() == "GeometryCollection") {
+      const JsonValue* geometries = value.find("geometries");
+      if (!geometries) throw ParseError("malformed", "a GeometryCollection without geometries");
+      for (const JsonValue& item : list(*geometries, "a list of geometries"))
+        attempt(item, [&] { read_geometry(item); });
+      return;
+    }
+    if (type->text() != "Polygon" && type->text() != "MultiPolygon") {
+      throw ParseError("not-a-polygon", fmt::format("found {}, expected Polygon, MultiPolygon or GeometryCollection",
+                                                    type->text().substr(0, 40)));
+    }
+    const JsonValue* coordinates = value.find("coordinates");
+    if (!coordinates) throw ParseError("malformed", "no coordinates");
+    if (type->text() == "Polygon") return add(value, polygon_of(*coordinates));
+    for (const JsonValue& item : list(*coordinates, "a list of polygons"))
+      attempt(item, [&] { add(item, polygon_of(item)); });
+  }
+
+  void add(const JsonValue& value, geometry::Polygon polygon) {
+    FloeEntry& entry = add_entry(value);
+    entry.polygon = std::move(polygon);
+    entry.properties = properties_;
+  }
+
+  static const JsonValue::Array& list(const JsonValue& value, const char* expected) {
+    if (!value.is(JsonKind::kArray))
+      throw ParseError("malformed", fmt::format("found {}, expected {}", name_of(value.kind()), expected));
+    return value.items();
+  }
+
+  geometry::Polygon polygon_of(const JsonValue& value) {
+    geometry::Polygon polygon;
+    bool is_first = true;
+    for (const JsonValue& item : list(value, "a list of rings")) {
+      (is_first ? polygon.outer : polygon.holes.emplace_back()) = ring_of(item);
+      is_first = false;
+    }
+    return polygon;
+  }
+
+  geometry::Ring ring_of(const JsonValue& value) {
+    const JsonValue::Array& items = list(value, "a ring, a list of [x, y]");
+    geometry::Ring ring;
+    ring.reserve(items.size());
+    for (const JsonValue& item : items) {
+      const JsonValue::Array& numbers = list(item, "[x, y]");
+      if (numbers.size() < 2 || numbers.size() > 4)
+        throw ParseError("malformed", fmt::format("found {} numbers, expected [x, y]", numbers.size()));
+      if (numbers.size() > 2) floes_.has_more_coordinates = true;
+      ring.push_back({coordinate(numbers[0]), coordinate(numbers[1])});
+    }
+    return ring;
+  }
+
+  static double coordinate(const JsonValue& value) {
+    if (value.is(JsonKind::kNumber)) return value.number();
+    // null and (after parse_lenient_json) empty texts stand for what JSON cannot write.
+    if (value.is_null() || (value.is(JsonKind::kText) && value.text().empty()))
+      return std::numeric_limits<double>::quiet_NaN();
+    throw ParseError("malformed", fmt::format("found {}, expected a coordinate", name_of(value.kind())));
+  }
+
+  FloeText& floes_;
+  std::string_view text_;
+  BirthShapes& births_;
+  std::size_t feature_ = 0;
+  std::size_t member_ = 0;
+  std::optional<std::int64_t> floe_id_;
+  std::shared_ptr<const std::string> properties_;
+};
+
+// What kind of text it is, by its lines.
+
+/// Whether a trimmed line is a comment: '#' or '//' to its end.
+bool is_comment(std::string_view line) {
+  return line.starts_with('#') || line.starts_with("//");
+}
+
+/// Calls use(line, offset) for each line that is neither blank nor a comment.
+template <class Use>
+void for_lines(std::string_view text, Use use) {
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    const std::string_view line = text.substr(start, end - start);
+    if (const auto words = trimmed(line); !words.empty() && !is_comment(words)) use(line, start);
+    start = end + 1;
+  }
+}
+
+/// Whether the first bracket of the line is closed by its last character.
+bool is_one_object(std::string_view line) {
+  if (line.front() != '{' || line.back() != '}') return false;
+  int depth = 0;
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    const char c = line[at];
+    if (c == '"') {
+      for (++at; at < line.size() && line[at] != '"'; ++at) {
+        if (line[at] == '\\') ++at;
+      }
+    } else if (c == '{' || c == '[') {
+      ++depth;
+    } else if ((c == '}' || c == ']') && --depth == 0) {
+      return at + 1 == line.size();
+    }
+  }
+  return false;
+}
+
+bool is_continued(std::string_view line) {
+  return std::string_view("]},:").find(line.front()) != std::string_view::npos ||
+         std::string_view("[{,:").find(line.back()) != std::string_view::npos;
+}
+
+/// What kinds of lines a text of floes has. Blank lines and comments do not count.
+struct LineCounts {
+  std::size_t lines = 0;
+  std::size_t objects = 0;    ///< from '{' to its own '}': a line of NDJSON, sound or not
+  std::size_t continued = 0;  ///< end or begin amid a value: lines of one JSON text
+  std::size_t wkt = 0;        ///< begin with a WKT geometry
+  std::string_view first_line;
+  bool is_wkt_first = false;
+
+  bool are_all_objects() const { return objects == lines && lines > 1; }
+  bool are_mostly_objects() const { return objects > continued && lines > 1; }
+};
+
+LineCounts count_lines(std::string_view text) {
+  LineCounts counts;
+  for_lines(text, [&counts](std::string_view whole_line, std::size_t) {
+    const std::string_view line = trimmed(whole_line);
+    if (counts.lines++ == 0) {
+      counts.first_line = line;
+      counts.is_wkt_first = begins_wkt(line);
+    }
+    if (is_one_object(line))
+      ++counts.objects;
+    else if (begins_wkt(line))
+      ++counts.wkt;
+    else if (is_continued(line))
+      ++counts.continued;
+  });
+  return counts;
+}
 
 /// Where lines start, so that many places in a long text are found quickly.
 class LineIndex {
@@ -51,7 +368,7 @@ FloeText read_ndjson(const std::string& text) {
   for_lines(text, [&](std::string_view line, std::size_t offset) {
     const std::size_t before = floes.entries.size();
     if (const auto value = parse_lenient_json(std::string(line))) {
-      read_geojson_entries(*value, line, feature, floes, births);
+      GeojsonEntries(floes, line, births).read(*value, feature);
     } else {
       FloeEntry& entry = floes.entries.emplace_back();
       entry.feature = feature;
@@ -117,7 +434,7 @@ Result<FloeText> read_kind(std::string& text) {
     if (const auto value = parse_lenient_json(text)) {
       floes.format = FloeFormat::kGeojson;
       BirthShapes births(floes);
-      read_geojson_entries(*value, text, 0, floes, births);
+      GeojsonEntries(floes, text, births).read(*value, 0);
       return floes;
     } else {
       wrong = value.error();
@@ -132,10 +449,18 @@ Result<FloeText> read_kind(std::string& text) {
 
 }  // namespace
 
+std::optional<std::int64_t> floe_id_in(const JsonValue& object, std::string_view key) {
+  const JsonValue* id = object.find(key, JsonValue::Kind::kNumber);
+  if (!id) return {};
+  const double number = id->number();
+  if (!(number >= 0 && number < 9e15 && number == std::floor(number))) return {};
+  return static_cast<std::int64_t>(number);
+}
+
 FloeText read_floe_json(const JsonValue& geojson) {
   FloeText floes;
   BirthShapes births(floes);
-  read_geojson_entries(geojson, "", 0, floes, births);
+  GeojsonEntries(floes, "", births).read(geojson, 0);
   return floes;
 }
 

@@ -48,4 +48,7 @@ Result<FloeText> read_floe_text(std::string text);
 /// The polygons of one GeoJSON value, likewise.
 FloeText read_floe_json(const JsonValue& geojson);
 
+/// The number of a floe in a member of an object; nothing where that is no such number.
+std::optional<std::int64_t> floe_id_in(const JsonValue& object, std::string_view key);
+
 }  // namespace polynya::io

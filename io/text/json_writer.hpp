@@ -56,6 +56,30 @@ class JsonWriter {
     for (const auto& each : values) value(each);
     return close(']');
   }
+  /// An object; `write` writes its members.
+  template <class Write>
+  JsonWriter& object(Write write) {
+    open('{');
+    write();
+    return close('}');
+  }
+  /// A list of objects; `write(item)` writes the members of each.
+  template <class Items, class Write>
+  JsonWriter& objects(const Items& items, Write write) {
+    open('[');
+    for (const auto& item : items) object([&] { write(item); });
+    return close(']');
+  }
+  /// The same, each object on a line of its own.
+  template <class Items, class Write>
+  JsonWriter& object_lines(const Items& items, Write write) {
+    open('[');
+    for (const auto& item : items) {
+      start_line();
+      object([&] { write(item); });
+    }
+    return close(']');
+  }
   /// A GeoJSON geometry.
   JsonWriter& polygon(const geometry::Polygon& polygon);
   /// A value that is JSON already.
@@ -74,6 +98,15 @@ class JsonWriter {
   bool follows_key_ = false;
   bool starts_line_ = false;
 };
+
+/// The text of one object, whose members `write(json)` writes, and a newline.
+template <class Write>
+std::string json_object(Write write, JsonWriter::Layout layout = JsonWriter::Layout::kLine) {
+  std::string text;
+  JsonWriter json(text, layout);
+  json.object([&] { write(json); });
+  return text + '\n';
+}
 
 /// A value as indented JSON; lists of numbers (and lists of points) stay on one line. Deterministic.
 std::string to_json_text(const JsonValue& value);

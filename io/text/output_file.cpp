@@ -111,9 +111,13 @@ bool OutputFile::sync() {
 }
 
 bool OutputFile::is_in_place() const {
+  return is_still_at(descriptor_, name_);
+}
+
+bool is_still_at(int descriptor, const std::filesystem::path& path) {
   struct stat opened {
   }, named{};
-  return ::fstat(descriptor_, &opened) == 0 && ::lstat(name_.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
+  return ::fstat(descriptor, &opened) == 0 && ::lstat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
          opened.st_ino == named.st_ino;
 }
 

@@ -56,6 +56,9 @@ class OutputFile {
   Result<> status_;
 };
 
+/// Whether an open file still has that name.
+bool is_still_at(int descriptor, const std::filesystem::path& path);
+
 enum class Durability {
   kRenamed,  ///< whole whatever happens to the program
   kSynced,   ///< whole, and there, whatever happens to the machine

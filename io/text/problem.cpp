@@ -60,16 +60,13 @@ std::string to_string(const Problem& problem) {
 std::string to_json_text(const std::vector<Problem>& problems) {
   std::string text;
   JsonWriter json(text);
-  json.open('[');
-  for (const Problem& problem : problems) {
-    json.start_line();
-    json.open('{').key("file").value(problem.file);
+  json.object_lines(problems, [&](const Problem& problem) {
+    json.key("file").value(problem.file);
     for (const auto& [key, value] : {std::pair{"line", problem.line}, {"column", problem.column}})
       json.key(key).value(problem.line > 0 ? std::optional(value) : std::nullopt);
     json.key("path").value(shortened(problem.path, kLongestPath)).key("severity").value(name_of(problem.severity));
-    json.key("message").value(message_of(problem)).close('}');
-  }
-  json.close(']');
+    json.key("message").value(message_of(problem));
+  });
   return text + "\n";
 }
 

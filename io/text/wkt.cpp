@@ -9,12 +9,16 @@
 #include <fmt/format.h>
 
 #include "io/text/json_writer.hpp"
-#include "io/text/text_kind.hpp"
 
 namespace polynya::io {
 namespace {
 
 constexpr int kDeepestCollection = 64;
+
+/// Whether it is one of A to Z or a to z.
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
 
 /// What is wrong at the reader's place; ends the geometry it stands in.
 struct SyntaxError : std::runtime_error {
@@ -194,6 +198,23 @@ void append_ring(std::string& text, const geometry::Ring& ring) {
 }
 
 }  // namespace
+
+std::string_view trimmed(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return line.substr(first, line.find_last_not_of(kBlanks) + 1 - first);
+}
+
+bool begins_wkt(std::string_view line) {
+  const auto end_of_word = static_cast<std::size_t>(std::ranges::find_if_not(line, is_letter) - line.begin());
+  std::string word(line.substr(0, end_of_word));
+  for (char& c : word) c = static_cast<char>(c & ~0x20);  // upper case
+  const auto begins = [&](std::string_view name) { return word.starts_with(name); };
+  if (begins("POLYGON") || begins("MULTIPOLYGON") || begins("GEOMETRYCOLLECTION") || begins("SRID") ||
+      begins("POINT") || begins("LINESTRING") || begins("MULTIPOINT") || begins("MULTILINESTRING"))
+    return true;
+  return !word.empty() && trimmed(line.substr(end_of_word)).starts_with('(');
+}
 
 std::vector<WktGeometry> read_wkt(std::string_view text) {
   return WktReader(text).read();

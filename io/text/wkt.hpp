@@ -8,6 +8,14 @@
 
 namespace polynya::io {
 
+inline constexpr std::string_view kBlanks = " \t\r\n";
+
+/// A line without the blanks around it.
+std::string_view trimmed(std::string_view line);
+
+/// Whether a trimmed line begins with the name of a geometry, or with any word that a bracket follows.
+bool begins_wkt(std::string_view line);
+
 /// One geometry of a WKT text, or what is wrong with it.
 struct WktGeometry {
   std::vector<geometry::Polygon> polygons;  ///< rings as drawn; a coordinate may be NaN or infinite

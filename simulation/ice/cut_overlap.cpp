@@ -82,7 +82,7 @@ bool cut_overlap(const Setup& setup, const Clock& clock, const OverlapCut& overl
     criterion.overlap_area = outcome->ledger.area_inside;
     if (criterion.overlap_area < criterion.least_area) return false;
     if (overlap.when == CutWhen::kParts && !is_parted(setup, *outcome)) return false;
-    Event event = event_of(population, clock, overlap, ground, Grind{.criterion = criterion});
+    Event event = event_of(population, clock, overlap, ground, Grind{{}, criterion});
     replace_by_pieces(setup, clock, {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
                       *outcome, population, accounts, journal);
     return true;

@@ -150,7 +150,7 @@ void carve_channels(const Setup& setup, const Clock& clock, const StepData& step
     const geometry::Shape& shape = population.floes[first->floe].shape;
     const geometry::CutOutcome outcome = geometry::cut_by_polygons(shape, tools);
     if (outcome) {
-      Event event = event_of_carving(clock, *first, Grind{.criterion = first->criterion});
+      Event event = event_of_carving(clock, *first, Grind{{}, first->criterion});
       replace_by_pieces(setup, clock, {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
                         *outcome, population, accounts, journal);
     } else if (outcome.error().reason != geometry::CutFailure::kMisses) {

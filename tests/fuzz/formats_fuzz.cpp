@@ -11,7 +11,6 @@
 #include "geometry/exact/validity.hpp"
 #include "io/run/floe_shapes.hpp"
 #include "io/scene/scene_reader.hpp"
-#include "io/text/birth_shapes.hpp"
 #include "io/text/cut_ops.hpp"
 #include "io/text/floe_text.hpp"
 #include "io/text/json_parser.hpp"

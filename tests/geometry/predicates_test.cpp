@@ -392,7 +392,7 @@ TEST(ExactArea, SeesWhatSumsOfDoublesLose) {
   const Polygon square{{{0, 0}, {large, 0}, {large, large}, {0, large}}, {}};
   const Polygon corner{{{0, 0}, {small, 0}, {0, small}}, {}};
   const Polygon rest{{{small, 0}, {large, 0}, {large, large}, {0, large}, {0, small}}, {}};
-  EXPECT_EQ(exact_area(rest), exact_area(square)) << "no double tells them apart";
+  EXPECT_EQ(exact_area(rest), exact_area(square)) << "no double is between them";
   const Polygon* const before[]{&square};
   const Polygon* const both[]{&rest, &corner};
   EXPECT_EQ(exact_balance(both, before, {}), 0);

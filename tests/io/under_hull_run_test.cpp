@@ -3,7 +3,6 @@
 #include "temporary_folder.hpp"
 
 #include "io/run/motion_index.hpp"
-#include "io/run/placed_floes.hpp"
 #include "io/run/run_loop.hpp"
 #include "io/run/run_reader.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "geometry/shape/angle.hpp"
 #include "io/import/projection.hpp"
-#include "io/run/placed_floes.hpp"
+#include "io/run/motion_index.hpp"
 #include "io/run/records.hpp"
 #include "io/scene/floe_ice.hpp"
 #include "io/text/geojson_layer.hpp"

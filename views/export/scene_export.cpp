@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "geometry/shape/angle.hpp"
-#include "io/run/placed_floes.hpp"
+#include "io/run/motion_index.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/text/json_parser.hpp"

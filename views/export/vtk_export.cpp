@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "geometry/shape/outline.hpp"
-#include "io/run/placed_floes.hpp"
+#include "io/run/motion_index.hpp"
 #include "io/scene/floe_ice.hpp"
 #include "io/text/output_file.hpp"
 #include "views/export/vtk_file.hpp"

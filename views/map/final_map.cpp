@@ -1,14 +1,15 @@
 #include "views/map/final_map.hpp"
 
 #include <algorithm>
+#include <system_error>
 
 #include <fmt/format.h>
 
-#include "io/run/placed_floes.hpp"
+#include "io/run/motion_index.hpp"
 #include "io/run/run_folder.hpp"
+#include "io/text/child_process.hpp"
 #include "io/text/output_file.hpp"
 #include "io/text/problem.hpp"
-#include "views/map/svg_convert.hpp"
 
 namespace polynya::views {
 
@@ -62,6 +63,21 @@ std::string words_of_ice_under_hulls(const io::Run& run, double time) {
                      count(&simulation::Event::is<simulation::Resurface>));
 }
 
+/// Makes a PNG of 240 dots per inch of an SVG file where rsvg-convert is installed. False where it is not or fails.
+bool convert_to_png(const std::filesystem::path& svg, const std::filesystem::path& png) {
+  constexpr std::size_t kLongest = std::size_t{1} << 30;  // [bytes]
+  std::error_code error;
+  const auto there = std::filesystem::symlink_status(png, error);
+  if (exists(there) && !is_regular_file(there) && !is_symlink(there)) return false;
+  // It writes into a pipe: no folder is written to by a program that may outlive this one.
+  const auto output =
+      io::run_child({"rsvg-convert", "--format=png", "--dpi-x=240", "--dpi-y=240", svg.string()}, kLongest);
+  const bool is_made = output && output->code == 0 && !output->out.empty();
+  if (is_made && io::write_whole_file(png, output->out, io::Durability::kSynced)) return true;
+  std::filesystem::remove(png, error);  // of an earlier picture
+  return false;
+}
+
 }  // namespace
 
 Picture final_picture(const io::Run& run) {
@@ -81,7 +97,7 @@ io::Result<std::string> draw_final_map(const io::Run& run) {
   if (const auto written = io::write_whole_file(file, svg, io::Durability::kSynced); !written)
     return io::fail(written.error());
   const auto png = run.folder / io::run_file::kFinalPng;
-  if (svg.size() > kLargestConverted || !convert_svg(file, png)) return std::string(io::run_file::kFinalSvg);
+  if (svg.size() > kLargestConverted || !convert_to_png(file, png)) return std::string(io::run_file::kFinalSvg);
   return std::string(io::run_file::kFinalPng);
 }
 

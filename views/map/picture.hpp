@@ -4,9 +4,10 @@
 #include <vector>
 
 #include "geometry/shape/polygon.hpp"
-#include "views/map/map_marks.hpp"
 
 namespace polynya::views {
+
+enum class FractureMark { kBend, kSplit, kGrind };
 
 /// A run at an instant, drawn from above.
 struct Picture {
