@@ -307,8 +307,11 @@ RunCheck check_run(const io::Run& run, std::optional<double> only_at, const std:
     advance(1);
   }
   OverlapCheck overlaps(run, check);
+  WorkCheck work(run, check);
   for (std::size_t i = 0; i < instants; ++i) {
-    overlaps.measure(only_at ? *only_at : run.frames[i].time);
+    const double time = only_at ? *only_at : run.frames[i].time;
+    overlaps.measure(time);
+    work.compare(time);
     advance(static_cast<double>(run.floes.size()) / 8);
   }
   return check;
