@@ -6,7 +6,7 @@
 #include <memory>
 #include <set>
 
-#include "fracture/crushing.hpp"
+#include "analysis/work_check.hpp"
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/point_in_ring.hpp"
@@ -185,7 +185,7 @@ class OverlapCheck {
     if (!is_hull(body)) placed.world_from_body = pose_of(run_.floe(body)->birth, motion);
     const Box box = bounding_box(transform(placed.world_from_body, polygon->outer));
     placed.box_in_world = grown(box, 1e-9 * (1 + length(box.high - box.low)));
-    placed.area = area_of(body);
+    placed.area = is_hull(body) ? geometry::measure(*polygon).area : run_.floe(body)->birth.area;
     placed.radius = 0.5 * length(box.high - box.low);
     return placed;
   }
@@ -215,49 +215,12 @@ class OverlapCheck {
     const auto key = [](const simulation::ContactState::Body& body) {
       return body.ship >= 0 ? -1 - BodyKey{body.ship} : body.floe;
     };
-    double expected = 0;
-    double work = 0;
     auto row = std::ranges::lower_bound(run_.crushed, time, {}, &io::RunCrushed::time);
     for (; row != run_.crushed.end() && row->time == time; ++row) {
       const BodyKey on = key(row->overlap.on);
       const BodyKey by = key(row->overlap.by);
       crushed_[{std::min(on, by), std::max(on, by)}] = row->overlap.area + row->overlap.tilted;
-      expected += compare_with_work(row->overlap, {std::min(on, by), std::max(on, by)}, time);
-      work += row->overlap.work;
     }
-    if (expected <= check_.most_expected) return;
-    check_.most_expected = expected;
-    check_.work_then = work;
-  }
-
-  /// Returns what that ice takes to crush [J].
-  double compare_with_work(const simulation::CrushedOverlap& overlap, std::pair<BodyKey, BodyKey> key, double time) {
-    const fracture::Ice of_second = ice_of(key.second);
-    const fracture::Ice ice = is_hull(key.first) ? of_second : fracture::crushed_between(ice_of(key.first), of_second);
-    const double smaller = std::min(area_of(key.first), area_of(key.second));
-    const double expected = ice.compressive_strength * overlap.volume;
-    if (overlap.volume <= kUncrushedShare * smaller * ice.thickness) return expected;
-    const bool is_paid = overlap.work * kMostWorkFactor >= expected && overlap.work <= kMostWorkFactor * expected;
-    paid_.insert(key);
-    check_.paid_pairs = paid_.size();
-    if (is_paid) return expected;
-    const UnpaidOverlap unpaid{name_of(key.first), name_of(key.second), time, overlap.area, expected, overlap.work};
-    const auto known = unpaid_.find(key);
-    if (known == unpaid_.end()) {
-      unpaid_[key] = check_.unpaid.size();
-      check_.unpaid.push_back(unpaid);
-    } else if (expected > check_.unpaid[known->second].expected) {
-      check_.unpaid[known->second] = unpaid;
-    }
-    return expected;
-  }
-
-  fracture::Ice ice_of(BodyKey floe) const {
-    return simulation::ice_of(run_.scene.scene, run_.floe(floe)->birth.own_ice);
-  }
-
-  double area_of(BodyKey body) const {  ///< [m²]
-    return is_hull(body) ? geometry::measure(*polygon_of(body)).area : run_.floe(body)->birth.area;
   }
 
   template <class Use>
@@ -314,11 +277,9 @@ class OverlapCheck {
   RunCheck& check_;
   io::MotionIndex motions_;
   std::vector<std::shared_ptr<const geometry::Polygon>> hulls_;
-  std::vector<Placed> bodies_;                                 ///< living
-  std::map<std::pair<BodyKey, BodyKey>, double> crushed_;      ///< at the instant [m²]
-  std::set<std::pair<BodyKey, BodyKey>> paid_;                 ///< whose work was compared
-  std::map<std::pair<BodyKey, BodyKey>, std::size_t> unpaid_;  ///< in the check's list
-  bool is_recorded_ = false;                                   ///< the instant is that of a frame
+  std::vector<Placed> bodies_;                             ///< living
+  std::map<std::pair<BodyKey, BodyKey>, double> crushed_;  ///< at the instant [m²]
+  bool is_recorded_ = false;                               ///< the instant is that of a frame
   std::map<std::pair<BodyKey, BodyKey>, Known> known_;
   std::set<std::pair<BodyKey, BodyKey>> overlapping_;
 };
@@ -346,8 +307,11 @@ RunCheck check_run(const io::Run& run, std::optional<double> only_at, const std:
     advance(1);
   }
   OverlapCheck overlaps(run, check);
+  WorkCheck work(run, check);
   for (std::size_t i = 0; i < instants; ++i) {
-    overlaps.measure(only_at ? *only_at : run.frames[i].time);
+    const double time = only_at ? *only_at : run.frames[i].time;
+    overlaps.measure(time);
+    work.compare(time);
     advance(static_cast<double>(run.floes.size()) / 8);
   }
   return check;
