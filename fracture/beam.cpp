@@ -103,8 +103,7 @@ double section_stress(const Ice& ice, double width, const SectionLoad& load) {
          6 * std::abs(load.vertical_moment) / (width * h * h);
 }
 
-double most_section_stress(const Ice& ice, double area, double length, double force, double down) {
-  const double least_width = kLeastSection * area / length;
+double most_section_stress(const Ice& ice, double least_width, double length, double force, double down) {
   return section_stress(ice, least_width, {force, 0.25 * length * force, 0.25 * length * down});
 }
 

@@ -74,8 +74,8 @@ double elastic_share(const Ice& ice, const Water& water, double length);
 /// The greatest tension at a corner of the section, N/(h w) + 6 |M|/(h w²) + 6 |M_v|/(w h²) [Pa].
 double section_stress(const Ice& ice, double width, const SectionLoad& load);
 
-/// No section of a floe that is no longer than `length` [m] and has that area [m²] has a greater stress by
-/// forces of that sum and weight [N]: no load bends a free beam by more than ¼ F Λ [Pa].
-double most_section_stress(const Ice& ice, double area, double length, double force, double down);
+/// No section of a floe of that length, at least so wide [m], has a greater stress by forces of that sum and
+/// weight [N]: no load bends a free beam by more than ¼ F Λ [Pa].
+double most_section_stress(const Ice& ice, double least_width, double length, double force, double down);
 
 }  // namespace polynya::fracture

@@ -1,6 +1,7 @@
 #include "simulation/ice/beams.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -14,13 +15,15 @@ namespace polynya::simulation {
 namespace {
 
 using dynamics::Contact;
-using fracture::BeamSection;
 using geometry::Point;
 using geometry::Vector;
 
 /// Sections between a beam's ends, beside those at its loads: the moment peaks at a load, or where no shear
 /// is, and is flat there.
 constexpr int kSections = 24;
+
+/// Of the greatest stress at any section, no less than this is found at those between the ends.
+constexpr double kShareBetween = 0.5;
 
 /// A contact that presses a beam.
 struct OnBeam {
@@ -56,146 +59,174 @@ std::vector<OnBeam> contacts_of_beams(const Setup& setup, const Population& popu
   return found;
 }
 
-/// A floe with its loads.
-struct Beam {
-  BodyIndex floe = 0;
-  geometry::Pose frame_from_body;  ///< origin at the centre of mass, x along its length
-  fracture::PlaneMoments moments;
-  std::vector<fracture::BeamLoad> loads;
-  double elastic_share = 1;  ///< of the rigid beam's vertical moment
-};
-
-Beam beam_of(const Setup& setup, const Population& population, const std::vector<Contact>& contacts,
-             std::span<const OnBeam> on) {
+/// The section at x; none where the beam is narrow there, not in one piece, or leaves a piece that is none.
+std::optional<BeamPart> part_at(const Setup& setup, const Population& population, BodyIndex floe, const BeamShape& beam,
+                                double x) {
   const dynamics::Bodies& bodies = population.bodies;
-  const BodyIndex floe = on.front().floe;
+  const double outside = 2 * bodies.bounding_radius[floe];
+  const Vector along = rotate_back(beam.frame_from_body.rotation, {0, 1});
+  const Point from = inverse_transform(beam.frame_from_body, {x, -outside});
+  const auto crossings = crossings_of_line(*bodies.boundary[floe], from, along);
+  if (crossings.size() != 2) return std::nullopt;
+  const auto [near, first_edge] = crossings[0];
+  const auto [far, last_edge] = crossings[1];
+  const double width = far - near;
+  if (width < fracture::kLeastSection * beam.moments.area / outside) return std::nullopt;
+  BeamPart part;
+  part.section = {x, 0.5 * (near + far) - outside, width};
+  part.before =
+      fracture::moments_up_to(population.floes[population.floe_of(floe)].shape.polygon, beam.frame_from_body, x);
+  const double least = setup.scene.fracture.smallest_floe_area;
+  if (std::min(part.before.area, beam.moments.area - part.before.area) < least) return std::nullopt;
+  part.path = {
+      from + (near - kCrackMargin) * along, from + (far + kCrackMargin) * along, width, first_edge, last_edge, 1};
+  return part;
+}
+
+BeamShape shape_of(const Setup& setup, const Population& population, BodyIndex floe) {
+  const dynamics::Bodies& bodies = population.bodies;
   const geometry::Polygon& polygon = population.floes[population.floe_of(floe)].shape.polygon;
-  Beam beam{floe, {Point{} - (bodies.centroid[floe] - Point{}), {}}, {}, {}, 1};
-  const double axis = fracture::long_axis(fracture::moments_of(polygon, beam.frame_from_body));
+  BeamShape beam;
+  const Vector to_centre = Point{} - bodies.centroid[floe];
+  const double axis = fracture::long_axis(fracture::moments_of(polygon, {Point{} + to_centre, {}}));
   const geometry::Rotation turn = geometry::Rotation::by(-axis);
-  beam.frame_from_body = {Point{} + rotate(turn, beam.frame_from_body.position - Point{}), turn};
+  beam.frame_from_body = {Point{} + rotate(turn, to_centre), turn};
   beam.moments = fracture::moments_of(polygon, beam.frame_from_body);
-  const geometry::Pose water_from_body = dynamics::water_from_body(bodies, floe);
-  const auto in_frame = [&](Vector v) { return rotate(turn, rotate_back(water_from_body.rotation, v)); };
-  for (const OnBeam& one : on) {
-    const Contact& c = contacts[one.contact];
-    const Point at = transform(beam.frame_from_body, inverse_transform(water_from_body, c.centre_of_pressure()));
-    beam.loads.push_back({at, in_frame(force_on(c, floe, setup.step)), one.down});
+  beam.length = std::sqrt(12 * beam.moments.xx / beam.moments.area);
+  beam.elastic_share =
+      fracture::elastic_share(ice_of_body(setup, population, floe), setup.scene.water.water, beam.length);
+  const double reach = bodies.bounding_radius[floe];
+  beam.least_width = reach;
+  for (int k = 1; k < kSections; ++k) {
+    auto part = part_at(setup, population, floe, beam, reach * (2.0 * k / kSections - 1));
+    if (!part) continue;
+    beam.least_width = std::min(beam.least_width, part->section.width);
+    beam.parts.push_back(std::move(*part));
   }
-  const double length = std::sqrt(12 * beam.moments.xx / beam.moments.area);  // of a rectangle
-  beam.elastic_share = fracture::elastic_share(ice_of_body(setup, population, floe), setup.scene.water.water, length);
   return beam;
 }
 
-/// A section of a beam with its stress.
+/// The shape of a floe, made once. Those of floes that broke go when there are twice as many.
+const BeamShape& shape_among(const Setup& setup, const Population& population, BodyIndex floe,
+                             std::unordered_map<FloeId, BeamShape>& shapes) {
+  const FloeId id = population.floe_of(floe);
+  const auto known = shapes.find(id);
+  if (known != shapes.end()) return known->second;
+  if (std::has_single_bit(shapes.size()))
+    std::erase_if(shapes, [&](const auto& one) { return !population.is_alive(one.first); });
+  return shapes.emplace(id, shape_of(setup, population, floe)).first->second;
+}
+
+std::vector<fracture::BeamLoad> loads_on(const Setup& setup, const dynamics::Bodies& bodies,
+                                         const std::vector<Contact>& contacts, std::span<const OnBeam> on,
+                                         const BeamShape& beam) {
+  const BodyIndex floe = on.front().floe;
+  const geometry::Pose water_from_body = dynamics::water_from_body(bodies, floe);
+  const geometry::Rotation turn = beam.frame_from_body.rotation;
+  std::vector<fracture::BeamLoad> loads;
+  for (const OnBeam& one : on) {
+    const Contact& c = contacts[one.contact];
+    const Point at = transform(beam.frame_from_body, inverse_transform(water_from_body, c.centre_of_pressure()));
+    const Vector force = force_on(c, floe, setup.step);
+    loads.push_back({at, rotate(turn, rotate_back(water_from_body.rotation, force)), one.down});
+  }
+  return loads;
+}
+
+/// A section with its stress.
 struct LoadedSection {
   double stress = 0;          ///< [Pa]
   bool pulls_at_end = false;  ///< of the path, else at its start
-  geometry::CrackPath path;   ///< in the floe's frame, along y
+  geometry::CrackPath path;   ///< in the floe's frame
 };
 
-/// The section at x; none where the beam is narrow there, not in one piece, or leaves a piece that is none.
-std::optional<LoadedSection> section_at(const Setup& setup, const Population& population, const Beam& beam, double x) {
-  const dynamics::Bodies& bodies = population.bodies;
-  const double outside = 2 * bodies.bounding_radius[beam.floe];
-  const Vector along = rotate_back(beam.frame_from_body.rotation, {0, 1});
-  const Point from = inverse_transform(beam.frame_from_body, {x, -outside});
-  const auto crossings = crossings_of_line(*bodies.boundary[beam.floe], from, along);
-  if (crossings.size() != 2) return std::nullopt;
-  const double near = crossings[0].at, far = crossings[1].at;
-  const double width = far - near;
-  const double mean_width = 0.5 * beam.moments.area / bodies.bounding_radius[beam.floe];
-  if (width < fracture::kLeastSection * mean_width) return std::nullopt;
-  const geometry::Polygon& polygon = population.floes[population.floe_of(beam.floe)].shape.polygon;
-  const fracture::PlaneMoments before = fracture::moments_up_to(polygon, beam.frame_from_body, x);
-  const double least = setup.scene.fracture.smallest_floe_area;
-  if (std::min(before.area, beam.moments.area - before.area) < least) return std::nullopt;
-  const BeamSection section{x, 0.5 * (near + far) - outside, width};
-  fracture::SectionLoad load = fracture::section_load(beam.loads, beam.moments, before, section);
+void consider(const fracture::Ice& ice, const BeamShape& beam, std::span<const fracture::BeamLoad> loads,
+              const BeamPart& part, LoadedSection& worst) {
+  fracture::SectionLoad load = fracture::section_load(loads, beam.moments, part.before, part.section);
   load.vertical_moment *= beam.elastic_share;
-  LoadedSection found;
-  found.path = {from + (near - kCrackMargin) * along,
-                from + (far + kCrackMargin) * along,
-                width,
-                crossings[0].edge,
-                crossings[1].edge,
-                1};
-  found.stress = fracture::section_stress(ice_of_body(setup, population, beam.floe), width, load);
-  found.pulls_at_end = load.moment > 0;
-  return found;
+  const double stress = fracture::section_stress(ice, part.section.width, load);
+  if (stress > worst.stress) worst = {stress, load.moment > 0, part.path};
 }
 
-/// The section that has the greatest stress.
-std::optional<LoadedSection> worst_section(const Setup& setup, const Population& population, const Beam& beam) {
-  std::optional<LoadedSection> worst;
-  const auto consider = [&](double x) {
-    const auto section = section_at(setup, population, beam, x);
-    if (section && (!worst || section->stress > worst->stress)) worst = section;
-  };
-  for (const fracture::BeamLoad& load : beam.loads) consider(load.at.x);
-  const double reach = population.bodies.bounding_radius[beam.floe];
-  for (int k = 1; k < kSections; ++k) consider(reach * (2.0 * k / kSections - 1));
-  return worst;
-}
-
-PendingFracture break_of(const Setup& setup, const Population& population, const Contact& c, const Beam& beam,
+PendingFracture break_of(const Setup& setup, const Population& population, const Contact& c, BodyIndex floe,
                          const LoadedSection& section) {
-  const BodyIndex by = other_of(c, beam.floe);
-  const geometry::Pose water_from_body = dynamics::water_from_body(population.bodies, beam.floe);
+  const BodyIndex by = other_of(c, floe);
+  const geometry::Pose water_from_body = dynamics::water_from_body(population.bodies, floe);
   PendingFracture split;
   split.failure = fracture::Failure::kSplit;
   split.record = c.record;
   split.ship = population.is_hull(by) ? by : -1;
   split.by_floe = population.is_hull(by) ? kNoFloe : population.floe_of(by);
-  split.floe = population.floe_of(beam.floe);
+  split.floe = population.floe_of(floe);
   split.point_in_water = transform(water_from_body, section.pulls_at_end ? section.path.end : section.path.start);
-  split.normal = into_floe(c, beam.floe);
+  split.normal = into_floe(c, floe);
   split.penetration = c.depth;
   split.crack_in_body = section.path;
   fracture::FailureCriteria& criteria = split.criteria;
-  criteria.floe_size = floe_size(population, beam.floe);
-  criteria.breakable_size = limits_of_body(setup, population, beam.floe).breakable_size;
-  criteria.contact_force = length(force_on(c, beam.floe, setup.step));
+  criteria.floe_size = floe_size(population, floe);
+  criteria.breakable_size = limits_of_body(setup, population, floe).breakable_size;
+  criteria.contact_force = length(force_on(c, floe, setup.step));
   criteria.crack_length = section.path.length_in_ice;
   criteria.section_stress = section.stress;
-  criteria.flexural_strength = ice_of_body(setup, population, beam.floe).flexural_strength;
+  criteria.flexural_strength = ice_of_body(setup, population, floe).flexural_strength;
   return split;
 }
 
-/// The break of one beam, by what presses it most.
-std::optional<PendingFracture> break_of_beam(const Setup& setup, const Population& population,
-                                             const std::vector<Contact>& contacts, std::span<const OnBeam> on) {
-  const BodyIndex floe = on.front().floe;
-  const fracture::Ice& ice = ice_of_body(setup, population, floe);
+/// The contact that presses a beam most, and the sums over all.
+struct Pressing {
   const Contact* strongest = nullptr;
-  double sum = 0, down = 0, most = 0;
+  double force = 0;  ///< [N]
+  double down = 0;   ///< [N]
+};
+
+Pressing pressing_of(const std::vector<Contact>& contacts, std::span<const OnBeam> on, double dt) {
+  Pressing sum;
+  double most = 0;
   for (const OnBeam& one : on) {
-    const double force = length(force_on(contacts[one.contact], floe, setup.step));
-    sum += force;
-    down += one.down;
-    if (force > most) strongest = &contacts[one.contact];
+    const double force = length(force_on(contacts[one.contact], one.floe, dt));
+    sum.force += force;
+    sum.down += one.down;
+    if (force > most) sum.strongest = &contacts[one.contact];
     most = std::max(most, force);
   }
-  const double longest = 2 * population.bodies.bounding_radius[floe];
-  const double area = population.bodies.area[floe];
-  if (fracture::most_section_stress(ice, area, longest, sum, down) < ice.flexural_strength) return std::nullopt;
-  if (strongest == nullptr || strongest->record->was_refused) return std::nullopt;
-  const Beam beam = beam_of(setup, population, contacts, on);
-  const auto section = worst_section(setup, population, beam);
-  if (!section || section->stress < ice.flexural_strength) return std::nullopt;
-  return break_of(setup, population, *strongest, beam, *section);
+  return sum;
+}
+
+/// The break of one beam, by what presses it most.
+std::optional<PendingFracture> break_of_beam(const Setup& setup, const Population& population, StepData& step,
+                                             std::span<const OnBeam> on) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const BodyIndex floe = on.front().floe;
+  const fracture::Ice& ice = ice_of_body(setup, population, floe);
+  const Pressing pressing = pressing_of(step.contacts, on, setup.step);
+  const auto may_reach = [&](double least_width, double longest) {
+    return fracture::most_section_stress(ice, least_width, longest, pressing.force, pressing.down) >=
+           ice.flexural_strength;
+  };
+  const double across = 2 * bodies.bounding_radius[floe];
+  if (!may_reach(fracture::kLeastSection * bodies.area[floe] / across, across)) return std::nullopt;
+  if (pressing.strongest == nullptr || pressing.strongest->record->was_refused) return std::nullopt;
+  const BeamShape& beam = shape_among(setup, population, floe, step.beam_shapes);
+  if (beam.parts.empty() || !may_reach(beam.least_width, beam.length)) return std::nullopt;
+  const std::vector<fracture::BeamLoad> loads = loads_on(setup, bodies, step.contacts, on, beam);
+  LoadedSection worst;
+  for (const BeamPart& part : beam.parts) consider(ice, beam, loads, part, worst);
+  if (worst.stress < kShareBetween * ice.flexural_strength) return std::nullopt;
+  for (const fracture::BeamLoad& load : loads)
+    if (const auto part = part_at(setup, population, floe, beam, load.at.x)) consider(ice, beam, loads, *part, worst);
+  if (worst.stress < ice.flexural_strength) return std::nullopt;
+  return break_of(setup, population, *pressing.strongest, floe, worst);
 }
 
 }  // namespace
 
-void find_broken_beams(const Setup& setup, const Population& population, const StepData& step,
-                       std::vector<PendingFracture>& splits) {
+void find_broken_beams(const Setup& setup, const Population& population, StepData& step) {
   const std::vector<OnBeam> all = contacts_of_beams(setup, population, step);
   for (std::size_t first = 0; first < all.size();) {
     std::size_t end = first + 1;
     while (end < all.size() && all[end].floe == all[first].floe) ++end;
-    const auto split = break_of_beam(setup, population, step.contacts, std::span(all).subspan(first, end - first));
-    if (split) splits.push_back(*split);
+    if (auto split = break_of_beam(setup, population, step, std::span(all).subspan(first, end - first)))
+      step.splits.push_back(*split);
     first = end;
   }
 }

@@ -4,9 +4,8 @@
 
 namespace polynya::simulation {
 
-/// Enters the floes below κ l that the forces of solved contacts break across as beams, by floe. By all
-/// bodies that press a floe together: those that it lies on bear as well.
-void find_broken_beams(const Setup& setup, const Population& population, const StepData& step,
-                       std::vector<PendingFracture>& splits);
+/// Enters among the splits the floes below κ l that the forces of solved contacts break across as beams, by floe. By
+/// all bodies that press a floe together: those that it lies on bear as well.
+void find_broken_beams(const Setup& setup, const Population& population, StepData& step);
 
 }  // namespace polynya::simulation

@@ -200,7 +200,7 @@ dynamics::SolverResult solve_to_splits(const Setup& setup, const dynamics::Solve
   }
   const auto find = [&] {
     find_splits(setup, population, step.contacts, step.splits);
-    find_broken_beams(setup, population, step, step.splits);
+    find_broken_beams(setup, population, step);
   };
   keep_start(bodies, step.contacts, step.solver_start);
   Instants instants(step.contacts, setup.step);

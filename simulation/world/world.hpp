@@ -2,11 +2,13 @@
 
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "dynamics/contact/contact_solver.hpp"
 #include "fracture/decision.hpp"
 #include "geometry/contact/crack_path.hpp"
+#include "simulation/ice/beam_shape.hpp"
 #include "simulation/world/energy.hpp"
 #include "simulation/world/journal.hpp"
 #include "simulation/world/population.hpp"
@@ -104,12 +106,13 @@ struct StepData {
   std::vector<PendingFracture> fractures;
   std::vector<PendingFracture> splits;  ///< by the true forces of the step
   std::vector<PendingSubmersion> submersions;
-  std::vector<Event> mooring_breaks;          ///< to be recorded after what happens to ice
-  std::vector<ShipLoads> loads;               ///< per hull
-  std::vector<ShipMotion> start;              ///< per ship: its motion before the step's impulses
-  std::vector<std::int64_t> touched_at_step;  ///< per body: the last step at which it touched something
-  dynamics::ContactSolver solver;             ///< its reusable memory
-  std::vector<SolverStart> solver_start;      ///< per contact, where splits by the true forces are found
+  std::vector<Event> mooring_breaks;                  ///< to be recorded after what happens to ice
+  std::vector<ShipLoads> loads;                       ///< per hull
+  std::vector<ShipMotion> start;                      ///< per ship: its motion before the step's impulses
+  std::vector<std::int64_t> touched_at_step;          ///< per body: the last step at which it touched something
+  dynamics::ContactSolver solver;                     ///< its reusable memory
+  std::unordered_map<FloeId, BeamShape> beam_shapes;  ///< of slender floes that forces may break, once they may
+  std::vector<SolverStart> solver_start;              ///< per contact, where splits by the true forces are found
 };
 
 /// What has happened so far, in sums.
