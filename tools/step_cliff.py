@@ -1,7 +1,8 @@
 """Mean loads of a ship in level ice by thickness and speed, at the default step and at a quarter of its finest step.
 
-Usage: python3 tools/step_cliff.py [BINARY] [--way M] [--levels N] [--only THICKNESS,SPEED]
-       BINARY by default build/release/app/polynya; --way: of the ship in the ice [m]; --levels: time.levels
+Usage: python3 tools/step_cliff.py [BINARY] [--way M] [--ways H] [--levels N] [--only THICKNESS,SPEED]
+       BINARY by default build/release/app/polynya; --way, --ways: of the ship in the ice, at least so many metres and
+       so many thicknesses, since cusps grow with these; --levels: time.levels
 
 A ship of 80 m by 20 m at constant speed in fast ice that does not split. The run beside it has one step for all, a
 quarter of the shortest that the first one took. The mean is that of the surge by contact from the time its bow is
@@ -60,7 +61,8 @@ def measure(binary, folder, case):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("binary", nargs="?", default=str(ROOT / "build/release/app/polynya"))
-    parser.add_argument("--way", type=float, default=200)
+    parser.add_argument("--way", type=float, default=40)
+    parser.add_argument("--ways", type=float, default=800)
     parser.add_argument("--levels", type=int)
     parser.add_argument("--only")
     given = parser.parse_args()
@@ -71,8 +73,10 @@ def main():
     print("|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as name:
         for thickness, speed in cases:
+            way = max(given.way, given.ways * thickness)
+
             def run(step, levels):
-                return measure(given.binary, pathlib.Path(name), scene(thickness, speed, step, levels, given.way))
+                return measure(given.binary, pathlib.Path(name), scene(thickness, speed, step, levels, way))
 
             mean, error, summary, cost = run(STEP, given.levels)
             finest = min(level["step_s"] for level in summary["levels"])

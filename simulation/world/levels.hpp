@@ -22,7 +22,7 @@ inline constexpr double kFewBends = 0.25;
 /// Loads are right up to so many.
 inline constexpr double kCrowded = 2;
 /// Of the last tick in that mean: two bends in a step of thick ice are by chance.
-inline constexpr double kLastTick = 0.25;
+inline constexpr double kLastTick = 0.125;
 
 /// In how many equal parts the next tick is taken: a power of two up to 2^levels, 1 where levels is 0 [-].
 int parts_of_tick(const Setup& setup, const Clock& clock, const Population& population);

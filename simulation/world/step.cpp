@@ -210,7 +210,9 @@ void step(World& world) {
   const std::int64_t bends = counts.bends;
   for (int part = 0; part < parts; ++part) {
     for (const Stage& stage : kStages) stage.run(world);
+    if (world.failure) break;
   }
+  while (!world.clock.is_at_tick()) advance(world.clock);  // of a run that cannot continue
   counts.crowded_ticks += follow_bends(world.setup, counts.bends - bends, world.clock);
 }
 
