@@ -40,88 +40,16 @@ class RunLoop {
     if (control.checkpoint_every > 0) steps_per_checkpoint_ = steps_in(control.checkpoint_every, time.step);
   }
 
-  Stop advance() {
-    simulation().set_threads(control_.threads);
-    return advance_to_end().value_or(Stop{});
-  }
-
-  RunResult finish(const Stop& stop) {
-    RunResult result{stop.end, stop.reason, summarise(simulation(), writer(), stop.reason, wall_time())};
-    // Before the run is finished: that takes away the checkpoints from which the failure is sought.
-    const std::size_t floes = run_.scene.scene.floes.size();
-    const bool has_floes = control_.final_geojson || floes <= kMostFloesInFinal;
-    if (!has_floes)
-      result.summary.warnings.push_back(
-          fmt::format("no {} was written, of {} floes at the start: --final-geojson writes it, polynya export "
-                      "--geojson makes it of the last frame",
-                      run_file::kFinalGeojson, floes));
-    const bool is_failure = stop.end == RunEnd::kNumericalFailure || !result.summary.audit.is_closed();
-    if (is_failure && !writer().is_displaced()) result.dump = dump_failure(run_);
-    if (const auto written = writer().finish(result.summary, has_floes ? &simulation() : nullptr); !written) {
-      result.end = RunEnd::kFolderFailure;
-      result.reason = written.error();
-    }
-    return result;
-  }
+  Stop advance();
+  RunResult finish(const Stop& stop);
 
  private:
-  std::optional<Stop> advance_to_end() {
-    if (simulation().steps() == 0) {
-      writer().record(simulation().journal());
-      writer().frame(simulation());
-    }
-    while (simulation().steps() < last_step_)
-      if (auto stop = advance_step()) return stop;
-    return {};
-  }
-
-  std::optional<Stop> advance_step() {
-    simulation().step();
-    writer().record(simulation().journal());
-    if (auto failure = failure_of_step()) return Stop{RunEnd::kNumericalFailure, *failure};
-    const std::int64_t step = simulation().steps();
-    if (step % steps_per_frame_ == 0 || step == last_step_) writer().frame(simulation());
-    if (auto stop = stop_on_request()) return stop;
-    return work_between_steps();
-  }
-
-  std::optional<std::string> failure_of_step() const {
-    if (control_.check) return failure_after_step(run_.simulation);
-    if (auto failure = run_.simulation.numerical_failure()) return "numerical failure: " + *failure;
-    return {};
-  }
-
-  std::optional<Stop> stop_on_request() {
-    auto reason = control_.stop ? control_.stop() : std::nullopt;
-    if (!reason) return {};
-    if (const auto written = checkpoint(); !written) return Stop{RunEnd::kFolderFailure, written.error()};
-    return Stop{RunEnd::kStopped, *reason};
-  }
-
-  /// Checkpoints, flushing and progress, each where it is due.
-  std::optional<Stop> work_between_steps() {
-    const std::int64_t step = simulation().steps();
-    const bool is_report_due = step % kStepsBetweenReports == 0;
-    const bool is_checkpoint_due = (steps_per_checkpoint_ > 0 && step % steps_per_checkpoint_ == 0) ||
-                                   (is_report_due && control_.checkpoint_every_wall > 0 &&
-                                    seconds_since(last_checkpoint_) >= control_.checkpoint_every_wall);
-    if (!is_checkpoint_due && !is_report_due) return {};
-    if (!is_checkpoint_due) writer().flush_if_due();
-    if (const auto written = is_checkpoint_due ? checkpoint() : writer().status(); !written)
-      return Stop{RunEnd::kFolderFailure, written.error()};
-    if (!is_checkpoint_due && control_.progress)
-      control_.progress({simulation().time(), fractures_of(simulation().world().accounts.counts)});
-    return {};
-  }
-
-  Result<> checkpoint() {
-    auto progress = writer().sync();
-    if (!progress) return fail(progress.error());
-    auto written =
-        write_checkpoint(writer().folder(), checkpoint_of(simulation(), run_.scene, std::move(*progress), wall_time()));
-    last_checkpoint_ = Clock::now();
-    return written;
-  }
+  std::optional<Stop> advance_to_end();
+  std::optional<Stop> advance_step();
+  std::optional<Stop> stop_on_request();
+  std::optional<Stop> work_between_steps();
+  std::optional<std::string> failure_of_step() const;
+  Result<> checkpoint();
 
   Simulation& simulation() { return run_.simulation; }
   RunWriter& writer() { return run_.writer; }
@@ -135,6 +63,88 @@ class RunLoop {
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_checkpoint_ = start_;
 };
+
+Stop RunLoop::advance() {
+  simulation().set_threads(control_.threads);
+  return advance_to_end().value_or(Stop{});
+}
+
+std::optional<Stop> RunLoop::advance_to_end() {
+  if (simulation().steps() == 0) {
+    writer().record(simulation().journal());
+    writer().frame(simulation());
+  }
+  while (simulation().steps() < last_step_)
+    if (auto stop = advance_step()) return stop;
+  return {};
+}
+
+std::optional<Stop> RunLoop::advance_step() {
+  simulation().step();
+  writer().record(simulation().journal());
+  if (auto failure = failure_of_step()) return Stop{RunEnd::kNumericalFailure, *failure};
+  const std::int64_t step = simulation().steps();
+  if (step % steps_per_frame_ == 0 || step == last_step_) writer().frame(simulation());
+  if (auto stop = stop_on_request()) return stop;
+  return work_between_steps();
+}
+
+std::optional<std::string> RunLoop::failure_of_step() const {
+  if (control_.check) return failure_after_step(run_.simulation);
+  if (auto failure = run_.simulation.numerical_failure()) return "numerical failure: " + *failure;
+  return {};
+}
+
+std::optional<Stop> RunLoop::stop_on_request() {
+  auto reason = control_.stop ? control_.stop() : std::nullopt;
+  if (!reason) return {};
+  if (const auto written = checkpoint(); !written) return Stop{RunEnd::kFolderFailure, written.error()};
+  return Stop{RunEnd::kStopped, *reason};
+}
+
+/// Checkpoints, flushing and progress, each where it is due.
+std::optional<Stop> RunLoop::work_between_steps() {
+  const std::int64_t step = simulation().steps();
+  const bool is_report_due = step % kStepsBetweenReports == 0;
+  const bool is_checkpoint_due = (steps_per_checkpoint_ > 0 && step % steps_per_checkpoint_ == 0) ||
+                                 (is_report_due && control_.checkpoint_every_wall > 0 &&
+                                  seconds_since(last_checkpoint_) >= control_.checkpoint_every_wall);
+  if (!is_checkpoint_due && !is_report_due) return {};
+  if (!is_checkpoint_due) writer().flush_if_due();
+  if (const auto written = is_checkpoint_due ? checkpoint() : writer().status(); !written)
+    return Stop{RunEnd::kFolderFailure, written.error()};
+  if (!is_checkpoint_due && control_.progress)
+    control_.progress({simulation().time(), fractures_of(simulation().world().accounts.counts)});
+  return {};
+}
+
+Result<> RunLoop::checkpoint() {
+  auto progress = writer().sync();
+  if (!progress) return fail(progress.error());
+  auto written =
+      write_checkpoint(writer().folder(), checkpoint_of(simulation(), run_.scene, std::move(*progress), wall_time()));
+  last_checkpoint_ = Clock::now();
+  return written;
+}
+
+RunResult RunLoop::finish(const Stop& stop) {
+  RunResult result{stop.end, stop.reason, summarise(simulation(), writer(), stop.reason, wall_time())};
+  // Before the run is finished: that takes away the checkpoints from which the failure is sought.
+  const std::size_t floes = run_.scene.scene.floes.size();
+  const bool has_floes = control_.final_geojson || floes <= kMostFloesInFinal;
+  if (!has_floes)
+    result.summary.warnings.push_back(
+        fmt::format("no {} was written, of {} floes at the start: --final-geojson writes it, polynya export "
+                    "--geojson makes it of the last frame",
+                    run_file::kFinalGeojson, floes));
+  const bool is_failure = stop.end == RunEnd::kNumericalFailure || !result.summary.audit.is_closed();
+  if (is_failure && !writer().is_displaced()) result.dump = dump_failure(run_);
+  if (const auto written = writer().finish(result.summary, has_floes ? &simulation() : nullptr); !written) {
+    result.end = RunEnd::kFolderFailure;
+    result.reason = written.error();
+  }
+  return result;
+}
 
 }  // namespace
 
