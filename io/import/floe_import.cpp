@@ -25,9 +25,12 @@ double area_of(const Sum& polygons) {
   return geometry::exact_balance(polygons, {}, {});
 }
 double change_of(const Polygon& after, const Polygon& before) {
-  const Polygon* const then[] = {&before};
-  const Polygon* const now[] = {&after};
-  return geometry::exact_balance(now, then, {});
+  return geometry::exact_balance(Sum{&after}, Sum{&before}, {});
+}
+Sum sum_of(const std::vector<Polygon>& polygons) {
+  Sum sum;
+  for (const Polygon& polygon : polygons) sum.push_back(&polygon);
+  return sum;
 }
 
 /// The floes of one file on their way.
@@ -76,10 +79,9 @@ class FloeImport {
     for (geometry::Shape& shape : repaired->shapes) outcome_.floes.push_back({std::move(shape.polygon), i});
     for (std::size_t k = outcome_.floes.size() - repaired->shapes.size(); k < outcome_.floes.size(); ++k)
       after.push_back(&outcome_.floes[k].polygon);
-    const Polygon* const before[] = {&polygon};
     ImportItem& note = item(i);
     note.defect = std::move(words);
-    note.repaired = geometry::exact_balance(after, before, {});
+    note.repaired = geometry::exact_balance(after, Sum{&polygon}, {});
     ++outcome_.totals.repaired;
   }
 
@@ -103,9 +105,7 @@ class FloeImport {
       befores.push_back(std::exchange(floe.polygon, std::move(fewer)));
       after.push_back(&floe.polygon);
     }
-    Sum before;
-    for (const Polygon& polygon : befores) before.push_back(&polygon);
-    outcome_.totals.area_simplified = geometry::exact_balance(after, before, {});
+    outcome_.totals.area_simplified = geometry::exact_balance(after, sum_of(befores), {});
   }
 
   void trim() {
@@ -128,9 +128,7 @@ class FloeImport {
     outcome_.totals.area_trimmed = geometry::exact_balance(before, after, {});
     for (std::size_t i = 0; i < whole.size(); ++i)
       for (Polygon& piece : trimmed[i].pieces) keep_or_drop(source[i], std::move(piece));
-    Sum gone;
-    for (const Polygon& polygon : dropped_) gone.push_back(&polygon);
-    outcome_.totals.area_dropped = area_of(gone);
+    outcome_.totals.area_dropped = area_of(sum_of(dropped_));
   }
 
   void note_trim(std::size_t source, const Polygon& whole, const geometry::Trimmed& trimmed,
@@ -142,10 +140,7 @@ class FloeImport {
     }
     if (note.yields.empty()) ++outcome_.totals.trimmed;
     for (const std::size_t other : trimmed.yields) note.yields.push_back(sources[other]);
-    Sum pieces;
-    for (const Polygon& piece : trimmed.pieces) pieces.push_back(&piece);
-    const Polygon* const before[] = {&whole};
-    note.trimmed += geometry::exact_balance(before, pieces, {});
+    note.trimmed += geometry::exact_balance(Sum{&whole}, sum_of(trimmed.pieces), {});
   }
 
   void keep_or_drop(std::size_t source, Polygon piece) {

@@ -95,18 +95,10 @@ class FieldReader {
   }
 
  private:
+  /// An index in a list of the field, as keep_clear_m[2], stands in the path alone: the place is the list's.
   void report(std::string_view key, std::string found, std::string allowed) {
-    const JsonValue* at = &json_;
-    std::string_view rest = key;
-    while (!rest.empty()) {
-      const std::size_t dot = rest.find('.');
-      const JsonValue* next = at->find(rest.substr(0, std::min({dot, rest.find('['), rest.size()})));
-      if (!next) break;
-      at = next;
-      rest = dot == std::string_view::npos ? "" : rest.substr(dot + 1);
-    }
-    problems_.report(0, at->offset, key.empty() ? path_ : fmt::format("{}.{}", path_, key), std::move(found),
-                     std::move(allowed));
+    problems_.report(0, nearest_offset(json_, key.substr(0, key.find('['))), key.empty() ? path_ : key_path(path_, key),
+                     std::move(found), std::move(allowed));
   }
 
   /// Sizes are a law's or floe_size_m's, and go with their own keys.

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "../base64.hpp"
 #include "../io/expect_text.hpp"
 
 #include "geometry/exact/measures.hpp"
@@ -92,19 +93,7 @@ TEST(Triangulation, HasTwoTrianglesLessThanCornersForStarsOfAnySize) {
 double value_at(const std::string& text, const std::string& name, std::size_t n) {
   const std::size_t tag = text.find("Name=\"" + name + "\"");
   const std::size_t start = text.find('>', tag) + 1;
-  const std::string encoded = text.substr(start, text.find('<', start) - start);
-  static constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  unsigned bits = 0;
-  int held = 0;
-  for (const char c : encoded) {
-    if (c == '=') break;
-    bits = bits << 6 | static_cast<unsigned>(kDigits.find(c));
-    held += 6;
-    if (held < 8) continue;
-    held -= 8;
-    bytes += static_cast<char>(bits >> held & 0xffU);
-  }
+  const std::string bytes = from_base64(std::string_view(text).substr(start));
   std::uint64_t length = 0;
   std::memcpy(&length, bytes.data(), 8);
   EXPECT_EQ(length + 8, bytes.size()) << name;
