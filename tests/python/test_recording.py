@@ -29,7 +29,7 @@ def without_wall_time(text):
 
 
 def expect_same(one, other):
-    for name in [*FILES, *(path.name for path in one.glob("checkpoint-*"))]:
+    for name in FILES:
         assert without_wall_time((one / name).read_bytes()) == without_wall_time((other / name).read_bytes()), name
     names = lambda folder: sorted(path.name for path in folder.iterdir())
     assert names(one) == names(other)
