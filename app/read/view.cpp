@@ -184,9 +184,10 @@ std::string contents(const std::vector<ViewedRun>& viewed) {
 }
 
 int write_view(Options options) {
-  if (options.runs.size() == 1 && fs::is_regular_file(options.runs[0]))
+  const fs::path first = options.runs[0];
+  if (options.runs.size() == 1 && first.extension() == ".json" && !fs::is_directory(first))
     return write_scene_view(options.runs[0], options.out, options.is_watched);
-  if (options.is_watched) return fail(kUsage, "--watch: takes the file of a scene");
+  if (options.is_watched) return fail(kUsage, "--watch: takes a scene, SCENE.json");
   if (const std::string problem = problem_of(options); !problem.empty()) return fail(kUsage, problem);
   if (const auto& a = options.area; !a.empty()) options.part.area = {{a[0], a[1]}, {a[2], a[3]}};
   std::vector<ViewedRun> viewed;
@@ -216,7 +217,7 @@ Command add_view(CommandLine& app) {
       "view", "Write a page that plays a run, or two side by side, or shows a scene, in any browser, offline",
       kExamples);
   auto options = std::make_shared<Options>();
-  command.option("run", options->runs, "RUN", "The run folder, two to be shown side by side, or a scene's file")
+  command.option("run", options->runs, "RUN", "The run folder, two to be shown side by side, or a scene, SCENE.json")
       .required()
       .takes(1, 2);
   command.option("--out", options->out, "FILE",

@@ -394,8 +394,8 @@ int resume(const ResumeOptions& options) {
     return scene ? repeat_failure(*scene, folder) : scene.error();
   }
   const auto finished = [&]() -> std::optional<double> {
-    const std::optional<double> end = io::finished_at(folder);
-    return end && options.until.value_or(0) <= *end ? end : std::nullopt;
+    const auto end = io::finished_run(folder);
+    return end && options.until.value_or(0) <= end->time ? std::optional(end->time) : std::nullopt;
   };
   if (const auto end = finished()) return report_finished(folder, *end, options.driver.no_map);
   auto lock = io::RunLock::take(folder);

@@ -30,9 +30,11 @@ Result<ActiveRun> resume_run(RunLock lock, const LoadedScene& scene, const std::
                             static_cast<double>(checkpoint->steps) * time.step, time.until));
   auto simulation = simulation_at(scene, *checkpoint);
   if (!simulation) return fail(fmt::format("{}: {}", file.string(), simulation.error()));
+  const auto finished = finished_run(lock.folder());
   auto writer = RunWriter::resume(std::move(lock), scene, *checkpoint, file, *simulation);
   if (!writer) return fail(writer.error());
-  return ActiveRun{scene, std::move(*simulation), std::move(*writer), checkpoint->wall_time};
+  return ActiveRun{scene, std::move(*simulation), std::move(*writer),
+                   finished ? finished->wall_time : checkpoint->wall_time};
 }
 
 Result<Simulation> simulation_at(const LoadedScene& scene, const Checkpoint& checkpoint) {

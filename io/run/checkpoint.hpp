@@ -21,9 +21,10 @@ struct Checkpoint {
   std::string program_version;  ///< that wrote it
   std::string course_hash;      ///< of the run's scene (LoadedScene::course_hash): it may end at another time
   std::int64_t steps = 0;       ///< done
-  double wall_time = 0;         ///< that the run has taken so far, all its parts together [s]
-  RunProgress progress;         ///< of the run folder
-  std::string state;            ///< simulation/state/state.hpp
+  double wall_time =
+      0;  ///< that the run has taken so far, all its parts together; 0 at its end: summary.json has it [s]
+  RunProgress progress;  ///< of the run folder
+  std::string state;     ///< simulation/state/state.hpp
   std::uint64_t state_hash = 0;
   std::string failure;  ///< of a dump: what went wrong in the step after it; empty in a checkpoint
 };

@@ -63,7 +63,7 @@ Result<> check_claim(const fs::path& folder, Contents contents, bool overwrite) 
         fmt::format("{}: there are parts of a run in it, without its scene; name another folder with --out, or replace "
                     "them with --overwrite",
                     name));
-  if (finished_at(folder))
+  if (finished_run(folder))
     return fail(
         fmt::format("{}: there is a run in it already; name another folder with --out, or replace the run with "
                     "--overwrite",
@@ -169,7 +169,7 @@ FolderSize estimate_folder_size(const simulation::Scene& scene) {
 Result<> set_end(const fs::path& folder, const LoadedScene& scene) {
   const auto text = read_text_file(folder / run_file::kSummary, kLongestScene);
   JsonValue summary = text ? parse_json(*text).root : JsonValue{};
-  if (!finished_at(folder) && summary.has("scene_hash", scene.hash)) return {};
+  if (!finished_run(folder) && summary.has("scene_hash", scene.hash)) return {};
   if (!summary.is(JsonValue::Kind::kObject)) summary.data = JsonValue::Object{};
   std::erase_if(summary.members(), [](const JsonMember& m) { return m.key == "finished" || m.key == "stopped_by"; });
   summary.members().push_back({"finished", 0, {false}});

@@ -52,17 +52,17 @@ void RunRecorder::frame_if_due() {
   if (is_frame_due()) writer_->frame(*simulation_);
 }
 
-Result<> RunRecorder::checkpoint() {
+Result<> RunRecorder::checkpoint(double wall_time) {
   auto progress = writer_->sync();
   if (!progress) return fail(progress.error());
   auto written =
-      write_checkpoint(writer_->folder(), checkpoint_of(*simulation_, *scene_, std::move(*progress), wall_time()));
+      write_checkpoint(writer_->folder(), checkpoint_of(*simulation_, *scene_, std::move(*progress), wall_time));
   last_checkpoint_ = Clock::now();
   return written;
 }
 
 Result<> RunRecorder::end() {
-  auto written = checkpoint();
+  auto written = checkpoint(0);  // so that folders of one run are the same bytes
   if (written && !is_frame_due()) writer_->frame(*simulation_);
   return written;
 }

@@ -27,7 +27,7 @@ class RunRecorder {
   void begin(simulation::Journal& journal);
   void record_step();
   void frame_if_due();
-  Result<> checkpoint();
+  Result<> checkpoint() { return checkpoint(wall_time()); }
   /// At the end: a checkpoint, and behind it a frame where none was due. A longer run goes on from there, without the
   /// frame that only this end has.
   Result<> end();
@@ -36,6 +36,7 @@ class RunRecorder {
 
  private:
   using Clock = std::chrono::steady_clock;
+  Result<> checkpoint(double wall_time);
   bool is_frame_due() const { return simulation_->steps() % steps_per_frame_ == 0; }
   simulation::Simulation* simulation_;
   RunWriter* writer_;

@@ -225,14 +225,17 @@ RunSummary summarise(const Simulation& simulation, const RunWriter& writer, cons
   return summary;
 }
 
-std::optional<double> finished_at(const std::filesystem::path& folder) {
+std::optional<FinishedRun> finished_run(const std::filesystem::path& folder) {
   const auto text = read_text_file(folder / run_file::kSummary, kLongestScene);
   if (!text) return {};
   const JsonDocument summary = parse_json(*text);
   const JsonValue* finished = summary.root.find("finished", JsonValue::Kind::kBoolean);
   if (!summary.faults.empty() || !finished || !finished->boolean()) return {};
-  const JsonValue* time = summary.root.find("sim_time_s", JsonValue::Kind::kNumber);
-  return time ? time->number() : 0;
+  const auto number = [&](std::string_view key) {
+    const JsonValue* found = summary.root.find(key, JsonValue::Kind::kNumber);
+    return found ? found->number() : 0;
+  };
+  return FinishedRun{number("sim_time_s"), number("wall_time_s")};
 }
 
 std::string_view version() {

@@ -60,7 +60,12 @@ RunSummary summarise(const simulation::Simulation& simulation, const RunWriter& 
 
 std::string to_json_text(const RunSummary& summary, const LoadedScene& scene);
 
-/// The simulated time [s] at which the run of a folder has finished, by its summary.json; none where it has not.
-std::optional<double> finished_at(const std::filesystem::path& folder);
+/// The end of a finished run.
+struct FinishedRun {
+  double time = 0;       ///< simulated [s]
+  double wall_time = 0;  ///< that it has taken [s]
+};
+/// By a folder's summary.json; none where its run has not finished.
+std::optional<FinishedRun> finished_run(const std::filesystem::path& folder);
 
 }  // namespace polynya::io

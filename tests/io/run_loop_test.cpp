@@ -31,7 +31,7 @@ TEST(RunLoop, ReportsProgressAndFinishesTheFolder) {
   EXPECT_EQ(result.reason, "");
   EXPECT_EQ(result.summary.steps, 200);
   EXPECT_GT(fractures_of(result.summary.counts), 0);
-  EXPECT_TRUE(finished_at(folder / "run"));
+  EXPECT_TRUE(finished_run(folder / "run"));
   EXPECT_EQ(times.size(), 200 / 16);
   EXPECT_TRUE(std::ranges::is_sorted(times));
 }

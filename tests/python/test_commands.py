@@ -15,6 +15,7 @@ from polynya.errors import FolderError, InputError
 
 PROGRAM = os.environ["POLYNYA_PROGRAM"]
 EXAMPLES = sorted((pathlib.Path(__file__).resolve().parents[2] / "examples").glob("*.py"))
+EXAMPLES = [path for path in EXAMPLES if path.name != "find_polynya.py"]
 BARE = [sys.executable, "-S"]  # a Python without site-packages
 
 

@@ -92,6 +92,8 @@ def carry(study, number, folder, lock, stop, keep):
     write_atomically(folder / RESULT, json.dumps(result) + "\n")
     if keep == "summary":
         shutil.rmtree(run, ignore_errors=True)
+    for checkpoint in run.glob("checkpoint-*.bin"):  # cases are not made longer: thousands of these would be a lot
+        checkpoint.unlink()
     return DONE, ""
 
 
