@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fracture/bending/sinking_edge.hpp"
 #include "geometry/shape/angle.hpp"
 
 namespace polynya::fracture {
@@ -18,10 +19,21 @@ constexpr std::array<double, 21> kOfMoment = {1,       0.99803, 0.98673, 0.96184
                                               0.73216, 0.65361, 0.57231, 0.49088, 0.41160, 0.33631,  0.26647,
                                               0.20311, 0.14688, 0.09812, 0.05688, 0.02300, -0.00386, -0.02419};
 
+/// 1 − w(ρ)/w(0) under a force on its tip.
+constexpr std::array<double, 21> kDrop = {0,       0.16033, 0.30268, 0.42768, 0.53628, 0.62963, 0.70901,
+                                          0.77576, 0.83124, 0.87678, 0.91365, 0.94305, 0.96609, 0.98377,
+                                          0.99699, 1.00656, 1.01316, 1.01740, 1.01978, 1.02073, 1.02061};
+
 double interpolated(const std::array<double, 21>& table, double at) {
   const double x = std::clamp(at / kTableStep, 0.0, static_cast<double>(table.size() - 1));
   const auto i = std::min(static_cast<std::size_t>(x), table.size() - 2);
   return std::lerp(table[i], table[i + 1], x - static_cast<double>(i));
+}
+
+/// The root of growth V² + pull V = capacity, V > 0: a section that the sinking thrust opens in proportion to V.
+double bearing(double pull, double growth, double capacity) {
+  if (growth <= 0) return pull > 0 ? capacity / pull : std::numeric_limits<double>::infinity();
+  return 2 * capacity / (pull + std::sqrt(pull * pull + 4 * growth * capacity));
 }
 
 /// The vertex of the parabola through three points at -1, 0, 1 of which the middle one is least.
@@ -69,16 +81,21 @@ double hold_of_cracked(double opening) {
 }
 
 SectionBreak weakest_section(const EdgeOpenings& openings, const EdgePush& push) {
-  constexpr double kClosed = std::numeric_limits<double>::infinity();
+  return weakest_section_of_sinking(openings, push, 0);
+}
+
+SectionBreak weakest_section_of_sinking(const EdgeOpenings& openings, const EdgePush& push, double sinking) {
   const double cracked = crack_share(openings);
   std::array<double, kSectionCount> forces{};
   for (std::size_t i = 0; i < kSectionCount; ++i) {
     const double r = kSectionRadii[i] * push.length;
-    const double moment = push.effective_length * moment_of_force(r / push.effective_length) -
-                          (push.distance + push.thrust * push.lever) * moment_of_moment(r / push.effective_length);
-    const double pull = 6 * moment - push.thrust;
+    const double place = r / push.effective_length;
+    const double held = moment_of_moment(place);
+    const double moment =
+        push.effective_length * moment_of_force(place) - (push.distance + push.thrust * push.lever) * held;
     const double hold = std::lerp(hold_of_whole(openings[i]), hold_of_cracked(openings[i]), cracked);
-    forces[i] = pull > 0 ? hold * openings[i] * r / pull : kClosed;
+    const double growth = 6 * push.thrust * sinking * interpolated(kDrop, place) * std::max(0.0, held);
+    forces[i] = bearing(6 * moment - push.thrust, growth, hold * openings[i] * r);
   }
   const auto least = static_cast<std::size_t>(std::ranges::min_element(forces) - forces.begin());
   const bool is_inside = least > 0 && least + 1 < kSectionCount;

@@ -7,7 +7,8 @@
 #include <utility>
 
 #include "fracture/bending/database_text.hpp"
-#include "fracture/bending/edge_sections.hpp"
+#include "fracture/bending/edge_deflection.hpp"
+#include "fracture/bending/sinking_edge.hpp"
 #include "geometry/shape/angle.hpp"
 
 namespace polynya::fracture {
@@ -92,6 +93,16 @@ EdgePush edge_push(const BendingLoad& load, double length, double effective_leng
   return push;
 }
 
+/// How far the tip sinks in thicknesses, per V / (σ_f h²).
+double sinking_of(const BendingLoad& load, const ScaledLoad& scaled_load, double opening_angle) {
+  const double duration = load.mean_approach_speed > 0
+                              ? load.penetration / load.mean_approach_speed / scaled_load.time_scale
+                              : std::numeric_limits<double>::infinity();
+  const double l = scaled_load.length_scale;
+  return tip_compliance(opening_angle, duration) * scaled_load.force_scale /
+         (load.water.density * kGravity * l * l * load.ice.thickness);
+}
+
 bool has_poisson_ratio_of(const BendingDatabase& database, const BendingLoad& load) {
   constexpr double kTolerance = 1e-9;  // of rounding: exact equality would count every other load as outside
   return std::abs(load.ice.poisson_ratio - database.settings().poisson_ratio) <= kTolerance;
@@ -115,8 +126,9 @@ BendingCapacity FsiDatabaseModel::capacity(const BendingLoad& load) const {
       radial_cracks_ == RadialCracks::kSplitWedge ? with_radial_cracks(*database_, groups) : database_->look_up(groups);
   BendingCapacity capacity = to_capacity(answer, scaled_load, has_poisson_ratio_of(*database_, load));
   if (!load.openings) return capacity;
-  const SectionBreak found =
-      weakest_section(*load.openings, edge_push(load, scaled_load.length_scale, effective_length(*database_, groups)));
+  const SectionBreak found = weakest_section_of_sinking(
+      *load.openings, edge_push(load, scaled_load.length_scale, effective_length(*database_, groups)),
+      sinking_of(load, scaled_load, groups.opening_angle));
   capacity.vertical_force = found.force * scaled_load.force_scale;
   capacity.cusp_radius = found.distance * load.ice.thickness;
   return capacity;

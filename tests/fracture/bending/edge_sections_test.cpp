@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "fracture/bending/fsi_database_model.hpp"
+#include "fracture/bending/sinking_edge.hpp"
 #include "fracture/characteristic_length.hpp"
 #include "tests/fracture/bending/floating_beam.hpp"
 #include "tests/shapes.hpp"
@@ -89,8 +90,24 @@ TEST(EdgeSections, ThrustClosesWhatIsNear) {
     force = found.force;
     distance = found.distance;
   }
-  // Nothing opens where the thrust's lever and pressure exceed what the water lets V bend: 6 · .87 l < 7 η l / l …
+  // Nothing opens, to first order, where the thrust's lever and pressure exceed what the water lets V bend: 6 · .87 l <
+  // 7 η l / l …
   EXPECT_TRUE(std::isinf(weakest_section(wedge_of(110), {l, l, 0.2, 60, 0.4}).force));
+}
+
+/// To second order the thrust sinks with the tip: nothing changes without thrust, a little on a flank, and what it
+/// keeps closed to first order breaks.
+TEST(EdgeSections, SinkUnderTheirThrust) {
+  const double l = 15;
+  const auto force_of = [&](double thrust, double sinking) {
+    return weakest_section_of_sinking(wedge_of(110), {l, l, 0.2, thrust, 0.4}, sinking).force;
+  };
+  EXPECT_DOUBLE_EQ(force_of(0, 0.4), force_of(0, 0));
+  EXPECT_LT(force_of(1.6, 0.4), force_of(1.6, 0));
+  EXPECT_GT(force_of(1.6, 0.4), 0.9 * force_of(1.6, 0));
+  EXPECT_TRUE(std::isinf(force_of(60, 0)));
+  EXPECT_TRUE(std::isfinite(force_of(60, 0.4)));
+  EXPECT_NEAR(force_of(1.6, 1e-9) / force_of(1.6, 0), 1, 1e-6);
 }
 
 /// Elements of wedges with thrust, l 15 h, of docs/theory-bow.md: V and, whole, within 4 %.
