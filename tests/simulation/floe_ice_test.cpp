@@ -195,12 +195,14 @@ Scene scattering(std::uint64_t seed) {
 
 TEST(BendingScatter, EachEventStatesTheStrengthItBrokeAt) {
   std::vector<double> factors;
-  for (const auto& event : run(scattering(5), 40).story.bends())
-    factors.push_back(event.criteria().flexural_strength / fracture::Ice{}.flexural_strength);
+  for (const std::uint64_t seed : {5, 6, 7, 8})  // events of one run follow each other
+    for (const auto& event : run(scattering(seed), 40).story.bends())
+      factors.push_back(event.criteria().flexural_strength / fracture::Ice{}.flexural_strength);
   ASSERT_GT(factors.size(), 50u);
   const auto measures = fracture::measure({fracture::ScatterKind::kLogNormal, 1, 0.2}, factors);
-  EXPECT_LT(measures.distance, 1.63 / std::sqrt(static_cast<double>(factors.size())));
-  EXPECT_NEAR(measures.spread, 0.2, 0.08);
+  // Of two places that one cusp takes, the weaker breaks: those that break are a little weaker than all.
+  EXPECT_LT(measures.distance, 0.15);
+  EXPECT_NEAR(measures.spread, 0.2, 0.03);
 }
 
 TEST(BendingScatter, TheSeedMeansSomethingInLevelIceAndThreadsAndResumeDoNot) {
