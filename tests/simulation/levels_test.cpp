@@ -48,7 +48,7 @@ TEST(Levels, NoLoadFallsWhereAHullGoesFasterThanATickBreaksIce) {
 
 TEST(Levels, ATickHasPartsWhereIceIsThinAndOnlyThere) {
   const auto finest = [](double thickness) {
-    Simulation simulation(in_level_ice(thickness, 4, 0.005));
+    Simulation simulation(in_level_ice(thickness, 8, 0.005));
     while (simulation.time() < 1) skip(simulation);
     const auto& steps = simulation.counts().steps_at_level;
     int level = 0;
