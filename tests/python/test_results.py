@@ -18,7 +18,7 @@ UNTIL = 20
 SCENE = {
     "name": "read-back",
     "time": {"step_s": 0.01, "until_s": UNTIL},
-    "record": {"forces_interval_s": 0.1, "frames_interval_s": 2, "contacts": "all"},
+    "record": {"forces_interval_s": 0.1, "frames_interval_s": 0.5, "contacts": "all"},
     "ships": [{"name": "breaker", "hull": {"length_m": 30, "beam_m": 12, "entrance_angle_deg": 30, "draught_m": 4, "stem_angle_deg": 25},
                "mass_kg": 2e6, "moment_of_inertia_kg_m2": 2e8, "position_m": [-16, 1], "speed_m_per_s": 3,
                "propulsion": {"constant_speed_m_per_s": 3}}],

@@ -136,11 +136,12 @@ TEST(CrushLaw, AJamIsSolvedAndItsContactsCreateNoEnergy) {
 }
 
 /// 1.5 m of ice, whose tips press on both sides of the parallel midbody: rigid impulses keep each other alive
-/// there through the solver's start.
+/// there through the solver's start. By the wedges of edges: by their sections this run is another after a last bit.
 TEST(CrushLaw, ASqueezeAlongTheMidbodyHasOneAnswer) {
   const auto surge_of = [](const ContactSettings& settings) {
     Scene scene = Build().ship(icebreaker({-2, 0}, ConstantSpeed{0.25}, 0.25)).floe(rectangle(0, -2000, 4000, 2000));
     scene.ice.thickness = 1.5;
+    scene.fracture.outline = fracture::EdgeOutline::kWedge;
     scene.contact = settings;
     return run(scene, 300).story;
   };
