@@ -1,4 +1,5 @@
-"""How many steps of .5 s simulated time an environment takes a second, in a field of 1000 floes, and what the image takes of it.
+"""How many steps of .5 s simulated time an environment takes a second, in a field of 1000 floes, and what the image
+takes of it.
 
     PYTHONPATH=build/release/python python3 bench/python_environment.py
 """

@@ -1,5 +1,5 @@
-# The player's pages (views/player), of one run and of two, as a C++ source: style sheets and scripts are put into their HTML, and
-# that into a constant each, when one of them changes. Building needs nothing but CMake.
+# The player's pages (views/player), of one run and of two, as a C++ source: style sheets and scripts are put into their
+# HTML, and that into a constant each, when one of them changes. Building needs nothing but CMake.
 #
 #   polynya_player_page(FOLDER OUTPUT)
 #

@@ -24,9 +24,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     -Wno-restrict -Wno-maybe-uninitialized -Wno-alloc-size-larger-than -Wno-array-bounds)
 endif()
 
-# Headers of the standard library, and with fmt::fmt those of fmt too, are compiled once instead of in every source: a third
-# of the time. Sources include what they use all the same (`./test -L odr` compiles each without this). A source with
-# options of its own has to leave it out: SKIP_PRECOMPILE_HEADERS.
+# Headers of the standard library, and with fmt::fmt those of fmt too, are compiled once instead of in every source: a
+# third of the time. Sources include what they use all the same (`./test -L odr` compiles each without this). A source
+# with options of its own has to leave it out: SKIP_PRECOMPILE_HEADERS.
 set(POLYNYA_STANDARD_HEADERS <algorithm> <array> <charconv> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits>
   <map> <memory> <numbers> <numeric> <optional> <ranges> <set> <span> <sstream> <string> <string_view> <system_error>
   <unordered_map> <utility> <variant> <vector>)

@@ -2,8 +2,8 @@
 
     python3 cmake/check_sizes.py SOURCE
 
-A function's lines are those from the parenthesis of its parameters (a lambda's without them: from its body) to its closing
-brace, functions within it included.
+A function's lines are those from the parenthesis of its parameters (a lambda's without them: from its body) to its
+closing brace, functions within it included.
 """
 import pathlib
 import re

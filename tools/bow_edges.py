@@ -2,11 +2,12 @@
 """Where the edges of a run break: three-dimensional elements of the true outlines beside the law of their sections.
 
   tools/bow_edges.py wedges                         wedges, whole and cracked, without and with the hull's thrust
-  tools/bow_edges.py edges RUN... --out EDGES.json  the edges at which cusps of runs broke, with the thrust of that break
+  tools/bow_edges.py edges RUN... --out EDGES.json the edges at which cusps of runs broke, with the thrust of that break
   tools/bow_edges.py table EDGES.json...            of those, the tables of docs/theory-bow.md
 
-Runs of level ice at constant speed along x. Of each run cusps drawn evenly from its last three quarters; the hull has crushed as
-deep as the run states. The law is that of fracture/bending/edge_sections.hpp. Needs numpy, scipy and matplotlib.
+Runs of level ice at constant speed along x. Of each run cusps drawn evenly from its last three quarters; the hull has
+crushed as deep as the run states. The law is that of fracture/bending/edge_sections.hpp. Needs numpy, scipy and
+matplotlib.
 """
 import argparse
 import json
@@ -24,7 +25,8 @@ RHO_G = 9810
 
 
 def narrow_wedge(reach=6.0, count=3000):
-    """Moment over that of a bare lever, of a narrow wedge on water, its tip loaded by a force 1 and by a moment 1; by r/l.
+    """Moment over that of a bare lever, of a narrow wedge on water, its tip loaded by a force 1 and by a moment 1; by
+    r/l.
 
     (ρ w'')'' + ρ w = 0, by finite differences of w and M = ρ w''."""
     from scipy.sparse import lil_matrix
@@ -54,7 +56,8 @@ RADII, LEVER, HOLD = narrow_wedge()
 
 
 def stress_of_section(r, width, l, offset, thrust):
-    """σ h²/V of a section at r of that width; lengths in h. `offset` of the load from the tip with the thrust's lever."""
+    """σ h²/V of a section at r of that width; lengths in h. `offset` of the load from the tip with the thrust's
+    lever."""
     rho = r / l
     return (6 * (l * np.interp(rho, RADII, LEVER) - offset * np.interp(rho, RADII, HOLD)) - thrust) / width
 
@@ -117,7 +120,8 @@ def openings(edge, radii):
 
 
 def by_elements(edge, ratio, finest):
-    """V_b, R of the whole edge and, where the bottom cracks first, of the edge with a crack along the line to that place."""
+    """V_b, R of the whole edge and, where the bottom cracks first, of the edge with a crack along the line to that
+    place."""
     thrusts = (edge["thrust"], 0.0)
     arguments = (np.array(edge["ring"]), edge["normal"], edge["depth"], edge["slope"], edge["l"], ratio, finest)
     whole, bare = bow_solid.breaking(bow_solid.Solid(*arguments), thrusts)

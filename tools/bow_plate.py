@@ -5,9 +5,9 @@
   tools/bow_plate.py edges RUN...   the edges at which a run's cusps broke, beside what the run took them for
   tools/bow_plate.py cracks         a radial crack along the bisector, open or closing above, and the hull's thrust
 
-At rest, on springs, free edges; lengths in l, forces in σ_f h². Plate: Morley's elements; in-plane: quadratic triangles. A push of radius
-0.02 l at the tip. Breaks: where the top fibre's greatest principal stress, at 0.08 l and more from the tip, is σ_f. Needs
-numpy, scipy and matplotlib.
+At rest, on springs, free edges; lengths in l, forces in σ_f h². Plate: Morley's elements; in-plane: quadratic
+triangles. A push of radius 0.02 l at the tip. Breaks: where the top fibre's greatest principal stress, at 0.08 l and
+more from the tip, is σ_f. Needs numpy, scipy and matplotlib.
 """
 import argparse
 import json
@@ -162,8 +162,8 @@ def along_ray(plate, values, angle):
 
 
 def bears(outline, bisector=0.0, ratio=0.08):
-    """V where the top fibre fails on the bisector and R, V where it fails anywhere, the tip's w ρ_w g l²/V, and the bottom fibre's
-    greatest stress over the top's."""
+    """V where the top fibre fails on the bisector and R, V where it fails anywhere, the tip's w ρ_w g l²/V, and the
+    bottom fibre's greatest stress over the top's."""
     plate = Plate(*mesh(outline, ratio))
     force = np.zeros(plate.count)
     np.add.at(force, plate.dof.ravel(), np.einsum("mq,mqi->mi", plate.load(), plate.value).ravel())
@@ -190,8 +190,8 @@ def study_wedges(_):
 
 
 class CrackedWedge:
-    """Half of a wedge, its bisector along y = 0: cracked from the tip to `crack`, and pushed with V and V · thrust along the
-    bisector, that at the height `above` of the middle plane."""
+    """Half of a wedge, its bisector along y = 0: cracked from the tip to `crack`, and pushed with V and V · thrust
+    along the bisector, that at the height `above` of the middle plane."""
 
     def __init__(self, degrees, h, ratio=0.08, reach=6.0):
         angle = np.linspace(0, math.radians(degrees) / 2, 60)

@@ -1,4 +1,5 @@
-"""Three-dimensional elements of an edge of floating ice that a hull crushes and presses down and inwards. Not a program.
+"""Three-dimensional elements of an edge of floating ice that a hull crushes and presses down and inwards. Not a
+program.
 
 Lengths in the thickness h, the top surface at z = 1, springs of the water below; stress in V/h². The hull has crushed
 what lies within `depth` of its line, from the tip along the inward normal, down to an inclined facet; there it presses
@@ -59,8 +60,8 @@ def resampled(line, size):
 
 
 def mesh(outline, normal, depth, reach, ratio, finest, coarsest, crack=None):
-    """Triangles of the ice within `reach` of the outline's first vertex, which is the tip; an edge of the mesh along the
-    facet's inner end and, where there is one, along the crack (its direction and length)."""
+    """Triangles of the ice within `reach` of the outline's first vertex, which is the tip; an edge of the mesh along
+    the facet's inner end and, where there is one, along the crack (its direction and length)."""
     size = lambda p: min(coarsest, max(finest, ratio * math.hypot(*p)))
     closed = np.vstack([outline, outline[:1]])
     edge = [outline[0]]
@@ -254,8 +255,9 @@ GAP = 1.0  # [h] from the facet: nearer, the load's own introduction is not the 
 
 
 def peak_along(r, stress, least, most):
-    """The greatest stress by distance, and where: of the greatest in each of rings, the maximum of a quartic in ln r through those
-    within 15 % of the greatest and around it (a flat maximum: a mesh's own rings would decide its place)."""
+    """The greatest stress by distance, and where: of the greatest in each of rings, the maximum of a quartic in ln r
+    through those within 15 % of the greatest and around it (a flat maximum: a mesh's own rings would decide its
+    place)."""
     edges = np.exp(np.linspace(math.log(least), math.log(most), 26))
     ring = np.digitize(r, edges)
     x, y = [], []
@@ -275,8 +277,8 @@ def peak_along(r, stress, least, most):
 
 
 def breaking(solid, thrusts):
-    """For each H/V: V_b [σ_f h²], by the top's greatest principal stress farther than GAP from the facet, its distance from the
-    tip [h], and V by the bottom's greatest tension."""
+    """For each H/V: V_b [σ_f h²], by the top's greatest principal stress farther than GAP from the facet, its distance
+    from the tip [h], and V by the bottom's greatest tension."""
     results, p = [], solid.plan[:solid.corner_count]
     r, s = np.hypot(*p.T), p @ solid.normal
     for top, bottom, u in solid.solve(thrusts):

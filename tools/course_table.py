@@ -14,8 +14,9 @@ PAGE = pathlib.Path(__file__).resolve().parent.parent / "docs/paper-comparison.m
 SECTION = """
 ## On 41 courses
 
-Half a metre apart, in each scene (`polynya study run scenes/studies/sawamura2017-courses.json`; `tools/course_table.py`): how many
-courses end in how many splits, and medians (least–most). The course decides more than anything else.
+Half a metre apart, in each scene (`polynya study run scenes/studies/sawamura2017-courses.json`;
+`tools/course_table.py`): how many courses end in how many splits, and medians (least–most). The course decides more
+than anything else.
 """
 BEGIN, END = "<!-- courses: begin -->", "<!-- courses: end -->"
 HEAD = [

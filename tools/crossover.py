@@ -3,10 +3,10 @@
 
   tools/crossover.py [--figure FILE.svg] [--sides M…] [--thicknesses M…]
 
-Splits (of the floe or what is left of it, and the strips among their pieces), floes broken as beams, bends, and the mean
-speed while the stem is where the floe was. F_b is the force that opens the crack when the first cusp breaks, and the
-greatest at any bend: L_s = (F_b/(0.187 h K))^2 is the side at which a square's F_max is just that. Options: --polynya
-PROGRAM, --work FOLDER (run folders; they are overwritten), --jobs N. The figure needs matplotlib.
+Splits (of the floe or what is left of it, and the strips among their pieces), floes broken as beams, bends, and the
+mean speed while the stem is where the floe was. F_b is the force that opens the crack when the first cusp breaks, and
+the greatest at any bend: L_s = (F_b/(0.187 h K))^2 is the side at which a square's F_max is just that. Options:
+--polynya PROGRAM, --work FOLDER (run folders; they are overwritten), --jobs N. The figure needs matplotlib.
 """
 import argparse
 import json

@@ -4,9 +4,9 @@
   tools/level_cost.py cost    five cases of thickness and speed on one core, the median of --repeat runs
   tools/level_cost.py step    mean resistance and number of bends by step, four lateral offsets
 
-The reference ship breaks 270 m into fast ice of 600 x 200 m. Time is that of the processor, user's and system's together: of
-`polynya run --no-map`, as the factor that a run prints, and what its picture takes beside it. Other work on the machine still
-takes caches and shared units away.
+The reference ship breaks 270 m into fast ice of 600 x 200 m. Time is that of the processor, user's and system's
+together: of `polynya run --no-map`, as the factor that a run prints, and what its picture takes beside it. Other work
+on the machine still takes caches and shared units away.
 
 Options of both: --polynya PROGRAM (more than one, comma-separated: alternated run by run), --work FOLDER, --repeat N.
 """

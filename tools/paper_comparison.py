@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Runs the five scenes of the paper by both readings of Eq. (6) and writes the measured tables into docs/paper-comparison.md.
+"""Runs the five scenes of the paper by both readings of Eq. (6) and writes the measured tables into
+docs/paper-comparison.md.
 
     ./quickstart                      (or build the release preset)
     python3 tools/paper_comparison.py             everything, 70 runs
@@ -109,7 +110,8 @@ def first_break(result: dict) -> float:
 
 
 def loads(result: dict, is_removing: bool, suffix: str) -> list:
-    """The size of (surge, sway) in all rows, by the name of the columns: "_N" the mean over 0.1 s, "_max_N" a single step."""
+    """The size of (surge, sway) in all rows, by the name of the columns: "_N" the mean over 0.1 s, "_max_N" a single
+    step."""
     first = first_break(result)
     # The ship presses on a plate for a moment before it breaks: removal ends 5 s before the first fracture.
     rows = [r for r in result["forces"] if (0 < r["t_s"] < first - 5 if is_removing else r["t_s"] >= first)]

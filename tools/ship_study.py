@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A ship in level ice beside published formulas and reported speeds; the tables of docs/validation.md, "A ship in level ice".
+"""A ship in level ice beside published formulas and reported speeds; the tables of docs/validation.md, "A ship in level
+ice".
 
   tools/ship_study.py resistance   the reference ship at constant speed, .25-3 m/s and .25-1.5 m, beside four formulas
   tools/ship_study.py smooth       the same of a hull as smooth (friction .05) as those that Spencer and Jones come from

@@ -3,7 +3,8 @@
 
     tools/study_cost.py [--polynya build/release/app/polynya] [start | disk | calls | gather | efficiency]...
 
-Everything if nothing is named. `efficiency` means something only while the machine does nothing else; `calls` needs strace.
+Everything if nothing is named. `efficiency` means something only while the machine does nothing else; `calls` needs
+strace.
 """
 import argparse
 import json

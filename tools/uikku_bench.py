@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The tanker Uikku in level ice beside five measured tests; the table of docs/validation.md, "A ship that was measured".
+"""The tanker Uikku in level ice beside five measured tests; the table of docs/validation.md, "A ship that was
+measured".
 
   tools/uikku_bench.py [TESTS.csv]   mean, standard deviation, largest, least, and share of the time without contact
 

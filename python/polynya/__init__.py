@@ -5,10 +5,10 @@
     simulation.run(until=5)
     print(simulation.time, simulation.floes.poses)
 
-`Scene` and `Simulation` step the simulator in this process, `cut` cuts polygons exactly; these need the compiled module.
-`Run` and `Study` read the folders of runs and studies back; these need numpy.
-`polynya.study` plans, runs and gathers many runs of one scene (docs/studies.md), `polynya.statistics` has the estimators of its reports;
-these need plain Python and the program `polynya`.
+`Scene` and `Simulation` step the simulator in this process, `cut` cuts polygons exactly; these need the compiled
+module. `Run` and `Study` read the folders of runs and studies back; these need numpy. `polynya.study` plans, runs and
+gathers many runs of one scene (docs/studies.md), `polynya.statistics` has the estimators of its reports; these need
+plain Python and the program `polynya`.
 """
 import os as _os
 
@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 __all__ = ["Cut", "FloeMemory", "Floes", "PilotView", "Problem", "Run", "Scene", "SceneError", "SeenShip", "Ship", "Simulation", "SimulationError", "Study", "cut"]
 __all__ += ["FolderError", "NotARunError", "NotAStudyError", "UnfinishedError", "VersionError", "require"]
 
-# The compiled module lies beside the folder that this package is in: that may be a link into the source tree, so its own
-# path is not resolved.
+# The compiled module lies beside the folder that this package is in: that may be a link into the source tree, so its
+# own path is not resolved.
 __path__.append(_os.path.join(_os.path.dirname(_os.path.dirname(_os.path.dirname(_os.path.abspath(__file__)))), "python_core"))
 
 _COMPILED = {"FloeMemory", "Floes", "PilotView", "Scene", "SeenShip", "Ship", "Simulation"}
@@ -75,7 +75,8 @@ def _compiled():
 
 
 def _version():
-    """CMake's PROJECT_VERSION: as it wrote it beside the package, or in a source tree that is not built, its own text."""
+    """CMake's PROJECT_VERSION: as it wrote it beside the package, or in a source tree that is not built, its own
+    text."""
     try:
         from polynya import _written_version
         return _written_version.VERSION

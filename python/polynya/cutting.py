@@ -9,7 +9,8 @@ from polynya._core import cut_geojson
 
 
 class Cut(typing.NamedTuple):
-    """What a cut made. area_of_pieces_m2 + removed_m2 = area_m2 + rounding_defect_m2, all of them in the ledger (docs/cut.md)."""
+    """What a cut made. area_of_pieces_m2 + removed_m2 = area_m2 + rounding_defect_m2, all of them in the ledger
+    (docs/cut.md)."""
 
     pieces: list  #: polygons: lists of numpy rings (n x 2) [m], the outer one first; open and counter-clockwise, holes clockwise
     parts: list  #: "inside" or "outside" the tool, piece by piece
@@ -49,7 +50,8 @@ def _numbers(name, values, count):
 
 
 def _fault(rejected):
-    """"self-crossing at (5, 5)": the reason of a ledger, what more there is to it, and the first places of the fault."""
+    """"self-crossing at (5, 5)": the reason of a ledger, what more there is to it, and the first places of the
+    fault."""
     words = ": ".join(filter(None, (rejected["reason"], rejected.get("detail"))))
     places = ", ".join(f"({x:g}, {y:g})" for x, y in rejected["vertices"][:3])
     return f"{words} at {places}" if places else words
@@ -58,11 +60,11 @@ def _fault(rejected):
 def cut(polygon, *, disc=None, crack=None, by=None, keep="both", repair=None):
     """Cuts a polygon exactly, and accounts for every square metre.
 
-    polygon: a ring (n x 2 numbers [m]), a list of rings (holes after the outer one), or what has __geo_interface__.
-    One tool of: disc=(x, y, radius [m]); crack=(x, y, angle in degrees from the x axis), the straight line through a point;
-    by=another polygon. keep: "both", "outside" or "inside" of a disc or polygon. repair: "even-odd" or "non-zero" for a polygon
-    that is not valid; without it, it is refused.
-    Returns a Cut. Raises ValueError for what cannot be cut, with the reason.
+    polygon: a ring (n x 2 numbers [m]), a list of rings (holes after the outer one), or what has __geo_interface__. One
+    tool of: disc=(x, y, radius [m]); crack=(x, y, angle in degrees from the x axis), the straight line through a point;
+    by=another polygon. keep: "both", "outside" or "inside" of a disc or polygon. repair: "even-odd" or "non-zero" for a
+    polygon that is not valid; without it, it is refused. Returns a Cut. Raises ValueError for what cannot be cut, with
+    the reason.
     """
     tools = {"disc": disc, "crack": crack, "polygon": by}
     given = [name for name, tool in tools.items() if tool is not None]

@@ -10,7 +10,8 @@ KNOT = 1852 / 3600  # [m/s]
 
 @dataclasses.dataclass(frozen=True)
 class Hull:
-    """Main particulars: length, beam, draught [m], stem angle from the horizontal, entrance angle from the centre line."""
+    """Main particulars: length, beam, draught [m], stem angle from the horizontal, entrance angle from the centre
+    line."""
 
     length: float
     beam: float

@@ -29,7 +29,8 @@ def _first_not_finite(value, path=""):
 
 
 def scene_parts(given):
-    """A scene's file and its JSON text, of which one is empty, and whether the text is the caller's own, with lines to name."""
+    """A scene's file and its JSON text, of which one is empty, and whether the text is the caller's own, with lines to
+    name."""
     if isinstance(given, collections.abc.Mapping):
         try:
             return "", json.dumps(dict(given), default=_plain, allow_nan=False), False

@@ -4,7 +4,8 @@ import sys
 
 
 def program():
-    """POLYNYA_PROGRAM where it is set, else that of this package's wheel, build or installation, else the first in the path."""
+    """POLYNYA_PROGRAM where it is set, else that of this package's wheel, build or installation, else the first in the
+    path."""
     given = os.environ.get("POLYNYA_PROGRAM")
     if given:
         return given

@@ -11,9 +11,9 @@ from .program import program
 class Recording:
     """Writes the folder while the simulation is stepped; ends it with the `with` block, or by `close()`.
 
-    The folder is that of `polynya run` of the scene up to the simulated time at which it is closed, byte for byte but for
-    the time by the clock, where no pilot of Python's has steered. An exception leaves a run that was stopped there, with a
-    checkpoint: `polynya resume` goes on from both kinds, with the scene's own pilots."""
+    The folder is that of `polynya run` of the scene up to the simulated time at which it is closed, byte for byte but
+    for the time by the clock, where no pilot of Python's has steered. An exception leaves a run that was stopped there,
+    with a checkpoint: `polynya resume` goes on from both kinds, with the scene's own pilots."""
 
     def __init__(self, simulation, folder, overwrite, map):
         self.folder = pathlib.Path(folder)
@@ -46,6 +46,6 @@ def record(self, folder, *, overwrite=False, map=True):
     """record(folder, overwrite=False, map=True)
 
     Writes a run folder as `polynya run` does (docs/run-folder.md), from the start on: before the first step. Returns a
-    Recording, which ends the folder where a `with` block does, or by its close(). `map` draws final.svg and final.png at
-    the end. FolderError where the folder cannot be had, or written."""
+    Recording, which ends the folder where a `with` block does, or by its close(). `map` draws final.svg and final.png
+    at the end. FolderError where the folder cannot be had, or written."""
     return Recording(self, folder, overwrite, map)

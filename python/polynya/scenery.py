@@ -1,6 +1,7 @@
 """What a map shows of a run at a time, as few paths in the world [m]: the maps of figures and of films draw it.
 
-Floes out of the picture are left out, and those of a few pixels are squares of their area: a field of 100 000 floes costs what is seen of it."""
+Floes out of the picture are left out, and those of a few pixels are squares of their area: a field of 100 000 floes
+costs what is seen of it."""
 from __future__ import annotations
 
 import functools
@@ -68,7 +69,8 @@ def turned(points, poses):
 
 
 class Outlines:
-    """The outlines of a run's floes in their body frames, packed: closed rings one after the other, and where each floe's begin."""
+    """The outlines of a run's floes in their body frames, packed: closed rings one after the other, and where each
+    floe's begin."""
 
     def __init__(self, run):
         self._run = run
@@ -170,7 +172,8 @@ class Scenery:
         return shown
 
     def floes(self, frame, window=None, least=0.0, among=None):
-        """Floes as one path a kind: those of a mask `among` that reach into the window; of a √area below `least` [m] squares of their area."""
+        """Floes as one path a kind: those of a mask `among` that reach into the window; of a √area below `least` [m]
+        squares of their area."""
         kinds = self.kinds(frame)
         shown = self.seen(frame, window) if among is None else self.seen(frame, window) & among
         return [self._path(frame.ids[shown & (kinds == kind)], frame.poses[shown & (kinds == kind)], least) for kind in range(4)]

@@ -1,4 +1,5 @@
-"""Estimators for samples of independent runs: means, quantiles, exceedance and extreme-value fits, with their intervals.
+"""Estimators for samples of independent runs: means, quantiles, exceedance and extreme-value fits, with their
+intervals.
 
 Every sample is a one-dimensional array of finite numbers; units are the caller's. Intervals are two-sided at `level`.
 Bootstrap intervals are percentile intervals [Efron1993]; their draws depend on `seed` alone.

@@ -36,7 +36,8 @@ run(bash -c "source ${WORK}/prefix/share/bash-completion/completions/polynya && 
 if(NOT output MATCHES "completed:json")
   message(FATAL_ERROR "completing --progress j gives ${output}")
 endif()
-# Where the compiled module is built: Python finds package and module by the line that is installed for it, and type checkers the stub.
+# Where the compiled module is built: Python finds package and module by the line that is installed for it, and type
+# checkers the stub.
 file(GLOB line ${WORK}/prefix/lib/python3*/dist-packages/polynya.pth)
 file(GLOB module ${WORK}/prefix/lib/polynya/python_core/_core*.so)
 if(module)

@@ -1,4 +1,5 @@
-"""Figures for print: what they show is what the files have, words have their sizes and none is clipped or covers another."""
+"""Figures for print: what they show is what the files have, words have their sizes and none is clipped or covers
+another."""
 import itertools
 import json
 import os

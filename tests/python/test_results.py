@@ -1,4 +1,5 @@
-"""Runs and studies read back: every number is the file's, and where floes and ships are is what `polynya export` writes."""
+"""Runs and studies read back: every number is the file's, and where floes and ships are is what `polynya export`
+writes."""
 import csv
 import json
 import os

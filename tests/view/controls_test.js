@@ -1,4 +1,5 @@
-// The controls, by mouse, keys and fingers, from a phone to a desk: what they cover, how large they are, what a drag and Space do.
+// The controls, by mouse, keys and fingers, from a phone to a desk: what they cover, how large they are, what a drag
+// and Space do.
 "use strict";
 const { test, before, assert, folder, open } = require("./bench.js");
 const { makeRun, makePage } = require("./runs.js");

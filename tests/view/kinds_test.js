@@ -263,8 +263,8 @@ test("contact circles touch their floe from inside, one for each piece of its bo
       });
     });
     assert.equal(all.length, 3);
-    // Of the square with a hole 20 a side, 4 + 4 + 6 of the hole; of the bar 15 and 3 a side; of the round one, whose sides
-    // are 0.63 m, one a side.
+    // Of the square with a hole 20 a side, 4 + 4 + 6 of the hole; of the bar 15 and 3 a side; of the round one, whose
+    // sides are 0.63 m, one a side.
     assert.deepEqual(all.map(({ circles }) => circles.length / 3), [80 + 14, 36, 60]);
     let narrower = 0;
     for (const { rings, circles } of all) {

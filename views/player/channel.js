@@ -1,5 +1,5 @@
-// The channel behind each ship (docs/channel.md): what analysis/channel.cpp measured of it, and what its hull swept, both carried
-// with the water to the instant that is shown.
+// The channel behind each ship (docs/channel.md): what analysis/channel.cpp measured of it, and what its hull swept,
+// both carried with the water to the instant that is shown.
 
 /** Where a point of the water at (x, y) at one time is at another. */
 function makeCarrier({ drift_m_per_s: [ux, uy], shear_per_s: shear, shear_direction_rad: direction, shear_origin_m: [ox, oy] }) {

@@ -1,6 +1,7 @@
 // What the colours of the ice mean: what became of each floe, the palette, and the legend below the map.
 
-// What became of each floe, from its lineage and its area: whole, cut, split off, broken off by bending, or come up from under a hull.
+// What became of each floe, from its lineage and its area: whole, cut, split off, broken off by bending, or come up
+// from under a hull.
 
 const breakages = { whole: 0, cut: 1, split: 2, bend: 3, cameUp: 4 };
 const cutShare = 0.2; // of the area of the scene's floe: a piece that holds as much is what is left of it

@@ -71,8 +71,8 @@ function drawContactForces(context, view, run, motions, places, time, colours, p
   return "";
 }
 
-// Contact circles as geometry samples them (geometry/contact/contact_circles.cpp), on demand: those of a floe when it is
-// first seen from close by.
+// Contact circles as geometry samples them (geometry/contact/contact_circles.cpp), on demand: those of a floe when it
+// is first seen from close by.
 
 /** A ring's edges [ax, ay, bx, by], one after the other, the interior on their left. */
 function edgesOfRing(coordinates) {

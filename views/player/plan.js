@@ -1,4 +1,5 @@
-// A scene before it runs: routes, wind and current, what validate warns of, places to copy. Of the page's options, `plan` (views/player/scene_plan.cpp).
+// A scene before it runs: routes, wind and current, what validate warns of, places to copy. Of the page's options,
+// `plan` (views/player/scene_plan.cpp).
 
 const currentCell = 110; // [px], of the grid of arrows
 const longestArrow = 40; // [px], of the fastest current on the screen

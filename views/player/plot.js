@@ -1,6 +1,7 @@
 // The plot: its chart, what it reads out, what lies off its scale, its pointers and its panel.
 
-// What the plot shows in numbers: the values under the pointer, and the names and values of its curves at the present time.
+// What the plot shows in numbers: the values under the pointer, and the names and values of its curves at the present
+// time.
 
 /** A line and a box that show the values of all curves at the time under the pointer. */
 function makePlotReading(run, plot) {
@@ -190,8 +191,8 @@ function chartRows(plot) {
   return tables.length === 1 ? tables[0] : uPlot.join(tables.map((columns) => columns.map((column) => Array.from(column))));
 }
 
-// Pointers on the plot: a drag goes to a time, the wheel and two fingers zoom, Shift and a drag choose a part of the run,
-// a double click shows all of it again.
+// Pointers on the plot: a drag goes to a time, the wheel and two fingers zoom, Shift and a drag choose a part of the
+// run, a double click shows all of it again.
 
 /** Pixels of the plot from its left, and the times there. */
 function plotAxis(plot) {

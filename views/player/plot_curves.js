@@ -67,7 +67,8 @@ function rowsOffScale(times, values, [low, high]) {
   return off;
 }
 
-// Forces by what causes them: columns of forces.csv, one for each cause, that add up to the force on a ship (io/run/force_causes.cpp).
+// Forces by what causes them: columns of forces.csv, one for each cause, that add up to the force on a ship
+// (io/run/force_causes.cpp).
 
 /** Of each direction its parts: a column without its shares has the words of what is left. */
 function partsByDirection({ force_causes: causes }) {

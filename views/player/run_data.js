@@ -1,7 +1,7 @@
 // The run as the page holds it: its columns, and the shapes of its floes.
 
-// Shapes of floes. The page holds whole ones, and of the others what floes.ndjson does (docs/run-folder.md): stretches of the parent's
-// rings and new points. These are assembled on demand, and the last ones kept.
+// Shapes of floes. The page holds whole ones, and of the others what floes.ndjson does (docs/run-folder.md): stretches
+// of the parent's rings and new points. These are assembled on demand, and the last ones kept.
 
 const mostKeptPoints = 4e6; // of assembled shapes, 64 MB
 

@@ -1,4 +1,5 @@
-// The timeline: a slider with a mark for every fracture, rejected cut and broken mooring. A click on a mark goes there, a drag scrubs.
+// The timeline: a slider with a mark for every fracture, rejected cut and broken mooring. A click on a mark goes there,
+// a drag scrubs.
 
 const nearMark = 5; // [px]
 const markedHeight = 23; // of the timeline from its top, where marks are [px]

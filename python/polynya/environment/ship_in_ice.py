@@ -33,18 +33,17 @@ def metres_less_work(change):
 class ShipInIce(Env):
     """A ship with an engine in a scene, in Gymnasium's convention.
 
-    scene: what polynya.Scene takes, or a callable that makes it of a seed. Of the former reset(seed) replaces the scene's `seed`, which
-    its random fields of floes follow.
-    ship: index or name. goal: x, y [m], reached within `goal_radius` (a length of 100 m if not given); without one the ship is to go
-    along its first heading. seconds: simulated, a step; a whole number of the scene's time steps. shape, cell_m, ahead_m: of the image,
-    as in Simulation.occupancy. time_limit: simulated [s]; the scene's until_s if not given. reward: a callable of a Change.
+    scene: what polynya.Scene takes, or a callable that makes it of a seed. Of the former reset(seed) replaces the
+    scene's `seed`, which its random fields of floes follow. ship: index or name. goal: x, y [m], reached within
+    `goal_radius` (a length of 100 m if not given); without one the ship is to go along its first heading. seconds:
+    simulated, a step; a whole number of the scene's time steps. shape, cell_m, ahead_m: of the image, as in
+    Simulation.occupancy. time_limit: simulated [s]; the scene's until_s if not given. reward: a callable of a Change.
 
-    Action: lever and steering angle, each from -1 to 1; the angle in shares of the largest, to port positive. Both go there as fast
-    as the scene's ship lets them.
-    Observation: "image", 2 x rows x columns, the share of each cell that ice covers, and that other ships and structures cover, ahead on
-    top, port on the left; "ship": speed ahead and to port [m/s], yaw rate [rad/s], lever, steering angle in shares, and where the
-    goal is: ahead and to port [m] (0 without one).
-    `simulation` is the Simulation that is stepped."""
+    Action: lever and steering angle, each from -1 to 1; the angle in shares of the largest, to port positive. Both go
+    there as fast as the scene's ship lets them. Observation: "image", 2 x rows x columns, the share of each cell that
+    ice covers, and that other ships and structures cover, ahead on top, port on the left; "ship": speed ahead and to
+    port [m/s], yaw rate [rad/s], lever, steering angle in shares, and where the goal is: ahead and to port [m] (0
+    without one). `simulation` is the Simulation that is stepped."""
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
 
@@ -68,7 +67,8 @@ class ShipInIce(Env):
         self.simulation = None
 
     def reset(self, *, seed=None, options=None):
-        """A new simulation. The scene's seed is `seed`, or one drawn where it is None. Returns observation and info: `scene_seed`, `time_s`."""
+        """A new simulation. The scene's seed is `seed`, or one drawn where it is None. Returns observation and info:
+        `scene_seed`, `time_s`."""
         super().reset(seed=seed)
         self.scene_seed = int(self.np_random.integers(MOST_SEED)) if seed is None else seed
         given = self._make_scene(self.scene_seed)
@@ -95,7 +95,8 @@ class ShipInIce(Env):
         return lever, share * view.steering_most
 
     def step(self, action):
-        """Observation, reward, whether the goal is reached, whether the time is over, and info: `time_s`, `progress_m`, `ice_work_J`, `events`."""
+        """Observation, reward, whether the goal is reached, whether the time is over, and info: `time_s`, `progress_m`,
+        `ice_work_J`, `events`."""
         if self.simulation is None:
             raise RuntimeError("reset() comes before the first step()")
         wanted = numpy.asarray(action, dtype=float)

@@ -24,7 +24,8 @@ SINKS = {
 
 
 def terms_of(runs):
-    """Sources and sinks in their order: (words, a value [J] or None for each run). A term of no name here is a sink of its own name."""
+    """Sources and sinks in their order: (words, a value [J] or None for each run). A term of no name here is a sink of
+    its own name."""
     energies = [run.run.summary.get("energy") or {} for run in runs]
     keys = dict.fromkeys(key[:-2] for energy in energies for key in energy if key.endswith("_J") and key != "turnover_J")
     sinks = [key for key in SINKS if key in keys] + [key for key in keys if key not in SOURCES and key not in SINKS]

@@ -32,8 +32,8 @@ class Map:
 
 
 def chosen_times(runs, wanted, count):
-    """One run: as many, evenly, the end among them, and the start where there are more than two. Several: their ends. Of the times drawn, rounded
-    to seconds where that changes little."""
+    """One run: as many, evenly, the end among them, and the start where there are more than two. Several: their ends.
+    Of the times drawn, rounded to seconds where that changes little."""
     if wanted:
         return list(wanted)
     if len(runs) > 1:
@@ -130,7 +130,8 @@ def legend_of(maps, scale):
 
 
 def draw(runs, page=Page(), at=(), window=None):
-    """A map of each run at each time of `at` [s] (chosen_times), all of one scale; of x0, y0, x1, y1 [m] where a window is given."""
+    """A map of each run at each time of `at` [s] (chosen_times), all of one scale; of x0, y0, x1, y1 [m] where a window
+    is given."""
     runs = all_labelled(runs)
     times = chosen_times(runs, at, page.style.maps)
     is_alone = len(runs) == 1
@@ -169,7 +170,8 @@ def draw(runs, page=Page(), at=(), window=None):
 
 
 def layout(page, count, across, along):
-    """Columns, and the width and height of a map [mm]: the columns on which maps are largest, if the page is tall enough."""
+    """Columns, and the width and height of a map [mm]: the columns on which maps are largest, if the page is tall
+    enough."""
     scale = page.style.scale
     best = (1, 0.0, 0.0)
     for columns in range(1, min(count, max(1, int(page.width / (38 * scale)))) + 1):

@@ -60,7 +60,8 @@ class Page:
         return -(-panels // rows)
 
     def row_height(self, rows, wanted):
-        """Of a row of panels with its words, so that all rows, a heading and a legend fit onto a page if they can [mm]."""
+        """Of a row of panels with its words, so that all rows, a heading and a legend fit onto a page if they can
+        [mm]."""
         scale = self.style.scale
         return max(15 * scale, min(wanted * scale, (self.style.tallest - 32 * scale) / rows))
 
@@ -131,7 +132,8 @@ class Sheet:
         return width
 
     def wrapped(self, words, size, width, weight="normal"):
-        """Words in lines no wider than that [mm]: broken at spaces, else behind hyphens and underscores, else anywhere."""
+        """Words in lines no wider than that [mm]: broken at spaces, else behind hyphens and underscores, else
+        anywhere."""
         lines, line = [], ""
         for part in parts_of(words):
             if self.width_of((line + part).rstrip(), size, weight) <= width:
@@ -158,8 +160,8 @@ class Sheet:
         axes.set_ylabel("\n".join(self.wrapped(words, self.page.style.text, height - 6 * self.page.style.scale)))
 
     def finish(self, panels_height, handles=(), notes=(), is_snug=False):
-        """Sets heading and legend around the panels, whose height is given [mm], less what they leave blank where `is_snug`, and makes the page
-        as tall; notes are lines of small text below."""
+        """Sets heading and legend around the panels, whose height is given [mm], less what they leave blank where
+        `is_snug`, and makes the page as tall; notes are lines of small text below."""
         self._decorate(handles, notes)
         self._place(panels_height)
         if is_snug:
@@ -235,7 +237,8 @@ class Sheet:
 
 
 def set_log(axis, low, high):
-    """Makes an axis logarithmic for values from low to high, with plain numbers, more of each decade the fewer there are."""
+    """Makes an axis logarithmic for values from low to high, with plain numbers, more of each decade the fewer there
+    are."""
     axis.axes.set(**{f"{axis.axis_name}scale": "log"})
     axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 20 * low else (1, 3) if high < 100 * low else (1,)))
     axis.set_major_formatter("{x:g}")
@@ -270,8 +273,8 @@ def letters(number):
 
 
 def save(figure, stem, formats, dots=300):
-    """Writes stem.svg and so on, each whole or not at all, in place of a link of that name too; the same figure gives the same bytes.
-    Yields each path."""
+    """Writes stem.svg and so on, each whole or not at all, in place of a link of that name too; the same figure gives
+    the same bytes. Yields each path."""
     for suffix in formats:
         path = f"{stem}.{suffix}"
         draft = f"{path}.{os.getpid()}.tmp"

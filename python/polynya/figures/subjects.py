@@ -75,7 +75,8 @@ def dash_of(number):
 
 
 def mark_fractures(axes, subject, scale):
-    """Strokes of cusps and triangles of splits along the top of a panel; the legend's entries of those that there are."""
+    """Strokes of cusps and triangles of splits along the top of a panel; the legend's entries of those that there
+    are."""
     handles = []
     across = axes.get_xaxis_transform()
     cusps, splits = subject.fractures("bend"), subject.fractures("split")

@@ -46,8 +46,8 @@ def last_line(text):
 
 
 class Encoder:
-    """A film while it is written, beside its place under a hidden name: it gets its own when it is whole, and nothing stays of one that
-    is not. ffmpeg has a session of its own, so that Ctrl-C reaches this process alone."""
+    """A film while it is written, beside its place under a hidden name: it gets its own when it is whole, and nothing
+    stays of one that is not. ffmpeg has a session of its own, so that Ctrl-C reaches this process alone."""
 
     def __init__(self, path, size, rate, samples=()):
         """`samples` are pictures that the colours of a GIF are chosen from."""

@@ -36,8 +36,8 @@ def chosen_times(run, start=None, end=None, speed=None, rate=RATES[".mp4"]):
 
 
 def write(run, path, times, look, progress=None):
-    """Writes a film of a run at some times [s] to an MP4 or a GIF, or the picture of the first of them to a PNG; whole or not at all.
-    `progress` is called with how many pictures are done, and of how many. Raises FilmError."""
+    """Writes a film of a run at some times [s] to an MP4 or a GIF, or the picture of the first of them to a PNG; whole
+    or not at all. `progress` is called with how many pictures are done, and of how many. Raises FilmError."""
     suffix = os.path.splitext(path)[1].lower()
     if suffix not in SUFFIXES:
         raise ValueError(f"{path}: a film's name ends in {', '.join(SUFFIXES)}")

@@ -199,7 +199,8 @@ class Picture:
             patch.set_path(path)
 
     def _lay_ice(self, frame):
-        """Restores the picture of what stays: of a map that stays also the floes at rest. The other floes are left to be drawn."""
+        """Restores the picture of what stays: of a map that stays also the floes at rest. The other floes are left to
+        be drawn."""
         if self.look.follow is not None or not self.look.is_film:
             self._at_start.set_path(self.scenery.ice_at_start(self._window, self._least))
             self.canvas.restore_region(self._background)

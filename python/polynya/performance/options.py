@@ -10,8 +10,8 @@ EXAMPLES = (
     "performance oden --list                   the formulas alone, without a run",
 )
 REST = """Each thickness is a run in a plate of fast ice, repeated twice as long until the mean speed's standard error
-and its change between the halves are below the error asked for. Finished runs are kept: a curve that was stopped goes on.
-Needs Python 3 with numpy, and matplotlib for the figure (./setup.sh python).
+and its change between the halves are below the error asked for. Finished runs are kept: a curve that was stopped goes
+on. Needs Python 3 with numpy, and matplotlib for the figure (./setup.sh python).
 """
 
 

@@ -17,8 +17,8 @@ from .tables import read_csv, read_json, table
 
 @dataclasses.dataclass(frozen=True)
 class Channel:
-    """A channel at a time. `parts` has the shapes of channel.geojson by name, "open water" and "brash" among them: of each polygon
-    its rings, arrays of n × 2 [m]."""
+    """A channel at a time. `parts` has the shapes of channel.geojson by name, "open water" and "brash" among them: of
+    each polygon its rings, arrays of n × 2 [m]."""
 
     stations: Any  #: the table of channel.csv
     sums: dict  #: mean width, areas and so on, as `polynya channel --json`

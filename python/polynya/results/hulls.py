@@ -27,7 +27,8 @@ def waterline(body):
 
 
 def first_motion(body):
-    """Where the scene puts it, at rest: x, y [m], heading [rad] and their rates; a wall's heading is that of its face, to the left of `from_m` to `to_m`."""
+    """Where the scene puts it, at rest: x, y [m], heading [rad] and their rates; a wall's heading is that of its face,
+    to the left of `from_m` to `to_m`."""
     if "from_m" in body:
         (x0, y0), (x1, y1) = body["from_m"], body["to_m"]
         return [(x0 + x1) / 2, (y0 + y1) / 2, math.atan2(x1 - x0, y0 - y1), 0, 0, 0]

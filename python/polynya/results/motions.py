@@ -57,7 +57,8 @@ class Motions:
         return numpy.where(after > first, numpy.maximum(found, first), -1)
 
     def floes_at(self, floes, time):
-        """An array of n × 6 for the floes of these ids: x, y [m], turn [rad] and their rates; NaN where no frame has a floe."""
+        """An array of n × 6 for the floes of these ids: x, y [m], turn [rad] and their rates; NaN where no frame has a
+        floe."""
         found = numpy.full((len(floes), 6), numpy.nan)
         if len(self._motion) == 0:
             return found
@@ -78,7 +79,8 @@ class Motions:
         return found
 
     def are_steady(self, floes, start, end):
-        """Of floes of these ids whether no frame changes their motion between two times [s], so that they go on at the velocity they have: a mask."""
+        """Of floes of these ids whether no frame changes their motion between two times [s], so that they go on at the
+        velocity they have: a mask."""
         if len(self._motion) == 0:
             return numpy.zeros(len(floes), dtype=bool)
         here, after = (int(numpy.searchsorted(self.times, time, side="right")) - 1 for time in (start, end))

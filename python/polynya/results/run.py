@@ -22,12 +22,12 @@ VERSION = 4  # of run folders, kRunFolderVersion of io/run/summary.hpp
 class Run:
     """A folder that `polynya run` wrote (docs/run-folder.md), read as its parts are asked for.
 
-    Tables are pandas' frames, or numpy's structured arrays where pandas is not installed (`pandas=True` insists on frames, `False`
-    on arrays). Their columns are those of the files, with their units in their names, and each number is the file's. Floes are shapely's
-    polygons, or GeoJSON's where shapely is not installed (`shapely=` likewise).
+    Tables are pandas' frames, or numpy's structured arrays where pandas is not installed (`pandas=True` insists on
+    frames, `False` on arrays). Their columns are those of the files, with their units in their names, and each number
+    is the file's. Floes are shapely's polygons, or GeoJSON's where shapely is not installed (`shapely=` likewise).
 
-    Raises NotARunError, UnfinishedError (but with `unfinished=True`, which reads what is there), VersionError, and FolderError with the
-    file where one is missing or damaged."""
+    Raises NotARunError, UnfinishedError (but with `unfinished=True`, which reads what is there), VersionError, and
+    FolderError with the file where one is missing or damaged."""
 
     def __init__(self, folder: Union[str, os.PathLike[str]], *, unfinished: bool = False, pandas: Optional[bool] = None, shapely: Optional[bool] = None):
         self.folder = pathlib.Path(folder)
@@ -96,9 +96,9 @@ class Run:
 
     @property
     def events(self) -> Any:
-        """events.ndjson, a row an event: `point_m` as `x_m`, `y_m`, `normal` as `normal_x`, `normal_y`, a mooring's `offset_m` as `offset_along_m`,
-        `offset_across_m`, the members of `criterion` by their names,
-        its kind as `criterion`; -1 where there is no floe, NaN where there is no number. `children` holds tuples."""
+        """events.ndjson, a row an event: `point_m` as `x_m`, `y_m`, `normal` as `normal_x`, `normal_y`, a mooring's
+        `offset_m` as `offset_along_m`, `offset_across_m`, the members of `criterion` by their names, its kind as
+        `criterion`; -1 where there is no floe, NaN where there is no number. `children` holds tuples."""
         return table(self.event_columns, self.pandas)
 
     @property
@@ -130,8 +130,9 @@ class Run:
 
     @property
     def floes(self) -> Any:
-        """floes.ndjson: every floe that there was, with `died_s`, when it broke, and `went_under_s`, when it went under a hull (infinite where it
-        did not), and whether it, or one that it broke from, `came_up` from there. The shapes are in `frame(time)`."""
+        """floes.ndjson: every floe that there was, with `died_s`, when it broke, and `went_under_s`, when it went under
+        a hull (infinite where it did not), and whether it, or one that it broke from, `came_up` from there. The shapes
+        are in `frame(time)`."""
         return table(self.births, self.pandas)
 
     def _table(self, name, lacking):
@@ -230,7 +231,8 @@ class Run:
 
 
 class Frame:
-    """Where ships and floes of a run are at a time. Floes are in the order of their ids; those under hulls are among them."""
+    """Where ships and floes of a run are at a time. Floes are in the order of their ids; those under hulls are among
+    them."""
 
     def __init__(self, run: Run, time: float):
         self._run = run
@@ -247,9 +249,9 @@ class Frame:
 
     @property
     def floes(self) -> Any:
-        """A table: `floe_id`, `parent_id` (-1 of a floe of the scene), `born_s`, `generation`, `area_m2`, `mass_kg`, `is_under` a hull, `came_up`
-        from under one (or broke from such a floe), the centre of mass `x_m`, `y_m`, the turn `angle_rad`, and their rates, NaN where no
-        frame has the floe."""
+        """A table: `floe_id`, `parent_id` (-1 of a floe of the scene), `born_s`, `generation`, `area_m2`, `mass_kg`,
+        `is_under` a hull, `came_up` from under one (or broke from such a floe), the centre of mass `x_m`, `y_m`, the
+        turn `angle_rad`, and their rates, NaN where no frame has the floe."""
         births = {name: values[self._ids] for name, values in self._run.births.items() if name not in ("died_s", "went_under_s")}
         names = ("x_m", "y_m", "angle_rad", "vx_m_per_s", "vy_m_per_s", "spin_rad_per_s")
         return table({**births, "is_under": self.is_under, **dict(zip(names, self._motions.T))}, self._run.pandas)
@@ -262,7 +264,8 @@ class Frame:
 
     @property
     def polygons(self) -> list[Any]:
-        """Of each floe a shapely Polygon in the world [m], or a GeoJSON Polygon, a dict, where shapely is not installed."""
+        """Of each floe a shapely Polygon in the world [m], or a GeoJSON Polygon, a dict, where shapely is not
+        installed."""
         return [polygon_of(rings, self._run.shapely) for rings in self.rings]
 
     @property
@@ -302,7 +305,8 @@ class Frame:
 
     @functools.cached_property
     def _poses(self):
-        """Of each floe's body frame in the world: x, y, angle; of a floe that no frame has, that of the one it broke from."""
+        """Of each floe's body frame in the world: x, y, angle; of a floe that no frame has, that of the one it broke
+        from."""
         poses = body_poses(self._recorded, self._run.centroids[self._ids])
         parents = self._run.births["parent_id"]
         for i in numpy.flatnonzero(numpy.isnan(poses[:, 0])):

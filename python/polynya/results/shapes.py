@@ -1,4 +1,5 @@
-"""The shapes of a run's floes, in their body frames: whole rings, or parts of their parents' (docs/run-folder.md, "floes.ndjson")."""
+"""The shapes of a run's floes, in their body frames: whole rings, or parts of their parents' (docs/run-folder.md,
+"floes.ndjson")."""
 from __future__ import annotations
 
 import numpy

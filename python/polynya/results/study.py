@@ -20,8 +20,9 @@ from .tables import number, read_json, table
 class Study:
     """A folder that `polynya study` planned, ran and gathered (docs/studies.md).
 
-    Raises NotAStudyError, VersionError, FolderError where the table is not gathered, and UnfinishedError where it lacks cases, but with
-    `unfinished=True`: `table["state"]` then has which are "finished", "failed", "unfinished" or "missing"."""
+    Raises NotAStudyError, VersionError, FolderError where the table is not gathered, and UnfinishedError where it lacks
+    cases, but with `unfinished=True`: `table["state"]` then has which are "finished", "failed", "unfinished" or
+    "missing"."""
 
     def __init__(self, folder: Union[str, os.PathLike[str]], *, unfinished: bool = False, pandas: Optional[bool] = None):
         self.folder = pathlib.Path(folder)
@@ -66,8 +67,8 @@ class Study:
 
     @property
     def table(self) -> Any:
-        """table.csv, a row a case: a pandas frame, or a structured array. Columns are numbers where all values are, else words; NaN where
-        there is none."""
+        """table.csv, a row a case: a pandas frame, or a structured array. Columns are numbers where all values are,
+        else words; NaN where there is none."""
         with open(self.folder / TABLE, newline="", encoding="utf-8") as file:
             names, *rows = csv.reader(file)
         cells = list(zip(*rows)) if rows else [()] * len(names)

@@ -15,7 +15,8 @@ WHOLE = {"floe_id", "by_floe_id", "steps", "station", "contacts", "contacts_with
 
 
 def optional(name, wanted):
-    """A module where it is installed and `wanted` is None, one that must be there where it is True, none where it is False."""
+    """A module where it is installed and `wanted` is None, one that must be there where it is True, none where it is
+    False."""
     if wanted is False:
         return None
     try:
@@ -28,7 +29,8 @@ def optional(name, wanted):
 
 
 def table(columns, pandas=None):
-    """Columns of equal length as a pandas.DataFrame, or as a structured array where pandas is not installed or False."""
+    """Columns of equal length as a pandas.DataFrame, or as a structured array where pandas is not installed or
+    False."""
     frames = optional("pandas", pandas)
     if frames:
         return frames.DataFrame(columns)
@@ -54,7 +56,8 @@ def number(text):
 
 
 def column(name, cells):
-    """The values of a column, by its name (docs/run-folder.md): words, whole numbers (-1 where there is none), yes or no, else numbers."""
+    """The values of a column, by its name (docs/run-folder.md): words, whole numbers (-1 where there is none), yes or
+    no, else numbers."""
     if name in WORDS:
         return numpy.array(cells, dtype=object)
     if name in WHOLE:
@@ -108,7 +111,8 @@ FIRST = {"t_s": float, "kind": str, "ship": str, "by_ship": str, "floe": int, "p
 
 
 def flattened(event):
-    """An event's members in one row: its point, normal and offset by coordinates, what decided it by name, with the rule as `criterion`."""
+    """An event's members in one row: its point, normal and offset by coordinates, what decided it by name, with the
+    rule as `criterion`."""
     row = {}
     for key, value in event.items():
         if key == "point_m":
@@ -125,7 +129,8 @@ def flattened(event):
 
 
 def event_columns(events):
-    """Columns of events.ndjson: -1 where there is no floe, NaN where there is no number, an empty word where there is none."""
+    """Columns of events.ndjson: -1 where there is no floe, NaN where there is no number, an empty word where there is
+    none."""
     rows = [flattened(event) for event in events]
     kinds = dict(FIRST)
     kinds.update({name: float for name in ("x_m", "y_m", "normal_x", "normal_y")})

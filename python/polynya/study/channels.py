@@ -71,7 +71,8 @@ def outer_rings(shape):
 
 
 def waterline(hull):
-    """A resolved scene's waterline, in the ship's frame; a wedge bow as `wedge_bow_waterline` of simulation/world/scene.cpp."""
+    """A resolved scene's waterline, in the ship's frame; a wedge bow as `wedge_bow_waterline` of
+    simulation/world/scene.cpp."""
     if "waterline_m" in hull:
         return hull["waterline_m"]
     length, half = hull["length_m"], hull["beam_m"] / 2

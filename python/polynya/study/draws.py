@@ -1,5 +1,6 @@
-"""Random draws of a study's parameters: each by the inverse of its distribution, from uniform numbers that depend on the
-study's seed and the parameter's path alone. Longer studies begin with the draws of shorter ones, but by Latin hypercube."""
+"""Random draws of a study's parameters: each by the inverse of its distribution, from uniform numbers that depend on
+the study's seed and the parameter's path alone. Longer studies begin with the draws of shorter ones, but by Latin
+hypercube."""
 import math
 import random
 import statistics

@@ -1,4 +1,5 @@
-"""What is measured of one finished run, from what it writes (docs/run-folder.md). Plain Python: a job needs little memory."""
+"""What is measured of one finished run, from what it writes (docs/run-folder.md). Plain Python: a job needs little
+memory."""
 import csv
 import json
 import math

@@ -52,8 +52,8 @@ def save(figure, folder, name):
 
 
 def label_of(measure, is_parameter=False):
-    """("resistance peak [MN]", factor) of a measure's name with its unit; of a parameter's path its last part, in the unit
-    in which the scene states it."""
+    """("resistance peak [MN]", factor) of a measure's name with its unit; of a parameter's path its last part, in the
+    unit in which the scene states it."""
     name, _, index = measure.rsplit(".", 1)[-1].partition("[")
     axis = {"0]": " x", "1]": " y"}.get(index, f" {index.rstrip(']')}" if index else "")
     for unit in sorted(("m_per_s", "deg", "Pa", *SCALES), key=len, reverse=True):

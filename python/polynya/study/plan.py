@@ -52,8 +52,8 @@ def plan_study(file, options):
 
 
 def write_plan(definition, folder, draft, lines, old, expanded, options):
-    """Checks the cases and writes the folder; where the same is planned there, nothing. Scenes are copied into the draft
-    first: what a refused plan would change stays as it is."""
+    """Checks the cases and writes the folder; where the same is planned there, nothing. Scenes are copied into the
+    draft first: what a refused plan would change stays as it is."""
     count, text = len(lines), "".join(lines)
     scenes = copy_scenes(definition, draft, lines)
     new = {
@@ -139,7 +139,8 @@ def chunk_size(given, old, count):
 
 
 def copy_scenes(definition, folder, lines):
-    """Copies the scenes, and the floe files that they or the cases name: the study's folder is all that a cluster needs."""
+    """Copies the scenes, and the floe files that they or the cases name: the study's folder is all that a cluster
+    needs."""
     names = []
     for i, name in enumerate(definition.scenes):
         source = definition.folder / name

@@ -1,5 +1,5 @@
-"""`polynya study report`: statistics, pictures, and one page from which each case opens in the player. Needs numpy, scipy
-and matplotlib."""
+"""`polynya study report`: statistics, pictures, and one page from which each case opens in the player. Needs numpy,
+scipy and matplotlib."""
 import concurrent.futures
 import csv
 import html
@@ -17,7 +17,8 @@ PAGE = "study.html"
 MOST_PLAYERS, MOST_ROWS = 250, 2000
 RELATIVE_WIDTH = 0.05  # to which "cases needed" refers
 STYLE = """body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1a2530}
-table{border-collapse:collapse;font-size:13px}td,th{white-space:nowrap;padding:.15rem .6rem;border-bottom:1px solid #dde;text-align:right}
+table{border-collapse:collapse;font-size:13px}td,th{white-space:nowrap;padding:.15rem .6rem;border-bottom:1px solid
+#dde;text-align:right}
 th{position:sticky;top:0;background:#fff}img{max-width:100%}.wide{overflow-x:auto;max-height:32rem}code{background:#f0f3f6}"""
 
 

@@ -11,8 +11,8 @@ from .folder import PLAN, RUN, write_atomically
 
 
 def estimate(study, seconds, jobs):
-    """Runs the first case for at most `seconds` and prints what all of them will take; it stays where it is, finished or
-    with its checkpoint. The estimate is kept in the plan."""
+    """Runs the first case for at most `seconds` and prints what all of them will take; it stays where it is, finished
+    or with its checkpoint. The estimate is kept in the plan."""
     if state_of(study.case_folder(0))[0] != "missing":
         return
     reader, writer = os.pipe()
