@@ -24,7 +24,7 @@ constexpr auto kExamples =
     "  polynya view runs/long --every 5 --from 100 --until 400\n"
     "  polynya view runs/wide --area 0,-200,900,200            only floes that come within 900 x 400 m\n"
     "  polynya view runs/6a runs/6b --out both.html            side by side, with one clock\n"
-    "  polynya view scene.json --watch                         a scene before it runs; anew when its file is saved\n"
+    "  polynya view scene.json --watch                         a scene before it runs; again when its file is saved\n"
     "\n"
     "Exit codes: 0 done, 2 usage (also: larger than --limit), 5 input/output.\n";
 

@@ -6,7 +6,7 @@ namespace {
 
 using dynamics::Contact;
 
-/// How often floes that hulls pierce are looked at [s]. Rarer, a floe stays one in which a hull has come through;
+/// How often floes that hulls pierce are examined [s]. Rarer, a floe stays one in which a hull has come through;
 /// more often, large plates that are pierced and hold together elsewhere cost a cut at each time.
 constexpr double kInterval = 0.25;
 

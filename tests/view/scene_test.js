@@ -76,7 +76,7 @@ test("what validate warns of is listed, and marked where it has a place", async 
   for (const problem of problems.filter(({ path: key }) => key.startsWith("ships["))) assert.equal(problem.point_m.length, 2);
 });
 
-test("a watched scene is shown anew when its file is saved", async () => {
+test("a watched scene is shown again when its file is saved", async () => {
   const file = write("watched.json", { ships: [ship("icebreaker", 30)] });
   const watching = spawn(process.env.POLYNYA_BINARY, ["view", file, "--watch"], { stdio: ["ignore", "pipe", "pipe"] });
   const ended = new Promise((resolve) => { watching.on("exit", resolve); });
