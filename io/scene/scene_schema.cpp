@@ -125,7 +125,7 @@ void append_table(std::string& text, const Object& object, const std::string& pa
   const std::string title = path.empty() ? "The scene" : fmt::format("`{}`", path);
   text += fmt::format("### {}\n\n", title);
   if (!object.alternatives.empty())
-    text += fmt::format("Exactly one of: {}. The fields marked so belong to it, and are given with it.\n\n",
+    text += fmt::format("Exactly one of: {}.\nThe fields marked so belong to it, and are given with it.\n\n",
                         fmt::join(object.alternatives, ", "));
   text += "| key | allowed | default | meaning |\n|---|---|---|---|\n";
   for (const Field& field : object.fields) {
