@@ -44,11 +44,14 @@ def scene(test, particulars, speed, settings):
     whole = {"name": f"uikku-{test['test']}", "time": {"step_s": min(0.02, 0.01 / speed), "until_s": (way + 2) / speed},
              "ice": {"thickness_m": test["thickness_m"], "flexural_strength_Pa": 1e3 * test["flexural_strength_kPa"],
                      "youngs_modulus_Pa": 1e6 * test["youngs_modulus_MPa"],
-                     "compressive_strength_Pa": 1e3 * test["compressive_strength_kPa"], "friction": particulars["friction"]},
+                     "compressive_strength_Pa": 1e3 * test["compressive_strength_kPa"],
+                     "friction": particulars["friction"]},
              "fracture": {key: dict(value) for key, value in ENDLESS.items()},
-             "ships": [{"name": "uikku", "mass_kg": MASS, "moment_of_inertia_kg_m2": MASS * (LENGTH / 4) ** 2, "hull": hull,
+             "ships": [{"name": "uikku", "mass_kg": MASS, "moment_of_inertia_kg_m2": MASS * (LENGTH / 4) ** 2,
+                        "hull": hull,
                         "position_m": [-LENGTH / 2 - 2, 0], "propulsion": {"constant_speed_m_per_s": speed}}],
-             "floes": [{"rectangle": {"corner_m": [0, -75], "size_m": [way + 50, 150]}, "fast_ice": True}]} | FEW_RECORDS
+             "floes": [{"rectangle": {"corner_m": [0, -75], "size_m": [way + 50, 150]},
+                        "fast_ice": True}]} | FEW_RECORDS
     for key, value in settings:
         *path, last = key.split(".")
         inner = whole
@@ -67,7 +70,8 @@ def run(arguments, name, one):
     contact = -1e-3 * np.array([float(row["surge_N"]) for row in rows])
     submerged = -1e-3 * np.array([float(row["surge_from_submerged_ice_N"]) for row in rows])
     total = contact + submerged
-    return {"mean": total.mean(), "sd": total.std(ddof=1), "max": total.max(), "min": total.min(), "submerged": submerged.mean(),
+    return {"mean": total.mean(), "sd": total.std(ddof=1), "max": total.max(), "min": total.min(),
+            "submerged": submerged.mean(),
             "without_contact": np.mean(contact < 1e-3 * total.max()), "real_time": summary["real_time_factor"]}
 
 
@@ -79,7 +83,8 @@ def read_tests(path):
 
 def table(tests, results, angles, speeds):
     print(f"\n{angles}: " + ", ".join(f"{key} {value:g}" for key, value in ANGLES[angles].items()) + "\n")
-    print("| test | h [m] | v [m/s] | measured: mean, sd, least, largest [kN] | Polynya: mean, sd, least, largest [kN] | of it submersion "
+    print("| test | h [m] | v [m/s] | measured: mean, sd, least, largest [kN] | Polynya: mean, sd, least, largest [kN] "
+          "| of it submersion "
           "| mean, sd over measured | without contact | × real time |\n|" + "---|" * 9)
     ratios = []
     for test in tests:
@@ -87,9 +92,11 @@ def table(tests, results, angles, speeds):
         r = {key: float(np.mean([one[key] for one in each])) for key in each[0]}
         measured = [test[f"resistance_{key}_kN"] for key in ("mean", "sd", "min", "max")]
         ratios.append((r["mean"] / measured[0], r["sd"] / measured[1]))
-        print(f"| {test['test']} | {test['thickness_m']:g} | {test['speed_m_per_s']:g} | " + ", ".join(f"{x:.0f}" for x in measured) + " | "
+        print(f"| {test['test']} | {test['thickness_m']:g} | {test['speed_m_per_s']:g} | "
+              + ", ".join(f"{x:.0f}" for x in measured) + " | "
               + ", ".join(f"{r[key]:.0f}" for key in ("mean", "sd", "min", "max"))
-              + f" | {r['submerged']:.0f} | {ratios[-1][0]:.2f}, {ratios[-1][1]:.2f} | {100 * r['without_contact']:.0f} % | {r['real_time']:.0f} |")
+              + f" | {r['submerged']:.0f} | {ratios[-1][0]:.2f}, {ratios[-1][1]:.2f} | "
+              f"{100 * r['without_contact']:.0f} % | {r['real_time']:.0f} |")
     mean, deviation = np.array(ratios).T
     print(f"\nmean within 20 %: {np.sum(abs(mean - 1) <= 0.2)} of {len(mean)}; standard deviation within 40 %: "
           f"{np.sum(abs(deviation - 1) <= 0.4)} of {len(mean)}")
@@ -116,7 +123,8 @@ def main():
     tests = read_tests(arguments.tests)
     chosen = list(ANGLES) if arguments.angles == "both" else [arguments.angles]
     shares = [1.0] if arguments.speeds == 1 else np.linspace(0.97, 1.03, arguments.speeds)
-    scenes = {(angles, test["test"], number): scene(test, ANGLES[angles], float(share) * test["speed_m_per_s"], settings)
+    scenes = {(angles, test["test"], number): scene(test, ANGLES[angles], float(share) * test["speed_m_per_s"],
+                                                    settings)
               for angles in chosen for test in tests for number, share in enumerate(shares)}
     results = run_all(arguments, run, scenes)
     for angles in chosen:

@@ -47,7 +47,8 @@ def children_of(name, texts, made):
     below = f"{name}/" if name == "reference/cpp" else f"{folder}/"
     found = sorted(page.rsplit(".", 1)[0] for page in [*texts, *made] if page.startswith(below))
     text = texts.get(f"{name}.md", "")  # in the order in which it links to them
-    return sorted((page for page in found if page != name), key=lambda page: text.find(f"({page[len(folder) + 1:]}.md)"))
+    return sorted((page for page in found if page != name),
+                  key=lambda page: text.find(f"({page[len(folder) + 1:]}.md)"))
 
 
 def write_sources(source, polynya):
@@ -79,7 +80,8 @@ def write_sources(source, polynya):
             old.unlink()
     shutil.copytree(ROOT / "docs/images", source / "images", dirs_exist_ok=True)
     shutil.copytree(ROOT / "tools/site/static", source / "static", dirs_exist_ok=True)
-    shutil.copytree(KATEX, source / "static/katex", dirs_exist_ok=True, ignore=shutil.ignore_patterns("contrib", "*.mjs"))
+    shutil.copytree(KATEX, source / "static/katex", dirs_exist_ok=True,
+                    ignore=shutil.ignore_patterns("contrib", "*.mjs"))
 
 
 def bundle_theme(static):
@@ -89,7 +91,8 @@ def bundle_theme(static):
     if text.startswith("import Gumshoe"):  # the other is UMD: as a classic script it defines window.Gumshoe
         script.write_text(gumshoe.read_text() + text.split("\n", 1)[1])
     style = static / "styles/furo.css"
-    style.write_text(style.read_text().replace("@import url(/javascript/normalize.css/normalize.css);", NORMALIZE.read_text()))
+    style.write_text(style.read_text().replace("@import url(/javascript/normalize.css/normalize.css);",
+                                               NORMALIZE.read_text()))
 
 
 def tree_of(options):
