@@ -195,7 +195,7 @@ def layout(page, count, across, along):
         tallest = max(20 * scale, (page.style.tallest - 32 * scale) / rows - 11 * scale)
         width = min(width, tallest * across / along)
         is_flat = along < 0.25 * across and page.width / 2 > 70 * scale
-    if count > 1 and columns == 1 and is_flat and width > page.width / 2:
+        if count > 1 and columns == 1 and is_flat and width > page.width / 2:
             best = (columns, width, width * along / across)  # long maps stand below each other
             break
         if width > 1.02 * best[1] or (columns <= max(1, round(page.width / (85 * scale))) and width > 0.45 * best[1]):
