@@ -26,7 +26,7 @@ const std::string kSecond =
            list("ships", {ship(R"("hull": {"length_m": null, "beam_m": null, "entrance_angle_deg": null, "draught_m": 3,
        "waterline_m": [[10, 0], [0, 4], [-10, 4], [-10, -4], [0, -4]], "angles_from_vertical_deg": [60, 38, 0, 0, 38]},
        "name": "presser", "mass_kg": 1e6, "position_m": [-500, 0], "propulsion": {"constant_speed_m_per_s": 1.5})")}),
-           R"("structures": [{"radius_m": 3, "position_m": [-300, 500], "wall_angle_deg": 10}])",
+           R"("structures": [{"panels": {"length_m": 3}, "radius_m": 3, "position_m": [-300, 500], "wall_angle_deg": 10}])",
            list("floes",
                 {R"({"polygon": {"outer_m": [[0, 0], [30, 0], [30, 30], [0, 30]],
        "holes_m": [[[10, 10], [10, 20], [20, 20]]]}})",
@@ -73,7 +73,8 @@ std::string fleet() {
         R"("table": {"rows": [{"t_s": 0, "lever": 0.5}, {"t_s": 60, "lever": 1, "steering_deg": 5}]})",
         R"("ram": {"heading_deg": 3, "back_m": 150})", R"("follow": {"ship": "ship-1", "distance_m": 100})"})
     ships.push_back(sailing_ship(fmt::format(
-        R"("steering": {{"rudder": {{}}}}, "position_m": [0, {}], "pilot": {{{}}})", 500 * ships.size(), pilot)));
+        R"("steering": {{"rudder": {{}}}}, "position_m": [0, {}], "pilot": {{{}}}, "panels": {{"length_m": 2}})",
+        500 * ships.size(), pilot)));
   return fmt::format("{{\"ships\": [{}]}}", fmt::join(ships, ", "));
 }
 
