@@ -119,7 +119,7 @@ class Run:
             return rows
         is_peak = rows["ended_by"] != ""
         if not of_peaks:
-            return {name: values[~is_peak] for name, values in rows.items() if name != "ended_by"}
+            return {name: values[~is_peak] for name, values in rows.items()}
         order = numpy.argsort(rows["t_s"][is_peak], kind="stable")
         return {name: values[is_peak][order] for name, values in rows.items()}
 
