@@ -221,7 +221,7 @@ std::vector<CrushedOverlap> Simulation::crushed_overlaps() const {
 std::vector<ContactState> Simulation::contact_states() const {
   const World& world = *world_;
   const double dt = world.clock.step;
-  const Vector drift_then = (world.clock.ticks() - dt / world.clock.tick) * world.clock.tick * world.clock.water_drift;
+  const Vector drift_then = world.clock.drift_at((world.clock.ticks() - dt / world.clock.tick) * world.clock.tick);
   const auto body_of = [&](BodyIndex body) { return contact_body(world.population, body); };
   std::vector<ContactState> states;
   for (const dynamics::Contact& c : world.step.contacts) {
