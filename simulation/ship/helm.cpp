@@ -18,7 +18,8 @@ std::vector<SeenShip> seen_ships(const Setup& setup, const Clock& clock, const P
                     .length = box.high.x - box.low.x,
                     .stern = box.low.x,
                     .stem = box.high.x,
-                    .is_wall = kind_of_hull(setup.scene, i) == BodyKind::kWall});
+                    .is_wall = kind_of_hull(setup.scene, i) == BodyKind::kWall,
+                    .is_fixed = is_grounded(kind_of_hull(setup.scene, i))});
     if (i >= population.helms.size()) continue;
     seen.back().lap_share = population.helms[i].memory.pattern.lap_share;
     seen.back().target_floe = population.helms[i].memory.pattern.target;

@@ -155,9 +155,9 @@ Vector to_largest_floe(const ManagingPilot& pilot, const PilotView& view, const 
   return along(way / std::max(far, 1e-9), share, pilot, view, frame);
 }
 
-/// Turns a velocity so that it passes another hull at a distance at least, to the side to which it passes
-/// already: of two ships both turn to the same hand. Within that distance, away from it.
-Vector clear_of(const SeenShip& other, double distance, const PilotView& view, Vector velocity) {
+/// Turns a velocity so that it passes another hull at a distance at least: a ship with that to port, as both
+/// do; what stands to the side to which it passes already. Within that distance, away from it.
+Vector clear_of(const SeenShip& other, bool stands, double distance, const PilotView& view, Vector velocity) {
   const Vector to_other = other.position_in_world - view.own().position_in_world;
   const double far = length(to_other);
   const Vector towards = to_other / std::max(far, 1e-9);
@@ -169,7 +169,7 @@ Vector clear_of(const SeenShip& other, double distance, const PilotView& view, V
   const double passes = std::asin(std::min(1.0, distance / far));
   const double off = std::atan2(cross(towards, relative), closing);
   if (std::abs(off) >= passes) return velocity;
-  const double side = off > 0 ? 1 : -1;
+  const double side = stands && off > 0 ? 1 : -1;
   return other.velocity + speed * unit(angle_of(towards) + side * passes);
 }
 
@@ -180,10 +180,10 @@ Vector clear_of_all(const ManagingPilot& pilot, const PilotView& view, Vector ve
   for (std::size_t i = 0; i < view.ships.size(); ++i) {
     const bool is_other = static_cast<int>(i) != view.ship && static_cast<int>(i) != pilot.body_index;
     if (is_other && !view.ships[i].is_wall)
-      velocity = clear_of(view.ships[i], distance_to(view.ships[i]), view, velocity);
+      velocity = clear_of(view.ships[i], view.ships[i].is_fixed, distance_to(view.ships[i]), view, velocity);
   }
   const SeenShip& body = view.ships[static_cast<std::size_t>(pilot.body_index)];
-  return clear_of(body, distance_to(body), view, velocity);
+  return clear_of(body, true, distance_to(body), view, velocity);
 }
 
 }  // namespace

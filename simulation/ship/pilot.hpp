@@ -29,7 +29,8 @@ struct SeenShip {
   double stern = 0;                   ///< x of its waterline's ends from the centre of gravity [m]
   double stem = 0;
   bool is_wall = false;
-  double lap_share = 0;  ///< of the pattern that it goes round, done
+  bool is_fixed = false;  ///< a structure or a wall
+  double lap_share = 0;   ///< of the pattern that it goes round, done
   std::int64_t target_floe = kNoTarget;
 };
 

@@ -107,15 +107,18 @@ TEST(Pattern, ALapGoesRoundOnceAndPlacesAreInOrder) {
 /// pattern's width, as it drifts past, that the band of laps of a period covers.
 double swept_share(const PatternLine& line, double drift, double speed, double band) {
   const double period = line.lap() / speed;
-  constexpr int kLaps = 6, kPlaces = 4000, kCells = 40;
+  constexpr int kPlaces = 1000, kCells = 40;
+  // The whole pattern passes over the ice that is looked at.
+  const geometry::Box box = bounding_box(line.corners);
+  const int laps = 6 + static_cast<int>((box.high.x - box.low.x) / (drift * period));
   int swept = 0, all = 0;
   for (int i = 0; i < kCells; ++i) {
     for (int k = 0; k < kCells; ++k) {
       // Ice that passes the middle of the pattern during the laps in the middle.
       const double y = kWide * ((k + 0.5) / kCells - 0.5);
-      const double lag = period * (2 + (i + 0.5) / kCells);
+      const double lag = period * (0.5 * laps + (i + 0.5) / kCells);
       bool is_swept = false;
-      for (int step = 0; step < kLaps * kPlaces && !is_swept; ++step) {
+      for (int step = 0; step < laps * kPlaces && !is_swept; ++step) {
         const double t = period * step / kPlaces;
         const Point ship = line.at(std::fmod(speed * t, line.lap()));
         is_swept = std::abs(ship.x - (kFar - drift * (t - lag))) <= 0.5 * band && std::abs(ship.y - y) <= 0.5 * band;
@@ -147,7 +150,7 @@ TEST(Pattern, TheCircleLeavesNoGapsInItsMiddleWhileDriftTimesPeriodIsWithinTheBa
 }
 
 TEST(Pattern, ShipsOfTwoPhasesComeAsNearAsTheFormsAllow) {
-  EXPECT_NEAR(least_distance(line_of(managing(ManagementPattern::kCircular, kWide)), 0.5), kWide, 1);
+  EXPECT_NEAR(least_distance(line_of(managing(ManagementPattern::kCircular, kWide)), 0.5), kWide, 5);
   EXPECT_NEAR(least_distance(line_of(managing(ManagementPattern::kCircular, kWide)), 0.25), kWide * std::sqrt(0.5), 5);
   EXPECT_NEAR(least_distance(line_of(managing(ManagementPattern::kLinear)), 0.5), 0, 1e-6);
   EXPECT_NEAR(least_distance(line_of(managing(ManagementPattern::kRacetrack, 200)), 0.5), 200, 1);
@@ -197,7 +200,7 @@ TEST(Managing, GoesRoundACircleOverGroundInADriftInItsPeriod) {
 
 TEST(Managing, GoesRoundARacetrackAndAlongALine) {
   const ManagingPilot track = managing(ManagementPattern::kRacetrack, 500);
-  EXPECT_LT(follow(managed({track}, {-0.4, 0}), 900).most_off, 60);
+  EXPECT_LT(follow(managed({track}, {-0.4, 0}), 900).most_off, 90);
   const Followed line = follow(managed({managing(ManagementPattern::kLinear)}, {-0.4, 0}), 1200);
   // A turn about takes the ship beyond the end by its tactical diameter at most, 3.8 lengths
   // (TurningCirclesAreThoseOfShips).
@@ -279,9 +282,11 @@ TEST(Managing, GoesToTheLargestFloeThatWillPassAndOnToTheNext) {
     if (targets.empty() || targets.back() != target()) targets.push_back(target());
   }
   targets.erase(std::ranges::remove(targets, kNoTarget).begin(), targets.end());
+  // What is left of the first is a floe of its own, and larger than the next.
   ASSERT_GE(targets.size(), 2U);
   EXPECT_EQ(targets[0], 1);
-  EXPECT_EQ(targets[1], 0);
+  EXPECT_EQ(std::ranges::count(targets, 0), 1) << testing::PrintToString(targets);
+  EXPECT_EQ(std::ranges::count(targets, 2) + std::ranges::count(targets, 3), 0);
 }
 
 TEST(Managing, GoesOnFromItsState) {
@@ -351,7 +356,8 @@ TEST(ChangingDrift, OfRowsThatAreEqualIsTheSteadyOne) {
 }
 
 TEST(ChangingDrift, AMooredShipRidesAsTheSpringOfItsMooringHasIt) {
-  // Slow against its own period, the ship lies where its resistance to the current is the mooring's pull.
+  // Slow against its own period, the ship lies where the mooring's pull is its resistance to the current, and what
+  // would speed it up with the water around it.
   Ship ship = manager(managing(ManagementPattern::kCircular, kWide), 1, {-1, 0});
   ship.propulsion = ConstantThrust{0};
   ship.steering = NoSteering{};
@@ -368,13 +374,15 @@ TEST(ChangingDrift, AMooredShipRidesAsTheSpringOfItsMooringHasIt) {
   Build scene = Build().step(0.1).ship(ship);
   scene.water.tide = dynamics::Tide{4000, 1.5, 0, std::numbers::pi, 0};
   scene.record.forces_interval = 1;
-  const Setup setup(scene);
+  const simulation::Setup setup(scene);
+  const double inertia = ship.mass + setup.sailing[0].hull.added_mass.rows[0].surge;
   const double resistance = setup.sailing[0].hull.quadratic_resistance;
   for (const ShipSample& s : run(scene, 1200).story.samples) {
     if (s.time < 200) continue;
     const double u = scene.water.drift_at(s.time).x;
-    ASSERT_NEAR(s.position_in_world.x, resistance * std::abs(u) * u / 2e5, 0.02 * resistance * 1.5 * 1.5 / 2e5)
-        << s.time;
+    const double growth = (scene.water.drift_at(s.time + 1).x - scene.water.drift_at(s.time - 1).x) / 2;
+    const double pull = resistance * std::abs(u) * u + inertia * growth;
+    ASSERT_NEAR(s.position_in_world.x, pull / 2e5, 0.02 * resistance * 1.5 * 1.5 / 2e5) << s.time;
   }
 }
 
@@ -387,8 +395,8 @@ TEST(ChangingDrift, AWindThatTurnsTakesTheIceAlong) {
   while (simulation.time() < 1990) simulation.step();
   EXPECT_NEAR(length(simulation.floe_states()[0].velocity - free_drift(scene, 1990)), 0, 0.01);
   EXPECT_GT(free_drift(scene, 1990).x, 0.2);
-  while (simulation.time() < 4000) simulation.step();
-  EXPECT_NEAR(length(simulation.floe_states()[0].velocity - free_drift(scene, 4000)), 0, 0.01);
+  while (simulation.time() < 8000) simulation.step();
+  EXPECT_NEAR(length(simulation.floe_states()[0].velocity - free_drift(scene, 8000)), 0, 0.01);
   EXPECT_GT(free_drift(scene, 4000).y, 0.2);
 }
 
