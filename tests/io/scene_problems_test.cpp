@@ -261,7 +261,8 @@ TEST(SceneProblems, OfShipsThatManageIce) {
     };
     std::vector<std::string> ships{manager(0, first)};
     if (!second.empty()) ships.push_back(manager(300, second));
-    return scene({list("ships", ships), R"("structures": [{"name": "tower", "radius_m": 30}])",
+    return scene({fmt::format("\"ships\": [{}]", fmt::join(ships, ", ")),
+                  R"("structures": [{"name": "tower", "radius_m": 30}])",
                   R"("walls": [{"name": "quay", "from_m": [0, -3000], "to_m": [100, -3000]}])"});
   };
   const auto pilot = [](const std::string& pattern, const std::string& more, const std::string& body = "tower") {
