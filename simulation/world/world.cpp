@@ -30,6 +30,7 @@ World::World(Scene scene, Shortcuts shortcuts, Start start)
       population(setup) {
   if (!setup.scene.water.is_steady()) clock.changing = std::make_shared<const WaterSettings>(setup.scene.water);
   accounts.loads.resize(hull_count(setup.scene));
+  accounts.panels = panels_of(setup);
   accounts.sailing.resize(setup.scene.ships.size());
   population.helms.resize(setup.scene.ships.size());
   if (start == Start::kEmpty) return;
