@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 4> kPythonCommands{"figures", "movie", "performance", "study"};
+constexpr std::array<std::string_view, 5> kPythonCommands{"calibrate", "figures", "movie", "performance", "study"};
 constexpr auto kModule = "polynya.command";  ///< python/polynya/command.py starts every command of the package
 
 /// The folder that holds the Python package: beside the build's app/, the installed one, or that of a wheel, whose
@@ -124,6 +124,9 @@ Command add_python_command(CommandLine& app, const char* name, const char* meani
 
 }  // namespace
 
+Command add_calibrate(CommandLine& app) {
+  return add_python_command(app, "calibrate", "Fit the two factors of bending to level-ice tests of a ship");
+}
 Command add_figures(CommandLine& app) {
   return add_python_command(app, "figures", "Draw a run, or several side by side, for print");
 }

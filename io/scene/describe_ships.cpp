@@ -120,6 +120,9 @@ const Description<MooringInput> kMooring{
      member("heading_deg", "°", from(-360, 360), "there; if not given, the ship's at the start",
             &MooringInput::heading)}};
 
+const Description<BendingFactors> kCalibration{
+    {load_factor(&BendingFactors::load), cusp_radius_factor(&BendingFactors::cusp_radius)}};
+
 template <class Pilot>
 FieldOf<Pilot> lever(double Pilot::*place) {
   return member("lever", "", from(-1, 1), "of the thrust", place);
@@ -231,7 +234,10 @@ const Description<ShipInput> kShip{
      object("steering", kSteering, "a rudder or thrusters that turn; needs an engine", &ShipInput::steering),
      object("pilot", kPilot, "works lever and steering; if not given, full ahead with the rudder amidships",
             &ShipInput::pilot),
-     object("mooring", kMooring, "what holds the ship in its place", &ShipInput::mooring)}};
+     object("mooring", kMooring, "what holds the ship in its place", &ShipInput::mooring),
+     object("calibration", kCalibration,
+            "of the ice that this ship breaks, by `polynya calibrate`; times the factors of `fracture.bending`",
+            &ShipInput::spec, &Ship::calibration)}};
 
 const Description<StructureInput> kStructure{
     {as(FieldKind::kName, member("name", "", {}, "its name in the outputs; # is its number", &StructureInput::name)),

@@ -8,6 +8,7 @@ import subprocess
 LOADS = ("surge_N", "sway_N", "yaw_Nm")
 QUANTILES = (0.5, 0.9, 0.99)
 STOP_SPEED = 0.05  # [m/s]
+CALIBRATED = "calibrated"  # a column where a case's factors of bending are not 1
 TEXT_COLUMNS = {"ship"}
 
 
@@ -34,6 +35,8 @@ def measure(run, collect, program):
     if collect.get("channel"):
         found["channel_width_m"] = channel_width(run, ship, program)
     found["warnings"] = len(summary["warnings"])
+    if any(warning.startswith("calibrated") for warning in summary["warnings"]):
+        found[CALIBRATED] = 1
     return found
 
 
