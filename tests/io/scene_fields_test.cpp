@@ -50,7 +50,8 @@ const std::string kFourth = scene({list(
        "propulsion": {"engine": {"bollard_pull_kN": 900, "open_water_speed_m_per_s": 7}},
        "pilot": {"route": {"waypoints": [{"position_m": [500, 500], "speed_m_per_s": 3},
                                          {"position_m": [900, 400], "speed_m_per_s": 2}]}},
-       "mooring": {"surge_stiffness_N_per_m": 1e5, "break_load_N": 1e6, "position_m": [0, 501], "heading_deg": 1})")})});
+       "mooring": {"surge_stiffness_N_per_m": 1e5, "break_load_N": 1e6, "position_m": [0, 501], "heading_deg": 1},
+       "calibration": {"load_factor": 1.2})")})});
 
 /// The fields of a law of sizes.
 std::string field_of_law(const std::string& region, const std::string& law) {

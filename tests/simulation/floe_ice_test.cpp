@@ -63,10 +63,11 @@ TEST(Calibration, MultipliesWhatTheShipsIceBearsAndItsCusps) {
     EXPECT_EQ(shown_name(scene), scene.name + ", calibrated");
     return first_bend(scene);
   };
-  for (const auto& bend : {with({1.5, 0.8}, {}), with({}, BendingFactors{1.5, 0.8}), with({3, 0.4}, {{0.5, 2}})}) {
-    EXPECT_NEAR(bend.criteria().bending_capacity / as_computed.criteria().bending_capacity, 1.5, 1e-9);
-    EXPECT_NEAR(std::get<Bend>(bend.what).cusp_radius / std::get<Bend>(as_computed.what).cusp_radius, 0.8, 1e-9);
-  }
+  const double load = as_computed.criteria().bending_capacity, radius = std::get<Bend>(as_computed.what).cusp_radius;
+  for (const auto& bend : {with({1.5, 1}, {}), with({}, BendingFactors{1.5, 1}), with({3, 1}, BendingFactors{0.5, 1})})
+    EXPECT_NEAR(bend.criteria().bending_capacity / load, 1.5, 1e-9);
+  for (const auto& bend : {with({1, 0.8}, {}), with({}, BendingFactors{1, 0.8}), with({1, 0.4}, BendingFactors{1, 2})})
+    EXPECT_NEAR(std::get<Bend>(bend.what).cusp_radius / radius, 0.8, 1e-9);
   EXPECT_EQ(shown_name(ship_in_ice()), ship_in_ice().name);
 }
 
