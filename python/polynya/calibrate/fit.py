@@ -10,6 +10,7 @@ import numpy as np
 RANGES = ((0.4, 3.0), (0.35, 2.0))  # of the load's factor and the cusp radius's that are searched
 LOW, HIGH = (np.log([ends[k] for ends in RANGES]) for k in (0, 1))
 TOLERANCE = np.array([0.2, 0.4])  # of the logarithms of mean and standard deviation: residuals are in these
+BEFORE = np.log(2)  # deviation of a factor's logarithm from 0 before any test: mean resistance leaves a valley of factors
 NEAR = 0.6  # width of the surface's weights, in logarithms of the factors
 SPEEDS = 0.03  # runs are within this share of a test's speed: cusps settle into patterns that differ with it
 GRID = np.stack(np.meshgrid(*(np.linspace(low, high, 61) for low, high in zip(LOW, HIGH)), indexing="ij"), -1).reshape(-1, 2)
@@ -55,13 +56,14 @@ class Fit:
 
 def fit(on_grid):
     """Of logarithms of mean and sd over measured [point of GRID, test, 2]. What is left of the residuals, but not less
-    than the tolerance, stands for the model's error; every factor within the range is as likely as another before."""
+    than the tolerance, stands for the model's error; before any test a factor is 1 within BEFORE."""
     residuals = (on_grid / TOLERANCE).reshape(len(GRID), -1)
     sums = (residuals**2).sum(1)
-    at = int(sums.argmin())
+    before = ((GRID / BEFORE) ** 2).sum(1)
+    at = int((sums + before).argmin())
     freedom = residuals.shape[1] - 2
     scale = max(1.0, sums[at] / freedom) if freedom > 0 else 1.0
-    likelihood = np.exp(-0.5 * (sums - sums[at]) / scale)
+    likelihood = np.exp(-0.5 * ((sums - sums[at]) / scale + before - before[at]))
     ends = [[weighted_quantile(GRID[:, k], likelihood, share) for k in (0, 1)] for share in (0.16, 0.84)]
     is_at_edge = bool(((GRID[at] == LOW) | (GRID[at] == HIGH)).any())
     misfit = math.sqrt(sums[at] / residuals.shape[1])
