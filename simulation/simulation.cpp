@@ -188,15 +188,6 @@ std::vector<FloeState> Simulation::all_states() const {
   return states;
 }
 
-namespace {
-
-ContactState::Body contact_body(const Population& population, BodyIndex body) {
-  return population.is_hull(body) ? ContactState::Body{body, kNoFloe}
-                                  : ContactState::Body{-1, population.floe_of(body)};
-}
-
-}  // namespace
-
 std::vector<CrushedOverlap> Simulation::crushed_overlaps() const {
   const Population& population = world_->population;
   const dynamics::Bodies& bodies = population.bodies;
@@ -222,16 +213,16 @@ std::vector<ContactState> Simulation::contact_states() const {
   const World& world = *world_;
   const double dt = world.clock.step;
   const Vector drift_then = (world.clock.ticks() - dt / world.clock.tick) * world.clock.tick * world.clock.water_drift;
-  const auto body_of = [&](BodyIndex body) { return contact_body(world.population, body); };
   std::vector<ContactState> states;
-  for (const dynamics::Contact& c : world.step.contacts) {
+  for (std::size_t i = 0; i < world.step.contacts.size(); ++i) {
+    const dynamics::Contact& c = world.step.contacts[i];
     if (!is_recorded(world, c)) continue;
-    states.push_back({.on = body_of(c.a),
-                      .by = body_of(c.b),
-                      .point_in_world = c.centre_of_pressure() + drift_then,
-                      .force = -1 / dt * c.impulse_on_b(),
-                      .depth = c.depth,
-                      .is_crushing = c.total_normal_impulse() > 0 && c.is_at_limit});
+    const HullSlope* slope = i < world.step.slopes.size() ? &world.step.slopes[i] : nullptr;
+    ContactState& state = states.emplace_back(state_of(world.setup, world.clock, world.population, c, slope));
+    state.point_in_world = c.centre_of_pressure() + drift_then;
+    if (!world.population.is_hull(c.a)) continue;
+    const geometry::Pose& then = world.step.water_from_hull[static_cast<std::size_t>(c.a)];
+    place_on_waterline(world.setup, inverse_transform(then, c.centre_of_pressure()), state);
   }
   return states;
 }

@@ -10,6 +10,7 @@
 
 #include "geometry/shape/pose.hpp"
 #include "simulation/ship/pilot.hpp"
+#include "simulation/world/contact_state.hpp"
 #include "simulation/world/energy.hpp"
 #include "simulation/world/journal.hpp"
 #include "simulation/world/scene.hpp"
@@ -46,21 +47,6 @@ struct ShipState {
   double heading = 0;           ///< [rad]
   geometry::Vector velocity;    ///< over ground [m/s]
   double angular_velocity = 0;  ///< [rad/s]
-};
-
-/// Two bodies that touched in the last step.
-struct ContactState {
-  struct Body {  ///< a ship or a floe
-    int ship = -1;
-    FloeId floe = kNoFloe;
-    friend bool operator==(Body, Body) = default;
-  };
-  Body on;
-  Body by;
-  geometry::Point point_in_world;  ///< that the force acts at, where it was when the step began [m]
-  geometry::Vector force;          ///< by `by` on `on`, over ground, mean of the step: impulse / time [N]
-  double depth = 0;                ///< of the overlap along the normal [m]
-  bool is_crushing = false;        ///< it presses with all that crushing ice carries
 };
 
 /// Two bodies with an overlap that their contacts have pressed: ice that was crushed there, or gave way.

@@ -39,7 +39,7 @@ def scene(h, v, bending):
 def by_place(folder, v, start):
     """Mean resistance [N], mean number of loaded contacts and share of the time with one, by place on the hull."""
     force, contacts, frames = {}, {}, {}
-    for row in rows_of(folder, "contacts.csv"):
+    for row in (row for row in rows_of(folder, "contacts.csv") if not row["ended_by"]):
         t, f = float(row["t_s"]), -float(row["fx_N"])
         if t <= start or f == 0:
             continue

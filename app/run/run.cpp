@@ -260,6 +260,7 @@ struct RunOptions {
   std::optional<double> until;  ///< [s]
   std::optional<std::uint64_t> seed;
   std::vector<io::Assignment> set;
+  std::optional<double> panel;  ///< [m]
   bool overwrite = false;
   DriverOptions driver;
 };
@@ -272,8 +273,10 @@ struct Start {
 
 tl::expected<Start, ExitCode> start_of(const RunOptions& options) {
   try {
-    auto loaded = load_scene(options.scene, {.until = options.until, .seed = options.seed, .assignments = options.set},
-                             ProblemFormat::kText, options.driver.progress);
+    auto loaded = load_scene(
+        options.scene,
+        {.until = options.until, .seed = options.seed, .assignments = options.set, .panel_length = options.panel},
+        ProblemFormat::kText, options.driver.progress);
     if (!loaded) return tl::unexpected(loaded.error());
     print_hints(*loaded);
     print_fields(*loaded);
@@ -424,6 +427,9 @@ Command add_run(CommandLine& app) {
   command.option("--until", options->until, "S", "Simulated time to run to, instead of the scene's [s]",
                  between(1e-9, 1e7));
   command.option("--seed", options->seed, "N", "Seed instead of the scene's", whole(0, 9007199254740991));
+  command.option("--panel", options->panel, "M",
+                 "Record the loads on panels of this length of all ships and structures, in panels.csv [m]",
+                 between(0.1, 1000));
   add_set(command, options->set);
   add_run_options(command, options->driver);
   command.flag("--overwrite", options->overwrite, "Replace the run that is in the folder");

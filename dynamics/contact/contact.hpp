@@ -53,6 +53,7 @@ struct PersistentContact {
   double loaded_depth = 0;           ///< deepest overlap that pressed: the ice is gone so far [m]
   double loaded_area = 0;            ///< of that overlap [m²]
   double reach = 0;                  ///< of the contact from last_point_in_b, at the last step [m]
+  std::int64_t load_track = 0;       ///< of what follows its force from step to step; 0: nothing does
   RestitutionMemory restitution;
   CrushedIce crushed;
   Booked booked;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "io/run/load_columns.hpp"
 #include "io/text/csv_row.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/problem.hpp"
@@ -110,9 +111,7 @@ RunContact contact_of(std::string_view line, const Run& run) {
   simulation::ContactState& state = contact.state;
   state.on = body_of(line, run);
   state.by = body_of(line, run);
-  for (double* value : {&state.point_in_world.x, &state.point_in_world.y, &state.force.x, &state.force.y, &state.depth})
-    *value = take_number(line);
-  state.is_crushing = take_number(line) != 0;
+  if (!read_row(line, state)) throw ReadError("a contact with what is no number");
   return contact;
 }
 

@@ -4,6 +4,7 @@
 
 #include "geometry/shape/angle.hpp"
 #include "io/run/force_columns.hpp"
+#include "io/run/load_columns.hpp"
 #include "io/scene/floe_ice.hpp"
 #include "io/text/csv_row.hpp"
 #include "io/text/geojson_layer.hpp"
@@ -44,16 +45,28 @@ void append_forces_row(std::string& text, const simulation::ShipSample& s, std::
   text += '\n';
 }
 
-std::string_view contacts_header() {
-  return "t_s,ship,floe_id,by_ship,by_floe_id,x_m,y_m,fx_N,fy_N,depth_m,is_crushing\n";
+std::string contacts_header() {
+  std::string header = "t_s,ship,floe_id,by_ship,by_floe_id";
+  append_header(header, contact_columns());
+  return header;
 }
 
 void append_contact(std::string& text, double time, const simulation::ContactState& contact,
                     const simulation::Scene& scene) {
   append_bodies(text, time, contact.on, contact.by, scene);
-  append_csv(text,
-             {contact.point_in_world.x, contact.point_in_world.y, contact.force.x, contact.force.y, contact.depth});
-  text += contact.is_crushing ? ",1\n" : ",0\n";
+  append_row(text, contact);
+}
+
+std::string panels_header() {
+  std::string header = "t_s,ship";
+  append_header(header, panel_columns());
+  return header;
+}
+
+void append_panel(std::string& text, const simulation::PanelSample& sample, const simulation::Scene& scene) {
+  append_number(text, sample.time);
+  text.append(1, ',').append(ship_name(scene, sample.hull));
+  append_row(text, sample);
 }
 
 std::string_view crushed_header() {

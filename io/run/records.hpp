@@ -24,10 +24,14 @@ std::string_view ship_name(const simulation::Scene& scene, int ship);
 std::string forces_header();
 void append_forces_row(std::string& text, const simulation::ShipSample& sample, std::string_view ship_name);
 
-/// contacts.csv: who touched whom at a frame.
-std::string_view contacts_header();
+/// contacts.csv: who touched whom at a frame, and how hard at the peaks of a contact's force.
+std::string contacts_header();
 void append_contact(std::string& text, double time, const simulation::ContactState& contact,
                     const simulation::Scene& scene);
+
+/// panels.csv: what ice did to a panel of a hull in an interval.
+std::string panels_header();
+void append_panel(std::string& text, const simulation::PanelSample& sample, const simulation::Scene& scene);
 
 /// crushed.csv: the overlap of two bodies at a frame that their contacts have pressed, as it is booked. Pairs below
 /// this share of the smaller body are left out.

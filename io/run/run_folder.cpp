@@ -131,6 +131,13 @@ Result<> remove_run(const fs::path& folder) {
 
 }  // namespace
 
+std::span<const std::string_view> growing_files(const simulation::Scene& scene) {
+  const std::span<const std::string_view> all = run_file::kGrowing;
+  for (std::size_t hull = 0; hull < hull_count(scene); ++hull)
+    if (hull_of(scene, hull).panels) return all;
+  return all.first(all.size() - 1);
+}
+
 Result<RunLock> RunLock::take(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / run_file::kLock;
   const auto refuse = [&](const std::string& reason) { return fail(fmt::format("{}: {}", file.string(), reason)); };

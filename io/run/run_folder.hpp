@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -12,9 +13,9 @@
 
 namespace polynya::io {
 
-/// What a run folder's files are like, in its summary.json. 3: crushed.csv and ground overlaps; 2:
-/// floes.ndjson has parts of parents' shapes; folders without a number are 1.
-inline constexpr int kRunFolderVersion = 4;
+/// What a run folder's files are like, in its summary.json. 5: peaks in contacts.csv; 4: ice under hulls; 3:
+/// crushed.csv and ground overlaps; 2: floes.ndjson has parts of parents' shapes; folders without a number are 1.
+inline constexpr int kRunFolderVersion = 5;
 
 /// The files of a run (docs/run-folder.md).
 namespace run_file {
@@ -28,6 +29,7 @@ inline constexpr std::string_view kFrames = "frames.bin";
 inline constexpr std::string_view kStates = "states.csv";
 inline constexpr std::string_view kContacts = "contacts.csv";
 inline constexpr std::string_view kCrushed = "crushed.csv";
+inline constexpr std::string_view kPanels = "panels.csv";  ///< of scenes that have panels
 inline constexpr std::string_view kFinalGeojson = "final.geojson";
 inline constexpr std::string_view kFinalSvg = "final.svg";
 inline constexpr std::string_view kFinalPng = "final.png";
@@ -43,10 +45,14 @@ inline constexpr std::string_view kFigureEnergy = "figure-energy.svg";
 inline constexpr std::array kFigures{kFigureFloes, kFigureLoads, kFigureMotion, kFigureSizes, kFigureEnergy};
 inline constexpr std::string_view kFailure = "failure.bin";
 inline constexpr std::string_view kRejectedCuts = "rejected-cuts";  // a folder
-/// The files that grow, in the order they are flushed: what is named before what names it.
-inline constexpr std::array kGrowing{kFloes, kEvents, kFrames, kContacts, kCrushed, kStates, kForces};
+/// The files that grow, in the order they are flushed: what is named before what names it. A run without panels has
+/// all but the last.
+inline constexpr std::array kGrowing{kFloes, kEvents, kFrames, kContacts, kCrushed, kStates, kForces, kPanels};
 inline constexpr std::array kMadeAtEnd{kFinalGeojson, kFinalSvg, kFinalPng, kView, kChannel, kChannelCsv};
 }  // namespace run_file
+
+/// The files that grow in a run of the scene.
+std::span<const std::string_view> growing_files(const simulation::Scene& scene);
 
 /// What reads runs takes no longer file; a run that writes one warns [bytes].
 inline constexpr std::uint64_t kLongestRunFile = std::uint64_t{4} << 30;

@@ -121,6 +121,16 @@ void read_forces(Run& run) {
   });
 }
 
+/// Peaks stand where they ended.
+void read_contacts(Run& run) {
+  for_rows(run.folder, run_file::kContacts, contacts_header(), [&](std::string_view line) {
+    RunContact contact = contact_of(line, run);
+    const bool is_peak = contact.state.ended_by != simulation::PeakEnd::kNone;
+    (is_peak ? run.peaks : run.contacts).push_back(contact);
+  });
+  std::ranges::stable_sort(run.peaks, {}, &RunContact::time);
+}
+
 /// Why a folder without a scene is none of a run.
 std::string what_is_missing(const std::filesystem::path& folder) {
   std::error_code error;
@@ -163,9 +173,7 @@ Result<Run> read_run(const std::filesystem::path& folder) {
     read_floes(run);
     read_events(run);
     read_forces(run);
-    if (std::filesystem::exists(folder / run_file::kContacts))
-      for_rows(folder, run_file::kContacts, contacts_header(),
-               [&](std::string_view line) { run.contacts.push_back(contact_of(line, run)); });
+    if (std::filesystem::exists(folder / run_file::kContacts)) read_contacts(run);
     if (run.has_crushed = std::filesystem::exists(folder / run_file::kCrushed); run.has_crushed)
       for_rows(folder, run_file::kCrushed, crushed_header(),
                [&](std::string_view line) { run.crushed.push_back(crushed_of(line, run)); });

@@ -50,7 +50,8 @@ struct Run {
   std::vector<simulation::Event> events;
   std::vector<simulation::ShipSample> samples;
   std::vector<Frame> frames;
-  std::vector<RunContact> contacts;  ///< as time goes; none in runs of versions that did not record them
+  std::vector<RunContact> contacts;  ///< at frames, as time goes; none in runs of versions that did not record them
+  std::vector<RunContact> peaks;     ///< of a contact's force, as time goes; none in runs of versions before
   std::vector<RunCrushed> crushed;   ///< as time goes
   bool has_crushed = false;          ///< runs of versions before do not record it
 

@@ -18,7 +18,7 @@ namespace polynya::io {
 namespace {
 
 using run_file::kGrowing;
-enum : std::size_t { kFloes, kEvents, kFrames, kContacts, kCrushed, kStates, kForces };
+enum : std::size_t { kFloes, kEvents, kFrames, kContacts, kCrushed, kStates, kForces, kPanels };
 constexpr std::size_t kMuchBuffered = std::size_t{256} << 10;  ///< [bytes]
 constexpr auto kLongestWait = std::chrono::seconds(1);
 
@@ -26,7 +26,8 @@ constexpr auto kLongestWait = std::chrono::seconds(1);
 std::string header_of(std::size_t file) {
   if (file == kForces) return forces_header();
   if (file == kFrames) return FrameEncoder::header();
-  if (file == kContacts) return std::string(contacts_header());
+  if (file == kContacts) return contacts_header();
+  if (file == kPanels) return panels_header();
   if (file == kCrushed) return std::string(crushed_header());
   return std::string(file == kStates ? states_header() : "");
 }
@@ -59,13 +60,13 @@ Result<RunWriter> RunWriter::create(const std::filesystem::path& folder, bool ov
 Result<RunWriter> RunWriter::begin(RunLock lock, const LoadedScene& scene) {
   if (const auto removed = remove_checkpoints(lock.folder()); !removed) return fail(removed.error());
   std::vector<OutputFile> files;
-  for (const auto name : kGrowing) {
+  for (const auto name : growing_files(scene.scene)) {
     auto file = OutputFile::create(lock.folder() / name);
     if (!file) return fail(file.error());
     files.push_back(std::move(*file));
   }
   RunWriter writer(scene, std::move(files), std::move(lock));
-  for (std::size_t i = 0; i < kGrowing.size(); ++i) writer.file(i).append(header_of(i));
+  for (std::size_t i = 0; i < writer.files_.size(); ++i) writer.file(i).append(header_of(i));
   writer.flush();
   if (const auto status = writer.status(); !status) return fail(status.error());
   RunSummary first;
@@ -106,12 +107,13 @@ Result<> check_progress(const RunProgress& progress, const std::filesystem::path
   const auto is_of_scene = [columns = peak_columns(scene).size()](const ShipPeaks& peaks) {
     return peaks.of_column.size() == columns;
   };
-  if (progress.file_sizes.size() != kGrowing.size() || progress.peaks.size() != hull_count(scene) ||
+  const std::size_t files = growing_files(scene).size();
+  if (progress.file_sizes.size() != files || progress.peaks.size() != hull_count(scene) ||
       !std::ranges::all_of(progress.peaks, is_of_scene))
     return fail(fmt::format("{}: the checkpoint is of another run", folder.string()));
-  for (std::size_t i = 0; i < kGrowing.size(); ++i)
+  for (std::size_t i = 0; i < files; ++i)
     if (auto checked = check_size(folder / kGrowing[i], progress.file_sizes[i]); !checked) return checked;
-  for (std::size_t i = 0; i < kGrowing.size(); ++i)
+  for (std::size_t i = 0; i < files; ++i)
     if (auto checked = check_header(folder / kGrowing[i], header_of(i)); !checked) return checked;
   return {};
 }
@@ -127,7 +129,7 @@ Result<RunWriter> RunWriter::resume(RunLock lock, const LoadedScene& scene, cons
   if (ready) ready = rewind_to(folder, checkpoint, file);
   if (!ready) return fail(ready.error());
   std::vector<OutputFile> files;
-  for (std::size_t i = 0; i < kGrowing.size(); ++i) {
+  for (std::size_t i = 0; i < progress.file_sizes.size(); ++i) {
     auto grown = OutputFile::reopen(folder / kGrowing[i], progress.file_sizes[i]);
     if (!grown) return fail(grown.error());
     files.push_back(std::move(*grown));
@@ -197,6 +199,10 @@ void RunWriter::record(simulation::Journal& journal) {
     std::vector<Peak>& peaks = peaks_[static_cast<std::size_t>(sample.ship)].of_column;
     for (std::size_t i = 0; i < peaks.size(); ++i) peaks[i].include(peak_columns_[i]->read(sample), sample.time);
   }
+  for (const simulation::LoadPeak& peak : journal.peaks)
+    append_line(kContacts, [&](std::string& line) { append_contact(line, peak.time, peak.state, scene_->scene); });
+  for (const simulation::PanelSample& sample : journal.panels)
+    append_line(kPanels, [&](std::string& line) { append_panel(line, sample, scene_->scene); });
   journal.clear();
 }
 

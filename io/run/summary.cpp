@@ -119,6 +119,12 @@ void append(JsonWriter& json, const simulation::Counts& counts) {
   json.close('}');
 }
 
+void append(JsonWriter& json, const simulation::PeakCounts& peaks, double least) {
+  json.key("load_peaks").open('{').key("recorded").value(peaks.recorded).key("least_N").value(least);
+  json.key("below_least").value(peaks.below).key("beyond_limit").value(peaks.beyond);
+  json.key("largest_beyond_limit_N").value(peaks.largest_beyond).close('}');
+}
+
 /// The lengths of the steps that the run took.
 void append_levels(JsonWriter& json, const simulation::Counts& counts, double tick) {
   std::vector<int> levels;
@@ -197,6 +203,11 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
              "table\"); polynya database query gives the ranges"
            : "outside the range of fracture.bending.model: the force at which the ice broke and the cusp's "
              "radius are the formula's, beyond where it is known to hold (docs/theory-bending.md)");
+  if (const simulation::PeakCounts& peaks = simulation.world().accounts.load_peaks.counts; peaks.beyond > 0)
+    warnings.push_back(
+        fmt::format("contacts.csv has the first {} peaks of contacts' forces: {} came later, the "
+                    "largest of {:.4g} kN; give a larger record.least_peak_N",
+                    peaks.recorded, peaks.beyond, 1e-3 * peaks.largest_beyond));
   if (const simulation::Audit audit = simulation.audit(); !audit.is_closed()) {
     warnings.push_back(
         fmt::format("THE AUDIT IS BROKEN: energy is off by {:.2e} J of {:.2e} J, momentum by {:.2e} N s of {:.2e} N s; "
@@ -224,6 +235,7 @@ RunSummary summarise(const Simulation& simulation, const RunWriter& writer, cons
   summary.masses = simulation.mass_ledger();
   summary.audit = simulation.audit();
   summary.peaks = writer.peaks();
+  summary.load_peaks = simulation.world().accounts.load_peaks.counts;
   summary.warnings = warnings_of(simulation, summary.counts);
   for (const std::string& name : writer.overlong())
     summary.warnings.push_back(
@@ -266,6 +278,7 @@ std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
     append_ice_of_floes(json, scene.scene);
     append(json, summary.audit, has_wind_or_walls(scene.scene));
     append(json, summary.counts);
+    append(json, summary.load_peaks, scene.scene.record.least_peak);
     json.key("warnings").list(summary.warnings);
   };
   return json_object(write, JsonWriter::Layout::kIndented);

@@ -49,6 +49,7 @@ struct RunSummary {
   simulation::Audit audit;
   simulation::Counts counts;
   std::vector<ShipPeaks> peaks;
+  simulation::PeakCounts load_peaks;
   std::vector<std::string> warnings;
 
   double real_time_factor() const { return wall_time > 0 ? sim_time / wall_time : 0; }

@@ -205,9 +205,12 @@ const Description<RecordSettings> kRecord{
      choice<RecordedContacts>(
          "contacts",
          "which contacts contacts.csv has at every frame: those with ships and structures, those between "
-         "floes too, none",
+         "floes too, none; with none no peaks either",
          {{"ships", RecordedContacts::kShips}, {"all", RecordedContacts::kAll}, {"none", RecordedContacts::kNone}},
-         &RecordSettings::contacts)}};
+         &RecordSettings::contacts),
+     member("least_peak_N", "N", from(0, 1e12),
+            "contacts.csv has a peak of a contact's force from this one on; summary.json counts those below it",
+            &RecordSettings::least_peak)}};
 
 const Description<SceneInput> kScene{
     {as(FieldKind::kName,

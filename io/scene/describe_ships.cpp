@@ -209,6 +209,13 @@ FieldOf<ShipInput> or_preset(FieldOf<ShipInput> field) {
   return required(std::move(field));
 }
 
+const Description<PanelSettings> kPanels{
+    {required(member("length_m", "m", from(0.1, 1000), "of a panel along the waterline, from the stem to both sides",
+                     &PanelSettings::length)),
+     member("bottom_m", "m", from(-100, 100), "of the lowest row, above the water", &PanelSettings::bottom),
+     member("top_m", "m", from(-100, 100), "of the highest row, above the water", &PanelSettings::top),
+     member("rows", "", from(1, 100), "of panels between the two, of one height", &PanelSettings::rows)}};
+
 const Description<ShipInput> kShip{
     {preset(),
      as(FieldKind::kName, member("name", "", {}, "its name in the outputs; # is its number", &ShipInput::name)),
@@ -237,7 +244,9 @@ const Description<ShipInput> kShip{
      object("mooring", kMooring, "what holds the ship in its place", &ShipInput::mooring),
      object("calibration", kCalibration,
             "of the ice that this ship breaks, by `polynya calibrate`; times the factors of `fracture.bending`",
-            &ShipInput::spec, &Ship::calibration)}};
+            &ShipInput::spec, &Ship::calibration),
+     object("panels", kPanels, "of the hull, of which panels.csv has the loads of the ice", &ShipInput::spec,
+            &Ship::panels)}};
 
 const Description<StructureInput> kStructure{
     {as(FieldKind::kName, member("name", "", {}, "its name in the outputs; # is its number", &StructureInput::name)),
@@ -253,7 +262,9 @@ const Description<StructureInput> kStructure{
      member("wall_angle_deg", "°", below(0, 89),
             "inclination of its walls from the vertical, all around: 0 crushes the ice, more presses it down "
             "as a hull does",
-            &StructureInput::slope)},
+            &StructureInput::slope),
+     object("panels", kPanels, "of its walls, of which panels.csv has the loads of the ice", &StructureInput::spec,
+            &Structure::panels)},
     {"cylinder", "outline"}};
 
 const Description<WallPressure> kPressure{

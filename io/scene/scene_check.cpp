@@ -212,6 +212,9 @@ void check_hulls(const SceneDraft& draft, ProblemCollector& problems) {
     }
     const auto& hull = placed.hull;
     const geometry::Box box = bounding_box(hull.waterline);
+    if (placed.panels && placed.panels->top <= placed.panels->bottom)
+      report("panels.top_m", fmt::format("{:g}", placed.panels->top),
+             fmt::format("above bottom_m, {:g} [m]", placed.panels->bottom));
     if (hull.draught > box.high.x - box.low.x)
       report("hull.draught_m", fmt::format("{:g}", hull.draught),
              fmt::format("at most the waterline's length, {:g} [m]", box.high.x - box.low.x));

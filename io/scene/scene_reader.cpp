@@ -34,8 +34,22 @@ std::string course_hash_of(std::string_view resolved) {
   return hash_of({resolved.substr(0, value), resolved.substr(resolved.find_first_of(",}", value))});
 }
 
+/// The length of the panels of each ship and structure.
+void set_panels(JsonValue& root, double length) {
+  for (const char* list : {"ships", "structures"}) {
+    JsonValue* hulls = root.find(list);
+    if (!hulls || !hulls->is(JsonValue::Kind::kArray)) continue;
+    for (JsonValue& hull : hulls->items()) {
+      if (!hull.is(JsonValue::Kind::kObject)) continue;
+      if (!hull.find("panels", JsonValue::Kind::kObject)) hull.set("panels", JsonValue::Object{});
+      hull.find("panels")->set("length_m", length);
+    }
+  }
+}
+
 void override_scene(JsonValue& root, const SceneOverrides& overrides) {
   if (overrides.seed) root.set("seed", static_cast<double>(*overrides.seed));
+  if (overrides.panel_length) set_panels(root, *overrides.panel_length);
   if (!overrides.until) return;
   if (!root.find("time")) root.set("time", JsonValue::Object{});
   if (JsonValue* time = root.find("time")) time->set("until_s", *overrides.until);

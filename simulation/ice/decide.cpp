@@ -147,7 +147,10 @@ void decide_at_ship(const Setup& setup, const Clock& clock, const Population& po
   else
     c.crushing_force = horizontal * load.normal_force;
   c.friction = load.shares.tangential / horizontal;
-  step.slopes.back() = {load.shares.vertical / horizontal, std::tan(load.hull_angle), load.crushed_share};
+  const double tangent = std::tan(load.hull_angle);
+  // An inclined hull crushes the edge from its top corner down.
+  const double height = tangent > 0 ? std::min(load.ice.thickness, load.penetration / tangent) : load.ice.thickness;
+  step.slopes.back() = {load.shares.vertical / horizontal, tangent, load.crushed_share, height};
   const PendingFracture pending = evaluate(setup, population, load, counts);
   const bool breaks = pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit;
   if (!breaks || c.record->was_refused) return;

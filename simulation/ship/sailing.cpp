@@ -245,6 +245,9 @@ void keep_motion(const Population& population, StepData& step) {
   step.start.resize(population.helms.size());
   for (std::size_t ship = 0; ship < step.start.size(); ++ship)
     step.start[ship] = {population.bodies.velocity[ship], population.bodies.angular_velocity[ship]};
+  step.water_from_hull.clear();
+  for (BodyIndex hull = 0; hull < population.hull_count; ++hull)
+    step.water_from_hull.push_back(water_from_body(population.bodies, hull));
 }
 
 void sail(const Setup& setup, const Clock& clock, StepData& step, Population& population, Accounts& accounts) {

@@ -62,7 +62,10 @@ class StateLoader {
     bytes_.require(finer >= 1 && finer <= 1 << world_.setup.levels && std::has_single_bit(static_cast<unsigned>(finer)),
                    "parts of a tick that cannot be");
     bytes_.require(world_.clock.bends >= 0 && world_.clock.bends <= kMostCounted, "a number of bends that cannot be");
+    load_peaks();
+    load_panels();
     bytes_.require(bytes_.is_at_end(), "more bytes than it should have");
+    if (bytes_.is_well()) population_.pairs.restore(population_.bodies, pairs_);
     if (bytes_.is_well()) {
       if (auto defect = validate_world(world_)) bytes_.fail(*std::move(defect));
     }
@@ -287,13 +290,52 @@ class StateLoader {
       bytes_.require(is_next, "pairs out of their order");
       pair.separation_bound = separation_bound[i];
     }
-    if (bytes_.is_well()) population_.pairs.restore(bodies, pairs);
+    pairs_ = std::move(pairs);
+  }
+
+  void load_peaks() {
+    LoadPeaks& peaks = world_.accounts.load_peaks;
+    bytes_(peaks);
+    std::int64_t last = 0;
+    for (const LoadTrack& track : peaks.tracks) {
+      const ContactState& s = track.at_largest;
+      bytes_.require(track.id > last && track.id <= peaks.tracks_so_far, "loads out of their order");
+      bytes_.require(track.ending <= PeakEnd::kTilt && track.ending != PeakEnd::kNone, "an end that there is not");
+      const bool has_bodies = s.on.ship >= 0 && s.on.ship < population_.hull_count && s.by.floe >= 0 &&
+                              s.by.floe < population_.floe_count();
+      bytes_.require(has_bodies || track.largest == 0, "a load of no hull and floe");
+      bytes_.require(std::min({track.least, track.largest, s.width, s.height, s.pressure, s.thickness}) >= 0,
+                     "a negative load");
+      last = track.id;
+    }
+    for (const std::int64_t count :
+         {peaks.tracks_so_far, peaks.counts.recorded, peaks.counts.below, peaks.counts.beyond})
+      bytes_.require(count >= 0 && count <= kMostCounted, "a count of peaks that cannot be");
+  }
+
+  /// With the numbers of the loads that contacts' records follow.
+  void load_panels() {
+    std::vector<HullPanels> panels;
+    std::vector<std::int64_t> load_tracks;
+    bytes_(panels, load_tracks);
+    const std::vector<HullPanels>& of_scene = world_.accounts.panels;
+    bytes_.require(std::ranges::equal(panels, of_scene, {}, &HullPanels::size, &HullPanels::size), "other panels");
+    if (bytes_.is_well()) world_.accounts.panels = std::move(panels);
+    std::size_t next = 0;
+    for (dynamics::PairState& pair : pairs_) {
+      for (dynamics::PersistentContact& record : pair.records) {
+        if (next < load_tracks.size()) record.load_track = load_tracks[next];
+        ++next;
+      }
+    }
+    bytes_.require(next == load_tracks.size(), "another number of loads than of contacts");
   }
 
   const Scene& scene_;
   World& world_;
   Population& population_;
   ByteReader bytes_;
+  std::vector<dynamics::PairState> pairs_;
   geometry::Box ice_;
 };
 

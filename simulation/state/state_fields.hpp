@@ -177,6 +177,23 @@ void fields(Archive& archive, Is<std::array<std::int64_t, kMostLevels + 1>> auto
   for (auto& count : counts) archive(count);
 }
 
+/// Its bodies follow from hull and floe, its place on the waterline is found when the peak is recorded.
+template <class Archive>
+void fields(Archive& archive, Is<LoadTrack> auto& t) {
+  auto& s = t.at_largest;
+  archive(t.id, t.is_rising, t.least, t.largest, t.time, s.on.ship, s.by.floe, s.point_in_world, s.force, s.depth,
+          s.is_crushing, s.width, s.height, s.pressure, s.thickness, t.point_in_hull, t.ending);
+}
+template <class Archive>
+void fields(Archive& archive, Is<LoadPeaks> auto& p) {
+  archive(p.tracks, p.tracks_so_far, p.counts.recorded, p.counts.below, p.counts.beyond, p.counts.largest_beyond);
+}
+template <class Archive>
+void fields(Archive& archive, Is<PanelLoads> auto& p) {
+  archive(p.impulse, p.normal, p.largest, p.loaded);
+}
+
+/// Not its peaks and panels: they decide nothing of the run (save_state.cpp).
 template <class Archive>
 void fields(Archive& archive, Is<Accounts> auto& a) {
   archive(a.ledger, a.audit, a.counts, a.loads, a.ship_contacts, a.refused_grinds);

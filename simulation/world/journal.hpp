@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/planar.hpp"
+#include "simulation/world/contact_state.hpp"
 #include "simulation/world/event.hpp"
 
 namespace polynya::simulation {
@@ -66,6 +67,20 @@ struct ShipSample {
   friend bool operator==(const ShipSample&, const ShipSample&) = default;
 };
 
+/// One recorded row of a panel of a hull that ice pressed in the interval, in the hull's frame.
+struct PanelSample {
+  double time = 0;  ///< end of the interval [s]
+  int hull = 0;
+  int column = 0;         ///< from the stem, to starboard −1, −2, …
+  int row = 0;            ///< from the bottom; −1: above and below all of them
+  dynamics::Planar load;  ///< mean of the ice's [N, N m]
+  double force = 0;       ///< mean of what acts along the contacts' normals [N]
+  double largest = 0;     ///< of a single step [N]
+  double pressure = 0;    ///< mean over the panel's area [Pa]
+  double loaded = 0;      ///< how long ice pressed [s]
+  friend bool operator==(const PanelSample&, const PanelSample&) = default;
+};
+
 /// What happened since the caller last cleared it; the vectors keep their capacity, but for the births of the
 /// scene's many floes.
 struct Journal {
@@ -74,13 +89,28 @@ struct Journal {
   std::vector<Birth> births;
   std::vector<Death> deaths;
   std::vector<ShipSample> samples;
+  std::vector<LoadPeak> peaks;
+  std::vector<PanelSample> panels;
   void clear() {
     events.clear();
     births.clear();
     if (births.capacity() > kManyBirths) births.shrink_to_fit();
     deaths.clear();
     samples.clear();
+    peaks.clear();
+    panels.clear();
   }
+};
+
+/// Peaks of a run that are recorded.
+inline constexpr std::int64_t kMostPeaks = 200'000;
+
+/// Of the peaks of contacts' forces, how many are recorded, and what fell under the limits.
+struct PeakCounts {
+  std::int64_t recorded = 0;
+  std::int64_t below = 0;     ///< the scene's least peak
+  std::int64_t beyond = 0;    ///< kMostPeaks
+  double largest_beyond = 0;  ///< of those [N]
 };
 
 /// Where all the ice went [m²]. initial = floes + under hulls + under ice + submerged + brash − rounding, up

@@ -133,6 +133,7 @@ void record(const Setup& setup, const Clock& clock, const Population& population
   if (!clock.is_at_tick() || clock.steps % setup.steps_per_sample != 0) return;
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull)
     journal.samples.push_back(sample_of(setup, clock, population, hull, accounts));
+  sample_panels(setup, clock, accounts.panels, journal);
   std::ranges::fill(accounts.loads, ShipLoads{});
   std::ranges::fill(accounts.sailing, SailingLoads{});
 }

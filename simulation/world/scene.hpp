@@ -153,12 +153,22 @@ using Propulsion = std::variant<ConstantThrust, ConstantSpeed, Engine>;
 
 using dynamics::BodyKind;
 
+/// Panels of a hull, counted along its waterline from the stem, on which the loads of the ice are recorded.
+struct PanelSettings {
+  double length = 0;   ///< along the waterline [m]
+  double bottom = -2;  ///< above the water [m]
+  double top = 1;      ///< [m]
+  int rows = 1;        ///< between the two
+  friend bool operator==(const PanelSettings&, const PanelSettings&) = default;
+};
+
 /// What ships, structures and walls have in common: a hull, and where it is at the start.
 struct PlacedHull {
   std::string name;
   Hull hull;
   geometry::Point position_in_world;  ///< of the origin of its frame, of a ship its centre of gravity [m]
   double heading = 0;                 ///< from the x axis, counter-clockwise [rad]
+  std::optional<PanelSettings> panels;
   friend bool operator==(const PlacedHull&, const PlacedHull&) = default;
 };
 
@@ -230,6 +240,7 @@ struct RecordSettings {
   double forces_interval = 0.1;  ///< between rows of forces.csv [s]
   double frames_interval = 2.0;  ///< between frames [s]
   RecordedContacts contacts = RecordedContacts::kShips;
+  double least_peak = 1e3;  ///< of a contact's force that is recorded [N]
   friend bool operator==(const RecordSettings&, const RecordSettings&) = default;
 };
 

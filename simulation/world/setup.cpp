@@ -46,8 +46,10 @@ Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
       current(current_of(scene.water.shear)),
       ice_limits(limits_of(scene)) {
   solver.max_iterations = scene.contact.iterations;
-  for (std::size_t hull = 0; hull < hull_count(scene); ++hull)
+  for (std::size_t hull = 0; hull < hull_count(scene); ++hull) {
     underwater.push_back(underwater_of(hull_of(scene, hull).hull));
+    waterlines.push_back(waterline_of(hull_of(scene, hull).hull.waterline));
+  }
   for (const Ship& ship : scene.ships) sailing.push_back(sailing_of(ship, scene.water.water.density));
   steps_per_sample = std::max<std::int64_t>(1, std::llround(scene.record.forces_interval / scene.time.step));
   const ContactSettings& contact = scene.contact;

@@ -9,6 +9,7 @@
 #include "dynamics/water/water_drag.hpp"
 #include "fracture/bending/bending_model.hpp"
 #include "simulation/ship/sailing.hpp"
+#include "simulation/ship/waterline.hpp"
 #include "simulation/world/scene.hpp"
 
 namespace polynya::simulation {
@@ -45,6 +46,7 @@ struct Setup {
   dynamics::SolverSettings solver;                         ///< but for its threads
   std::optional<dynamics::SeparationSettings> separation;  ///< of a law that leaves overlap to be separated
   std::vector<Underwater> underwater;                      ///< per hull
+  std::vector<Waterline> waterlines;                       ///< per hull
   std::vector<Sailing> sailing;                            ///< per ship
   std::vector<IceLimits> ice_limits;                       ///< of the scene's ice, then of each own_ice
   int levels = 0;                                          ///< Scene::time.levels; 0 where contacts give rigid impulses

@@ -146,7 +146,7 @@ void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Populat
   });
 }
 
-const std::array<Stage, 30> kStages = {{
+const std::array<Stage, 31> kStages = {{
     {"steer", [](World& w) { steer(w.setup, w.clock, w.pilots, w.population); }},
     {"press walls", [](World& w) { press_walls(w.setup, w.clock, w.population, w.accounts.audit); }},
     {"keep motion", [](World& w) { keep_motion(w.population, w.step); }},
@@ -171,6 +171,11 @@ const std::array<Stage, 30> kStages = {{
     {"tilt floes", [](World& w) { tilt_floes(w.setup, w.population, w.step); }},
     {"book overlaps", [](World& w) { book_overlaps(w.setup, w.population, w.step); }},
     {"tally loads", [](World& w) { tally_loads(w.population, w.step.contacts, w.step.loads); }},
+    {"follow loads",
+     [](World& w) {
+       follow_loads(w.setup, w.clock, w.population, w.step, w.accounts.load_peaks, w.journal);
+       load_panels(w.setup, w.population, w.step, w.accounts.panels);
+     }},
     {"water and thrust", [](World& w) { apply_forces(w.setup, w.threads, w.population, w.accounts.audit); }},
     {"pull of submerged ice",
      [](World& w) { pull_of_submerged_ice(w.setup, w.population, w.step.loads, w.accounts.audit); }},

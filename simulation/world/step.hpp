@@ -22,7 +22,7 @@ void press_walls(const Setup& setup, const Clock& clock, Population& population,
 /// Takes from walls that press what impulses gave them beside their normals.
 void hold_walls(const Setup& setup, const Clock& clock, Population& population, AuditSums& audit);
 
-/// Keeps the ships' motion before the step's impulses.
+/// Keeps the ships' motion before the step's impulses, and where all hulls are.
 void keep_motion(const Population& population, StepData& step);
 
 void find_pairs(Population& population);
@@ -122,7 +122,7 @@ struct Stage {
 };
 
 /// All of them, in their order.
-extern const std::array<Stage, 30> kStages;
+extern const std::array<Stage, 31> kStages;
 
 /// One tick: all stages, once or in each of its parts (levels.hpp).
 void step(World& world);

@@ -29,6 +29,7 @@ World::World(Scene scene, Shortcuts shortcuts, Start start)
       clock{.tick = setup.scene.time.step, .step = setup.scene.time.step, .water_drift = setup.scene.water.drift},
       population(setup) {
   accounts.loads.resize(hull_count(setup.scene));
+  accounts.panels = panels_of(setup);
   accounts.sailing.resize(setup.scene.ships.size());
   population.helms.resize(setup.scene.ships.size());
   if (start == Start::kEmpty) return;

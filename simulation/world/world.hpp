@@ -9,6 +9,8 @@
 #include "fracture/decision.hpp"
 #include "geometry/contact/crack_path.hpp"
 #include "simulation/ice/beam_shape.hpp"
+#include "simulation/ship/load_peaks.hpp"
+#include "simulation/ship/panels.hpp"
 #include "simulation/world/energy.hpp"
 #include "simulation/world/journal.hpp"
 #include "simulation/world/population.hpp"
@@ -71,6 +73,7 @@ struct HullSlope {
   double tangent = 0;         ///< tan θ_s
   /// Of what the overlap grows in the step [-]; with the rest the ice edge gave way: it bent or tilted down.
   double crushed_share = 1;
+  double height = 0;  ///< of the ice that the hull presses on [m]
 };
 
 /// A floe whose edge was pressed down so far that it goes under.
@@ -109,6 +112,7 @@ struct StepData {
   std::vector<Event> mooring_breaks;                  ///< to be recorded after what happens to ice
   std::vector<ShipLoads> loads;                       ///< per hull
   std::vector<ShipMotion> start;                      ///< per ship: its motion before the step's impulses
+  std::vector<geometry::Pose> water_from_hull;        ///< per hull: where it was when the contacts were found
   std::vector<std::int64_t> touched_at_step;          ///< per body: the last step at which it touched something
   dynamics::ContactSolver solver;                     ///< its reusable memory
   std::unordered_map<FloeId, BeamShape> beam_shapes;  ///< of slender floes that forces may break, once they may
@@ -121,9 +125,11 @@ struct Accounts {
   MassLedger masses;  ///< likewise
   AuditSums audit;
   Counts counts;
-  std::vector<ShipLoads> loads;                                       ///< per hull, since the last sample
-  std::vector<SailingLoads> sailing;                                  ///< per ship, since the last sample
-  std::vector<Event> ship_contacts;                                   ///< the first one of each pair of ships
+  std::vector<ShipLoads> loads;       ///< per hull, since the last sample
+  std::vector<SailingLoads> sailing;  ///< per ship, since the last sample
+  std::vector<Event> ship_contacts;   ///< the first one of each pair of ships
+  LoadPeaks load_peaks;
+  std::vector<HullPanels> panels;                                     ///< per hull, since the last sample
   std::vector<std::pair<std::int64_t, std::int64_t>> refused_grinds;  ///< bodies that geometry refused to cut
 };
 

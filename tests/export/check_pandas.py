@@ -18,6 +18,7 @@ assert set(events["kind"]) <= {"bend", "split", "rejected_cut"} and len(events) 
 broken = events.merge(floes, left_on="floe", right_on="floe_id")
 assert len(broken) == len(events)
 contacts = pandas.read_csv(f"{run}/contacts.csv")
+contacts = contacts[contacts["ended_by"].isna()]  # at frames
 pressing = contacts[contacts["t_s"] == contacts["t_s"].max()].merge(floes, left_on="by_floe_id", right_on="floe_id")
 assert len(pressing) > 0 and (contacts["depth_m"] > 0).all()
 print(f"{len(forces)} rows, {len(floes)} floes, {len(events)} events")

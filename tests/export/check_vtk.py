@@ -33,6 +33,8 @@ def rows_by_time(name):
     rows = {}
     with open(run / name) as file:
         for row in csv.DictReader(file):
+            if row.get("ended_by"):  # a peak between frames
+                continue
             rows.setdefault(float(row["t_s"]), []).append(row)
     return rows
 

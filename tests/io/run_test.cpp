@@ -3,6 +3,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "scene_text.hpp"
 #include "temporary_folder.hpp"
@@ -10,6 +11,7 @@
 #include "geometry/exact/measures.hpp"
 #include "io/run/event_records.hpp"
 #include "io/run/force_columns.hpp"
+#include "io/run/load_columns.hpp"
 #include "io/run/motion_index.hpp"
 #include "io/run/record_reader.hpp"
 #include "io/run/records.hpp"
@@ -27,7 +29,7 @@ const std::string kScene = R"({
   "name": "small", "time": {"step_s": 0.01, "until_s": 8}, "water": {"drift_m_per_s": [0.02, -0.01]},
   "record": {"forces_interval_s": 0.1, "frames_interval_s": 0.5, "contacts": "all"},
   "ships": [{"name": "a ship", "hull": {"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30}, "mass_kg": 3e6,
-             "moment_of_inertia_kg_m2": 5e8, "position_m": [-30.5, 2], "propulsion": {"constant_speed_m_per_s": 2}}],
+             "moment_of_inertia_kg_m2": 5e8, "position_m": [-30.5, 2], "propulsion": {"constant_speed_m_per_s": 2}, "panels": {"length_m": 2}}],
   "floes": [{"rectangle": {"corner_m": [0, -20], "size_m": [60, 40]}}, {"rectangle": {"corner_m": [70, 0], "size_m": 5}, "angular_velocity_deg_per_s": 1},
             {"polygon": {"outer_m": [[70, 10], [80, 10], [80, 20], [70, 20]], "holes_m": [[[72, 12], [72, 14], [74, 14]]]}}]
 })";
@@ -39,6 +41,8 @@ struct Recorded {
   std::vector<std::pair<double, std::vector<simulation::FloeState>>> frames;
   std::vector<std::pair<double, std::vector<geometry::Point>>> centroids;
   std::vector<RunContact> contacts;
+  std::vector<RunContact> peaks;
+  std::vector<simulation::PanelSample> panels;
 };
 
 /// Runs the scene into a folder and keeps what it recorded.
@@ -52,6 +56,8 @@ Recorded write_run(const LoadedScene& scene, const std::filesystem::path& folder
     recorded.births.insert(recorded.births.end(), journal.births.begin(), journal.births.end());
     recorded.events.insert(recorded.events.end(), journal.events.begin(), journal.events.end());
     recorded.samples.insert(recorded.samples.end(), journal.samples.begin(), journal.samples.end());
+    for (const simulation::LoadPeak& peak : journal.peaks) recorded.peaks.push_back({peak.time, peak.state});
+    recorded.panels.insert(recorded.panels.end(), journal.panels.begin(), journal.panels.end());
     writer->record(simulation.journal());
   };
   const auto frame = [&] {
@@ -120,9 +126,15 @@ TEST(Run, AnEventOfASplitStatesAndReadsBackBothSides) {
   EXPECT_EQ(again("\"collision force > splitting force\""), 11e6);
 }
 
-auto fields_of(const simulation::ContactState& state) {
-  const auto& [on, by, point, force, depth, is_crushing] = state;
-  return std::tuple(on.ship, on.floe, by.ship, by.floe, point.x, point.y, force.x, force.y, depth, is_crushing);
+/// Of which an arc is no number where there is no waterline.
+std::vector<double> fields_of(const simulation::ContactState& state) {
+  std::vector<double> fields{static_cast<double>(state.on.ship), static_cast<double>(state.on.floe),
+                             static_cast<double>(state.by.ship), static_cast<double>(state.by.floe)};
+  for (const ContactColumn& column : contact_columns()) {
+    const double value = column.read(state);
+    fields.push_back(std::isnan(value) ? -1e9 : value);
+  }
+  return fields;
 }
 
 class RunFiles : public testing::Test {
@@ -171,9 +183,47 @@ TEST_F(RunFiles, ReadBackWhatWasWritten) {
     EXPECT_EQ(run.contacts[i].time, recorded.contacts[i].time);
     EXPECT_EQ(fields_of(run.contacts[i].state), fields_of(recorded.contacts[i].state)) << i;
   }
+  std::vector<RunContact> peaks = recorded.peaks;  // which the file has where they ended
+  std::ranges::stable_sort(peaks, {}, &RunContact::time);
+  EXPECT_GT(peaks.size(), 3U);
+  ASSERT_EQ(run.peaks.size(), peaks.size());
+  for (std::size_t i = 0; i < peaks.size(); ++i) {
+    EXPECT_EQ(run.peaks[i].time, peaks[i].time);
+    EXPECT_EQ(fields_of(run.peaks[i].state), fields_of(peaks[i].state)) << i;
+  }
   std::size_t of_frames = 0;
   for (const Frame& frame : run.frames) of_frames += run.contacts_at(frame.time).size();
   EXPECT_EQ(of_frames, run.contacts.size()) << "each belongs to a frame";
+}
+
+TEST_F(RunFiles, PanelsHaveTheirTable) {
+  std::string expected = panels_header();
+  for (const simulation::PanelSample& panel : recorded.panels) append_panel(expected, panel, scene.scene);
+  EXPECT_GT(recorded.panels.size(), 30U);
+  EXPECT_EQ(text(run_file::kPanels), expected);
+}
+
+TEST_F(RunFiles, ContactsOfEarlierVersionsHaveNoPlaces) {
+  std::string older;
+  for (std::istringstream lines(text(run_file::kContacts)); std::getline(lines, older);) {
+    std::size_t end = 0;
+    for (int column = 0; column < 11; ++column) end = older.find(',', end + 1);
+    simulation::ContactState state;
+    std::string_view values = std::string_view(older).substr(0, end);
+    for (int column = 0; column < 5; ++column) values.remove_prefix(values.find(',') + 1);
+    if (older.starts_with("t_s")) continue;
+    EXPECT_TRUE(read_row(values, state)) << values;
+    EXPECT_TRUE(std::isnan(state.arc));
+    EXPECT_GT(state.depth, 0);
+  }
+}
+
+TEST(LoadColumns, AreDocumented) {
+  const std::string page = read_file(std::string(POLYNYA_SOURCE_DIR) + "/docs/run-folder.md");
+  for (const ContactColumn& column : contact_columns())
+    EXPECT_HAS(page, fmt::format("| `{}` | {} |\n", column.name, column.meaning));
+  for (const PanelColumn& column : panel_columns())
+    EXPECT_HAS(page, fmt::format("| `{}` | {} |\n", column.name, column.meaning));
 }
 
 TEST_F(RunFiles, ForcesAreReadByTheirColumnsNames) {
@@ -313,11 +363,11 @@ TEST_F(RunFiles, OfVersionOneReadTheSameAndOfALaterOneNot) {
   std::string lines;
   for (const simulation::Birth& birth : recorded.births) append_birth(lines, birth, nullptr);
   EXPECT_EQ(refusal(run_file::kFloes, lines), "");
-  const std::string summary = text(run_file::kSummary), version = "\"folder_version\": 4,";
+  const std::string summary = text(run_file::kSummary), version = "\"folder_version\": 5,";
   EXPECT_EQ(refusal(run_file::kSummary, replaced(summary, version, "")), "");
   const io::Run run = read();
   for (const simulation::Birth& birth : recorded.births) EXPECT_EQ(*run.shape(birth.floe), birth.polygon_in_body);
-  for (const char* other : {"\"folder_version\": 5,", R"("folder_version": "3",)"})
+  for (const char* other : {"\"folder_version\": 6,", R"("folder_version": "3",)"})
     EXPECT_HAS(refusal(run_file::kSummary, replaced(summary, version, other)), "summary.json: a run folder of version");
 }
 

@@ -21,17 +21,17 @@ const std::string kFirst = scene(
                            R"("ice": {"thickness_m": 0.7, "density_kg_per_m3": 890, "flexural_strength_Pa": 6e5,
        "compressive_strength_Pa": 2e6, "tensile_strength_Pa": {"mean": 7e5, "spread": 0.2},
        "fracture_toughness_Pa_sqrt_m": 1.2e5, "seed": 4})")})});
-const std::string kSecond =
-    scene({R"("origin": {"latitude_deg": 78.2, "longitude_deg": 15.6, "heading_deg": 30})",
-           list("ships", {ship(R"("hull": {"length_m": null, "beam_m": null, "entrance_angle_deg": null, "draught_m": 3,
+const std::string kSecond = scene(
+    {R"("origin": {"latitude_deg": 78.2, "longitude_deg": 15.6, "heading_deg": 30})",
+     list("ships", {ship(R"("hull": {"length_m": null, "beam_m": null, "entrance_angle_deg": null, "draught_m": 3,
        "waterline_m": [[10, 0], [0, 4], [-10, 4], [-10, -4], [0, -4]], "angles_from_vertical_deg": [60, 38, 0, 0, 38]},
        "name": "presser", "mass_kg": 1e6, "position_m": [-500, 0], "propulsion": {"constant_speed_m_per_s": 1.5})")}),
-           R"("structures": [{"radius_m": 3, "position_m": [-300, 500], "wall_angle_deg": 10}])",
-           list("floes",
-                {R"({"polygon": {"outer_m": [[0, 0], [30, 0], [30, 30], [0, 30]],
+     R"("structures": [{"panels": {"length_m": 3}, "radius_m": 3, "position_m": [-300, 500], "wall_angle_deg": 10}])",
+     list("floes",
+          {R"({"polygon": {"outer_m": [[0, 0], [30, 0], [30, 30], [0, 30]],
        "holes_m": [[[10, 10], [10, 20], [20, 20]]]}})",
-                 square(-502, -2, 3, R"("under_hull_of": "presser", "under_hull_path_m": 4)"),
-                 R"({"field": {"corner_m": [-700, 400], "extent_m": [200, 150], "floe_size_m": 9, "concentration": 0.83,
+           square(-502, -2, 3, R"("under_hull_of": "presser", "under_hull_path_m": 4)"),
+           R"({"field": {"corner_m": [-700, 400], "extent_m": [200, 150], "floe_size_m": 9, "concentration": 0.83,
        "gap_m": 0.3, "most_corners": 6, "keep_clear_m": [[[-650, 420], [-600, 420], [-650, 440]]], "seed": 3}})"})});
 const std::string kThird = scene(
     {R"("structures": [{"waterline_m": [[10, 0], [0, 4], [-10, 0], [0, -4]], "position_m": [500, 500], "heading_deg": 10}],
@@ -74,7 +74,8 @@ std::string fleet() {
         R"("table": {"rows": [{"t_s": 0, "lever": 0.5}, {"t_s": 60, "lever": 1, "steering_deg": 5}]})",
         R"("ram": {"heading_deg": 3, "back_m": 150})", R"("follow": {"ship": "ship-1", "distance_m": 100})"})
     ships.push_back(sailing_ship(fmt::format(
-        R"("steering": {{"rudder": {{}}}}, "position_m": [0, {}], "pilot": {{{}}})", 500 * ships.size(), pilot)));
+        R"("steering": {{"rudder": {{}}}}, "position_m": [0, {}], "pilot": {{{}}}, "panels": {{"length_m": 2}})",
+        500 * ships.size(), pilot)));
   return fmt::format("{{\"ships\": [{}]}}", fmt::join(ships, ", "));
 }
 

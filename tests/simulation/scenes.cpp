@@ -92,6 +92,8 @@ void listen(Simulation& simulation, Story& story) {
   take(story.births, journal.births);
   take(story.deaths, journal.deaths);
   take(story.samples, journal.samples);
+  take(story.peaks, journal.peaks);
+  take(story.panels, journal.panels);
   journal.clear();
 }
 

@@ -112,6 +112,8 @@ struct Story {
   std::vector<Birth> births;
   std::vector<Death> deaths;
   std::vector<ShipSample> samples;
+  std::vector<LoadPeak> peaks;
+  std::vector<PanelSample> panels;
 };
 
 /// A simulation and all that it has recorded.

@@ -214,7 +214,8 @@ test("the loads shown are the row of forces.csv", async () => {
 test("the contact forces shown are those of contacts.csv, at the hull, and go with the ship", async (t) => {
   const [header, ...lines] = readLines(run, "contacts.csv");
   const names = header.split(",");
-  const rows = lines.map((line) => Object.fromEntries(line.split(",").map((field, k) => [names[k], field])));
+  const rows = lines.map((line) => Object.fromEntries(line.split(",").map((field, k) => [names[k], field])))
+    .filter((row) => row.ended_by === "");
   await act("setFollow", 0);
   await act("toggleLayer", "track", false);
   await act("toggleLayer", "forces", true);

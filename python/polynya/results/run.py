@@ -16,7 +16,7 @@ from .motions import Motions, placed
 from .shapes import Shapes
 from .tables import NONE, event_columns, optional, read_csv, read_json, read_lines, table
 
-VERSION = 4  # of run folders, kRunFolderVersion of io/run/summary.hpp
+VERSION = 5  # of run folders, kRunFolderVersion of io/run/summary.hpp
 
 
 class Run:
@@ -109,7 +109,29 @@ class Run:
     @property
     def contacts(self) -> Any:
         """contacts.csv: who touched whom at every frame; -1 where a body is no floe."""
-        return self._table("contacts.csv", "runs of early versions")
+        return table(self._contact_rows(of_peaks=False), self.pandas)
+
+    @property
+    def peaks(self) -> Any:
+        """contacts.csv: the peaks of the forces of contacts with hulls, as time goes, with what ended each."""
+        return table(self._contact_rows(of_peaks=True), self.pandas)
+
+    def _contact_rows(self, of_peaks):
+        rows = self._columns("contacts.csv", "runs of early versions")
+        if "ended_by" not in rows:
+            if of_peaks:
+                raise VersionError(f"{self.folder / 'contacts.csv'}: without peaks; run folders of version 4 and before did not record them: run its scene.json again")
+            return rows
+        is_peak = rows["ended_by"] != ""
+        if not of_peaks:
+            return {name: values[~is_peak] for name, values in rows.items()}
+        order = numpy.argsort(rows["t_s"][is_peak], kind="stable")
+        return {name: values[is_peak][order] for name, values in rows.items()}
+
+    @property
+    def panels(self) -> Any:
+        """panels.csv: what the ice did to each panel that it pressed in an interval; of scenes whose hulls have panels."""
+        return self._table("panels.csv", "no ship or structure of the scene has panels, or its version")
 
     @property
     def crushed(self) -> Any:
@@ -141,9 +163,12 @@ class Run:
         return table(self.births, self.pandas)
 
     def _table(self, name, lacking):
+        return table(self._columns(name, lacking), self.pandas)
+
+    def _columns(self, name, lacking):
         if not (self.folder / name).exists():
             raise VersionError(f"{self.folder / name}: is not there; {lacking} did not record it: run its scene.json again")
-        return table(read_csv(self.folder / name), self.pandas)
+        return read_csv(self.folder / name)
 
     @functools.cached_property
     def force_columns(self) -> dict[str, numpy.ndarray]:

@@ -10,8 +10,8 @@ import numpy
 from polynya.errors import FolderError
 
 NONE = -1  #: the id of no floe
-WORDS = {"ship", "by_ship", "state_hash"}
-WHOLE = {"floe_id", "by_floe_id", "steps", "station", "contacts", "contacts_with_ships", "rams"}
+WORDS = {"ship", "by_ship", "state_hash", "ended_by"}
+WHOLE = {"floe_id", "by_floe_id", "steps", "station", "contacts", "contacts_with_ships", "rams", "panel", "row"}
 
 
 def optional(name, wanted):

@@ -1,0 +1,136 @@
+#include "simulation/ship/load_peaks.hpp"
+
+#include <algorithm>
+
+#include "simulation/world/world.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using dynamics::Contact;
+
+/// Of ice against a hull, or against ice; none where steel meets steel.
+double thickness_at(const Setup& setup, const Population& population, const Contact& c) {
+  if (population.is_hull(c.b)) return 0;
+  const double of_b = ice_of_body(setup, population, c.b).thickness;
+  return population.is_hull(c.a) ? of_b : std::min(of_b, ice_of_body(setup, population, c.a).thickness);
+}
+
+/// What happens in this step to the ice of a contact, or whether it tilts rather than bears more.
+PeakEnd fate_of(const Population& population, const StepData& step, const Contact& c) {
+  const FloeId floe = population.floe_of(c.b);
+  for (const PendingFracture& pending : step.fractures) {
+    if (pending.floe == floe && !c.record->was_refused)
+      return pending.failure == fracture::Failure::kBend ? PeakEnd::kBend : PeakEnd::kSplit;
+  }
+  const auto goes_under = [&](const PendingSubmersion& pending) { return pending.floe == floe; };
+  return c.gives_way || std::ranges::any_of(step.submersions, goes_under) ? PeakEnd::kTilt : PeakEnd::kSlip;
+}
+
+LoadTrack* track_of(std::vector<LoadTrack>& tracks, std::int64_t id) {
+  const auto at = std::ranges::lower_bound(tracks, id, {}, &LoadTrack::id);
+  return at != tracks.end() && at->id == id && !at->is_seen ? &*at : nullptr;
+}
+
+/// The one of a contact. Where overlaps part, the first of them goes on with it.
+LoadTrack& track_at(LoadPeaks& peaks, dynamics::PersistentContact& record) {
+  if (record.load_track != 0) {
+    if (LoadTrack* known = track_of(peaks.tracks, record.load_track)) return *known;
+  }
+  record.load_track = ++peaks.tracks_so_far;
+  peaks.tracks.push_back({.id = record.load_track, .at_largest = {}, .point_in_hull = {}});
+  return peaks.tracks.back();
+}
+
+void record_peak(const Setup& setup, const LoadTrack& track, LoadPeaks& peaks, Journal& journal) {
+  if (track.largest < setup.scene.record.least_peak) {
+    ++peaks.counts.below;
+  } else if (peaks.counts.recorded == kMostPeaks) {
+    ++peaks.counts.beyond;
+    peaks.counts.largest_beyond = std::max(peaks.counts.largest_beyond, track.largest);
+  } else {
+    ++peaks.counts.recorded;
+    LoadPeak peak{track.time, track.at_largest};
+    place_on_waterline(setup, track.point_in_hull, peak.state);
+    peak.state.ended_by = track.ending;
+    journal.peaks.push_back(peak);
+  }
+}
+
+/// Enters a force into a track that rises. Returns whether it is the largest.
+bool rises(double force, LoadTrack& track) {
+  if (!track.is_rising) {
+    track.least = std::min(track.least, force);
+    track.is_rising = force > 2 * track.least;
+    if (track.is_rising) track.largest = 0;
+  }
+  return track.is_rising && force > track.largest;
+}
+
+}  // namespace
+
+ContactState::Body contact_body(const Population& population, BodyIndex body) {
+  return population.is_hull(body) ? ContactState::Body{body, kNoFloe}
+                                  : ContactState::Body{-1, population.floe_of(body)};
+}
+
+ContactState state_of(const Setup& setup, const Clock& clock, const Population& population, const Contact& c,
+                      const HullSlope* slope) {
+  const double dt = clock.step;
+  ContactState state;
+  state.on = contact_body(population, c.a);
+  state.by = contact_body(population, c.b);
+  state.point_in_world = c.centre_of_pressure() + clock.drift();
+  state.force = -1 / dt * c.impulse_on_b();
+  state.depth = c.depth;
+  state.is_crushing = c.total_normal_impulse() > 0 && c.is_at_limit;
+  state.width = c.width;
+  state.thickness = thickness_at(setup, population, c);
+  state.height = slope != nullptr ? slope->height : state.thickness;
+  const double area = state.width * state.height;
+  if (area > 0) state.pressure = c.total_normal_impulse() / dt / area;
+  return state;
+}
+
+void place_on_waterline(const Setup& setup, geometry::Point point_in_hull, ContactState& state) {
+  const Waterline& waterline = setup.waterlines[static_cast<std::size_t>(state.on.ship)];
+  state.arc = arc_at(waterline, point_in_hull);
+  state.station = waterline.stem_x - point_in_hull.x;
+}
+
+void follow_loads(const Setup& setup, const Clock& clock, const Population& population, const StepData& step,
+                  LoadPeaks& peaks, Journal& journal) {
+  if (setup.scene.record.contacts == RecordedContacts::kNone) return;
+  Clock at_end = clock;
+  advance(at_end);
+  for (LoadTrack& track : peaks.tracks) track.is_seen = false;
+  for (std::size_t i = 0; i < step.slopes.size(); ++i) {
+    const Contact& c = step.contacts[i];
+    const double force = c.steady_share * c.total_normal_impulse() / setup.step;
+    if (population.is_hull(c.b) || (force == 0 && c.record->load_track == 0)) continue;
+    LoadTrack& track = track_at(peaks, *c.record);
+    track.is_seen = true;
+    if (rises(force, track)) {
+      track.largest = force;
+      track.time = at_end.time();
+      track.at_largest = state_of(setup, clock, population, c, &step.slopes[i]);
+      track.at_largest.force = c.steady_share * track.at_largest.force;
+      track.at_largest.pressure *= c.steady_share;
+      track.point_in_hull =
+          inverse_transform(dynamics::water_from_body(population.bodies, c.a), c.centre_of_pressure());
+      track.ending = PeakEnd::kSlip;
+    }
+    const PeakEnd fate = fate_of(population, step, c);
+    if (fate != PeakEnd::kSlip) track.ending = fate;
+    if (track.is_rising && force < track.largest / 2) {
+      record_peak(setup, track, peaks, journal);
+      track.is_rising = false;
+      track.least = force;
+    }
+  }
+  for (const LoadTrack& track : peaks.tracks)
+    if (!track.is_seen && track.is_rising && track.largest > 0) record_peak(setup, track, peaks, journal);
+  std::erase_if(peaks.tracks, [](const LoadTrack& track) { return !track.is_seen; });
+}
+
+}  // namespace polynya::simulation

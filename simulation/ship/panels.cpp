@@ -1,0 +1,169 @@
+#include "simulation/ship/panels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "simulation/world/world.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using dynamics::Contact;
+using dynamics::Planar;
+using geometry::Point;
+
+/// How the panels of a hull lie.
+struct PanelGrid {
+  const PanelSettings& settings;
+  const Waterline& waterline;
+  int half_columns() const { return static_cast<int>(std::ceil(waterline.length / 2 / settings.length - 1e-9)); }
+  std::size_t size() const { return static_cast<std::size_t>(2 * half_columns() * (settings.rows + 1)); }
+  std::size_t first_of(int column) const {
+    return static_cast<std::size_t>((column + half_columns()) * (settings.rows + 1));
+  }
+  /// The last ones are cut off where the two sides meet [m].
+  double length_of(int column) const {
+    const double from = settings.length * (column < 0 ? -column - 1 : column);
+    return std::min(settings.length, waterline.length / 2 - from);
+  }
+  double row_height() const { return (settings.top - settings.bottom) / settings.rows; }
+};
+
+/// Calls use(column, share) for the parts of a stretch of the waterline that lie in each column. It may go past the
+/// place farthest from the stem.
+template <class Use>
+void for_columns(const PanelGrid& grid, double from, double to, Use use) {
+  const double half = grid.waterline.length / 2;
+  const auto column_at = [&](double arc) {
+    return std::clamp(static_cast<int>(std::floor(arc / grid.settings.length)), -grid.half_columns(),
+                      grid.half_columns() - 1);
+  };
+  const double width = to - from;
+  if (!(width > 1e-9)) return use(column_at(from > half ? from - 2 * half : from), 1.0);
+  const auto within = [&](double low, double high) {  // of −half to half
+    for (int column = column_at(low); column <= column_at(high); ++column) {
+      const double begin = column == column_at(low) ? low : column * grid.settings.length;
+      const double end = column == column_at(high) ? high : (column + 1) * grid.settings.length;
+      use(column, (end - begin) / width);
+    }
+  };
+  if (from < half) within(from, std::min(to, half));
+  if (to > half) within(std::max(from, half) - 2 * half, to - 2 * half);
+}
+
+/// Calls use(row, share) for the parts of the ice's height in each row; row `rows` is above and below them.
+template <class Use>
+void for_rows_of(const PanelGrid& grid, double bottom, double top, Use use) {
+  const double height = std::max(top - bottom, 1e-9);
+  double inside = 0;
+  for (int row = 0; row < grid.settings.rows; ++row) {
+    const double low = grid.settings.bottom + row * grid.row_height();
+    const double share = (std::min(bottom + height, low + grid.row_height()) - std::max(bottom, low)) / height;
+    if (share <= 0) continue;
+    inside += share;
+    use(row, share);
+  }
+  if (inside < 1 - 1e-12) use(grid.settings.rows, 1 - inside);
+}
+
+/// What an impulse at a point does to a hull, in its frame.
+Planar on_hull(const dynamics::Bodies& bodies, BodyIndex hull, Point at, geometry::Vector impulse) {
+  const geometry::Vector in_hull = rotate_back(bodies.rotation[hull], impulse);
+  return {in_hull.x, in_hull.y, cross(at - bodies.position[hull], impulse)};
+}
+
+void add_contact(const PanelGrid& grid, const dynamics::Bodies& bodies, const Contact& c, double bottom, double top,
+                 HullPanels& panels) {
+  const geometry::Pose pose = dynamics::water_from_body(bodies, c.a);
+  const double full = grid.waterline.length;
+  const std::array<double, 2> arc{arc_at(grid.waterline, inverse_transform(pose, c.ends[0])),
+                                  arc_at(grid.waterline, inverse_transform(pose, c.ends[1]))};
+  std::array<int, 2> end{0, 1};  // from starboard to port, past the stem or past the place farthest from it
+  if ((arc[0] > arc[1]) != (std::abs(arc[0] - arc[1]) > full / 2)) std::swap(end[0], end[1]);
+  const double from = arc[end[0]], to = from + std::remainder(arc[end[1]] - from, full);
+  const double middle = 0.5 * (from + to);
+  const Planar slip = on_hull(bodies, c.a, c.middle(), -c.slip_impulse * perpendicular(c.normal));
+  for (int half = 0; half < 2; ++half) {
+    const double normal = c.normal_impulse[end[half]];
+    if (normal == 0) continue;
+    const Planar load = on_hull(bodies, c.a, c.ends[end[half]], -normal * c.normal) +
+                        normal / c.total_normal_impulse() * slip;  // friction is where the ice presses
+    for_columns(grid, half == 0 ? from : middle, half == 0 ? middle : to, [&](int column, double along) {
+      for_rows_of(grid, bottom, top, [&](int row, double up) {
+        PanelLoads& panel = panels[grid.first_of(column) + static_cast<std::size_t>(row)];
+        panel.impulse += along * up * load;
+        panel.normal += along * up * normal;
+        panel.step += along * up * c.steady_share * normal;
+      });
+    });
+  }
+}
+
+/// Calls use(grid, panels) for each hull that has them.
+template <class Use>
+void for_panels(const Setup& setup, std::vector<HullPanels>& panels, Use use) {
+  for (std::size_t hull = 0; hull < panels.size(); ++hull) {
+    if (!panels[hull].empty())
+      use(hull, PanelGrid{*hull_of(setup.scene, hull).panels, setup.waterlines[hull]}, panels[hull]);
+  }
+}
+
+}  // namespace
+
+std::vector<HullPanels> panels_of(const Setup& setup) {
+  std::vector<HullPanels> panels(hull_count(setup.scene));
+  for (std::size_t hull = 0; hull < panels.size(); ++hull) {
+    if (const auto& settings = hull_of(setup.scene, hull).panels)
+      panels[hull].resize(PanelGrid{*settings, setup.waterlines[hull]}.size());
+  }
+  return panels;
+}
+
+void load_panels(const Setup& setup, const Population& population, const StepData& step,
+                 std::vector<HullPanels>& panels) {
+  if (std::ranges::all_of(panels, &HullPanels::empty)) return;
+  for (std::size_t i = 0; i < step.slopes.size(); ++i) {
+    const Contact& c = step.contacts[i];
+    HullPanels& of_hull = panels[static_cast<std::size_t>(c.a)];
+    if (of_hull.empty() || population.is_hull(c.b) || c.total_normal_impulse() == 0) continue;
+    const fracture::Ice& ice = ice_of_body(setup, population, c.b);
+    const double top = ice.thickness * (1 - ice.density / setup.scene.water.water.density);
+    const std::size_t hull = static_cast<std::size_t>(c.a);
+    add_contact({*hull_of(setup.scene, hull).panels, setup.waterlines[hull]}, population.bodies, c,
+                top - step.slopes[i].height, top, of_hull);
+  }
+  for_panels(setup, panels, [&](std::size_t, const PanelGrid&, HullPanels& of_hull) {
+    for (PanelLoads& panel : of_hull) {
+      if (panel.step > 0) panel.loaded += setup.step;
+      panel.largest = std::max(panel.largest, panel.step / setup.step);
+      panel.step = 0;
+    }
+  });
+}
+
+void sample_panels(const Setup& setup, const Clock& clock, std::vector<HullPanels>& panels, Journal& journal) {
+  const double interval = static_cast<double>(setup.steps_per_sample) * setup.scene.time.step;
+  for_panels(setup, panels, [&](std::size_t hull, const PanelGrid& grid, HullPanels& of_hull) {
+    for (int column = -grid.half_columns(); column < grid.half_columns(); ++column) {
+      for (int row = 0; row <= grid.settings.rows; ++row) {
+        PanelLoads& panel = of_hull[grid.first_of(column) + static_cast<std::size_t>(row)];
+        if (panel.normal == 0) continue;
+        const bool is_outside = row == grid.settings.rows;
+        const double area = is_outside ? 0 : grid.length_of(column) * grid.row_height();
+        journal.panels.push_back({.time = clock.time(),
+                                  .hull = static_cast<int>(hull),
+                                  .column = column,
+                                  .row = is_outside ? -1 : row,
+                                  .load = 1 / interval * panel.impulse,
+                                  .force = panel.normal / interval,
+                                  .largest = panel.largest,
+                                  .pressure = area > 0 ? panel.normal / interval / area : 0,
+                                  .loaded = panel.loaded});
+        panel = {};
+      }
+    }
+  });
+}
+
+}  // namespace polynya::simulation

@@ -1,0 +1,52 @@
+#include "simulation/ship/waterline.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace polynya::simulation {
+namespace {
+
+using geometry::Point;
+
+constexpr double kLevel = 1e-9;  ///< vertices this much farther aft are as far forward [m]
+
+std::size_t after(const geometry::Ring& ring, std::size_t i) {
+  return i + 1 < ring.size() ? i + 1 : 0;
+}
+
+}  // namespace
+
+Waterline waterline_of(const geometry::Ring& ring) {
+  Waterline line;
+  line.ring = ring;
+  std::size_t foremost = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    line.arc.push_back(line.length);
+    line.length += distance(ring[i], ring[after(ring, i)]);
+    if (ring[i].x > ring[foremost].x + kLevel) foremost = i;
+  }
+  line.stem_x = ring[foremost].x;
+  const auto is_foremost = [&](std::size_t i) { return ring[i].x > line.stem_x - kLevel; };
+  // The first of the foremost vertices may end the foremost edge: the ring may begin on it.
+  const std::size_t before = foremost == 0 ? ring.size() - 1 : foremost - 1;
+  const std::size_t first = is_foremost(before) ? before : foremost;
+  const double edge = is_foremost(after(ring, first)) ? distance(ring[first], ring[after(ring, first)]) : 0;
+  line.stem_arc = line.arc[first] + edge / 2;
+  return line;
+}
+
+double arc_at(const Waterline& line, Point point) {
+  double nearest = std::numeric_limits<double>::infinity();
+  double arc = 0;
+  for (std::size_t i = 0; i < line.ring.size(); ++i) {
+    const Point on_edge = nearest_on_segment(line.ring[i], line.ring[after(line.ring, i)], point);
+    const double squared = squared_length(point - on_edge);
+    if (squared >= nearest) continue;
+    nearest = squared;
+    arc = line.arc[i] + distance(line.ring[i], on_edge);
+  }
+  const double from_stem = arc - line.stem_arc;
+  return from_stem - line.length * std::ceil(from_stem / line.length - 0.5);
+}
+
+}  // namespace polynya::simulation

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/shape/polygon.hpp"
+
+namespace polynya::simulation {
+
+/// Places on a hull's waterline, by their arc length from its stem: its foremost point, or the middle of its foremost
+/// edge.
+struct Waterline {
+  geometry::Ring ring;      ///< counter-clockwise, in the hull's frame [m]
+  std::vector<double> arc;  ///< of each vertex from the first one [m]
+  double length = 0;        ///< of all of it [m]
+  double stem_arc = 0;      ///< of the stem from the first vertex [m]
+  double stem_x = 0;        ///< [m]
+};
+
+Waterline waterline_of(const geometry::Ring& counter_clockwise);
+
+/// Of the waterline's point nearest to one of the hull's frame, from the stem, to port, to starboard negative:
+/// −length/2 to length/2 [m].
+double arc_at(const Waterline& waterline, geometry::Point point);
+
+}  // namespace polynya::simulation
