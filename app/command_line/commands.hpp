@@ -24,6 +24,7 @@ Command add_inspect(CommandLine& app);
 Command add_man(CommandLine& app);
 Command add_management(CommandLine& app);
 Command add_movie(CommandLine& app);
+Command add_calibrate(CommandLine& app);
 Command add_performance(CommandLine& app);
 Command add_read_json(CommandLine& app);
 Command add_resume(CommandLine& app);
