@@ -1,13 +1,23 @@
 // The channel behind each ship (docs/channel.md): what analysis/channel.cpp measured of it, and what its hull swept,
 // both carried with the water to the instant that is shown.
 
+/** Of the drift at a time: how far it took the water, x and y, and the free drift of ice. */
+function driftAt(samples, time) {
+  const after = samples.findIndex(([t]) => t > time);
+  const k = Math.max(1, after < 0 ? samples.length - 1 : after);
+  const [from, to] = [samples[k - 1], samples[k]];
+  const share = (time - from[0]) / (to[0] - from[0]);
+  return [1, 2, 3, 4].map((column) => from[column] + share * (to[column] - from[column]));
+}
+
 /** Where a point of the water at (x, y) at one time is at another. */
-function makeCarrier({ drift_m_per_s: [ux, uy], shear_per_s: shear, shear_direction_rad: direction,
-  shear_origin_m: [ox, oy] }) {
+function makeCarrier({ drift, shear_per_s: shear, shear_direction_rad: direction, shear_origin_m: [ox, oy] }) {
   const [cx, cy] = [Math.cos(direction), Math.sin(direction)];
   return (x, y, from, to) => {
-    const toPort = cx * (y - oy - from * uy) - cy * (x - ox - from * ux);
-    return [x + (to - from) * (ux + shear * toPort * cx), y + (to - from) * (uy + shear * toPort * cy)];
+    const [px, py] = driftAt(drift, from);
+    const [qx, qy] = driftAt(drift, to);
+    const toPort = cx * (y - oy - py) - cy * (x - ox - px);
+    return [x + qx - px + (to - from) * shear * toPort * cx, y + qy - py + (to - from) * shear * toPort * cy];
   };
 }
 

@@ -467,8 +467,28 @@ function drawTrack(context, view, run, motions, index, time, colours) {
   context.setLineDash([]);
 }
 
+/** The lines of ships that manage ice, against the drift from the bodies that they protect. */
+function drawPatterns(context, view, run, motions, time, colours) {
+  const [, , vx, vy] = driftAt(run.info.water.drift, time);
+  const speed = Math.hypot(vx, vy);
+  const [ux, uy] = speed > 0 ? [-vx / speed, -vy / speed] : [1, 0];
+  context.beginPath();
+  for (const { body, line_m: line } of run.info.patterns) {
+    const pose = motions.ship(body);
+    if (!pose) continue;
+    line.forEach(([x, y], k) => context[k ? "lineTo" : "moveTo"](...view.toScreen(pose[0] + x * ux - y * uy, pose[1] + x * uy + y * ux)));
+    context.closePath();
+  }
+  context.strokeStyle = colours.highlight;
+  context.lineWidth = 1.5;
+  context.setLineDash([3, 4]);
+  context.stroke();
+  context.setLineDash([]);
+}
+
 /** All of them, with their tracks where that layer is on, and their names where there are several. */
 function drawShips(context, view, run, motions, time, layers, colours) {
+  if (layers.track) drawPatterns(context, view, run, motions, time, colours);
   run.info.ships.forEach((ship, index) => {
     const pose = motions.ship(index);
     if (!pose) return;
