@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 4> kPythonCommands{"figures", "movie", "performance", "study"};
+constexpr std::array<std::string_view, 5> kPythonCommands{"figures", "loads", "movie", "performance", "study"};
 constexpr auto kModule = "polynya.command";  ///< python/polynya/command.py starts every command of the package
 
 /// The folder that holds the Python package: beside the build's app/, the installed one, or that of a wheel, whose
@@ -126,6 +126,9 @@ Command add_python_command(CommandLine& app, const char* name, const char* meani
 
 Command add_figures(CommandLine& app) {
   return add_python_command(app, "figures", "Draw a run, or several side by side, for print");
+}
+Command add_loads(CommandLine& app) {
+  return add_python_command(app, "loads", "Peaks of the ice's force by place: statistics, return values, figures");
 }
 Command add_movie(CommandLine& app) {
   return add_python_command(app, "movie", "Make a film of a run: the ice, and the force on the ship");

@@ -14,6 +14,7 @@ import sys
 FAILED, INPUT_OUTPUT, DEFECT, CLOSED_PIPE = 4, 5, 70, 141
 OPTIONS = {  # where the command line of each is made
     "figures": "polynya.figures.options",
+    "loads": "polynya.loads.options",
     "movie": "polynya.movie.__main__",
     "performance": "polynya.performance.options",
     "study": "polynya.study.options",
