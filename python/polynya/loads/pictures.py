@@ -4,6 +4,7 @@ from __future__ import annotations
 import numpy
 from matplotlib.colors import LogNorm
 from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
 
 from polynya.figures.page import Page, Sheet
 
@@ -135,8 +136,8 @@ def unrolled(loads, page=Page()):
         axes.axhline(0, color=BLACK, linewidth=0.5)
         axes.set(xlabel="time, s", ylabel="arc length from the stem, m; to port positive")
         bar = sheet.figure.colorbar(picture, ax=axes, pad=0.02, use_gridspec=False)
-        bar.set_label("force, MN")
-        bar.ax.tick_params(labelsize=page.style.small)
+        bar.ax.set_title("MN", fontsize=page.style.small)
+        bar.ax.tick_params(which="both", labelsize=page.style.small)
         return sheet.finish(1.2 * HEIGHT * page.style.scale)
 
 
@@ -152,6 +153,9 @@ def polar(loads, page=Page()):
         left, right = sheet.panels(1, 2, subplot_kw={"projection": "polar"})[0]
         left.bar(angle, [max(row["largest_peak_N"], row.get("largest_N", 0)) / 1e6 for row in rows], width=0.9 * width, color=BLUE)
         right.bar(angle, [row["peaks"] / loads.hours for row in rows], width=0.9 * width, color=RED)
+        for axes in (left, right):
+            axes.yaxis.set_major_locator(MaxNLocator(3))
+            axes.grid(linewidth=0.4)
         sheet.title_panel(left, 0, 2, "largest force, MN", page.width / 2.5)
         sheet.title_panel(right, 1, 2, "peaks per hour", page.width / 2.5)
         return sheet.finish(HEIGHT * page.style.scale)
