@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 6> kPythonCommands{"calibrate", "figures",     "management",
+constexpr std::array<std::string_view, 7> kPythonCommands{"calibrate", "figures",     "loads", "management",
                                                           "movie",     "performance", "study"};
 constexpr auto kModule = "polynya.command";  ///< python/polynya/command.py starts every command of the package
 
@@ -130,6 +130,9 @@ Command add_calibrate(CommandLine& app) {
 }
 Command add_figures(CommandLine& app) {
   return add_python_command(app, "figures", "Draw a run, or several side by side, for print");
+}
+Command add_loads(CommandLine& app) {
+  return add_python_command(app, "loads", "Peaks of the ice's force by place: statistics, return values, figures");
 }
 Command add_management(CommandLine& app) {
   return add_python_command(app, "management",
