@@ -16,9 +16,9 @@ using geometry::Vector;
 Point carried_by_water(const simulation::WaterSettings& water, Point point, double from, double to) {
   const simulation::ShearSettings& shear = water.shear;
   const Vector along{std::cos(shear.direction), std::sin(shear.direction)};
-  const Point still = shear.origin + from * water.drift;
+  const Point still = shear.origin + water.drift_path(from);
   const double to_port = cross(along, point - still);
-  return point + (to - from) * (water.drift + shear.rate * to_port * along);
+  return point + (water.drift_path(to) - water.drift_path(from)) + (to - from) * shear.rate * to_port * along;
 }
 
 Polygon carried_by_water(const simulation::WaterSettings& water, Polygon polygon, double from, double to) {

@@ -212,7 +212,7 @@ std::vector<CrushedOverlap> Simulation::crushed_overlaps() const {
 std::vector<ContactState> Simulation::contact_states() const {
   const World& world = *world_;
   const double dt = world.clock.step;
-  const Vector drift_then = (world.clock.ticks() - dt / world.clock.tick) * world.clock.tick * world.clock.water_drift;
+  const Vector drift_then = world.clock.drift_at((world.clock.ticks() - dt / world.clock.tick) * world.clock.tick);
   std::vector<ContactState> states;
   for (std::size_t i = 0; i < world.step.contacts.size(); ++i) {
     const dynamics::Contact& c = world.step.contacts[i];

@@ -66,11 +66,14 @@ def run(arguments, name, one):
     capacity = lambda e: e["criterion"]["bending_capacity_N"] / scale
     return {"mean": np.mean(surge), "force": [places[p][0] for p in places],
             "bends": len(bends) / WAY, "stem_bends": len(stem) / WAY,
-            "radius": median(flank, lambda e: e["cusp_radius_m"]), "stem_radius": median(stem, lambda e: e["cusp_radius_m"]),
+            "radius": median(flank, lambda e: e["cusp_radius_m"]),
+            "stem_radius": median(stem, lambda e: e["cusp_radius_m"]),
             "area": np.mean([e["submerged_area_m2"] for e in bends]),
-            "penetration": median(flank, lambda e: e["penetration_m"]), "stem_penetration": median(stem, lambda e: e["penetration_m"]),
+            "penetration": median(flank, lambda e: e["penetration_m"]),
+            "stem_penetration": median(stem, lambda e: e["penetration_m"]),
             "capacity": median(flank, capacity), "stem_capacity": median(stem, capacity),
-            "angles": np.percentile([math.degrees(2 * e["submerged_area_m2"] / e["cusp_radius_m"] ** 2) for e in flank or bends],
+            "angles": np.percentile([math.degrees(2 * e["submerged_area_m2"] / e["cusp_radius_m"] ** 2)
+                                     for e in flank or bends],
                                     [10, 50, 90]),
             "on_flanks": places["flank"][1], "stem_time": places["stem"][2]}
 
@@ -138,15 +141,19 @@ def name_of(bending):
 
 
 def print_rows(cases, results):
-    print("| bending | h [m] | v [m/s] | resistance [kN] | stem, flanks, sides [kN] | Lindqvist R_c, R_b [kN] | bends a metre (stem) | kJ a bend "
-          "| cusp [m²] | R/l (stem) | ξ_b/h (stem) | V_b/σ_f h² (stem) | 2A/R² [°] 10, 50, 90 % | contacts on the flanks | stem in contact |")
+    print("| bending | h [m] | v [m/s] | resistance [kN] | stem, flanks, sides [kN] | Lindqvist R_c, R_b [kN] | bends "
+          "a metre (stem) | kJ a bend "
+          "| cusp [m²] | R/l (stem) | ξ_b/h (stem) | V_b/σ_f h² (stem) | 2A/R² [°] 10, 50, 90 % | contacts on the "
+          "flanks | stem in contact |")
     print("|" + "---|" * 15)
     for (h, v, bending), r in zip(cases, results):
         l = characteristic_length(h)
         print(f"| {name_of(bending)} | {h:g} | {v:g} | {r['mean'] / 1e3:.1f} ± {r['error'] / 1e3:.1f} | "
-              + ", ".join(f"{f / 1e3:.1f}" for f in r["force"]) + " | " + ", ".join(f"{f / 1e3:.0f}" for f in lindqvist(h, v))
+              + ", ".join(f"{f / 1e3:.1f}" for f in r["force"]) + " | "
+              + ", ".join(f"{f / 1e3:.0f}" for f in lindqvist(h, v))
               + f" | {r['bends']:.2f} ({r['stem_bends']:.2f}) | {r['mean'] / r['bends'] / 1e3:.1f} | {r['area']:.1f} | "
-              f"{r['radius'] / l:.2f} ({r['stem_radius'] / l:.2f}) | {r['penetration'] / h:.2f} ({r['stem_penetration'] / h:.2f}) | "
+              f"{r['radius'] / l:.2f} ({r['stem_radius'] / l:.2f}) | {r['penetration'] / h:.2f} "
+              f"({r['stem_penetration'] / h:.2f}) | "
               f"{r['capacity']:.2f} ({r['stem_capacity']:.2f}) | " + ", ".join(f"{a:.0f}" for a in r["angles"])
               + f" | {r['on_flanks']:.2f} | {100 * r['stem_time']:.0f} % |")
 
@@ -155,7 +162,8 @@ def exponents(cases, results):
     """Of the resistance against the thickness at 1 m/s, by least squares, and of Lindqvist's part."""
     points = [(h, r["mean"], sum(lindqvist(h, v))) for (h, v, _), r in zip(cases, results) if v == 1]
     h, ours, theirs = np.log(np.array(points)).T
-    print(f"\nexponent of h at 1 m/s: {np.polyfit(h, ours, 1)[0]:.2f}, Lindqvist's R_c + R_b {np.polyfit(h, theirs, 1)[0]:.2f}")
+    print(f"\nexponent of h at 1 m/s: {np.polyfit(h, ours, 1)[0]:.2f}, Lindqvist's R_c + R_b "
+          f"{np.polyfit(h, theirs, 1)[0]:.2f}")
 
 
 def main():
@@ -175,7 +183,8 @@ def main():
     elif arguments.study == "models":
         cases = [(h, 1, {"model": model}) for model in ("fsi-database", "nevel", "kashtelyan") for h in thicknesses]
     else:
-        without = ({"radial_cracks": "ignored"}, {"deflection": "ignored"}, {"radial_cracks": "ignored", "deflection": "ignored"})
+        without = ({"radial_cracks": "ignored"}, {"deflection": "ignored"},
+                   {"radial_cracks": "ignored", "deflection": "ignored"})
         cases = [(h, v, {"model": "fsi-database"} | keys) for keys in without for h, v in plan]
     results = run_all(arguments, cases)
     print_rows(cases, results)

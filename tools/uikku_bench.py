@@ -47,13 +47,15 @@ def run(arguments, name, one):
     folder, summary = run_scene(arguments, name, one)
     contact, submerged = level_tests.measured(pathlib.Path(folder), one)
     total = contact + submerged
-    return {"mean": total.mean(), "sd": total.std(ddof=1), "max": total.max(), "min": total.min(), "submerged": submerged.mean(),
+    return {"mean": total.mean(), "sd": total.std(ddof=1), "max": total.max(), "min": total.min(),
+            "submerged": submerged.mean(),
             "without_contact": np.mean(contact < 1e-3 * total.max()), "real_time": summary["real_time_factor"]}
 
 
 def table(tests, results, angles, speeds):
     print(f"\n{angles}: " + ", ".join(f"{key} {value:g}" for key, value in ANGLES[angles].items()) + "\n")
-    print("| test | h [m] | v [m/s] | measured: mean, sd, least, largest [kN] | Polynya: mean, sd, least, largest [kN] | of it submersion "
+    print("| test | h [m] | v [m/s] | measured: mean, sd, least, largest [kN] | Polynya: mean, sd, least, largest [kN] "
+          "| of it submersion "
           "| mean, sd over measured | without contact | × real time |\n|" + "---|" * 9)
     ratios = []
     for test in tests:
@@ -61,9 +63,11 @@ def table(tests, results, angles, speeds):
         r = {key: float(np.mean([one[key] for one in each])) for key in each[0]}
         measured = [float(test.row[f"resistance_{key}_kN"]) for key in ("mean", "sd", "min", "max")]
         ratios.append((r["mean"] / measured[0], r["sd"] / measured[1]))
-        print(f"| {test.name} | {test.ice['thickness_m']:g} | {test.speed:g} | " + ", ".join(f"{x:.0f}" for x in measured) + " | "
+        print(f"| {test.name} | {test.ice['thickness_m']:g} | {test.speed:g} | "
+              + ", ".join(f"{x:.0f}" for x in measured) + " | "
               + ", ".join(f"{r[key]:.0f}" for key in ("mean", "sd", "min", "max"))
-              + f" | {r['submerged']:.0f} | {ratios[-1][0]:.2f}, {ratios[-1][1]:.2f} | {100 * r['without_contact']:.0f} % | {r['real_time']:.0f} |")
+              + f" | {r['submerged']:.0f} | {ratios[-1][0]:.2f}, {ratios[-1][1]:.2f} | "
+              f"{100 * r['without_contact']:.0f} % | {r['real_time']:.0f} |")
     mean, deviation = np.array(ratios).T
     print(f"\nmean within 20 %: {np.sum(abs(mean - 1) <= 0.2)} of {len(mean)}; standard deviation within 40 %: "
           f"{np.sum(abs(deviation - 1) <= 0.4)} of {len(mean)}")

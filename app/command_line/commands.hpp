@@ -22,6 +22,7 @@ Command add_import(CommandLine& app);
 Command add_init(CommandLine& app);
 Command add_inspect(CommandLine& app);
 Command add_man(CommandLine& app);
+Command add_management(CommandLine& app);
 Command add_movie(CommandLine& app);
 Command add_calibrate(CommandLine& app);
 Command add_performance(CommandLine& app);

@@ -24,7 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 5> kPythonCommands{"calibrate", "figures", "movie", "performance", "study"};
+constexpr std::array<std::string_view, 6> kPythonCommands{"calibrate", "figures",     "management",
+                                                          "movie",     "performance", "study"};
 constexpr auto kModule = "polynya.command";  ///< python/polynya/command.py starts every command of the package
 
 /// The folder that holds the Python package: beside the build's app/, the installed one, or that of a wheel, whose
@@ -129,6 +130,10 @@ Command add_calibrate(CommandLine& app) {
 }
 Command add_figures(CommandLine& app) {
   return add_python_command(app, "figures", "Draw a run, or several side by side, for print");
+}
+Command add_management(CommandLine& app) {
+  return add_python_command(app, "management",
+                            "State what ice management did: floes through gates, hits, loads, effort");
 }
 Command add_movie(CommandLine& app) {
   return add_python_command(app, "movie", "Make a film of a run: the ice, and the force on the ship");

@@ -1,21 +1,33 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
+#include <vector>
 
 #include "dynamics/bodies.hpp"
+#include "dynamics/water/flow.hpp"
 
 namespace polynya::dynamics {
 
 /// The wind over the ice, everywhere the same.
 struct Wind {
   geometry::Vector velocity;        ///< U_10, ten metres above the ice, over ground [m/s]
+  std::vector<FlowRow> rows;        ///< if any, in its place
   double drag_coefficient = 0.002;  ///< C_a [-]
   double density = 1.3;             ///< ρ_a [kg/m³]
 
-  bool blows() const { return velocity != geometry::Vector{} && drag_coefficient > 0 && density > 0; }
-  /// ½ ρ_a C_a |U_10| U_10, the force on a floe per area in plan [Pa]. The ice's own speed, 2 to 3 % of the
+  geometry::Vector velocity_at(double time) const { return rows.empty() ? velocity : velocity_of(rows, time); }
+  bool blows() const {
+    const bool is_moving =
+        velocity != geometry::Vector{} || std::ranges::any_of(rows, [](const FlowRow& row) { return row.speed != 0; });
+    return is_moving && drag_coefficient > 0 && density > 0;
+  }
+  /// ½ ρ_a C_a |U_10| U_10 at a time, the force on a floe per area in plan [Pa]. The ice's own speed, 2 to 3 % of the
   /// wind's, is left out. Coefficients of pack ice are 1.2e-3 to 3e-3 [recall].
-  geometry::Vector stress() const { return 0.5 * density * drag_coefficient * length(velocity) * velocity; }
+  geometry::Vector stress(double time) const {
+    const geometry::Vector u = velocity_at(time);
+    return 0.5 * density * drag_coefficient * length(u) * u;
+  }
   friend bool operator==(const Wind&, const Wind&) = default;
 };
 

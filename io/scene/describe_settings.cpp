@@ -37,6 +37,21 @@ const Description<ShearSettings> kShear{
             "a point where the water has the drift alone, at the start; it is carried along by the drift",
             &ShearSettings::origin)}};
 
+const Description<dynamics::FlowRow> kFlowRow{
+    {required(member("t_s", "s", from(-1e7, 1e7), "when; ascending", &dynamics::FlowRow::time)),
+     required(member("speed_m_per_s", "m/s", from(0, 100), "", &dynamics::FlowRow::speed)),
+     required(member("direction_deg", "°", from(-360, 360), "where it goes to, from the x axis, counter-clockwise",
+                     &dynamics::FlowRow::direction))}};
+
+const Description<dynamics::Tide> kTide{
+    {member("period_s", "s", from(60, 1e7), "of the ellipse; that of the tide M2 if not given",
+            &dynamics::Tide::period),
+     required(member("major_m_per_s", "m/s", from(0, 10), "along the ellipse's axis", &dynamics::Tide::major)),
+     member("minor_m_per_s", "m/s", from(-10, 10), "across it; negative: it turns clockwise", &dynamics::Tide::minor),
+     member("direction_deg", "°", from(-360, 360), "of the axis, from the x axis, counter-clockwise",
+            &dynamics::Tide::direction),
+     member("phase_deg", "°", from(-360, 360), "at t = 0; 0: the velocity is along the axis", &dynamics::Tide::phase)}};
+
 const Description<WaterSettings> kWater{
     {member("density_kg_per_m3", "kg/m³", from(500, 2000), "density ρ_w", &WaterSettings::water,
             &fracture::Water::density),
@@ -51,6 +66,10 @@ const Description<WaterSettings> kWater{
             &WaterSettings::skin_drag_coefficient),
      member("drift_m_per_s", "m/s", from(-10, 10), "velocity of the water, and of all ice with it",
             &WaterSettings::drift),
+     list("drift_table", from(0, 1000),
+          "the drift over time, in place of drift_m_per_s: as a vector linear between rows", kFlowRow,
+          &WaterSettings::drift_rows),
+     object("tide", kTide, "a tidal ellipse, on top of the drift", &WaterSettings::tide),
      object("shear", kShear, "a current that changes linearly across its direction, on top of the drift",
             &WaterSettings::shear)}};
 
@@ -59,6 +78,8 @@ const Description<dynamics::Wind> kWind{
             "U_10: where it blows to, 10 m above the ice, over ground; it pushes every floe that is not fast "
             "by ½ ρ_a C_a |U_10| U_10 on its area in plan",
             &dynamics::Wind::velocity),
+     list("table", from(0, 1000), "the wind over time, in place of velocity_m_per_s; as water.drift_table", kFlowRow,
+          &dynamics::Wind::rows),
      member("drag_coefficient", "", from(0, 1), "C_a", &dynamics::Wind::drag_coefficient),
      member("air_density_kg_per_m3", "kg/m³", from(0, 10), "ρ_a", &dynamics::Wind::density)}};
 

@@ -177,6 +177,45 @@ const Description<FollowingPilot> kFollow{
     {required(as(FieldKind::kName, member("ship", "", {}, "its name", &FollowingPilot::ship))),
      required(member("distance_m", "m", above(0, 1e5), "from its stern to the stem", &FollowingPilot::distance))}};
 
+const Description<ManagingPilot> kManage{
+    {required(
+         as(FieldKind::kName, member("body", "", {}, "the ship or structure that is protected", &ManagingPilot::body))),
+     required(choice<ManagementPattern>(
+         "pattern",
+         "linear: to and fro across the drift; sector: along an arc about the body; circular; racetrack; "
+         "largest_floe: to the largest floe that will pass the body within half the width, then to the next",
+         {{"linear", ManagementPattern::kLinear},
+          {"sector", ManagementPattern::kSector},
+          {"circular", ManagementPattern::kCircular},
+          {"racetrack", ManagementPattern::kRacetrack},
+          {"largest_floe", ManagementPattern::kLargestFloe}},
+         &ManagingPilot::pattern)),
+     required(member("distance_m", "m", above(0, 1e5), "of the pattern's middle, upstream of the body",
+                     &ManagingPilot::distance)),
+     required(member("width_m", "m", above(0, 1e5), "of the pattern across the drift; of a sector along its arc",
+                     &ManagingPilot::width)),
+     left_out(member("depth_m", "m", from(0, 1e5),
+                     "of the pattern along the drift; linear and sector come back nearer to the body by it; if not "
+                     "given, they come back on the same line, a racetrack has a quarter of the width, the others the "
+                     "width",
+                     &ManagingPilot::depth)),
+     choice<bool>("frame",
+                  "in which the pattern lies: it stays with the body, or drifts with the ice from the start of "
+                  "each lap",
+                  {{"body", false}, {"ice", true}}, &ManagingPilot::drifts_with_ice),
+     left_out(member("speed_m_per_s", "m/s", above(0, 20), "along the pattern, in its frame; this or lever",
+                     &ManagingPilot::speed)),
+     left_out(member("lever", "", above(0, 1), "of the thrust where no speed is given; full if not given",
+                     &ManagingPilot::lever)),
+     member("phase", "", below(0, 1),
+            "where on the pattern it begins, of a lap; ships that share a pattern keep theirs", &ManagingPilot::phase),
+     left_out(member("safety_radius_m", "m", above(0, 1e4),
+                     "least distance of its centre from those of the body and of other ships; if not given, the "
+                     "sum of both lengths",
+                     &ManagingPilot::safety_radius)),
+     member("least_floe_m2", "m²", from(0, 1e9), "largest_floe: smaller ones are left alone",
+            &ManagingPilot::least_floe)}};
+
 template <class Pilot>
 FieldOf<PilotSettings> pilot(std::string_view key, std::string_view meaning, const Description<Pilot>& description) {
   return of(key, required(object<PilotSettings>(key, description, meaning)));
@@ -189,8 +228,9 @@ const Description<PilotSettings> kPilot{
      pilot("route", "from waypoint to waypoint by line of sight", kRoute),
      pilot("table", "lever and rudder by the clock", kTable),
      pilot("ram", "ahead until it is stuck, back, and ahead again; counts rams and metres gained", kRam),
-     pilot("follow", "another ship at a distance", kFollow)},
-    {"constant", "hold_speed", "hold_heading", "route", "table", "ram", "follow"}};
+     pilot("follow", "another ship at a distance", kFollow),
+     pilot("manage", "breaks the ice that drifts onto another ship or a structure", kManage)},
+    {"constant", "hold_speed", "hold_heading", "route", "table", "ram", "follow", "manage"}};
 
 /// Presets are filled in before a scene is read, and their names with them: what is left is none.
 FieldOf<ShipInput> preset() {

@@ -183,7 +183,7 @@ FloeGroup FloeListReader::spelled_out(FileFloe& floe, bool is_of_run) const {
   if (own.velocity_x || own.velocity_y) {
     geometry::Vector velocity{own.velocity_x.value_or(0), own.velocity_y.value_or(0)};
     if (!entry.is_fast)  // relative to the water there
-      velocity -= water.drift + shear.velocity_at(geometry::measure(floe.polygon).centroid);
+      velocity -= water.drift_at(0) + shear.velocity_at(geometry::measure(floe.polygon).centroid);
     entry.velocity = {velocity.x + 0.0, velocity.y + 0.0};  // no −0
   }
   if (own.angular_velocity)

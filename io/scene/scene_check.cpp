@@ -89,7 +89,7 @@ void report_runaway(const Fastest& body, const Origin& origin, ProblemCollector&
 
 /// Of the water and the ships.
 Fastest fastest_ship(const SceneDraft& draft) {
-  Fastest fastest{length(draft.scene.water.drift), "the drift"};
+  Fastest fastest{draft.scene.water.fastest_drift(), "the drift"};
   for (std::size_t i = 0; i < draft.scene.ships.size(); ++i)
     if (const double speed = speed_of(draft.scene, draft.scene.ships[i]); speed > fastest.speed)
       fastest = {speed, hull_path(draft, i)};
@@ -109,6 +109,20 @@ void report_step(const Fastest& fastest, const simulation::Scene& scene, const J
                                      fastest.speed * scene.time.step, fastest.speed),
                 .allowed = fmt::format("a step in which nothing moves as far as a circle's radius, {} m",
                                        scene.contact.circle_radius)});
+}
+
+/// Rows of a flow over time ascend, and stand alone.
+void check_flow(const std::vector<dynamics::FlowRow>& rows, geometry::Vector constant, const std::string& table,
+                const std::string& instead, const JsonValue& given, ProblemCollector& problems) {
+  const auto report = [&](const std::string& path, std::string found, std::string allowed) {
+    problems.add(0, nearest_offset(given, path),
+                 {.path = path, .found = std::move(found), .allowed = std::move(allowed)});
+  };
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    if (rows[i].time <= rows[i - 1].time)
+      report(fmt::format("{}[{}].t_s", table, i), fmt::format("{:g}", rows[i].time),
+             fmt::format("a time after that of the row before, {:g} [s]", rows[i - 1].time));
+  if (!rows.empty() && constant != geometry::Vector{}) report(instead, "a velocity, and a table", "one of the two");
 }
 
 void check_speeds_of_ships(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
@@ -338,6 +352,9 @@ Polygon waterline_in_world(const simulation::PlacedHull& hull) {
 
 void check_without_ice(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
   check_water_and_time(draft, given, problems);
+  const simulation::Scene& scene = draft.scene;
+  check_flow(scene.water.drift_rows, scene.water.drift, "water.drift_table", "water.drift_m_per_s", given, problems);
+  check_flow(scene.wind.rows, scene.wind.velocity, "wind.table", "wind.velocity_m_per_s", given, problems);
   check_walls(draft, given, problems);
   check_hulls(draft, problems);
   check_speeds_of_ships(draft, given, problems);

@@ -172,10 +172,10 @@ class Hinter {
   void hint_at_course(std::size_t i) {
     const Ship& ship = scene_.ships[i];
     const bool is_ice_moved =
-        scene_.water.shear.rate != 0 || scene_.wind.blows() || !scene_.walls.empty() ||
+        !scene_.water.is_steady() || scene_.water.shear.rate != 0 || scene_.wind.blows() || !scene_.walls.empty() ||
         std::ranges::any_of(scene_.floes, [](const simulation::FloeSpec& floe) { return floe.velocity != Vector{}; });
     if (scene_.floes.empty() || is_ice_moved || ship.mooring || is_steered(ship)) return;
-    const double drift = dot(scene_.water.drift, ahead_of(ship));
+    const double drift = dot(scene_.water.drift_at(0), ahead_of(ship));
     const double speed = ship.speed - drift, thrust = thrust_of(ship);
     if ((speed == 0 && thrust == 0) || speed * thrust < 0) return;
     const Vector course = (speed + thrust > 0 ? 1.0 : -1.0) * ahead_of(ship);
@@ -208,7 +208,7 @@ class Hinter {
     const auto touch = geometry::first_contact(waterline_in_world(hull).outer, waterline_in_world(other).outer,
                                                velocity_of_other - velocity, 0, scene_.time.until);
     if (!touch) return;
-    const Point at = touch->point + touch->time * (velocity + scene_.water.drift);
+    const Point at = touch->point + touch->time * velocity + scene_.water.drift_path(touch->time);
     add(Severity::kWarning, i, "propulsion",
         fmt::format("it meets {} after {:.4g} s at ({:.4g}, {:.4g}) m, where the motion of both is prescribed: they "
                     "pass through each other without a force; give it thrust_N",
@@ -216,7 +216,7 @@ class Hinter {
   }
 
   void hint_at_drift() {
-    const double drift = length(scene_.water.drift);
+    const double drift = scene_.water.fastest_drift();
     if (drift > kFastestIce)
       add(Severity::kHint, value_at("water", "drift_m_per_s"), "water.drift_m_per_s",
           fmt::format("{:.3g} m/s: ice drifts at {:g} m/s at most", drift, kFastestIce));

@@ -235,7 +235,7 @@ class SceneReader {
   void complete_skin_drag(const JsonValue& given) {
     constexpr double kSkinDragInWind = 0.004;  // [-]
     const JsonValue* water = given.find("water");
-    if (input_.scene.wind.velocity != geometry::Vector{} && !(water && water->find("skin_drag_coefficient")))
+    if (input_.scene.wind.blows() && !(water && water->find("skin_drag_coefficient")))
       input_.scene.water.skin_drag_coefficient = kSkinDragInWind;
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include "geometry/shape/pose.hpp"
 #include "io/scene/floe_list_reader.hpp"
 #include "io/scene/scene_check.hpp"
+#include "simulation/ship/pattern.hpp"
 #include "simulation/ship/sailing.hpp"
 
 namespace polynya::io {
@@ -304,6 +306,75 @@ class PilotCheck {
       return report_(key, found + ": a ship cannot follow itself", "the name of another ship");
     if (follows_back(pilot))
       report_(key, found + ", which follows this ship", "a ship that follows no ship of the same line");
+  }
+
+  void check(simulation::ManagingPilot& pilot) {
+    const int body = hull_named(draft_.scene, pilot.body);
+    pilot.body_index = std::max(body, 0);
+    if (!has_steering("pilot.manage")) return;
+    const bool is_there =
+        body >= 0 && kind_of_hull(draft_.scene, static_cast<std::size_t>(body)) != simulation::BodyKind::kWall;
+    if (!is_there || body == static_cast<int>(index_))
+      return report_("pilot.manage.body", fmt::format("\"{}\"", pilot.body), "the name of another ship or a structure");
+    if (pilot.speed > 0 && pilot.lever != 1) report_("pilot.manage.lever", "a lever, and a speed", "one of the two");
+    complete_depth(pilot);
+    check_place(pilot);
+    find_partners(pilot);
+  }
+
+  static void complete_depth(simulation::ManagingPilot& pilot) {
+    using Pattern = simulation::ManagementPattern;
+    if (pilot.depth > 0) return;
+    if (pilot.pattern == Pattern::kCircular || pilot.pattern == Pattern::kLargestFloe) pilot.depth = pilot.width;
+    if (pilot.pattern == Pattern::kRacetrack) pilot.depth = 0.25 * pilot.width;
+  }
+
+  double safety_radius(const simulation::ManagingPilot& pilot, std::size_t other) const {
+    if (pilot.safety_radius > 0) return pilot.safety_radius;
+    const auto length_of = [&](std::size_t hull) {
+      const geometry::Box box = bounding_box(hull_of(draft_.scene, hull).hull.waterline);
+      return box.high.x - box.low.x;
+    };
+    return length_of(index_) + length_of(other);
+  }
+
+  /// The pattern has a form, and stays clear of the body.
+  void check_place(const simulation::ManagingPilot& pilot) {
+    using Pattern = simulation::ManagementPattern;
+    if (pilot.pattern == Pattern::kRacetrack && pilot.depth > pilot.width)
+      return report_("pilot.manage.depth_m", fmt::format("{:g}", pilot.depth),
+                     fmt::format("at most the racetrack's width, {:g} [m]", pilot.width));
+    if (pilot.pattern == Pattern::kSector && pilot.width > std::numbers::pi * pilot.distance)
+      return report_(
+          "pilot.manage.width_m", fmt::format("{:g}", pilot.width),
+          fmt::format("at most half a circle about the body, {:.4g} [m]", std::numbers::pi * pilot.distance));
+    const double nearest = pilot.distance - 0.5 * pilot.depth;
+    const double least = safety_radius(pilot, static_cast<std::size_t>(pilot.body_index));
+    if (nearest < least)
+      report_("pilot.manage.distance_m",
+              fmt::format("{:g}: the pattern comes to {:.4g} m from {}", pilot.distance, nearest, pilot.body),
+              fmt::format("a pattern that stays outside the safety radius, {:.4g} m", least));
+  }
+
+  /// Ships that go round the same line keep their phases, and must not meet.
+  void find_partners(simulation::ManagingPilot& pilot) {
+    if (pilot.pattern == simulation::ManagementPattern::kLargestFloe) return;
+    const auto key = [](const simulation::ManagingPilot& p) {
+      return std::tuple(p.body, p.pattern, p.distance, p.width, p.drifts_with_ice);
+    };
+    const auto& ships = draft_.scene.ships;
+    const simulation::PatternLine line = line_of(pilot);
+    for (std::size_t i = 0; i < ships.size(); ++i) {
+      const auto* other = std::get_if<simulation::ManagingPilot>(&ships[i].pilot);
+      if (!other || i == index_ || key(*other) != key(pilot)) continue;
+      pilot.partners.push_back({static_cast<int>(i), other->phase});
+      const double least = safety_radius(pilot, i);
+      const double ahead = other->phase - pilot.phase - std::floor(other->phase - pilot.phase);
+      if (const double nearest = least_distance(line, ahead); nearest < least)
+        report_("pilot.manage.phase",
+                fmt::format("{:g}: on their pattern it comes to {:.4g} m from {}", pilot.phase, nearest, ships[i].name),
+                fmt::format("phases, or a depth_m, that leave the safety radius between them, {:.4g} m", least));
+    }
   }
 
   /// Whether the leaders of leaders lead back to this ship.

@@ -15,6 +15,7 @@ FAILED, INPUT_OUTPUT, DEFECT, CLOSED_PIPE = 4, 5, 70, 141
 OPTIONS = {  # where the command line of each is made
     "calibrate": "polynya.calibrate.options",
     "figures": "polynya.figures.options",
+    "management": "polynya.management.options",
     "movie": "polynya.movie.__main__",
     "performance": "polynya.performance.options",
     "study": "polynya.study.options",

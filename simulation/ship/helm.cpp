@@ -7,7 +7,8 @@ namespace {
 
 using geometry::Vector;
 
-std::vector<SeenShip> seen_ships(const Setup& setup, const Clock& clock, const dynamics::Bodies& bodies) {
+std::vector<SeenShip> seen_ships(const Setup& setup, const Clock& clock, const Population& population) {
+  const dynamics::Bodies& bodies = population.bodies;
   std::vector<SeenShip> seen;
   for (std::size_t i = 0; i < hull_count(setup.scene); ++i) {
     const geometry::Box box = bounding_box(hull_of(setup.scene, i).hull.waterline);
@@ -16,8 +17,22 @@ std::vector<SeenShip> seen_ships(const Setup& setup, const Clock& clock, const d
                     .velocity = bodies.velocity[i] + clock.water_drift,
                     .length = box.high.x - box.low.x,
                     .stern = box.low.x,
-                    .stem = box.high.x});
+                    .stem = box.high.x,
+                    .is_wall = kind_of_hull(setup.scene, i) == BodyKind::kWall,
+                    .is_fixed = is_grounded(kind_of_hull(setup.scene, i))});
+    if (i >= population.helms.size()) continue;
+    seen.back().lap_share = population.helms[i].memory.pattern.lap_share;
+    seen.back().target_floe = population.helms[i].memory.pattern.target;
   }
+  return seen;
+}
+
+std::vector<SeenFloe> seen_floes(const Clock& clock, const Population& population) {
+  std::vector<SeenFloe> seen;
+  for (FloeId id = 0; id < population.floe_count(); ++id)
+    if (population.is_floating(id))
+      seen.push_back(
+          {id, population.bodies.position[population.body_of(id)] + clock.drift(), population.floes[id].area});
   return seen;
 }
 
@@ -55,6 +70,8 @@ PilotView view_of(const Setup& setup, const Clock& clock, const Population& popu
   view.steering_angle = helm.steering_angle;
   view.steering_most = sailing.steering_most;
   view.ice_force = helm.ice_force;
+  view.ice_drift = free_drift(setup.scene, clock.time());
+  view.floes = [&clock, &population] { return seen_floes(clock, population); };
   view.engine = *sailing.engine;
   view.mass = bodies.mass[i] + sailing.hull.added_mass.rows[0].surge;
   view.steering_gain = steering_gain(sailing, view, bodies.moment[i]);
@@ -79,7 +96,7 @@ Command commanded(const Setup& setup, const PilotView& view, const std::vector<E
 
 void take_helms(const Setup& setup, const Clock& clock, Population& population) {
   population.helms.resize(setup.scene.ships.size());
-  const std::vector<SeenShip> ships = seen_ships(setup, clock, population.bodies);
+  const std::vector<SeenShip> ships = seen_ships(setup, clock, population);
   for (BodyIndex i = 0; i < std::ssize(population.helms); ++i) {
     if (!setup.sailing[i].engine) continue;
     Helm& helm = population.helms[i];
@@ -95,7 +112,7 @@ void take_helms(const Setup& setup, const Clock& clock, Population& population) 
 
 void steer(const Setup& setup, const Clock& clock, const std::vector<ExternalPilot>& external, Population& population) {
   if (std::ranges::none_of(setup.sailing, [](const Sailing& s) { return s.engine.has_value(); })) return;
-  const std::vector<SeenShip> ships = seen_ships(setup, clock, population.bodies);
+  const std::vector<SeenShip> ships = seen_ships(setup, clock, population);
   for (BodyIndex i = 0; i < std::ssize(population.helms); ++i) {
     const Sailing& sailing = setup.sailing[i];
     if (!sailing.engine) continue;

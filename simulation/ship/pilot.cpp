@@ -1,8 +1,8 @@
-#include "simulation/ship/pilot.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "simulation/ship/holding.hpp"
 
 namespace polynya::simulation {
 namespace {
@@ -19,6 +19,15 @@ constexpr double kDriftTime = 60;        ///< of smoothing the drift angle [s]
 constexpr double kTurning = 0.1;         ///< length over radius of a turn [-]
 constexpr double kGapTime = 60;          ///< of closing an error of distance to a leader [s]
 
+/// The lever that gives a thrust.
+double lever_for(const dynamics::Engine& engine, double thrust) {
+  const double most = thrust < 0 ? engine.astern_share * engine.bollard_pull : engine.bollard_pull;
+  if (most <= 0) return 0;
+  return std::copysign(std::min(1.0, std::pow(std::abs(thrust) / most, 1.5)), thrust);
+}
+
+}  // namespace
+
 double wrapped(double angle) {
   return std::remainder(angle, 2 * std::numbers::pi);
 }
@@ -29,15 +38,6 @@ double angle_of(Vector v) {
   return std::atan2(v.y, v.x);
 }
 
-/// The lever that gives a thrust.
-double lever_for(const dynamics::Engine& engine, double thrust) {
-  const double most = thrust < 0 ? engine.astern_share * engine.bollard_pull : engine.bollard_pull;
-  if (most <= 0) return 0;
-  return std::copysign(std::min(1.0, std::pow(std::abs(thrust) / most, 1.5)), thrust);
-}
-
-/// Holds a speed: the thrust of open water at that speed, and of what closes the error, with its integral
-/// while the lever is not at a stop.
 double lever_to_hold(double speed, const PilotView& view, PilotMemory& memory) {
   const dynamics::Engine& engine = view.engine;
   const double open_water = -dynamics::net_thrust(engine, 0, speed);
@@ -49,7 +49,6 @@ double lever_to_hold(double speed, const PilotView& view, PilotMemory& memory) {
   return lever;
 }
 
-/// Holds a heading: proportional to the error, damped by what the steering can do at the moment.
 double steering_to_hold(double heading, const PilotView& view) {
   if (view.steering_most == 0 || std::abs(view.steering_gain) < kLeastGain) return 0;
   const double error = wrapped(heading - view.own().heading);
@@ -57,6 +56,8 @@ double steering_to_hold(double heading, const PilotView& view) {
   const double angle = kHeadingGain * error - damping * view.through_water.yaw;
   return std::copysign(1.0, view.steering_gain) * angle;
 }
+
+namespace {
 
 double chosen(double heading, const PilotMemory& memory) {
   return std::isfinite(heading) ? heading : memory.heading;
@@ -166,6 +167,7 @@ PilotMemory memory_at_start(const PilotView& view) {
   memory.heading = view.own().heading;
   memory.from = view.own().position_in_world;
   memory.slow_since = view.time;
+  memory.pattern.next_choice = view.time;
   return memory;
 }
 

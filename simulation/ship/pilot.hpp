@@ -1,13 +1,24 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "dynamics/planar.hpp"
 #include "dynamics/ship/propulsion.hpp"
 #include "simulation/ship/pilot_settings.hpp"
 
 namespace polynya::simulation {
+
+inline constexpr std::int64_t kNoTarget = -1;
+
+/// A floe as pilots see it.
+struct SeenFloe {
+  std::int64_t floe = 0;              ///< its id
+  geometry::Point position_in_world;  ///< of its centre of mass [m]
+  double area = 0;                    ///< [m²]
+};
 
 /// A ship as pilots see it from others.
 struct SeenShip {
@@ -17,6 +28,10 @@ struct SeenShip {
   double length = 0;                  ///< of its waterline [m]
   double stern = 0;                   ///< x of its waterline's ends from the centre of gravity [m]
   double stem = 0;
+  bool is_wall = false;
+  bool is_fixed = false;  ///< a structure or a wall
+  double lap_share = 0;   ///< of the pattern that it goes round, done
+  std::int64_t target_floe = kNoTarget;
 };
 
 /// What a pilot knows of its ship in a step.
@@ -25,13 +40,15 @@ struct PilotView {
   double step = 0;  ///< Δt to the next command [s]
   int ship = 0;     ///< its own, among `ships`
   std::span<const SeenShip> ships;
-  dynamics::Planar through_water;  ///< [m/s, rad/s]
-  double speed_over_ground = 0;    ///< ahead [m/s]
-  double lever = 0;                ///< where it is
-  double steering_angle = 0;       ///< where rudder or thrusters are, to port [rad]
-  double steering_most = 0;        ///< to either side; 0: nothing to steer with [rad]
-  double steering_gain = 0;        ///< yaw acceleration by steering, now [rad/s² per rad]
-  dynamics::Planar ice_force;      ///< on the ship, of the step before [N, N m]
+  dynamics::Planar through_water;                ///< [m/s, rad/s]
+  double speed_over_ground = 0;                  ///< ahead [m/s]
+  double lever = 0;                              ///< where it is
+  double steering_angle = 0;                     ///< where rudder or thrusters are, to port [rad]
+  double steering_most = 0;                      ///< to either side; 0: nothing to steer with [rad]
+  double steering_gain = 0;                      ///< yaw acceleration by steering, now [rad/s² per rad]
+  dynamics::Planar ice_force;                    ///< on the ship, of the step before [N, N m]
+  geometry::Vector ice_drift;                    ///< of free ice by current and wind, over ground [m/s]
+  std::function<std::vector<SeenFloe>()> floes;  ///< those that float
   dynamics::Engine engine;
   double mass = 0;  ///< with the water's inertia ahead [kg]
 
@@ -42,6 +59,16 @@ struct PilotView {
 struct Command {
   double lever = 0;
   double steering_angle = 0;  ///< to port [rad]
+};
+
+/// What a pilot that manages ice remembers besides.
+struct PatternMemory {
+  double upstream = 0;              ///< the direction against the drift [rad]
+  double lap_share = -1;            ///< of the lap, done; < 0: before the first
+  geometry::Vector carried;         ///< how far the drift has taken the pattern since its lap began [m]
+  std::int64_t target = kNoTarget;  ///< the floe to which it goes
+  geometry::Point target_at;        ///< over ground [m]
+  double next_choice = 0;           ///< [s]
 };
 
 /// What a pilot remembers from step to step. Kept in checkpoints.
@@ -57,6 +84,7 @@ struct PilotMemory {
   geometry::Point first_stuck_at;
   std::int32_t rams = 0;  ///< charges after the first
   double gained = 0;      ///< along the heading from where it was first stuck [m]
+  PatternMemory pattern;
 };
 
 /// A pilot's memory at the start.

@@ -72,7 +72,37 @@ struct FollowingPilot {
   double distance = 0;  ///< [m]
   friend bool operator==(const FollowingPilot&, const FollowingPilot&) = default;
 };
-using PilotSettings =
-    std::variant<ConstantPilot, SpeedPilot, HeadingPilot, RoutePilot, TablePilot, RammingPilot, FollowingPilot>;
+enum class ManagementPattern {
+  kLinear,       ///< to and fro across the drift
+  kSector,       ///< to and fro along an arc about the body
+  kCircular,     ///< round an ellipse
+  kRacetrack,    ///< two legs across the drift, and half circles
+  kLargestFloe,  ///< to the largest floe that will pass near the body, and on to the next
+};
+/// Another ship of the same pattern.
+struct PatternPartner {
+  int ship = 0;      ///< its index in the scene
+  double phase = 0;  ///< in laps
+  friend bool operator==(const PatternPartner&, const PatternPartner&) = default;
+};
+/// Breaks the ice that drifts onto a body (docs/management.md).
+struct ManagingPilot {
+  std::string body;    ///< the protected one's name
+  int body_index = 0;  ///< among the scene's hulls
+  ManagementPattern pattern = ManagementPattern::kLinear;
+  double distance = 0;           ///< of the pattern's middle, upstream of the body [m]
+  double width = 0;              ///< of the pattern, across the drift [m]
+  double depth = 0;              ///< along it [m]
+  bool drifts_with_ice = false;  ///< the pattern, from the start of each lap; else it stays with the body
+  double speed = 0;              ///< along the pattern, in its frame; 0: by the lever [m/s]
+  double lever = 1;
+  double phase = 0;          ///< where on the pattern it begins, of a lap [-]
+  double safety_radius = 0;  ///< to the body and other ships, between centres; 0: the sum of both lengths [m]
+  double least_floe = 0;     ///< smaller ones are left to themselves [m²]
+  std::vector<PatternPartner> partners;
+  friend bool operator==(const ManagingPilot&, const ManagingPilot&) = default;
+};
+using PilotSettings = std::variant<ConstantPilot, SpeedPilot, HeadingPilot, RoutePilot, TablePilot, RammingPilot,
+                                   FollowingPilot, ManagingPilot>;
 
 }  // namespace polynya::simulation

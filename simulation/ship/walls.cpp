@@ -36,6 +36,22 @@ void change_velocity(Vector to, BodyIndex wall, dynamics::Bodies& bodies, AuditS
 
 }  // namespace
 
+void follow_water(const Setup& setup, Clock& clock, Population& population, AuditSums& audit) {
+  if (!clock.changing) return;
+  const Vector now = (clock.drift_at(clock.time() + clock.step) - clock.drift()) / clock.step;
+  const Vector change = now - clock.water_drift;
+  clock.water_drift = now;
+  if (change == Vector{}) return;
+  dynamics::Bodies& bodies = population.bodies;
+  for (BodyIndex i = 0; i < bodies.size(); ++i) {
+    if (bodies.is_alive[i] == 0 || bodies.inverse_mass[i] != 0) continue;
+    bodies.velocity[i] -= change;
+    wake(i, population);
+  }
+  for_pressing(setup, population,
+               [&](const Pressing& p) { change_velocity(bodies.velocity[p.body] - change, p.body, bodies, audit); });
+}
+
 void press_walls(const Setup& setup, const Clock& clock, Population& population, AuditSums& audit) {
   for_pressing(setup, population, [&](const Pressing& p) {
     dynamics::Bodies& bodies = population.bodies;

@@ -28,11 +28,13 @@ template <class Archive>
 void write(Archive& archive, const World& world, const std::vector<dynamics::PairState>& pairs) {
   const Population& population = world.population;
   archive(world.clock.steps, world.accounts);
+  if (world.clock.changing) archive(world.clock.water_drift);
   if (has_wind_or_walls(world.setup.scene)) archive(world.accounts.audit.boundaries);
   archive(std::uint64_t{population.floes.size()});
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull) {
     archive(motion_of(population.bodies, hull));
     if (is_sailing(world.setup, hull)) archive(population.helms[hull], world.accounts.sailing[hull]);
+    if (manages_ice(world.setup, hull)) archive(population.helms[hull].memory.pattern);
   }
   for (FloeId id = 0; id < population.floe_count(); ++id) {
     const Floe& floe = population.floes[id];

@@ -78,6 +78,7 @@ class StateLoader {
 
   void load_accounts() {
     bytes_(world_.clock.steps, world_.accounts);
+    if (world_.clock.changing) bytes_(world_.clock.water_drift);
     if (has_wind_or_walls(scene_)) bytes_(world_.accounts.audit.boundaries);
     const Counts& c = world_.accounts.counts;
     for (const std::int64_t count :
@@ -127,6 +128,7 @@ class StateLoader {
     bytes_.require(motion.is_awake, "a ship asleep");
     place(hull, motion);
     if (is_sailing(world_.setup, hull)) bytes_(population_.helms[hull], world_.accounts.sailing[hull]);
+    if (manages_ice(world_.setup, hull)) bytes_(population_.helms[hull].memory.pattern);
   }
 
   FloeHead load_head(FloeId id) {

@@ -30,6 +30,10 @@ inline bool is_sailing(const Setup& setup, std::int32_t body) {
   return body < std::ssize(setup.sailing) && setup.sailing[body].is_active;
 }
 
+inline bool manages_ice(const Setup& setup, std::int32_t body) {
+  return is_sailing(setup, body) && std::holds_alternative<ManagingPilot>(setup.scene.ships[body].pilot);
+}
+
 /// A floe without its shape.
 struct FloeHead {
   FloeId parent = kNoFloe;
@@ -102,6 +106,11 @@ template <class Archive>
 void fields(Archive& archive, Is<PilotMemory> auto& m) {
   archive(m.heading, m.speed_integral, m.drift_angle, m.waypoint, m.from, m.is_backing, m.slow_since, m.stuck_at,
           m.first_stuck_at, m.rams, m.gained);
+}
+/// Of ships that manage ice alone.
+template <class Archive>
+void fields(Archive& archive, Is<PatternMemory> auto& m) {
+  archive(m.upstream, m.lap_share, m.carried, m.target, m.target_at, m.next_choice);
 }
 template <class Archive>
 void fields(Archive& archive, Is<Helm> auto& h) {

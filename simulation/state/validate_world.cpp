@@ -37,6 +37,7 @@ Defect check_helms(const World& world) {
     if (!(std::abs(helm.lever) <= 1)) return fmt::format("ship {} has its lever beyond full", i);
     if (!(std::abs(helm.steering_angle) <= world.setup.sailing[i].steering_most))
       return fmt::format("ship {} has its rudder beyond the stop", i);
+    if (!(helm.memory.pattern.lap_share < 1)) return fmt::format("ship {} is beyond its lap", i);
     if (helm.memory.waypoint < 0) return fmt::format("ship {} goes to no waypoint", i);
     if (helm.is_adrift && !world.setup.scene.ships[i].mooring)
       return fmt::format("ship {} is adrift and was not moored", i);

@@ -45,7 +45,7 @@ NewFloe new_floe_of(FloeSpec& spec, Point centroid, const Setup& setup) {
   floe.velocity = spec.velocity;
   floe.is_fast = spec.is_fast;
   if (spec.is_fast) {
-    floe.velocity -= setup.scene.water.drift;
+    floe.velocity -= setup.scene.water.drift_at(0);
     return floe;
   }
   if (!setup.current.is_still()) {  // at rest in a sheared current is to go and turn with it
@@ -213,7 +213,7 @@ dynamics::NewBody body_of(const Wall& wall, Vector water_drift) {
 }  // namespace
 
 dynamics::NewBody new_body_of(const Scene& scene, std::size_t hull) {
-  return visit_hull(scene, hull, [&](const auto& of_a_kind) { return body_of(of_a_kind, scene.water.drift); });
+  return visit_hull(scene, hull, [&](const auto& of_a_kind) { return body_of(of_a_kind, scene.water.drift_at(0)); });
 }
 
 dynamics::NewBody new_body_of(const geometry::Polygon& polygon_in_body, const geometry::Measures& measures,

@@ -57,6 +57,30 @@ double recording_interval(const Scene& scene) {
   return steps * scene.time.step;
 }
 
+geometry::Vector WaterSettings::drift_at(double time) const {
+  const geometry::Vector mean = drift_rows.empty() ? drift : dynamics::velocity_of(drift_rows, time);
+  return tide ? mean + tide->velocity(time) : mean;
+}
+
+geometry::Vector WaterSettings::drift_path(double time) const {
+  const geometry::Vector mean = drift_rows.empty() ? time * drift : dynamics::path_of(drift_rows, time);
+  return tide ? mean + tide->path(time) : mean;
+}
+
+double WaterSettings::fastest_drift() const {
+  double fastest = length(drift);
+  for (const dynamics::FlowRow& row : drift_rows) fastest = std::max(fastest, row.speed);
+  return tide ? fastest + std::hypot(tide->major, tide->minor) : fastest;
+}
+
+geometry::Vector free_drift(const Scene& scene, double time) {
+  const geometry::Vector drift = scene.water.drift_at(time);
+  if (!scene.wind.blows() || scene.water.skin_drag_coefficient == 0) return drift;
+  const double share = std::sqrt(scene.wind.density * scene.wind.drag_coefficient /
+                                 (scene.water.water.density * scene.water.skin_drag_coefficient));
+  return drift + share * scene.wind.velocity_at(time);
+}
+
 bool splits_by_j_over_tau_c(const Scene& scene) {
   return scene.fracture.splitting == fracture::SplittingModel::kMichel;
 }

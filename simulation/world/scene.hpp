@@ -10,6 +10,7 @@
 
 #include "dynamics/bodies.hpp"
 #include "dynamics/water/drag_shape.hpp"
+#include "dynamics/water/flow.hpp"
 #include "dynamics/water/wind.hpp"
 #include "fracture/bending/bending_model.hpp"
 #include "fracture/characteristic_length.hpp"
@@ -47,8 +48,15 @@ struct WaterSettings {
   dynamics::DragArea drag_area = dynamics::DragArea::kEdge;  ///< A of Eq. (6)
   double skin_drag_coefficient = 0;                          ///< C_w, of a floe's area in plan, beside Eq. (6) [-]
   geometry::Vector drift;                                    ///< velocity of the water, and of all ice with it [m/s]
+  std::vector<dynamics::FlowRow> drift_rows;                 ///< if any, in its place
+  std::optional<dynamics::Tide> tide;                        ///< on top
   ShearSettings shear;
   friend bool operator==(const WaterSettings&, const WaterSettings&) = default;
+
+  bool is_steady() const { return drift_rows.empty() && !tide; }  ///< whether the drift is the same at all times
+  geometry::Vector drift_at(double time) const;                   ///< [m/s]
+  geometry::Vector drift_path(double time) const;                 ///< where it takes the water from time 0 [m]
+  double fastest_drift() const;                                   ///< no slower than the drift ever is [m/s]
 };
 
 /// How the normal of a contact is found.
@@ -292,6 +300,10 @@ const PlacedHull& hull_of(const Scene& scene, std::size_t hull);
 BodyKind kind_of_hull(const Scene& scene, std::size_t hull);
 /// The number of a hull by its name; −1: there is none.
 int hull_named(const Scene& scene, std::string_view name);
+
+/// The velocity over ground of free ice: it goes with the drift, and through the water as fast as the friction
+/// below it bears the wind's above it [m/s].
+geometry::Vector free_drift(const Scene& scene, double time);
 
 /// What the loads and cusps of ice that a hull breaks are multiplied with: the scene's factors, and the ship's.
 BendingFactors bending_factors_of(const Scene& scene, std::size_t hull);

@@ -75,12 +75,14 @@ struct Clock {
   double bends = 0;              ///< in a step, the mean of the ticks before
   double tick = 0;               ///< [s]
   double step = 0;               ///< Δt of the step at hand: tick / parts [s]
-  geometry::Vector water_drift;  ///< velocity of the water frame over ground [m/s]
+  geometry::Vector water_drift;  ///< velocity of the water frame over ground, its mean over the step at hand [m/s]
+  std::shared_ptr<const WaterSettings> changing = {};  ///< of a drift that changes
 
   double ticks() const { return static_cast<double>(steps) + static_cast<double>(part) / parts; }
   bool is_at_tick() const { return part == 0; }
-  double time() const { return ticks() * tick; }                   ///< [s]
-  geometry::Vector drift() const { return time() * water_drift; }  ///< of the water frame over ground [m]
+  double time() const { return ticks() * tick; }               ///< [s]
+  geometry::Vector drift() const { return drift_at(time()); }  ///< of the water frame over ground [m]
+  geometry::Vector drift_at(double at) const { return changing ? changing->drift_path(at) : at * water_drift; }
 };
 
 /// Has the next tick taken in so many equal parts.

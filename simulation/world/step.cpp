@@ -51,10 +51,9 @@ void enter_water(const dynamics::WaterWork& work, AuditSums& audit) {
   audit.impulses += work.impulses;
 }
 
-void blow(const dynamics::Wind& wind, Population& population, double dt, AuditSums& audit) {
+void blow(Vector stress, Population& population, double dt, AuditSums& audit) {
   const auto first_floe = std::ranges::lower_bound(population.awake, population.hull_count);
-  const dynamics::WindWork work =
-      apply_wind(population.bodies, {first_floe, population.awake.end()}, wind.stress(), dt);
+  const dynamics::WindWork work = apply_wind(population.bodies, {first_floe, population.awake.end()}, stress, dt);
   audit.boundaries.wind += work.energy;
   audit.boundaries.wind_impulse += work.impulse;
   audit.impulses += work.impulses;
@@ -99,10 +98,10 @@ void solve_impulses(const Setup& setup, int threads, Population& population, Ste
   }
 }
 
-void apply_forces(const Setup& setup, int threads, Population& population, AuditSums& audit) {
+void apply_forces(const Setup& setup, const Clock& clock, int threads, Population& population, AuditSums& audit) {
   const double dt = setup.step;
   const WaterSettings& water = setup.scene.water;
-  if (setup.scene.wind.blows()) blow(setup.scene.wind, population, dt, audit);
+  if (setup.scene.wind.blows()) blow(setup.scene.wind.stress(clock.time()), population, dt, audit);
   enter_water(apply_water_drag(population.bodies, population.awake,
                                {water.drag_coefficient, water.water.density, setup.current, water.drag_area,
                                 water.skin_drag_coefficient},
@@ -146,7 +145,8 @@ void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Populat
   });
 }
 
-const std::array<Stage, 31> kStages = {{
+const std::array<Stage, 32> kStages = {{
+    {"follow the water", [](World& w) { follow_water(w.setup, w.clock, w.population, w.accounts.audit); }},
     {"steer", [](World& w) { steer(w.setup, w.clock, w.pilots, w.population); }},
     {"press walls", [](World& w) { press_walls(w.setup, w.clock, w.population, w.accounts.audit); }},
     {"keep motion", [](World& w) { keep_motion(w.population, w.step); }},
@@ -176,7 +176,7 @@ const std::array<Stage, 31> kStages = {{
        follow_loads(w.setup, w.clock, w.population, w.step, w.accounts.load_peaks, w.journal);
        load_panels(w.setup, w.population, w.step, w.accounts.panels);
      }},
-    {"water and thrust", [](World& w) { apply_forces(w.setup, w.threads, w.population, w.accounts.audit); }},
+    {"water and thrust", [](World& w) { apply_forces(w.setup, w.clock, w.threads, w.population, w.accounts.audit); }},
     {"pull of submerged ice",
      [](World& w) { pull_of_submerged_ice(w.setup, w.population, w.step.loads, w.accounts.audit); }},
     {"sail", [](World& w) { sail(w.setup, w.clock, w.step, w.population, w.accounts); }},

@@ -13,6 +13,11 @@ namespace polynya::simulation {
 /// Puts levers and steering where the pilots' first commands want them.
 void take_helms(const Setup& setup, const Clock& clock, Population& population);
 
+/// Where the drift changes, gives the water frame its mean velocity over the step, and keeps what stands or moves
+/// over ground at its velocity there. Free bodies go with the water: what speeds it up, the slope of its surface,
+/// speeds them up alike.
+void follow_water(const Setup& setup, Clock& clock, Population& population, AuditSums& audit);
+
 /// Asks the pilots, and moves levers and steering towards their commands.
 void steer(const Setup& setup, const Clock& clock, const std::vector<ExternalPilot>& external, Population& population);
 
@@ -59,7 +64,7 @@ void book_overlaps(const Setup& setup, const Population& population, const StepD
 void tally_loads(const Population& population, const std::vector<dynamics::Contact>& contacts,
                  std::vector<ShipLoads>& loads);
 
-void apply_forces(const Setup& setup, int threads, Population& population, AuditSums& audit);
+void apply_forces(const Setup& setup, const Clock& clock, int threads, Population& population, AuditSums& audit);
 
 /// Brakes ships by the ice under their hulls, and moves that ice along its path.
 void pull_of_submerged_ice(const Setup& setup, Population& population, std::vector<ShipLoads>& loads, AuditSums& audit);
@@ -122,7 +127,7 @@ struct Stage {
 };
 
 /// All of them, in their order.
-extern const std::array<Stage, 31> kStages;
+extern const std::array<Stage, 32> kStages;
 
 /// One tick: all stages, once or in each of its parts (levels.hpp).
 void step(World& world);

@@ -26,8 +26,9 @@ void put_under(const SubmergedPiece& piece, World& world) {
 
 World::World(Scene scene, Shortcuts shortcuts, Start start)
     : setup(std::move(scene), shortcuts),
-      clock{.tick = setup.scene.time.step, .step = setup.scene.time.step, .water_drift = setup.scene.water.drift},
+      clock{.tick = setup.scene.time.step, .step = setup.scene.time.step, .water_drift = setup.scene.water.drift_at(0)},
       population(setup) {
+  if (!setup.scene.water.is_steady()) clock.changing = std::make_shared<const WaterSettings>(setup.scene.water);
   accounts.loads.resize(hull_count(setup.scene));
   accounts.panels = panels_of(setup);
   accounts.sailing.resize(setup.scene.ships.size());

@@ -33,12 +33,13 @@ const std::string kSecond = scene(
            square(-502, -2, 3, R"("under_hull_of": "presser", "under_hull_path_m": 4)"),
            R"({"field": {"corner_m": [-700, 400], "extent_m": [200, 150], "floe_size_m": 9, "concentration": 0.83,
        "gap_m": 0.3, "most_corners": 6, "keep_clear_m": [[[-650, 420], [-600, 420], [-650, 440]]], "seed": 3}})"})});
-const std::string kThird = scene(
-    {R"("structures": [{"waterline_m": [[10, 0], [0, 4], [-10, 0], [0, -4]], "position_m": [500, 500], "heading_deg": 10}],
+const std::string kThird =
+    scene({R"("structures": [{"waterline_m": [[10, 0], [0, 4], [-10, 0], [0, -4]], "position_m": [500, 500], )"
+           R"("heading_deg": 10}],
        "wind": {"velocity_m_per_s": [10, 2]},
        "walls": [{"from_m": [-100, -200], "to_m": [300, -200], "velocity_m_per_s": [0, 0.1]},
                  {"from_m": [300, 300], "to_m": [-100, 300], "pressure": {"line_load_N_per_m": 5e4}}])",
-     list("floes", {R"({"field": {"outline_m": [[-10, 0], [200, 0], [120, 90], [5, 150]], "floe_size_m": 9,
+           list("floes", {R"({"field": {"outline_m": [[-10, 0], [200, 0], [120, 90], [5, 150]], "floe_size_m": 9,
        "concentration": 0.83, "gap_m": 0.3, "most_corners": 5}})"})});
 const std::string kFourth = scene({list(
     "ships",
@@ -50,15 +51,19 @@ const std::string kFourth = scene({list(
        "propulsion": {"engine": {"bollard_pull_kN": 900, "open_water_speed_m_per_s": 7}},
        "pilot": {"route": {"waypoints": [{"position_m": [500, 500], "speed_m_per_s": 3},
                                          {"position_m": [900, 400], "speed_m_per_s": 2}]}},
-       "mooring": {"surge_stiffness_N_per_m": 1e5, "break_load_N": 1e6, "position_m": [0, 501], "heading_deg": 1},
-       "calibration": {"load_factor": 1.2})")})});
+       "mooring": {"surge_stiffness_N_per_m": 1e5, "break_load_N": 1e6, "position_m": [0, 501], )"
+         R"("heading_deg": 1}, "calibration": {"load_factor": 1.2})")})});
 
 /// The fields of a law of sizes.
 std::string field_of_law(const std::string& region, const std::string& law) {
   return "{\"field\": {" + region + R"(, "most_corners": 6, "least_corners": 5, "sizes": )" + law + "}}";
 }
 const std::string kFifth = scene(
-    {list("floes", {field_of_law(R"("corner_m": [0, 0], "extent_m": [200, 150], "concentration": 0.6, "gap_m": 0.3,
+    {R"("water": {"drift_table": [{"t_s": 0, "speed_m_per_s": 0.3, "direction_deg": 20},
+                                  {"t_s": 60, "speed_m_per_s": 0.4, "direction_deg": 30}],
+                  "tide": {"period_s": 3600, "major_m_per_s": 0.2, "minor_m_per_s": 0.1, "direction_deg": 5, "phase_deg": 7}},
+       "wind": {"table": [{"t_s": 0, "speed_m_per_s": 9, "direction_deg": 20}]})",
+     list("floes", {field_of_law(R"("corner_m": [0, 0], "extent_m": [200, 150], "concentration": 0.6, "gap_m": 0.3,
                 "aspect": 1.5, "orientation_deg": 20, "packing": 0.8)",
                                  R"({"mean_m": 12, "spread": 0.3})"),
                     field_of_law(R"("corner_m": [300, 0], "extent_m": [300, 300], "concentration": 0.7)",
@@ -72,7 +77,10 @@ std::string fleet() {
   for (const char* pilot :
        {R"("hold_speed": {"speed_m_per_s": 3, "heading_deg": 10})", R"("hold_heading": {"heading_deg": 20})",
         R"("table": {"rows": [{"t_s": 0, "lever": 0.5}, {"t_s": 60, "lever": 1, "steering_deg": 5}]})",
-        R"("ram": {"heading_deg": 3, "back_m": 150})", R"("follow": {"ship": "ship-1", "distance_m": 100})"})
+        R"("ram": {"heading_deg": 3, "back_m": 150})", R"("follow": {"ship": "ship-1", "distance_m": 100})",
+        R"("manage": {"body": "ship-1", "pattern": "racetrack", "distance_m": 5000, "width_m": 700, "depth_m": 300,
+                      "speed_m_per_s": 3, "safety_radius_m": 300})",
+        R"("manage": {"body": "ship-2", "pattern": "linear", "distance_m": 9000, "width_m": 700, "lever": 0.7})"})
     ships.push_back(sailing_ship(fmt::format(
         R"("steering": {{"rudder": {{}}}}, "position_m": [0, {}], "pilot": {{{}}}, "panels": {{"length_m": 2}})",
         500 * ships.size(), pilot)));
@@ -174,11 +182,14 @@ TEST(SceneFields, EveryFieldRoundTripsAndReachesTheScene) {
         return;
       const bool is_under_hull = path == ".fracture.cusp_fate" || path == ".fracture.going_under.enabled" ||
                                  path == ".fracture.resurface.enabled";
-      if (is_under_hull && !has_draught(base.scene)) return;                       // no ice can go under these hulls
-      if (path == ".ships.pilot.follow.ship" || path == ".floes.under_hull_of") {  // it must be a ship's name
+      if (is_under_hull && !has_draught(base.scene)) return;  // no ice can go under these hulls
+      if (path == ".ships.pilot.follow.ship" || path == ".ships.pilot.manage.body" ||
+          path == ".floes.under_hull_of") {  // it must be a ship's name
         seen.insert(path);
         return;
       }
+      // Those have a table in their place.
+      if ((path == ".water.drift_m_per_s" || path == ".wind.velocity_m_per_s") && base_text == kFifth) return;
       if (path == ".contact.law" && base_text == kThird) return;                            // its wall presses
       if (path == ".ships.name" && (base_text == fleet() || base_text == kSecond)) return;  // named elsewhere too
       if (path == ".ships.water.model" && !base.scene.ships[0].water.acts) return;          // it needs a draught

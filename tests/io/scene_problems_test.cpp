@@ -252,6 +252,55 @@ TEST(SceneProblems, OfShipsThatSail) {
   load(route(R"({"position_m": [600, 80], "speed_m_per_s": 3}, {"position_m": [1000, 0], "speed_m_per_s": 3})"));
 }
 
+TEST(SceneProblems, OfShipsThatManageIce) {
+  const auto fleet = [](const std::string& first, const std::string& second = "") {
+    const auto manager = [](int y, const std::string& pilot) {
+      return sailing_ship(fmt::format(R"("position_m": [1500, {}], "steering": {{"rudder": {{}}}},
+        "pilot": {{"manage": {{{}}}}})",
+                                      y, pilot));
+    };
+    std::vector<std::string> ships{manager(0, first)};
+    if (!second.empty()) ships.push_back(manager(300, second));
+    return scene({fmt::format("\"ships\": [{}]", fmt::join(ships, ", ")),
+                  R"("structures": [{"name": "tower", "radius_m": 30}])",
+                  R"("walls": [{"name": "quay", "from_m": [0, -3000], "to_m": [100, -3000]}])"});
+  };
+  const auto pilot = [](const std::string& pattern, const std::string& more, const std::string& body = "tower") {
+    return fmt::format(R"("body": "{}", "pattern": "{}", "distance_m": 1500, "safety_radius_m": 200, {})", body,
+                       pattern, more);
+  };
+  const std::string wide = R"("width_m": 800)", at = "ships[0].pilot.manage", phase = R"(, "phase": 0.5)";
+  expect_problems(
+      {{fleet(pilot("linear", wide, "Fram")), at + ".body", "Fram"},
+       {fleet(pilot("linear", wide, "quay")), at + ".body", "a structure"},
+       {fleet(pilot("linear", wide, "ship-1")), at + ".body", "another ship"},
+       {fleet(pilot("zigzag", wide)), at + ".pattern", "linear"},
+       {fleet(pilot("linear", wide + R"(, "speed_m_per_s": 3, "lever": 0.5)")), at + ".lever", "one of the two"},
+       {fleet(pilot("racetrack", wide + R"(, "depth_m": 900)")), at + ".depth_m", "the racetrack's width, 800"},
+       {fleet(pilot("sector", R"("width_m": 5000)")), at + ".width_m", "half a circle about the body, 4712"},
+       {fleet(pilot("circular", R"("width_m": 2800)")), at + ".distance_m", "100 m from tower"},
+       {fleet(pilot("linear", wide), pilot("linear", wide + phase)), at + ".phase", "0 m from ship-2", 2},
+       {fleet(pilot("racetrack", wide), pilot("racetrack", wide)), at + ".phase", "0 m from ship-2", 2}});
+  load(fleet(pilot("circular", wide), pilot("circular", wide + phase)));
+  load(fleet(pilot("linear", wide), pilot("linear", R"("width_m": 500)")));
+}
+
+TEST(SceneProblems, OfFlowsOverTime) {
+  const auto rows = [](int second) {
+    return fmt::format(R"([{{"t_s": 0, "speed_m_per_s": 0.3, "direction_deg": 0}},
+      {{"t_s": {}, "speed_m_per_s": 0.3, "direction_deg": 90}}])",
+                       second);
+  };
+  const auto with = [](const std::string& members) { return scene({list("ships", {ship("")}), members}); };
+  expect_problems(
+      {{with(R"("water": {"drift_table": )" + rows(0) + "}"), "water.drift_table[1].t_s",
+        "after that of the row before"},
+       {with(R"("wind": {"table": )" + rows(-1) + "}"), "wind.table[1].t_s", "after that of the row before"},
+       {with(R"("water": {"drift_m_per_s": [0.1, 0], "drift_table": )" + rows(60) + "}"), "water.drift_m_per_s",
+        "one of the two"}});
+  load(with(R"("water": {"drift_table": )" + rows(60) + R"(}, "wind": {"table": )" + rows(60) + "}"));
+}
+
 TEST(SceneProblems, OfIceUnderHulls) {
   const auto under = [](const std::string& hull, const std::string& fracture) {
     return scene({list("ships", {ship(R"("hull": {)" + hull + "}")}), "\"fracture\": {" + fracture + "}"});

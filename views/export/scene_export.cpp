@@ -56,7 +56,7 @@ void add_hull(const io::Run& run, const io::MotionIndex& motions, double time, s
     const auto motion = motions.ship_at(ship, at);
     if (!motion) return 0.0;
     const geometry::Vector current =
-        water.drift + simulation::current_of(water.shear).velocity_at(motion->position - at * water.drift);
+        water.drift_at(at) + simulation::current_of(water.shear).velocity_at(motion->position - water.drift_path(at));
     return dot(motion->velocity - current, {std::cos(motion->angle), std::sin(motion->angle)});
   };
   state.under_hull_of = run.scene.scene.ships.at(ship).name;
@@ -158,6 +158,7 @@ void note_memory(const JsonValue& ship, std::vector<std::string>& left_out) {
   };
   const JsonValue* pilot = ship.find("pilot");
   if (pilot && pilot->find("route")) note("its route begins again; take out the waypoints that lie behind");
+  if (pilot && pilot->find("manage")) note("it goes to where its pattern begins");
   if (pilot && pilot->find("ram")) note("its ramming begins with a charge");
   if (ship.find("steering")) note("its rudder or thrusters start amidships");
 }
@@ -200,9 +201,17 @@ void restart_clock(JsonValue& scene, const simulation::Scene& before, double tim
   const double left = before.time.until - time;
   if (clock && left >= before.time.step) clock->set("until_s", left);
   JsonValue* water = scene.find("water");
+  const auto shift = [&](JsonValue* rows) {
+    for (JsonValue& row : rows ? rows->items() : JsonValue::Array{}) row.set("t_s", row.find("t_s")->number() - time);
+  };
+  shift(water ? water->find("drift_table") : nullptr);
+  shift(scene.find("wind") ? scene.find("wind")->find("table") : nullptr);
+  if (JsonValue* tide = water ? water->find("tide") : nullptr)
+    tide->set("phase_deg",
+              std::remainder(tide->find("phase_deg")->number() + 360 * time / before.water.tide->period, 360));
   JsonValue* shear = water ? water->find("shear") : nullptr;
   if (!shear || before.water.shear.rate == 0) return;
-  const geometry::Point origin = before.water.shear.origin + time * before.water.drift;
+  const geometry::Point origin = before.water.shear.origin + before.water.drift_path(time);
   shear->set("origin_m", pair_of(origin.x, origin.y));
 }
 

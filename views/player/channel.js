@@ -1,12 +1,23 @@
 // The channel behind each ship (docs/channel.md): what analysis/channel.cpp measured of it, and what its hull swept,
 // both carried with the water to the instant that is shown.
 
+/** Of the drift at a time: how far it took the water, x and y, and the free drift of ice. */
+function driftAt(samples, time) {
+  const after = samples.findIndex(([t]) => t > time);
+  const k = Math.max(1, after < 0 ? samples.length - 1 : after);
+  const [from, to] = [samples[k - 1], samples[k]];
+  const share = (time - from[0]) / (to[0] - from[0]);
+  return [1, 2, 3, 4].map((column) => from[column] + share * (to[column] - from[column]));
+}
+
 /** Where a point of the water at (x, y) at one time is at another. */
-function makeCarrier({ drift_m_per_s: [ux, uy], shear_per_s: shear, shear_direction_rad: direction, shear_origin_m: [ox, oy] }) {
+function makeCarrier({ drift, shear_per_s: shear, shear_direction_rad: direction, shear_origin_m: [ox, oy] }) {
   const [cx, cy] = [Math.cos(direction), Math.sin(direction)];
   return (x, y, from, to) => {
-    const toPort = cx * (y - oy - from * uy) - cy * (x - ox - from * ux);
-    return [x + (to - from) * (ux + shear * toPort * cx), y + (to - from) * (uy + shear * toPort * cy)];
+    const [px, py] = driftAt(drift, from);
+    const [qx, qy] = driftAt(drift, to);
+    const toPort = cx * (y - oy - py) - cy * (x - ox - px);
+    return [x + qx - px + (to - from) * shear * toPort * cx, y + qy - py + (to - from) * shear * toPort * cy];
   };
 }
 
@@ -24,13 +35,15 @@ function hasGone(run, motions, ship, carry) {
 function posesUpTo(run, motions, ship, time) {
   const { times } = run.frames;
   const poses = [];
-  for (let f = 0; f < times.length && times[f] < time; ++f) poses.push([...motions.shipInFrame(ship, f).subarray(0, 3), times[f]]);
+  for (let f = 0; f < times.length && times[f] < time; ++f) poses.push([...motions.shipInFrame(ship, f).subarray(0, 3),
+    times[f]]);
   const now = motions.ship(ship);
   if (now) poses.push([...now.subarray(0, 3), time]);
   return poses;
 }
 
-/** Poses so near each other in the water that outlines overlap: some between those far apart, none where it hardly moves. */
+/** Poses so near each other in the water that outlines overlap: some between those far apart, none where it hardly
+ * moves. */
 function evenly(poses, spacing, carry, time) {
   const placed = ([x, y, , at]) => carry(x, y, at, time);
   const even = [];
@@ -52,7 +65,8 @@ function drawSweptBand(context, view, run, motions, time, colours) {
   context.fillStyle = colours.swept;
   run.info.ships.forEach((ship, index) => {
     const xs = ship.waterline_m.map(([x]) => x);
-    const poses = evenly(posesUpTo(run, motions, index, time), (Math.max(...xs) - Math.min(...xs)) / 8, run.carry, time);
+    const poses = evenly(posesUpTo(run, motions, index, time), (Math.max(...xs) - Math.min(...xs)) / 8, run.carry,
+      time);
     poses.forEach(([x, y, heading, at], k) => {
       if (k % 16 === 0) context.beginPath();
       const [c, s] = [Math.cos(heading), Math.sin(heading)];
@@ -67,7 +81,8 @@ function drawSweptBand(context, view, run, motions, time, colours) {
   });
 }
 
-/** The stations of a ship's channel with ice on both sides, as `polynya channel --at` measured them last, carried with the water to now. */
+/** The stations of a ship's channel with ice on both sides, as `polynya channel --at` measured them last, carried with
+ * the water to now. */
 function stationsOf(run, ship, time) {
   const { columns: c, info } = run;
   const measured = c.channel_measured_s[lastAtMost(c.channel_measured_s, time)];

@@ -12,6 +12,7 @@
 #include "io/run/records.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/version.hpp"
+#include "simulation/ship/pattern.hpp"
 
 namespace polynya::views {
 
@@ -153,10 +154,41 @@ void write_ships(io::JsonWriter& json, const simulation::Scene& scene) {
   json.close(']');
 }
 
-void write_water(io::JsonWriter& json, const simulation::WaterSettings& water) {
-  json.key("water").open('{').key("drift_m_per_s").value(geometry::Point{water.drift.x, water.drift.y});
-  json.key("shear_per_s").value(water.shear.rate).key("shear_direction_rad").value(water.shear.direction);
-  json.key("shear_origin_m").value(water.shear.origin).close('}');
+/// The drift of the water over time: t, x and y of its path, and the free drift of ice.
+void write_drift(io::JsonWriter& json, const simulation::Scene& scene) {
+  constexpr int kSamples = 400;
+  const int samples = scene.water.is_steady() && scene.wind.rows.empty() ? 1 : kSamples;
+  json.key("drift").open('[');
+  for (int i = 0; i <= samples; ++i) {
+    const double time = scene.time.until * i / samples;
+    const geometry::Vector path = scene.water.drift_path(time), ice = simulation::free_drift(scene, time);
+    json.open('[').value(time).value(path.x).value(path.y).value(ice.x).value(ice.y).close(']');
+  }
+  json.close(']');
+}
+
+/// The lines of ships that manage ice, about the protected body: x upstream.
+void write_patterns(io::JsonWriter& json, const simulation::Scene& scene) {
+  json.key("patterns").open('[');
+  for (const simulation::Ship& ship : scene.ships) {
+    const auto* pilot = std::get_if<simulation::ManagingPilot>(&ship.pilot);
+    if (!pilot) continue;
+    json.open('{').key("body").value(pilot->body_index).key("line_m").value(line_of(*pilot).corners).close('}');
+  }
+  json.close(']');
+}
+
+void write_water(io::JsonWriter& json, const simulation::Scene& scene) {
+  const simulation::WaterSettings& water = scene.water;
+  json.key("water")
+      .open('{')
+      .key("shear_per_s")
+      .value(water.shear.rate)
+      .key("shear_direction_rad")
+      .value(water.shear.direction);
+  json.key("shear_origin_m").value(water.shear.origin);
+  write_drift(json, scene);
+  json.close('}');
 }
 
 void write_summary(io::JsonWriter& json, const io::Run& run) {
@@ -199,7 +231,8 @@ std::string info_of(const io::Run& run, const PlayerData& data, const PlayerSele
   write_levels(json, run);
   write_ships(json, scene);
   write_events(json, run, held);
-  write_water(json, scene.water);
+  write_water(json, scene);
+  write_patterns(json, scene);
   write_force_columns(json, scene);
   write_force_causes(json, scene);
   json.key("columns").open('[');

@@ -53,7 +53,7 @@ std::string scene_plan(const io::LoadedScene& scene, const std::string& stamp, c
   std::string text;
   io::JsonWriter json(text);
   json.open('{').key("plan").open('{').key("stamp").value(stamp).key("stamp_file").value(stamp_file);
-  const geometry::Vector wind = scene.scene.wind.velocity;
+  const geometry::Vector wind = scene.scene.wind.velocity_at(0);
   json.key("wind_m_per_s").value(Point{wind.x, wind.y});
   write_routes(json, scene.scene);
   json.key("problems").open('[');

@@ -140,7 +140,8 @@ def main():
     print_table(rows, words)
     for point in reported:
         print(
-            f"design point, at least: {point['thickness_m']:g} m at {point['speed_m_per_s']:.2f} m/s ({point['speed_m_per_s'] / KNOT:.1f} kn), {point['source']}"
+            f"design point, at least: {point['thickness_m']:g} m at {point['speed_m_per_s']:.2f} m/s "
+            f"({point['speed_m_per_s'] / KNOT:.1f} kn), {point['source']}"
         )
     table = os.path.join(folder, "performance.csv")
     with open(table, "w", encoding="utf-8", newline="") as file:

@@ -28,7 +28,8 @@ KEYS = (
     "archive",
     "report",
 )
-COLLECT_KEYS = ("ship", "from_s", "loads", "quantiles", "stop_speed_m_per_s", "channel", "time_to")
+COLLECT_KEYS = ("ship", "from_s", "loads", "quantiles", "stop_speed_m_per_s", "channel", "time_to", "management")
+MANAGEMENT_KEYS = ("body", "upstream_m", "near_m", "width_m", "size_m", "from_s")
 TARGETS = ({"x_m"}, {"y_m"}, {"distance_m"}, {"point_m", "within_m"})  # of collect.time_to
 REPORT_KEYS = ("against", "means", "exceedance", "group_by", "map", "channels")
 
@@ -233,6 +234,12 @@ class Reader:
         if not all(draws.is_number(q) and 0 < q < 1 for q in quantiles):
             self.report(["collect", "quantiles"], "found what is no probability, allowed: numbers between 0 and 1")
         self.member(collect, "channel", bool, False, ["collect"])
+        management = self.member(collect, "management", dict, {}, ["collect"])
+        self.unknown_keys(management, MANAGEMENT_KEYS, ["collect", "management"])
+        for key in [key for key in management if key in MANAGEMENT_KEYS and key != "body"]:
+            if not draws.is_number(management[key]) or management[key] < 0:
+                self.report(["collect", "management", key], f"found {shown(management[key])}, allowed: a number ≥ 0")
+        self.member(management, "body", str, "", ["collect", "management"])
         self.member(collect, "ship", str, "", ["collect"])
         for name, target in self.member(collect, "time_to", dict, {}, ["collect"]).items():
             self.time_to(name, target, ["collect", "time_to", name])
@@ -274,7 +281,8 @@ class Reader:
         if len(set(lengths.values())) > 1:
             self.report(
                 ["paired"],
-                f"found lists of {', '.join(f'{n} ({path})' for path, n in lengths.items())}, allowed: lists of one length",
+                f"found lists of {', '.join(f'{n} ({path})' for path, n in lengths.items())}, allowed: lists of one "
+                f"length",
             )
         if definition.draw and "count" not in self.source.value["draw"]:
             self.report(["draw"], "found no count, allowed: how many draws")
@@ -282,7 +290,8 @@ class Reader:
         if not repeats_by_seed(definition) and definition.repetitions > 1:
             self.report(
                 ["repetitions"],
-                f"found {definition.repetitions} where the study sets \"seed\" itself, allowed: 1; repetitions would be copies",
+                f"found {definition.repetitions} where the study sets \"seed\" itself, allowed: 1; repetitions would "
+                f"be copies",
             )
 
     def check_paths(self, definition):

@@ -34,6 +34,10 @@ def measure(run, collect, program):
         found["outcome"] = outcome(found, ships[ship], collect)
     if collect.get("channel"):
         found["channel_width_m"] = channel_width(run, ship, program)
+    if collect.get("management") is not None:
+        from ..management import of_folder  # needs numpy
+
+        found.update(of_folder(run, collect["management"]))
     found["warnings"] = len(summary["warnings"])
     if any(warning.startswith("calibrated") for warning in summary["warnings"]):
         found[CALIBRATED] = 1

@@ -1,0 +1,189 @@
+"""Ice through gates: lines across the drift, at distances upstream of a protected body."""
+from __future__ import annotations
+
+import dataclasses
+from typing import Optional
+
+import numpy
+
+from ..errors import InputError
+from .drift import free_drift
+
+LEAST_DRIFT = 0.02  # [m/s]; slower ice has no upstream of its own, as for pilots
+BINS = 40  # of a gate's width
+
+
+@dataclasses.dataclass(frozen=True)
+class Gates:
+    """Where is looked, and what counts as large."""
+
+    body: str
+    upstream: float  # distance of the gate before management [m]
+    near: float  # of that just before the body [m]
+    width: float  # of both, across the drift [m]
+    size: float  # √area of the least floe that counts as a hit, and is not managed [m]
+    start: float = 0.0  # nothing before it is counted [s]
+
+
+@dataclasses.dataclass
+class Passage:
+    """The floes that passed a gate, in the order of their ids."""
+
+    floes: numpy.ndarray
+    times: numpy.ndarray  # [s]
+    across: numpy.ndarray  # where, to port of upstream [m]
+    areas: numpy.ndarray  # [m²]
+    swept: float  # of the gate by the drift from the first floe to the last [m²]
+
+    @property
+    def sizes(self):
+        """√area [m]."""
+        return numpy.sqrt(self.areas)
+
+    @property
+    def cover(self):
+        return float(self.areas.sum() / self.swept) if self.swept > 0 else None
+
+    @property
+    def mean_size(self):
+        """Mean √area of the ice: by area [m]."""
+        return float((self.sizes * self.areas).sum() / self.areas.sum()) if len(self.areas) else None
+
+
+def managing(scene):
+    """The pilots that manage ice, by ship."""
+    pilots = {ship["name"]: (ship.get("pilot") or {}).get("manage") for ship in scene["ships"]}
+    return {name: pilot for name, pilot in pilots.items() if pilot}
+
+
+def protected_body(scene):
+    """The body that pilots protect; without one the first moored ship, or the first structure."""
+    pilots = managing(scene)
+    if pilots:
+        return next(iter(pilots.values()))["body"]
+    moored = [ship["name"] for ship in scene["ships"] if ship.get("mooring")]
+    standing = [structure["name"] for structure in scene["structures"]]
+    if not moored and not standing:
+        raise InputError("nothing is protected: no pilot manages ice, no ship is moored and no structure stands; --body names one")
+    return (moored + standing)[0]
+
+
+def reach(waterline):
+    """From the frame's origin to the waterline's farthest point [m]."""
+    return float(numpy.hypot(*waterline.T).max())
+
+
+def gates_of(run, given):
+    """The gates of a run: what is given ({"body": …, "upstream_m": …}), else by the patterns of its pilots."""
+    scene = run.scene
+    body = given.get("body") or protected_body(scene)
+    if body not in run.waterlines:
+        raise InputError(f'the run has no ship or structure "{body}"; allowed: {", ".join(run.waterlines)}')
+    patterns = managing(scene).values()
+    radius = reach(run.waterlines[body])
+    far = [pilot["distance_m"] + 0.5 * depth_of(pilot) for pilot in patterns]
+    upstream, width = given.get("upstream_m"), given.get("width_m")
+    if not patterns and (upstream is None or width is None):
+        raise InputError("no ship of the run manages ice: where the gates are has to be given: --upstream and --width")
+    gates = Gates(
+        body=body,
+        upstream=upstream if upstream is not None else max(far) + radius,
+        near=given.get("near_m", 1.5 * radius),
+        width=width if width is not None else max(pilot["width_m"] for pilot in patterns),
+        size=given.get("size_m", 20.0),
+        start=given.get("from_s", 0.0),
+    )
+    if gates.near >= gates.upstream:
+        raise InputError(f"the gate at the body, {gates.near:g} m, is not nearer than the one upstream, {gates.upstream:g} m")
+    return gates
+
+
+def depth_of(pilot):
+    """Of a pattern [m], as io/scene/ship_completion.cpp completes it."""
+    share = {"circular": 1, "largest_floe": 1, "racetrack": 0.25}.get(pilot["pattern"], 0)
+    return pilot.get("depth_m") or share * pilot["width_m"]
+
+
+def axes_over_time(run):
+    """At every frame the unit vector upstream, and how far the drift goes until the next one [m]."""
+    upstream, ways = [], []
+    last = numpy.array([1.0, 0.0])
+    times = run.times
+    for time, following in zip(times, [*times[1:], times[-1]]):
+        drift = free_drift(run.scene, 0.5 * (time + following))
+        speed = float(numpy.hypot(*drift))
+        last = -drift / speed if speed >= LEAST_DRIFT else last
+        upstream.append(last)
+        ways.append(speed * (following - time))
+    return numpy.array(upstream), numpy.array(ways)
+
+
+def places_over_time(run, body):
+    """For every frame: ids of the floes that float, and where they are against the drift from the body, x upstream
+    and y to port of that [m]."""
+    number = run.ship_names.index(body)
+    upstream, _ = axes_over_time(run)
+    births = run.births
+    for time, axis in zip(run.times, upstream):
+        ids = numpy.flatnonzero((births["born_s"] <= time) & (time < births["died_s"]) & (time < births["went_under_s"]))
+        moved = run.motions.ships_at(time)
+        origin = (moved if len(moved) else run.first_motions)[number, :2]
+        off = run.motions.floes_at(ids, time)[:, :2] - origin
+        yield ids, numpy.column_stack((off @ axis, axis[0] * off[:, 1] - axis[1] * off[:, 0]))
+
+
+def passages(run, gates):
+    """What passed the gate upstream and the one at the body. A floe passes once, by its centre; of one that breaks
+    after that, no piece does."""
+    count = len(run.births["floe_id"])
+    parents = run.births["parent_id"]
+    lines = (gates.upstream, gates.near)
+    before = numpy.full((count, 2), numpy.nan)
+    has_passed = numpy.zeros((2, count), dtype=bool)
+    found: list = [[], []]
+    _, ways = axes_over_time(run)
+    for k, (ids, places) in enumerate(places_over_time(run, gates.body)):
+        for floe in ids[numpy.isnan(before[ids, 0])].tolist():  # new ones come from where their ancestor was
+            ancestor = int(parents[floe])
+            while ancestor >= 0 and numpy.isnan(before[ancestor, 0]):
+                ancestor = int(parents[ancestor])
+            if ancestor >= 0:
+                before[floe] = before[ancestor]
+                has_passed[:, floe] = has_passed[:, ancestor]
+        for line, distance in enumerate(lines):
+            crosses = (before[ids, 0] > distance) & (places[:, 0] <= distance) & ~has_passed[line, ids]
+            has_passed[line, ids[crosses]] = True
+            for i in numpy.flatnonzero(crosses):
+                share = (before[ids[i], 0] - distance) / (before[ids[i], 0] - places[i, 0])
+                y = before[ids[i], 1] + share * (places[i, 1] - before[ids[i], 1])
+                if abs(y) <= 0.5 * gates.width and run.times[k] > gates.start:
+                    found[line].append((int(ids[i]), float(run.times[k]), float(y)))
+        before[ids] = places
+    return [passage_of(run, of, ways, gates) for of in found]
+
+
+def passage_of(run, rows, ways, gates):
+    rows = sorted(rows)
+    times = [row[1] for row in rows]
+    counted = (run.times >= min(times)) & (run.times < max(times)) if rows else ways < 0
+    swept = float(ways[counted].sum()) * gates.width
+    floes = numpy.array([row[0] for row in rows], dtype=int)
+    return Passage(floes, numpy.array([row[1] for row in rows]), numpy.array([row[2] for row in rows]), run.births["area_m2"][floes], swept)
+
+
+def managed_width(passage: Passage, gates) -> float:
+    """Of the stretch about the body in which no floe of the size passed the gate [m]: a floe takes √area across."""
+    edges = numpy.linspace(-0.5 * gates.width, 0.5 * gates.width, BINS + 1)
+    is_free = numpy.ones(BINS, dtype=bool)
+    for y, size in zip(passage.across, passage.sizes):
+        if size >= gates.size:
+            is_free &= (edges[1:] < y - 0.5 * size) | (edges[:-1] > y + 0.5 * size)
+    high = next((k for k in range(BINS // 2, BINS) if not is_free[k]), BINS)
+    low = next((k for k in range(BINS // 2 - 1, -1, -1) if not is_free[k]), -1)
+    return float(edges[high] - edges[low + 1])
+
+
+def distribution(passage: Passage, edges: Optional[numpy.ndarray] = None):
+    """How many floes, and how much ice [m²], is of each size between edges [m]."""
+    edges = numpy.geomspace(1, 1000, 31) if edges is None else edges
+    return edges, numpy.histogram(passage.sizes, edges)[0], numpy.histogram(passage.sizes, edges, weights=passage.areas)[0]

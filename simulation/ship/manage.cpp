@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/ship/holding.hpp"
+#include "simulation/ship/pattern.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using geometry::Point;
+using geometry::Vector;
+
+constexpr double kLookAhead = 1.5;      ///< on the pattern, of the ship's length [-]
+constexpr double kTurnBefore = 0.5;     ///< from a sharp corner the ship turns, of its length [-]
+constexpr double kLeastDrift = 0.02;    ///< slower ice has no upstream of its own [m/s]
+constexpr double kSlowest = 0.5;        ///< to which a ship waits for others of its pattern, of its speed [-]
+constexpr double kFastest = 1.3;        ///< likewise, to catch up [-]
+constexpr double kPhaseGain = 4;        ///< of the speed by the phase's error in laps [-]
+constexpr double kLeastWayThrough = 1;  ///< a ship by the lever is taken to go at least so fast [m/s]
+constexpr double kHorizon = 120;        ///< within which a ship gives way [s]
+constexpr double kChoiceInterval = 10;  ///< between two looks at the floes [s]
+constexpr double kStationTime = 60;     ///< of closing the way to its station where there is no floe [s]
+
+/// Where the protected body and the pattern are at an instant.
+struct Frame {
+  Point body;       ///< over ground [m]
+  Vector upstream;  ///< of length 1
+  Vector velocity;  ///< of the frame in which the pattern lies, over ground [m/s]
+  Vector water;     ///< at the ship, over ground [m/s]
+  Vector in_pattern(Vector v) const { return {dot(v, upstream), cross(upstream, v)}; }
+  Vector over_ground(Vector v) const { return v.x * upstream + v.y * perpendicular(upstream); }
+};
+
+Frame frame_of(const ManagingPilot& pilot, const PilotView& view, PatternMemory& memory) {
+  if (length(view.ice_drift) >= kLeastDrift) memory.upstream = angle_of(-view.ice_drift);
+  const SeenShip& body = view.ships[static_cast<std::size_t>(pilot.body_index)];
+  Frame frame;
+  frame.body = body.position_in_world + memory.carried;
+  frame.upstream = unit(memory.upstream);
+  frame.velocity = pilot.drifts_with_ice ? view.ice_drift : body.velocity;
+  const Vector ahead = unit(view.own().heading);
+  frame.water = view.own().velocity - view.through_water.surge * ahead - view.through_water.sway * perpendicular(ahead);
+  return frame;
+}
+
+/// Its place on the lap goes on to where the ship is on its leg, and to the next leg near the end.
+void go_on(const PatternLine& line, Point ship, double own_length, double& place) {
+  for (std::size_t legs = 0; legs < line.corners.size(); ++legs) {
+    const std::size_t leg = line.leg_at(place);
+    const double length = line.way[leg + 1] - line.way[leg];
+    const double along = dot(ship - line.corners[leg], line.direction(leg));
+    const double before = line.is_sharp_after(leg) ? std::min(kTurnBefore * own_length, 0.5 * length) : 0;
+    if (along < length - before) {
+      place = std::max(place, line.way[leg] + along);
+      return;
+    }
+    place = leg + 1 < line.corners.size() ? line.way[leg + 1] : 0;
+    if (place == 0) return;
+  }
+}
+
+/// The point ahead on the line to which the ship steers: straight on beyond a sharp corner.
+Point point_ahead(const PatternLine& line, double place, double ahead) {
+  std::size_t leg = line.leg_at(place);
+  double left = line.way[leg + 1] - place;
+  while (ahead > left && !line.is_sharp_after(leg)) {
+    ahead -= left;
+    leg = line.next(leg);
+    left = line.way[leg + 1] - line.way[leg];
+  }
+  return line.corners[line.next(leg)] + (ahead - left) * line.direction(leg);
+}
+
+/// How fast to go beside the ships that share the pattern, each of which has its phase.
+double pace(const ManagingPilot& pilot, const PilotView& view, double own_place) {
+  double error = 0;
+  for (const PatternPartner& partner : pilot.partners) {
+    const double place = view.ships[static_cast<std::size_t>(partner.ship)].lap_share - partner.phase;
+    error += std::remainder(place - (own_place - pilot.phase), 1.0);
+  }
+  if (!pilot.partners.empty()) error /= static_cast<double>(pilot.partners.size());
+  return std::clamp(1 + kPhaseGain * error, kSlowest, kFastest);
+}
+
+/// Velocity over ground along a direction in the pattern's frame: at a speed there, or by the lever's speed
+/// through the water.
+Vector along(Vector direction, double share, const ManagingPilot& pilot, const PilotView& view, const Frame& frame) {
+  if (pilot.speed > 0) return frame.velocity + share * pilot.speed * direction;
+  const double through = std::max(view.through_water.surge, kLeastWayThrough);
+  const Vector against = frame.water - frame.velocity;
+  const double across = std::clamp(cross(direction, against), -through, through);
+  return frame.velocity + (dot(against, direction) + std::sqrt(through * through - across * across)) * direction;
+}
+
+Vector on_pattern(const ManagingPilot& pilot, const PilotView& view, Frame& frame, PatternMemory& memory) {
+  const PatternLine line = line_of(pilot);
+  if (memory.lap_share < 0) memory.lap_share = pilot.phase;
+  const auto ship = [&] { return Point{} + frame.in_pattern(view.own().position_in_world - frame.body); };
+  double place = memory.lap_share * line.lap();
+  go_on(line, ship(), view.own().length, place);
+  const double share = place / line.lap();
+  const bool is_new_lap = share - memory.lap_share < -0.5;
+  memory.lap_share = share;
+  if (pilot.drifts_with_ice) {
+    if (is_new_lap) {
+      frame.body = frame.body - memory.carried;
+      memory.carried = {};
+    }
+    memory.carried += view.step * view.ice_drift;
+  }
+  const Vector way = point_ahead(line, place, kLookAhead * view.own().length) - ship();
+  return along(frame.over_ground(way / std::max(length(way), 1e-9)), pace(pilot, view, share), pilot, view, frame);
+}
+
+/// Whether another ship is on its way to a floe.
+bool is_taken(const PilotView& view, std::int64_t floe) {
+  for (std::size_t i = 0; i < view.ships.size(); ++i)
+    if (static_cast<int>(i) != view.ship && view.ships[i].target_floe == floe) return true;
+  return false;
+}
+
+/// The largest floe within the pattern's box that no other ship goes to; the one at hand stays until it is
+/// broken, reached or past.
+void choose_floe(const ManagingPilot& pilot, const PilotView& view, const Frame& frame, PatternMemory& memory) {
+  const std::int64_t before = memory.target;
+  const bool is_reached = length(memory.target_at - view.own().position_in_world) < kTurnBefore * view.own().length;
+  memory.target = kNoTarget;
+  double largest = 0;
+  for (const SeenFloe& floe : view.floes()) {
+    const Vector place = frame.in_pattern(floe.position_in_world - frame.body);
+    const bool is_ahead = std::abs(place.x - pilot.distance) <= 0.5 * pilot.depth;
+    const double half_floe = 0.5 * std::sqrt(floe.area);
+    if (!is_ahead || std::abs(place.y) > 0.5 * pilot.width + half_floe || floe.area < pilot.least_floe) continue;
+    if (floe.floe == before ? is_reached : is_taken(view, floe.floe)) continue;
+    if (floe.floe != before && floe.area <= largest) continue;
+    memory.target = floe.floe;
+    memory.target_at = floe.position_in_world;
+    largest = floe.area;
+    if (floe.floe == before) return;
+  }
+}
+
+Vector to_largest_floe(const ManagingPilot& pilot, const PilotView& view, const Frame& frame, PatternMemory& memory) {
+  memory.target_at += view.step * view.ice_drift;
+  if (view.time >= memory.next_choice && view.floes) {
+    choose_floe(pilot, view, frame, memory);
+    memory.next_choice = view.time + kChoiceInterval;
+  }
+  const bool is_waiting = memory.target == kNoTarget;
+  const Point station = frame.body + pilot.distance * frame.upstream;
+  const Vector way = (is_waiting ? station : memory.target_at) - view.own().position_in_world;
+  const double far = length(way);
+  const double speed = pilot.speed > 0 ? pilot.speed : std::max(view.through_water.surge, kLeastWayThrough);
+  const double share = is_waiting ? std::min(1.0, far / (kStationTime * speed)) : 1;
+  return along(way / std::max(far, 1e-9), share, pilot, view, frame);
+}
+
+/// Turns a velocity so that it passes another hull at a distance at least: a ship with that to port, as both
+/// do; what stands to the side to which it passes already. Within that distance, away from it.
+Vector clear_of(const SeenShip& other, bool stands, double distance, const PilotView& view, Vector velocity) {
+  const Vector to_other = other.position_in_world - view.own().position_in_world;
+  const double far = length(to_other);
+  const Vector towards = to_other / std::max(far, 1e-9);
+  const Vector relative = velocity - other.velocity;
+  const double closing = dot(relative, towards);
+  const double speed = length(relative);
+  if (far <= distance) return velocity + (std::max(closing, 0.0) + 0.5 * speed) * -towards;
+  if (closing <= 0 || far > distance + kHorizon * speed) return velocity;
+  const double passes = std::asin(std::min(1.0, distance / far));
+  const double off = std::atan2(cross(towards, relative), closing);
+  if (std::abs(off) >= passes) return velocity;
+  const double side = stands && off > 0 ? 1 : -1;
+  return other.velocity + speed * unit(angle_of(towards) + side * passes);
+}
+
+Vector clear_of_all(const ManagingPilot& pilot, const PilotView& view, Vector velocity) {
+  const auto distance_to = [&](const SeenShip& other) {
+    return pilot.safety_radius > 0 ? pilot.safety_radius : view.own().length + other.length;
+  };
+  for (std::size_t i = 0; i < view.ships.size(); ++i) {
+    const bool is_other = static_cast<int>(i) != view.ship && static_cast<int>(i) != pilot.body_index;
+    if (is_other && !view.ships[i].is_wall)
+      velocity = clear_of(view.ships[i], view.ships[i].is_fixed, distance_to(view.ships[i]), view, velocity);
+  }
+  const SeenShip& body = view.ships[static_cast<std::size_t>(pilot.body_index)];
+  return clear_of(body, true, distance_to(body), view, velocity);
+}
+
+}  // namespace
+
+Command steer(const ManagingPilot& pilot, const PilotView& view, PilotMemory& memory) {
+  Frame frame = frame_of(pilot, view, memory.pattern);
+  const bool is_on_line = pilot.pattern != ManagementPattern::kLargestFloe;
+  Vector velocity =
+      is_on_line ? on_pattern(pilot, view, frame, memory.pattern) : to_largest_floe(pilot, view, frame, memory.pattern);
+  velocity = clear_of_all(pilot, view, velocity);
+  const Vector through_water = velocity - frame.water;
+  const double lever = pilot.speed > 0 ? lever_to_hold(length(through_water), view, memory) : pilot.lever;
+  return {lever, steering_to_hold(angle_of(through_water), view)};
+}
+
+}  // namespace polynya::simulation

@@ -1,0 +1,194 @@
+"""What ice management is said to have done: gates pass what was put in, and each number is that of its definition."""
+import dataclasses
+import json
+import math
+import os
+import pathlib
+import subprocess
+
+import numpy
+import pytest
+
+import polynya
+from polynya.errors import InputError
+from polynya.management import measures, study
+from polynya.management.drift import by_rows, free_drift, tide
+from polynya.management.gates import Gates, Passage, gates_of, managed_width, passages
+
+PROGRAM = os.environ["POLYNYA_PROGRAM"]
+RIG = {"name": "rig", "radius_m": 10}
+DRIFTING = {
+    "time": {"step_s": 0.1, "until_s": 270}, "water": {"drift_m_per_s": [-1, 0]}, "structures": [RIG],
+    "record": {"forces_interval_s": 1, "frames_interval_s": 2},
+    "floes": [{"field": {"corner_m": [330, -150], "extent_m": [80, 300], "concentration": 0.6, "sizes": {"mean_m": 9, "spread": 0.4}}}],
+}
+GATES = {"upstream_m": 320, "near_m": 145, "width_m": 320}
+
+
+def run_of(home, name, scene):
+    (home / f"{name}.json").write_text(json.dumps({"name": name, **scene}))
+    subprocess.run([PROGRAM, "run", f"{name}.json", "--out", name, "--no-map"], cwd=home, check=True, capture_output=True)
+    return polynya.Run(home / name, pandas=False)
+
+
+@pytest.fixture(scope="module")
+def home(tmp_path_factory):
+    return tmp_path_factory.mktemp("management")
+
+
+@pytest.fixture(scope="module")
+def drifting(home):
+    return run_of(home, "drifting", DRIFTING)
+
+
+@pytest.fixture(scope="module")
+def hit(home):
+    """One floe drifts onto a rig, a larger one past it."""
+    floes = [{"rectangle": {"corner_m": [40, -15], "size_m": 30}}, {"rectangle": {"corner_m": [40, 60], "size_m": 40}}]
+    return run_of(home, "hit", {**DRIFTING, "time": {"step_s": 0.05, "until_s": 60}, "floes": floes})
+
+
+def test_where_nobody_breaks_gates_pass_what_was_put_in(drifting):
+    areas = numpy.sort(drifting.births["area_m2"])
+    for passage in passages(drifting, gates_of(drifting, GATES)):
+        assert numpy.array_equal(numpy.sort(passage.areas), areas)
+        assert numpy.all(numpy.abs(passage.across) < 150)
+    # Through half of the width goes half of it, to counting error.
+    for passage in passages(drifting, gates_of(drifting, {**GATES, "width_m": 150})):
+        count = len(areas) / 2
+        assert abs(len(passage.areas) - count) < 3 * math.sqrt(count)
+        low, high = (numpy.searchsorted(areas, numpy.sort(passage.areas)[k]) / len(areas) for k in (len(passage.areas) // 4, 3 * len(passage.areas) // 4))
+        assert abs(high - low - 0.5) < 3 * math.sqrt(0.25 / len(passage.areas))
+    # The field is 80 m of the drift, at .6.
+    assert passages(drifting, gates_of(drifting, {**GATES, "width_m": 300}))[0].cover == pytest.approx(0.6, rel=0.15)
+
+
+def test_gates_turn_with_the_drift(home):
+    turned = {**DRIFTING, "water": {"drift_table": [{"t_s": 0, "speed_m_per_s": 1, "direction_deg": -90}]}}
+    turned["floes"] = [{"field": {**DRIFTING["floes"][0]["field"], "corner_m": [-150, 330], "extent_m": [300, 80]}}]
+    run = run_of(home, "turned", turned)
+    for passage in passages(run, gates_of(run, GATES)):
+        assert len(passage.areas) == len(run.births["area_m2"])
+
+
+class Broken:
+    """Stands for a run: floe 0 breaks at 3 s into 1, still upstream, and 2, which has passed; 3 is a piece of 2."""
+
+    scene = {"water": {"drift_m_per_s": [-10, 0], "density_kg_per_m3": 1000, "skin_drag_coefficient": 0}, "wind": {}}
+    times = numpy.arange(8.0)
+    ship_names = ["rig"]
+    births = {"floe_id": numpy.arange(4), "parent_id": numpy.array([-1, 0, 0, 2]), "born_s": numpy.array([0, 3.0, 3.0, 5.0]),
+              "died_s": numpy.array([3.0, math.inf, 5.0, math.inf]), "went_under_s": numpy.full(4, math.inf), "area_m2": numpy.array([300.0, 100, 200, 150])}
+
+    class motions:
+        def ships_at(_, time):
+            return numpy.zeros((1, 6))
+
+        def floes_at(_, ids, time):
+            start = numpy.array([60.0, 75, 55, 54])[ids]
+            return numpy.column_stack((start - 10 * time, numpy.zeros((len(ids), 5))))
+
+    motions = motions()
+
+
+def test_a_floe_that_broke_passes_as_its_pieces_and_once():
+    # 0 is at 40 when it breaks at 2 to 3 s; at 3 s its pieces are at 45 and 25.
+    upstream, near = passages(Broken, Gates("rig", 45.5, 30, 100, 20))
+    assert upstream.floes.tolist() == [0]
+    assert near.floes.tolist() == [1, 2] and near.areas.tolist() == [100, 200]
+
+
+def test_hits_are_of_floes_of_the_size(hit):
+    gates = gates_of(hit, {"upstream_m": 50, "width_m": 300, "size_m": 25})
+    sizes, number, seconds = measures.hits_on(hit, gates)
+    assert number == len(sizes) >= 1 and sizes.max() <= 30 and 0 < seconds <= 60
+    assert measures.hits_on(hit, dataclasses.replace(gates, size=31.0))[1:] == (0, 0.0)
+    assert measures.largest_touch(hit, gates) == pytest.approx(30, rel=0.02)
+    loads = measures.loads_on(hit, gates)
+    rows = measures.rows_of(hit, "rig")
+    assert loads["ice_load"].max() == numpy.hypot(rows["surge_N"], rows["sway_N"]).max() > 0
+    assert not loads["mooring_load"].any()
+
+
+def test_the_managed_width_is_what_large_floes_leave():
+    gates = Gates("rig", 100, 50, 80, 20)
+    passage = lambda *floes: Passage(numpy.arange(len(floes)), numpy.zeros(len(floes)), numpy.array([y for y, _ in floes]), numpy.array([size**2 for _, size in floes]), 1)
+    assert managed_width(passage((0, 19)), gates) == 80
+    assert managed_width(passage((0, 21)), gates) == 0
+    # From −40 to 25, less the bins that the floe's edge at 15 touches.
+    assert managed_width(passage((25, 20.0), (-3, 5)), gates) == pytest.approx(40 + 14, abs=2)
+
+
+def test_the_drift_is_the_programs(home):
+    ellipse = {"period_s": 300, "major_m_per_s": 0.5, "minor_m_per_s": -0.2, "direction_deg": 40, "phase_deg": 30}
+    rows = [{"t_s": 0, "speed_m_per_s": 0.4, "direction_deg": 10}, {"t_s": 100, "speed_m_per_s": 0.8, "direction_deg": 120}]
+    scene = {**DRIFTING, "time": {"step_s": 0.1, "until_s": 150}, "water": {"drift_table": rows, "tide": ellipse},
+             "floes": [{"rectangle": {"corner_m": [500, 0], "size_m": 10}}]}
+    run = run_of(home, "tide", scene)
+    floe = numpy.array([0])
+    times = numpy.linspace(0, 150, 15001)
+    drift = numpy.array([free_drift(run.scene, t) for t in times])
+    path = ((drift[1:] + drift[:-1]) / 2 * numpy.diff(times)[:, None]).sum(axis=0)
+    moved = run.motions.floes_at(floe, 150.0)[0, :2] - run.motions.floes_at(floe, 0.0)[0, :2]
+    assert moved == pytest.approx(path, abs=0.02)
+    assert by_rows(rows, 50) == pytest.approx((numpy.array(by_rows(rows, 0)) + by_rows(rows, 100)) / 2)
+    assert numpy.hypot(*tide({**ellipse, "phase_deg": 0}, 0)) == pytest.approx(0.5)
+
+
+def test_a_fleets_effort_is_that_of_its_rows(home):
+    ship = {"ship": "reference", "position_m": [300, 0], "heading_deg": 90, "speed_m_per_s": 3,
+            "pilot": {"manage": {"body": "rig", "pattern": "circular", "distance_m": 400, "width_m": 400, "speed_m_per_s": 3, "safety_radius_m": 150}}}
+    run = run_of(home, "effort", {**DRIFTING, "time": {"step_s": 0.1, "until_s": 100}, "ships": [ship], "floes": []})
+    of = measures.effort(run)["ship-1"]
+    rows = measures.rows_of(run, "ship-1")
+    assert of["distance_m"] == pytest.approx((rows["speed_m_per_s"] * numpy.diff(rows["t_s"], prepend=0)).sum())
+    assert 150 < of["distance_m"] < 350
+    assert of["energy_J"] == pytest.approx(rows["delivered_power_W"].mean() * 100, rel=0.02)
+    gates = gates_of(run, {})
+    assert (gates.body, gates.width, gates.upstream) == ("rig", 400, pytest.approx(600 + 10, abs=0.1))
+
+
+def test_what_cannot_be_measured_is_refused(drifting):
+    with pytest.raises(InputError, match="no ship of the run manages ice"):
+        gates_of(drifting, {})
+    with pytest.raises(InputError, match='no ship or structure "Fram"'):
+        gates_of(drifting, {"body": "Fram"})
+    with pytest.raises(InputError, match="not nearer"):
+        gates_of(drifting, {**GATES, "near_m": 330})
+
+
+def ended(*words, cwd):
+    return subprocess.run([PROGRAM, "management", *words], cwd=cwd, capture_output=True, text=True, check=False)
+
+
+def test_the_command_writes_tables_and_a_figure(home, drifting, hit):
+    done = ended("drifting", "hit", "--upstream", "50", "--near", "20", "--width", "300", "--out", "out", cwd=home)
+    assert done.returncode == 0, done.stderr
+    names = {path.name for path in (home / "out").iterdir()}
+    assert names == {"management.csv", "management-sizes.csv", "management.png"}
+    printed = ended("hit", "--upstream", "50", "--near", "20", "--width", "300", "--json", cwd=home)
+    found = json.loads(printed.stdout)["hit"]
+    assert found == polynya.management.of_folder(home / "hit", {"upstream_m": 50, "near_m": 20, "width_m": 300})
+    assert ended("hit", cwd=home).returncode == 3
+
+
+def test_a_study_compares_by_what_it_varies(home):
+    (home / "base.json").write_text(json.dumps({**DRIFTING, "time": {"step_s": 0.1, "until_s": 60}}))
+    (home / "s.json").write_text(json.dumps({
+        "scene": "base.json", "repetitions": 2, "grid": {"water.drift_m_per_s[0]": [-1, -2], "ice.thickness_m": [0.4, 0.6]},
+        "collect": {"management": {"upstream_m": 330, "near_m": 100, "width_m": 300}}}))
+    for words in (["study", "run", "s.json"], ["study", "gather", "studies/s"]):
+        subprocess.run([PROGRAM, *words], cwd=home, check=True, capture_output=True)
+    done = ended("studies/s", "--json", cwd=home)
+    groups = json.loads(done.stdout)
+    assert set(groups) == {"0.4", "0.6"}
+    assert [x for x, _, _ in groups["0.4"]["management_cover_upstream"]] == [-2, -1]
+    assert ended("studies/s", cwd=home).returncode == 0
+    assert (pathlib.Path(home) / "studies/s/management.png").exists()
+    assert ended("studies/s", "--width", "3", cwd=home).returncode == 3
+
+
+def test_means_have_students_interval():
+    mean, half = study.mean_of([1.0, 2.0, 3.0])
+    assert mean == 2 and half == pytest.approx(4.302653 / math.sqrt(3), rel=1e-5)
+    assert study.mean_of([]) == (None, 0.0) and study.mean_of([4.0]) == (4, 0.0)
