@@ -71,11 +71,11 @@ bool is_recorded(const World& world, const dynamics::Contact& contact) {
 
 }  // namespace
 
-void Simulation::step() {
+void Simulation::step(std::int64_t most_ticks) {
   if (thread_limit_ == nullptr) {
-    simulation::step(*world_);
+    simulation::step(*world_, most_ticks);
   } else {
-    thread_limit_->execute([&] { simulation::step(*world_); });
+    thread_limit_->execute([&] { simulation::step(*world_, most_ticks); });
   }
   validate(*world_);
 }
@@ -220,19 +220,21 @@ std::vector<CrushedOverlap> Simulation::crushed_overlaps() const {
 
 std::vector<ContactState> Simulation::contact_states() const {
   const World& world = *world_;
-  const double dt = world.clock.step;
-  const Vector drift_then = (world.clock.ticks() - dt / world.clock.tick) * world.clock.tick * world.clock.water_drift;
   const auto body_of = [&](BodyIndex body) { return contact_body(world.population, body); };
   std::vector<ContactState> states;
-  for (const dynamics::Contact& c : world.step.contacts) {
-    if (!is_recorded(world, c)) continue;
+  const auto add = [&](const dynamics::Contact& c, double dt) {
+    if (!is_recorded(world, c)) return;
+    const double then = (world.clock.ticks() - dt / world.clock.tick) * world.clock.tick;
     states.push_back({.on = body_of(c.a),
                       .by = body_of(c.b),
-                      .point_in_world = c.centre_of_pressure() + drift_then,
+                      .point_in_world = c.centre_of_pressure() + then * world.clock.water_drift,
                       .force = -1 / dt * c.impulse_on_b(),
                       .depth = c.depth,
                       .is_crushing = c.total_normal_impulse() > 0 && c.is_at_limit});
-  }
+  };
+  for (const dynamics::Contact& c : world.step.contacts) add(c, world.clock.step);
+  for (std::size_t i = 0; i < world.step.longer_contacts.size(); ++i)
+    add(world.step.longer_contacts[i], world.step.longer_steps[i]);
   return states;
 }
 

@@ -122,7 +122,7 @@ void append(JsonWriter& json, const simulation::Counts& counts) {
 /// The lengths of the steps that the run took.
 void append_levels(JsonWriter& json, const simulation::Counts& counts, double tick) {
   std::vector<int> levels;
-  for (int k = 0; k <= simulation::kMostLevels; ++k)
+  for (int k = 0; k <= 2 * simulation::kMostLevels; ++k)
     if (counts.steps_at_level[static_cast<std::size_t>(k)] > 0) levels.push_back(k - simulation::kMostLevels);
   json.key("levels").objects(levels, [&](int level) {
     json.key("level").value(level).key("step_s").value(std::ldexp(tick, level));
