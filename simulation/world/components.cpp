@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <span>
 
@@ -31,7 +29,6 @@ constexpr double kLeastShare = 0.25;
 /// Ticks after which it is tried again, where too few would.
 constexpr std::int64_t kWait = 8;
 
-static int calls = 0;
 double rim_speed_of(const dynamics::Bodies& bodies, BodyIndex i) {
   return length(bodies.velocity[i]) + std::abs(bodies.angular_velocity[i]) * bodies.bounding_radius[i];
 }
@@ -220,11 +217,6 @@ std::int64_t Assignment::sort() {
   std::size_t coarse = 0;
   for (const BodyIndex i : population_.awake) coarse += enter(i);
   for (const BodyIndex i : components_.asleep) enter(i);
-  if (getenv("CO") && population_.awake.size() > 20 && ++calls % 50 == 0) {
-    int n[6] = {};
-    for (int k = 0; k < 6; ++k) n[k] = (int)components_.of_level[k].size();
-    fprintf(stderr, "tick block %ld: %d %d %d %d %d %d asleep %zu\n", (long)ticks_, n[0], n[1], n[2], n[3], n[4], n[5], components_.asleep.size());
-  }
   const bool is_worth_it = static_cast<double>(coarse) >= kLeastShare * static_cast<double>(population_.awake.size());
   return coarse > 0 && is_worth_it ? ticks_ : 1;
 }
