@@ -20,7 +20,7 @@ from study import BEAM, FEW_RECORDS, G, HULL, RHO_I, SHIP, lindqvist, rows_of, r
 
 
 def colbourne(cover, h, v, k, b, n):
-    """Pack ice after [Colbourne2000], ½ k Fr^b ρ_i B h v² C^n [N]."""
+    """Pack ice after Colbourne (2000), ½ k Fr^b ρ_i B h v² C^n [N]."""
     return 0.5 * k * (v / math.sqrt(G * h * cover))**b * RHO_I * BEAM * h * v**2 * cover**n
 
 

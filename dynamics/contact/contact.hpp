@@ -15,11 +15,6 @@ struct RestitutionMemory {
   double start_impulse[2] = {0, 0};  ///< where the next step's compression starts, by the last two [N s]
 };
 
-/// The pose of frame a in frame b.
-constexpr geometry::Pose inverse(const geometry::Pose& a_from_b) {
-  return relative_pose(a_from_b, {});
-}
-
 /// What became of the overlap of a contact that has pressed. By the law of crushing ice.
 struct Booked {
   double loaded = 0;   ///< of the loaded area what is booked [m²]

@@ -8,7 +8,7 @@ namespace polynya::geometry {
 
 // The one test of a point in a ring: the parity of the edges that cross the ray from the point towards +x.
 // Exact, also on the step's hot paths: two comparisons decide nearly all edges, and an exact orientation
-// costs what the cross product in doubles did (docs/decisions.md, "Two searches and one test of a point").
+// costs what the cross product in doubles did (docs/decisions/2026-11-23-spatial-searches.md).
 
 /// Whether the edge from a to b crosses the ray from p towards +x. An end level with the point counts as
 /// below it, so that along a closed chain each crossing counts once; a point on the edge is on either side.

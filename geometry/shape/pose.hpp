@@ -43,5 +43,9 @@ constexpr Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b)
   return {inverse_transform(world_from_a, world_from_b.position),
           {ra.cosine * rb.cosine + ra.sine * rb.sine, ra.cosine * rb.sine - ra.sine * rb.cosine}};
 }
+/// The pose of frame a in frame b.
+constexpr Pose inverse(const Pose& a_from_b) {
+  return relative_pose(a_from_b, {});
+}
 
 }  // namespace polynya::geometry

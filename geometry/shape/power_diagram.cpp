@@ -13,7 +13,7 @@ constexpr int kMostClasses = 16;
 
 /// The grid for places that stay: sites in square bins over a box, about one a bin. (The grid for bodies,
 /// which come and go over water without bounds, is dynamics' hashed one: with hashed cells fields take a
-/// quarter longer, docs/decisions.md.)
+/// quarter longer, docs/decisions/2026-11-23-spatial-searches.md.)
 class SiteBins {
  public:
   SiteBins(const std::vector<Site>& sites, const std::vector<std::uint32_t>& chosen, const Box& box) : low_(box.low) {

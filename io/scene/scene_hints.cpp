@@ -27,7 +27,7 @@ constexpr double kFastestIce = 3;      ///< ice drifts at 1 m/s in a storm, at 3
 constexpr double kThinnestIce = 0.01;  ///< thinner ice is grease and slush [m]
 constexpr double kThickestIce = 4;     ///< level ice grows no thicker; ridges are no plates [m]
 /// The longest way in a step: of the thickness, so that the load grows to breaking over several steps
-/// (docs/theory.md, "The step"), and of the contact circles, beyond which a contact is lost from one step to
+/// (docs/performance.md), and of the contact circles, beyond which a contact is lost from one step to
 /// the next (dynamics/contact/narrow_phase.cpp).
 constexpr double kLongestWayOfThickness = 0.1, kLongestWayOfCircle = 0.25;  // [-]
 constexpr double kKnots = 3600 / 1852.0;                                    ///< [kn / (m/s)]

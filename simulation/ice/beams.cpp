@@ -155,8 +155,8 @@ PendingFracture break_of(const Setup& setup, const Population& population, const
   PendingFracture split;
   split.failure = fracture::Failure::kSplit;
   split.record = c.record;
-  split.ship = population.is_hull(by) ? by : -1;
-  split.by_floe = population.is_hull(by) ? kNoFloe : population.floe_of(by);
+  split.ship = population.hull_or_none(by);
+  split.by_floe = population.floe_or_none(by);
   split.floe = population.floe_of(floe);
   split.point_in_water = transform(water_from_body, section.pulls_at_end ? section.path.end : section.path.start);
   split.normal = into_floe(c, floe);

@@ -22,19 +22,9 @@ template <class Kind>
 Event event_of(const Population& population, const Clock& clock, const OverlapCut& overlap, BodyIndex ground,
                Kind kind) {
   const BodyIndex by = ground == overlap.a ? overlap.b : overlap.a;
-  const bool is_by_hull = population.is_hull(by);
   kind.floe = population.floe_of(ground);
-  kind.by_floe = is_by_hull ? kNoFloe : population.floe_of(by);
-  return {clock.time(), is_by_hull ? by : -1, overlap.middle + clock.drift(), std::move(kind)};
-}
-
-RejectedCut rejected_cut(const GrindCriterion& criterion, const geometry::Polygon& floe, geometry::Ring tool,
-                         const geometry::CutError& error, std::int64_t number) {
-  RejectedCut rejected;
-  rejected.criterion = criterion;
-  rejected.reason = reason_of(error);
-  rejected.input = {number, floe, std::move(tool), {}};
-  return rejected;
+  kind.by_floe = population.floe_or_none(by);
+  return {clock.time(), population.hull_or_none(by), overlap.middle + clock.drift(), std::move(kind)};
 }
 
 /// Whether a cut leaves two floes or more, slivers and what would be brash aside.
@@ -73,7 +63,7 @@ bool cut_overlap(const Setup& setup, const Clock& clock, const OverlapCut& overl
   const geometry::Polygon outline = outline_of(population, setup, by);
   std::vector<geometry::Polygon> tools;
   for (const geometry::Pose& a_from_b : overlap.a_from_b)
-    tools.push_back(transform(ground == overlap.a ? a_from_b : dynamics::inverse(a_from_b), outline));
+    tools.push_back(transform(ground == overlap.a ? a_from_b : geometry::inverse(a_from_b), outline));
   const geometry::Shape& shape = population.floes[population.floe_of(ground)].shape;
   const geometry::CutOutcome outcome =
       tools.size() == 1 ? cut_by_polygon(shape, tools.front()) : cut_by_polygons(shape, tools);
@@ -88,8 +78,7 @@ bool cut_overlap(const Setup& setup, const Clock& clock, const OverlapCut& overl
     return true;
   }
   if (outcome.error().reason != geometry::CutFailure::kMisses) {  // else they have parted
-    RejectedCut rejected =
-        rejected_cut(criterion, shape.polygon, tools.front().outer, outcome.error(), ++accounts.counts.rejected_cuts);
+    RejectedCut rejected = rejected_grind(criterion, shape.polygon, tools.front().outer, outcome.error(), accounts);
     journal.events.push_back(event_of(population, clock, overlap, ground, std::move(rejected)));
     accounts.refused_grinds.emplace_back(overlap.a, overlap.b);
   }

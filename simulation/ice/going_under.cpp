@@ -24,7 +24,8 @@ double weight_under(const Setup& setup, const Population& population, FloeId flo
 }  // namespace
 
 Event submersion_event(const Clock& clock, const Population& population, FloeId floe, int ship) {
-  Submerge submerge{.under_hull_area = population.floes[floe].area};
+  Submerge submerge;
+  submerge.under_hull_area = population.floes[floe].area;
   submerge.floe = floe;
   const geometry::Point place = population.bodies.position[population.body_of(floe)] + clock.drift();
   return {clock.time(), ship, place, submerge};

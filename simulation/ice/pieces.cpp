@@ -130,6 +130,15 @@ std::string reason_of(const geometry::CutError& error) {
   return std::string(name_of(error.reason)) + ": " + error.detail;
 }
 
+RejectedCut rejected_grind(const GrindCriterion& criterion, const geometry::Polygon& floe, geometry::Ring tool,
+                           const geometry::CutError& error, Accounts& accounts) {
+  RejectedCut rejected;
+  rejected.criterion = criterion;
+  rejected.reason = reason_of(error);
+  rejected.input = {++accounts.counts.rejected_cuts, floe, std::move(tool), {}};
+  return rejected;
+}
+
 bool is_refused(const Accounts& accounts, BodyIndex a, BodyIndex b) {
   const std::pair<std::int64_t, std::int64_t> both{a, b};
   return std::ranges::find(accounts.refused_grinds, both) != accounts.refused_grinds.end();

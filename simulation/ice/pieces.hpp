@@ -24,6 +24,10 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
 /// What a `rejected_cut` states of a cut that geometry refused.
 std::string reason_of(const geometry::CutError& error);
 
+/// A cut of ground ice that geometry refused: counted, with its input.
+RejectedCut rejected_grind(const GrindCriterion& criterion, const geometry::Polygon& floe, geometry::Ring tool,
+                           const geometry::CutError& error, Accounts& accounts);
+
 /// Whether geometry refused to cut one of two bodies by the other: not tried again.
 bool is_refused(const Accounts& accounts, BodyIndex a, BodyIndex b);
 

@@ -159,10 +159,8 @@ void carve_channels(const Setup& setup, const Clock& clock, const StepData& step
       replace_by_pieces(setup, clock, {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
                         *outcome, population, accounts, journal);
     } else if (outcome.error().reason != geometry::CutFailure::kMisses) {
-      RejectedCut rejected;
-      rejected.criterion = first->criterion;
-      rejected.reason = reason_of(outcome.error());
-      rejected.input = {++accounts.counts.rejected_cuts, shape.polygon, tools.front().outer, {}};
+      RejectedCut rejected =
+          rejected_grind(first->criterion, shape.polygon, tools.front().outer, outcome.error(), accounts);
       journal.events.push_back(event_of_carving(clock, *first, std::move(rejected)));
       for (auto refused = first; refused != next; ++refused)
         accounts.refused_grinds.emplace_back(refused->contact->a, refused->contact->b);

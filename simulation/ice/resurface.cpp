@@ -115,7 +115,8 @@ class Resurfacing {
 
  private:
   bool stay_under(const SubmergedPiece& submerged) {
-    const StayUnder stays{.under_ice_area = population_.floes[submerged.floe].area};
+    StayUnder stays;
+    stays.under_ice_area = population_.floes[submerged.floe].area;
     Event event = event_of(setup_, clock_, population_, submerged, stays);
     accounts_.ledger.under_ice_area += stays.under_ice_area;
     accounts_.masses.under_ice_mass += population_.bodies.mass[population_.body_of(submerged.floe)];

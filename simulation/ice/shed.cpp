@@ -115,7 +115,7 @@ void shed_parted(const Setup& setup, const Clock& clock, const dynamics::PartedC
       const geometry::Pose pose = parted.crushed.a_from_b;
       cut_overlap(
           setup, clock,
-          {low, high, {is_in_order ? pose : dynamics::inverse(pose)}, parted.middle, {parted.crushed.area, least}},
+          {low, high, {is_in_order ? pose : geometry::inverse(pose)}, parted.middle, {parted.crushed.area, least}},
           population, accounts, journal);
     }
   }

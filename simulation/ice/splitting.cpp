@@ -57,8 +57,8 @@ std::optional<PendingFracture> split_of(const Setup& setup, const Population& po
   split.failure = fracture::Failure::kSplit;
   split.criteria = crack->criteria;
   split.record = c.record;
-  split.ship = population.is_hull(by) ? by : -1;
-  split.by_floe = population.is_hull(by) ? kNoFloe : population.floe_of(by);
+  split.ship = population.hull_or_none(by);
+  split.by_floe = population.floe_or_none(by);
   split.floe = population.floe_of(floe);
   split.point_in_water = crack->begins_at;
   split.normal = into_floe(c, floe);

@@ -230,38 +230,40 @@ class StateLoader {
     }
   }
 
-  void load_crushed_ice(std::vector<dynamics::PairState>& pairs) {
-    std::vector<dynamics::CrushedIce> crushed;
-    bytes_(crushed);
+  /// A member of all records, in their order, each by a rule that it has to meet.
+  template <class Member, class Rule>
+  void load_members(std::vector<dynamics::PairState>& pairs, Member dynamics::PersistentContact::*member,
+                    const char* of_another_number, Rule require_rule) {
+    std::vector<Member> loaded;
+    bytes_(loaded);
     std::size_t next = 0;
     for (dynamics::PairState& pair : pairs) {
       for (dynamics::PersistentContact& record : pair.records) {
-        if (next < crushed.size()) record.crushed = crushed[next];
+        if (next < loaded.size()) record.*member = loaded[next];
         ++next;
-        const geometry::Pose& pose = record.crushed.a_from_b;
-        const geometry::Rotation r = pose.rotation;
-        bytes_.require(record.crushed.area >= 0, "a negative area of crushed ice");
-        bytes_.require(std::max(std::abs(pose.position.x), std::abs(pose.position.y)) <= kFarthest &&
-                           std::abs(r.cosine * r.cosine + r.sine * r.sine - 1) < 1e-6,
-                       "crushed ice beyond the world");
+        require_rule(record.*member);
       }
     }
-    bytes_.require(next == crushed.size(), "another number of crushed overlaps than of contacts");
+    bytes_.require(next == loaded.size(), of_another_number);
+  }
+
+  void load_crushed_ice(std::vector<dynamics::PairState>& pairs) {
+    constexpr auto kOther = "another number of crushed overlaps than of contacts";
+    load_members(pairs, &dynamics::PersistentContact::crushed, kOther, [this](const dynamics::CrushedIce& crushed) {
+      const geometry::Pose& pose = crushed.a_from_b;
+      const geometry::Rotation r = pose.rotation;
+      bytes_.require(crushed.area >= 0, "a negative area of crushed ice");
+      bytes_.require(std::max(std::abs(pose.position.x), std::abs(pose.position.y)) <= kFarthest &&
+                         std::abs(r.cosine * r.cosine + r.sine * r.sine - 1) < 1e-6,
+                     "crushed ice beyond the world");
+    });
   }
 
   void load_booked(std::vector<dynamics::PairState>& pairs) {
-    std::vector<dynamics::Booked> booked;
-    bytes_(booked);
-    std::size_t next = 0;
-    for (dynamics::PairState& pair : pairs) {
-      for (dynamics::PersistentContact& record : pair.records) {
-        if (next < booked.size()) record.booked = booked[next];
-        ++next;
-        const dynamics::Booked& b = record.booked;
-        bytes_.require(std::min({b.loaded, b.crushed, b.tilted, b.volume}) >= 0, "a negative area that has pressed");
-      }
-    }
-    bytes_.require(next == booked.size(), "another number of booked overlaps than of contacts");
+    constexpr auto kOther = "another number of booked overlaps than of contacts";
+    load_members(pairs, &dynamics::PersistentContact::booked, kOther, [this](const dynamics::Booked& b) {
+      bytes_.require(std::min({b.loaded, b.crushed, b.tilted, b.volume}) >= 0, "a negative area that has pressed");
+    });
   }
 
   void load_pairs() {

@@ -80,6 +80,9 @@ struct Population {
   bool is_hull(BodyIndex body) const { return body < hull_count; }
   BodyIndex body_of(FloeId floe) const { return static_cast<BodyIndex>(floe) + hull_count; }
   FloeId floe_of(BodyIndex body) const { return body - hull_count; }
+  /// The same of any body, as events name who did it: one of the two is none.
+  std::int32_t hull_or_none(BodyIndex body) const { return is_hull(body) ? body : -1; }
+  FloeId floe_or_none(BodyIndex body) const { return is_hull(body) ? kNoFloe : floe_of(body); }
   bool is_alive(FloeId floe) const { return bodies.is_alive[body_of(floe)] != 0; }
   bool is_floating(FloeId floe) const { return is_alive(floe) && !floes[floe].is_under; }
   bool is_fast(FloeId floe) const { return bodies.inverse_mass[body_of(floe)] == 0; }

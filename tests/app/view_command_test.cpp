@@ -86,7 +86,7 @@ TEST_F(ViewCommand, ThePageHoldsTheRunsOwnNumbers) {
   expect("mass_kg", run->floes, [](const io::RunFloe& floe) { return floe.birth.mass; });
   expect("born_s", run->floes, [](const io::RunFloe& floe) { return floe.birth.time; });
   expect("died_s", run->floes, [](const io::RunFloe& floe) { return floe.died; });
-  expect("parent", run->floes, [](const io::RunFloe& floe) { return std::int32_t{floe.birth.parent}; });
+  expect("parent", run->floes, [](const io::RunFloe& floe) { return static_cast<std::int32_t>(floe.birth.parent); });
   expect("force_t_s", run->samples, [](const simulation::ShipSample& row) { return row.time; });
   for (const char* name : {"surge_N", "surge_max_N"})
     expect(name, run->samples, [&](const simulation::ShipSample& row) { return io::force_column(name).read(row); });
@@ -95,7 +95,8 @@ TEST_F(ViewCommand, ThePageHoldsTheRunsOwnNumbers) {
   EXPECT_EQ(cause.find("column")->text() + cause.find("unit")->text(), "surge_NN");
   expect("contact_t_s", run->contacts, [](const auto& contact) { return contact.time; });
   expect("contact_fx_N", run->contacts, [](const auto& contact) { return contact.state.force.x; });
-  expect("contact_by_floe", run->contacts, [](const auto& contact) { return std::int32_t{contact.state.by.floe}; });
+  expect("contact_by_floe", run->contacts,
+         [](const auto& contact) { return static_cast<std::int32_t>(contact.state.by.floe); });
 }
 
 /// A floe's rings from the page's columns: whole, or assembled from those of its parent.

@@ -1,4 +1,5 @@
-"""Fails where a page names what does not exist: links, pictures, scenes, run folders that no command makes, references.
+"""Fails where a page names what does not exist: links, their anchors, pictures, scenes, run folders that no command
+makes, references; and where a source names a page that does not exist.
 
     python3 tests/docs/check_docs.py SOURCE POLYNYA
 """
@@ -12,6 +13,8 @@ LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 SCENE = re.compile(r"\bscenes/[\w.-]+\.json")
 RUN = re.compile(r"\bruns/([\w.-]*\w)")
 KEY = re.compile(r"\[([A-Z][A-Za-z]+\d{4}[a-z]?)\]")
+PAGE = re.compile(r"\bdocs/[\w./-]+\.(?:md|svg|png)\b")
+SECTION = re.compile(r'\b(docs/[\w./-]+\.md),\s+"([^"]+)"')
 VALIDATED = re.compile(r"^\$ polynya validate (scenes/\S+)\n((?:.+\n)+?)(?:```|\$)", re.MULTILINE)
 
 
@@ -29,12 +32,44 @@ def runs_made(root, text):
     return made
 
 
+def headings_of(text):
+    text = re.sub(r"^```.*?^```$", "", text, flags=re.MULTILINE | re.DOTALL)
+    return [heading.strip() for heading in re.findall(r"^#+ (.+)", text, re.MULTILINE)]
+
+
+def sections_of(text):
+    """What a page names as its sections: headings, and words in bold that begin a paragraph or an item."""
+    bold = re.findall(r"^(?:- )?\*\*([^*]+?)[.:]?\*\*", text, re.MULTILINE)
+    whole = {" ".join(name.split()) for name in headings_of(text) + bold}
+    return whole | {name.split(":")[0] for name in whole}
+
+
+def anchors_of(text):
+    """As GitHub and the site (MyST) make them of headings."""
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings_of(text)}
+
+
+def problems_of_mentions(root, text):
+    """Pages that are named in words, in pages and in sources."""
+    for path in PAGE.findall(text):
+        if not (root / path).exists():
+            yield f"{path} does not exist"
+    for path, section in SECTION.findall(re.sub(r"\n\W*", " ", text)):
+        if (root / path).exists() and section not in sections_of((root / path).read_text()):
+            yield f'{path} has no section "{section}"'
+
+
 def problems_of_page(root, page, text, keys):
     runs = runs_made(root, text) | runs_made(root, (root / "quickstart").read_text())
-    for target in LINK.findall(text):
-        path = target.split("#")[0]
-        if path and "://" not in target and not (page.parent / path).exists():
+    for target in LINK.findall(re.sub(r"`[^`\n]*`", "", text)):
+        path, _, anchor = target.partition("#")
+        file = page.parent / path if path else page
+        if "://" in target:
+            continue
+        if not file.exists():
             yield f"link to {target}, which does not exist"
+        elif anchor and anchor not in anchors_of(file.read_text()):
+            yield f"link to {target}: no such heading"
     for scene in SCENE.findall(text):
         if not (root / scene).exists():
             yield f"{scene} does not exist"
@@ -67,26 +102,30 @@ def problems_of_example(root):
 
 
 def sources(root):
-    for folder in ("geometry", "dynamics", "fracture", "simulation", "io", "analysis", "views", "app", "bench", "scenes"):
+    folders = "geometry dynamics fracture simulation io analysis views app bench scenes python tests tools cmake examples"
+    for folder in folders.split():
         for path in sorted((root / folder).rglob("*")):
-            if path.suffix in {".cpp", ".hpp", ".js", ".json"} and "vendor" not in path.parts:
+            if path.suffix in {".cpp", ".hpp", ".js", ".json", ".py", ".txt"} and "vendor" not in path.parts:
                 yield path
 
 
 def main(root, polynya):
-    pages = {path: path.read_text() for path in [root / "README.md", *sorted((root / "docs").glob("*.md"))]}
+    pages = {path: path.read_text() for path in [root / "README.md", *sorted((root / "docs").rglob("*.md"))]}
     keys = set(re.findall(r"^\| (\w+) \|", (root / "docs/references.md").read_text(), re.MULTILINE))
     found = []
     for page, text in pages.items():
         for problem in problems_of_page(root, page, text, keys):
             found.append(f"{page.relative_to(root)}: {problem}")
-        for problem in problems_of_output(root, polynya, text):
+        for problem in [*problems_of_output(root, polynya, text), *problems_of_mentions(root, text)]:
             found.append(f"{page.relative_to(root)}: {problem}")
     found.extend(problems_of_example(root))
     for path in sources(root):
-        for key in KEY.findall(path.read_text()):
+        text = path.read_text(errors="replace")
+        for key in KEY.findall(text):
             if key not in keys:
                 found.append(f"{path.relative_to(root)}: [{key}] is not in docs/references.md")
+        for problem in problems_of_mentions(root, text):
+            found.append(f"{path.relative_to(root)}: {problem}")
     print("\n".join(found) or f"{len(pages)} pages, every link, scene, run and reference resolves")
     return 1 if found else 0
 

@@ -48,7 +48,7 @@ TEST(Scene, FloesFromGeojsonStayInTheScenesFolder) {
 
 TEST(Scene, OverridesTakeTheScenesPlace) {
   const auto loaded = checked(read_scene(scene({R"("time": {"until_s": 5})", list("floes", {square(0, 0, 1)})}),
-                                         "a b é.json", ".", {.until = 7.5, .seed = 12}));
+                                         "a b é.json", ".", {.until = 7.5, .seed = 12, .assignments = {}}));
   EXPECT_EQ(loaded->scene.time.until, 7.5);
   EXPECT_EQ(loaded->scene.seed, 12U);
   EXPECT_HAS(loaded->resolved_text, "\"until_s\": 7.5");

@@ -40,8 +40,11 @@ TEST(Beams, ALongFloeAcrossAStemBreaksInTheMiddleAndAShortOneDoesNot) {
     EXPECT_EQ(event.ice()->children.size(), 2u);
     EXPECT_NEAR(event.criteria().crack_length, kWidth, 1e-6);
     EXPECT_LT(event.criteria().floe_size, event.criteria().breakable_size);
-    for (const Birth& birth : story.births)
-      if (birth.parent == 0) EXPECT_NEAR(birth.area, kLength * kWidth / 2, 1);
+    for (const Birth& birth : story.births) {
+      if (birth.parent == 0) {
+        EXPECT_NEAR(birth.area, kLength * kWidth / 2, 1);
+      }
+    }
     expect_closed(simulation);
     EXPECT_EQ(run(across(ship, 4), 3).story.splits().size(), 0u) << draught;
   }
@@ -77,8 +80,11 @@ TEST(Beams, BreakWithinTheFloe) {
   for (const Event& event : trial.story.splits()) {
     EXPECT_LT(std::abs(event.point_in_world.y), 20);
     EXPECT_LT(event.point_in_world.x, 3 * event.time + 5);
-    for (const Birth& birth : trial.story.births)
-      if (std::ranges::count(event.ice()->children, birth.floe) > 0) EXPECT_GT(birth.area, 4) << event.time;
+    for (const Birth& birth : trial.story.births) {
+      if (std::ranges::count(event.ice()->children, birth.floe) > 0) {
+        EXPECT_GT(birth.area, 4) << event.time;
+      }
+    }
   }
   EXPECT_LE(trial.story.splits().size(), 3u);
 }

@@ -110,7 +110,8 @@ TEST(Prescribed, APlateThatIsCutThroughIsTwo) {
 }
 
 /// A wall that closes flat crushes ice over all of its length at once: σ_c h w from the first step on, 588 MN for
-/// 300 m of .7 m, until the ice has taken its momentum, and never more (docs/decisions.md).
+/// 300 m of .7 m, until the ice has taken its momentum, and never more
+/// (docs/decisions/2026-11-23-flat-wall.md).
 TEST(Prescribed, AWallThatClosesFlatBearsOnAllOfTheIce) {
   constexpr double kWidth = 300;  // [m]
   for (const double step : {0.01, 0.002}) {

@@ -1,0 +1,53 @@
+"""Sphinx's settings of the site that tools/site/build.py builds: Debian's packages alone, nothing from a network."""
+import os
+import sys
+
+from docutils import nodes
+from pygments.lexers.javascript import JavascriptLexer
+from sphinx.util.math import get_node_equation_number
+
+sys.path.insert(0, os.environ["POLYNYA_PYTHON"])
+
+project = "Polynya"
+version = release = os.environ["POLYNYA_VERSION"]
+copyright = "the Polynya authors, GPL-3.0-or-later"  # noqa: A001 (Sphinx's name)
+extensions = ["myst_parser", "sphinx.ext.autodoc"]
+exclude_patterns = ["images/*", "static"]
+
+myst_enable_extensions = ["dollarmath", "amsmath"]
+myst_heading_anchors = 4
+myst_dmath_double_inline = True
+# Fragments of output and scenes with comments are not sound JSON.
+suppress_warnings = ["misc.highlighting_failure"]
+
+autodoc_member_order = "bysource"
+
+html_theme = "furo"
+html_title = f"Polynya {version}"
+html_static_path = [os.environ["POLYNYA_STATIC"]]
+html_css_files = ["site.css"]
+html_js_files = ["equations.js"]
+html_math_renderer = "katex"
+html_copy_source = False
+html_show_sphinx = False
+html_theme_options = {"navigation_with_keys": True}
+
+
+def visit_inline(self, node):
+    self.body.append(f'<span class="math tex">{self.encode(node.astext())}</span>')
+    raise nodes.SkipNode
+
+
+def visit_block(self, node):
+    self.body.append('<div class="math">')
+    if node["number"]:
+        self.body.append(f'<span class="eqno">({get_node_equation_number(self, node)})')
+        self.add_permalink_ref(node, "Link to this equation")
+        self.body.append("</span>")
+    self.body.append(f'<div class="tex display">{self.encode(node.astext())}</div></div>\n')
+    raise nodes.SkipNode
+
+
+def setup(app):
+    app.add_lexer("jsonc", JavascriptLexer)
+    app.add_html_math_renderer("katex", (visit_inline, None), (visit_block, None))
