@@ -109,7 +109,7 @@ void append(JsonWriter& json, const simulation::Counts& counts) {
   json.key("database_out_of_range").value(counts.database_out_of_range);
   json.key("floated_cusps").value(counts.floated_cusps).key("brash_pieces").value(counts.brash_pieces);
   json.key("snap_rounded").value(counts.snap_rounded);
-  json.key("crowded_ticks").value(counts.crowded_ticks);
+  json.key("crowded_ticks").value(counts.crowded_ticks).key("body_steps").value(counts.body_steps);
   json.key("unresolved_splits").value(counts.unresolved_splits);
   json.key("unconverged_steps").value(counts.unconverged_steps);
   json.key("largest_left_over_m_per_s").value(counts.largest_residual);
