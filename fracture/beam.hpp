@@ -8,10 +8,9 @@
 
 namespace polynya::fracture {
 
-// A slender floe breaks across as a beam, free in the water and under the forces on its edge (docs/theory.md,
-// "Floes that break as beams"): what those forces do to a part of it, less what moves that part, bends the
-// section where the part ends. Lengths are in a frame whose origin is the floe's centre of mass, with x along
-// its length.
+// A slender floe breaks across as a beam, free in the water and under the forces on its edge (docs/theory/beams.md):
+// what those forces do to a part of it, less what moves that part, bends the section where the part ends. Lengths are
+// in a frame whose origin is the floe's centre of mass, with x along its length.
 
 /// From this ratio of length to width on a floe is a beam: below, plane sections do not stay plane [-].
 inline constexpr double kLeastSlenderness = 4;

@@ -2,7 +2,7 @@
 
 namespace polynya::fracture {
 
-/// What happens at one contact between a ship and a floe. Section 8 of docs/theory.md.
+/// What happens at one contact between a ship and a floe. docs/theory/decision.md.
 enum class Failure { kNone, kCrush, kBend, kSplit };
 
 /// Both sides of each criterion at one contact, so that a record can state them.

@@ -22,7 +22,7 @@ inline double michel_splitting_force(const Ice& ice, double path_length, double 
 /// The pair of opposite forces at its mouth that drives a crack from the edge across a plate of length L
 /// along the crack and width W across it [m]: F_max = h K_IC min(0.187 √W, 0.2105 √L) [N]. The force rises
 /// with the crack's length to this peak (at 0.05–0.175 L) and falls beyond: at it the plate splits. Fitted
-/// within 2 % to finite elements of W/L from 0.25 to 3 (docs/theory.md, "Splitting"); K_IC 115–250 kPa √m
+/// within 2 % to finite elements of W/L from 0.25 to 3 (docs/theory/splitting.md); K_IC 115–250 kPa √m
 /// after [Bhat1988] (*recall*).
 inline double lefm_splitting_force(const Ice& ice, double length, double width) {
   return ice.thickness * ice.fracture_toughness * std::min(0.187 * std::sqrt(width), 0.2105 * std::sqrt(length));
@@ -39,7 +39,7 @@ inline bool leaves_strip(double length, double left_area, double right_area) {
 }
 
 /// How a crack turns that begins beside a free edge, at a distance b from it: by the largest hoop stress, in
-/// finite elements (tools/crack_plate.py, docs/theory.md, "Splitting"). Two straight legs stand for its path:
+/// finite elements (tools/crack_plate.py, docs/theory/splitting.md). Two straight legs stand for its path:
 /// end and area are right within 1 %, and nowhere is it more than 0.1 b off.
 struct TurningCrack {
   double peak = 0.35;      ///< its length where the force is largest, of b [-]

@@ -5,7 +5,7 @@
 namespace polynya::fracture {
 
 // A floe that an inclined hull presses down at its edge tilts, and goes under where its edge is deep enough.
-// Own law (docs/theory.md, "Ice that goes under"): the hydrostatics of a rigid floe, and its inertia.
+// Own law (docs/theory/under-hull.md): the hydrostatics of a rigid floe, and its inertia.
 
 struct TiltSettings {
   double added_mass_factor = 1;  ///< c_a, of a disc's added mass in heave [-]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How much the contact law's results depend on what should not matter; the tables of docs/theory.md, "Contact".
+"""How much the contact law's results depend on what should not matter; the tables of docs/validation.md.
 
   tools/contact_study.py step    [--figure FILE.svg]   the step: level ice at three speeds and four offsets
   tools/contact_study.py squeeze                       substeps, tolerance, sweeps: ice squeezed along the midbody

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A crack beside a free edge, by finite elements of a plate in its plane; the tables of docs/theory.md, "Splitting".
+"""A crack beside a free edge, by finite elements of a plate in its plane; the tables of docs/theory/splitting.md and
+docs/validation.md.
 
   tools/crack_plate.py square    the edge crack under a pair of forces at its mouth, against F_max of the rule
   tools/crack_plate.py arms      a straight crack of length a that leaves an arm of width b: K_I, K_II, against a beam's

@@ -49,7 +49,7 @@ std::string measure_of(const io::ForceColumn& column, const simulation::Scene& s
                                         : fmt::format("single step of {:.6g} s", scene.time.step);
 }
 
-/// The largest loads on each ship and structure (docs/theory.md, "Which force"): of ice, then of other ships
+/// The largest loads on each ship and structure (docs/theory/forces.md): of ice, then of other ships
 /// and structures, the paper's last.
 std::string force_lines(const io::RunSummary& summary, const simulation::Scene& scene) {
   std::string text;

@@ -8,7 +8,7 @@
 
 namespace polynya::dynamics {
 
-/// The law of a contact in which ice crushes (docs/theory.md, "Contact"): what crushing takes while the two
+/// The law of a contact in which ice crushes (docs/theory/contact.md): what crushing takes while the two
 /// close, nothing while they part or rest.
 ///
 /// Over a time τ in which the bodies close by u⁺ (their closing speed once all impulses have acted), a
@@ -21,7 +21,7 @@ namespace polynya::dynamics {
 ///
 /// but never more than the impulse at which the ice breaks. The creep branch up to u_c makes λ continuous; it
 /// never falls. So with K positive semidefinite the impulses of all contacts of a step, λ = λ(û − K λ), are
-/// unique (docs/theory.md): the solution of a strictly monotone problem, whatever the start.
+/// unique (docs/theory/solver.md): the solution of a strictly monotone problem, whatever the start.
 /// Own law; crushing force by Eq. (2) of [Sawamura2017].
 struct CrushResponse {
   double impulse_of_force = 0;  ///< τF of this end of the contact line, ≥ 0 [N s]

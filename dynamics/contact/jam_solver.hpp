@@ -17,7 +17,7 @@ CrushResponse rigid_law(double inverse_mass);
 ///
 ///   ½ (v − v⁰)ᵀ M (v − v⁰) + Σ Φ_i(u_i(v)) + Σ Ψ_c(s_c(v)),   Φ_i' = λ_i,
 ///
-/// strictly convex and piecewise quadratic (docs/theory.md, "Contact"): v⁰ are the velocities without
+/// strictly convex and piecewise quadratic (docs/theory/contact.md): v⁰ are the velocities without
 /// impulses, M the masses, u_i the closing speed of an end, s_c the slip of a contact, λ their impulses by
 /// the law. Each Newton step solves the equations of the branches at hand, a sparse system of 3 unknowns a
 /// body. The active set of the next one are the branches of λ = λ(û − K λ), solved for each contact alone, û

@@ -32,7 +32,7 @@ double area_of_whole_holes(const Boundary& a, const Boundary& b, const Pose& a_f
                            const OverlapLoop& loop);
 
 /// The manifold of a connected overlap with any number of stretches, by the gradient of its area
-/// (docs/theory.md, "Contact"). `loop` is its outer one. Area is 0 where it has none.
+/// (docs/theory/contact.md). `loop` is its outer one. Area is 0 where it has none.
 ContactManifold gradient_manifold(const Boundary& a, const Boundary& b, const Pose& a_from_b,
                                   const ManifoldScratch& scratch, const OverlapLoop& loop);
 

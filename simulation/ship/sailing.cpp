@@ -106,7 +106,7 @@ Forces forces_on(const Setup& setup, const Clock& clock, const Population& popul
 }
 
 /// ν at the end of the step: (M + A + Δt D) ν⁺ = M ν + A ν_b + Δt F, ν with the step's other impulses, ν_b in
-/// the ship's axes of the step before (docs/theory.md, "The ship in water").
+/// the ship's axes of the step before (docs/theory/ship.md).
 Planar solved_motion(const ShipInStep& ship, const PlanarMatrix& added_mass, const Forces& forces, double dt) {
   const PlanarMatrix inertia = PlanarMatrix{{{{ship.mass, 0, 0}, {0, ship.mass, 0}, {0, 0, ship.moment}}}};
   const PlanarMatrix damping = forces.water.damping + forces.mooring.damping;

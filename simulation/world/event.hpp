@@ -19,7 +19,7 @@ using FloeId = std::int64_t;
 inline constexpr FloeId kNoFloe = -1;
 
 /// What decides that an overlap becomes brash: it is large, and no motion of the bodies reduces it, since the
-/// gradient of its area is small or nothing moves the two, or it was crushed (docs/theory.md, "Contact").
+/// gradient of its area is small or nothing moves the two, or it was crushed (docs/theory/contact.md).
 struct GrindCriterion {
   double overlap_area = 0;  ///< [m²]
   double least_area = 0;    ///< a smaller overlap is left [m²]

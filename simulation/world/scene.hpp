@@ -57,7 +57,7 @@ enum class ContactNormal {
   kCircleCentres,  ///< along the line between the circles' centres, the paper's own rule
 };
 
-/// How bodies push each other apart (docs/theory.md, "Contact").
+/// How bodies push each other apart (docs/theory/contact.md).
 enum class ContactLaw {
   kCrush,    ///< what crushing ice carries while bodies close, nothing at rest or parting
   kImpulse,  ///< the paper's rigid impulses, Eq. (5), up to what crushing ice carries
@@ -186,8 +186,7 @@ struct WallPressure {
 };
 
 /// A straight boundary that ice cannot pass: it stands, moves at a prescribed velocity, or presses on the
-/// ice. A wall that presses moves along its normal alone, the x axis of its frame (docs/theory.md, "Wind and
-/// walls").
+/// ice. A wall that presses moves along its normal alone, the x axis of its frame (docs/theory/wind-and-walls.md).
 struct Wall : PlacedHull {
   static constexpr BodyKind kKind = BodyKind::kWall;
   double length = 0;          ///< of its face [m]

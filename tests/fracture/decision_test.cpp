@@ -1,4 +1,4 @@
-// Section 8 of docs/theory.md as a truth table; and the lengths and loads that decide, by hand.
+// docs/theory/decision.md as a truth table; and the lengths and loads that decide, by hand.
 #include "fracture/decision.hpp"
 
 #include <numbers>

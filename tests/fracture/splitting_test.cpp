@@ -1,4 +1,4 @@
-// Eq. (4), the finite-element table of the edge crack (docs/theory.md, "Splitting"), and what opens a crack.
+// Eq. (4), the finite-element table of the edge crack (docs/theory/splitting.md), and what opens a crack.
 #include "fracture/splitting.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
-// No crack runs under more than it takes: the force is stopped at F_max within the step (docs/theory.md,
-// "Splitting"). Scenes whose cracks ran at up to 134 times that before; tests/golden/golden_test.cpp asks the
-// same of all scenes that are shipped.
+// No crack runs under more than it takes: the force is stopped at F_max within the step (docs/theory/splitting.md).
+// Scenes whose cracks ran at up to 134 times that before; tests/golden/golden_test.cpp asks the same of all scenes that
+// are shipped.
 
 #include <filesystem>
 #include <iostream>

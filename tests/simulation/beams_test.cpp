@@ -1,4 +1,4 @@
-// Slender floes below κ l that break across (docs/theory.md, "Floes that break as beams").
+// Slender floes below κ l that break across (docs/theory/beams.md).
 #include <algorithm>
 
 #include <gtest/gtest.h>

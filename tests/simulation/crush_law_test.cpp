@@ -277,7 +277,7 @@ TEST(CrushingCollision, ConvergesAsTheStepShrinks) {
 }
 
 TEST(CrushingCollision, LevelIceDependsOnTheRadiusALittle) {
-  // The overlap does not, but a contact keeps its record within a quarter of the radius (docs/theory.md).
+  // The overlap does not, but a contact keeps its record within a quarter of the radius (docs/theory/index.md).
   const auto resistance = [](double radius) {
     Scene scene = Build(Laws::kPaper).ship(icebreaker({-2, 0}, ConstantSpeed{1})).floe(rectangle(0, -75, 300, 75));
     scene.contact.circle_radius = radius;

@@ -1,4 +1,4 @@
-// Section 8 of docs/theory.md, exercised: which floes break under which hull, when and how; and what once
+// docs/theory/decision.md, exercised: which floes break under which hull, when and how; and what once
 // went wrong.
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-// What contacts have crushed leaves the floe (docs/theory.md, "Contact").
+// What contacts have crushed leaves the floe (docs/theory/contact.md).
 #include <gtest/gtest.h>
 
 #include "geometry/cut/overlap.hpp"

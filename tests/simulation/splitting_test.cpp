@@ -1,4 +1,4 @@
-// Splitting by the forces that contacts really carry (docs/theory.md, "Splitting").
+// Splitting by the forces that contacts really carry (docs/theory/splitting.md).
 #include "fracture/splitting.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Overlap of ice that gives way under a hull is booked as tilted, and no floe lies in a hull for the most part, or
-// on both sides of it (docs/theory.md, "Ice that goes under" and "Contact").
+// on both sides of it (docs/theory/under-hull.md, docs/theory/contact.md).
 #include <gtest/gtest.h>
 
 #include "geometry/cut/cut.hpp"

@@ -1,4 +1,4 @@
-// Cracks beside free edges, through holes and at the corners of sterns (docs/theory.md, "Splitting").
+// Cracks beside free edges, through holes and at the corners of sterns (docs/theory/splitting.md).
 #include <algorithm>
 #include <cmath>
 

@@ -8,7 +8,7 @@ PARTS = {
     "How to": ["view", "figures", "movie", "channel", "inspect", "export", "ships", "import", "cut", "database",
                "studies", "python", "environment"],
     "Reference": ["scene", "run-folder", "reference/commands", "reference/python", "reference/cpp", "references"],
-    "Theory": ["theory", "theory-bending", "theory-bow", "geometry"],
+    "Theory": ["theory/index", "theory-bending", "theory-bow", "geometry"],
     "Validation": ["validation", "paper-comparison"],
     "Performance": ["performance"],
     "Reliability": ["reliability"],

@@ -118,7 +118,7 @@ function floeReferences({ floes, frames }) {
   return reference;
 }
 
-// Ice under hulls: what goes under, comes up behind and stays (docs/theory.md, "Ice that goes under").
+// Ice under hulls: what goes under, comes up behind and stays (docs/theory/under-hull.md).
 
 /** How many pieces went under, and when each came up, in order [s]. */
 function readIceUnderHulls(events) {

@@ -17,7 +17,7 @@ STRETCH = 0.1  # of paper, of which the largest and the least value are drawn [m
 
 @dataclasses.dataclass(frozen=True)
 class Load:
-    """A measure of the load (docs/theory.md, "Which force"): which columns of forces.csv, surge, sway and yaw."""
+    """A measure of the load (docs/theory/forces.md): which columns of forces.csv, surge, sway and yaw."""
 
     middle: str
     words: str

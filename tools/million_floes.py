@@ -1,0 +1,62 @@
+"""A run of a million floes: start, cost of a second, memory.
+
+Usage: python3 tools/million_floes.py [BINARY] [--floes-km KM] [--until S] [--step S]
+       BINARY by default build/release/app/polynya; --floes-km: side of the field, 24 km for 944 547 floes
+
+Log-normal floes (mean of the root of the area 22.5 m, spread .3) at 90 % of the area drift in a current sheared by 2e-5
+1/s, so that all of them move, and a ship of 95 m goes through them at 2 m/s. Prints the floes, the time to the first
+step (reading, the field, covers), the real-time factor after it and the most memory.
+"""
+
+import argparse
+import json
+import pathlib
+import resource
+import subprocess
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def scene(side, until, step):
+    clock = {"until_s": until} if step is None else {"until_s": until, "step_s": step}
+    ship = {"ship": "araon", "position_m": [0.25 * side, 0.5 * side], "propulsion": {"constant_speed_m_per_s": 2}}
+    field = {"corner_m": [0, 0], "extent_m": side, "concentration": 0.9, "sizes": {"mean_m": 22.5, "spread": 0.3}}
+    return {"name": "million-floes", "time": clock, "ships": [ship], "floes": [{"field": field}],
+            "water": {"shear": {"rate_per_s": 2e-5, "origin_m": [0, 0.5 * side]}},
+            "record": {"frames_interval_s": 1e6, "forces_interval_s": 1}}
+
+
+def measure(binary, folder, case):
+    """The run's summary, its time from start to end [s] and its most memory [GB]."""
+    (folder / "scene.json").write_text(json.dumps(case))
+    before = time.monotonic()
+    subprocess.run([binary, "run", str(folder / "scene.json"), "--out", str(folder / "run"), "--overwrite", "--no-map",
+                    "--progress", "none"], check=True, capture_output=True)
+    taken = time.monotonic() - before
+    summary = json.loads((folder / "run/summary.json").read_text())
+    return summary, taken, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1e6
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("binary", nargs="?", default=str(ROOT / "build/release/app/polynya"))
+    parser.add_argument("--floes-km", type=float, default=24)
+    parser.add_argument("--until", type=float, default=10)
+    parser.add_argument("--step", type=float)
+    given = parser.parse_args()
+    with tempfile.TemporaryDirectory() as name:
+        case = scene(1e3 * given.floes_km, given.until, given.step)
+        summary, taken, memory = measure(given.binary, pathlib.Path(name), case)
+    simulated, wall = summary["sim_time_s"], summary["wall_time_s"]
+    print("| floes | step, s | start, s | simulated, s | wall, s | x real time | memory, GB | bends |")
+    print("|---|---|---|---|---|---|---|---|")
+    steps = ", ".join(f"{level['step_s']:g}" for level in summary["levels"])
+    counts = summary["counts"]
+    print(f"| {counts['floes_initial']} | {steps} | {taken - wall:.1f} | {simulated:g} | {wall:.1f} | "
+          f"{simulated / wall:.3g} | {memory:.2f} | {counts['bends']} |")
+
+
+if __name__ == "__main__":
+    main()
