@@ -12,7 +12,7 @@ namespace polynya::dynamics {
 
 using BodyIndex = std::int32_t;
 
-/// Bodies::level of what has no steps of its own: it stands still, or sleeps out of reach of all that moves.
+/// Bodies::level of what has its contacts in the steps of others: it stands still, or sleeps, or is far heavier.
 inline constexpr std::uint8_t kNoLevel = 255;
 
 /// Ships, structures and walls are hulls: rigid bodies that are not ice.

@@ -237,9 +237,10 @@ std::size_t BroadPhase::find_pending(const Bodies& bodies, std::size_t begin, st
   const double* travel = bodies.travel.data();
   const std::uint8_t* level = bodies.level.data();
   ActivePair** next = pending.data();
+  const auto level_of = [](std::uint8_t lower) { return lower == kNoLevel ? 0 : lower; };
   const auto consider = [&](ActivePair& active) {
     const bool is_apart = travel[active.a] + travel[active.b] <= active.separation_bound;
-    const bool is_due = level_ == kEveryLevel || std::min(level[active.a], level[active.b]) == level_;
+    const bool is_due = level_ == kEveryLevel || level_of(std::min(level[active.a], level[active.b])) == level_;
     *next = &active;  // without a branch: which pairs may touch is unpredictable
     next += static_cast<int>(is_due) & static_cast<int>(!(is_apart & rule_.is_culling));
   };

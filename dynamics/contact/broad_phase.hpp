@@ -75,7 +75,7 @@ class BroadPhase {
 
   /// All contacts of the present positions, ordered by (a, b, place), the same on any number of threads.
   /// Contact records are kept over the steps. Of bodies that take different steps: of the pairs that take theirs
-  /// by this Bodies::level, the lower of the two.
+  /// by this Bodies::level, the lower of the two; 0 where neither has one.
   void find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads = 1,
                      int level = kEveryLevel);
   static constexpr int kEveryLevel = -1;

@@ -22,6 +22,10 @@ constexpr double kAhead = 1.5;
 constexpr double kSlack = 0.01;
 /// The longest way ahead in a block [m], below the margin of the contact search's boxes.
 constexpr double kMostAhead = 1.5;
+/// Times the mass of most floes awake: of one that is not moved by them.
+constexpr double kHeavy = 1000;
+/// Times that of another: such a one needs not go by the tick with it.
+constexpr double kHeavier = 100;
 /// A body of more is taken by its bounding circle.
 constexpr std::size_t kFewCorners = 64;
 /// Of the awake bodies, that have to take longer steps.
@@ -88,7 +92,10 @@ class Assignment {
  private:
   using Node = Components::Node;
   double time() const { return static_cast<double>(ticks_) * tick_; }
-  bool is_fixed(BodyIndex i) const { return population_.is_hull(i) || is_held(bodies_, i); }
+  /// Ice that moves what it meets and is not moved by it goes by the tick, and joins nothing.
+  bool is_heavy(BodyIndex i) const { return is_held(bodies_, i) || bodies_.mass[i] >= heavy_; }
+  bool is_fixed(BodyIndex i) const { return population_.is_hull(i) || is_heavy(i); }
+  void find_heavy();
   void clear();
   std::int32_t node(BodyIndex i);
   std::span<const Point> corners(const Node& node) const;
@@ -108,6 +115,7 @@ class Assignment {
   std::vector<Node>& nodes_;
   std::int64_t ticks_;
   double tick_;
+  double heavy_ = 0;  ///< [kg]
 };
 
 /// How many ticks may pass before any body comes out of the box in which the contact search has it.
@@ -116,6 +124,17 @@ std::int64_t Assignment::ticks_within_reach() const {
   for (const BodyIndex i : population_.awake) fastest = std::max(fastest, rim_speed_of(bodies_, i));
   const double most = kMostAhead / (kAhead * fastest * tick_);
   return most < static_cast<double>(ticks_) ? static_cast<std::int64_t>(most) : ticks_;
+}
+
+void Assignment::find_heavy() {
+  std::vector<double> masses;
+  for (const BodyIndex i : population_.awake)
+    if (!population_.is_hull(i)) masses.push_back(bodies_.mass[i]);
+  heavy_ = std::numeric_limits<double>::infinity();
+  if (masses.empty()) return;
+  const auto middle = masses.begin() + static_cast<std::ptrdiff_t>(masses.size() / 2);
+  std::ranges::nth_element(masses, middle);
+  heavy_ = kHeavy * *middle;
 }
 
 void Assignment::clear() {
@@ -185,8 +204,12 @@ void Assignment::see(BodyIndex a, BodyIndex b) {
   const std::int32_t of_a = node(a);
   const std::int32_t of_b = node(b);
   if (!may_touch(of_a, of_b, speed)) return;
-  if (population_.is_hull(a)) return shorten(of_b, 0, 1);
-  if (population_.is_hull(b)) return shorten(of_a, 0, 1);
+  const auto goes_by_tick_beside = [&](BodyIndex other, BodyIndex i) {
+    return population_.is_hull(other) ||
+           (is_heavy(other) && !is_held(bodies_, other) && bodies_.mass[other] < kHeavier * bodies_.mass[i]);
+  };
+  if (goes_by_tick_beside(a, b)) return shorten(of_b, 0, 1);
+  if (goes_by_tick_beside(b, a)) return shorten(of_a, 0, 1);
   const double way = most_way(setup_, std::min(bodies_.thickness[a], bodies_.thickness[b]));
   if (!is_fixed(a)) shorten(of_a, way, speed);
   if (!is_fixed(b)) shorten(of_b, way, speed);
@@ -200,9 +223,9 @@ int Assignment::level_of(BodyIndex i) {
 
 /// Gives it its level. Returns whether it takes steps of several ticks.
 std::size_t Assignment::enter(BodyIndex i) {
-  const bool is_still = !population_.is_hull(i) && is_held(bodies_, i);
-  const int level = population_.is_hull(i) || is_still ? 0 : level_of(i);
-  bodies_.level[i] = is_still ? kNoLevel : static_cast<std::uint8_t>(level);
+  const int level = is_fixed(i) ? 0 : level_of(i);
+  const bool is_of_partners = !population_.is_hull(i) && is_heavy(i);
+  bodies_.level[i] = is_of_partners ? kNoLevel : static_cast<std::uint8_t>(level);
   if (bodies_.is_awake[i] != 0) components_.of_level[static_cast<std::size_t>(level)].push_back(i);
   return level > 0 ? 1 : 0;
 }
@@ -212,6 +235,7 @@ std::int64_t Assignment::sort() {
   if (ticks_ < 2) return 1;
   population_.pairs.update(bodies_, population_.awake, kAhead * static_cast<double>(ticks_) * tick_);
   clear();
+  find_heavy();
   for (const BodyIndex i : population_.awake) node(i);
   population_.pairs.for_pairs([this](BodyIndex a, BodyIndex b) { see(a, b); });
   std::size_t coarse = 0;

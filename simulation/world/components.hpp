@@ -11,7 +11,7 @@ namespace polynya::simulation {
 // Which bodies take steps of several ticks. Bodies that may touch within the block of ticks ahead are a component;
 // all of one take steps of 2^k ticks, as long as none of them goes farther than its share of the thickness relative
 // to another that it may touch. Hulls, and what they may touch with all its component, go by the tick (k = 0). Ice
-// that is held joins nothing.
+// that is held, or far heavier than others, joins nothing: its contacts are those of the others' steps.
 
 /// Who takes which steps in a block of ticks, and where it is sought.
 struct Components {
