@@ -31,6 +31,7 @@ BodyIndex add_body(Bodies& bodies, const NewBody& body) {
   bodies.rim_speed.push_back(length(body.velocity) + std::abs(body.angular_velocity) * radius);
   bodies.drag_span.push_back({});
   bodies.is_awake.push_back(0);
+  bodies.level.push_back(kNoLevel);
   bodies.is_alive.push_back(1);
   bodies.mass.push_back(body.mass);
   bodies.moment.push_back(body.moment);
@@ -47,8 +48,8 @@ void reserve(Bodies& bodies, std::size_t count) {
   const auto reserve_all = [count](auto&... columns) { (columns.reserve(count), ...); };
   reserve_all(bodies.position, bodies.angle, bodies.rotation, bodies.velocity, bodies.angular_velocity,
               bodies.inverse_mass, bodies.inverse_moment, bodies.travel, bodies.bounding_radius, bodies.rim_speed,
-              bodies.drag_span, bodies.is_awake, bodies.is_alive, bodies.mass, bodies.moment, bodies.centroid,
-              bodies.area, bodies.thickness, bodies.kind, bodies.boundary, bodies.drag);
+              bodies.drag_span, bodies.is_awake, bodies.level, bodies.is_alive, bodies.mass, bodies.moment,
+              bodies.centroid, bodies.area, bodies.thickness, bodies.kind, bodies.boundary, bodies.drag);
 }
 
 void move_body(Bodies& bodies, BodyIndex i, geometry::Vector shift, double turn) {

@@ -12,6 +12,9 @@ namespace polynya::dynamics {
 
 using BodyIndex = std::int32_t;
 
+/// Bodies::level of what has its contacts in the steps of others: it stands still, or sleeps, or is far heavier.
+inline constexpr std::uint8_t kNoLevel = 255;
+
 /// Ships, structures and walls are hulls: rigid bodies that are not ice.
 enum class BodyKind : std::uint8_t { kShip, kStructure, kWall, kFloe };
 
@@ -56,6 +59,8 @@ struct Bodies {
   std::vector<double> rim_speed;             ///< bound of any point's speed at the last integration [m/s]
   std::vector<DragSpan> drag_span;
   std::vector<std::uint8_t> is_awake;
+  /// While not all bodies take the same steps: it takes 2^level ticks in one. Bodies that may touch have the same.
+  std::vector<std::uint8_t> level;
   // Cold.
   std::vector<std::uint8_t> is_alive;
   std::vector<double> mass;               ///< [kg], also of bodies of prescribed motion

@@ -71,11 +71,11 @@ bool is_recorded(const World& world, const dynamics::Contact& contact) {
 
 }  // namespace
 
-void Simulation::step() {
+void Simulation::step(std::int64_t most_ticks) {
   if (thread_limit_ == nullptr) {
-    simulation::step(*world_);
+    simulation::step(*world_, most_ticks);
   } else {
-    thread_limit_->execute([&] { simulation::step(*world_); });
+    thread_limit_->execute([&] { simulation::step(*world_, most_ticks); });
   }
   validate(*world_);
 }
@@ -211,19 +211,22 @@ std::vector<CrushedOverlap> Simulation::crushed_overlaps() const {
 
 std::vector<ContactState> Simulation::contact_states() const {
   const World& world = *world_;
-  const double dt = world.clock.step;
-  const Vector drift_then = world.clock.drift_at((world.clock.ticks() - dt / world.clock.tick) * world.clock.tick);
   std::vector<ContactState> states;
-  for (std::size_t i = 0; i < world.step.contacts.size(); ++i) {
-    const dynamics::Contact& c = world.step.contacts[i];
-    if (!is_recorded(world, c)) continue;
-    const HullSlope* slope = i < world.step.slopes.size() ? &world.step.slopes[i] : nullptr;
-    ContactState& state = states.emplace_back(state_of(world.setup, world.clock, world.population, c, slope));
-    state.point_in_world = c.centre_of_pressure() + drift_then;
-    if (!world.population.is_hull(c.a)) continue;
-    const geometry::Pose& then = world.step.water_from_hull[static_cast<std::size_t>(c.a)];
-    place_on_waterline(world.setup, inverse_transform(then, c.centre_of_pressure()), state);
-  }
+  const auto add = [&](const dynamics::Contact& c, double dt, const HullSlope* slope) {
+    if (!is_recorded(world, c)) return;
+    Clock of_step = world.clock;
+    of_step.step = dt;
+    ContactState& state = states.emplace_back(state_of(world.setup, of_step, world.population, c, slope));
+    const double then = (world.clock.ticks() - dt / world.clock.tick) * world.clock.tick;
+    state.point_in_world = c.centre_of_pressure() + world.clock.drift_at(then);
+    if (!world.population.is_hull(c.a)) return;
+    const geometry::Pose& water_from_hull = world.step.water_from_hull[static_cast<std::size_t>(c.a)];
+    place_on_waterline(world.setup, inverse_transform(water_from_hull, c.centre_of_pressure()), state);
+  };
+  for (std::size_t i = 0; i < world.step.contacts.size(); ++i)
+    add(world.step.contacts[i], world.clock.step, i < world.step.slopes.size() ? &world.step.slopes[i] : nullptr);
+  for (std::size_t i = 0; i < world.step.longer_contacts.size(); ++i)
+    add(world.step.longer_contacts[i], world.step.longer_steps[i], nullptr);
   return states;
 }
 

@@ -83,8 +83,9 @@ class Simulation {
   /// outside pilot remembers is not in state().
   void set_pilot(int ship, ExternalPilot pilot);
 
-  /// One time step. Appends what happened in it to journal().
-  void step();
+  /// One tick; or, where floes can take longer steps and so many ticks are allowed, up to that many. Appends what
+  /// happened in it to journal().
+  void step(std::int64_t most_ticks = 1);
 
   /// Why the run cannot continue (NaN, runaway speed); checked every step.
   std::optional<std::string> numerical_failure() const;

@@ -209,10 +209,10 @@ void BroadPhase::merge_new() {
   }
 }
 
-void BroadPhase::update(const Bodies& bodies, const std::vector<BodyIndex>& awake) {
+void BroadPhase::update(const Bodies& bodies, const std::vector<BodyIndex>& awake, double ahead) {
   for (const BodyIndex body : awake) {
     if (!rule_.is_culling) break;  // every pair is there already
-    if (bodies.travel[body] <= travel_limits_[body]) continue;
+    if (bodies.travel[body] + ahead * bodies.rim_speed[body] <= travel_limits_[body]) continue;
     place(bodies, body);
     own_pairs_ = entries_[body].pairs;
     for (const std::uint32_t pair : own_pairs_) {
@@ -235,11 +235,14 @@ std::size_t BroadPhase::find_pending(const Bodies& bodies, std::size_t begin, st
   const std::size_t most = end - begin + static_cast<std::size_t>(last_recent - recent);
   if (pending.size() < most) pending.resize(most);
   const double* travel = bodies.travel.data();
+  const std::uint8_t* level = bodies.level.data();
   ActivePair** next = pending.data();
+  const auto level_of = [](std::uint8_t lower) { return lower == kNoLevel ? 0 : lower; };
   const auto consider = [&](ActivePair& active) {
     const bool is_apart = travel[active.a] + travel[active.b] <= active.separation_bound;
+    const bool is_due = level_ == kEveryLevel || level_of(std::min(level[active.a], level[active.b])) == level_;
     *next = &active;  // without a branch: which pairs may touch is unpredictable
-    next += is_apart & rule_.is_culling ? 0 : 1;
+    next += static_cast<int>(is_due) & static_cast<int>(!(is_apart & rule_.is_culling));
   };
   for (ActivePair* active = active_.data() + begin; active != active_.data() + end; ++active) {
     while (recent != last_recent && *recent < *active) consider(*recent++);
@@ -278,9 +281,11 @@ void BroadPhase::collide_share(const Bodies& bodies, std::size_t begin, std::siz
   share.scratch.covers.clear();
 }
 
-void BroadPhase::find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads) {
+void BroadPhase::find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads,
+                               int level) {
   constexpr std::size_t kPairsPerShare = 2048;  // fewer are not worth another thread
   contacts.clear();
+  level_ = level;
   if (!new_.empty() || dropped_ > 0) merge_new();
   const std::size_t chunks = std::max<std::size_t>(1, chunk_count(active_.size(), kPairsPerShare));
   if (shares_.size() < chunks) shares_.resize(chunks);

@@ -69,12 +69,16 @@ class BroadPhase {
   void wake(const Bodies& bodies, BodyIndex body);
   void sleep(const Bodies& bodies, BodyIndex body);
 
-  /// Updates boxes and pairs of the awake bodies that have travelled out of their grown boxes.
-  void update(const Bodies& bodies, const std::vector<BodyIndex>& awake);
+  /// Updates boxes and pairs of those bodies that have travelled out of their grown boxes, or will have by their
+  /// rim speed in a time [s].
+  void update(const Bodies& bodies, const std::vector<BodyIndex>& awake, double ahead = 0);
 
   /// All contacts of the present positions, ordered by (a, b, place), the same on any number of threads.
-  /// Contact records are kept over the steps.
-  void find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads = 1);
+  /// Contact records are kept over the steps. Of bodies that take different steps: of the pairs that take theirs
+  /// by this Bodies::level, the lower of the two; 0 where neither has one.
+  void find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads = 1,
+                     int level = kEveryLevel);
+  static constexpr int kEveryLevel = -1;
 
   /// The pairs, by (a, b): together with the bodies, all that decides which contacts the next steps find.
   std::vector<PairState> pair_states() const;
@@ -101,6 +105,13 @@ class BroadPhase {
       const BodyIndex other = pairs_[slot].a == body ? pairs_[slot].b : pairs_[slot].a;
       if (overlaps(box_in_water(bodies, other), box)) use(other);
     }
+  }
+
+  /// Calls use(a, b) for each pair, in no order.
+  template <class Use>
+  void for_pairs(Use use) const {
+    for (const Pair& pair : pairs_)
+      if (!pair.is_dropped) use(pair.a, pair.b);
   }
 
   /// Calls use(a, b, area, booked) for each pair, in no order: the overlap of its bodies that has pressed [m²],
@@ -173,6 +184,7 @@ class BroadPhase {
   std::vector<ActivePair> recent_;     // the same; merged into active_ when there are many
   std::vector<ActivePair> new_;        // not sorted yet
   std::size_t dropped_ = 0;            // of all three
+  int level_ = kEveryLevel;            // of find_contacts
   double kept_pieces_ = 0;             // of all bodies' covers
   struct Share {                       // of the pairs in use, for one thread at a time
     std::vector<ActivePair*> pending;  // those that may touch in this step, and room for more

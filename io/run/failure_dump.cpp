@@ -21,8 +21,8 @@ Simulation at_last_checkpoint(const ActiveRun& run) {
   return Simulation(run.scene.scene);
 }
 
-void step(Simulation& simulation) {
-  simulation.step();
+void step(Simulation& simulation, std::int64_t most_ticks) {
+  simulation.step(most_ticks);
   simulation.journal().clear();
 }
 
@@ -41,12 +41,14 @@ Result<> find_and_dump(const ActiveRun& run) {
   Simulation ahead = at_last_checkpoint(run);
   Simulation before = at_last_checkpoint(run);
   std::optional<std::string> failure;
+  std::int64_t last = before.steps();  // before the step that fails
   while (!failure && ahead.steps() < run.simulation.steps()) {
-    step(ahead);
+    last = ahead.steps();
+    step(ahead, last_step_of(run.scene.scene.time) - last);
     failure = failure_after_step(ahead);
   }
   if (!failure) return fail("it did not come again");
-  while (before.steps() + 1 < ahead.steps()) step(before);
+  while (before.steps() < last) step(before, last_step_of(run.scene.scene.time) - before.steps());
   before.journal().clear();
   Checkpoint dump = checkpoint_of(before, run.scene, {}, 0);
   dump.failure = *failure;

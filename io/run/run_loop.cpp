@@ -103,6 +103,7 @@ class RunLoop {
   const RunControl& control_;
   RunRecorder recorder_;
   std::int64_t last_step_ = 0;
+  std::int64_t before_ = 0;                ///< ticks before the last step, which may take several
   std::int64_t steps_per_checkpoint_ = 0;  ///< 0: by the clock alone
 };
 
@@ -120,7 +121,8 @@ std::optional<Stop> RunLoop::advance_to_end() {
 }
 
 std::optional<Stop> RunLoop::advance_step() {
-  simulation().step();
+  before_ = simulation().steps();
+  simulation().step(last_step_ - before_);
   recorder_.record_step();
   if (auto failure = failure_of_step()) return Stop{RunEnd::kNumericalFailure, *failure};
   recorder_.frame_if_due();
@@ -144,8 +146,9 @@ std::optional<Stop> RunLoop::stop_on_request() {
 /// Checkpoints, flushing and progress, each where it is due.
 std::optional<Stop> RunLoop::work_between_steps() {
   const std::int64_t step = simulation().steps();
-  const bool is_report_due = step % kStepsBetweenReports == 0;
-  const bool is_checkpoint_due = (steps_per_checkpoint_ > 0 && step % steps_per_checkpoint_ == 0) ||
+  const auto is_due = [&](std::int64_t every) { return step / every > before_ / every; };
+  const bool is_report_due = is_due(kStepsBetweenReports);
+  const bool is_checkpoint_due = (steps_per_checkpoint_ > 0 && is_due(steps_per_checkpoint_)) ||
                                  (is_report_due && control_.checkpoint_every_wall > 0 &&
                                   recorder_.checkpoint_age() >= control_.checkpoint_every_wall);
   if (!is_checkpoint_due && !is_report_due) return {};

@@ -109,7 +109,7 @@ void append(JsonWriter& json, const simulation::Counts& counts) {
   json.key("database_out_of_range").value(counts.database_out_of_range);
   json.key("floated_cusps").value(counts.floated_cusps).key("brash_pieces").value(counts.brash_pieces);
   json.key("snap_rounded").value(counts.snap_rounded);
-  json.key("crowded_ticks").value(counts.crowded_ticks);
+  json.key("crowded_ticks").value(counts.crowded_ticks).key("body_steps").value(counts.body_steps);
   json.key("unresolved_splits").value(counts.unresolved_splits);
   json.key("unconverged_steps").value(counts.unconverged_steps);
   json.key("largest_left_over_m_per_s").value(counts.largest_residual);
@@ -128,7 +128,7 @@ void append(JsonWriter& json, const simulation::PeakCounts& peaks, double least)
 /// The lengths of the steps that the run took.
 void append_levels(JsonWriter& json, const simulation::Counts& counts, double tick) {
   std::vector<int> levels;
-  for (int k = 0; k <= simulation::kMostLevels; ++k)
+  for (int k = 0; k <= 2 * simulation::kMostLevels; ++k)
     if (counts.steps_at_level[static_cast<std::size_t>(k)] > 0) levels.push_back(k - simulation::kMostLevels);
   json.key("levels").objects(levels, [&](int level) {
     json.key("level").value(level).key("step_s").value(std::ldexp(tick, level));

@@ -33,7 +33,7 @@ CrushingForce deepest_crushing_force(const fracture::Ice& ice, const Contact& c,
 void set_crushing(Contact& c, CrushingForce crushing, double dt, bool is_just_born) {
   c.crushing_force = crushing.force;
   c.crushing_stiffness = crushing.stiffness;
-  const bool is_new = c.record->loaded_depth == 0 && c.record->age < 1.5 * dt;
+  const bool is_new = c.record->loaded_depth == 0 && c.record->age <= dt;
   if (!is_new || is_just_born || crushing.force <= 0 || c.approach_speed <= 0) return;
   const double exponent = crushing.stiffness * c.depth / crushing.force;
   c.missed_impulse = std::min(dt, c.depth / c.approach_speed) * crushing.force / (1 + exponent);

@@ -182,7 +182,7 @@ void fields(Archive& archive, Is<std::pair<std::int64_t, std::int64_t>> auto& p)
 }
 
 template <class Archive>
-void fields(Archive& archive, Is<std::array<std::int64_t, kMostLevels + 1>> auto& counts) {
+void fields(Archive& archive, Is<std::array<std::int64_t, 2 * kMostLevels + 1>> auto& counts) {
   for (auto& count : counts) archive(count);
 }
 

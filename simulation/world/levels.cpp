@@ -11,8 +11,7 @@ double longest_step(const Setup& setup, const Population& population, BodyIndex 
   double longest = setup.scene.time.step;
   population.pairs.for_bodies_at(bodies, hull, [&](BodyIndex other) {
     if (population.is_hull(other)) return;
-    const double way =
-        std::min(kWayOverThickness * bodies.thickness[other], kWayOverCircle * setup.scene.contact.circle_radius);
+    const double way = most_way(setup, bodies.thickness[other]);
     const double speed = length(bodies.velocity[hull] - bodies.velocity[other]);
     if (speed * longest > way) longest = way / speed;
   });
@@ -20,6 +19,10 @@ double longest_step(const Setup& setup, const Population& population, BodyIndex 
 }
 
 }  // namespace
+
+double most_way(const Setup& setup, double thickness) {
+  return std::min(kWayOverThickness * thickness, kWayOverCircle * setup.scene.contact.circle_radius);
+}
 
 int parts_of_tick(const Setup& setup, const Clock& clock, const Population& population) {
   const int most = 1 << setup.levels;

@@ -4,9 +4,9 @@
 
 namespace polynya::simulation {
 
-// How long steps are: a tick, Scene::time.step, or a part of it where a hull goes so fast through ice that it
-// would pass through more than it can break. The stages of a step take its length as it is (Setup::step) and
-// have no part in this.
+// How long steps are: a tick, Scene::time.step, a part of it where a hull goes so fast through ice that it would pass
+// through more than it can break, or several for bodies that need no more (components.hpp). The stages of a step take
+// its length as it is (Setup::step) and the bodies that are due (Population::due), and have no part in this.
 
 /// The longest way of a hull in a step, relative to ice at it, in thicknesses: F grows to V_b within some tenths.
 /// Greater, ice is found late and loads fall.
@@ -23,6 +23,9 @@ inline constexpr double kFewBends = 0.25;
 inline constexpr double kCrowded = 2;
 /// Of the last tick in that mean: two bends in a step of thick ice are by chance.
 inline constexpr double kLastTick = 0.125;
+
+/// The longest way in a step, relative to ice of that thickness [m].
+double most_way(const Setup& setup, double thickness);
 
 /// In how many equal parts the next tick is taken: a power of two up to 2^levels, 1 where levels is 0 [-].
 int parts_of_tick(const Setup& setup, const Clock& clock, const Population& population);

@@ -56,6 +56,14 @@ NewFloe new_floe_of(FloeSpec& spec, Point centroid, const Setup& setup) {
   return floe;
 }
 
+void insert_into(std::vector<BodyIndex>& ascending, BodyIndex body) {
+  ascending.insert(std::ranges::lower_bound(ascending, body), body);
+}
+void erase_from(std::vector<BodyIndex>& ascending, BodyIndex body) {
+  const auto [first, last] = std::ranges::equal_range(ascending, body);
+  ascending.erase(first, last);
+}
+
 }  // namespace
 
 Population::Population(const Setup& setup)
@@ -124,7 +132,8 @@ void leave_contacts(FloeId floe, Population& population) {
   std::erase_if(population.tilted, [&](const TiltedFloe& tilted) { return tilted.floe == floe; });
   if (!population.bodies.is_awake[body]) return;
   population.bodies.is_awake[body] = 0;
-  population.awake.erase(std::find(population.awake.begin(), population.awake.end(), body));
+  erase_from(population.awake, body);
+  if (population.level != Population::kAllDue) erase_from(population.due_some, body);
 }
 
 void retire_floe(FloeId floe, Population& population, Journal& journal) {
@@ -143,7 +152,12 @@ void wake(BodyIndex body, Population& population) {
   if (population.bodies.is_awake[body]) return;
   population.bodies.is_awake[body] = 1;
   add_drag(body, population);
-  population.awake.insert(std::lower_bound(population.awake.begin(), population.awake.end(), body), body);
+  insert_into(population.awake, body);
+  if (population.level != Population::kAllDue) {
+    insert_into(population.due_some, body);
+    const bool is_still = is_held(population.bodies, body);
+    population.bodies.level[body] = is_still ? dynamics::kNoLevel : static_cast<std::uint8_t>(population.level);
+  }
   population.pairs.wake(population.bodies, body);
 }
 

@@ -65,10 +65,16 @@ struct Population {
   std::vector<Helm> helms;                ///< per ship
   std::vector<Floe> floes;                ///< by id
   std::vector<BodyIndex> awake;           ///< ascending
+  std::vector<BodyIndex> due_some;        ///< of them those that the step at hand moves, where that is not all
+  int level = kAllDue;                    ///< Bodies::level of these
   dynamics::BroadPhase pairs;             ///< of bodies that may touch, with the memory of their contacts
   std::vector<TiltedFloe> tilted;         ///< by (ship, floe)
   std::vector<SubmergedPiece> submerged;  ///< in the order in which they went under
 
+  static constexpr int kAllDue = dynamics::BroadPhase::kEveryLevel;
+
+  /// The bodies that the step at hand moves; ascending.
+  const std::vector<BodyIndex>& due() const { return level == kAllDue ? awake : due_some; }
   FloeId floe_count() const { return static_cast<FloeId>(floes.size()); }
   BodyKind kind(BodyIndex body) const { return bodies.kind[body]; }
   bool is_hull(BodyIndex body) const { return body < hull_count; }

@@ -52,6 +52,7 @@ Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
   }
   for (const Ship& ship : scene.ships) sailing.push_back(sailing_of(ship, scene.water.water.density));
   steps_per_sample = std::max<std::int64_t>(1, std::llround(scene.record.forces_interval / scene.time.step));
+  steps_per_frame = std::max<std::int64_t>(1, std::llround(scene.record.frames_interval / scene.time.step));
   const ContactSettings& contact = scene.contact;
   if (contact.law == ContactLaw::kCrush) {
     law = dynamics::CrushLaw{scene.time.step, contact.substeps, contact.is_warm_started};
@@ -64,16 +65,17 @@ Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
   }
 }
 
-void take_parts(Setup& setup, Clock& clock, int parts) {
+void take_step(Setup& setup, Clock& clock, int ticks, int parts) {
+  clock.ticks_in_step = ticks;
   clock.parts = parts;
-  clock.step = setup.step = clock.tick / parts;
+  clock.step = setup.step = ticks * clock.tick / parts;
   std::visit([&](auto& law) { law.step = setup.step; }, setup.law);
 }
 
 void advance(Clock& clock) {
   if (++clock.part < clock.parts) return;
   clock.part = 0;
-  ++clock.steps;
+  clock.steps += clock.ticks_in_step;
 }
 
 Underwater underwater_of(const Hull& hull) {

@@ -39,7 +39,7 @@ struct Setup {
 
   Scene scene;
   Shortcuts shortcuts;
-  double step = 0;  ///< Δt of the step at hand: a tick, Scene::time.step, or a part of it [s]
+  double step = 0;  ///< Δt of the step at hand: a tick, Scene::time.step, a part of it or several [s]
   std::unique_ptr<const fracture::BendingModel> bending;
   dynamics::ShearCurrent current;                          ///< in the water frame
   dynamics::ResponseLaw law;                               ///< of contacts
@@ -51,6 +51,7 @@ struct Setup {
   std::vector<IceLimits> ice_limits;                       ///< of the scene's ice, then of each own_ice
   int levels = 0;                                          ///< Scene::time.levels; 0 where contacts give rigid impulses
   std::int64_t steps_per_sample = 1;
+  std::int64_t steps_per_frame = 1;
   std::int64_t steps_per_rest = 1;  ///< between two ticks that put floes to rest
 };
 
@@ -73,8 +74,10 @@ struct Clock {
   int parts = 1;                 ///< that it has
   int finer = 1;                 ///< by how many times more parts, for the bends of the ticks before (levels.hpp)
   double bends = 0;              ///< in a step, the mean of the ticks before
+  int ticks_in_step = 1;         ///< of the step at hand, where it is no part of one
+  std::int64_t next_levels = 0;  ///< the tick from which bodies may take steps of several again (components.hpp)
   double tick = 0;               ///< [s]
-  double step = 0;               ///< Δt of the step at hand: tick / parts [s]
+  double step = 0;               ///< Δt of the step at hand: a tick, part of one or several [s]
   geometry::Vector water_drift;  ///< velocity of the water frame over ground, its mean over the step at hand [m/s]
   std::shared_ptr<const WaterSettings> changing = {};  ///< of a drift that changes
 
@@ -85,8 +88,8 @@ struct Clock {
   geometry::Vector drift_at(double at) const { return changing ? changing->drift_path(at) : at * water_drift; }
 };
 
-/// Has the next tick taken in so many equal parts.
-void take_parts(Setup& setup, Clock& clock, int parts);
+/// Has the next step take so many ticks, or one in so many equal parts.
+void take_step(Setup& setup, Clock& clock, int ticks, int parts);
 
 /// To the end of the step.
 void advance(Clock& clock);

@@ -1,7 +1,6 @@
 #include "simulation/world/step.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "simulation/ice/split_instant.hpp"
@@ -52,8 +51,9 @@ void enter_water(const dynamics::WaterWork& work, AuditSums& audit) {
 }
 
 void blow(Vector stress, Population& population, double dt, AuditSums& audit) {
-  const auto first_floe = std::ranges::lower_bound(population.awake, population.hull_count);
-  const dynamics::WindWork work = apply_wind(population.bodies, {first_floe, population.awake.end()}, stress, dt);
+  const std::vector<BodyIndex>& due = population.due();
+  const auto first_floe = std::ranges::lower_bound(due, population.hull_count);
+  const dynamics::WindWork work = apply_wind(population.bodies, {first_floe, due.end()}, stress, dt);
   audit.boundaries.wind += work.energy;
   audit.boundaries.wind_impulse += work.impulse;
   audit.impulses += work.impulses;
@@ -72,14 +72,17 @@ void push_ship(dynamics::Bodies& bodies, BodyIndex ship, double thrust_impulse, 
 }  // namespace
 
 void find_pairs(Population& population) {
-  population.pairs.update(population.bodies, population.awake);
+  population.pairs.update(population.bodies, population.due());
 }
 
-void find_contacts(const Setup& setup, int threads, Population& population, std::vector<dynamics::Contact>& contacts,
-                   Counts& counts) {
-  population.pairs.find_contacts(population.bodies, setup.step, contacts, threads);
+void find_contacts(const Setup& setup, int threads, Population& population, StepData& step, Counts& counts) {
+  std::vector<dynamics::Contact>& contacts = step.contacts;
+  population.pairs.find_contacts(population.bodies, setup.step, contacts, threads, population.level);
+  if (population.level != Population::kAllDue && drop_across_levels(population.bodies, contacts)) step.has_met = true;
   counts.unpaired_stretches += population.pairs.take_unpaired_stretches();
   counts.peak_contacts = std::max(counts.peak_contacts, static_cast<std::int64_t>(contacts.size()));
+  population.pairs.take_blind_overlaps(step.blind_overlaps);
+  population.pairs.take_parted(step.parted);
 }
 
 void solve_impulses(const Setup& setup, int threads, Population& population, StepData& step, Accounts& accounts) {
@@ -102,14 +105,17 @@ void apply_forces(const Setup& setup, const Clock& clock, int threads, Populatio
   const double dt = setup.step;
   const WaterSettings& water = setup.scene.water;
   if (setup.scene.wind.blows()) blow(setup.scene.wind.stress(clock.time()), population, dt, audit);
-  enter_water(apply_water_drag(population.bodies, population.awake,
+  enter_water(apply_water_drag(population.bodies, population.due(),
                                {water.drag_coefficient, water.water.density, setup.current, water.drag_area,
                                 water.skin_drag_coefficient},
                                dt, threads),
               audit);
+}
+
+void push_ships(const Setup& setup, Population& population, AuditSums& audit) {
   for (std::size_t ship = 0; ship < setup.scene.ships.size(); ++ship) {
     if (const auto* thrust = std::get_if<ConstantThrust>(&setup.scene.ships[ship].propulsion))
-      push_ship(population.bodies, static_cast<BodyIndex>(ship), dt * thrust->thrust, audit);
+      push_ship(population.bodies, static_cast<BodyIndex>(ship), setup.step * thrust->thrust, audit);
   }
 }
 
@@ -117,7 +123,7 @@ std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clo
                                             const std::vector<dynamics::Contact>& contacts, Population& population) {
   const double dt = setup.step;
   if (setup.separation) separate(population.bodies, contacts, *setup.separation, dt);
-  const double fastest = integrate(population.bodies, population.awake, dt, threads);
+  const double fastest = integrate(population.bodies, population.due(), dt, threads);
   if (fastest < kRunawaySpeed) return std::nullopt;
   const auto runaway = std::ranges::find_if(
       population.awake, [&](BodyIndex i) { return !(population.bodies.rim_speed[i] < kRunawaySpeed); });
@@ -125,14 +131,27 @@ std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clo
          " has no finite speed below 1000 m/s at t = " + std::to_string(clock.time()) + " s";
 }
 
-void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Population& population, AuditSums& audit) {
-  if (!setup.shortcuts.sleeps || !clock.is_at_tick() || clock.steps % setup.steps_per_rest != 0) return;
-  dynamics::Bodies& bodies = population.bodies;
-  step.touched_at_step.resize(static_cast<std::size_t>(bodies.size()), -1);
+namespace {
+
+bool is_time_to_rest(const Setup& setup, const Clock& clock) {
+  return setup.shortcuts.sleeps && clock.is_at_tick() && clock.steps % setup.steps_per_rest == 0;
+}
+
+}  // namespace
+
+void note_touches(const Setup& setup, const Clock& clock, const Population& population, StepData& step) {
+  if (!is_time_to_rest(setup, clock)) return;
+  step.touched_at_step.resize(static_cast<std::size_t>(population.bodies.size()), -1);
   for (const dynamics::Contact& c : step.contacts) {
     step.touched_at_step[c.a] = clock.steps;
     step.touched_at_step[c.b] = clock.steps;
   }
+}
+
+void put_to_rest(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+                 AuditSums& audit) {
+  if (!is_time_to_rest(setup, clock)) return;
+  dynamics::Bodies& bodies = population.bodies;
   std::erase_if(population.awake, [&](BodyIndex i) {
     if (population.is_hull(i) || step.touched_at_step[i] == clock.steps) return false;
     if (bodies.rim_speed[i] >= kRestSpeed) return false;
@@ -140,85 +159,183 @@ void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Populat
     if (!stays_at_rest(i, setup, bodies)) return false;                        // it would not stay at rest
     stop(bodies, i, audit.energy.rest, audit);
     bodies.is_awake[i] = 0;
+    bodies.level[i] = dynamics::kNoLevel;
     population.pairs.sleep(bodies, i);
     return true;
   });
 }
 
-const std::array<Stage, 32> kStages = {{
-    {"follow the water", [](World& w) { follow_water(w.setup, w.clock, w.population, w.accounts.audit); }},
-    {"steer", [](World& w) { steer(w.setup, w.clock, w.pilots, w.population); }},
-    {"press walls", [](World& w) { press_walls(w.setup, w.clock, w.population, w.accounts.audit); }},
-    {"keep motion", [](World& w) { keep_motion(w.population, w.step); }},
-    {"find pairs", [](World& w) { find_pairs(w.population); }},
-    {"find contacts",
-     [](World& w) {
-       find_contacts(w.setup, w.threads, w.population, w.step.contacts, w.accounts.counts);
-       w.population.pairs.take_blind_overlaps(w.step.blind_overlaps);
-       w.population.pairs.take_parted(w.step.parted);
-     }},
-    {"decide", [](World& w) { decide(w.setup, w.clock, w.threads, w.population, w.step, w.accounts.counts); }},
-    {"limit by tilt", [](World& w) { limit_by_tilt(w.setup, w.population, w.step); }},
-    {"solve impulses", [](World& w) { solve_impulses(w.setup, w.threads, w.population, w.step, w.accounts); }},
-    {"hold walls", [](World& w) { hold_walls(w.setup, w.clock, w.population, w.accounts.audit); }},
-    {"drop unbroken", [](World& w) { drop_unbroken(w.setup, w.step); }},
-    {"enter splits", [](World& w) { enter_splits(w.setup, w.population, w.step); }},
-    {"overload",
+const std::array<Stage, 34> kStages = {{
+    {"follow the water", RunsIn::kTicks,
+     [](World& w) { follow_water(w.setup, w.clock, w.population, w.accounts.audit); }},
+    {"steer", RunsIn::kTicks, [](World& w) { steer(w.setup, w.clock, w.pilots, w.population); }},
+    {"press walls", RunsIn::kTicks, [](World& w) { press_walls(w.setup, w.clock, w.population, w.accounts.audit); }},
+    {"keep motion", RunsIn::kTicks, [](World& w) { keep_motion(w.population, w.step); }},
+    {"find pairs", RunsIn::kAllSteps, [](World& w) { find_pairs(w.population); }},
+    {"find contacts", RunsIn::kAllSteps,
+     [](World& w) { find_contacts(w.setup, w.threads, w.population, w.step, w.accounts.counts); }},
+    {"decide", RunsIn::kAllSteps,
+     [](World& w) { decide(w.setup, w.clock, w.threads, w.population, w.step, w.accounts.counts); }},
+    {"limit by tilt", RunsIn::kTicks, [](World& w) { limit_by_tilt(w.setup, w.population, w.step); }},
+    {"solve impulses", RunsIn::kAllSteps,
+     [](World& w) { solve_impulses(w.setup, w.threads, w.population, w.step, w.accounts); }},
+    {"hold walls", RunsIn::kTicks, [](World& w) { hold_walls(w.setup, w.clock, w.population, w.accounts.audit); }},
+    {"drop unbroken", RunsIn::kAllSteps, [](World& w) { drop_unbroken(w.setup, w.step); }},
+    {"enter splits", RunsIn::kAllSteps, [](World& w) { enter_splits(w.setup, w.population, w.step); }},
+    {"overload", RunsIn::kAllSteps,
      [](World& w) {
        auto failure = overload_of(w.setup, w.clock, w.population, w.step);
        if (failure && !w.failure) w.failure = std::move(failure);
      }},
-    {"tilt floes", [](World& w) { tilt_floes(w.setup, w.population, w.step); }},
-    {"book overlaps", [](World& w) { book_overlaps(w.setup, w.population, w.step); }},
-    {"tally loads", [](World& w) { tally_loads(w.population, w.step.contacts, w.step.loads); }},
-    {"follow loads",
+    {"tilt floes", RunsIn::kTicks, [](World& w) { tilt_floes(w.setup, w.population, w.step); }},
+    {"book overlaps", RunsIn::kAllSteps, [](World& w) { book_overlaps(w.setup, w.population, w.step); }},
+    {"tally loads", RunsIn::kTicks, [](World& w) { tally_loads(w.population, w.step.contacts, w.step.loads); }},
+    {"follow loads", RunsIn::kTicks,
      [](World& w) {
        follow_loads(w.setup, w.clock, w.population, w.step, w.accounts.load_peaks, w.journal);
        load_panels(w.setup, w.population, w.step, w.accounts.panels);
      }},
-    {"water and thrust", [](World& w) { apply_forces(w.setup, w.clock, w.threads, w.population, w.accounts.audit); }},
-    {"pull of submerged ice",
+    {"water and wind", RunsIn::kAllSteps,
+     [](World& w) { apply_forces(w.setup, w.clock, w.threads, w.population, w.accounts.audit); }},
+    {"thrust", RunsIn::kTicks, [](World& w) { push_ships(w.setup, w.population, w.accounts.audit); }},
+    {"pull of submerged ice", RunsIn::kTicks,
      [](World& w) { pull_of_submerged_ice(w.setup, w.population, w.step.loads, w.accounts.audit); }},
-    {"sail", [](World& w) { sail(w.setup, w.clock, w.step, w.population, w.accounts); }},
-    {"integrate",
+    {"sail", RunsIn::kTicks, [](World& w) { sail(w.setup, w.clock, w.step, w.population, w.accounts); }},
+    {"integrate", RunsIn::kAllSteps,
      [](World& w) {
        auto failure = integrate_motion(w.setup, w.clock, w.threads, w.step.contacts, w.population);
        if (failure && !w.failure) w.failure = std::move(failure);
      }},
-    {"advance the clock", [](World& w) { advance(w.clock); }},
-    {"apply fractures",
+    {"advance the clock", RunsIn::kAllSteps, [](World& w) { advance(w.clock); }},
+    {"apply fractures", RunsIn::kAllSteps,
      [](World& w) { apply_fractures(w.setup, w.clock, w.step.fractures, w.population, w.accounts, w.journal); }},
-    {"grind",
+    {"grind", RunsIn::kAllSteps,
      [](World& w) {
        grind_blind_overlaps(w.setup, w.clock, w.step.blind_overlaps, w.population, w.accounts, w.journal);
      }},
-    {"carve channels", [](World& w) { carve_channels(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
-    {"shed crushed ice",
+    {"carve channels", RunsIn::kTicks,
+     [](World& w) { carve_channels(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
+    {"shed crushed ice", RunsIn::kAllSteps,
      [](World& w) { shed_crushed_ice(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
-    {"cut through floes",
+    {"cut through floes", RunsIn::kTicks,
      [](World& w) { cut_through_floes(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
-    {"go under",
+    {"go under", RunsIn::kTicks,
      [](World& w) { apply_submersions(w.setup, w.clock, w.step.submersions, w.population, w.accounts, w.journal); }},
-    {"come up", [](World& w) { come_up(w.setup, w.clock, w.population, w.accounts, w.journal); }},
-    {"record ship events",
+    {"come up", RunsIn::kTogether, [](World& w) { come_up(w.setup, w.clock, w.population, w.accounts, w.journal); }},
+    {"record ship events", RunsIn::kTicks,
      [](World& w) { record_ship_events(w.setup, w.clock, w.population, w.step, w.accounts.ship_contacts, w.journal); }},
-    {"put to rest", [](World& w) { put_to_rest(w.setup, w.clock, w.step, w.population, w.accounts.audit); }},
-    {"record", [](World& w) { record(w.setup, w.clock, w.population, w.step.loads, w.accounts, w.journal); }},
+    {"note touches", RunsIn::kAllSteps, [](World& w) { note_touches(w.setup, w.clock, w.population, w.step); }},
+    {"put to rest", RunsIn::kTogether,
+     [](World& w) { put_to_rest(w.setup, w.clock, w.step, w.population, w.accounts.audit); }},
+    {"record", RunsIn::kTicks,
+     [](World& w) { record(w.setup, w.clock, w.population, w.step.loads, w.accounts, w.journal); }},
 }};
 
-void step(World& world) {
+namespace {
+
+/// The stages of a step, for the bodies that are due.
+void run_stages(World& world, RunsIn most) {
+  Counts& counts = world.accounts.counts;
+  const double ticks = world.setup.step / world.clock.tick;
+  ++counts.steps_at_level[static_cast<std::size_t>(kMostLevels + std::ilogb(ticks))];
+  counts.body_steps += static_cast<std::int64_t>(world.population.due().size());
+  for (const Stage& stage : kStages)
+    if (stage.in <= most) stage.run(world);
+}
+
+/// One tick of what goes by the tick, in its parts.
+void run_tick(World& world, RunsIn most) {
   Counts& counts = world.accounts.counts;
   const int parts = parts_of_tick(world.setup, world.clock, world.population);
-  take_parts(world.setup, world.clock, parts);
-  counts.steps_at_level[static_cast<std::size_t>(kMostLevels - std::countr_zero(static_cast<unsigned>(parts)))] +=
-      parts;
+  take_step(world.setup, world.clock, 1, parts);
   const std::int64_t bends = counts.bends;
-  for (int part = 0; part < parts; ++part) {
-    for (const Stage& stage : kStages) stage.run(world);
-    if (world.failure) break;
-  }
+  for (int part = 0; part < parts && !world.failure; ++part) run_stages(world, most);
   while (!world.clock.is_at_tick()) advance(world.clock);  // of a run that cannot continue
   counts.crowded_ticks += follow_bends(world.setup, counts.bends - bends, world.clock);
+}
+
+/// Keeps the contacts of a longer step that ends with what is recorded.
+void keep_contacts(StepData& step, double dt) {
+  step.longer_contacts.insert(step.longer_contacts.end(), step.contacts.begin(), step.contacts.end());
+  step.longer_steps.resize(step.longer_contacts.size(), dt);
+}
+
+/// A step of several ticks of the bodies that are due, up to the tick that is so many after the clock's.
+void run_longer(World& world, int ticks, int after, bool is_last) {
+  const Clock now = world.clock;
+  world.clock.steps += after - ticks;
+  take_step(world.setup, world.clock, ticks, 1);
+  run_stages(world, RunsIn::kAllSteps);
+  if (is_last && world.setup.scene.record.contacts == RecordedContacts::kAll)
+    keep_contacts(world.step, world.setup.step);
+  world.clock = now;
+}
+
+/// A block of ticks in which bodies take steps of their own. Those of longer steps lag behind what goes by the tick
+/// until theirs are due; all have come to the same tick at its end, which comes early where two of different steps
+/// meet.
+class Block {
+ public:
+  Block(World& world, std::int64_t ticks) : world_(world), ticks_(static_cast<int>(ticks)) {}
+
+  void run() {
+    world_.step.has_met = false;
+    for (int tick = 1; tick <= ticks_ && !world_.failure; ++tick) {
+      catch_up(tick, 1, tick == ticks_);
+      step_those_of(0, [&] { run_tick(world_, lags(tick) ? RunsIn::kTicks : RunsIn::kTogether); });
+      if (!world_.step.has_met) continue;
+      catch_up(tick, 0, true);
+      break;
+    }
+    end_block(world_.population, world_.components);
+  }
+
+ private:
+  static constexpr int kLongest = kMostLevels;
+
+  /// Steps all that are due at a tick, or that owe, up to it; the clock is `after` ticks before.
+  void catch_up(int tick, int after, bool is_last) {
+    for (int level = kLongest; level > 0; --level) {
+      int& done = done_[static_cast<std::size_t>(level)];
+      if (done == tick || of_level(level).empty() || !(is_last || tick % (1 << level) == 0)) continue;
+      step_those_of(level, [&] { run_longer(world_, tick - done, after, is_last); });
+      done = tick;
+    }
+  }
+
+  bool lags(int tick) {
+    for (int level = 1; level <= kLongest; ++level)
+      if (!of_level(level).empty() && done_[static_cast<std::size_t>(level)] != tick) return true;
+    return false;
+  }
+
+  std::vector<BodyIndex>& of_level(int level) { return world_.components.of_level[static_cast<std::size_t>(level)]; }
+
+  template <class Steps>
+  void step_those_of(int level, Steps steps) {
+    Population& population = world_.population;
+    population.level = level;
+    population.due_some.swap(of_level(level));
+    std::erase_if(population.due_some, [&](BodyIndex i) { return population.bodies.is_awake[i] == 0; });
+    steps();
+    population.due_some.swap(of_level(level));
+  }
+
+  World& world_;
+  int ticks_;
+  std::array<int, kMostLevels + 1> done_{};  ///< ticks of the block, by level
+};
+
+}  // namespace
+
+void step(World& world, std::int64_t most_ticks) {
+  world.step.longer_contacts.clear();
+  world.step.longer_steps.clear();
+  const std::int64_t ticks = begin_block(world.setup, world.clock, most_ticks, world.population, world.components);
+  if (ticks == 1)
+    run_tick(world, RunsIn::kTogether);
+  else
+    Block(world, ticks).run();
 }
 
 }  // namespace polynya::simulation

@@ -32,8 +32,7 @@ void keep_motion(const Population& population, StepData& step);
 
 void find_pairs(Population& population);
 
-void find_contacts(const Setup& setup, int threads, Population& population, std::vector<dynamics::Contact>& contacts,
-                   Counts& counts);
+void find_contacts(const Setup& setup, int threads, Population& population, StepData& step, Counts& counts);
 
 /// What each contact can carry, and whether ice breaks there: impulse, crush, bend or split.
 void decide(const Setup& setup, const Clock& clock, int threads, const Population& population, StepData& step,
@@ -64,7 +63,11 @@ void book_overlaps(const Setup& setup, const Population& population, const StepD
 void tally_loads(const Population& population, const std::vector<dynamics::Contact>& contacts,
                  std::vector<ShipLoads>& loads);
 
+/// Water and wind on the bodies that are due.
 void apply_forces(const Setup& setup, const Clock& clock, int threads, Population& population, AuditSums& audit);
+
+/// Constant thrust.
+void push_ships(const Setup& setup, Population& population, AuditSums& audit);
 
 /// Brakes ships by the ice under their hulls, and moves that ice along its path.
 void pull_of_submerged_ice(const Setup& setup, Population& population, std::vector<ShipLoads>& loads, AuditSums& audit);
@@ -115,21 +118,34 @@ void come_up(const Setup& setup, const Clock& clock, Population& population, Acc
 void record_ship_events(const Setup& setup, const Clock& clock, const Population& population, const StepData& step,
                         std::vector<Event>& known_contacts, Journal& journal);
 
-void put_to_rest(const Setup& setup, const Clock& clock, StepData& step, Population& population, AuditSums& audit);
+/// Keeps which bodies touch others, at the ticks that put floes to rest.
+void note_touches(const Setup& setup, const Clock& clock, const Population& population, StepData& step);
+
+void put_to_rest(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+                 AuditSums& audit);
 
 void record(const Setup& setup, const Clock& clock, const Population& population,
             const std::vector<ShipLoads>& step_loads, Accounts& accounts, Journal& journal);
 
+/// Where bodies take different steps: in which of them a stage runs.
+enum class RunsIn : std::uint8_t {
+  kAllSteps,
+  kTicks,     ///< with what goes by the tick: hulls and what is at them
+  kTogether,  ///< of these, where no body lags behind: floes are where they are seen
+};
+
 /// A stage with the parts of the world that it takes.
 struct Stage {
   std::string_view name;
+  RunsIn in;
   void (*run)(World& world);
 };
 
 /// All of them, in their order.
-extern const std::array<Stage, 32> kStages;
+extern const std::array<Stage, 34> kStages;
 
-/// One tick: all stages, once or in each of its parts (levels.hpp).
-void step(World& world);
+/// One tick: all stages, once or in each of its parts (levels.hpp). Where floes can take longer steps: up to so many
+/// ticks, after which all bodies have come to the same one (components.hpp).
+void step(World& world, std::int64_t most_ticks = 1);
 
 }  // namespace polynya::simulation

@@ -11,6 +11,7 @@
 #include "simulation/ice/beam_shape.hpp"
 #include "simulation/ship/load_peaks.hpp"
 #include "simulation/ship/panels.hpp"
+#include "simulation/world/components.hpp"
 #include "simulation/world/energy.hpp"
 #include "simulation/world/journal.hpp"
 #include "simulation/world/population.hpp"
@@ -116,6 +117,9 @@ struct StepData {
   std::vector<std::int64_t> touched_at_step;          ///< per body: the last step at which it touched something
   dynamics::ContactSolver solver;                     ///< its reusable memory
   std::unordered_map<FloeId, BeamShape> beam_shapes;  ///< of slender floes that forces may break, once they may
+  std::vector<dynamics::Contact> longer_contacts;     ///< of the longer steps that ended with it, where recorded
+  std::vector<double> longer_steps;                   ///< of each of them [s]
+  bool has_met = false;                               ///< one that takes other steps
   std::vector<SolverStart> solver_start;              ///< per contact, where splits by the true forces are found
 };
 
@@ -147,6 +151,7 @@ struct World {
   int threads = 1;  ///< to step with; results do not depend on it
   Clock clock;
   Population population;
+  Components components;
   StepData step;
   Accounts accounts;
   Journal journal;

@@ -1,0 +1,283 @@
+#include "simulation/world/components.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "simulation/world/levels.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+using dynamics::kNoLevel;
+using geometry::Point;
+using geometry::Vector;
+
+/// Times the way by a body's speed: it may be pushed meanwhile. Less, bodies meet others that take other steps, and
+/// blocks end; more, components join.
+constexpr double kAhead = 1.5;
+/// Beside that [m].
+constexpr double kSlack = 0.01;
+/// The longest way ahead in a block [m], below the margin of the contact search's boxes.
+constexpr double kMostAhead = 1.5;
+/// Times the mass of most floes awake: of one that is not moved by them.
+constexpr double kHeavy = 1000;
+/// Times that of another: such a one needs not go by the tick with it.
+constexpr double kHeavier = 100;
+/// A body of more is taken by its bounding circle.
+constexpr std::size_t kFewCorners = 64;
+/// Of the awake bodies, that have to take longer steps.
+constexpr double kLeastShare = 0.25;
+/// Ticks after which it is tried again, where too few would.
+constexpr std::int64_t kWait = 8;
+
+double rim_speed_of(const dynamics::Bodies& bodies, BodyIndex i) {
+  return length(bodies.velocity[i]) + std::abs(bodies.angular_velocity[i]) * bodies.bounding_radius[i];
+}
+
+/// A bound of the speed at which any two points of two bodies that touch part or close [m/s].
+double relative_speed(const dynamics::Bodies& bodies, BodyIndex a, BodyIndex b) {
+  return length(bodies.velocity[a] - bodies.velocity[b]) +
+         std::abs(bodies.angular_velocity[a]) * bodies.bounding_radius[a] +
+         std::abs(bodies.angular_velocity[b]) * bodies.bounding_radius[b];
+}
+
+/// Whether two bodies are farther from each other than a way, by the normals of their edges and the line of their
+/// centres [m]: exactly for convex ones, else for what their corners span.
+class Apart {
+ public:
+  Apart(std::span<const Point> a, std::span<const Point> b, double way) : a_(a), b_(b), way_(way) {}
+
+  bool are() const { return is_axis_of_edges(a_, b_) || is_axis_of_edges(b_, a_); }
+
+ private:
+  static double farthest(std::span<const Point> points, Vector axis) {
+    double most = -std::numeric_limits<double>::infinity();
+    for (const Point p : points) most = std::max(most, axis.x * p.x + axis.y * p.y);
+    return most;
+  }
+  bool is_axis_of_edges(std::span<const Point> of, std::span<const Point> other) const {
+    if (of.size() > kMostEdges) return false;
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      const Vector edge = of[i + 1 == of.size() ? 0 : i + 1] - of[i];
+      const Vector outward{edge.y, -edge.x};  // outlines go round to port
+      const double from = outward.x * of[i].x + outward.y * of[i].y;
+      if (outward.x * other[0].x + outward.y * other[0].y <= from) continue;
+      if (-farthest(other, -outward) - farthest(of, outward) > way_ * length(outward)) return true;
+    }
+    return false;
+  }
+
+  static constexpr std::size_t kMostEdges = 64;
+  std::span<const Point> a_;
+  std::span<const Point> b_;
+  double way_;
+};
+
+class Assignment {
+ public:
+  Assignment(const Setup& setup, const Clock& clock, std::int64_t ticks, Population& population, Components& components)
+      : setup_(setup),
+        population_(population),
+        bodies_(population.bodies),
+        components_(components),
+        nodes_(components.nodes),
+        ticks_(ticks),
+        tick_(clock.tick) {}
+
+  std::int64_t sort();
+
+ private:
+  using Node = Components::Node;
+  double time() const { return static_cast<double>(ticks_) * tick_; }
+  /// Ice that moves what it meets and is not moved by it goes by the tick, and joins nothing.
+  bool is_heavy(BodyIndex i) const { return is_held(bodies_, i) || bodies_.mass[i] >= heavy_; }
+  bool is_fixed(BodyIndex i) const { return population_.is_hull(i) || is_heavy(i); }
+  void find_heavy();
+  void clear();
+  std::int32_t node(BodyIndex i);
+  std::span<const Point> corners(const Node& node) const;
+  bool may_touch(std::int32_t a, std::int32_t b, double speed) const;
+  Node& root(std::int32_t i);
+  void join(std::int32_t a, std::int32_t b);
+  void shorten(std::int32_t i, double way, double speed);
+  void see(BodyIndex a, BodyIndex b);
+  int level_of(BodyIndex i);
+  std::size_t enter(BodyIndex i);
+  std::int64_t ticks_within_reach() const;
+
+  const Setup& setup_;
+  Population& population_;
+  dynamics::Bodies& bodies_;
+  Components& components_;
+  std::vector<Node>& nodes_;
+  std::int64_t ticks_;
+  double tick_;
+  double heavy_ = 0;  ///< [kg]
+};
+
+/// How many ticks may pass before any body comes out of the box in which the contact search has it.
+std::int64_t Assignment::ticks_within_reach() const {
+  double fastest = 0;
+  for (const BodyIndex i : population_.awake) fastest = std::max(fastest, rim_speed_of(bodies_, i));
+  const double most = kMostAhead / (kAhead * fastest * tick_);
+  return most < static_cast<double>(ticks_) ? static_cast<std::int64_t>(most) : ticks_;
+}
+
+void Assignment::find_heavy() {
+  std::vector<double> masses;
+  for (const BodyIndex i : population_.awake)
+    if (!population_.is_hull(i)) masses.push_back(bodies_.mass[i]);
+  heavy_ = std::numeric_limits<double>::infinity();
+  if (masses.empty()) return;
+  const auto middle = masses.begin() + static_cast<std::ptrdiff_t>(masses.size() / 2);
+  std::ranges::nth_element(masses, middle);
+  heavy_ = kHeavy * *middle;
+}
+
+void Assignment::clear() {
+  for (const Node& node : nodes_) components_.node_of[node.body] = -1;
+  components_.node_of.resize(static_cast<std::size_t>(bodies_.size()), -1);
+  nodes_.clear();
+  components_.corners.clear();
+  components_.asleep.clear();
+  for (auto& list : components_.of_level) list.clear();
+}
+
+std::int32_t Assignment::node(BodyIndex i) {
+  std::int32_t& place = components_.node_of[i];
+  if (place >= 0) return place;
+  place = static_cast<std::int32_t>(nodes_.size());
+  Node node{.body = i, .parent = place, .longest = time(), .box = {}, .first = components_.corners.size(), .count = 0};
+  const auto& vertices = bodies_.boundary[i]->edges.vertices;
+  const bool is_exact = population_.is_hull(i) || vertices.size() <= kFewCorners;
+  if (is_exact) {
+    const geometry::Pose pose = water_from_body(bodies_, i);
+    node.count = vertices.size();
+    node.box = {transform(pose, vertices.front()), transform(pose, vertices.front())};
+    for (const Point p : vertices) {
+      components_.corners.push_back(transform(pose, p));
+      extend(node.box, components_.corners.back());
+    }
+  } else {
+    node.box = geometry::grown({bodies_.position[i], bodies_.position[i]}, bodies_.bounding_radius[i]);
+  }
+  nodes_.push_back(node);
+  if (bodies_.is_awake[i] == 0) components_.asleep.push_back(i);
+  return place;
+}
+
+std::span<const Point> Assignment::corners(const Node& node) const {
+  return {components_.corners.data() + node.first, node.count};
+}
+
+bool Assignment::may_touch(std::int32_t a, std::int32_t b, double speed) const {
+  const double way = kAhead * speed * time() + kSlack;
+  if (!overlaps(grown(nodes_[a].box, way), nodes_[b].box)) return false;
+  if (nodes_[a].count == 0 || nodes_[b].count == 0) return true;
+  return !Apart(corners(nodes_[a]), corners(nodes_[b]), way).are();
+}
+
+Components::Node& Assignment::root(std::int32_t i) {
+  while (nodes_[i].parent != i) i = nodes_[i].parent = nodes_[nodes_[i].parent].parent;
+  return nodes_[i];
+}
+
+void Assignment::join(std::int32_t a, std::int32_t b) {
+  Node& of_a = root(a);
+  Node& of_b = root(b);
+  of_a.longest = std::min(of_a.longest, of_b.longest);
+  of_b.parent = of_a.parent;
+}
+
+void Assignment::shorten(std::int32_t i, double way, double speed) {
+  double& longest = root(i).longest;
+  if (speed * longest > way) longest = way / speed;
+}
+
+/// Two bodies that the contact search keeps as a pair.
+void Assignment::see(BodyIndex a, BodyIndex b) {
+  if (is_fixed(a) && is_fixed(b)) return;
+  const double speed = relative_speed(bodies_, a, b);
+  const std::int32_t of_a = node(a);
+  const std::int32_t of_b = node(b);
+  if (!may_touch(of_a, of_b, speed)) return;
+  const auto goes_by_tick_beside = [&](BodyIndex other, BodyIndex i) {
+    return population_.is_hull(other) ||
+           (is_heavy(other) && !is_held(bodies_, other) && bodies_.mass[other] < kHeavier * bodies_.mass[i]);
+  };
+  if (goes_by_tick_beside(a, b)) return shorten(of_b, 0, 1);
+  if (goes_by_tick_beside(b, a)) return shorten(of_a, 0, 1);
+  const double way = most_way(setup_, std::min(bodies_.thickness[a], bodies_.thickness[b]));
+  if (!is_fixed(a)) shorten(of_a, way, speed);
+  if (!is_fixed(b)) shorten(of_b, way, speed);
+  if (!is_fixed(a) && !is_fixed(b)) join(of_a, of_b);
+}
+
+int Assignment::level_of(BodyIndex i) {
+  const double ticks = root(node(i)).longest / tick_ * (1 + 1e-9);
+  return ticks < 2 ? 0 : std::min(setup_.levels, static_cast<int>(std::bit_width(static_cast<unsigned>(ticks))) - 1);
+}
+
+/// Gives it its level. Returns whether it takes steps of several ticks.
+std::size_t Assignment::enter(BodyIndex i) {
+  const int level = is_fixed(i) ? 0 : level_of(i);
+  const bool is_of_partners = !population_.is_hull(i) && is_heavy(i);
+  bodies_.level[i] = is_of_partners ? kNoLevel : static_cast<std::uint8_t>(level);
+  if (bodies_.is_awake[i] != 0) components_.of_level[static_cast<std::size_t>(level)].push_back(i);
+  return level > 0 ? 1 : 0;
+}
+
+std::int64_t Assignment::sort() {
+  ticks_ = std::min(ticks_, ticks_within_reach());
+  if (ticks_ < 2) return 1;
+  population_.pairs.update(bodies_, population_.awake, kAhead * static_cast<double>(ticks_) * tick_);
+  clear();
+  find_heavy();
+  for (const BodyIndex i : population_.awake) node(i);
+  population_.pairs.for_pairs([this](BodyIndex a, BodyIndex b) { see(a, b); });
+  std::size_t coarse = 0;
+  for (const BodyIndex i : population_.awake) coarse += enter(i);
+  for (const BodyIndex i : components_.asleep) enter(i);
+  const bool is_worth_it = static_cast<double>(coarse) >= kLeastShare * static_cast<double>(population_.awake.size());
+  return coarse > 0 && is_worth_it ? ticks_ : 1;
+}
+
+/// To the next tick that is common to all, by what is recorded and by when floes are put to rest.
+std::int64_t ticks_to_common(const Setup& setup, const Clock& clock) {
+  const auto left = [&](std::int64_t every) { return every - clock.steps % every; };
+  return std::min(left(setup.steps_per_rest), left(setup.steps_per_frame));
+}
+
+}  // namespace
+
+std::int64_t begin_block(const Setup& setup, Clock& clock, std::int64_t most, Population& population,
+                         Components& components) {
+  if (setup.levels == 0 || clock.steps < clock.next_levels) return 1;
+  if (clock.changing) return 1;  // the water frame's velocity changes with the tick, for all bodies at once
+  const std::int64_t ticks = std::min({most, std::int64_t{1} << setup.levels, ticks_to_common(setup, clock)});
+  if (ticks < 2) return 1;
+  const std::int64_t block = Assignment(setup, clock, ticks, population, components).sort();
+  if (block == 1) {
+    clock.next_levels = clock.steps + kWait;
+    end_block(population, components);
+  }
+  return block;
+}
+
+void end_block(Population& population, const Components& components) {
+  population.level = Population::kAllDue;
+  for (const BodyIndex i : components.asleep) population.bodies.level[i] = kNoLevel;
+}
+
+bool drop_across_levels(const dynamics::Bodies& bodies, std::vector<dynamics::Contact>& contacts) {
+  return std::erase_if(contacts, [&](const dynamics::Contact& c) {
+           const auto a = bodies.level[c.a];
+           const auto b = bodies.level[c.b];
+           return a != b && a != kNoLevel && b != kNoLevel;
+         }) > 0;
+}
+
+}  // namespace polynya::simulation

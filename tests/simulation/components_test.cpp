@@ -1,0 +1,153 @@
+// Steps of several ticks by component (simulation/world/components.hpp).
+
+#include <gtest/gtest.h>
+
+#include "simulation/state/state.hpp"
+#include "simulation/state/validate_world.hpp"
+#include "tests/simulation/scenes.hpp"
+
+namespace polynya::simulation::scenes {
+namespace {
+
+constexpr std::int64_t kMany = 1 << 20;
+
+/// To a tick, by the steps that the bodies need.
+void go_to(Simulation& simulation, std::int64_t tick) {
+  while (simulation.steps() < tick && !simulation.numerical_failure()) {
+    simulation.step(tick - simulation.steps());
+    simulation.journal().clear();
+  }
+}
+
+Scene with_levels(Scene scene, int levels) {
+  scene.time.levels = levels;
+  return scene;
+}
+
+/// Ticks that were taken in steps of several, by the least length of each.
+std::int64_t ticks_in_longer(const Simulation& simulation) {
+  const auto& steps = simulation.counts().steps_at_level;
+  std::int64_t ticks = 0;
+  for (int k = 1; k <= kMostLevels; ++k) ticks += steps[static_cast<std::size_t>(kMostLevels + k)] << k;
+  return ticks;
+}
+
+/// A ship into loose floes, and far from it floes that drift together and touch.
+Scene voyage_and_drift() {
+  Build scene;
+  scene.step(0.02).ship(icebreaker({0, 0}, ConstantSpeed{2}, 2));
+  scene.grid({2, -63}, 4, 6, 20, 21);
+  scene.floe(rectangle(0, 100, 8, 108), {0.1, 0}).floe(rectangle(9, 101, 17, 109), {-0.05, 0.02}, 0.002);
+  scene.floe(rectangle(8, 110, 20, 118), {0, -0.1});
+  scene.ice.thickness = 0.5;
+  return scene;
+}
+
+TEST(Components, AreTheSameOnThreadsAndAfterAKill) {
+  const Scene scene = voyage_and_drift();
+  Simulation through(scene);
+  go_to(through, 1500);
+  EXPECT_GT(ticks_in_longer(through), 500);
+  EXPECT_GT(through.counts().bends + through.counts().splits, 0);
+  for (const int threads : {2, 3, 8}) {
+    Simulation threaded(scene);
+    threaded.set_threads(threads);
+    go_to(threaded, 1500);
+    EXPECT_EQ(threaded.state_hash(), through.state_hash()) << threads;
+  }
+  Simulation first(scene);
+  while (first.steps() < 707) first.step(1500 - first.steps());
+  auto resumed = Simulation::resumed(scene, first.state());
+  ASSERT_TRUE(resumed.has_value()) << resumed.error();
+  go_to(*resumed, 1500);
+  EXPECT_EQ(resumed->state_hash(), through.state_hash());
+  EXPECT_EQ(resumed->counts().steps_at_level, through.counts().steps_at_level);
+  expect_closed(through);
+}
+
+TEST(Components, HaveOneStepForAllAtNoLevel) {
+  const Scene scene = with_levels(voyage_and_drift(), 0);
+  Simulation ticks(scene);
+  skip(ticks, 400);
+  Simulation asked(scene);
+  go_to(asked, 400);
+  EXPECT_EQ(asked.state(), ticks.state());
+  EXPECT_EQ(ticks_in_longer(asked), 0);
+}
+
+TEST(Components, OfSlowFloesEndWhereOneStepForAllHasThem) {
+  Build scene;
+  scene.step(0.005);
+  scene.floe(rectangle(0, 0, 10, 10), {0.2, 0.01}).floe(rectangle(10.3, 1, 20, 12), {-0.1, 0}, 0.004);
+  scene.floe(rectangle(20.5, -3, 30, 9), {-0.05, 0});
+  Simulation fine(with_levels(scene, 0));
+  Simulation coarse(scene);
+  go_to(fine, 4000);
+  go_to(coarse, 4000);
+  EXPECT_GT(ticks_in_longer(coarse), 3800);
+  EXPECT_LT(coarse.counts().body_steps, fine.counts().body_steps / 5);
+  EXPECT_LT(coarse.counts().energy_created, 1e-6);
+  expect_closed(coarse);
+  const auto fine_states = fine.floe_states();
+  const auto coarse_states = coarse.floe_states();
+  ASSERT_EQ(coarse_states.size(), fine_states.size());
+  for (std::size_t i = 0; i < fine_states.size(); ++i) {
+    EXPECT_NEAR(distance(coarse_states[i].world_from_body.position, fine_states[i].world_from_body.position), 0,
+                0.05);  // of 4 m
+    EXPECT_NEAR(coarse_states[i].angle, fine_states[i].angle, 0.005);
+    EXPECT_NEAR(length(coarse_states[i].velocity - fine_states[i].velocity), 0, 0.004);
+  }
+}
+
+TEST(Components, GoByTheTickWhereAFastBodyComesNear) {
+  Build scene;
+  scene.step(0.02).without_drag();
+  scene.floe(rectangle(0, 0, 10, 10), {0.01, 0}).floe(rectangle(30, 2, 34, 6), {-2.5, 0});
+  scene.ice.thickness = 0.5;
+  Simulation fine(with_levels(scene, 0));
+  Simulation coarse(scene);
+  double deepest_fine = 0;
+  double deepest = 0;
+  bool was_coarse = false;
+  for (std::int64_t tick = 20; tick <= 600; tick += 20) {
+    go_to(fine, tick);
+    go_to(coarse, tick);
+    for (const auto& overlap : fine.crushed_overlaps()) deepest_fine = std::max(deepest_fine, overlap.area);
+    for (const auto& overlap : coarse.crushed_overlaps()) deepest = std::max(deepest, overlap.area);
+    was_coarse = was_coarse || ticks_in_longer(coarse) > 0;
+  }
+  EXPECT_TRUE(was_coarse);
+  EXPECT_GT(deepest_fine, 0);
+  EXPECT_NEAR(deepest, deepest_fine, 0.1 * deepest_fine);
+  const auto a = fine.floe_states();
+  const auto b = coarse.floe_states();
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(length(a[i].velocity - b[i].velocity), 0, 0.02);
+}
+
+TEST(Components, LeaveWhatAShipTouchesToTheTick) {
+  Build scene;
+  scene.step(0.02).ship(barge({0, 0}, ConstantSpeed{0.05}, 0.05));
+  scene.floe(rectangle(0.001, -5, 10, 5)).floe(rectangle(10.001, -5, 20, 5)).floe(rectangle(100, 0, 110, 10), {0.1, 0});
+  Simulation simulation(scene);
+  go_to(simulation, 500);
+  const auto& components = simulation.world().components;
+  EXPECT_EQ(components.of_level[0].size(), 3U);  // with the ship
+  EXPECT_EQ(simulation.world().population.awake.size(), 4U);
+  EXPECT_FALSE(validate_world(simulation.world()));
+}
+
+TEST(Components, AreAllAtOneTickWhereFramesAreDue) {
+  Scene scene = voyage_and_drift();
+  scene.record.frames_interval = 0.14;
+  Simulation simulation(scene);
+  std::int64_t frames = 0;
+  while (simulation.steps() < 700) {
+    simulation.step(kMany);
+    frames += simulation.steps() % 7 == 0 ? 1 : 0;
+  }
+  EXPECT_EQ(frames, simulation.steps() / 7);
+  EXPECT_GT(ticks_in_longer(simulation), 0);
+}
+
+}  // namespace
+}  // namespace polynya::simulation::scenes

@@ -1,0 +1,101 @@
+"""Mean loads and processor time with steps of components and with one fine step for all, side by side.
+
+Usage: python3 tools/step_levels.py [BINARY] [--places N] [--only CASE]
+       BINARY by default build/release/app/polynya; --places: lateral places of the ship, 4 by default
+
+Each case is run at each place twice: by the default time.levels, and by time.levels 0. The mean is that of the surge by
+contact of all ships from the time that the bow is in the ice; its standard error is that over the places, which are
+independent as far as the ice is. A row whose means differ by more than twice the standard error of their difference is
+marked. The time is the processor's in user mode, start-up and all.
+"""
+
+import argparse
+import csv
+import json
+import math
+import pathlib
+import resource
+import statistics
+import subprocess
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+HULL = {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30, "draught_m": 6}
+
+
+def ship(x, y, speed, name="icebreaker"):
+    return {"name": name, "hull": HULL, "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9, "position_m": [x, y],
+            "propulsion": {"constant_speed_m_per_s": speed}}
+
+
+def level_ice(thickness, followers=0):
+    def case(place):
+        ships = [ship(-62 - 170 * i, place, 1.5, f"ship {i}") for i in range(followers + 1)]
+        return {"time": {"until_s": 80 + 115 * followers, "step_s": 0.01}, "ice": {"thickness_m": thickness},
+                "fracture": {"splitting": {"model": "none"}, "cusp_fate": "under_hull"}, "ships": ships,
+                "floes": [{"rectangle": {"corner_m": [0, -100], "size_m": [400, 200]}, "fast_ice": True}]}
+    return case
+
+
+def pack(concentration):
+    def case(place):
+        return {"time": {"until_s": 150, "step_s": 0.02}, "ships": [ship(-62, place, 2)], "floes": [
+            {"field": {"corner_m": [0, -200], "extent_m": [400, 400], "floe_size_m": 15, "size_spread": 0.25,
+                       "concentration": concentration}}]}
+    return case
+
+
+def walls(place):
+    sides = [{"name": "south", "from_m": [-100, -80.1], "to_m": [400, -80.1], "pressure": {"line_load_N_per_m": 1e4}},
+             {"name": "north", "from_m": [400, 80.1], "to_m": [-100, 80.1], "pressure": {"line_load_N_per_m": 1e4}}]
+    return {"time": {"until_s": 60, "step_s": 0.01}, "ice": {"thickness_m": 0.6}, "ships": [ship(-62, place, 1.5)],
+            "walls": sides, "floes": [{"field": {"corner_m": [0, -80], "extent_m": [300, 160], "floe_size_m": 18,
+                                                 "concentration": 0.8}}]}
+
+
+CASES = {**{f"level ice {h} m": level_ice(h) for h in (0.25, 0.5, 1, 1.5)}, "follower, 0.5 m": level_ice(0.5, 1),
+         **{f"pack {c}": pack(c) for c in (0.3, 0.6, 0.9)}, "pressing walls": walls}
+
+
+def measure(binary, folder, scene, levels):
+    """The mean surge [N] and the processor's time [s]."""
+    time = {**scene["time"], **({} if levels is None else {"levels": levels})}
+    scene = {"name": "step-levels", **scene, "time": time, "record": {"frames_interval_s": 10}}
+    (folder / "scene.json").write_text(json.dumps(scene))
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    subprocess.run([binary, "run", str(folder / "scene.json"), "--out", str(folder / "run"), "--overwrite", "--no-map",
+                    "--progress", "none"], check=True, capture_output=True)
+    cost = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+    with open(folder / "run/forces.csv") as file:
+        return statistics.fmean(-float(row["surge_N"]) for row in csv.DictReader(file) if float(row["t_s"]) > 15), cost
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("binary", nargs="?", default=str(ROOT / "build/release/app/polynya"))
+    parser.add_argument("--places", type=int, default=4)
+    parser.add_argument("--only")
+    given = parser.parse_args()
+    print("| case | by components, kN | one step for all, kN | differs, s.e. | time by components, s | one step, s | times "
+          "as fast |\n|---|---|---|---|---|---|---|")
+    for name, case in CASES.items():
+        if given.only and given.only not in name:
+            continue
+        rows = {levels: [] for levels in (None, 0)}
+        for i in range(given.places):
+            for levels, found in rows.items():
+                with tempfile.TemporaryDirectory() as folder:
+                    place = 3.1 * (i - (given.places - 1) / 2)
+                    found.append(measure(given.binary, pathlib.Path(folder), case(place), levels))
+        means, errors, costs = [], [], []
+        for found in rows.values():
+            means.append(statistics.fmean(surge for surge, _ in found))
+            errors.append(statistics.stdev(surge for surge, _ in found) / math.sqrt(given.places))
+            costs.append(sum(cost for _, cost in found))
+        differs = (means[0] - means[1]) / math.hypot(*errors)
+        mark = "**" if abs(differs) > 2 else ""
+        print(f"| {name} | {means[0] / 1e3:.1f} ± {errors[0] / 1e3:.1f} | {means[1] / 1e3:.1f} ± {errors[1] / 1e3:.1f} "
+              f"| {mark}{differs:+.1f}{mark} | {costs[0]:.1f} | {costs[1]:.1f} | {costs[1] / costs[0]:.1f} |", flush=True)
+
+
+main()
