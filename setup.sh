@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what Polynya needs from Debian's packages, and nothing else. Asks nothing.
-# Usage: ./setup.sh [group...]   groups: build (default), module (Python's), test, python, bench, view, export, site, slurm,
-#                               package
+# Usage: ./setup.sh [group...]   groups: build (default), module (Python's), test, python, bench, view, export, site,
+#                                slurm, package
 set -euo pipefail
 cd "$(dirname "$0")"
 

@@ -15,10 +15,12 @@ SCENE = {
         "name": "icebreaker",
         "hull": {"length_m": 100, "beam_m": 20, "entrance_angle_deg": 27, "draught_m": 6, "block_coefficient": 0.58},
         "position_m": [-52, 250], "speed_m_per_s": 4,
-        "propulsion": {"engine": {"power_MW": 12, "propeller_diameter_m": 4, "propellers": 2, "open_water_speed_m_per_s": 8}},
+        "propulsion": {"engine": {"power_MW": 12, "propeller_diameter_m": 4, "propellers": 2,
+                                  "open_water_speed_m_per_s": 8}},
         "steering": {"rudder": {"area_m2": 12}},
     }],
-    "floes": [{"field": {"corner_m": [0, 0], "extent_m": [1000, 500], "floe_size_m": 17, "size_spread": 0.25, "concentration": 0.6}}],
+    "floes": [{"field": {"corner_m": [0, 0], "extent_m": [1000, 500], "floe_size_m": 17,
+                         "size_spread": 0.25, "concentration": 0.6}}],
 }
 STEPS = 200
 
@@ -39,7 +41,8 @@ def main():
         image = seconds(lambda: [environment.simulation.occupancy() for _ in range(STEPS)])
         x = environment.simulation.ships[0].position[0]
         rates.append(STEPS / taken)
-        print(f"seed {seed}: {floes} floes, {STEPS / taken:.0f} steps a second over {x + 52:.0f} m; an image {1e3 * image / STEPS:.2f} ms, "
+        print(f"seed {seed}: {floes} floes, {STEPS / taken:.0f} steps a second over {x + 52:.0f} m; an image "
+              f"{1e3 * image / STEPS:.2f} ms, "
               f"{100 * image / taken:.0f} % of the time")
     print(f"{min(rates):.0f} to {max(rates):.0f} steps of 0.5 s a second")
 

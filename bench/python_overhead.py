@@ -6,7 +6,8 @@ import time
 
 import polynya
 
-SHIP = {"hull": {"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30}, "mass_kg": 4e6, "moment_of_inertia_kg_m2": 9e8,
+SHIP = {"hull": {"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30}, "mass_kg": 4e6,
+        "moment_of_inertia_kg_m2": 9e8,
         "propulsion": {"constant_speed_m_per_s": 1}}
 SCENE = {"time": {"step_s": 0.01, "until_s": 1e6}, "record": {"forces_interval_s": 1000}, "ships": [SHIP]}
 STEPS = 20_000
@@ -28,7 +29,8 @@ def main():
     simulation.step(STEPS)
     pairs = [(seconds(lambda: one_by_one(simulation)), seconds(lambda: simulation.step(STEPS))) for _ in range(15)]
     single, together = (1e6 / STEPS * min(column) for column in zip(*pairs))
-    print(f"step() {single:.2f} us, of which the step itself {together:.2f} us: {single - together:.2f} us a call (least of 15)")
+    print(f"step() {single:.2f} us, of which the step itself {together:.2f} us: {single - together:.2f} us a call "
+          f"(least of 15)")
 
 
 if __name__ == "__main__":

@@ -3,7 +3,8 @@
 #
 #   polynya_commit(TARGET OUTPUT)
 function(polynya_commit target output)
-  add_custom_target(${target}_commit BYPRODUCTS ${output} VERBATIM COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR}
+  add_custom_target(${target}_commit BYPRODUCTS ${output} VERBATIM COMMAND ${CMAKE_COMMAND}
+    -DSOURCE=${PROJECT_SOURCE_DIR}
     -DOUTPUT=${output} -P ${CMAKE_CURRENT_FUNCTION_LIST_FILE})
   target_sources(${target} PRIVATE ${output})
   add_dependencies(${target} ${target}_commit)
@@ -12,5 +13,7 @@ endfunction()
 if(CMAKE_SCRIPT_MODE_FILE)
   execute_process(COMMAND git -C ${SOURCE} describe --always --abbrev=9 --dirty=+ --exclude=* OUTPUT_VARIABLE commit
     OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
-  file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "#include \"app/command_line/commands.hpp\"\n\nnamespace polynya::app {\n\nconst std::string_view kCommit = \"@commit@\";\n\n}  // namespace polynya::app\n" @ONLY)
+  string(CONCAT source "#include \"app/command_line/commands.hpp\"\n\nnamespace polynya::app {\n\n"
+    "const std::string_view kCommit = \"${commit}\";\n\n}  // namespace polynya::app\n")
+  file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "${source}" @ONLY)
 endif()

@@ -27,7 +27,8 @@ endif()
 # Headers of the standard library, and with fmt::fmt those of fmt too, are compiled once instead of in every source: a
 # third of the time. Sources include what they use all the same (`./test -L odr` compiles each without this). A source
 # with options of its own has to leave it out: SKIP_PRECOMPILE_HEADERS.
-set(POLYNYA_STANDARD_HEADERS <algorithm> <array> <charconv> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits>
+set(POLYNYA_STANDARD_HEADERS <algorithm> <array> <charconv> <cmath> <cstdint> <filesystem> <fstream> <functional>
+  <limits>
   <map> <memory> <numbers> <numeric> <optional> <ranges> <set> <span> <sstream> <string> <string_view> <system_error>
   <unordered_map> <utility> <variant> <vector>)
 set(POLYNYA_TEXT_HEADERS ${POLYNYA_STANDARD_HEADERS} <fmt/format.h> <fmt/ranges.h> <tl/expected.hpp>)

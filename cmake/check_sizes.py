@@ -98,7 +98,8 @@ def problems_of(path, text):
                 start, name = function
                 length = code.count("\n", start, at) + 1
                 if length > MOST_LINES_OF_FUNCTION and f"{path}: {name}" not in TABLES:
-                    yield f"{path}:{code.count(chr(10), 0, start) + 1}: {name} has {length} lines, more than {MOST_LINES_OF_FUNCTION}"
+                    line = code.count("\n", 0, start) + 1
+                    yield f"{path}:{line}: {name} has {length} lines, more than {MOST_LINES_OF_FUNCTION}"
     if opened:
         yield f"{path}:{code.count(chr(10), 0, opened[-1]) + 1}: '{code[opened[-1]]}' is never closed"
 
@@ -115,7 +116,8 @@ def main(root):
     for path in product_files(root):
         files += 1
         found.extend(problems_of(path.relative_to(root).as_posix(), path.read_text()))
-    print("\n".join(found) or f"{files} files of at most {MOST_LINES_OF_FILE} lines, their functions of at most {MOST_LINES_OF_FUNCTION}")
+    print("\n".join(found) or f"{files} files of at most {MOST_LINES_OF_FILE} lines, their functions of at most "
+          f"{MOST_LINES_OF_FUNCTION}")
     return 1 if found or files == 0 else 0
 
 

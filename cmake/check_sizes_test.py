@@ -29,10 +29,12 @@ JS = [
 # Braces and parentheses that are no code, and blocks that are no function.
 CPP_HARMLESS = [
     'const char* text = "}{(";\n', "char brace = '}';\n", "int n = 1'000'000;\n", "// it's a }\n", "/* ) */\n",
-    'auto raw = R"x(} ")" )x";\n', "namespace a {\n" + 60 * BODY + "}\n", "const Table kTable[] = {\n" + 60 * "  {1, 2},\n" + "};\n",
+    'auto raw = R"x(} ")" )x";\n', "namespace a {\n" + 60 * BODY + "}\n",
+    "const Table kTable[] = {\n" + 60 * "  {1, 2},\n" + "};\n",
 ]
 JS_HARMLESS = [
-    'const text = "}{(";\n', "const text = '}\\'{';\n", "const text = `} ${f(`{${a}`, { b: 1 })} {`;\n", "const match = /[}/](?=\\{)/.test(a);\n",
+    'const text = "}{(";\n', "const text = '}\\'{';\n", "const text = `} ${f(`{${a}`, { b: 1 })} {`;\n",
+    "const match = /[}/](?=\\{)/.test(a);\n",
     "// it's a }\n", "const half = a / 2 + b / 2;\n", "const table = {\n" + 60 * "  a: 1,\n" + "};\n",
 ]
 

@@ -1,4 +1,5 @@
-"""Imported by the examples before polynya: where none is installed, the one that ./quickstart (or ./test) built here is found."""
+"""Imported by the examples before polynya: where none is installed, the one that ./quickstart (or ./test) built here is
+found."""
 import importlib.util
 import pathlib
 import sys

@@ -3,8 +3,8 @@
 
     python3 examples/first_run.py            (--out FOLDER; --short: the first seconds)
 
-Shows how a scene is a dict, how it is checked and stepped, and what can be read while it runs: the force on the ship, what broke,
-and the floes as numpy arrays. Draws first-run.png: the ice at the end, and the force against time.
+Shows how a scene is a dict, how it is checked and stepped, and what can be read while it runs: the force on the ship,
+what broke, and the floes as numpy arrays. Draws first-run.png: the ice at the end, and the force against time.
 """
 import argparse
 import pathlib
@@ -28,7 +28,8 @@ SCENE = {
     "ships": [{
         "name": "breaker",
         "hull": {"length_m": 80, "beam_m": 18, "entrance_angle_deg": 28, "stem_angle_deg": 30, "draught_m": 6},
-        "mass_kg": 5e6, "moment_of_inertia_kg_m2": 2e9, "position_m": [-42, 0], "propulsion": {"constant_speed_m_per_s": 2},
+        "mass_kg": 5e6, "moment_of_inertia_kg_m2": 2e9, "position_m": [-42, 0],
+        "propulsion": {"constant_speed_m_per_s": 2},
     }],
     "floes": [{"rectangle": {"corner_m": [0, -60], "size_m": [180, 120]}, "fast_ice": True}],
 }
@@ -73,7 +74,8 @@ def main():
     options.out.mkdir(parents=True, exist_ok=True)
     simulation, rows = run(until=8 if options.short else 60)
     kinds = [event["kind"] for event in simulation.events()]
-    print(f"{simulation.time:g} s: {kinds.count('bend')} cusps bent off, {kinds.count('split')} splits, {len(simulation.floes)} floes; "
+    print(f"{simulation.time:g} s: {kinds.count('bend')} cusps bent off, {kinds.count('split')} splits, "
+          f"{len(simulation.floes)} floes; "
           f"mean surge force {1e-3 * rows[:, 1].mean():.0f} kN")
     draw(simulation, rows, options.out / "first-run.png")
     print(options.out / "first-run.png")

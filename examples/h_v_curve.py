@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 """An h-v curve: the speed that a ship keeps in level ice under full power, by the ice's thickness.
 
-    python3 examples/h_v_curve.py            (--out FOLDER; --ship NAME; --short: one thickness, as long as five lengths of the ship)
+    python3 examples/h_v_curve.py            (--out FOLDER; --ship NAME; --short: one thickness, five ship lengths)
 
-Shows polynya.performance as a library: each thickness is a run in a plate of fast ice, as long as the mean speed needs to be steady,
-beside three published formulas; points outside the range of validation (docs/ships.md) are marked. Finished runs are kept in the folder: a second time it only draws. `polynya performance SHIP` does the
-same from the command line. Draws h-v-curve.png.
+Shows polynya.performance as a library: each thickness is a run in a plate of fast ice, as long as the mean speed needs
+to be steady, beside three published formulas; points outside the range of validation (docs/ships.md) are marked.
+Finished runs are kept in the folder: a second time it only draws. `polynya performance SHIP` does the same from the
+command line. Draws h-v-curve.png.
 """
 import argparse
 import concurrent.futures
@@ -29,7 +30,8 @@ ICE = formulas.Ice(thickness=0, flexural_strength=500e3, friction=0.1)
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("examples-out"), help="folder of the runs and the picture")
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("examples-out"),
+                        help="folder of the runs and the picture")
     parser.add_argument("--ship", default="polaris", help="a preset: polynya ships lists them")
     parser.add_argument("--short", action="store_true", help="one thickness, with a coarse step")
     options = parser.parse_args()
@@ -44,7 +46,8 @@ def main():
     print_table(rows)
     for point in reported:
         print(f"reported: {point['thickness_m']:g} m at {point['speed_m_per_s']:.2f} m/s, {point['source']}")
-    figure.draw(rows, f"{found['title']}: level ice, full power\nσf {ICE.flexural_strength / 1e3:g} kPa, μ {ICE.friction:g}", reported,
+    figure.draw(rows, f"{found['title']}: level ice, full power\nσf {ICE.flexural_strength / 1e3:g} kPa, μ "
+                f"{ICE.friction:g}", reported,
                 options.out / "h-v-curve.png")
     print(options.out / "h-v-curve.png")
 

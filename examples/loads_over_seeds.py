@@ -3,9 +3,10 @@
 
     python3 examples/loads_over_seeds.py     (--out FOLDER; --short: three seeds, some seconds)
 
-Shows runs of one scene in different random fields, two at a time in two threads, and the estimators of polynya.statistics: the mean
-resistance and the largest one of each run, with 95 % intervals of their means. Draws loads-over-seeds.png. For more than a dozen runs
-use `polynya study` (docs/studies.md): it plans, resumes and reports them.
+Shows runs of one scene in different random fields, two at a time in two threads, and the estimators of
+polynya.statistics: the mean resistance and the largest one of each run, with 95 % intervals of their means. Draws
+loads-over-seeds.png. For more than a dozen runs use `polynya study` (docs/studies.md): it plans, resumes and reports
+them.
 """
 import argparse
 import concurrent.futures
@@ -32,8 +33,10 @@ def scene(concentration, seed):
         "record": {"forces_interval_s": 0.1},
         "ice": {"thickness_m": 0.5},
         "ships": [{
-            "name": "icebreaker", "hull": {"length_m": 100, "beam_m": 20, "entrance_angle_deg": 27, "stem_angle_deg": 30},
-            "mass_kg": 8e6, "moment_of_inertia_kg_m2": 4e9, "position_m": [-52, 100], "propulsion": {"constant_speed_m_per_s": 2},
+            "name": "icebreaker", "hull": {"length_m": 100, "beam_m": 20, "entrance_angle_deg": 27,
+                                           "stem_angle_deg": 30},
+            "mass_kg": 8e6, "moment_of_inertia_kg_m2": 4e9, "position_m": [-52, 100],
+            "propulsion": {"constant_speed_m_per_s": 2},
         }],
         "floes": [{"field": {"corner_m": [0, 0], "extent_m": [300, 200], "floe_size_m": 20, "size_spread": 0.25,
                              "concentration": concentration}}],
@@ -57,9 +60,11 @@ def draw(table, path):
             values = 1e-3 * rows[:, column]
             interval = statistics.mean(values)
             axes.plot(numpy.full(len(values), x) - 0.12, values, "o", color="#777777", markersize=3)
-            axes.errorbar(x + 0.12, interval.value, yerr=[[interval.value - interval.low], [interval.high - interval.value]], fmt="s",
+            axes.errorbar(x + 0.12, interval.value, yerr=[[interval.value - interval.low],
+                                                          [interval.high - interval.value]], fmt="s",
                           color="#0072b2", markersize=5, capsize=4)
-        axes.set(xticks=range(len(table)), xticklabels=[f"{100 * c:.0f} %" for c in table], xlim=(-0.5, len(table) - 0.5), ylim=(0, None),
+        axes.set(xticks=range(len(table)), xticklabels=[f"{100 * c:.0f} %" for c in table],
+                 xlim=(-0.5, len(table) - 0.5), ylim=(0, None),
                  xlabel="ice cover", ylabel="resistance [kN]", title=title)
     figure.savefig(path, dpi=150)
 
@@ -78,7 +83,8 @@ def main():
     for concentration, rows in table.items():
         for name, values in zip(("mean", "largest"), 1e-3 * rows.T):
             interval = statistics.mean(values)
-            print(f"{100 * concentration:.0f} % cover: {name} resistance {interval.value:.0f} kN, 95 %: {interval.low:.0f} to {interval.high:.0f} kN "
+            print(f"{100 * concentration:.0f} % cover: {name} resistance {interval.value:.0f} kN, 95 %: "
+                  f"{interval.low:.0f} to {interval.high:.0f} kN "
                   f"({len(values)} runs)")
     draw(table, options.out / "loads-over-seeds.png")
     print(options.out / "loads-over-seeds.png")

@@ -3,8 +3,9 @@
 
     python3 examples/python_pilot.py         (--out FOLDER; --short: the first seconds)
 
-Shows a callable that steers. The pilot sees the ice ahead as an image (Simulation.occupancy), adds up what a straight way into each of
-some directions would cross, and turns into the cheapest one. Draws python-pilot.png: both tracks, and what each lost to the ice.
+Shows a callable that steers. The pilot sees the ice ahead as an image (Simulation.occupancy), adds up what a straight
+way into each of some directions would cross, and turns into the cheapest one. Draws python-pilot.png: both tracks, and
+what each lost to the ice.
 """
 import argparse
 import pathlib
@@ -26,13 +27,16 @@ SCENE = {
     "ice": {"thickness_m": 0.6},
     "ships": [{
         "name": "icebreaker",
-        "hull": {"length_m": 80, "beam_m": 18, "entrance_angle_deg": 27, "stem_angle_deg": 30, "draught_m": 6, "block_coefficient": 0.58},
+        "hull": {"length_m": 80, "beam_m": 18, "entrance_angle_deg": 27, "stem_angle_deg": 30,
+                 "draught_m": 6, "block_coefficient": 0.58},
         "position_m": [-60, 250], "speed_m_per_s": 4,
-        "propulsion": {"engine": {"power_MW": 10, "propeller_diameter_m": 3.6, "propellers": 2, "open_water_speed_m_per_s": 7}},
+        "propulsion": {"engine": {"power_MW": 10, "propeller_diameter_m": 3.6, "propellers": 2,
+                                  "open_water_speed_m_per_s": 7}},
         "steering": {"rudder": {"area_m2": 14}},
         "pilot": {"constant": {"lever": 0.5}},
     }],
-    "floes": [{"field": {"corner_m": [0, 0], "extent_m": [900, 500], "floe_size_m": 70, "size_spread": 0.3, "concentration": 0.3}}],
+    "floes": [{"field": {"corner_m": [0, 0], "extent_m": [900, 500], "floe_size_m": 70,
+                         "size_spread": 0.3, "concentration": 0.3}}],
 }
 CELL, ROWS, COLUMNS, AHEAD = 5.0, 60, 60, 130.0  # of the image [m]
 DIRECTIONS = numpy.radians(numpy.arange(-50, 51, 5))  # to port, from the bow
@@ -73,7 +77,8 @@ class AroundFloes:
     def choose(self, heading):
         ice, others = self.simulation.occupancy("icebreaker", shape=(ROWS, COLUMNS), cell_m=CELL, ahead_m=AHEAD)
         seen = ice + 5 * others
-        costs = [seen[rows, columns].mean() + OFF_COURSE * abs(heading + direction - self.course) + 0.05 * abs(direction)
+        costs = [seen[rows, columns].mean() + OFF_COURSE * abs(heading + direction - self.course)
+                 + 0.05 * abs(direction)
                  for direction, (rows, columns) in zip(DIRECTIONS, self.ways)]
         return heading + DIRECTIONS[int(numpy.argmin(costs))]
 
@@ -108,7 +113,8 @@ def draw(outlines, sailed, path):
     for (name, (track, times, work, _)), colour in zip(sailed.items(), ("#000000", "#d55e00")):
         ice.plot(*track.T, color=colour, linewidth=1.5, label=name)
         lost.plot(times, 1e-6 * work, color=colour, linewidth=1.2)
-    ice.set(aspect="equal", xlim=(-110, 910), ylim=(-10, 510), xlabel="x [m]", ylabel="y [m]", title="the floes at the start, and the two tracks")
+    ice.set(aspect="equal", xlim=(-110, 910), ylim=(-10, 510), xlabel="x [m]", ylabel="y [m]",
+            title="the floes at the start, and the two tracks")
     ice.legend(loc="lower left")
     lost.set(xlabel="time [s]", ylabel="lost to\nthe ice [MJ]", xlim=(0, None), ylim=(0, None))
     figure.savefig(path, dpi=150)
@@ -126,7 +132,8 @@ def main():
     sailed = {"straight": sail(lambda simulation: Straight(), until), "around the floes": sail(AroundFloes, until)}
     for name, (track, times, work, simulation) in sailed.items():
         kinds = [event["kind"] for event in simulation.events()]
-        print(f"{name}: {track[-1, 0] - track[0, 0]:.0f} m made good in {times[-1]:g} s, {1e-6 * work[-1]:.0f} MJ lost to the ice, "
+        print(f"{name}: {track[-1, 0] - track[0, 0]:.0f} m made good in {times[-1]:g} s, {1e-6 * work[-1]:.0f} MJ lost "
+              f"to the ice, "
               f"{kinds.count('bend')} cusps, {kinds.count('split')} splits")
     draw(outlines, sailed, options.out / "python-pilot.png")
     print(options.out / "python-pilot.png")

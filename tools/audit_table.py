@@ -22,4 +22,5 @@ with tempfile.TemporaryDirectory() as folder:
         energy, momentum = summary["energy"], summary["momentum"]
         off = abs(energy["imbalance_J"]) / max(energy["turnover_J"], 1e-300)
         momentum_off = math.hypot(*momentum["imbalance_Ns"]) / max(momentum["turnover_Ns"], 1e-300)
-        print(f"| {scene.stem} | {summary['sim_time_s']:g} | {energy['turnover_J'] / 1e6:.3g} | {off:.1e} | {momentum_off:.1e} |")
+        print(f"| {scene.stem} | {summary['sim_time_s']:g} | {energy['turnover_J'] / 1e6:.3g} | {off:.1e} | "
+              f"{momentum_off:.1e} |")

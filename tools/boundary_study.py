@@ -4,7 +4,7 @@
   tools/boundary_study.py cylinder    a floe of 40 m on a cylinder of 10 m: largest force and depth
   tools/boundary_study.py drift       speed of floes in the wind, by size and speed of the wind
   tools/boundary_study.py press       a plate on a cylinder in a wind and in a current
-  tools/boundary_study.py pressure    ice along flanks and sides of the reference ship, pressed by walls with a line load
+  tools/boundary_study.py pressure    ice along flanks and sides of the ship, pressed by walls with a line load
 
 Options of all: --polynya PROGRAM, --work FOLDER (run folders; they are overwritten), --jobs N. Needs numpy.
 """
@@ -33,7 +33,8 @@ def run(arguments, name, scene):
 
 def on_cylinder(corners, step):
     """A floe of 40 x 40 m at .5 m/s onto a cylinder of 10 m, of so many corners; 0: as radius_m gives it."""
-    ring = [[10 * math.cos(2 * math.pi * i / corners), 10 * math.sin(2 * math.pi * i / corners)] for i in range(corners)]
+    ring = [[10 * math.cos(2 * math.pi * i / corners), 10 * math.sin(2 * math.pi * i / corners)]
+            for i in range(corners)]
     outline = {"waterline_m": ring} if corners else {"radius_m": 10}
     return UNBREAKABLE | {
         "name": "cylinder", "time": {"step_s": step, "until_s": 0.5}, "water": {"drag_coefficient": 0},
@@ -52,10 +53,13 @@ def study_cylinder(arguments):
     energy, pressure = 0.5 * RHO_I * THICKNESS * 1600 * 0.25, 2.8e6
     depth = (3 * energy / (4 * pressure * THICKNESS * math.sqrt(20)))**(2 / 3)
     force = 2 * pressure * THICKNESS * math.sqrt(20 * depth)
-    results = run_all(arguments, run, {("cylinder", n, dt): on_cylinder(n, dt) for n in (0, 2048) for dt in (0.001, 0.005, 0.01)})
-    print("| cylinder | step [s] | largest force [MN] | closed form | depth [m] | closed form |\n|---|---|---|---|---|---|")
+    results = run_all(arguments, run, {("cylinder", n, dt): on_cylinder(n, dt) for n in (0, 2048)
+                                       for dt in (0.001, 0.005, 0.01)})
+    print("| cylinder | step [s] | largest force [MN] | closed form | depth [m] | closed form |\n|---|---|---|---|---|"
+          "---|")
     for (_, corners, step), (folder, _) in results.items():
-        print(f"| {corners or 'radius_m 10'}{' corners' if corners else ''} | {step:g} | {-column(folder, 'cylinder', 'surge_N').min() / 1e6:.3f} "
+        print(f"| {corners or 'radius_m 10'}{' corners' if corners else ''} | {step:g} | "
+              f"{-column(folder, 'cylinder', 'surge_N').min() / 1e6:.3f} "
               f"| {force / 1e6:.3f} | {depth_of(folder):.4f} | {depth:.4f} |")
 
 
@@ -71,13 +75,15 @@ def drifting(size, wind):
 def study_drift(arguments):
     cases = [(size, wind) for size in (5, 15, 50, 500) for wind in (5, 10, 20)]
     results = run_all(arguments, run, {("drift", *case): drifting(*case) for case in cases})
-    print("| floe [m] | wind [m/s] | speed [m/s] | closed form | % of the wind | without form drag |\n|---|---|---|---|---|---|")
+    print("| floe [m] | wind [m/s] | speed [m/s] | closed form | % of the wind | without form drag |\n|---|---|---|---|"
+          "---|---|")
     for size, wind in cases:
         _, summary = results["drift", size, wind]
         speed = math.sqrt(2 * summary["energy"]["kinetic_J"] / (RHO_I * THICKNESS * size**2))
         push = AIR * C_A * wind**2
         closed = math.sqrt(push / (RHO_W * (C_W + 0.5 * THICKNESS / size)))
-        print(f"| {size} | {wind} | {speed:.4f} | {closed:.4f} | {100 * speed / wind:.2f} | {math.sqrt(push / (RHO_W * C_W)):.4f} |")
+        print(f"| {size} | {wind} | {speed:.4f} | {closed:.4f} | {100 * speed / wind:.2f} | "
+              f"{math.sqrt(push / (RHO_W * C_W)):.4f} |")
 
 
 def pressing_plate(wind, drift):
@@ -86,7 +92,8 @@ def pressing_plate(wind, drift):
         "name": "press", "time": {"step_s": 0.02, "until_s": 240}, "water": {"drift_m_per_s": [-drift, 0]},
         "record": {"forces_interval_s": 1, "frames_interval_s": 120},
         "structures": [{"name": "cylinder", "radius_m": 10}],
-        "floes": [{"rectangle": {"corner_m": [10.01, -200], "size_m": [600, 400]}, "velocity_m_per_s": [drift - 0.3, 0]}]}
+        "floes": [{"rectangle": {"corner_m": [10.01, -200], "size_m": [600, 400]},
+                   "velocity_m_per_s": [drift - 0.3, 0]}]}
     if wind:
         scene["wind"] = {"velocity_m_per_s": [-wind, 0]}
     elif drift:
@@ -97,7 +104,8 @@ def pressing_plate(wind, drift):
 def study_press(arguments):
     cases = [(0, 0), (10, 0), (20, 0), (0, 0.3), (0, 0.5)]
     results = run_all(arguments, run, {("press", *case): pressing_plate(*case) for case in cases})
-    print("| wind [m/s] | current [m/s] | mean force, 120-240 s [kN] | wind and water on the plate [kN] |\n|---|---|---|---|")
+    print("| wind [m/s] | current [m/s] | mean force, 120-240 s [kN] | wind and water on the plate [kN] |\n|---|---|"
+          "---|---|")
     for wind, drift in cases:
         force = -column(results["press", wind, drift][0], "cylinder", "surge_N")[120:].mean()
         skin = C_W if wind or drift else 0
@@ -111,13 +119,15 @@ BOW = 0.5 * BEAM / math.tan(ENTRANCE)
 def along_hull(load, side, speed=0.005):
     """Blocks of ice along both bow flanks and so much of both sides, a wall behind each; the walls press."""
     aft = LENGTH / 2 - BOW - side
-    hull = [(LENGTH / 2, 0), (LENGTH / 2 - BOW, BEAM / 2), (aft, BEAM / 2), (aft, -BEAM / 2), (LENGTH / 2 - BOW, -BEAM / 2)]
+    hull = [(LENGTH / 2, 0), (LENGTH / 2 - BOW, BEAM / 2), (aft, BEAM / 2), (aft, -BEAM / 2),
+            (LENGTH / 2 - BOW, -BEAM / 2)]
     walls, floes = [], []
     for i, k in ((0, 1), (1, 2), (3, 4), (4, 0)):
         along = np.subtract(hull[k], hull[i]) / math.dist(hull[i], hull[k])
         out = np.array([along[1], -along[0]])
         beside = lambda p, off: list(np.array(p) + off * out)
-        floes.append({"polygon": {"outer_m": [beside(hull[i], 0.001), beside(hull[i], 10), beside(hull[k], 10), beside(hull[k], 0.001)]}})
+        floes.append({"polygon": {"outer_m": [beside(hull[i], 0.001), beside(hull[i], 10),
+                                              beside(hull[k], 10), beside(hull[k], 0.001)]}})
         walls.append({"from_m": beside(hull[i], 10.001), "to_m": beside(hull[k], 10.001), "depth_m": 5,
                       "pressure": {"line_load_N_per_m": load}})
     return UNBREAKABLE | {

@@ -72,7 +72,8 @@ def edges_of(run, count, seed=1):
     stem, friction = math.radians(ship["hull"]["stem_angle_deg"]), ice.get("friction", 0.2)
     rings, made = outer_rings(run)
     with open(os.path.join(run, "events.ndjson"), encoding="utf-8") as file:
-        bends = [e for e in map(json.loads, file) if e["kind"] == "bend" and len(e["children"]) >= 1 and e["normal"][0] < 0.9]
+        bends = [e for e in map(json.loads, file) if e["kind"] == "bend" and len(e["children"]) >= 1
+                 and e["normal"][0] < 0.9]
     found = []
     for e in np.random.default_rng(seed).permutation(bends[len(bends) // 4:]):
         if len(found) == count:
@@ -103,8 +104,10 @@ def edges_of(run, count, seed=1):
         down = normal[0] * math.sin(angle)
         down /= math.hypot(down, normal[1])
         thrust = (math.cos(angle) + friction * math.sin(angle)) / (math.sin(angle) - friction * math.cos(angle) * down)
-        found.append({"run": os.path.basename(os.path.normpath(run)), "ring": ring.tolist(), "normal": normal.tolist(), "slope": slope,
-                      "thrust": thrust, "l": l / h, "h": h, "depth": e["penetration_m"] / h, "R run": e["cusp_radius_m"] / h,
+        found.append({"run": os.path.basename(os.path.normpath(run)), "ring": ring.tolist(),
+                      "normal": normal.tolist(), "slope": slope,
+                      "thrust": thrust, "l": l / h, "h": h, "depth": e["penetration_m"] / h,
+                      "R run": e["cusp_radius_m"] / h,
                       "V run": e["criterion"]["bending_capacity_N"] / (ice["flexural_strength_Pa"] * h ** 2)})
     return found
 
@@ -169,7 +172,8 @@ def different(edges):
 
 def study_table(arguments):
     three = lambda values: ", ".join(f"{v:.2f}" for v in np.percentile(values, [10, 50, 90]))
-    print("| edges | number | elements, cracked: V_b [σ_f h²] 10, 50, 90 % | R/h | whole: V_b | R/h | without thrust: V_b | R/h "
+    print("| edges | number | elements, cracked: V_b [σ_f h²] 10, 50, 90 % | R/h | whole: V_b | R/h | without thrust: "
+          "V_b | R/h "
           "| run: V_b | R/h |\n|" + "---|" * 10)
     sets = {}
     for path in arguments.files:
@@ -177,7 +181,8 @@ def study_table(arguments):
             sets[os.path.basename(path)] = different(json.load(file))
     for name, edges in sets.items():
         of = lambda kind, key: [e["elements"].get(kind, e["elements"]["whole"])[key] for e in edges]
-        print(f"| {name} | {len(edges)} | " + " | ".join(three(of(kind, key)) for kind in ("cracked", "whole", "bare") for key in "VR")
+        print(f"| {name} | {len(edges)} | " + " | ".join(three(of(kind, key)) for kind in ("cracked", "whole", "bare")
+                                                         for key in "VR")
               + f" | {three([e['V run'] for e in edges])} | {three([e['R run'] for e in edges])} |")
     print("\nThe law over the elements, 10, 50, 90 %, and the 90th percentile of the error\n\n"
           "| edges | cracked: V_b | error | R | error | whole: V_b | error | R | error |\n|" + "---|" * 9)
@@ -219,7 +224,8 @@ def study_edges(arguments):
                 print("skipped:", error, flush=True)
                 continue
             edges.append(edge)
-            print(edge["run"], [(k, *(round(v[n], 3) for n in ("V", "R", "bottom"))) for k, v in edge["elements"].items()],
+            print(edge["run"], [(k, *(round(v[n], 3) for n in ("V", "R", "bottom"))) for k,
+                                v in edge["elements"].items()],
                   f"{time.time() - start:.1f} s", flush=True)
             with open(arguments.out, "w", encoding="utf-8") as file:
                 json.dump(edges, file)

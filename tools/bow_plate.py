@@ -20,26 +20,13 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
 from scipy.spatial import Delaunay, cKDTree
 
+from bow_solid import resampled
+
 NU = 0.3
 PUSH = 0.02
 QUADRATURE = np.array([[1 / 3, 1 / 3, 1 / 3]] + [np.roll([a, b, b], k) for a, b in ((0.0597158717, 0.4701420641),
                        (0.7974269853, 0.1012865073)) for k in range(3)])
 WEIGHTS = np.array([0.225] + 3 * [0.1323941527] + 3 * [0.1259391805])
-
-
-def resampled(line, size):
-    """A polyline's points at the spacing size(distance from the tip)."""
-    points = [line[0]]
-    for a, b in zip(line[:-1], line[1:]):
-        length, at = math.dist(a, b), 0
-        while length > 0:
-            step = size(math.hypot(*(a + (b - a) * (at / length))))
-            if length - at <= 1.5 * step:
-                break
-            at += step
-            points.append(a + (b - a) * (at / length))
-        points.append(b)
-    return np.array(points)
 
 
 def mesh(outline, ratio, reach=6.0, finest=0.0025, coarsest=0.5):
@@ -48,7 +35,7 @@ def mesh(outline, ratio, reach=6.0, finest=0.0025, coarsest=0.5):
     size = lambda r: min(coarsest, max(finest, ratio * r))
     closed = np.vstack([outline, outline[:1]])
     edge = [outline[0]]
-    for p in resampled(closed, size)[1:]:
+    for p in resampled(closed, lambda p: size(math.hypot(*p)))[1:]:
         r = math.hypot(*p)
         if r < 1.02 * reach and math.dist(p, edge[-1]) > 0.3 * size(r) and (len(edge) < 2 or r > 0.3 * finest):
             edge.append(p)
@@ -60,7 +47,7 @@ def mesh(outline, ratio, reach=6.0, finest=0.0025, coarsest=0.5):
         r += 0.87 * size(r)
     inner = np.vstack(rings)
     inner = inner[path.contains_points(inner)]
-    away, _ = cKDTree(resampled(closed, lambda r: 0.3 * size(r))).query(inner)
+    away, _ = cKDTree(resampled(closed, lambda p: 0.3 * size(math.hypot(*p)))).query(inner)
     inner = inner[away > 0.6 * np.clip(ratio * np.hypot(*inner.T), finest, coarsest)]
     points = np.vstack([edge, inner])
     triangles = Delaunay(points).simplices
@@ -68,7 +55,8 @@ def mesh(outline, ratio, reach=6.0, finest=0.0025, coarsest=0.5):
     sides = [np.hypot(*(points[triangles[:, i]] - points[triangles[:, (i + 1) % 3]]).T) for i in range(3)]
     a, b = points[triangles[:, 1]] - points[triangles[:, 0]], points[triangles[:, 2]] - points[triangles[:, 0]]
     doubled = np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-    triangles = triangles[path.contains_points(middle) & (np.hypot(*middle.T) < reach) & (doubled > 2e-3 * np.max(sides, 0) ** 2)]
+    is_sound = doubled > 2e-3 * np.max(sides, 0) ** 2
+    triangles = triangles[path.contains_points(middle) & (np.hypot(*middle.T) < reach) & is_sound]
     used = np.unique(triangles)
     number = np.full(len(points), -1)
     number[used] = np.arange(len(used))
@@ -81,7 +69,8 @@ class Plate:
     def __init__(self, points, triangles):
         self.points, self.triangles = points, triangles
         ends = np.sort(np.stack([triangles[:, [1, 2]], triangles[:, [2, 0]], triangles[:, [0, 1]]], 1), 2)
-        keys, first, inverse = np.unique(ends[..., 0].ravel() * len(points) + ends[..., 1].ravel(), return_index=True, return_inverse=True)
+        keys, first, inverse = np.unique(ends[..., 0].ravel() * len(points) + ends[..., 1].ravel(),
+                                         return_index=True, return_inverse=True)
         self.dof = np.hstack([triangles, len(points) + inverse.reshape(ends.shape[:2])])
         self.count = len(points) + len(keys)
         self.ends = ends.reshape(-1, 2)[first]
@@ -91,7 +80,8 @@ class Plate:
         a, b = local[:, 1] - local[:, 0], local[:, 2] - local[:, 0]
         determinant = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
         self.area = np.abs(determinant) / 2
-        values = lambda q: np.stack([np.ones(q.shape[:-1]), q[..., 0], q[..., 1], q[..., 0] ** 2 / 2, q[..., 1] ** 2 / 2, q[..., 0] * q[..., 1]], -1)
+        values = lambda q: np.stack([np.ones(q.shape[:-1]), q[..., 0], q[..., 1],
+                                     q[..., 0] ** 2 / 2, q[..., 1] ** 2 / 2, q[..., 0] * q[..., 1]], -1)
         along = points[ends[..., 1]] - points[ends[..., 0]]
         normal = np.stack([along[..., 1], -along[..., 0]], -1) / np.hypot(along[..., 0], along[..., 1])[..., None]
         x, y = np.moveaxis((points[ends[..., 0]] + points[ends[..., 1]]) / 2 - self.middle[:, None], -1, 0)
@@ -102,14 +92,17 @@ class Plate:
         at = np.einsum("ql,mlk->mqk", QUADRATURE, local)
         self.at, self.value = at + self.middle[:, None], np.einsum("mqk,mki->mqi", values(at), self.shape)
         zero = 0 * at[..., 0]
-        self.slope_x = np.einsum("mqk,mki->mqi", np.stack([zero, zero + 1, zero, at[..., 0], zero, at[..., 1]], -1), self.shape)
+        self.slope_x = np.einsum("mqk,mki->mqi", np.stack([zero, zero + 1, zero, at[..., 0], zero, at[..., 1]], -1),
+                                 self.shape)
         rigidity = np.array([[1, NU, 0], [NU, 1, 0], [0, 0, 2 * (1 - NU)]])
         self.curvature = self.shape[:, 3:]
         self.weight = WEIGHTS * self.area[:, None]
-        self.bending = (np.einsum("mai,ab,mbj->mij", self.curvature, rigidity, self.curvature) * self.area[:, None, None]
+        self.bending = (np.einsum("mai,ab,mbj->mij", self.curvature, rigidity,
+                                  self.curvature) * self.area[:, None, None]
                         + np.einsum("mq,mqi,mqj->mij", self.weight, self.value, self.value))
         self.gradient = np.stack([np.stack([corners[:, (i + 1) % 3, 1] - corners[:, (i + 2) % 3, 1],
-                                            corners[:, (i + 2) % 3, 0] - corners[:, (i + 1) % 3, 0]], 1) / determinant[:, None] for i in range(3)], 1)
+                                            corners[:, (i + 2) % 3, 0] - corners[:, (i + 1) % 3, 0]],
+                                            1) / determinant[:, None] for i in range(3)], 1)
 
     def strain(self, barycentric):
         """Of the quadratic triangles, per displacement."""
@@ -118,7 +111,8 @@ class Plate:
                            [4 * p[2], 0, 4 * p[0]], [4 * p[1], 4 * p[0], 0]])
         g = np.einsum("kl,mld->mkd", slopes, self.gradient)
         strain = np.zeros((len(g), 3, 12))
-        strain[:, 0, 0::2], strain[:, 1, 1::2], strain[:, 2, 0::2], strain[:, 2, 1::2] = g[..., 0], g[..., 1], g[..., 1], g[..., 0]
+        strain[:, 0, 0::2], strain[:, 1, 1::2] = g[..., 0], g[..., 1]
+        strain[:, 2, 0::2], strain[:, 2, 1::2] = g[..., 1], g[..., 0]
         return strain
 
     def load(self):
@@ -141,7 +135,8 @@ class Plate:
 
 def assembled(size, rows, blocks):
     n = rows.shape[1]
-    return coo_matrix((blocks.ravel(), (np.repeat(rows, n, 1).ravel(), np.tile(rows, (1, n)).ravel())), shape=(size, size))
+    return coo_matrix((blocks.ravel(), (np.repeat(rows, n, 1).ravel(), np.tile(rows, (1, n)).ravel())),
+                      shape=(size, size))
 
 
 def principal(s):
@@ -183,10 +178,12 @@ def wedge(degrees, reach=7):
 
 
 def study_wedges(_):
-    print("| 2α | V [σ_f h²] on the bisector | R/l | V anywhere | w ρ_w g l²/V | bottom / top stress |\n|---|---|---|---|---|---|")
+    print("| 2α | V [σ_f h²] on the bisector | R/l | V anywhere | w ρ_w g l²/V | bottom / top stress |\n|---|---|---|"
+          "---|---|---|")
     for degrees in (60, 90, 112, 120, 150, 180, 220):
         b = bears(wedge(degrees))
-        print(f"| {degrees}° | {b['V']:.3f} | {b['R']:.3f} | {b['V anywhere']:.3f} | {b['w']:.3f} | {b['bottom']:.2f} |")
+        print(f"| {degrees}° | {b['V']:.3f} | {b['R']:.3f} | {b['V anywhere']:.3f} | {b['w']:.3f} | {b['bottom']:.2f} |"
+              f"")
 
 
 class CrackedWedge:
@@ -248,8 +245,10 @@ class CrackedWedge:
 
 def study_cracks(_):
     h, l, toughness, strength = 0.5, 8.909, 150e3, 0.8e6
-    print("V [σ_f h²] and where the top fibre fails [l]; h 0.5 m. Thrust: H = 1.9 V (θ_s 38°, μ 0.2), 0.35 h above the middle plane.\n\n"
-          "| 2α | whole | cracked, open | cracked, closing above | whole, thrust | closing, thrust |\n|---|---|---|---|---|---|")
+    print("V [σ_f h²] and where the top fibre fails [l]; h 0.5 m. Thrust: H = 1.9 V (θ_s 38°, μ 0.2), 0.35 h above the "
+          "middle plane.\n\n"
+          "| 2α | whole | cracked, open | cracked, closing above | whole, thrust | closing, thrust |\n|---|---|---|---|"
+          "---|---|")
     for degrees in (60, 90, 112, 150, 180, 220):
         half = CrackedWedge(degrees, h / l)
         cells = [half.solve("whole"), half.solve("open"), half.solve("closing"), half.solve("whole", 1.9, 0.35 * h / l),
@@ -258,7 +257,8 @@ def study_cracks(_):
     # Linear elastic: ½ V² dC/da = K² h / E, C the tip's compliance: V in σ_f h².
     ends = (0.05, 0.1, 0.2, 0.4, 0.7, 1, 1.5, 2, 3)
     print(f"\nV [σ_f h²] that drives a radial crack of length a, K_IC {toughness / 1e3:g} kPa√m\n\n| 2α | "
-          + " | ".join(f"a {math.sqrt(a * b):.2f} l" for a, b in zip(ends, ends[1:])) + " |\n|---|" + "---|" * (len(ends) - 1))
+          + " | ".join(f"a {math.sqrt(a * b):.2f} l" for a, b in zip(ends, ends[1:]))
+          + " |\n|---|" + "---|" * (len(ends) - 1))
     for degrees in (112, 180):
         for kind in ("open", "closing"):
             half = CrackedWedge(degrees, h / l, 0.06)
@@ -316,7 +316,8 @@ def study_edges(arguments):
     angles, capacities = (20, 30, 45, 60, 75, 90, 105, 120, 135, 150, 165, 180), []
     for degrees in angles:
         capacities.append(bears(wedge(degrees))["V"])
-    print("| run | cusps | V on the bisector [σ_f h²] 10, 50, 90 % | R/l | V anywhere | opening [°] over " + ", ".join(f"{s:g} l" for s in lengths)
+    print("| run | cusps | V on the bisector [σ_f h²] 10, 50, 90 % | R/l | V anywhere | opening [°] over "
+          + ", ".join(f"{s:g} l" for s in lengths)
           + " | V of the wedge of that opening / V on the bisector |\n|---|---|---|---|---|---|---|")
     for run in arguments.runs:
         with open(os.path.join(run, "scene.json"), encoding="utf-8") as file:
@@ -325,7 +326,8 @@ def study_edges(arguments):
         l = (ice["youngs_modulus_Pa"] * h ** 3 / (12 * (1 - NU ** 2) * 9810)) ** 0.25
         rings, made = outer_rings(run)
         with open(os.path.join(run, "events.ndjson"), encoding="utf-8") as file:
-            bends = [e for e in map(json.loads, file) if e["kind"] == "bend" and len(e["children"]) == 1 and e["normal"][0] < 0.9]
+            bends = [e for e in map(json.loads, file) if e["kind"] == "bend" and len(e["children"]) == 1
+                     and e["normal"][0] < 0.9]
         rows = []
         for e in np.random.default_rng(1).permutation(bends[len(bends) // 4:]):
             new = made[e["children"][0]]
@@ -341,15 +343,19 @@ def study_edges(arguments):
                 continue
             ring[0] = 0
             chords = [(chord(ring, 1, s), chord(ring, -1, s)) for s in lengths]
-            opening = [math.degrees((math.atan2(b[1], b[0]) - math.atan2(f[1], f[0])) % (2 * math.pi)) for f, b in chords]
+            opening = [math.degrees((math.atan2(b[1], b[0]) - math.atan2(f[1], f[0])) % (2 * math.pi)) for f,
+                       b in chords]
             forward = math.atan2(chords[1][0][1], chords[1][0][0])
             b = bears(ring, forward + math.radians(opening[1]) / 2, 0.09)
-            rows.append([b["V"], b["R"], b["V anywhere"]] + opening + [np.interp(o, angles, capacities) / b["V"] for o in opening])
+            rows.append([b["V"], b["R"], b["V anywhere"]] + opening
+                        + [np.interp(o, angles, capacities) / b["V"] for o in opening])
         rows = np.array(rows)
         three = lambda values, digits: ", ".join(f"{v:.{digits}f}" for v in np.percentile(values, [10, 50, 90]))
         n = 3 + len(lengths)
-        print(f"| {os.path.basename(os.path.normpath(run))} | {len(rows)} | {three(rows[:, 0], 2)} | {np.median(rows[:, 1]):.2f} | {three(rows[:, 2], 2)} | "
-              + ", ".join(f"{v:.0f}" for v in np.median(rows[:, 3:n], 0)) + " | " + ", ".join(f"{v:.2f}" for v in np.median(rows[:, n:], 0)) + " |")
+        print(f"| {os.path.basename(os.path.normpath(run))} | {len(rows)} | {three(rows[:, 0], 2)} | "
+              f"{np.median(rows[:, 1]):.2f} | {three(rows[:, 2], 2)} | "
+              + ", ".join(f"{v:.0f}" for v in np.median(rows[:, 3:n], 0)) + " | "
+              + ", ".join(f"{v:.2f}" for v in np.median(rows[:, n:], 0)) + " |")
 
 
 def main():

@@ -28,7 +28,8 @@ def triangle_shape(p):
     """The six quadratic functions and their slopes by the first two area coordinates."""
     a, b, c = p
     value = np.array([a * (2 * a - 1), b * (2 * b - 1), c * (2 * c - 1), 4 * a * b, 4 * b * c, 4 * c * a])
-    of = np.array([[4 * a - 1, 0, 0], [0, 4 * b - 1, 0], [0, 0, 4 * c - 1], [4 * b, 4 * a, 0], [0, 4 * c, 4 * b], [4 * c, 0, 4 * a]])
+    of = np.array([[4 * a - 1, 0, 0], [0, 4 * b - 1, 0], [0, 0, 4 * c - 1], [4 * b, 4 * a, 0],
+                   [0, 4 * c, 4 * b], [4 * c, 0, 4 * a]])
     return value, np.stack([of[:, 0] - of[:, 2], of[:, 1] - of[:, 2]], 1)
 
 
@@ -46,6 +47,7 @@ def prism_shape(p, t):
 
 
 def resampled(line, size):
+    """A polyline's points at the spacing size(point)."""
     points = [line[0]]
     for a, b in zip(line[:-1], line[1:]):
         length, at = math.dist(a, b), 0
@@ -70,7 +72,8 @@ def mesh(outline, normal, depth, reach, ratio, finest, coarsest, crack=None):
             edge.append(p)
     path = Path(outline)
     across = np.array([-normal[1], normal[0]])
-    lines = [np.array([depth * normal + t * across for t in np.arange(-6 * max(depth, finest), 6 * max(depth, finest), 0.7 * finest)])]
+    lines = [np.array([depth * normal + t * across for t in np.arange(-6 * max(depth, finest),
+                                                                      6 * max(depth, finest), 0.7 * finest)])]
     if crack is not None:
         along = np.array([math.cos(crack[0]), math.sin(crack[0])])
         at, points = 0.7 * finest, []
@@ -133,7 +136,8 @@ class Solid:
         height = 1 - np.clip((depth - along) / max(slope, 1e-6), 0, 1 - THINNEST)
         self.levels, self.count = levels, n
         self.nodes = np.concatenate([np.c_[self.plan, height * k / (levels - 1)] for k in range(levels)])
-        self.prisms = np.vstack([np.hstack([self.six + n * (2 * layer + k) for k in range(3)]) for layer in range(LAYERS)])
+        self.prisms = np.vstack([np.hstack([self.six + n * (2 * layer + k) for k in range(3)])
+                                 for layer in range(LAYERS)])
         # A crack closes above: the parts hang together at their top fibres.
         self.first = np.arange(n)
         for i, j in cKDTree(self.plan).query_pairs(1e-9) if crack is not None else ():
@@ -170,12 +174,15 @@ class Solid:
             blocks += np.swapaxes(strains.reshape(m, -1, 54), 1, 2) @ stresses.reshape(m, -1, 54)
         dof = (3 * self.prisms[:, :, None] + np.arange(3)).reshape(m, 54)
         size = 3 * len(self.nodes)
-        matrix = coo_matrix((blocks.ravel(), (np.repeat(dof, 54, 1).ravel(), np.tile(dof, (1, 54)).ravel())), shape=(size, size))
+        matrix = coo_matrix((blocks.ravel(), (np.repeat(dof, 54, 1).ravel(), np.tile(dof, (1, 54)).ravel())),
+                            shape=(size, size))
         rows, columns, values = [], [], []
         area = self.areas()
-        springs = sum(w * np.outer(triangle_shape(p)[0], triangle_shape(p)[0]) for p, w in zip(TRIANGLE, TRIANGLE_WEIGHTS))
+        springs = sum(w * np.outer(triangle_shape(p)[0], triangle_shape(p)[0]) for p,
+                      w in zip(TRIANGLE, TRIANGLE_WEIGHTS))
         vertical = 3 * self.six + 2
-        matrix += coo_matrix(((self.k * area[:, None, None] * springs).ravel(), (np.repeat(vertical, 6, 1).ravel(), np.tile(vertical, (1, 6)).ravel())),
+        matrix += coo_matrix(((self.k * area[:, None, None] * springs).ravel(),
+                              (np.repeat(vertical, 6, 1).ravel(), np.tile(vertical, (1, 6)).ravel())),
                              shape=(size, size))
         return matrix.tocsc()
 

@@ -70,7 +70,8 @@ def study_step(arguments):
         for dt in steps:
             each = [surge[t > 22 / v].mean() for t, surge, *_ in (results["step", v, y, dt] for y in offsets)]
             means[v, dt] = np.mean(each), np.std(each) / np.sqrt(len(each))
-        print(f"| {v:g} | " + " | ".join("{:.1f} ± {:.1f}".format(*np.array(means[v, dt]) / 1e3) for dt in steps) + " |")
+        print(f"| {v:g} | " + " | ".join("{:.1f} ± {:.1f}".format(*np.array(means[v, dt]) / 1e3) for dt in steps)
+              + " |")
     if arguments.figure:
         draw_steps(arguments.figure, speeds, steps, means)
 
@@ -84,7 +85,8 @@ def draw_steps(path, speeds, steps, means):
     for v in speeds:
         mean, error = np.array([means[v, dt] for dt in steps]).T / 1e3
         axes.errorbar(np.array(steps) * 1e3, mean, error, marker="o", capsize=3, label=f"{v:g} m/s")
-    axes.set(xlabel="time step [ms]", ylabel="mean surge [kN]", xscale="log", ylim=(0, 1.25 * max(mean for mean, _ in means.values()) / 1e3))
+    axes.set(xlabel="time step [ms]", ylabel="mean surge [kN]", xscale="log",
+             ylim=(0, 1.25 * max(mean for mean, _ in means.values()) / 1e3))
     axes.set_xticks(np.array(steps) * 1e3, [f"{1e3 * dt:g}" for dt in steps])
     axes.minorticks_off()
     axes.grid(alpha=0.3)
@@ -101,7 +103,8 @@ def study_squeeze(arguments):
           "|---|---|---|---|---|---|---|")
     for case in cases:
         t, surge, _, summary = results["squeeze", *case]
-        print(f"| {case[0]} | {case[1]:g} | {case[2]} | {case[3]} | {surge.mean() / 1e3:.2f} | {surge.max() / 1e6:.3f} | "
+        print(f"| {case[0]} | {case[1]:g} | {case[2]} | {case[3]} | {surge.mean() / 1e3:.2f} | {surge.max() / 1e6:.3f} "
+              f"| "
               f"{summary['counts']['unconverged_steps']} |")
 
 
@@ -110,7 +113,8 @@ def study_jams(arguments):
     scenes = {("jam", *case, seed): confined(case[0], seed, case[1], case[2])
               for case in cases for seed in range(1, arguments.seeds + 1)}
     results = run_all(arguments, run, scenes)
-    print("| cover | law | mean [kN] | median seed | largest seed | largest single step [MN] | converged steps, worst seed "
+    print("| cover | law | mean [kN] | median seed | largest seed | largest single step [MN] | converged steps, worst "
+          "seed "
           "| energy created, worst seed [J] |\n|---|---|---|---|---|---|---|---|")
     for case in cases:
         of_case = [results["jam", *case, seed] for seed in range(1, arguments.seeds + 1)]

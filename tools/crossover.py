@@ -84,7 +84,8 @@ def print_tables(found):
         after = "–" if row["first_split"] is None else f"{row['first_split']:.0f}"
         print(f"| {h:g} | {side} | {row['first']} | {after} | {row['splits']} | {row['strips']} | {row['beams']} | "
               f"{row['bends']} | {row['way']:.0f} | {row['speed']:.2f} | {row['unresolved']} |")
-    print("\n| h [m] | F_b of the stem, at the first bend [kN] | its L_s [m] | of the bow, the greatest at a bend [kN] | "
+    print("\n| h [m] | F_b of the stem, at the first bend [kN] | its L_s [m] | of the bow, the greatest at a bend [kN] "
+          "| "
           "its L_s [m] |\n|---|---|---|---|---|")
     for h in sorted({h for h, _ in found}):
         rows = [row for (of, _), row in found.items() if of == h]

@@ -2,8 +2,8 @@
 
     python3 tools/decisions.py            --check fails where the index is not current, or a decision lacks a section
 
-A decision is DATE-SLUG.md in docs/decisions: a heading, then the sections of SECTIONS in their order. The sentence of the
-index is the first of its choice. A line in italics below the heading states what took the decision's place.
+A decision is DATE-SLUG.md in docs/decisions: a heading, then the sections of SECTIONS in their order. The sentence of
+the index is the first of its choice. A line in italics below the heading states what took the decision's place.
 """
 import pathlib
 import re

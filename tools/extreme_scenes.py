@@ -4,7 +4,7 @@
 What `polynya validate` lets through must run: a scene may be refused (exit code 3), and must else run its steps with
 every account closed and every check passed (0). Anything else is kept and told.
 
-Usage: tools/extreme_scenes.py [TRIALS [SEED [POLYNYA]]]      100, 1, build/dev/app/polynya; what failed is kept in runs/extreme
+Usage: tools/extreme_scenes.py [TRIALS [SEED [POLYNYA]]]   100, 1, build/dev/app/polynya; failures in runs/extreme
 """
 
 import collections
@@ -122,7 +122,8 @@ def main():
             file.unlink()
         else:
             print(f"{file}: {code}: {told[0]}", flush=True)
-    print(f"{trials} scenes of {len(choices)} numbers: " + ", ".join(f"{n} ended {c}" for c, n in sorted(ended.items(), key=str)))
+    print(f"{trials} scenes of {len(choices)} numbers: " + ", ".join(f"{n} ended {c}" for c,
+                                                                     n in sorted(ended.items(), key=str)))
     sys.exit(any(code not in (0, 3) for code in ended))
 
 

@@ -31,14 +31,16 @@ def level_ice(h, v, y=0.3, step=STEP):
     return {"name": "level", "time": {"step_s": step, "until_s": (FULL + MEASURED) / v}, "ice": {"thickness_m": h},
             "fracture": {"splitting": {"model": "none"}, "cusp_fate": "under_hull"},
             "record": {"forces_interval_s": 0.1, "frames_interval_s": 1000, "contacts": "none"},
-            "ships": [SHIP | {"hull": HULL | {"draught_m": 6}, "position_m": [-62, y], "propulsion": {"constant_speed_m_per_s": v}}],
+            "ships": [SHIP | {"hull": HULL | {"draught_m": 6}, "position_m": [-62, y],
+                              "propulsion": {"constant_speed_m_per_s": v}}],
             "floes": [{"rectangle": {"corner_m": [0, -100], "size_m": [600, 200]}, "fast_ice": True}]}
 
 
 def seconds_of(program, scene, folder, *options):
     """Of the processor, for a run."""
     used = os.times()
-    subprocess.run([program, "run", scene, "--out", folder, "--overwrite", "--progress", "none", *options], check=True, capture_output=True)
+    subprocess.run([program, "run", scene, "--out", folder, "--overwrite", "--progress", "none", *options],
+                   check=True, capture_output=True)
     now = os.times()
     return now.children_user + now.children_system - used.children_user - used.children_system
 
@@ -70,7 +72,8 @@ def resistance(arguments, h, v, y, step):
     """Mean over the measured way, contact and submersion [kN], and bends."""
     folder, summary = run_scene(arguments, "level", level_ice(h, v, y, step))
     rows = [row for row in rows_of(folder, "forces.csv") if float(row["t_s"]) > FULL / v]
-    contact, under = (np.mean([-float(row[name]) for row in rows]) / 1e3 for name in ("surge_N", "surge_from_submerged_ice_N"))
+    contact, under = (np.mean([-float(row[name]) for row in rows]) / 1e3
+                      for name in ("surge_N", "surge_from_submerged_ice_N"))
     return contact, under, summary["counts"]["bends"]
 
 
@@ -81,7 +84,8 @@ def step(arguments):
         for dt in (STEP, STEP / 3):
             values = np.array([resistance(arguments, h, v, y, dt) for y in offsets])
             mean, error = values.mean(axis=0), values.std(axis=0, ddof=1) / math.sqrt(len(offsets))
-            print(f"| {h:g} | {v:g} | {dt:.4f} | " + " | ".join(f"{m:.1f} ± {e:.1f}" for m, e in zip(mean, error)) + " |", flush=True)
+            print(f"| {h:g} | {v:g} | {dt:.4f} | " + " | ".join(f"{m:.1f} ± {e:.1f}" for m, e in zip(mean, error))
+                  + " |", flush=True)
 
 
 def main():

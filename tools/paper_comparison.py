@@ -118,7 +118,8 @@ def loads(result: dict, is_removing: bool, suffix: str) -> list:
     return [max(abs(row["surge" + suffix]), abs(row["sway" + suffix])) for row in rows] or [0]
 
 
-MEASURES = [("largest mean over 0.1 s", "_N", max), ("90th percentile of it", "_N", lambda v: statistics.quantiles(v, n=10)[-1]),
+MEASURES = [("largest mean over 0.1 s", "_N", max), ("90th percentile of it", "_N",
+                                                     lambda v: statistics.quantiles(v, n=10)[-1]),
             ("mean of it", "_N", statistics.mean), ("largest j/τ_c", "_j_over_tau_c_N", max)]
 
 
@@ -181,7 +182,8 @@ def channel_table(results: dict) -> str:
             c = result["channel"]
             before = c["swept_ice_at_start_m2"] / c["swept_area_m2"]
             left = c["swept_ice_m2"] / c["swept_area_m2"]
-            rows.append([name, side, reading, of_widths(small), f"{statistics.mean(small) / c['beam_m']:.2f}" if small else "–",
+            rows.append([name, side, reading, of_widths(small), f"{statistics.mean(small) / c['beam_m']:.2f}"
+                         if small else "–",
                          of_widths(plates), f"{100 * before:.0f} → {100 * left:.1f}", f"{c['largest_floe_m']:.0f}"])
     return table(["scene", "small floes, m", "A", "width in the small floes, m: mean (least–most)", "mean / beam",
                   "width between the plates, m", "ice in the swept band, %", "largest floe reaching into it, m"], rows)
@@ -198,9 +200,11 @@ def split_table(results: dict) -> str:
             c = e["criterion"]
             why = "" if e["kind"] == "split" else "j/τ_c < F_s" if ratio(e) <= 1 else "would pare"
             rows.append([name, reading, f"{e['t_s']:.1f}", e["kind"], f"{c['collision_force_N'] / 1e6:.2f}",
-                         f"{c['splitting_force_N'] / 1e6:.2f}", f"{c['crack_length_m']:.1f}", f"{c['crack_width_m']:.1f}",
+                         f"{c['splitting_force_N'] / 1e6:.2f}", f"{c['crack_length_m']:.1f}",
+                         f"{c['crack_width_m']:.1f}",
                          f"{force_at(result, e['t_s']) / 1e3:.0f}", f"{c['contact_force_N'] / 1e3:.2g}",
-                         f"{c.get('opening_force_N', 0) / 1e3:.2g}", f"{c.get('opening_capacity_N', 0) / 1e3:.0f}", why])
+                         f"{c.get('opening_force_N', 0) / 1e3:.2g}", f"{c.get('opening_capacity_N', 0) / 1e3:.0f}",
+                         why])
     return table(["scene", "A", "t, s", "what broke", "j/τ_c, MN", "F_s = n L h σ_t, MN", "L, m", "W, m",
                   "ice force, mean of that 0.1 s, kN", "true force of the contact, kN", "of it opening the crack, kN",
                   "F_max, kN", "why no split"],
@@ -213,7 +217,8 @@ def course_table(results: dict) -> str:
         for reading in READINGS:
             counts = [len(fractures(results[name, reading, aside], "split")) for aside in COURSES_M]
             rows.append([name, reading, *counts, f"{counts.count(2)} of {len(counts)}"])
-    return table(["scene", "A"] + [f"{aside:+d} m" if aside else "as shipped" for aside in COURSES_M] + ["two splits on"], rows)
+    return table(["scene", "A"] + [f"{aside:+d} m" if aside else "as shipped" for aside in COURSES_M]
+                 + ["two splits on"], rows)
 
 
 def in_order(values: list) -> bool:
@@ -245,13 +250,16 @@ def findings(results: dict, reading: str) -> list:
                                 lambda m: kN(removing[n][m] for n in ("fig6a", "fig4c", "fig6b")) + " kN"))
     found.append(forces_finding(of, reading, lambda m: alike(breaking["fig6a"][m], breaking["fig6b"][m]),
                                 lambda m: kN(breaking[n][m] for n in ("fig6a", "fig6b")) + " kN"))
-    found.append(forces_finding(of, reading, lambda m: min(breaking["fig4b"][m], breaking["fig4c"][m]) > breaking["fig4a"][m],
+    found.append(forces_finding(of, reading, lambda m: min(breaking["fig4b"][m],
+                                                           breaking["fig4c"][m]) > breaking["fig4a"][m],
                                 lambda m: kN(breaking[n][m] for n in ("fig4a", "fig4b", "fig4c")) + " kN"))
     counts = [len(fractures(of[n], "split")) for n in SCENES]
     courses = [len(fractures(results[n, reading, aside], "split")) == 2 for n in SCENES for aside in COURSES_M]
-    found.append((verdict([c == 2 for c in counts]), f"{'/'.join(map(str, counts))} splits; two on {sum(courses)} of {len(courses)} courses ± 3 m"))
+    found.append((verdict([c == 2 for c in counts]), f"{'/'.join(map(str, counts))} splits; two on {sum(courses)} of "
+                  f"{len(courses)} courses ± 3 m"))
     headings = [of[n]["forces"][-1]["heading_deg"] for n in ("fig4b", "fig4c")]
-    found.append((verdict([headings[1] < headings[0] - 5]), f"heading at 550 s {headings[1]:.0f}°, without drift {headings[0]:.0f}°"))
+    found.append((verdict([headings[1] < headings[0] - 5]),
+                  f"heading at 550 s {headings[1]:.0f}°, without drift {headings[0]:.0f}°"))
     widths = [small_width(of[n], n) for n in ("fig6a", "fig4c", "fig6b")]
     found.append((verdict([in_order(widths)]), "/".join(f"{w:.0f}" for w in widths) + " m"))
     starts = {n: first_break(of[n]) for n in PAPER_TIMES_S}
@@ -277,8 +285,10 @@ def scorecard(results: dict) -> str:
     columns = [findings(results, reading) for reading in READINGS]
     rows = [[i + 1, FINDINGS[i], *(f"**{v}**: {text}" for v, text in cells)] for i, cells in enumerate(zip(*columns))]
     totals = [", ".join(f"{sum(v == kind for v, _ in column)} {words}" for kind, words in
-                        (("agrees", "agree"), ("differs", "differ"), ("not settled", "not settled"))) for column in columns]
-    return table(["", "finding of the paper", *(f"A = {reading}" for reading in READINGS)], rows + [["", "**in all**", *totals]])
+                        (("agrees", "agree"), ("differs", "differ"), ("not settled", "not settled")))
+                        for column in columns]
+    return table(["", "finding of the paper", *(f"A = {reading}" for reading in READINGS)],
+                 rows + [["", "**in all**", *totals]])
 
 
 def write_between(name: str, text: str) -> None:
@@ -314,8 +324,10 @@ def main() -> int:
         results = shipped | run_all(arguments, asides, folder)
         write_between("scorecard", scorecard(results))
         write_between("measured", "\n\n".join([
-            "### The five scenes", main_table(shipped), "### The force that removing floes takes", removal_table(shipped),
-            "### Both sides of the splitting criterion", split_table(shipped), "### Splits on courses beside the shipped one",
+            "### The five scenes", main_table(shipped), "### The force that removing floes takes",
+            removal_table(shipped),
+            "### Both sides of the splitting criterion", split_table(shipped),
+            "### Splits on courses beside the shipped one",
             course_table(results)]))
     return 0
 

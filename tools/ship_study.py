@@ -4,7 +4,7 @@ ice".
 
   tools/ship_study.py resistance   the reference ship at constant speed, .25-3 m/s and .25-1.5 m, beside four formulas
   tools/ship_study.py smooth       the same of a hull as smooth (friction .05) as those that Spencer and Jones come from
-  tools/ship_study.py exponents    how its resistance grows with thickness, speed, strength and friction, beside Lindqvist's
+  tools/ship_study.py exponents    how it grows with thickness, speed, strength and friction, beside Lindqvist's
   tools/ship_study.py speeds       what ships with reported speeds reach under full power (polynya performance)
 
 Options of all: --polynya PROGRAM, --work FOLDER (run folders; they are overwritten), --jobs N. Needs numpy.
@@ -27,9 +27,11 @@ KEINONEN = 330, 510  # [kN] at .5 m and 1 m/s, of the project's physics notes (r
 def level_ice(h, v, **ice):
     """The reference ship at constant speed in a plate of fast ice that does not split; nothing comes up behind it."""
     way = FULL + MEASURED
-    return {"name": "level", "time": {"step_s": min(0.01, 0.01 / v), "until_s": (way + 2) / v}, "ice": {"thickness_m": h} | ice,
+    return {"name": "level", "time": {"step_s": min(0.01, 0.01 / v), "until_s": (way + 2) / v},
+            "ice": {"thickness_m": h} | ice,
             "fracture": ENDLESS,
-            "ships": [SHIP | {"hull": HULL | {"draught_m": DRAUGHT}, "position_m": [-62, 0], "propulsion": {"constant_speed_m_per_s": v}}],
+            "ships": [SHIP | {"hull": HULL | {"draught_m": DRAUGHT}, "position_m": [-62, 0],
+                              "propulsion": {"constant_speed_m_per_s": v}}],
             "floes": [{"rectangle": {"corner_m": [0, -75], "size_m": [way + LENGTH, 150]}, "fast_ice": True}]}
 
 
@@ -39,7 +41,8 @@ def run(arguments, name, scene):
     speed = scene["ships"][0]["propulsion"]["constant_speed_m_per_s"]
     rows = [r for r in rows_of(folder, "forces.csv") if float(r["t_s"]) > FULL / speed]
     mean = lambda key: -1e-3 * np.mean([float(r[key]) for r in rows])
-    return {"contact": mean("surge_N"), "submerged": mean("surge_from_submerged_ice_N"), "real_time": summary["real_time_factor"]}
+    return {"contact": mean("surge_N"), "submerged": mean("surge_from_submerged_ice_N"),
+            "real_time": summary["real_time_factor"]}
 
 
 def keinonen(h, v):
@@ -50,13 +53,16 @@ def keinonen(h, v):
 def resistance(arguments):
     points = [(0.5, v) for v in (0.25, 0.5, 1, 2, 3)] + [(h, 1) for h in (0.25, 0.75, 1, 1.5)]
     results = run_all(arguments, run, {point: level_ice(*point) for point in points})
-    print("| h [m] | v [m/s] | crushing and bending | submersion | sum | Lindqvist: R_c + R_b | R_s | sum | Riska | Spencer, Jones | Keinonen |")
+    print("| h [m] | v [m/s] | crushing and bending | submersion | sum | Lindqvist: R_c + R_b | R_s | sum | Riska | "
+          "Spencer, Jones | Keinonen |")
     print("|---|---|---|---|---|---|---|---|---|---|---|")
     for h, v in points:
         r, ice = results[h, v], formulas.Ice(h)
         crushing, bending, submersion = (1e-3 * part for part in formulas.lindqvist(REFERENCE, ice, v))
-        print(f"| {h:g} | {v:g} | {r['contact']:.0f} | {r['submerged']:.0f} | {r['contact'] + r['submerged']:.0f} | {crushing + bending:.0f} | "
-              f"{submersion:.0f} | {crushing + bending + submersion:.0f} | {1e-3 * formulas.riska(REFERENCE, ice, v):.0f} | "
+        print(f"| {h:g} | {v:g} | {r['contact']:.0f} | {r['submerged']:.0f} | {r['contact'] + r['submerged']:.0f} | "
+              f"{crushing + bending:.0f} | "
+              f"{submersion:.0f} | {crushing + bending + submersion:.0f} | "
+              f"{1e-3 * formulas.riska(REFERENCE, ice, v):.0f} | "
               f"{1e-3 * formulas.spencer_jones(REFERENCE, ice, v):.0f} | {keinonen(h, v)} |")
 
 
@@ -67,16 +73,20 @@ def smooth(arguments):
     for h, v in points:
         r, ice = results["smooth", h, v], formulas.Ice(h, friction=0.05)
         print(f"| {h:g} | {r['contact']:.0f} | {r['submerged']:.0f} | {r['contact'] + r['submerged']:.0f} | "
-              f"{1e-3 * formulas.spencer_jones(REFERENCE, ice, v):.0f} | {1e-3 * sum(formulas.lindqvist(REFERENCE, ice, v)):.0f} |")
+              f"{1e-3 * formulas.spencer_jones(REFERENCE, ice, v):.0f} | "
+              f"{1e-3 * sum(formulas.lindqvist(REFERENCE, ice, v)):.0f} |")
 
 
 def exponents(arguments):
     """Of the sum and of the contact part, by least squares of the logarithms."""
     series = {"thickness h": [(h, level_ice(h, 1), formulas.Ice(h), 1) for h in (0.25, 0.5, 0.75, 1, 1.5)],
               "speed v": [(v, level_ice(0.5, v), formulas.Ice(0.5), v) for v in (0.5, 1, 2, 3)],
-              "strength σ_f": [(s, level_ice(0.5, 1, flexural_strength_Pa=s), formulas.Ice(0.5, flexural_strength=s), 1) for s in (0.4e6, 0.8e6, 1.6e6)],
-              "friction μ": [(m, level_ice(0.5, 1, friction=m), formulas.Ice(0.5, friction=m), 1) for m in (0.05, 0.1, 0.2)]}
-    results = run_all(arguments, run, {(name.split()[0], f"{x:g}"): scene for name, points in series.items() for x, scene, _, _ in points})
+              "strength σ_f": [(s, level_ice(0.5, 1, flexural_strength_Pa=s), formulas.Ice(0.5, flexural_strength=s),
+                                1) for s in (0.4e6, 0.8e6, 1.6e6)],
+              "friction μ": [(m, level_ice(0.5, 1, friction=m), formulas.Ice(0.5, friction=m), 1)
+                             for m in (0.05, 0.1, 0.2)]}
+    results = run_all(arguments, run, {(name.split()[0], f"{x:g}"): scene for name,
+                                       points in series.items() for x, scene, _, _ in points})
     print("| resistance grows with | as | crushing and bending as | Lindqvist's as | his R_c + R_b as |")
     print("|---|---|---|---|---|")
     for name, points in series.items():
@@ -84,11 +94,13 @@ def exponents(arguments):
         ours = [results[name.split()[0], f"{p[0]:g}"] for p in points]
         his = [formulas.lindqvist(REFERENCE, ice, v) for _, _, ice, v in points]
         slope = lambda y: np.polyfit(x, np.log(y), 1)[0]
-        print(f"| {name} | {slope([o['contact'] + o['submerged'] for o in ours]):.2f} | {slope([o['contact'] for o in ours]):.2f} | "
+        print(f"| {name} | {slope([o['contact'] + o['submerged'] for o in ours]):.2f} | "
+              f"{slope([o['contact'] for o in ours]):.2f} | "
               f"{slope([sum(h) for h in his]):.2f} | {slope([h[0] + h[1] for h in his]):.2f} |")
 
 
-REPORTED = {"araon": ["--thickness", "1.0", "--flexural-strength", "630e3"], "polaris": ["--thickness", "1.2,1.8"], "nordica": ["--thickness", "0.8"],
+REPORTED = {"araon": ["--thickness", "1.0", "--flexural-strength", "630e3"], "polaris": ["--thickness", "1.2,1.8"],
+            "nordica": ["--thickness", "0.8"],
             "oden": ["--thickness", "1.8,1.9"], "xuelong-2": ["--thickness", "1.5"]}
 
 
@@ -97,14 +109,17 @@ def speeds(arguments):
     print("|---|---|---|---|---|---|---|")
     for ship, options in REPORTED.items():
         folder = os.path.join(arguments.work, f"performance-{ship}")
-        subprocess.run([arguments.polynya, "performance", ship, *options, "--out", folder, "--jobs", str(arguments.jobs)], check=True,
+        subprocess.run([arguments.polynya, "performance", ship, *options, "--out",
+                        folder, "--jobs", str(arguments.jobs)], check=True,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        preset = json.loads(subprocess.run([arguments.polynya, "ships", ship, "--json"], check=True, capture_output=True, text=True).stdout)
+        preset = json.loads(subprocess.run([arguments.polynya, "ships", ship, "--json"],
+                                           check=True, capture_output=True, text=True).stdout)
         with open(os.path.join(folder, "performance.csv"), encoding="utf-8") as file:
             rows = {float(row["thickness_m"]): row for row in csv.DictReader(file)}
         for point in preset["reported"]:
             row = {key: float(value) for key, value in rows[point["thickness_m"]].items() if key.endswith("_s")}
-            print(f"| {ship} | {point['thickness_m']:g} | {point['speed_m_per_s']:.2f} | {row['speed_m_per_s']:.2f} ± {row['error_m_per_s']:.2f} | "
+            print(f"| {ship} | {point['thickness_m']:g} | {point['speed_m_per_s']:.2f} | {row['speed_m_per_s']:.2f} ± "
+                  f"{row['error_m_per_s']:.2f} | "
                   f"{row['lindqvist_m_per_s']:.2f} | {row['riska_m_per_s']:.2f} | {row['spencer_jones_m_per_s']:.2f} |")
 
 

@@ -21,7 +21,8 @@ def square(side, h, toughness):
     """The reference ship sails at 1 m/s with its stem at the middle of a floe's side. The floe is free."""
     return {"name": "square", "time": {"step_s": 0.002, "until_s": 6},
             "ice": {"thickness_m": h, "fracture_toughness_Pa_sqrt_m": toughness},
-            "ships": [SHIP | {"position_m": [-60.01, 0], "speed_m_per_s": 1, "propulsion": {"constant_speed_m_per_s": 1}}],
+            "ships": [SHIP | {"position_m": [-60.01, 0], "speed_m_per_s": 1,
+                              "propulsion": {"constant_speed_m_per_s": 1}}],
             "floes": [{"rectangle": {"corner_m": [0, -side / 2], "size_m": [side, side]}}]} | FEW_RECORDS
 
 
@@ -49,11 +50,13 @@ def study_crossover(arguments):
     curves = {}
     for (h, k, side), event in found.items():
         curves.setdefault((h, k), {})[side] = event
-    print("| h, m | K_IC, kPa√m | opening force at bending F_b, kN | L_s = (F_b / 0.187 h K)², m | largest floe that splits, "
+    print("| h, m | K_IC, kPa√m | opening force at bending F_b, kN | L_s = (F_b / 0.187 h K)², m | largest floe that "
+          "splits, "
           "smallest that bends first, m | splits at F / F_max |\n|---|---|---|---|---|---|")
     for (h, k), events in curves.items():
         split, bend, force = crossover_of(events)
-        over = [e["criterion"]["load_N"] / e["criterion"]["capacity_N"] for e in events.values() if e and e["kind"] == "split"]
+        over = [e["criterion"]["load_N"] / e["criterion"]["capacity_N"] for e in events.values()
+                if e and e["kind"] == "split"]
         expected = (force / (0.187 * h * k * 1e3)) ** 2 if force else float("nan")
         print(f"| {h} | {k} | {force / 1e3:.1f} | {expected:.1f} | {split or '–'}, {bend or '–'} | "
               + (f"{min(over):.3f}–{max(over):.3f} |" if over else "– |"))

@@ -16,7 +16,8 @@ SHIP = {"name": "icebreaker", "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9, "h
 LENGTH, BEAM, DRAUGHT, STEM, ENTRANCE = 120, 24, 6, math.radians(30), math.radians(27)
 REFERENCE = formulas.Hull(LENGTH, BEAM, DRAUGHT, STEM, ENTRANCE)
 ICE = formulas.Ice(thickness=0.5)
-G, RHO_I, RHO_W, YOUNG, POISSON, FLEXURAL = formulas.G, ICE.density, ICE.water_density, ICE.young, ICE.poisson, ICE.flexural_strength
+G, RHO_I, RHO_W = formulas.G, ICE.density, ICE.water_density
+YOUNG, POISSON, FLEXURAL = ICE.young, ICE.poisson, ICE.flexural_strength
 
 FEW_RECORDS = {"record": {"forces_interval_s": 0.1, "frames_interval_s": 60, "contacts": "none"}}
 

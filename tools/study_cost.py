@@ -150,7 +150,8 @@ def efficiency(bench):
         folder = bench.plan(f"efficiency-{jobs}", VOYAGE, repetitions=10, set={"time.until_s": 800})
         seconds[jobs] = bench.timed("study", "run", folder, "--jobs", jobs)[0]
     print(
-        f"efficiency  {seconds[1] / (2 * seconds[2]):7.3f}     10 cases of {seconds[1] / 10:.2f} s: {seconds[1]:.1f} s by one job, {seconds[2]:.1f} s by two"
+        f"efficiency  {seconds[1] / (2 * seconds[2]):7.3f}     10 cases of {seconds[1] / 10:.2f} s: {seconds[1]:.1f} s "
+        f"by one job, {seconds[2]:.1f} s by two"
     )
 
 

@@ -37,7 +37,8 @@ def mean_and_error(values):
     return f"{statistics.fmean(values):.1f} ± {statistics.stdev(values) / len(values) ** 0.5:.1f}"
 
 
-print("| sweeps | mean surge force, kN | cusps | steps that used them all, % | largest left over: median run, worst run, m/s |")
+print("| sweeps | mean surge force, kN | cusps | steps that used them all, % | largest left over: median run, worst "
+      "run, m/s |")
 print("|---|---|---|---|---|")
 with tempfile.TemporaryDirectory() as name:
     for sweeps in (30, 120, 400):

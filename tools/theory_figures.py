@@ -57,7 +57,8 @@ def contact():
     shape(side, [(-3, -2.6), (3.4, -2.6), (3.4, -.2), (-3, -.2)], WATER, ec="none")
     shape(side, [(0, .3), (3.4, .3), (3.4, -1.2), (-1.5 * slope, -1.2)], ICE)
     x = [1 + (.3 - 2) * -slope, 1 + (.3 + 2.6) * -slope]
-    shape(side, [(-3, 2), (1 + 1.7 * slope, 2), (1, .3), (1 - 1.5 * slope, -1.2), (x[1], -2.6), (-3, -2.6)], HULL, alpha=.85)
+    shape(side, [(-3, 2), (1 + 1.7 * slope, 2), (1, .3), (1 - 1.5 * slope, -1.2), (x[1], -2.6), (-3, -2.6)],
+          HULL, alpha=.85)
     side.plot([1, 1 - 1.5 * slope], [.3, -1.2], color=FORCE, lw=3)
     middle = np.array([1 - .75 * slope, -.45])
     normal = np.array([np.cos(np.radians(35)), -np.sin(np.radians(35))])
@@ -98,7 +99,8 @@ def wedge():
 def radial():
     """Cracks that are tried from the contacts of a bow in a channel's head."""
     figure, axes = sketch((5.6, 3.2), (-2, 10), (-3.4, 3.4))
-    shape(axes, [(-2, -3.2), (9.4, -3.2), (9.8, 2.6), (5, 3.2), (-2, 2.9), (-2, 1), (0, 1), (1.6, 0), (0, -1), (-2, -1)], ICE)
+    shape(axes, [(-2, -3.2), (9.4, -3.2), (9.8, 2.6), (5, 3.2), (-2, 2.9), (-2, 1),
+                 (0, 1), (1.6, 0), (0, -1), (-2, -1)], ICE)
     shape(axes, [(-2, .9), (-.2, .9), (1.7, 0), (-.2, -.9), (-2, -.9)], HULL, alpha=.85)
     corners = [(-2, -3.2), (9.4, -3.2), (9.8, 2.6), (5, 3.2), (-2, 2.9)]
 
@@ -243,7 +245,8 @@ def step():
     figure, axes = plt.subplots(figsize=(7.2, 2.5))
     groups = [("steer", "pilots, walls"), ("find", "pairs, contacts"), ("decide", "which failure,\nat which force"),
               ("solve", "impulses,\nsplits, tilt"), ("push", "water, wind,\nengine, submerged ice"),
-              ("move", "integrate,\nclock"), ("cut", "cusps, splits,\nbrash, under, up"), ("record", "loads, rest,\nsamples")]
+              ("move", "integrate,\nclock"), ("cut", "cusps, splits,\nbrash, under, up"),
+              ("record", "loads, rest,\nsamples")]
     for k, (name, what) in enumerate(groups):
         column, row = k % 4, 1 - k // 4
         x, y = column * 2.5, row * 1.5
@@ -281,7 +284,8 @@ def cut():
     return figure
 
 
-FIGURES = {"contact": contact, "wedge": wedge, "radial": radial, "arms": arms, "tilting": tilting, "hull-path": hull_path,
+FIGURES = {"contact": contact, "wedge": wedge, "radial": radial, "arms": arms, "tilting": tilting,
+           "hull-path": hull_path,
            "levels": levels, "step": step, "cut": cut}
 
 

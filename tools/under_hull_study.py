@@ -31,7 +31,8 @@ def zuev(cover, h, v):
 
 
 def ship(x, y, speed, **other):
-    return SHIP | {"hull": HULL | {"draught_m": 6}, "position_m": [x, y], "propulsion": {"constant_speed_m_per_s": speed}} | other
+    return SHIP | {"hull": HULL | {"draught_m": 6}, "position_m": [x, y],
+                   "propulsion": {"constant_speed_m_per_s": speed}} | other
 
 
 def level_ice(h, v, y=0.0, **settings):
@@ -112,7 +113,8 @@ def study_level(arguments):
     cases = [(0.5, v) for v in (0.5, 1, 2, 3)] + [(h, 1) for h in (0.25, 0.75, 1, 1.5)]
     offsets = (0, 0.7)
     results = run_all(arguments, run, {("level", h, v, y): level_ice(h, v, y) for h, v in cases for y in offsets})
-    print("| h [m] | v [m/s] | crushing and bending | submersion | sum | Lindqvist: R_c + R_b | R_s | sum | × real time |")
+    print("| h [m] | v [m/s] | crushing and bending | submersion | sum | Lindqvist: R_c + R_b | R_s | sum | × real "
+          "time |")
     print("|---|---|---|---|---|---|---|---|---|")
     for h, v in cases:
         each = [mean_after(results["level", h, v, y][0]["icebreaker"], 182 / v) for y in offsets]
@@ -120,7 +122,8 @@ def study_level(arguments):
         crushing, bending, submersion = (r / 1e3 for r in lindqvist(h, v))
         breaking = crushing + bending
         factor = np.median([results["level", h, v, y][1]["real_time_factor"] for y in offsets])
-        print(f"| {h:g} | {v:g} | {contact:.0f} | {under:.0f} | {contact + under:.0f} | {breaking:.0f} | {submersion:.0f} "
+        print(f"| {h:g} | {v:g} | {contact:.0f} | {under:.0f} | {contact + under:.0f} | {breaking:.0f} | "
+              f"{submersion:.0f} "
               f"| {breaking + submersion:.0f} | {factor:.0f} |")
     thin, thick = (np.mean([mean_after(results["level", h, 1, y][0]["icebreaker"], 182) for y in offsets], axis=0)[0]
                    for h in (0.25, 1.5))
@@ -132,7 +135,8 @@ def study_pack(arguments):
     scenes = {("pack", c, s): pack(c, s) for c in covers for s in seeds}
     scenes |= {("pack-up", c, s): without_tilting(pack(c, s)) for c in covers for s in seeds}
     results = run_all(arguments, run, scenes)
-    print("| C | contact | submersion | sum | without tilting | floes under | Colbourne slender | blunt | Zuev | unconverged |")
+    print("| C | contact | submersion | sum | without tilting | floes under | Colbourne slender | blunt | Zuev | "
+          "unconverged |")
     print("|---|---|---|---|---|---|---|---|---|---|")
     for c in covers:
         each = np.array([mean_after(results["pack", c, s][0]["icebreaker"], 60) for s in seeds])
@@ -144,13 +148,16 @@ def study_pack(arguments):
         total = each.sum(axis=1)
         print(f"| {c:g} | {each[:, 0].mean():.0f} | {each[:, 1].mean():.0f} | {total.mean():.0f} ± {error(total):.0f} "
               f"| {up.mean():.0f} ± {error(up):.0f} | {under:.0f} | {colbourne(c, 0.5, 1, 4.4, -0.8267, 2) / 1e3:.0f} "
-              f"| {colbourne(c, 0.5, 1, 16.1, -1.7937, 3) / 1e3:.0f} | {zuev(c, 0.5, 1) / 1e3:.0f} | {missed / steps:.2%} |")
+              f"| {colbourne(c, 0.5, 1, 16.1, -1.7937, 3) / 1e3:.0f} | {zuev(c, 0.5, 1) / 1e3:.0f} | "
+              f"{missed / steps:.2%} |")
 
 
 def study_shapes(arguments):
     covers, seeds, kinds = (0.5, 0.6, 0.7, 0.8, 0.9), range(1, 5), {"squares": squares, "irregular": pack}
-    results = run_all(arguments, run, {(kind, c, s): make(c, s) for kind, make in kinds.items() for c in covers for s in seeds})
-    print("| C | square: mean [kN] | spread | largest .1 s | irregular: mean | spread | largest .1 s | Colbourne slender | blunt |")
+    results = run_all(arguments, run, {(kind, c, s): make(c, s) for kind,
+                                       make in kinds.items() for c in covers for s in seeds})
+    print("| C | square: mean [kN] | spread | largest .1 s | irregular: mean | spread | largest .1 s | Colbourne "
+          "slender | blunt |")
     print("|---|---|---|---|---|---|---|---|---|")
     for c in covers:
         cells = []
@@ -171,7 +178,8 @@ def study_special(arguments):
     print("|---|---|---|---|---|---|")
     for key, (forces, summary) in results.items():
         for name, of_ship in forces.items():
-            contact, under = mean_after(of_ship, 182 if key == ("follower",) else 0, 332 if name == "icebreaker" else math.inf)
+            contact, under = mean_after(of_ship, 182 if key == ("follower",) else 0,
+                                        332 if name == "icebreaker" else math.inf)
             print(f"| {' '.join(key)}, {name} | {contact:.0f} | {of_ship['contact'].max() / 1e3:.0f} | {under:.0f} "
                   f"| {summary['counts']['bends']} | {summary['counts']['tilted_under']} |")
 
@@ -185,7 +193,8 @@ def study_sensitivity(arguments):
     variants |= {("step", factor): {"time": {"step_s": 0.01 * factor, "until_s": 300}} for factor in (0.5, 2)}
     variants |= {("circle_radius", factor): {"contact": {"circle_radius_m": factor}} for factor in (0.5, 2)}
     covers, seeds = (0.7, 0.9), range(1, 7)
-    results = run_all(arguments, run, {(*variant, c, s): pack(c, s, **settings) for variant, settings in variants.items()
+    results = run_all(arguments, run, {(*variant, c, s): pack(c, s, **settings) for variant,
+                                       settings in variants.items()
                                   for c in covers for s in seeds})
     print("| variant | " + " | ".join(f"C {c:g}: sum [kN], floes under" for c in covers) + " |")
     print("|---|" + "---|" * len(covers))
@@ -207,7 +216,8 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     arguments = parser.parse_args()
     os.makedirs(arguments.work, exist_ok=True)
-    {"level": study_level, "pack": study_pack, "shapes": study_shapes, "special": study_special, "sensitivity": study_sensitivity}[arguments.study](arguments)
+    {"level": study_level, "pack": study_pack, "shapes": study_shapes, "special": study_special,
+     "sensitivity": study_sensitivity}[arguments.study](arguments)
 
 
 if __name__ == "__main__":

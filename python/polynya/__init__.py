@@ -23,15 +23,18 @@ if TYPE_CHECKING:
     from polynya.results.study import Study
     __version__: str
 
-__all__ = ["Cut", "FloeMemory", "Floes", "PilotView", "Problem", "Run", "Scene", "SceneError", "SeenShip", "Ship", "Simulation", "SimulationError", "Study", "cut"]
+__all__ = ["Cut", "FloeMemory", "Floes", "PilotView", "Problem", "Run", "Scene",
+           "SceneError", "SeenShip", "Ship", "Simulation", "SimulationError", "Study", "cut"]
 __all__ += ["FolderError", "NotARunError", "NotAStudyError", "UnfinishedError", "VersionError", "require"]
 
 # The compiled module lies beside the folder that this package is in: that may be a link into the source tree, so its
 # own path is not resolved.
-__path__.append(_os.path.join(_os.path.dirname(_os.path.dirname(_os.path.dirname(_os.path.abspath(__file__)))), "python_core"))
+__path__.append(_os.path.join(_os.path.dirname(_os.path.dirname(_os.path.dirname(_os.path.abspath(__file__)))),
+                              "python_core"))
 
 _COMPILED = {"FloeMemory", "Floes", "PilotView", "Scene", "SeenShip", "Ship", "Simulation"}
-_ERRORS = {"FolderError", "NotARunError", "NotAStudyError", "Problem", "SceneError", "SimulationError", "UnfinishedError", "VersionError"}
+_ERRORS = {"FolderError", "NotARunError", "NotAStudyError", "Problem", "SceneError",
+           "SimulationError", "UnfinishedError", "VersionError"}
 
 
 def _module(name):

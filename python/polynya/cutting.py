@@ -12,7 +12,8 @@ class Cut(typing.NamedTuple):
     """What a cut made. area_of_pieces_m2 + removed_m2 = area_m2 + rounding_defect_m2, all of them in the ledger
     (docs/cut.md)."""
 
-    pieces: list  #: polygons: lists of numpy rings (n x 2) [m], the outer one first; open and counter-clockwise, holes clockwise
+    #: polygons: lists of numpy rings (n x 2) [m], the outer one first; open and counter-clockwise, holes clockwise
+    pieces: list
     parts: list  #: "inside" or "outside" the tool, piece by piece
     ledger: dict  #: of the floe: where every square metre went
 

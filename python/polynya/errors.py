@@ -24,7 +24,8 @@ class Problem:
 
     def __str__(self):
         place = [self.file] + [str(number) for number in (self.line, self.column) if number is not None]
-        words = [":".join(place)] + ([] if self.severity == "error" else [self.severity]) + ([self.path] if self.path else [])
+        words = [":".join(place)] + ([] if self.severity == "error"
+                                     else [self.severity]) + ([self.path] if self.path else [])
         return ": ".join(words + [self.message])
 
 

@@ -165,7 +165,8 @@ class Scenery:
         corners, ids, poses = numpy.reshape(window, (2, 2)), frame.ids, frame.poses
         centres, reach = turned(self.run.centroids[ids], poses), self.outlines.reach(ids)[:, None]
         shown = ((centres + reach > corners[0]) & (centres - reach < corners[1])).all(axis=1)
-        at_edge = numpy.flatnonzero(shown & ~((centres - reach > corners[0]) & (centres + reach < corners[1])).all(axis=1))
+        is_inside = ((centres - reach > corners[0]) & (centres + reach < corners[1])).all(axis=1)
+        at_edge = numpy.flatnonzero(shown & ~is_inside)
         if len(at_edge):
             low, high = self.outlines.boxes(ids[at_edge], poses[at_edge])
             shown[at_edge] = ((high > corners[0]) & (low < corners[1])).all(axis=1)
@@ -176,18 +177,21 @@ class Scenery:
         squares of their area."""
         kinds = self.kinds(frame)
         shown = self.seen(frame, window) if among is None else self.seen(frame, window) & among
-        return [self._path(frame.ids[shown & (kinds == kind)], frame.poses[shown & (kinds == kind)], least) for kind in range(4)]
+        return [self._path(frame.ids[shown & (kinds == kind)], frame.poses[shown & (kinds == kind)], least)
+                for kind in range(4)]
 
     def _path(self, ids, poses, least):
         side = numpy.sqrt(self.run.births["area_m2"][ids])
         is_small = side < least
-        return joined(self.outlines.path(ids[~is_small], poses[~is_small]), self._squares(ids[is_small], poses[is_small], side[is_small]))
+        return joined(self.outlines.path(ids[~is_small], poses[~is_small]),
+                      self._squares(ids[is_small], poses[is_small], side[is_small]))
 
     def _squares(self, ids, poses, sides):
         if len(ids) == 0:
             return NOTHING
         in_body = self.run.centroids[ids][:, None] + sides[:, None, None] * SQUARE
-        return Path(turned(in_body.reshape(-1, 2), numpy.repeat(poses, len(SQUARE), axis=0)), numpy.tile(codes_of(len(SQUARE)), len(ids)))
+        return Path(turned(in_body.reshape(-1, 2), numpy.repeat(poses, len(SQUARE), axis=0)),
+                    numpy.tile(codes_of(len(SQUARE)), len(ids)))
 
     def forget(self, time):
         """Drops the outlines of floes that broke before a time [s]."""
@@ -202,7 +206,8 @@ class Scenery:
     def hulls(self, frame):
         """Ships and structures as one path, walls as another."""
         walls = self.run.wall_names
-        return tuple(path_of([ring for name, ring in frame.hulls.items() if (name in walls) == is_wall]) for is_wall in (False, True))
+        return tuple(path_of([ring for name, ring in frame.hulls.items() if (name in walls) == is_wall])
+                     for is_wall in (False, True))
 
     @functools.cached_property
     def _recorded_places(self):
@@ -216,7 +221,8 @@ class Scenery:
         here = self.run.motions.ships_at(time)[None, :, :2]
         places = numpy.concatenate((self._recorded_places[self.run.times < time], here))
         walls = self.run.wall_names
-        return [places[:, i] for i, name in enumerate(self.run.ship_names) if name not in walls and numpy.ptp(places[:, i], axis=0).max() > 0]
+        return [places[:, i] for i, name in enumerate(self.run.ship_names) if name not in walls
+                and numpy.ptp(places[:, i], axis=0).max() > 0]
 
     def fractures(self, kind, start, end):
         """Where ice broke so after a time [s] and up to another, n × 2, and how long before the latter."""
@@ -230,4 +236,5 @@ class Scenery:
     @functools.cached_property
     def extent(self):
         """Of ice and hulls at the start and end and of all tracks: x0, y0, x1, y1 [m]."""
-        return extent_of([points for time in (self.run.start_time, self.run.end_time) for points in self.points(self.run.frame(time))])
+        return extent_of([points for time in (self.run.start_time, self.run.end_time)
+                          for points in self.points(self.run.frame(time))])

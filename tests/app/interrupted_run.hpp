@@ -15,8 +15,10 @@ namespace polynya::tests {
 /// A ship under thrust in a random field and into a plate: bends, splits, ice that tilts, goes under
 /// and comes up, brash, sleeping and waking floes, in a third of a second. About 130 floes.
 inline std::string crash_scene(const std::string& until) {
-  return R"({"name": "crash", "time": {"step_s": 0.02, "until_s": )" + until + R"(},
-    "record": {"frames_interval_s": 1, "contacts": "all"}, "fracture": {"smallest_floe_m2": 2, "resurface": {"retry_s": 0.5, "give_up_s": 5}},
+  return R"({"name": "crash", "time": {"step_s": 0.02, "until_s": )" + until +
+         R"(},
+    "record": {"frames_interval_s": 1, "contacts": "all"}, "fracture": {"smallest_floe_m2": 2, )"
+         R"("resurface": {"retry_s": 0.5, "give_up_s": 5}},
     "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30, "draught_m": 6},
       "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9, "position_m": [-62, 100], "speed_m_per_s": 3,
       "propulsion": {"thrust_N": 2e6}}],

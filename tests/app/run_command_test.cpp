@@ -93,14 +93,10 @@ TEST(RunCommand, LeadsWithTheTrueForce) {
 
 TEST(RunCommand, AMooringThatBreaksIsAnEventOfEveryView) {
   const TemporaryFolder folder;
-  write_file(
-      folder / "scene.json",
-      scene(
-          {R"("time": {"step_s": 0.1, "until_s": 60}, "floes": [])",
-           list(
-               "ships",
-               {ship(
-                   R"("name": "tanker", "hull": {"length_m": 100}, "position_m": [5, 0], "propulsion": {"thrust_N": 2e5},
+  write_file(folder / "scene.json",
+             scene({R"("time": {"step_s": 0.1, "until_s": 60}, "floes": [])",
+                    list("ships", {ship(R"("name": "tanker", "hull": {"length_m": 100}, "position_m": [5, 0], )"
+                                        R"("propulsion": {"thrust_N": 2e5},
       "mooring": {"surge_stiffness_N_per_m": 1e4, "surge_damping_N_s_per_m": 1e5, "sway_stiffness_N_per_m": 1e4,
                   "break_load_N": 1e5})")})}));
   const Outcome outcome = polynya("run scene.json --out run", folder);

@@ -24,7 +24,8 @@ TEST(ShipsCommand, PrintsTheListAsJsonOfEachShipAsItPrintsThat) {
 }
 
 constexpr const char* kWrongShips[] = {
-    R"({"hull": {"length_m": 121.2, "beam_m": 25.0, "entrance_angle_deg": 30, "draught_m": 8.92, "block_coefficient": 0.58},
+    R"({"hull": {"length_m": 121.2, "beam_m": 25.0, "entrance_angle_deg": 30, "draught_m": 8.92, )"
+    R"("block_coefficient": 0.58},
  "mass_kg": 16.5e6,
  "propulsion": {"engine": {"power_MW": 22.4, "propellers": 2, "diameter_m": 4.87, "open_water_speed_m_per_s": 9.0}}})",
     R"({"ship": "araoon"})",

@@ -52,7 +52,8 @@ class Check(unittest.TestCase):
         self.assertEqual(linked("sub/b.md", f'{DOCS}/a.md,\n"Where"'), '[First, "Where"](../a.md#where-it-is)')
         self.assertEqual(linked("sub/b.md", '[a.md](../a.md), "Bold"'), '[First, "Bold"](../a.md#where-it-is)')
         self.assertEqual(linked("a.md", f"`{DOCS}/sub/b.md`"), f"`{DOCS}/sub/b.md`")
-        self.assertEqual(linked("a.md", "`fracture/beam.hpp`"), "[`fracture/beam.hpp`](reference/cpp/fracture.md#beamhpp)")
+        self.assertEqual(linked("a.md", "`fracture/beam.hpp`"),
+                         "[`fracture/beam.hpp`](reference/cpp/fracture.md#beamhpp)")
 
 
 if __name__ == "__main__":

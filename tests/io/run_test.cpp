@@ -29,9 +29,12 @@ const std::string kScene = R"({
   "name": "small", "time": {"step_s": 0.01, "until_s": 8}, "water": {"drift_m_per_s": [0.02, -0.01]},
   "record": {"forces_interval_s": 0.1, "frames_interval_s": 0.5, "contacts": "all"},
   "ships": [{"name": "a ship", "hull": {"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30}, "mass_kg": 3e6,
-             "moment_of_inertia_kg_m2": 5e8, "position_m": [-30.5, 2], "propulsion": {"constant_speed_m_per_s": 2}, "panels": {"length_m": 2}}],
-  "floes": [{"rectangle": {"corner_m": [0, -20], "size_m": [60, 40]}}, {"rectangle": {"corner_m": [70, 0], "size_m": 5}, "angular_velocity_deg_per_s": 1},
-            {"polygon": {"outer_m": [[70, 10], [80, 10], [80, 20], [70, 20]], "holes_m": [[[72, 12], [72, 14], [74, 14]]]}}]
+             "moment_of_inertia_kg_m2": 5e8, "position_m": [-30.5, 2], "propulsion": {"constant_speed_m_per_s": 2}, )"
+                           R"("panels": {"length_m": 2}}],
+  "floes": [{"rectangle": {"corner_m": [0, -20], "size_m": [60, 40]}}, {"rectangle": {"corner_m": [70, 0], )"
+                           R"("size_m": 5}, "angular_velocity_deg_per_s": 1},
+            {"polygon": {"outer_m": [[70, 10], [80, 10], [80, 20], [70, 20]], "holes_m": [[[72, 12], )"
+                           R"([72, 14], [74, 14]]]}}]
 })";
 
 struct Recorded {
@@ -375,11 +378,12 @@ TEST_F(RunFiles, OfVersionOneReadTheSameAndOfALaterOneNot) {
 /// ones.
 TEST(Run, FloesGrowWithTheIceThatIsNewNotWithThePlate) {
   const TemporaryFolder folder;
-  const LoadedScene scene = load(tests::scene(
-      {R"("name": "level", "time": {"step_s": 0.02, "until_s": 60}, "fracture": {"characteristic_length": "fourth_root"})",
-       list("ships", {ship(R"("hull": {"length_m": 60}, "mass_kg": 3e6, "moment_of_inertia_kg_m2": 5e8,
+  const LoadedScene scene = load(
+      tests::scene({R"("name": "level", "time": {"step_s": 0.02, "until_s": 60}, )"
+                    R"("fracture": {"characteristic_length": "fourth_root"})",
+                    list("ships", {ship(R"("hull": {"length_m": 60}, "mass_kg": 3e6, "moment_of_inertia_kg_m2": 5e8,
          "position_m": [-30.5, 2], "propulsion": {"constant_speed_m_per_s": 3})")}),
-       list("floes", {R"({"rectangle": {"corner_m": [0, -75], "size_m": [300, 150]}})"})}));
+                    list("floes", {R"({"rectangle": {"corner_m": [0, -75], "size_m": [300, 150]}})"})}));
   simulation::Simulation simulation(scene.scene);
   auto writer = checked(RunWriter::create(folder / "run", false, scene));
   for (int step = 0; step < 3000; ++step) {

@@ -33,12 +33,13 @@ const std::string kSecond = scene(
            square(-502, -2, 3, R"("under_hull_of": "presser", "under_hull_path_m": 4)"),
            R"({"field": {"corner_m": [-700, 400], "extent_m": [200, 150], "floe_size_m": 9, "concentration": 0.83,
        "gap_m": 0.3, "most_corners": 6, "keep_clear_m": [[[-650, 420], [-600, 420], [-650, 440]]], "seed": 3}})"})});
-const std::string kThird = scene(
-    {R"("structures": [{"waterline_m": [[10, 0], [0, 4], [-10, 0], [0, -4]], "position_m": [500, 500], "heading_deg": 10}],
+const std::string kThird =
+    scene({R"("structures": [{"waterline_m": [[10, 0], [0, 4], [-10, 0], [0, -4]], "position_m": [500, 500], )"
+           R"("heading_deg": 10}],
        "wind": {"velocity_m_per_s": [10, 2]},
        "walls": [{"from_m": [-100, -200], "to_m": [300, -200], "velocity_m_per_s": [0, 0.1]},
                  {"from_m": [300, 300], "to_m": [-100, 300], "pressure": {"line_load_N_per_m": 5e4}}])",
-     list("floes", {R"({"field": {"outline_m": [[-10, 0], [200, 0], [120, 90], [5, 150]], "floe_size_m": 9,
+           list("floes", {R"({"field": {"outline_m": [[-10, 0], [200, 0], [120, 90], [5, 150]], "floe_size_m": 9,
        "concentration": 0.83, "gap_m": 0.3, "most_corners": 5}})"})});
 const std::string kFourth = scene({list(
     "ships",
@@ -50,7 +51,8 @@ const std::string kFourth = scene({list(
        "propulsion": {"engine": {"bollard_pull_kN": 900, "open_water_speed_m_per_s": 7}},
        "pilot": {"route": {"waypoints": [{"position_m": [500, 500], "speed_m_per_s": 3},
                                          {"position_m": [900, 400], "speed_m_per_s": 2}]}},
-       "mooring": {"surge_stiffness_N_per_m": 1e5, "break_load_N": 1e6, "position_m": [0, 501], "heading_deg": 1})")})});
+       "mooring": {"surge_stiffness_N_per_m": 1e5, "break_load_N": 1e6, "position_m": [0, 501], )"
+         R"("heading_deg": 1}, "calibration": {"load_factor": 1.2})")})});
 
 /// The fields of a law of sizes.
 std::string field_of_law(const std::string& region, const std::string& law) {

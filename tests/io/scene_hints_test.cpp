@@ -16,8 +16,12 @@ std::string scene_with(const std::vector<Change>& changes) {
   std::string text =
       R"({"time": {"until_s": 100}, "ice": {"thickness_m": 0.5}, "water": {"drift_m_per_s": [0.1, 0]},
 "ships": [
-{"name": "first", "hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9, "position_m": [-100, 0], "heading_deg": 0, "propulsion": {"constant_speed_m_per_s": 2}},
-{"name": "second", "hull": {"length_m": 60, "beam_m": 12, "entrance_angle_deg": 27}, "mass_kg": 1e6, "moment_of_inertia_kg_m2": 3e8, "position_m": [-100, 100], "heading_deg": 10, "speed_m_per_s": 1, "propulsion": {"thrust_N": 1e4}}],
+{"name": "first", "hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e7, )"
+      R"("moment_of_inertia_kg_m2": 5e9, "position_m": [-100, 0], "heading_deg": 0, )"
+      R"("propulsion": {"constant_speed_m_per_s": 2}},
+{"name": "second", "hull": {"length_m": 60, "beam_m": 12, "entrance_angle_deg": 27}, "mass_kg": 1e6, )"
+      R"("moment_of_inertia_kg_m2": 3e8, "position_m": [-100, 100], "heading_deg": 10, "speed_m_per_s": 1, )"
+      R"("propulsion": {"thrust_N": 1e4}}],
 "structures": [{"name": "pier", "radius_m": 5, "position_m": [50, -200]}],
 "floes": [{"rectangle": {"corner_m": [80, -50], "size_m": [200, 200]}}]})";
   for (const Change& change : changes) {

@@ -23,9 +23,12 @@ TEST(Scene, RingsMayRunEitherWayAndBeClosed) {
 
 TEST(Scene, FloesFromGeojsonStayInTheScenesFolder) {
   const TemporaryFolder folder;
-  write_file(folder / "scenes/floes/a.geojson", R"({"type": "FeatureCollection", "features": [
-    {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [[[0,0],[10,0],[10,10],[0,10],[0,0]]]}},
-    {"type": "Feature", "geometry": {"type": "MultiPolygon", "coordinates": [[[[20,0],[20,5],[25,5],[25,0],[20,0]]],[[[30,0],[35,0,7],[35,5],[30,0]]]]}}]})");
+  write_file(folder / "scenes/floes/a.geojson",
+             R"({"type": "FeatureCollection", "features": [
+    {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", )"
+             R"("coordinates": [[[0,0],[10,0],[10,10],[0,10],[0,0]]]}},
+    {"type": "Feature", "geometry": {"type": "MultiPolygon", )"
+             R"("coordinates": [[[[20,0],[20,5],[25,5],[25,0],[20,0]]],[[[30,0],[35,0,7],[35,5],[30,0]]]]}}]})");
   write_file(folder / "outside.geojson",
              R"({"type": "Polygon", "coordinates": [[[0,0],[10,0],[10,10],[0,10],[0,0]]]})");
   std::filesystem::create_symlink(folder / "outside.geojson", folder / "scenes/link.geojson");

@@ -6,7 +6,8 @@ import sys
 
 import pytest
 
-SHIP = '''{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9,
+SHIP = '''{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e7, ''' '''\
+"moment_of_inertia_kg_m2": 5e9,
   "position_m": [-61, 75], "propulsion": {"constant_speed_m_per_s": 1}}'''
 SCENE = (
     '''// a ship and a plate

@@ -20,13 +20,17 @@ SCENE = {
     "time": {"step_s": 0.05, "until_s": 30},
     "ice": {"thickness_m": 0.4},
     "ships": [
-        {"name": "beset", "hull": {"length_m": 20, "beam_m": 8, "entrance_angle_deg": 40}, "mass_kg": 1e6, "moment_of_inertia_kg_m2": 4e7,
+        {"name": "beset", "hull": {"length_m": 20, "beam_m": 8, "entrance_angle_deg": 40},
+         "mass_kg": 1e6, "moment_of_inertia_kg_m2": 4e7,
          "position_m": [60, -60], "propulsion": {"constant_speed_m_per_s": 0}},
-        {"name": "agent", "hull": {"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30, "draught_m": 5, "block_coefficient": 0.58},
-         "position_m": [-40, 0], "speed_m_per_s": 3, "propulsion": {"engine": {"bollard_pull_kN": 500, "open_water_speed_m_per_s": 7}},
+        {"name": "agent", "hull": {"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30,
+                                   "draught_m": 5, "block_coefficient": 0.58},
+         "position_m": [-40, 0], "speed_m_per_s": 3,
+         "propulsion": {"engine": {"bollard_pull_kN": 500, "open_water_speed_m_per_s": 7}},
          "steering": {"rudder": {"area_m2": 8}}},
     ],
-    "floes": [{"field": {"corner_m": [0, -50], "extent_m": [150, 100], "floe_size_m": 12, "size_spread": 0.2, "concentration": 0.4}}],
+    "floes": [{"field": {"corner_m": [0, -50], "extent_m": [150, 100], "floe_size_m": 12,
+                         "size_spread": 0.2, "concentration": 0.4}}],
 }
 
 
@@ -105,7 +109,8 @@ def test_progress_reward_and_ends():
     assert [row[2] for row in rows[1:]].count(True) > 0 and rows[1][2] is False and rows[-1][2] is True
     for row in rows[1:]:
         assert row[1] == pytest.approx(row[4]["progress_m"] - 1e-6 * row[4]["ice_work_J"])
-    assert env.simulation.ships[1].forces["t_s"] == pytest.approx(rows[-1][4]["time_s"]), "the forces are those of the step"
+    time = env.simulation.ships[1].forces["t_s"]
+    assert time == pytest.approx(rows[-1][4]["time_s"]), "the forces are those of the step"
     assert sum(row[4]["ice_work_J"] for row in rows[1:]) > 0 and any(row[4]["events"] for row in rows[1:])
     timed = agent(time_limit=1.0)
     assert [row[3] for row in episode(timed, 2, [(0, 0)] * 3)[1:]] == [False, True, True]
@@ -198,5 +203,6 @@ def test_where_gymnasium_is_installed_it_is_one_of_its_environments(tmp_path):
             "observation, info = env.reset(seed=2)\n"
             "print(info['scene_seed'], observation['image'].shape == env.observation_space.spaces['image'].shape)\n")
     with_it = {**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ['PYTHONPATH']}"}
-    done = subprocess.run([sys.executable, "-c", code, json.dumps(SCENE)], env=with_it, capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, "-c", code, json.dumps(SCENE)], env=with_it,
+                          capture_output=True, text=True, check=False)
     assert done.stdout == "2 True\n", done.stderr

@@ -19,7 +19,8 @@ DRAWN = {
 
 @pytest.mark.parametrize("script", DRAWN)
 def test_an_example_runs_and_draws(script, tmp_path):
-    done = subprocess.run([sys.executable, EXAMPLES / script, "--short", "--out", tmp_path], capture_output=True, text=True, cwd=tmp_path, check=False)
+    done = subprocess.run([sys.executable, EXAMPLES / script, "--short", "--out", tmp_path],
+                          capture_output=True, text=True, cwd=tmp_path, check=False)
     assert done.returncode == 0, done.stderr
     assert done.stdout.splitlines()[-1] == str(tmp_path / DRAWN[script])
     assert (tmp_path / DRAWN[script]).read_bytes()[:4] == b"\x89PNG"

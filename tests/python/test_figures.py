@@ -18,16 +18,20 @@ from polynya.figures import database, energy, loads, maps, motion, page, sizes
 from polynya.figures.subjects import labelled
 
 PROGRAM = os.environ["POLYNYA_PROGRAM"]
-SHIP = {"hull": {"length_m": 30, "beam_m": 12, "entrance_angle_deg": 30, "draught_m": 4, "stem_angle_deg": 25}, "mass_kg": 2e6,
-        "moment_of_inertia_kg_m2": 2e8, "position_m": [-16, 1], "speed_m_per_s": 3, "propulsion": {"constant_speed_m_per_s": 3}}
+SHIP = {"hull": {"length_m": 30, "beam_m": 12, "entrance_angle_deg": 30, "draught_m": 4, "stem_angle_deg": 25},
+        "mass_kg": 2e6,
+        "moment_of_inertia_kg_m2": 2e8, "position_m": [-16, 1], "speed_m_per_s": 3,
+        "propulsion": {"constant_speed_m_per_s": 3}}
 SCENE = {"time": {"step_s": 0.01, "until_s": 12}, "record": {"forces_interval_s": 0.1, "frames_interval_s": 4},
-         "floes": [{"rectangle": {"corner_m": [0, -30], "size_m": [40, 60]}}, {"rectangle": {"corner_m": [42, -1], "size_m": 5}}]}
+         "floes": [{"rectangle": {"corner_m": [0, -30], "size_m": [40, 60]}},
+                   {"rectangle": {"corner_m": [42, -1], "size_m": 5}}]}
 SCENES = {
     "alone": {"ships": [{"name": "breaker", **SHIP}], "fracture": {"splitting": {"model": "michel"}}},
     "another-scene-of-a-long-name": {"ships": [{"name": "breaker", **SHIP}], "ice": {"thickness_m": 0.7}},
     "three": {"ships": [{"name": "north", **SHIP}, {"name": "south", **SHIP, "position_m": [-16, -17]}],
               "structures": [{"name": "pile", "radius_m": 5, "position_m": [60, 40]}]},
-    "no-ship": {"floes": [{"rectangle": {"corner_m": [0, 0], "size_m": 10}, "velocity_m_per_s": [1, 0]}, {"rectangle": {"corner_m": [12, 0], "size_m": 10}}]},
+    "no-ship": {"floes": [{"rectangle": {"corner_m": [0, 0], "size_m": 10}, "velocity_m_per_s": [1, 0]},
+                          {"rectangle": {"corner_m": [12, 0], "size_m": 10}}]},
 }
 DRAW = {"floes": maps.draw, "loads": loads.draw, "motion": motion.draw, "sizes": sizes.draw, "energy": energy.draw}
 
@@ -37,7 +41,8 @@ def home(tmp_path_factory):
     home = tmp_path_factory.mktemp("figures")
     for name, scene in SCENES.items():
         (home / f"{name}.json").write_text(json.dumps({"name": name, **SCENE, **scene}))
-        subprocess.run([PROGRAM, "run", f"{name}.json", "--out", name, "--no-map"], cwd=home, check=True, capture_output=True)
+        subprocess.run([PROGRAM, "run", f"{name}.json", "--out", name, "--no-map"],
+                       cwd=home, check=True, capture_output=True)
     return home
 
 
@@ -68,7 +73,8 @@ def plain(words):
 
 
 @pytest.mark.parametrize("style, width, names", [
-    ("one-column", None, ["three", "alone"]), ("two-columns", None, ["alone"]), ("two-columns", 60, ["alone", "another-scene-of-a-long-name"]),
+    ("one-column", None, ["three", "alone"]), ("two-columns", None, ["alone"]),
+    ("two-columns", 60, ["alone", "another-scene-of-a-long-name"]),
     ("slides", None, ["alone", "another-scene-of-a-long-name"])])
 def test_words_have_their_sizes_and_are_neither_clipped_nor_covered(runs, style, width, names):
     of, sheet = page.STYLES[style], page.Page(page.STYLES[style], width)
@@ -110,7 +116,8 @@ def stairs_of(axes):
     return found
 
 
-@pytest.mark.parametrize("choice, middles", [("true", ["_max", ""]), ("mean", [""]), ("max", ["_max"]), ("j-over-tau-c", ["_j_over_tau_c"])])
+@pytest.mark.parametrize("choice, middles", [("true", ["_max", ""]), ("mean", [""]),
+                                             ("max", ["_max"]), ("j-over-tau-c", ["_j_over_tau_c"])])
 def test_loads_are_those_of_the_file_to_the_peak(runs, choice, middles):
     run = runs["alone"]
     figure = loads.draw([run], choice=choice)
@@ -119,7 +126,8 @@ def test_loads_are_those_of_the_file_to_the_peak(runs, choice, middles):
     shown = [value for axes in figure.axes for value in stairs_of(axes)]
     scale = [factors[re.search(r"[kMG]?N", axes.get_ylabel())[0]] for axes in figure.axes for _ in middles]
     for column, (high, low), factor in zip(forces, shown, scale, strict=True):
-        assert high * factor == pytest.approx(max(0, column.max())) and low * factor == pytest.approx(min(0, column.min()))
+        assert high * factor == pytest.approx(max(0, column.max()))
+        assert low * factor == pytest.approx(min(0, column.min()))
         assert max(-low, high) < 1000 or factor == 1e9
     bends = numpy.count_nonzero((run.events["kind"] == "bend") & (run.events["ship"] == "breaker"))
     assert bends > 3
@@ -132,7 +140,8 @@ def test_every_ship_and_structure_has_its_own_loads_in_one_scale(runs):
     figure = loads.draw([run], choice="max")
     for i, ship in enumerate(run.ship_names):
         column = run.forces["surge_max_N"][run.forces["ship"] == ship]
-        assert stairs_of(figure.axes[i])[0][1] * {"k": 1e3, "M": 1e6}[figure.axes[0].get_ylabel()[7]] == pytest.approx(min(0, column.min()))
+        unit = {"k": 1e3, "M": 1e6}[figure.axes[0].get_ylabel()[7]]
+        assert stairs_of(figure.axes[i])[0][1] * unit == pytest.approx(min(0, column.min()))
         assert figure.axes[i].get_ylim() == figure.axes[0].get_ylim()
     assert loads.draw([run], choice="ships") is not None and loads.chosen(runs["alone"], "ships") == []
 
@@ -140,7 +149,8 @@ def test_every_ship_and_structure_has_its_own_loads_in_one_scale(runs):
 def test_the_papers_force_is_shown_only_where_it_splits(home, runs):
     run = polynya.Run(home / "alone")
     run.scene["fracture"]["splitting"]["model"] = "lefm"
-    assert loads.chosen(run, "j-over-tau-c") == [] and "fracture.splitting.model michel" in loads.why_not(run, "j-over-tau-c")
+    assert loads.chosen(run, "j-over-tau-c") == []
+    assert "fracture.splitting.model michel" in loads.why_not(run, "j-over-tau-c")
     assert len(loads.chosen(run, "true")) == 2
 
 
@@ -159,7 +169,8 @@ def test_a_window_of_time_ends_the_scale_and_what_is_drawn(runs):
         assert axes.get_xlim() == (3, 8)
     forces = runs["alone"].forces
     within = forces["surge_max_N"][(forces["t_s"] >= 3) & (forces["t_s"] <= 8)]
-    assert stairs_of(loads.draw([run], choice="max").axes[0])[0][1] * 1e3 == pytest.approx(within.min(), rel=1e-9) or within.min() < -1e6
+    least = stairs_of(loads.draw([run], choice="max").axes[0])[0][1] * 1e3
+    assert least == pytest.approx(within.min(), rel=1e-9) or within.min() < -1e6
     assert [title[4:8].split()[0] for title in panel_titles(maps.draw([run]))] == ["3", "4.66", "6.33", "8"]
 
 
@@ -185,11 +196,13 @@ def test_sizes_count_the_floes_that_float(runs):
 
 def test_energy_keeps_sources_and_sinks_apart_and_loses_none(home):
     run = polynya.Run(home / "alone")
-    given = {"initial_J": 5e6, "thrust_J": 0, "imbalance_J": 2e-9, "kinetic_J": 3e6, "drag_J": 1e6, "restitution_J": -1e5, "of_tomorrow_J": 1.1e6, "turnover_J": 9e6}
+    given = {"initial_J": 5e6, "thrust_J": 0, "imbalance_J": 2e-9, "kinetic_J": 3e6,
+             "drag_J": 1e6, "restitution_J": -1e5, "of_tomorrow_J": 1.1e6, "turnover_J": 9e6}
     run.summary = {**run.summary, "energy": given}
     figure = energy.draw([run])
     words = [[label.get_text() for label in axes.get_yticklabels()] for axes in figure.axes]
-    assert words == [["motion at the start", "imbalance"], ["motion at the end", "water drag", "collisions", "of tomorrow"]]
+    assert words == [["motion at the start", "imbalance"],
+                     ["motion at the end", "water drag", "collisions", "of tomorrow"]]
     widths = [[patch.get_width() for patch in axes.patches] for axes in figure.axes]
     assert widths == [[5, pytest.approx(2e-15)], [3, 1, pytest.approx(-0.1), pytest.approx(1.1)]]
     assert "Nothing in this run: thrust and holding." in [text.get_text() for text in figure.texts]
@@ -200,7 +213,8 @@ def test_energy_keeps_sources_and_sinks_apart_and_loses_none(home):
 def rings_of(axes, colour):
     """Closed rings in areas of that colour; no floe here has a hole."""
     wanted = matplotlib.colors.to_rgb(colour)
-    return sum(int((patch.get_path().codes == patch.get_path().MOVETO).sum()) for patch in axes.patches if patch.get_facecolor()[:3] == wanted)
+    return sum(int((patch.get_path().codes == patch.get_path().MOVETO).sum()) for patch in axes.patches
+               if patch.get_facecolor()[:3] == wanted)
 
 
 def test_a_map_shows_the_floes_of_its_time_and_what_went_under(runs):
@@ -209,14 +223,17 @@ def test_a_map_shows_the_floes_of_its_time_and_what_went_under(runs):
     before, after = figure.axes
     frame = run.frame(8)
     floating = [rings for rings, under in zip(frame.rings, frame.is_under) if not under]
-    assert sum(rings_of(after, colour) for colour in scenery.COLOURS[:3]) == len(floating) and rings_of(before, scenery.ICE) == 2
+    assert sum(rings_of(after, colour) for colour in scenery.COLOURS[:3]) == len(floating)
+    assert rings_of(before, scenery.ICE) == 2
     assert rings_of(after, scenery.ICE_UNDER) == numpy.count_nonzero(frame.is_under) > 0
     cusps = numpy.count_nonzero((run.events["kind"] == "bend") & (run.events["t_s"] <= 8))
     went = numpy.count_nonzero((run.events["kind"] == "submerge") & (run.events["t_s"] <= 8))
-    assert re.search(rf"{cusps} cusps, 1 split, {len(floating)} floes; {went} pieces? went under the hull", panel_titles(figure)[1]) or cusps == 1
+    assert re.search(rf"{cusps} cusps, 1 split, {len(floating)} floes; {went} pieces? went under the hull",
+                     panel_titles(figure)[1]) or cusps == 1
     keys = [text.get_text() for text in figure.legends[0].get_texts()]
     assert "ice under the hull or waiting behind it" in keys and "floe as in the scene" in keys
-    assert "ice under the hull or waiting behind it" not in [text.get_text() for text in maps.draw([run], at=[0]).legends[0].get_texts()]
+    legend = maps.draw([run], at=[0]).legends[0]
+    assert "ice under the hull or waiting behind it" not in [text.get_text() for text in legend.get_texts()]
 
 
 def test_a_window_shows_its_part_of_the_world(runs):
@@ -266,7 +283,8 @@ def test_the_command_writes_every_format_and_the_same_bytes_again(home):
 
 def test_a_run_without_ships_has_the_figures_that_it_can_have(home):
     done = figures(home, "no-ship", "--format", "svg")
-    assert done.returncode == 0 and done.stderr.count("there is no ship and no structure, or no time passes; figure-") == 2
+    assert done.returncode == 0 and done.stderr.count("there is no ship and no structure, or no time passes; "
+                                                      "figure-") == 2
     assert done.stdout.split() == [f"no-ship/figure-{name}.svg" for name in ("floes", "sizes", "energy")]
 
 
@@ -287,9 +305,11 @@ def test_what_is_wrong_is_named(home, words, code, message):
 
 
 def test_the_slices_of_a_database_are_drawn_faint_out_of_their_range(tmp_path):
-    done = subprocess.run([PROGRAM, "database", "show", "--svg", "plots"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    done = subprocess.run([PROGRAM, "database", "show", "--svg", "plots"], cwd=tmp_path,
+                          capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    assert done.stdout.endswith("".join(f"picture         plots/{name}.svg\n" for name in ("speed", "wedge-angle", "thickness")))
+    assert done.stdout.endswith("".join(f"picture         plots/{name}.svg\n"
+                                        for name in ("speed", "wedge-angle", "thickness")))
     given = json.loads((tmp_path / "plots/slices.json").read_text())
     drawn = database.draw(given["figures"][0], given["title"], given["caption"])
     for axes, key, unit in zip(drawn.axes, ("vertical_force_N", "cusp_radius_m"), (1e3, 1)):
@@ -316,5 +336,6 @@ def test_an_unfinished_and_a_damaged_run(home, tmp_path):
 
 def test_text_that_a_full_disk_refuses_does_not_end_in_zero(home):
     with open("/dev/full", "w") as full:
-        done = subprocess.run([PROGRAM, "figures", "alone", "--only", "energy"], cwd=home, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        done = subprocess.run([PROGRAM, "figures", "alone", "--only", "energy"],
+                              cwd=home, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
     assert done.returncode == 5 and "polynya: stdout: No space left on device" in done.stderr

@@ -24,7 +24,8 @@ ICE = {
     "name": "from-python",
     "time": {"step_s": 0.01, "until_s": 12},
     "record": {"forces_interval_s": 0.1, "frames_interval_s": 4},
-    "ships": [{"name": "breaker", "hull": {"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30}, "mass_kg": 4e6, "moment_of_inertia_kg_m2": 9e8,
+    "ships": [{"name": "breaker", "hull": {"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30},
+               "mass_kg": 4e6, "moment_of_inertia_kg_m2": 9e8,
                "position_m": [-31, 0], "speed_m_per_s": 3, "propulsion": {"constant_speed_m_per_s": 3}}],
     "fracture": {"cusp_fate": "float"},
     "floes": [{"rectangle": {"corner_m": [0, -40], "size_m": [120, 80]}}],
@@ -32,7 +33,8 @@ ICE = {
 SEA = {
     "time": {"step_s": 0.05, "until_s": 60},
     "ships": [{"name": "sailing",
-               "hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "draught_m": 6, "block_coefficient": 0.579},
+               "hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27,
+                        "draught_m": 6, "block_coefficient": 0.579},
                "speed_m_per_s": 6, "propulsion": {"engine": {"bollard_pull_kN": 314, "open_water_speed_m_per_s": 6}},
                "steering": {"rudder": {"area_m2": 13}}}],
 }
@@ -47,7 +49,8 @@ def endless():
 def command_lines_run(tmp_path_factory):
     folder = tmp_path_factory.mktemp("run")
     (folder / "scene.json").write_text(json.dumps(ICE))
-    subprocess.run([PROGRAM, "run", folder / "scene.json", "--out", folder / "run", "--no-map"], check=True, capture_output=True)
+    subprocess.run([PROGRAM, "run", folder / "scene.json", "--out", folder / "run", "--no-map"],
+                   check=True, capture_output=True)
     return folder / "run"
 
 
@@ -74,7 +77,8 @@ def test_state_events_and_forces_are_those_of_the_command_line(command_lines_run
 def test_a_mooring_that_breaks_is_one_event_without_a_floe():
     scene = json.loads(json.dumps(SEA))
     scene["floes"] = []
-    scene["ships"][0].update(mooring={"surge_stiffness_N_per_m": 1e4, "break_load_N": 2e5}, propulsion={"thrust_N": 1e5}, speed_m_per_s=3)
+    scene["ships"][0].update(mooring={"surge_stiffness_N_per_m": 1e4, "break_load_N": 2e5},
+                             propulsion={"thrust_N": 1e5}, speed_m_per_s=3)
     del scene["ships"][0]["steering"]
     simulation = polynya.Simulation(scene)
     simulation.run()
@@ -105,7 +109,8 @@ def test_a_scene_from_a_dict_a_text_and_a_file_is_the_same(tmp_path):
     file.write_text("// a comment\n" + json.dumps(ICE))
     hashes = {polynya.Scene(given).hash for given in (ICE, json.dumps(ICE), file, str(file))}
     assert len(hashes) == 1
-    with_numpy = {**ICE, "floes": [{"rectangle": {"corner_m": numpy.array([0.0, -40.0]), "size_m": (numpy.float64(120), 80)}}]}
+    with_numpy = {**ICE,
+                  "floes": [{"rectangle": {"corner_m": numpy.array([0.0, -40.0]), "size_m": (numpy.float64(120), 80)}}]}
     assert polynya.Scene(with_numpy).hash in hashes
     assert polynya.Scene(ICE).resolved["ice"]["thickness_m"] > 0
 
@@ -163,8 +168,10 @@ def test_a_number_that_is_none_is_named_by_its_path(change, path):
 
 
 def test_ships_are_found_by_index_and_by_name():
-    ships = polynya.Simulation({**SEA, "ships": [*SEA["ships"], {**SEA["ships"][0], "name": "other", "position_m": [0, 400]}]}).ships
-    assert ships["other"] is ships[1] is ships[-1] and [ship.name for ship in ships[:1]] == ["sailing"] and len(ships) == 2
+    ships = polynya.Simulation({**SEA, "ships": [*SEA["ships"],
+                                                 {**SEA["ships"][0], "name": "other", "position_m": [0, 400]}]}).ships
+    assert ships["other"] is ships[1] is ships[-1] and [ship.name
+                                                        for ship in ships[:1]] == ["sailing"] and len(ships) == 2
     with pytest.raises(KeyError, match="titanic; there are sailing, other"):
         ships["titanic"]
 
@@ -173,7 +180,8 @@ def test_the_version_is_the_programs_with_and_without_the_compiled_module():
     version = subprocess.run([PROGRAM, "--version"], check=True, capture_output=True, text=True).stdout.split()[1]
     assert polynya.__version__ == version
     code = "import polynya; print(polynya.__version__)"
-    alone = subprocess.run([sys.executable, "-c", code], env={"PYTHONPATH": str(SOURCE_PACKAGE)}, check=True, capture_output=True, text=True)
+    alone = subprocess.run([sys.executable, "-c", code], env={"PYTHONPATH": str(SOURCE_PACKAGE)},
+                           check=True, capture_output=True, text=True)
     assert alone.stdout.strip() == version
 
 
@@ -338,7 +346,8 @@ def test_the_interpreter_runs_while_a_simulation_steps_and_may_not_touch_it():
     thread = threading.Thread(target=run)
     thread.start()
     assert is_running.wait(60)
-    for touch in (lambda: simulation.time, lambda: simulation.floes, simulation.step, simulation.save, simulation.events):
+    for touch in (lambda: simulation.time, lambda: simulation.floes, simulation.step,
+                  simulation.save, simulation.events):
         with pytest.raises(RuntimeError, match="being stepped"):
             touch()
     is_enough = True
@@ -372,7 +381,8 @@ def test_views_of_the_simulations_own_memory_are_what_the_copies_are():
     assert numpy.flatnonzero(alive).tolist() == copies.ids.tolist()
     for name in ("parents", "generations", "areas", "masses", "thickness", "is_under"):
         numpy.testing.assert_array_equal(getattr(memory, name)[alive], getattr(copies, name))
-    numpy.testing.assert_allclose(memory.velocities[alive] + memory.water_velocity, copies.velocities[:, :2], rtol=1e-12, atol=1e-15)
+    numpy.testing.assert_allclose(memory.velocities[alive] + memory.water_velocity,
+                                  copies.velocities[:, :2], rtol=1e-12, atol=1e-15)
     numpy.testing.assert_array_equal(memory.turning[alive], copies.velocities[:, 2])
     numpy.testing.assert_array_equal(memory.angles[alive], copies.poses[:, 2])
     c, s = numpy.cos(copies.poses[:, 2]), numpy.sin(copies.poses[:, 2])
@@ -383,7 +393,8 @@ def test_views_of_the_simulations_own_memory_are_what_the_copies_are():
     for i, floe in enumerate(copies.ids):
         first = copies.ring_offsets[copies.floe_offsets[i]]
         rings = memory.shape(floe)
-        numpy.testing.assert_array_equal(numpy.concatenate(rings), copies.vertices[first:copies.ring_offsets[copies.floe_offsets[i + 1]]])
+        numpy.testing.assert_array_equal(numpy.concatenate(rings),
+                                         copies.vertices[first:copies.ring_offsets[copies.floe_offsets[i + 1]]])
     with pytest.raises(ValueError, match="has broken"):
         memory.shape(int(numpy.flatnonzero(~alive)[0]))
     with pytest.raises(IndexError):
@@ -463,12 +474,14 @@ def test_the_occupancy_image_is_the_share_of_each_cell_that_is_covered():
     pytest.importorskip("matplotlib")
     turned = {**ICE["ships"][0], "heading_deg": 25, "position_m": [-40, -20]}
     other = {**ICE["ships"][0], "name": "other", "position_m": [20, 90], "heading_deg": 100}
-    holed = {"polygon": {"outer_m": [[-60, 30], [-20, 30], [-20, 60], [-60, 60]], "holes_m": [[[-50, 36], [-30, 36], [-30, 54], [-50, 54]]]}}
+    holed = {"polygon": {"outer_m": [[-60, 30], [-20, 30], [-20, 60], [-60, 60]],
+                         "holes_m": [[[-50, 36], [-30, 36], [-30, 54], [-50, 54]]]}}
     scene = {**ICE, "ships": [turned, other], "floes": [*ICE["floes"], holed]}
     simulation = polynya.Simulation(scene)
     simulation.run(until=3)
     floes, ship = simulation.floes, simulation.ships[0]
-    polygons = [[floes.world_vertices[floes.ring_offsets[r]:floes.ring_offsets[r + 1]] for r in range(floes.floe_offsets[i], floes.floe_offsets[i + 1])]
+    polygons = [[floes.world_vertices[floes.ring_offsets[r]:floes.ring_offsets[r + 1]]
+                 for r in range(floes.floe_offsets[i], floes.floe_offsets[i + 1])]
                 for i in range(len(floes))]
     pose = (*ship.position, ship.heading)
     image = simulation.occupancy("breaker", shape=(40, 60), cell_m=3, ahead_m=30)
@@ -479,7 +492,8 @@ def test_the_occupancy_image_is_the_share_of_each_cell_that_is_covered():
     whole = simulation.occupancy(1, shape=(400, 400), cell_m=1.0)  # all ice is within it
     assert whole[0].sum() == pytest.approx(floes.areas.sum(), rel=2e-3)
     assert whole[1].sum() == pytest.approx(60 * 14 - 7 * 7 / numpy.tan(numpy.radians(30)), rel=1e-2)
-    for wrong in ({"shape": (0, 3)}, {"shape": (9999, 3)}, {"cell_m": 0}, {"cell_m": float("nan")}, {"ahead_m": float("inf")}):
+    for wrong in ({"shape": (0, 3)}, {"shape": (9999, 3)}, {"cell_m": 0}, {"cell_m": float("nan")},
+                  {"ahead_m": float("inf")}):
         with pytest.raises(ValueError):
             simulation.occupancy(**wrong)
     with pytest.raises(IndexError):
@@ -514,7 +528,8 @@ def public(names):
 
 def test_the_stub_has_every_public_name_and_each_has_a_docstring():
     from polynya import _core
-    stub = {node.name: node for node in ast.parse((SOURCE_PACKAGE / "polynya" / "_core.pyi").read_text()).body if hasattr(node, "name")}
+    stub = {node.name: node for node in ast.parse((SOURCE_PACKAGE / "polynya" / "_core.pyi").read_text()).body
+            if hasattr(node, "name")}
     assert public(vars(_core)) == public(stub)
     for name in public(vars(_core)):
         compiled = getattr(_core, name)

@@ -20,10 +20,12 @@ SCENE = {
     "name": "film",
     "time": {"step_s": 0.01, "until_s": 12},
     "record": {"forces_interval_s": 0.1, "frames_interval_s": 2},
-    "ships": [{"name": "breaker", "hull": {"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30}, "mass_kg": 4e6, "moment_of_inertia_kg_m2": 9e8,
+    "ships": [{"name": "breaker", "hull": {"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30},
+               "mass_kg": 4e6, "moment_of_inertia_kg_m2": 9e8,
                "position_m": [-31, 0], "speed_m_per_s": 3, "propulsion": {"constant_speed_m_per_s": 3}}],
     "fracture": {"cusp_fate": "float"},
-    "floes": [{"rectangle": {"corner_m": [0, -40], "size_m": [120, 80]}}, {"rectangle": {"corner_m": [-60, 30], "size_m": [20, 10]}}],
+    "floes": [{"rectangle": {"corner_m": [0, -40], "size_m": [120, 80]}},
+              {"rectangle": {"corner_m": [-60, 30], "size_m": [20, 10]}}],
 }
 
 
@@ -31,7 +33,8 @@ SCENE = {
 def folder(tmp_path_factory):
     made = tmp_path_factory.mktemp("run")
     (made / "scene.json").write_text(json.dumps(SCENE))
-    subprocess.run([PROGRAM, "run", made / "scene.json", "--out", made / "run", "--no-map"], check=True, capture_output=True)
+    subprocess.run([PROGRAM, "run", made / "scene.json", "--out", made / "run", "--no-map"],
+                   check=True, capture_output=True)
     return made / "run"
 
 
@@ -41,7 +44,8 @@ def run(folder):
 
 
 def movie(*words, environment=None):
-    return subprocess.run([PROGRAM, "movie", *map(str, words)], capture_output=True, text=True, env={**os.environ, **(environment or {})}, check=False)
+    return subprocess.run([PROGRAM, "movie", *map(str, words)], capture_output=True,
+                          text=True, env={**os.environ, **(environment or {})}, check=False)
 
 
 def area_of(path):
@@ -139,7 +143,8 @@ def test_a_film_has_its_size_and_length(folder, tmp_path, suffix, pictures):
     done = movie(folder, "--out", out, "--from", 4, "--to", 8, "--speed", 4, "--size", "320x320")
     assert done.returncode == 0, done.stderr
     assert f"{pictures} pictures" in done.stdout or f"{pictures + 1} pictures" in done.stdout
-    probed = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=width,height,nb_read_frames", "-of", "json", out],
+    probed = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries",
+                             "stream=width,height,nb_read_frames", "-of", "json", out],
                             check=True, capture_output=True, text=True)
     stream = json.loads(probed.stdout)["streams"][0]
     assert (stream["width"], stream["height"]) == (320, 320)
@@ -174,7 +179,8 @@ def test_a_film_that_ffmpeg_cannot_write_leaves_the_old_one(folder, tmp_path, su
     changed = {"PATH": f"{fake.parent}:{os.environ['PATH']}", "TMPDIR": str(tmp_path / "scratch")}
     done = movie(folder, "--out", out, "--to", 1, "--speed", 1, environment=changed)
     assert (done.returncode, out.read_text()) == (5, "old")
-    assert "No space left on device" in done.stderr and "ignored" not in done.stderr and sorted(os.listdir(tmp_path)) == ["bin", out.name, "scratch"]
+    assert "No space left on device" in done.stderr and "ignored" not in done.stderr
+    assert sorted(os.listdir(tmp_path)) == ["bin", out.name, "scratch"]
     assert os.listdir(tmp_path / "scratch") == []
 
 
@@ -202,8 +208,10 @@ def test_without_ffmpeg_the_message_names_what_to_install_and_a_picture_needs_no
 
 
 def test_a_film_of_a_run_without_a_ship_has_no_chart(tmp_path):
-    (tmp_path / "scene.json").write_text(json.dumps({**{key: SCENE[key] for key in ("time", "floes")}, "time": {"step_s": 0.1, "until_s": 1}}))
-    subprocess.run([PROGRAM, "run", tmp_path / "scene.json", "--out", tmp_path / "run", "--no-map"], check=True, capture_output=True)
+    (tmp_path / "scene.json").write_text(json.dumps({**{key: SCENE[key] for key in ("time", "floes")},
+                                                     "time": {"step_s": 0.1, "until_s": 1}}))
+    subprocess.run([PROGRAM, "run", tmp_path / "scene.json", "--out", tmp_path / "run", "--no-map"],
+                   check=True, capture_output=True)
     drawn = picture.Picture(polynya.Run(tmp_path / "run"), picture.Look(size=(320, 320)))
     assert drawn.history is None and drawn.draw(0.5).shape == (320, 320, 4)
 
@@ -211,7 +219,8 @@ def test_a_film_of_a_run_without_a_ship_has_no_chart(tmp_path):
 def test_walls_are_grey_and_make_no_tracks(tmp_path):
     walls = [{"from_m": [150, -60], "to_m": [150, 60], "pressure": {"line_load_N_per_m": 1e4}}]
     (tmp_path / "scene.json").write_text(json.dumps({**SCENE, "time": {"step_s": 0.02, "until_s": 1}, "walls": walls}))
-    subprocess.run([PROGRAM, "run", tmp_path / "scene.json", "--out", tmp_path / "run", "--no-map"], check=True, capture_output=True)
+    subprocess.run([PROGRAM, "run", tmp_path / "scene.json", "--out", tmp_path / "run", "--no-map"],
+                   check=True, capture_output=True)
     drawn = picture.Picture(polynya.Run(tmp_path / "run", pandas=False), picture.Look(size=(640, 360)))
     pixels = drawn.draw(1.0)
     across, up = drawn._map.transData.transform((155, 0))
@@ -238,11 +247,13 @@ def test_only_what_is_in_the_picture_is_drawn_and_small_floes_are_squares_of_the
 
 
 def test_a_film_that_keeps_the_floes_at_rest_shows_what_a_picture_by_itself_shows(run):
-    films, alone = (picture.Picture(run, picture.Look(size=(640, 360), speed=2, start=0, end=12, is_film=is_film)) for is_film in (True, False))
+    films, alone = (picture.Picture(run, picture.Look(size=(640, 360), speed=2, start=0, end=12, is_film=is_film))
+                    for is_film in (True, False))
     map_rows = slice(int(360 * picture.HEAD) + 1, int(360 * (1 - picture.CHART)))
     rested = 0
     for time in numpy.linspace(0, 12, 49):
-        kept, whole = films.draw(float(time))[map_rows].astype(int).copy(), alone.draw(float(time))[map_rows].astype(int)
+        kept = films.draw(float(time))[map_rows].astype(int).copy()
+        whole = alone.draw(float(time))[map_rows].astype(int)
         different = (numpy.abs(kept - whole).max(axis=2) > 60).sum()
         rested += int(films._resting.sum())
         assert different <= 40, f"{different} pixels at {time} s"

@@ -20,7 +20,8 @@ HULL = formulas.Hull(120, 24, 6, math.radians(30), math.radians(27))
 
 
 @pytest.mark.parametrize("resistance, speed, thickness, friction, tolerance", [
-    (391.0, 0, 0.5, None, 1e-3), (474.2, 0.5, 0.5, None, 1e-3), (557.4, 1, 0.5, None, 1e-3), (723.7, 2, 0.5, None, 1e-3),
+    (391.0, 0, 0.5, None, 1e-3), (474.2, 0.5, 0.5, None, 1e-3), (557.4, 1, 0.5, None, 1e-3),
+    (723.7, 2, 0.5, None, 1e-3),
     (202, 0, 0.3, None, 3e-3), (751, 0, 0.8, None, 3e-3), (1039, 0, 1.0, None, 3e-3), (1365, 0, 1.2, None, 3e-3),
     (293, 1, 0.3, None, 3e-3), (1044, 1, 0.8, None, 3e-3), (1425, 1, 1.0, None, 3e-3), (1850, 1, 1.2, None, 3e-3),
     (216, 0, 0.5, 0.05, 3e-3), (316, 1, 0.5, 0.05, 3e-3), (273, 0, 0.5, 0.1, 3e-3), (395, 1, 0.5, 0.1, 3e-3)])
@@ -72,7 +73,8 @@ SHIP = {
 
 
 def test_a_run_is_steady_slows_down_or_stops(tmp_path):
-    write_run(tmp_path, [5.0] * 88 + [2.0 + 0.02 * math.sin(0.1 * i) for i in range(1000)])  # 220 m until the hull is full
+    write_run(tmp_path, [5.0] * 88 + [2.0 + 0.02 * math.sin(0.1 * i)
+                                      for i in range(1000)])  # 220 m until the hull is full
     measured = level_ice.Measured(tmp_path, SHIP)
     assert measured.speed == pytest.approx(2, abs=0.02) and measured.is_within(0.03) and not measured.is_stuck
     assert (1e-3 * measured.contact, 1e-3 * measured.submerged) == (pytest.approx(100), pytest.approx(40))
@@ -87,7 +89,8 @@ ENGINE = {"bollard_pull_N": 1e6, "open_water_speed_m_per_s": 8}
 
 
 @pytest.mark.parametrize("option, key", [
-    ("--thickness", "ice.thickness_m"), ("--flexural-strength", "ice.flexural_strength_Pa"), ("--friction", "ice.friction"),
+    ("--thickness", "ice.thickness_m"), ("--flexural-strength", "ice.flexural_strength_Pa"),
+    ("--friction", "ice.friction"),
     ("--step", "time.step_s")])
 def test_options_have_the_ranges_of_the_scenes_keys(option, key, capsys):
     done = subprocess.run([PROGRAM, "schema"], check=True, capture_output=True, text=True)
@@ -96,13 +99,15 @@ def test_options_have_the_ranges_of_the_scenes_keys(option, key, capsys):
         field = field["properties"][step]
     field = field.get("anyOf", [field])[0]
     low, high = field["minimum"], field["maximum"]
-    read = lambda value: getattr(command_line().parse_args(["ship", f"{option}={value!r}"]), option[2:].replace("-", "_"))
+    read = lambda value: getattr(command_line().parse_args(["ship", f"{option}={value!r}"]),
+                                 option[2:].replace("-", "_"))
     assert read(low) in (low, [low]) and read(high) in (high, [high])
     for wrong in (math.nextafter(low, -1), math.nextafter(high, math.inf), math.nan, math.inf, "x", ""):
         with pytest.raises(SystemExit) as ended:
             read(wrong)
         assert ended.value.code == 2
-        assert re.search(rf"{option}: found .*, allowed: a number ≥ {low:g}, ≤ {high:g}".replace("+", r"\+"), capsys.readouterr().err)
+        assert re.search(rf"{option}: found .*, allowed: a number ≥ {low:g}, ≤ {high:g}".replace("+", r"\+"),
+                         capsys.readouterr().err)
 
 
 def test_other_options_have_ranges_too(capsys):
@@ -114,16 +119,19 @@ def test_other_options_have_ranges_too(capsys):
 
 def changed(ship, chance):
     """The text of a ship with one thing wrong, or at least changed."""
-    where = chance.choice([(ship, key) for key in ship] + [(part, key) for part in ship.values() if isinstance(part, dict) for key in part])
+    where = chance.choice([(ship, key) for key in ship] + [(part, key) for part in ship.values()
+                                                           if isinstance(part, dict) for key in part])
     part, key = where
-    kind = chance.choice(["drop", "rename", "type", "negative", "huge", "infinity", "nan", "overflow", "null", "truncate", "comma"])
+    kind = chance.choice(["drop", "rename", "type", "negative", "huge", "infinity",
+                          "nan", "overflow", "null", "truncate", "comma"])
     value = part[key]
     if kind in ("drop", "rename"):
         del part[key]
         if kind == "rename":
             part[key[:-1] + "q"] = value
     elif kind in ("type", "negative", "huge", "infinity", "nan", "overflow", "null"):
-        part[key] = {"type": chance.choice(["22.4", [1], {}, True, 7]), "negative": -8.9, "huge": 1e300, "infinity": math.inf,
+        part[key] = {"type": chance.choice(["22.4", [1], {}, True, 7]), "negative": -8.9,
+                     "huge": 1e300, "infinity": math.inf,
                      "nan": math.nan, "overflow": 0.123456789, "null": None}[kind]
     text = json.dumps(ship, indent=1).replace("0.123456789", "1e999")
     if kind == "truncate":
@@ -158,13 +166,15 @@ def test_two_hundred_changed_ships_are_read_or_refused_with_their_places(tmp_pat
     for text in refused[:4]:
         path.write_text(text)
         done = subprocess.run(
-            [PROGRAM, "performance", "ship.json", "--list"], cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
+            [PROGRAM, "performance", "ship.json", "--list"], cwd=tmp_path, capture_output=True,
+            text=True, timeout=60, check=False)
         assert done.returncode == 3 and done.stdout == ""
         assert done.stderr.startswith("ship.json:") and "Traceback" not in done.stderr
 
 
 def test_a_ship_that_is_none_ends_the_command_with_what_was_meant(capfd, tmp_path):
-    for name, code, message in (("araoon", 2, "did you mean araon?"), (str(tmp_path / "none.json"), 5, "none.json: no such file")):
+    for name, code, message in (("araoon", 2, "did you mean araon?"),
+                                (str(tmp_path / "none.json"), 5, "none.json: no such file")):
         with pytest.raises(SystemExit) as ended:
             ship_of(name)
         assert ended.value.code == code and message in capfd.readouterr().err
@@ -172,7 +182,8 @@ def test_a_ship_that_is_none_ends_the_command_with_what_was_meant(capfd, tmp_pat
 
 def rows_of(*thickness):
     speeds = {f"{name}_m_per_s": 3.0 for name in ("speed", "lindqvist", "riska", "spencer_jones")}
-    return [speeds | {"thickness_m": h, "error_m_per_s": 0.01, "is_stuck": False, "is_steady": True, "contact_kN": 1.0, "submerged_kN": 1.0,
+    return [speeds | {"thickness_m": h, "error_m_per_s": 0.01, "is_stuck": False,
+                      "is_steady": True, "contact_kN": 1.0, "submerged_kN": 1.0,
                       "is_in_validated_range": h <= 0.5} for h in thickness]
 
 
@@ -221,7 +232,8 @@ def test_a_file_that_names_a_preset_starts_from_all_of_it(tmp_path):
 
 
 def test_the_course_is_straight_ahead_wherever_the_ship_of_the_file_went():
-    turned = SHIP | {"heading_deg": 90, "yaw_rate_deg_per_s": 3, "pilot": {"hold_speed": {}}, "position_m": [7, 7], "steering": {"rudder": {}}}
+    turned = SHIP | {"heading_deg": 90, "yaw_rate_deg_per_s": 3, "pilot": {"hold_speed": {}},
+                     "position_m": [7, 7], "steering": {"rudder": {}}}
     (ship,) = level_ice.scene(turned, formulas.Ice(0.5), 2, 8, 0.01)["ships"]
     assert ship["heading_deg"] == 0 and ship["position_m"] == [-52, 0] and "yaw_rate_deg_per_s" not in ship
     assert ship["pilot"] == {"hold_heading": {"heading_deg": 0, "lever": 1}}

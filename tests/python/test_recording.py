@@ -10,11 +10,13 @@ from polynya.program import program
 
 SCENE = {
     "name": "recorded", "time": {"step_s": 0.01, "until_s": 20}, "record": {"frames_interval_s": 0.5},
-    "ships": [{"name": "ship", "hull": {"length_m": 60, "beam_m": 16, "entrance_angle_deg": 30, "draught_m": 4}, "mass_kg": 3e6,
+    "ships": [{"name": "ship", "hull": {"length_m": 60, "beam_m": 16, "entrance_angle_deg": 30, "draught_m": 4},
+               "mass_kg": 3e6,
                "moment_of_inertia_kg_m2": 8e8, "position_m": [-31, 0], "propulsion": {"constant_speed_m_per_s": 2}}],
     "floes": [{"rectangle": {"corner_m": [0.5, -40], "size_m": [120, 80]}}],
 }
-FILES = ["scene.json", "forces.csv", "events.ndjson", "floes.ndjson", "frames.bin", "contacts.csv", "crushed.csv", "states.csv",
+FILES = ["scene.json", "forces.csv", "events.ndjson", "floes.ndjson", "frames.bin",
+         "contacts.csv", "crushed.csv", "states.csv",
          "final.geojson", "final.svg", "summary.json"]
 
 

@@ -23,8 +23,10 @@ def synthetic(folder, groups=3, of_group=40):
         for i in range(groups * of_group)
     ]
     write_cases(folder, [json.dumps({"scene": 0, "set": v}) + "\n" for v in values])
-    plan = {"format": 1, "name": "synthetic", "cases": len(values), "chunk": 1, "archive": False, "keep": "summary", "set": {},
-            "source": "", "scenes": ["scenes/0/a.json"], "varied": ["ice.thickness_m", "ice.friction", "seed"], "collect": {},
+    plan = {"format": 1, "name": "synthetic", "cases": len(values), "chunk": 1,
+            "archive": False, "keep": "summary", "set": {},
+            "source": "", "scenes": ["scenes/0/a.json"], "varied": ["ice.thickness_m", "ice.friction", "seed"],
+            "collect": {},
             "report": {"group_by": "ice.thickness_m", "against": "ice.thickness_m"}}
     (folder / PLAN).write_text(json.dumps(plan))
     study = open_study(folder)

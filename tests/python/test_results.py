@@ -20,20 +20,25 @@ SCENE = {
     "name": "read-back",
     "time": {"step_s": 0.01, "until_s": UNTIL},
     "record": {"forces_interval_s": 0.1, "frames_interval_s": 0.5, "contacts": "all"},
-    "ships": [{"name": "breaker", "hull": {"length_m": 30, "beam_m": 12, "entrance_angle_deg": 30, "draught_m": 4, "stem_angle_deg": 25},
+    "ships": [{"name": "breaker", "hull": {"length_m": 30, "beam_m": 12, "entrance_angle_deg": 30,
+                                           "draught_m": 4, "stem_angle_deg": 25},
                "mass_kg": 2e6, "moment_of_inertia_kg_m2": 2e8, "position_m": [-16, 1], "speed_m_per_s": 3,
                "propulsion": {"constant_speed_m_per_s": 3}}],
     "structures": [{"name": "pile", "radius_m": 5, "position_m": [75, 30]}],
     "water": {"drift_m_per_s": [0.1, 0.3]},
     "ice": {"thickness_m": 0.5},
-    "floes": [{"rectangle": {"corner_m": [0, -30], "size_m": [40, 60]}}, {"rectangle": {"corner_m": [42, -1], "size_m": 5}},
-              {"polygon": {"outer_m": [[62, -9], [80, -9], [80, 9], [62, 9]], "holes_m": [[[68, -3], [68, 3], [74, 3], [74, -3]]]}}],
+    "floes": [{"rectangle": {"corner_m": [0, -30], "size_m": [40, 60]}},
+              {"rectangle": {"corner_m": [42, -1], "size_m": 5}},
+              {"polygon": {"outer_m": [[62, -9], [80, -9], [80, 9], [62, 9]],
+                           "holes_m": [[[68, -3], [68, 3], [74, 3], [74, -3]]]}}],
 }
-STUDY = {"name": "thicknesses", "scene": "scene.json", "grid": {"ice.thickness_m": [0.4, 0.8]}, "set": {"time.until_s": 2}, "keep": "all"}
+STUDY = {"name": "thicknesses", "scene": "scene.json", "grid": {"ice.thickness_m": [0.4, 0.8]},
+         "set": {"time.until_s": 2}, "keep": "all"}
 
 
 def polynya_program(*words, cwd):
-    subprocess.run([PROGRAM, *map(str, words)], cwd=cwd, check=True, capture_output=True, env={**os.environ, "POLYNYA_PYTHON": ""})
+    subprocess.run([PROGRAM, *map(str, words)], cwd=cwd, check=True, capture_output=True,
+                   env={**os.environ, "POLYNYA_PYTHON": ""})
 
 
 @pytest.fixture(scope="module")
@@ -66,14 +71,16 @@ def run(request, folder):
 
 
 def columns_of(table):
-    return {name: numpy.asarray(table[name]) for name in (getattr(table, "columns", None) if hasattr(table, "columns") else table.dtype.names)}
+    return {name: numpy.asarray(table[name]) for name in (getattr(table, "columns", None)
+                                                          if hasattr(table, "columns") else table.dtype.names)}
 
 
 @pytest.mark.parametrize("name", ["forces", "contacts", "peaks", "crushed", "states"])
 def test_every_number_of_a_table_is_the_files(run, folder, name):
     written = rows(folder / f"{'contacts' if name == 'peaks' else name}.csv")
     if name in ("contacts", "peaks"):
-        written = sorted((row for row in written if bool(row["ended_by"]) == (name == "peaks")), key=lambda row: float(row["t_s"]))
+        written = sorted((row for row in written if bool(row["ended_by"]) == (name == "peaks")),
+                         key=lambda row: float(row["t_s"]))
     assert written
     columns = columns_of(getattr(run, name))
     assert list(columns) == list(written[0])
@@ -88,13 +95,16 @@ def test_every_number_of_a_table_is_the_files(run, folder, name):
 
 
 def test_a_mooring_that_broke_is_a_row_without_a_floe(copy):
-    broken = {"t_s": 3.5, "kind": "mooring_break", "ship": "breaker", "point_m": [1.5, -2], "force_N": 1.25e5, "break_load_N": 1.2e5, "offset_m": [12.5, -0.5]}
+    broken = {"t_s": 3.5, "kind": "mooring_break", "ship": "breaker", "point_m": [1.5, -2],
+              "force_N": 1.25e5, "break_load_N": 1.2e5, "offset_m": [12.5, -0.5]}
     with open(copy / "events.ndjson", "a") as file:
         file.write(json.dumps(broken) + "\n")
     run = polynya.Run(copy, pandas=False)
     row = run.events[-1]
-    assert (row["t_s"], row["kind"], row["ship"], row["floe"], row["children"]) == (3.5, "mooring_break", "breaker", -1, ())
-    assert (row["force_N"], row["break_load_N"], row["offset_along_m"], row["offset_across_m"]) == (1.25e5, 1.2e5, 12.5, -0.5)
+    assert (row["t_s"], row["kind"], row["ship"], row["floe"],
+            row["children"]) == (3.5, "mooring_break", "breaker", -1, ())
+    assert (row["force_N"], row["break_load_N"], row["offset_along_m"],
+            row["offset_across_m"]) == (1.25e5, 1.2e5, 12.5, -0.5)
     assert not numpy.isfinite(run.events[0]["offset_along_m"])
     assert len(run.floes) == len(lines(copy / "floes.ndjson"))
 
@@ -104,7 +114,8 @@ def test_events_have_all_that_their_lines_have(run, folder):
     assert {"bend", "submerge"} <= set(columns["kind"])
     for i, event in enumerate(written):
         row = {name: values[i] for name, values in columns.items()}
-        assert (row["t_s"], row["kind"], row["ship"], row["floe"]) == (event["t_s"], event["kind"], event["ship"], event["floe"])
+        assert (row["t_s"], row["kind"], row["ship"], row["floe"]) == (event["t_s"],
+                                                                       event["kind"], event["ship"], event["floe"])
         assert row["parent"] == (-1 if event["parent"] is None else event["parent"])
         assert row["children"] == tuple(event["children"])
         assert [row["x_m"], row["y_m"]] == event["point_m"] and [row["normal_x"], row["normal_y"]] == event["normal"]
@@ -129,7 +140,8 @@ def test_floes_and_ships_are_where_the_program_puts_them(folder, tmp_path, time)
         assert found[floe]["type"] == feature["geometry"]["type"] == "Polygon"
         for ring, written in zip(found[floe]["coordinates"], feature["geometry"]["coordinates"], strict=True):
             numpy.testing.assert_allclose(ring, written, rtol=0, atol=2e-6)
-    hulls = {f["properties"]["ship"]: f["geometry"]["coordinates"][0] for f in json.loads((tmp_path / "ships.geojson").read_text())["features"]}
+    hulls = {f["properties"]["ship"]: f["geometry"]["coordinates"][0]
+             for f in json.loads((tmp_path / "ships.geojson").read_text())["features"]}
     assert list(frame.hulls) == ["breaker", "pile"] == frame.ships["ship"].tolist()
     for name, ring in frame.hulls.items():
         assert {tuple(p) for p in numpy.round(ring, 3)} == {tuple(p) for p in numpy.round(hulls[name], 3)}
@@ -149,7 +161,8 @@ def test_some_ice_is_under_a_hull_and_some_has_holes(folder):
     assert [frame.time for frame in run.frames] == run.times.tolist() == [row["t_s"] for row in run.states]
     births = lines(folder / "floes.ndjson")
     assert [floe["area_m2"] for floe in births] == run.floes["area_m2"].tolist()
-    assert run.floes["parent_id"].tolist() == [-1 if floe["parent_id"] is None else floe["parent_id"] for floe in births]
+    assert run.floes["parent_id"].tolist() == [-1 if floe["parent_id"] is None else floe["parent_id"]
+                                               for floe in births]
 
 
 def test_floes_are_shapely_polygons_where_it_is_installed(folder):
@@ -168,7 +181,8 @@ def test_a_channel_is_that_of_the_command(copy):
     run = polynya.Run(copy, pandas=False)
     assert columns_of(run.channel).keys() == columns_of(measured.stations).keys()
     written = rows(copy / "channel.csv")
-    assert run.channel["width_m"].tolist() == [float(row["width_m"]) for row in written] == measured.stations["width_m"].tolist()
+    assert run.channel["width_m"].tolist() == [float(row["width_m"])
+                                               for row in written] == measured.stations["width_m"].tolist()
     assert set(measured.parts) >= {"open water", "swept band"}
     with pytest.raises(polynya.FolderError, match="no ship"):
         run.measure_channel(ship="nobody")
@@ -253,7 +267,10 @@ def test_a_studys_table_is_the_files(study, pandas):
     assert list(columns) == list(written[0]) == ["case", "state", *found.parameters, *found.measures]
     for name, values in columns.items():
         for value, row in zip(values.tolist(), written):
-            assert value == row[name] if isinstance(value, str) else str(value) == "nan" and row[name] == "" or value == float(row[name])
+            if isinstance(value, str):
+                assert value == row[name]
+            else:
+                assert str(value) == "nan" and row[name] == "" or value == float(row[name])
     assert "2 of 2 cases" in found._repr_html_() and "ice.thickness_m" in found._repr_html_()
     assert found.run(1).end_time == 2
     with pytest.raises(IndexError, match="0 to 1"):
@@ -287,7 +304,8 @@ def test_what_is_wanted_and_not_installed_is_named(folder, monkeypatch):
 
 def test_the_classes_are_documented():
     for documented in (polynya.Run, polynya.Study):
-        members = {name: value for name, value in vars(documented).items() if not name.startswith("_") and callable(getattr(value, "fget", value))}
+        members = {name: value for name, value in vars(documented).items() if not name.startswith("_")
+                   and callable(getattr(value, "fget", value))}
         assert len(members) >= 5
         undocumented = [name for name, value in members.items() if not value.__doc__]
         assert documented.__doc__ and not undocumented

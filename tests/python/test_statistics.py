@@ -39,7 +39,8 @@ def test_students_interval_is_that_of_scipys_t_test():
 
 
 def test_bootstrap_interval_covers_the_mean_of_skewed_samples():
-    part = covered(lambda x: statistics.bootstrap_mean(x, count=400), 1, size=60, draw=lambda rng, n: rng.exponential(1, n))
+    part = covered(lambda x: statistics.bootstrap_mean(x, count=400), 1, size=60,
+                   draw=lambda rng, n: rng.exponential(1, n))
     assert 0.88 < part < 0.98  # percentile intervals of skewed samples are a little short
 
 
@@ -84,7 +85,8 @@ def test_fits_are_scipys(name, peer, seed):
 
 
 @pytest.mark.parametrize("name, truth, draw", [
-    ("gumbel", (5, 2), lambda rng, n: rng.gumbel(5, 2, n)), ("weibull", (1.6, 4), lambda rng, n: 4 * rng.weibull(1.6, n))])
+    ("gumbel", (5, 2), lambda rng, n: rng.gumbel(5, 2, n)),
+    ("weibull", (1.6, 4), lambda rng, n: 4 * rng.weibull(1.6, n))])
 def test_fits_find_the_parameters_and_their_intervals_cover_them(name, truth, draw):
     rng = numpy.random.default_rng(11)
     large = statistics.fit(name, draw(rng, 20000), count=20)
@@ -116,7 +118,8 @@ def test_the_level_of_a_probability_is_exceeded_by_it():
 
 
 def test_level_intervals_cover_the_level():
-    part = covered(lambda x: statistics.level_interval("gumbel", x, 0.01, count=200), 5 - 2 * math.log(-math.log1p(-0.01)),
+    part = covered(lambda x: statistics.level_interval("gumbel", x, 0.01, count=200),
+                   5 - 2 * math.log(-math.log1p(-0.01)),
                    trials=150, size=80, draw=lambda rng, n: rng.gumbel(5, 2, n))
     assert 0.86 < part < 0.99
 
@@ -133,7 +136,8 @@ def test_as_many_cases_as_are_needed_make_the_interval_narrow_enough():
 @pytest.mark.parametrize("call", [
     lambda: statistics.mean([1]), lambda: statistics.mean([1, math.nan]), lambda: statistics.mean([[1, 2], [3, 4]]),
     lambda: statistics.fit("weibull", [1, 2, 3, 4, 0]), lambda: statistics.fit("normal", [1, 2, 3, 4, 5]),
-    lambda: statistics.fit("gumbel", [2] * 8), lambda: statistics.cases_needed([1, 2], 0), lambda: statistics.proportion(3, 2)])
+    lambda: statistics.fit("gumbel", [2] * 8), lambda: statistics.cases_needed([1, 2], 0),
+    lambda: statistics.proportion(3, 2)])
 def test_what_is_no_sample_is_refused_with_words(call):
     with pytest.raises(ValueError, match="found|sample"):
         call()

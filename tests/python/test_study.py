@@ -168,7 +168,8 @@ def test_a_terminal_has_a_live_table(folder):
                 shown += part
     os.close(ours)
     assert running.returncode == 0
-    for words in ("running          1  case 0", "done             3 of 3  (100 %)", "failed           0", "left          0:00"):
+    for words in ("running          1  case 0", "done             3 of 3  (100 %)",
+                  "failed           0", "left          0:00"):
         assert words in shown.decode(), shown.decode()
 
 

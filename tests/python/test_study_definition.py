@@ -200,7 +200,8 @@ def test_numbers_beyond_what_can_be_computed_and_copies_are_refused(folder):
     for keys, message in (
         ({"draw": {"count": 2, "of": {"a": wide}}}, "sd 1e+308, allowed: a distribution whose draws"),
         ({"collect": {"time_to": {"lead": {"x_m": []}}}}, "time_to.lead.x_m: found a list, allowed: a number [m]"),
-        ({"grid": {"a": {"from": 1e-308, "to": 1e308, "count": 3, "spacing": "log"}}}, "grid.a: found ends that are too"),
+        ({"grid": {"a": {"from": 1e-308, "to": 1e308, "count": 3, "spacing": "log"}}},
+         "grid.a: found ends that are too"),
         ({"grid": {"a": {"from": 0, "to": 1, "count": 10**8}}}, "grid.a.count: found 100000000, allowed: a whole"),
         ({"repetitions": 2, "grid": {"seed": [1, 2]}}, "repetitions would be copies"),
     ):
@@ -233,7 +234,8 @@ def test_a_case_that_the_scene_does_not_allow_is_refused_before_anything_runs(fo
     thickness = f"{path}:2:30: ice.thickness_m: found -1, allowed: a number ≥ 0.001, ≤ 20 [m] [case 1]"
     friction = f"{path}:2:56: ice.frction: found an unknown key"
     for text, messages in (
-        ('{"scene": "plate.json",\n %s,\n %s' % (grid, set_), (thickness, friction, 'mean "friction"?', "[all 2 cases]")),
+        ('{"scene": "plate.json",\n %s,\n %s' % (grid, set_),
+         (thickness, friction, 'mean "friction"?', "[all 2 cases]")),
         ('{"scene": "plate.json", ' + set_, ("plate.json:4:12",)),
         ('{"scene": "gone.json"}', (f"{path}:1:11: scene: {folder}/gone.json: no such file\n",)),
         ('{"scene": "s.json",}', (f"{path}:1:19: a comma too many",)),

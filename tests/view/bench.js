@@ -19,5 +19,7 @@ module.exports = {
   /** Opens a page in that browser. */
   open: async (file, options) => openPage(await browser, file, options),
   /** Waits until what was asked for is drawn. */
-  drawn: (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done))))),
+  drawn: (page) =>
+    page.evaluate(() =>
+      new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done))))),
 };

@@ -20,7 +20,8 @@ exports.openPage = async (browser, file, options = {}) => {
   page.on("request", (request) => page.requests.push(request.url()));
   const start = Date.now();
   await page.goto(`file://${file}`);
-  await page.waitForFunction(() => window.polynyaPlayer?.drawn > 0 || window.polynyaPair?.players.every(({ drawn }) => drawn > 0));
+  await page.waitForFunction(() => window.polynyaPlayer?.drawn > 0 || window.polynyaPair?.players.every(({ drawn }) =>
+    drawn > 0));
   page.openedAfter = Date.now() - start; // [ms]
   return page;
 };

@@ -14,21 +14,25 @@ before(async () => {
 });
 
 const played = () => page.evaluate(() => window.polynyaPlayer.state.isPlaying);
-const act = (name, ...words) => page.evaluate(([action, list]) => { window.polynyaPlayer.actions[action](...list); }, [name, words]);
+const act = (name, ...words) => page.evaluate(([action, list]) => { window.polynyaPlayer.actions[action](...list); },
+  [name, words]);
 const now = () => page.evaluate(() => window.polynyaPlayer.state.time);
 
 /** In the page: controls over the map, targets below a size [px], and how far the page goes sideways. */
 function measureControls(least) {
   const boxOf = (e) => e.getBoundingClientRect();
-  const controls = [...document.querySelectorAll("button, select, input, [role=slider]")].filter((e) => e.checkVisibility() && boxOf(e).width > 0);
+  const controls = [...document.querySelectorAll("button, select, input, [role=slider]")].filter((e) =>
+    e.checkVisibility() && boxOf(e).width > 0);
   const name = (e) => `${e.id || e.textContent} ${boxOf(e).width.toFixed(1)} x ${boxOf(e).height.toFixed(1)}`;
   const map = boxOf(document.getElementById("stage"));
   const isOverMap = (e) => {
     const box = boxOf(e);
-    return Math.min(box.right, map.right) - Math.max(box.left, map.left) > 0.5 && Math.min(box.bottom, map.bottom) - Math.max(box.top, map.top) > 0.5;
+    return Math.min(box.right, map.right) - Math.max(box.left, map.left) > 0.5
+      && Math.min(box.bottom, map.bottom) - Math.max(box.top, map.top) > 0.5;
   };
   const target = (e) => (e.matches("[type=checkbox], [type=radio]") ? [e, e.closest("label")] : [e]);
-  const isSmall = (e, k) => Math.min(boxOf(e).width, boxOf(e).height) < (k === 0 && e.matches("input") ? Math.min(24, least) : least) - 0.01;
+  const isSmall = (e, k) => Math.min(boxOf(e).width, boxOf(e).height) < (k === 0 && e.matches("input")
+    ? Math.min(24, least) : least) - 0.01;
   const { scrollWidth, clientWidth } = document.documentElement;
   return {
     overMap: controls.filter((e) => !e.closest("aside, dialog") && isOverMap(e)).map(name),
@@ -39,7 +43,8 @@ function measureControls(least) {
 }
 
 for (const [width, height] of sizes) {
-  test(`at ${width} x ${height} no control lies over the map, none is below 24 px, nothing scrolls sideways`, async () => {
+  test(`at ${width} x ${height} no control lies over the map, none is below 24 px, nothing scrolls sideways`,
+    async () => {
     await page.setViewportSize({ width, height });
     await act("select", 190); // with the links of its card
     await page.waitForTimeout(100);
@@ -48,7 +53,8 @@ for (const [width, height] of sizes) {
     assert.deepEqual(found, { overMap: [], small: [], sideways: 0 });
   });
 
-  test(`at ${width} x ${height} a drag that begins on a mark scrubs, and a press without motion goes to the mark's event`, async () => {
+  const size = `${width} x ${height}`;
+  test(`at ${size} a drag that begins on a mark scrubs, and a press without motion goes to its event`, async () => {
     await page.setViewportSize({ width, height });
     await page.locator("#track").scrollIntoViewIfNeeded();
     const box = await page.locator("#track").boundingBox();
@@ -59,7 +65,8 @@ for (const [width, height] of sizes) {
       await page.mouse.move(box.x + (events[k] / until) * box.width, y);
       await page.mouse.down();
       await page.mouse.move(box.x + 0.3 * box.width, y, { steps: 5 });
-      assert.ok(Math.abs((await now()) - 0.3 * until) < (1.5 * until) / box.width, `the drag from ${events[k]} s came to ${await now()} s`);
+      assert.ok(Math.abs((await now()) - 0.3 * until) < (1.5 * until) / box.width,
+        `the drag from ${events[k]} s came to ${await now()} s`);
       await page.mouse.move(box.x + 0.2 * box.width, y, { steps: 2 });
       await page.mouse.up();
       assert.ok(Math.abs((await now()) - 0.2 * until) < (1.5 * until) / box.width, "its end is no click either");
@@ -73,8 +80,10 @@ for (const [width, height] of sizes) {
     await page.setViewportSize({ width, height });
     await act("goToEnd", false);
     await page.selectOption("#rate", "10");
-    for (const control of ["#rate", "#quantity", "#layer-velocities", "#by-speed", "#zoom-in", "#theme", "label:has(#layer-velocities)"]) {
-      if ((await page.locator(control).evaluate((e) => e.tagName)) === "SELECT") { // headless Chromium shows no list to click in
+    for (const control of ["#rate", "#quantity", "#layer-velocities", "#by-speed", "#zoom-in", "#theme",
+      "label:has(#layer-velocities)"]) {
+      if ((await page.locator(control).evaluate((e) =>
+        e.tagName)) === "SELECT") { // headless Chromium shows no list to click in
         await page.locator(control).focus();
         await page.locator(control).evaluate((e) => e.dispatchEvent(new Event("change", { bubbles: true })));
       } else await page.click(control);

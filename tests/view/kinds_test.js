@@ -75,7 +75,8 @@ const rowsOf = (text) => {
 test("the channel is that of `polynya channel`, carried with drifting and shearing water", async (t) => {
   const water = { drift_m_per_s: [0.05, 0.1], shear: { rate_per_s: 1e-4, direction_deg: 20, origin_m: [0, 40] } };
   const floes = [{ field: { corner_m: [0, -60], extent_m: [260, 120], floe_size_m: 9, concentration: 0.6 } }];
-  const run = makeRun(folder, smallScene("channelled", { water, floes, time: { step_s: 0.02, until_s: 120 }, ships: [ship("a", 0)],
+  const run = makeRun(folder,
+    smallScene("channelled", { water, floes, time: { step_s: 0.02, until_s: 120 }, ships: [ship("a", 0)],
     fracture: { cusp_fate: "float" } }));
   let bounded = 0;
   await withPage(makePage(run), {}, async (page) => {
@@ -91,10 +92,13 @@ test("the channel is that of `polynya channel`, carried with drifting and sheari
       bounded += wanted.length;
       wanted.forEach((row, k) => {
         assert.ok(Math.abs(Number(row.along_m) - measured[k].along) < 1e-3);
-        for (const side of ["port", "starboard"]) assert.ok(Math.abs(Number(row[`${side}_m`]) - measured[k][side]) < 1e-3);
+        for (const side of ["port",
+          "starboard"]) assert.ok(Math.abs(Number(row[`${side}_m`]) - measured[k][side]) < 1e-3);
       });
-      const swept = JSON.parse(fs.readFileSync(path.join(folder, "channel.geojson"), "utf8")).features.find((f) => f.properties.part === "swept band");
-      const [x, y] = swept.geometry.coordinates[0][0].reduce(([sx, sy], [px, py], k, all) => [sx + px / all.length, sy + py / all.length], [0, 0]);
+      const swept = JSON.parse(fs.readFileSync(path.join(folder, "channel.geojson"), "utf8")).features.find((f) =>
+        f.properties.part === "swept band");
+      const [x, y] = swept.geometry.coordinates[0][0].reduce(([sx, sy], [px, py], k, all) =>
+        [sx + px / all.length, sy + py / all.length], [0, 0]);
       const colours = await page.evaluate(([px, py]) => {
         const { view } = window.polynyaPlayer;
         const context = document.getElementById("ice").getContext("2d");
@@ -120,7 +124,8 @@ test("there is no channel ahead of the ship", async () => {
       actions.goTo(at);
       await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
       const [sx, sy] = view.toScreen(px, 0);
-      return [...document.getElementById("ice").getContext("2d").getImageData(sx * view.ratio, sy * view.ratio, 1, 1).data].join();
+      return [...document.getElementById("ice").getContext("2d").getImageData(sx * view.ratio, sy * view.ratio, 1,
+        1).data].join();
     }, [time, x]);
     // The stem is 20 m before the centre, which goes from -20 m to 0 in 10 s.
     assert.equal(await colourAt(0, 10), await colourAt(5, 15), "still ahead of it both times");
@@ -134,18 +139,22 @@ test("ice under the hull is drawn through it, counted, and known by a click; wha
   const run = makeRun(folder, smallScene("under-hull", { floes: [plate], ships: [icebreaker], time: { until_s: 60 } }));
   const events = readNdjson(run, "events.ndjson");
   const floes = readNdjson(run, "floes.ndjson");
-  const [went, up] = ["submerge", "resurface"].map((kind) => new Map(events.filter((e) => e.kind === kind).map((e) => [e.floe, e])));
-  const ended = new Map(events.filter(({ kind }) => !["submerge", "rejected_cut", "ship_contact"].includes(kind)).map((e) => [e.floe, e.t_s]));
+  const [went, up] = ["submerge", "resurface"].map((kind) =>
+    new Map(events.filter((e) => e.kind === kind).map((e) => [e.floe, e])));
+  const ended = new Map(events.filter(({ kind }) => !["submerge", "rejected_cut",
+    "ship_contact"].includes(kind)).map((e) => [e.floe, e.t_s]));
   assert.ok(went.size > 20 && up.size > 10);
   const stays = (floe, time) => !(ended.get(floe) <= time);
   await withPage(makePage(run, "--every", "2"), {}, async (page) => {
     for (const time of [10, 30, 60]) {
       await page.evaluate((at) => window.polynyaPlayer.actions.goTo(at), time);
       await page.waitForTimeout(100);
-      const under = [...went.values()].filter(({ t_s: at, floe }) => at <= time && stays(floe, time)).map(({ floe }) => floe).sort((a, b) => a - b);
+      const under = [...went.values()].filter(({ t_s: at, floe }) => at <= time && stays(floe, time)).map(({ floe }) =>
+        floe).sort((a, b) => a - b);
       assert.deepEqual(await page.evaluate(() => [...window.polynyaPlayer.places.under].sort((a, b) => a - b)), under);
       assert.equal(await page.locator("#under-now").textContent(), String(under.length));
-      assert.equal(await page.locator("#came-up-now").textContent(), String([...up.values()].filter(({ t_s: at }) => at <= time).length));
+      assert.equal(await page.locator("#came-up-now").textContent(),
+        String([...up.values()].filter(({ t_s: at }) => at <= time).length));
       const there = floes.filter(({ born_s: born, floe_id: floe }) => born <= time && stays(floe, time));
       assert.equal(await living(page), there.length - under.length, "what floats");
     }
@@ -154,7 +163,8 @@ test("ice under the hull is drawn through it, counted, and known by a click; wha
     await page.evaluate(() => window.polynyaPlayer.actions.setFollow(0));
     await page.waitForTimeout(100);
     // One that comes up, and that is on top where its centre is.
-    const came = [...up.values()].filter(({ floe, children, t_s: at }) => children.length > 0 && went.get(floe).t_s < time && time < at);
+    const came = [...up.values()].filter(({ floe, children, t_s: at }) => children.length > 0
+      && went.get(floe).t_s < time && time < at);
     const onTop = await page.evaluate((candidates) => candidates.find((floe) => {
       const { view, places, state, actions } = window.polynyaPlayer;
       actions.hover(...view.toScreen(places.x[floe], places.y[floe]));
@@ -164,11 +174,14 @@ test("ice under the hull is drawn through it, counted, and known by a click; wha
     const colourAt = (id) => page.evaluate((floe) => {
       const { view, places } = window.polynyaPlayer;
       const [px, py] = view.toScreen(places.x[floe], places.y[floe]);
-      return [...document.getElementById("marks").getContext("2d").getImageData(px * view.ratio, py * view.ratio, 1, 1).data].join();
+      return [...document.getElementById("marks").getContext("2d").getImageData(px * view.ratio, py * view.ratio, 1,
+        1).data].join();
     }, id);
     const drawn = await colourAt(clicked.floe);
     const box = await page.locator("#stage").boundingBox();
-    const [x, y] = await page.evaluate((floe) => { const { view, places } = window.polynyaPlayer; return view.toScreen(places.x[floe], places.y[floe]); }, clicked.floe);
+    const [x, y] = await page.evaluate((floe) =>
+      { const { view, places } = window.polynyaPlayer; return view.toScreen(places.x[floe], places.y[floe]); },
+        clicked.floe);
     await page.mouse.click(box.x + x, box.y + y);
     await page.waitForFunction((floe) => window.polynyaPlayer.state.selected === floe, clicked.floe);
     await page.waitForFunction(() => !document.querySelector("#floe-card").textContent.startsWith("Point at"));
@@ -178,15 +191,18 @@ test("ice under the hull is drawn through it, counted, and known by a click; wha
     assert.match(await page.locator("#legend").textContent(), /ice under the hull.*/);
     await page.evaluate((at) => window.polynyaPlayer.actions.goTo(at), clicked.t_s + 1e-6);
     await page.waitForTimeout(100);
-    assert.equal(await page.evaluate((child) => window.polynyaPlayer.colourings.breakage.value(child), clicked.children[0]), 4);
+    assert.equal(await page.evaluate((child) => window.polynyaPlayer.colourings.breakage.value(child),
+      clicked.children[0]), 4);
     assert.notEqual(await colourAt(clicked.floe), drawn);
     assert.equal(await page.locator('#quantity option:text-is("Ice under the hull")').count(), 1);
   });
 });
 
 test("a mooring that breaks has a mark on the timeline, and a card with its force", async () => {
-  const moored = { ...ship("tanker", 0), propulsion: { thrust_N: 2e5 }, mooring: { surge_stiffness_N_per_m: 1e5, break_load_N: 1.2e5 } };
-  const run = makeRun(folder, smallScene("moored", { ships: [moored], floes: [], time: { step_s: 0.05, until_s: 20 } }));
+  const moored = { ...ship("tanker", 0), propulsion: { thrust_N: 2e5 },
+    mooring: { surge_stiffness_N_per_m: 1e5, break_load_N: 1.2e5 } };
+  const run = makeRun(folder,
+    smallScene("moored", { ships: [moored], floes: [], time: { step_s: 0.05, until_s: 20 } }));
   const [broken, ...others] = readNdjson(run, "events.ndjson");
   assert.equal(broken.kind, "mooring_break");
   assert.deepEqual(others, []);
@@ -197,7 +213,8 @@ test("a mooring that breaks has a mark on the timeline, and a card with its forc
     await page.mouse.click(box.x + (broken.t_s / 20) * box.width, box.y + 7);
     assert.equal(await page.evaluate(() => window.polynyaPlayer.state.time), broken.t_s);
     const card = await page.locator("#event-card").textContent();
-    for (const words of ["mooring break", "tanker", `${(broken.force_N / 1000).toPrecision(4)} kN`, "120.0 kN", `(${broken.offset_m[0].toFixed(1)}, `])
+    for (const words of ["mooring break", "tanker", `${(broken.force_N / 1000).toPrecision(4)} kN`, "120.0 kN",
+      `(${broken.offset_m[0].toFixed(1)}, `])
       assert.ok(card.includes(words), `${words} in ${card}`);
     assert.match(await page.locator("#facts").textContent(), /moorings broken1/);
     await page.keyboard.press("[");
@@ -244,9 +261,12 @@ test("on a phone: nothing is cut off, a tap picks, two fingers zoom", async () =
 });
 
 test("contact circles touch their floe from inside, one for each piece of its boundary", async () => {
-  const round = Array.from({ length: 60 }, (_, k) => [50 + 6 * Math.cos((k * Math.PI) / 30), 6 * Math.sin((k * Math.PI) / 30)]);
-  const holed = { polygon: { outer_m: [[70, 10], [90, 10], [90, 30], [70, 30]], holes_m: [[[74, 14], [74, 18], [78, 18]]] } };
-  const run = makeRun(folder, smallScene("circled", { floes: [holed, { rectangle: { corner_m: [20, 0], size_m: [15, 3] } },
+  const round = Array.from({ length: 60 }, (_, k) => [50 + 6 * Math.cos((k * Math.PI) / 30),
+    6 * Math.sin((k * Math.PI) / 30)]);
+  const holed = { polygon: { outer_m: [[70, 10], [90, 10], [90, 30], [70, 30]],
+    holes_m: [[[74, 14], [74, 18], [78, 18]]] } };
+  const run = makeRun(folder,
+    smallScene("circled", { floes: [holed, { rectangle: { corner_m: [20, 0], size_m: [15, 3] } },
     { polygon: { outer_m: round } }], ships: [ship("a", 0)] }));
   await withPage(makePage(run), {}, async (page) => {
     const all = await page.evaluate(() => {
@@ -257,7 +277,8 @@ test("contact circles touch their floe from inside, one for each piece of its bo
         let k = first;
         for (let ring = floes.ringsOf[id]; ring < floes.ringsOf[id + 1]; ++ring) {
           rings.push([]);
-          for (; k < first + floes.ringEnds[ring]; ++k) rings.at(-1).push([points[2 * k] - floes.cx[id], points[2 * k + 1] - floes.cy[id]]);
+          for (; k < first + floes.ringEnds[ring]; ++k) rings.at(-1).push([points[2 * k] - floes.cx[id],
+            points[2 * k + 1] - floes.cy[id]]);
         }
         return { rings, circles: Array.from(circlesOf(id)) };
       });
@@ -272,7 +293,8 @@ test("contact circles touch their floe from inside, one for each piece of its bo
       for (let k = 0; k < circles.length; k += 3) {
         const [x, y, radius] = circles.slice(k, k + 3);
         const nearest = Math.min(...edges.map(([[ax, ay], [bx, by]]) => {
-          const part = Math.min(1, Math.max(0, ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2)));
+          const part = Math.min(1,
+            Math.max(0, ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2)));
           return Math.hypot(x - ax - part * (bx - ax), y - ay - part * (by - ay));
         }));
         assert.ok(Math.abs(nearest - radius) < 1e-6, `it touches and stays inside: ${nearest}, ${radius}`);
@@ -288,20 +310,24 @@ test("contact circles touch their floe from inside, one for each piece of its bo
 
 test("many small floes are drawn pixel by pixel as they are as paths", async () => {
   const field = { field: { corner_m: [0, 0], extent_m: 900, floe_size_m: 15, concentration: 0.7 } };
-  const run = makeRun(folder, smallScene("many", { floes: [field, { polygon: { outer_m: [[-300, 0], [-60, 0], [-60, 400], [-300, 400]] } }],
+  const run = makeRun(folder,
+    smallScene("many", { floes: [field, { polygon: { outer_m: [[-300, 0], [-60, 0], [-60, 400], [-300, 400]] } }],
     time: { step_s: 0.05, until_s: 4 }, water: { drift_m_per_s: [0.3, 0] }, ships: [] }));
   const file = makePage(run);
   const shares = [];
   for (const many of ["1000", "1e9"]) {
-    fs.writeFileSync(file, fs.readFileSync(file, "utf8").replace(/const manySmall = \S+;/, `const manySmall = ${many};`));
+    fs.writeFileSync(file, fs.readFileSync(file, "utf8").replace(/const manySmall = \S+;/,
+      `const manySmall = ${many};`));
     await withPage(file, {}, async (page) => {
       shares.push(await page.evaluate(() => {
         const canvas = document.getElementById("ice");
         const { data, width, height } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
         const cells = new Float64Array(16 * 16); // how light squares of the screen are
         for (let y = 0; y < height; ++y)
-          for (let x = 0; x < width; ++x)
-            cells[Math.floor((16 * y) / height) * 16 + Math.floor((16 * x) / width)] += (data[4 * (y * width + x)] * 256) / (255 * width * height);
+          for (let x = 0; x < width; ++x) {
+            const cell = Math.floor((16 * y) / height) * 16 + Math.floor((16 * x) / width);
+            cells[cell] += (data[4 * (y * width + x)] * 256) / (255 * width * height);
+          }
         return Array.from(cells);
       }));
     });

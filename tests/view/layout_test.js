@@ -4,15 +4,19 @@
 const { test, before, assert, folder, open } = require("./bench.js");
 const { makeRun, makePage, smallScene, ship } = require("./runs.js");
 
-const sizes = [[360, 740], [390, 844], [721, 900], [768, 1024], [900, 700], [1024, 768], [1190, 800], [1280, 720], [1440, 900],
+const sizes = [[360, 740], [390, 844], [721, 900], [768, 1024], [900, 700], [1024, 768], [1190, 800], [1280, 720],
+  [1440, 900],
   [1920, 1080], [844, 390]];
-const description = "Two icebreakers at constant speed through nine floes of fifteen metres, in a scene whose only purpose is a description " +
-  "of three hundred characters, because a line as long as this one once made the page wider than every window it was opened in, and its " +
+const description = "Two icebreakers at constant speed through nine floes of fifteen metres, in a scene " +
+  "whose only purpose is a description " +
+  "of three hundred characters, because a line as long as this one once made the page wider than every " +
+  "window it was opened in, and its " +
   "controls could no longer be reached by anyone who opened it.";
 
 let page;
 before(async () => {
-  const scene = smallScene("a-name-of-many-words-in-one", { description, ships: [ship("north", 60), ship("south", 10)] });
+  const scene = smallScene("a-name-of-many-words-in-one", { description,
+    ships: [ship("north", 60), ship("south", 10)] });
   page = await open(makePage(makeRun(folder, scene)));
   await page.addScriptTag({ content: findProblems.toString() });
   await page.evaluate(() => {
@@ -28,18 +32,23 @@ before(async () => {
 /** In the page: what is cut off, reaches out of the window or overlaps, in words. */
 function findProblems() {
   const problems = [];
-  const name = (e) => `${e.tagName.toLowerCase()}${e.id ? `#${e.id}` : ""}${e.className?.baseVal === undefined && e.className ? `.${e.className}` : ""} "${(e.textContent || "").trim().slice(0, 24)}"`;
-  const isVisible = (e) => e.checkVisibility() && e.getBoundingClientRect().width > 0 && e.getBoundingClientRect().height > 0;
+  const classOf = (e) => (e.className?.baseVal === undefined && e.className ? `.${e.className}` : "");
+  const textOf = (e) => (e.textContent || "").trim().slice(0, 24);
+  const name = (e) => `${e.tagName.toLowerCase()}${e.id ? `#${e.id}` : ""}${classOf(e)} "${textOf(e)}"`;
+  const isVisible = (e) => e.checkVisibility() && e.getBoundingClientRect().width > 0
+    && e.getBoundingClientRect().height > 0;
   const { clientWidth, scrollWidth } = document.documentElement;
   if (scrollWidth > clientWidth) problems.push(`the page is ${scrollWidth} px wide in a window of ${clientWidth}`);
   const scroller = document.querySelector("aside");
   const scrolls = getComputedStyle(document.body).display === "flex";
-  const all = [...document.body.querySelectorAll("*")].filter((e) => !e.closest("dialog, .uplot canvas, select, svg, noscript, script") && isVisible(e));
+  const all = [...document.body.querySelectorAll("*")].filter((e) =>
+    !e.closest("dialog, .uplot canvas, select, svg, noscript, script") && isVisible(e));
   for (const e of all) {
     const style = getComputedStyle(e);
     if (style.display === "inline" || e.matches(".thumb, .reading, canvas")) continue;
     if (e.scrollWidth > e.clientWidth + 1) problems.push(`${name(e)} holds ${e.scrollWidth} px in ${e.clientWidth}`);
-    if (style.overflowY === "hidden" && e.scrollHeight > e.clientHeight + 1) problems.push(`${name(e)} holds ${e.scrollHeight} px of height in ${e.clientHeight}`);
+    if (style.overflowY === "hidden" && e.scrollHeight > e.clientHeight + 1)
+      problems.push(`${name(e)} holds ${e.scrollHeight} px of height in ${e.clientHeight}`);
   }
   /** The part of an element's box that its scrolling panel shows. */
   const boxOf = (e) => {
@@ -48,17 +57,23 @@ function findProblems() {
     const panel = scroller.getBoundingClientRect();
     return { left, right, top: Math.max(top, panel.top), bottom: Math.min(bottom, panel.bottom) };
   };
-  const parts = all.filter((e) => e.matches("button, select, label, output, h1, h2, h3, dt, dd, p, li, #badge, #now, .clock > span, .legend > *, .keys-legend > span," +
-    "#stage, #chip, #notice, #plot, #track, aside")).map((e) => ({ e, box: boxOf(e) })).filter(({ box }) => box.bottom > box.top);
+  const parts = all.filter((e) => e.matches("button, select, label, output, h1, h2, h3, dt, dd, p, li, #badge, #now, " +
+    ".clock > span, .legend > *, .keys-legend > span," +
+    "#stage, #chip, #notice, #plot, #track, aside")).map((e) => ({ e, box: boxOf(e) })).filter(({ box }) =>
+      box.bottom > box.top);
   for (const { e, box } of parts) {
-    if (box.left < -0.5 || box.right > innerWidth + 0.5) problems.push(`${name(e)} reaches from ${box.left} to ${box.right} px across`);
-    if (!scrolls && (box.top < -0.5 || box.bottom > innerHeight + 0.5)) problems.push(`${name(e)} reaches from ${box.top} to ${box.bottom} px down`);
+    if (box.left < -0.5
+      || box.right > innerWidth + 0.5) problems.push(`${name(e)} reaches from ${box.left} to ${box.right} px across`);
+    if (!scrolls && (box.top < -0.5 || box.bottom > innerHeight + 0.5))
+      problems.push(`${name(e)} reaches from ${box.top} to ${box.bottom} px down`);
   }
   for (const [k, { e, box }] of parts.entries()) {
     for (const { e: other, box: b } of parts.slice(k + 1)) {
       if (e.contains(other) || other.contains(e)) continue;
-      const [width, height] = [Math.min(box.right, b.right) - Math.max(box.left, b.left), Math.min(box.bottom, b.bottom) - Math.max(box.top, b.top)];
-      if (width > 0.5 && height > 0.5) problems.push(`${name(e)} and ${name(other)} overlap by ${width} x ${height} px`);
+      const [width, height] = [Math.min(box.right, b.right) - Math.max(box.left, b.left),
+        Math.min(box.bottom, b.bottom) - Math.max(box.top, b.top)];
+      if (width > 0.5
+        && height > 0.5) problems.push(`${name(e)} and ${name(other)} overlap by ${width} x ${height} px`);
     }
   }
   return problems;
@@ -72,7 +87,8 @@ const state = () => page.evaluate(() => {
 /** Waits until the page has the theme's colours everywhere. */
 async function useTheme(theme) {
   await page.emulateMedia({ colorScheme: theme });
-  await page.waitForFunction(() => window.polynyaPlayer.colours.ink === getComputedStyle(document.documentElement).getPropertyValue("--ink").trim());
+  await page.waitForFunction(() =>
+    window.polynyaPlayer.colours.ink === getComputedStyle(document.documentElement).getPropertyValue("--ink").trim());
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }
 
@@ -115,7 +131,8 @@ for (const [width, height] of sizes) {
       window.polynyaPlayer.actions.toggleLayer("forces");
       return new Promise((done) => setTimeout(done, 50));
     }));
-    assert.ok(Math.abs((await state()).time - 0.7 * 10) < (2 * 10) / box.width, `the drag ends at ${(await state()).time} s`);
+    assert.ok(Math.abs((await state()).time - 0.7 * 10) < (2 * 10) / box.width,
+      `the drag ends at ${(await state()).time} s`);
     await page.evaluate(() => window.polynyaPlayer.actions.fit());
   });
 }
@@ -130,14 +147,16 @@ test("each swatch of the legend stands out from its panel in both themes", async
     }, theme === "light" ? "speed" : "generation");
     const contrasts = await page.evaluate(() => {
       const light = (colour) => {
-        const [r, g, b] = colour.match(/[\d.]+/g).map((v) => (v / 255 <= 0.04045 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4));
+        const [r, g, b] = colour.match(/[\d.]+/g).map((v) => (v / 255 <= 0.04045
+          ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4));
         return 0.2126 * r + 0.7152 * g + 0.0722 * b;
       };
       const contrast = (a, b) => (Math.max(light(a), light(b)) + 0.05) / (Math.min(light(a), light(b)) + 0.05);
       return [...document.querySelectorAll("#legend i:not(.arrow)")].map((i) => {
         const panel = getComputedStyle(document.getElementById("legend")).backgroundColor;
         const style = getComputedStyle(i);
-        return [i.parentElement.textContent, Math.max(contrast(style.backgroundColor, panel), contrast(style.borderTopColor, panel))];
+        return [i.parentElement.textContent, Math.max(contrast(style.backgroundColor, panel),
+          contrast(style.borderTopColor, panel))];
       });
     });
     assert.ok(contrasts.length >= 8);

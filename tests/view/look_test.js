@@ -7,8 +7,10 @@ const { makeRun, makePage, readNdjson, smallScene, ship } = require("./runs.js")
 let page, run;
 before(async () => {
   run = makeRun(folder, smallScene("plate-and-floe", {
-    time: { step_s: 0.01, until_s: 30 }, fracture: { cusp_fate: "float", splitting: { model: "michel" } }, ships: [ship("a", 30)],
-    floes: [{ rectangle: { corner_m: [2, 0], size_m: [90, 60] } }, { rectangle: { corner_m: [2, 80], size_m: [20, 20] } }],
+    time: { step_s: 0.01, until_s: 30 }, fracture: { cusp_fate: "float",
+      splitting: { model: "michel" } }, ships: [ship("a", 30)],
+    floes: [{ rectangle: { corner_m: [2, 0], size_m: [90, 60] } },
+      { rectangle: { corner_m: [2, 80], size_m: [20, 20] } }],
   }));
   page = await open(makePage(run));
   await page.evaluate(() => {
@@ -22,7 +24,8 @@ before(async () => {
 /** The scripts' own functions, without a page. */
 function scripts(...names) {
   const context = vm.createContext({});
-  for (const name of names) vm.runInContext(fs.readFileSync(path.join(__dirname, "../../views/player", name), "utf8"), context);
+  for (const name of names) vm.runInContext(fs.readFileSync(path.join(__dirname, "../../views/player", name), "utf8"),
+    context);
   return context;
 }
 
@@ -40,16 +43,21 @@ const colours = (canvas, points) => page.evaluate(([id, all]) => {
 test("untouched floes, what is left of a plate, and cusps have the colours that the legend gives them", async () => {
   const births = readNdjson(run, "floes.ndjson");
   const legend = Object.fromEntries(await page.locator("#legend span").evaluateAll((all) =>
-    all.filter((row) => row.querySelector("i")).map((row) => [row.textContent.split(":")[0], row.querySelector("i").style.background])));
-  const living = await page.evaluate(() => Array.from(window.polynyaPlayer.places.living.subarray(0, window.polynyaPlayer.places.count)));
+    all.filter((row) => row.querySelector("i")).map((row) => [row.textContent.split(":")[0],
+      row.querySelector("i").style.background])));
+  const living = await page.evaluate(() =>
+    Array.from(window.polynyaPlayer.places.living.subarray(0, window.polynyaPlayer.places.count)));
   const left = living.filter((id) => id !== 1).sort((a, b) => births[b].area_m2 - births[a].area_m2);
-  assert.ok(births[left[0]].generation > 0 && births[left[0]].area_m2 > 0.8 * 5400, "the plate lost cusps and is still there");
+  assert.ok(births[left[0]].generation > 0 && births[left[0]].area_m2 > 0.8 * 5400,
+    "the plate lost cusps and is still there");
   assert.ok(left.length > 1, "cusps float");
-  const inPlate = await page.evaluate((id) => [window.polynyaPlayer.places.x[id], window.polynyaPlayer.places.y[id] + 20], left[0]);
+  const inPlate = await page.evaluate((id) => [window.polynyaPlayer.places.x[id],
+    window.polynyaPlayer.places.y[id] + 20], left[0]);
   const [whole, cut] = await colours("ice", [[12, 90], inPlate]);
   assert.equal(whole, legend.whole);
   assert.equal(cut, legend.cut);
-  const breakage = await page.evaluate((ids) => ids.map((id) => window.polynyaPlayer.colourings.breakage.value(id)), left);
+  const breakage = await page.evaluate((ids) => ids.map((id) => window.polynyaPlayer.colourings.breakage.value(id)),
+    left);
   assert.deepEqual([...new Set(breakage.slice(1))], [3], "all others are broken off by bending");
   assert.equal(breakage[0], 1);
   assert.deepEqual(Object.keys(legend), ["whole", "cut", "broken off by bending"], "nothing was split here");
@@ -65,7 +73,8 @@ test("what became of a floe follows from its lineage and its area", () => {
     [2, "bend", 190, 1], [2, "bend", 110, 3],
     [5, "split", 11, 3], [5, "split", 9, 2],
     [-1, "", 10, 0], [-1, "", 1000, 0]];
-  for (let k = 0, plate = rows.length - 1; k < 200; ++k, plate = rows.length - 2) rows.push([plate, "bend", 1000 - 4.9 * (k + 1), 1], [plate, "bend", 4.9, 3]);
+  for (let k = 0, plate = rows.length - 1; k < 200; ++k, plate = rows.length - 2) rows.push([plate, "bend",
+    1000 - 4.9 * (k + 1), 1], [plate, "bend", 4.9, 3]);
   const children = new Map();
   const breakOf = new Map();
   const events = [];
@@ -76,9 +85,11 @@ test("what became of a floe follows from its lineage and its area", () => {
   });
   const oldest = [];
   rows.forEach(([parent], id) => oldest.push(parent < 0 ? id : oldest[parent]));
-  const floes = { count: rows.length, parent: rows.map(([parent]) => parent), area: rows.map(([, , area]) => area), oldest, children,
+  const floes = { count: rows.length, parent: rows.map(([parent]) => parent), area: rows.map(([, , area]) => area),
+    oldest, children,
     cameUp: rows.map(() => 0) };
-  assert.deepEqual(Array.from(breakagesOf({ floes, info: { events }, breakOf })), rows.map(([, , , expected]) => expected));
+  assert.deepEqual(Array.from(breakagesOf({ floes, info: { events }, breakOf })),
+    rows.map(([, , , expected]) => expected));
   floes.cameUp[3] = floes.cameUp[6] = 1; // whatever broke it, and its largest piece
   assert.deepEqual(Array.from(breakagesOf({ floes, info: { events }, breakOf }).subarray(2, 8)), [1, 4, 1, 3, 4, 3]);
 });
@@ -103,7 +114,8 @@ test("the ship shows as one: hull, deck, deck house, and a mark along its headin
   await page.waitForTimeout(100);
   // It is 40 m long and 8 m wide, its centre at (-20, 30), its heading along x.
   const at = (along, across) => [-20 + along, 30 + across];
-  const [edge, deck, house, ahead, beside, astern] = await colours("marks", [at(-10, 3.85), at(2, 2), at(-8.5, 1), at(23, 0), at(23, 4), at(-24, 0)]);
+  const [edge, deck, house, ahead, beside, astern] = await colours("marks",
+    [at(-10, 3.85), at(2, 2), at(-8.5, 1), at(23, 0), at(23, 4), at(-24, 0)]);
   const theme = await page.evaluate(() => {
     const probe = document.body.appendChild(document.createElement("i"));
     const all = ["--hull", "--deck", "--deck-house"].map((name) => {

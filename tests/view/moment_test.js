@@ -6,8 +6,12 @@ const { makeRun, makePage, readNdjson, smallScene, ship } = require("./runs.js")
 
 let page, run, file;
 before(async () => {
-  run = makeRun(folder, smallScene("moments", { time: { step_s: 0.01, until_s: 30 }, fracture: { cusp_fate: "float", splitting: { model: "michel" } }, ships: [ship("north", 60), ship("a b", 10)],
-    floes: [{ rectangle: { corner_m: [2, 0], size_m: [90, 60] } }, { rectangle: { corner_m: [2, 80], size_m: [20, 20] } }] }));
+  run = makeRun(folder,
+    smallScene("moments",
+      { time: { step_s: 0.01, until_s: 30 }, fracture: { cusp_fate: "float", splitting: { model: "michel" } },
+        ships: [ship("north", 60), ship("a b", 10)],
+    floes: [{ rectangle: { corner_m: [2, 0], size_m: [90, 60] } },
+      { rectangle: { corner_m: [2, 80], size_m: [20, 20] } }] }));
   file = makePage(run);
   page = await open(`${file}#t=12.5&floe=1&by=size&plot=yaw_Nm&follow=a%20b`);
 });
@@ -16,11 +20,13 @@ const state = (of = page) => of.evaluate(() => {
   const { state: { time, selected, colourBy, follow, sizes }, plot: { quantity } } = window.polynyaPlayer;
   return { time, selected, colourBy, follow, sizes, quantity };
 });
-const act = (name, ...words) => page.evaluate(([action, list]) => window.polynyaPlayer.actions[action](...list), [name, words]);
+const act = (name, ...words) => page.evaluate(([action, list]) => window.polynyaPlayer.actions[action](...list),
+  [name, words]);
 const drawn = () => bench.drawn(page);
 
 test("a link opens the page at its instant", async () => {
-  assert.deepEqual(await state(), { time: 12.5, selected: 1, colourBy: "size", follow: 1, sizes: null, quantity: "yaw_Nm" });
+  assert.deepEqual(await state(), { time: 12.5, selected: 1, colourBy: "size", follow: 1, sizes: null,
+    quantity: "yaw_Nm" });
   assert.equal(await page.locator("#now").textContent(), "12.5 s");
 });
 
@@ -38,7 +44,8 @@ test("the address follows the page, and a copy of it opens the same", async () =
   assert.equal(link, page.url());
   const other = await open(link.replace("file://", ""));
   assert.deepEqual(await state(other), await state());
-  const viewOf = (of) => of.evaluate(() => { const { x, y, scale } = window.polynyaPlayer.view; return [x, y, scale]; });
+  const viewOf = (of) =>
+    of.evaluate(() => { const { x, y, scale } = window.polynyaPlayer.view; return [x, y, scale]; });
   const [mine, its] = [await viewOf(page), await viewOf(other)];
   mine.forEach((value, k) => assert.ok(Math.abs(value - its[k]) < 0.01 * Math.max(1, Math.abs(value))));
   // An address that is entered while the page is open goes there too.
@@ -62,23 +69,27 @@ test("while it plays the address stays; when it stops it is that instant's", asy
 test("what a link has wrong is stated, the rest is done", async () => {
   const other = await open(`${file}#t=now&floe=100000&plot=toString&sizes=5-2&follow=west&by=speed&colour=red`);
   const words = await other.locator("#toast").textContent();
-  for (const part of ["t=now", "floe=100000: floes go from 0 to ", "plot=toString", "sizes=5-2", "follow=west: no such ship", "colour=red: unknown"])
+  for (const part of ["t=now", "floe=100000: floes go from 0 to ", "plot=toString", "sizes=5-2",
+    "follow=west: no such ship", "colour=red: unknown"])
     assert.ok(words.includes(part), `${part} in ${words}`);
   assert.equal((await state(other)).colourBy, "speed");
   assert.deepEqual(other.errors, []);
   await other.context().close();
 });
 
-/** Clicks, and gives the picture that is saved: its name, its width and what it has at points [px from its left and top]. */
+/** Clicks, and gives the picture that is saved: its name, its width and what it has at points [px from its left and
+ * top]. */
 async function saved(button, points) {
   const [download] = await Promise.all([page.waitForEvent("download"), page.click(button)]);
   const bytes = fs.readFileSync(await download.path());
   assert.equal(bytes.subarray(1, 4).toString(), "PNG");
   const read = await page.evaluate(async ([base64, all]) => {
     const picture = await createImageBitmap(await (await fetch(`data:image/png;base64,${base64}`)).blob());
-    const context = Object.assign(document.createElement("canvas"), { width: picture.width, height: picture.height }).getContext("2d");
+    const context = Object.assign(document.createElement("canvas"), { width: picture.width,
+      height: picture.height }).getContext("2d");
     context.drawImage(picture, 0, 0);
-    return { width: picture.width, height: picture.height, colours: all.map(([x, y]) => [...context.getImageData(x, y, 1, 1).data].join()) };
+    return { width: picture.width, height: picture.height, colours: all.map(([x, y]) =>
+      [...context.getImageData(x, y, 1, 1).data].join()) };
   }, [bytes.toString("base64"), points]);
   return { name: download.suggestedFilename(), ...read };
 }
@@ -90,7 +101,8 @@ test("the map and the plot are saved as pictures, under a title, over their keys
   const places = await page.evaluate(() => {
     const { view, places: { x, y, living, count } } = window.polynyaPlayer;
     const context = document.getElementById("ice").getContext("2d");
-    return Array.from(living.subarray(0, count), (id) => view.toScreen(x[id], y[id]).map(Math.round)).filter(([px, py]) => px > 0 && py > 0 && px < view.width && py < view.height)
+    return Array.from(living.subarray(0, count), (id) => view.toScreen(x[id],
+      y[id]).map(Math.round)).filter(([px, py]) => px > 0 && py > 0 && px < view.width && py < view.height)
       .map(([px, py]) => ({ at: [px, py + 34], ice: [...context.getImageData(px, py, 1, 1).data].join() }));
   });
   const stage = await page.locator("#stage").boundingBox();
@@ -106,14 +118,16 @@ test("the map and the plot are saved as pictures, under a title, over their keys
   assert.ok(plot.height > host.height + 34 + 20 && plot.width === Math.round(host.width));
 });
 
-test("the histogram has every floe that floats, by number or by area; a range is counted and the others are pale", async () => {
+test("the histogram has every floe that floats, by number or by area; a range is counted and the others are pale",
+  async () => {
   await act("goToEnd", true);
   await act("chooseSizes", null);
   await act("colourBy", "breakage");
   for (const layer of ["track", "channel", "startIce"]) await act("toggleLayer", layer, false);
   await drawn();
   const births = readNdjson(run, "floes.ndjson");
-  const broken = new Set(readNdjson(run, "events.ndjson").filter(({ kind }) => ["bend", "split", "grind"].includes(kind)).map(({ floe }) => floe));
+  const broken = new Set(readNdjson(run, "events.ndjson").filter(({ kind }) =>
+    ["bend", "split", "grind"].includes(kind)).map(({ floe }) => floe));
   const living = births.filter(({ floe_id: id }) => !broken.has(id));
   const colours = () => page.evaluate(() => {
     const { view, places: { x, y, living: ids, count }, run: { floes } } = window.polynyaPlayer;
@@ -137,12 +151,14 @@ test("the histogram has every floe that floats, by number or by area; a range is
   assert.ok(words.includes(`(${((100 * area) / all).toFixed(1)} % of the ice)`), words);
   assert.match(await page.locator("#legend").textContent(), /pale: not from 3 to 25 m/);
   (await colours()).forEach(([size, colour], k) => {
-    if (size > 8) assert.equal(colour === before[k][1], size >= 3 && size < 25, `a floe of ${size} m`); // its centre is its own
+    if (size > 8) assert.equal(colour === before[k][1], size >= 3 && size < 25,
+      `a floe of ${size} m`); // its centre is its own
   });
   assert.ok(before.some(([size]) => size > 25) && before.some(([size]) => size > 8 && size < 25));
 });
 
-test("a drag over the histogram chooses whole classes, a double click all; it counts on while the run plays", async () => {
+test("a drag over the histogram chooses whole classes, a double click all; it counts on while the run plays",
+  async () => {
   await act("chooseSizes", null);
   await page.locator("#sizes").scrollIntoViewIfNeeded();
   const box = await page.locator("#sizes").boundingBox();
@@ -152,7 +168,8 @@ test("a drag over the histogram chooses whole classes, a double click all; it co
   await page.mouse.up();
   const { sizes } = await state();
   const round = [1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.3, 8];
-  for (const edge of [sizes.from, sizes.below]) assert.ok(round.some((r) => [0.1, 1, 10, 100].some((d) => Math.abs(edge - r * d) < 1e-9 * d)), `${edge}`);
+  for (const edge of [sizes.from, sizes.below]) assert.ok(round.some((r) =>
+    [0.1, 1, 10, 100].some((d) => Math.abs(edge - r * d) < 1e-9 * d)), `${edge}`);
   assert.ok(sizes.below > 1.5 * sizes.from);
   assert.equal(await page.inputValue("#size-from"), String(sizes.from));
   await act("goTo", 0);

@@ -14,7 +14,9 @@ before(async () => {
   page = await open(file, { viewport: { width: 1600, height: 900 } });
 });
 
-const both = (read) => page.evaluate((text) => window.polynyaPair.players.map(new Function("player", `return (${text})(player)`)), read.toString());
+const both = (read) =>
+  page.evaluate((text) => window.polynyaPair.players.map(new Function("player", `return (${text})(player)`)),
+    read.toString());
 const drawn = () => bench.drawn(page);
 const inFirst = (css) => page.frameLocator("iframe >> nth=0").locator(css);
 const inSecond = (css) => page.frameLocator("iframe >> nth=1").locator(css);
@@ -26,7 +28,8 @@ test("it is one file that asks for nothing else, and names both runs", async () 
   assert.equal(await page.title(), "slow and fast and short – Polynya");
 });
 
-test("one clock moves both: played, by a drag on either timeline, by keys; a run that is over stays at its end", async () => {
+test("one clock moves both: played, by a drag on either timeline, by keys; a run that is over stays at its end",
+  async () => {
   await page.click("#play");
   await page.waitForFunction(() => window.polynyaPair.clock.time > 1);
   await page.click("#play");
@@ -111,27 +114,33 @@ test("a link has the instant and a floe of each", async () => {
   });
   await page.waitForFunction(() => /t=7.5&floe=0.*&floe2=1$/.test(location.hash));
   const other = await open(page.url().replace("file://", ""));
-  assert.deepEqual(await other.evaluate(() => [window.polynyaPair.clock.time, ...window.polynyaPair.players.map(({ state }) => state.selected)]), [7.5, 0, 1]);
+  assert.deepEqual(await other.evaluate(() => [window.polynyaPair.clock.time,
+    ...window.polynyaPair.players.map(({ state }) => state.selected)]), [7.5, 0, 1]);
   assert.deepEqual(other.errors, []);
   await other.context().close();
 });
 
 test("light and dark are one; nothing is cut off at any width", async () => {
   await page.click("#theme");
-  const themes = await page.evaluate(() => [document, ...window.polynyaPair.players.map(({ frame }) => frame.contentDocument)].map((d) => d.documentElement.dataset.theme));
+  const themes = await page.evaluate(() =>
+    [document, ...window.polynyaPair.players.map(({ frame }) => frame.contentDocument)].map((d) =>
+      d.documentElement.dataset.theme));
   assert.equal(new Set(themes).size, 1);
   for (const [width, height] of [[390, 844], [768, 1024], [1024, 768], [1280, 720], [1920, 1080], [844, 390]]) {
     await page.setViewportSize({ width, height });
     await drawn();
-    const wide = await page.evaluate(() => [document, ...window.polynyaPair.players.map(({ frame }) => frame.contentDocument)]
+    const wide = await page.evaluate(() =>
+      [document, ...window.polynyaPair.players.map(({ frame }) => frame.contentDocument)]
       .map(({ documentElement: e }) => e.scrollWidth - e.clientWidth));
     assert.deepEqual(wide, [0, 0, 0], `${width} x ${height}`);
     const maps = await both((player) => [player.view.width, player.view.height]);
-    for (const [across, down] of maps) assert.ok(across > 150 && down > 120, `${width} x ${height}: a map of ${across} x ${down}`);
+    for (const [across, down] of maps) assert.ok(across > 150 && down > 120,
+      `${width} x ${height}: a map of ${across} x ${down}`);
   }
 });
 
-test("runs of one name have the names of their folders, or those of --label; without --out they are refused", async () => {
+test("runs of one name have the names of their folders, or those of --label; without --out they are refused",
+  async () => {
   const [one, two] = ["one", "two"].map((name) => path.join(folder, name));
   for (const copy of [one, two]) fs.cpSync(path.join(folder, "slow"), copy, { recursive: true });
   const labels = (...options) => {

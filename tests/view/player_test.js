@@ -142,11 +142,14 @@ test("a floe's lineage is that of the files", async () => {
   assert.ok(await pointAt(last), `floe ${last} is not under the pointer`);
   await page.mouse.down();
   await page.mouse.up();
-  const shown = await page.locator(".lineage li > button:first-child").evaluateAll((all) => all.map((b) => b.textContent));
-  assert.deepEqual(shown.filter((words) => words.startsWith("floe")), [parents[0], ...parents.slice(-7)].map((id) => `floe ${id}`));
+  const shown = await page.locator(".lineage li > button:first-child").evaluateAll((all) =>
+    all.map((b) => b.textContent));
+  assert.deepEqual(shown.filter((words) => words.startsWith("floe")), [parents[0], ...parents.slice(-7)].map((id) =>
+    `floe ${id}`));
   const events = readNdjson(run, "events.ndjson");
   await page.locator(".lineage li > button:nth-child(2)").first().click();
-  assert.equal(await page.evaluate(() => window.polynyaPlayer.state.time), events.find((e) => e.floe === parents[0]).t_s);
+  assert.equal(await page.evaluate(() => window.polynyaPlayer.state.time),
+    events.find((e) => e.floe === parents[0]).t_s);
   await page.keyboard.press("Escape");
 });
 
@@ -159,7 +162,8 @@ test("a floe that was chosen is followed through its fractures, to its largest p
   assert.equal(await page.locator("[data-fact=floe]").textContent(), String(plate));
   for (const time of [200, 550]) {
     await act("goTo", time);
-    const pieces = [...inspectAt(run, time).keys()].filter(comesFrom).sort((a, b) => births[b].area_m2 - births[a].area_m2);
+    const pieces = [...inspectAt(run, time).keys()].filter(comesFrom).sort((a, b) =>
+      births[b].area_m2 - births[a].area_m2);
     assert.equal(await page.locator("[data-fact=floe]").textContent(), String(pieces[0]));
   }
   await page.keyboard.press("Escape");
@@ -176,7 +180,8 @@ test("floes are drawn where final.geojson has them", async () => {
       rings[id] = [];
       for (let k = first; k < first + floes.ringEnds[floes.ringsOf[id]]; ++k) {
         const [px, py] = [points[2 * k] - floes.cx[id], points[2 * k + 1] - floes.cy[id]];
-        rings[id].push([places.x[id] + places.cos[id] * px - places.sin[id] * py, places.y[id] + places.sin[id] * px + places.cos[id] * py]);
+        rings[id].push([places.x[id] + places.cos[id] * px - places.sin[id] * py,
+          places.y[id] + places.sin[id] * px + places.cos[id] * py]);
       }
     }
     return rings;
@@ -187,20 +192,23 @@ test("floes are drawn where final.geojson has them", async () => {
     const mine = placed[properties.floe_id];
     assert.equal(mine.length, ring.length);
     // Frames are right to 1 mm and 1e-5 rad.
-    ring.forEach(([x, y], k) => assert.ok(Math.hypot(x - mine[k][0], y - mine[k][1]) < 1.5e-3 + 1e-5 * 150, `floe ${properties.floe_id}`));
+    ring.forEach(([x, y], k) => assert.ok(Math.hypot(x - mine[k][0], y - mine[k][1]) < 1.5e-3 + 1e-5 * 150,
+      `floe ${properties.floe_id}`));
   }
 });
 
 test("the loads shown are the row of forces.csv", async () => {
   const [header, ...lines] = readLines(run, "forces.csv");
   const names = header.split(",");
-  const columns = { surge_N: ["surge_N", "surge_max_N", "surge_j_over_tau_c_N"], yaw_Nm: ["yaw_Nm", "yaw_max_Nm", "yaw_j_over_tau_c_Nm"], speed_m_per_s: ["speed_m_per_s"] };
+  const columns = { surge_N: ["surge_N", "surge_max_N", "surge_j_over_tau_c_N"],
+    yaw_Nm: ["yaw_Nm", "yaw_max_Nm", "yaw_j_over_tau_c_Nm"], speed_m_per_s: ["speed_m_per_s"] };
   for (const [quantity, wanted] of Object.entries(columns)) {
     await page.selectOption("#quantity", quantity);
     for (const row of [0, 1845, 3917, lines.length - 1]) {
       const fields = lines[row].split(",");
       await act("goTo", Number(fields[0]) - 0.01);
-      const shown = await page.locator("#load-now output").evaluateAll((all) => all.map((output) => ({ ...output.dataset })));
+      const shown = await page.locator("#load-now output").evaluateAll((all) =>
+        all.map((output) => ({ ...output.dataset })));
       assert.deepEqual(shown.map(({ column }) => column), wanted);
       for (const { column, time, value } of shown) {
         assert.equal(Number(time), Number(fields[0]));
@@ -231,7 +239,8 @@ test("the contact forces shown are those of contacts.csv, at the hull, and go wi
       for (let k = 0; k < data.length; k += 4) if (is(k, [0xd5, 0x5e, 0]) || is(k, [0, 0x72, 0xb2])) ++pixels;
       return pixels;
     });
-    if (wanted.some((row) => Math.hypot(row.fx_N, row.fy_N) > 1e5)) assert.ok(arrows > 20, `${time} s: ${arrows} pixels`);
+    if (wanted.some((row) => Math.hypot(row.fx_N, row.fy_N) > 1e5)) assert.ok(arrows > 20,
+      `${time} s: ${arrows} pixels`);
     if (wanted.length === 0) assert.equal(arrows, 0, `${time} s`);
     const held = await page.evaluate(() => window.polynyaPlayer.contacts());
     assert.deepEqual(held.map(({ x, y, fx, fy, byFloe, isCrushing }) => [x, y, fx, fy, byFloe, isCrushing]),
@@ -249,10 +258,12 @@ test("the contact forces shown are those of contacts.csv, at the hull, and go wi
 });
 
 test("the present time of plot and timeline is at one place with the time", async () => {
-  for (const [time, quantity] of [[0, "surge_N"], [137, "surge_N"], [550, "surge_N"], [550, "contacts"], [550, "surge_N"]]) {
+  for (const [time, quantity] of [[0, "surge_N"], [137, "surge_N"], [550, "surge_N"], [550, "contacts"],
+    [550, "surge_N"]]) {
     await act("goTo", time);
     await act("plotQuantity", quantity); // its axes may leave the plot another width
-    const [line, thumb, over] = await Promise.all([".now-line", ".thumb", "#plot .u-over"].map((css) => page.locator(css).boundingBox()));
+    const [line, thumb, over] = await Promise.all([".now-line", ".thumb", "#plot .u-over"].map((css) =>
+      page.locator(css).boundingBox()));
     assert.ok(Math.abs(line.x + line.width / 2 - (over.x + (time / 550) * over.width)) < 1.5);
     assert.ok(Math.abs(thumb.x + thumb.width / 2 - (line.x + line.width / 2)) < 1.5);
   }
@@ -293,7 +304,8 @@ test("following keeps the ship in the middle", async () => {
 test("wheel and drag keep what is under the pointer under it", async () => {
   const box = await stageBox();
   const [left, top] = [Math.round(box.x + 300), Math.round(box.y + 200)]; // pointers are at whole pixels
-  const under = (dx, dy) => page.evaluate((at) => window.polynyaPlayer.view.toWorld(...at), [left + dx - box.x, top + dy - box.y]);
+  const under = (dx, dy) => page.evaluate((at) => window.polynyaPlayer.view.toWorld(...at),
+    [left + dx - box.x, top + dy - box.y]);
   const first = await under(0, 0);
   const scale = await page.evaluate(() => window.polynyaPlayer.view.scale);
   await page.mouse.move(left, top);

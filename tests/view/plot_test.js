@@ -14,7 +14,8 @@ function runWithSpike(name, fracture) {
   const given = lines.map((line, k) => {
     const fields = line.split(",");
     const mean = k === spikeRow ? -9e6 : -1e5 * (1 + Math.sin(k / 5));
-    Object.entries({ surge_N: mean, surge_max_N: 1.5 * mean, surge_j_over_tau_c_N: 20 * mean }).forEach(([column, value]) => {
+    Object.entries({ surge_N: mean, surge_max_N: 1.5 * mean, surge_j_over_tau_c_N: 20 * mean }).forEach(([column,
+      value]) => {
       fields[names.indexOf(column)] = String(value);
     });
     return fields.join(",");
@@ -37,9 +38,10 @@ const scale = (name) => page.evaluate((key) => {
 }, name);
 const close = (a, b, room = 1e-6) => Math.abs(a - b) <= room;
 
-test("true loads lead: the interval's mean, then the step maximum, then the paper's j/\u03c4c under its own name and on its own axis", async () => {
+test("true loads lead: the interval's mean, the step maximum, then j/\u03c4c by its name on its own axis", async () => {
   const key = await page.locator("#load-now .curve").allTextContents();
-  assert.deepEqual(key.map((words) => words.replace(/[\u2212\d.]+ \w*N$/, "").trim()), ["0.1 s mean", "step maximum", "j/\u03c4c (paper)"]);
+  assert.deepEqual(key.map((words) => words.replace(/[\u2212\d.]+ \w*N$/, "").trim()),
+    ["0.1 s mean", "step maximum", "j/\u03c4c (paper)"]);
   assert.equal(await page.locator("#quantity option").first().textContent(), "Surge force of the ice");
   const zero = ([low, high]) => -low / (high - low);
   assert.ok(close(zero(await scale("y")), zero(await scale("paper")), 1e-9), "0 is at one height on both axes");
@@ -49,9 +51,11 @@ test("j/\u03c4c is shown by default where it decides splits, elsewhere on reques
   assert.ok(await page.locator("#curve-paper").isChecked());
   const other = await open(makePage(runWithSpike("true-only", { splitting: { model: "lefm" } })));
   assert.ok(!(await other.locator("#curve-paper").isChecked()));
-  assert.deepEqual(await other.evaluate(() => window.polynyaPlayer.plot.chart.series.slice(1).map((series) => series.scale)), ["y", "y"]);
+  assert.deepEqual(await other.evaluate(() => window.polynyaPlayer.plot.chart.series.slice(1).map((series) =>
+    series.scale)), ["y", "y"]);
   await other.locator("#curve-paper").check();
-  assert.deepEqual(await other.evaluate(() => window.polynyaPlayer.plot.chart.series.slice(1).map((series) => series.scale)), ["paper", "y", "y"]);
+  assert.deepEqual(await other.evaluate(() => window.polynyaPlayer.plot.chart.series.slice(1).map((series) =>
+    series.scale)), ["paper", "y", "y"]);
   await other.context().close();
 });
 
@@ -59,12 +63,14 @@ test("one spike does not flatten the rest: it is marked and counted, and the ful
   const [low] = await scale("y");
   assert.ok(low <= -3e5 && low > -6e5, `the scale goes down to ${low} N for steps of 300 kN`);
   const words = await page.locator("#off-scale .long").textContent();
-  for (const part of ["0.1 s mean to \u22129.000 MN at 7.1 s", "step maximum to \u221213.50 MN at 7.1 s", "j/\u03c4c (paper) to \u2212180.0 MN"])
+  for (const part of ["0.1 s mean to \u22129.000 MN at 7.1 s", "step maximum to \u221213.50 MN at 7.1 s",
+    "j/\u03c4c (paper) to \u2212180.0 MN"])
     assert.ok(words.includes(part), words);
   assert.equal(await page.evaluate(() => window.polynyaPlayer.plot.off.count), 3);
   const painted = await page.evaluate(() => { // where the mark of the mean stands, at the lower edge
     const { chart } = window.polynyaPlayer.plot;
-    const { data } = chart.ctx.getImageData(chart.valToPos(7.1, "x", true) - 1, chart.bbox.top + chart.bbox.height - 5, 3, 1);
+    const { data } = chart.ctx.getImageData(chart.valToPos(7.1, "x", true) - 1, chart.bbox.top + chart.bbox.height - 5,
+      3, 1);
     return Array.from(data).filter((_, k) => k % 4 === 3).every((opacity) => opacity === 255);
   });
   assert.ok(painted);
@@ -104,7 +110,8 @@ test("the wheel zooms about the pointer, a part can be chosen, a double click sh
   assert.ok(close(from + part * (until - from), 10 * part, 1e-3), "the time under the pointer stays there");
   assert.ok(until - from < 6);
   const mark = await page.locator("#track .part").boundingBox();
-  assert.ok(close(mark.x, box.x + (from / 10) * box.width, 1.5) && close(mark.width, ((until - from) / 10) * box.width, 1.5), "the timeline marks that part");
+  assert.ok(close(mark.x, box.x + (from / 10) * box.width, 1.5) && close(mark.width, ((until - from) / 10) * box.width,
+    1.5), "the timeline marks that part");
   assert.equal(await page.locator("#off-scale").isVisible(), until > 7.1, "the scale is that of what is in view");
   await page.mouse.dblclick(px, box.y + 30);
   assert.deepEqual(await span(), [0, 10]);
@@ -130,7 +137,8 @@ test("the wheel zooms about the pointer, a part can be chosen, a double click sh
 test("two fingers zoom the plot", async () => {
   const box = await over();
   const session = await page.context().newCDPSession(page);
-  const touch = (type, ends) => session.send("Input.dispatchTouchEvent", { type, touchPoints: ends.map((end, id) => ({ x: box.x + end * box.width, y: box.y + 40, id })) });
+  const touch = (type, ends) => session.send("Input.dispatchTouchEvent",
+    { type, touchPoints: ends.map((end, id) => ({ x: box.x + end * box.width, y: box.y + 40, id })) });
   await touch("touchStart", [0.4, 0.6]);
   for (const wide of [0.15, 0.2, 0.25]) await touch("touchMove", [0.5 - wide, 0.5 + wide]);
   await touch("touchEnd", []);

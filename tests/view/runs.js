@@ -7,7 +7,8 @@ const path = require("node:path");
 const polynya = process.env.POLYNYA_BINARY;
 const scenes = path.resolve(__dirname, "../../scenes");
 
-exports.polynya = (...words) => execFileSync(polynya, words, { encoding: "utf8", maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "pipe"] });
+exports.polynya = (...words) =>
+  execFileSync(polynya, words, { encoding: "utf8", maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "pipe"] });
 
 /** Runs a scene (a name of scenes/, or the scene itself) and writes its page. */
 exports.makeRun = (folder, scene, ...options) => {
@@ -31,10 +32,12 @@ exports.readNdjson = (run, file) => exports.readLines(run, file).map((line) => J
 
 /** The table of `polynya inspect RUN --at T`, by floe. */
 exports.inspectAt = (run, time) => {
-  const [names, ...rows] = exports.polynya("inspect", run, "--at", String(time)).trim().split("\n").map((row) => row.trim().split(/\s+/));
+  const [names, ...rows] = exports.polynya("inspect", run, "--at", String(time)).trim().split("\n").map((row) =>
+    row.trim().split(/\s+/));
   return new Map(rows.map((cells) => {
     const of = Object.fromEntries(cells.map((cell, k) => [names[k], cell]));
-    return [Number(of.floe), { parent: of.parent, born: of.born_s, area: of.area_m2, mass: of.mass_kg, thickness: of.thickness_m, speed: of.m_per_s }];
+    return [Number(of.floe), { parent: of.parent, born: of.born_s, area: of.area_m2, mass: of.mass_kg,
+      thickness: of.thickness_m, speed: of.m_per_s }];
   }));
 };
 

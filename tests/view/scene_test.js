@@ -5,7 +5,8 @@ const os = require("node:os");
 const { test, assert, fs, path, folder, open } = require("./bench.js");
 const { polynya, ship, smallScene } = require("./runs.js");
 
-const routed = { name: "pathfinder", ship: "reference", position_m: [-80, 10], pilot: { route: { waypoints: [{ position_m: [300, 40], speed_m_per_s: 3 }] } } };
+const routed = { name: "pathfinder", ship: "reference", position_m: [-80, 10],
+  pilot: { route: { waypoints: [{ position_m: [300, 40], speed_m_per_s: 3 }] } } };
 const scene = smallScene("planned", {
   wind: { velocity_m_per_s: [10, 0] },
   water: { drift_m_per_s: [0.1, 0], shear: { rate_per_s: 1e-3 } },
@@ -73,7 +74,8 @@ test("what validate warns of is listed, and marked where it has a place", async 
   assert.ok(warned.length > 0, "the scene is unusual");
   assert.equal(problems.length, warned.length);
   assert.equal(await page.locator("#problems li").count(), problems.length);
-  for (const problem of problems.filter(({ path: key }) => key.startsWith("ships["))) assert.equal(problem.point_m.length, 2);
+  for (const problem of problems.filter(({ path: key }) =>
+    key.startsWith("ships["))) assert.equal(problem.point_m.length, 2);
 });
 
 test("a watched scene is shown again when its file is saved", async () => {
@@ -84,7 +86,8 @@ test("a watched scene is shown again when its file is saved", async () => {
   const page = await open(file.replace(".json", ".html"));
   assert.equal(await page.evaluate(() => window.polynyaPlayer.run.floes.count), 9);
   write("watched.json", { floes: "wrong" });
-  write("watched.json", { ships: [ship("icebreaker", 30)], floes: [{ rectangle: { corner_m: [20, 0], size_m: [30, 30] } }] });
+  write("watched.json",
+    { ships: [ship("icebreaker", 30)], floes: [{ rectangle: { corner_m: [20, 0], size_m: [30, 30] } }] });
   await page.waitForFunction(() => window.polynyaPlayer?.run.floes.count === 1, null, { timeout: 20000 });
   watching.kill("SIGTERM");
   assert.equal(await ended, 0);

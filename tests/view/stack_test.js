@@ -4,25 +4,30 @@ const { test, before, assert, fs, path, folder, open } = require("./bench.js");
 const { makeRun, makePage, readLines, smallScene, ship } = require("./runs.js");
 
 let page, rows;
-const causes = ["ice", "friction", "submerged", "water", "thrust", "rudder", "mooring"]; // from 0 outwards, as the plot stacks them
+const causes = ["ice", "friction", "submerged", "water", "thrust", "rudder",
+  "mooring"]; // from 0 outwards, as the plot stacks them
 
 /** Loads that change their signs, in kN, of row k. */
 const loadsOf = (k) => {
   const way = Math.floor(k / 10) % 2 === 0 ? 1 : -1;
-  return { surge_N: -200 * way, surge_from_ice_friction_N: -50 * way, surge_from_submerged_ice_N: -60, surge_from_water_N: 80 * way, thrust_N: 300,
+  return { surge_N: -200 * way, surge_from_ice_friction_N: -50 * way, surge_from_submerged_ice_N: -60,
+    surge_from_water_N: 80 * way, thrust_N: 300,
     surge_from_rudder_N: -40, surge_from_mooring_N: 70 + k };
 };
 
 /** What each cause gives in a row of forces.csv [N]. */
 const partsOf = (row) => ({ ice: row.surge_N - row.surge_from_ice_friction_N, friction: row.surge_from_ice_friction_N,
-  submerged: row.surge_from_submerged_ice_N, water: row.surge_from_water_N, thrust: row.thrust_N, rudder: row.surge_from_rudder_N,
+  submerged: row.surge_from_submerged_ice_N, water: row.surge_from_water_N, thrust: row.thrust_N,
+    rudder: row.surge_from_rudder_N,
   mooring: row.surge_from_mooring_N });
 const sumOf = (values) => values.reduce((sum, value) => sum + value, 0);
 
 /** A run of a moored ship with an engine, whose forces.csv has been given known loads; sampled at an interval [s]. */
 function runWithLoads(name, interval) {
-  const moored = { ...ship("a", 0), hull: { length_m: 40, beam_m: 8, entrance_angle_deg: 27, draught_m: 2, block_coefficient: 0.6 },
-    propulsion: { engine: { bollard_pull_kN: 100, open_water_speed_m_per_s: 6, propeller_diameter_m: 1.5 } }, steering: { rudder: { area_m2: 2 } },
+  const moored = { ...ship("a", 0), hull: { length_m: 40, beam_m: 8, entrance_angle_deg: 27, draught_m: 2,
+    block_coefficient: 0.6 },
+    propulsion: { engine: { bollard_pull_kN: 100, open_water_speed_m_per_s: 6,
+      propeller_diameter_m: 1.5 } }, steering: { rudder: { area_m2: 2 } },
     mooring: { surge_stiffness_N_per_m: 1e4 } };
   delete moored.mass_kg;
   delete moored.moment_of_inertia_kg_m2;
@@ -35,7 +40,8 @@ function runWithLoads(name, interval) {
     return fields.join(",");
   });
   fs.writeFileSync(path.join(run, "forces.csv"), `${[header, ...given].join("\n")}\n`);
-  return { run, rows: given.map((line) => Object.fromEntries(line.split(",").map((field, k) => [names[k], Number(field)]))) };
+  return { run,
+    rows: given.map((line) => Object.fromEntries(line.split(",").map((field, k) => [names[k], Number(field)]))) };
 }
 
 before(async () => {
@@ -49,7 +55,8 @@ before(async () => {
 const areasAt = (time, parts) => page.evaluate(([at, list]) => {
   const { chart, colours } = window.polynyaPlayer.plot;
   const probe = document.createElement("canvas").getContext("2d");
-  const bytesOf = (colour) => { probe.fillStyle = colour; probe.fillRect(0, 0, 1, 1); return [...probe.getImageData(0, 0, 1, 1).data].join(); };
+  const bytesOf = (colour) =>
+    { probe.fillStyle = colour; probe.fillRect(0, 0, 1, 1); return [...probe.getImageData(0, 0, 1, 1).data].join(); };
   const sum = chart.valToPos(list.reduce((all, [, value]) => all + value, 0), "y", true);
   const x = Math.round(chart.valToPos(at, "x", true));
   const tops = { up: 0, down: 0 };
@@ -60,7 +67,8 @@ const areasAt = (time, parts) => page.evaluate(([at, list]) => {
     const [a, b] = [chart.valToPos(from, "y", true), chart.valToPos(tops[side], "y", true)];
     const y = Math.round((a + b) / 2);
     const colour = [...chart.ctx.getImageData(x, y, 1, 1).data].join();
-    return { cause, isClear: Math.abs(a - b) > 4 && Math.abs(y - sum) > 4, isIts: colour === bytesOf(colours[`cause-${cause}`]) };
+    return { cause, isClear: Math.abs(a - b) > 4 && Math.abs(y - sum) > 4,
+      isIts: colour === bytesOf(colours[`cause-${cause}`]) };
   });
 }, [time, parts]);
 
@@ -82,16 +90,21 @@ test("the key has the causes of this ship, with their present values, and the su
   await page.evaluate(() => window.polynyaPlayer.actions.goTo(4.75));
   await page.waitForTimeout(100);
   const row = rows[47];
-  const key = await page.locator("#load-now .curve").evaluateAll((all) => all.map((e) => [e.textContent.replace(/[\u2212\d.]+ \w*N$/, "").trim(), Number(e.querySelector("output").dataset.value)]));
+  const key = await page.locator("#load-now .curve").evaluateAll((all) =>
+    all.map((e) => [e.textContent.replace(/[\u2212\d.]+ \w*N$/, "").trim(),
+      Number(e.querySelector("output").dataset.value)]));
   const parts = partsOf(row);
-  assert.deepEqual(key.map(([words]) => words), ["ice: crushing and pushing", "ice: friction", "ice under the hull", "water on the hull", "thrust", "rudder", "mooring", "sum"]);
-  [...causes.map((cause) => parts[cause]), sumOf(Object.values(parts))].forEach((value, k) => assert.ok(Math.abs(key[k][1] - value) < 1e-6, `${key[k]}: ${value}`));
+  assert.deepEqual(key.map(([words]) => words), ["ice: crushing and pushing", "ice: friction", "ice under the hull",
+    "water on the hull", "thrust", "rudder", "mooring", "sum"]);
+  [...causes.map((cause) => parts[cause]), sumOf(Object.values(parts))].forEach((value, k) =>
+    assert.ok(Math.abs(key[k][1] - value) < 1e-6, `${key[k]}: ${value}`));
 });
 
 test("the values under the pointer have the sums too: of all, above 0 and below 0", async () => {
   const box = await page.locator("#plot .u-over").boundingBox();
   await page.mouse.move(box.x + 0.705 * box.width, box.y + 20);
-  const shown = Object.fromEntries(await page.locator("#reading .reading-words > div").evaluateAll((all) => all.map((e) => [e.children[0].textContent, e.children[1].textContent])));
+  const shown = Object.fromEntries(await page.locator("#reading .reading-words > div").evaluateAll((all) =>
+    all.map((e) => [e.children[0].textContent, e.children[1].textContent])));
   const row = rows.find(({ t_s: time }) => `${Number(time.toFixed(6))} s` === shown["row that ends at"]);
   const values = Object.values(partsOf(row));
   const words = (value) => `${(value / 1000).toPrecision(4)} kN`.replace("-", "\u2212");
@@ -110,19 +123,23 @@ test("a cause that is ticked off leaves the stack, the sum stays that of all", a
   const parts = partsOf(row);
   const left = causes.filter((cause) => cause !== "thrust");
   const areas = await areasAt(row.t_s - 0.05, left.map((cause) => [cause, parts[cause]]));
-  assert.deepEqual(areas.filter(({ cause, isClear, isIts }) => cause === "mooring" && isClear && !isIts), [], "what stood on it stands lower");
-  assert.equal(Number(await page.locator("#load-now .curve").last().locator("output").getAttribute("data-value")), sumOf(Object.values(parts)));
+  assert.deepEqual(areas.filter(({ cause, isClear, isIts }) => cause === "mooring" && isClear && !isIts), [],
+    "what stood on it stands lower");
+  assert.equal(Number(await page.locator("#load-now .curve").last().locator("output").getAttribute("data-value")),
+    sumOf(Object.values(parts)));
   await page.locator("#curve-thrust").check();
 });
 
-test("rows closer than the pixels are drawn as their means, which is stated; zoomed in each row stands for itself", async () => {
+test("rows closer than the pixels are drawn as their means, which is stated; zoomed in each row stands for itself",
+  async () => {
   const { run } = runWithLoads("by-cause-densely", 0.01);
   const dense = await open(makePage(run), { viewport: { width: 900, height: 700 } });
   await dense.selectOption("#quantity", "surge_by_cause");
   const words = () => dense.locator("#off-scale").textContent();
   const stated = /means over ([\d.]+) s/.exec(await words());
   assert.ok(Number(stated?.[1]) >= 0.02, await words());
-  const most = await dense.evaluate(() => window.polynyaPlayer.plot.inView().map(({ values }) => Math.max(...values.map(Math.abs))));
+  const most = await dense.evaluate(() => window.polynyaPlayer.plot.inView().map(({ values }) =>
+    Math.max(...values.map(Math.abs))));
   assert.ok(most[0] > 1e6, "mooring reaches 1 MN in the last rows");
   await dense.evaluate(() => window.polynyaPlayer.actions.zoomPlot(2, 3));
   assert.ok(!(await words()).includes("means"));

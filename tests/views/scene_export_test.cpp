@@ -22,7 +22,8 @@ std::string crowd(double until) {
     "record": {{"forces_interval_s": 0.1, "frames_interval_s": 1}},
     "water": {{"drift_m_per_s": [0.1, -0.2], "shear": {{"rate_per_s": 1e-4}}}},
     "ships": [{{"name": "pusher", "hull": {{"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30}}, "mass_kg": 3e6,
-               "moment_of_inertia_kg_m2": 5e8, "position_m": [-31, 1], "speed_m_per_s": 2, "propulsion": {{"thrust_N": 2e5}}}}],
+               "moment_of_inertia_kg_m2": 5e8, "position_m": [-31, 1], "speed_m_per_s": 2, )"
+                     R"("propulsion": {{"thrust_N": 2e5}}}}],
     "floes": [{{"lattice": {{"columns": 8, "rows": 9, "origin_m": [0, -36], "pitch_m": 8, "size_m": 7.9}}}}]}})",
                      until);
 }
@@ -134,7 +135,8 @@ TEST_F(SceneExport, TheClockOfATablePilotGoesOn) {
 /// A ship that presses a plate under, in drifting water; the way is that of the frames.
 TEST_F(SceneExport, IceUnderAHullStaysThere) {
   const std::string text = R"({"time": {"step_s": 0.01, "until_s": 30}, "water": {"drift_m_per_s": [0, 0.1]},
-    "ships": [{"name": "icebreaker", "hull": {"length_m": 40, "beam_m": 8, "entrance_angle_deg": 27, "stem_angle_deg": 30,
+    "ships": [{"name": "icebreaker", "hull": {"length_m": 40, "beam_m": 8, "entrance_angle_deg": 27, )"
+                           R"("stem_angle_deg": 30,
       "draught_m": 2}, "mass_kg": 1e6, "moment_of_inertia_kg_m2": 1e8, "position_m": [-21, 0],
       "propulsion": {"constant_speed_m_per_s": 2}}],
     "floes": [{"rectangle": {"corner_m": [0, -25], "size_m": [100, 50]}}]})";

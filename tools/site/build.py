@@ -40,13 +40,15 @@ def texts_of_pages():
 
 
 def children_of(name, texts, made):
-    """Pages below a part's page: of decisions and theory by their names, of the reference what is made."""
+    """Pages below a part's page: of decisions and theory, and of the reference what is made."""
     folder = os.path.dirname(name)
     if not name.endswith("/index") and name != "reference/cpp":
         return []
     below = f"{name}/" if name == "reference/cpp" else f"{folder}/"
-    return sorted(page.rsplit(".", 1)[0] for page in [*texts, *made] if page.startswith(below) and
-                  page.rsplit(".", 1)[0] != name)
+    found = sorted(page.rsplit(".", 1)[0] for page in [*texts, *made] if page.startswith(below))
+    text = texts.get(f"{name}.md", "")  # in the order in which it links to them
+    return sorted((page for page in found if page != name),
+                  key=lambda page: text.find(f"({page[len(folder) + 1:]}.md)"))
 
 
 def write_sources(source, polynya):
@@ -61,9 +63,8 @@ def write_sources(source, polynya):
             below = children_of(name, texts, made)
             listed |= {name, *below}
             if below:
-                order = {"decisions": -1}.get(name.split("/")[0], 1)
                 holder = made if f"{name}.md" in made else texts
-                tree = pages.toctree([f"/{page}" for page in below[::order]], maxdepth=1,
+                tree = pages.toctree([f"/{page}" for page in below], maxdepth=1,
                                      **({"hidden": ""} if holder is texts else {}))
                 holder[f"{name}.md"] += "\n" + tree
     unlisted = sorted(page for page in texts if page[:-3] not in listed)
@@ -79,7 +80,8 @@ def write_sources(source, polynya):
             old.unlink()
     shutil.copytree(ROOT / "docs/images", source / "images", dirs_exist_ok=True)
     shutil.copytree(ROOT / "tools/site/static", source / "static", dirs_exist_ok=True)
-    shutil.copytree(KATEX, source / "static/katex", dirs_exist_ok=True, ignore=shutil.ignore_patterns("contrib", "*.mjs"))
+    shutil.copytree(KATEX, source / "static/katex", dirs_exist_ok=True,
+                    ignore=shutil.ignore_patterns("contrib", "*.mjs"))
 
 
 def bundle_theme(static):
@@ -89,7 +91,8 @@ def bundle_theme(static):
     if text.startswith("import Gumshoe"):  # the other is UMD: as a classic script it defines window.Gumshoe
         script.write_text(gumshoe.read_text() + text.split("\n", 1)[1])
     style = static / "styles/furo.css"
-    style.write_text(style.read_text().replace("@import url(/javascript/normalize.css/normalize.css);", NORMALIZE.read_text()))
+    style.write_text(style.read_text().replace("@import url(/javascript/normalize.css/normalize.css);",
+                                               NORMALIZE.read_text()))
 
 
 def tree_of(options):

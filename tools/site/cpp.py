@@ -100,9 +100,11 @@ def section(element):
         return item(element)
     name = plain(element.find("compoundname")).split("polynya::")[-1]
     members = [m for m in element.iter("memberdef") if m.get("prot") == "public" and m.get("kind") != "friend"]
-    members = [m for m in members if described(m) or m.get("kind") != "function" or "operator" not in plain(m.find("name"))]
+    members = [m for m in members if described(m) or m.get("kind") != "function"
+               or "operator" not in plain(m.find("name"))]
     meaning = described(element)
-    return f"\n### {element.get('kind')} `{name}`\n\n" + (f"{meaning}\n\n" if meaning else "") + "".join(map(item, members))
+    return f"\n### {element.get('kind')} `{name}`\n\n" + (f"{meaning}\n\n" if meaning
+                                                          else "") + "".join(map(item, members))
 
 
 def page_of(folder, headers):

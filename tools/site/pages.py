@@ -5,19 +5,20 @@ import re
 # Caption: pages in their order. Pages of docs/ that no part names are an error.
 PARTS = {
     "Start": ["start", "tutorial", "gallery"],
-    "How to": ["view", "figures", "movie", "channel", "inspect", "export", "ships", "management", "import", "cut", "database",
-               "studies", "python", "environment"],
+    "How to": ["view", "figures", "movie", "channel", "inspect", "why-it-split", "export", "ships", "management", "import",
+               "cut", "database", "studies", "python", "environment"],
     "Reference": ["scene", "run-folder", "reference/commands", "reference/python", "reference/cpp", "references"],
     "Theory": ["theory/index", "theory-bending", "theory-bow", "geometry"],
     "Validation": ["validation", "paper-comparison"],
     "Performance": ["performance"],
     "Reliability": ["reliability"],
-    "Developers": ["architecture", "contributing", "decisions/index", "changelog"],
+    "Developers": ["architecture", "change-a-law", "contributing", "decisions/index", "changelog"],
 }
 
 FENCE = re.compile(r"(^```.*?^```$|`[^`]+`|^ {4}.*$)", re.MULTILINE | re.DOTALL)
 QUOTED = r'(?:(,\s+)"([^"]+)")?'
 LINK = re.compile(r"(?<!!)\[([^\]]*)\]\(([\w./-]+\.md)(#[\w-]+)?\)" + QUOTED)
+KEY = re.compile(r"\[([A-Z][A-Za-z]+\d{4}[a-z]?)\](?!\()")
 MENTION = re.compile(r"(?<![\w/\[])(?<!\]\()docs/([\w./-]+\.md)" + QUOTED)
 
 
@@ -68,9 +69,12 @@ def linked(name, text, pages, places):
         place = places.get(code.strip("`"))
         return f"[{code}]({os.path.relpath(place, here or '.')})" if place else code
 
+    def of_key(match):
+        return f"[\\[{match[1]}\\]]({os.path.relpath('references.md', here or '.')})"
+
     parts = FENCE.split(text)
     # Quoted sections may stand in the next line, never across code.
-    return "".join(of_code(part) if k % 2 else MENTION.sub(of_mention, LINK.sub(of_link, part))
+    return "".join(of_code(part) if k % 2 else KEY.sub(of_key, MENTION.sub(of_mention, LINK.sub(of_link, part)))
                    for k, part in enumerate(parts))
 
 

@@ -35,13 +35,15 @@ function hasGone(run, motions, ship, carry) {
 function posesUpTo(run, motions, ship, time) {
   const { times } = run.frames;
   const poses = [];
-  for (let f = 0; f < times.length && times[f] < time; ++f) poses.push([...motions.shipInFrame(ship, f).subarray(0, 3), times[f]]);
+  for (let f = 0; f < times.length && times[f] < time; ++f) poses.push([...motions.shipInFrame(ship, f).subarray(0, 3),
+    times[f]]);
   const now = motions.ship(ship);
   if (now) poses.push([...now.subarray(0, 3), time]);
   return poses;
 }
 
-/** Poses so near each other in the water that outlines overlap: some between those far apart, none where it hardly moves. */
+/** Poses so near each other in the water that outlines overlap: some between those far apart, none where it hardly
+ * moves. */
 function evenly(poses, spacing, carry, time) {
   const placed = ([x, y, , at]) => carry(x, y, at, time);
   const even = [];
@@ -63,7 +65,8 @@ function drawSweptBand(context, view, run, motions, time, colours) {
   context.fillStyle = colours.swept;
   run.info.ships.forEach((ship, index) => {
     const xs = ship.waterline_m.map(([x]) => x);
-    const poses = evenly(posesUpTo(run, motions, index, time), (Math.max(...xs) - Math.min(...xs)) / 8, run.carry, time);
+    const poses = evenly(posesUpTo(run, motions, index, time), (Math.max(...xs) - Math.min(...xs)) / 8, run.carry,
+      time);
     poses.forEach(([x, y, heading, at], k) => {
       if (k % 16 === 0) context.beginPath();
       const [c, s] = [Math.cos(heading), Math.sin(heading)];
@@ -78,7 +81,8 @@ function drawSweptBand(context, view, run, motions, time, colours) {
   });
 }
 
-/** The stations of a ship's channel with ice on both sides, as `polynya channel --at` measured them last, carried with the water to now. */
+/** The stations of a ship's channel with ice on both sides, as `polynya channel --at` measured them last, carried with
+ * the water to now. */
 function stationsOf(run, ship, time) {
   const { columns: c, info } = run;
   const measured = c.channel_measured_s[lastAtMost(c.channel_measured_s, time)];

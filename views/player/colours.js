@@ -8,8 +8,10 @@ const cutShare = 0.2; // of the area of the scene's floe: a piece that holds as 
 
 /**
  * For each floe one of `breakages`. Whole: no fracture since the scene. Cut: what is left of a floe of the scene: the
- * largest piece of each bend, and every piece that holds a fifth of it. Off: all else, by the kind of fracture that freed it;
- * the largest piece of a piece that broke off stays what that was. What came up from under a hull stays that, and its pieces too.
+ * largest piece of each bend, and every piece that holds a fifth of it. Off: all else, by the kind of fracture that
+ * freed it;
+ * the largest piece of a piece that broke off stays what that was. What came up from under a hull stays that, and its
+ * pieces too.
  */
 function breakagesOf({ floes, info, breakOf }) {
   const of = new Uint8Array(floes.count);
@@ -20,7 +22,8 @@ function breakagesOf({ floes, info, breakOf }) {
     const isLargest = floes.children.get(parent).every((other) => floes.area[other] <= floes.area[i]);
     const isLeft = of[parent] <= breakages.cut;
     if (floes.cameUp[i]) of[i] = breakages.cameUp;
-    else if (isLeft && ((isBend && isLargest) || floes.area[i] >= cutShare * floes.area[floes.oldest[i]])) of[i] = breakages.cut;
+    else if (isLeft
+      && ((isBend && isLargest) || floes.area[i] >= cutShare * floes.area[floes.oldest[i]])) of[i] = breakages.cut;
     else if (!isLeft && isLargest) of[i] = of[parent];
     else of[i] = isBend ? breakages.bend : breakages.split;
   }
@@ -60,10 +63,12 @@ function countWords(from, below) {
   return below === from + 1 ? String(from) : `${from} \u2013 ${below - 1}`;
 }
 
-/** The fastest record of a floe [m/s], the largest area [m²] and the most fractures in a run: the ends of its classes of colours. */
+/** The fastest record of a floe [m/s], the largest area [m²] and the most fractures in a run: the ends of its classes
+ * of colours. */
 function extremesOf({ floes, frames }) {
   const most = { speed: 0, area: 0, generation: 1 };
-  for (const at of frames.recordAt) most.speed = Math.max(most.speed, Math.hypot(frames.doubles[at + 3], frames.doubles[at + 4]));
+  for (const at of frames.recordAt) most.speed = Math.max(most.speed, Math.hypot(frames.doubles[at + 3],
+    frames.doubles[at + 4]));
   for (let i = 0; i < floes.count; ++i) {
     most.area = Math.max(most.area, floes.area[i]);
     most.generation = Math.max(most.generation, floes.generation[i]);
@@ -71,7 +76,7 @@ function extremesOf({ floes, frames }) {
   return most;
 }
 
-/** How floes are coloured, in classes up to the extremes: a floe's value, class edges, colours, words for the legend. */
+/** How floes are coloured, in classes up to the extremes: a floe's value, edges, colours, words for the legend. */
 function makeColourings(run, places, most) {
   const { floes } = run;
   const classes = (edges) => [`below ${edges[0]}`,
@@ -81,23 +86,30 @@ function makeColourings(run, places, most) {
   const speeds = roundEdges(most.speed || 1);
   const breakageOf = breakagesOf(run);
   return {
-    breakage: { title: "Ice", edges: [1, 2, 3, 4], colours: ramps.breakage, value: (id) => breakageOf[id], isUsed: (k) => breakageOf.includes(k),
-      words: ["whole", "cut: what is left of a floe", "split off", "broken off by bending", "came up from under the hull"] },
-    generation: { title: "Fractures since the scene", edges: generations, colours: ramps.generation, value: (id) => floes.generation[id],
+    breakage: { title: "Ice", edges: [1, 2, 3, 4], colours: ramps.breakage, value: (id) => breakageOf[id],
+      isUsed: (k) => breakageOf.includes(k),
+      words: ["whole", "cut: what is left of a floe", "split off", "broken off by bending",
+        "came up from under the hull"] },
+    generation: { title: "Fractures since the scene", edges: generations, colours: ramps.generation, value: (id) =>
+      floes.generation[id],
       words: ["none", ...generations.map((edge, k) => countWords(edge, generations[k + 1]))] },
-    speed: { title: "Speed [m/s]", edges: speeds, colours: ramps.speed, value: (id) => Math.hypot(places.vx[id], places.vy[id]),
+    speed: { title: "Speed [m/s]", edges: speeds, colours: ramps.speed, value: (id) =>
+      Math.hypot(places.vx[id], places.vy[id]),
       words: classes(speeds) },
-    size: { title: "Size \u221aarea [m]", edges: sizes, colours: ramps.size, value: (id) => Math.sqrt(floes.area[id]), words: classes(sizes) },
+    size: { title: "Size \u221aarea [m]", edges: sizes, colours: ramps.size, value: (id) => Math.sqrt(floes.area[id]),
+      words: classes(sizes) },
   };
 }
 
 /** The theme's colours, from the style sheet. */
 function themeColours() {
   const style = getComputedStyle(document.documentElement);
-  const names = ["water", "start-ice", "swept", "channel", "ice-edge", "hull", "hull-edge", "deck", "deck-house", "track", "ink", "panel", "muted",
+  const names = ["water", "start-ice", "swept", "channel", "ice-edge", "hull", "hull-edge", "deck", "deck-house",
+    "track", "ink", "panel", "muted",
     "accent", "highlight", "line", "family",
     "bend", "split", "grind", "rejected_cut", "under-hull", "paper-load", "mooring_break",
-    ...["ice", "friction", "submerged", "water", "thrust", "rudder", "mooring", "ships"].map((cause) => `cause-${cause}`), "ship-0", "ship-1", "ship-2", "ship-3", "ship-4"];
+    ...["ice", "friction", "submerged", "water", "thrust", "rudder", "mooring", "ships"].map((cause) =>
+      `cause-${cause}`), "ship-0", "ship-1", "ship-2", "ship-3", "ship-4"];
   return Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
 }
 
@@ -128,19 +140,29 @@ function makeLegend(player) {
     return [arrowRow(force * player.forceScale, `${shortNumber(force * unit.factor)} ${unit.name}`),
       swatchRow(colours.split, "crushing"), swatchRow(colours.bend, "not crushing")];
   }
+  function loadRows() {
+    const most = run.columns.peak_force_N.reduce((most, force) => Math.max(most, force), 0);
+    const unit = loadUnit(most, "N");
+    const words = (step) => `up to ${shortNumber((most * (step + 1) * unit.factor) / loadSteps)} ${unit.name}`;
+    return Array.from({ length: loadSteps }, (_, step) => swatchRow(loadColour((step + 0.5) / loadSteps), words(step)));
+  }
 
   return {
     show() {
       const { colours } = player;
       const colouring = colourings[state.colourBy];
-      const rows = colouring.words.flatMap((words, k) => (colouring.isUsed?.(k) ?? true ? [swatchRow(colouring.colours[k], words)] : []));
+      const rows = colouring.words.flatMap((words, k) => (colouring.isUsed?.(k) ?? true
+        ? [swatchRow(colouring.colours[k], words)] : []));
       if (state.colourBy === "size") rows.reverse();
       if (state.sizes) rows.push(make("span", { class: "pale" }, `pale: not ${sizeRangeWords(state.sizes)}`));
-      if (run.under.went > 0) rows.push(make("span", {}, make("i", { class: "under-hull" }), "ice under the hull or waiting behind it"));
+      if (run.under.went > 0) rows.push(make("span", {}, make("i", { class: "under-hull" }),
+        "ice under the hull or waiting behind it"));
       if (state.layers.startIce) rows.push(swatchRow(colours["start-ice"], "ice at the start"));
-      if (state.layers.channel) rows.push(swatchRow(colours.swept, "swept by the hull"), swatchRow(colours.channel, "open from ice to ice ", channelWidth));
+      if (state.layers.channel) rows.push(swatchRow(colours.swept, "swept by the hull"),
+        swatchRow(colours.channel, "open from ice to ice ", channelWidth));
       if (state.layers.velocities) rows.push(velocityRow());
       if (state.layers.forces) rows.push(...forceRows(colours));
+      if (state.layers.largestLoads || state.layers.meanLoads) rows.push(...loadRows());
       byId("legend").replaceChildren(make("b", {}, colouring.title), ...rows);
     },
     showWidths: (words) => { channelWidth.textContent = words.join("; ") || "\u2013"; },

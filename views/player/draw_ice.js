@@ -7,7 +7,8 @@ const rasterReach = 24; // [device px]; floes that reach farther are the canvas'
 const rasterRows = 2 * rasterReach + 3;
 const mostCrossings = 16; // of a row; a floe of this size with more has its row left out
 
-/** A CSS colour "#rrggbb", or one a part of the way to another, as a pixel: red in the lowest byte, alpha in the highest. */
+/** A CSS colour "#rrggbb", or one a part of the way to another, as a pixel: red in the lowest byte, alpha in the
+ * highest. */
 function pixelOf(colour, other = colour, part = 0) {
   const channel = (css, k) => parseInt(css.slice(1 + 2 * k, 3 + 2 * k), 16);
   const mixed = [0, 1, 2].map((k) => Math.round(channel(colour, k) + part * (channel(other, k) - channel(colour, k))));
@@ -52,7 +53,8 @@ class FloeRaster {
     this.fillRows(top, rows, fill, rim);
   }
 
-  /** Notes the crossings of a floe's edges, its centroid at (x0, y0) from the first row's top, turned and scaled by (c, s). */
+  /** Notes the crossings of a floe's edges, its centroid at (x0, y0) from the first row's top, turned and scaled by (c,
+   * s). */
   crossEdges(floes, id, { x0, y0, c, s }) {
     const { ringsOf, ringEnds } = floes;
     const { points, first } = floes.shape(id);
@@ -164,10 +166,11 @@ class FloeRaster {
 
 const pointsInPath = 50;
 const smallReach = 5; // [px]; floes that reach less far have no edge drawn
-const rimParts = [0, 0.1, 0.2, 0.3, 0.4, 0.5]; // of the edge's colour at the edge of small floes, a part for each 5 px of reach
+const rimParts = [0, 0.1, 0.2, 0.3, 0.4,
+  0.5]; // of the edge's colour at the edge of small floes, a part for each 5 px of reach
 const manySmall = 1000; // floes; more than these are drawn pixel by pixel
 
-/** Floe ids so that neighbours in the scene follow each other: a path of some of them then covers little of the screen. */
+/** Floe ids so that neighbours in the scene follow each other: a path of some of them covers little of the screen. */
 function neighbourOrder(floes) {
   const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
   for (let i = 0; i < floes.count; ++i) {
@@ -288,7 +291,8 @@ function rasterSmall(context, view, floes, places, raster, buckets, look) {
   raster.put(context, view);
 }
 
-/** Draws the floes of these ids that show on the screen: small ones pixel by pixel, the others as paths. `look` has their colours. */
+/** Draws the floes of these ids that show on the screen: small ones pixel by pixel, the others as paths. `look` has
+ * their colours. */
 function drawFloes(context, view, run, places, raster, ids, look) {
   const { floes } = run;
   const { buckets, small } = bucketsInView(view, floes, places, ids, look);
@@ -383,7 +387,8 @@ function makeStillIce(run, places, motions) {
     return ids;
   }
 
-  /** Draws all ice alive at the time. `look` names the view and the colours; `ahead` [s] is how long a picture is to last. */
+  /** Draws all ice alive at the time. `look` names the view and the colours; `ahead` [s] is how long a picture is to
+   * last. */
   return function drawAll(target, view, look, time, ahead, draw) {
     if (look !== kept.look) { // the view moves: no picture would serve twice
       Object.assign(kept, { look, until: -1 });

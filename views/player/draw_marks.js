@@ -10,8 +10,10 @@ function contactsOfFrame({ columns, frames }, frame) {
   while (row >= 0 && times[row] === at) --row;
   const contacts = [];
   for (++row; times[row] === at; ++row) {
-    contacts.push({ ship: columns.contact_ship[row], floe: columns.contact_floe[row], byFloe: columns.contact_by_floe[row],
-      x: columns.contact_x_m[row], y: columns.contact_y_m[row], fx: columns.contact_fx_N[row], fy: columns.contact_fy_N[row],
+    contacts.push({ ship: columns.contact_ship[row], floe: columns.contact_floe[row],
+      byFloe: columns.contact_by_floe[row],
+      x: columns.contact_x_m[row], y: columns.contact_y_m[row], fx: columns.contact_fx_N[row],
+        fy: columns.contact_fy_N[row],
       isCrushing: columns.contact_is_crushing[row] });
   }
   return contacts;
@@ -19,7 +21,8 @@ function contactsOfFrame({ columns, frames }, frame) {
 
 /** A force of which one contact in twenty is larger [N]; 0 where nothing presses. */
 function typicalForce({ columns }) {
-  const sizes = Float64Array.from(columns.contact_fx_N, (fx, row) => Math.hypot(fx, columns.contact_fy_N[row])).filter((size) => size > 0).sort();
+  const sizes = Float64Array.from(columns.contact_fx_N, (fx, row) => Math.hypot(fx,
+    columns.contact_fy_N[row])).filter((size) => size > 0).sort();
   return sizes.length > 0 ? sizes[Math.floor(0.95 * (sizes.length - 1))] : 0;
 }
 
@@ -48,7 +51,8 @@ function traceArrow(context, sx, sy, fx, fy, length) {
   context.lineTo(ex - tip * (ux - 0.5 * uy), ey - tip * (uy + 0.5 * ux));
 }
 
-/** Arrows of the forces on ships (of floe on floe: on the first), `perNewton` pixels a newton; those of the frame before go with
+/** Arrows of the forces on ships (of floe on floe: on the first),
+  `perNewton` pixels a newton; those of the frame before go with
  * the ship they press on. Returns the notice to show where there are none. */
 function drawContactForces(context, view, run, motions, places, time, colours, perNewton) {
   const { columns } = run;
@@ -59,7 +63,8 @@ function drawContactForces(context, view, run, motions, places, time, colours, p
     context.beginPath();
     for (const { ship, floe, x, y, fx, fy, isCrushing: crushes } of contacts) {
       const length = perNewton * Math.hypot(fx, fy);
-      const move = crushes === isCrushing && length >= 1 ? moveSince(run, motions, places, frame, ship, floe, time) : null;
+      const move = crushes === isCrushing && length >= 1 ? moveSince(run, motions, places, frame, ship, floe,
+        time) : null;
       if (move) traceArrow(context, ...view.toScreen(...move(x, y)), fx, fy, length);
     }
     for (const [width, stroke] of [[4, colours.panel], [2, colour]]) {
@@ -81,11 +86,13 @@ function edgesOfRing(coordinates) {
 
 const lengthOf = ([ax, ay, bx, by]) => Math.hypot(bx - ax, by - ay);
 
-/** The middles of the pieces one circle each stands for, with the edge each lies on: of edges longer than the radius equal parts,
+/** The middles of the pieces one circle each stands for,
+  with the edge each lies on: of edges longer than the radius equal parts,
  * of shorter ones as many in a row as are no longer together. */
 function boundaryPieces(edges, radius) {
   const pieces = [];
-  const onEdge = (edge, part) => pieces.push([edge[0] + part * (edge[2] - edge[0]), edge[1] + part * (edge[3] - edge[1]), edge]);
+  const onEdge = (edge, part) =>
+    pieces.push([edge[0] + part * (edge[2] - edge[0]), edge[1] + part * (edge[3] - edge[1]), edge]);
   for (let e = 0; e < edges.length; ++e) {
     let total = lengthOf(edges[e]);
     if (total > radius) {
@@ -134,7 +141,8 @@ function contactCircles(rings, radius) {
   return Float64Array.from(ofRing.flatMap((ring) => boundaryPieces(ring, radius)).flatMap(([x, y, edge]) => {
     const [dx, dy] = [edge[2] - edge[0], edge[3] - edge[1]];
     const length = Math.hypot(dx, dy);
-    const near = edges.filter(([ax, ay, bx, by]) => Math.min(ax, bx) < x + 2 * radius && Math.max(ax, bx) > x - 2 * radius &&
+    const near = edges.filter(([ax, ay, bx, by]) => Math.min(ax, bx) < x + 2 * radius
+      && Math.max(ax, bx) > x - 2 * radius &&
       Math.min(ay, by) < y + 2 * radius && Math.max(ay, by) > y - 2 * radius);
     const r = inscribedRadius(near, x, y, -dy / length, dx / length, radius);
     return [x - (r * dy) / length, y + (r * dx) / length, r];
@@ -160,7 +168,8 @@ function makeCircleSampler({ floes, info }) {
   const sampled = new Map();
   return (owner) => {
     if (!sampled.has(owner))
-      sampled.set(owner, contactCircles(owner < 0 ? [info.ships[-1 - owner].waterline_m] : ringsOf(floes, owner), info.circle_radius_m));
+      sampled.set(owner, contactCircles(owner < 0 ? [info.ships[-1 - owner].waterline_m] : ringsOf(floes, owner),
+        info.circle_radius_m));
     return sampled.get(owner);
   };
 }
@@ -186,7 +195,8 @@ function drawCircles(context, view, run, circlesOf, places, motions, colours) {
   };
   context.strokeStyle = colours.accent;
   for (const id of places.living.subarray(0, places.count))
-    if (view.shows(places.x[id], places.y[id], floes.reach[id])) draw(id, places.x[id], places.y[id], places.cos[id], places.sin[id]);
+    if (view.shows(places.x[id], places.y[id], floes.reach[id])) draw(id, places.x[id], places.y[id], places.cos[id],
+      places.sin[id]);
   context.strokeStyle = colours.highlight;
   info.ships.forEach((_, ship) => {
     const pose = motions.ship(ship);
@@ -207,7 +217,8 @@ function drawVelocities(context, view, run, places, motions, colours, perSpeed) 
     if (length >= 3) traceArrow(context, ...view.toScreen(x, y), vx, vy, length);
   };
   context.beginPath();
-  for (const id of largestPerCell(view, run.floes, places)) arrow(places.x[id], places.y[id], places.vx[id], places.vy[id]);
+  for (const id of largestPerCell(view, run.floes, places)) arrow(places.x[id], places.y[id], places.vx[id],
+    places.vy[id]);
   context.stroke();
   context.strokeStyle = colours["hull-edge"];
   context.lineWidth = 2;
@@ -308,7 +319,8 @@ function drawEventMark(context, x, y, kind, size, colours) {
 function drawFractures(context, view, run, time, colours) {
   for (const event of run.info.events) {
     if (event.t_s > time) break;
-    if (isMarked(event)) drawEventMark(context, ...view.toScreen(...event.point_m), event.kind, isAbove(event) ? 6 : 3, colours);
+    if (isMarked(event)) drawEventMark(context, ...view.toScreen(...event.point_m), event.kind, isAbove(event) ? 6 : 3,
+      colours);
   }
 }
 

@@ -1,6 +1,7 @@
 // Which floe is under a point, and what is known of it.
 
-/** The floe at a point of the world, the smallest where several overlap, else what is under a hull there; −1 where there is water. */
+/** The floe at a point of the world, the smallest where several overlap, else what is under a hull there; −1 where
+ * there is water. */
 function floeAt(run, places, x, y) {
   const found = floeAmong(run, places, places.living.subarray(0, places.count), x, y);
   return found >= 0 ? found : floeAmong(run, places, places.under, x, y);
@@ -14,7 +15,8 @@ function floeAmong({ floes }, places, ids, x, y) {
     if (dx * dx + dy * dy > floes.reach[id] ** 2) continue;
     const c = places.cos[id];
     const s = places.sin[id];
-    if (contains(floes, id, c * dx + s * dy, -s * dx + c * dy) && (best < 0 || floes.area[id] < floes.area[best])) best = id;
+    if (contains(floes, id, c * dx + s * dy, -s * dx + c * dy) && (best < 0
+      || floes.area[id] < floes.area[best])) best = id;
   }
   return best;
 }
@@ -91,7 +93,8 @@ function showFloeCard(host, run, places, motions, chosen, id, time, actions) {
   for (const [name, [words, value]] of Object.entries(facts))
     list.append(make("dt", {}, name), make("dd", { "data-fact": name, "data-value": String(value) }, words));
   if (chosen !== id) {
-    const words = run.floes.born[chosen] > time ? `what floe ${chosen} was part of` : `the largest piece of floe ${chosen} now`;
+    const words = run.floes.born[chosen] > time
+      ? `what floe ${chosen} was part of` : `the largest piece of floe ${chosen} now`;
     list.append(make("dt", {}, "this is"), make("dd", {}, words));
   }
   host.replaceChildren(list, make("h3", {}, "Fracture lineage"), lineageList(run, id, actions));
@@ -113,7 +116,8 @@ function lineageList(run, id, actions) {
     item.append(button(`floe ${floe}`, () => actions.visit(floe)));
     if (breaks.has(floe)) {
       const event = info.events[breaks.get(floe)];
-      item.append(" ", button(`${kindWords(event.kind)} ${event.t_s.toFixed(1)} s`, () => actions.goToEvent(breaks.get(floe))));
+      item.append(" ", button(`${kindWords(event.kind)} ${event.t_s.toFixed(1)} s`, () =>
+        actions.goToEvent(breaks.get(floe))));
     }
     list.append(item);
   });
@@ -141,13 +145,15 @@ function eventValue(key, value, unit) {
   return unit ? valueWords(value, unit) : String(value) || "\u2013";
 }
 
-/** The fields of an event that have labels, also those of what decided it: a load and its capacity by the names that its rule has. */
+/** The fields of an event that have labels, also those of what decided it: a load and its capacity by the names that
+ * its rule has. */
 function eventRows({ event_labels: labels }, { criterion = {}, ...event }) {
   const { kind: rule = "", ...sides } = criterion;
   const [, load, capacity] = /^(.+) >=? (.+)$/.exec(rule) ?? [];
   return Object.entries({ ...event, ...sides }).flatMap(([key, value]) => {
     if (!(key in labels)) return [];
-    return [[{ load_N: load, capacity_N: capacity }[key] ?? labels[key].label, eventValue(key, value, labels[key].unit)]];
+    return [[{ load_N: load, capacity_N: capacity }[key] ?? labels[key].label,
+      eventValue(key, value, labels[key].unit)]];
   });
 }
 
@@ -185,7 +191,8 @@ function makeShownFloe(player) {
     chip.hidden = id < 0;
     if (id < 0) return;
     const facts = floeFacts(run, places, motions, id);
-    chip.textContent = `floe ${id} \u00b7 ${sixDigits(run.floes.area[id])} m\u00b2 \u00b7 ${places.isThere(id, state.time) ? facts.speed[0] : "not alive now"}`;
+    const speed = places.isThere(id, state.time) ? facts.speed[0] : "not alive now";
+  chip.textContent = `floe ${id} \u00b7 ${sixDigits(run.floes.area[id])} m\u00b2 \u00b7 ${speed}`;
   }
   return { shown, showCard };
 }

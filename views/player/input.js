@@ -17,7 +17,8 @@ function wheelTurn({ deltaY, deltaMode, ctrlKey }) {
 
 /** Pans and zooms by a move of one of two fingers. */
 function pinch(before, after, actions) {
-  const spread = ([a, b]) => ({ x: (a[0] + b[0]) / 2, y: (a[1] + b[1]) / 2, size: Math.hypot(a[0] - b[0], a[1] - b[1]) });
+  const spread = ([a, b]) =>
+    ({ x: (a[0] + b[0]) / 2, y: (a[1] + b[1]) / 2, size: Math.hypot(a[0] - b[0], a[1] - b[1]) });
   const [was, is] = [spread(before), spread(after)];
   actions.pan(is.x - was.x, is.y - was.y);
   actions.zoom(is.x, is.y, is.size / Math.max(1, was.size));
@@ -87,7 +88,7 @@ const keyHelp = [
   ["?", "this help"],
 ];
 
-/** Whether a key is for the control that has the focus. Space and Escape are the page's on a list, which Enter opens. */
+/** Whether a key is for the control with the focus. Space and Escape are the page's on a list, which Enter opens. */
 function isForControl({ target, key }) {
   if (target.closest("select")) return key !== " " && key !== "Escape";
   if (target.closest("input[type=number]")) return key !== "Escape";
@@ -95,7 +96,8 @@ function isForControl({ target, key }) {
   return Boolean(target.closest("button, input")) && (key === " " || key === "Enter");
 }
 
-/** A control that a pointer has used gives the focus back to the page, so that Space plays; one that keys have reached keeps it, but
+/** A control that a pointer has used gives the focus back to the page,
+  so that Space plays; one that keys have reached keeps it, but
  * for a list once its choice is made. */
 function returnFocus() {
   let byPointer = false;

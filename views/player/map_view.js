@@ -14,7 +14,8 @@ function makeMapView(stage, canvases) {
     }
   };
   view.toScreen = (x, y) => [(x - view.x) * view.scale + view.width / 2, (view.y - y) * view.scale + view.height / 2];
-  view.toWorld = (px, py) => [(px - view.width / 2) / view.scale + view.x, view.y - (py - view.height / 2) / view.scale];
+  view.toWorld = (px, py) => [(px - view.width / 2) / view.scale + view.x,
+    view.y - (py - view.height / 2) / view.scale];
 
   /** Zooms so that what is under the screen point stays there. */
   view.zoomAt = (px, py, factor) => {
@@ -32,11 +33,13 @@ function makeMapView(stage, canvases) {
     const margin = 1.04;
     view.x = (box.left + box.right) / 2;
     view.y = (box.bottom + box.top) / 2;
-    view.scale = Math.min(view.width / ((box.right - box.left) * margin), view.height / ((box.top - box.bottom) * margin));
+    view.scale = Math.min(view.width / ((box.right - box.left) * margin),
+      view.height / ((box.top - box.bottom) * margin));
   };
   /** Whether a disc in the world shows on the screen. */
   view.shows = (x, y, radius) =>
-    Math.abs(x - view.x) - radius < view.width / 2 / view.scale && Math.abs(y - view.y) - radius < view.height / 2 / view.scale;
+    Math.abs(x - view.x) - radius < view.width / 2 / view.scale
+      && Math.abs(y - view.y) - radius < view.height / 2 / view.scale;
   return view;
 }
 
@@ -59,7 +62,8 @@ function extentOf(run, motions, places, range) {
       const end = first + floes.ringEnds[floes.ringsOf[i + 1] - 1];
       for (let k = first; k < end; ++k) {
         const [px, py] = [points[2 * k] - floes.cx[i], points[2 * k + 1] - floes.cy[i]];
-        include(places.x[i] + places.cos[i] * px - places.sin[i] * py, places.y[i] + places.sin[i] * px + places.cos[i] * py);
+        include(places.x[i] + places.cos[i] * px - places.sin[i] * py,
+          places.y[i] + places.sin[i] * px + places.cos[i] * py);
       }
     }
   }

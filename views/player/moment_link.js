@@ -6,15 +6,18 @@ function momentOf(player) {
   const words = { t: Number(state.time.toFixed(4)) };
   if (state.selected >= 0) words.floe = state.selected;
   if (state.colourBy !== "breakage") words.by = state.colourBy;
-  if (state.sizes) words.sizes = [state.sizes.from, state.sizes.below].map((size) => (Number.isFinite(size) ? Number(size.toPrecision(6)) : "")).join("-");
+  if (state.sizes) words.sizes = [state.sizes.from, state.sizes.below].map((size) =>
+    (Number.isFinite(size) ? Number(size.toPrecision(6)) : "")).join("-");
   if (plot.quantity !== Object.keys(plot.quantities)[0]) words.plot = plot.quantity;
   if (state.follow >= 0) words.follow = run.info.ships[state.follow].name;
   if (state.follow >= 0 && !state.isFitted) words.width = Number((view.width / view.scale).toPrecision(4));
-  if (state.follow < 0 && !state.isFitted) words.map = [view.x, view.y, view.width / view.scale].map((v) => Number(v.toFixed(2))).join(",");
+  if (state.follow < 0 && !state.isFitted) words.map = [view.x, view.y, view.width / view.scale].map((v) =>
+    Number(v.toFixed(2))).join(",");
   return words;
 }
 
-const linkOf = (words) => `#${Object.entries(words).map(([key, value]) => `${key}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&")}`;
+const written = (value) => encodeURIComponent(value).replaceAll("%2C", ",");
+const linkOf = (words) => `#${Object.entries(words).map(([key, value]) => `${key}=${written(value)}`).join("&")}`;
 
 /** Shows a part of the map that is so wide [m]. */
 function showWidth({ state, view }, width) {
@@ -88,7 +91,8 @@ function goToMoment(player, link) {
 const addressOf = (words) => `${location.href.split("#")[0]}${linkOf(words)}`;
 
 /**
- * Keeps the address of the page up with what it shows, and the page with an address that is entered. `words` gives what it shows, `goTo`
+ * Keeps the address of the page up with what it shows, and the page with an address that is entered. `words` gives what
+ * it shows, `goTo`
  * goes to a link and gives its problems. Gives what is to be called when something changed.
  */
 function watchMoment({ words, goTo, isPlaying }) {
@@ -114,7 +118,8 @@ function watchMoment({ words, goTo, isPlaying }) {
 
 /** The link of a page of one run. */
 function keepMoment(player) {
-  player.keepLink = watchMoment({ words: () => momentOf(player), goTo: (link) => goToMoment(player, link), isPlaying: () => player.state.isPlaying });
+  player.keepLink = watchMoment({ words: () => momentOf(player), goTo: (link) => goToMoment(player, link),
+    isPlaying: () => player.state.isPlaying });
 }
 
 /** Puts a text into the clipboard, where the browser lets it, and says so, or what else to do. */

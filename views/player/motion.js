@@ -161,12 +161,14 @@ function showCountsUnderHulls({ under }, places, time) {
 function lastFacts({ floes, info, breakOf }, id) {
   const facts = {};
   const seconds = (time) => `${sixDigits(time)} s`;
-  if (Number.isFinite(floes.wentUnder[id])) facts["under the hull"] = [`since ${seconds(floes.wentUnder[id])}`, floes.wentUnder[id]];
+  if (Number.isFinite(floes.wentUnder[id])) facts["under the hull"] = [`since ${seconds(floes.wentUnder[id])}`,
+    floes.wentUnder[id]];
   const last = info.events[breakOf.get(id)];
   if (last?.kind === "resurface") {
     const as = last.children.length > 0 ? `as floe ${last.children.join(", ")}` : "as brash";
     return { ...facts, "came up": [`at ${seconds(last.t_s)} ${as}`, last.t_s] };
   }
   if (last?.kind === "stay_under") return { ...facts, stayed: [`under the ice, at ${seconds(last.t_s)}`, last.t_s] };
-  return { ...facts, broke: [Number.isFinite(floes.died[id]) ? seconds(floes.died[id]) : "not in this run", floes.died[id]] };
+  return { ...facts, broke: [Number.isFinite(floes.died[id]) ? seconds(floes.died[id]) : "not in this run",
+    floes.died[id]] };
 }

@@ -25,7 +25,8 @@ function pageOfRun(template, { labels, axis_s }, k) {
   };
   const options = JSON.stringify({ axis_s, label: labels[k] }).replaceAll("<", "\\u003c");
   let [page, rest] = ["", template];
-  for (const [mark, text] of [["{{title}}", ""], ["{{options}}", options], ["{{info}}", take(`info-${k}`)], ["{{columns}}", take(`columns-${k}`)]]) {
+  for (const [mark, text] of [["{{title}}", ""], ["{{options}}", options], ["{{info}}", take(`info-${k}`)],
+    ["{{columns}}", take(`columns-${k}`)]]) {
     const at = rest.indexOf(mark);
     page += rest.slice(0, at) + text;
     rest = rest.slice(at + mark.length);
@@ -77,7 +78,8 @@ function makeClock(players) {
     if (clock.time >= axis[1]) clock.play(false);
   };
   for (const { actions } of players) {
-    Object.assign(actions, { goTo: clock.goTo, play: clock.play, togglePlay: () => clock.play(!clock.isPlaying), setRate: clock.setRate,
+    Object.assign(actions, { goTo: clock.goTo, play: clock.play, togglePlay: () => clock.play(!clock.isPlaying),
+      setRate: clock.setRate,
       goToEnd: (isEnd) => clock.goTo(axis[isEnd ? 1 : 0]) });
   }
   return clock;
@@ -85,7 +87,8 @@ function makeClock(players) {
 
 /** Takes over how the plot of another player looks, as far as this one has the same curves. */
 function showPlotAs({ plot, plotPanel, actions }, { quantity, hidden, isFull, span }) {
-  if (Object.hasOwn(plot.quantities, quantity) && (plot.quantity !== quantity || [...plot.hidden].join() !== hidden.join())) {
+  if (Object.hasOwn(plot.quantities, quantity) && (plot.quantity !== quantity
+    || [...plot.hidden].join() !== hidden.join())) {
     plot.hidden = new Set(hidden);
     actions.plotQuantity(quantity);
   }
@@ -97,8 +100,10 @@ function showPlotAs({ plot, plotPanel, actions }, { quantity, hidden, isFull, sp
 /** What both players have in common: how it is read of one, and given to the other. */
 const common = {
   colours: { of: ({ state }) => state.colourBy, give: ({ actions }, by) => actions.colourBy(by) },
-  layers: { of: ({ state }) => state.layers, give: ({ actions }, layers) => Object.entries(layers).forEach((layer) => actions.toggleLayer(...layer)) },
-  sizes: { of: ({ state }) => state.sizes && [state.sizes.from, Number.isFinite(state.sizes.below) ? state.sizes.below : null],
+  layers: { of: ({ state }) => state.layers, give: ({ actions }, layers) =>
+    Object.entries(layers).forEach((layer) => actions.toggleLayer(...layer)) },
+  sizes: { of: ({ state }) => state.sizes && [state.sizes.from, Number.isFinite(state.sizes.below)
+    ? state.sizes.below : null],
     give: ({ actions }, sizes) => actions.chooseSizes(sizes && { from: sizes[0], below: sizes[1] ?? Infinity }) },
   follow: { of: ({ state }) => state.follow, give: ({ actions }, ship) => actions.setFollow(ship) },
   plot: {
@@ -145,8 +150,10 @@ function makeCommon(players) {
 
 /** One extent of the map, one scale of the plots and of arrows, and the same classes of colours. */
 function joinScales(players) {
-  const scales = Object.fromEntries(["forceScale", "arrowScale"].map((name) => [name, Math.min(...players.map((player) => player[name]))]));
-  const most = Object.fromEntries(Object.keys(players[0].extremes).map((name) => [name, Math.max(...players.map(({ extremes }) => extremes[name]))]));
+  const scales = Object.fromEntries(["forceScale", "arrowScale"].map((name) =>
+    [name, Math.min(...players.map((player) => player[name]))]));
+  const most = Object.fromEntries(Object.keys(players[0].extremes).map((name) =>
+    [name, Math.max(...players.map(({ extremes }) => extremes[name]))]));
   const boxes = players.map(({ box }) => box);
   const box = { left: Math.min(...boxes.map(({ left }) => left)), right: Math.max(...boxes.map(({ right }) => right)),
     bottom: Math.min(...boxes.map(({ bottom }) => bottom)), top: Math.max(...boxes.map(({ top }) => top)) };
@@ -176,7 +183,8 @@ function stepEvent(players, clock, step) {
 
 function toggleThemes(players) {
   const isDark = getComputedStyle(document.documentElement).colorScheme.includes("dark");
-  for (const { documentElement } of [document, ...players.map(({ frame }) => frame.contentDocument)]) documentElement.dataset.theme = isDark ? "light" : "dark";
+  for (const { documentElement } of [document, ...players.map(({ frame }) =>
+    frame.contentDocument)]) documentElement.dataset.theme = isDark ? "light" : "dark";
   for (const player of players) player.refreshTheme();
 }
 
@@ -184,17 +192,21 @@ function toggleThemes(players) {
 function watchBar(players, clock, shared, address) {
   const help = () => players[0].frame.contentWindow.polynyaPlayer.actions.toggleHelp();
   for (const { actions } of players) {
-    Object.assign(actions, { toggleTheme: () => toggleThemes(players), copyLink: () => copyLink(address()), stepEvent: (step) => stepEvent(players, clock, step) });
+    Object.assign(actions, { toggleTheme: () => toggleThemes(players), copyLink: () => copyLink(address()),
+      stepEvent: (step) => stepEvent(players, clock, step) });
   }
-  const onClick = { play: () => clock.play(!clock.isPlaying), "event-before": () => stepEvent(players, clock, -1), "event-after": () => stepEvent(players, clock, 1),
-    theme: () => toggleThemes(players), "copy-link": () => copyLink(address()), "help-button": help, "same-scale": shared.show };
+  const onClick = { play: () => clock.play(!clock.isPlaying), "event-before": () => stepEvent(players, clock, -1),
+    "event-after": () => stepEvent(players, clock, 1),
+    theme: () => toggleThemes(players), "copy-link": () => copyLink(address()), "help-button": help,
+      "same-scale": shared.show };
   for (const [id, act] of Object.entries(onClick)) byId(id).addEventListener("click", act);
   byId("rate").replaceChildren(...rates.map((rate) => make("option", { value: String(rate) }, `${rate}\u00d7`)));
   byId("rate").addEventListener("change", (event) => clock.setRate(Number(event.target.value)));
   document.addEventListener("keydown", (event) => { // as if it were pressed in the first player
     if (event.ctrlKey || event.metaKey || event.altKey || isForControl(event)) return;
     const { contentWindow, contentDocument } = players[0].frame;
-    const passed = new contentWindow.KeyboardEvent("keydown", { key: event.key, shiftKey: event.shiftKey, bubbles: true, cancelable: true });
+    const passed = new contentWindow.KeyboardEvent("keydown", { key: event.key, shiftKey: event.shiftKey, bubbles: true,
+      cancelable: true });
     if (!contentDocument.body.dispatchEvent(passed)) event.preventDefault();
   });
 }
@@ -212,7 +224,8 @@ async function startPair() {
   clock.setRate(longest.state.rate);
   clock.goTo(clock.time);
   shared.show();
-  const keepLink = watchMoment({ words, goTo: (link) => goToMomentOfPair(players, link), isPlaying: () => clock.isPlaying });
+  const keepLink = watchMoment({ words, goTo: (link) => goToMomentOfPair(players, link), isPlaying: () =>
+    clock.isPlaying });
   for (const player of players) player.keepLink = keepLink;
   let last = performance.now();
   const tick = (now) => {

@@ -14,13 +14,15 @@ function currentAt(run, x, y) {
 function drawCurrent(context, view, run, colours) {
   const arrows = [];
   for (let px = currentCell / 2; px < view.width; px += currentCell)
-    for (let py = currentCell / 2; py < view.height; py += currentCell) arrows.push([px, py, ...currentAt(run, ...view.toWorld(px, py))]);
+    for (let py = currentCell / 2; py < view.height; py += currentCell) arrows.push([px, py,
+      ...currentAt(run, ...view.toWorld(px, py))]);
   const fastest = Math.max(0, ...arrows.map(([, , vx, vy]) => Math.hypot(vx, vy)));
   if (fastest === 0) return 0;
   context.beginPath();
   for (const [px, py, vx, vy] of arrows) {
     const length = (longestArrow * Math.hypot(vx, vy)) / fastest;
-    if (length >= 3) traceArrow(context, px - (0.5 * length * vx) / Math.hypot(vx, vy), py + (0.5 * length * vy) / Math.hypot(vx, vy), vx, vy, length);
+    if (length >= 3) traceArrow(context, px - (0.5 * length * vx) / Math.hypot(vx, vy),
+      py + (0.5 * length * vy) / Math.hypot(vx, vy), vx, vy, length);
   }
   strokeTwice(context, colours.panel, colours.accent, 1.6);
   return fastest;
@@ -56,7 +58,8 @@ function drawWindAndWords(context, view, [wx, wy], fastest, colours) {
     drawWords(context, `wind ${shortNumber(wind)} m/s`, view.width - 84, 38, colours, "right");
     y += 20;
   }
-  if (fastest > 0) drawWords(context, `current up to ${shortNumber(fastest)} m/s`, view.width - 16, wind > 0 ? y : 26, colours, "right");
+  if (fastest > 0) drawWords(context, `current up to ${shortNumber(fastest)} m/s`, view.width - 16, wind > 0 ? y : 26,
+    colours, "right");
 }
 
 function drawRoute(context, view, { points_m: points, speeds_m_per_s: speeds }, colours) {
@@ -72,7 +75,8 @@ function drawRoute(context, view, { points_m: points, speeds_m_per_s: speeds }, 
     context.fillStyle = colours.highlight;
     context.fill();
     const isAtEdge = x > view.width - 80;
-    drawWords(context, `${k + 1}: ${shortNumber(speeds[k])} m/s`, isAtEdge ? x - 8 : x + 8, y - 6, colours, isAtEdge ? "right" : "left");
+    drawWords(context, `${k + 1}: ${shortNumber(speeds[k])} m/s`, isAtEdge ? x - 8 : x + 8, y - 6, colours, isAtEdge
+      ? "right" : "left");
   });
 }
 
@@ -120,13 +124,16 @@ function fillPlan({ plan, run }) {
   byId("fit").title = "Whole scene (0)";
   byId("facts").previousElementSibling.textContent = "Scene";
   if (plan.problems.length > 0) {
-    const lines = plan.problems.map(({ severity, path, words, line }) => make("li", {}, `${severity}${line > 0 ? `, line ${line}` : ""}: ${path}: ${words}`));
-    byId("facts").closest("section").before(make("section", { id: "problems" }, make("h2", {}, "validate warns"), make("ol", {}, ...lines)));
+    const lines = plan.problems.map(({ severity, path, words, line }) =>
+      make("li", {}, `${severity}${line > 0 ? `, line ${line}` : ""}: ${path}: ${words}`));
+    byId("facts").closest("section").before(make("section", { id: "problems" }, make("h2", {}, "validate warns"),
+      make("ol", {}, ...lines)));
   }
   if (plan.stamp_file) setInterval(() => lookForNewer(plan), 1000);
 }
 
-/** Loads the page again where a newer one has been written: a script beside it has the stamp of the newest, which pages on disk may load. */
+/** Loads the page again where a newer one has been written: a script beside it has the stamp of the newest, which pages
+ * on disk may load. */
 function lookForNewer({ stamp, stamp_file: file }) {
   const script = make("script", { src: `${encodeURIComponent(file)}?${Date.now()}` });
   script.onload = script.onerror = () => {

@@ -7,15 +7,21 @@ function fillFacts({ run: { info, floes }, name, plan }) {
   const count = (kind) => info.events.filter((event) => event.kind === kind).length;
   const facts = {
     "floes in all": info.floes === floes.count ? floes.count : `${info.floes} of ${floes.count}`,
-    ...(info.area_m && { area: `${info.area_m.map(shortNumber).join(", ")} m` }), ...(!plan && { bends: count("bend"), splits: count("split"), ...(count("grind") && { ground: count("grind") }), "rejected cuts": count("rejected_cut") }),
-    ...(count("submerge") && { "went under": count("submerge"), "came up": count("resurface"), ...(count("stay_under") && { "stayed under": count("stay_under") }) }),
+    ...(info.area_m && { area: `${info.area_m.map(shortNumber).join(", ")} m` }),
+      ...(!plan && { bends: count("bend"), splits: count("split"), ...(count("grind") && { ground: count("grind") }),
+        "rejected cuts": count("rejected_cut") }),
+    ...(count("submerge") && { "went under": count("submerge"), "came up": count("resurface"),
+      ...(count("stay_under") && { "stayed under": count("stay_under") }) }),
     ...(count("mooring_break") && { "moorings broken": count("mooring_break") }),
     ships: info.ships.map((ship) => ship.name).join(", ") || "none",
     ...(info.steps && { steps: info.steps.map(({ step_s, count }) => `${count} of ${step_s} s`).join(", ") }),
-    ...(!plan && { frames: info.frames === info.frames_of_run ? info.frames : `${info.frames} of ${info.frames_of_run}` }),
-    ...(name !== info.scene && { "scene's name": info.scene }), seed: info.seed, scene: info.scene_hash, polynya: info.polynya,
+    ...(!plan
+      && { frames: info.frames === info.frames_of_run ? info.frames : `${info.frames} of ${info.frames_of_run}` }),
+    ...(name !== info.scene
+      && { "scene's name": info.scene }), seed: info.seed, scene: info.scene_hash, polynya: info.polynya,
   };
-  byId("facts").replaceChildren(...Object.entries(facts).flatMap(([fact, value]) => [make("dt", {}, fact), make("dd", {}, String(value))]));
+  byId("facts").replaceChildren(...Object.entries(facts).flatMap(([fact, value]) =>
+    [make("dt", {}, fact), make("dd", {}, String(value))]));
   if (count("submerge")) byId("facts").prepend(...rowsUnderHulls());
 }
 
@@ -23,7 +29,9 @@ function fillFacts({ run: { info, floes }, name, plan }) {
 function quantityGroups(quantities) {
   return [[false, "Quantities"], [true, "Stacked areas"]].flatMap(([stacks, label]) => {
     const group = Object.entries(quantities).filter(([, { isStack = false }]) => isStack === stacks);
-    return group.length > 0 ? [make("optgroup", { label }, ...group.map(([name, { label: words }]) => make("option", { value: name }, words)))] : [];
+    return group.length > 0
+      ? [make("optgroup", { label }, ...group.map(([name, { label: words }]) =>
+        make("option", { value: name }, words)))] : [];
   });
 }
 
@@ -39,16 +47,20 @@ function fillPage(player) {
   byId("end").textContent = `${Number(range[1].toFixed(1))} s`;
   if (!info.finished) {
     byId("badge").hidden = false;
-    byId("badge").textContent = `unfinished: ${range[1].toFixed(1)} of ${info.until_s} s` + (info.stopped_by ? `, stopped by ${info.stopped_by}` : "");
+    byId("badge").textContent = `unfinished: ${range[1].toFixed(1)} of ${info.until_s} s` + (info.stopped_by
+      ? `, stopped by ${info.stopped_by}` : "");
   }
   fillFacts(player);
   if (player.plan) fillPlan(player);
 
   const onClick = {
-    play: () => actions.togglePlay(), "event-before": () => actions.stepEvent(-1), "event-after": () => actions.stepEvent(1),
-    "zoom-in": () => actions.zoomCentre(1.4), "zoom-out": () => actions.zoomCentre(1 / 1.4), fit: actions.fit, follow: actions.follow,
+    play: () => actions.togglePlay(), "event-before": () => actions.stepEvent(-1), "event-after": () =>
+      actions.stepEvent(1),
+    "zoom-in": () => actions.zoomCentre(1.4), "zoom-out": () =>
+      actions.zoomCentre(1 / 1.4), fit: actions.fit, follow: actions.follow,
     theme: actions.toggleTheme, "help-button": actions.toggleHelp, "help-close": actions.toggleHelp,
-    "full-scale": actions.toggleFullScale, "whole-run": () => actions.zoomPlot(), "save-plot": actions.savePlot, "save-map": actions.saveMap,
+    "full-scale": actions.toggleFullScale, "whole-run": () =>
+      actions.zoomPlot(), "save-plot": actions.savePlot, "save-map": actions.saveMap,
     "copy-link": actions.copyLink,
   };
   for (const [id, act] of Object.entries(onClick)) byId(id).addEventListener("click", act);
@@ -58,7 +70,8 @@ function fillPage(player) {
   byId("rate").value = String(state.rate);
   byId("rate").addEventListener("change", (event) => actions.setRate(Number(event.target.value)));
   byId("follow").disabled = info.ships.length === 0;
-  for (const what of ["breakage", "generation", "speed", "size"]) byId(`by-${what}`).addEventListener("change", () => actions.colourBy(what));
+  for (const what of ["breakage", "generation", "speed", "size"]) byId(`by-${what}`).addEventListener("change", () =>
+    actions.colourBy(what));
   for (const name of Object.keys(state.layers)) {
     byId(`layer-${name}`).checked = state.layers[name];
     byId(`layer-${name}`).addEventListener("change", (event) => actions.toggleLayer(name, event.target.checked));
@@ -146,16 +159,19 @@ function readPlayedRun() {
   return run;
 }
 
-/** Of one of two runs side by side its `label` and `axis_s`, the times on the axes of both; of a scene that has not run its `plan`; else nothing. */
+/** Of one of two runs side by side its `label` and `axis_s`, the times on the axes of both; of a scene that has not run
+ * its `plan`; else nothing. */
 const readOptions = () => JSON.parse(byId("page-options").textContent);
 
 /** What is shown when the page opens. */
 function firstState(run, motions, range) {
-  const isUnderWay = (carry) => run.frames.times.length > 0 && run.info.ships.some((_, ship) => hasGone(run, motions, ship, carry));
+  const isUnderWay = (carry) => run.frames.times.length > 0 && run.info.ships.some((_, ship) =>
+    hasGone(run, motions, ship, carry));
   return {
     time: range[0], isPlaying: false, rate: defaultRate(range[1] - range[0]), selected: -1, hovered: -1, event: null,
     follow: -1, colourBy: "breakage", isFitted: true, sizes: null,
-    layers: { channel: isUnderWay(run.carry), startIce: isUnderWay((x, y) => [x, y]), track: true, circles: false, velocities: false, forces: false, fractures: false },
+    layers: { channel: isUnderWay(run.carry), startIce: isUnderWay((x, y) => [x, y]), track: true, circles: false,
+      velocities: false, forces: false, largestLoads: false, meanLoads: false, fractures: false },
     iceDirty: true, marksDirty: true,
   };
 }
@@ -172,8 +188,11 @@ function makePlayer(canvases) {
   const extremes = extremesOf(run);
   const colourings = makeColourings(run, places, extremes);
   return {
-    run, range, plan: options.plan, axis: options.axis_s ?? range, isOneOfTwo: "axis_s" in options, name: options.label ?? run.info.scene, state, view: makeMapView(byId("stage"), canvases), places, motions, box: extentOf(run, motions, places, range),
-    colours: themeColours(), colourings, extremes, circlesOf: makeCircleSampler(run), cardIsStale: false, drawn: 0, drawTimes: [],
+    run, range, plan: options.plan, axis: options.axis_s ?? range, isOneOfTwo: "axis_s" in options,
+      name: options.label ?? run.info.scene, state, view: makeMapView(byId("stage"), canvases), places, motions,
+        box: extentOf(run, motions, places, range),
+    colours: themeColours(), colourings, extremes, circlesOf: makeCircleSampler(run), cardIsStale: false, drawn: 0,
+      drawTimes: [],
     forceScale: 40 / (typicalForce(run) || 1), // [px/N]
     arrowScale: 40 / (colourings.speed.edges.at(-1) || 1), // [px/(m/s)]
     /** Classes of colours up to other extremes, as another run has them. */

@@ -15,7 +15,8 @@ function makePlotReading(run, plot) {
       return `${plot.ships().length > 1 ? `${ships[k].name} ` : ""}${at ? valueWords(at.value, curve.base) : "\u2013"}`;
     });
     const { label, isStack } = plot.shownQuantity();
-    return make("div", {}, make("span", {}, ...(isStack ? [lineOf(curve)] : []), curve.label || label), make("b", {}, values.join(", ")));
+    return make("div", {}, make("span", {}, ...(isStack ? [lineOf(curve)] : []), curve.label || label),
+      make("b", {}, values.join(", ")));
   }
 
   return {
@@ -23,7 +24,8 @@ function makePlotReading(run, plot) {
     show(time, px) {
       const at = plot.valueAt(plot.ships()[0], plot.curves()[0], time);
       const { isStack = false, sums = [] } = plot.shownQuantity();
-      words.replaceChildren(make("div", {}, make("span", {}, "row that ends at"), make("b", {}, at ? `${Number(at.time.toFixed(6))} s` : "\u2013")),
+      words.replaceChildren(make("div", {}, make("span", {}, "row that ends at"),
+        make("b", {}, at ? `${Number(at.time.toFixed(6))} s` : "\u2013")),
         ...[...plot.shownCurves(), ...sums].map((curve) => rowOf(curve, time)));
       words.classList.toggle("many", isStack);
       element.hidden = false;
@@ -38,7 +40,8 @@ function makePlotReading(run, plot) {
 
 /** How a curve looks: a line, or the colour of an area. */
 function lineOf({ kind, isArea = false }) {
-  return make("i", isArea ? { class: "line area", style: `background: var(--cause-${kind})` } : { class: `line ${kind}` });
+  return make("i", isArea
+    ? { class: "line area", style: `background: var(--cause-${kind})` } : { class: `line ${kind}` });
 }
 
 /** The plot's key: a box to tick, a line and the present value for each curve. Gives what shows the values. */
@@ -51,7 +54,8 @@ function fillPlotKey(run, plot, host, onChange) {
     const values = plot.ships().map((k) => {
       const output = make("output", { "data-column": curve.column, "data-ship": ships[k].name });
       outputs.push({ curve, ship: k, output });
-      return make("span", { class: "value", style: isOfMany ? `color: var(--ship-${k % 5})` : "" }, isOfMany ? `${ships[k].name} ` : "", output);
+      return make("span", { class: "value", style: isOfMany ? `color: var(--ship-${k % 5})` : "" }, isOfMany
+        ? `${ships[k].name} ` : "", output);
     });
     if (curves.length === 1) return make("div", { class: "curve" }, ...values);
     const box = make("input", { type: "checkbox", id: `curve-${curve.kind}` });
@@ -139,13 +143,15 @@ function drawEdgeMarks(chart, times, values, { min, max }) {
 
 function chartAxis({ colours }, scale, label, extra) {
   const font = "11px system-ui, sans-serif";
-  return { scale, stroke: colours.muted, grid: { stroke: colours.line, width: 1 }, ticks: { stroke: colours.line, width: 1, size: 4 },
+  return { scale, stroke: colours.muted, grid: { stroke: colours.line, width: 1 },
+    ticks: { stroke: colours.line, width: 1, size: 4 },
     font, labelFont: font, label, labelSize: 16, gap: 3, ...extra };
 }
 
 function valueAxis(plot, scale, side) {
   const base = plot.shownCurves().find((curve) => curve.scale === scale)?.base ?? "";
-  const unit = (chart) => (base.startsWith("N") ? loadUnit(Math.max(-chart.scales[scale].min, chart.scales[scale].max), base)
+  const unit = (chart) =>
+    (base.startsWith("N") ? loadUnit(Math.max(-chart.scales[scale].min, chart.scales[scale].max), base)
     : { factor: 1, name: base });
   const name = scale === "paper" ? "j/\u03c4c " : "";
   return chartAxis(plot, scale, (chart) => (unit(chart).name ? `${name}[${unit(chart).name}]` : ""), {
@@ -161,7 +167,8 @@ const drawnCurves = (plot) => plot.shownCurves().reverse();
 function chartSeries(plot, curves) {
   const paths = plot.shownQuantity().isStack ? { paths: () => null } : {};
   return plot.ships().flatMap((ship) => curves.map((curve) =>
-    ({ scale: curve.scale, points: { show: false }, ...paths, ...curveStyle(curve, ship, plot.run.forces.length, plot.colours) })));
+    ({ scale: curve.scale, points: { show: false }, ...paths, ...curveStyle(curve, ship, plot.run.forces.length,
+      plot.colours) })));
 }
 
 function chartOptions(plot) {
@@ -172,12 +179,15 @@ function chartOptions(plot) {
   const isPlain = plot.scales().includes("y");
   const placed = (chart) => plot.onPlaced(chart.over.offsetLeft, chart.over.offsetWidth);
   return {
-    width: plot.host.clientWidth, height: plot.host.clientHeight, padding: [ofLoads ? 18 : 6, isPaper ? 0 : 24, 0, isPlain ? 0 : 24],
+    width: plot.host.clientWidth, height: plot.host.clientHeight, padding: [ofLoads ? 18 : 6, isPaper ? 0 : 24, 0,
+      isPlain ? 0 : 24],
     legend: { show: false }, cursor: { show: false },
     hooks: { ready: [placed], setSize: [placed], draw: [(chart) => drawOffScale(plot, chart)],
       drawAxes: plot.shownQuantity().isStack ? [(chart) => drawStack(plot, chart)] : [] },
-    scales: { x: { time: false, range: () => plot.span }, ...Object.fromEntries(plot.scales().map((name) => [name, { range: rangeOf(name) }])) },
-    axes: [chartAxis(plot, "x", undefined, { size: 22, values: (_, splits) => splits.map((t) => `${Number(t.toFixed(6))} s`) }),
+    scales: { x: { time: false, range: () => plot.span },
+      ...Object.fromEntries(plot.scales().map((name) => [name, { range: rangeOf(name) }])) },
+    axes: [chartAxis(plot, "x", undefined, { size: 22, values: (_, splits) =>
+      splits.map((t) => `${Number(t.toFixed(6))} s`) }),
       ...(isPlain ? [valueAxis(plot, "y", 3)] : []), ...(isPaper ? [valueAxis(plot, "paper", 1)] : [])],
     series: [{}, ...chartSeries(plot, curves)],
   };
@@ -186,9 +196,11 @@ function chartOptions(plot) {
 /** The curves of the ships that are shown over one axis of times. */
 function chartRows(plot) {
   const curves = drawnCurves(plot);
-  const tables = plot.ships().map((ship) => plot.run.forces[ship]).map((rows) => [rows.force_t_s, ...curves.map((curve) => rows[curve.column])]);
+  const tables = plot.ships().map((ship) => plot.run.forces[ship]).map((rows) =>
+    [rows.force_t_s, ...curves.map((curve) => rows[curve.column])]);
   if (tables.every(([times]) => times.length === 0)) return [[], ...tables.flatMap(() => curves.map(() => []))];
-  return tables.length === 1 ? tables[0] : uPlot.join(tables.map((columns) => columns.map((column) => Array.from(column))));
+  return tables.length === 1
+    ? tables[0] : uPlot.join(tables.map((columns) => columns.map((column) => Array.from(column))));
 }
 
 // Pointers on the plot: a drag goes to a time, the wheel and two fingers zoom, Shift and a drag choose a part of the
@@ -347,7 +359,8 @@ class Plot {
     if (this.shownQuantity().isStack) {
       const { high, low, line, ends } = stackOf(this);
       const [up, down] = this.shownQuantity().sums;
-      return [[up, high], [down, low], ...(line ? [[this.curves().at(-1), line]] : [])].map(([curve, values]) => ({ curve, ship: this.ships()[0], times: ends, values }));
+      return [[up, high], [down, low], ...(line ? [[this.curves().at(-1), line]] : [])].map(([curve, values]) =>
+        ({ curve, ship: this.ships()[0], times: ends, values }));
     }
     return this.shownCurves().flatMap((curve) => this.ships().map((ship) => {
       const [rows, part] = [this.run.forces[ship], this.rowsInView(ship)];
@@ -371,7 +384,8 @@ class Plot {
   axisRanges() {
     const needed = this.widened(this.neededRanges());
     const names = Object.keys(needed);
-    const ranges = this.isOfLoads() ? alignedRanges(names.map((name) => needed[name])) : names.map((name) => uPlot.rangeNum(...needed[name], 0.1, true));
+    const ranges = this.isOfLoads() ? alignedRanges(names.map((name) => needed[name])) : names.map((name) =>
+      uPlot.rangeNum(...needed[name], 0.1, true));
     return Object.fromEntries(names.map((name, k) => [name, ranges[k]]));
   }
 
@@ -394,14 +408,16 @@ class Plot {
 
   resize() {
     const [width, height] = [this.host.clientWidth, this.host.clientHeight];
-    if (this.chart && width > 0 && (this.chart.width !== width || this.chart.height !== height)) this.chart.setSize({ width, height });
+    if (this.chart && width > 0
+      && (this.chart.width !== width || this.chart.height !== height)) this.chart.setSize({ width, height });
   }
 
   /** Shows a part of the run, at least some rows of it, at most all. */
   show(from, until) {
     if (!this.chart) return;
     const { range } = this;
-    const length = Math.min(range[1] - range[0], Math.max(until - from, shortestSpan * this.run.info.forces_interval_s));
+    const length = Math.min(range[1] - range[0], Math.max(until - from,
+      shortestSpan * this.run.info.forces_interval_s));
     const start = Math.min(range[1] - length, Math.max(range[0], (from + until - length) / 2));
     this.span = length >= range[1] - range[0] ? range : [start, start + length];
     this.chart.setScale("x", { min: this.span[0], max: this.span[1] });

@@ -75,17 +75,21 @@ function partsByDirection({ force_causes: causes }) {
   const directions = new Map();
   for (const cause of causes) {
     const shares = causes.filter(({ share_of: of }) => of === cause.column).map(({ column }) => column);
-    const part = { cause: cause.cause, words: shares.length > 0 ? cause.without_shares : cause.words, column: cause.column, unit: cause.unit, shares };
+    const part = { cause: cause.cause, words: shares.length > 0 ? cause.without_shares : cause.words,
+      column: cause.column, unit: cause.unit, shares };
     directions.set(cause.direction, [...(directions.get(cause.direction) ?? []), part]);
   }
   return directions;
 }
 
-/** Adds a column for each part and for the sums to a ship's rows: all of them, and those above and below 0. Gives the parts that are not 0 throughout. */
+/** Adds a column for each part and for the sums to a ship's rows: all of them, and those above and below 0. Gives the
+ * parts that are not 0 throughout. */
 function addCauses(rows, direction, parts) {
-  const sums = { sum: new Float64Array(rows.force_t_s.length), up: new Float64Array(rows.force_t_s.length), down: new Float64Array(rows.force_t_s.length) };
+  const sums = { sum: new Float64Array(rows.force_t_s.length), up: new Float64Array(rows.force_t_s.length),
+    down: new Float64Array(rows.force_t_s.length) };
   for (const part of parts) {
-    const values = rows[part.column].map((value, row) => part.shares.reduce((left, share) => left - rows[share][row], value));
+    const values = rows[part.column].map((value, row) => part.shares.reduce((left, share) => left - rows[share][row],
+      value));
     rows[`${direction}: ${part.cause}`] = values;
     values.forEach((value, row) => {
       sums.sum[row] += value;
@@ -119,16 +123,20 @@ function stackedQuantities({ info, forces }) {
 // What the plot shows: quantities, each with its curves, which are columns of forces.csv. True loads lead; the paper's
 // j/τ_c, which is larger by far, has its own name and its own axis.
 
-/** The quantities a run can show, by the first of their columns; those that not every run has come last, where they are not 0. */
+/** The quantities a run can show, by the first of their columns; those that not every run has come last, where they are
+ * not 0. */
 function plotQuantities({ info, forces }) {
   const labels = { mean: `${info.forces_interval_s} s mean`, max: "step maximum", paper: "j/\u03c4c (paper)" };
   const plots = new Map();
   for (const column of info.force_columns) plots.set(column.plot, [...(plots.get(column.plot) ?? []), column]);
-  const isShown = ({ name, is_optional }) => !is_optional || forces.some((rows) => rows[name].some((value) => value !== 0));
+  const isShown = ({ name, is_optional }) => !is_optional || forces.some((rows) =>
+    rows[name].some((value) => value !== 0));
   const isOptional = ([, columns]) => Number(columns[0].is_optional);
-  return Object.fromEntries([...plots].filter(([, columns]) => columns.some(isShown)).sort((a, b) => isOptional(a) - isOptional(b))
+  return Object.fromEntries([...plots].filter(([, columns]) => columns.some(isShown)).sort((a, b) =>
+    isOptional(a) - isOptional(b))
     .map(([label, columns]) => [columns[0].name, { label, curves: columns.map(({ name, unit, curve }) =>
-      ({ kind: curve, label: columns.length > 1 ? labels[curve] : "", column: name, base: unit, scale: curve === "paper" ? "paper" : "y" })) }]));
+      ({ kind: curve, label: columns.length > 1 ? labels[curve] : "", column: name, base: unit,
+        scale: curve === "paper" ? "paper" : "y" })) }]));
 }
 
 const isLoad = (curve) => curve.base.startsWith("N");
@@ -136,7 +144,8 @@ const isLoad = (curve) => curve.base.startsWith("N");
 /** A value with the unit that suits it. */
 function valueWords(value, base) {
   const unit = /^(N|Pa)/.test(base) ? loadUnit(Math.abs(value), base) : { factor: 1, name: base };
-  const digits = value === 0 ? "0" : Number.isInteger(value) && unit.factor === 1 ? String(value) : (value * unit.factor).toPrecision(4);
+  const digits = value === 0 ? "0" : Number.isInteger(value) && unit.factor === 1
+    ? String(value) : (value * unit.factor).toPrecision(4);
   return minus(`${digits} ${unit.name}`.trim());
 }
 
@@ -165,7 +174,8 @@ function rowsInColumn(plot) {
   return Math.max(1, Math.ceil((columnWidth * (end - first)) / Math.max(1, plot.host.clientWidth)));
 }
 
-/** Means of a column's rows, `size` of them each; groups begin at multiples of it, so that they stay when the plot moves. */
+/** Means of a column's rows, `size` of them each; groups begin at multiples of it, so that they stay when the plot
+ * moves. */
 function meansOf(values, first, end, size) {
   const means = new Float64Array(Math.ceil(end / size) - Math.floor(first / size));
   for (let k = 0; k < means.length; ++k) {
@@ -177,7 +187,8 @@ function meansOf(values, first, end, size) {
 }
 
 /**
- * What is in view, as columns: of each shown cause its mean, how high and how low they stand together, their sum, and the times between
+ * What is in view, as columns: of each shown cause its mean, how high and how low they stand together, their sum, and
+ * the times between
  * which each column stands [s].
  */
 function stackOf(plot) {
@@ -186,7 +197,8 @@ function stackOf(plot) {
   const [first, end] = plot.rowsInView(ship);
   const size = rowsInColumn(plot);
   const shown = plot.shownCurves();
-  const areas = shown.filter(({ kind }) => kind !== "sum").map((curve) => ({ curve, means: meansOf(rows[curve.column], first, end, size) }));
+  const areas = shown.filter(({ kind }) => kind !== "sum").map((curve) =>
+    ({ curve, means: meansOf(rows[curve.column], first, end, size) }));
   const line = shown.find(({ kind }) => kind === "sum");
   const count = Math.max(0, Math.ceil(end / size) - Math.floor(first / size));
   const [high, low] = [new Float64Array(count), new Float64Array(count)];
@@ -194,7 +206,8 @@ function stackOf(plot) {
   const times = rows.force_t_s;
   const startOf = (row) => (row > 0 ? times[row - 1] : 2 * times[0] - (times[1] ?? 2 * times[0]));
   const starts = Float64Array.from(high, (_, k) => startOf((Math.floor(first / size) + k) * size));
-  const ends = Float64Array.from(high, (_, k) => times[Math.min(times.length, (Math.floor(first / size) + k + 1) * size) - 1]);
+  const ends = Float64Array.from(high, (_, k) =>
+    times[Math.min(times.length, (Math.floor(first / size) + k + 1) * size) - 1]);
   return { areas, line: line ? meansOf(rows[line.column], first, end, size) : null, high, low, starts, ends, size };
 }
 

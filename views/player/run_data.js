@@ -67,7 +67,8 @@ class KeptShapes {
 }
 
 /**
- * Gives a floe's shape: `points` [x, y, ...] in its body frame [m] from the point `first` on, ring after ring. A ring ends before the
+ * Gives a floe's shape: `points` [x, y, ...] in its body frame [m] from the point `first` on, ring after ring. A ring
+ * ends before the
  * point `first + ring_ends[ring]`.
  */
 function makeShapes(columns) {
@@ -99,10 +100,12 @@ function bytesOfBase64(text) {
 
 const columnTypes = { f64: Float64Array, i32: Int32Array, u8: Uint8Array };
 
-const floeRows = ["parent", "generation", "born_s", "died_s", "went_under_s", "came_up", "area_m2", "mass_kg", "thickness_m", "flexural_strength_Pa",
+const floeRows = ["parent", "generation", "born_s", "died_s", "went_under_s", "came_up", "area_m2", "mass_kg",
+  "thickness_m", "flexural_strength_Pa",
   "centroid_x_m", "centroid_y_m", "reach_m"];
 
-/** Gives the floes of a page of an area their ids: rows of all floes of the run, in which those left out are never born and have no shape. */
+/** Gives the floes of a page of an area their ids: rows of all floes of the run, in which those left out are never born
+ * and have no shape. */
 function spreadFloes(columns, count) {
   const ids = columns.floe_id;
   for (const name of floeRows) {

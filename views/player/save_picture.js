@@ -27,7 +27,8 @@ function makeIcePicture(player, canvas) {
     ice.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
     if (state.layers.startIce) drawStartIce(ice, view, run, start, places, state.time, colours);
     if (state.layers.channel && run.frames.times.length > 0) drawChannels();
-    const kind = [view.x, view.y, view.scale, view.width, view.height, state.colourBy, colours.water, state.sizes?.from, state.sizes?.below].join();
+    const kind = [view.x, view.y, view.scale, view.width, view.height, state.colourBy, colours.water, state.sizes?.from,
+      state.sizes?.below].join();
     const look = paleOutOfSizes(colourings[state.colourBy], run.floes, state.sizes, colours);
     drawStillAndMoving(ice, view, kind, state.time, Math.max(5, state.rate), (context, ids) =>
       drawFloes(context, view, run, places, raster, ids, look));
@@ -38,6 +39,7 @@ function makeIcePicture(player, canvas) {
 function makeMarksPicture(player, canvas) {
   const { run, state, view, places, motions, circlesOf } = player;
   const marks = canvas.getContext("2d");
+  const loadLine = makeLoadLine(run);
 
   function outline(id) {
     marks.beginPath();
@@ -48,7 +50,8 @@ function makeMarksPicture(player, canvas) {
   }
 
   function showNotices(notices) {
-    const words = run.frames.times.length > 0 ? notices.filter(Boolean).join(" ") : "This run has no frames: the scene is shown as it starts.";
+    const words = run.frames.times.length > 0
+      ? notices.filter(Boolean).join(" ") : "This run has no frames: the scene is shown as it starts.";
     byId("notice").textContent = words;
     byId("notice").hidden = words === "";
   }
@@ -60,13 +63,17 @@ function makeMarksPicture(player, canvas) {
     marks.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
     if (shown >= 0) drawLineage(marks, view, run, places, shown, state.time, colours);
     if (state.layers.fractures) drawFractures(marks, view, run, state.time, colours);
-    if (state.selected >= 0 && state.hovered >= 0 && state.hovered !== shown && places.isThere(state.hovered, state.time)) outline(state.hovered);
+    if (state.selected >= 0 && state.hovered >= 0 && state.hovered !== shown
+      && places.isThere(state.hovered, state.time)) outline(state.hovered);
     drawShips(marks, view, run, motions, state.time, state.layers, colours);
     drawIceUnderHulls(marks, view, run, places, colours);
     if (places.under.includes(shown)) outline(shown);
     const notices = [player.isOver ? `This run ends at ${Number(player.range[1].toFixed(6))} s.` : ""];
     if (state.layers.circles) notices.push(drawCircles(marks, view, run, circlesOf, places, motions, colours));
-    if (state.layers.forces) notices.push(drawContactForces(marks, view, run, motions, places, state.time, colours, player.forceScale));
+    if (state.layers.forces) notices.push(drawContactForces(marks, view, run, motions, places, state.time, colours,
+      player.forceScale));
+    if (state.layers.largestLoads || state.layers.meanLoads)
+      notices.push(drawLoadLine(marks, view, loadLine, motions, state.time, !state.layers.largestLoads));
     if (state.layers.velocities) drawVelocities(marks, view, run, places, motions, colours, player.arrowScale);
     if (state.event !== null) drawChosenEvent(marks, view, run.info.events[state.event], colours);
     if (player.plan) drawPlan(marks, player);
@@ -165,10 +172,13 @@ function mapPicture(player) {
 function curveItems({ plot, run, state }) {
   const ships = plot.ships();
   return plot.shownCurves().flatMap((curve) => ships.map((ship) => {
-    const colour = curve.isArea ? plot.colours[`cause-${curve.kind}`] : curveStyle(curve, ship, run.info.ships.length, plot.colours).stroke;
+    const colour = curve.isArea ? plot.colours[`cause-${curve.kind}`] : curveStyle(curve, ship, run.info.ships.length,
+      plot.colours).stroke;
     const at = plot.valueAt(ship, curve, state.time);
-    const name = [ships.length > 1 ? run.info.ships[ship].name : "", curve.label || plot.shownQuantity().label].filter(Boolean).join(" ");
-    return { mark: curve.isArea ? "box" : "line", colour, border: plot.colours.line, words: at ? `${name} ${valueWords(at.value, curve.base)}` : name };
+    const name = [ships.length > 1 ? run.info.ships[ship].name : "", curve.label
+      || plot.shownQuantity().label].filter(Boolean).join(" ");
+    return { mark: curve.isArea ? "box" : "line", colour, border: plot.colours.line, words: at
+      ? `${name} ${valueWords(at.value, curve.base)}` : name };
   }));
 }
 
@@ -177,13 +187,15 @@ function plotPicture(player) {
   const { chart, host } = plot;
   const [width, height] = [host.clientWidth, host.clientHeight];
   return composePicture(player, {
-    width, height, ratio: chart.ctx.canvas.width / width, title: `${plot.shownQuantity().label}, ${state.time.toFixed(1)} s`, key: curveItems(player),
+    width, height, ratio: chart.ctx.canvas.width / width,
+      title: `${plot.shownQuantity().label}, ${state.time.toFixed(1)} s`, key: curveItems(player),
     drawBody: (context) => {
       context.drawImage(chart.ctx.canvas, 0, 0, width, height);
       const { offsetLeft: left, offsetTop: top, offsetWidth: across, offsetHeight: down } = chart.over;
       const [from, until] = plot.span;
       context.fillStyle = plot.colours.highlight;
-      if (!plot.now.hidden) context.fillRect(left + ((state.time - from) / (until - from || 1)) * across - 1, top, 2, down);
+      if (!plot.now.hidden) context.fillRect(left + ((state.time - from) / (until - from || 1)) * across - 1, top, 2,
+        down);
       if (plot.offScale.hidden) return;
       context.font = pictureFont(400, 11);
       context.fillStyle = plot.colours.muted;

@@ -34,7 +34,8 @@ function makeSizeClasses({ floes }) {
 /** How many floes float in each class, and their area [m²]; of all and of those in a range of sizes too. */
 function countSizes({ floes }, places, { edges, of }, range) {
   const classes = Math.max(0, edges.length - 1);
-  const counts = { number: new Float64Array(classes), area: new Float64Array(classes), all: { number: 0, area: 0 }, chosen: { number: 0, area: 0 } };
+  const counts = { number: new Float64Array(classes), area: new Float64Array(classes), all: { number: 0, area: 0 },
+    chosen: { number: 0, area: 0 } };
   for (let n = 0; n < places.count; ++n) {
     const id = places.living[n];
     const area = floes.area[id];
@@ -55,7 +56,8 @@ function isInSizes(floes, id, range) {
 }
 
 /** "from 5 to 20 m" */
-const sizeRangeWords = ({ from, below }) => (Number.isFinite(below) ? `from ${shortNumber(from)} to ${shortNumber(below)} m` : `from ${shortNumber(from)} m on`);
+const sizeRangeWords = ({ from, below }) =>
+  (Number.isFinite(below) ? `from ${shortNumber(from)} to ${shortNumber(below)} m` : `from ${shortNumber(from)} m on`);
 
 const paleness = 0.72; // of floes out of the range: how far they go to the water's colour
 
@@ -67,7 +69,8 @@ function paleOutOfSizes(colouring, floes, range, colours) {
   const classes = colouring.colours.length;
   const pale = colouring.colours.map((colour) => mixedColour(colour, colours.water, paleness));
   const paleEdge = mixedColour(edge, colours.water, paleness);
-  return { bucketOf: (id) => bucketOf(id) + (isInSizes(floes, id, range) ? classes : 0), fills: [...pale, ...colouring.colours],
+  return { bucketOf: (id) => bucketOf(id) + (isInSizes(floes, id, range) ? classes : 0),
+    fills: [...pale, ...colouring.colours],
     edgeOf: (bucket) => (bucket < classes ? paleEdge : edge) };
 }
 
@@ -76,7 +79,8 @@ function paleOutOfSizes(colouring, floes, range, colours) {
 const plotInset = { left: 4, right: 4, top: 16, bottom: 18 }; // [px]
 
 /** A number of floes or an area as people read it. */
-const amountWords = (value, isArea) => (isArea ? `${sixDigits(Number(value.toPrecision(4)))} m\u00b2` : counted(value, "floe"));
+const amountWords = (value, isArea) =>
+  (isArea ? `${sixDigits(Number(value.toPrecision(4)))} m\u00b2` : counted(value, "floe"));
 
 function drawHistogram(canvas, { width, height }, { edges }, bars, { chosen, pointed, words }, colours) {
   const ratio = Math.min(window.devicePixelRatio || 1, 2);
@@ -164,16 +168,19 @@ function makeSizePanel(player) {
     if (classes.edges.length === 0) return;
     const counts = countSizes(run, places, classes, state.sizes);
     const bars = panel.isArea ? counts.area : counts.number;
-    const key = [bars.join(), panel.isArea, panel.pointed, panel.box.width, state.sizes?.from, state.sizes?.below, player.colours.accent].join(";");
+    const key = [bars.join(), panel.isArea, panel.pointed, panel.box.width, state.sizes?.from, state.sizes?.below,
+      player.colours.accent].join(";");
     if (key === panel.shown || panel.box.width === 0) return;
     panel.shown = key;
     const { pointed, isArea } = panel;
     const { edges } = classes;
-    const words = pointed < 0 ? `at most ${amountWords(Math.max(...bars), isArea)}` : `${edges[pointed]} \u2013 ${edges[pointed + 1]} m: ${amountWords(bars[pointed], isArea)}`;
+    const words = pointed < 0 ? `at most ${amountWords(Math.max(...bars), isArea)}`
+    : `${edges[pointed]} \u2013 ${edges[pointed + 1]} m: ${amountWords(bars[pointed], isArea)}`;
     drawHistogram(canvas, panel.box, classes, bars, { chosen: state.sizes, pointed, words }, player.colours);
     const { all, chosen } = counts;
     byId("size-words").textContent = state.sizes === null ? "A drag over the histogram chooses sizes."
-      : `${chosen.number} of ${amountWords(all.number, false)}, ${amountWords(chosen.area, true)} (${((100 * chosen.area) / (all.area || 1)).toFixed(1)} % of the ice)`;
+      : `${chosen.number} of ${amountWords(all.number, false)}, ${amountWords(chosen.area, true)} ` +
+      `(${((100 * chosen.area) / (all.area || 1)).toFixed(1)} % of the ice)`;
     byId("size-all").disabled = state.sizes === null;
   };
   panel.point = (k) => {
@@ -190,7 +197,8 @@ function makeSizePanel(player) {
       panel.show();
     });
   }
-  new ResizeObserver(([{ contentRect: { width, height } }]) => { // to read it of the canvas would lay out the page at each frame
+  new ResizeObserver(([{ contentRect: { width, height } }]) =>
+    { // to read it of the canvas would lay out the page at each frame
     panel.box = { width, height };
     panel.show();
   }).observe(canvas);

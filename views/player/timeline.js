@@ -3,7 +3,8 @@
 
 const nearMark = 5; // [px]
 const markedHeight = 23; // of the timeline from its top, where marks are [px]
-const markHeights = { split: 7, bend: 18, grind: 18, rejected_cut: 18, mooring_break: 7 }; // of each kind of mark, from the top [px]
+const markHeights = { split: 7, bend: 18, grind: 18, rejected_cut: 18,
+  mooring_break: 7 }; // of each kind of mark, from the top [px]
 
 /** Whether an event has a mark. What goes under hulls and comes up has none: there is one for each cusp. */
 const isMarked = ({ kind }) => kind in markHeights;
@@ -85,12 +86,14 @@ function eventAt(events, { pixelOf }, px, py) {
   return best;
 }
 
-/** Pointers on the timeline: a drag goes to a time, wherever it begins; so does a click, or to the event whose mark it hits. The words of the
+/** Pointers on the timeline: a drag goes to a time, wherever it begins; so does a click,
+  or to the event whose mark it hits. The words of the
  * mark under the pointer stand in the tip. */
 function watchTimeline(track, timeline, run, actions) {
   const { events } = run.info;
   const tip = byId("timeline-tip");
-  let press = null; // {px, mark}: from where on [px], and the event whose mark is there until the pointer moves away from it
+  // {px, mark}: from where on [px], and the event whose mark is there until the pointer moves away from it
+  let press = null;
   track.addEventListener("pointerdown", (pointer) => {
     if (pointer.button !== 0) return;
     const [px, py] = pointIn(track, pointer);
@@ -106,7 +109,8 @@ function watchTimeline(track, timeline, run, actions) {
     tip.hidden = found === null || pointer.pointerType === "touch";
     if (tip.hidden) return;
     tip.textContent = eventWords(events[found]);
-    tip.style.left = `${Math.min(timeline.left + px, Math.max(0, track.parentElement.clientWidth - tip.offsetWidth - 8))}px`;
+    const right = Math.max(0, track.parentElement.clientWidth - tip.offsetWidth - 8);
+    tip.style.left = `${Math.min(timeline.left + px, right)}px`;
   });
   track.addEventListener("pointerleave", () => { tip.hidden = true; });
   track.addEventListener("pointerup", () => {
@@ -119,5 +123,6 @@ function watchTimeline(track, timeline, run, actions) {
 const kindWords = (kind) => kind.replaceAll("_", " ");
 
 function eventWords(event) {
-  return `${event.t_s.toFixed(2)} s: ${kindWords(event.kind)} of ${"floe" in event ? `floe ${event.floe}` : event.ship}`;
+  const what = "floe" in event ? `floe ${event.floe}` : event.ship;
+  return `${event.t_s.toFixed(2)} s: ${kindWords(event.kind)} of ${what}`;
 }

@@ -10,7 +10,8 @@ import polynya
 
 from .spaces import Box, Dict, Env
 
-WATER, ICE, OTHERS, OWN = (numpy.array(colour, dtype=float) for colour in ((143, 184, 208), (255, 255, 255), (122, 92, 46), (43, 43, 43)))
+_COLOURS = (143, 184, 208), (255, 255, 255), (122, 92, 46), (43, 43, 43)
+WATER, ICE, OTHERS, OWN = (numpy.array(colour, dtype=float) for colour in _COLOURS)
 MOST_SEED = 2**31
 
 
@@ -47,7 +48,8 @@ class ShipInIce(Env):
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
 
-    def __init__(self, scene, *, ship=0, goal=None, goal_radius=100.0, seconds=0.5, shape=(96, 96), cell_m=4.0, ahead_m=0.0, time_limit=None,
+    def __init__(self, scene, *, ship=0, goal=None, goal_radius=100.0, seconds=0.5,
+                 shape=(96, 96), cell_m=4.0, ahead_m=0.0, time_limit=None,
                  reward=metres_less_work, threads=1, render_mode=None):
         if render_mode not in (None, "rgb_array"):
             raise ValueError(f"render_mode is {render_mode!r}, allowed: None, 'rgb_array'")
@@ -78,7 +80,8 @@ class ShipInIce(Env):
         time = scene.resolved["time"]
         self._steps = round(self.seconds / time["step_s"])
         if self._steps < 1 or abs(self._steps * time["step_s"] - self.seconds) > 1e-9 * self.seconds:
-            raise ValueError(f"a step of {self.seconds:g} s is no whole number of the scene's time steps of {time['step_s']:g} s")
+            raise ValueError(f"a step of {self.seconds:g} s is no whole number of the scene's time steps of "
+                             f"{time['step_s']:g} s")
         self._end = time["until_s"] if self._time_limit is None else self._time_limit
         self.simulation = polynya.Simulation(scene, threads=self._threads)
         names = [ship.name for ship in self.simulation.ships]
@@ -107,7 +110,8 @@ class ShipInIce(Env):
         self.simulation.step(self._steps)
         self._now = self.simulation.ships[self._ship]
         change = self._change(before)
-        info = {"time_s": self.simulation.time, "progress_m": change.progress, "ice_work_J": change.ice_work, "events": change.events}
+        info = {"time_s": self.simulation.time, "progress_m": change.progress, "ice_work_J": change.ice_work,
+                "events": change.events}
         is_over = self.simulation.time >= self._end - 1e-9
         return self._observation(), float(self._reward(change)), change.reached, is_over, info
 
@@ -118,7 +122,8 @@ class ShipInIce(Env):
             progress, reached = float((after.position - before.position) @ ahead), False
         else:
             left = numpy.hypot(*(self.goal - after.position))
-            progress, reached = float(numpy.hypot(*(self.goal - before.position)) - left), bool(left <= self.goal_radius)
+            progress = float(numpy.hypot(*(self.goal - before.position)) - left)
+        reached = bool(left <= self.goal_radius)
         surge, sway = _in_ship(0.5 * (before.velocity + after.velocity), after.heading)
         turning = 0.5 * (before.yaw_rate + after.yaw_rate)
         work = -self.seconds * (forces["surge_N"] * surge + forces["sway_N"] * sway + forces["yaw_Nm"] * turning)
@@ -129,7 +134,8 @@ class ShipInIce(Env):
         to_goal = (0.0, 0.0) if self.goal is None else _in_ship(self.goal - ship.position, ship.heading)
         share = ship.steering_angle / self._steering_most if self._steering_most else 0.0
         state = (*_in_ship(ship.velocity, ship.heading), ship.yaw_rate, ship.lever, share, *to_goal)
-        return {"image": self.simulation.occupancy(self._ship, **self._view), "ship": numpy.array(state, dtype=numpy.float32)}
+        return {"image": self.simulation.occupancy(self._ship, **self._view),
+                "ship": numpy.array(state, dtype=numpy.float32)}
 
     def render(self):
         """The image in colours, with the ship: rows x columns x 3 bytes."""

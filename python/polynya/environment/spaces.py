@@ -49,7 +49,9 @@ except ImportError:
             return {name: space.sample() for name, space in self.items()}
 
         def contains(self, x):
-            return isinstance(x, dict) and x.keys() == self.keys() and all(space.contains(x[name]) for name, space in self.items())
+            if not isinstance(x, dict) or x.keys() != self.keys():
+                return False
+            return all(space.contains(x[name]) for name, space in self.items())
 
     class Env:
         """As Gymnasium's, without its registry."""

@@ -7,7 +7,8 @@ from .loads import prefixed
 from .page import POINT, Page, Sheet, in_words, plain
 from .subjects import all_labelled, colour_of
 
-SOURCES = {"initial": "motion at the start", "thrust": "thrust and holding", "current": "current", "wind": "wind", "walls": "loads of walls", "imbalance": "imbalance"}
+SOURCES = {"initial": "motion at the start", "thrust": "thrust and holding", "current": "current",
+           "wind": "wind", "walls": "loads of walls", "imbalance": "imbalance"}
 SINKS = {
     "kinetic": "motion at the end",
     "drag": "water drag",
@@ -27,7 +28,8 @@ def terms_of(runs):
     """Sources and sinks in their order: (words, a value [J] or None for each run). A term of no name here is a sink of
     its own name."""
     energies = [run.run.summary.get("energy") or {} for run in runs]
-    keys = dict.fromkeys(key[:-2] for energy in energies for key in energy if key.endswith("_J") and key != "turnover_J")
+    keys = dict.fromkeys(key[:-2] for energy in energies for key in energy if key.endswith("_J")
+                         and key != "turnover_J")
     sinks = [key for key in SINKS if key in keys] + [key for key in keys if key not in SOURCES and key not in SINKS]
     named = {**SOURCES, **SINKS}
     of = lambda key: (named.get(key, key.replace("_", " ")), [energy.get(f"{key}_J") for energy in energies])
@@ -56,7 +58,8 @@ def draw(runs, page=Page()):
             sheet.title_panel(axes, i, 2, title, page.width)
         grid[0].tick_params(labelbottom=False)
         grid[1].set_xlabel(f"energy, {prefix}J")
-        handles = [Patch(color=colour_of(i), label=plain(run.label)) for i, run in enumerate(runs)] if len(runs) > 1 else []
+        handles = [Patch(color=colour_of(i), label=plain(run.label)) for i,
+                   run in enumerate(runs)] if len(runs) > 1 else []
         notes = [f"Nothing in {'any run' if len(runs) > 1 else 'this run'}: {', '.join(absent)}."] if absent else []
         figure = sheet.finish(sum(heights) + 18 * scale, handles, notes)
         make_room(figure, grid[1], numbers)
@@ -73,9 +76,11 @@ def draw_bars(axes, terms, factor, bar, pitch, page):
             y = k * pitch + i * bar
             axes.barh(y, value / factor, 0.82 * bar, align="edge", color=colour_of(i), linewidth=0)
             numbers.append(axes.annotate(
-                in_words(value / factor), (max(0, value / factor), y + 0.41 * bar), (2 * page.style.scale, 0), textcoords="offset points",
+                in_words(value / factor), (max(0, value / factor), y + 0.41 * bar),
+                (2 * page.style.scale, 0), textcoords="offset points",
                 va="center_baseline", ha="left", fontsize=page.style.small, annotation_clip=False, in_layout=False))
-    axes.set_yticks([k * pitch + 0.5 * bar * len(values) for k, (_, values) in enumerate(terms)], [words for words, _ in terms])
+    axes.set_yticks([k * pitch + 0.5 * bar * len(values) for k, (_, values) in enumerate(terms)],
+                    [words for words, _ in terms])
     gap = pitch - bar * len(values) if terms else pitch
     axes.set_ylim(max(1, len(terms)) * pitch - 0.4 * gap, -0.6 * gap)
     axes.tick_params(axis="y", length=0, labelsize=page.style.text)

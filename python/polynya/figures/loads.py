@@ -43,7 +43,9 @@ def chosen(run, choice):
 
 def why_not(run, choice):
     """Why a run has no such load."""
-    what = "has one ship and no structure" if choice == "ships" else "does not split floes by j/tau_c (fracture.splitting.model michel)"
+    what = "does not split floes by j/tau_c (fracture.splitting.model michel)"
+    if choice == "ships":
+        what = "has one ship and no structure"
     return f"--load {choice}: {run.folder} {what}"
 
 
@@ -101,7 +103,8 @@ def draw(runs, page=Page(), choice="true"):
             (component, unit), (low, high), (factor, prefix) = COMPONENTS[k], scales[k], prefixes[k]
             handles += draw_panel(axes, subjects[i], loads, (component, unit), factor, page)
             axes.set(xlim=(subjects[i].of.start, subjects[i].of.end), ylim=(low / factor, high / factor))
-            sheet.title_panel(axes, number, 3 * len(subjects), subjects[i].name if k == 0 else "", (page.width - 16 * page.style.scale) / columns - 2 * page.style.scale)
+            sheet.title_panel(axes, number, 3 * len(subjects), subjects[i].name if k == 0 else "",
+                              (page.width - 16 * page.style.scale) / columns - 2 * page.style.scale)
             label(axes, is_left=column == 0, is_lowest=k == 2)
             if column == 0:
                 sheet.label_y(axes, f"{component}, {prefix}{'N m' if unit == 'Nm' else unit}", height)

@@ -61,9 +61,11 @@ def map_of(labelled, scenery, time, has_label):
     frame = run.frame(min(max(time, run.start_time), run.end_time))
     marks = {kind: scenery.fractures(kind, -math.inf, frame.time)[0] for kind in FRACTURES}
     floats = int(numpy.count_nonzero(~frame.is_under))
-    caption = f"{counted(len(marks['bend']), 'cusp')}, {counted(len(marks['split']), 'split')}, {counted(floats, 'floe')}"
+    numbers = ((len(marks["bend"]), "cusp"), (len(marks["split"]), "split"), (floats, "floe"))
+    caption = ", ".join(counted(*number) for number in numbers)
     events = run.event_columns
-    went, up = (int(numpy.count_nonzero((events["t_s"] <= frame.time) & (events["kind"] == kind))) for kind in ("submerge", "resurface"))
+    went, up = (int(numpy.count_nonzero((events["t_s"] <= frame.time) & (events["kind"] == kind)))
+                for kind in ("submerge", "resurface"))
     if went:
         caption += f"; {counted(went, 'piece')} went under the hull, {up} came up"
     title = f"{labelled.label}, {frame.time:.4g} s" if has_label else f"{frame.time:.4g} s"
@@ -85,19 +87,23 @@ def draw_map(axes, shown, window, page, points_per_metre):
     edge = min(0.45, max(0.12, 0.2 * points_per_metre)) * scale
     ice = {"edgecolor": colours.EDGE, "linewidth": edge, "rasterized": is_huge}
     axes.set_facecolor(colours.WATER)
-    add_path(axes, scenery.ice_at_start(window, least), facecolor=colours.AT_START, edgecolor="none", zorder=1, rasterized=is_huge)
-    add_path(axes, path_of([ring for rings in shown.channel for ring in rings]), facecolor=colours.CHANNEL, edgecolor="none", zorder=2)
+    add_path(axes, scenery.ice_at_start(window, least), facecolor=colours.AT_START,
+             edgecolor="none", zorder=1, rasterized=is_huge)
+    add_path(axes, path_of([ring for rings in shown.channel for ring in rings]),
+             facecolor=colours.CHANNEL, edgecolor="none", zorder=2)
     paths = scenery.floes(frame, window, least)
     for kind, order in ((WHOLE, 3), (BROKEN, 3), (CAME_UP, 5)):
         add_path(axes, paths[kind], facecolor=colours.COLOURS[kind], zorder=order, **ice)
     size = (1.0 if len(shown.marks["bend"]) > CROWD else 1.5) * scale
     for kind in ("bend", "grind"):
-        axes.plot(*shown.marks[kind].T, linestyle="none", marker="o", markersize=size, markeredgewidth=0, color=colours.MARKS[kind], zorder=4)
+        axes.plot(*shown.marks[kind].T, linestyle="none", marker="o", markersize=size,
+                  markeredgewidth=0, color=colours.MARKS[kind], zorder=4)
     for track in scenery.tracks(frame.time):
         axes.plot(*track.T, color=colours.TRACK, linewidth=0.8 * scale, dashes=(5, 2.5), zorder=6)
     for hulls, colour in zip(scenery.hulls(frame), (colours.SHIP, colours.WALL)):
         add_path(axes, hulls, facecolor=colour, alpha=0.88, edgecolor="white", linewidth=0.5 * scale, zorder=7)
-    under = {"facecolor": colours.ICE_UNDER + "40", "edgecolor": colours.ICE_UNDER, "linewidth": edge, "linestyle": (0, (3, 2))}
+    under = {"facecolor": colours.ICE_UNDER + "40", "edgecolor": colours.ICE_UNDER,
+             "linewidth": edge, "linestyle": (0, (3, 2))}
     add_path(axes, paths[UNDER], zorder=8, **under)
     triangle = {"marker": "^", "markersize": 3.6 * scale, "markeredgewidth": 0.4 * scale, "markeredgecolor": "white"}
     axes.plot(*shown.marks["split"].T, linestyle="none", color=colours.MARKS["split"], zorder=9, **triangle)
@@ -107,24 +113,30 @@ def legend_of(maps, scale):
     """The keys of what some maps show."""
     kinds = {int(kind) for shown in maps for kind in shown.scenery.kinds(shown.frame)}
     has = lambda of: any(len(of(shown)) for shown in maps)
-    area = lambda colour, words, edge=colours.EDGE: Patch(facecolor=colour, edgecolor=edge, linewidth=0.4 * scale, label=words)
-    dot = lambda kind, words: Line2D([], [], color=colours.MARKS[kind], linestyle="none", marker="o", markersize=2.5 * scale, markeredgewidth=0, label=words)
-    under = {"facecolor": colours.ICE_UNDER + "40", "edgecolor": colours.ICE_UNDER, "linewidth": 0.8 * scale, "linestyle": (0, (3, 2))}
+    area = lambda colour, words, edge=colours.EDGE: Patch(facecolor=colour, edgecolor=edge,
+                                                          linewidth=0.4 * scale, label=words)
+    dot = lambda kind, words: Line2D([], [], color=colours.MARKS[kind], linestyle="none",
+                                     marker="o", markersize=2.5 * scale, markeredgewidth=0, label=words)
+    under = {"facecolor": colours.ICE_UNDER + "40", "edgecolor": colours.ICE_UNDER,
+             "linewidth": 0.8 * scale, "linestyle": (0, (3, 2))}
     split = {"marker": "^", "markersize": 4 * scale, "markeredgewidth": 0}
     keys = [
         (WHOLE in kinds, area(colours.ICE, "floe as in the scene")),
         (BROKEN in kinds, area(colours.BROKEN_ICE, "piece of a broken floe")),
         (CAME_UP in kinds, area(colours.RESURFACED_ICE, "piece that came up from under the hull")),
         (True, area(colours.WATER, "water", colours.WATER)),
-        (has(lambda s: s.scenery.ice_at_start().vertices), area(colours.AT_START, "ice at the start, open now", colours.AT_START)),
+        (has(lambda s: s.scenery.ice_at_start().vertices),
+         area(colours.AT_START, "ice at the start, open now", colours.AT_START)),
         (has(lambda s: s.channel), area(colours.CHANNEL, "channel behind the ship", colours.CHANNEL)),
         (has(lambda s: s.scenery.hulls(s.frame)[0].vertices), area(colours.SHIP, "ship or structure", colours.SHIP)),
         (has(lambda s: s.scenery.hulls(s.frame)[1].vertices), area(colours.WALL, "wall", colours.WALL)),
         (UNDER in kinds, Patch(label="ice under the hull or waiting behind it", **under)),
-        (has(lambda s: s.scenery.tracks(s.frame.time)), Line2D([], [], color=colours.TRACK, linewidth=0.8 * scale, dashes=(5, 2.5), label="track")),
+        (has(lambda s: s.scenery.tracks(s.frame.time)), Line2D([], [], color=colours.TRACK,
+                                                               linewidth=0.8 * scale, dashes=(5, 2.5), label="track")),
         (has(lambda s: s.marks["bend"]), dot("bend", "cusp broken by bending")),
         (has(lambda s: s.marks["grind"]), dot("grind", "overlap ground to brash")),
-        (has(lambda s: s.marks["split"]), Line2D([], [], color=colours.MARKS["split"], linestyle="none", label="floe split", **split)),
+        (has(lambda s: s.marks["split"]), Line2D([], [], color=colours.MARKS["split"],
+                                                 linestyle="none", label="floe split", **split)),
     ]
     return [handle for is_there, handle in keys if is_there]
 
@@ -136,9 +148,12 @@ def draw(runs, page=Page(), at=(), window=None):
     times = chosen_times(runs, at, page.style.maps)
     is_alone = len(runs) == 1
     sceneries = [Scenery(run.run) for run in runs]
-    maps = [map_of(run, scenery, min(time, run.end), not is_alone) for run, scenery in zip(runs, sceneries) for time in times]
+    maps = [map_of(run, scenery, min(time, run.end), not is_alone) for run,
+            scenery in zip(runs, sceneries) for time in times]
     start = [scenery.run.frame(scenery.run.start_time) for scenery in sceneries]
-    x0, y0, x1, y1 = window or extent_of([points for scenery, frame in [*zip(sceneries, start), *((shown.scenery, shown.frame) for shown in maps)]
+    x0, y0, x1, y1 = window or extent_of([points for scenery,
+                                          frame in [*zip(sceneries, start),
+                                                    *((shown.scenery, shown.frame) for shown in maps)]
                                           for points in scenery.points(frame)])
     title = runs[0].label if is_alone else "Floes and channels"
     if len(maps) == 1:
@@ -179,7 +194,8 @@ def layout(page, count, across, along):
         width = (page.width - 13 * scale - (columns - 1) * 3 * scale) / columns
         tallest = max(20 * scale, (page.style.tallest - 32 * scale) / rows - 11 * scale)
         width = min(width, tallest * across / along)
-        if count > 1 and columns == 1 and along < 0.25 * across and page.width / 2 > 70 * scale and width > page.width / 2:
+        is_flat = along < 0.25 * across and page.width / 2 > 70 * scale
+        if count > 1 and columns == 1 and is_flat and width > page.width / 2:
             best = (columns, width, width * along / across)  # long maps stand below each other
             break
         if width > 1.02 * best[1] or (columns <= max(1, round(page.width / (85 * scale))) and width > 0.45 * best[1]):

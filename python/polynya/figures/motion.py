@@ -37,17 +37,20 @@ def draw(runs, page=Page()):
         height = page.row_height(2 // columns, 46)
         handles, marks = [], []
         for i, subject in enumerate(subjects):
-            times, v, heading, vx, vy = subject.columns("t_s", "speed_m_per_s", "heading_deg", "vx_m_per_s", "vy_m_per_s")
+            times, v, heading, vx, vy = subject.columns("t_s", "speed_m_per_s",
+                                                        "heading_deg", "vx_m_per_s", "vy_m_per_s")
             step = max(1, len(times) // MOST_POINTS)
             style = {"color": colour_of(i), "linestyle": dash_of(i)}
             speed.plot(times[::step], v[::step], **style)
-            turn.plot(times[::step], course_of(vx, vy, heading)[::step], color=colour_of(i), linestyle=COURSE, linewidth=0.9 * page.style.scale)
+            turn.plot(times[::step], course_of(vx, vy, heading)[::step], color=colour_of(i),
+                      linestyle=COURSE, linewidth=0.9 * page.style.scale)
             turn.plot(times[::step], heading[::step], **style)
             handles.append(Line2D([], [], label=plain(subject.name), **style))
             if len(subjects) == 1:
                 marks = [mark for axes in (speed, turn) for mark in mark_fractures(axes, subject, page.style.scale)]
         handles = handles if len(subjects) > 1 else [Line2D([], [], color=colour_of(0), label="speed; heading")]
-        handles.append(Line2D([], [], color="#777777" if len(subjects) > 1 else colour_of(0), linestyle=COURSE, label="course over ground"))
+        handles.append(Line2D([], [], color="#777777" if len(subjects) > 1 else colour_of(0),
+                              linestyle=COURSE, label="course over ground"))
         for i, (axes, words) in enumerate(((speed, "speed over ground, m/s"), (turn, "heading and course, °"))):
             low, high = axes.get_ylim()
             if axes is speed:

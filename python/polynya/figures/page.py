@@ -142,7 +142,8 @@ class Sheet:
             if line:
                 lines.append(line.rstrip())
             while self.width_of(part.rstrip(), size, weight) > width and len(part) > 1:
-                fits = next((n for n in range(len(part) - 1, 1, -1) if self.width_of(part[:n], size, weight) <= width), 1)
+                fits = next((n for n in range(len(part) - 1, 1, -1) if self.width_of(part[:n], size, weight) <= width),
+                            1)
                 lines.append(part[:fits])
                 part = part[fits:]
             line = part.lstrip() if lines else part
@@ -151,7 +152,8 @@ class Sheet:
     def title_panel(self, axes, number, panels, words, width):
         """Its letter, where there are several, and its titles, each in lines no wider than that [mm]."""
         letter = f"({letters(number)}) " if panels > 1 else ""
-        lines = [line for title in (letter + words).split("\n") for line in self.wrapped(plain(title), self.page.style.text, width)]
+        lines = [line for title in (letter + words).split("\n")
+                 for line in self.wrapped(plain(title), self.page.style.text, width)]
         if lines:
             axes.set_title("\n".join(lines), loc="left", fontsize=self.page.style.text)
 
@@ -175,8 +177,10 @@ class Sheet:
         """The words around the panels, which `_place` puts where they belong."""
         style, room = self.page.style, self.page.width - 2 * MARGIN * self.page.style.scale
         bold = lambda size: "bold" if size == style.title else "normal"
-        self._above = [self.figure.text(0, 0, words, fontsize=size, fontweight=bold(size), in_layout=False) for words, size in self._heading(room)]
-        self._below = [self.figure.text(0, 0, line, fontsize=style.small, in_layout=False) for note in notes for line in self.wrapped(note, style.small, room)]
+        self._above = [self.figure.text(0, 0, words, fontsize=size, fontweight=bold(size), in_layout=False) for words,
+                       size in self._heading(room)]
+        self._below = [self.figure.text(0, 0, line, fontsize=style.small, in_layout=False)
+                       for note in notes for line in self.wrapped(note, style.small, room)]
         self._key, self._key_height = self._legend(handles, room)
 
     def _place(self, panels_height):
@@ -228,8 +232,10 @@ class Sheet:
             handle.set_label("\n".join(self.wrapped(handle.get_label(), style.text, width - swatch - 2)))
         for rows in range(1, len(handles) + 1):
             columns = -(-len(handles) // rows)
-            legend = self.figure.legend(handles=list(handles), loc="lower center", ncols=columns, frameon=False, borderaxespad=0, borderpad=0.1,
-                                        handlelength=1.8, handletextpad=0.5, columnspacing=1.3, labelspacing=0.35, bbox_to_anchor=(0.5, 0))
+            legend = self.figure.legend(handles=list(handles), loc="lower center",
+                                        ncols=columns, frameon=False, borderaxespad=0, borderpad=0.1,
+                                        handlelength=1.8, handletextpad=0.5, columnspacing=1.3,
+                                        labelspacing=0.35, bbox_to_anchor=(0.5, 0))
             box = legend.get_window_extent(self.figure.canvas.get_renderer())
             if box.width / self.figure.dpi / MM <= width or columns == 1:
                 return legend, box.height / self.figure.dpi / MM
@@ -264,7 +270,8 @@ def plain(words):
 def in_words(value):
     """Four digits, powers of ten as superscripts."""
     mantissa, _, power = f"{value:.4g}".replace("-", "−").partition("e")
-    return mantissa + (" · 10" + power.lstrip("+").replace("−0", "−").lstrip("0").translate(str.maketrans("−0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")) if power else "")
+    raised = power.lstrip("+").replace("−0", "−").lstrip("0").translate(str.maketrans("−0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return mantissa + (" · 10" + raised if power else "")
 
 
 def letters(number):
@@ -280,7 +287,8 @@ def save(figure, stem, formats, dots=300):
         draft = f"{path}.{os.getpid()}.tmp"
         nothing = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {"Software": None}}[suffix]
         try:
-            with matplotlib.rc_context({"font.family": "DejaVu Sans", "pdf.fonttype": 42, "svg.fonttype": "path", "svg.hashsalt": "polynya"}):
+            with matplotlib.rc_context({"font.family": "DejaVu Sans", "pdf.fonttype": 42,
+                                        "svg.fonttype": "path", "svg.hashsalt": "polynya"}):
                 figure.savefig(draft, format=suffix, dpi=dots, metadata=nothing)
             os.replace(draft, path)
         finally:

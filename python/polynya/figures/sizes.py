@@ -32,7 +32,8 @@ def draw(runs, page=Page()):
                 style = {"color": colour_of(i), "linestyle": dash}
                 everything.append(sizes)
                 for axes, values in ((counts, number), (shares, share)):
-                    axes.step(numpy.append(sizes, sizes[-1:]), numpy.append(values, [0] * min(1, len(sizes))), where="pre", **style)
+                    axes.step(numpy.append(sizes, sizes[-1:]), numpy.append(values, [0] * min(1, len(sizes))),
+                              where="pre", **style)
                 handles.append(Line2D([], [], label=f"{plain(run.label)} at {time:g} s", **style))
         everything = numpy.concatenate(everything)
         if len(everything) == 0:

@@ -30,7 +30,7 @@ def labelled(run, label=None, start=None, end=None):
     start, end = run.start_time if start is None else start, run.end_time if end is None else end
     if start >= end and run.end_time > run.start_time:
         raise ValueError(f"--from {start:g} is not before --until {end:g}")
-    return Labelled(run, run.name if label is None else label, start, end)
+    return Labelled(run, run.shown_name if label is None else label, start, end)
 
 
 def all_labelled(runs):
@@ -53,12 +53,15 @@ class Subject:
         """Columns of forces.csv within the times drawn; NaN where a run of an older version has none."""
         forces = self.of.run.force_columns
         rows = (forces["ship"] == self.ship) & (forces["t_s"] >= self.of.start) & (forces["t_s"] <= self.of.end)
-        return [forces[name][rows] if name in forces else numpy.full(numpy.count_nonzero(rows), numpy.nan) for name in names]
+        return [forces[name][rows] if name in forces else numpy.full(numpy.count_nonzero(rows), numpy.nan)
+                for name in names]
 
     def fractures(self, kind):
         """Times of its cusps ("bend") or splits."""
         events = self.of.run.event_columns
-        return events["t_s"][(events["kind"] == kind) & (events["ship"] == self.ship) & (events["t_s"] >= self.of.start) & (events["t_s"] <= self.of.end)]
+        times = events["t_s"]
+        is_within = (times >= self.of.start) & (times <= self.of.end)
+        return times[(events["kind"] == kind) & (events["ship"] == self.ship) & is_within]
 
 
 def subjects_of(runs):
@@ -83,7 +86,8 @@ def mark_fractures(axes, subject, scale):
     if len(cusps):
         style = {"color": CUSP, "linewidth": 0.5 * scale, "alpha": 1 if len(cusps) < 150 else 0.5}
         axes.vlines(cusps, 0.925, 0.985, transform=across, **style)
-        handles.append(Line2D([], [], color=CUSP, linestyle="none", marker="|", markersize=5 * scale, markeredgewidth=0.7 * scale, label="cusp broken by bending"))
+        handles.append(Line2D([], [], color=CUSP, linestyle="none", marker="|",
+                              markersize=5 * scale, markeredgewidth=0.7 * scale, label="cusp broken by bending"))
     if len(splits):
         axes.vlines(splits, 0, 0.955, transform=across, color=SPLIT, linewidth=0.4 * scale, alpha=0.6, zorder=1)
         style = {"color": SPLIT, "linestyle": "none", "marker": "^", "markersize": 4 * scale, "markeredgewidth": 0}

@@ -35,7 +35,8 @@ def size(text):
     parts = text.lower().split("x")
     values = [int(part) for part in parts if part.isdigit()]
     if len(parts) != 2 or len(values) != 2 or not all(320 <= value <= 7680 and value % 2 == 0 for value in values):
-        raise argparse.ArgumentTypeError(f"found {text}, allowed: WIDTHxHEIGHT, even numbers from 320 to 7680 pixels, as 1280x720")
+        raise argparse.ArgumentTypeError(f"found {text}, allowed: WIDTHxHEIGHT, even numbers from 320 to 7680 pixels, "
+                                         f"as 1280x720")
     return tuple(values)
 
 
@@ -130,7 +131,8 @@ def summary(path, times, rate, speed):
     megabytes = f"{os.path.getsize(path) / 1e6:.2g} MB"
     if len(times) == 1 or path.lower().endswith(".png"):
         return f"{path}  {megabytes}, the run at {times[0]:g} s"
-    return f"{path}  {megabytes}, {len(times)} pictures, {len(times) / rate:.3g} s from {times[0]:g} to {times[-1]:g} s, {speed:g} x real time"
+    return (f"{path}  {megabytes}, {len(times)} pictures, {len(times) / rate:.3g} s from {times[0]:g} to "
+            f"{times[-1]:g} s, {speed:g} x real time")
 
 
 def stop(number, _):

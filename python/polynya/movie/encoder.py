@@ -9,7 +9,8 @@ import tempfile
 
 import numpy
 
-MISSING = "ffmpeg is not installed: ./setup.sh python, or apt-get install ffmpeg (a picture, --out frame.png, needs none)"
+MISSING = ("ffmpeg is not installed: ./setup.sh python, or apt-get install ffmpeg "
+           "(a picture, --out frame.png, needs none)")
 SAMPLES = 8  # pictures that the colours of a GIF are chosen from
 
 
@@ -27,14 +28,17 @@ def ffmpeg():
 
 def input_of(size, rate):
     """ffmpeg's words for pictures of rows × columns × 4 bytes that come through its stdin."""
-    return ["-f", "rawvideo", "-pixel_format", "rgb0", "-video_size", "{}x{}".format(*size), "-framerate", f"{rate:g}", "-i", "-"]
+    return ["-f", "rawvideo", "-pixel_format", "rgb0", "-video_size", "{}x{}".format(*size),
+            "-framerate", f"{rate:g}", "-i", "-"]
 
 
 def palette(pictures, size, folder):
     """A PNG with the colours of some pictures, as GIFs need."""
     path = os.path.join(folder, "palette.png")
-    words = [ffmpeg(), "-v", "error", "-y", *input_of(size, 1), "-vf", "palettegen=stats_mode=full", "-frames:v", "1", "-update", "1", path]
-    done = subprocess.run(words, input=b"".join(numpy.ascontiguousarray(p).tobytes() for p in pictures), stderr=subprocess.PIPE, check=False)
+    words = [ffmpeg(), "-v", "error", "-y", *input_of(size, 1), "-vf", "palettegen=stats_mode=full",
+             "-frames:v", "1", "-update", "1", path]
+    done = subprocess.run(words, input=b"".join(numpy.ascontiguousarray(p).tobytes() for p in pictures),
+                          stderr=subprocess.PIPE, check=False)
     if done.returncode != 0:
         raise FilmError(f"ffmpeg: {last_line(done.stderr)}")
     return path
@@ -69,8 +73,10 @@ class Encoder:
             colours = palette(samples, size, self._scratch.name)
             words += ["-i", colours, "-filter_complex", "paletteuse=dither=none:diff_mode=rectangle", "-f", "gif"]
         else:
-            words += ["-c:v", "libx264", "-preset", "medium", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4"]
-        return subprocess.Popen([*words, self._draft], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=self._errors, start_new_session=True)
+            words += ["-c:v", "libx264", "-preset", "medium", "-crf", "18", "-pix_fmt",
+                      "yuv420p", "-movflags", "+faststart", "-f", "mp4"]
+        return subprocess.Popen([*words, self._draft], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+                                stderr=self._errors, start_new_session=True)
 
     def add(self, pixels):
         """The next picture."""

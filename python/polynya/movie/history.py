@@ -21,7 +21,8 @@ def thinned(times, values, bins):
 
 def unit_of(largest):
     """A force's unit [N] and its name."""
-    return next((unit, name) for unit, name in ((1e6, "MN"), (1e3, "kN"), (1.0, "N")) if largest >= 0.5 * unit or unit == 1.0)
+    return next((unit, name) for unit, name in ((1e6, "MN"), (1e3, "kN"), (1.0, "N"))
+                if largest >= 0.5 * unit or unit == 1.0)
 
 
 class History:
@@ -35,7 +36,8 @@ class History:
         self.end = run.end_time if look.end is None else look.end
         x, y, width, height = place
         left, right, foot, top = 0.075, 0.02, 0.28, 0.14  # of the place
-        self.axes = figure.add_axes((x + left * width, y + foot * height, (1 - left - right) * width, (1 - foot - top) * height))
+        self.axes = figure.add_axes((x + left * width, y + foot * height, (1 - left - right) * width,
+                                     (1 - foot - top) * height))
         times = columns["t_s"][own]
         shown = (times >= self.start) & (times <= self.end)
         values = [columns[name][own][shown] for name, _, _ in CURVES]
@@ -45,7 +47,8 @@ class History:
         self.curves = []
         for (_, name, colour), of in zip(CURVES, values):
             at, force = thinned(times[shown], of / unit, look.size[0])
-            self.curves += self.axes.plot(at, force, color=colour, linewidth=0.055 * font, label=name, zorder=2 if name == "surge" else 1)
+            self.curves += self.axes.plot(at, force, color=colour, linewidth=0.055 * font,
+                                          label=name, zorder=2 if name == "surge" else 1)
         if largest < 1.0:  # nothing but rounding
             self.axes.set_ylim(-1, 1)
         self._dress(ship, unit_name, font, len(run.ship_names) > 1)
@@ -60,7 +63,8 @@ class History:
         axes.locator_params(axis="y", nbins=4)
         axes.set_xlabel("time [s]", fontsize=small, labelpad=0.1 * font)
         axes.set_ylabel(f"ice force\n[{unit}]", fontsize=small)
-        legend = axes.legend(loc="lower right", bbox_to_anchor=(1, 1.06), ncols=2, fontsize=small, frameon=False, borderaxespad=0, borderpad=0,
+        legend = axes.legend(loc="lower right", bbox_to_anchor=(1, 1.06), ncols=2,
+                             fontsize=small, frameon=False, borderaxespad=0, borderpad=0,
                              title=f"on {ship}" if has_others else None, title_fontsize=small)
         for line in legend.get_lines():
             line.set_linewidth(0.14 * font)

@@ -59,7 +59,8 @@ class Picture:
         if look.follow is not None and look.follow not in run.ship_names:
             raise ValueError(f"there is no ship {look.follow!r}: the run has {', '.join(run.ship_names) or 'none'}")
         self._font = POINTS_PER_HEIGHT * look.size[1] / look.dots
-        with matplotlib.rc_context({"font.family": "DejaVu Sans", "font.size": self._font, "axes.linewidth": 0.05 * self._font}):
+        with matplotlib.rc_context({"font.family": "DejaVu Sans", "font.size": self._font,
+                                    "axes.linewidth": 0.05 * self._font}):
             self._lay_out()
 
     def _lay_out(self):
@@ -86,7 +87,8 @@ class Picture:
             self.history.prepare(self.canvas)
 
     def _head(self):
-        name = self.figure.text(0.015, 1 - HEAD / 2, self.run.name, ha="left", va="center", fontweight="bold", fontsize=1.1 * self._font)
+        name = self.figure.text(0.015, 1 - HEAD / 2, self.run.shown_name, ha="left", va="center",
+                                fontweight="bold", fontsize=1.1 * self._font)
         room = 0.62 * self.look.size[0]
         taken = name.get_window_extent().width
         if taken > room:
@@ -124,8 +126,10 @@ class Picture:
         self._floes = [self._patch(facecolor=colour, edgecolor=colours.EDGE, linewidth=edge) for _, colour in FLOES[:3]]
         self._hulls = self._patch(facecolor=colours.SHIP, edgecolor="#ffffff", linewidth=1.2 * edge, alpha=0.88)
         self._walls = self._patch(facecolor=colours.WALL, edgecolor="#ffffff", linewidth=1.2 * edge)
-        self._under = self._patch(facecolor=FLOES[3][1], edgecolor="#ffffff", linewidth=edge, linestyle="--", alpha=0.45)
-        self._tracks = LineCollection([], colors=colours.TRACK, linewidths=1.4 * self.look.size[1] / 720, linestyles="--", animated=True)
+        self._under = self._patch(facecolor=FLOES[3][1], edgecolor="#ffffff", linewidth=edge,
+                                  linestyle="--", alpha=0.45)
+        self._tracks = LineCollection([], colors=colours.TRACK, linewidths=1.4 * self.look.size[1] / 720,
+                                      linestyles="--", animated=True)
         self._map.add_collection(self._tracks)
         self._least = LEAST_PIXELS / self._metre
         return [*self._floes, self._tracks, self._walls, self._hulls, self._under]
@@ -133,7 +137,8 @@ class Picture:
     def _make_marks(self):
         size = 0.9 * self._font**2
         self._marks = {
-            kind: self._map.scatter([], [], s=size * (0.5 if kind == "bend" else 1), marker=marker, c=colours.MARKS[kind], edgecolors="#ffffff",
+            kind: self._map.scatter([], [], s=size * (0.5 if kind == "bend" else 1),
+                                    marker=marker, c=colours.MARKS[kind], edgecolors="#ffffff",
                                     linewidths=0.05 * self._font, animated=True)
             for kind, _, marker in FRACTURES
         }
@@ -147,7 +152,8 @@ class Picture:
         small = 0.85 * self._font
         bar = bar_length(0.2 * self.look.size[0] / self._metre)
         x, gap = 0.015 * self.look.size[0], 0.02 * self.look.size[0]
-        axes.plot([x, x + bar * self._metre], [0, 0], color="#000000", linewidth=0.18 * self._font, solid_capstyle="butt")
+        axes.plot([x, x + bar * self._metre], [0, 0], color="#000000", linewidth=0.18 * self._font,
+                  solid_capstyle="butt")
         x += bar * self._metre + gap / 2
         x = self._word(axes, x, f"{bar:g} m" if bar < 1000 else f"{bar / 1000:g} km", small) + gap
         for word, handle in self._keys():
@@ -161,10 +167,12 @@ class Picture:
     def _keys(self):
         """Of what the run has."""
         births, kinds = self.run.births, set(self.run.event_columns["kind"])
-        has = (True, bool((births["generation"] > 0).any()), bool(births["came_up"].any()), bool(numpy.isfinite(births["went_under_s"]).any()))
+        has = (True, bool((births["generation"] > 0).any()), bool(births["came_up"].any()),
+               bool(numpy.isfinite(births["went_under_s"]).any()))
         for (word, colour), is_there in zip(FLOES, has):
             if is_there:
-                yield word, {"marker": "s", "color": colour, "markeredgecolor": colours.EDGE, "markeredgewidth": 0.06 * self._font}
+                yield word, {"marker": "s", "color": colour, "markeredgecolor": colours.EDGE,
+                             "markeredgewidth": 0.06 * self._font}
         for kind, word, marker in FRACTURES:
             if kind in kinds:
                 yield word, {"marker": marker, "color": colours.MARKS[kind], "markeredgewidth": 0}
@@ -195,7 +203,8 @@ class Picture:
                 self._map.draw_artist(artist)
 
     def _set_floes(self, frame, among):
-        for patch, path in zip((*self._floes, self._under), self.scenery.floes(frame, self._window, self._least, among)):
+        for patch, path in zip((*self._floes, self._under),
+                               self.scenery.floes(frame, self._window, self._least, among)):
             patch.set_path(path)
 
     def _lay_ice(self, frame):
@@ -216,7 +225,8 @@ class Picture:
         self._rest_from = frame.time
         self._rest_until = min(frame.time + RESTING * self.look.speed, self.run.end_time)
         births, ids = self.run.births, frame.ids
-        later = self.run.motions.floes_at(ids, self._rest_until)[:, :3] - self.run.motions.floes_at(ids, frame.time)[:, :3]
+        later = self.run.motions.floes_at(ids, self._rest_until)[:,
+                                                                 :3] - self.run.motions.floes_at(ids, frame.time)[:, :3]
         moved = numpy.hypot(later[:, 0], later[:, 1]) + numpy.abs(later[:, 2]) * self.scenery.outlines.reach(ids)
         rests = self.run.motions.are_steady(ids, frame.time, self._rest_until) & (moved * self._metre < AT_REST)
         rests &= (births["died_s"][ids] > self._rest_until) & (births["went_under_s"][ids] > self._rest_until)

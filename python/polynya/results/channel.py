@@ -33,7 +33,8 @@ def measure(folder, ship, time, pandas):
         try:
             done = subprocess.run(words, capture_output=True, text=True, check=False)
         except OSError as error:
-            raise FolderError(f"{words[0]}: {error.strerror}: the channel is measured by the program polynya, which POLYNYA_PROGRAM names") from None
+            raise FolderError(f"{words[0]}: {error.strerror}: the channel is measured by the program polynya, which "
+                              f"POLYNYA_PROGRAM names") from None
         if done.returncode != 0:
             raise FolderError(done.stderr.strip().removeprefix("polynya channel: "))
         columns = read_csv(os.path.join(scratch, "channel.csv"))

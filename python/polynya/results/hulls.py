@@ -23,7 +23,8 @@ def waterline(body):
         return numpy.array(hull["waterline_m"], dtype=float)
     length, half = hull["length_m"], hull["beam_m"] / 2
     shoulder = length / 2 - half / math.tan(math.radians(hull["entrance_angle_deg"]))
-    return numpy.array([[length / 2, 0], [shoulder, half], [-length / 2, half], [-length / 2, -half], [shoulder, -half]])
+    return numpy.array([[length / 2, 0], [shoulder, half], [-length / 2, half],
+                        [-length / 2, -half], [shoulder, -half]])
 
 
 def first_motion(body):

@@ -29,11 +29,13 @@ class Run:
     Raises NotARunError, UnfinishedError (but with `unfinished=True`, which reads what is there), VersionError, and
     FolderError with the file where one is missing or damaged."""
 
-    def __init__(self, folder: Union[str, os.PathLike[str]], *, unfinished: bool = False, pandas: Optional[bool] = None, shapely: Optional[bool] = None):
+    def __init__(self, folder: Union[str, os.PathLike[str]], *, unfinished: bool = False,
+                 pandas: Optional[bool] = None, shapely: Optional[bool] = None):
         self.folder = pathlib.Path(folder)
         self.pandas, self.shapely = pandas, shapely
         if not (self.folder / "scene.json").is_file():
-            what = "does not exist" if not self.folder.exists() else "has no scene.json" if self.folder.is_dir() else "is a file"
+            what = "has no scene.json" if self.folder.is_dir() else "is a file"
+            what = what if self.folder.exists() else "does not exist"
             raise NotARunError(f"not a run folder: {self.folder} {what}")
         self.scene: dict = read_json(self.folder / "scene.json")  #: with every default filled in
         self.summary: dict = read_json(self.folder / "summary.json")  #: how it went
@@ -42,7 +44,8 @@ class Run:
         self.version: int = self.summary.get("folder_version", 1)  #: of the folder
         if not isinstance(self.version, int) or not 1 <= self.version <= VERSION:
             raise VersionError(
-                f"{self.folder / 'summary.json'}: a run folder of version {self.version}; this polynya reads 1 to {VERSION}: read it with the "
+                f"{self.folder / 'summary.json'}: a run folder of version {self.version}; this polynya reads 1 to "
+                f"{VERSION}: read it with the "
                 f"polynya that wrote it ({self.summary.get('version', 'unknown')}), or run its scene.json again")
         if not self.is_finished and not unfinished:
             stopped = self.summary.get("stopped_by")
@@ -52,7 +55,8 @@ class Run:
 
     def __repr__(self):
         state = "" if self.is_finished else ", not finished"
-        return f"<polynya run {self.name} in {self.folder}: {self.start_time:g} to {self.end_time:g} s, {len(self.times)} frames{state}>"
+        return (f"<polynya run {self.name} in {self.folder}: {self.start_time:g} to {self.end_time:g} s, "
+                f"{len(self.times)} frames{state}>")
 
     def _repr_html_(self):
         from polynya.showing import html_of_run
@@ -62,6 +66,11 @@ class Run:
     def name(self) -> str:
         """The scene's."""
         return self.scene.get("name", self.folder.name)
+
+    @property
+    def shown_name(self) -> str:
+        """The scene's name as figures show it: with ", calibrated" where its factors of bending are not 1."""
+        return self.name + (", calibrated" if is_calibrated(self.scene) else "")
 
     @property
     def is_finished(self) -> bool:
@@ -115,7 +124,8 @@ class Run:
         rows = self._columns("contacts.csv", "runs of early versions")
         if "ended_by" not in rows:
             if of_peaks:
-                raise VersionError(f"{self.folder / 'contacts.csv'}: without peaks; run folders of version 4 and before did not record them: run its scene.json again")
+                raise VersionError(f"{self.folder / 'contacts.csv'}: without peaks; run folders of version 4 and "
+                                   f"before did not record them: run its scene.json again")
             return rows
         is_peak = rows["ended_by"] != ""
         if not of_peaks:
@@ -125,7 +135,8 @@ class Run:
 
     @property
     def panels(self) -> Any:
-        """panels.csv: what the ice did to each panel that it pressed in an interval; of scenes whose hulls have panels."""
+        """panels.csv: what the ice did to each panel that it pressed in an interval; of scenes whose hulls have
+        panels."""
         return self._table("panels.csv", "no ship or structure of the scene has panels, or its version")
 
     @property
@@ -162,7 +173,8 @@ class Run:
 
     def _columns(self, name, lacking):
         if not (self.folder / name).exists():
-            raise VersionError(f"{self.folder / name}: is not there; {lacking} did not record it: run its scene.json again")
+            raise VersionError(f"{self.folder / name}: is not there; {lacking} did not record it: run its scene.json "
+                               f"again")
         return read_csv(self.folder / name)
 
     @functools.cached_property
@@ -231,13 +243,15 @@ class Run:
         """The columns of `floes`, by floe id."""
         lines = self._lines
         columns = {"floe_id": numpy.arange(len(lines))}
-        columns["parent_id"] = numpy.array([NONE if line["parent_id"] is None else line["parent_id"] for line in lines], dtype=numpy.int64)
+        columns["parent_id"] = numpy.array([NONE if line["parent_id"] is None else line["parent_id"]
+                                            for line in lines], dtype=numpy.int64)
         for name, kind in (("born_s", float), ("generation", numpy.int64), ("area_m2", float), ("mass_kg", float)):
             columns[name] = numpy.array([line[name] for line in lines], dtype=kind)
         died, went_under = numpy.full(len(lines), numpy.inf), numpy.full(len(lines), numpy.inf)
         came_up = numpy.zeros(len(lines), dtype=bool)
         events = self.event_columns
-        for time, kind, floe, children in zip(events["t_s"], events["kind"], events["floe"].tolist(), events["children"]):
+        for time, kind, floe, children in zip(events["t_s"], events["kind"], events["floe"].tolist(),
+                                              events["children"]):
             if not 0 <= floe < len(lines):
                 continue  # of ships that touch
             if kind == "submerge":
@@ -264,20 +278,23 @@ class Frame:
         self.time: float = float(time)  #: [s]
 
     def __repr__(self):
-        return f"<polynya frame at {self.time:g} s: {len(self._ids)} floes, {len(self._run.ship_names)} ships and structures>"
+        return (f"<polynya frame at {self.time:g} s: {len(self._ids)} floes, "
+                f"{len(self._run.ship_names)} ships and structures>")
 
     @property
     def ships(self) -> Any:
         """A table: `ship`, `x_m`, `y_m`, `heading_rad`, `vx_m_per_s`, `vy_m_per_s`, `yaw_rate_rad_per_s`."""
         names = ("x_m", "y_m", "heading_rad", "vx_m_per_s", "vy_m_per_s", "yaw_rate_rad_per_s")
-        return table({"ship": numpy.array(self._run.ship_names, dtype=object), **dict(zip(names, self.ship_motions.T))}, self._run.pandas)
+        return table({"ship": numpy.array(self._run.ship_names, dtype=object),
+                      **dict(zip(names, self.ship_motions.T))}, self._run.pandas)
 
     @property
     def floes(self) -> Any:
         """A table: `floe_id`, `parent_id` (-1 of a floe of the scene), `born_s`, `generation`, `area_m2`, `mass_kg`,
         `is_under` a hull, `came_up` from under one (or broke from such a floe), the centre of mass `x_m`, `y_m`, the
         turn `angle_rad`, and their rates, NaN where no frame has the floe."""
-        births = {name: values[self._ids] for name, values in self._run.births.items() if name not in ("died_s", "went_under_s")}
+        births = {name: values[self._ids] for name, values in self._run.births.items()
+                  if name not in ("died_s", "went_under_s")}
         names = ("x_m", "y_m", "angle_rad", "vx_m_per_s", "vy_m_per_s", "spin_rad_per_s")
         return table({**births, "is_under": self.is_under, **dict(zip(names, self._motions.T))}, self._run.pandas)
 
@@ -296,7 +313,8 @@ class Frame:
     @property
     def hulls(self) -> dict[str, numpy.ndarray]:
         """Waterlines of ships and structures in the world, arrays of n × 2 [m], by name."""
-        return {name: placed(self._run.waterlines[name], *motion[:3]) for name, motion in zip(self._run.ship_names, self.ship_motions)}
+        return {name: placed(self._run.waterlines[name], *motion[:3]) for name,
+                motion in zip(self._run.ship_names, self.ship_motions)}
 
     @functools.cached_property
     def is_under(self) -> numpy.ndarray:
@@ -353,7 +371,8 @@ class Frame:
         centre = self._run.centroids[self._ids]
         c, s = numpy.cos(angle), numpy.sin(angle)
         missing = numpy.isnan(found[:, 0])
-        by_pose = numpy.column_stack((x + c * centre[:, 0] - s * centre[:, 1], y + s * centre[:, 0] + c * centre[:, 1], angle))
+        by_pose = numpy.column_stack((x + c * centre[:, 0] - s * centre[:, 1], y + s * centre[:, 0] + c * centre[:, 1],
+                                      angle))
         found[missing, :3] = by_pose[missing]
         return found
 
@@ -371,6 +390,12 @@ class Frames:
         if isinstance(index, slice):
             return [Frame(self._run, time) for time in self._run.times[index]]
         return Frame(self._run, self._run.times[index])
+
+
+def is_calibrated(scene):
+    """Whether the load or the radius of cusps is multiplied in a scene: for all hulls, or for a ship."""
+    settings = [scene.get("fracture", {}).get("bending", {}), *(ship.get("calibration", {}) for ship in scene.get("ships", []))]
+    return any(of.get(key, 1) != 1 for of in settings for key in ("load_factor", "cusp_radius_factor"))
 
 
 def body_poses(motions, centroids):

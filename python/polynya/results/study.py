@@ -24,11 +24,13 @@ class Study:
     cases, but with `unfinished=True`: `table["state"]` then has which are "finished", "failed", "unfinished" or
     "missing"."""
 
-    def __init__(self, folder: Union[str, os.PathLike[str]], *, unfinished: bool = False, pandas: Optional[bool] = None):
+    def __init__(self, folder: Union[str, os.PathLike[str]], *, unfinished: bool = False,
+                 pandas: Optional[bool] = None):
         self.folder = pathlib.Path(folder)
         self._pandas = pandas
         if not (self.folder / folders.PLAN).is_file():
-            what = "does not exist" if not self.folder.exists() else f"has no {folders.PLAN}" if self.folder.is_dir() else "is a file"
+            what = f"has no {folders.PLAN}" if self.folder.is_dir() else "is a file"
+            what = what if self.folder.exists() else "does not exist"
             raise NotAStudyError(f"not a study's folder: {self.folder} {what}: polynya study plan FILE makes one")
         try:
             self._study = folders.open_study(self.folder)
@@ -40,11 +42,13 @@ class Study:
         self.summary: dict = read_json(self.folder / SUMMARY)  #: of the table: how many cases have which state
         if not self.summary["is_complete"] and not unfinished:
             raise UnfinishedError(
-                f"{self.folder}: {self.summary['finished']} of {self.summary['cases']} cases are in the table: polynya study run {self.folder} and "
+                f"{self.folder}: {self.summary['finished']} of {self.summary['cases']} cases are in the table: polynya "
+                f"study run {self.folder} and "
                 f"polynya study gather {self.folder} continue it; Study(folder, unfinished=True) reads what is there")
 
     def __repr__(self):
-        return f"<polynya study {self.name} in {self.folder}: {self.summary['finished']} of {self.summary['cases']} cases>"
+        return (f"<polynya study {self.name} in {self.folder}: {self.summary['finished']} of "
+                f"{self.summary['cases']} cases>")
 
     def _repr_html_(self):
         from polynya.showing import html_of_study
@@ -81,7 +85,8 @@ class Study:
         found = self._study.case_folder(case) / folders.RUN
         if not found.exists():
             chunk = case // self._study.chunk_size
-            why = f"is packed in {self._study.archive(chunk)}" if self._study.archive(chunk).exists() else archive.state_of(found.parent)[0]
+            packed = self._study.archive(chunk)
+            why = f"is packed in {packed}" if packed.exists() else archive.state_of(found.parent)[0]
             raise FolderError(f"{found}: is not there: case {case} {'' if why.startswith('is ') else 'is '}{why}")
         return Run(found, **{"pandas": self._pandas, **options})
 

@@ -107,7 +107,8 @@ def read_json(path):
         raise FolderError(f"{path}: {error}") from None
 
 
-FIRST = {"t_s": float, "kind": str, "ship": str, "by_ship": str, "floe": int, "parent": int, "by_floe": int, "children": tuple}
+FIRST = {"t_s": float, "kind": str, "ship": str, "by_ship": str, "floe": int, "parent": int,
+         "by_floe": int, "children": tuple}
 
 
 def flattened(event):

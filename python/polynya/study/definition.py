@@ -281,7 +281,8 @@ class Reader:
         if len(set(lengths.values())) > 1:
             self.report(
                 ["paired"],
-                f"found lists of {', '.join(f'{n} ({path})' for path, n in lengths.items())}, allowed: lists of one length",
+                f"found lists of {', '.join(f'{n} ({path})' for path, n in lengths.items())}, allowed: lists of one "
+                f"length",
             )
         if definition.draw and "count" not in self.source.value["draw"]:
             self.report(["draw"], "found no count, allowed: how many draws")
@@ -289,7 +290,8 @@ class Reader:
         if not repeats_by_seed(definition) and definition.repetitions > 1:
             self.report(
                 ["repetitions"],
-                f"found {definition.repetitions} where the study sets \"seed\" itself, allowed: 1; repetitions would be copies",
+                f"found {definition.repetitions} where the study sets \"seed\" itself, allowed: 1; repetitions would "
+                f"be copies",
             )
 
     def check_paths(self, definition):

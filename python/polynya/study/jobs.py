@@ -53,7 +53,8 @@ def run_cases(study, numbers, jobs, *, keep=None, retries_failed=False, is_quiet
             run_waiting(study, waiting, jobs, keep, stop, counts, table)
         except concurrent.futures.process.BrokenProcessPool:
             table.message(
-                "polynya study: a worker process was killed; start the command again, its case continues from its checkpoint"
+                "polynya study: a worker process was killed; start the command again, its case continues from its "
+                "checkpoint"
             )
             return INPUT_OUTPUT
     table.show(counts, at_once=True)

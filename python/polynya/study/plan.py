@@ -116,7 +116,8 @@ def refuse_other_cases(old, new, folder, text):
     if any(found for pattern in ("*/case.json", "*/*/case.json", "*.tar") for found in cases.glob(pattern)):
         what = f"other {', '.join(differs)}" if differs else "other cases"
         raise StudyError(
-            f"{folder}: its cases have run by an earlier plan with {what}; plan into another folder (--out) or remove it",
+            f"{folder}: its cases have run by an earlier plan with {what}; plan into another folder (--out) or remove "
+            f"it",
             5,
         )
     shutil.rmtree(cases, ignore_errors=True)

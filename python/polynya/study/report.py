@@ -10,6 +10,7 @@ from ..program import program
 from .. import statistics
 from . import channels, pictures
 from .folder import RUN, write_atomically
+from .measures import CALIBRATED
 from .gather import TABLE, gather
 from .sample import QUANTILE, choices_of, fits_of, read_sample
 
@@ -19,7 +20,8 @@ RELATIVE_WIDTH = 0.05  # to which "cases needed" refers
 STYLE = """body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1a2530}
 table{border-collapse:collapse;font-size:13px}td,th{white-space:nowrap;padding:.15rem .6rem;border-bottom:1px solid
 #dde;text-align:right}
-th{position:sticky;top:0;background:#fff}img{max-width:100%}.wide{overflow-x:auto;max-height:32rem}code{background:#f0f3f6}"""
+th{position:sticky;top:0;background:#fff}img{max-width:100%}
+.wide{overflow-x:auto;max-height:32rem}code{background:#f0f3f6}"""
 
 
 def report(study, players):
@@ -48,7 +50,8 @@ def draw(study, sample, choices, folder):
         made.append(
             (
                 pictures.exceedance(sample, measure, choices.group_by, folder),
-                f"Probability that a run's {pictures.label_of(measure)[0]} exceeds a value, on Gumbel's probability paper.",
+                f"Probability that a run's {pictures.label_of(measure)[0]} exceeds a value, on Gumbel's probability "
+                f"paper.",
             )
         )
     if choices.against:
@@ -165,20 +168,25 @@ def make_players(study, sample, players):
 def page(study, sample, choices, made, rows):
     text = html.escape
     state = sample.summary
+    note = "calibrated: factors on the bending of ice (docs/ships.md)" if CALIBRATED in sample.columns else ""
     lines = [
         f"<!doctype html><meta charset='utf-8'><title>{text(study.plan['name'])}</title><style>{STYLE}</style>",
-        f"<h1>{text(study.plan['name'])}</h1>",
-        f"<p>{state['cases']} cases: {state['finished']} finished, {state['failed']} failed, {state['unfinished']} unfinished, {state['missing']} missing. "
+        f"<h1>{text(study.plan['name'])}</h1>" + (f"<p><b>{note}</b></p>" if note else ""),
+        f"<p>{state['cases']} cases: {state['finished']} finished, {state['failed']} failed, {state['unfinished']} "
+        f"unfinished, {state['missing']} missing. "
         + ("" if state["is_complete"] else "<b>This page shows a part of the study.</b> ")
-        + f"Table: <a href='{TABLE}'>{TABLE}</a>; statistics with their intervals: <a href='report/statistics.csv'>statistics.csv</a>.</p>",
+        + f"Table: <a href='{TABLE}'>{TABLE}</a>; statistics with their intervals: <a "
+        f"href='report/statistics.csv'>statistics.csv</a>.</p>",
     ]
     lines += [
         f"<figure><img src='report/{name}' alt=''><figcaption>{text(caption)}</figcaption></figure>"
         for name, caption in made
     ]
     lines.append(
-        "<h2>Statistics</h2><p>Means and 95 % intervals (Student); quantile with the interval of order statistics; cases that make the mean's "
-        "interval ±5 % of it; what the fit of peaks is exceeded by in one run of a hundred, with its bootstrap interval, and the "
+        "<h2>Statistics</h2><p>Means and 95 % intervals (Student); quantile with the interval of order statistics; "
+        "cases that make the mean's "
+        "interval ±5 % of it; what the fit of peaks is exceeded by in one run of a hundred, with its bootstrap "
+        "interval, and the "
         "Anderson–Darling test's p.</p><div class='wide'>" + statistics_table(rows, choices.group_by) + "</div>"
     )
     lines.append("<h2>Cases</h2>" + case_table(study, sample))

@@ -129,7 +129,8 @@ def parallel_line(study, hosts, jobs):
         f"{shlex.quote(str(program_path()))} study run {shlex.quote(str(study.folder.absolute()))} --quiet --chunk {{}}"
     )
     return chunks, (
-        f"parallel {login}--jobs {jobs} --workdir / --joblog {shlex.quote(str((study.folder / 'parallel.log').absolute()))} "
+        f"parallel {login}--jobs {jobs} --workdir / --joblog "
+        f"{shlex.quote(str((study.folder / 'parallel.log').absolute()))} "
         f"{command} ::: {' '.join(brace(chunks))}"
     )
 
