@@ -182,7 +182,7 @@ def test_a_study_compares_by_what_it_varies(home):
     done = ended("studies/s", "--json", cwd=home)
     groups = json.loads(done.stdout)
     assert set(groups) == {"0.4", "0.6"}
-    assert [x for x, _, _ in groups["0.4"]["management_cover_upstream"]] == [-2, -1]
+    assert [x for x, _, _ in groups["0.4"]["management_cover_upstream"]] == [1, 2]
     assert ended("studies/s", cwd=home).returncode == 0
     assert (pathlib.Path(home) / "studies/s/management.png").exists()
     assert ended("studies/s", "--width", "3", cwd=home).returncode == 3

@@ -107,6 +107,6 @@ def draw_study(groups, against, shown, path):
             axis.set(xlabel=against, ylabel=words, ylim=(0, None))
         for axis in list(axes.flat)[len(shown):]:
             axis.axis("off")
-        axes[0, 0].legend(fontsize=6)
+        axes.flat[min(3, len(shown) - 1)].legend(fontsize=6, loc="upper left")
         figure.savefig(path, dpi=160)
         plt.close(figure)

@@ -68,6 +68,7 @@ def groups_of(rows, against, by, measures):
     cells = {}
     for row in rows:
         x = x_of(row[against])
+        x = abs(x) if "drift" in against and x is not None else x  # its speed
         group = ", ".join(name_of(row[name]) for name in by) or "all"
         for measure in measures:
             value = row[measure]
