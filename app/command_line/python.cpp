@@ -128,7 +128,8 @@ Command add_figures(CommandLine& app) {
   return add_python_command(app, "figures", "Draw a run, or several side by side, for print");
 }
 Command add_management(CommandLine& app) {
-  return add_python_command(app, "management", "State what ice management did: floes through gates, hits, loads, effort");
+  return add_python_command(app, "management",
+                            "State what ice management did: floes through gates, hits, loads, effort");
 }
 Command add_movie(CommandLine& app) {
   return add_python_command(app, "movie", "Make a film of a run: the ice, and the force on the ship");

@@ -72,7 +72,8 @@ def test_a_reader_that_goes_away_is_no_failure():
         assert (done.returncode, done.stderr) == (141, b"")
 
 
-@pytest.mark.parametrize("words", ["figures x", "movie x --out a.png", "performance x", "management x", "database x", "study report x"])
+@pytest.mark.parametrize("words", ["figures x", "movie x --out a.png", "performance x",
+                                   "management x", "database x", "study report x"])
 def test_a_missing_package_is_one_line_with_what_to_do(words, tmp_path):
     done = ended([*BARE, "-m", "polynya.command", *words.split()], cwd=tmp_path)
     assert done.returncode == 5 and done.stderr.count("\n") == 1, done.stderr
