@@ -14,9 +14,9 @@ namespace {
 
 /// In the order of the help.
 const std::vector<Command (*)(CommandLine&)> kCommands{
-    add_run,  add_resume,  add_validate, add_schema,     add_ships, add_performance, add_init,
-    add_view, add_channel, add_figures,  add_management, add_movie, add_export,      add_inspect,
-    add_cut,  add_import,  add_database, add_study,      add_man,   add_completion,  add_read_json};
+    add_run,  add_resume,  add_validate, add_schema, add_ships,      add_performance, add_calibrate, add_init,
+    add_view, add_channel, add_figures,  add_loads,  add_management, add_movie,       add_export,    add_inspect,
+    add_cut,  add_import,  add_database, add_study,  add_man,        add_completion,  add_read_json};
 
 constexpr auto kExamples =
     "Examples:\n"

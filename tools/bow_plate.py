@@ -20,26 +20,13 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
 from scipy.spatial import Delaunay, cKDTree
 
+from bow_solid import resampled
+
 NU = 0.3
 PUSH = 0.02
 QUADRATURE = np.array([[1 / 3, 1 / 3, 1 / 3]] + [np.roll([a, b, b], k) for a, b in ((0.0597158717, 0.4701420641),
                        (0.7974269853, 0.1012865073)) for k in range(3)])
 WEIGHTS = np.array([0.225] + 3 * [0.1323941527] + 3 * [0.1259391805])
-
-
-def resampled(line, size):
-    """A polyline's points at the spacing size(distance from the tip)."""
-    points = [line[0]]
-    for a, b in zip(line[:-1], line[1:]):
-        length, at = math.dist(a, b), 0
-        while length > 0:
-            step = size(math.hypot(*(a + (b - a) * (at / length))))
-            if length - at <= 1.5 * step:
-                break
-            at += step
-            points.append(a + (b - a) * (at / length))
-        points.append(b)
-    return np.array(points)
 
 
 def mesh(outline, ratio, reach=6.0, finest=0.0025, coarsest=0.5):
@@ -48,7 +35,7 @@ def mesh(outline, ratio, reach=6.0, finest=0.0025, coarsest=0.5):
     size = lambda r: min(coarsest, max(finest, ratio * r))
     closed = np.vstack([outline, outline[:1]])
     edge = [outline[0]]
-    for p in resampled(closed, size)[1:]:
+    for p in resampled(closed, lambda p: size(math.hypot(*p)))[1:]:
         r = math.hypot(*p)
         if r < 1.02 * reach and math.dist(p, edge[-1]) > 0.3 * size(r) and (len(edge) < 2 or r > 0.3 * finest):
             edge.append(p)
@@ -60,7 +47,7 @@ def mesh(outline, ratio, reach=6.0, finest=0.0025, coarsest=0.5):
         r += 0.87 * size(r)
     inner = np.vstack(rings)
     inner = inner[path.contains_points(inner)]
-    away, _ = cKDTree(resampled(closed, lambda r: 0.3 * size(r))).query(inner)
+    away, _ = cKDTree(resampled(closed, lambda p: 0.3 * size(math.hypot(*p)))).query(inner)
     inner = inner[away > 0.6 * np.clip(ratio * np.hypot(*inner.T), finest, coarsest)]
     points = np.vstack([edge, inner])
     triangles = Delaunay(points).simplices

@@ -47,6 +47,7 @@ def prism_shape(p, t):
 
 
 def resampled(line, size):
+    """A polyline's points at the spacing size(point)."""
     points = [line[0]]
     for a, b in zip(line[:-1], line[1:]):
         length, at = math.dist(a, b), 0

@@ -2,6 +2,7 @@
 """What breaking level ice takes at the bow, part by part; the tables of docs/theory-bow.md.
 
   tools/bow_study.py parts      by speed and thickness
+  tools/bow_study.py places     loads along the waterline, h .5, 1 and 1.5 m at 1 m/s
   tools/bow_study.py models     by bending model
   tools/bow_study.py switches   without the radial cracks, without the deflection, without both
 
@@ -77,6 +78,46 @@ def run(arguments, name, one):
             "on_flanks": places["flank"][1], "stem_time": places["stem"][2]}
 
 
+# Parts of the waterline by the distance behind the stem [m].
+PLACES = (("stem, 0-1 m", -1, 1), ("flank, 1-6 m", 1, 6), ("flank, 6-12 m", 6, 12), ("flank, 12-18 m", 12, 18),
+          ("flank, 18-22 m", 18, 22), ("shoulder, 22-24 m", 22, BOW + 0.5), ("sides", BOW + 0.5, LENGTH))
+
+
+def loads_by_place(arguments, name, one):
+    """Of each of PLACES the mean surge [N], and of its contacts' summed force [N] the 99 % quantile over the times with
+    one, and the largest."""
+    folder, _ = run_scene(arguments, name, one)
+    v = one["ships"][0]["propulsion"]["constant_speed_m_per_s"]
+    rows = [row for row in rows_of(folder, "contacts.csv") if float(row["t_s"]) > (GAP + WAY_IN) / v]
+    t, x, y, fx, fy = (np.array([float(row[key]) for row in rows]) for key in ("t_s", "x_m", "y_m", "fx_N", "fy_N"))
+    behind, found = START + v * t + LENGTH / 2 - x, []
+    frames, frame = np.unique(t, return_inverse=True)
+    for _, first, last in PLACES:
+        is_there = (behind >= first) & (behind < last)
+        sums = np.bincount(2 * frame[is_there] + (y[is_there] > 0), np.hypot(fx, fy)[is_there], 2 * len(frames))
+        loaded = sums[sums > 0]
+        found.append((-fx[is_there].sum() * FRAME / WAY,
+                      *((np.quantile(loaded, 0.99), loaded.max()) if len(loaded) else (0, 0))))
+    return np.array(found)
+
+
+def places(arguments):
+    print("| place on the waterline | " + " | ".join(f"h {h:g} m: mean [kN], by metre [kN/m], 99 %, largest [kN]"
+                                                     for h in (0.5, 1, 1.5)) + " |")
+    print("|---|---|---|---|")
+    columns = []
+    for h in (0.5, 1, 1.5):
+        with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+            each = pool.map(lambda share, h=h: loads_by_place(arguments, f"places-{h:g}-{share}", scene(h, share, {})),
+                            SHARES)
+            columns.append(1e-3 * np.mean(list(each), axis=0))
+    for k, (name, first, last) in enumerate(PLACES):
+        length = 2 * (last - max(0, first)) / (math.cos(ENTRANCE) if first < 22 else 1)
+        print(f"| {name} | " + " | ".join(f"{of[k][0]:.1f}, {of[k][0] / length:.2f}, {of[k][1]:.0f}, {of[k][2]:.0f}"
+                                          for of in columns) + " |")
+    print("| sum | " + " | ".join(f"{of[:, 0].sum():.0f}" for of in columns) + " |")
+
+
 def run_all(arguments, cases):
     """Of each case (h, v, bending settings) the mean over its speeds, and the standard error of the mean surge."""
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
@@ -131,12 +172,14 @@ def exponents(cases, results):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("study", choices=("parts", "models", "switches"))
+    parser.add_argument("study", choices=("parts", "places", "models", "switches"))
     parser.add_argument("--polynya", default="build/release/app/polynya")
     parser.add_argument("--work", default="/tmp/bow-study")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     arguments = parser.parse_args()
     os.makedirs(arguments.work, exist_ok=True)
+    if arguments.study == "places":
+        return places(arguments)
     thicknesses = (0.25, 0.5, 1, 1.5)
     plan = [(0.5, v) for v in (0.25, 0.5, 1, 2, 3)] + [(h, 1) for h in thicknesses if h != 0.5]
     if arguments.study == "parts":
@@ -151,6 +194,7 @@ def main():
     print_rows(cases, results)
     if arguments.study == "parts":
         exponents(cases, results)
+    return None
 
 
 if __name__ == "__main__":

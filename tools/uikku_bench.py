@@ -11,7 +11,6 @@ scene, several times; --speeds N runs each test at N speeds within 3 %; --polyny
 they are overwritten), --jobs N. Needs numpy.
 """
 import argparse
-import csv
 import json
 import os
 import pathlib
@@ -19,39 +18,21 @@ import sys
 
 import numpy as np
 
-from study import FEW_RECORDS, formulas, rows_of, run_all, run_scene
-from polynya.performance.level_ice import ENDLESS  # study.py has found the package
+from study import run_all, run_scene
+from polynya.calibrate import level_tests  # study.py has found the package
 
-LENGTH, BEAM, DRAUGHT = 150, 21.3, 9.5  # [m], recall
+HERE = pathlib.Path(__file__).parent
 # Stem from the horizontal and entrance from the centre line [°], friction of ice on the hull. "inverted": what the
 # authors of the tests must have put into Lindqvist's formula to find the numbers that they state.
 ANGLES = {"stated": {"stem": 30, "entrance": 21, "friction": 0.05},
           "inverted": {"stem": 28.5, "entrance": 25, "friction": 0.03}}
-MEASURED = 100  # [m]
-MASS = 22_650e3  # [kg]; nothing depends on it at constant speed
 
 
-def way_in(entrance):
-    """Until the hull is full of ice: its length, and the bow's [m]."""
-    return 1.05 * LENGTH + 0.5 * BEAM / np.tan(np.radians(entrance))
-
-
-def scene(test, particulars, speed, settings):
-    """A test: its ice in SI units, the ship 2 m before it."""
-    way = way_in(particulars["entrance"]) + MEASURED
-    hull = {"length_m": LENGTH, "beam_m": BEAM, "draught_m": DRAUGHT, "entrance_angle_deg": particulars["entrance"],
-            "stem_angle_deg": particulars["stem"]}
-    whole = {"name": f"uikku-{test['test']}", "time": {"step_s": min(0.02, 0.01 / speed), "until_s": (way + 2) / speed},
-             "ice": {"thickness_m": test["thickness_m"], "flexural_strength_Pa": 1e3 * test["flexural_strength_kPa"],
-                     "youngs_modulus_Pa": 1e6 * test["youngs_modulus_MPa"],
-                     "compressive_strength_Pa": 1e3 * test["compressive_strength_kPa"],
-                     "friction": particulars["friction"]},
-             "fracture": {key: dict(value) for key, value in ENDLESS.items()},
-             "ships": [{"name": "uikku", "mass_kg": MASS, "moment_of_inertia_kg_m2": MASS * (LENGTH / 4) ** 2,
-                        "hull": hull,
-                        "position_m": [-LENGTH / 2 - 2, 0], "propulsion": {"constant_speed_m_per_s": speed}}],
-             "floes": [{"rectangle": {"corner_m": [0, -75], "size_m": [way + 50, 150]},
-                        "fast_ice": True}]} | FEW_RECORDS
+def scene(test, particulars, share, settings):
+    """A test at that share of its speed, with settings of the scene's keys."""
+    ship = json.loads((HERE / "uikku.json").read_text(encoding="utf-8"))
+    ship["hull"] |= {"entrance_angle_deg": particulars["entrance"], "stem_angle_deg": particulars["stem"]}
+    whole = level_tests.scene(test, ship, (1, 1), particulars["friction"], share)
     for key, value in settings:
         *path, last = key.split(".")
         inner = whole
@@ -64,21 +45,11 @@ def scene(test, particulars, speed, settings):
 def run(arguments, name, one):
     """Of the measured way: the resistance [kN], its part under the hull, the share of the time without contact."""
     folder, summary = run_scene(arguments, name, one)
-    ship = one["ships"][0]
-    start = (2 + way_in(ship["hull"]["entrance_angle_deg"])) / ship["propulsion"]["constant_speed_m_per_s"]
-    rows = [row for row in rows_of(folder, "forces.csv") if float(row["t_s"]) > start]
-    contact = -1e-3 * np.array([float(row["surge_N"]) for row in rows])
-    submerged = -1e-3 * np.array([float(row["surge_from_submerged_ice_N"]) for row in rows])
+    contact, submerged = level_tests.measured(pathlib.Path(folder), one)
     total = contact + submerged
     return {"mean": total.mean(), "sd": total.std(ddof=1), "max": total.max(), "min": total.min(),
             "submerged": submerged.mean(),
             "without_contact": np.mean(contact < 1e-3 * total.max()), "real_time": summary["real_time_factor"]}
-
-
-def read_tests(path):
-    with open(path, encoding="utf-8") as file:
-        return [{key: value if key == "test" else float(value) for key, value in row.items()}
-                for row in csv.DictReader(line for line in file if not line.startswith("#"))]
 
 
 def table(tests, results, angles, speeds):
@@ -88,11 +59,11 @@ def table(tests, results, angles, speeds):
           "| mean, sd over measured | without contact | × real time |\n|" + "---|" * 9)
     ratios = []
     for test in tests:
-        each = [results[angles, test["test"], number] for number in range(speeds)]
+        each = [results[angles, test.name, number] for number in range(speeds)]
         r = {key: float(np.mean([one[key] for one in each])) for key in each[0]}
-        measured = [test[f"resistance_{key}_kN"] for key in ("mean", "sd", "min", "max")]
+        measured = [float(test.row[f"resistance_{key}_kN"]) for key in ("mean", "sd", "min", "max")]
         ratios.append((r["mean"] / measured[0], r["sd"] / measured[1]))
-        print(f"| {test['test']} | {test['thickness_m']:g} | {test['speed_m_per_s']:g} | "
+        print(f"| {test.name} | {test.ice['thickness_m']:g} | {test.speed:g} | "
               + ", ".join(f"{x:.0f}" for x in measured) + " | "
               + ", ".join(f"{r[key]:.0f}" for key in ("mean", "sd", "min", "max"))
               + f" | {r['submerged']:.0f} | {ratios[-1][0]:.2f}, {ratios[-1][1]:.2f} | "
@@ -104,7 +75,7 @@ def table(tests, results, angles, speeds):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("tests", nargs="?", default=pathlib.Path(__file__).with_name("uikku_tests.csv"))
+    parser.add_argument("tests", nargs="?", default=HERE / "uikku_tests.csv")
     parser.add_argument("--angles", choices=(*ANGLES, "both"), default="both")
     parser.add_argument("--set", action="append", default=[], dest="settings", metavar="KEY=VALUE")
     parser.add_argument("--speeds", type=int, default=1)
@@ -120,11 +91,10 @@ def main():
             settings.append((key, json.loads(value)))
         except json.JSONDecodeError:
             settings.append((key, value))
-    tests = read_tests(arguments.tests)
+    tests = level_tests.read_tests(arguments.tests)
     chosen = list(ANGLES) if arguments.angles == "both" else [arguments.angles]
     shares = [1.0] if arguments.speeds == 1 else np.linspace(0.97, 1.03, arguments.speeds)
-    scenes = {(angles, test["test"], number): scene(test, ANGLES[angles], float(share) * test["speed_m_per_s"],
-                                                    settings)
+    scenes = {(angles, test.name, number): scene(test, ANGLES[angles], float(share), settings)
               for angles in chosen for test in tests for number, share in enumerate(shares)}
     results = run_all(arguments, run, scenes)
     for angles in chosen:

@@ -24,7 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 5> kPythonCommands{"figures", "management", "movie", "performance", "study"};
+constexpr std::array<std::string_view, 7> kPythonCommands{"calibrate", "figures",     "loads", "management",
+                                                          "movie",     "performance", "study"};
 constexpr auto kModule = "polynya.command";  ///< python/polynya/command.py starts every command of the package
 
 /// The folder that holds the Python package: beside the build's app/, the installed one, or that of a wheel, whose
@@ -124,8 +125,14 @@ Command add_python_command(CommandLine& app, const char* name, const char* meani
 
 }  // namespace
 
+Command add_calibrate(CommandLine& app) {
+  return add_python_command(app, "calibrate", "Fit the two factors of bending to level-ice tests of a ship");
+}
 Command add_figures(CommandLine& app) {
   return add_python_command(app, "figures", "Draw a run, or several side by side, for print");
+}
+Command add_loads(CommandLine& app) {
+  return add_python_command(app, "loads", "Peaks of the ice's force by place: statistics, return values, figures");
 }
 Command add_management(CommandLine& app) {
   return add_python_command(app, "management",

@@ -170,6 +170,17 @@ void add_mooring_warnings(const Simulation& simulation, std::vector<std::string>
   }
 }
 
+void add_calibrations(const simulation::Scene& scene, std::vector<std::string>& warnings) {
+  const auto add = [&](const simulation::BendingFactors& factors, std::string_view whose) {
+    if (factors != simulation::BendingFactors{})
+      warnings.push_back(fmt::format("calibrated: bending loads times {:.4g}, cusp radii times {:.4g} ({})",
+                                     factors.load, factors.cusp_radius, whose));
+  };
+  add(scene.fracture.factors, "fracture.bending");
+  for (const simulation::Ship& ship : scene.ships)
+    if (ship.calibration) add(*ship.calibration, ship.name);
+}
+
 std::vector<std::string> warnings_of(const Simulation& simulation, const simulation::Counts& counts) {
   std::vector<std::string> warnings = ship_contact_warnings(simulation);
   add_mooring_warnings(simulation, warnings);
@@ -203,11 +214,8 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
                     "do not trust this run, and please report it with its failure.bin",
                     audit.energy_imbalance, audit.turnover, length(audit.momentum_imbalance), audit.momentum_turnover));
   }
-  const simulation::FractureSettings& fracture = simulation.scene().fracture;
-  if (fracture.bending_load_factor != 1 || fracture.cusp_radius_factor != 1)
-    warnings.push_back(fmt::format("calibrated: bending loads times {:.4g}, cusp radii times {:.4g} (fracture.bending)",
-                                   fracture.bending_load_factor, fracture.cusp_radius_factor));
-  if (fracture.characteristic_length == fracture::CharacteristicLength::kAsPrinted)
+  add_calibrations(simulation.scene(), warnings);
+  if (simulation.scene().fracture.characteristic_length == fracture::CharacteristicLength::kAsPrinted)
     warnings.emplace_back("fracture.characteristic_length is as_printed: Eq. (7) with the paper's misprint");
   return warnings;
 }

@@ -291,4 +291,16 @@ FieldOf<Record> left_out(FieldOf<Record> field) {
   return field;
 }
 
+/// Calibration, of a scene and of a ship.
+template <class... Path>
+auto load_factor(Path... path) {
+  return member("load_factor", "", from(0.01, 100),
+                "calibration: the load V_b at which ice breaks by bending, times this; 1: as computed", path...);
+}
+template <class... Path>
+auto cusp_radius_factor(Path... path) {
+  return member("cusp_radius_factor", "", from(0.01, 100),
+                "calibration: the radius R of the cusps that break off, times this; 1: as computed", path...);
+}
+
 }  // namespace polynya::io

@@ -143,12 +143,8 @@ const Description<FractureSettings> kBending{
          "of model fsi-database and contact law crush: whether the edge breaks at the weakest section of its true "
          "outline, or as the wedge that it makes over 0.3 l",
          {{"sections", EdgeOutline::kSections}, {"wedge", EdgeOutline::kWedge}}, &FractureSettings::outline),
-     member("load_factor", "", from(0.01, 100),
-            "calibration: the load V_b at which ice breaks by bending, times this; 1: as computed",
-            &FractureSettings::bending_load_factor),
-     member("cusp_radius_factor", "", from(0.01, 100),
-            "calibration: the radius R of the cusps that break off, times this; 1: as computed",
-            &FractureSettings::cusp_radius_factor),
+     load_factor(&FractureSettings::factors, &BendingFactors::load),
+     cusp_radius_factor(&FractureSettings::factors, &BendingFactors::cusp_radius),
      choice<bool>("deflection",
                   "of contact law crush: whether ice that bends under a hull recedes from it, so "
                   "that the hull comes farther before a cusp breaks, or only crushes until then",

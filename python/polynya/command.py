@@ -13,7 +13,9 @@ import sys
 
 FAILED, INPUT_OUTPUT, DEFECT, CLOSED_PIPE = 4, 5, 70, 141
 OPTIONS = {  # where the command line of each is made
+    "calibrate": "polynya.calibrate.options",
     "figures": "polynya.figures.options",
+    "loads": "polynya.loads.options",
     "management": "polynya.management.options",
     "movie": "polynya.movie.__main__",
     "performance": "polynya.performance.options",

@@ -54,8 +54,9 @@ void find_crack(const Setup& setup, const dynamics::Bodies& bodies, const ShipCo
 /// V of the contact, V_b and the cusp. Returns whether the model answered for the load itself.
 bool measure_bending(const Setup& setup, const ShipContactLoad& load, PendingFracture& pending) {
   fracture::BendingCapacity capacity = setup.bending->capacity(bending_load(setup, load));
-  capacity.vertical_force *= setup.scene.fracture.bending_load_factor;
-  capacity.cusp_radius *= setup.scene.fracture.cusp_radius_factor;
+  const BendingFactors factors = bending_factors_of(setup.scene, load.contact.a);
+  capacity.vertical_force *= factors.load;
+  capacity.cusp_radius *= factors.cusp_radius;
   pending.criteria.bending_capacity = capacity.vertical_force;
   pending.criteria.flexural_strength = load.ice.flexural_strength;
   pending.cusp_radius = capacity.cusp_radius;

@@ -74,7 +74,7 @@ Planar on_hull(const dynamics::Bodies& bodies, BodyIndex hull, Point at, geometr
 }
 
 void add_contact(const PanelGrid& grid, const dynamics::Bodies& bodies, const Contact& c, double bottom, double top,
-                 HullPanels& panels) {
+                 HullPanels& panels, std::vector<PanelLoads*>& touched) {
   const geometry::Pose pose = dynamics::water_from_body(bodies, c.a);
   const double full = grid.waterline.length;
   const std::array<double, 2> arc{arc_at(grid.waterline, inverse_transform(pose, c.ends[0])),
@@ -92,6 +92,7 @@ void add_contact(const PanelGrid& grid, const dynamics::Bodies& bodies, const Co
     for_columns(grid, half == 0 ? from : middle, half == 0 ? middle : to, [&](int column, double along) {
       for_rows_of(grid, bottom, top, [&](int row, double up) {
         PanelLoads& panel = panels[grid.first_of(column) + static_cast<std::size_t>(row)];
+        if (panel.step == 0) touched.push_back(&panel);
         panel.impulse += along * up * load;
         panel.normal += along * up * normal;
         panel.step += along * up * c.steady_share * normal;
@@ -123,23 +124,21 @@ std::vector<HullPanels> panels_of(const Setup& setup) {
 void load_panels(const Setup& setup, const Population& population, const StepData& step,
                  std::vector<HullPanels>& panels) {
   if (std::ranges::all_of(panels, &HullPanels::empty)) return;
+  std::vector<PanelLoads*> touched;
   for (std::size_t i = 0; i < step.slopes.size(); ++i) {
     const Contact& c = step.contacts[i];
-    HullPanels& of_hull = panels[static_cast<std::size_t>(c.a)];
-    if (of_hull.empty() || population.is_hull(c.b) || c.total_normal_impulse() == 0) continue;
+    const auto hull = static_cast<std::size_t>(c.a);
+    if (panels[hull].empty() || population.is_hull(c.b) || c.total_normal_impulse() == 0) continue;
     const fracture::Ice& ice = ice_of_body(setup, population, c.b);
     const double top = ice.thickness * (1 - ice.density / setup.scene.water.water.density);
-    const std::size_t hull = static_cast<std::size_t>(c.a);
     add_contact({*hull_of(setup.scene, hull).panels, setup.waterlines[hull]}, population.bodies, c,
-                top - step.slopes[i].height, top, of_hull);
+                top - step.slopes[i].height, top, panels[hull], touched);
   }
-  for_panels(setup, panels, [&](std::size_t, const PanelGrid&, HullPanels& of_hull) {
-    for (PanelLoads& panel : of_hull) {
-      if (panel.step > 0) panel.loaded += setup.step;
-      panel.largest = std::max(panel.largest, panel.step / setup.step);
-      panel.step = 0;
-    }
-  });
+  for (PanelLoads* panel : touched) {
+    if (panel->step > 0) panel->loaded += setup.step;
+    panel->largest = std::max(panel->largest, panel->step / setup.step);
+    panel->step = 0;
+  }
 }
 
 void sample_panels(const Setup& setup, const Clock& clock, std::vector<HullPanels>& panels, Journal& journal) {

@@ -109,14 +109,20 @@ struct ResurfaceSettings {
   friend bool operator==(const ResurfaceSettings&, const ResurfaceSettings&) = default;
 };
 
+/// Calibration to tests of a ship; 1: as computed.
+struct BendingFactors {
+  double load = 1;         ///< on V_b [-]
+  double cusp_radius = 1;  ///< on R [-]
+  friend bool operator==(const BendingFactors&, const BendingFactors&) = default;
+};
+
 struct FractureSettings {
   fracture::CharacteristicLength characteristic_length = fracture::CharacteristicLength::kFourthRoot;
   double breakable_size_factor = 1.0;  ///< κ: floes with √area < κ l are pushed, never broken [-]
   BendingModelKind bending = BendingModelKind::kFsiDatabase;
   fracture::RadialCracks radial_cracks = fracture::RadialCracks::kSplitWedge;  ///< of kFsiDatabase
   fracture::EdgeOutline outline = fracture::EdgeOutline::kSections;  ///< of kFsiDatabase and ContactLaw::kCrush
-  double bending_load_factor = 1;                                    ///< on V_b: calibration to tests of a ship [-]
-  double cusp_radius_factor = 1;                                     ///< on R, likewise [-]
+  BendingFactors factors;                                            ///< for all hulls
   bool follows_deflection = true;  ///< of ContactLaw::kCrush: ice that bends under a hull recedes from it
   double bending_scatter = 0;      ///< deviation / mean of each bending event's flexural strength, log-normal [-]
   fracture::SplittingModel splitting = fracture::SplittingModel::kLefm;
@@ -186,6 +192,7 @@ struct Ship : PlacedHull {
   Steering steering;
   PilotSettings pilot;  ///< of a ship with an engine
   std::optional<MooringSettings> mooring;
+  std::optional<BendingFactors> calibration;  ///< of the ice that this ship breaks
   friend bool operator==(const Ship&, const Ship&) = default;
 };
 
@@ -297,6 +304,12 @@ int hull_named(const Scene& scene, std::string_view name);
 /// The velocity over ground of free ice: it goes with the drift, and through the water as fast as the friction
 /// below it bears the wind's above it [m/s].
 geometry::Vector free_drift(const Scene& scene, double time);
+
+/// What the loads and cusps of ice that a hull breaks are multiplied with: the scene's factors, and the ship's.
+BendingFactors bending_factors_of(const Scene& scene, std::size_t hull);
+bool is_calibrated(const Scene& scene);
+/// The scene's name, as outputs show it: with ", calibrated" where it is.
+std::string shown_name(const Scene& scene);
 
 /// What a row of forces.csv covers: a whole number of steps [s].
 double recording_interval(const Scene& scene);

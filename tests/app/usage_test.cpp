@@ -22,7 +22,8 @@ class Usage : public testing::Test {
 TEST_F(Usage, ErrorsNameTheCommandTheFaultAndWhatWasMeant) {
   const Words query = "database query --thickness 1 --speed 1 --hull-angle 60";
   const std::string commands =
-      "commands: run, resume, validate, schema, ships, performance, init, view, channel, figures, management, movie, "
+      "commands: run, resume, validate, schema, ships, performance, calibrate, init, view, channel, figures, "
+      "loads, management, movie, "
       "export, "
       "inspect, cut, import, database, study\n";
   const std::string tools = "one of --disc, --crack, --line, --polygon, --ops is needed, ";

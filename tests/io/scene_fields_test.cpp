@@ -52,7 +52,7 @@ const std::string kFourth = scene({list(
        "pilot": {"route": {"waypoints": [{"position_m": [500, 500], "speed_m_per_s": 3},
                                          {"position_m": [900, 400], "speed_m_per_s": 2}]}},
        "mooring": {"surge_stiffness_N_per_m": 1e5, "break_load_N": 1e6, "position_m": [0, 501], )"
-         R"("heading_deg": 1})")})});
+         R"("heading_deg": 1}, "calibration": {"load_factor": 1.2})")})});
 
 /// The fields of a law of sizes.
 std::string field_of_law(const std::string& region, const std::string& law) {

@@ -64,7 +64,7 @@ def test_ctrl_c_ends_a_command_as_it_ends_others():
 
 
 def test_a_reader_that_goes_away_is_no_failure():
-    for words in ("study --help", "figures --help", "movie --help"):
+    for words in ("study --help", "figures --help", "loads --help", "movie --help"):
         reader, writer = os.pipe()
         os.close(reader)
         done = subprocess.run([PROGRAM, *words.split()], stdout=writer, stderr=subprocess.PIPE, check=False)
@@ -72,7 +72,7 @@ def test_a_reader_that_goes_away_is_no_failure():
         assert (done.returncode, done.stderr) == (141, b"")
 
 
-@pytest.mark.parametrize("words", ["figures x", "movie x --out a.png", "performance x",
+@pytest.mark.parametrize("words", ["figures x", "loads x --out a", "movie x --out a.png", "performance x",
                                    "management x", "database x", "study report x"])
 def test_a_missing_package_is_one_line_with_what_to_do(words, tmp_path):
     done = ended([*BARE, "-m", "polynya.command", *words.split()], cwd=tmp_path)

@@ -6,7 +6,7 @@ import re
 PARTS = {
     "Start": ["start", "tutorial", "gallery"],
     "How to": ["view", "figures", "movie", "channel", "inspect", "why-it-split",
-               "export", "ships", "management", "import",
+               "export", "ships", "loads", "management", "import",
                "cut", "database", "studies", "python", "environment"],
     "Reference": ["scene", "run-folder", "reference/commands", "reference/python", "reference/cpp", "references"],
     "Theory": ["theory/index", "theory-bending", "theory-bow", "geometry"],

@@ -140,6 +140,12 @@ function makeLegend(player) {
     return [arrowRow(force * player.forceScale, `${shortNumber(force * unit.factor)} ${unit.name}`),
       swatchRow(colours.split, "crushing"), swatchRow(colours.bend, "not crushing")];
   }
+  function loadRows() {
+    const most = run.columns.peak_force_N.reduce((most, force) => Math.max(most, force), 0);
+    const unit = loadUnit(most, "N");
+    const words = (step) => `up to ${shortNumber((most * (step + 1) * unit.factor) / loadSteps)} ${unit.name}`;
+    return Array.from({ length: loadSteps }, (_, step) => swatchRow(loadColour((step + 0.5) / loadSteps), words(step)));
+  }
 
   return {
     show() {
@@ -156,6 +162,7 @@ function makeLegend(player) {
         swatchRow(colours.channel, "open from ice to ice ", channelWidth));
       if (state.layers.velocities) rows.push(velocityRow());
       if (state.layers.forces) rows.push(...forceRows(colours));
+      if (state.layers.largestLoads || state.layers.meanLoads) rows.push(...loadRows());
       byId("legend").replaceChildren(make("b", {}, colouring.title), ...rows);
     },
     showWidths: (words) => { channelWidth.textContent = words.join("; ") || "\u2013"; },

@@ -171,7 +171,7 @@ function firstState(run, motions, range) {
     time: range[0], isPlaying: false, rate: defaultRate(range[1] - range[0]), selected: -1, hovered: -1, event: null,
     follow: -1, colourBy: "breakage", isFitted: true, sizes: null,
     layers: { channel: isUnderWay(run.carry), startIce: isUnderWay((x, y) => [x, y]), track: true, circles: false,
-      velocities: false, forces: false, fractures: false },
+      velocities: false, forces: false, largestLoads: false, meanLoads: false, fractures: false },
     iceDirty: true, marksDirty: true,
   };
 }

@@ -56,6 +56,19 @@ void add_contacts(ColumnWriter& columns, const io::Run& run, const std::vector<i
   add("contact_is_crushing", [](const ContactState& c) { return c.is_crushing; });
 }
 
+/// Peaks of forces on hulls, of those in the selection's time.
+void add_peaks(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames) {
+  std::vector<io::RunContact> peaks;
+  const double from = frames.empty() ? 0 : frames.front().time, until = frames.empty() ? 0 : frames.back().time;
+  std::ranges::copy_if(run.peaks, std::back_inserter(peaks),
+                       [&](const io::RunContact& peak) { return peak.time >= from && peak.time <= until; });
+  columns.add("peak_t_s", peaks, &io::RunContact::time);
+  columns.add("peak_ship", peaks, [](const io::RunContact& peak) { return peak.state.on.ship; });
+  columns.add("peak_arc_m", peaks, [](const io::RunContact& peak) { return peak.state.arc; });
+  columns.add("peak_force_N", peaks,
+              [](const io::RunContact& peak) { return peak.state.pressure * peak.state.width * peak.state.height; });
+}
+
 /// The stations of each ship's channel with ice on both sides, at frames that are spread evenly over the run
 /// and end with the last. What geometry refuses to measure is not shown.
 void add_channels(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames) {
@@ -217,7 +230,7 @@ std::string info_of(const io::Run& run, const PlayerData& data, const PlayerSele
   std::string text;
   io::JsonWriter json(text);
   const simulation::Scene& scene = run.scene.scene;
-  json.open('{').key("polynya").value(io::version()).key("scene").value(scene.name);
+  json.open('{').key("polynya").value(io::version()).key("scene").value(shown_name(scene));
   json.key("description").value(run.scene.description).key("scene_hash").value(run.scene.hash);
   json.key("seed").value(scene.seed).key("until_s").value(scene.time.until);
   json.key("frames").value(data.frames).key("frames_of_run").value(run.frames.size());
@@ -298,6 +311,7 @@ PlayerData player_data(const io::Run& run, const PlayerSelection& selection) {
   data.frame_bytes = data.columns.bytes().size() - data.floe_bytes;
   add_forces(data.columns, run, selection.frames);
   add_contacts(data.columns, run, frames, held);
+  add_peaks(data.columns, run, frames);
   add_channels(data.columns, run, frames);
   data.info = info_of(run, data, selection, held);
   return data;

@@ -63,7 +63,7 @@ std::string as_json(std::string_view words) {
 }  // namespace
 
 std::string player_page(const io::Run& run, const PlayerData& data, const std::string& options) {
-  return filled(kPlayerTemplate, {{"{{title}}", io::escaped(run.scene.scene.name)},
+  return filled(kPlayerTemplate, {{"{{title}}", io::escaped(shown_name(run.scene.scene))},
                                   {"{{options}}", in_script(options)},
                                   {"{{info}}", in_script(data.info)},
                                   {"{{columns}}", io::to_base64(data.columns.bytes())}});

@@ -39,6 +39,7 @@ function makeIcePicture(player, canvas) {
 function makeMarksPicture(player, canvas) {
   const { run, state, view, places, motions, circlesOf } = player;
   const marks = canvas.getContext("2d");
+  const loadLine = makeLoadLine(run);
 
   function outline(id) {
     marks.beginPath();
@@ -71,6 +72,8 @@ function makeMarksPicture(player, canvas) {
     if (state.layers.circles) notices.push(drawCircles(marks, view, run, circlesOf, places, motions, colours));
     if (state.layers.forces) notices.push(drawContactForces(marks, view, run, motions, places, state.time, colours,
       player.forceScale));
+    if (state.layers.largestLoads || state.layers.meanLoads)
+      notices.push(drawLoadLine(marks, view, loadLine, motions, state.time, !state.layers.largestLoads));
     if (state.layers.velocities) drawVelocities(marks, view, run, places, motions, colours, player.arrowScale);
     if (state.event !== null) drawChosenEvent(marks, view, run.info.events[state.event], colours);
     if (player.plan) drawPlan(marks, player);

@@ -1,20 +1,14 @@
 """The runs of a curve: one a thickness, longer until the speed is steady. Finished runs are kept and used again."""
 import dataclasses
-import json
 import pathlib
-import subprocess
 
 from .. import formulas
-from ..study.case import DONE, STOPPED, summary_of
+from ..runs_kept import kept_run
 from . import level_ice
 
 FIRST, MOST = 5, 20  # lengths of the course
 VALIDATED_THICKNESS = 0.5  # [m], docs/validation.md, "A ship in level ice"
 OUTSIDE = f"thicker than {VALIDATED_THICKNESS:g} m, outside the range of validation"
-
-
-class RunFailed(Exception):
-    pass
 
 
 class Curve:
@@ -47,27 +41,6 @@ class Curve:
         )
         return max(0.5, speed)
 
-    def run(self, scene, name):
-        """The run's folder; of a run that is there already, at once."""
-        path, folder = self.folder / (name + ".json"), self.folder / name
-        text = json.dumps(scene, indent=1)
-        summary = summary_of(folder)
-        if summary and summary["finished"] and path.exists() and path.read_text(encoding="utf-8") == text:
-            return folder
-        path.write_text(text, encoding="utf-8")
-        done = subprocess.run(
-            [self.program, "run", path, "--out", folder, "--overwrite", "--progress", "none", "--threads", "1"],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE,
-            text=True,
-            check=False,
-        )
-        if done.returncode == STOPPED:  # Ctrl-C reaches the run too
-            raise KeyboardInterrupt
-        if done.returncode != DONE:
-            raise RunFailed(f"{path}: polynya run ended with {done.returncode}\n{done.stderr.strip()}")
-        return folder
-
     def point(self, thickness):
         """One row of the curve."""
         speed, lengths = self.first_speed(thickness), FIRST
@@ -75,7 +48,7 @@ class Curve:
             name = f"level-{thickness:g}-{lengths}"
             scene = level_ice.scene(self.ship, self.level(thickness), speed, lengths, self.step)
             way = scene["floes"][0]["rectangle"]["size_m"][0]
-            measured = level_ice.Measured(self.run(scene, name), self.ship, way)
+            measured = level_ice.Measured(kept_run(self.program, self.folder, name, scene), self.ship, way)
             if measured.is_within(self.error) or lengths >= MOST:
                 break
             lengths *= 2

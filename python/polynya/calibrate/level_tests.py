@@ -1,0 +1,129 @@
+"""Level-ice tests of a ship: their table, the scene of each, and what its run is compared by."""
+import csv
+import dataclasses
+import math
+import typing
+
+import numpy as np
+
+from ..errors import InputError
+from ..performance.level_ice import ENDLESS
+from ..study.measures import rows_by_ship
+
+MEASURED = 100  # way over which the ice's force is measured, once the hull is full of ice [m]
+GAP = 2  # of water before the ice [m]
+AVERAGE = 0.1  # over which forces are averaged [s]
+# Columns of a table of tests, with the least and the largest value of each; the first are required.
+REQUIRED = {
+    "thickness_m": (1e-3, 20),
+    "flexural_strength_kPa": (1e-3, 1e6),
+    "speed_m_per_s": (1e-3, 20),
+    "resistance_mean_kN": (1e-6, 1e9),
+    "resistance_sd_kN": (1e-6, 1e9),
+}
+OPTIONAL = {"youngs_modulus_MPa": (1e-3, 1e6), "compressive_strength_kPa": (1e-3, 1e6), "friction": (0, 2)}
+IN_SI = {"flexural_strength_kPa": 1e3, "youngs_modulus_MPa": 1e6, "compressive_strength_kPa": 1e3}
+ICE_KEYS = {
+    "thickness_m": "thickness_m",
+    "flexural_strength_kPa": "flexural_strength_Pa",
+    "youngs_modulus_MPa": "youngs_modulus_Pa",
+    "compressive_strength_kPa": "compressive_strength_Pa",
+    "friction": "friction",
+}
+
+
+@dataclasses.dataclass(frozen=True)
+class Test:
+    """A row of the table: the scene's ice, the speed [m/s], and the measured resistance [kN]."""
+
+    name: str
+    ice: typing.Dict[str, float]
+    speed: float
+    mean: float
+    sd: float
+    row: typing.Dict[str, str]
+
+
+def read_tests(path):
+    """The tests of a table with a line of column names; lines that begin with # are comments. Raises InputError."""
+    with open(path, encoding="utf-8-sig", newline="") as file:
+        lines = [(number, line) for number, line in enumerate(file, 1) if line.strip() and not line.startswith("#")]
+    if not lines:
+        raise InputError(f"{path}: no line of column names")
+    reader = csv.DictReader(line for _, line in lines)
+    missing = [name for name in REQUIRED if name not in (reader.fieldnames or ())]
+    if missing:
+        raise InputError([f"{path}:{lines[0][0]}: no column {name}" for name in missing])
+    tests, problems = [], []
+    for (number, _), row in zip(lines[1:], reader):
+        values = {}
+        for name, (least, most) in (REQUIRED | OPTIONAL).items():
+            if name in OPTIONAL and not row.get(name):
+                continue
+            try:
+                values[name] = float(row[name])
+            except (TypeError, ValueError):
+                values[name] = math.nan
+            if not least <= values[name] <= most:
+                problems.append(f"{path}:{number}: {name}: found {row[name]}, allowed: a number ≥ {least:g}, ≤ "
+                                f"{most:g}")
+        ice = {key: values[name] * IN_SI.get(name, 1) for name, key in ICE_KEYS.items() if name in values}
+        name = row.get("test") or str(len(tests) + 1)
+        tests.append(
+            Test(name, ice, values["speed_m_per_s"], values["resistance_mean_kN"], values["resistance_sd_kN"], row)
+        )
+    names = [test.name for test in tests]
+    problems += [f"{path}: two tests are called {name}" for name in sorted({n for n in names if names.count(n) > 1})]
+    if not tests:
+        problems.append(f"{path}: no test")
+    if problems:
+        raise InputError(problems)
+    return tests
+
+
+def ends_of(hull):
+    """x of its stern and stem [m], and its beam [m]."""
+    if "waterline_m" in hull:
+        x, y = zip(*hull["waterline_m"])
+        return min(x), max(x), max(y) - min(y)
+    return -0.5 * hull["length_m"], 0.5 * hull["length_m"], hull["beam_m"]
+
+
+def way_in(hull, is_full=True):
+    """Until the bow is in the ice, or the hull full of it as well [m]."""
+    stern, stem, beam = ends_of(hull)
+    angle = hull.get("entrance_angle_deg")
+    bow = 0.3 * (stem - stern) if angle is None else 0.5 * beam / math.tan(math.radians(angle))
+    return bow + (1.05 * (stem - stern) if is_full else 5)
+
+
+def scene(test, ship, factors, friction=None, share=1.0, is_full=True):
+    """The ship at constant speed, `share` of the test's, into fast ice that does not split; `factors` on the load at
+    which ice bends off, and on the radius of cusps. It is measured once the hull is full of ice, or the bow in it."""
+    way, (stern, stem, beam) = way_in(ship["hull"], is_full) + MEASURED, ends_of(ship["hull"])
+    speed, kept = share * test.speed, ("name", "hull", "mass_kg", "moment_of_inertia_kg_m2")
+    placed = {key: ship[key] for key in kept if key in ship} | {
+        "position_m": [-stem - GAP, 0],
+        "propulsion": {"constant_speed_m_per_s": speed},
+        "calibration": {"load_factor": factors[0], "cusp_radius_factor": factors[1]},
+    }
+    ice = test.ice if friction is None or "friction" in test.ice else test.ice | {"friction": friction}
+    width = 7 * beam
+    return {
+        "name": f"test-{test.name}",
+        "time": {"step_s": min(0.02, 0.01 / speed), "until_s": (way + GAP) / speed},
+        "ice": ice,
+        "fracture": {key: dict(value) for key, value in ENDLESS.items()},
+        "ships": [placed],
+        "floes": [{"rectangle": {"corner_m": [0, -width / 2], "size_m": [way + 50, width]}, "fast_ice": True}],
+        "record": {"forces_interval_s": AVERAGE, "frames_interval_s": 60, "contacts": "none"},
+    }
+
+
+def measured(folder, scene_of_run):
+    """Of the last MEASURED m: the force of contacts, and of the ice under the hull [kN]; means over AVERAGE."""
+    time = scene_of_run["time"]["until_s"]
+    start = time - MEASURED / scene_of_run["ships"][0]["propulsion"]["constant_speed_m_per_s"]
+    (columns,) = rows_by_ship(folder / "forces.csv").values()
+    is_measured = np.array(columns["t_s"]) > start
+    return [-1e-3 * np.array(columns[name])[is_measured] for name in ("surge_N", "surge_from_submerged_ice_N")]

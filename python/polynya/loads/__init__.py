@@ -1,0 +1,10 @@
+"""Loads by place: peaks of contacts' forces and loads of panels, of a run or of all cases of a study.
+
+    from polynya import loads
+    found = loads.gather("studies/load-peaks")
+    loads.estimate.exceedance(found)
+"""
+from . import estimate, rules
+from .gather import Loads, gather
+
+__all__ = ["Loads", "estimate", "gather", "rules"]

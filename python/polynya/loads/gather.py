@@ -1,0 +1,166 @@
+"""Peaks and panels of a run, or of all cases of a study."""
+from __future__ import annotations
+
+import dataclasses
+import math
+import pathlib
+from typing import Optional
+
+import numpy
+
+from polynya.errors import FolderError, InputError
+from polynya.results.run import Run
+from polynya.results.tables import read_csv
+
+COMMON = 2.5  # panels where nothing says how long they are [m]
+
+
+class Waterline:
+    """A hull's, measured from its stem to port, as contacts.csv has it (simulation/ship/waterline.cpp)."""
+
+    def __init__(self, ring):
+        ring = numpy.asarray(ring, dtype=float)
+        following = numpy.roll(ring, -1, axis=0)
+        if numpy.sum(ring[:, 0] * following[:, 1] - following[:, 0] * ring[:, 1]) < 0:
+            ring = ring[::-1]
+        foremost = ring[:, 0] > ring[:, 0].max() - 1e-9
+        first = next(i for i in range(len(ring)) if foremost[i] and not foremost[i - 1])
+        ring = numpy.roll(ring, -first, axis=0)
+        closed = numpy.vstack([ring, ring[:1]])
+        arcs = numpy.concatenate([[0.0], numpy.cumsum(numpy.hypot(*numpy.diff(closed, axis=0).T))])
+        self.length = float(arcs[-1])  #: [m]
+        stem = arcs[1] / 2 if numpy.count_nonzero(foremost) > 1 else 0.0
+        self._points, self._arcs = closed, arcs - stem
+
+    def at(self, arc):
+        """The points at these arcs from the stem, in the hull's frame [m]."""
+        along = numpy.mod(numpy.asarray(arc, dtype=float) - self._arcs[0], self.length) + self._arcs[0]
+        return numpy.column_stack([numpy.interp(along, self._arcs, self._points[:, k]) for k in (0, 1)])
+
+
+@dataclasses.dataclass(frozen=True)
+class Case:
+    """A run of those gathered."""
+
+    number: int
+    start_s: float
+    hours: float
+    kilometres: float  #: over ground
+
+
+@dataclasses.dataclass
+class Loads:
+    """What was gathered of one ship or structure. `peaks` are columns of equal length: those of contacts.csv, `case`
+    and
+    `force_N`, along the contact's normal. `panels` those of panels.csv, or None where there are no panels."""
+
+    name: str
+    ship: str
+    is_fixed: bool
+    waterline: Waterline
+    panel_m: float
+    cases: list[Case]
+    peaks: dict
+    panels: Optional[dict]
+    interval_s: float  #: that a row of those covers
+    left_out: int  #: peaks that the runs' limits left out
+
+    @property
+    def hours(self):
+        return sum(case.hours for case in self.cases)
+
+    @property
+    def kilometres(self):
+        return sum(case.kilometres for case in self.cases)
+
+    @property
+    def forces(self):
+        """Of the peaks [N]."""
+        return self.peaks["force_N"]
+
+    def panel_of(self, arc):
+        return numpy.floor(numpy.asarray(arc) / self.panel_m).astype(int)
+
+
+def runs_of(folder):
+    """(case's number, folder) of each run."""
+    folder = pathlib.Path(folder)
+    from polynya.study import folder as folders
+    if not (folder / folders.PLAN).is_file():
+        return [(0, folder)]
+    study = folders.open_study(folder)
+    found = [(n, study.case_folder(n) / folders.RUN) for n in range(study.count)]
+    found = [(n, run) for n, run in found if run.is_dir()]
+    if not found:
+        raise FolderError(f"{folder}: the study has no run folders: polynya study run {folder} makes them; a study "
+                          f"with "
+                          '"keep": "summary" or "archive" has none')
+    return found
+
+
+def of_ship(columns, ship, start):
+    chosen = (columns["ship"] == ship) & (columns["t_s"] >= start)
+    return {name: values[chosen] for name, values in columns.items()}
+
+
+def case_of(number, run, ship, start):
+    """How long a run is from then on, and how far the ship goes."""
+    rows = of_ship(run.force_columns, ship, start)
+    way = numpy.hypot(numpy.diff(rows["x_m"]), numpy.diff(rows["y_m"])).sum() if len(rows["t_s"]) else 0.0
+    begin = max(start, run.start_time)
+    return Case(number, begin, max(0.0, run.end_time - begin) / 3600, float(way) / 1000)
+
+
+def body_of(run, ship):
+    name = ship or (run.ship_names[0] if run.ship_names else None)
+    if name not in run.ship_names:
+        raise InputError(f"{run.folder}: no ship or structure is named {name}; it has: "
+                         f"{', '.join(run.ship_names) or 'none'}")
+    return next(body for key in ("ships", "structures", "walls") for body in run.scene.get(key, [])
+                if body["name"] == name)
+
+
+def joined(parts):
+    return {name: numpy.concatenate([part[name] for part in parts]) for name in parts[0]}
+
+
+def gather(folder, ship=None, start=0.0, panel=None) -> Loads:
+    """Reads the peaks, and the panels where they are recorded, of a ship or structure (the first one) from `start` [s]
+    of each run on. `panel` is the length of the panels by which peaks are counted [m]."""
+    cases, peaks, panels, left_out = [], [], [], 0
+    first = None
+    for number, run_folder in runs_of(folder):
+        run = Run(run_folder, unfinished=True, pandas=False, shapely=False)
+        body = body_of(run, ship)
+        first = first or (run, body)
+        if run.waterlines[body["name"]].shape != first[0].waterlines[first[1]["name"]].shape:
+            raise InputError(f"{run.folder}: another waterline than in {first[0].folder}: places are not the same")
+        cases.append(case_of(number, run, body["name"], start))
+        of_run = of_ship({name: numpy.asarray(run.peaks[name]) for name in run.peaks.dtype.names}, body["name"], start)
+        of_run["case"] = numpy.full(len(of_run["t_s"]), number)
+        peaks.append(of_run)
+        counts = run.summary.get("load_peaks", {})
+        left_out += counts.get("below_least", 0) + counts.get("beyond_limit", 0)
+        if body.get("panels"):
+            rows = of_ship(read_csv(run.folder / "panels.csv"), body["name"], start)
+            rows["case"] = numpy.full(len(rows["t_s"]), number)
+            panels.append(rows)
+    run, body = first
+    all_peaks = joined(peaks)
+    all_peaks["force_N"] = all_peaks["pressure_Pa"] * all_peaks["width_m"] * all_peaks["height_m"]
+    length = (body.get("panels") or {}).get("length_m", COMMON)
+    is_recorded = len(panels) == len(cases) and panel in (None, length)  # of panels of another length nothing is
+    return Loads(name=pathlib.Path(folder).resolve().name, ship=body["name"], is_fixed="propulsion" not in body,
+                 waterline=Waterline(run.waterlines[body["name"]]), panel_m=panel or length, cases=cases,
+                 peaks=all_peaks, panels=joined(panels) if is_recorded else None,
+                 interval_s=run.summary["forces_interval_s"], left_out=left_out)
+
+
+def facing(loads, columns):
+    """Where the middles of panels are from the middle of the waterline, as angles from ahead to port [rad]."""
+    half = loads.waterline.length / 2
+    low = numpy.clip(columns * loads.panel_m, -half, half)
+    high = numpy.clip((columns + 1) * loads.panel_m, -half, half)
+    points = loads.waterline.at((low + high) / 2)
+    middle = loads.waterline.at(numpy.linspace(-half, half, 721)[:-1]).mean(axis=0)
+    return numpy.array([math.atan2(y, x) for x, y in points - middle])
