@@ -76,11 +76,14 @@ def main():
     scenes = {}
     for h in THICKNESSES:
         for v in SPEEDS:
-            scenes[f"{h:g}", f"{v:g}"] = scene(h, v, {}) | {"record": {"forces_interval_s": 0.1 / v, "frames_interval_s": 60, "contacts": "none"}}
+            scenes[f"{h:g}", f"{v:g}"] = scene(h, v, {}) | {"record": {"forces_interval_s": 0.1 / v,
+                                                                       "frames_interval_s": 60, "contacts": "none"}}
     results = run_all(arguments, run, scenes)
-    print("| h [m] | v [m/s] | crushing and bending of the run | ice | water | drag | dry deck | slots |\n|" + "---|" * 8)
+    print("| h [m] | v [m/s] | crushing and bending of the run | ice | water | drag | dry deck | slots |\n|"
+          + "---|" * 8)
     for (h, v), found in results.items():
-        print(f"| {h} | {v} | " + " | ".join(f"{1e-3 * value:.1f}" if value < 1e4 else f"{1e-3 * value:.0f}" for value in found) + " |")
+        print(f"| {h} | {v} | " + " | ".join(f"{1e-3 * value:.1f}" if value < 1e4
+                                             else f"{1e-3 * value:.0f}" for value in found) + " |")
 
 
 if __name__ == "__main__":

@@ -96,21 +96,25 @@ def loads_by_place(arguments, name, one):
         is_there = (behind >= first) & (behind < last)
         sums = np.bincount(2 * frame[is_there] + (y[is_there] > 0), np.hypot(fx, fy)[is_there], 2 * len(frames))
         loaded = sums[sums > 0]
-        found.append((-fx[is_there].sum() * FRAME / WAY, *((np.quantile(loaded, 0.99), loaded.max()) if len(loaded) else (0, 0))))
+        found.append((-fx[is_there].sum() * FRAME / WAY,
+                      *((np.quantile(loaded, 0.99), loaded.max()) if len(loaded) else (0, 0))))
     return np.array(found)
 
 
 def places(arguments):
-    print("| place on the waterline | " + " | ".join(f"h {h:g} m: mean [kN], by metre [kN/m], 99 %, largest [kN]" for h in (0.5, 1, 1.5)) + " |")
+    print("| place on the waterline | " + " | ".join(f"h {h:g} m: mean [kN], by metre [kN/m], 99 %, largest [kN]"
+                                                     for h in (0.5, 1, 1.5)) + " |")
     print("|---|---|---|---|")
     columns = []
     for h in (0.5, 1, 1.5):
         with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-            each = pool.map(lambda share, h=h: loads_by_place(arguments, f"places-{h:g}-{share}", scene(h, share, {})), SHARES)
+            each = pool.map(lambda share, h=h: loads_by_place(arguments, f"places-{h:g}-{share}", scene(h, share, {})),
+                            SHARES)
             columns.append(1e-3 * np.mean(list(each), axis=0))
     for k, (name, first, last) in enumerate(PLACES):
         length = 2 * (last - max(0, first)) / (math.cos(ENTRANCE) if first < 22 else 1)
-        print(f"| {name} | " + " | ".join(f"{of[k][0]:.1f}, {of[k][0] / length:.2f}, {of[k][1]:.0f}, {of[k][2]:.0f}" for of in columns) + " |")
+        print(f"| {name} | " + " | ".join(f"{of[k][0]:.1f}, {of[k][0] / length:.2f}, {of[k][1]:.0f}, {of[k][2]:.0f}"
+                                          for of in columns) + " |")
     print("| sum | " + " | ".join(f"{of[:, 0].sum():.0f}" for of in columns) + " |")
 
 

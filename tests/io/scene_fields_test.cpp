@@ -61,7 +61,8 @@ std::string field_of_law(const std::string& region, const std::string& law) {
 const std::string kFifth = scene(
     {R"("water": {"drift_table": [{"t_s": 0, "speed_m_per_s": 0.3, "direction_deg": 20},
                                   {"t_s": 60, "speed_m_per_s": 0.4, "direction_deg": 30}],
-                  "tide": {"period_s": 3600, "major_m_per_s": 0.2, "minor_m_per_s": 0.1, "direction_deg": 5, "phase_deg": 7}},
+                  "tide": {"period_s": 3600, "major_m_per_s": 0.2, "minor_m_per_s": 0.1, )"
+     R"("direction_deg": 5, "phase_deg": 7}},
        "wind": {"table": [{"t_s": 0, "speed_m_per_s": 9, "direction_deg": 20}]})",
      list("floes", {field_of_law(R"("corner_m": [0, 0], "extent_m": [200, 150], "concentration": 0.6, "gap_m": 0.3,
                 "aspect": 1.5, "orientation_deg": 20, "packing": 0.8)",

@@ -67,22 +67,27 @@ def test_a_scene_carries_the_factors_and_is_valid(tmp_path):
 
 
 def test_a_small_ship_from_her_tests_to_a_file_that_says_calibrated(tmp_path):
-    ship = {"name": "tug", "hull": {"length_m": 12, "beam_m": 6, "draught_m": 2, "entrance_angle_deg": 40, "stem_angle_deg": 30},
+    ship = {"name": "tug", "hull": {"length_m": 12, "beam_m": 6, "draught_m": 2,
+                                    "entrance_angle_deg": 40, "stem_angle_deg": 30},
             "mass_kg": 1e5, "moment_of_inertia_kg_m2": 1e6, "propulsion": {"constant_speed_m_per_s": 1}}
     (tmp_path / "tug.json").write_text(json.dumps(ship) + "// a ship as scenes have it\n")
     (tmp_path / "tests.csv").write_text(HEADER + "a,0.4,500,1,40,15\nb,0.5,500,1,55,20\nc,0.6,500,1,70,20\n")
     words = ["calibrate", "tug.json", "tests.csv", "--points", "8", "--leave-out", "b", "--out", "out", "--jobs", "2"]
     done = subprocess.run([PROGRAM, *words], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    assert "predicted" in done.stdout and "with 68 %" in done.stdout and "error of a mean that was left out" in done.stdout
+    assert "predicted" in done.stdout and "with 68 %" in done.stdout
+    assert "error of a mean that was left out" in done.stdout
     record = json.loads((tmp_path / "out/calibration.json").read_text())
     assert [row["is_fitted"] for row in record["tests"]] == [True, False, True]
-    assert all(low <= factor <= high for low, factor, high in zip(record["low_68"], record["factors"], record["high_68"]))
+    assert all(low <= factor <= high for low, factor, high in zip(record["low_68"],
+                                                                  record["factors"], record["high_68"]))
     assert (tmp_path / "out/calibration.png").stat().st_size > 10_000
     written = json.loads((tmp_path / "out/tug-calibrated.json").read_text())
     assert written["calibration"]["load_factor"] == pytest.approx(record["factors"][0], rel=0.01)
-    (tmp_path / "scene.json").write_text(json.dumps({"name": "s", "time": {"until_s": 0.1}, "ships": [written], "floes": []}))
-    run = subprocess.run([PROGRAM, "run", "scene.json", "--out", "run"], cwd=tmp_path, capture_output=True, text=True, check=True)
+    (tmp_path / "scene.json").write_text(json.dumps({"name": "s", "time": {"until_s": 0.1},
+                                                     "ships": [written], "floes": []}))
+    run = subprocess.run([PROGRAM, "run", "scene.json", "--out", "run"], cwd=tmp_path,
+                         capture_output=True, text=True, check=True)
     assert "note: calibrated: bending loads times" in run.stderr
     page = subprocess.run([PROGRAM, "view", "run"], cwd=tmp_path, capture_output=True, text=True, check=True)
     assert page.returncode == 0 and "s, calibrated" in (tmp_path / "run/view.html").read_text()

@@ -10,7 +10,8 @@ from polynya import loads
 from polynya.loads.gather import Case, Loads, Waterline
 
 PROGRAM = os.environ["POLYNYA_PROGRAM"]
-SCENE = """{"name": "pressed", "time": {"step_s": 0.02, "until_s": 20}, "record": {"frames_interval_s": 5, "least_peak_N": 0},
+SCENE = """{"name": "pressed", "time": {"step_s": 0.02, "until_s": 20},
+  "record": {"frames_interval_s": 5, "least_peak_N": 0},
   "structures": [{"name": "pile", "radius_m": 5, "panels": {"length_m": 2, "bottom_m": -1, "top_m": 1, "rows": 2}}],
   "floes": [{"rectangle": {"corner_m": [6, -20], "size_m": 20}, "velocity_m_per_s": [-0.5, 0.3]},
             {"rectangle": {"corner_m": [27, -20], "size_m": 20}, "velocity_m_per_s": [-0.5, 0.2]}]}"""
@@ -20,7 +21,8 @@ SCENE = """{"name": "pressed", "time": {"step_s": 0.02, "until_s": 20}, "record"
 def ran(tmp_path_factory):
     place = tmp_path_factory.mktemp("loads")
     (place / "pressed.json").write_text(SCENE)
-    subprocess.run([PROGRAM, "run", "pressed.json", "--no-map", "--out", "run"], cwd=place, check=True, capture_output=True)
+    subprocess.run([PROGRAM, "run", "pressed.json", "--no-map", "--out", "run"],
+                   cwd=place, check=True, capture_output=True)
     return place
 
 
@@ -28,10 +30,12 @@ def made(forces, hours=10.0, cases=1):
     """Loads with these peaks, spread evenly over the cases and their time."""
     forces = numpy.asarray(forces, dtype=float)
     number = numpy.arange(len(forces)) % cases
-    peaks = {"t_s": numpy.linspace(0, 3600 * hours / cases, len(forces), endpoint=False), "arc_m": numpy.linspace(-4, 4, len(forces)), "case": number,
+    peaks = {"t_s": numpy.linspace(0, 3600 * hours / cases, len(forces), endpoint=False),
+             "arc_m": numpy.linspace(-4, 4, len(forces)), "case": number,
              "force_N": forces}
     ring = [(5, -5), (5, 5), (-5, 5), (-5, -5)]
-    return Loads("made", "a ship", False, Waterline(ring), 2.5, [Case(n, 0.0, hours / cases, 1.0) for n in range(cases)], peaks, None, 0.1, 0)
+    return Loads("made", "a ship", False, Waterline(ring), 2.5,
+                 [Case(n, 0.0, hours / cases, 1.0) for n in range(cases)], peaks, None, 0.1, 0)
 
 
 def test_a_place_is_that_of_the_program(folder):
@@ -74,13 +78,15 @@ def test_maxima_of_one_run_are_of_twenty_equal_parts():
 
 
 def test_rules_are_as_they_are_cited():
-    assert loads.rules.iso_local_pressure(1) == pytest.approx(7.4e6) and loads.rules.iso_local_pressure(20) == pytest.approx(1.48e6)
+    assert loads.rules.iso_local_pressure(1) == pytest.approx(7.4e6)
+    assert loads.rules.iso_local_pressure(20) == pytest.approx(1.48e6)
     assert loads.rules.iso_global_pressure(20, 0.5, 1.8e6) * 20 * 0.5 == pytest.approx(13.2e6, rel=0.005)
     assert loads.rules.polar_class_pressure(1, "PC7") == pytest.approx(1.25e6)
 
 
 def test_the_command_writes_what_the_runs_hold(folder):
-    done = subprocess.run([PROGRAM, "loads", "run", "--out", "out", "--format", "png"], cwd=folder, capture_output=True, text=True, check=False)
+    done = subprocess.run([PROGRAM, "loads", "run", "--out", "out", "--format", "png"],
+                          cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     run = polynya.Run(folder / "run", pandas=False)
     with open(folder / "out/loads-panels.csv", newline="") as file:
@@ -92,5 +98,6 @@ def test_the_command_writes_what_the_runs_hold(folder):
     page = (folder / "out/loads.html").read_text()
     for name in ("exceedance", "pressure-area", "along", "unrolled", "polar"):
         assert (folder / f"out/loads-{name}.png").stat().st_size > 5000 and f'src="loads-{name}.svg"' in page
-    wrong = subprocess.run([PROGRAM, "loads", "run", "--out", "out", "--ship", "nobody"], cwd=folder, capture_output=True, text=True, check=False)
+    wrong = subprocess.run([PROGRAM, "loads", "run", "--out", "out", "--ship", "nobody"],
+                           cwd=folder, capture_output=True, text=True, check=False)
     assert wrong.returncode == 2 and "no ship or structure is named nobody; it has: pile" in wrong.stderr

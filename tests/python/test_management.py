@@ -20,14 +20,16 @@ RIG = {"name": "rig", "radius_m": 10}
 DRIFTING = {
     "time": {"step_s": 0.1, "until_s": 270}, "water": {"drift_m_per_s": [-1, 0]}, "structures": [RIG],
     "record": {"forces_interval_s": 1, "frames_interval_s": 2},
-    "floes": [{"field": {"corner_m": [330, -150], "extent_m": [80, 300], "concentration": 0.6, "sizes": {"mean_m": 9, "spread": 0.4}}}],
+    "floes": [{"field": {"corner_m": [330, -150], "extent_m": [80, 300], "concentration": 0.6,
+                         "sizes": {"mean_m": 9, "spread": 0.4}}}],
 }
 GATES = {"upstream_m": 320, "near_m": 145, "width_m": 320}
 
 
 def run_of(home, name, scene):
     (home / f"{name}.json").write_text(json.dumps({"name": name, **scene}))
-    subprocess.run([PROGRAM, "run", f"{name}.json", "--out", name, "--no-map"], cwd=home, check=True, capture_output=True)
+    subprocess.run([PROGRAM, "run", f"{name}.json", "--out", name, "--no-map"],
+                   cwd=home, check=True, capture_output=True)
     return polynya.Run(home / name, pandas=False)
 
 
@@ -57,7 +59,8 @@ def test_where_nobody_breaks_gates_pass_what_was_put_in(drifting):
     for passage in passages(drifting, gates_of(drifting, {**GATES, "width_m": 150})):
         count = len(areas) / 2
         assert abs(len(passage.areas) - count) < 3 * math.sqrt(count)
-        low, high = (numpy.searchsorted(areas, numpy.sort(passage.areas)[k]) / len(areas) for k in (len(passage.areas) // 4, 3 * len(passage.areas) // 4))
+        low, high = (numpy.searchsorted(areas, numpy.sort(passage.areas)[k]) / len(areas)
+                     for k in (len(passage.areas) // 4, 3 * len(passage.areas) // 4))
         assert abs(high - low - 0.5) < 3 * math.sqrt(0.25 / len(passage.areas))
     # The field is 80 m of the drift, at .6.
     assert passages(drifting, gates_of(drifting, {**GATES, "width_m": 300}))[0].cover == pytest.approx(0.6, rel=0.15)
@@ -77,8 +80,10 @@ class Broken:
     scene = {"water": {"drift_m_per_s": [-10, 0], "density_kg_per_m3": 1000, "skin_drag_coefficient": 0}, "wind": {}}
     times = numpy.arange(8.0)
     ship_names = ["rig"]
-    births = {"floe_id": numpy.arange(4), "parent_id": numpy.array([-1, 0, 0, 2]), "born_s": numpy.array([0, 3.0, 3.0, 5.0]),
-              "died_s": numpy.array([3.0, math.inf, 5.0, math.inf]), "went_under_s": numpy.full(4, math.inf), "area_m2": numpy.array([300.0, 100, 200, 150])}
+    births = {"floe_id": numpy.arange(4), "parent_id": numpy.array([-1, 0, 0, 2]),
+              "born_s": numpy.array([0, 3.0, 3.0, 5.0]),
+              "died_s": numpy.array([3.0, math.inf, 5.0, math.inf]), "went_under_s": numpy.full(4, math.inf),
+              "area_m2": numpy.array([300.0, 100, 200, 150])}
 
     class motions:
         def ships_at(_, time):
@@ -112,7 +117,8 @@ def test_hits_are_of_floes_of_the_size(hit):
 
 def test_the_managed_width_is_what_large_floes_leave():
     gates = Gates("rig", 100, 50, 80, 20)
-    passage = lambda *floes: Passage(numpy.arange(len(floes)), numpy.zeros(len(floes)), numpy.array([y for y, _ in floes]), numpy.array([size**2 for _, size in floes]), 1)
+    passage = lambda *floes: Passage(numpy.arange(len(floes)), numpy.zeros(len(floes)),
+                                     numpy.array([y for y, _ in floes]), numpy.array([size**2 for _, size in floes]), 1)
     assert managed_width(passage((0, 19)), gates) == 80
     assert managed_width(passage((0, 21)), gates) == 0
     # From −40 to 25, less the bins that the floe's edge at 15 touches.
@@ -121,7 +127,8 @@ def test_the_managed_width_is_what_large_floes_leave():
 
 def test_the_drift_is_the_programs(home):
     ellipse = {"period_s": 300, "major_m_per_s": 0.5, "minor_m_per_s": -0.2, "direction_deg": 40, "phase_deg": 30}
-    rows = [{"t_s": 0, "speed_m_per_s": 0.4, "direction_deg": 10}, {"t_s": 100, "speed_m_per_s": 0.8, "direction_deg": 120}]
+    rows = [{"t_s": 0, "speed_m_per_s": 0.4, "direction_deg": 10},
+            {"t_s": 100, "speed_m_per_s": 0.8, "direction_deg": 120}]
     scene = {**DRIFTING, "time": {"step_s": 0.1, "until_s": 150}, "water": {"drift_table": rows, "tide": ellipse},
              "floes": [{"rectangle": {"corner_m": [500, 0], "size_m": 10}}]}
     run = run_of(home, "tide", scene)
@@ -137,7 +144,8 @@ def test_the_drift_is_the_programs(home):
 
 def test_a_fleets_effort_is_that_of_its_rows(home):
     ship = {"ship": "reference", "position_m": [300, 0], "heading_deg": 90, "speed_m_per_s": 3,
-            "pilot": {"manage": {"body": "rig", "pattern": "circular", "distance_m": 400, "width_m": 400, "speed_m_per_s": 3, "safety_radius_m": 150}}}
+            "pilot": {"manage": {"body": "rig", "pattern": "circular", "distance_m": 400,
+                                 "width_m": 400, "speed_m_per_s": 3, "safety_radius_m": 150}}}
     run = run_of(home, "effort", {**DRIFTING, "time": {"step_s": 0.1, "until_s": 100}, "ships": [ship], "floes": []})
     of = measures.effort(run)["ship-1"]
     rows = measures.rows_of(run, "ship-1")
@@ -175,7 +183,8 @@ def test_the_command_writes_tables_and_a_figure(home, drifting, hit):
 def test_a_study_compares_by_what_it_varies(home):
     (home / "base.json").write_text(json.dumps({**DRIFTING, "time": {"step_s": 0.1, "until_s": 60}}))
     (home / "s.json").write_text(json.dumps({
-        "scene": "base.json", "repetitions": 2, "grid": {"water.drift_m_per_s[0]": [-1, -2], "ice.thickness_m": [0.4, 0.6]},
+        "scene": "base.json", "repetitions": 2, "grid": {"water.drift_m_per_s[0]": [-1, -2],
+                                                         "ice.thickness_m": [0.4, 0.6]},
         "collect": {"management": {"upstream_m": 330, "near_m": 100, "width_m": 300}}}))
     for words in (["study", "run", "s.json"], ["study", "gather", "studies/s"]):
         subprocess.run([PROGRAM, *words], cwd=home, check=True, capture_output=True)

@@ -476,7 +476,8 @@ function drawPatterns(context, view, run, motions, time, colours) {
   for (const { body, line_m: line } of run.info.patterns) {
     const pose = motions.ship(body);
     if (!pose) continue;
-    line.forEach(([x, y], k) => context[k ? "lineTo" : "moveTo"](...view.toScreen(pose[0] + x * ux - y * uy, pose[1] + x * uy + y * ux)));
+    line.forEach(([x, y], k) =>
+      context[k ? "lineTo" : "moveTo"](...view.toScreen(pose[0] + x * ux - y * uy, pose[1] + x * uy + y * ux)));
     context.closePath();
   }
   context.strokeStyle = colours.highlight;

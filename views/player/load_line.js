@@ -15,7 +15,8 @@ function waterlineOf(ring) {
   const first = ring.findIndex(([x], k) => x >= most && ring.at(k - 1)[0] < most);
   const points = [...ring.slice(first), ...ring.slice(0, first + 1)];
   const arcs = [0];
-  for (let k = 1; k < points.length; ++k) arcs.push(arcs[k - 1] + Math.hypot(points[k][0] - points[k - 1][0], points[k][1] - points[k - 1][1]));
+  for (let k = 1; k < points.length; ++k) arcs.push(arcs[k - 1] + Math.hypot(points[k][0] - points[k - 1][0],
+    points[k][1] - points[k - 1][1]));
   const length = arcs.at(-1);
   const stem = points[1][0] >= most ? arcs[1] / 2 : 0;
   return {
@@ -68,7 +69,8 @@ function drawLoadLine(context, view, loadLine, motions, time, isMean) {
     const [c, s] = [Math.cos(pose[2]), Math.sin(pose[2])];
     panels.forEach(({ largest, sum, count }, k) => {
       if (count === 0) return;
-      const ends = [k - side, k - side + 1].map((n) => Math.max(-line.length / 2, Math.min(line.length / 2, n * loadPanel)));
+      const ends = [k - side, k - side + 1].map((n) => Math.max(-line.length / 2,
+        Math.min(line.length / 2, n * loadPanel)));
       context.strokeStyle = loadColour((isMean ? sum / count : largest) / loadLine.most);
       context.beginPath();
       for (let n = 0; n <= 4; ++n) {

@@ -49,7 +49,8 @@ class Bench:
         """[point, test, 3] of points of factors, each with its share of the speed."""
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
             under = [None] * len(tests) if submerged is None else submerged
-            futures = [[pool.submit(self.one, test, f, s, u) for test, u in zip(tests, under)] for f, s in zip(factors, shares)]
+            futures = [[pool.submit(self.one, test, f, s, u) for test, u in zip(tests, under)] for f,
+                       s in zip(factors, shares)]
             try:
                 for number, of_point in enumerate(futures, 1):
                     concurrent.futures.wait(of_point)
@@ -82,7 +83,8 @@ def searched(bench, tests, as_computed, count):
 
 
 def print_result(rows, found, out_of_sample):
-    print(f"{'test':>8}{'h [m]':>7}{'v [m/s]':>9}   {'measured':>13}{'as computed':>15}{'calibrated':>15}{'without it':>12}")
+    print(f"{'test':>8}{'h [m]':>7}{'v [m/s]':>9}   "
+          f"{'measured':>13}{'as computed':>15}{'calibrated':>15}{'without it':>12}")
     for row in rows:
         pair = lambda key: f"{row[key][0]:.0f} ± {row[key][1]:.0f}"
         print(f"{row['test']:>8}{row['thickness_m']:7g}{row['speed_m_per_s']:9g}   {pair('measured_kN'):>13}"
@@ -94,7 +96,8 @@ def print_result(rows, found, out_of_sample):
     if found.is_at_edge:
         print("the best factors are at the edge of what is searched: these tests do not determine them")
     if out_of_sample is not None:
-        print(f"error of a mean that was left out: {100 * out_of_sample:.0f} % (root mean square of all tests, one at a time)")
+        print(f"error of a mean that was left out: {100 * out_of_sample:.0f} % (root mean square of all tests, one at "
+              f"a time)")
 
 
 def write_ship(ship, found, path):
@@ -127,9 +130,11 @@ def calibrate(arguments, tests, described, folder):
     calibrated = bench.all(tests, [found.factors] * half, FINAL_SPEEDS, "calibrated")
     rows = []
     for k, test in enumerate(tests):
-        row = {"test": test.name, "thickness_m": test.ice["thickness_m"], "speed_m_per_s": test.speed, "is_fitted": is_fitted[k],
+        row = {"test": test.name, "thickness_m": test.ice["thickness_m"], "speed_m_per_s": test.speed,
+               "is_fitted": is_fitted[k],
                "measured_kN": [test.mean, test.sd], "as_computed_kN": as_computed[:, k, :2].mean(0).tolist(),
-               "calibrated_kN": calibrated[:, k, :2].mean(0).tolist(), "submerged_kN": float(calibrated[:, k, 2].mean())}
+               "calibrated_kN": calibrated[:, k, :2].mean(0).tolist(),
+               "submerged_kN": float(calibrated[:, k, 2].mean())}
         if left_out and row["is_fitted"]:
             others, ratio = left_out[fitted.index(test)]
             row |= {"left_out_mean_over_measured": float(ratio[0]), "left_out_sd_over_measured": float(ratio[1]),

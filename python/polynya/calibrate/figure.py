@@ -35,7 +35,8 @@ def draw(rows, found, title, path):
     names = [f"{row['test']}\n{row['thickness_m']:g} m\n{row['speed_m_per_s']:g} m/s" for row in rows]
     axes.set_xticks(range(len(rows)), names)
     load, radius = found.factors
-    words = f"load × {load:.2f} ({found.low[0]:.2f}–{found.high[0]:.2f}), cusp radius × {radius:.2f} ({found.low[1]:.2f}–{found.high[1]:.2f})"
+    words = (f"load × {load:.2f} ({found.low[0]:.2f}–{found.high[0]:.2f}), "
+             f"cusp radius × {radius:.2f} ({found.low[1]:.2f}–{found.high[1]:.2f})")
     axes.set(ylabel="resistance, mean ± standard deviation [kN]", ylim=(0, None), title=f"{title}, calibrated\n{words}")
     axes.legend(frameon=False, fontsize=7)
     figure.savefig(path, dpi=200)

@@ -10,10 +10,13 @@ import numpy as np
 RANGES = ((0.4, 3.0), (0.35, 2.0))  # of the load's factor and the cusp radius's that are searched
 LOW, HIGH = (np.log([ends[k] for ends in RANGES]) for k in (0, 1))
 TOLERANCE = np.array([0.2, 0.4])  # of the logarithms of mean and standard deviation: residuals are in these
-BEFORE = np.log(2)  # deviation of a factor's logarithm from 0 before any test: mean resistance leaves a valley of factors
+# deviation of a factor's logarithm from 0 before any test: mean resistance leaves a valley of
+# factors
+BEFORE = np.log(2)
 NEAR = 0.6  # width of the surface's weights, in logarithms of the factors
 SPEEDS = 0.03  # runs are within this share of a test's speed: cusps settle into patterns that differ with it
-GRID = np.stack(np.meshgrid(*(np.linspace(low, high, 61) for low, high in zip(LOW, HIGH)), indexing="ij"), -1).reshape(-1, 2)
+GRID = np.stack(np.meshgrid(*(np.linspace(low, high, 61) for low, high in zip(LOW, HIGH)), indexing="ij"),
+                -1).reshape(-1, 2)
 
 
 def spread(count, centre, half):
@@ -37,7 +40,8 @@ def surface(points, values, wanted):
     for i, at in enumerate(wanted):
         weight = np.exp(-0.5 * ((points - at) ** 2).sum(-1) / NEAR**2)[:, None]
         moved = terms(points - at)
-        inverse = np.linalg.inv(moved.T @ (weight * moved) + 1e-3 * np.eye(design.shape[1]) * weight.sum() / len(points))
+        inverse = np.linalg.inv(moved.T @ (weight * moved)
+                                + 1e-3 * np.eye(design.shape[1]) * weight.sum() / len(points))
         found[i] = (inverse @ (moved.T @ (weight * flat)))[0]
     return found.reshape(len(wanted), *values.shape[1:])
 

@@ -65,7 +65,8 @@ def read_tests(path):
             except (TypeError, ValueError):
                 values[name] = math.nan
             if not least <= values[name] <= most:
-                problems.append(f"{path}:{number}: {name}: found {row[name]}, allowed: a number ≥ {least:g}, ≤ {most:g}")
+                problems.append(f"{path}:{number}: {name}: found {row[name]}, allowed: a number ≥ {least:g}, ≤ "
+                                f"{most:g}")
         ice = {key: values[name] * IN_SI.get(name, 1) for name, key in ICE_KEYS.items() if name in values}
         name = row.get("test") or str(len(tests) + 1)
         tests.append(

@@ -67,13 +67,18 @@ def page_of(loads, options, tables, pictures):
     reach = f", {loads.kilometres:.4g} km" if loads.kilometres > 1e-6 else ""
     parts = [
         f"<h1>Loads on {html.escape(loads.ship)}, {html.escape(loads.name)}</h1>",
-        f"<p>{len(loads.forces)} peaks in {len(loads.cases)} run{'s' if len(loads.cases) > 1 else ''}: {loads.hours:.4g} h{reach}, from {options.start:g} s "
-        f"of each on; {loads.left_out} below the runs' limits are left out. A peak is the largest force of a contact between two times at which it was "
+        f"<p>{len(loads.forces)} peaks in {len(loads.cases)} run{'s' if len(loads.cases) > 1 else ''}: "
+        f"{loads.hours:.4g} h{reach}, from {options.start:g} s "
+        f"of each on; {loads.left_out} below the runs' limits are left out. A peak is the largest force of a contact "
+        f"between two times at which it was "
         "below half of it (docs/run-folder.md); what the numbers are, docs/loads.md.</p>",
     ]
-    parts += [f'<figure><img src="{name}" alt="{html.escape(words)}"><figcaption>{html.escape(words)}</figcaption></figure>' for name, words in pictures]
+    parts += [f'<figure><img src="{name}" '
+              f'alt="{html.escape(words)}"><figcaption>{html.escape(words)}</figcaption></figure>' for name,
+              words in pictures]
     parts += [html_table(heading, rows) for _, heading, rows in tables if heading and rows]
-    return (f'<!doctype html><html lang="en"><meta charset="utf-8"><title>Loads on {html.escape(loads.ship)}</title><style>{STYLE}</style>'
+    return (f'<!doctype html><html lang="en"><meta charset="utf-8"><title>Loads on '
+            f'{html.escape(loads.ship)}</title><style>{STYLE}</style>'
             + "".join(parts) + "</html>\n")
 
 

@@ -33,7 +33,8 @@ class Maxima:
 
 
 def exceedance(loads, level=LEVEL):
-    """Columns: each peak's force, from the largest, how many are at least as large per hour, and between which limits the
+    """Columns: each peak's force, from the largest, how many are at least as large per hour, and between which limits
+    the
     rate lies if peaks come independently of each other (exact Poisson limits [Garwood1936])."""
     force = numpy.sort(loads.forces)[::-1]
     count = numpy.arange(1, len(force) + 1)
@@ -42,7 +43,8 @@ def exceedance(loads, level=LEVEL):
     columns = {"force_N": force, "count": count}
     for name, exposure in (("hour", loads.hours), ("km", loads.kilometres)):
         if exposure > 1e-6:
-            columns.update({f"per_{name}": count / exposure, f"per_{name}_low": low / exposure, f"per_{name}_high": high / exposure})
+            columns.update({f"per_{name}": count / exposure, f"per_{name}_low": low / exposure,
+                            f"per_{name}_high": high / exposure})
     return columns
 
 
@@ -66,18 +68,23 @@ def maxima(loads):
         edges = case.start_s + numpy.linspace(0, case.hours * 3600, parts + 1)[1:-1]
         place = numpy.searchsorted(edges, times, side="right")
         found += [forces[place == part].max() for part in range(parts) if numpy.any(place == part)]
-    return Maxima(loads.hours / (parts * len(loads.cases)), numpy.array(found), "of a case" if several else f"of a {parts}th of a run")
+    return Maxima(loads.hours / (parts * len(loads.cases)), numpy.array(found),
+                  "of a case" if several else f"of a {parts}th of a run")
 
 
 def fits(loads, least=None):
-    """(of what, the sample [N], its fit) of all that has enough values: Gumbel and Weibull of the maxima, Weibull of what
+    """(of what, the sample [N], its fit) of all that has enough values: Gumbel and Weibull of the maxima, Weibull of
+    what
     peaks have above a force, whose shape is 1 where the tail is exponential."""
-    samples = [("maxima", "gumbel", maxima(loads).values), ("maxima", "weibull", maxima(loads).values), ("tail", "weibull", tail(loads, least).excesses)]
-    return [(of, values, statistics.fit(name, values)) for of, name, values in samples if len(values) >= LEAST and values.min() < values.max()]
+    samples = [("maxima", "gumbel", maxima(loads).values), ("maxima", "weibull", maxima(loads).values),
+               ("tail", "weibull", tail(loads, least).excesses)]
+    return [(of, values, statistics.fit(name, values)) for of, name,
+            values in samples if len(values) >= LEAST and values.min() < values.max()]
 
 
 def returns(loads, hours, least=None):
-    """Rows of what is exceeded once in so many hours in the mean, by each fit, with its bootstrap interval: of the tail by
+    """Rows of what is exceeded once in so many hours in the mean, by each fit, with its bootstrap interval: of the tail
+    by
     its rate, of maxima by the length of their stretches. Periods that a fit does not reach are left out."""
     rows, above, blocks = [], tail(loads, least), maxima(loads)
     for of, values, fit in fits(loads, least):
@@ -87,13 +94,14 @@ def returns(loads, hours, least=None):
                 continue
             value = statistics.level_interval(fit.name, values, probability)
             base = above.least if of == "tail" else 0.0
-            rows.append({"of": of, "fit": fit.name, "period_h": period, "value_N": base + value.value, "low_N": base + value.low, "high_N": base + value.high})
+            rows.append({"of": of, "fit": fit.name, "period_h": period, "value_N": base + value.value,
+                         "low_N": base + value.low, "high_N": base + value.high})
     return rows
 
 
 def panels(loads):
-    """A row for each panel that ice pressed: its peaks and, where panels.csv has it, its force: the largest step, the mean
-    over all the time, how long it was under load, the largest mean pressure of an interval. Rows of a column stand
+    """A row for each panel that ice pressed: its peaks and, where panels.csv has it, its force: the largest step, the
+    mean over all the time, how long it was under load, the largest mean pressure of an interval. Rows of a column stand
     apart; peaks belong to columns."""
     number = loads.panel_of(loads.peaks["arc_m"])
     rows = []
@@ -102,8 +110,10 @@ def panels(loads):
     columns = sorted(set(number.tolist()) | {panel for panel, _ in of_table})
     for panel in columns:
         forces = loads.forces[number == panel]
-        own = {"panel": panel, "from_m": panel * loads.panel_m, "to_m": (panel + 1) * loads.panel_m, "peaks": len(forces),
-               "largest_peak_N": float(forces.max()) if len(forces) else 0.0, "mean_peak_N": float(forces.mean()) if len(forces) else 0.0}
+        own = {"panel": panel, "from_m": panel * loads.panel_m, "to_m": (panel + 1) * loads.panel_m,
+               "peaks": len(forces),
+               "largest_peak_N": float(forces.max()) if len(forces) else 0.0,
+               "mean_peak_N": float(forces.mean()) if len(forces) else 0.0}
         for row in sorted(row for of, row in of_table if of == panel) or [None]:
             rows.append({**own, **(row_of(loads, panel, row) if row is not None else {})})
     return rows
@@ -113,6 +123,8 @@ def row_of(loads, panel, row):
     table = loads.panels
     chosen = (table["panel"] == panel) & (table["row"] == row)
     force = table["force_N"][chosen]
-    return {"row": row, "largest_N": float(table["force_max_N"][chosen].max()), "mean_N": float(force.sum() * loads.interval_s / (3600 * loads.hours)),
-            "loaded_s": float(table["loaded_s"][chosen].sum()), "largest_pressure_Pa": float(table["pressure_Pa"][chosen].max())}
+    return {"row": row, "largest_N": float(table["force_max_N"][chosen].max()),
+            "mean_N": float(force.sum() * loads.interval_s / (3600 * loads.hours)),
+            "loaded_s": float(table["loaded_s"][chosen].sum()),
+            "largest_pressure_Pa": float(table["pressure_Pa"][chosen].max())}
 

@@ -50,7 +50,8 @@ class Case:
 
 @dataclasses.dataclass
 class Loads:
-    """What was gathered of one ship or structure. `peaks` are columns of equal length: those of contacts.csv, `case` and
+    """What was gathered of one ship or structure. `peaks` are columns of equal length: those of contacts.csv, `case`
+    and
     `force_N`, along the contact's normal. `panels` those of panels.csv, or None where there are no panels."""
 
     name: str
@@ -91,7 +92,8 @@ def runs_of(folder):
     found = [(n, study.case_folder(n) / folders.RUN) for n in range(study.count)]
     found = [(n, run) for n, run in found if run.is_dir()]
     if not found:
-        raise FolderError(f"{folder}: the study has no run folders: polynya study run {folder} makes them; a study with "
+        raise FolderError(f"{folder}: the study has no run folders: polynya study run {folder} makes them; a study "
+                          f"with "
                           '"keep": "summary" or "archive" has none')
     return found
 
@@ -112,8 +114,10 @@ def case_of(number, run, ship, start):
 def body_of(run, ship):
     name = ship or (run.ship_names[0] if run.ship_names else None)
     if name not in run.ship_names:
-        raise InputError(f"{run.folder}: no ship or structure is named {name}; it has: {', '.join(run.ship_names) or 'none'}")
-    return next(body for key in ("ships", "structures", "walls") for body in run.scene.get(key, []) if body["name"] == name)
+        raise InputError(f"{run.folder}: no ship or structure is named {name}; it has: "
+                         f"{', '.join(run.ship_names) or 'none'}")
+    return next(body for key in ("ships", "structures", "walls") for body in run.scene.get(key, [])
+                if body["name"] == name)
 
 
 def joined(parts):
@@ -148,7 +152,8 @@ def gather(folder, ship=None, start=0.0, panel=None) -> Loads:
     is_recorded = len(panels) == len(cases) and panel in (None, length)  # of panels of another length nothing is
     return Loads(name=pathlib.Path(folder).resolve().name, ship=body["name"], is_fixed="propulsion" not in body,
                  waterline=Waterline(run.waterlines[body["name"]]), panel_m=panel or length, cases=cases,
-                 peaks=all_peaks, panels=joined(panels) if is_recorded else None, interval_s=run.summary["forces_interval_s"], left_out=left_out)
+                 peaks=all_peaks, panels=joined(panels) if is_recorded else None,
+                 interval_s=run.summary["forces_interval_s"], left_out=left_out)
 
 
 def facing(loads, columns):

@@ -13,16 +13,20 @@ Exit codes: 0 done, 2 usage, 5 input/output, or numpy, scipy or matplotlib is mi
 
 
 def command_line():
-    parser = Parser("polynya loads", "Peaks of the ice's force by place: statistics, return values, figures", EXAMPLES, REST)
+    parser = Parser("polynya loads", "Peaks of the ice's force by place: statistics, return values, figures",
+                    EXAMPLES, REST)
     parser.add("folder", "A run's folder, or a study's", metavar="RUN|STUDY")
     parser.add("--out", "Folder for tables, figures and loads.html", required=True, metavar="DIR")
     parser.add("--ship", "The ship or structure; the first one if not given", metavar="NAME")
     meaning = "Length of the panels by which peaks are counted [m]; the scene's, else 2.5, if not given"
     parser.add("--panel", meaning, type=number(0.1, 1000, "m"), metavar="M")
-    parser.add("--from", "Leave out what is before that time of a run [s]", dest="start", type=number(0), default=0.0, metavar="S")
-    parser.add("--least", "Fit the tail of peaks above this force [N]; their median if not given", type=number(0), metavar="N")
+    parser.add("--from", "Leave out what is before that time of a run [s]", dest="start",
+               type=number(0), default=0.0, metavar="S")
+    parser.add("--least", "Fit the tail of peaks above this force [N]; their median if not given",
+               type=number(0), metavar="N")
     meaning = "Return periods [h]; 1,10,100,1000 if not given"
-    parser.add("--returns", meaning, type=numbers(number(0, is_open=True)), default=[1.0, 10.0, 100.0, 1000.0], metavar="H,H,...")
+    parser.add("--returns", meaning, type=numbers(number(0, is_open=True)), default=[1.0, 10.0, 100.0, 1000.0],
+               metavar="H,H,...")
     meaning = "What for: a column of a page, its whole width (if not given), or slides"
     parser.add("--style", meaning, type=choice(STYLES), default="two-columns", metavar="|".join(STYLES))
     meaning = "Which files of a figure, separated by commas; all if not given"

@@ -35,7 +35,8 @@ class Case:
 
 
 def given_by(arguments):
-    named = {"body": arguments.body, "upstream_m": arguments.upstream, "near_m": arguments.near, "width_m": arguments.width,
+    named = {"body": arguments.body, "upstream_m": arguments.upstream, "near_m": arguments.near,
+             "width_m": arguments.width,
              "size_m": arguments.size, "from_s": arguments.start}
     return {key: value for key, value in named.items() if value is not None}
 
@@ -55,12 +56,15 @@ def print_cases(cases):
     width = max(map(len, names)) - len("management_")
     print(" " * width + "".join(f"  {case.name[-20:]:>20}" for case in cases))
     for name in names:
-        print(f"{name.removeprefix('management_'):{width}}" + "".join(f"  {shown(case.measures.get(name)):>20}" for case in cases))
+        print(f"{name.removeprefix('management_'):{width}}"
+              + "".join(f"  {shown(case.measures.get(name)):>20}" for case in cases))
     for case in cases:
         for ship, of in effort(case.run, case.gates.start).items():
-            print(f"{case.name}: {ship} went {of['distance_m'] / 1e3:.2f} km; its engine delivered {of['energy_J'] / 1e9:.3g} GJ")
+            print(f"{case.name}: {ship} went {of['distance_m'] / 1e3:.2f} km; its engine delivered "
+                  f"{of['energy_J'] / 1e9:.3g} GJ")
         gates = case.gates
-        print(f"{case.name}: gates {gates.width:g} m wide, {gates.upstream:g} and {gates.near:g} m upstream of {gates.body}; hits are of floes from {gates.size:g} m on")
+        print(f"{case.name}: gates {gates.width:g} m wide, {gates.upstream:g} and {gates.near:g} m upstream of "
+              f"{gates.body}; hits are of floes from {gates.size:g} m on")
 
 
 def write_tables(cases, folder):

@@ -9,7 +9,8 @@ from .gates import distribution, managing  # noqa: E402
 from .measures import loads_on, rows_of  # noqa: E402
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")  # [Okabe2008]
-STYLE = {"font.size": 8, "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False, "legend.fontsize": 7}
+STYLE = {"font.size": 8, "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False,
+         "legend.fontsize": 7}
 
 
 def at_least(passage, weights):
@@ -42,7 +43,8 @@ def draw_exceedance(axes, cases):
             if len(loads) < 2:
                 continue
             part = 100 * numpy.arange(len(loads), 0, -1) / case.intervals
-            axes.step(loads, part, color=colour, linestyle=dash, linewidth=1.2, label=f"{case.name}, {name.split('_')[0]}")
+            axes.step(loads, part, color=colour, linestyle=dash, linewidth=1.2,
+                      label=f"{case.name}, {name.split('_')[0]}")
     axes.set(xlabel="load on the body [kN]", ylabel="time that it is exceeded [%]", yscale="log", xscale="log")
     axes.legend()
 
@@ -85,7 +87,8 @@ def draw_hits(axes, cases):
         for passage, dash in ((case.before, "--"), (case.after, "-")):
             edges, _, areas = distribution(passage)
             axes.stairs(areas, edges, color=colour, linestyle=dash)
-    axes.set(xlabel="floe size √area [m]", ylabel="ice through the gate [m²]", xscale="log", title="-- upstream, — at the body")
+    axes.set(xlabel="floe size √area [m]", ylabel="ice through the gate [m²]", xscale="log",
+             title="-- upstream, — at the body")
 
 
 def draw_study(groups, against, shown, path):
@@ -94,7 +97,8 @@ def draw_study(groups, against, shown, path):
     with plt.rc_context(STYLE):
         columns = min(3, len(shown))
         lines = -(-len(shown) // columns)
-        figure, axes = plt.subplots(lines, columns, figsize=(3.5 * columns, 2.9 * lines), constrained_layout=True, squeeze=False)
+        figure, axes = plt.subplots(lines, columns, figsize=(3.5 * columns, 2.9 * lines),
+                                    constrained_layout=True, squeeze=False)
         for axis, (measure, words) in zip(axes.flat, shown.items()):
             for k, (name, of) in enumerate(groups.items()):
                 rows = [row for row in of[measure] if row[1] is not None]
@@ -103,7 +107,8 @@ def draw_study(groups, against, shown, path):
                 x, mean, half = map(numpy.array, zip(*rows))
                 step = 0.012 * (x.max() - x.min()) * (k - 0.5 * len(groups))
                 colour = "0.3" if k >= len(COLOURS) else COLOURS[k]
-                axis.errorbar(x + step, mean, yerr=half, fmt="o-", markersize=3, linewidth=1, capsize=2, label=name, color=colour)
+                axis.errorbar(x + step, mean, yerr=half, fmt="o-", markersize=3,
+                              linewidth=1, capsize=2, label=name, color=colour)
             axis.set(xlabel=against, ylabel=words, ylim=(0, None))
         for axis in list(axes.flat)[len(shown):]:
             axis.axis("off")

@@ -64,7 +64,8 @@ def protected_body(scene):
     moored = [ship["name"] for ship in scene["ships"] if ship.get("mooring")]
     standing = [structure["name"] for structure in scene["structures"]]
     if not moored and not standing:
-        raise InputError("nothing is protected: no pilot manages ice, no ship is moored and no structure stands; --body names one")
+        raise InputError("nothing is protected: no pilot manages ice, no ship is moored and no structure stands; "
+                         "--body names one")
     return (moored + standing)[0]
 
 
@@ -94,7 +95,8 @@ def gates_of(run, given):
         start=given.get("from_s", 0.0),
     )
     if gates.near >= gates.upstream:
-        raise InputError(f"the gate at the body, {gates.near:g} m, is not nearer than the one upstream, {gates.upstream:g} m")
+        raise InputError(f"the gate at the body, {gates.near:g} m, is not nearer than the one upstream, "
+                         f"{gates.upstream:g} m")
     return gates
 
 
@@ -125,7 +127,8 @@ def places_over_time(run, body):
     upstream, _ = axes_over_time(run)
     births = run.births
     for time, axis in zip(run.times, upstream):
-        ids = numpy.flatnonzero((births["born_s"] <= time) & (time < births["died_s"]) & (time < births["went_under_s"]))
+        floats = (time < births["died_s"]) & (time < births["went_under_s"])
+        ids = numpy.flatnonzero((births["born_s"] <= time) & floats)
         moved = run.motions.ships_at(time)
         origin = (moved if len(moved) else run.first_motions)[number, :2]
         off = run.motions.floes_at(ids, time)[:, :2] - origin
@@ -168,7 +171,8 @@ def passage_of(run, rows, ways, gates):
     counted = (run.times >= min(times)) & (run.times < max(times)) if rows else ways < 0
     swept = float(ways[counted].sum()) * gates.width
     floes = numpy.array([row[0] for row in rows], dtype=int)
-    return Passage(floes, numpy.array([row[1] for row in rows]), numpy.array([row[2] for row in rows]), run.births["area_m2"][floes], swept)
+    return Passage(floes, numpy.array([row[1] for row in rows]), numpy.array([row[2] for row in rows]),
+                   run.births["area_m2"][floes], swept)
 
 
 def managed_width(passage: Passage, gates) -> float:
@@ -186,4 +190,5 @@ def managed_width(passage: Passage, gates) -> float:
 def distribution(passage: Passage, edges: Optional[numpy.ndarray] = None):
     """How many floes, and how much ice [m²], is of each size between edges [m]."""
     edges = numpy.geomspace(1, 1000, 31) if edges is None else edges
-    return edges, numpy.histogram(passage.sizes, edges)[0], numpy.histogram(passage.sizes, edges, weights=passage.areas)[0]
+    return edges, numpy.histogram(passage.sizes, edges)[0], numpy.histogram(passage.sizes,
+                                                                            edges, weights=passage.areas)[0]

@@ -19,7 +19,8 @@ def command_line():
     parser.add("folders", "Run folders, which are compared, or a study's folder", metavar="FOLDER", nargs="+")
     parser.add("--body", "The protected ship or structure; that of the pilots if not given", metavar="NAME")
     distance = number(0, 1e6, "m", is_open=True)
-    parser.add("--upstream", "Distance of the gate before management; beyond the patterns if not given", type=distance, metavar="M")
+    parser.add("--upstream", "Distance of the gate before management; beyond the patterns if not given",
+               type=distance, metavar="M")
     parser.add("--near", "Distance of the gate at the body; 1.5 of its radius if not given", type=distance, metavar="M")
     parser.add("--width", "Of the gates; that of the widest pattern if not given", type=distance, metavar="M")
     parser.add("--size", "√area of the least floe that counts as a hit; 20 if not given", type=distance, metavar="M")

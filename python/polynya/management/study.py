@@ -34,7 +34,8 @@ def axes_of(found):
     number), and the one that names groups (report.group_by, else what is left)."""
     asked = found.plan.get("report", {})
     seeds = ("seed", "repetition")
-    varied = [name for name in found.parameters if name not in seeds and len({str(value) for value in found.table[name]}) > 1]
+    varied = [name for name in found.parameters if name not in seeds
+              and len({str(value) for value in found.table[name]}) > 1]
     if not varied:
         raise InputError("the study varies nothing but seeds")
     wanted = asked.get("against") or [name for name in varied if "drift" in name] or varied
@@ -49,7 +50,8 @@ def x_of(value):
         parsed = json.loads(str(value))
     except ValueError:
         return None
-    return math.hypot(*parsed) if isinstance(parsed, list) else float(parsed) if isinstance(parsed, (int, float)) else None
+    return math.hypot(*parsed) if isinstance(parsed,
+                                             list) else float(parsed) if isinstance(parsed, (int, float)) else None
 
 
 def name_of(value):

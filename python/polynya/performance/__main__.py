@@ -155,7 +155,8 @@ def main():
         print(f"figure  none: {error}; ./setup.sh python installs what it needs", file=sys.stderr)
         return DONE
     picture = os.path.join(folder, "performance.png")
-    strength = f"σf {arguments.flexural_strength / 1e3:g} kPa, μ {arguments.friction:g}" + (f"\n{words}" if words else "")
+    strength = f"σf {arguments.flexural_strength / 1e3:g} kPa, μ {arguments.friction:g}" + (f"\n{words}"
+                                                                                            if words else "")
     figure.draw(rows, f"{found['title']}: level ice, full power\n{strength}", reported, picture)
     print(f"figure  {picture}")
     return DONE

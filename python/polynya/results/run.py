@@ -394,7 +394,8 @@ class Frames:
 
 def is_calibrated(scene):
     """Whether the load or the radius of cusps is multiplied in a scene: for all hulls, or for a ship."""
-    settings = [scene.get("fracture", {}).get("bending", {}), *(ship.get("calibration", {}) for ship in scene.get("ships", []))]
+    settings = [scene.get("fracture", {}).get("bending", {}),
+                *(ship.get("calibration", {}) for ship in scene.get("ships", []))]
     return any(of.get(key, 1) != 1 for of in settings for key in ("load_factor", "cusp_radius_factor"))
 
 
