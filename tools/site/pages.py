@@ -5,14 +5,8 @@ import re
 # Caption: pages in their order. Pages of docs/ that no part names are an error.
 PARTS = {
     "Start": ["start", "tutorial", "gallery"],
-<<<<<<< HEAD
-    "How to": ["view", "figures", "movie", "channel", "inspect", "why-it-split",
-               "export", "ships", "loads", "management", "import",
-               "cut", "database", "studies", "python", "environment"],
-=======
     "How to": ["view", "figures", "loads", "movie", "channel", "inspect", "why-it-split", "export", "ships",
                "management", "import", "cut", "database", "studies", "python", "environment"],
->>>>>>> w-loads
     "Reference": ["scene", "run-folder", "reference/commands", "reference/python", "reference/cpp", "references"],
     "Theory": ["theory/index", "theory-bending", "theory-bow", "geometry"],
     "Validation": ["validation", "paper-comparison"],
