@@ -58,8 +58,8 @@ std::string save_state(const World& world) {
   archive(separation_bound);
   if (is_crush_law(world.setup)) archive(members(pairs, &dynamics::PersistentContact::booked));
   archive(world.accounts.masses, world.accounts.counts.unresolved_splits, world.accounts.counts.steps_at_level,
-          world.accounts.counts.crowded_ticks, world.clock.finer, world.clock.bends, world.accounts.counts.body_steps,
-          world.clock.next_levels);
+          world.accounts.counts.crowded_ticks, world.clock.finer, world.clock.bends,
+          world.accounts.counts.body_steps, world.clock.next_levels);
   return archive.take();
 }
 
