@@ -59,7 +59,8 @@ class StateLoader {
     for (const std::int64_t steps : counts.steps_at_level)
       bytes_.require(steps >= 0 && steps <= kMostCounted, "a number of steps that cannot be");
     bytes_.require(counts.body_steps >= 0 && counts.body_steps <= kMostCounted, "a number of steps that cannot be");
-    bytes_.require(world_.clock.next_levels >= 0 && world_.clock.next_levels <= kMostSteps + 64, "a tick that cannot be");
+    bytes_.require(world_.clock.next_levels >= 0 && world_.clock.next_levels <= kMostSteps + 64,
+                   "a tick that cannot be");
     const int finer = world_.clock.finer;
     bytes_.require(finer >= 1 && finer <= 1 << world_.setup.levels && std::has_single_bit(static_cast<unsigned>(finer)),
                    "parts of a tick that cannot be");
