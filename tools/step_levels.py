@@ -76,7 +76,8 @@ def main():
     parser.add_argument("--places", type=int, default=4)
     parser.add_argument("--only")
     given = parser.parse_args()
-    print("| case | by components, kN | one step for all, kN | differs, s.e. | time by components, s | one step, s | times "
+    print("| case | by components, kN | one step for all, kN | differs, s.e. "
+          "| time by components, s | one step, s | times "
           "as fast |\n|---|---|---|---|---|---|---|")
     for name, case in CASES.items():
         if given.only and given.only not in name:
@@ -95,7 +96,8 @@ def main():
         differs = (means[0] - means[1]) / math.hypot(*errors)
         mark = "**" if abs(differs) > 2 else ""
         print(f"| {name} | {means[0] / 1e3:.1f} ± {errors[0] / 1e3:.1f} | {means[1] / 1e3:.1f} ± {errors[1] / 1e3:.1f} "
-              f"| {mark}{differs:+.1f}{mark} | {costs[0]:.1f} | {costs[1]:.1f} | {costs[1] / costs[0]:.1f} |", flush=True)
+              f"| {mark}{differs:+.1f}{mark} | {costs[0]:.1f} | {costs[1]:.1f} | {costs[1] / costs[0]:.1f} |",
+              flush=True)
 
 
 main()

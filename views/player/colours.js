@@ -115,6 +115,14 @@ function themeColours() {
 
 // The legend below the map: what the colours, marks and arrows mean that are shown now.
 
+/** What the colours of the loads mean: for each, its words. */
+function loadWords(run) {
+  const most = run.columns.peak_force_N.reduce((most, force) => Math.max(most, force), 0);
+  const unit = loadUnit(most, "N");
+  return Array.from({ length: loadSteps }, (_, step) =>
+    `up to ${shortNumber((most * (step + 1) * unit.factor) / loadSteps)} ${unit.name}`);
+}
+
 function makeLegend(player) {
   const { run, state, colourings } = player;
   // As wide as its longest words from the start: the legend must not grow and shrink while the run plays.
@@ -140,12 +148,6 @@ function makeLegend(player) {
     return [arrowRow(force * player.forceScale, `${shortNumber(force * unit.factor)} ${unit.name}`),
       swatchRow(colours.split, "crushing"), swatchRow(colours.bend, "not crushing")];
   }
-  function loadRows() {
-    const most = run.columns.peak_force_N.reduce((most, force) => Math.max(most, force), 0);
-    const unit = loadUnit(most, "N");
-    const words = (step) => `up to ${shortNumber((most * (step + 1) * unit.factor) / loadSteps)} ${unit.name}`;
-    return Array.from({ length: loadSteps }, (_, step) => swatchRow(loadColour((step + 0.5) / loadSteps), words(step)));
-  }
 
   return {
     show() {
@@ -162,7 +164,8 @@ function makeLegend(player) {
         swatchRow(colours.channel, "open from ice to ice ", channelWidth));
       if (state.layers.velocities) rows.push(velocityRow());
       if (state.layers.forces) rows.push(...forceRows(colours));
-      if (state.layers.largestLoads || state.layers.meanLoads) rows.push(...loadRows());
+      if (state.layers.largestLoads || state.layers.meanLoads)
+        rows.push(...loadWords(run).map((words, step) => swatchRow(loadColour((step + 0.5) / loadSteps), words)));
       byId("legend").replaceChildren(make("b", {}, colouring.title), ...rows);
     },
     showWidths: (words) => { channelWidth.textContent = words.join("; ") || "\u2013"; },
