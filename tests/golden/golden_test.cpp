@@ -70,7 +70,8 @@ Golden run(const std::filesystem::path& scene, double until, Steps steps) {
   std::ostringstream hash;
   hash << std::hex << std::setfill('0') << std::setw(16) << simulation.state_hash();
   const simulation::Counts counts = simulation.counts();
-  return {until, hash.str(), counts.bends + counts.splits, counts.steps_at_level[simulation::kMostLevels] < counts.steps};
+  return {until, hash.str(), counts.bends + counts.splits,
+          counts.steps_at_level[simulation::kMostLevels] < counts.steps};
 }
 
 TEST(Golden, EverySceneEndsInItsState) {
