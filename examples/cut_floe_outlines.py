@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""Cuts of irregular floes: outlines from a GeoJSON file, cut by cracks, discs and each other, with every square metre
-accounted for.
+"""Cuts of irregular floes: outlines from a GeoJSON file, cut by cracks and discs, every square metre accounted for.
 
     python3 examples/cut_floe_outlines.py    (--out FOLDER; --floes FILE: your own, polygons in metres; --short: two)
 

@@ -37,7 +37,9 @@ RunRecorder::RunRecorder(Simulation& simulation, RunWriter& writer, const Loaded
       writer_(&writer),
       scene_(&scene),
       wall_time_before_(wall_time),
-      steps_per_frame_(steps_in(scene.scene.record.frames_interval, scene.scene.time.step)) {}
+      steps_per_frame_(steps_in(scene.scene.record.frames_interval, scene.scene.time.step)),
+      longest_step_(std::int64_t{1} << simulation.world().setup.levels),
+      end_checkpoint_at_(-longest_step_) {}
 
 void RunRecorder::begin(simulation::Journal& journal) {
   writer_->record(journal);
@@ -61,8 +63,18 @@ Result<> RunRecorder::checkpoint(double wall_time) {
   return written;
 }
 
+Result<> RunRecorder::before_end(std::int64_t ticks_left) {
+  if (ticks_left >= longest_step_ || has_end_checkpoint()) return {};
+  end_checkpoint_at_ = simulation_->steps();
+  return checkpoint(0);  // so that folders of one run are the same bytes
+}
+
+bool RunRecorder::has_end_checkpoint() const {
+  return simulation_->steps() - end_checkpoint_at_ < longest_step_;
+}
+
 Result<> RunRecorder::end() {
-  auto written = checkpoint(0);  // so that folders of one run are the same bytes
+  auto written = has_end_checkpoint() ? Result<>{} : checkpoint(0);
   if (written && !is_frame_due()) writer_->frame(*simulation_);
   return written;
 }
@@ -122,6 +134,8 @@ std::optional<Stop> RunLoop::advance_to_end() {
 
 std::optional<Stop> RunLoop::advance_step() {
   before_ = simulation().steps();
+  if (const auto written = recorder_.before_end(last_step_ - before_); !written)
+    return Stop{RunEnd::kFolderFailure, written.error()};
   simulation().step(last_step_ - before_);
   recorder_.record_step();
   if (auto failure = failure_of_step()) return Stop{RunEnd::kNumericalFailure, *failure};
@@ -148,9 +162,10 @@ std::optional<Stop> RunLoop::work_between_steps() {
   const std::int64_t step = simulation().steps();
   const auto is_due = [&](std::int64_t every) { return step / every > before_ / every; };
   const bool is_report_due = is_due(kStepsBetweenReports);
-  const bool is_checkpoint_due = (steps_per_checkpoint_ > 0 && is_due(steps_per_checkpoint_)) ||
-                                 (is_report_due && control_.checkpoint_every_wall > 0 &&
-                                  recorder_.checkpoint_age() >= control_.checkpoint_every_wall);
+  const bool is_checkpoint_due =
+      !recorder_.has_end_checkpoint() && ((steps_per_checkpoint_ > 0 && is_due(steps_per_checkpoint_)) ||
+                                          (is_report_due && control_.checkpoint_every_wall > 0 &&
+                                           recorder_.checkpoint_age() >= control_.checkpoint_every_wall));
   if (!is_checkpoint_due && !is_report_due) return {};
   if (!is_checkpoint_due) writer().flush_if_due();
   if (const auto written = is_checkpoint_due ? recorder_.checkpoint() : writer().status(); !written)

@@ -28,8 +28,13 @@ class RunRecorder {
   void record_step();
   void frame_if_due();
   Result<> checkpoint() { return checkpoint(wall_time()); }
-  /// At the end: a checkpoint, and behind it a frame where none was due. A longer run goes on from there, without the
-  /// frame that only this end has.
+  /// Before a step, with the ticks to the end of the run: the checkpoint from which a longer run goes on, ahead of
+  /// steps of several ticks that this end would cut short.
+  Result<> before_end(std::int64_t ticks_left);
+  /// Whether that one has been written: no later one is to take its place.
+  bool has_end_checkpoint() const;
+  /// At the end: a checkpoint where before_end() has written none, and behind it a frame where none was due. A longer
+  /// run goes on without the frame that only this end has.
   Result<> end();
   double wall_time() const;       ///< of the run so far [s]
   double checkpoint_age() const;  ///< by the clock [s]
@@ -43,6 +48,8 @@ class RunRecorder {
   const LoadedScene* scene_;
   double wall_time_before_;
   std::int64_t steps_per_frame_;
+  std::int64_t longest_step_;       ///< [ticks]
+  std::int64_t end_checkpoint_at_;  ///< the step; far before the first where there is none
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_checkpoint_ = start_;
 };

@@ -142,7 +142,9 @@ void Simulation::advance_to(std::int64_t last_step, Pace pace, const py::object&
     const py::gil_scoped_release release;
     auto last_report = Clock::now();
     while (simulation_.steps() < last_step && !simulation_.numerical_failure()) {
-      step_once(pace == Pace::kTicks ? 1 : last_step - simulation_.steps());
+      const std::int64_t left = last_step - simulation_.steps();
+      if (recording_ && pace == Pace::kBlocks) recording_->before_end(left);
+      step_once(pace == Pace::kTicks ? 1 : left);
       if (pilot_error_ || (recording_ && recording_->failure())) break;
       if (const auto now = Clock::now(); now - last_report >= kBetweenReports) {
         last_report = now;

@@ -14,8 +14,8 @@ TEST(CutOps, AListIsReadInOrder) {
     {"crack": [0, 1, 30]},
     {"line": [0, 1, 2, 3], "must_cut": true},
     {"line": [[0, 1], [2, 3], [4, 0]]},
-    {"polygon": {"type": "MultiPolygon", "coordinates": [[[[0,0],[0,4],[4,4],[4,0]], [[1,1],[1,2],[2,1]]], )"
-    R"([[[9,0],[10,0],[9,1]]]]},
+    {"polygon": {"type": "MultiPolygon", "coordinates": [[[[0,0],[0,4],[4,4],[4,0]], [[1,1],[1,2],[2,1]]],
+        [[[9,0],[10,0],[9,1]]]]},
      "keep": "inside"},
     {"polygon": "POLYGON ((0 0, 0 1, 1 0, 0 0))"}])json",
                                                {Keep::kOutside, 0.1}));

@@ -283,7 +283,7 @@ def test_the_trial_estimates_and_is_the_first_case(folder):
     words = study("plan", write_study(folder, repetitions=3))
     assert "a case " in words and "all 3" in words and "MB of memory" in words
     assert (folder / "studies/s/cases/000000/case.json").exists()
-    words = study("plan", write_study(folder, "long", set={"time.until_s": 20000}), "--trial-seconds", "2")
+    words = study("plan", write_study(folder, "long", set={"time.until_s": 200000}), "--trial-seconds", "2")
     assert "extrapolated from" in words
 
 

@@ -123,7 +123,7 @@ class ShipInIce(Env):
         else:
             left = numpy.hypot(*(self.goal - after.position))
             progress = float(numpy.hypot(*(self.goal - before.position)) - left)
-        reached = bool(left <= self.goal_radius)
+            reached = bool(left <= self.goal_radius)
         surge, sway = _in_ship(0.5 * (before.velocity + after.velocity), after.heading)
         turning = 0.5 * (before.yaw_rate + after.yaw_rate)
         work = -self.seconds * (forces["surge_N"] * surge + forces["sway_N"] * sway + forces["yaw_Nm"] * turning)
