@@ -64,6 +64,7 @@ Result<> RunRecorder::checkpoint(double wall_time) {
 }
 
 Result<> RunRecorder::before_end(std::int64_t ticks_left) {
+  if (simulation_->steps() == 0) return {};  // nothing is there yet that a run could go on from
   if (ticks_left >= longest_step_ || has_end_checkpoint()) return {};
   end_checkpoint_at_ = simulation_->steps();
   return checkpoint(0);  // so that folders of one run are the same bytes

@@ -183,7 +183,7 @@ TEST_F(RunFolderTrial, EveryByteIsOnTheDiskBeforeACheckpointGoes) {
     }
     unsynced.take(call);
   }
-  EXPECT_EQ(gone, 7);
+  EXPECT_EQ(gone, 6);
   EXPECT_EQ(difference("run"), "");
 }
 
