@@ -60,7 +60,8 @@ void insert_into(std::vector<BodyIndex>& ascending, BodyIndex body) {
   ascending.insert(std::ranges::lower_bound(ascending, body), body);
 }
 void erase_from(std::vector<BodyIndex>& ascending, BodyIndex body) {
-  const auto [first, last] = std::ranges::equal_range(ascending, body);
+  // Not of std::ranges, whose subrange the fuzzers' clang does not take.
+  const auto [first, last] = std::equal_range(ascending.begin(), ascending.end(), body);
   ascending.erase(first, last);
 }
 
