@@ -72,6 +72,19 @@ bool measure_bending(const Setup& setup, const ShipContactLoad& load, PendingFra
   return capacity.is_in_range;
 }
 
+/// By the law of crushing ice. The hull slides the edge down at v_n/tan θ_s; what did not crush of its way the edge has
+/// gone already. A wall that is as good as vertical presses down no ice (shares).
+EdgePush push_of(const ShipContactLoad& load) {
+  const Contact& c = load.contact;
+  EdgePush push;
+  push.speed_per_approach = load.crushed_share / std::tan(load.hull_angle);
+  push.speed = push.speed_per_approach * c.approach_speed;
+  const double slip = c.slip_speed > 0 ? -1 : c.slip_speed < 0 ? 1 : 0;
+  push.horizontal = (load.shares.horizontal / load.shares.vertical) * c.normal +
+                    (slip * load.shares.tangential / load.shares.vertical) * perpendicular(c.normal);
+  return push;
+}
+
 PendingFracture evaluate(const Setup& setup, const Population& population, const ShipContactLoad& load,
                          Counts& counts) {
   const Contact& c = load.contact;
@@ -94,6 +107,7 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
     if (!is_in_range && criteria.vertical_force >= criteria.bending_capacity) ++counts.database_out_of_range;
   }
   pending.failure = fracture::decide(criteria);
+  if (is_crush_law(setup) && pending.failure == fracture::Failure::kBend) pending.push = push_of(load);
   pending.ship = c.a;
   pending.floe = population.floe_of(c.b);
   pending.point_in_water = c.middle();

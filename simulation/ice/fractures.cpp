@@ -4,6 +4,7 @@
 #include "geometry/cut/cut.hpp"
 #include "geometry/exact/point_in_ring.hpp"
 #include "simulation/ice/pieces.hpp"
+#include "simulation/ice/turning.hpp"
 #include "simulation/ship/ship_contact_load.hpp"
 #include "simulation/world/step.hpp"
 
@@ -111,8 +112,9 @@ void pass_bends(FloeId bent, FloeId first, std::span<PendingFracture> others, co
 
 }  // namespace
 
-void apply_fractures(const Setup& setup, const Clock& clock, std::vector<PendingFracture>& fractures,
-                     Population& population, Accounts& accounts, Journal& journal) {
+void apply_fractures(const Setup& setup, const Clock& clock, StepData& step, Population& population, Accounts& accounts,
+                     Journal& journal) {
+  std::vector<PendingFracture>& fractures = step.fractures;
   std::ranges::stable_sort(fractures, {}, &PendingFracture::floe);
   for (std::size_t i = 0; i < fractures.size(); ++i) {
     PendingFracture& pending = fractures[i];
@@ -126,6 +128,8 @@ void apply_fractures(const Setup& setup, const Clock& clock, std::vector<Pending
     }
     if (outcome) {
       const FloeId first = population.floe_count();
+      if (pending.failure == fracture::Failure::kBend)
+        turn_cusp(setup, pending, *outcome, population, step.loads[pending.ship], accounts.audit);
       replace_by_pieces(setup, clock, breakage_of(setup, clock, pending), *outcome, population, accounts, journal);
       if (clock.parts > 1 && pending.failure == fracture::Failure::kBend)
         pass_bends(pending.floe, first, std::span(fractures).subspan(i + 1), population);

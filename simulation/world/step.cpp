@@ -208,7 +208,7 @@ const std::array<Stage, 34> kStages = {{
      }},
     {"advance the clock", RunsIn::kAllSteps, [](World& w) { advance(w.clock); }},
     {"apply fractures", RunsIn::kAllSteps,
-     [](World& w) { apply_fractures(w.setup, w.clock, w.step.fractures, w.population, w.accounts, w.journal); }},
+     [](World& w) { apply_fractures(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
     {"grind", RunsIn::kAllSteps,
      [](World& w) {
        grind_blind_overlaps(w.setup, w.clock, w.step.blind_overlaps, w.population, w.accounts, w.journal);

@@ -80,9 +80,10 @@ void sail(const Setup& setup, const Clock& clock, StepData& step, Population& po
 std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clock, int threads,
                                             const std::vector<dynamics::Contact>& contacts, Population& population);
 
-/// With the next three all that changes which floes there are: serially, in floe-id order.
-void apply_fractures(const Setup& setup, const Clock& clock, std::vector<PendingFracture>& fractures,
-                     Population& population, Accounts& accounts, Journal& journal);
+/// Brakes ships by the cusps that they push down. With the next three all that changes which floes there are: serially,
+/// in floe-id order.
+void apply_fractures(const Setup& setup, const Clock& clock, StepData& step, Population& population, Accounts& accounts,
+                     Journal& journal);
 
 /// Cuts overlaps that no contact can part from the floe and makes them brash, in the order of the pairs.
 void grind_blind_overlaps(const Setup& setup, const Clock& clock, const std::vector<dynamics::BlindOverlap>& overlaps,

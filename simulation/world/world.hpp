@@ -52,6 +52,13 @@ struct SailingLoads {
   dynamics::Planar ice_friction;  ///< of the contacts with ice, their slip [N s, N m s]
 };
 
+/// How a hull pushes the edge of a cusp that it breaks off.
+struct EdgePush {
+  double speed = 0;               ///< down, that the edge does not have when it breaks; 0 where nothing is pushed [m/s]
+  double speed_per_approach = 0;  ///< of it by the hull's own along the contact's normal [-]
+  geometry::Vector horizontal;    ///< force on the ice per force down on it [-]
+};
+
 /// A fracture decided in this step, to be applied at its end.
 struct PendingFracture {
   fracture::Failure failure = fracture::Failure::kNone;
@@ -63,6 +70,7 @@ struct PendingFracture {
   geometry::Vector normal;              ///< from the hull into the ice, water frame
   double penetration = 0;               ///< [m]
   double cusp_radius = 0;               ///< [m]
+  EdgePush push;                        ///< of a bend by the law of crushing ice
   geometry::CrackPath crack_in_body;    ///< of a split
   fracture::FailureCriteria criteria;
   dynamics::PersistentContact* record = nullptr;  ///< of the contact that broke it, valid during the step

@@ -35,7 +35,7 @@ TEST(RejectedCut, IsAnInputOfPolynyaCutThatComesToTheSame) {
   world.journal.clear();
   dynamics::PersistentContact record;
   world.step.fractures = {misplaced(fracture::Failure::kBend, record), misplaced(fracture::Failure::kSplit, record)};
-  apply_fractures(world.setup, world.clock, world.step.fractures, world.population, world.accounts, world.journal);
+  apply_fractures(world.setup, world.clock, world.step, world.population, world.accounts, world.journal);
   ASSERT_EQ(world.journal.events.size(), 2U);
   for (const Event& event : world.journal.events) {
     const auto& cut = std::get<RejectedCut>(event.what);

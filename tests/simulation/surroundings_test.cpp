@@ -392,8 +392,9 @@ TEST(Cusp, WhoseFirstTouchHasBrokenOffIsCentredAtTheIceNearestToTheContact) {
   pending.cusp_radius = 2;
   pending.penetration = 3;
   pending.record = &record;
-  std::vector<PendingFracture> fractures{pending};
-  apply_fractures(world.setup, world.clock, fractures, world.population, world.accounts, world.journal);
+  world.step.fractures = {pending};
+  world.step.loads.resize(1);
+  apply_fractures(world.setup, world.clock, world.step, world.population, world.accounts, world.journal);
   EXPECT_EQ(world.accounts.counts.bends, 1);
   EXPECT_EQ(world.accounts.counts.rejected_cuts, 0);
   EXPECT_FALSE(record.was_refused);
