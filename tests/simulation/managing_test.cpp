@@ -281,7 +281,7 @@ TEST(Managing, GoesToTheLargestFloeThatWillPassAndOnToTheNext) {
     simulation.step();
     if (targets.empty() || targets.back() != target()) targets.push_back(target());
   }
-  targets.erase(std::ranges::remove(targets, kNoTarget).begin(), targets.end());
+  targets.erase(std::ranges::remove(targets, kNoFloe).begin(), targets.end());
   // What is left of the first is a floe of its own, and larger than the next.
   ASSERT_GE(targets.size(), 2U);
   EXPECT_EQ(targets[0], 1);
