@@ -233,11 +233,11 @@ std::vector<ContactState> Simulation::contact_states() const {
   return states;
 }
 
-std::vector<ShipState> Simulation::ship_states() const {
+std::vector<HullState> Simulation::ship_states() const {
   const dynamics::Bodies& bodies = world_->population.bodies;
-  std::vector<ShipState> states;
+  std::vector<HullState> states;
   for (BodyIndex hull = 0; hull < world_->population.hull_count; ++hull) {
-    ShipState state;
+    HullState state;
     state.world_from_ship = dynamics::water_from_body(bodies, hull);
     state.world_from_ship.position += world_->clock.drift();
     state.heading = bodies.angle[hull];

@@ -175,7 +175,7 @@ TEST(Panels, AddUpToTheForceOfTheIce) {
     std::size_t next = 0;
     int loaded = 0;
     bool is_outside = false;
-    for (const ShipSample& sample : done.story.samples) {
+    for (const HullSample& sample : done.story.samples) {
       dynamics::Planar sum;
       for (; next < done.story.panels.size() && done.story.panels[next].time == sample.time; ++next) {
         const PanelSample& panel = done.story.panels[next];
