@@ -13,8 +13,8 @@ set(POLYNYA_PLAYER_SCRIPTS numbers.js run_data.js motion.js map_view.js colours.
 set(POLYNYA_PAIR_SCRIPTS numbers.js input.js moment_link.js pair.js)
 
 function(polynya_player_page folder output)
-  set(parts ${POLYNYA_PLAYER_STYLES} ${POLYNYA_PLAYER_SCRIPTS} ${POLYNYA_PAIR_SCRIPTS} player.html pair.html pair.css
-    vendor/uPlot.iife.min.js vendor/uPlot-LICENSE)
+  set(parts ${POLYNYA_PLAYER_STYLES} ${POLYNYA_PLAYER_SCRIPTS} ${POLYNYA_PAIR_SCRIPTS} player.html pair.html tools.html
+    pair.css vendor/uPlot.iife.min.js vendor/uPlot-LICENSE)
   list(TRANSFORM parts PREPEND ${folder}/)
   set(script ${CMAKE_CURRENT_FUNCTION_LIST_FILE})
   add_custom_command(OUTPUT ${output} DEPENDS ${parts} ${script} VERBATIM
@@ -30,18 +30,21 @@ if(CMAKE_SCRIPT_MODE_FILE)
     endforeach()
     set(${variable} "${all}" PARENT_SCOPE)
   endfunction()
+  join_files(tools tools.html)
   join_files(page player.html)
   join_files(styles ${POLYNYA_PLAYER_STYLES})
   join_files(plot vendor/uPlot.iife.min.js)
   join_files(licence vendor/uPlot-LICENSE)
   string(PREPEND plot "/*! uPlot:\n${licence}*/\n")
   join_files(scripts ${POLYNYA_PLAYER_SCRIPTS})
+  string(REPLACE "<!--{{tools}}-->\n" "${tools}" page "${page}")
   string(REPLACE "/*{{styles}}*/" "${styles}" page "${page}")
   string(REPLACE "/*{{plot}}*/" "${plot}" page "${page}")
   string(REPLACE "/*{{scripts}}*/" "${scripts}" page "${page}")
   join_files(pair pair.html)
   join_files(pair_styles player.css pair.css)
   join_files(pair_scripts ${POLYNYA_PAIR_SCRIPTS})
+  string(REPLACE "<!--{{tools}}-->\n" "${tools}" pair "${pair}")
   string(REPLACE "/*{{styles}}*/" "${pair_styles}" pair "${pair}")
   string(REPLACE "/*{{scripts}}*/" "${pair_scripts}" pair "${pair}")
   file(WRITE ${OUTPUT} "#include \"views/player/player_page.hpp\"\n\nnamespace polynya::views {\n\n"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -141,6 +142,11 @@ inline geometry::Rotation turned(geometry::Rotation r, double turn) {
 
 /// Moves a body by a displacement [m] and a small turn [rad].
 void move_body(Bodies& bodies, BodyIndex i, geometry::Vector shift, double turn);
+
+/// A bound of any of its points' speed, now [m/s].
+inline double rim_speed_of(const Bodies& bodies, BodyIndex i) {
+  return length(bodies.velocity[i]) + std::abs(bodies.angular_velocity[i]) * bodies.bounding_radius[i];
+}
 
 /// Moves every awake body with its velocity over dt [s]. Returns the greatest rim speed, not a number where
 /// one is not [m/s].

@@ -38,8 +38,8 @@ class Outline:
 
 def area_of(rings):
     """[m²]; holes run clockwise and count less."""
-    return sum(0.5 * float(x @ numpy.roll(y, -1) - y @ numpy.roll(x, -1)) for x,
-               y in ((ring - ring[0]).T for ring in rings))
+    return sum(0.5 * float(x @ numpy.roll(y, -1) - y @ numpy.roll(x, -1))
+               for x, y in ((ring - ring[0]).T for ring in rings))
 
 
 def broken(outline):

@@ -138,7 +138,8 @@ Counts Simulation::counts() const {
 
 namespace {
 
-FloeState state_of(const World& world, FloeId id) {
+/// `drift` is that of the water frame by now, one for all floes: it may be that of a long table.
+FloeState state_of(const World& world, Vector drift, FloeId id) {
   const dynamics::Bodies& bodies = world.population.bodies;
   const BodyIndex body = world.population.body_of(id);
   const Floe& floe = world.population.floes[id];
@@ -148,7 +149,7 @@ FloeState state_of(const World& world, FloeId id) {
   state.born = floe.born;
   state.generation = floe.generation;
   state.world_from_body = dynamics::water_from_body(bodies, body);
-  state.world_from_body.position += world.clock.drift();
+  state.world_from_body.position += drift;
   state.angle = bodies.angle[body];
   state.velocity = bodies.velocity[body] + world.clock.water_drift;
   state.angular_velocity = bodies.angular_velocity[body];
@@ -167,13 +168,15 @@ FloeState state_of(const World& world, FloeId id) {
 }  // namespace
 
 void Simulation::for_each_floe(const std::function<void(const FloeState&)>& use) const {
+  const Vector drift = world_->clock.drift();
   for (FloeId id = 0; id < world_->population.floe_count(); ++id)
-    if (world_->population.is_floating(id)) use(state_of(*world_, id));
+    if (world_->population.is_floating(id)) use(state_of(*world_, drift, id));
 }
 
 void Simulation::for_each_living(const std::function<void(const FloeState&)>& use) const {
+  const Vector drift = world_->clock.drift();
   for (FloeId id = 0; id < world_->population.floe_count(); ++id)
-    if (world_->population.is_alive(id)) use(state_of(*world_, id));
+    if (world_->population.is_alive(id)) use(state_of(*world_, drift, id));
 }
 
 std::vector<FloeState> Simulation::floe_states() const {
@@ -230,11 +233,11 @@ std::vector<ContactState> Simulation::contact_states() const {
   return states;
 }
 
-std::vector<ShipState> Simulation::ship_states() const {
+std::vector<HullState> Simulation::ship_states() const {
   const dynamics::Bodies& bodies = world_->population.bodies;
-  std::vector<ShipState> states;
+  std::vector<HullState> states;
   for (BodyIndex hull = 0; hull < world_->population.hull_count; ++hull) {
-    ShipState state;
+    HullState state;
     state.world_from_ship = dynamics::water_from_body(bodies, hull);
     state.world_from_ship.position += world_->clock.drift();
     state.heading = bodies.angle[hull];

@@ -42,7 +42,7 @@ struct FloeState {
   const geometry::Polygon* polygon_in_body = nullptr;  ///< valid as long as the floe
 };
 
-struct ShipState {
+struct HullState {
   geometry::Pose world_from_ship;
   double heading = 0;           ///< [rad]
   geometry::Vector velocity;    ///< over ground [m/s]
@@ -104,7 +104,7 @@ class Simulation {
   void for_each_floe(const std::function<void(const FloeState&)>& use) const;
   /// The same for each of all_states().
   void for_each_living(const std::function<void(const FloeState&)>& use) const;
-  std::vector<ShipState> ship_states() const;
+  std::vector<HullState> ship_states() const;
   /// Those contacts of the last step that the scene has recorded, ships' first, in the order of their
   /// bodies. None before the first step and right after a resume.
   std::vector<ContactState> contact_states() const;

@@ -224,8 +224,8 @@ def study_edges(arguments):
                 print("skipped:", error, flush=True)
                 continue
             edges.append(edge)
-            print(edge["run"], [(k, *(round(v[n], 3) for n in ("V", "R", "bottom"))) for k,
-                                v in edge["elements"].items()],
+            print(edge["run"], [(k, *(round(v[n], 3) for n in ("V", "R", "bottom")))
+                                for k, v in edge["elements"].items()],
                   f"{time.time() - start:.1f} s", flush=True)
             with open(arguments.out, "w", encoding="utf-8") as file:
                 json.dump(edges, file)

@@ -343,8 +343,8 @@ def study_edges(arguments):
                 continue
             ring[0] = 0
             chords = [(chord(ring, 1, s), chord(ring, -1, s)) for s in lengths]
-            opening = [math.degrees((math.atan2(b[1], b[0]) - math.atan2(f[1], f[0])) % (2 * math.pi)) for f,
-                       b in chords]
+            opening = [math.degrees((math.atan2(b[1], b[0]) - math.atan2(f[1], f[0])) % (2 * math.pi))
+                       for f, b in chords]
             forward = math.atan2(chords[1][0][1], chords[1][0][0])
             b = bears(ring, forward + math.radians(opening[1]) / 2, 0.09)
             rows.append([b["V"], b["R"], b["V anywhere"]] + opening

@@ -178,8 +178,8 @@ class Solid:
                             shape=(size, size))
         rows, columns, values = [], [], []
         area = self.areas()
-        springs = sum(w * np.outer(triangle_shape(p)[0], triangle_shape(p)[0]) for p,
-                      w in zip(TRIANGLE, TRIANGLE_WEIGHTS))
+        springs = sum(w * np.outer(triangle_shape(p)[0], triangle_shape(p)[0])
+                      for p, w in zip(TRIANGLE, TRIANGLE_WEIGHTS))
         vertical = 3 * self.six + 2
         matrix += coo_matrix(((self.k * area[:, None, None] * springs).ravel(),
                               (np.repeat(vertical, 6, 1).ravel(), np.tile(vertical, (1, 6)).ravel())),

@@ -122,8 +122,8 @@ def main():
             file.unlink()
         else:
             print(f"{file}: {code}: {told[0]}", flush=True)
-    print(f"{trials} scenes of {len(choices)} numbers: " + ", ".join(f"{n} ended {c}" for c,
-                                                                     n in sorted(ended.items(), key=str)))
+    print(f"{trials} scenes of {len(choices)} numbers: " + ", ".join(f"{n} ended {c}"
+                                                                     for c, n in sorted(ended.items(), key=str)))
     sys.exit(any(code not in (0, 3) for code in ended))
 
 

@@ -11,16 +11,14 @@ on the machine still takes caches and shared units away.
 Options of both: --polynya PROGRAM (more than one, comma-separated: alternated run by run), --work FOLDER, --repeat N.
 """
 import argparse
-import json
 import math
 import os
 import statistics
-import subprocess
 import tempfile
 
 import numpy as np
 
-from study import HULL, SHIP, rows_of, run_scene
+from study import HULL, SHIP, measured_run, rows_of, run_scene
 
 CASES = [(0.5, 1), (1, 1), (0.25, 1), (0.5, 2), (0.5, 3)]
 STEP = 0.01
@@ -36,31 +34,20 @@ def level_ice(h, v, y=0.3, step=STEP):
             "floes": [{"rectangle": {"corner_m": [0, -100], "size_m": [600, 200]}, "fast_ice": True}]}
 
 
-def seconds_of(program, scene, folder, *options):
-    """Of the processor, for a run."""
-    used = os.times()
-    subprocess.run([program, "run", scene, "--out", folder, "--overwrite", "--progress", "none", *options],
-                   check=True, capture_output=True)
-    now = os.times()
-    return now.children_user + now.children_system - used.children_user - used.children_system
-
-
 def cost(arguments):
     programs = arguments.polynya.split(",")
     columns = " processor [s] | × real time | its picture [s] |"
     print("| h [m] | v [m/s] | step [s] | bends | came up |" + columns * len(programs))
     print("|---|---|---|---|---|" + "---|---|---|" * len(programs))
-    folder, scene = os.path.join(arguments.work, "level"), os.path.join(arguments.work, "level.json")
     for h, v in CASES:
-        with open(scene, "w", encoding="utf-8") as file:
-            json.dump(level_ice(h, v), file)
+        scene = level_ice(h, v)
         runs, drawn = ({program: [] for program in programs} for _ in range(2))
         for _ in range(arguments.repeat):
             for program in programs:
-                drawn[program].append(seconds_of(program, scene, folder))
-                runs[program].append(seconds_of(program, scene, folder, "--no-map"))
-        with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
-            counts = json.load(file)["counts"]
+                drawn[program].append(measured_run(program, arguments.work, scene)[2])
+                _, summary, seconds = measured_run(program, arguments.work, scene, "--no-map")
+                runs[program].append(seconds)
+        counts = summary["counts"]
         row = f"| {h:g} | {v:g} | {STEP:g} | {counts['bends']} | {counts['came_up']} |"
         for program in programs:
             run, whole = statistics.median(runs[program]), statistics.median(drawn[program])

@@ -9,12 +9,12 @@ step (reading, the field, covers), the real-time factor after it and the most me
 """
 
 import argparse
-import json
 import pathlib
 import resource
-import subprocess
 import tempfile
 import time
+
+from study import measured_run
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -28,17 +28,6 @@ def scene(side, until, step):
             "record": {"frames_interval_s": 1e6, "forces_interval_s": 1}}
 
 
-def measure(binary, folder, case):
-    """The run's summary, its time from start to end [s] and its most memory [GB]."""
-    (folder / "scene.json").write_text(json.dumps(case))
-    before = time.monotonic()
-    subprocess.run([binary, "run", str(folder / "scene.json"), "--out", str(folder / "run"), "--overwrite", "--no-map",
-                    "--progress", "none"], check=True, capture_output=True)
-    taken = time.monotonic() - before
-    summary = json.loads((folder / "run/summary.json").read_text())
-    return summary, taken, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1e6
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("binary", nargs="?", default=str(ROOT / "build/release/app/polynya"))
@@ -48,7 +37,10 @@ def main():
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         case = scene(1e3 * given.floes_km, given.until, given.step)
-        summary, taken, memory = measure(given.binary, pathlib.Path(name), case)
+        before = time.monotonic()
+        _, summary, _ = measured_run(given.binary, name, case, "--no-map")
+        taken = time.monotonic() - before
+    memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1e6
     simulated, wall = summary["sim_time_s"], summary["wall_time_s"]
     print("| floes | step, s | start, s | simulated, s | wall, s | x real time | memory, GB | bends |")
     print("|---|---|---|---|---|---|---|---|")

@@ -73,7 +73,7 @@ def run_all(arguments, keys: list, folder: pathlib.Path) -> dict:
 
 def channel(arguments, folder: pathlib.Path) -> tuple:
     """What `polynya channel` measures: its object, and its stations with ice on both sides."""
-    printed = subprocess.run([arguments.polynya, "channel", folder, "--format", "json"], check=True, 
+    printed = subprocess.run([arguments.polynya, "channel", folder, "--format", "json"], check=True,
                              capture_output=True).stdout
     with open(folder / "channel.csv") as file:
         stations = [{k: float("nan" if v == "null" else v) for k, v in row.items()} for row in csv.DictReader(file)]

@@ -85,8 +85,8 @@ def exponents(arguments):
                                 1) for s in (0.4e6, 0.8e6, 1.6e6)],
               "friction μ": [(m, level_ice(0.5, 1, friction=m), formulas.Ice(0.5, friction=m), 1)
                              for m in (0.05, 0.1, 0.2)]}
-    results = run_all(arguments, run, {(name.split()[0], f"{x:g}"): scene for name,
-                                       points in series.items() for x, scene, _, _ in points})
+    results = run_all(arguments, run, {(name.split()[0], f"{x:g}"): scene
+                                       for name, points in series.items() for x, scene, _, _ in points})
     print("| resistance grows with | as | crushing and bending as | Lindqvist's as | his R_c + R_b as |")
     print("|---|---|---|---|---|")
     for name, points in series.items():

@@ -10,14 +10,12 @@ in the ice. The standard error is that of 16 parts of the way. A row whose two m
 """
 
 import argparse
-import csv
-import json
 import math
 import pathlib
-import resource
 import statistics
-import subprocess
 import tempfile
+
+from study import measured_run, rows_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 THICKNESSES = (0.05, 0.3, 2)  # [m]
@@ -44,18 +42,12 @@ def scene(thickness, speed, step, levels, way):
 
 def measure(binary, folder, case):
     """Mean surge and its standard error [N], the summary and the processor's time [s]."""
-    (folder / "scene.json").write_text(json.dumps(case))
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    subprocess.run([binary, "run", str(folder / "scene.json"), "--out", str(folder / "run"), "--overwrite", "--no-map",
-                    "--progress", "none"], check=True, capture_output=True)
-    cost = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+    run, summary, cost = measured_run(binary, folder, case, "--no-map")
     speed = case["ships"][0]["propulsion"]["constant_speed_m_per_s"]
-    with open(folder / "run/forces.csv") as file:
-        surge = [-float(row["surge_N"]) for row in csv.DictReader(file) if float(row["t_s"]) * speed > BOW + 1]
+    surge = [-float(row["surge_N"]) for row in rows_of(run, "forces.csv") if float(row["t_s"]) * speed > BOW + 1]
     size = len(surge) // PARTS
     parts = [statistics.fmean(surge[i * size:(i + 1) * size]) for i in range(PARTS)]
-    error = statistics.stdev(parts) / math.sqrt(PARTS)
-    return statistics.fmean(surge), error, json.loads((folder / "run/summary.json").read_text()), cost
+    return statistics.fmean(surge), statistics.stdev(parts) / math.sqrt(PARTS), summary, cost
 
 
 def main():
@@ -76,7 +68,7 @@ def main():
             way = max(given.way, given.ways * thickness)
 
             def run(step, levels):
-                return measure(given.binary, pathlib.Path(name), scene(thickness, speed, step, levels, way))
+                return measure(given.binary, name, scene(thickness, speed, step, levels, way))
 
             mean, error, summary, cost = run(STEP, given.levels)
             finest = min(level["step_s"] for level in summary["levels"])

@@ -10,14 +10,12 @@ marked. The time is the processor's in user mode, start-up and all.
 """
 
 import argparse
-import csv
-import json
 import math
 import pathlib
-import resource
 import statistics
-import subprocess
 import tempfile
+
+from study import measured_run, rows_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 HULL = {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30, "draught_m": 6}
@@ -61,13 +59,9 @@ def measure(binary, folder, scene, levels):
     """The mean surge [N] and the processor's time [s]."""
     time = {**scene["time"], **({} if levels is None else {"levels": levels})}
     scene = {"name": "step-levels", **scene, "time": time, "record": {"frames_interval_s": 10}}
-    (folder / "scene.json").write_text(json.dumps(scene))
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    subprocess.run([binary, "run", str(folder / "scene.json"), "--out", str(folder / "run"), "--overwrite", "--no-map",
-                    "--progress", "none"], check=True, capture_output=True)
-    cost = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
-    with open(folder / "run/forces.csv") as file:
-        return statistics.fmean(-float(row["surge_N"]) for row in csv.DictReader(file) if float(row["t_s"]) > 15), cost
+    run, _, cost = measured_run(binary, folder, scene, "--no-map")
+    rows = rows_of(run, "forces.csv")
+    return statistics.fmean(-float(row["surge_N"]) for row in rows if float(row["t_s"]) > 15), cost
 
 
 def main():
@@ -87,7 +81,7 @@ def main():
             for levels, found in rows.items():
                 with tempfile.TemporaryDirectory() as folder:
                     place = 3.1 * (i - (given.places - 1) / 2)
-                    found.append(measure(given.binary, pathlib.Path(folder), case(place), levels))
+                    found.append(measure(given.binary, folder, case(place), levels))
         means, errors, costs = [], [], []
         for found in rows.values():
             means.append(statistics.fmean(surge for surge, _ in found))

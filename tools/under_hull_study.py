@@ -154,8 +154,8 @@ def study_pack(arguments):
 
 def study_shapes(arguments):
     covers, seeds, kinds = (0.5, 0.6, 0.7, 0.8, 0.9), range(1, 5), {"squares": squares, "irregular": pack}
-    results = run_all(arguments, run, {(kind, c, s): make(c, s) for kind,
-                                       make in kinds.items() for c in covers for s in seeds})
+    results = run_all(arguments, run, {(kind, c, s): make(c, s)
+                                       for kind, make in kinds.items() for c in covers for s in seeds})
     print("| C | square: mean [kN] | spread | largest .1 s | irregular: mean | spread | largest .1 s | Colbourne "
           "slender | blunt |")
     print("|---|---|---|---|---|---|---|---|---|")
@@ -193,8 +193,8 @@ def study_sensitivity(arguments):
     variants |= {("step", factor): {"time": {"step_s": 0.01 * factor, "until_s": 300}} for factor in (0.5, 2)}
     variants |= {("circle_radius", factor): {"contact": {"circle_radius_m": factor}} for factor in (0.5, 2)}
     covers, seeds = (0.7, 0.9), range(1, 7)
-    results = run_all(arguments, run, {(*variant, c, s): pack(c, s, **settings) for variant,
-                                       settings in variants.items()
+    results = run_all(arguments, run, {(*variant, c, s): pack(c, s, **settings)
+                                       for variant, settings in variants.items()
                                   for c in covers for s in seeds})
     print("| variant | " + " | ".join(f"C {c:g}: sum [kN], floes under" for c in covers) + " |")
     print("|---|" + "---|" * len(covers))

@@ -97,7 +97,7 @@ void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check, c
     add(fmt::format(
         "hulls      {} with floes whose boxes meet; largest: {} and floe {} at {:.6g} s, {:.6g} m2, a "
         "vertex {:.4g} m deep",
-        counted(check.hull_pairs, "pair"), io::ship_name(scene, check.worst_hull), check.worst_with_hull.second,
+        counted(check.hull_pairs, "pair"), io::hull_name(scene, check.worst_hull), check.worst_with_hull.second,
         check.worst_with_hull.time, check.worst_with_hull.area, check.worst_with_hull.depth));
   if (!check.has_crushed) {
     add("crushed    not on record (no crushed.csv): overlaps are measured, not judged");
@@ -106,7 +106,7 @@ void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check, c
                     check.uncrushed_pairs == 1 ? "1 pair shares" : fmt::format("{} pairs share", check.uncrushed_pairs),
                     100 * analysis::kUncrushedShare));
     const auto name = [&](const simulation::ContactState::Body& body) {
-      return body.ship >= 0 ? std::string(io::ship_name(scene, body.ship)) : fmt::format("floe {}", body.floe);
+      return body.ship >= 0 ? std::string(io::hull_name(scene, body.ship)) : fmt::format("floe {}", body.floe);
     };
     for (const analysis::UncrushedOverlap& pair : check.uncrushed)
       add(
@@ -132,7 +132,7 @@ void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check, c
 
 /// What happened, where and what decided it, in a line.
 std::string described(const io::Run& run, const simulation::Event& event) {
-  const std::string_view ship = io::ship_name(run.scene.scene, event.ship);
+  const std::string_view ship = io::hull_name(run.scene.scene, event.ship);
   const bool is_by_floe = event.ice() && event.ice()->by_floe != simulation::kNoFloe;
   const std::string by = is_by_floe     ? fmt::format(" by floe {}", event.ice()->by_floe)
                          : ship.empty() ? ""
@@ -184,13 +184,13 @@ void write_hulls(JsonWriter& json, const analysis::RunCheck& check, const simula
   const auto write_body = [&](std::string_view key, const simulation::ContactState::Body& body) {
     json.key(key);
     if (body.ship >= 0)
-      json.value(io::ship_name(scene, body.ship));
+      json.value(io::hull_name(scene, body.ship));
     else
       json.value(body.floe);
   };
   json.key("hull_pairs").value(check.hull_pairs).key("largest_overlap_with_hull");
   if (check.worst_hull >= 0) {
-    json.open('{').key("ship").value(io::ship_name(scene, check.worst_hull));
+    json.open('{').key("ship").value(io::hull_name(scene, check.worst_hull));
     json.key("floe_id").value(check.worst_with_hull.second).key("t_s").value(check.worst_with_hull.time);
     json.key("area_m2").value(check.worst_with_hull.area).key("depth_m").value(check.worst_with_hull.depth);
     json.close('}');

@@ -63,7 +63,7 @@ void ContactTracker::update(std::span<Contact> contacts, std::span<const Contact
     if (squared_length(patch.middle - records_[0].last_point_in_b) > reach * reach) {
       PersistentContact record = new_record(bodies, contacts[0]);
       keep_what_pressed(contacts[0], patch, record);
-      if (record.loaded_area == 0) note_parted(contacts[0].a, contacts[0].b, records_[0], bodies);
+      if (record.loaded_area == 0) note_parted(records_[0], bodies);
       records_[0] = record;
     }
     advance(records_[0], contacts[0], patch, bodies);
@@ -131,18 +131,18 @@ void ContactTracker::join_left_over(std::span<Contact> contacts, std::span<const
       if (old.crushed.area > updated_[i].crushed.area) updated_[i].crushed = old.crushed;
       is_joined = true;
     }
-    if (!is_joined) note_parted(contacts[0].a, contacts[0].b, old, bodies);
+    if (!is_joined) note_parted(old, bodies);
   }
 }
 
-void ContactTracker::note_parted(BodyIndex a, BodyIndex b, const PersistentContact& record, const Bodies& bodies) {
+void ContactTracker::note_parted(const PersistentContact& record, const Bodies& bodies) {
   if (record.is_inherited || record.crushed.area == 0) return;
-  const Point middle = transform(water_from_body(bodies, b), record.last_point_in_b);
-  parted_.push_back({a, b, record.crushed, middle});
+  const Point middle = transform(water_from_body(bodies, b_), record.last_point_in_b);
+  parted_.push_back({a_, b_, record.crushed, middle});
 }
 
-void ContactTracker::end(BodyIndex a, BodyIndex b, const Bodies& bodies) {
-  for (const PersistentContact& record : records_) note_parted(a, b, record, bodies);
+void ContactTracker::end(const Bodies& bodies) {
+  for (const PersistentContact& record : records_) note_parted(record, bodies);
   records_.clear();
 }
 

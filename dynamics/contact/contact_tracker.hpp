@@ -13,16 +13,23 @@ namespace polynya::dynamics {
 /// becomes several (as far as each reaches).
 class ContactTracker {
  public:
-  /// Contacts that end with ice that they crushed are added to `parted`.
-  ContactTracker(std::vector<PersistentContact>& records, std::vector<PersistentContact>& scratch,
-                 std::vector<PartedContact>& parted, double circle_radius, double dt)
-      : records_(records), updated_(scratch), parted_(parted), tolerance_(0.25 * circle_radius), dt_(dt) {}
+  /// Of the pair a, b. Contacts that end with ice that they crushed are added to `parted`.
+  ContactTracker(BodyIndex a, BodyIndex b, std::vector<PersistentContact>& records,
+                 std::vector<PersistentContact>& scratch, std::vector<PartedContact>& parted, double circle_radius,
+                 double dt)
+      : a_(a),
+        b_(b),
+        records_(records),
+        updated_(scratch),
+        parted_(parted),
+        tolerance_(0.25 * circle_radius),
+        dt_(dt) {}
 
-  /// `manifolds` are those of the contacts, one each.
+  /// `manifolds` are those of the contacts, one each. There may be none: edges that meet need not overlap.
   void update(std::span<Contact> contacts, std::span<const geometry::ContactManifold> manifolds, const Bodies& bodies);
 
-  /// Ends all contacts of a pair that does not touch any more.
-  void end(BodyIndex a, BodyIndex b, const Bodies& bodies);
+  /// Ends all contacts: the pair does not touch any more.
+  void end(const Bodies& bodies);
 
  private:
   struct Patch {             ///< a contact's, in b's frame
@@ -38,9 +45,10 @@ class ContactTracker {
   void keep_what_pressed(const Contact& contact, const Patch& patch, PersistentContact& record) const;
   void join_left_over(std::span<Contact> contacts, std::span<const geometry::ContactManifold> manifolds,
                       const Bodies& bodies);
-  void note_parted(BodyIndex a, BodyIndex b, const PersistentContact& record, const Bodies& bodies);
+  void note_parted(const PersistentContact& record, const Bodies& bodies);
   void advance(PersistentContact& record, const Contact& contact, const Patch& patch, const Bodies& bodies) const;
 
+  BodyIndex a_, b_;
   std::vector<PersistentContact>& records_;
   std::vector<PersistentContact>& updated_;
   std::vector<PartedContact>& parted_;

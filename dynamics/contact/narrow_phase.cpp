@@ -203,10 +203,10 @@ double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const Co
     pair.near_bound = travelled + clearance_left(bodies, pair.b, pose, pair.near) - kRounding;
   }
   const auto tracker_of = [&](std::vector<PersistentContact>& records) {
-    return ContactTracker(records, scratch.records, scratch.parted, rule.circle_radius, dt);
+    return ContactTracker(pair.a, pair.b, records, scratch.records, scratch.parted, rule.circle_radius, dt);
   };
   if (!pair.has_near_edges()) {
-    if (pair.parts != nullptr) tracker_of(pair.parts->records).end(pair.a, pair.b, bodies);
+    if (pair.parts != nullptr) tracker_of(pair.parts->records).end(bodies);
     take_inside(bodies, pair, pose, rule, scratch);
     pair.parts.reset();
     pair.apart = pair.near;
@@ -222,7 +222,7 @@ double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const Co
   }
   // Circles lie inside the ice: no two can overlap while the boundaries are apart.
   const double gap = least_distance(a_from_b(bodies, pair.a, pair.b, pose), pair.parts->edges);
-  tracker_of(pair.parts->records).end(pair.a, pair.b, bodies);
+  tracker_of(pair.parts->records).end(bodies);
   pair.apart = {pose, std::min(gap, clearance_left(bodies, pair.b, pose, pair.near)) - kRounding};
   if (!scratch.keeps_distant_edges && gap > rule.kept_gap) forget_near(pair);
   return pair.apart.distance;

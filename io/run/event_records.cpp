@@ -33,7 +33,7 @@ struct Writer {
     if constexpr (std::is_same_v<T, std::vector<FloeId>>)
       json.list(value);
     else if constexpr (std::is_same_v<T, ShipName<const int>>)
-      json.value(ship_name(scene, value.index));
+      json.value(hull_name(scene, value.index));
     else if constexpr (std::is_same_v<T, Parent>)
       json.value(id_or_none(parent_of_floe));
     else if constexpr (std::is_same_v<T, DecidingLoad>)
@@ -74,7 +74,7 @@ struct Words {
   }
   void operator()(std::string_view, const std::string& value, const FieldMeaning& about) { add(about, value); }
   void operator()(std::string_view key, const ShipName<const int>& ship, const FieldMeaning& about) {
-    if (key != "ship") add(about, ship_name(scene, ship.index));
+    if (key != "ship") add(about, hull_name(scene, ship.index));
   }
   void object(const FieldMeaning&, auto list) { list(); }
 

@@ -12,7 +12,7 @@
 namespace polynya::io {
 namespace {
 
-using S = simulation::ShipSample;
+using S = simulation::HullSample;
 using dynamics::Planar;
 using geometry::Point;
 using geometry::Vector;

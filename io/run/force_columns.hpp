@@ -37,8 +37,8 @@ struct ForceColumn {
   std::string_view unit;  ///< as people read it: "N·m"; empty of a count
   std::string meaning;    ///< as docs/run-folder.md has it
   Over over = Over::kAtEnd;
-  std::function<double(const simulation::ShipSample& row)> read;
-  std::function<void(simulation::ShipSample& row, double value)> store;
+  std::function<double(const simulation::HullSample& row)> read;
+  std::function<void(simulation::HullSample& row, double value)> store;
   std::optional<ShownWhere> peak = {};     ///< where summary.json has its largest value by magnitude
   std::optional<ShownWhere> plotted = {};  ///< where it has a plot, if that is not where it has a peak
   std::string plot = {};                   ///< title of its plot in the player; empty: none

@@ -83,9 +83,9 @@ simulation::BirthRecord birth_of(const JsonValue& line) {
   return birth;
 }
 
-simulation::ShipSample sample_of(std::string_view line, const std::vector<const ForceColumn*>& columns,
+simulation::HullSample sample_of(std::string_view line, const std::vector<const ForceColumn*>& columns,
                                  const simulation::Scene& scene) {
-  simulation::ShipSample s;
+  simulation::HullSample s;
   s.time = take_number(line);
   s.ship = ship_index(scene, csv_field(line));
   for (const ForceColumn* column : columns) column->store(s, take_number(line));

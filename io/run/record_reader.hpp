@@ -25,7 +25,7 @@ geometry::Point point(const JsonValue& value);
 int ship_index(const simulation::Scene& scene, std::string_view name);
 
 simulation::BirthRecord birth_of(const JsonValue& line);
-simulation::ShipSample sample_of(std::string_view line, const std::vector<const ForceColumn*>& columns,
+simulation::HullSample sample_of(std::string_view line, const std::vector<const ForceColumn*>& columns,
                                  const simulation::Scene& scene);
 /// `run` has its scene and its floes.
 RunCrushed crushed_of(std::string_view line, const Run& run);

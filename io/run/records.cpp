@@ -12,7 +12,7 @@
 #include "io/text/shape_parts.hpp"
 
 namespace polynya::io {
-std::string_view ship_name(const simulation::Scene& scene, int ship) {
+std::string_view hull_name(const simulation::Scene& scene, int ship) {
   const auto hull = static_cast<std::size_t>(ship);
   return ship < 0 || hull >= hull_count(scene) ? std::string_view{} : hull_of(scene, hull).name;
 }
@@ -24,7 +24,7 @@ void append_bodies(std::string& text, double time, const simulation::ContactStat
                    const simulation::ContactState::Body& by, const simulation::Scene& scene) {
   append_number(text, time);
   for (const simulation::ContactState::Body& body : {on, by}) {
-    text.append(1, ',').append(ship_name(scene, body.ship)) += ',';
+    text.append(1, ',').append(hull_name(scene, body.ship)) += ',';
     if (body.floe != simulation::kNoFloe) append_number(text, body.floe);
   }
 }
@@ -37,10 +37,10 @@ std::string forces_header() {
   return header + '\n';
 }
 
-void append_forces_row(std::string& text, const simulation::ShipSample& s, std::string_view ship_name) {
+void append_forces_row(std::string& text, const simulation::HullSample& s, std::string_view hull_name) {
   append_number(text, s.time);
   text += ',';
-  text += ship_name;
+  text += hull_name;
   for (const ForceColumn& column : force_columns()) append_csv(text, {column.read(s)});
   text += '\n';
 }
@@ -65,7 +65,7 @@ std::string panels_header() {
 
 void append_panel(std::string& text, const simulation::PanelSample& sample, const simulation::Scene& scene) {
   append_number(text, sample.time);
-  text.append(1, ',').append(ship_name(scene, sample.hull));
+  text.append(1, ',').append(hull_name(scene, sample.hull));
   append_row(text, sample);
 }
 

@@ -16,13 +16,13 @@ inline std::optional<simulation::FloeId> id_or_none(simulation::FloeId floe) {
 }
 
 /// The name of a ship or structure, by its index; empty where there is none.
-std::string_view ship_name(const simulation::Scene& scene, int ship);
+std::string_view hull_name(const simulation::Scene& scene, int ship);
 
 /// The lines of a run's text files (docs/run-folder.md). Each appends whole lines to a buffer.
 
 /// forces.csv's first line: the names of its columns, with their units.
 std::string forces_header();
-void append_forces_row(std::string& text, const simulation::ShipSample& sample, std::string_view ship_name);
+void append_forces_row(std::string& text, const simulation::HullSample& sample, std::string_view hull_name);
 
 /// contacts.csv: who touched whom at a frame, and how hard at the peaks of a contact's force.
 std::string contacts_header();

@@ -38,8 +38,7 @@ RunRecorder::RunRecorder(Simulation& simulation, RunWriter& writer, const Loaded
       scene_(&scene),
       wall_time_before_(wall_time),
       steps_per_frame_(steps_in(scene.scene.record.frames_interval, scene.scene.time.step)),
-      longest_step_(std::int64_t{1} << simulation.world().setup.levels),
-      end_checkpoint_at_(-longest_step_) {}
+      longest_step_(std::int64_t{1} << simulation.world().setup.levels) {}
 
 void RunRecorder::begin(simulation::Journal& journal) {
   writer_->record(journal);
@@ -71,7 +70,7 @@ Result<> RunRecorder::before_end(std::int64_t ticks_left) {
 }
 
 bool RunRecorder::has_end_checkpoint() const {
-  return simulation_->steps() - end_checkpoint_at_ < longest_step_;
+  return end_checkpoint_at_ && simulation_->steps() - *end_checkpoint_at_ < longest_step_;
 }
 
 Result<> RunRecorder::end() {

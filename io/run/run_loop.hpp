@@ -48,8 +48,8 @@ class RunRecorder {
   const LoadedScene* scene_;
   double wall_time_before_;
   std::int64_t steps_per_frame_;
-  std::int64_t longest_step_;       ///< [ticks]
-  std::int64_t end_checkpoint_at_;  ///< the step; far before the first where there is none
+  std::int64_t longest_step_;                      ///< [ticks]
+  std::optional<std::int64_t> end_checkpoint_at_;  ///< the tick of the last one that before_end() wrote
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_checkpoint_ = start_;
 };

@@ -48,7 +48,7 @@ struct Run {
   std::vector<RunFloe> floes;  ///< by floe id
   FloeShapes shapes;           ///< theirs, in their body frames
   std::vector<simulation::Event> events;
-  std::vector<simulation::ShipSample> samples;
+  std::vector<simulation::HullSample> samples;
   std::vector<Frame> frames;
   std::vector<RunContact> contacts;  ///< at frames, as time goes; none in runs of versions that did not record them
   std::vector<RunContact> peaks;     ///< of a contact's force, as time goes; none in runs of versions before

@@ -191,11 +191,11 @@ void RunWriter::record(simulation::Journal& journal) {
     if (const auto* cut = std::get_if<simulation::RejectedCut>(&event.what))
       if (auto written = write_rejected_cut(folder(), event.time, *cut); !written) status_ = std::move(written);
   }
-  for (const simulation::ShipSample& sample : journal.samples) {
+  for (const simulation::HullSample& sample : journal.samples) {
     append_line(kForces,
-                [&](std::string& line) { append_forces_row(line, sample, ship_name(scene_->scene, sample.ship)); });
+                [&](std::string& line) { append_forces_row(line, sample, hull_name(scene_->scene, sample.ship)); });
   }
-  for (const simulation::ShipSample& sample : journal.samples) {
+  for (const simulation::HullSample& sample : journal.samples) {
     std::vector<Peak>& peaks = peaks_[static_cast<std::size_t>(sample.ship)].of_column;
     for (std::size_t i = 0; i < peaks.size(); ++i) peaks[i].include(peak_columns_[i]->read(sample), sample.time);
   }
@@ -208,7 +208,7 @@ void RunWriter::record(simulation::Journal& journal) {
 
 void RunWriter::frame(const simulation::Simulation& simulation) {
   std::vector<Motion> ships;
-  for (const simulation::ShipState& ship : simulation.ship_states()) {
+  for (const simulation::HullState& ship : simulation.ship_states()) {
     ships.push_back({ship.world_from_ship.position, ship.heading, ship.velocity, ship.angular_velocity});
   }
   frames_.begin(simulation.time(), ships);

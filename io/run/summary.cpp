@@ -150,8 +150,8 @@ std::vector<std::string> ship_contact_warnings(const Simulation& simulation) {
       break;
     }
     warnings.push_back(fmt::format(
-        "{} and {} came into contact at {:.6g} s, closing at {:.3g} m/s; {}", ship_name(simulation.scene(), event.ship),
-        ship_name(simulation.scene(), c.other), event.time, c.closing_speed,
+        "{} and {} came into contact at {:.6g} s, closing at {:.3g} m/s; {}", hull_name(simulation.scene(), event.ship),
+        hull_name(simulation.scene(), c.other), event.time, c.closing_speed,
         c.is_prescribed ? "the motion of both is prescribed, so they pass through each other and no force is "
                           "computed: give the ship thrust_N or an engine"
                         : "forces.csv has these loads apart from those of ice, in its *_from_ships columns"));

@@ -231,7 +231,10 @@ const Description<RecordSettings> kRecord{
          &RecordSettings::contacts),
      member("least_peak_N", "N", from(0, 1e12),
             "contacts.csv has a peak of a contact's force from this one on; summary.json counts those below it",
-            &RecordSettings::least_peak)}};
+            &RecordSettings::least_peak),
+     member("peak_response_s", "s", from(0, 10),
+            "time constant of the gauge through which a contact's force is followed for its peaks; 0: each step's own",
+            &RecordSettings::peak_response)}};
 
 const Description<SceneInput> kScene{
     {as(FieldKind::kName,

@@ -35,7 +35,7 @@ Numbers pair_of(double x, double y) {
   return Numbers(2, values.data());
 }
 
-py::dict forces_of(const simulation::ShipSample& sample) {
+py::dict forces_of(const simulation::HullSample& sample) {
   py::dict forces;
   forces["t_s"] = sample.time;
   for (const io::ForceColumn& column : io::force_columns())
@@ -45,11 +45,11 @@ py::dict forces_of(const simulation::ShipSample& sample) {
 
 py::object ships_of(const Simulation& python) {
   const simulation::Simulation& simulation = python.between_steps();
-  const std::vector<simulation::ShipState> states = simulation.ship_states();
+  const std::vector<simulation::HullState> states = simulation.ship_states();
   const std::vector<simulation::Helm>& helms = simulation.world().population.helms;
   py::list ships;
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const simulation::ShipState& state = states[i];
+    const simulation::HullState& state = states[i];
     const simulation::Helm helm = i < helms.size() ? helms[i] : simulation::Helm{};
     const geometry::Point at = state.world_from_ship.position;
     const auto& sample = python.last_sample(i);

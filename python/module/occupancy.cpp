@@ -122,7 +122,7 @@ py::array_t<float> occupancy(const Simulation& python, const py::object& ship, s
   const simulation::Simulation& simulation = python.between_steps();
   const ImageFrame frame = checked_frame(shape, cell, ahead);
   const std::size_t own = python.index_of(ship, "occupancy");
-  const std::vector<simulation::ShipState> ships = simulation.ship_states();
+  const std::vector<simulation::HullState> ships = simulation.ship_states();
   const geometry::Pose world_from_ship = ships[own].world_from_ship;
   CoverImage ice(frame), others(frame);
   add_floes(simulation, world_from_ship, ice, frame);

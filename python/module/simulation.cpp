@@ -111,7 +111,7 @@ void Simulation::take_journal() {
     io::append_event(events_, event, scene, ice ? floes[ice->floe].parent : simulation::kNoFloe);
     events_.back() = ',';  // in place of the line's end
   }
-  for (const simulation::ShipSample& sample : journal.samples) samples_[sample.ship] = sample;
+  for (const simulation::HullSample& sample : journal.samples) samples_[sample.ship] = sample;
   if (recording_)
     recording_->take_step();
   else

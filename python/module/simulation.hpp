@@ -48,7 +48,7 @@ class Simulation {
   /// Of a ship given by an index or a name; `caller` is named in what it raises.
   std::size_t index_of(const py::object& ship, const char* caller) const;
   /// The last recorded row of a ship; none before the first.
-  const std::optional<simulation::ShipSample>& last_sample(std::size_t ship) const { return samples_[ship]; }
+  const std::optional<simulation::HullSample>& last_sample(std::size_t ship) const { return samples_[ship]; }
   const io::LoadedScene& scene() const { return scene_->loaded(); }
   const std::shared_ptr<Scene>& given_scene() const { return scene_; }
 
@@ -72,7 +72,7 @@ class Simulation {
   std::unique_ptr<Recording> recording_;
   double until_ = 0;    ///< that run() was last asked for [s]
   std::string events_;  ///< since the last call of events(): JSON objects, a comma behind each
-  std::vector<std::optional<simulation::ShipSample>> samples_;  ///< per ship
+  std::vector<std::optional<simulation::HullSample>> samples_;  ///< per ship
   std::vector<py::object> pilots_;                              ///< per ship; None: its own
   std::exception_ptr pilot_error_;                              ///< raised by one in a step, to be raised after it
   std::shared_ptr<std::int64_t> views_ = std::make_shared<std::int64_t>(0);

@@ -29,10 +29,10 @@ std::vector<SeenShip> seen_ships(const Setup& setup, const Clock& clock, const P
 
 std::vector<SeenFloe> seen_floes(const Clock& clock, const Population& population) {
   std::vector<SeenFloe> seen;
+  const Vector drift = clock.drift();
   for (FloeId id = 0; id < population.floe_count(); ++id)
     if (population.is_floating(id))
-      seen.push_back(
-          {id, population.bodies.position[population.body_of(id)] + clock.drift(), population.floes[id].area});
+      seen.push_back({id, population.bodies.position[population.body_of(id)] + drift, population.floes[id].area});
   return seen;
 }
 

@@ -1,6 +1,7 @@
 #include "simulation/ship/load_peaks.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "simulation/world/world.hpp"
 
@@ -57,14 +58,21 @@ void record_peak(const Setup& setup, const LoadTrack& track, LoadPeaks& peaks, J
   }
 }
 
-/// Enters a force into a track that rises. Returns whether it is the largest.
-bool rises(double force, LoadTrack& track) {
+/// Of a gauge's way to a force that stays for a step, dF/dt = (force - F)/τ: the share that it goes.
+double response_in(const Setup& setup) {
+  const double time_constant = setup.scene.record.peak_response;
+  return time_constant > 0 ? -std::expm1(-setup.step / time_constant) : 1;
+}
+
+/// Enters the force of a step into a track. Returns whether what the gauge has is the largest.
+bool rises(double force, double response, LoadTrack& track) {
+  track.force += response * (force - track.force);
   if (!track.is_rising) {
-    track.least = std::min(track.least, force);
-    track.is_rising = force > 2 * track.least;
+    track.least = std::min(track.least, track.force);
+    track.is_rising = track.force > 2 * track.least;
     if (track.is_rising) track.largest = 0;
   }
-  return track.is_rising && force > track.largest;
+  return track.is_rising && track.force > track.largest;
 }
 
 }  // namespace
@@ -104,28 +112,30 @@ void follow_loads(const Setup& setup, const Clock& clock, const Population& popu
   Clock at_end = clock;
   advance(at_end);
   for (LoadTrack& track : peaks.tracks) track.is_seen = false;
+  const double response = response_in(setup);
   for (std::size_t i = 0; i < step.slopes.size(); ++i) {
     const Contact& c = step.contacts[i];
     const double force = c.steady_share * c.total_normal_impulse() / setup.step;
     if (population.is_hull(c.b) || (force == 0 && c.record->load_track == 0)) continue;
     LoadTrack& track = track_at(peaks, *c.record);
     track.is_seen = true;
-    if (rises(force, track)) {
-      track.largest = force;
+    if (rises(force, response, track)) {
+      const double share = c.steady_share * track.force / force;  // of what the contact bears in this step
+      track.largest = track.force;
       track.time = at_end.time();
       track.at_largest = state_of(setup, clock, population, c, &step.slopes[i]);
-      track.at_largest.force = c.steady_share * track.at_largest.force;
-      track.at_largest.pressure *= c.steady_share;
+      track.at_largest.force = share * track.at_largest.force;
+      track.at_largest.pressure *= share;
       track.point_in_hull =
           inverse_transform(dynamics::water_from_body(population.bodies, c.a), c.centre_of_pressure());
       track.ending = PeakEnd::kSlip;
     }
     const PeakEnd fate = fate_of(population, step, c);
     if (fate != PeakEnd::kSlip) track.ending = fate;
-    if (track.is_rising && force < track.largest / 2) {
+    if (track.is_rising && track.force < track.largest / 2) {
       record_peak(setup, track, peaks, journal);
       track.is_rising = false;
-      track.least = force;
+      track.least = track.force;
     }
   }
   for (const LoadTrack& track : peaks.tracks)

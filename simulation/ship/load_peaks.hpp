@@ -18,7 +18,8 @@ struct StepData;
 struct LoadTrack {
   std::int64_t id = 0;              ///< that the contact's record has
   bool is_rising = true;            ///< it has come to more than twice its least since the last peak
-  double least = 0;                 ///< of the force since the last peak [N]
+  double force = 0;                 ///< the contact's, through the record's response [N]
+  double least = 0;                 ///< of it since the last peak [N]
   double largest = 0;               ///< while it is rising [N]
   double time = 0;                  ///< of the largest [s]
   ContactState at_largest;          ///< but for its place on the waterline

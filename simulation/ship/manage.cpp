@@ -113,7 +113,7 @@ Vector on_pattern(const ManagingPilot& pilot, const PilotView& view, Frame& fram
 }
 
 /// Whether another ship is on its way to a floe.
-bool is_taken(const PilotView& view, std::int64_t floe) {
+bool is_taken(const PilotView& view, FloeId floe) {
   for (std::size_t i = 0; i < view.ships.size(); ++i)
     if (static_cast<int>(i) != view.ship && view.ships[i].target_floe == floe) return true;
   return false;
@@ -122,9 +122,9 @@ bool is_taken(const PilotView& view, std::int64_t floe) {
 /// The largest floe within the pattern's box that no other ship goes to; the one at hand stays until it is
 /// broken, reached or past.
 void choose_floe(const ManagingPilot& pilot, const PilotView& view, const Frame& frame, PatternMemory& memory) {
-  const std::int64_t before = memory.target;
+  const FloeId before = memory.target;
   const bool is_reached = length(memory.target_at - view.own().position_in_world) < kTurnBefore * view.own().length;
-  memory.target = kNoTarget;
+  memory.target = kNoFloe;
   double largest = 0;
   for (const SeenFloe& floe : view.floes()) {
     const Vector place = frame.in_pattern(floe.position_in_world - frame.body);
@@ -146,7 +146,7 @@ Vector to_largest_floe(const ManagingPilot& pilot, const PilotView& view, const 
     choose_floe(pilot, view, frame, memory);
     memory.next_choice = view.time + kChoiceInterval;
   }
-  const bool is_waiting = memory.target == kNoTarget;
+  const bool is_waiting = memory.target == kNoFloe;
   const Point station = frame.body + pilot.distance * frame.upstream;
   const Vector way = (is_waiting ? station : memory.target_at) - view.own().position_in_world;
   const double far = length(way);

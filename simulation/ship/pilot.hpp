@@ -8,14 +8,13 @@
 #include "dynamics/planar.hpp"
 #include "dynamics/ship/propulsion.hpp"
 #include "simulation/ship/pilot_settings.hpp"
+#include "simulation/world/event.hpp"
 
 namespace polynya::simulation {
 
-inline constexpr std::int64_t kNoTarget = -1;
-
 /// A floe as pilots see it.
 struct SeenFloe {
-  std::int64_t floe = 0;              ///< its id
+  FloeId floe = 0;
   geometry::Point position_in_world;  ///< of its centre of mass [m]
   double area = 0;                    ///< [m²]
 };
@@ -31,7 +30,7 @@ struct SeenShip {
   bool is_wall = false;
   bool is_fixed = false;  ///< a structure or a wall
   double lap_share = 0;   ///< of the pattern that it goes round, done
-  std::int64_t target_floe = kNoTarget;
+  FloeId target_floe = kNoFloe;
 };
 
 /// What a pilot knows of its ship in a step.
@@ -63,12 +62,12 @@ struct Command {
 
 /// What a pilot that manages ice remembers besides.
 struct PatternMemory {
-  double upstream = 0;              ///< the direction against the drift [rad]
-  double lap_share = -1;            ///< of the lap, done; < 0: before the first
-  geometry::Vector carried;         ///< how far the drift has taken the pattern since its lap began [m]
-  std::int64_t target = kNoTarget;  ///< the floe to which it goes
-  geometry::Point target_at;        ///< over ground [m]
-  double next_choice = 0;           ///< [s]
+  double upstream = 0;        ///< the direction against the drift [rad]
+  double lap_share = -1;      ///< of the lap, done; < 0: before the first
+  geometry::Vector carried;   ///< how far the drift has taken the pattern since its lap began [m]
+  FloeId target = kNoFloe;    ///< the floe to which it goes
+  geometry::Point target_at;  ///< over ground [m]
+  double next_choice = 0;     ///< [s]
 };
 
 /// What a pilot remembers from step to step. Kept in checkpoints.

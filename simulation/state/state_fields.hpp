@@ -190,8 +190,8 @@ void fields(Archive& archive, Is<std::array<std::int64_t, 2 * kMostLevels + 1>> 
 template <class Archive>
 void fields(Archive& archive, Is<LoadTrack> auto& t) {
   auto& s = t.at_largest;
-  archive(t.id, t.is_rising, t.least, t.largest, t.time, s.on.ship, s.by.floe, s.point_in_world, s.force, s.depth,
-          s.is_crushing, s.width, s.height, s.pressure, s.thickness, t.point_in_hull, t.ending);
+  archive(t.id, t.is_rising, t.force, t.least, t.largest, t.time, s.on.ship, s.by.floe, s.point_in_world, s.force,
+          s.depth, s.is_crushing, s.width, s.height, s.pressure, s.thickness, t.point_in_hull, t.ending);
 }
 template <class Archive>
 void fields(Archive& archive, Is<LoadPeaks> auto& p) {

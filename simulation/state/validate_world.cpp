@@ -68,8 +68,7 @@ Defect check_motion(const Population& population, const Setup& setup, BodyIndex 
   if (std::abs(r.cosine * r.cosine + r.sine * r.sine - 1) > 1e-9)
     return fmt::format("body {} has a rotation that is none", i);
   if (b.boundary[i] == nullptr) return fmt::format("body {} has no boundary", i);
-  const double rim_speed = length(b.velocity[i]) + std::abs(b.angular_velocity[i]) * b.bounding_radius[i];
-  if (b.is_awake[i] == 0 && rim_speed >= kRestSpeed && setup.shortcuts.sleeps)
+  if (b.is_awake[i] == 0 && rim_speed_of(b, i) >= kRestSpeed && setup.shortcuts.sleeps)
     return fmt::format("body {} moves asleep", i);
   return {};
 }

@@ -33,10 +33,6 @@ constexpr double kLeastShare = 0.25;
 /// Ticks after which it is tried again, where too few would.
 constexpr std::int64_t kWait = 8;
 
-double rim_speed_of(const dynamics::Bodies& bodies, BodyIndex i) {
-  return length(bodies.velocity[i]) + std::abs(bodies.angular_velocity[i]) * bodies.bounding_radius[i];
-}
-
 /// A bound of the speed at which any two points of two bodies that touch part or close [m/s].
 double relative_speed(const dynamics::Bodies& bodies, BodyIndex a, BodyIndex b) {
   return length(bodies.velocity[a] - bodies.velocity[b]) +

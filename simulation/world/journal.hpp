@@ -36,7 +36,7 @@ struct Death {
 
 /// One recorded row of one ship, in the ship's frame. Loads are means over the interval where nothing else is
 /// stated; the columns of forces.csv that follow are in io/run/force_columns.cpp.
-struct ShipSample {
+struct HullSample {
   double time = 0;  ///< end of the interval [s]
   int ship = 0;
   dynamics::Planar from_ice;            ///< around the hull: momentum given / time [N, N m]
@@ -64,7 +64,7 @@ struct ShipSample {
   double delivered_power = 0;        ///< by the lever, of the installed power; 0 where that is not known [W]
   int contacts = 0;                  ///< with ice, at the sampled step
   int contacts_with_ships = 0;       ///< with other ships and structures, at the sampled step
-  friend bool operator==(const ShipSample&, const ShipSample&) = default;
+  friend bool operator==(const HullSample&, const HullSample&) = default;
 };
 
 /// One recorded row of a panel of a hull that ice pressed in the interval, in the hull's frame.
@@ -88,7 +88,7 @@ struct Journal {
   std::vector<Event> events;
   std::vector<Birth> births;
   std::vector<Death> deaths;
-  std::vector<ShipSample> samples;
+  std::vector<HullSample> samples;
   std::vector<LoadPeak> peaks;
   std::vector<PanelSample> panels;
   void clear() {

@@ -52,8 +52,8 @@ void add_step(ShipLoads& sum, const ShipLoads& step, double dt) {
 }
 
 /// What the helm is at, and what moved the ship beside ice and other ships.
-void add_sailing(const Setup& setup, const Helm& helm, const SailingLoads& loads, double interval, ShipSample& sample) {
-  ShipSample& s = sample;
+void add_sailing(const Setup& setup, const Helm& helm, const SailingLoads& loads, double interval, HullSample& sample) {
+  HullSample& s = sample;
   const auto mean = [&](Planar impulse) { return (1 / interval) * impulse; };
   s.friction_of_ice = mean(loads.ice_friction);
   s.from_water = mean(loads.water);
@@ -69,27 +69,27 @@ void add_sailing(const Setup& setup, const Helm& helm, const SailingLoads& loads
 }
 
 /// What holds a hull at its speed.
-double holding_force(const ShipSample& s) {
+double holding_force(const HullSample& s) {
   return -(s.from_ice.surge + s.from_ships.surge + s.from_submerged.surge + s.from_water.surge);
 }
 
-double thrust_of(const Ship& ship, const ShipSample& s) {
+double thrust_of(const Ship& ship, const HullSample& s) {
   if (const auto* constant = std::get_if<ConstantThrust>(&ship.propulsion)) return constant->thrust;
   return std::holds_alternative<Engine>(ship.propulsion) ? s.from_engine.surge : holding_force(s);
 }
-double thrust_of(const Structure&, const ShipSample& s) {
+double thrust_of(const Structure&, const HullSample& s) {
   return holding_force(s);
 }
-double thrust_of(const Wall& wall, const ShipSample& s) {
+double thrust_of(const Wall& wall, const HullSample& s) {
   return wall.pressure ? wall.load() : holding_force(s);
 }
 
-ShipSample sample_of(const Setup& setup, const Clock& clock, const Population& population, BodyIndex ship,
+HullSample sample_of(const Setup& setup, const Clock& clock, const Population& population, BodyIndex ship,
                      const Accounts& accounts) {
   const ShipLoads& loads = accounts.loads[ship];
   const dynamics::Bodies& bodies = population.bodies;
   const double interval = static_cast<double>(setup.steps_per_sample) * setup.scene.time.step;
-  ShipSample sample;
+  HullSample sample;
   sample.time = clock.time();
   sample.ship = ship;
   sample.from_ice = over(loads.ice.impulse, interval);

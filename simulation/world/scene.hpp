@@ -249,6 +249,9 @@ struct RecordSettings {
   double frames_interval = 2.0;  ///< between frames [s]
   RecordedContacts contacts = RecordedContacts::kShips;
   double least_peak = 1e3;  ///< of a contact's force that is recorded [N]
+  /// Time constant of the gauge through which a contact's force is followed; 0: each step's own force [s]. With less,
+  /// peaks are of the step: a floe that tilts takes its impulse in one, however short.
+  double peak_response = 0.02;
   friend bool operator==(const RecordSettings&, const RecordSettings&) = default;
 };
 

@@ -71,7 +71,7 @@ TEST(RunCommand, LeadsWithTheTrueForce) {
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const auto run = checked(io::read_run(folder / model));
     double mean = 0, step = 0;
-    for (const simulation::ShipSample& sample : run->samples) {
+    for (const simulation::HullSample& sample : run->samples) {
       mean = std::min(mean, sample.from_ice.surge);
       step = std::min(step, sample.from_ice_largest.surge);
     }
@@ -144,7 +144,7 @@ TEST(RunCommand, ShipsThatMeetAreReportedAndNoIceLoad) {
   EXPECT_NEAR(run->events[1].time, 15, 0.02);
   EXPECT_TRUE(std::get<simulation::ShipContact>(run->events[1].what).is_prescribed);
   double most = 0;
-  for (const simulation::ShipSample& sample : run->samples) {
+  for (const simulation::HullSample& sample : run->samples) {
     EXPECT_EQ(sample.from_ice.surge, 0);
     EXPECT_EQ(sample.from_ice_largest.surge, 0);
     most = std::max(most, sample.from_ships_largest.surge);

@@ -87,9 +87,9 @@ TEST_F(ViewCommand, ThePageHoldsTheRunsOwnNumbers) {
   expect("born_s", run->floes, [](const io::RunFloe& floe) { return floe.birth.time; });
   expect("died_s", run->floes, [](const io::RunFloe& floe) { return floe.died; });
   expect("parent", run->floes, [](const io::RunFloe& floe) { return static_cast<std::int32_t>(floe.birth.parent); });
-  expect("force_t_s", run->samples, [](const simulation::ShipSample& row) { return row.time; });
+  expect("force_t_s", run->samples, [](const simulation::HullSample& row) { return row.time; });
   for (const char* name : {"surge_N", "surge_max_N"})
-    expect(name, run->samples, [&](const simulation::ShipSample& row) { return io::force_column(name).read(row); });
+    expect(name, run->samples, [&](const simulation::HullSample& row) { return io::force_column(name).read(row); });
   EXPECT_EQ(held.info.find("events")->items().size(), run->events.size());
   const io::JsonValue& cause = held.info.find("force_causes")->items().at(0);
   EXPECT_EQ(cause.find("column")->text() + cause.find("unit")->text(), "surge_NN");

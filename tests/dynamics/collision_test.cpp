@@ -2,6 +2,7 @@
 // together; what a contact that crushes carries; overlap that is taken away without speed.
 #include <gtest/gtest.h>
 
+#include "dynamics/contact/contact_tracker.hpp"
 #include "dynamics/contact/restitution_law.hpp"
 #include "tests/dynamics/scenery.hpp"
 
@@ -391,6 +392,18 @@ TEST(Separation, CountsInWhatABodyHasTravelled) {
       EXPECT_GT(way, 0);
     }
   }
+}
+
+TEST(Tracker, EndsWhatWasCrushedWhereEdgesMeetWithoutAnOverlap) {
+  const Bodies bodies = two_floes(0, 3);
+  std::vector<PersistentContact> records(1), scratch;
+  records[0].loaded_area = records[0].crushed.area = 0.2;
+  std::vector<PartedContact> parted;
+  ContactTracker(0, 1, records, scratch, parted, 1, 0.01).update({}, {}, bodies);
+  EXPECT_TRUE(records.empty());
+  ASSERT_EQ(parted.size(), 1U);
+  EXPECT_EQ(std::pair(parted[0].a, parted[0].b), std::pair(BodyIndex{0}, BodyIndex{1}));
+  EXPECT_EQ(parted[0].crushed.area, 0.2);
 }
 
 }  // namespace

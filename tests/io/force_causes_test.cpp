@@ -10,7 +10,7 @@ namespace polynya::io {
 namespace {
 
 /// What the parts of each direction add up to; a share counts in the column that contains it.
-std::map<std::string_view, double> sums(const simulation::ShipSample& row) {
+std::map<std::string_view, double> sums(const simulation::HullSample& row) {
   std::map<std::string_view, double> sums;
   for (const ForceCause& cause : force_causes())
     if (cause.share_of.empty()) sums[cause.direction] += force_column(cause.column).read(row);
@@ -18,7 +18,7 @@ std::map<std::string_view, double> sums(const simulation::ShipSample& row) {
 }
 
 TEST(ForceCauses, AddUpToTheForceOnTheShip) {
-  simulation::ShipSample row;  // each number in it another power of two
+  simulation::HullSample row;  // each number in it another power of two
   row.from_ice.surge = 1, row.from_ice.sway = 2, row.from_ice.yaw = 4;
   row.from_ships.surge = 8, row.from_ships.sway = 16, row.from_ships.yaw = 32;
   row.from_submerged.surge = 64, row.from_submerged.yaw = 128;

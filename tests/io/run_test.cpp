@@ -40,7 +40,7 @@ const std::string kScene = R"({
 struct Recorded {
   std::vector<simulation::Birth> births;
   std::vector<simulation::Event> events;
-  std::vector<simulation::ShipSample> samples;
+  std::vector<simulation::HullSample> samples;
   std::vector<std::pair<double, std::vector<simulation::FloeState>>> frames;
   std::vector<std::pair<double, std::vector<geometry::Point>>> centroids;
   std::vector<RunContact> contacts;
@@ -237,7 +237,7 @@ TEST_F(RunFiles, ForcesAreReadByTheirColumnsNames) {
     if (!column.is_optional) kept.insert(kept.begin(), &column);
   std::string older = "t_s,ship";
   for (const ForceColumn* column : kept) older.append(1, ',').append(column->name);
-  for (const simulation::ShipSample& sample : recorded.samples) {
+  for (const simulation::HullSample& sample : recorded.samples) {
     older += fmt::format("\n{},a ship", sample.time);
     for (const ForceColumn* column : kept) older += fmt::format(",{}", column->read(sample));
   }

@@ -97,6 +97,16 @@ def test_what_is_stopped_or_killed_continues_and_comes_to_the_same_bytes(folder)
         assert files_of(folder / f"studies/{name}/cases/000000") == whole
 
 
+def test_a_case_whose_run_crashes_has_failed(folder):
+    running, child = start_long_case(folder, "crashed")
+    os.kill(child, signal.SIGABRT)
+    let_go(child)
+    words = running.communicate()[1]
+    assert running.returncode != 0 and "case 0: crashed by signal 6" in words
+    assert json.loads((folder / "studies/crashed/cases/000000/case.json").read_text())["state"] == "failed"
+    assert "1 failed" in study("run", "studies/crashed", code=4)
+
+
 def test_workers_whose_parent_is_killed_stop_their_runs_also_in_the_background(folder):
     run = planned(folder, set=LONG | {"time.step_s": 0.0005}) / "cases/000000/run"
     # As a batch script starts it: a background job of a shell, which ignores SIGINT.

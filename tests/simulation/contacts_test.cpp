@@ -33,9 +33,9 @@ TEST(Contacts, OfAShipAddUpToItsLoadInTheStep) {
   int most = 0;
   bool has_crushed = false;
   while (simulation.time() < 25) {
-    const ShipState before = simulation.ship_states()[0];
+    const HullState before = simulation.ship_states()[0];
     simulation.step();
-    const ShipSample sample = simulation.journal().samples.back();
+    const HullSample sample = simulation.journal().samples.back();
     simulation.journal().clear();
     Vector force;
     double moment = 0;
@@ -119,7 +119,7 @@ TEST(ShipContacts, AreNoIceLoadAndEndAsEq5Says) {
   const Scene scene = Build(Laws::kPaper).without_drag().ship(barge_ahead).ship(barge_back);
   const auto [simulation, story] = run(scene, 1);
   double surge = 0;
-  for (const ShipSample& sample : story.samples) {
+  for (const HullSample& sample : story.samples) {
     EXPECT_EQ(sample.from_ice.surge, 0);
     EXPECT_EQ(sample.from_ice_largest.surge, 0);
     EXPECT_EQ(sample.collision.surge, 0);
@@ -151,14 +151,14 @@ TEST(ShipContacts, WithIceBetweenTheTwoLoadsAddUpToTheMotion) {
                                          40);
     Vector by_ice, by_pile;
     double turned_by_ice = 0, turned_by_pile = 0;
-    for (const ShipSample& sample : story.samples) {
+    for (const HullSample& sample : story.samples) {
       if (sample.ship != 0) continue;
       by_ice += 0.1 * Vector{sample.from_ice.surge, sample.from_ice.sway};
       by_pile += 0.1 * Vector{sample.from_ships.surge, sample.from_ships.sway};
       turned_by_ice += 0.1 * sample.from_ice.yaw;
       turned_by_pile += 0.1 * sample.from_ships.yaw;
     }
-    const ShipState end = simulation.ship_states()[0];
+    const HullState end = simulation.ship_states()[0];
     EXPECT_LT(by_ice.x, -1e4);
     EXPECT_LT(by_pile.x, -1e6);
     EXPECT_NEAR((turned_by_ice + turned_by_pile) / (5e9 * end.angular_velocity), 1, 1e-9);
@@ -186,7 +186,7 @@ TEST(ShipContacts, OfPrescribedMotionsAreRecorded) {
       EXPECT_EQ(contact.relative_speed, 2);
       EXPECT_GT(contact.closing_speed, 0);
       EXPECT_TRUE(contact.is_prescribed);
-      EXPECT_EQ(largest(story, &ShipSample::from_ships), 0);
+      EXPECT_EQ(largest(story, &HullSample::from_ships), 0);
     }
   }
 }

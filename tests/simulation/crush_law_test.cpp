@@ -150,13 +150,13 @@ TEST(CrushLaw, ASqueezeAlongTheMidbodyHasOneAnswer) {
   others[1].tolerance = 1e-6;
   others[2].is_warm_started = false;
   const Story first = surge_of({});
-  const double mean_of_first = mean(first, &ShipSample::from_ice);
+  const double mean_of_first = mean(first, &HullSample::from_ice);
   EXPECT_LT(mean_of_first, -5e4);
   EXPECT_GT(mean_of_first, -5e5);
   for (const ContactSettings& settings : others) {
     const Story surge = surge_of(settings);
-    EXPECT_NEAR(mean(surge, &ShipSample::from_ice) / mean_of_first, 1, 0.01);
-    EXPECT_NEAR(largest(surge, &ShipSample::from_ice) / largest(first, &ShipSample::from_ice), 1, 0.01);
+    EXPECT_NEAR(mean(surge, &HullSample::from_ice) / mean_of_first, 1, 0.01);
+    EXPECT_NEAR(largest(surge, &HullSample::from_ice) / largest(first, &HullSample::from_ice), 1, 0.01);
   }
 }
 
@@ -168,7 +168,7 @@ double mean_load_in_level_ice(double step, int substeps) {
         Build().step(step).ship(icebreaker({-1, offset}, ConstantSpeed{1})).floe(rectangle(0, -100, 300, 100));
     scene.contact.substeps = substeps;
     scene.fracture.splitting = fracture::SplittingModel::kNone;           // it stands for ice without end
-    sum -= mean(run(scene, 120).story, &ShipSample::from_ice, 0, 20.05);  // the bow breaks its way in first
+    sum -= mean(run(scene, 120).story, &HullSample::from_ice, 0, 20.05);  // the bow breaks its way in first
   }
   return sum / 10;
 }
@@ -281,7 +281,7 @@ TEST(CrushingCollision, LevelIceDependsOnTheRadiusALittle) {
   const auto resistance = [](double radius) {
     Scene scene = Build(Laws::kPaper).ship(icebreaker({-2, 0}, ConstantSpeed{1})).floe(rectangle(0, -75, 300, 75));
     scene.contact.circle_radius = radius;
-    return -mean(run(scene, 130).story, &ShipSample::from_ice, 0, 30.05);
+    return -mean(run(scene, 130).story, &HullSample::from_ice, 0, 30.05);
   };
   const double fine = resistance(0.5), coarse = resistance(2);
   EXPECT_GT(fine, 1e4);

@@ -40,7 +40,7 @@ TEST(Decision, ThePapersPlateIsKnifeEdge) {
     const auto [simulation, story] = run(
         ship_against(icebreaker({0, 0}, ConstantThrust{0}, speed), rectangle(0.001, -100, 110.001, 100), Laws::kPaper),
         0.5);
-    const double peak = largest(story, &ShipSample::collision);
+    const double peak = largest(story, &HullSample::collision);
     EXPECT_NEAR(peak, 1.1 * speed / (1e-7 + 1 / (900 * 0.5 * 110 * 200)) / 0.5, 0.01e6);
     EXPECT_EQ(simulation.counts().splits > 0, speed > 1);
     if (speed == 1.0) {

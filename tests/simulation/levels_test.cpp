@@ -30,7 +30,7 @@ double mean_surge(const Scene& scene) {
   const double speed = scene.ships.front().speed;
   const Trial trial = run(scene, 20.5 / speed);
   EXPECT_TRUE(trial.simulation.audit().is_closed());
-  return -mean(trial.story, &ShipSample::from_ice, 0, 10.5 / speed);
+  return -mean(trial.story, &HullSample::from_ice, 0, 10.5 / speed);
 }
 
 Scene with_one_step(Scene scene, double step) {

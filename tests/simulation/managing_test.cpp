@@ -172,8 +172,8 @@ Followed follow(const Scene& scene, double until) {
   const PatternLine line = line_of(pilot);
   Followed found;
   double before = 0, turned = 0;
-  for (const ShipSample& s : story.samples) {
-    for (const ShipSample& other : story.samples)
+  for (const HullSample& s : story.samples) {
+    for (const HullSample& other : story.samples)
       if (other.ship == 1 && s.ship == 0 && std::abs(other.time - s.time) < 1e-6)
         found.nearest = std::min(found.nearest, distance(s.position_in_world, other.position_in_world));
     if (s.ship != 0) continue;
@@ -215,7 +215,7 @@ TEST(Managing, APatternInTheIceIsRoundThere) {
   const double drift = 0.5, period = line_of(pilot).lap() / kSpeed;
   const Story story = run(managed({pilot}, {-drift, 0}), 0.9 * period).story;
   const PatternLine line = line_of(pilot);
-  for (const ShipSample& s : story.samples) {
+  for (const HullSample& s : story.samples) {
     if (s.ship == 0 && s.time > 0.25 * period)
       ASSERT_LT(off_line(line, s.position_in_world + Vector{drift * s.time, 0}), 40) << s.time;
   }
@@ -255,7 +255,7 @@ TEST(Managing, GoesRoundTheBodyNotThroughIt) {
   scene.water.drift_rows = {{0, 0.4, std::numbers::pi}, {300, 0.4, std::numbers::pi}, {301, 0.4, 0}};
   scene.water.drift = {};
   double nearest = 1e9, last_x = 0;
-  for (const ShipSample& s : run(scene, 1500).story.samples) {
+  for (const HullSample& s : run(scene, 1500).story.samples) {
     if (s.ship != 0) continue;
     nearest = std::min(nearest, length(s.position_in_world - Point{}));
     last_x = s.position_in_world.x;
@@ -281,7 +281,7 @@ TEST(Managing, GoesToTheLargestFloeThatWillPassAndOnToTheNext) {
     simulation.step();
     if (targets.empty() || targets.back() != target()) targets.push_back(target());
   }
-  targets.erase(std::ranges::remove(targets, kNoTarget).begin(), targets.end());
+  targets.erase(std::ranges::remove(targets, kNoFloe).begin(), targets.end());
   // What is left of the first is a floe of its own, and larger than the next.
   ASSERT_GE(targets.size(), 2U);
   EXPECT_EQ(targets[0], 1);
@@ -377,7 +377,7 @@ TEST(ChangingDrift, AMooredShipRidesAsTheSpringOfItsMooringHasIt) {
   const simulation::Setup setup(scene);
   const double inertia = ship.mass + setup.sailing[0].hull.added_mass.rows[0].surge;
   const double resistance = setup.sailing[0].hull.quadratic_resistance;
-  for (const ShipSample& s : run(scene, 1200).story.samples) {
+  for (const HullSample& s : run(scene, 1200).story.samples) {
     if (s.time < 200) continue;
     const double u = scene.water.drift_at(s.time).x;
     const double growth = (scene.water.drift_at(s.time + 1).x - scene.water.drift_at(s.time - 1).x) / 2;

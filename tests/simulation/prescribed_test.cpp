@@ -63,7 +63,7 @@ TEST(Prescribed, ACylinderCrushesTheChannelThatItLeaves) {
     const Audit audit = done.simulation.audit();
     EXPECT_NEAR(audit.sums.energy.crushing / (kLineLoad * area), 1, 0.02) << drift.speed << ' ' << drift.step;
     EXPECT_NEAR(done.simulation.area_ledger().brash_area / area, 1, 0.02) << "the channel is open";
-    EXPECT_NEAR(-mean(done.story, &ShipSample::from_ice, 0, 10 / drift.speed) / -load, 1, 0.02);
+    EXPECT_NEAR(-mean(done.story, &HullSample::from_ice, 0, 10 / drift.speed) / -load, 1, 0.02);
     EXPECT_EQ(done.simulation.floe_states().size(), 1u);
   }
 }

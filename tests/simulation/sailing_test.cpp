@@ -27,7 +27,7 @@ Build in_water(const Propulsion& propulsion, double speed, double step = 0.05) {
 }
 
 /// What a run of that ship recorded, with its accounts closed.
-std::vector<ShipSample> sail(const Scene& scene, double until) {
+std::vector<HullSample> sail(const Scene& scene, double until) {
   const Trial done = run(scene, until);
   EXPECT_TRUE(done.simulation.audit().is_closed());
   return done.story.samples;
@@ -79,7 +79,7 @@ TEST(Sailing, NoEnergyComesFromNothing) {
 }
 
 TEST(Sailing, AShipWithoutAnEngineCoastsToAStop) {
-  const std::vector<ShipSample> samples = sail(in_water(ConstantThrust{0}, 6, 0.5), 3600);
+  const std::vector<HullSample> samples = sail(in_water(ConstantThrust{0}, 6, 0.5), 3600);
   const double m = 1.05e7, d = 0.5 * 1000 * 0.004 * (1.7 * 120 * 6 + 0.579 * 120 * 24);
   for (std::size_t i = 1; i < samples.size(); ++i)
     ASSERT_LT(length(samples[i].velocity_in_world), length(samples[i - 1].velocity_in_world));
@@ -89,14 +89,14 @@ TEST(Sailing, AShipWithoutAnEngineCoastsToAStop) {
 }
 
 TEST(Sailing, AnEngineComesToItsOpenWaterSpeed) {
-  const std::vector<ShipSample> samples = sail(in_water(engine(), 0, 0.1), 900);
+  const std::vector<HullSample> samples = sail(in_water(engine(), 0, 0.1), 900);
   EXPECT_NEAR(samples.back().velocity_in_world.x, 8, 0.005 * 8);
   EXPECT_NEAR(samples.back().thrust, 2 / 3.0 * 1e6, 0.005 * 1e6);
   EXPECT_NEAR(samples.front().thrust, 1e6, 1e3);
 }
 
 /// Σ of the forces on the ship by cause [N, N m], in the ship's axes.
-dynamics::Planar sum_of_causes(const ShipSample& s, bool has_engine) {
+dynamics::Planar sum_of_causes(const HullSample& s, bool has_engine) {
   dynamics::Planar sum = s.from_water + s.from_rudder + s.from_mooring;
   sum += {s.from_ice.surge + s.from_ships.surge + s.from_submerged.surge, s.from_ice.sway + s.from_ships.sway,
           s.from_ice.yaw + s.from_ships.yaw + s.from_submerged.yaw};
@@ -153,7 +153,7 @@ TEST(Sailing, ARunGoesOnFromItsStateAsIfItHadNotStopped) {
       MooringSettings{.position_in_world = {}, .surge_damping = 1e5, .break_load = 1e5};  // breaks at once
   const Trial again = expect_resumes(scene, 5, 8);
   EXPECT_TRUE(again.simulation.world().population.helms[0].is_adrift);
-  const std::vector<ShipSample> whole = sail(scene, 8), &resumed = again.story.samples;
+  const std::vector<HullSample> whole = sail(scene, 8), &resumed = again.story.samples;
   ASSERT_GT(resumed.size(), 5u);
   EXPECT_EQ(whole[whole.size() - resumed.size()].from_water, resumed.front().from_water);
 }
@@ -175,11 +175,11 @@ TEST(Sailing, ShipsThatMeetAreAnEventAndNoLoadOfIce) {
   other.position_in_world = {125, 3};
   const Trial done = run(in_water(engine(), 2, 0.01).ship(other), 10);
   ASSERT_EQ(done.story.of_kind<ShipContact>().size(), 1U);
-  for (const ShipSample& s : done.story.samples) {
+  for (const HullSample& s : done.story.samples) {
     EXPECT_EQ(s.from_ice.surge, 0);
     EXPECT_EQ(s.friction_of_ice, dynamics::Planar{});
   }
-  EXPECT_GT(largest(done.story, &ShipSample::from_ships), 1e5);
+  EXPECT_GT(largest(done.story, &HullSample::from_ships), 1e5);
   expect_closed(done.simulation);
 }
 
@@ -198,7 +198,7 @@ TEST(Sailing, AMooringHoldsInACurrentAndBreaksAboveItsLoad) {
                                            .sway_damping = 5e5,
                                            .yaw_damping = 1e9};
   const auto [held, story_held] = run(scene, 600);
-  const ShipSample last = story_held.samples.back();
+  const HullSample last = story_held.samples.back();
   const double drag = 0.5 * 1000 * 6 * 0.8 * 0.25 * kLength;  // ½ρ T C_d L v²
   EXPECT_NEAR(last.from_water.sway, drag, 0.01 * drag);
   EXPECT_NEAR(last.from_mooring.sway, -drag, 0.01 * drag);
@@ -207,7 +207,7 @@ TEST(Sailing, AMooringHoldsInACurrentAndBreaksAboveItsLoad) {
   EXPECT_FALSE(held.world().population.helms[0].is_adrift);
   scene.ships[0].mooring->break_load = 0.5 * drag;
   const auto [broken, story_broken] = run(scene, 600);
-  const ShipSample after = story_broken.samples.back();
+  const HullSample after = story_broken.samples.back();
   EXPECT_TRUE(broken.world().population.helms[0].is_adrift);
   EXPECT_EQ(after.from_mooring, dynamics::Planar{});
   EXPECT_GT(after.position_in_world.y, 100);
@@ -238,7 +238,7 @@ TEST(Sailing, AMooringBreaksInOneEventWithItsForceAndItsOffset) {
   const geometry::Vector in_world = rotate(geometry::Rotation::by(heading), offset);
   EXPECT_NEAR(distance(place, scene.ships[0].position_in_world + in_world), 0, 1e-9);
   const auto row = std::ranges::find_if(
-      story.samples, [&](const ShipSample& s) { return s.time > breaks[0].time - 0.5 * scene.time.step; });
+      story.samples, [&](const HullSample& s) { return s.time > breaks[0].time - 0.5 * scene.time.step; });
   EXPECT_NEAR(std::hypot(row->from_mooring.surge, row->from_mooring.sway), broken.force, 1e-6 * broken.force);
   EXPECT_NEAR(distance(row->position_in_world, place), 0, 1e-9);
   EXPECT_TRUE(expect_resumes(scene, 200, 210).story.of_kind<MooringBreak>().empty());
@@ -268,14 +268,14 @@ TurningCircle turn(double rudder_angle) {
   World world(scene);
   while (world.clock.time() < 2500) step(world);
   TurningCircle circle;
-  const std::vector<ShipSample>& samples = world.journal.samples;
+  const std::vector<HullSample>& samples = world.journal.samples;
   const geometry::Point start = samples.front().position_in_world;
-  for (const ShipSample& s : samples) {
+  for (const HullSample& s : samples) {
     const geometry::Vector off = s.position_in_world - start;
     if (circle.advance == 0 && s.heading > M_PI / 2) circle.advance = off.x / kLength;
     if (circle.tactical_diameter == 0 && s.heading > M_PI) circle.tactical_diameter = off.y / kLength;
   }
-  const ShipSample& last = samples.back();
+  const HullSample& last = samples.back();
   const double speed = length(last.velocity_in_world);
   circle.steady_diameter = 2 * speed / last.yaw_rate / kLength;
   circle.speed_kept = speed / 6;
@@ -311,14 +311,14 @@ Build piloted(const PilotSettings& pilot, double speed = 4, const Steering& stee
   return scene;
 }
 
-double turned(const ShipSample& s) {
+double turned(const HullSample& s) {
   return s.heading / kDegree;
 }
 
 TEST(Pilot, LeverAndRudderMoveAtTheirRates) {
   Scene scene = piloted(TablePilot{{{0, 0, 0}, {10, 0, 0}, {10.001, 1, 35 * kDegree}}});
   std::get<Engine>(scene.ships[0].propulsion).lever_rate = 0.02;
-  const std::vector<ShipSample> samples = sail(scene, 80);
+  const std::vector<HullSample> samples = sail(scene, 80);
   EXPECT_EQ(samples[8].lever, 0);
   EXPECT_NEAR(samples[19].lever, 0.2, 0.01);                       // 10 s later
   EXPECT_NEAR(samples[14].steering_angle, 15 * kDegree, kDegree);  // 5 s at 3 °/s
@@ -338,14 +338,14 @@ TEST(Pilot, HoldsASpeedAlsoAgainstAResistance) {
   for (const double damping : {0.0, 1e5}) {
     Scene scene = piloted(SpeedPilot{.speed = 3}, 0);
     scene.ships[0].mooring = MooringSettings{.position_in_world = {}, .surge_damping = damping};
-    const std::vector<ShipSample> samples = sail(scene, 600);
+    const std::vector<HullSample> samples = sail(scene, 600);
     EXPECT_NEAR(samples.back().velocity_in_world.x, 3, 0.01);
-    for (const ShipSample& s : samples) EXPECT_LT(s.velocity_in_world.x, 3.3);
+    for (const HullSample& s : samples) EXPECT_LT(s.velocity_in_world.x, 3.3);
   }
 }
 
 TEST(Pilot, StopsAShipAstern) {
-  const std::vector<ShipSample> samples = sail(piloted(SpeedPilot{.speed = 0}, 6), 300);
+  const std::vector<HullSample> samples = sail(piloted(SpeedPilot{.speed = 0}, 6), 300);
   EXPECT_LT(samples[20].lever, -0.1);
   EXPECT_NEAR(length(samples.back().velocity_in_world), 0, 0.05);
 }
@@ -353,7 +353,7 @@ TEST(Pilot, StopsAShipAstern) {
 TEST(Pilot, HoldsAHeadingByRudderAndByThrusters) {
   for (const Steering& steering : {Steering{RudderSettings{13}}, Steering{AzimuthSettings{}}}) {
     const auto samples = sail(piloted(HeadingPilot{.heading = 40 * kDegree, .lever = 0.5}, 4, steering), 500);
-    for (const ShipSample& s : samples) EXPECT_LT(turned(s), 45);
+    for (const HullSample& s : samples) EXPECT_LT(turned(s), 45);
     EXPECT_NEAR(turned(samples.back()), 40, 0.5);
     EXPECT_NEAR(samples.back().yaw_rate, 0, 1e-4);
   }
@@ -362,12 +362,12 @@ TEST(Pilot, HoldsAHeadingByRudderAndByThrusters) {
 const RoutePilot kRoute{{{{800, 0}, 4}, {{1400, 600}, 3}, {{2400, 600}, 4}}};
 
 TEST(Pilot, FollowsARouteAndStops) {
-  const std::vector<ShipSample> samples = sail(piloted(kRoute), 1500);
+  const std::vector<HullSample> samples = sail(piloted(kRoute), 1500);
   for (const Waypoint& waypoint : kRoute.waypoints)
-    EXPECT_TRUE(std::ranges::any_of(samples, [&](const ShipSample& s) {
+    EXPECT_TRUE(std::ranges::any_of(samples, [&](const HullSample& s) {
       return distance(s.position_in_world, waypoint.position_in_world) < kLength;
     }));
-  for (const ShipSample& s : samples)
+  for (const HullSample& s : samples)
     if (s.position_in_world.x > 2000 && s.position_in_world.x < 2280) {
       EXPECT_NEAR(s.position_in_world.y, 600, 0.1 * kLength);
     }
@@ -377,7 +377,7 @@ TEST(Pilot, FollowsARouteAndStops) {
 
 TEST(Pilot, MakesGoodADriftAcrossItsRoute) {
   double last = 0;
-  for (const ShipSample& s : sail(piloted(RoutePilot{{{{4000, 0}, 4}}}).drift({0, 0.5}), 900))
+  for (const HullSample& s : sail(piloted(RoutePilot{{{{4000, 0}, 4}}}).drift({0, 0.5}), 900))
     if (s.position_in_world.x < 3800) last = s.position_in_world.y;
   EXPECT_NEAR(last, 0, 4);
 }
@@ -388,12 +388,12 @@ TEST(Pilot, RamsThickIceAndCountsIt) {
                     .step(0.02)
                     .floe(rectangle(100, -800, 1500, 800));
   scene.ice.thickness = 3;
-  const std::vector<ShipSample> samples = sail(scene, 500);
-  const ShipSample& last = samples.back();
+  const std::vector<HullSample> samples = sail(scene, 500);
+  const HullSample& last = samples.back();
   EXPECT_GE(last.rams, 2);
   EXPECT_GT(last.gained, 0);
   double farthest = 0, first = 0;
-  for (const ShipSample& s : samples) {
+  for (const HullSample& s : samples) {
     farthest = std::max(farthest, s.position_in_world.x);
     if (s.rams == 0) first = std::max(first, s.position_in_world.x);
   }
@@ -477,7 +477,7 @@ TEST(ConstantSpeed, IsKeptExactlyAndTheForcesAreWhatItTakes) {
       Build().unbreakable().without_drag().ship(icebreaker({0, 0}, ConstantSpeed{1.25})).grid({1, -40}, 3, 6, 10, 13.5);
   const auto [simulation, story] = run(scene, 20);
   geometry::Vector impulse, given;
-  for (const ShipSample& sample : story.samples) {
+  for (const HullSample& sample : story.samples) {
     ASSERT_EQ(sample.velocity_in_world, (geometry::Vector{1.25, 0}));
     ASSERT_EQ(sample.heading, 0);
     ASSERT_EQ(sample.yaw_rate, 0);
@@ -507,7 +507,7 @@ TEST(Ships, SeveralDoNotDisturbOneAnother) {
     ASSERT_EQ(both.samples[2 * i].position_in_world, alone.samples[i].position_in_world) << i;
     ASSERT_EQ(both.samples[2 * i].from_ice_largest.surge, alone.samples[i].from_ice_largest.surge) << i;
   }
-  for (const int ship : {0, 1}) EXPECT_GT(largest(both, &ShipSample::from_ice, ship), 0);
+  for (const int ship : {0, 1}) EXPECT_GT(largest(both, &HullSample::from_ice, ship), 0);
   EXPECT_TRUE(std::ranges::any_of(both.events, [](const Event& e) { return e.ship == 1; }));
 }
 

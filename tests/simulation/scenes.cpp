@@ -141,11 +141,11 @@ Event first_bend(const Scene& scene, double until) {
   return found.empty() ? Event{} : found.front();
 }
 
-double mean(const Story& story, dynamics::Planar ShipSample::*load, int ship, double from,
+double mean(const Story& story, dynamics::Planar HullSample::*load, int ship, double from,
             double dynamics::Planar::*direction) {
   double sum = 0;
   int count = 0;
-  for (const ShipSample& sample : story.samples) {
+  for (const HullSample& sample : story.samples) {
     if (sample.ship != ship || sample.time < from) continue;
     sum += (sample.*load).*direction;
     ++count;
@@ -153,9 +153,9 @@ double mean(const Story& story, dynamics::Planar ShipSample::*load, int ship, do
   return sum / count;
 }
 
-double largest(const Story& story, dynamics::Planar ShipSample::*load, int ship) {
+double largest(const Story& story, dynamics::Planar HullSample::*load, int ship) {
   double most = 0;
-  for (const ShipSample& sample : story.samples)
+  for (const HullSample& sample : story.samples)
     if (sample.ship == ship) most = std::max(most, std::abs((sample.*load).surge));
   return most;
 }

@@ -111,7 +111,7 @@ struct Story {
   std::vector<Event> events;
   std::vector<Birth> births;
   std::vector<Death> deaths;
-  std::vector<ShipSample> samples;
+  std::vector<HullSample> samples;
   std::vector<LoadPeak> peaks;
   std::vector<PanelSample> panels;
 };
@@ -138,10 +138,10 @@ void skip(Simulation& simulation, int steps = 1);
 Event first_bend(const Scene& scene, double until = 20);
 
 /// The mean of a load over a ship's samples from a time on.
-double mean(const Story& story, dynamics::Planar ShipSample::*load, int ship = 0, double from = 0,
+double mean(const Story& story, dynamics::Planar HullSample::*load, int ship = 0, double from = 0,
             double dynamics::Planar::*direction = &dynamics::Planar::surge);
 /// Of its surge, by magnitude.
-double largest(const Story& story, dynamics::Planar ShipSample::*load, int ship = 0);
+double largest(const Story& story, dynamics::Planar HullSample::*load, int ship = 0);
 
 /// All accounts close: areas, masses, energy and momentum.
 void expect_closed(const Simulation& simulation);

@@ -71,8 +71,8 @@ TEST(Shed, TheForceOnAFloeThatStaysPressedDoesNotChange) {
   EXPECT_LT(area_pressed(simulation), 0.021 * simulation.floe_states()[0].area);
   const fracture::Ice& ice = simulation.scene().ice;
   const double force = ice.compressive_strength * ice.thickness * 4;
-  EXPECT_NEAR(-mean(story, &ShipSample::from_ice, 0, 10) / force, 1, 0.02);
-  EXPECT_NEAR(-largest(story, &ShipSample::from_ice_largest) / force, -1, 0.1);
+  EXPECT_NEAR(-mean(story, &HullSample::from_ice, 0, 10) / force, 1, 0.02);
+  EXPECT_NEAR(-largest(story, &HullSample::from_ice_largest) / force, -1, 0.1);
   expect_closed(simulation);
 }
 

@@ -127,7 +127,7 @@ std::vector<std::uint64_t> record_of(const Trial& run) {
   const auto add = [&](std::initializer_list<double> numbers) {
     for (const double number : numbers) record.push_back(std::bit_cast<std::uint64_t>(number));
   };
-  for (const ShipSample& s : run.story.samples) {
+  for (const HullSample& s : run.story.samples) {
     add({s.time, 1.0 * s.ship, s.from_ice.surge, s.from_ice.sway, s.from_ice.yaw, s.collision.surge, s.collision.sway,
          s.collision.yaw, s.from_ice_largest.surge, s.from_ice_largest.sway, s.from_ice_largest.yaw, s.heading,
          s.yaw_rate, s.thrust, 1.0 * s.contacts, s.position_in_world.x, s.position_in_world.y, s.velocity_in_world.x,
@@ -228,7 +228,7 @@ TEST(Shortcuts, SleepMovesFloesByNoMoreThanTheRestSpeedDoes) {
   EXPECT_GT(with.story.events.size(), 10u);
   for (std::size_t i = 0; i < with.story.events.size(); ++i)
     EXPECT_EQ(with.story.events[i].time, without.story.events[i].time);
-  const auto mean_surge = [](const Trial& run) { return mean(run.story, &ShipSample::from_ice); };
+  const auto mean_surge = [](const Trial& run) { return mean(run.story, &HullSample::from_ice); };
   EXPECT_NEAR(mean_surge(with) / mean_surge(without), 1, 1e-4);
   EXPECT_NEAR(mean_surge(run(voyage(), 40)) / mean_surge(run(voyage(), 40, all_awake)), 1, 0.05);
 }

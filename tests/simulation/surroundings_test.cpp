@@ -18,7 +18,7 @@ FloeState only_floe(const Simulation& simulation) {
 }
 
 double mean_surge(const Story& story, int ship, double from) {
-  return mean(story, &ShipSample::from_ice, ship, from);
+  return mean(story, &HullSample::from_ice, ship, from);
 }
 
 // ---- wind and skin drag
@@ -103,7 +103,7 @@ TEST(LimitMomentum, OfAFloeOnACylinderIsThatOfTheClosedForm) {
                     .floe(rectangle(10.001, -20, 50.001, 20), {-0.5, 0});
   scene.record.forces_interval = 1e-3;
   const Trial done = run(scene, 0.5);
-  EXPECT_NEAR(largest(done.story, &ShipSample::from_ice) / 2.766e6, 1, 0.01);
+  EXPECT_NEAR(largest(done.story, &HullSample::from_ice) / 2.766e6, 1, 0.01);
   const double moved = -only_floe(done.simulation).world_from_body.position.x;
   EXPECT_NEAR((moved - 0.001) / 0.0488, 1, 0.02);
 }
@@ -179,7 +179,7 @@ TEST(Drift, IsTheSameSceneSeenFromAMovingFrame) {
     EXPECT_GT(still.story.events.size(), 1u);
     ASSERT_EQ(still.story.samples.size(), drifting.story.samples.size());
     for (std::size_t i = 0; i < still.story.samples.size(); ++i) {
-      const ShipSample &p = still.story.samples[i], &q = drifting.story.samples[i];
+      const HullSample &p = still.story.samples[i], &q = drifting.story.samples[i];
       ASSERT_NEAR(p.from_ice.surge, q.from_ice.surge, 1e-6 * (1 + std::abs(p.from_ice.surge))) << p.time;
       ASSERT_NEAR(distance(p.position_in_world, q.position_in_world + Vector{0.25 * q.time, 0}), 0, 1e-9);
       ASSERT_NEAR(length(p.velocity_in_world - q.velocity_in_world - Vector{0.25, 0}), 0, 1e-12);
@@ -207,7 +207,7 @@ TEST(Structure, InADriftHasTheLoadsOfAPrescribedShipMovingThroughStillIce) {
     const Story b = run(still.ship(ship), 60).story;
     ASSERT_EQ(a.samples.size(), b.samples.size());
     for (std::size_t i = 0; i < b.samples.size(); ++i) {
-      const ShipSample &p = a.samples[i], &q = b.samples[i];
+      const HullSample &p = a.samples[i], &q = b.samples[i];
       ASSERT_EQ(p.from_ice.surge, q.from_ice.surge);
       ASSERT_EQ(p.from_ice.sway, q.from_ice.sway);
       ASSERT_EQ(p.from_ice.yaw, q.from_ice.yaw);
@@ -215,7 +215,7 @@ TEST(Structure, InADriftHasTheLoadsOfAPrescribedShipMovingThroughStillIce) {
       ASSERT_NEAR(distance(p.position_in_world, {0, 3}), 0, 1e-9) << "it stands where it stands";
       ASSERT_EQ(p.velocity_in_world, Vector{});
     }
-    EXPECT_GT(largest(a, &ShipSample::from_ice), 1e4);
+    EXPECT_GT(largest(a, &HullSample::from_ice), 1e4);
     ASSERT_EQ(a.events.size(), b.events.size());
     EXPECT_EQ(!b.bends().empty(), wall_angle > 0) << "only a sloping wall presses the ice down";
   }
@@ -246,7 +246,7 @@ TEST(Wall, ThatPressesClosesUntilTheIceBearsItsLoad) {
     if (angle == 0) {
       EXPECT_NEAR(mean_surge(done.story, 0, 40) / -load, 1, 0.01) << "the ice passes it on";
     }
-    const ShipState wall = done.simulation.ship_states()[1];
+    const HullState wall = done.simulation.ship_states()[1];
     EXPECT_LT(length(wall.velocity), 1.1 * creep) << "it came to rest";
     EXPECT_EQ(wall.angular_velocity, 0);
     expect_closed(done.simulation);
@@ -257,7 +257,7 @@ TEST(Wall, ClosesAtItsSpeedWhereNothingBearsAndNeverSideways) {
   Simulation simulation(squeezed(0.3, false).drift({0.2, -0.3}).floe(rectangle(500, 500, 510, 510)));
   const Point before = simulation.ship_states()[1].world_from_ship.position;
   run(simulation, 20);
-  const ShipState wall = simulation.ship_states()[1];
+  const HullState wall = simulation.ship_states()[1];
   const Vector normal{std::cos(wall.heading), std::sin(wall.heading)};
   EXPECT_NEAR(dot(wall.velocity, normal), 0.1, 1e-6);
   EXPECT_NEAR(cross(wall.velocity, normal), 0, 1e-12);

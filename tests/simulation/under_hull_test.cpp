@@ -70,16 +70,16 @@ TEST(UnderHull, ByVerticalWallsOrWhereItIsFreeToMoveItNeverDoes) {
 
 TEST(UnderHull, TiltingLimitsTheForceOfAFloeThatCannotGetAway) {
   Scene scene = pinned_floe();
-  const double tilting = largest(run(scene, 12).story, &ShipSample::from_ice);
+  const double tilting = largest(run(scene, 12).story, &HullSample::from_ice);
   scene.fracture.going_under.is_enabled = false;
-  EXPECT_GT(largest(run(scene, 12).story, &ShipSample::from_ice), 5 * tilting);
+  EXPECT_GT(largest(run(scene, 12).story, &HullSample::from_ice), 5 * tilting);
 }
 
 TEST(UnderHull, APieceTakesItsWeightTimesTheWayUpAndAlongTheHull) {
   const auto [simulation, story] = run(one_tile(0), 100);
   ASSERT_EQ(story.submerged().size(), 1U);
   double work = 0;
-  for (const ShipSample& sample : story.samples) work -= sample.from_submerged.surge * 0.1;  // at 1 m/s
+  for (const HullSample& sample : story.samples) work -= sample.from_submerged.surge * 0.1;  // at 1 m/s
   const double weight = 100 * 9.81 * 16;
   const dynamics::SubmersionPath& path = simulation.world().setup.underwater[0].path;
   EXPECT_NEAR(work, weight * (path.rise + 0.2 * path.sliding), 1e-9 * work);
@@ -88,7 +88,7 @@ TEST(UnderHull, APieceTakesItsWeightTimesTheWayUpAndAlongTheHull) {
 TEST(UnderHull, IceOffTheCentreLineTurnsTheShipTowardsIt) {
   const Story story = run(one_tile(1), 40).story;
   ASSERT_EQ(story.submerged().size(), 1U);
-  EXPECT_GT(mean(story, &ShipSample::from_submerged, 0, 0, &dynamics::Planar::yaw), 0) << "to port, where it is";
+  EXPECT_GT(mean(story, &HullSample::from_submerged, 0, 0, &dynamics::Planar::yaw), 0) << "to port, where it is";
 }
 
 TEST(UnderHull, IceStopsAShipButNeverReversesIt) {

@@ -60,6 +60,7 @@ test("a click gives coordinates to copy", async () => {
   await page.mouse.click(stage.x + at[0], stage.y + at[1]);
   const [x, y] = await page.evaluate(() => window.polynyaPlayer.state.place);
   assert.ok(Math.hypot(x - 70, y - 20) < 1);
+  await page.locator("#toast").waitFor();  // the clipboard answers later
   assert.match(await page.locator("#toast").textContent(), new RegExp(`\\[${x}, ${y}\\] m`));
   assert.deepEqual(JSON.parse(await page.evaluate(() => navigator.clipboard.readText())), [x, y]);
 });

@@ -28,7 +28,7 @@ io::Run run_of_three(const std::string& name) {
                                         R"("structures": [{"name": "pile", "radius_m": 5, "position_m": [90, 0]}])"}));
   run.label = name;
   for (int ship = 0; ship < 3; ++ship) {
-    simulation::ShipSample sample;
+    simulation::HullSample sample;
     sample.time = 10;
     sample.ship = ship;
     run.samples.push_back(sample);

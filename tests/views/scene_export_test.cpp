@@ -163,7 +163,7 @@ TEST_F(SceneExport, IceUnderAHullStaysThere) {
     };
     EXPECT_NEAR(area_under(rest, 2), area_under(whole, 22), 0.2 * area_under(whole, 22));
     const auto force = [](const io::Run& of, double at) {
-      const auto row = std::ranges::lower_bound(of.samples, at - 1e-6, {}, &simulation::ShipSample::time);
+      const auto row = std::ranges::lower_bound(of.samples, at - 1e-6, {}, &simulation::HullSample::time);
       return row->from_submerged.surge;
     };
     EXPECT_LT(force(whole, 20.1), 0);

@@ -44,7 +44,7 @@ std::string fractures_layer(const io::Run& run, double time, const Project& proj
     const fracture::FailureCriteria& criteria = event.criteria();
     io::JsonWriter& json = layer.start();
     json.key("t_s").value(event.time).key("kind").value(name_of(event));
-    json.key("ship").value(io::ship_name(run.scene.scene, event.ship)).key("floe_id").value(event.ice()->floe);
+    json.key("ship").value(io::hull_name(run.scene.scene, event.ship)).key("floe_id").value(event.ice()->floe);
     json.key("contact_force_N").value(criteria.contact_force);
     json.key("collision_force_N").value(criteria.collision_force);
     json.key("vertical_force_N").value(criteria.vertical_force);

@@ -154,15 +154,15 @@ VtkPolyData loads_at(const io::Run& run, double after, double time) {
     add_row(data.cell_data, {static_cast<double>(kind), static_cast<double>(ship), static_cast<double>(floe), t,
                              force.x, force.y, 0.0, moment, collision.x, collision.y, 0.0});
   };
-  std::vector<const simulation::ShipSample*> last(hull_count(run.scene.scene), nullptr);
-  const auto until = std::ranges::upper_bound(run.samples, time + 1e-9, {}, &simulation::ShipSample::time);
+  std::vector<const simulation::HullSample*> last(hull_count(run.scene.scene), nullptr);
+  const auto until = std::ranges::upper_bound(run.samples, time + 1e-9, {}, &simulation::HullSample::time);
   for (auto sample = until; sample != run.samples.begin();) {
     --sample;
     if (sample->time < time - run.scene.scene.record.forces_interval - 1e-9) break;
     const auto ship = static_cast<std::size_t>(sample->ship);
     if (ship < last.size() && !last[ship]) last[ship] = &*sample;
   }
-  for (const simulation::ShipSample* s : last) {
+  for (const simulation::HullSample* s : last) {
     if (!s) continue;
     const auto world_from_ship = geometry::Rotation::by(s->heading);
     add(s->position_in_world, 0, s->ship, simulation::kNoFloe, s->time,

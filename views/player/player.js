@@ -14,7 +14,7 @@ function fillFacts({ run: { info, floes }, name, plan }) {
       ...(count("stay_under") && { "stayed under": count("stay_under") }) }),
     ...(count("mooring_break") && { "moorings broken": count("mooring_break") }),
     ships: info.ships.map((ship) => ship.name).join(", ") || "none",
-    ...(info.steps && { steps: info.steps.map(({ step_s, count }) => `${count} of ${step_s} s`).join(", ") }),
+    ...(info.steps?.length && { steps: info.steps.map(({ step_s, count }) => `${count} of ${step_s} s`).join(", ") }),
     ...(!plan
       && { frames: info.frames === info.frames_of_run ? info.frames : `${info.frames} of ${info.frames_of_run}` }),
     ...(name !== info.scene

@@ -112,11 +112,11 @@ void add_channels(ColumnWriter& columns, const io::Run& run, const std::vector<i
 }
 
 void add_forces(ColumnWriter& columns, const io::Run& run, const io::FrameSelection& selection) {
-  std::vector<simulation::ShipSample> rows;
+  std::vector<simulation::HullSample> rows;
   std::ranges::copy_if(run.samples, std::back_inserter(rows),
-                       [&](const simulation::ShipSample& s) { return selection.has(s.time); });
-  columns.add("force_ship", rows, &simulation::ShipSample::ship);
-  columns.add("force_t_s", rows, &simulation::ShipSample::time);
+                       [&](const simulation::HullSample& s) { return selection.has(s.time); });
+  columns.add("force_ship", rows, &simulation::HullSample::ship);
+  columns.add("force_t_s", rows, &simulation::HullSample::time);
   for (const io::ForceColumn* column : io::plotted_columns(run.scene.scene))
     columns.add(column->name, rows, column->read);
 }

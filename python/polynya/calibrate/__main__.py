@@ -49,8 +49,8 @@ class Bench:
         """[point, test, 3] of points of factors, each with its share of the speed."""
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
             under = [None] * len(tests) if submerged is None else submerged
-            futures = [[pool.submit(self.one, test, f, s, u) for test, u in zip(tests, under)] for f,
-                       s in zip(factors, shares)]
+            futures = [[pool.submit(self.one, test, f, s, u) for test, u in zip(tests, under)]
+                       for f, s in zip(factors, shares)]
             try:
                 for number, of_point in enumerate(futures, 1):
                     concurrent.futures.wait(of_point)

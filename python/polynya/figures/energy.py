@@ -58,8 +58,8 @@ def draw(runs, page=Page()):
             sheet.title_panel(axes, i, 2, title, page.width)
         grid[0].tick_params(labelbottom=False)
         grid[1].set_xlabel(f"energy, {prefix}J")
-        handles = [Patch(color=colour_of(i), label=plain(run.label)) for i,
-                   run in enumerate(runs)] if len(runs) > 1 else []
+        handles = [Patch(color=colour_of(i), label=plain(run.label))
+                   for i, run in enumerate(runs)] if len(runs) > 1 else []
         notes = [f"Nothing in {'any run' if len(runs) > 1 else 'this run'}: {', '.join(absent)}."] if absent else []
         figure = sheet.finish(sum(heights) + 18 * scale, handles, notes)
         make_room(figure, grid[1], numbers)

@@ -148,13 +148,11 @@ def draw(runs, page=Page(), at=(), window=None):
     times = chosen_times(runs, at, page.style.maps)
     is_alone = len(runs) == 1
     sceneries = [Scenery(run.run) for run in runs]
-    maps = [map_of(run, scenery, min(time, run.end), not is_alone) for run,
-            scenery in zip(runs, sceneries) for time in times]
+    maps = [map_of(run, scenery, min(time, run.end), not is_alone)
+            for run, scenery in zip(runs, sceneries) for time in times]
     start = [scenery.run.frame(scenery.run.start_time) for scenery in sceneries]
-    x0, y0, x1, y1 = window or extent_of([points for scenery,
-                                          frame in [*zip(sceneries, start),
-                                                    *((shown.scenery, shown.frame) for shown in maps)]
-                                          for points in scenery.points(frame)])
+    drawn = [*zip(sceneries, start), *((shown.scenery, shown.frame) for shown in maps)]
+    x0, y0, x1, y1 = window or extent_of([points for scenery, frame in drawn for points in scenery.points(frame)])
     title = runs[0].label if is_alone else "Floes and channels"
     if len(maps) == 1:
         title, maps[0].title = f"{runs[0].label}, {maps[0].title.split(', ')[-1]}", ""

@@ -177,8 +177,8 @@ class Sheet:
         """The words around the panels, which `_place` puts where they belong."""
         style, room = self.page.style, self.page.width - 2 * MARGIN * self.page.style.scale
         bold = lambda size: "bold" if size == style.title else "normal"
-        self._above = [self.figure.text(0, 0, words, fontsize=size, fontweight=bold(size), in_layout=False) for words,
-                       size in self._heading(room)]
+        self._above = [self.figure.text(0, 0, words, fontsize=size, fontweight=bold(size), in_layout=False)
+                       for words, size in self._heading(room)]
         self._below = [self.figure.text(0, 0, line, fontsize=style.small, in_layout=False)
                        for note in notes for line in self.wrapped(note, style.small, room)]
         self._key, self._key_height = self._legend(handles, room)

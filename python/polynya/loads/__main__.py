@@ -74,8 +74,8 @@ def page_of(loads, options, tables, pictures):
         "below half of it (docs/run-folder.md); what the numbers are, docs/loads.md.</p>",
     ]
     parts += [f'<figure><img src="{name}" '
-              f'alt="{html.escape(words)}"><figcaption>{html.escape(words)}</figcaption></figure>' for name,
-              words in pictures]
+              f'alt="{html.escape(words)}"><figcaption>{html.escape(words)}</figcaption></figure>'
+              for name, words in pictures]
     parts += [html_table(heading, rows) for _, heading, rows in tables if heading and rows]
     return (f'<!doctype html><html lang="en"><meta charset="utf-8"><title>Loads on '
             f'{html.escape(loads.ship)}</title><style>{STYLE}</style>'

@@ -74,18 +74,16 @@ def maxima(loads):
 
 def fits(loads, least=None):
     """(of what, the sample [N], its fit) of all that has enough values: Gumbel and Weibull of the maxima, Weibull of
-    what
-    peaks have above a force, whose shape is 1 where the tail is exponential."""
+    what peaks have above a force, whose shape is 1 where the tail is exponential."""
     samples = [("maxima", "gumbel", maxima(loads).values), ("maxima", "weibull", maxima(loads).values),
                ("tail", "weibull", tail(loads, least).excesses)]
-    return [(of, values, statistics.fit(name, values)) for of, name,
-            values in samples if len(values) >= LEAST and values.min() < values.max()]
+    return [(of, values, statistics.fit(name, values))
+            for of, name, values in samples if len(values) >= LEAST and values.min() < values.max()]
 
 
 def returns(loads, hours, least=None):
     """Rows of what is exceeded once in so many hours in the mean, by each fit, with its bootstrap interval: of the tail
-    by
-    its rate, of maxima by the length of their stretches. Periods that a fit does not reach are left out."""
+    by its rate, of maxima by the length of their stretches. Periods that a fit does not reach are left out."""
     rows, above, blocks = [], tail(loads, least), maxima(loads)
     for of, values, fit in fits(loads, least):
         for period in hours:

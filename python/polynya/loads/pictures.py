@@ -92,8 +92,8 @@ def pressure_area(loads, page=Page()):
                           marker, color=colour, markersize=2.5, markeredgewidth=0, alpha=0.6)
                 handles.append(Line2D([], [], color=colour, marker=marker, linestyle="", label=f"ended by {end}"))
         curves = [("ISO 19906, local", rules.iso_local_pressure(x), BLACK, "-")]
-        curves += [(f"Polar Class {name[2:]}", rules.polar_class_pressure(x, name), PURPLE, dash) for name,
-                   dash in (("PC1", "--"), ("PC4", "-."), ("PC7", ":"))]
+        curves += [(f"Polar Class {name[2:]}", rules.polar_class_pressure(x, name), PURPLE, dash)
+                   for name, dash in (("PC1", "--"), ("PC4", "-."), ("PC7", ":"))]
         for words, y, colour, dash in curves:
             axes.plot(x, y / 1e6, color=colour, linestyle=dash)
             handles.append(Line2D([], [], color=colour, linestyle=dash, label=words))

@@ -32,7 +32,7 @@ def free_drift(scene, time):
         velocity = velocity + tide(water["tide"], time)
     friction = water["density_kg_per_m3"] * water["skin_drag_coefficient"]
     if friction > 0:
-        blows = by_rows(wind["table"],
-                        time) if wind.get("table") else numpy.array(wind["velocity_m_per_s"], dtype=float)
+        rows = wind.get("table")
+        blows = by_rows(rows, time) if rows else numpy.array(wind["velocity_m_per_s"], dtype=float)
         velocity = velocity + math.sqrt(wind["air_density_kg_per_m3"] * wind["drag_coefficient"] / friction) * blows
     return velocity

@@ -190,5 +190,6 @@ def managed_width(passage: Passage, gates) -> float:
 def distribution(passage: Passage, edges: Optional[numpy.ndarray] = None):
     """How many floes, and how much ice [m²], is of each size between edges [m]."""
     edges = numpy.geomspace(1, 1000, 31) if edges is None else edges
-    return edges, numpy.histogram(passage.sizes, edges)[0], numpy.histogram(passage.sizes,
-                                                                            edges, weights=passage.areas)[0]
+    numbers, _ = numpy.histogram(passage.sizes, edges)
+    areas, _ = numpy.histogram(passage.sizes, edges, weights=passage.areas)
+    return edges, numbers, areas

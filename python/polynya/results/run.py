@@ -313,8 +313,8 @@ class Frame:
     @property
     def hulls(self) -> dict[str, numpy.ndarray]:
         """Waterlines of ships and structures in the world, arrays of n × 2 [m], by name."""
-        return {name: placed(self._run.waterlines[name], *motion[:3]) for name,
-                motion in zip(self._run.ship_names, self.ship_motions)}
+        return {name: placed(self._run.waterlines[name], *motion[:3])
+                for name, motion in zip(self._run.ship_names, self.ship_motions)}
 
     @functools.cached_property
     def is_under(self) -> numpy.ndarray:

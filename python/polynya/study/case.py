@@ -17,6 +17,8 @@ from .folder import RESULT, RUN, write_atomically
 DONE, FAILED, INPUT_OUTPUT, STOPPED = 0, 4, 5, 75
 # Of a run that another signal or the lack of memory ended (docs/run-folder.md).
 KILLED = "still running, or killed"
+# A run that ends so would do it again: a defect of the program, where other signals come from the machine.
+CRASHES = (signal.SIGABRT, signal.SIGSEGV, signal.SIGBUS, signal.SIGFPE, signal.SIGILL)
 KEPT_WORDS = 2000  # of a failed run's messages [characters]
 PR_SET_PDEATHSIG = 1
 LIBC = ctypes.CDLL(None)
@@ -70,6 +72,9 @@ def carry(study, number, folder, lock, stop, keep):
         code, words = run_program(command_of(study, number, run), lock, stop)
         if code == STOPPED:
             return STOPPED, f"case {number}: stopped; it continues from its checkpoint"
+        if -code in CRASHES:
+            last = (words.strip() or "no message").splitlines()[-1]
+            return failed(study, number, folder, code, f"polynya: crashed by signal {-code}: {last}")
         if code < 0:
             return STOPPED, f"case {number}: killed by signal {-code}; it continues from its newest checkpoint"
         if code != DONE:
@@ -106,7 +111,8 @@ def failed(study, number, folder, code, words):
     """Records a failure that another try would repeat. What the machine is to blame for, a full disk or too little
     memory, leaves the case unfinished."""
     words = words.strip()[-KEPT_WORDS:] or f"exit code {code}"
-    if code == INPUT_OUTPUT or (summary_of(folder / RUN) or {}).get("stopped_by") == KILLED:
+    is_killed = code > 0 and (summary_of(folder / RUN) or {}).get("stopped_by") == KILLED
+    if code == INPUT_OUTPUT or is_killed:
         return code, f"case {number}: {gist(words)}"
     result = {"state": "failed", **case_in_words(study, number), "exit_code": code, "message": words}
     write_atomically(folder / RESULT, json.dumps(result) + "\n")

@@ -100,7 +100,7 @@ def run_waiting(study, waiting, jobs, keep, stop, counts, table):
                     if future.cancel():
                         del running[future]
         counts.running = []
-        counts.stopped += int(stop.is_raised)
+        counts.stopped = max(counts.stopped, int(stop.is_raised))
 
 
 def count_end(counts, table, code, message):

@@ -28,8 +28,10 @@ class Counts:
         return clock((self.total - self.done - self.failed) * (time.monotonic() - self.began) / ended)
 
     def line(self):
+        stopped = f"{self.stopped} stopped, " if self.stopped else ""
         return (
-            f"{self.done} of {self.total} done, {len(self.running)} running, {self.failed} failed, {self.left()} left"
+            f"{self.done} of {self.total} done, {len(self.running)} running, {self.failed} failed, {stopped}"
+            f"{self.left()} left"
         )
 
     def table(self):
