@@ -95,14 +95,7 @@ void add_contact_loads(Table& t) {
   constexpr std::string_view kOfShips = "of other ships and structures";
   t.load({"_from_ships", &S::from_ships, kMean, kOfShips, kAmongShips, "of ships"});
   t.load({"_from_ships_max", &S::from_ships_largest, kLargestStep, kOfShips, kAmongShips, "of ships", "max"});
-  t.load({"_from_submerged_ice",
-          &S::from_submerged,
-          kMean,
-          "of the ice under the hull",
-          kUnderHulls,
-          {},
-          "mean",
-          {kSurge, kYaw}});
+  t.load({"_from_submerged_ice", &S::from_submerged, kMean, "of the ice under the hull", kUnderHulls, {}, "mean"});
   t.number("ice_under_hull_m2", "m²", kAtEnd, "ice under the hull", {kUnderHulls, {}, "Ice under the hull"},
            &S::submerged_area);
   t.load({"_j_over_tau_c", &S::collision, kLargestStep, "of the ice by the paper, j/τ_c,", kWhereItSplits, "of the ice",
@@ -256,7 +249,9 @@ constexpr Row kFriction{
 constexpr Row kRows[]{
     kIce,
     kFriction,
-    {"submerged", "ice under the hull", {"surge_from_submerged_ice_N", "", "yaw_from_submerged_ice_Nm"}},
+    {"submerged",
+     "ice under the hull",
+     {"surge_from_submerged_ice_N", "sway_from_submerged_ice_N", "yaw_from_submerged_ice_Nm"}},
     {"water", "water on the hull", {"surge_from_water_N", "sway_from_water_N", "yaw_from_water_Nm"}},
     {"thrust", "thrust", {"thrust_N"}},
     {"thrust", "thrusters", {"", "sway_from_thrusters_N", "yaw_from_thrusters_Nm"}},

@@ -49,9 +49,10 @@ double pressed_mass(const Setup& setup, const Population& population, const Pend
 void turn_cusp(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut, Population& population,
                ShipLoads& loads, AuditSums& audit) {
   const EdgePush& push = bend.push;
-  if (push.speed <= 0 || setup.scene.fracture.cusp_fate == CuspFate::kFloat) return;
-  dynamics::Bodies& bodies = population.bodies;
   const BodyIndex ship = bend.ship;
+  const bool goes_under = setup.scene.fracture.cusp_fate == CuspFate::kUnderHull && setup.underwater[ship].can_take_ice;
+  if (push.speed <= 0 || !goes_under) return;
+  dynamics::Bodies& bodies = population.bodies;
   const Vector arm = bend.point_in_water - bodies.position[ship];
   const double mass = pressed_mass(setup, population, bend, cut);
   // The hull slows down by what it gives: the two move on together.
@@ -64,7 +65,7 @@ void turn_cusp(const Setup& setup, const PendingFracture& bend, const geometry::
   const Vector impulse = -given * push.horizontal;
   const double turned = cross(arm, impulse);
   const Vector in_ship = rotate_back(bodies.rotation[ship], impulse);
-  loads.ice.impulse += {in_ship.x, in_ship.y, turned};
+  loads.submerged.impulse += {in_ship.x, in_ship.y, turned};
   if (bodies.inverse_mass[ship] == 0) return;
   const Vector change = bodies.inverse_mass[ship] * impulse;
   const double spin = bodies.inverse_moment[ship] * turned;

@@ -66,8 +66,7 @@ void apply(const Setup& setup, BodyIndex ship, const Pull& pull, dynamics::Bodie
   const bool is_free = bodies.inverse_mass[ship] != 0;
   if (is_free) impulse = std::min(impulse, bodies.mass[ship] * pull.speed);
   const double angular = impulse * pull.moment / pull.work;
-  loads.impulse = impulse;
-  loads.angular_impulse = angular;
+  loads.impulse += {-impulse, 0, angular};
   if (!is_free) return;
   const Vector pushed = -impulse * heading_of(bodies, ship);
   const Vector change = bodies.inverse_mass[ship] * pushed;

@@ -78,7 +78,7 @@ void fields(Archive& archive, Is<SubmergedPiece> auto& t) {
 }
 template <class Archive>
 void fields(Archive& archive, Is<SubmergedLoads> auto& l) {
-  archive(l.impulse, l.angular_impulse, l.area);
+  archive(l.impulse, l.area);
 }
 template <class Archive>
 void fields(Archive& archive, Is<ContactLoads> auto& l) {

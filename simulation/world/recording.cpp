@@ -46,7 +46,6 @@ void add_step(ShipLoads& sum, const ShipLoads& step, double dt) {
   add_step(sum.ice, step.ice, dt);
   add_step(sum.ships, step.ships, dt);
   sum.submerged.impulse += step.submerged.impulse;
-  sum.submerged.angular_impulse += step.submerged.angular_impulse;
   sum.submerged.area = step.submerged.area;
   sum.collision = larger(sum.collision, step.collision);
 }
@@ -97,7 +96,7 @@ HullSample sample_of(const Setup& setup, const Clock& clock, const Population& p
   sample.collision = loads.collision;
   sample.from_ships = over(loads.ships.impulse, interval);
   sample.from_ships_largest = loads.ships.largest;
-  sample.from_submerged = over({-loads.submerged.impulse, 0, loads.submerged.angular_impulse}, interval);
+  sample.from_submerged = over(loads.submerged.impulse, interval);
   sample.position_in_world = bodies.position[ship] + clock.drift();
   sample.heading = bodies.angle[ship];
   sample.velocity_in_world = bodies.velocity[ship] + clock.water_drift;

@@ -28,11 +28,10 @@ struct ContactLoads {
   int contacts = 0;                 ///< at the last step
 };
 
-/// What the ice under its hull does to a ship.
+/// What the ice that goes under its hull and lies there does to a ship.
 struct SubmergedLoads {
-  double impulse = 0;          ///< aft [N s]
-  double angular_impulse = 0;  ///< counter-clockwise [N m s]
-  double area = 0;             ///< of the ice under the hull, at the last step [m²]
+  dynamics::Planar impulse;  ///< of cusps that are pushed down, and of what lies under the hull [N s, N m s]
+  double area = 0;           ///< of the ice under the hull, at the last step [m²]
 };
 
 /// Sums over a step or a recording interval, in the ship's frame.

@@ -21,7 +21,7 @@ TEST(ForceCauses, AddUpToTheForceOnTheShip) {
   simulation::HullSample row;  // each number in it another power of two
   row.from_ice.surge = 1, row.from_ice.sway = 2, row.from_ice.yaw = 4;
   row.from_ships.surge = 8, row.from_ships.sway = 16, row.from_ships.yaw = 32;
-  row.from_submerged.surge = 64, row.from_submerged.yaw = 128;
+  row.from_submerged = {64, 1048576, 128};
   row.from_water = {256, 512, 1024};
   row.from_rudder = {2048, 4096, 8192};
   row.from_mooring = {16384, 32768, 65536};
@@ -31,7 +31,7 @@ TEST(ForceCauses, AddUpToTheForceOnTheShip) {
   const auto sum = sums(row);
   ASSERT_EQ(sum.size(), 3U);
   EXPECT_EQ(sum.at("Surge force by cause"), 1 + 8 + 64 + 256 + 2048 + 16384 + 131072);
-  EXPECT_EQ(sum.at("Sway force by cause"), 2 + 16 + 512 + 4096 + 32768 + 262144);
+  EXPECT_EQ(sum.at("Sway force by cause"), 2 + 16 + 1048576 + 512 + 4096 + 32768 + 262144);
   EXPECT_EQ(sum.at("Yaw moment by cause"), 4 + 32 + 128 + 1024 + 8192 + 65536 + 524288);
 }
 
