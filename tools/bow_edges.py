@@ -3,7 +3,7 @@
 
   tools/bow_edges.py wedges                         wedges, whole and cracked, without and with the hull's thrust
   tools/bow_edges.py edges RUN... --out EDGES.json the edges at which cusps of runs broke, with the thrust of that break
-  tools/bow_edges.py table EDGES.json...            of those, the tables of docs/theory-bow.md
+  tools/bow_edges.py table EDGES.json...            of those, the tables of docs/theory/bow.md
 
 Runs of level ice at constant speed along x. Of each run cusps drawn evenly from its last three quarters; the hull has
 crushed as deep as the run states. The law is that of fracture/bending/edge_sections.hpp. Needs numpy, scipy and

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""What the edge of a floating plate bears, by finite elements of any outline; the tables of docs/theory-bow.md.
+"""What the edge of a floating plate bears, by finite elements of any outline; the tables of docs/theory/bow.md.
 
-  tools/bow_plate.py wedges         against docs/theory-bending.md, section 9
+  tools/bow_plate.py wedges         against docs/theory/bending.md, "Verification"
   tools/bow_plate.py edges RUN...   the edges at which a run's cusps broke, beside what the run took them for
   tools/bow_plate.py cracks         a radial crack along the bisector, open or closing above, and the hull's thrust
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What could grow with speed at the bow: the size of each candidate from the cusps of runs; the table of
-docs/theory-bow.md, "What grows with speed".
+docs/theory/bow.md, "What grows with speed".
 
   tools/bow_speed.py   the reference ship at 1-6 m/s in .5 and 1 m; --polynya PROGRAM, --work FOLDER, --jobs N
 

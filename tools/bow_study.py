@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What breaking level ice takes at the bow, part by part; the tables of docs/theory-bow.md.
+"""What breaking level ice takes at the bow, part by part; the tables of docs/theory/bow.md.
 
   tools/bow_study.py parts      by speed and thickness
   tools/bow_study.py places     loads along the waterline, h .5, 1 and 1.5 m at 1 m/s

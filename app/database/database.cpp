@@ -344,7 +344,7 @@ Command add_database_build(CommandLine& app) {
 }
 
 Command add_database_study(CommandLine& app) {
-  CommandLine command = app.add_command("study", "Print the tables of docs/theory-bending.md", kStudyExamples);
+  CommandLine command = app.add_command("study", "Print the tables of docs/theory/bending.md", kStudyExamples);
   auto options = std::make_shared<StudyOptions>();
   command.option("study", options->study, "", "Which one")
       .required()

@@ -14,7 +14,7 @@
 
 namespace polynya::fracture {
 
-/// The dimensionless groups that decide when a wedge breaks, beside ν. docs/theory-bending.md.
+/// The dimensionless groups that decide when a wedge breaks, beside ν. docs/theory/bending.md.
 struct WedgeGroups {
   double opening_angle = 0;  ///< 2α [rad]
   double mass_ratio = 0;     ///< m̂ = ρ_i h / (ρ_w l)

@@ -9,7 +9,7 @@ namespace polynya::fracture {
 /// their inertia, after a few t0 it has the deflection of a wedge at rest. opening_angle 2α [rad]; duration
 /// in t0 = √(l/g).
 ///   w / V = Σ_k c_k [1 − 2 (1 − cos ω_k t) / (ω_k t)²]
-/// over the modes of the plate on its water (potential flow, section 4 of docs/theory-bending.md), tabulated
+/// over the modes of the plate on its water (potential flow, docs/theory/bending.md, "Modes and march"), tabulated
 /// for m̂ 0.05 and a small loaded patch (0.02 l). Within 2 % of that sum between the table's points from 20°
 /// to 180°; for mass ratios from 0.02 to 0.1 within 25 %, and within 12 % from t0 on. Outside of the table
 /// its nearest edge.

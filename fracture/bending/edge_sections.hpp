@@ -41,7 +41,7 @@ double moment_of_force(double distance);
 double moment_of_moment(double distance);
 
 /// How much more an edge bears than the bending of its sections alone, by the opening of the section that breaks:
-/// by three-dimensional elements (docs/theory-bow.md), of wedges that stay whole,
+/// by three-dimensional elements (docs/theory/bow.md), of wedges that stay whole,
 double hold_of_whole(double opening);
 /// and of true edges that a radial crack has parted below, their parts held together above by the closed crack.
 double hold_of_cracked(double opening);

@@ -202,7 +202,7 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
              "the range's nearest edge, of an error that is not known (docs/database.md, \"Outside of the "
              "table\"); polynya database query gives the ranges"
            : "outside the range of fracture.bending.model: the force at which the ice broke and the cusp's "
-             "radius are the formula's, beyond where it is known to hold (docs/theory-bending.md)");
+             "radius are the formula's, beyond where it is known to hold (docs/theory/bending.md)");
   if (const simulation::PeakCounts& peaks = simulation.world().accounts.load_peaks.counts; peaks.beyond > 0)
     warnings.push_back(
         fmt::format("contacts.csv has the first {} peaks of contacts' forces: {} came later, the "

@@ -8,7 +8,7 @@ PARTS = {
     "How to": ["view", "figures", "loads", "movie", "channel", "inspect", "why-it-split", "export", "ships",
                "management", "import", "cut", "database", "studies", "python", "environment"],
     "Reference": ["scene", "run-folder", "reference/commands", "reference/python", "reference/cpp", "references"],
-    "Theory": ["theory/index", "theory-bending", "theory-bow", "geometry"],
+    "Theory": ["theory/index", "geometry"],
     "Validation": ["validation", "paper-comparison"],
     "Performance": ["performance"],
     "Reliability": ["reliability"],

@@ -110,7 +110,7 @@ TEST(EdgeSections, SinkUnderTheirThrust) {
   EXPECT_NEAR(force_of(1.6, 1e-9) / force_of(1.6, 0), 1, 1e-6);
 }
 
-/// Elements of wedges with thrust, l 15 h, of docs/theory-bow.md: V and, whole, within 4 %.
+/// Elements of wedges with thrust, l 15 h, of docs/theory/bow.md: V and, whole, within 4 %.
 TEST(EdgeSections, OfWholeWedgesAreTheElements) {
   struct Row {
     double degrees, thrust, force;

@@ -33,7 +33,7 @@ struct WedgeRow {
   double patch, force, radius;
 };
 
-// The narrow wedge of docs/theory-bending.md. The expected forces are those of an earlier prototype, which
+// The narrow wedge of docs/theory/bending.md. The expected forces are those of an earlier prototype, which
 // ours exceeds by 0.22 % at a/l = 0.1, less for longer patches; the radii agree.
 TEST(NarrowWedge, AgreesWithThePrototype) {
   for (const auto& [patch, force, radius] :
