@@ -13,7 +13,7 @@ struct TurningCusp {
 
 /// What the edge of a turning cusp weighs, M = ρ_i h J/R² + (9π/256) ρ_w A R/√(1 + (R/b)²), b = A/R [kg]: its own
 /// inertia, and that of the water below, half of a plate's that turns about its edge in water without bounds. That
-/// is what water with a free surface around has; ice around makes it more (docs/theory-bow.md).
+/// is what water with a free surface around has; ice around makes it more (docs/theory/bow.md).
 double edge_mass(const Ice& ice, const Water& water, const TurningCusp& cusp);
 
 }  // namespace polynya::fracture
