@@ -14,7 +14,9 @@ using geometry::Vector;
 /// A piece that turns about the line across `ahead`, a unit vector, through the point of it that is farthest there.
 fracture::TurningCusp turning(const geometry::Polygon& piece, Vector ahead) {
   const auto along = [&](Point p) { return dot(p - Point{}, ahead); };
-  const auto [near, far] = std::ranges::minmax(piece.outer, {}, along);
+  const auto ends = std::ranges::minmax(piece.outer, {}, along);
+  const Point near = ends.min;
+  const Point far = ends.max;
   double moment = 0;
   const auto add = [&](const geometry::Ring& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
