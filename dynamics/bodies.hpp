@@ -127,6 +127,18 @@ inline geometry::Vector velocity_at(const Bodies& bodies, BodyIndex i, geometry:
   return bodies.velocity[i] + cross(bodies.angular_velocity[i], arm);
 }
 
+/// Gives a body an impulse in the water frame [N s] and one that turns it about its centre [N m s]. The work that
+/// these do on it, at the mean of its motion before and after [J].
+inline double push(Bodies& bodies, BodyIndex i, geometry::Vector impulse, double turning = 0) {
+  const geometry::Vector change = bodies.inverse_mass[i] * impulse;
+  const double spin = bodies.inverse_moment[i] * turning;
+  const double work =
+      dot(impulse, bodies.velocity[i] + 0.5 * change) + turning * (bodies.angular_velocity[i] + 0.5 * spin);
+  bodies.velocity[i] += change;
+  bodies.angular_velocity[i] += spin;
+  return work;
+}
+
 /// The rotation by `turn` after r, for the small turns of a step [rad]. Cayley's form: a rotation to the last
 /// bit or two however many follow one another, by 2 atan(turn/2), which is turn³/12 short: 1e-14 at 0.01
 /// rad/s and 5 ms.

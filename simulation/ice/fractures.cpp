@@ -128,9 +128,10 @@ void apply_fractures(const Setup& setup, const Clock& clock, StepData& step, Pop
     }
     if (outcome) {
       const FloeId first = population.floe_count();
-      if (pending.failure == fracture::Failure::kBend)
+      const Breakage breakage = breakage_of(setup, clock, pending);
+      if (breakage.inside == InsideFate::kUnderHull)
         turn_cusp(setup, pending, *outcome, population, step.loads[pending.ship], accounts.audit);
-      replace_by_pieces(setup, clock, breakage_of(setup, clock, pending), *outcome, population, accounts, journal);
+      replace_by_pieces(setup, clock, breakage, *outcome, population, accounts, journal);
       if (clock.parts > 1 && pending.failure == fracture::Failure::kBend)
         pass_bends(pending.floe, first, std::span(fractures).subspan(i + 1), population);
     } else {

@@ -69,14 +69,9 @@ void apply(const Setup& setup, BodyIndex ship, const Pull& pull, dynamics::Bodie
   loads.impulse += {-impulse, 0, angular};
   if (!is_free) return;
   const Vector pushed = -impulse * heading_of(bodies, ship);
-  const Vector change = bodies.inverse_mass[ship] * pushed;
-  const double spin = bodies.inverse_moment[ship] * angular;
-  audit.energy.submerged_ice -=
-      dot(pushed, bodies.velocity[ship] + 0.5 * change) + angular * (bodies.angular_velocity[ship] + 0.5 * spin);
+  audit.energy.submerged_ice -= push(bodies, ship, pushed, angular);
   audit.momentum.water += pushed;
   audit.impulses += impulse;
-  bodies.velocity[ship] += change;
-  bodies.angular_velocity[ship] += spin;
 }
 
 double speed_ahead(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex ship) {

@@ -62,11 +62,9 @@ void blow(Vector stress, Population& population, double dt, AuditSums& audit) {
 void push_ship(dynamics::Bodies& bodies, BodyIndex ship, double thrust_impulse, AuditSums& audit) {
   const Vector heading{bodies.rotation[ship].cosine, bodies.rotation[ship].sine};
   const Vector impulse = thrust_impulse * heading;
-  const Vector change = bodies.inverse_mass[ship] * impulse;
-  audit.energy.thrust += dot(impulse, bodies.velocity[ship] + 0.5 * change);
+  audit.energy.thrust += push(bodies, ship, impulse);
   audit.momentum.thrust += impulse;
   audit.impulses += length(impulse);
-  bodies.velocity[ship] += change;
 }
 
 }  // namespace
