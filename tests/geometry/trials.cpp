@@ -66,8 +66,10 @@ testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome)
   }
   for (const double apart : {exact::Rational(of_part[0] - exact::Rational(ledger.area_outside)).get_d(),
                              exact::Rational(of_part[1] - exact::Rational(ledger.area_inside)).get_d()}) {
+    // A term of a shoelace sum about a vertex errs by up to 4ε of its two products, each at most (size/2)²: what
+    // thin pieces of long edges have, whose own area is far smaller.
     const double size = perimeter(shape.polygon);
-    if (std::abs(apart) > 1e-14 * (ledger.area_before + 1e-3 * size * size))
+    if (std::abs(apart) > 1e-14 * ledger.area_before + std::numeric_limits<double>::epsilon() * size * size)
       return testing::AssertionFailure() << "a part's area is off by " << apart << " m²";
   }
   // The pieces and what was removed are the parent, exactly, but for what the ledger names: two nearest
