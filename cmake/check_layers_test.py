@@ -15,11 +15,11 @@ PLANTED = [
     ("geometry/shape/point.hpp", '"geometry/cut/cut.hpp"'),  # up, between sub-rooms
     ("geometry/cut/cut.cpp", '"geometry/contact/boundary.hpp"'),  # sideways
     ("fracture/crushing.cpp", '"dynamics/bodies.hpp"'),  # down, between rooms that are blind to each other
-    ("dynamics/contact/contact.hpp", '"dynamics/water/wind.hpp"'),  # sideways, between sub-rooms
+    ("dynamics/contact/contact.hpp", '"dynamics/water/flow.hpp"'),  # sideways, between sub-rooms
     ("dynamics/bodies.hpp", '"dynamics/contact/contact.hpp"'),  # up, into a sub-room
     ("simulation/world/step.cpp", '"io/scene/scene_reader.hpp"'),  # up
     ("io/run/run_writer.cpp", '"views/map/picture.hpp"'),  # up: the writer draws nothing
-    ("io/scene/scene_check.cpp", '"geometry/cut/internal/local_cut.hpp"'),  # another room's internals
+    ("io/scene/scene_check.cpp", '"geometry/cut/internal/cut_graph.hpp"'),  # another room's internals
     ("io/scene/scene_reader.cpp", "<nlohmann/json.hpp>"),  # foreign, elsewhere
     ("simulation/world/world.cpp", "<CGAL/Polygon_2.h>"),
     ("geometry/cut/cut.hpp", "<CGAL/Polygon_2.h>"),  # in its room, but public

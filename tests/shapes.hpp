@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/contact/boundary.hpp"
 #include "geometry/shape/polygon.hpp"
 
 /// Polygons that tests are made of. Lengths in metres.
@@ -40,3 +41,14 @@ inline geometry::Ring reversed(const geometry::Ring& ring) {
 }
 
 }  // namespace polynya::shapes
+
+namespace polynya::geometry {
+
+/// A boundary that is ready for finding contacts.
+inline Boundary make_boundary(const Polygon& polygon, const CircleRule& rule) {
+  Boundary boundary = make_outline(polygon);
+  make_ready(boundary, rule);
+  return boundary;
+}
+
+}  // namespace polynya::geometry

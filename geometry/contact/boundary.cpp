@@ -1,6 +1,7 @@
 #include "geometry/contact/boundary.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -8,6 +9,9 @@
 #include "geometry/exact/point_in_ring.hpp"
 
 namespace polynya::geometry {
+
+// ---- covers
+
 namespace {
 
 /// Bounding circles of a leaf. More are compared one by one, fewer make a larger tree.
@@ -68,14 +72,6 @@ double gap(const CircleNode& a, const CircleNode& b, Point b_centre_in_a) {
 
 }  // namespace
 
-bool is_inside(const EdgeList& edges, Point p) {
-  bool inside = false;
-  for (std::uint32_t edge = 0; edge < edges.size(); ++edge) {
-    if (crosses_ray(edges.from(edge), edges.to(edge), p)) inside = !inside;
-  }
-  return inside;
-}
-
 Boundary make_outline(const Polygon& polygon) {
   Boundary boundary;
   boundary.edges = edge_list(polygon);
@@ -113,12 +109,6 @@ void make_ready(Boundary& boundary, const CircleRule& rule) {
   make_cover(boundary.edges, rule, *cover);
   cover->tree.shrink_to_fit();
   boundary.cover = std::move(cover);
-}
-
-Boundary make_boundary(const Polygon& polygon, const CircleRule& rule) {
-  Boundary boundary = make_outline(polygon);
-  make_ready(boundary, rule);
-  return boundary;
 }
 
 double near_circles(const Covered& a, const Covered& b, const Pose& a_from_b, double margin,
@@ -162,6 +152,138 @@ double near_circles(const Covered& a, const Covered& b, const Pose& a_from_b, do
   return circle_pairs.size() == before ? bound : 0;
 }
 
+// ---- near edges
+
+namespace {
+
+/// Each edge of a with each piece of b that one of its own pieces is near, once and in order. Pieces have
+/// consecutive edges, in the order of pieces: by these pairs the edges' own come sorted.
+std::vector<NearPair> edges_near_pieces(const Covered& a, const std::vector<NearPair>& circle_pairs) {
+  std::vector<NearPair> near;
+  near.reserve(circle_pairs.size());
+  for (const NearPair pair : circle_pairs) {
+    const PieceEdges& piece = a.cover.pieces[pair.a];
+    std::uint32_t edge = piece.first_edge;
+    for (std::uint32_t i = 0; i < piece.edges; ++i, edge = a.edges.next[edge]) near.push_back({edge, pair.b});
+  }
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  return near;
+}
+
+/// Puts the ends of the pairs' edges beside them. Plain pointers: there may be thousands.
+void fill_ends(const EdgeList& a, const EdgeList& b, NearEdges& edges) {
+  const std::size_t count = edges.pairs.size();
+  const std::size_t stride = edges.stride = (count + 3) / 4 * 4;
+  edges.ends.resize(8 * stride);
+  const Point* const of_a = a.vertices.data();
+  const Point* const of_b = b.vertices.data();
+  double* const ends = edges.ends.data();
+  for (std::size_t i = 0; i < stride; ++i) {
+    const bool is_pair = i < count;  // else what fills the last lanes
+    const NearPair pair = is_pair ? edges.pairs[i] : NearPair{};
+    const Point points[4] = {of_a[pair.a], of_a[a.next[pair.a]], of_b[pair.b], of_b[b.next[pair.b]]};
+    for (std::size_t k = 0; k < 4; ++k) {
+      ends[i + 2 * k * stride] = is_pair ? points[k].x : 0;
+      ends[i + (2 * k + 1) * stride] = is_pair ? points[k].y : 0;
+    }
+  }
+}
+
+/// Whether each of two segments has its ends on either side of the other's line, or on it: then they cross or
+/// touch, if they are not in one line.
+bool are_across(Point a0, Point a1, Point b0, Point b1) {
+  const double b_sides = cross(a1 - a0, b0 - a0) * cross(a1 - a0, b1 - a0);
+  const double a_sides = cross(b1 - b0, a0 - b0) * cross(b1 - b0, a1 - b0);
+  return b_sides <= 0 && a_sides <= 0;
+}
+
+/// Square of the distance of two segments, 0 where they cross or touch [m²].
+double squared_gap(Point a0, Point a1, Point b0, Point b1) {
+  if (are_across(a0, a1, b0, b1)) return 0;
+  const auto squared_to_segment = [](Point p, Point from, Point to) {
+    return squared_length(nearest_on_segment(from, to, p) - p);
+  };
+  return std::min({squared_to_segment(a0, b0, b1), squared_to_segment(a1, b0, b1), squared_to_segment(b0, a0, a1),
+                   squared_to_segment(b1, a0, a1)});
+}
+
+double squared_gap(const Box& a, const Box& b) {
+  const double x = std::max({0.0, a.low.x - b.high.x, b.low.x - a.high.x});
+  const double y = std::max({0.0, a.low.y - b.high.y, b.low.y - a.high.y});
+  return x * x + y * y;
+}
+
+}  // namespace
+
+double near_edges(const EdgeList& a, const EdgeList& b, const Pose& a_from_b, double margin, NearEdges& edges) {
+  std::array<Point, kFewEdges> b_in_a;
+  Box around_b{transform(a_from_b, b.vertices.front()), transform(a_from_b, b.vertices.front())};
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    b_in_a[k] = transform(a_from_b, b.vertices[k]);
+    extend(around_b, b_in_a[k]);
+  }
+  edges.pairs.clear();
+  double bound = std::numeric_limits<double>::infinity();  // squared, as `near`
+  const double near = margin * margin;
+  for (std::uint32_t i = 0; i < a.size(); ++i) {
+    const Point from = a.from(i), to = a.to(i);
+    const Box around = box_around(from, to);
+    const double off = squared_gap(around, around_b);
+    if (off > near) {
+      bound = std::min(bound, off);
+      continue;
+    }
+    for (std::uint32_t k = 0; k < b.size(); ++k) {
+      const Point b_from = b_in_a[k], b_to = b_in_a[b.next[k]];
+      double between = squared_gap(around, box_around(b_from, b_to));
+      if (between <= near) between = squared_gap(from, to, b_from, b_to);
+      if (between <= near)
+        edges.pairs.push_back({i, k});
+      else
+        bound = std::min(bound, between);
+    }
+  }
+  if (edges.pairs.empty()) return std::sqrt(bound);
+  fill_ends(a, b, edges);
+  return 0;
+}
+
+void edges_of(const Covered& a, const Covered& b, const std::vector<NearPair>& circle_pairs, NearEdges& edges) {
+  std::vector<NearPair>& pairs = edges.pairs;
+  pairs.clear();
+  const std::vector<NearPair> near = edges_near_pieces(a, circle_pairs);
+  for (const NearPair pair : near) {
+    const PieceEdges& piece = b.cover.pieces[pair.b];
+    std::uint32_t eb = piece.first_edge;
+    for (std::uint32_t k = 0; k < piece.edges; ++k, eb = b.edges.next[eb]) {
+      if (pairs.empty() || pairs.back() != NearPair{pair.a, eb}) pairs.push_back({pair.a, eb});
+    }
+  }
+  fill_ends(a.edges, b.edges, edges);
+}
+
+double least_distance(const Pose& a_from_b, const NearEdges& edges) {
+  double least = std::numeric_limits<double>::infinity();  // squared
+  for (std::size_t i = 0; i < edges.pairs.size() && least > 0; ++i) {
+    const auto end = [&](std::size_t k) {
+      return Point{edges.ends[i + 2 * k * edges.stride], edges.ends[i + (2 * k + 1) * edges.stride]};
+    };
+    least = std::min(least, squared_gap(end(0), end(1), transform(a_from_b, end(2)), transform(a_from_b, end(3))));
+  }
+  return std::sqrt(least);
+}
+
+// ---- insides and clearance
+
+bool is_inside(const EdgeList& edges, Point p) {
+  bool inside = false;
+  for (std::uint32_t edge = 0; edge < edges.size(); ++edge) {
+    if (crosses_ray(edges.from(edge), edges.to(edge), p)) inside = !inside;
+  }
+  return inside;
+}
+
 bool is_one_inside(const Covered& a, const Covered& b, const Pose& a_from_b) {
   const CircleNode& around_a = a.cover.tree.front();
   const CircleNode& around_b = b.cover.tree.front();
@@ -174,6 +296,57 @@ bool is_one_inside(const EdgeList& a, const EdgeList& b, const Pose& a_from_b) {
   // All vertices: where two only touch, rounding may find one of them inside.
   return std::ranges::all_of(b.vertices, [&](Point p) { return is_inside(a, transform(a_from_b, p)); }) ||
          std::ranges::all_of(a.vertices, [&](Point p) { return is_inside(b, inverse_transform(a_from_b, p)); });
+}
+
+namespace {
+
+/// Far more than what circles miss of their edges by rounding [m]. Without it an edge may be overlooked, and
+/// bodies that overlap are clear; larger only costs time.
+constexpr double kSlack = 1e-6;
+
+/// As is_inside of all edges: no other edge is to the right of the point.
+bool is_inside_boundary(const Boundary& boundary, Point p) {
+  const auto is_to_the_right = [&](const BoundingCircle& circle) {
+    const double reach = circle.reach + kSlack;
+    return std::abs(circle.centre.y - p.y) <= reach && circle.centre.x + reach >= p.x;
+  };
+  bool inside = false;
+  for_edges(boundary, is_to_the_right, [&](std::uint32_t edge) {
+    if (crosses_ray(boundary.edges.from(edge), boundary.edges.to(edge), p)) inside = !inside;
+  });
+  return inside;
+}
+
+/// Whether an edge of a meets one of b, which is within the box, in a's frame.
+bool do_edges_meet(const Boundary& a, const EdgeList& b, const Ring& b_in_a, const Box& box_of_b) {
+  const Point centre = midpoint(box_of_b.low, box_of_b.high);
+  const double radius = distance(centre, box_of_b.high) + kSlack;
+  bool meets = false;
+  const auto is_near = [&](const BoundingCircle& circle) {
+    return !meets && distance(circle.centre, centre) <= circle.reach + radius;
+  };
+  for_edges(a, is_near, [&](std::uint32_t edge) {
+    const Point from = a.edges.from(edge), to = a.edges.to(edge);
+    const Box box = box_around(from, to);
+    if (meets || !overlaps(box_of_b, box)) return;
+    for (std::uint32_t j = 0; j < b.size() && !meets; ++j) {
+      const Point b_from = b_in_a[j], b_to = b_in_a[b.next[j]];
+      meets = overlaps(box, box_around(b_from, b_to)) && are_across(from, to, b_from, b_to);
+    }
+  });
+  return meets;
+}
+
+}  // namespace
+
+bool is_clear(const Boundary& a, const Boundary& b, const Pose& a_from_b) {
+  Ring b_in_a;
+  b_in_a.reserve(b.edges.size());
+  for (const Point p : b.edges.vertices) b_in_a.push_back(transform(a_from_b, p));
+  if (do_edges_meet(a, b.edges, b_in_a, bounding_box(b_in_a))) return false;
+  // Where no edges meet, one vertex stands for all of its body.
+  return !is_inside_boundary(a, b_in_a.front()) &&
+         !is_inside(b.edges, inverse_transform(a_from_b, a.edges.vertices.front()));
 }
 
 }  // namespace polynya::geometry

@@ -75,8 +75,6 @@ Boundary make_outline(const Polygon& polygon);
 /// Makes a boundary's cover, and keeps it.
 void make_ready(Boundary& boundary, const CircleRule& rule);
 
-Boundary make_boundary(const Polygon& polygon, const CircleRule& rule);
-
 /// A pair of edges (or of bounding circles) of two boundaries that are near each other.
 struct NearPair {
   std::uint32_t a = 0;

@@ -133,7 +133,7 @@ std::vector<ContactCircle> sample_contact_circles(const EdgeList& edges, const s
   std::vector<Box> boxes;
   boxes.reserve(edges.size());
   for (std::uint32_t e = 0; e < edges.size(); ++e) boxes.push_back(box_around(edges.from(e), edges.to(e)));
-  const BoxTree tree(std::move(boxes), BoxTree::Order::kAlongRing);
+  const BoxTree tree(std::move(boxes));
   for (const BoundaryPiece& piece : pieces) circles.push_back(circle_for(edges, tree, piece, radius));
   return circles;
 }

@@ -1,12 +1,378 @@
-#include "geometry/contact/manifolds.hpp"
-
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
+#include <span>
+
+#include "geometry/contact/boundary.hpp"
+#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/shape/avx2_clone.hpp"
 
 namespace polynya::geometry {
 namespace {
 
 using Crossing = ManifoldScratch::Crossing;
+
+// ---- where boundaries cross
+
+/// Some pairs of edges side by side, for a loop that the compiler turns into vector instructions. Plain
+/// arrays: it does not of those that check their indices.
+struct EdgeLanes {
+  // Four vector instructions of four doubles. Fewer leave their time to the loop, more to lanes that are not
+  // used.
+  static constexpr std::size_t kMost = 16;
+  double along_a[kMost], along_b[kMost];            // where their lines meet, as shares of the edges
+  double starts_inside[kMost], is_crossing[kMost];  // 1 or 0
+};
+
+/// Brings b's edges into a's frame and finds which pairs cross. Which side of an edge along d a point is on
+/// is decided by the sign of its turn, left where it is positive. A zero is decided as if all of b were moved
+/// by (ε, ε²), ε → 0: the same tie-break on both boundaries makes crossings alternate between entering and
+/// leaving.
+POLYNYA_AVX2_CLONE void find_crossing_lanes(const double* __restrict ends, std::size_t stride, std::size_t count,
+                                            const Pose& a_from_b, EdgeLanes& __restrict l) {
+  const Pose pose = a_from_b;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Point a0{ends[i], ends[i + stride]};
+    const Point a1{ends[i + 2 * stride], ends[i + 3 * stride]};
+    const Point b0 = transform(pose, {ends[i + 4 * stride], ends[i + 5 * stride]});
+    const Point b1 = transform(pose, {ends[i + 6 * stride], ends[i + 7 * stride]});
+    const Vector da = a1 - a0;
+    const Vector db = b1 - b0;
+    const Vector ab = b0 - a0;
+    const double b_turns[2] = {cross(da, ab), cross(da, b1 - a0)};
+    const double a_turns[2] = {-cross(db, ab), cross(db, a1 - b0)};
+    const bool a_tie = (da.y < 0) | ((da.y == 0) & (da.x > 0));
+    const bool b_tie = (db.y > 0) | ((db.y == 0) & (db.x < 0));
+    const bool is_b0_left = (b_turns[0] > 0) | ((b_turns[0] == 0) & a_tie);
+    const bool is_b1_left = (b_turns[1] > 0) | ((b_turns[1] == 0) & a_tie);
+    const bool is_a0_left = (a_turns[0] > 0) | ((a_turns[0] == 0) & b_tie);
+    const bool is_a1_left = (a_turns[1] > 0) | ((a_turns[1] == 0) & b_tie);
+    const double turn = cross(da, db);
+    const double per_turn = 1 / turn;
+    l.along_a[i] = turn != 0 ? std::clamp(cross(ab, db) * per_turn, 0.0, 1.0) : 0.5;
+    l.along_b[i] = turn != 0 ? std::clamp(cross(ab, da) * per_turn, 0.0, 1.0) : 0.5;
+    l.starts_inside[i] = is_a0_left ? 1 : 0;
+    l.is_crossing[i] = (is_b0_left != is_b1_left) & (is_a0_left != is_a1_left) ? 1 : 0;
+  }
+}
+
+/// Along an edge, as a share of it [-]. Far smaller, crossings that rounding swapped are not put in turn, and
+/// their overlap is left out for a step; far larger, crossings of different corners are swapped.
+constexpr double kSamePlace = 1e-9;
+
+/// One of the two boundaries, as crossings have their places on it.
+struct Side {
+  std::uint32_t Crossing::*edge;
+  double Crossing::*along;
+};
+constexpr Side kOnA{&Crossing::edge_a, &Crossing::along_a};
+constexpr Side kOnB{&Crossing::edge_b, &Crossing::along_b};
+
+bool is_before(const Crossing& p, const Crossing& q, Side on) {
+  return p.*on.edge != q.*on.edge ? p.*on.edge < q.*on.edge : p.*on.along < q.*on.along;
+}
+
+/// Sorts crossings along a boundary. Those at one place of an edge come in either order by rounding; along a
+/// ring they must enter and leave in turn. `ring` is the boundary's ring of each edge.
+void order_along(Side on, const std::vector<std::uint32_t>& ring, std::vector<Crossing>& order) {
+  std::sort(order.begin(), order.end(), [on](const Crossing& p, const Crossing& q) { return is_before(p, q, on); });
+  const auto ring_of = [&](std::size_t i) { return ring[order[i].*on.edge]; };
+  for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+    const std::uint32_t own = ring_of(i);
+    std::size_t before = i - 1;
+    if (i == 0 || ring_of(i - 1) != own) {  // the ring's first crossing follows its last
+      before = i;
+      while (before + 1 < order.size() && ring_of(before + 1) == own) ++before;
+    }
+    if (order[i].is_entering != order[before].is_entering) continue;
+    const auto is_same_place = [&](const Crossing& q) {
+      return order[i].*on.edge == q.*on.edge && std::abs(order[i].*on.along - q.*on.along) < kSamePlace;
+    };
+    for (std::size_t k = i + 1; k < order.size() && ring_of(k) == own && is_same_place(order[k]); ++k) {
+      if (order[k].is_entering == order[i].is_entering) continue;
+      std::swap(order[i], order[k]);
+      break;
+    }
+  }
+}
+
+/// Appends where near edges of two boundaries cross, in the frame of a. Touching counts as if b were moved by
+/// (ε, ε²), ε → 0, so that along each ring crossings enter and leave in turn.
+void find_crossings(const Pose& a_from_b, const NearEdges& edges, std::vector<Crossing>& crossings) {
+  EdgeLanes lanes;
+  for (std::size_t first = 0; first < edges.pairs.size(); first += EdgeLanes::kMost) {
+    const double* ends = edges.ends.data() + first;
+    const std::size_t count = std::min(EdgeLanes::kMost, edges.pairs.size() - first);
+    find_crossing_lanes(ends, edges.stride, (count + 3) / 4 * 4, a_from_b, lanes);
+    unsigned which = 0;  // those that cross, a bit each: without a branch for every pair
+    for (std::size_t i = 0; i < count; ++i) which |= static_cast<unsigned>(lanes.is_crossing[i]) << i;
+    for (; which != 0; which &= which - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(which));
+      const Point a0{ends[i], ends[i + edges.stride]};
+      const Vector da = Point{ends[i + 2 * edges.stride], ends[i + 3 * edges.stride]} - a0;
+      const NearPair pair = edges.pairs[first + i];
+      crossings.push_back({a0 + lanes.along_a[i] * da, pair.a, pair.b, lanes.along_a[i], lanes.along_b[i],
+                           lanes.starts_inside[i] == 0, 0});
+    }
+  }
+}
+
+/// Orders the scratch's crossings along a, and a copy of them along b.
+void order_crossings(const Boundary& a, const Boundary& b, ManifoldScratch& scratch) {
+  std::vector<Crossing>& by_a = scratch.crossings;
+  order_along(kOnA, a.edges.ring, by_a);
+  for (std::uint32_t i = 0; i < by_a.size(); ++i) by_a[i].place_on_a = i;
+  scratch.by_b = by_a;
+  order_along(kOnB, b.edges.ring, scratch.by_b);
+}
+
+/// The crossing that follows number i along its ring, in an order of crossings.
+std::size_t next_on_ring(const std::vector<Crossing>& order, std::size_t i, const std::vector<std::uint32_t>& ring,
+                         Side on) {
+  const std::uint32_t own = ring[order[i].*on.edge];
+  if (i + 1 < order.size() && ring[order[i + 1].*on.edge] == own) return i + 1;
+  while (i > 0 && ring[order[i - 1].*on.edge] == own) --i;
+  return i;
+}
+
+// ---- overlaps of boundaries that cross more than twice
+
+/// Calls use(edge) for the vertices, where edges start, after a point on edge `first` up to one on edge
+/// `last`. `wraps`: all around the ring, where both are on one edge. Returns whether `last` was arrived at.
+template <typename Use>
+bool for_vertices_between(const EdgeList& edges, std::uint32_t first, std::uint32_t last, bool wraps, Use use) {
+  std::uint32_t edge = first;
+  for (std::size_t left = edges.size(); left > 0 && (edge != last || wraps); --left) {
+    wraps = false;
+    edge = edges.next[edge];
+    use(edge);
+  }
+  return edge == last;
+}
+
+void write_points(const Boundary& a, const Boundary& b, const Pose& a_from_b, ManifoldScratch& scratch,
+                  OverlapLoop& loop) {
+  std::vector<OverlapPoint>& points = scratch.loop_points;
+  loop.first_point = static_cast<std::uint32_t>(points.size());
+  for (std::uint32_t s = loop.first; s < loop.first + loop.stretches; ++s) {
+    const OverlapStretch& stretch = scratch.stretches[s];
+    const Crossing& enter = scratch.crossings[stretch.enter];
+    const Crossing& leave = scratch.crossings[stretch.leave];
+    const Crossing& next = scratch.crossings[stretch.next];
+    // Where two crossings are on one edge, their order decides, not their places: these may be the same.
+    const bool wraps_a = enter.edge_a == leave.edge_a && stretch.leave < stretch.enter;
+    const bool wraps_b =
+        leave.edge_b == next.edge_b && scratch.place_on_b[stretch.next] < scratch.place_on_b[stretch.leave];
+    points.push_back({enter.point, enter.edge_b});
+    for_vertices_between(a.edges, enter.edge_a, leave.edge_a, wraps_a, [&](std::uint32_t edge) {
+      points.push_back({a.edges.from(edge), kNotOnB});
+    });
+    points.push_back({leave.point, leave.edge_b});
+    for_vertices_between(b.edges, leave.edge_b, next.edge_b, wraps_b, [&](std::uint32_t edge) {
+      points.push_back({transform(a_from_b, b.edges.from(edge)), edge});
+    });
+  }
+  loop.points = static_cast<std::uint32_t>(points.size()) - loop.first_point;
+}
+
+/// Area, and its first moments about an origin.
+struct Moments {
+  Point origin;
+  double area = 0;  ///< [m²]
+  Vector first;     ///< [m³]
+
+  void add_edge(Point p, Point q) {
+    const Vector u = p - origin;
+    const Vector v = q - origin;
+    const double twice = cross(u, v);
+    area += 0.5 * twice;
+    first += (twice / 6) * (u + v);
+  }
+};
+
+std::span<const OverlapPoint> points_of(const ManifoldScratch& scratch, const OverlapLoop& loop) {
+  return std::span(scratch.loop_points).subspan(loop.first_point, loop.points);
+}
+
+void add_loop(Moments& moments, std::span<const OverlapPoint> points) {
+  for_ring_edges(points, [&](const OverlapPoint& p, const OverlapPoint& q) { moments.add_edge(p.point, q.point); });
+}
+
+bool is_inside(std::span<const OverlapPoint> points, Point p) {
+  bool inside = false;
+  for_ring_edges(points, [&](const OverlapPoint& from, const OverlapPoint& to) {
+    if (crosses_ray(from.point, to.point, p)) inside = !inside;
+  });
+  return inside;
+}
+
+bool is_hole_of(const ManifoldScratch& scratch, std::size_t hole, std::size_t outer) {
+  return scratch.loops[outer].area > 0 &&
+         is_inside(points_of(scratch, scratch.loops[outer]), points_of(scratch, scratch.loops[hole])[0].point);
+}
+
+/// Takes out of an overlap the holes of one body that lie in it whole, without a crossing.
+template <typename InFrame, typename IsCrossed>
+void add_whole_holes(const EdgeList& edges, InFrame in_frame, IsCrossed is_crossed, std::span<const OverlapPoint> outer,
+                     Moments& moments) {
+  std::size_t end = 0;
+  for (std::size_t first = 0; first < edges.size(); first = end) {
+    const std::uint32_t ring = edges.ring[first];
+    for (end = first; end < edges.size() && edges.ring[end] == ring;) ++end;
+    if (ring == 0 || is_crossed(ring) || !is_inside(outer, in_frame(edges.vertices[first]))) continue;
+    for (auto edge = static_cast<std::uint32_t>(first); edge < end; ++edge)
+      moments.add_edge(in_frame(edges.from(edge)), in_frame(edges.to(edge)));
+  }
+}
+
+void add_holes_of_both(const Boundary& a, const Boundary& b, const Pose& a_from_b, const ManifoldScratch& scratch,
+                       const OverlapLoop& loop, Moments& moments) {
+  const auto points = points_of(scratch, loop);
+  const auto is_crossed = [&scratch](const EdgeList& edges, Side on) {
+    return [&, on](std::uint32_t ring) {
+      return std::ranges::any_of(scratch.crossings, [&](const Crossing& c) { return edges.ring[c.*on.edge] == ring; });
+    };
+  };
+  add_whole_holes(
+      a.edges, [](Point p) { return p; }, is_crossed(a.edges, kOnA), points, moments);
+  add_whole_holes(
+      b.edges, [&](Point p) { return transform(a_from_b, p); }, is_crossed(b.edges, kOnB), points, moments);
+}
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  double extent() const { return high - low; }
+};
+
+template <typename Use>
+void for_loops_of(const ManifoldScratch& scratch, const OverlapLoop& outer, Use use) {
+  for (const OverlapLoop& loop : scratch.loops) {
+    if (&scratch.loops[loop.outer] == &outer) use(loop);
+  }
+}
+
+/// Traces the boundaries of all overlaps of two bodies, from the scratch's crossings in their orders, into
+/// the scratch's loops: by the first crossing of each along a. One that does not close is marked so.
+void trace_loops(const Boundary& a, const Boundary& b, ManifoldScratch& scratch) {
+  const std::vector<Crossing>& by_a = scratch.crossings;
+  const std::vector<Crossing>& by_b = scratch.by_b;
+  scratch.place_on_b.resize(by_b.size());
+  for (std::uint32_t i = 0; i < by_b.size(); ++i) scratch.place_on_b[by_b[i].place_on_a] = i;
+  scratch.is_traced.assign(by_a.size(), false);
+  scratch.stretches.clear();
+  scratch.loops.clear();
+  for (std::uint32_t start = 0; start < by_a.size(); ++start) {
+    if (!by_a[start].is_entering || scratch.is_traced[start]) continue;
+    OverlapLoop loop;
+    loop.first = static_cast<std::uint32_t>(scratch.stretches.size());
+    std::uint32_t enter = start;
+    do {
+      scratch.is_traced[enter] = true;
+      const auto leave = static_cast<std::uint32_t>(next_on_ring(by_a, enter, a.edges.ring, kOnA));
+      const std::size_t next_on_b = next_on_ring(by_b, scratch.place_on_b[leave], b.edges.ring, kOnB);
+      const std::uint32_t next = by_b[next_on_b].place_on_a;
+      scratch.stretches.push_back({enter, leave, next});
+      loop.is_closed = !by_a[leave].is_entering && next == start;
+      if (by_a[leave].is_entering || !by_a[next].is_entering || scratch.is_traced[next]) break;
+      enter = next;
+    } while (true);
+    loop.stretches = static_cast<std::uint32_t>(scratch.stretches.size()) - loop.first;
+    loop.outer = static_cast<std::uint32_t>(scratch.loops.size());
+    scratch.loops.push_back(loop);
+  }
+}
+
+/// Writes each loop's points and finds which loops are holes of which: only where a body has holes, or where
+/// a loop has several stretches of a boundary.
+void measure_loops(const Boundary& a, const Boundary& b, const Pose& a_from_b, ManifoldScratch& scratch) {
+  const bool has_holes = a.edges.has_holes() || b.edges.has_holes();
+  scratch.loop_points.clear();
+  for (OverlapLoop& loop : scratch.loops) {
+    if (!loop.is_closed || (loop.stretches == 1 && !has_holes)) continue;
+    write_points(a, b, a_from_b, scratch, loop);
+    Moments moments{scratch.loop_points[loop.first_point].point, 0, {}};
+    add_loop(moments, points_of(scratch, loop));
+    loop.area = moments.area;
+  }
+  if (!has_holes) return;
+  for (std::uint32_t hole = 0; hole < scratch.loops.size(); ++hole) {
+    if (scratch.loops[hole].area >= 0) continue;
+    for (std::uint32_t outer = 0; outer < scratch.loops.size(); ++outer) {
+      if (!is_hole_of(scratch, hole, outer)) continue;
+      scratch.loops[hole].outer = outer;
+      scratch.loops[outer].has_holes = true;
+    }
+  }
+}
+
+/// Of a loop's overlap with one stretch: the area of the bodies' holes that lie in it whole [m²].
+double area_of_whole_holes(const Boundary& a, const Boundary& b, const Pose& a_from_b, const ManifoldScratch& scratch,
+                           const OverlapLoop& loop) {
+  if (loop.points == 0) return 0;  // no body has holes
+  Moments moments{scratch.loop_points[loop.first_point].point, 0, {}};
+  add_holes_of_both(a, b, a_from_b, scratch, loop, moments);
+  return -moments.area;
+}
+
+/// The manifold of a connected overlap with any number of stretches, by the gradient of its area
+/// (docs/theory/contact.md). `outer` is its outer loop. Area is 0 where it has none.
+ContactManifold gradient_manifold(const Boundary& a, const Boundary& b, const Pose& a_from_b,
+                                  const ManifoldScratch& scratch, const OverlapLoop& outer) {
+  ContactManifold manifold;
+  manifold.is_pierced = true;
+  Moments moments{scratch.loop_points[outer.first_point].point, 0, {}};
+  for_loops_of(scratch, outer, [&](const OverlapLoop& loop) { add_loop(moments, points_of(scratch, loop)); });
+  add_holes_of_both(a, b, a_from_b, scratch, outer, moments);
+  if (!(moments.area > 0)) return manifold;
+  const Point centroid = moments.origin + moments.first / moments.area;
+  Vector gradient;    // R
+  double turned = 0;  // B, about the centroid
+  for_loops_of(scratch, outer, [&](const OverlapLoop& loop) {
+    for (std::uint32_t s = loop.first; s < loop.first + loop.stretches; ++s) {
+      const Vector enter = scratch.crossings[scratch.stretches[s].enter].point - centroid;
+      const Vector leave = scratch.crossings[scratch.stretches[s].leave].point - centroid;
+      gradient += leave - enter;
+      turned += 0.5 * dot(leave - enter, leave + enter);
+    }
+  });
+  manifold.area = moments.area;
+  manifold.centroid = centroid;
+  manifold.width = length(gradient);
+  const Vector along = manifold.width > kNoWidth ? gradient / manifold.width : Vector{0, 1};
+  manifold.normal = -perpendicular(along);
+  Range off_line, on_line;
+  double deepest = std::numeric_limits<double>::infinity();
+  for (const OverlapPoint& p : points_of(scratch, outer)) {
+    const Vector from_centroid = p.point - centroid;
+    const double off = dot(from_centroid, manifold.normal);
+    off_line.add(off);
+    on_line.add(dot(from_centroid, along));
+    manifold.reach = std::max(manifold.reach, length(from_centroid));
+    if (p.edge_of_b == kNotOnB || off >= deepest) continue;
+    deepest = off;
+    manifold.tip_of_b = p.point;
+    manifold.tip_edge_of_b = p.edge_of_b;
+  }
+  manifold.depth = off_line.extent();
+  manifold.extent = std::max(manifold.depth, on_line.extent());
+  // Where the gradient is small its line of action may lie far off: crushing acts within the overlap.
+  const double room = std::max(0.0, on_line.extent() - manifold.width);
+  const double lever = manifold.width > kNoWidth ? turned / manifold.width : 0;
+  const double low = on_line.low + 0.5 * (on_line.extent() - room);
+  const Point middle = centroid + std::clamp(lever, low, low + room) * along;
+  manifold.ends[0] = middle - 0.5 * manifold.width * along;
+  manifold.ends[1] = middle + 0.5 * manifold.width * along;
+  manifold.tip_of_a = middle;
+  return manifold;
+}
+
+// ---- overlaps of one stretch of each boundary
 
 /// What a chain of vertices adds to a manifold: area between chain and contact line, and how far it reaches
 /// off it.
@@ -27,13 +393,9 @@ ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::ui
   extent.tip = midpoint(from, to);
   extent.tip_edge = first;
   const Vector along = perpendicular(outward);
-  profile.clear();
-  profile.push_back({0, 0});
+  profile.assign(1, {0, 0});
   Point previous = from;
-  std::uint32_t edge = first;
-  for (std::size_t left = edges.size(); left > 0 && (edge != last || wraps); --left) {
-    wraps = false;
-    edge = edges.next[edge];
+  extent.is_closed = for_vertices_between(edges, first, last, wraps, [&](std::uint32_t edge) {
     const Point vertex = in_frame(edges.from(edge));
     extent.area += 0.5 * cross(previous - from, vertex - from);
     const double off = dot(vertex - from, outward);
@@ -44,10 +406,9 @@ ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::ui
       extent.tip_edge = edge;
     }
     previous = vertex;
-  }
+  });
   profile.push_back({width, 0});
   extent.area += 0.5 * cross(previous - from, to - from);
-  extent.is_closed = edge == last;
   return extent;
 }
 
@@ -95,7 +456,7 @@ bool make_manifold(const Boundary& a, const Boundary& b, const Pose& a_from_b, c
   const auto from_b = [&](Point p) { return transform(a_from_b, p); };
   const ChainExtent on_a =
       walk(a.edges, enter.edge_a, enter.point, leave.edge_a, leave.point, manifold.width, manifold.normal,
-           enter.edge_a == leave.edge_a && !is_before_on_a(enter, leave), as_is, scratch.side_a);
+           enter.edge_a == leave.edge_a && !is_before(enter, leave, kOnA), as_is, scratch.side_a);
   manifold.area = on_a.area;
   manifold.depth = on_a.depth;
   manifold.tip_of_a = on_a.tip;
@@ -105,7 +466,7 @@ bool make_manifold(const Boundary& a, const Boundary& b, const Pose& a_from_b, c
   if (closes_on_b) {
     const ChainExtent on_b =
         walk(b.edges, leave.edge_b, leave.point, enter.edge_b, enter.point, manifold.width, -manifold.normal,
-             leave.edge_b == enter.edge_b && !is_before_on_b(leave, enter), from_b, scratch.side_b);
+             leave.edge_b == enter.edge_b && !is_before(leave, enter, kOnB), from_b, scratch.side_b);
     manifold.area += on_b.area;
     manifold.depth = thickness_of(scratch.side_a, scratch.side_b, manifold.width);
     if (on_b.depth > 0) {

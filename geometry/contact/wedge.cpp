@@ -37,31 +37,25 @@ WedgeAngles wedge_angles(const EdgeList& edges, std::uint32_t tip_edge, Point ti
 
 void wedge_angles(const EdgeList& edges, std::uint32_t tip_edge, Point tip, Vector inward,
                   std::span<const double> lengths, std::span<WedgeAngles> angles) {
-  Point from = tip;
-  std::uint32_t e = tip_edge;
-  bool is_round = false;  // the whole ring is nearer than the length
-  for (std::size_t i = 0; i < lengths.size(); ++i) {
-    while (!is_round && distance(tip, edges.to(e)) <= lengths[i]) {
-      from = edges.to(e);
-      e = edges.next[e];
-      is_round = e == tip_edge;
+  // Along the boundary one way: `end_of` is the end of an edge that is farther on, `after` the edge beyond it.
+  const auto measure = [&](auto end_of, auto after, double WedgeAngles::*angle) {
+    Point from = tip;
+    std::uint32_t e = tip_edge;
+    bool is_round = false;  // the whole ring is nearer than the length
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+      while (!is_round && distance(tip, end_of(e)) <= lengths[i]) {
+        from = end_of(e);
+        e = after(e);
+        is_round = e == tip_edge;
+      }
+      const Point at = is_round && from != tip ? from : exit_point(from, end_of(e), tip, lengths[i]);
+      angles[i].*angle = angle_between(inward, at - tip);
     }
-    const Point ahead = is_round && from != tip ? from : exit_point(from, edges.to(e), tip, lengths[i]);
-    angles[i].front = angle_between(inward, ahead - tip);
-  }
-
-  from = tip;
-  e = tip_edge;
-  is_round = false;
-  for (std::size_t i = 0; i < lengths.size(); ++i) {
-    while (!is_round && distance(tip, edges.from(e)) <= lengths[i]) {
-      from = edges.from(e);
-      e = previous_edge(edges, e);
-      is_round = e == tip_edge;
-    }
-    const Point behind = is_round && from != tip ? from : exit_point(from, edges.from(e), tip, lengths[i]);
-    angles[i].back = angle_between(inward, behind - tip);
-  }
+  };
+  measure([&](std::uint32_t e) { return edges.to(e); }, [&](std::uint32_t e) { return edges.next[e]; },
+          &WedgeAngles::front);
+  measure([&](std::uint32_t e) { return edges.from(e); }, [&](std::uint32_t e) { return previous_edge(edges, e); },
+          &WedgeAngles::back);
 }
 
 }  // namespace polynya::geometry

@@ -162,12 +162,10 @@ Box box_of(const std::vector<Polygon>& pieces) {
 /// Cuts a strip of the gap along a ring off a polygon, where the two are near each other.
 bool cut_off_strip(const Ring& ring, double gap, Trimmer& trimmer, const Trimmed& trimmed) {
   bool is_cut = false;
-  for (std::size_t i = 0; i < ring.size() && !trimmed.pieces.empty(); ++i) {
-    const Point a = ring[i];
-    const Point b = ring[(i + 1) % ring.size()];
-    if (!overlaps(grown(box_around(a, b), gap), box_of(trimmed.pieces))) continue;
+  for_ring_edges(ring, [&](Point a, Point b) {
+    if (trimmed.pieces.empty() || !overlaps(grown(box_around(a, b), gap), box_of(trimmed.pieces))) return;
     is_cut = trimmer.cut_off(around_edge(a, b, gap), kLeastStrip) || is_cut;
-  }
+  });
   return is_cut;
 }
 

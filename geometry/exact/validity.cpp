@@ -116,15 +116,11 @@ Found find_misplaced_hole(const Polygon& polygon) {
   std::vector<Box> boxes;
   boxes.reserve(polygon.holes.size());
   for (const Ring& hole : polygon.holes) boxes.push_back(bounding_box(hole));
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (std::size_t j = i + 1; j < boxes.size(); ++j) {
-      if (!overlaps(boxes[i], boxes[j])) continue;
-      const Ring& one = polygon.holes[i];
-      const Ring& other = polygon.holes[j];
-      if (side_of(one, other) > 0 || side_of(other, one) > 0) {
-        return DefectAt{Defect::kHolesOverlap, {one.front(), other.front()}};
-      }
-    }
+  for (const auto& [i, j] : pairs_of_boxes(boxes)) {
+    const Ring& one = polygon.holes[i];
+    const Ring& other = polygon.holes[j];
+    if (side_of(one, other) > 0 || side_of(other, one) > 0)
+      return DefectAt{Defect::kHolesOverlap, {one.front(), other.front()}};
   }
   return {};
 }

@@ -4,16 +4,6 @@
 #include <numeric>
 
 namespace polynya::geometry {
-namespace {
-
-std::vector<Box> boxes_of(const std::vector<Edge>& edges) {
-  std::vector<Box> boxes;
-  boxes.reserve(edges.size());
-  for (const Edge& edge : edges) boxes.push_back(box_of(edge));
-  return boxes;
-}
-
-}  // namespace
 
 std::vector<Edge> edges_of(const Polygon& polygon) {
   std::vector<Edge> edges;
@@ -28,37 +18,11 @@ std::vector<Edge> edges_of(const Polygon& polygon) {
   return edges;
 }
 
-BoxTree::BoxTree(const std::vector<Edge>& edges) : BoxTree(boxes_of(edges), Order::kAlongRing) {}
-
-BoxTree::BoxTree(std::vector<Box> boxes, Order order) : boxes_(std::move(boxes)) {
+BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
   if (boxes_.empty()) return;
   const auto count = static_cast<std::uint32_t>(boxes_.size());
-  if (order == Order::kInPlace) {
-    numbers_.resize(count);
-    std::iota(numbers_.begin(), numbers_.end(), 0U);
-    sort_in_place(0, count);
-    std::vector<Box> sorted;
-    sorted.reserve(count);
-    for (const std::uint32_t i : numbers_) sorted.push_back(boxes_[i]);
-    boxes_ = std::move(sorted);
-  }
   nodes_.reserve(2 * (count / (kLeaf / 2) + 1));
   build(0, count);
-}
-
-void BoxTree::sort_in_place(std::uint32_t first, std::uint32_t last) {
-  if (last - first <= kLeaf) return;
-  const auto middle_of = [this](std::uint32_t i) { return midpoint(boxes_[i].low, boxes_[i].high); };
-  Box middles{middle_of(numbers_[first]), middle_of(numbers_[first])};
-  for (std::uint32_t i = first; i < last; ++i) extend(middles, middle_of(numbers_[i]));
-  const bool is_wide = middles.high.x - middles.low.x > middles.high.y - middles.low.y;
-  const std::uint32_t half = first + (last - first) / 2;
-  const auto at = [this](std::uint32_t i) { return numbers_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(first), at(half), at(last), [&](std::uint32_t i, std::uint32_t j) {
-    return is_wide ? middle_of(i).x < middle_of(j).x : middle_of(i).y < middle_of(j).y;
-  });
-  sort_in_place(first, half);
-  sort_in_place(half, last);
 }
 
 std::uint32_t BoxTree::build(std::uint32_t first, std::uint32_t last) {
@@ -81,11 +45,22 @@ std::uint32_t BoxTree::build(std::uint32_t first, std::uint32_t last) {
 
 std::vector<std::pair<std::size_t, std::size_t>> pairs_of_boxes(const std::vector<Box>& boxes) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  BoxTree(boxes, BoxTree::Order::kInPlace).for_each_pair([&](std::size_t i, std::size_t j) {
-    pairs.emplace_back(i, j);
-    return true;
-  });
-  std::sort(pairs.begin(), pairs.end());
+  if (boxes.empty()) return pairs;
+  Box all = boxes.front();
+  for (const Box& box : boxes) extend(all, box);
+  double Point::*const along = all.high.x - all.low.x > all.high.y - all.low.y ? &Point::x : &Point::y;
+  std::vector<std::size_t> order(boxes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return boxes[i].low.*along; });
+  std::vector<Box> swept;
+  swept.reserve(boxes.size());
+  for (const std::size_t i : order) swept.push_back(boxes[i]);
+  for (std::size_t k = 0; k < swept.size(); ++k) {
+    for (std::size_t l = k + 1; l < swept.size() && swept[l].low.*along <= swept[k].high.*along; ++l) {
+      if (overlaps(swept[k], swept[l])) pairs.push_back(std::minmax(order[k], order[l]));
+    }
+  }
+  std::ranges::sort(pairs);
   return pairs;
 }
 

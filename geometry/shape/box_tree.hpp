@@ -23,19 +23,15 @@ inline Box box_of(const Edge& e) {
   return box_around(e.a, e.b);
 }
 
-/// The search for edges and boxes in one frame: boxes over runs of them, halved down to a few. Boxes that
-/// touch meet. (Bodies and places are searched in grids: dynamics/hash_grid.hpp, power_diagram.cpp;
-/// boundaries in two turned frames by circles: contact/boundary.hpp.)
+/// The search for edges and other things in a row in one frame: boxes over runs of them, halved down to a few.
+/// They are not sorted: edges that follow each other along a ring lie near each other. Boxes that touch meet.
+/// (Bodies and places are searched in grids: dynamics/hash_grid.hpp, power_diagram.cpp; boundaries in two
+/// turned frames by circles: contact/boundary.hpp.)
 class BoxTree {
  public:
-  /// How the boxes are halved.
-  enum class Order {
-    kAlongRing,  ///< as they stand: edges that follow each other along a ring lie near each other
-    kInPlace,    ///< by their middles, across the longer side of what these span
-  };
-
-  BoxTree(std::vector<Box> boxes, Order order);
-  explicit BoxTree(const std::vector<Edge>& edges);
+  explicit BoxTree(std::vector<Box> boxes);
+  template <class Item>
+  explicit BoxTree(const std::vector<Item>& items) : BoxTree(boxes_of(items)) {}
 
   /// Calls visit(i, j), i < j, for every pair of boxes that meet, until it returns false.
   template <typename Visit>
@@ -43,7 +39,7 @@ class BoxTree {
     return nodes_.empty() || join_self(0, visit);
   }
 
-  /// Calls visit(i) for every box that meets this one, until it returns false. kAlongRing: i ascends.
+  /// Calls visit(i) for every box that meets this one, i ascending, until it returns false.
   template <typename Visit>
   bool for_each_near(const Box& box, Visit visit) const {
     return nodes_.empty() || query(0, box, visit);
@@ -58,15 +54,14 @@ class BoxTree {
   /// Boxes of a leaf. More make pairs cost their square, fewer make more nodes; 3 to 8 take the same time.
   static constexpr std::uint32_t kLeaf = 4;
 
-  void sort_in_place(std::uint32_t first, std::uint32_t last);
-  std::uint32_t build(std::uint32_t first, std::uint32_t last);
-  std::size_t number(std::uint32_t place) const { return numbers_.empty() ? place : numbers_[place]; }
-
-  template <typename Visit>
-  bool visit_pair(std::uint32_t i, std::uint32_t j, Visit& visit) const {
-    if (!overlaps(boxes_[i], boxes_[j])) return true;
-    return numbers_.empty() || numbers_[i] < numbers_[j] ? visit(number(i), number(j)) : visit(number(j), number(i));
+  template <class Item>
+  static std::vector<Box> boxes_of(const std::vector<Item>& items) {
+    std::vector<Box> boxes;
+    boxes.reserve(items.size());
+    for (const Item& item : items) boxes.push_back(box_of(item));
+    return boxes;
   }
+  std::uint32_t build(std::uint32_t first, std::uint32_t last);
 
   template <typename Visit>
   bool query(std::uint32_t n, const Box& box, Visit& visit) const {
@@ -74,7 +69,7 @@ class BoxTree {
     if (!overlaps(node.box, box)) return true;
     if (node.left != 0) return query(node.left, box, visit) && query(node.right, box, visit);
     for (std::uint32_t i = node.first; i < node.last; ++i) {
-      if (overlaps(boxes_[i], box) && !visit(number(i))) return false;
+      if (overlaps(boxes_[i], box) && !visit(std::size_t{i})) return false;
     }
     return true;
   }
@@ -86,7 +81,7 @@ class BoxTree {
       return join_self(node.left, visit) && join_self(node.right, visit) && join(node.left, node.right, visit);
     for (std::uint32_t i = node.first; i < node.last; ++i) {
       for (std::uint32_t j = i + 1; j < node.last; ++j) {
-        if (!visit_pair(i, j, visit)) return false;
+        if (overlaps(boxes_[i], boxes_[j]) && !visit(std::size_t{i}, std::size_t{j})) return false;
       }
     }
     return true;
@@ -101,7 +96,7 @@ class BoxTree {
       for (std::uint32_t i = low.first; i < low.last; ++i) {
         if (!overlaps(boxes_[i], high.box)) continue;
         for (std::uint32_t j = high.first; j < high.last; ++j) {
-          if (!visit_pair(i, j, visit)) return false;
+          if (overlaps(boxes_[i], boxes_[j]) && !visit(std::size_t{i}, std::size_t{j})) return false;
         }
       }
       return true;
@@ -111,12 +106,12 @@ class BoxTree {
     return join(m, high.left, visit) && join(m, high.right, visit);
   }
 
-  std::vector<Box> boxes_;              ///< in the tree's order
-  std::vector<std::uint32_t> numbers_;  ///< of these boxes as given; empty where they stand as given
+  std::vector<Box> boxes_;
   std::vector<Node> nodes_;
 };
 
-/// Which boxes meet, by their indices: the lower first, ascending.
+/// Which boxes meet, by their indices: the lower first, ascending. Boxes that lie about in any order are swept
+/// along the longer side of what they span.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_of_boxes(const std::vector<Box>& boxes);
 
 }  // namespace polynya::geometry

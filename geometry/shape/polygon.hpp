@@ -32,6 +32,12 @@ inline Box bounding_box(const Ring& ring) {
   return box;
 }
 
+/// Calls use(from, to) for each edge of a closed chain of points, in order.
+template <class Points, class Use>
+void for_ring_edges(const Points& ring, Use use) {
+  for (std::size_t i = 0; i < ring.size(); ++i) use(ring[i], ring[i + 1 < ring.size() ? i + 1 : 0]);
+}
+
 /// An outline of frame b, in frame a.
 inline Ring transform(const Pose& a_from_b, Ring ring) {
   for (Point& p : ring) p = transform(a_from_b, p);

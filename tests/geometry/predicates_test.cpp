@@ -127,7 +127,7 @@ TEST(BoxTree, FindsAllPairsAndAllNearABox) {
       if (overlaps(boxes[i], box)) near_wanted.push_back(i);
     }
     std::vector<std::size_t> near;
-    BoxTree(boxes, BoxTree::Order::kAlongRing).for_each_near(box, [&](std::size_t i) {
+    BoxTree(boxes).for_each_near(box, [&](std::size_t i) {
       near.push_back(i);
       return true;
     });

@@ -268,10 +268,9 @@ class Tracer {
 }  // namespace
 
 void append_segments(std::vector<SourceSegment>& segments, const Ring& ring, int source) {
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point& to = ring[(i + 1) % ring.size()];
-    if (!(ring[i] == to)) segments.push_back({ring[i], to, source});
-  }
+  for_ring_edges(ring, [&](const Point& from, const Point& to) {
+    if (!(from == to)) segments.push_back({from, to, source});
+  });
 }
 
 void append_segments(std::vector<SourceSegment>& segments, const Polygon& polygon, int source) {

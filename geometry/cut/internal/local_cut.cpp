@@ -1,15 +1,347 @@
-#include "geometry/cut/internal/local_cut.hpp"
-
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <tuple>
 
-#include "geometry/cut/internal/cut_paths.hpp"
+#include "geometry/cut/internal/cut_graph.hpp"
 #include "geometry/cut/internal/snap_rounding.hpp"
+#include "geometry/exact/internal/areas.hpp"
 #include "geometry/exact/point_in_ring.hpp"
 #include "geometry/shape/box_tree.hpp"
 
 namespace polynya::geometry {
 namespace {
+
+/// An edge of the cut shape, and which of its ends are rounded nodes.
+struct Segment {
+  Point from;
+  Point to;
+  bool from_is_rounded = false;
+  bool to_is_rounded = false;
+};
+Box box_of(const Segment& s) {
+  return box_around(s.from, s.to);
+}
+
+/// One ring of a piece: a loop of the graph, a ring of the shape the cut left alone, or the whole tool.
+struct PieceRing {
+  PieceRing(Ring written, Loop of_loop, int ring_of_shape)
+      : points(std::move(written)), loop(std::move(of_loop)), shape_ring(ring_of_shape), area(ring_area(points)) {}
+  Ring points;     ///< written out, new vertices rounded
+  Loop loop;       ///< empty for a whole ring
+  int shape_ring;  ///< −1 where it is none of the shape's
+  RingArea area;   ///< of `points`
+};
+
+struct PiecePlan {
+  std::vector<PieceRing> rings;  ///< the outer one first
+  Part part = Part::kOutside;
+};
+
+/// The state of a local cut.
+struct LocalCut {
+  const Rings& rings;
+  const Tool& tool;
+  std::vector<Node> nodes;
+  CutGraph graph;
+  std::vector<Segment> changed;  ///< edges that end in a rounded node
+  std::vector<Segment> placed;   ///< the other new edges: along the tool, and parts of the shape's edges
+};
+
+// ---- pieces: which rings bound what
+
+// Calls on_node(node, half-edge) and on_run(first, last, half-edge) for a loop's vertices in order; the
+// half-edge is the one along which the loop leaves them, [first, last) are iterators over points.
+template <typename OnNode, typename OnRun>
+void for_each_stretch(const LocalCut& cut, const Loop& loop, OnNode on_node, OnRun on_run) {
+  for (const int h : loop) {
+    const HalfEdge& e = cut.graph.half_edges[h];
+    on_node(cut.nodes[e.from], e);
+    const Ring& points = e.is_chord ? cut.tool.points : cut.rings[e.ring];
+    const auto begin = points.begin() + e.run.first;
+    const auto before_wrap = std::min<std::ptrdiff_t>(e.run.count, points.end() - begin);
+    const auto wrapped_end = points.begin() + (e.run.count - before_wrap);
+    if (e.is_forward) {
+      on_run(begin, begin + before_wrap, e);
+      on_run(points.begin(), wrapped_end, e);
+    } else {
+      on_run(std::make_reverse_iterator(wrapped_end), points.rend(), e);
+      on_run(std::make_reverse_iterator(begin + before_wrap), std::make_reverse_iterator(begin), e);
+    }
+  }
+}
+
+// Writes a loop's vertices, noting on the way the edges that are new; those of a chord once, on its forward
+// side.
+Ring write_loop(LocalCut& cut, const Loop& loop) {
+  struct Vertex {
+    bool is_node = false;
+    bool is_rounded = false;
+    const HalfEdge* leaves_along;
+  };
+  Ring points;
+  std::size_t count = loop.size();
+  for (const int h : loop) count += static_cast<std::size_t>(cut.graph.half_edges[h].run.count);
+  points.reserve(count);
+  Vertex first{true, false, &cut.graph.half_edges[loop.front()]};
+  Vertex last = first;
+  const auto note_edge = [&](Point to, const Vertex& v) {
+    if (last.leaves_along->is_chord && !last.leaves_along->is_forward) return;
+    (last.is_rounded || v.is_rounded ? cut.changed : cut.placed)
+        .push_back({points.back(), to, last.is_rounded, v.is_rounded});
+  };
+  const auto append = [&](Point p, const Vertex& v) {
+    if (points.empty()) {
+      first = v;
+    } else if (last.is_node || v.is_node || last.leaves_along->is_chord) {
+      note_edge(p, v);
+    }
+    points.push_back(p);
+    last = v;
+  };
+  const auto append_run = [&](auto from, auto to, const HalfEdge& e) {
+    if (e.is_chord) {
+      for (; from != to; ++from) append(*from, {false, false, &e});
+    } else if (from != to) {
+      append(*from, {false, false, &e});
+      points.insert(points.end(), ++from, to);
+    }
+  };
+  for_each_stretch(
+      cut, loop,
+      [&](const Node& node, const HalfEdge& e) {
+        append(node.at, {true, node.is_rounded, &e});
+      },
+      append_run);
+  note_edge(points.front(), first);
+  return points;
+}
+
+exact::Ring write_exactly(const LocalCut& cut, const PieceRing& ring) {
+  if (ring.loop.empty()) return exact::exactly(ring.points);
+  exact::Ring points;
+  for_each_stretch(
+      cut, ring.loop, [&](const Node& node, const HalfEdge&) { points.push_back(exact_point(node)); },
+      [&](auto from, auto to, const HalfEdge&) {
+        for (; from != to; ++from) points.push_back(exact::exactly(*from));
+      });
+  return points;
+}
+
+// Which way the exact loop turns: as the rounded one wherever its area is clear of all errors.
+int turn_of(const LocalCut& cut, const PieceRing& ring) {
+  const double clear = ring.area.doubt + 2 * ring.area.step_area;
+  if (ring.area.area > clear) return 1;
+  if (-ring.area.area > clear) return -1;
+  return sgn(exact::area(write_exactly(cut, ring)));
+}
+
+// More than rounding can have moved the ends of the edge.
+double reach(const Segment& s) {
+  const double size = std::max({std::abs(s.from.x), std::abs(s.from.y), std::abs(s.to.x), std::abs(s.to.y)});
+  return 4 * (std::nextafter(size, std::numeric_limits<double>::infinity()) - size);
+}
+
+// A box that holds the edge before and after its ends were rounded.
+Box swept_box(const Segment& s) {
+  return grown(box_of(s), reach(s));
+}
+
+// Finds the shell of a hole by a vertex far from all changed edges: the rounded and the exact rings agree
+// there.
+class Placer {
+ public:
+  Placer(const LocalCut& cut, std::vector<PiecePlan>& plans) : plans_(plans), changed_(cut.changed) {
+    for (std::size_t i = 0; i < plans.size(); ++i) by_area_.push_back(i);
+    const auto area = [&](std::size_t i) { return plans[i].rings.front().area.area; };
+    std::ranges::sort(by_area_, {}, area);
+  }
+
+  bool place(PieceRing hole) {
+    for (const std::size_t i : by_area_) {
+      const std::optional<bool> inside = is_inside(hole.points, plans_[i].rings.front().points);
+      if (!inside) return false;
+      if (!*inside) continue;
+      plans_[i].rings.push_back(std::move(hole));
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  std::optional<bool> is_inside(const Ring& hole, const Ring& shell) const {
+    bool all_on_shell = true;
+    for (const Point p : hole) {
+      const int side = side_of_ring(shell, p);
+      all_on_shell = all_on_shell && side == 0;
+      if (side != 0 && !is_doubtful(p)) return side > 0;
+    }
+    // A hole all of whose vertices are the shell's is that shell seen from the other side.
+    if (all_on_shell) return false;
+    return {};
+  }
+
+  // Within reach of an edge of the shell whose ends were rounded? (An edge that ends in p itself is not the
+  // shell's: p is off it.) The threshold is well above the errors of the product.
+  bool is_doubtful(Point p) const {
+    return std::any_of(changed_.begin(), changed_.end(), [&](const Segment& s) {
+      if (p == s.from || p == s.to || !overlaps(swept_box(s), {p, p})) return false;
+      const Vector along = s.to - s.from;
+      return std::abs(cross(along, p - s.from)) <= 8 * reach(s) * (std::abs(along.x) + std::abs(along.y) + reach(s));
+    });
+  }
+
+  std::vector<PiecePlan>& plans_;
+  std::vector<std::size_t> by_area_;
+  const std::vector<Segment>& changed_;
+};
+
+// The loops of one walk: one outer ring and its touching holes, or holes only.
+bool plan_walk(LocalCut& cut, const Walk& walk, std::vector<PiecePlan>& plans, std::vector<PieceRing>& free_holes) {
+  PiecePlan plan{{}, walk.part};
+  std::vector<PieceRing> holes;
+  for (const Loop& loop : walk.loops) {
+    PieceRing ring(write_loop(cut, loop), loop, -1);
+    const int turn = turn_of(cut, ring);
+    if (turn == 0 || (turn > 0 && !plan.rings.empty())) return false;
+    (turn > 0 ? plan.rings : holes).push_back(std::move(ring));
+  }
+  std::ranges::move(holes, std::back_inserter(plan.rings.empty() ? free_holes : plan.rings));
+  if (!plan.rings.empty()) plans.push_back(std::move(plan));
+  return true;
+}
+
+// Writes out all rings and finds which bound which piece. None where that is in doubt.
+std::optional<std::vector<PiecePlan>> plan_pieces(LocalCut& cut) {
+  std::vector<PiecePlan> plans;
+  std::vector<PieceRing> free_holes;  // holes whose shell is not known yet
+  for (const Walk& walk : cut.graph.walks) {
+    if (!plan_walk(cut, walk, plans, free_holes)) return {};
+  }
+  const auto add_shell = [&](const Ring& points, int shape_ring, Part part) {
+    plans.push_back({{}, part});
+    plans.back().rings.emplace_back(points, Loop{}, shape_ring);
+  };
+  if (cut.graph.walks.empty()) {  // the tool lies within the ice
+    const Ring& tool = cut.tool.points;
+    add_shell(tool, -1, Part::kInside);
+    free_holes.emplace_back(Ring(tool.rbegin(), tool.rend()), Loop{}, -1);
+  }
+  for (int r = 0; r < cut.rings.count(); ++r) {
+    if (cut.graph.ring_is_cut[r] != 0) continue;
+    if (r == 0)
+      add_shell(cut.rings[r], r, Part::kOutside);
+    else
+      free_holes.emplace_back(cut.rings[r], Loop{}, r);
+  }
+  if (free_holes.empty()) return plans;
+  Placer placer(cut, plans);
+  for (PieceRing& hole : free_holes) {
+    if (!placer.place(std::move(hole))) return {};
+  }
+  return plans;
+}
+
+// A piece before rounding.
+exact::Polygon write_exactly(const LocalCut& cut, const PiecePlan& plan) {
+  exact::Polygon polygon;
+  for (const PieceRing& ring : plan.rings)
+    (polygon.outer.empty() ? polygon.outer : polygon.holes.emplace_back()) = write_exactly(cut, ring);
+  return polygon;
+}
+
+// Could rounding the changed edges have carried one of them across a whole ring of the piece?
+bool may_have_swept_a_ring(const LocalCut& cut, const PiecePlan& plan) {
+  if (plan.rings.size() < 2) return false;
+  return std::any_of(plan.rings.begin(), plan.rings.end(), [&](const PieceRing& ring) {
+    const Box box = bounding_box(ring.points);
+    return std::any_of(cut.changed.begin(), cut.changed.end(),
+                       [&](const Segment& s) { return contains(swept_box(s), box); });
+  });
+}
+
+// ---- the check that rounding broke nothing
+
+enum class End { kNone, kExact, kRounded };
+
+End end_at(const Segment& s, Point p) {
+  if (p == s.from) return s.from_is_rounded ? End::kRounded : End::kExact;
+  if (p == s.to) return s.to_is_rounded ? End::kRounded : End::kExact;
+  return End::kNone;
+}
+
+// Two edges of a subdivision may share an end, and nothing else. A rounded node that came to lie on some
+// other vertex is not an end they share.
+bool are_apart(const Segment& s, const Segment& t) {
+  const SegmentMeeting meeting = meet(s.from, s.to, t.from, t.to);
+  if (meeting.kind == Meeting::kNone) return true;
+  const End end = end_at(s, meeting.at);
+  return meeting.kind == Meeting::kTouch && end != End::kNone && end == end_at(t, meeting.at);
+}
+
+std::vector<Point> rounded_nodes(const std::vector<Node>& nodes) {
+  std::vector<Point> points;
+  for (const Node& node : nodes) {
+    if (node.is_active && node.is_rounded) points.push_back(node.at);
+  }
+  return points;
+}
+
+// The nodes come in order along the shape.
+bool is_split(const LocalCut& cut, EdgeId e) {
+  const auto key = [](const Place& p) { return std::tuple(p.ring, p.edge, !p.at_vertex); };
+  const Place inside{e.ring, e.index, false};
+  auto node = std::lower_bound(cut.nodes.begin(), cut.nodes.end(), inside,
+                               [&](const Node& n, const Place& p) { return key(n.on_shape) < key(p); });
+  for (; node != cut.nodes.end() && node->on_shape == inside; ++node) {
+    if (node->is_active) return true;
+  }
+  return false;
+}
+
+// No point twice?
+bool are_distinct(std::vector<Point> points) {
+  std::sort(points.begin(), points.end(), precedes);
+  return std::adjacent_find(points.begin(), points.end()) == points.end();
+}
+
+// Has every edge a length, and do they meet in shared ends only?
+bool are_apart(const std::vector<Segment>& changed) {
+  const auto has_no_length = [](const Segment& s) { return s.from == s.to; };
+  if (std::any_of(changed.begin(), changed.end(), has_no_length)) return false;
+  return BoxTree(changed).for_each_pair(
+      [&](std::size_t i, std::size_t j) { return are_apart(changed[i], changed[j]); });
+}
+
+// Do the changed edges meet these others in shared ends only?
+bool are_clear_of(const std::vector<Segment>& changed, const std::vector<Segment>& others) {
+  const BoxTree tree(changed);
+  return std::all_of(others.begin(), others.end(), [&](const Segment& t) {
+    return tree.for_each_near(box_of(t), [&](std::size_t i) { return are_apart(changed[i], t); });
+  });
+}
+
+// Only edges that end in a rounded node can have come to meet another: all others lie as they did in the
+// exact subdivision, where edges meet in nodes only. So only these are checked, against all edges near them.
+bool changed_edges_are_apart(const LocalCut& cut, const Box& tool_box, const std::vector<EdgeId>& near_tool) {
+  if (cut.changed.empty()) return true;
+  if (!are_distinct(rounded_nodes(cut.nodes)) || !are_apart(cut.changed)) return false;
+  if (!are_clear_of(cut.changed, cut.placed)) return false;
+  Ring ends;
+  for (const Segment& s : cut.changed) {
+    ends.push_back(s.from);
+    ends.push_back(s.to);
+  }
+  const Box box = bounding_box(ends);
+  std::vector<Segment> others;
+  for (const EdgeId e : contains(tool_box, box) ? near_tool : edges_near(cut.rings, box)) {
+    if (!is_split(cut, e)) others.push_back({cut.rings.point(e.ring, e.index), cut.rings.point(e.ring, e.index + 1)});
+  }
+  return are_clear_of(cut.changed, others);
+}
+
+// ---- the cut
 
 using exact::Rational;
 
@@ -103,8 +435,8 @@ bool uses_all_once(const LocalCut& cut, const std::vector<PiecePlan>& plans) {
   std::vector<int> ring_uses(cut.graph.ring_is_cut.begin(), cut.graph.ring_is_cut.end());
   for (const PiecePlan& plan : plans) {
     for (const PieceRing& ring : plan.rings) {
-      if (ring.source == PieceRing::Source::kShapeRing) ++ring_uses[static_cast<std::size_t>(ring.shape_ring)];
-      for (const int h : ring.loop) ++uses[static_cast<std::size_t>(h)];
+      if (ring.shape_ring >= 0) ++ring_uses[ring.shape_ring];
+      for (const int h : ring.loop) ++uses[h];
     }
   }
   const auto once = [](int count) { return count == 1; };
@@ -126,22 +458,22 @@ double dangling_length(const LocalCut& cut, const Polygon& shape) {
   }
   double sum = 0;
   if (cut.graph.starts_inside) {
-    const Node& node = cut.nodes[static_cast<std::size_t>(cut.graph.first_node)];
+    const Node& node = cut.nodes[cut.graph.first_node];
     sum += length_along(cut.tool, 0, node.on_tool.edge) + distance(cut.tool.point(node.on_tool.edge), node.at);
   }
   if (cut.graph.ends_inside) {
-    const Node& node = cut.nodes[static_cast<std::size_t>(cut.graph.last_node)];
+    const Node& node = cut.nodes[cut.graph.last_node];
     const int next = node.on_tool.edge + 1;
     sum += distance(node.at, cut.tool.point(next)) + length_along(cut.tool, next, last_vertex);
   }
   for (const HalfEdge& bridge : cut.graph.bridges) {
-    Point from = cut.nodes[static_cast<std::size_t>(bridge.from)].at;
+    Point from = cut.nodes[bridge.from].at;
     for (int i = 0; i < bridge.run.count; ++i) {
       const Point to = cut.tool.point(bridge.run.first + i);
       sum += distance(from, to);
       from = to;
     }
-    sum += distance(from, cut.nodes[static_cast<std::size_t>(bridge.to)].at);
+    sum += distance(from, cut.nodes[bridge.to].at);
   }
   return sum;
 }

@@ -47,11 +47,6 @@ class Lattice {
 /// left. No value where they are not valid.
 std::optional<std::vector<geometry::Polygon>> snapped(const Polygon& polygon, const Lattice& lattice);
 
-/// The polygon without what rounding can leave in a ring and encloses nothing: equal neighbours and spikes,
-/// edges folded back on the one before. Rings that enclose nothing at all are dropped; an outer one leaves an
-/// empty ring.
-geometry::Polygon welded(const geometry::Polygon& polygon);
-
 /// A piece of a cut before rounding.
 struct ExactPiece {
   Polygon polygon;

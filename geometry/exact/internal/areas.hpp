@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/exact/measures.hpp"
+#include "geometry/shape/polygon.hpp"
 
 namespace polynya::geometry {
 
@@ -24,9 +24,5 @@ double area_of(const Polygon& polygon);
 double nearest_area(const Ring& ring);
 /// The same of a polygon, its holes (which run clockwise) taken off.
 double nearest_area(const Polygon& polygon);
-
-/// Measures of a valid polygon computed in rationals and rounded once: for slivers, whose moments in doubles
-/// are noise.
-Measures exact_measures(const Polygon& polygon);
 
 }  // namespace polynya::geometry

@@ -93,12 +93,12 @@ int area_sign(const Ring& ring) {
   const Point o = ring.front();
   double sum = 0;
   double magnitude = 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vector u = ring[i] - o;
-    const Vector v = ring[i + 1 == ring.size() ? 0 : i + 1] - o;
+  for_ring_edges(ring, [&](Point from, Point to) {
+    const Vector u = from - o;
+    const Vector v = to - o;
     sum += cross(u, v);
     magnitude += std::abs(u.x * v.y) + std::abs(u.y * v.x);
-  }
+  });
   // Each term errs by at most 4ε of its magnitude, the running sums by nε of theirs.
   const double bound = (static_cast<double>(ring.size()) + 8) * 2 * kEps * magnitude + kUnderflow;
   if (sum > bound) return 1;
@@ -106,14 +106,15 @@ int area_sign(const Ring& ring) {
   return sgn(exact::area(ring));
 }
 
+namespace {
+
+// In plain doubles: for messages only.
 Point approximate_crossing(Point a, Point b, Point c, Point d) {
   const double denominator = cross(b - a, d - c);
   if (denominator == 0) return midpoint(a, b);
   const double t = std::clamp(cross(c - a, d - c) / denominator, 0.0, 1.0);
   return a + t * (b - a);
 }
-
-namespace {
 
 SegmentMeeting meet_collinear(Point a, Point b, Point c, Point d) {
   const bool by_x = a.x != b.x || c.x != d.x;

@@ -71,10 +71,6 @@ struct SegmentMeeting {
 /// How the closed segments ab and cd meet. REQUIRES a ≠ b and c ≠ d. Laws 5, 6.
 SegmentMeeting meet(Point a, Point b, Point c, Point d);
 
-/// Where two crossing segments cross, in plain doubles: for messages only. REQUIRES that they cross; else any
-/// point of ab.
-Point approximate_crossing(Point a, Point b, Point c, Point d);
-
 /// A direction, as two points that differ: exact although the difference of two doubles seldom is.
 struct Ray {
   Point tail;
