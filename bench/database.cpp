@@ -9,8 +9,8 @@
 
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/fsi_database_model.hpp"
-#include "fracture/bending/scaled_load.hpp"
-#include "fracture/bending/studies.hpp"
+#include "fracture/bending/fsi_database_model.hpp"
+#include "bench/wedge_studies.hpp"
 #include "fracture/crushing.hpp"
 
 namespace polynya::bench {

@@ -15,7 +15,6 @@ Command add_database(CommandLine& app);
 Command add_database_build(CommandLine& app);
 Command add_database_query(CommandLine& app);
 Command add_database_show(CommandLine& app);
-Command add_database_study(CommandLine& app);
 Command add_export(CommandLine& app);
 Command add_figures(CommandLine& app);
 Command add_import(CommandLine& app);

@@ -17,8 +17,8 @@
 #include "app/command_line/python.hpp"
 #include "app/database/database.hpp"
 #include "fracture/bending/database_text.hpp"
-#include "fracture/bending/scaled_load.hpp"
-#include "fracture/bending/studies.hpp"
+#include "fracture/bending/fsi_database_model.hpp"
+#include "fracture/bending/published_forms.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/output_file.hpp"
 
@@ -29,8 +29,56 @@ using fracture::BendingCapacity;
 using fracture::BendingDatabase;
 using fracture::BendingLoad;
 using fracture::FsiDatabaseModel;
-using fracture::SliceAxis;
-using fracture::SlicePoint;
+
+/// What a slice through the database varies.
+enum class SliceAxis : std::uint8_t {
+  kSpeed,         ///< v_n [m/s]
+  kOpeningAngle,  ///< 2α [rad], both edges at the same angle
+  kThickness,     ///< h [m]
+};
+
+/// One load by the database and by the published forms it can be compared with.
+struct SlicePoint {
+  double abscissa = 0;
+  fracture::BendingForecast database;
+  BendingCapacity nevel;  ///< at the database's penetration
+  BendingCapacity kashtelyan;
+};
+
+BendingLoad with(BendingLoad load, SliceAxis axis, double value) {
+  switch (axis) {
+    case SliceAxis::kSpeed:
+      load.mean_approach_speed = value;
+      break;
+    case SliceAxis::kOpeningAngle:
+      load.front_half_angle = load.back_half_angle = 0.5 * value;
+      break;
+    case SliceAxis::kThickness:
+      load.ice.thickness = value;
+      break;
+  }
+  return load;
+}
+
+SlicePoint compare_models(const FsiDatabaseModel& model, const BendingLoad& load) {
+  SlicePoint point;
+  point.database = model.forecast(load);
+  BendingLoad at_break = load;
+  at_break.penetration = point.database.penetration;
+  point.nevel = fracture::NevelModel().capacity(at_break);
+  point.kashtelyan = fracture::KashtelyanModel().capacity(at_break);
+  return point;
+}
+
+std::vector<SlicePoint> slice(const FsiDatabaseModel& model, const BendingLoad& load, SliceAxis axis,
+                              std::span<const double> abscissae) {
+  std::vector<SlicePoint> points;
+  for (const double value : abscissae) {
+    points.push_back(compare_models(model, with(load, axis, value)));
+    points.back().abscissa = value;
+  }
+  return points;
+}
 
 // ---- polynya database query
 
@@ -172,7 +220,7 @@ int query(const QueryOptions& options) {
   if (!load) return load.error();
   const auto database = load_database(options.file);
   if (!database) return database.error();
-  const SlicePoint answer = fracture::compare_models(fracture::FsiDatabaseModel(*database), *load);
+  const SlicePoint answer = compare_models(FsiDatabaseModel(*database), *load);
   if (options.json)
     write_out(json_of(options, **database, *load, answer));
   else

@@ -1,24 +1,25 @@
 #include "fracture/bending/database.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
+#include <charconv>
 #include <cmath>
-#include <numbers>
+#include <mutex>
+#include <optional>
+#include <thread>
 #include <utility>
+
+#include "fracture/bending/wedge_solver.hpp"
+#include "geometry/shape/angle.hpp"
 
 namespace polynya::fracture {
 namespace {
 
-std::vector<double> mapped(std::vector<double> values, double (*map)(double)) {
+template <class Map>
+std::vector<double> mapped(std::vector<double> values, Map map) {
   std::transform(values.begin(), values.end(), values.begin(), map);
   return values;
-}
-
-double radians(double degrees) {
-  return degrees * (std::numbers::pi / 180);
-}
-double natural_log(double x) {
-  return std::log(x);
 }
 
 /// An interval of one axis and where in it a coordinate lies, 0..1.
@@ -82,7 +83,7 @@ bool is_grid_axis(const std::vector<double>& values) {
   return true;
 }
 
-/// Chosen by `polynya database study accuracy`: closer in Fr where inertia overshoots, and in Π where the
+/// Chosen by `polynya_bench_wedges accuracy`: closer in Fr where inertia overshoots, and in Π where the
 /// loaded patch is no longer small.
 DatabaseGrid default_grid() {
   return {{20, 29, 40, 51, 63, 76, 90, 104, 118, 132, 145, 156, 165, 173, 180},
@@ -97,8 +98,11 @@ BendingDatabase::BendingDatabase(SolverSettings settings, DatabaseGrid grid, std
   assert(entries_.size() == grid_.size());
   assert(is_grid_axis(grid_.opening_angles_deg) && is_grid_axis(grid_.mass_ratios) && is_grid_axis(grid_.softnesses) &&
          is_grid_axis(grid_.froude_numbers));
-  coordinates_ = {mapped(grid_.opening_angles_deg, radians), mapped(grid_.mass_ratios, natural_log),
-                  mapped(grid_.softnesses, natural_log), mapped(grid_.froude_numbers, natural_log)};
+  const auto logarithm = [](double x) { return std::log(x); };
+  coordinates_ = {
+      mapped(grid_.opening_angles_deg, [](double degrees) { return degrees * geometry::kRadiansPerDegree; }),
+      mapped(grid_.mass_ratios, logarithm), mapped(grid_.softnesses, logarithm),
+      mapped(grid_.froude_numbers, logarithm)};
   strides_[3] = 1;
   for (std::size_t axis = 3; axis > 0; --axis) strides_[axis - 1] = strides_[axis] * coordinates_[axis].size();
   stored_.reserve(entries_.size());
@@ -135,7 +139,7 @@ DatabaseAnswer BendingDatabase::look_up(const WedgeGroups& groups) const {
 
 std::vector<OutsideRange> BendingDatabase::outside(const WedgeGroups& groups) const {
   const std::uint8_t bits = outside_bits(coordinates_, axis_coordinates(groups));
-  const std::array<double, 4> values = {groups.opening_angle * (180 / std::numbers::pi), groups.mass_ratio,
+  const std::array<double, 4> values = {groups.opening_angle * geometry::kDegreesPerRadian, groups.mass_ratio,
                                         groups.softness, groups.froude};
   const std::array<const std::vector<double>*, 4> axes = {&grid_.opening_angles_deg, &grid_.mass_ratios,
                                                           &grid_.softnesses, &grid_.froude_numbers};
@@ -144,6 +148,82 @@ std::vector<OutsideRange> BendingDatabase::outside(const WedgeGroups& groups) co
     if (((static_cast<unsigned>(bits) >> axis) & 1U) != 0)
       ranges.push_back({std::string(kGroupNames[axis]), values[axis], axes[axis]->front(), axes[axis]->back()});
   return ranges;
+}
+
+// ---- solving all of it
+
+namespace {
+
+/// To six significant digits: far finer than the solution, and the same on machines whose mathematical
+/// functions differ in the last bit.
+double rounded(double x) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific, 5).ptr;
+  double value = 0;
+  std::from_chars(text.data(), end, value);
+  return value;
+}
+
+struct Wedge {
+  double opening_angle_deg;
+  double mass_ratio;
+};
+
+/// All pushes on one wedge; nothing where one of them does not break it.
+std::optional<std::vector<DatabaseEntry>> solve_wedge(const Wedge& wedge, const SolverSettings& settings,
+                                                      const DatabaseGrid& grid) {
+  const WedgeSolver solver(wedge.opening_angle_deg * geometry::kRadiansPerDegree, wedge.mass_ratio, settings);
+  std::vector<DatabaseEntry> entries;
+  for (const double softness : grid.softnesses) {
+    for (const double froude : grid.froude_numbers) {
+      const std::optional<WedgeFailure> failure = solver.failure({froude, softness, 0, 0});
+      if (!failure) return std::nullopt;
+      entries.push_back({rounded(failure->force), rounded(failure->cusp_radius), rounded(failure->crack_ratio)});
+    }
+  }
+  return entries;
+}
+
+}  // namespace
+
+tl::expected<BendingDatabase, DatabaseError> build_database(const SolverSettings& settings, const DatabaseGrid& grid,
+                                                            int threads, const BuildProgress& progress) {
+  for (const auto* axis : {&grid.opening_angles_deg, &grid.mass_ratios, &grid.softnesses, &grid.froude_numbers})
+    if (!is_grid_axis(*axis))
+      return tl::unexpected(DatabaseError{0, "every group needs at least two positive, ascending values"});
+  if (grid.opening_angles_deg.back() > 180)
+    return tl::unexpected(DatabaseError{0, "opening angles above 180 degrees are not wedges"});
+
+  std::vector<Wedge> wedges;
+  for (const double angle : grid.opening_angles_deg)
+    for (const double mass : grid.mass_ratios) wedges.push_back({angle, mass});
+  std::vector<std::optional<std::vector<DatabaseEntry>>> solved(wedges.size());
+  std::atomic<std::size_t> next = 0;
+  std::size_t done = 0;
+  std::mutex progress_mutex;
+  const auto solve_all = [&] {
+    for (std::size_t i = next++; i < wedges.size(); i = next++) {
+      solved[i] = solve_wedge(wedges[i], settings, grid);
+      const std::lock_guard lock(progress_mutex);
+      ++done;
+      if (progress) progress(done, wedges.size());
+    }
+  };
+  {
+    std::vector<std::jthread> helpers;
+    for (int i = 1; i < threads; ++i) helpers.emplace_back(solve_all);
+    solve_all();
+  }
+
+  std::vector<DatabaseEntry> entries;
+  for (std::size_t i = 0; i < wedges.size(); ++i) {
+    if (!solved[i])
+      return tl::unexpected(DatabaseError{0, "a push of the grid does not break the wedge of " +
+                                                 std::to_string(wedges[i].opening_angle_deg) +
+                                                 " degrees within a penetration of 3 l: take smaller softnesses"});
+    entries.insert(entries.end(), solved[i]->begin(), solved[i]->end());
+  }
+  return BendingDatabase(settings, grid, std::move(entries));
 }
 
 }  // namespace polynya::fracture

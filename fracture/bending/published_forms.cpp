@@ -20,6 +20,12 @@ constexpr std::array<double, 16> kRadiusOverRoot = {0.97064, 0.99147, 1.01525, 1
                                                     1.16793, 1.23077, 1.31008, 1.41128, 1.54147, 1.70922,
                                                     1.92252, 2.18336, 2.48096, 2.79479};
 
+/// 1 + C_v v of Kashtelyan's radius, and its floor. Without the floor R is negative from 7 m/s on.
+double radius_factor(double approach_speed) {
+  return 1 - 0.144 * approach_speed;
+}
+constexpr double kSmallestRadiusFactor = 0.2;
+
 }  // namespace
 
 double nevel_force(double opening_angle, double load_length_over_l, const Ice& ice) {
@@ -48,23 +54,22 @@ BendingCapacity NevelModel::capacity(const BendingLoad& load) const {
   return result;
 }
 
-double kashtelyan_force(double opening_angle, const Ice& ice, const KashtelyanCoefficients& coefficients) {
+double kashtelyan_force(double opening_angle, const Ice& ice) {
+  constexpr double kForce = 3.1;  // C_f
   const double share = opening_angle / std::numbers::pi;
-  return coefficients.force * share * share * ice.flexural_strength * ice.thickness * ice.thickness;
+  return kForce * share * share * ice.flexural_strength * ice.thickness * ice.thickness;
 }
 
-double kashtelyan_radius(double characteristic_length, double approach_speed,
-                         const KashtelyanCoefficients& coefficients) {
-  const double factor = 1 + coefficients.radius_speed * approach_speed;
-  return coefficients.radius * characteristic_length * std::max(factor, kSmallestKashtelyanRadiusFactor);
+double kashtelyan_radius(double characteristic_length, double approach_speed) {
+  constexpr double kRadius = 0.32;  // C_l
+  return kRadius * characteristic_length * std::max(radius_factor(approach_speed), kSmallestRadiusFactor);
 }
 
 BendingCapacity KashtelyanModel::capacity(const BendingLoad& load) const {
   BendingCapacity result;
-  result.vertical_force = kashtelyan_force(load.front_half_angle + load.back_half_angle, load.ice, coefficients_);
-  result.cusp_radius =
-      kashtelyan_radius(characteristic_length(load.ice, load.water), load.mean_approach_speed, coefficients_);
-  result.is_in_range = 1 + coefficients_.radius_speed * load.mean_approach_speed >= kSmallestKashtelyanRadiusFactor;
+  result.vertical_force = kashtelyan_force(load.front_half_angle + load.back_half_angle, load.ice);
+  result.cusp_radius = kashtelyan_radius(characteristic_length(load.ice, load.water), load.mean_approach_speed);
+  result.is_in_range = radius_factor(load.mean_approach_speed) >= kSmallestRadiusFactor;
   return result;
 }
 

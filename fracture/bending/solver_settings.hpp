@@ -29,11 +29,4 @@ struct SolverSettings {
   friend bool operator==(const SolverSettings&, const SolverSettings&) = default;
 };
 
-/// The same discretisation from another inner radius on: as many elements more or fewer as keep their
-/// spacing, and fluid panels in proportion. inner_radius in l, below the outer radius.
-SolverSettings with_inner_radius(const SolverSettings& settings, double inner_radius);
-
-/// The same discretisation with that many radial elements, and fluid panels in proportion.
-SolverSettings with_elements(const SolverSettings& settings, int radial_elements);
-
 }  // namespace polynya::fracture

@@ -8,19 +8,14 @@ configure_file(${CMAKE_CURRENT_SOURCE_DIR}/bending/default_database_text.cpp.in
 set(POLYNYA_BENDING_SOURCES
   ${CMAKE_CURRENT_BINARY_DIR}/default_database_text.cpp
   bending/database.cpp
-  bending/database_build.cpp
   bending/database_text.cpp
   bending/edge_deflection.cpp
   bending/edge_sections.cpp
   bending/fsi_database_model.cpp
   bending/internal/fluid.cpp
-  bending/internal/march.cpp
   bending/internal/modes.cpp
   bending/internal/plate.cpp
   bending/published_forms.cpp
   bending/peak.cpp
-  bending/scaled_load.cpp
-  bending/solver_settings.cpp
-  bending/studies.cpp
   bending/wedge_solver.cpp
 )

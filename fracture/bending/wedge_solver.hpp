@@ -20,12 +20,11 @@ struct WedgePush {
 
 /// When a push breaks its wedge.
 struct WedgeFailure {
-  double time = 0;                   ///< τ_b
-  double penetration = 0;            ///< ξ_b / l
-  double force = 0;                  ///< V̂_b
-  double cusp_radius = 0;            ///< R / l
-  double crack_ratio = 0;            ///< greatest bottom-fibre hoop stress until τ_b, in σ_f
-  std::optional<double> crack_time;  ///< when that reached σ_f and a radial crack opened, if it did
+  double time = 0;         ///< τ_b
+  double penetration = 0;  ///< ξ_b / l
+  double force = 0;        ///< V̂_b
+  double cusp_radius = 0;  ///< R / l
+  double crack_ratio = 0;  ///< greatest bottom-fibre hoop stress until τ_b, in σ_f: from 1 on a radial crack opens
 };
 
 /// V̂ at a penetration ξ in l.
@@ -37,7 +36,7 @@ double push_depth(const WedgePush& push, double force);
 struct WedgeModes;
 
 /// One wedge of floating ice, decomposed into its modes once (tenths of a second), then marched under any
-/// push (milliseconds). Safe to use from several threads.
+/// push (milliseconds). Exact for a load that is linear within each step. Safe to use from several threads.
 class WedgeSolver {
  public:
   /// opening_angle 2α in (0, 2π] [rad]; mass_ratio m̂ = ρ_i h / (ρ_w l) > 0.

@@ -225,8 +225,7 @@ TEST_F(Database, FilesThatAreNoDatabaseAreRefused) {
     rows.emplace_back(name, message);
   }
   for (const auto& [file, message] : rows) {
-    for (const Words& words :
-         {Words("show") + file, paper_wedge + "1 --database" + file, Words("study accuracy --database") + file}) {
+    for (const Words& words : {Words("show") + file, paper_wedge + "1 --database" + file}) {
       const Refusal refusal{Words("database") + words, 5, "polynya: " + file + ":" + message};
       expect_refusals({refusal}, {folder.path()});
       EXPECT_LACKS(polynya(refusal.words, folder).err, "\x1b");
@@ -253,52 +252,6 @@ TEST_F(Database, ShowPrintsTheShippedParametersAndWritesTheNumbersOfItsThreePict
   }
   write_file(folder / "file", "");
   EXPECT_EQ(database("show --svg file").code, 5);
-}
-
-/// The numbers of a Markdown table's rows.
-std::vector<std::vector<double>> rows_of(const Outcome& study) {
-  EXPECT_EQ(study.code, 0) << study.err;
-  std::vector<std::vector<double>> rows;
-  std::istringstream lines(study.out);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.size() < 3 || line[0] != '|' || std::isdigit(static_cast<unsigned char>(line[2])) == 0) continue;
-    for (char& c : line)
-      if (c == '|' || c == ',') c = ' ';
-    std::istringstream numbers(line);
-    rows.emplace_back();
-    for (double value = 0; numbers >> value;) rows.back().push_back(value);
-  }
-  EXPECT_EQ(rows.size(), 7U) << study.out;
-  return rows;
-}
-
-// Ice that sinks under the hull is reached later; the force that breaks it hardly changes.
-TEST_F(Database, StudyCouple) {
-  for (const auto& row : rows_of(database("study couple"))) {
-    ASSERT_EQ(row.size(), 7U);
-    EXPECT_GT(row[6], row[3]);
-    EXPECT_NEAR(row[4] / row[1], 1, 0.02);
-  }
-}
-
-// At rest the water only carries; the free surface stays near the potential flow at every speed.
-TEST_F(Database, StudyFluid) {
-  const auto rows = rows_of(database("study fluid --thickness 0.8"));
-  for (const auto& row : rows) {
-    ASSERT_EQ(row.size(), 9U);
-    EXPECT_NEAR(row[7] / row[5], 1, 0.02) << "free-surface against potential at " << row[0];
-  }
-  for (const std::size_t fluid : {3U, 5U, 7U}) EXPECT_NEAR(rows.at(0)[fluid] / rows[0][1], 1, 0.005);
-}
-
-TEST_F(Database, StudyAccuracyIsOfTheSeedWhateverTheThreads) {
-  const Outcome one = database("study accuracy --points 8 --seed 5 --threads 1");
-  EXPECT_EQ(one.code, 0) << one.err;
-  EXPECT_EQ(one.out, database("study accuracy --points 8 --seed 5 --threads 3").out);
-  EXPECT_HAS(one.out, "8 random points of the whole box, seed 5", "| force | 0.",
-             "(36 elements from 0.001 l) against solution (40 elements from 0.00025 l)");
-  const Outcome other = database("study accuracy --points 2 --seed 5 --inner-radius 0.002 --elements 30");
-  EXPECT_HAS(other.out, "against solution (30 elements from 0.002 l)");
 }
 
 }  // namespace

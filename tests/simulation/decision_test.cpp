@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fracture/bending/studies.hpp"
+#include "bench/wedge_studies.hpp"
 #include "fracture/characteristic_length.hpp"
 #include "fracture/crushing.hpp"
 #include "simulation/world/limits.hpp"

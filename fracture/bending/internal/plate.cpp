@@ -6,8 +6,6 @@
 
 #include <boost/math/special_functions/legendre.hpp>
 
-#include "fracture/bending/hermite.hpp"
-
 namespace polynya::fracture {
 namespace {
 

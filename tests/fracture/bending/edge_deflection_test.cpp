@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/wedge_studies.hpp"
 #include "fracture/bending/fsi_database_model.hpp"
 #include "fracture/bending/internal/modes.hpp"
-#include "fracture/bending/studies.hpp"
 #include "fracture/characteristic_length.hpp"
 #include "tests/fracture/bending/floating_beam.hpp"
 #include "tests/fracture/wedge_contact.hpp"

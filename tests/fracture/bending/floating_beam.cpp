@@ -7,7 +7,7 @@
 
 #include <Eigen/SparseCholesky>
 
-#include "fracture/bending/hermite.hpp"
+#include "fracture/bending/internal/plate.hpp"
 #include "fracture/bending/peak.hpp"
 
 namespace polynya::fracture {

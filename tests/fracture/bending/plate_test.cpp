@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "fracture/bending/internal/fluid.hpp"
-#include "fracture/bending/internal/march.hpp"
 #include "fracture/bending/internal/modes.hpp"
 #include "fracture/bending/peak.hpp"
 #include "tests/fracture/bending/floating_beam.hpp"

@@ -11,6 +11,16 @@
 
 namespace polynya::fracture {
 
+// Direct solutions of the wedge for physical loads, and the studies of docs/theory/bending.md that are made of
+// them (polynya_bench_wedges prints those). Tests take them as references; the product has the table alone.
+
+/// The same discretisation from another inner radius on: as many elements more or fewer as keep their
+/// spacing, and fluid panels in proportion. inner_radius in l, below the outer radius.
+SolverSettings with_inner_radius(const SolverSettings& settings, double inner_radius);
+
+/// The same discretisation with that many radial elements, and fluid panels in proportion.
+SolverSettings with_elements(const SolverSettings& settings, int radial_elements);
+
 /// The wedge of a load, depends on its angles, ice and water, not on its speed. The
 /// settings' Poisson ratio is replaced by the ice's own.
 WedgeSolver wedge_of(const BendingLoad& load, SolverSettings settings);
@@ -21,27 +31,6 @@ WedgeSolver wedge_of(const BendingLoad& load, SolverSettings settings);
 /// wedge within 3 l.
 std::optional<BendingForecast> direct_forecast(const WedgeSolver& solver, const BendingLoad& load,
                                                Feedback feedback = Feedback::kIgnored);
-
-/// What a slice through the database varies.
-enum class SliceAxis : std::uint8_t {
-  kSpeed,         ///< v_n [m/s]
-  kOpeningAngle,  ///< 2α [rad], both edges at the same angle
-  kThickness,     ///< h [m]
-};
-
-/// One load by the database and by the published forms it can be compared with.
-struct SlicePoint {
-  double abscissa = 0;
-  BendingForecast database;
-  BendingCapacity nevel;  ///< at the database's penetration
-  BendingCapacity kashtelyan;
-};
-
-std::vector<SlicePoint> slice(const FsiDatabaseModel& model, const BendingLoad& load, SliceAxis axis,
-                              std::span<const double> abscissae);
-
-/// One load by all three models: what `polynya database query` prints.
-SlicePoint compare_models(const FsiDatabaseModel& model, const BendingLoad& load);
 
 /// What each fluid model makes of a load, in FluidModel's order; nothing where it does not break.
 struct FluidStudyRow {

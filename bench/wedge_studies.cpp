@@ -1,29 +1,32 @@
-#include "fracture/bending/studies.hpp"
+#include "bench/wedge_studies.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <thread>
 
-#include "fracture/bending/internal/for_each_index.hpp"
-#include "fracture/bending/published_forms.hpp"
+#include "fracture/bending/internal/plate.hpp"
 
 namespace polynya::fracture {
 namespace {
 
-BendingLoad with(BendingLoad load, SliceAxis axis, double value) {
-  switch (axis) {
-    case SliceAxis::kSpeed:
-      load.mean_approach_speed = value;
-      break;
-    case SliceAxis::kOpeningAngle:
-      load.front_half_angle = load.back_half_angle = 0.5 * value;
-      break;
-    case SliceAxis::kThickness:
-      load.ice.thickness = value;
-      break;
-  }
+BendingLoad at_speed(BendingLoad load, double speed) {
+  load.mean_approach_speed = speed;
   return load;
+}
+
+/// Calls work(i) once for every i < count, on that many threads.
+template <typename Work>
+void for_each_index(std::size_t count, int threads, const Work& work) {
+  std::atomic<std::size_t> next = 0;
+  const auto run = [&] {
+    for (std::size_t i = next++; i < count; i = next++) work(i);
+  };
+  std::vector<std::jthread> helpers;
+  for (int i = 1; i < threads; ++i) helpers.emplace_back(run);
+  run();
 }
 
 /// Uniform in [low, high), from 53 random bits: the same everywhere, which std::uniform_real_distribution is
@@ -46,6 +49,23 @@ AccuracyRow compared(const BendingDatabase& database, const SolverSettings& refe
 
 }  // namespace
 
+SolverSettings with_inner_radius(const SolverSettings& settings, double inner_radius) {
+  const auto reach = [&](double inner) { return radial_coordinate(settings.outer_radius) - radial_coordinate(inner); };
+  const double elements = settings.radial_elements * reach(inner_radius) / reach(settings.inner_radius);
+  constexpr double kRounding = 1e-6;  // the same inner radius keeps the same elements
+  SolverSettings changed = with_elements(settings, std::max(1, static_cast<int>(std::ceil(elements - kRounding))));
+  changed.inner_radius = inner_radius;
+  return changed;
+}
+
+SolverSettings with_elements(const SolverSettings& settings, int radial_elements) {
+  SolverSettings changed = settings;
+  changed.radial_elements = radial_elements;
+  const double rings_per_element = static_cast<double>(settings.panel_rings) / settings.radial_elements;
+  changed.panel_rings = std::max(1, static_cast<int>(std::lround(rings_per_element * radial_elements)));
+  return changed;
+}
+
 WedgeSolver wedge_of(const BendingLoad& load, SolverSettings settings) {
   const WedgeGroups groups = scaled(load).groups;
   settings.poisson_ratio = load.ice.poisson_ratio;
@@ -60,31 +80,11 @@ std::optional<BendingForecast> direct_forecast(const WedgeSolver& solver, const 
   BendingForecast forecast;
   forecast.capacity.vertical_force = failure->force * scaled_load.force_scale;
   forecast.capacity.cusp_radius = failure->cusp_radius * scaled_load.length_scale;
-  forecast.capacity.radial_crack_first = failure->crack_time.has_value();
+  forecast.capacity.radial_crack_first = failure->crack_ratio >= 1;
   forecast.normal_force = forecast.capacity.vertical_force / load.vertical_to_crushing;
   forecast.penetration = failure->penetration * scaled_load.length_scale;
   forecast.time = failure->time * scaled_load.time_scale;
   return forecast;
-}
-
-SlicePoint compare_models(const FsiDatabaseModel& model, const BendingLoad& load) {
-  SlicePoint point;
-  point.database = model.forecast(load);
-  BendingLoad at_break = load;
-  at_break.penetration = point.database.penetration;
-  point.nevel = NevelModel().capacity(at_break);
-  point.kashtelyan = KashtelyanModel().capacity(at_break);
-  return point;
-}
-
-std::vector<SlicePoint> slice(const FsiDatabaseModel& model, const BendingLoad& load, SliceAxis axis,
-                              std::span<const double> abscissae) {
-  std::vector<SlicePoint> points;
-  for (const double value : abscissae) {
-    points.push_back(compare_models(model, with(load, axis, value)));
-    points.back().abscissa = value;
-  }
-  return points;
 }
 
 std::vector<FluidStudyRow> fluid_study(const BendingLoad& load, std::span<const double> speeds,
@@ -97,8 +97,7 @@ std::vector<FluidStudyRow> fluid_study(const BendingLoad& load, std::span<const 
     const WedgeSolver solver = wedge_of(load, with_fluid);
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       rows[i].speed = speeds[i];
-      rows[i].by_fluid[static_cast<std::size_t>(fluid)] =
-          direct_forecast(solver, with(load, SliceAxis::kSpeed, speeds[i]));
+      rows[i].by_fluid[static_cast<std::size_t>(fluid)] = direct_forecast(solver, at_speed(load, speeds[i]));
     }
   }
   return rows;
@@ -109,9 +108,8 @@ std::vector<FeedbackStudyRow> feedback_study(const BendingLoad& load, std::span<
   const WedgeSolver solver = wedge_of(load, settings);
   std::vector<FeedbackStudyRow> rows;
   for (const double speed : speeds) {
-    const BendingLoad at_speed = with(load, SliceAxis::kSpeed, speed);
-    rows.push_back({speed, direct_forecast(solver, at_speed, Feedback::kIgnored),
-                    direct_forecast(solver, at_speed, Feedback::kCoupled)});
+    rows.push_back({speed, direct_forecast(solver, at_speed(load, speed), Feedback::kIgnored),
+                    direct_forecast(solver, at_speed(load, speed), Feedback::kCoupled)});
   }
   return rows;
 }
