@@ -25,7 +25,7 @@ inline bool is_grounded(BodyKind kind) {
 }
 
 /// The drag of a shape, without speed and, by DragArea::kEdge, thickness. Made once per shape
-/// (drag_shape.hpp). By kPlan, all widths are the area [m²] and K is ∫ r³ dA [m⁵].
+/// (water_drag.hpp). By kPlan, all widths are the area [m²] and K is ∫ r³ dA [m⁵].
 struct DragShape {
   static constexpr int kDirections = 128;
   double rotational = 0;       ///< K = mean over directions of ∫|s|³ ds across the body [m⁴]

@@ -62,14 +62,14 @@ double aspect_of(const Ring& ring) {
   double xx = 0;
   double yy = 0;
   double xy = 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Vector p = ring[i] - cell.centroid;
-    const Vector q = ring[(i + 1) % ring.size()] - cell.centroid;
+  for_ring_edges(ring, [&](Point from, Point to) {
+    const Vector p = from - cell.centroid;
+    const Vector q = to - cell.centroid;
     const double part = cross(p, q);
     xx += part * (p.x * p.x + p.x * q.x + q.x * q.x);
     yy += part * (p.y * p.y + p.y * q.y + q.y * q.y);
     xy += part * (p.x * p.y + 0.5 * (p.x * q.y + q.x * p.y) + q.x * q.y);
-  }
+  });
   const double mean = 0.5 * (xx + yy);
   const double half = std::sqrt(0.25 * (xx - yy) * (xx - yy) + xy * xy);
   return mean > half ? std::sqrt((mean + half) / (mean - half)) : INFINITY;
@@ -81,10 +81,10 @@ void clip_to_left(Ring& ring, Point from, Point to) {
 
 Ring inset(const Ring& ring, double distance) {
   Ring left = ring;
-  for (std::size_t i = 0; i < ring.size() && !left.empty(); ++i) {
-    const Vector edge = ring[(i + 1) % ring.size()] - ring[i];
-    clip_beyond(left, ring[i], perpendicular(edge), distance * length(edge));
-  }
+  for_ring_edges(ring, [&](Point from, Point to) {
+    const Vector edge = to - from;
+    if (!left.empty()) clip_beyond(left, from, perpendicular(edge), distance * length(edge));
+  });
   return left;
 }
 

@@ -48,7 +48,7 @@ struct FloeFieldOutcome {
 /// region's bounding box.
 double floe_count(const FloeField& field);
 
-/// Fills the region with floes. Cells tile it, by the field's law or its mean and spread (field/cells.hpp);
+/// Fills the region with floes. Cells tile it, by the field's law or its mean and spread;
 /// each is shrunk about its centroid to its floe's area, or to where the gap is reached, and the others then
 /// make up for it. Floes are at least the gap apart by construction, at any concentration up to what the gap
 /// leaves. The same numbers on every machine.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geometry/shape/polygon.hpp"
-#include "simulation/field/random.hpp"
+#include "simulation/field/portable_math.hpp"
 
 namespace polynya::simulation {
 

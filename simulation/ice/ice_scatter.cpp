@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include "simulation/field/random.hpp"
+#include "simulation/field/portable_math.hpp"
 
 namespace polynya::simulation {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "geometry/contact/boundary.hpp"
 #include "geometry/exact/validity.hpp"
-#include "simulation/field/random.hpp"
+#include "simulation/field/portable_math.hpp"
 #include "simulation/world/limits.hpp"
 #include "simulation/world/step.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/shape/polygon.hpp"
-#include "simulation/ship/pilot_settings.hpp"
+#include "simulation/ship/sailing_settings.hpp"
 
 namespace polynya::simulation {
 

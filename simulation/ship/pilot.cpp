@@ -1,8 +1,8 @@
+#include "simulation/ship/pilot.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "simulation/ship/holding.hpp"
 
 namespace polynya::simulation {
 namespace {
@@ -156,8 +156,17 @@ Command steer(const RammingPilot& pilot, const PilotView& view, PilotMemory& mem
   return {pilot.lever_ahead, steering_to_hold(heading, view)};
 }
 
-const SeenShip& leader_of(const PilotView& view, int leader) {
-  return view.ships[static_cast<std::size_t>(leader)];
+/// To where the leader's stern is, as fast as the leader and by the error of the distance.
+Command steer(const FollowingPilot& pilot, const PilotView& view, PilotMemory& memory) {
+  const SeenShip& own = view.own();
+  const SeenShip& leader = view.ships[static_cast<std::size_t>(pilot.leader)];
+  const Vector ahead = unit(own.heading);
+  const Point stern = leader.position_in_world + leader.stern * unit(leader.heading);
+  const Point stem = own.position_in_world + own.stem * ahead;
+  const Vector way = stern - stem;
+  const double gap = length(way);
+  const double wanted = dot(leader.velocity, ahead) + (gap - pilot.distance) / kGapTime;
+  return {lever_to_hold(std::max(0.0, wanted), view, memory), steering_to_hold(angle_of(way), view)};
 }
 
 }  // namespace
@@ -170,23 +179,6 @@ PilotMemory memory_at_start(const PilotView& view) {
   memory.pattern.next_choice = view.time;
   return memory;
 }
-
-namespace {
-
-/// To where the leader's stern is, as fast as the leader and by the error of the distance.
-Command steer(const FollowingPilot& pilot, const PilotView& view, PilotMemory& memory) {
-  const SeenShip& own = view.own();
-  const SeenShip& leader = leader_of(view, pilot.leader);
-  const Vector ahead = unit(own.heading);
-  const Point stern = leader.position_in_world + leader.stern * unit(leader.heading);
-  const Point stem = own.position_in_world + own.stem * ahead;
-  const Vector way = stern - stem;
-  const double gap = length(way);
-  const double wanted = dot(leader.velocity, ahead) + (gap - pilot.distance) / kGapTime;
-  return {lever_to_hold(std::max(0.0, wanted), view, memory), steering_to_hold(angle_of(way), view)};
-}
-
-}  // namespace
 
 Command command_of(const PilotSettings& pilot, const PilotView& view, PilotMemory& memory) {
   return std::visit([&](const auto& settings) { return steer(settings, view, memory); }, pilot);

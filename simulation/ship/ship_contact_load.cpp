@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "dynamics/contact/contact.hpp"
 #include "dynamics/contact/restitution_law.hpp"
@@ -26,18 +25,9 @@ double hull_angle_at(const Hull& hull, const dynamics::Bodies& bodies, const dyn
   if (hull.angles_from_vertical.empty()) {
     return fracture::hull_angle_from_vertical(rotate_back(pose.rotation, c.normal).x, hull.stem_angle);
   }
-  const Point here = inverse_transform(pose, c.middle());
-  double nearest = std::numeric_limits<double>::infinity();
-  double angle = 0;
-  for (std::size_t i = 0; i < hull.waterline.size(); ++i) {
-    const std::size_t next = (i + 1) % hull.waterline.size();
-    const double along = nearest_part(hull.waterline[i], hull.waterline[next], here);
-    const double d = squared_length(here - (hull.waterline[i] + along * (hull.waterline[next] - hull.waterline[i])));
-    if (d >= nearest) continue;
-    nearest = d;
-    angle = (1 - along) * hull.angles_from_vertical[i] + along * hull.angles_from_vertical[next];
-  }
-  return angle;
+  const auto [edge, along, point] = nearest_place(hull.waterline, inverse_transform(pose, c.middle()));
+  const std::vector<double>& angles = hull.angles_from_vertical;
+  return (1 - along) * angles[edge] + along * angles[(edge + 1) % angles.size()];
 }
 
 /// The cusp is expected about this many characteristic lengths away; the wedge is measured over that length.

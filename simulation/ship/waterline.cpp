@@ -16,6 +16,21 @@ std::size_t after(const geometry::Ring& ring, std::size_t i) {
 
 }  // namespace
 
+NearestPlace nearest_place(const geometry::Ring& ring, Point point) {
+  NearestPlace place;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point from = ring[i], to = ring[after(ring, i)];
+    const double along = nearest_part(from, to, point);
+    const Point on_edge = from + along * (to - from);
+    const double squared = squared_length(point - on_edge);
+    if (squared >= nearest) continue;
+    nearest = squared;
+    place = {i, along, on_edge};
+  }
+  return place;
+}
+
 Waterline waterline_of(const geometry::Ring& ring) {
   Waterline line;
   line.ring = ring;
@@ -36,16 +51,8 @@ Waterline waterline_of(const geometry::Ring& ring) {
 }
 
 double arc_at(const Waterline& line, Point point) {
-  double nearest = std::numeric_limits<double>::infinity();
-  double arc = 0;
-  for (std::size_t i = 0; i < line.ring.size(); ++i) {
-    const Point on_edge = nearest_on_segment(line.ring[i], line.ring[after(line.ring, i)], point);
-    const double squared = squared_length(point - on_edge);
-    if (squared >= nearest) continue;
-    nearest = squared;
-    arc = line.arc[i] + distance(line.ring[i], on_edge);
-  }
-  const double from_stem = arc - line.stem_arc;
+  const NearestPlace place = nearest_place(line.ring, point);
+  const double from_stem = line.arc[place.edge] + distance(line.ring[place.edge], place.point) - line.stem_arc;
   return from_stem - line.length * std::ceil(from_stem / line.length - 0.5);
 }
 

@@ -16,6 +16,14 @@ struct Waterline {
   double stem_x = 0;        ///< [m]
 };
 
+/// Where a ring comes nearest to a point.
+struct NearestPlace {
+  std::size_t edge = 0;
+  double along = 0;       ///< the edge, 0 to 1
+  geometry::Point point;  ///< [m]
+};
+NearestPlace nearest_place(const geometry::Ring& ring, geometry::Point point);
+
 Waterline waterline_of(const geometry::Ring& counter_clockwise);
 
 /// Of the waterline's point nearest to one of the hull's frame, from the stem, to port, to starboard negative:

@@ -14,6 +14,76 @@
 #include "simulation/world/limits.hpp"
 
 namespace polynya::simulation {
+
+// ---- saved and hashed
+
+namespace {
+
+BodyMotion motion_of(const dynamics::Bodies& bodies, BodyIndex i) {
+  return {bodies.position[i],         bodies.angle[i],  bodies.rotation[i],  bodies.velocity[i],
+          bodies.angular_velocity[i], bodies.travel[i], bodies.rim_speed[i], bodies.is_awake[i] != 0};
+}
+
+Standing standing_of(const Population& population, FloeId id) {
+  if (population.is_fast(id)) return Standing::kFast;  // also when it has broken: its pieces follow it
+  return population.floes[id].is_under ? Standing::kUnderHull : Standing::kFree;
+}
+
+/// A member of all records, in their order. Only the law of crushing ice has these.
+template <class Member>
+std::vector<Member> members(const std::vector<dynamics::PairState>& pairs,
+                            Member dynamics::PersistentContact::*member) {
+  std::vector<Member> all;
+  for (const dynamics::PairState& pair : pairs)
+    for (const dynamics::PersistentContact& record : pair.records) all.push_back(record.*member);
+  return all;
+}
+
+template <class Archive>
+void write(Archive& archive, const World& world, const std::vector<dynamics::PairState>& pairs) {
+  const Population& population = world.population;
+  head_fields(archive, world);
+  archive(std::uint64_t{population.floes.size()});
+  for (BodyIndex hull = 0; hull < population.hull_count; ++hull) {
+    archive(motion_of(population.bodies, hull));
+    hull_fields(archive, world, hull);
+  }
+  for (FloeId id = 0; id < population.floe_count(); ++id) {
+    const Floe& floe = population.floes[id];
+    archive(FloeHead{floe.parent, floe.born, floe.generation, floe.area, population.is_alive(id),
+                     standing_of(population, id)});
+    if (!population.is_alive(id)) continue;
+    if (floe.parent != kNoFloe) archive(floe.shape.polygon);  // else the scene's
+    archive(motion_of(population.bodies, population.body_of(id)));
+  }
+  archive(population.tilted, population.submerged, pairs);
+  if (is_crush_law(world.setup)) archive(members(pairs, &dynamics::PersistentContact::crushed));
+}
+
+}  // namespace
+
+std::string save_state(const World& world) {
+  const std::vector<dynamics::PairState> pairs = world.population.pairs.pair_states();
+  std::vector<double> separation_bound;
+  separation_bound.reserve(pairs.size());
+  for (const dynamics::PairState& pair : pairs) separation_bound.push_back(pair.separation_bound);
+  ByteWriter archive;
+  write(archive, world, pairs);
+  archive(separation_bound);
+  if (is_crush_law(world.setup)) archive(members(pairs, &dynamics::PersistentContact::booked));
+  tail_fields(archive, world);
+  archive(world.accounts.load_peaks, world.accounts.panels, members(pairs, &dynamics::PersistentContact::load_track));
+  return archive.take();
+}
+
+std::uint64_t state_hash(const World& world) {
+  HashWriter archive;
+  write(archive, world, world.population.pairs.touching_states());
+  return archive.hash();
+}
+
+// ---- loaded
+
 namespace {
 
 constexpr double kFarthest = 1e9;               ///< from the origin that a body can have gone [m]
@@ -53,9 +123,8 @@ class StateLoader {
     for (std::uint64_t id = 0; id < floes && bytes_.is_well(); ++id) load_floe(static_cast<FloeId>(id));
     if (bytes_.is_well()) load_ice_at_hulls();
     if (bytes_.is_well()) load_pairs();
-    Counts& counts = world_.accounts.counts;
-    bytes_(world_.accounts.masses, counts.unresolved_splits, counts.steps_at_level, counts.crowded_ticks,
-           world_.clock.finer, world_.clock.bends, counts.body_steps, world_.clock.next_levels);
+    tail_fields(bytes_, world_);
+    const Counts& counts = world_.accounts.counts;
     for (const std::int64_t steps : counts.steps_at_level)
       bytes_.require(steps >= 0 && steps <= kMostCounted, "a number of steps that cannot be");
     bytes_.require(counts.body_steps >= 0 && counts.body_steps <= kMostCounted, "a number of steps that cannot be");
@@ -80,9 +149,7 @@ class StateLoader {
   static constexpr std::int64_t kMostCounted = std::int64_t{1} << 60;  // two of them can be added
 
   void load_accounts() {
-    bytes_(world_.clock.steps, world_.accounts);
-    if (world_.clock.changing) bytes_(world_.clock.water_drift);
-    if (has_wind_or_walls(scene_)) bytes_(world_.accounts.audit.boundaries);
+    head_fields(bytes_, world_);
     const Counts& c = world_.accounts.counts;
     for (const std::int64_t count :
          {c.floes_initial, c.bends, c.splits, c.ground, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
@@ -130,8 +197,7 @@ class StateLoader {
     const BodyMotion motion = load_motion(population_.bodies.bounding_radius[hull]);
     bytes_.require(motion.is_awake, "a ship asleep");
     place(hull, motion);
-    if (is_sailing(world_.setup, hull)) bytes_(population_.helms[hull], world_.accounts.sailing[hull]);
-    if (manages_ice(world_.setup, hull)) bytes_(population_.helms[hull].memory.pattern);
+    hull_fields(bytes_, world_, hull);
   }
 
   FloeHead load_head(FloeId id) {
@@ -321,19 +387,12 @@ class StateLoader {
   /// With the numbers of the loads that contacts' records follow.
   void load_panels() {
     std::vector<HullPanels> panels;
-    std::vector<std::int64_t> load_tracks;
-    bytes_(panels, load_tracks);
+    bytes_(panels);
     const std::vector<HullPanels>& of_scene = world_.accounts.panels;
     bytes_.require(std::ranges::equal(panels, of_scene, {}, &HullPanels::size, &HullPanels::size), "other panels");
     if (bytes_.is_well()) world_.accounts.panels = std::move(panels);
-    std::size_t next = 0;
-    for (dynamics::PairState& pair : pairs_) {
-      for (dynamics::PersistentContact& record : pair.records) {
-        if (next < load_tracks.size()) record.load_track = load_tracks[next];
-        ++next;
-      }
-    }
-    bytes_.require(next == load_tracks.size(), "another number of loads than of contacts");
+    load_members(pairs_, &dynamics::PersistentContact::load_track, "another number of loads than of contacts",
+                 [](std::int64_t) {});
   }
 
   const Scene& scene_;

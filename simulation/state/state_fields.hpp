@@ -44,168 +44,151 @@ struct FloeHead {
   Standing standing = Standing::kFree;
 };
 
-template <class Archive>
-void fields(Archive& archive, Is<geometry::Point> auto& p) {
+void fields(auto& archive, Is<geometry::Point> auto& p) {
   archive(p.x, p.y);
 }
-template <class Archive>
-void fields(Archive& archive, Is<geometry::Vector> auto& v) {
+void fields(auto& archive, Is<geometry::Vector> auto& v) {
   archive(v.x, v.y);
 }
-template <class Archive>
-void fields(Archive& archive, Is<geometry::Rotation> auto& r) {
+void fields(auto& archive, Is<geometry::Rotation> auto& r) {
   archive(r.cosine, r.sine);
 }
-template <class Archive>
-void fields(Archive& archive, Is<geometry::Polygon> auto& p) {
+void fields(auto& archive, Is<geometry::Polygon> auto& p) {
   archive(p.outer, p.holes);
 }
-template <class Archive>
-void fields(Archive& archive, Is<BodyMotion> auto& m) {
+void fields(auto& archive, Is<BodyMotion> auto& m) {
   archive(m.position, m.angle, m.rotation, m.velocity, m.angular_velocity, m.travel, m.rim_speed, m.is_awake);
 }
-template <class Archive>
-void fields(Archive& archive, Is<FloeHead> auto& f) {
+void fields(auto& archive, Is<FloeHead> auto& f) {
   archive(f.parent, f.born, f.generation, f.area, f.is_alive, f.standing);
 }
-template <class Archive>
-void fields(Archive& archive, Is<TiltedFloe> auto& t) {
+void fields(auto& archive, Is<TiltedFloe> auto& t) {
   archive(t.floe, t.ship, t.edge.deflection, t.edge.rate);
 }
-template <class Archive>
-void fields(Archive& archive, Is<SubmergedPiece> auto& t) {
+void fields(auto& archive, Is<SubmergedPiece> auto& t) {
   archive(t.floe, t.ship, t.path, t.weight, t.next_try, t.waited);
 }
-template <class Archive>
-void fields(Archive& archive, Is<SubmergedLoads> auto& l) {
+void fields(auto& archive, Is<SubmergedLoads> auto& l) {
   archive(l.impulse, l.area);
 }
-template <class Archive>
-void fields(Archive& archive, Is<ContactLoads> auto& l) {
+void fields(auto& archive, Is<ContactLoads> auto& l) {
   archive(l.impulse, l.largest, l.contacts);
 }
 /// Of the contact of two ships.
-template <class Archive>
-void fields(Archive& archive, Is<Event> auto& e) {
+void fields(auto& archive, Is<Event> auto& e) {
   auto& c = std::get<ShipContact>(e.what);
   archive(e.time, e.ship, c.other, e.point_in_world, c.closing_speed, c.relative_speed, c.is_prescribed);
 }
-template <class Archive>
-void fields(Archive& archive, Is<ShipLoads> auto& l) {
+void fields(auto& archive, Is<ShipLoads> auto& l) {
   archive(l.ice, l.ships, l.submerged, l.collision);
 }
-template <class Archive>
-void fields(Archive& archive, Is<dynamics::Planar> auto& p) {
+void fields(auto& archive, Is<dynamics::Planar> auto& p) {
   archive(p.surge, p.sway, p.yaw);
 }
-template <class Archive>
-void fields(Archive& archive, Is<SailingLoads> auto& l) {
+void fields(auto& archive, Is<SailingLoads> auto& l) {
   archive(l.water, l.engine, l.rudder, l.mooring, l.ice_friction);
 }
-template <class Archive>
-void fields(Archive& archive, Is<PilotMemory> auto& m) {
+void fields(auto& archive, Is<PilotMemory> auto& m) {
   archive(m.heading, m.speed_integral, m.drift_angle, m.waypoint, m.from, m.is_backing, m.slow_since, m.stuck_at,
           m.first_stuck_at, m.rams, m.gained);
 }
 /// Of ships that manage ice alone.
-template <class Archive>
-void fields(Archive& archive, Is<PatternMemory> auto& m) {
+void fields(auto& archive, Is<PatternMemory> auto& m) {
   archive(m.upstream, m.lap_share, m.carried, m.target, m.target_at, m.next_choice);
 }
-template <class Archive>
-void fields(Archive& archive, Is<Helm> auto& h) {
+void fields(auto& archive, Is<Helm> auto& h) {
   archive(h.lever, h.steering_angle, h.is_adrift, h.adrift_since, h.ice_force, h.memory);
 }
-template <class Archive>
-void fields(Archive& archive, Is<AreaLedger> auto& l) {
+void fields(auto& archive, Is<AreaLedger> auto& l) {
   archive(l.initial_ice_area, l.under_ice_area, l.submerged_area, l.brash_area,
           l.rounding_defect);  // the rest is derived
 }
 /// In checkpoints alone: it follows from the areas where all ice is alike.
-template <class Archive>
-void fields(Archive& archive, Is<MassLedger> auto& l) {
+void fields(auto& archive, Is<MassLedger> auto& l) {
   archive(l.initial_ice_mass, l.under_ice_mass, l.submerged_mass, l.brash_mass, l.rounding_mass);
 }
-template <class Archive>
-void fields(Archive& archive, Is<Counts> auto& c) {
+void fields(auto& archive, Is<Counts> auto& c) {
   archive(c.floes_initial, c.bends, c.splits, c.ground, c.tilted_under, c.went_under, c.came_up, c.stayed_under,
           c.crush_contacts, c.rejected_cuts, c.floated_cusps, c.brash_pieces, c.snap_rounded, c.database_out_of_range,
           c.unconverged_steps, c.largest_residual, c.energy_created, c.unpaired_stretches, c.peak_contacts,
           c.peak_awake);
 }
-template <class Archive>
-void fields(Archive& archive, Is<EnergyFlows> auto& e) {
+void fields(auto& archive, Is<EnergyFlows> auto& e) {
   archive(e.thrust, e.current, e.drag, e.friction, e.restitution, e.crushing, e.bending, e.splitting, e.grinding,
           e.submersion, e.submerged_ice, e.rest);
 }
-template <class Archive>
-void fields(Archive& archive, Is<MomentumFlows> auto& m) {
+void fields(auto& archive, Is<MomentumFlows> auto& m) {
   archive(m.thrust, m.held, m.water, m.removed);
 }
-template <class Archive>
-void fields(Archive& archive, Is<BoundaryFlows> auto& b) {
+void fields(auto& archive, Is<BoundaryFlows> auto& b) {
   archive(b.wind, b.walls, b.wind_impulse, b.wall_impulse);
 }
-/// Not its boundaries: those are in states of scenes that have wind or walls (save_state.cpp).
-template <class Archive>
-void fields(Archive& archive, Is<AuditSums> auto& a) {
+/// Not its boundaries: those are in states of scenes that have wind or walls (state.cpp).
+void fields(auto& archive, Is<AuditSums> auto& a) {
   archive(a.initial_energy, a.initial_momentum, a.impulses, a.energy, a.momentum);
 }
-template <class Archive>
-void fields(Archive& archive, Is<dynamics::PersistentContact> auto& r) {
+void fields(auto& archive, Is<dynamics::PersistentContact> auto& r) {
   archive(r.last_point_in_b, r.first_touch_in_b, r.age, r.approach, r.crushed_depth, r.restitution.owed_impulse,
           r.restitution.given_impulse, r.restitution.limit, r.last_impulse[0], r.last_impulse[1],
           r.restitution.start_impulse[0], r.restitution.start_impulse[1], r.loaded_depth, r.loaded_area, r.reach,
           r.has_crushed, r.is_pierced, r.is_inherited, r.was_refused, r.is_continued);
 }
-template <class Archive>
-void fields(Archive& archive, Is<geometry::Pose> auto& p) {
+void fields(auto& archive, Is<geometry::Pose> auto& p) {
   archive(p.position, p.rotation);
 }
-template <class Archive>
-void fields(Archive& archive, Is<dynamics::Booked> auto& b) {
+void fields(auto& archive, Is<dynamics::Booked> auto& b) {
   archive(b.loaded, b.crushed, b.tilted, b.volume, b.work);
 }
-template <class Archive>
-void fields(Archive& archive, Is<dynamics::CrushedIce> auto& c) {
+void fields(auto& archive, Is<dynamics::CrushedIce> auto& c) {
   archive(c.a_from_b, c.area);
 }
 /// Not its separation_bound: that is a cache, which may differ where the same bodies do the same.
-template <class Archive>
-void fields(Archive& archive, Is<dynamics::PairState> auto& p) {
+void fields(auto& archive, Is<dynamics::PairState> auto& p) {
   archive(p.a, p.b, p.records);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<std::pair<std::int64_t, std::int64_t>> auto& p) {
+void fields(auto& archive, Is<std::pair<std::int64_t, std::int64_t>> auto& p) {
   archive(p.first, p.second);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<std::array<std::int64_t, 2 * kMostLevels + 1>> auto& counts) {
+void fields(auto& archive, Is<std::array<std::int64_t, 2 * kMostLevels + 1>> auto& counts) {
   for (auto& count : counts) archive(count);
 }
 
 /// Its bodies follow from hull and floe, its place on the waterline is found when the peak is recorded.
-template <class Archive>
-void fields(Archive& archive, Is<LoadTrack> auto& t) {
+void fields(auto& archive, Is<LoadTrack> auto& t) {
   auto& s = t.at_largest;
   archive(t.id, t.is_rising, t.force, t.least, t.largest, t.time, s.on.ship, s.by.floe, s.point_in_world, s.force,
           s.depth, s.is_crushing, s.width, s.height, s.pressure, s.thickness, t.point_in_hull, t.ending);
 }
-template <class Archive>
-void fields(Archive& archive, Is<LoadPeaks> auto& p) {
+void fields(auto& archive, Is<LoadPeaks> auto& p) {
   archive(p.tracks, p.tracks_so_far, p.counts.recorded, p.counts.below, p.counts.beyond, p.counts.largest_beyond);
 }
-template <class Archive>
-void fields(Archive& archive, Is<PanelLoads> auto& p) {
+void fields(auto& archive, Is<PanelLoads> auto& p) {
   archive(p.impulse, p.normal, p.largest, p.loaded);
 }
 
-/// Not its peaks and panels: they decide nothing of the run (save_state.cpp).
-template <class Archive>
-void fields(Archive& archive, Is<Accounts> auto& a) {
+/// Not its peaks and panels: they decide nothing of the run (state.cpp).
+void fields(auto& archive, Is<Accounts> auto& a) {
   archive(a.ledger, a.audit, a.counts, a.loads, a.ship_contacts, a.refused_grinds);
+}
+
+/// What a state begins with.
+void head_fields(auto& archive, Is<World> auto& world) {
+  archive(world.clock.steps, world.accounts);
+  if (world.clock.changing) archive(world.clock.water_drift);
+  if (has_wind_or_walls(world.setup.scene)) archive(world.accounts.audit.boundaries);
+}
+/// Beside its motion.
+void hull_fields(auto& archive, Is<World> auto& world, std::int32_t hull) {
+  if (is_sailing(world.setup, hull)) archive(world.population.helms[hull], world.accounts.sailing[hull]);
+  if (manages_ice(world.setup, hull)) archive(world.population.helms[hull].memory.pattern);
+}
+/// What checkpoints alone have after the contacts, before peaks and panels.
+void tail_fields(auto& archive, Is<World> auto& world) {
+  auto& counts = world.accounts.counts;
+  archive(world.accounts.masses, counts.unresolved_splits, counts.steps_at_level, counts.crowded_ticks,
+          world.clock.finer, world.clock.bends, counts.body_steps, world.clock.next_levels);
 }
 
 }  // namespace polynya::simulation

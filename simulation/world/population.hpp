@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dynamics/contact/broad_phase.hpp"
-#include "dynamics/water/drag_shape.hpp"
+#include "dynamics/water/water_drag.hpp"
 #include "fracture/tilting.hpp"
 #include "geometry/cut/cut.hpp"
 #include "geometry/exact/measures.hpp"

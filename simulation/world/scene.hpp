@@ -9,16 +9,14 @@
 #include <vector>
 
 #include "dynamics/bodies.hpp"
-#include "dynamics/water/drag_shape.hpp"
 #include "dynamics/water/flow.hpp"
-#include "dynamics/water/wind.hpp"
+#include "dynamics/water/water_drag.hpp"
 #include "fracture/bending/bending_model.hpp"
 #include "fracture/characteristic_length.hpp"
 #include "fracture/materials.hpp"
 #include "fracture/splitting.hpp"
 #include "fracture/tilting.hpp"
 #include "geometry/shape/polygon.hpp"
-#include "simulation/ship/pilot_settings.hpp"
 #include "simulation/ship/sailing_settings.hpp"
 
 namespace polynya::simulation {

@@ -10,7 +10,7 @@
 #include "geometry/exact/validity.hpp"
 #include "simulation/field/convex.hpp"
 #include "simulation/field/floe_field.hpp"
-#include "simulation/field/free_area.hpp"
+#include "simulation/field/tessellation.hpp"
 #include "simulation/field/portable_math.hpp"
 #include "tests/shapes.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "fracture/bending/published_forms.hpp"
 #include "fracture/crushing.hpp"
-#include "simulation/field/random.hpp"
+#include "simulation/field/portable_math.hpp"
 #include "simulation/ice/ice_scatter.hpp"
 #include "tests/simulation/scenes.hpp"
 
