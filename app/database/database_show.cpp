@@ -11,10 +11,9 @@
 
 #include <fmt/format.h>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
-#include "app/command_line/python.hpp"
 #include "app/database/database.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/scaled_load.hpp"
@@ -403,8 +402,8 @@ Command add_database_query(CommandLine& app) {
   auto options = std::make_shared<QueryOptions>();
   add_point(command, options->load, true);
   add_load(command, options->load);
-  command.option("--slip-speed", options->load.slip_speed, "M_PER_S", "along the hull's waterline", between(-100, 100))
-      .shows_default();
+  command.option("--slip-speed", &options->load.slip_speed, "M_PER_S", "along the hull's waterline", between(-100, 100),
+                 {.shows_default = true});
   add_database_file(command, options->file);
   command.flag("--json", options->json, "Answer as JSON, in SI units");
   return {command, [options] { return query(*options); }};
@@ -417,8 +416,8 @@ Command add_database_show(CommandLine& app) {
                       "  polynya database show                      the database that ships with Polynya\n"
                       "  polynya database show winkler.txt --svg plots --thickness 1\n");
   auto options = std::make_shared<ShowOptions>();
-  command.option("file", options->file, "FILE", "The database; the shipped one if not given", not_empty());
-  command.option("--svg", options->svg_folder, "DIR",
+  command.option("file", &options->file, "FILE", "The database; the shipped one if not given", not_empty());
+  command.option("--svg", &options->svg_folder, "DIR",
                  "Draw the slices to speed.svg, wedge-angle.svg, thickness.svg, with their numbers in slices.json "
                  "(needs Python and matplotlib: ./setup.sh python)",
                  not_empty());

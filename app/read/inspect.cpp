@@ -8,7 +8,7 @@
 
 #include "analysis/floe_sizes.hpp"
 #include "analysis/run_check.hpp"
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
 #include "geometry/exact/measures.hpp"
@@ -516,23 +516,24 @@ Command add_inspect(CommandLine& app) {
   CommandLine command = app.add_command("inspect", "Show the floes of a run", kExamples);
   auto options = std::make_shared<Options>();
   add_run_folder(command, options->run);
-  command.option("--at", options->at, "T", "At that time; the end of the run if not given [s]", finite());
-  auto floe = command.option("--floe", options->floe, "N",
-                             "The shape of one floe: in its body frame, or with --at where it was in the world");
-  auto lineage = command.option("--lineage", options->lineage, "N", "The tree of fractures that led to a floe");
-  auto events = command.flag("--events", options->events,
-                             "Every event of the run: fractures, ships that meet, moorings that break");
-  auto check = command.flag("--check", options->check, "Re-derive validity, areas and overlaps of the whole run");
-  auto fsd = command.flag("--fsd", options->fsd, "The distribution of floe sizes");
-  command.option("--format", options->format, "", "Of --floe; wkt if not given")
-      .one_of<ShapeFormat>({{"wkt", ShapeFormat::kWkt}, {"geojson", ShapeFormat::kGeojson}, {"svg", ShapeFormat::kSvg}})
-      .needs(floe);
-  auto json = command.flag("--json", options->json, "Print the report as JSON; a shape: --format geojson");
+  command.option("--at", &options->at, "T", "At that time; the end of the run if not given [s]", finite());
+  command.option("--floe", &options->floe, "N",
+                 "The shape of one floe: in its body frame, or with --at where it was in the world");
+  command.option("--lineage", &options->lineage, "N", "The tree of fractures that led to a floe", {},
+                 {.excludes = {"--floe"}});
+  command.flag("--events", options->events, "Every event of the run: fractures, ships that meet, moorings that break",
+               {.excludes = {"--floe", "--lineage"}});
+  command.flag("--check", options->check, "Re-derive validity, areas and overlaps of the whole run",
+               {.excludes = {"--floe", "--lineage", "--events"}});
+  command.flag("--fsd", options->fsd, "The distribution of floe sizes",
+               {.excludes = {"--floe", "--lineage", "--events", "--check"}});
+  command.choice<ShapeFormat>(
+      "--format", options->format, "Of --floe; wkt if not given",
+      {{"wkt", ShapeFormat::kWkt}, {"geojson", ShapeFormat::kGeojson}, {"svg", ShapeFormat::kSvg}},
+      {.needs = "--floe"});
+  command.flag("--json", options->json, "Print the report as JSON; a shape: --format geojson",
+               {.excludes = {"--floe"}});
   add_progress(command, options->progress);
-  floe.excludes(lineage).excludes(events).excludes(check).excludes(fsd).excludes(json);
-  lineage.excludes(events).excludes(check).excludes(fsd);
-  events.excludes(check).excludes(fsd);
-  check.excludes(fsd);
   return {command, [options] { return inspect(*options); }};
 }
 

@@ -2,13 +2,13 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
 #include "app/run/load_scene.hpp"
 #include "io/import/import_report.hpp"
 #include "io/scene/floe_ice.hpp"
-#include "io/scene/scene_schema.hpp"
+#include "io/scene/scene_input.hpp"
 #include "io/text/output_file.hpp"
 
 namespace polynya::app {
@@ -103,7 +103,7 @@ constexpr auto kExamples =
 
 struct ValidateOptions {
   std::string scene;
-  std::vector<io::Assignment> set;
+  std::vector<std::string> set;
   std::string cases;      ///< a file of them; empty: none
   bool resolved = false;  ///< print the scene with every default filled in
   ProgressKind progress = ProgressKind::kAuto;
@@ -133,7 +133,7 @@ void print_floes(const io::LoadedScene& loaded) {
 int validate(const ValidateOptions& options) {
   const ProblemFormat format = options.json ? ProblemFormat::kJson : ProblemFormat::kText;
   io::SceneOverrides overrides;
-  overrides.assignments = options.set;
+  overrides.assignments = assignments_of(options.set);
   if (!options.cases.empty()) return validate_cases(options.scene, options.cases, overrides, format);
   const auto loaded = load_scene(options.scene, overrides, format, options.progress);
   if (!loaded) return loaded.error();
@@ -180,12 +180,12 @@ Command add_validate(CommandLine& app) {
   auto options = std::make_shared<ValidateOptions>();
   add_scene(command, options->scene);
   add_set(command, options->set);
-  auto cases =
-      command.option("--cases", options->cases, "FILE",
-                     "Check the scene once for each line of this file, an object of paths and values", not_empty());
-  auto resolved = command.flag("--resolved", options->resolved, "Print the scene with every default filled in");
-  resolved.excludes(cases);
-  command.flag("--json", options->json, "Print the problems as a JSON array; [] for none").excludes(resolved);
+  command.option("--cases", &options->cases, "FILE",
+                 "Check the scene once for each line of this file, an object of paths and values", not_empty());
+  command.flag("--resolved", options->resolved, "Print the scene with every default filled in",
+               {.excludes = {"--cases"}});
+  command.flag("--json", options->json, "Print the problems as a JSON array; [] for none",
+               {.excludes = {"--resolved"}});
   add_progress(command, options->progress);
   return {command, [options] { return validate(*options); }};
 }
@@ -196,7 +196,7 @@ Command add_init(CommandLine& app) {
                                         "  polynya init my-scene.json && polynya run my-scene.json\n"
                                         "  polynya init                         to stdout\n");
   auto file = std::make_shared<std::string>();
-  command.option("file", *file, "FILE", "Where to; stdout if not given");
+  command.option("file", file.get(), "FILE", "Where to; stdout if not given");
   return {command, [file] { return init(*file); }};
 }
 

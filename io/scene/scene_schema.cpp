@@ -1,5 +1,3 @@
-#include "io/scene/scene_schema.hpp"
-
 #include <algorithm>
 #include <cmath>
 

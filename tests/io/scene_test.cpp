@@ -230,7 +230,7 @@ TEST(SceneAssign, NamesTheOptionAndTheKeyOfWhatIsWrong) {
   for (const auto& [words, message] :
        {std::pair{"ice.thickness_m=-1", "ice.thickness_m: found -1, allowed: a number ≥ 0.001, ≤ 20 [m]"},
         {"ice.thicknes_m=1", "ice.thicknes_m: found an unknown key"},
-        {"floes[1].rectangle.size_m=3", "floes[1]: found a list of 1, allowed: an index from 0 to 0"},
+        {"floes[1].rectangle.size_m=3", "floes[1]: found a list of 1, allowed: an item of a list that the scene has"},
         {"ships[0].mass_kg=3", "ships: found nothing, allowed: a list that the scene has"},
         {"ice.thickness_m.x=3", "ice.thickness_m: found 0.5, allowed: an object, to have \"x\""},
         {"a..b=1", ""},
