@@ -66,8 +66,7 @@ io::Result<> check_target(const std::filesystem::path& path, bool overwrite) {
 ProgressReport report(std::size_t done, std::size_t total, double wall) {
   const double part = static_cast<double>(done) / static_cast<double>(total);
   const double left = part > 0 ? wall * (1 - part) / part : 0;
-  return {part, fmt::format(" {:3.0f} %  {}/{} wedges  {} left", 100 * part, done, total, clock_time(left)),
-          fmt::format("{:3.0f} %  {} of {} wedges, {} left", 100 * part, done, total, clock_time(left)),
+  return {part, fmt::format("{:3.0f} %  {} of {} wedges  {} left", 100 * part, done, total, clock_time(left)),
           fmt::format(R"({{"wedges":{},"wedges_total":{},"wall_time_s":{:.3f},"time_left_s":{:.1f}}})", done, total,
                       wall, left)};
 }

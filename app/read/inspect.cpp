@@ -23,12 +23,11 @@
 namespace polynya::app {
 namespace {
 
-using geometry::Ring;
 using io::id_or_none;
 using io::JsonWriter;
 using simulation::FloeId;
 
-enum class ShapeFormat { kWkt, kGeojson, kSvg };
+enum class ShapeFormat { kWkt, kGeojson };
 
 /// A floe's shape in its body frame, or in the world at a time.
 struct ShapeView {
@@ -64,31 +63,6 @@ std::string as_geojson(const ShapeView& view) {
     if (view.time_in_world) json.key("t_s").value(*view.time_in_world);
     json.close('}').key("geometry").polygon(view.polygon);
   });
-}
-
-std::string as_svg(const ShapeView& view) {
-  const geometry::Box box = bounding_box(view.polygon.outer);
-  const geometry::Vector size = box.high - box.low;
-  const double margin = 0.02 * std::max(size.x, size.y);
-  std::string text = fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='{} {} {} {}'>\n<title>floe {} {}, "
-      "metres</title>\n<path "
-      "d='",
-      box.low.x - margin, -box.high.y - margin, size.x + 2 * margin, size.y + 2 * margin, view.birth.floe,
-      view.time_in_world ? fmt::format("in the world at {:g} s", *view.time_in_world) : "in its body frame");
-  const auto write = [&text](const Ring& ring) {
-    char command = 'M';
-    for (const geometry::Point p : ring) {
-      fmt::format_to(std::back_inserter(text), "{}{} {}", command, p.x, 0.0 - p.y);
-      command = 'L';
-    }
-    text += 'Z';
-  };
-  write(view.polygon.outer);
-  std::ranges::for_each(view.polygon.holes, write);
-  text +=
-      fmt::format("' fill='#fbeec2' fill-rule='evenodd' stroke='#3d5261' stroke-width='{}'/>\n</svg>\n", margin / 8);
-  return text;
 }
 
 void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check, const simulation::Scene& scene) {
@@ -215,10 +189,8 @@ void write_hulls(JsonWriter& json, const analysis::RunCheck& check, const simula
   });
 }
 
-/// WKT, a GeoJSON Feature, or SVG in metres with y up.
 std::string to_text(const ShapeView& view, ShapeFormat format) {
   if (format == ShapeFormat::kGeojson) return as_geojson(view);
-  if (format == ShapeFormat::kSvg) return as_svg(view);
   std::string text;
   io::append_wkt(text, view.polygon);
   return text + "\n";
@@ -423,7 +395,7 @@ constexpr auto kExamples =
     "Examples:\n"
     "  polynya inspect runs/level-plate                        the floes at the end, a line each\n"
     "  polynya inspect runs/level-plate --at 30                at 30 s\n"
-    "  polynya inspect runs/level-plate --floe 17 --format svg > floe-17.svg\n"
+    "  polynya inspect runs/level-plate --floe 17 --format geojson > floe-17.geojson\n"
     "  polynya inspect runs/level-plate --lineage 17           the fractures that led to it\n"
     "  polynya inspect runs/level-plate --events               what broke, met and went under\n"
     "  polynya inspect runs/level-plate --check                validity, areas, overlaps, exactly\n"
@@ -527,10 +499,8 @@ Command add_inspect(CommandLine& app) {
                {.excludes = {"--floe", "--lineage", "--events"}});
   command.flag("--fsd", options->fsd, "The distribution of floe sizes",
                {.excludes = {"--floe", "--lineage", "--events", "--check"}});
-  command.choice<ShapeFormat>(
-      "--format", options->format, "Of --floe; wkt if not given",
-      {{"wkt", ShapeFormat::kWkt}, {"geojson", ShapeFormat::kGeojson}, {"svg", ShapeFormat::kSvg}},
-      {.needs = "--floe"});
+  command.choice<ShapeFormat>("--format", options->format, "Of --floe; wkt if not given",
+                              {{"wkt", ShapeFormat::kWkt}, {"geojson", ShapeFormat::kGeojson}}, {.needs = "--floe"});
   command.flag("--json", options->json, "Print the report as JSON; a shape: --format geojson",
                {.excludes = {"--floe"}});
   add_progress(command, options->progress);

@@ -211,10 +211,8 @@ ProgressReport progress_of(const io::RunStatus& at, double until, double wall_ti
   const double part = until > 0 ? sim_time / until : 1;
   const double left = rate > 0 ? std::max(0.0, until - sim_time) / rate : 0;
   return {part,
-          fmt::format(" {:3.0f} %  {:.1f}/{:g} s  {:.0f}x real time  {} left  {}", 100 * part, sim_time, until, rate,
+          fmt::format("{:3.0f} %  {:.1f} of {:g} s  {:.3g} x real time  {} left  {}", 100 * part, sim_time, until, rate,
                       clock_time(left), counted(at.fractures, "fracture")),
-          fmt::format("{:3.0f} %  {:.1f} of {:g} s simulated, {:.3g} x real time, {} left, {}", 100 * part, sim_time,
-                      until, rate, clock_time(left), counted(at.fractures, "fracture")),
           fmt::format(R"({{"sim_time_s":{:.6g},"until_s":{:.6g},"wall_time_s":{:.3f},"real_time_factor":{:.4g},)"
                       R"("time_left_s":{:.1f},"fractures":{}}})",
                       sim_time, until, wall, rate, left, at.fractures)};

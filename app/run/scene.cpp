@@ -19,43 +19,6 @@ namespace {
 constexpr std::size_t kLongestCases = std::size_t{4} << 30;  ///< [bytes]
 constexpr std::size_t kMostPrinted = 100;                    ///< cases whose problems are printed
 
-/// What is wrong with the cases so far.
-class CasesReport {
- public:
-  CasesReport(std::string name, ProblemFormat format) : name_(std::move(name)), format_(format) {}
-
-  void add(std::size_t line, const std::vector<io::Problem>& problems) {
-    if (++refused_ > kMostPrinted && format_ == ProblemFormat::kText) return;
-    if (format_ == ProblemFormat::kJson) {
-      std::string list = io::to_json_text(problems);
-      std::erase(list, '\n');
-      write_out(fmt::format("{{\"line\": {}, \"problems\": {}}}\n", line, list));
-      return;
-    }
-    for (const io::Problem& problem : problems) {
-      const bool is_of_case = problem.file == name_;
-      print_err("{}{}\n", is_of_case ? "" : fmt::format("{}:{}: ", name_, line), to_string(problem));
-    }
-  }
-
-  /// The last words, and the code to exit with.
-  ExitCode end(std::size_t count) const {
-    if (format_ == ProblemFormat::kJson) return refused_ == 0 ? kDone : kSceneInvalid;
-    if (refused_ == 0) {
-      print_out("{}: {}, all valid\n", name_, counted(count, "case"));
-      return kDone;
-    }
-    if (refused_ > kMostPrinted) print_err("{}: {} more are refused\n", name_, refused_ - kMostPrinted);
-    return fail(kSceneInvalid,
-                fmt::format("{} of {} are refused; nothing was written", refused_, counted(count, "case")));
-  }
-
- private:
-  std::string name_;
-  ProblemFormat format_;
-  std::size_t refused_ = 0;
-};
-
 /// Reads one case's scene; what is wrong with it.
 std::vector<io::Problem> problems_of(const std::string& scene_text, const std::string& scene_name,
                                      std::string_view line, const std::string& cases, std::size_t number,
@@ -77,16 +40,30 @@ int validate_cases(const std::string& scene, const std::string& cases, const io:
   if (!scene_text) return fail(kInputOutput, fmt::format("{}: {}", scene, scene_text.error()));
   const auto text = read_input(cases, kLongestCases);
   if (!text) return fail(kInputOutput, fmt::format("{}: {}", cases, text.error()));
-  CasesReport report(cases, format);
-  std::size_t count = 0;
+  std::size_t count = 0, refused = 0;
   for (std::size_t begin = 0; begin < text->size();) {
     const std::size_t end = std::min(text->find('\n', begin), text->size());
     const std::string_view line = std::string_view(*text).substr(begin, end - begin);
     const auto problems = problems_of(*scene_text, scene, line, cases, ++count, overrides);
-    if (!problems.empty()) report.add(count, problems);
+    refused += problems.empty() ? 0 : 1;
+    if (format == ProblemFormat::kJson && !problems.empty()) {
+      std::string list = io::to_json_text(problems);
+      std::erase(list, '\n');
+      write_out(fmt::format("{{\"line\": {}, \"problems\": {}}}\n", count, list));
+    } else if (refused <= kMostPrinted) {
+      for (const io::Problem& problem : problems)
+        print_err("{}{}\n", problem.file == cases ? "" : fmt::format("{}:{}: ", cases, count), to_string(problem));
+    }
     begin = end + 1;
   }
-  return report.end(count);
+  if (format == ProblemFormat::kJson) return refused == 0 ? kDone : kSceneInvalid;
+  if (refused > 0)
+    return fail(
+        kSceneInvalid,
+        fmt::format("{} of {} are refused{}; nothing was written", refused, counted(count, "case"),
+                    refused > kMostPrinted ? fmt::format(", of which the first {} are listed", kMostPrinted) : ""));
+  print_out("{}: {}, all valid\n", cases, counted(count, "case"));
+  return kDone;
 }
 
 // ---- polynya validate

@@ -58,7 +58,7 @@ enum class Over { kMean, kLargestStep, kAtEnd };
 
 /// A number that forces.csv records of each ship and structure. The writer, the reader, the checkpoint's
 /// peaks, summary.json, the player and Python follow this table, a test compares docs/run-folder.md with it:
-/// to add a column, add it in force_columns.cpp and its row, which that test prints, to that page.
+/// to add a column, add it in csv_columns.cpp and its row, which that test prints, to that page.
 struct ForceColumn {
   std::string name;       ///< with its unit: "surge_N"
   std::string_view unit;  ///< as people read it: "N·m"; empty of a count
@@ -112,7 +112,7 @@ std::vector<ForceCause> force_causes(const simulation::Scene& scene);
 
 /// A column of contacts.csv or panels.csv behind those that name the bodies. Writer, reader and docs/run-folder.md
 /// follow these tables (a test compares the page): to add a column, add it at the end of its table in
-/// load_columns.cpp, and the row, which that test prints, to the page.
+/// csv_columns.cpp, and the row, which that test prints, to the page.
 template <class Row>
 struct LoadColumn {
   std::string_view name;                   ///< with its unit: "depth_m"
