@@ -122,5 +122,6 @@ def test_wrong_words_are_answered_as_by_the_commands_in_c():
 def test_the_manual_page_is_written_without_the_python_of_commands(tmp_path):
     guide = pathlib.Path(command.__file__).with_name("guide.py")
     page, completion = tmp_path / "polynya.1", tmp_path / "polynya.bash"
-    without = ended([sys.executable, guide, PROGRAM, page, completion], env={**os.environ, "POLYNYA_PYTHON": "/no/such"})
+    words = [sys.executable, guide, PROGRAM, page, completion]
+    without = ended(words, env={**os.environ, "POLYNYA_PYTHON": "/no/such"})
     assert without.returncode == 0 and "polynya movie \\-\\-help explains its options" in page.read_text()
