@@ -97,7 +97,7 @@ TEST_F(FloeFile, CoordinatesTooFarAwayAreNamedOnce) {
   EXPECT_HAS(problems(collection({floe(0, 0, 5), floe(9, 0, 5), floe(1.2e6, 0, 800)})),
              "floes[0].file (its floe 2): found [1200000, 0], allowed");
   EXPECT_HAS(problems(collection({R"({"type":"Polygon","coordinates":[[[0,0],[null,0],[1,1],[0,0]]]})"})),
-             "not-finite");
+             "found [nan, 0], allowed: coordinates that are finite numbers");
 }
 
 /// A run's floes overlap where they are in contact, by the ice that was crushed there. The overlaps of any
