@@ -17,9 +17,9 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/point_in_ring.hpp"
 #include "geometry/shape/outline.hpp"
+#include "io/run/csv_columns.hpp"
 #include "io/run/motion_index.hpp"
-#include "io/text/csv_row.hpp"
-#include "io/text/geojson_layer.hpp"
+#include "io/text/json_writer.hpp"
 
 namespace polynya::analysis {
 namespace {

@@ -4,19 +4,23 @@
 #include <system_error>
 #include <vector>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/run/memory.hpp"
-#include "io/text/version.hpp"
+#include "io/run/summary.hpp"
 
 namespace polynya::app {
 namespace {
 
-/// In the order of the help.
-const std::vector<Command (*)(CommandLine&)> kCommands{
-    add_run,  add_resume,  add_validate, add_schema, add_ships,      add_performance, add_calibrate, add_init,
-    add_view, add_channel, add_figures,  add_loads,  add_management, add_movie,       add_export,    add_inspect,
-    add_cut,  add_import,  add_database, add_study,  add_man,        add_completion,  add_read_json};
+Commands add_commands(CommandLine& app) {
+  Commands commands;  // in the order of the help
+  for (const auto add : {add_run, add_resume, add_validate, add_schema, add_ships, add_init, add_view, add_channel,
+                         add_export, add_inspect, add_cut, add_import, add_database})
+    commands.push_back(add(app));
+  add_python_commands(app, commands);
+  commands.push_back(add_read_json(app));
+  return commands;
+}
 
 constexpr auto kExamples =
     "Examples:\n"
@@ -52,7 +56,7 @@ int report_out_of_memory() {
 
 int command_line(int count, char** words) {
   const std::string commit = kCommit.empty() ? "" : fmt::format(" ({})", kCommit);
-  return run_command_line({kExamples, kCodes, fmt::format("polynya {}{}", io::version(), commit)}, kCommands, count,
+  return run_command_line({kExamples, kCodes, fmt::format("polynya {}{}", io::version(), commit)}, add_commands, count,
                           words);
 }
 

@@ -13,7 +13,7 @@ endfunction()
 if(CMAKE_SCRIPT_MODE_FILE)
   execute_process(COMMAND git -C ${SOURCE} describe --always --abbrev=9 --dirty=+ --exclude=* OUTPUT_VARIABLE commit
     OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
-  string(CONCAT source "#include \"app/command_line/commands.hpp\"\n\nnamespace polynya::app {\n\n"
+  string(CONCAT source "#include \"app/command_line/command_line.hpp\"\n\nnamespace polynya::app {\n\n"
     "const std::string_view kCommit = \"${commit}\";\n\n}  // namespace polynya::app\n")
   file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "${source}" @ONLY)
 endif()

@@ -80,12 +80,12 @@ void ProgressOutput::show(const ProgressReport& report) const {
   if (kind_ == ProgressKind::kJson) {
     line = report.json + "\n";
   } else if (kind_ == ProgressKind::kLines) {
-    line = report.line + "\n";
+    line = report.words + "\n";
   } else {
     const int columns = terminal_width() - 1;  // the last one would wrap some terminals
-    const int room = columns - static_cast<int>(report.beside_bar.size());
-    line = fmt::format("\r{}{}\x1b[K", room >= 8 && report.part >= 0 ? bar(report.part, std::min(room, 40)) : "",
-                       fitted(report.beside_bar, columns));
+    const int room = columns - static_cast<int>(report.words.size()) - 1;
+    line = fmt::format("\r{}{}\x1b[K", room >= 8 && report.part >= 0 ? bar(report.part, std::min(room, 40)) + " " : "",
+                       fitted(report.words, columns));
   }
   show_progress(line);
 }
@@ -124,8 +124,7 @@ void WorkProgress::show_until(const std::stop_token& stop) {
 ProgressReport WorkProgress::report() const {
   const double part = part_, wall = output_.wall_time();
   const std::string percent = part >= 0 ? fmt::format("{:3.0f} %  ", 100 * part) : "";
-  const std::string text = fmt::format("{}{}  {}", percent, work_, clock_time(wall));
-  return {part, (part >= 0 ? " " : "") + text, fmt::format("{}{}, {}", percent, work_, clock_time(wall)),
+  return {part, fmt::format("{}{}  {}", percent, work_, clock_time(wall)),
           fmt::format(R"({{"work":"{}","part":{},"wall_time_s":{:.3f}}})", work_,
                       part >= 0 ? fmt::format("{:.4g}", part) : "null", wall)};
 }

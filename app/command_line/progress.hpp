@@ -21,10 +21,9 @@ enum class ProgressKind {
 
 /// One report of how far some work is, in each of its forms.
 struct ProgressReport {
-  double part = 0;         ///< done, 0..1; negative where that is not known
-  std::string beside_bar;  ///< follows the bar on its line: ASCII, fields two blanks apart, the important ones first
-  std::string line;        ///< without its newline
-  std::string json;        ///< one object, without its newline
+  double part = 0;    ///< done, 0..1; negative where that is not known
+  std::string words;  ///< a line, or behind the bar: ASCII, fields two blanks apart, the important ones first
+  std::string json;   ///< one object, without its newline
 };
 
 /// Prints reports on stderr, at the pace of their kind.

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/crushing.hpp"
@@ -46,23 +46,21 @@ struct BuildOptions {
   bool overwrite = false;
 };
 
-/// Whether the file can be written there: tried before the work, with the temporary file that the write
-/// begins with.
+/// Whether a file may be written there, before the work.
 io::Result<> check_target(const std::filesystem::path& path, bool overwrite) {
   std::error_code ignored;
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (!std::filesystem::is_directory(folder, ignored)) return io::fail(folder.string() + ": no such folder");
-  if (!std::filesystem::exists(path, ignored)) return io::trial_of_named_file(path);
+  if (!std::filesystem::exists(path, ignored)) return {};
   if (!std::filesystem::is_regular_file(path, ignored)) return io::fail(path.string() + ": it is not a file");
   if (!overwrite) return io::fail(path.string() + ": it exists already; --overwrite replaces it");
-  return io::trial_of_named_file(path);
+  return {};
 }
 
 ProgressReport report(std::size_t done, std::size_t total, double wall) {
   const double part = static_cast<double>(done) / static_cast<double>(total);
   const double left = part > 0 ? wall * (1 - part) / part : 0;
-  return {part, fmt::format(" {:3.0f} %  {}/{} wedges  {} left", 100 * part, done, total, clock_time(left)),
-          fmt::format("{:3.0f} %  {} of {} wedges, {} left", 100 * part, done, total, clock_time(left)),
+  return {part, fmt::format("{:3.0f} %  {} of {} wedges  {} left", 100 * part, done, total, clock_time(left)),
           fmt::format(R"({{"wedges":{},"wedges_total":{},"wall_time_s":{:.3f},"time_left_s":{:.1f}}})", done, total,
                       wall, left)};
 }
@@ -108,23 +106,24 @@ int build(const BuildOptions& options) {
 }  // namespace
 
 void add_threads(CommandLine& command, int& threads) {
-  command.option("--threads", threads, "N", "As many as the machine runs at once if not given; no result depends on it",
-                 whole(1, 1024));
+  command.option("--threads", &threads, "N",
+                 "As many as the machine runs at once if not given; no result depends on it", whole(1, 1024));
 }
 
 void add_database_file(CommandLine& command, std::string& file) {
-  command.option("--database", file, "FILE", "The database; the shipped one if not given", not_empty());
+  command.option("--database", &file, "FILE", "The database; the shipped one if not given", not_empty());
 }
 
 void add_load(CommandLine& command, DatabaseLoadOptions& load) {
-  command.option("--wedge-angle", load.wedge_angle_deg, "DEG", "Opening angle of the wedge of ice",
+  command.option("--wedge-angle", &load.wedge_angle_deg, "DEG", "Opening angle of the wedge of ice",
                  between(kNarrowestWedge, 179.9));
-  command.option("--front-angle", load.front_angle_deg, "DEG", "Instead: from the inward normal to the front edge",
+  command.option("--front-angle", &load.front_angle_deg, "DEG", "Instead: from the inward normal to the front edge",
                  between(0, 89.9));
-  command.option("--back-angle", load.back_angle_deg, "DEG", "and to the back edge", between(0, 89.9));
+  command.option("--back-angle", &load.back_angle_deg, "DEG", "and to the back edge", between(0, 89.9));
   const auto add = [&command](const char* name, double& value, const char* unit, const char* meaning, double least,
                               double most) {
-    command.option(name, value, unit, meaning, between(least, most)).in_group("Ice and water").shows_default();
+    command.option(name, &value, unit, meaning, between(least, most),
+                   {.shows_default = true, .group = "Ice and water"});
   };
   add("--density", load.ice.density, "KG_PER_M3", "of the ice", 1, 5000);
   add("--youngs-modulus", load.ice.youngs_modulus, "PA", "of the ice", 1e3, 1e12);
@@ -138,11 +137,8 @@ void add_load(CommandLine& command, DatabaseLoadOptions& load) {
 void add_point(CommandLine& command, DatabaseLoadOptions& load, bool is_required) {
   const auto add = [&](const char* name, double& value, const char* unit, const char* meaning, double least,
                        double most) {
-    auto added = command.option(name, value, unit, meaning, between(least, most));
-    if (is_required)
-      added.required();
-    else
-      added.shows_default();
+    command.option(name, &value, unit, meaning, between(least, most),
+                   {.is_required = is_required, .shows_default = !is_required});
   };
   add("--thickness", load.ice.thickness, "M", "of the ice", 1e-3, 100);
   add("--speed", load.speed, "M_PER_S", "of approach, normal to the hull's waterline", 0, 100);
@@ -201,19 +197,18 @@ int thread_count(int asked) {
   return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-Command add_database_build(CommandLine& app) {
+static Command add_build(CommandLine& app) {
   CommandLine command = app.add_command("build", "Solve the wedges and write a database", kBuildExamples);
   auto options = std::make_shared<BuildOptions>();
-  command.option("--out", options->out, "FILE", "The file to write", not_empty()).shows_default();
-  command.option("--fluid", options->fluid, "", "What the water does; potential if not given")
-      .one_of<fracture::FluidModel>({{"winkler", fracture::FluidModel::kWinkler},
-                                     {"local-mass", fracture::FluidModel::kLocalMass},
-                                     {"potential", fracture::FluidModel::kPotential},
-                                     {"free-surface", fracture::FluidModel::kFreeSurface}});
-  command
-      .option("--wedge-angles", options->wedge_angles_deg, "DEG,DEG,...",
-              "Opening angles of the wedges, ascending; the shipped database's if not given [deg]", between(5, 180))
-      .separated_by(',');
+  command.option("--out", &options->out, "FILE", "The file to write", not_empty(), {.shows_default = true});
+  command.choice<fracture::FluidModel>("--fluid", options->fluid, "What the water does; potential if not given",
+                                       {{"winkler", fracture::FluidModel::kWinkler},
+                                        {"local-mass", fracture::FluidModel::kLocalMass},
+                                        {"potential", fracture::FluidModel::kPotential},
+                                        {"free-surface", fracture::FluidModel::kFreeSurface}});
+  command.option("--wedge-angles", &options->wedge_angles_deg, "DEG,DEG,...",
+                 "Opening angles of the wedges, ascending; the shipped database's if not given [deg]", between(5, 180),
+                 {.delimiter = ','});
   add_threads(command, options->threads);
   add_progress(command, options->progress);
   command.flag("--overwrite", options->overwrite, "Replace the file");
@@ -231,8 +226,8 @@ Command add_database(CommandLine& app) {
       "Exit codes: 0 done, 2 usage, 4 a wedge does not break, 5 input/output, or a file that is no such "
       "database.\n");
   command.require_command();
-  auto commands = std::make_shared<std::vector<Command>>();
-  for (const auto add : {add_database_build, add_database_show, add_database_query}) commands->push_back(add(command));
+  auto commands = std::make_shared<Commands>();
+  for (const auto add : {add_build, add_database_show, add_database_query}) commands->push_back(add(command));
   return {command, [commands] { return run_chosen(*commands); }};
 }
 

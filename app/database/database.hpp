@@ -53,6 +53,9 @@ tl::expected<fracture::BendingLoad, ExitCode> bending_load(const DatabaseLoadOpt
 /// One line: "0.5 m of ice, 90 deg wedge, hull 60 deg from the vertical, v_n 1 m/s".
 std::string describe(const fracture::BendingLoad& load);
 
+Command add_database_query(CommandLine& app);
+Command add_database_show(CommandLine& app);
+
 /// As many threads as given, or for 0 as many as the machine runs at once.
 int thread_count(int asked);
 

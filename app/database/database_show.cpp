@@ -4,17 +4,14 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
-#include "app/command_line/python.hpp"
 #include "app/database/database.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/fsi_database_model.hpp"
@@ -386,36 +383,6 @@ void print_grids(const BendingDatabase& database) {
   print_out("entries         {}: V/(sigma_f h2), R/l, crack ratio\n", database.entries().size());
 }
 
-/// A star where the table had to be left.
-std::string_view star(bool is_in_range) {
-  return is_in_range ? "" : "*";
-}
-
-void print_slice(const FsiDatabaseModel& model, const BendingLoad& load, SliceAxis axis, const char* abscissa,
-                 std::span<const double> values) {
-  print_out("\n| {} | V kN | R m | t s | crack first | Nevel V kN | R m | Kashtelyan V kN | R m |\n", abscissa);
-  print_out("|---|---|---|---|---|---|---|---|---|\n");
-  for (const SlicePoint& point : slice(model, load, axis, values)) {
-    const auto& [x, forecast, nevel, kashtelyan] = point;
-    print_out("| {:g} | {:.4g}{} | {:.3f} | {:.3g} | {} | {:.4g}{} | {:.3f} | {:.4g}{} | {:.3f} |\n",
-              x * scale_of(axis), forecast.capacity.vertical_force / 1e3, star(forecast.capacity.is_in_range),
-              forecast.capacity.cusp_radius, forecast.time, forecast.capacity.radial_crack_first ? "yes" : "no",
-              nevel.vertical_force / 1e3, star(nevel.is_in_range), nevel.cusp_radius, kashtelyan.vertical_force / 1e3,
-              star(kashtelyan.is_in_range), kashtelyan.cusp_radius);
-  }
-}
-
-void print_slices(const FsiDatabaseModel& model, const BendingLoad& load) {
-  print_out("\nSlices through {}; * outside of the table, or of the published form's range\n", describe(load));
-  constexpr double kSpeeds[] = {0.05, 0.1, 0.2, 0.5, 1, 2, 4, 8};
-  constexpr double kThicknesses[] = {0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3};
-  std::vector<double> angles{20, 30, 45, 60, 75, 90, 105, 120, 135, 150, 165};
-  for (double& angle : angles) angle /= kDegree;
-  print_slice(model, load, SliceAxis::kSpeed, "v_n m/s", kSpeeds);
-  print_slice(model, load, SliceAxis::kOpeningAngle, "2a deg", angles);
-  print_slice(model, load, SliceAxis::kThickness, "h m", kThicknesses);
-}
-
 /// The slices into slices.json of the folder, which is made where it is missing; Python draws them.
 int draw_slices(const std::string& slices, const std::filesystem::path& folder) {
   if (const auto made = make_folder(folder); !made) return fail(kInputOutput, made.error());
@@ -433,14 +400,12 @@ int show(const ShowOptions& options) {
                                     load->hull_angle * kDegree, load->ice.friction));
   const auto database = load_database(options.file);
   if (!database) return database.error();
-  const FsiDatabaseModel model(*database);
   print_parameters(**database, options.file);
   print_grids(**database);
-  print_slices(model, *load);
   if (options.svg_folder.empty()) return kDone;
   const std::string title = fmt::format("{}, fluid {}", options.file.empty() ? "shipped" : options.file,
                                         fracture::fluid_name((*database)->settings().fluid));
-  return draw_slices(database_slices(model, title, *load), options.svg_folder);
+  return draw_slices(database_slices(FsiDatabaseModel(*database), title, *load), options.svg_folder);
 }
 
 }  // namespace
@@ -451,8 +416,8 @@ Command add_database_query(CommandLine& app) {
   auto options = std::make_shared<QueryOptions>();
   add_point(command, options->load, true);
   add_load(command, options->load);
-  command.option("--slip-speed", options->load.slip_speed, "M_PER_S", "along the hull's waterline", between(-100, 100))
-      .shows_default();
+  command.option("--slip-speed", &options->load.slip_speed, "M_PER_S", "along the hull's waterline", between(-100, 100),
+                 {.shows_default = true});
   add_database_file(command, options->file);
   command.flag("--json", options->json, "Answer as JSON, in SI units");
   return {command, [options] { return query(*options); }};
@@ -460,13 +425,13 @@ Command add_database_query(CommandLine& app) {
 
 Command add_database_show(CommandLine& app) {
   CommandLine command =
-      app.add_command("show", "Print a database's parameters, grids and slices, and plot them",
+      app.add_command("show", "Print a database's parameters and grids, and plot slices",
                       "Examples:\n"
                       "  polynya database show                      the database that ships with Polynya\n"
                       "  polynya database show winkler.txt --svg plots --thickness 1\n");
   auto options = std::make_shared<ShowOptions>();
-  command.option("file", options->file, "FILE", "The database; the shipped one if not given", not_empty());
-  command.option("--svg", options->svg_folder, "DIR",
+  command.option("file", &options->file, "FILE", "The database; the shipped one if not given", not_empty());
+  command.option("--svg", &options->svg_folder, "DIR",
                  "Draw the slices to speed.svg, wedge-angle.svg, thickness.svg, with their numbers in slices.json "
                  "(needs Python and matplotlib: ./setup.sh python)",
                  not_empty());

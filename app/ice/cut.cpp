@@ -1,16 +1,16 @@
+#include "io/text/cut.hpp"
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <tuple>
 #include <utility>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
-#include "app/ice/cut_floes.hpp"
-#include "io/text/cut_ops.hpp"
-#include "io/text/cut_report.hpp"
-#include "io/text/degrees.hpp"
+#include "io/import/projection.hpp"
+#include "io/text/floe_text.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/problem.hpp"
 
@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t kMostReported = 100;  ///< messages; the ledger has all
 constexpr std::size_t kMostVertices = 4;    ///< in a message; likewise
 
-/// A line for each polygon that was rejected or repaired and each part of a line that separates nothing, as
+/// A line for each polygon that was rejected or repaired and each line that separates nothing, as
 /// "floes.geojson:3: feature 1, polygon 0: …"; past the hundredth they are only counted.
 void report_floes(const std::string& name, const io::CutReport& report) {
   std::size_t reported = 0;
@@ -44,10 +44,8 @@ void report_floes(const std::string& name, const io::CutReport& report) {
                                   floe.repair->rule, counted(floe.repair->shapes, "polygon"), floe.repair->area_changed,
                                   floe.repair->area_drawn));
     }
-    for (const io::Dangling& one : floe.dangling) {
-      report_of(floe, fmt::format("the line separates nothing from ({}, {}) to ({}, {}), {:.6g} m", one.from.x,
-                                  one.from.y, one.to.x, one.to.y, distance(one.from, one.to)));
-    }
+    if (floe.dangling_length > 0)
+      report_of(floe, fmt::format("the line separates nothing over {:.6g} m of ice", floe.dangling_length));
   }
   if (reported > kMostReported) print_err("polynya: {} more; the ledger has all\n", reported - kMostReported);
 }
@@ -130,7 +128,7 @@ Outcome<std::vector<io::CutOp>> read_ops(const Options& options) {
                                             {"--crack", &options.crack, std::size_t{3}},
                                             {"--line", &options.line, std::size_t{4}}}) {
     if (text->empty()) continue;
-    const auto numbers = io::read_numbers(*text, count);
+    const auto numbers = io::read_numbers(*text, count, count);
     if (!numbers) return failure(kUsage, fmt::format("{}: {}", option, numbers.error()));
     return one_op(option, io::op_of_numbers(option + 2, *numbers, options.sagitta), options.keep);
   }
@@ -180,23 +178,19 @@ io::Result<> write_results(const Options& options, const io::CutReport& report, 
   return write_output(ledger, to_ledger_json(report));
 }
 
-io::CoordinateEvidence evidence_of(const io::FloeText& floes) {
+/// Degrees have no areas in m².
+Outcome<void> check_units(const std::string& name, const io::FloeText& floes) {
+  constexpr auto kRemedy = "polynya import makes metres of them";
+  const std::string crs = floes.crs.empty() ? "" : io::crs_name(io::parse_json(floes.crs).root);
+  const auto known = io::find_crs(crs);
+  if (!crs.empty() && known && known->is_geographic)
+    return failure(kRefused,
+                   fmt::format("{}: crs: longitude and latitude ({}), areas would not be m2: {}", name, crs, kRemedy));
   io::CoordinateEvidence evidence;
   for (const io::FloeEntry& entry : floes.entries) evidence.add(entry.polygon);
-  return evidence;
-}
-
-/// A file whose crs is in degrees has no areas in m².
-Outcome<void> check_units(const std::string& name, const io::FloeText& floes) {
-  const std::string crs = floes.crs.empty() ? "" : io::geographic_crs(io::parse_json(floes.crs).root);
-  if (!crs.empty()) {
-    return failure(kRefused, fmt::format("{}: crs: longitude and latitude ({}), areas would not be m2: {}", name, crs,
-                                         io::how_to_project(evidence_of(floes).box, name)));
-  }
-  if (floes.crs.empty() && floes.format != io::FloeFormat::kWkt && evidence_of(floes).look_polar()) {
+  if (floes.crs.empty() && floes.format != io::FloeFormat::kWkt && evidence.look_polar())
     print_err("note: {}: these look like longitude and latitude; areas and lengths are then in degrees: {}\n", name,
-              io::how_to_project(evidence_of(floes).box, name));
-  }
+              kRemedy);
   return {};
 }
 
@@ -231,29 +225,27 @@ Outcome<ExitCode> cut_all(const Options& options) {
 Command add_cut(CommandLine& app) {
   CommandLine command = app.add_command("cut", "Cut floes exactly, with every square metre accounted for", kExamples);
   auto options = std::make_shared<Options>();
-  command.option("floes", options->floes, "FLOES", "GeoJSON, NDJSON or WKT, recognised by content; - for stdin")
-      .required();
+  command.option("floes", &options->floes, "FLOES", "GeoJSON, NDJSON or WKT, recognised by content; - for stdin", {},
+                 {.is_required = true});
   const auto tool = [&](const char* name, std::string& value, const char* type, const char* meaning) {
-    command.option(name, value, type, meaning).in_group("Tools, one of them");
+    command.option(name, &value, type, meaning, {}, {.group = "Tools, one of them"});
   };
   tool("--disc", options->disc, "X,Y,R", "The disc of that centre and radius [m]");
   tool("--crack", options->crack, "X,Y,ANGLE_DEG", "The straight line through that point, across every floe");
   tool("--line", options->line, "X0,Y0,X1,Y1", "From end to end; separates where it crosses ice fully");
   tool("--polygon", options->polygon, "FILE", "Polygons, with holes or not, in any format of FLOES");
   tool("--ops", options->ops, "FILE", "A JSON list of cuts, in order, each of all pieces");
-  command.option("--keep", options->keep, "", "Which side of a disc or polygon stays; outside if not given")
-      .one_of<io::Keep>({{"outside", io::Keep::kOutside}, {"inside", io::Keep::kInside}, {"both", io::Keep::kBoth}});
-  command.option("--sagitta", options->sagitta, "M",
+  command.choice<io::Keep>("--keep", options->keep, "Which side of a disc or polygon stays; outside if not given",
+                           {{"outside", io::Keep::kOutside}, {"inside", io::Keep::kInside}, {"both", io::Keep::kBoth}});
+  command.option("--sagitta", &options->sagitta, "M",
                  "By how much a disc's polygon may stay inside it [m]; 0.02, or radius/250 if that is less",
                  between(1e-12, 1e6));
-  command.option("--out", options->out, "FILE", "The pieces; format by extension, else that of FLOES; - for stdout");
-  command.option("--ledger", options->ledger, "FILE", "The ledger, JSON; stdout if not given");
-  command
-      .option("--repair", options->repair, "",
-              "Make valid polygons of those that are not, exactly, by what the rule fills; else "
-              "they are refused")
-      .one_of<geometry::FillRule>(
-          {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
+  command.option("--out", &options->out, "FILE", "The pieces; format by extension, else that of FLOES; - for stdout");
+  command.option("--ledger", &options->ledger, "FILE", "The ledger, JSON; stdout if not given");
+  command.choice<geometry::FillRule>(
+      "--repair", options->repair,
+      "Make valid polygons of those that are not, exactly, by what the rule fills; else they are refused",
+      {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
   return {command, [options] { return code_of(cut_all(*options)); }};
 }
 

@@ -2,14 +2,14 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
 #include "geometry/shape/angle.hpp"
 #include "io/import/foreign_file.hpp"
 #include "io/import/import_report.hpp"
-#include "io/text/cut_ops.hpp"
-#include "io/text/degrees.hpp"
+#include "io/text/cut.hpp"
+#include "io/text/floe_text.hpp"
 #include "io/text/json_parser.hpp"
 
 namespace polynya::app {
@@ -45,24 +45,18 @@ std::string origin_option(double latitude, double longitude) {
 
 Outcome<std::optional<simulation::GeographicOrigin>> read_origin(const std::string& words) {
   if (words.empty()) return std::nullopt;
-  auto numbers = io::read_numbers(words, 2);
-  if (!numbers) numbers = io::read_numbers(words, 3);
-  if (!numbers)
-    return failure(kUsage, fmt::format("--origin {}: not LATITUDE,LONGITUDE or LATITUDE,LONGITUDE,HEADING "
-                                       "in degrees",
+  const auto numbers = io::read_numbers(words, 2, 3);
+  const auto is_angle = [](double degrees) { return std::abs(degrees) <= 360; };
+  if (!numbers || std::abs(numbers->front()) > 90 || !std::ranges::all_of(*numbers, is_angle))
+    return failure(kUsage, fmt::format("--origin {}: not LATITUDE,LONGITUDE or LATITUDE,LONGITUDE,HEADING in degrees; "
+                                       "a latitude is from -90 to 90",
                                        words));
-  if (numbers->size() == 2) numbers->push_back(90);
   const std::vector<double>& n = *numbers;
-  if (!(std::abs(n[0]) <= 90) || !(std::abs(n[1]) <= 360) || !(std::abs(n[2]) <= 360))
-    return failure(kUsage, fmt::format("--origin {}: a latitude from -90 to 90 and a longitude from -180 to "
-                                       "180 are needed; latitude comes first",
-                                       words));
   return simulation::GeographicOrigin{n[0] * geometry::kRadiansPerDegree, n[1] * geometry::kRadiansPerDegree,
-                                      n[2] * geometry::kRadiansPerDegree};
+                                      (n.size() > 2 ? n[2] : 90) * geometry::kRadiansPerDegree};
 }
 
 Outcome<io::FloeText> read_floes(const Options& options, const std::string& name) {
-  Outcome<std::string> text = failure(kInputOutput, "");
   const auto format = options.file == "-" ? std::nullopt : io::foreign_format(options.file);
   auto found = format ? io::read_foreign_file(options.file, *format, options.layer, io::kLongestFloeText)
                       : read_input(options.file, io::kLongestFloeText);
@@ -72,32 +66,6 @@ Outcome<io::FloeText> read_floes(const Options& options, const std::string& name
   if (floes->has_more_coordinates) print_err("note: {}: third coordinates are ignored\n", name);
   if (floes->has_other_crs) return failure(kRefused, fmt::format("{}: its crs members differ", name));
   return std::move(*floes);
-}
-
-/// What is wrong with the floes before their outlines are inspected, by floe.
-std::vector<std::string> read_properties(const io::FloeText& text, const io::PropertyNames& names,
-                                         std::vector<io::SourceFloe>& floes, io::NearMisses& near_misses) {
-  std::vector<std::string> refused(text.entries.size());
-  for (std::size_t i = 0; i < text.entries.size(); ++i) {
-    const io::FloeEntry& entry = text.entries[i];
-    io::SourceFloe& floe = floes.emplace_back();
-    floe.polygon = entry.polygon;
-    if (!entry.refusal.empty()) {
-      refused[i] = entry.refusal + (entry.detail.empty() ? "" : ": " + entry.detail);
-      continue;
-    }
-    std::vector<io::BadProperty> bad;
-    if (entry.properties) {
-      const io::JsonDocument properties = io::parse_json("{" + *entry.properties + "}");
-      floe.properties = read_floe_properties(properties.root, names, bad);
-      near_misses.add(properties.root, floe.properties);
-    }
-    if (entry.floe_id) floe.properties.floe_id = entry.floe_id;
-    for (const io::BadProperty& one : bad)
-      refused[i] += fmt::format("{}property {}: found {}, allowed: {}", refused[i].empty() ? "" : "; ", one.key,
-                                one.found, one.allowed);
-  }
-  return refused;
 }
 
 void report_items(const std::string& name, const io::ImportOutcome& imported,
@@ -161,11 +129,9 @@ Outcome<ExitCode> import_all(const Options& options) {
   const auto text = read_floes(options, name);
   if (!text) return tl::unexpected(text.error());
   const std::string crs = text->crs.empty() ? "" : io::crs_name(io::parse_json(text->crs).root);
-  std::vector<io::SourceFloe> floes;
-  io::NearMisses near_misses(names);
-  const std::vector<std::string> refused = read_properties(*text, names, floes, near_misses);
+  io::FloesOfText read = io::floes_of(*text, names);
   const auto imported = with_progress(options.progress, "projecting and taking apart",
-                                      [&] { return import_floes(floes, refused, crs, settings); });
+                                      [&] { return import_floes(read.floes, std::move(read.refused), crs, settings); });
   if (!imported) {
     std::string place = name;
     if (const auto floe = imported.error().floe) {
@@ -178,56 +144,46 @@ Outcome<ExitCode> import_all(const Options& options) {
   const io::ImportTotals& totals = imported->totals;
   const bool are_all_refused = totals.refused > 0 && totals.refused == totals.read;
   std::optional<std::string> geojson;
-  if (!are_all_refused) geojson = to_geojson(*imported, floes, text->entries);
+  if (!are_all_refused) geojson = to_geojson(*imported, read.floes, text->entries);
   if (const auto written =
-          write_results(options, geojson, to_json_text(*imported, name, text->entries, near_misses.found()));
+          write_results(options, geojson, to_json_text(*imported, name, text->entries, read.near_misses));
       !written)
     return failure(kInputOutput, written.error());
-  report_totals(name, *imported, near_misses.found());
+  report_totals(name, *imported, read.near_misses);
   if (are_all_refused) return failure(kRefused, name + ": every floe was refused; only the report was written");
   return totals.refused == 0 ? kDone : kRefused;
 }
 
 void add_plane_options(CommandLine& command, Options& options) {
-  const char* const group = "The plane";
-  command
-      .option("--origin", options.origin, "LAT,LON",
-              "Metres about this place [°], x to the east; a third number is the heading of x, as in a scene's "
-              "origin")
-      .in_group(group);
-  command
-      .option("--crs", options.settings.plane.target, "EPSG:n",
-              "The plane of this projected system instead; any name PROJ knows", not_empty())
-      .in_group(group);
-  command
-      .option("--from", options.settings.plane.source, "EPSG:n", "The file's system, where the file names none",
-              not_empty())
-      .in_group(group);
-  command
-      .flag("--shift", options.settings.plane.is_shifted,
-            "Move the middle of the floes' box to (0, 0), by whole metres")
-      .in_group(group);
+  const OptionTraits traits{.group = "The plane"};
+  command.option("--origin", &options.origin, "LAT,LON",
+                 "Metres about this place [°], x to the east; a third number is the heading of x, as in a scene's "
+                 "origin",
+                 {}, traits);
+  command.option("--crs", &options.settings.plane.target, "EPSG:n",
+                 "The plane of this projected system instead; any name PROJ knows", not_empty(), traits);
+  command.option("--from", &options.settings.plane.source, "EPSG:n", "The file's system, where the file names none",
+                 not_empty(), traits);
+  command.flag("--shift", options.settings.plane.is_shifted,
+               "Move the middle of the floes' box to (0, 0), by whole metres", traits);
 }
 
 void add_floe_options(CommandLine& command, Options& options) {
   io::ImportSettings& settings = options.settings;
-  command
-      .option("--repair", settings.repair, "",
-              "Make valid polygons of outlines that are not, exactly, by what the rule fills; "
-              "else they are refused")
-      .one_of<geometry::FillRule>(
-          {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
-  command.option("--simplify", settings.simplify, "M",
+  command.choice<geometry::FillRule>(
+      "--repair", settings.repair,
+      "Make valid polygons of outlines that are not, exactly, by what the rule fills; else they are refused",
+      {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
+  command.option("--simplify", &settings.simplify, "M",
                  "Leave out vertices, each at most so far from the outline that is left [m]", between(0, 1e4));
-  command.option("--min-area", settings.least_area, "M2", "Drop smaller floes [m²]", between(0, 1e12));
-  command.option("--gap", settings.gap, "M", "Least distance between floes: the smaller of two is trimmed to it [m]",
+  command.option("--min-area", &settings.least_area, "M2", "Drop smaller floes [m²]", between(0, 1e12));
+  command.option("--gap", &settings.gap, "M", "Least distance between floes: the smaller of two is trimmed to it [m]",
                  between(0, 1e3));
-  command.option("--layer", options.layer, "NAME", "Of a GeoPackage with several", not_empty());
-  command
-      .option("--property", options.properties, "KEY=NAME",
-              "The file's name for a property, with a factor for its unit: thickness_m=THICK, "
-              "thickness_m=CM*0.01; may be repeated")
-      .takes_one_each_time();
+  command.option("--layer", &options.layer, "NAME", "Of a GeoPackage with several", not_empty());
+  command.option("--property", &options.properties, "KEY=NAME",
+                 "The file's name for a property, with a factor for its unit: thickness_m=THICK, "
+                 "thickness_m=CM*0.01; may be repeated",
+                 {}, {.one_each_time = true});
 }
 
 }  // namespace
@@ -236,13 +192,13 @@ Command add_import(CommandLine& app) {
   CommandLine command =
       app.add_command("import", "Make a floe file of mapped ice: project, repair, part overlaps", kExamples);
   auto options = std::make_shared<Options>();
-  command
-      .option("file", options->file, "FILE",
-              "GeoJSON, NDJSON or WKT, recognised by content; shapefile, GeoPackage or FlatGeobuf by ogr2ogr; - "
-              "for stdin")
-      .required();
-  command.option("--out", options->out, "FILE", "The floes, GeoJSON in metres; - for stdout", not_empty()).required();
-  command.option("--report", options->report, "FILE",
+  command.option("file", &options->file, "FILE",
+                 "GeoJSON, NDJSON or WKT, recognised by content; shapefile, GeoPackage or FlatGeobuf by ogr2ogr; - "
+                 "for stdin",
+                 {}, {.is_required = true});
+  command.option("--out", &options->out, "FILE", "The floes, GeoJSON in metres; - for stdout", not_empty(),
+                 {.is_required = true});
+  command.option("--report", &options->report, "FILE",
                  "The report, JSON; stdout if not given, unless the floes go there");
   add_plane_options(command, *options);
   add_floe_options(command, *options);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
 #include "io/run/run_folder.hpp"
@@ -25,7 +25,8 @@ struct Options {
   std::string out;  ///< folder for channel.csv and channel.geojson; empty: the run's
   std::string ship;
   analysis::ChannelOptions measure;
-  std::string format = "table";
+  std::string format = "table";  ///< of stdout
+  bool is_json = false;          ///< likewise
   ProgressKind progress = ProgressKind::kAuto;
 };
 
@@ -46,9 +47,9 @@ int measure(const Options& options) {
     if (const auto written = write_product(options.out, options.run, name, text); !written)
       return fail(kInputOutput, written.error());
   }
-  write_out(options.format == "json"  ? to_json_text(*channel)
-            : options.format == "csv" ? to_csv(*channel)
-                                      : to_table(*channel));
+  write_out(options.is_json || options.format == "json" ? to_json_text(*channel)
+            : options.format == "csv"                   ? to_csv(*channel)
+                                                        : to_table(*channel));
   return kDone;
 }
 
@@ -58,19 +59,16 @@ Command add_channel(CommandLine& app) {
   CommandLine command = app.add_command("channel", "Measure the channel behind a ship", kExamples);
   auto options = std::make_shared<Options>();
   add_run_folder(command, options->run);
-  command.option("--at", options->measure.time, "S", "At that time instead of the end [s]", finite());
-  command.option("--ship", options->ship, "NAME", "Which ship; the first one if not given");
-  command.option("--spacing", options->measure.spacing, "M", "Length of a station [m]; the beam if not given",
+  command.option("--at", &options->measure.time, "S", "At that time instead of the end [s]", finite());
+  command.option("--ship", &options->ship, "NAME", "Which ship; the first one if not given");
+  command.option("--spacing", &options->measure.spacing, "M", "Length of a station [m]; the beam if not given",
                  between(0.1, 1e5));
-  command.option("--reach", options->measure.reach, "M",
+  command.option("--reach", &options->measure.reach, "M",
                  "How far from the track ice is searched [m]; four beams if not given", between(0.1, 1e5));
-  const Option format = command.option("--format", options->format, "", "What stdout gets; json: as --json")
-                            .one_of({"table", "csv", "json"});
-  command
-      .flag(
-          "--json", [options] { options->format = "json"; }, "Print the sums as JSON instead of the table")
-      .excludes(format);
-  command.option("--out", options->out, "DIR", "Folder for channel.csv and channel.geojson; the run's if not given");
+  command.choice<std::string>("--format", options->format, "What stdout gets; json: as --json",
+                              {{"table", "table"}, {"csv", "csv"}, {"json", "json"}});
+  command.flag("--json", options->is_json, "Print the sums as JSON instead of the table", {.excludes = {"--format"}});
+  command.option("--out", &options->out, "DIR", "Folder for channel.csv and channel.geojson; the run's if not given");
   add_progress(command, options->progress);
   return {command, [options] { return measure(*options); }};
 }

@@ -1,7 +1,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
 #include "io/text/output_file.hpp"
@@ -114,15 +114,15 @@ Command add_export(CommandLine& app) {
       app.add_command("export", "Write a run for ParaView or QGIS, or a scene that continues it", kExamples);
   auto options = std::make_shared<Options>();
   add_run_folder(command, options->run);
-  command.option("--vtk", options->vtk, "DIR", "Folder for run.pvd and its .vtp frames");
-  command.option("--every", options->every, "N", "Of VTK only each N-th frame, and the last", whole(1, 1000000));
-  command.option("--geojson", options->geojson, "DIR",
+  command.option("--vtk", &options->vtk, "DIR", "Folder for run.pvd and its .vtp frames");
+  command.option("--every", &options->every, "N", "Of VTK only each N-th frame, and the last", whole(1, 1000000));
+  command.option("--geojson", &options->geojson, "DIR",
                  "Folder for floes, fractures, tracks and channel as GeoJSON: longitude and latitude where the "
                  "scene has an origin, metres where not");
-  command.option("--at", options->at, "S", "Instant of GeoJSON and scene [s]; the end if not given", finite());
+  command.option("--at", &options->at, "S", "Instant of GeoJSON and scene [s]; the end if not given", finite());
   command.flag("--scene", options->is_scene,
                "A scene of its own, scene.json and floes.geojson, that starts where the run was then");
-  command.option("--out", options->out, "DIR", "Folder of the scene; one in the run's if not given", not_empty());
+  command.option("--out", &options->out, "DIR", "Folder of the scene; one in the run's if not given", not_empty());
   command.flag("--metres", options->is_in_metres, "GeoJSON in metres though the scene has an origin");
   add_progress(command, options->progress);
   return {command, [options] { return export_run(*options); }};

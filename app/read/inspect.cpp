@@ -6,9 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/floe_sizes.hpp"
-#include "analysis/run_check.hpp"
-#include "app/command_line/commands.hpp"
+#include "analysis/run_report.hpp"
+#include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
 #include "geometry/exact/measures.hpp"
@@ -23,12 +22,11 @@
 namespace polynya::app {
 namespace {
 
-using geometry::Ring;
 using io::id_or_none;
 using io::JsonWriter;
 using simulation::FloeId;
 
-enum class ShapeFormat { kWkt, kGeojson, kSvg };
+enum class ShapeFormat { kWkt, kGeojson };
 
 /// A floe's shape in its body frame, or in the world at a time.
 struct ShapeView {
@@ -66,70 +64,6 @@ std::string as_geojson(const ShapeView& view) {
   });
 }
 
-std::string as_svg(const ShapeView& view) {
-  const geometry::Box box = bounding_box(view.polygon.outer);
-  const geometry::Vector size = box.high - box.low;
-  const double margin = 0.02 * std::max(size.x, size.y);
-  std::string text = fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='{} {} {} {}'>\n<title>floe {} {}, "
-      "metres</title>\n<path "
-      "d='",
-      box.low.x - margin, -box.high.y - margin, size.x + 2 * margin, size.y + 2 * margin, view.birth.floe,
-      view.time_in_world ? fmt::format("in the world at {:g} s", *view.time_in_world) : "in its body frame");
-  const auto write = [&text](const Ring& ring) {
-    char command = 'M';
-    for (const geometry::Point p : ring) {
-      fmt::format_to(std::back_inserter(text), "{}{} {}", command, p.x, 0.0 - p.y);
-      command = 'L';
-    }
-    text += 'Z';
-  };
-  write(view.polygon.outer);
-  std::ranges::for_each(view.polygon.holes, write);
-  text +=
-      fmt::format("' fill='#fbeec2' fill-rule='evenodd' stroke='#3d5261' stroke-width='{}'/>\n</svg>\n", margin / 8);
-  return text;
-}
-
-void add_hulls_and_crushed(std::string& text, const analysis::RunCheck& check, const simulation::Scene& scene) {
-  const auto add = [&text](const std::string& line) { text += line + "\n"; };
-  if (check.worst_with_hull.area > 0)
-    add(fmt::format(
-        "hulls      {} with floes whose boxes meet; largest: {} and floe {} at {:.6g} s, {:.6g} m2, a "
-        "vertex {:.4g} m deep",
-        counted(check.hull_pairs, "pair"), io::hull_name(scene, check.worst_hull), check.worst_with_hull.second,
-        check.worst_with_hull.time, check.worst_with_hull.area, check.worst_with_hull.depth));
-  if (!check.has_crushed) {
-    add("crushed    not on record (no crushed.csv): overlaps are measured, not judged");
-  } else {
-    add(fmt::format("crushed    {} more than was crushed there and {:g} % of the smaller body",
-                    check.uncrushed_pairs == 1 ? "1 pair shares" : fmt::format("{} pairs share", check.uncrushed_pairs),
-                    100 * analysis::kUncrushedShare));
-    const auto name = [&](const simulation::ContactState::Body& body) {
-      return body.ship >= 0 ? std::string(io::hull_name(scene, body.ship)) : fmt::format("floe {}", body.floe);
-    };
-    for (const analysis::UncrushedOverlap& pair : check.uncrushed)
-      add(
-          fmt::format("           {} and {} at {:.6g} s about ({:.3f}, {:.3f}): {:.6g} m2 shared, {:.6g} m2 crushed, "
-                      "{:.6g} m2 beyond it allowed",
-                      name(pair.first), name(pair.second), pair.time, pair.place_in_world.x, pair.place_in_world.y,
-                      pair.shared, pair.crushed, pair.allowed));
-    add(fmt::format("work       {} of more than that; {} from the work on record by more than a factor of {:g}",
-                    counted(check.paid_pairs, "crushed overlap"),
-                    check.unpaid.size() == 1 ? "1 differs" : fmt::format("{} differ", check.unpaid.size()),
-                    analysis::kMostWorkFactor));
-    add(fmt::format(
-        "           most at once, smaller overlaps included: {:.6g} kJ by what is crushed, {:.6g} kJ on record",
-        1e-3 * check.most_expected, 1e-3 * check.work_then));
-    for (std::size_t i = 0; i < std::min(check.unpaid.size(), analysis::kMostUncrushed); ++i) {
-      const analysis::UnpaidOverlap& pair = check.unpaid[i];
-      add(fmt::format("           {} and {} at {:.6g} s: {:.6g} m2 crushed, which takes {:.6g} kJ; {:.6g} kJ on record",
-                      name(pair.first), name(pair.second), pair.time, pair.area, 1e-3 * pair.expected,
-                      1e-3 * pair.work));
-    }
-  }
-}
-
 /// What happened, where and what decided it, in a line.
 std::string described(const io::Run& run, const simulation::Event& event) {
   const std::string_view ship = io::hull_name(run.scene.scene, event.ship);
@@ -156,69 +90,8 @@ std::vector<simulation::Event> in_order(std::vector<simulation::Event> events) {
   return events;
 }
 
-// ---- parts of the JSON
-
-void write_worst(JsonWriter& json, std::string_view key, const analysis::Worst& worst) {
-  json.key(key).open('{').key("largest_m2").value(worst.value);
-  json.key("floe_id").value(id_or_none(worst.floe)).key("wrong").value(worst.wrong).close('}');
-}
-
-void write_shared(JsonWriter& json, std::string_view key, const analysis::SharedIce& shared) {
-  json.key(key);
-  if (shared.first == simulation::kNoFloe) {
-    json.null();
-    return;
-  }
-  json.open('{').key("floe_ids").list(std::array{shared.first, shared.second});
-  json.key("t_s").value(shared.time).key("area_m2").value(shared.area).key("depth_m").value(shared.depth);
-  json.close('}');
-}
-
-void write_invalid(JsonWriter& json, const std::vector<analysis::InvalidFloe>& invalid) {
-  json.key("invalid").objects(invalid, [&](const analysis::InvalidFloe& floe) {
-    json.key("floe_id").value(floe.floe).key("defect").value(floe.defect).key("places_m").value(floe.places_in_body);
-  });
-}
-
-void write_hulls(JsonWriter& json, const analysis::RunCheck& check, const simulation::Scene& scene) {
-  const auto write_body = [&](std::string_view key, const simulation::ContactState::Body& body) {
-    json.key(key);
-    if (body.ship >= 0)
-      json.value(io::hull_name(scene, body.ship));
-    else
-      json.value(body.floe);
-  };
-  json.key("hull_pairs").value(check.hull_pairs).key("largest_overlap_with_hull");
-  if (check.worst_hull >= 0) {
-    json.open('{').key("ship").value(io::hull_name(scene, check.worst_hull));
-    json.key("floe_id").value(check.worst_with_hull.second).key("t_s").value(check.worst_with_hull.time);
-    json.key("area_m2").value(check.worst_with_hull.area).key("depth_m").value(check.worst_with_hull.depth);
-    json.close('}');
-  } else {
-    json.null();
-  }
-  json.key("has_crushed").value(check.has_crushed).key("uncrushed_pairs").value(check.uncrushed_pairs);
-  json.key("uncrushed").object_lines(check.uncrushed, [&](const analysis::UncrushedOverlap& pair) {
-    write_body("first", pair.first);
-    write_body("second", pair.second);
-    json.key("t_s").value(pair.time).key("place_m").value(pair.place_in_world);
-    json.key("shared_m2").value(pair.shared).key("crushed_m2").value(pair.crushed);
-    json.key("allowed_beyond_m2").value(pair.allowed);
-  });
-  json.key("compared_with_work").value(check.paid_pairs).key("most_expected_J").value(check.most_expected);
-  json.key("crushing_then_J").value(check.work_then);
-  json.key("unpaid").object_lines(check.unpaid, [&](const analysis::UnpaidOverlap& pair) {
-    write_body("first", pair.first);
-    write_body("second", pair.second);
-    json.key("t_s").value(pair.time).key("crushed_m2").value(pair.area);
-    json.key("expected_J").value(pair.expected).key("crushing_J").value(pair.work);
-  });
-}
-
-/// WKT, a GeoJSON Feature, or SVG in metres with y up.
 std::string to_text(const ShapeView& view, ShapeFormat format) {
   if (format == ShapeFormat::kGeojson) return as_geojson(view);
-  if (format == ShapeFormat::kSvg) return as_svg(view);
   std::string text;
   io::append_wkt(text, view.polygon);
   return text + "\n";
@@ -280,65 +153,6 @@ std::string lineage_tree(const io::Run& run, FloeId floe) {
   return text;
 }
 
-std::string size_text(const analysis::SizeDistribution& sizes) {
-  std::string text = fmt::format("{}, {:.6f} m2 at {:.6g} s; size is the root of the area\n",
-                                 counted(sizes.count, "floe"), sizes.area, sizes.time);
-  if (sizes.without_size > 0)
-    text +=
-        fmt::format("left out: {} whose recorded area is not a positive number\n", counted(sizes.without_size, "floe"));
-  if (sizes.count == 0) return text;
-  text +=
-      fmt::format("size_m: least {:.6g}, median {:.6g}, largest {:.6g}\n", sizes.least, sizes.median, sizes.largest);
-  text += fmt::format("{:>10} {:>10} {:>8} {:>16} {:>8} {:>10}\n", "from_m", "below_m", "floes", "area_m2", "area_%",
-                      "from_on");
-  for (const analysis::SizeClass& one : sizes.classes)
-    text += fmt::format("{:>10g} {:>10g} {:>8} {:>16.6f} {:>8.3f} {:>10}\n", one.from, one.below, one.count, one.area,
-                        100 * one.area / sizes.area, one.from_on);
-  return text;
-}
-
-std::string check_text(const analysis::RunCheck& check, const simulation::Scene& scene) {
-  std::string text;
-  const auto add = [&text](const std::string& line) { text += line + "\n"; };
-  const auto from = [](FloeId floe) {
-    return floe == simulation::kNoFloe ? std::string() : fmt::format(" (floe {})", floe);
-  };
-  add(fmt::format("validity   {}, {} invalid", counted(check.shapes, "shape"), check.invalid.size()));
-  for (const analysis::InvalidFloe& floe : check.invalid) {
-    add(fmt::format("           floe {}: {}{}", floe.floe, floe.defect, io::places_in_words(floe.places_in_body, 4)));
-  }
-  add(fmt::format("areas      recorded - ring at most {:.2e} m2{}, {} beyond {:g} of the area",
-                  check.recorded_area.value, from(check.recorded_area.floe), check.recorded_area.wrong,
-                  analysis::kAreaTolerance));
-  add(fmt::format(
-      "fractures  {}: pieces + submerged + brash - rounding - parent at most {:.2e} m2{}, {} "
-      "beyond {:g} of it",
-      check.fractures, check.balance.value, from(check.balance.floe), check.balance.wrong, analysis::kAreaTolerance));
-  add(check.siblings.area > 0 ? fmt::format("           pieces of one fracture share at most {:.2e} m2 in "
-                                            "their body frame (floes {} and {})",
-                                            check.siblings.area, check.siblings.first, check.siblings.second)
-                              : "           pieces of one fracture share 0 m2 in their body frame, exactly");
-  add(fmt::format("overlap    {}, {} with boxes that meet, {} not decided; {} more than 1e-6 m2 at some instant",
-                  counted(check.instants, "instant"), counted(check.pairs, "pair"), check.undecided,
-                  check.overlapping_pairs == 1 ? "1 pair of floes shares"
-                                               : fmt::format("{} pairs of floes share", check.overlapping_pairs)));
-  add(fmt::format("           most at once {:.6g} m2 at {:.6g} s, {:.2e} of the {:.6g} m2 of ice", check.most_shared,
-                  check.most_shared_time, check.ice_then > 0 ? check.most_shared / check.ice_then : 0, check.ice_then));
-  const auto add_pair = [&](const char* words, const analysis::SharedIce& pair) {
-    if (pair.first == simulation::kNoFloe) return;
-    add(fmt::format("           {}: floes {} and {} at {:.6g} s, {:.6g} m2, a vertex {:.4g} m deep", words, pair.first,
-                    pair.second, pair.time, pair.area, pair.depth));
-  };
-  add_pair("largest", check.worst);
-  add_pair("deepest", check.deepest);
-  add_hulls_and_crushed(text, check, scene);
-  add("           Overlap is part of the contact model: ice in contact is let in by what it crushes, and "
-      "frames are right to");
-  add("           1 mm and 1e-5 rad. All areas are exact for the rings and poses on record.");
-  add(check.is_sound() ? "sound" : "NOT SOUND");
-  return text;
-}
-
 /// Every event of the run in a line, as time goes: of ice, of ships that meet, of moorings that break.
 std::string event_list(const io::Run& run) {
   std::string text;
@@ -374,18 +188,6 @@ std::string floes_json(const std::vector<FloeRow>& rows, double time) {
   });
 }
 
-std::string size_json(const analysis::SizeDistribution& sizes) {
-  return io::json_object([&](JsonWriter& json) {
-    json.key("t_s").value(sizes.time).key("floes").value(sizes.count).key("left_out").value(sizes.without_size);
-    json.key("area_m2").value(sizes.area).key("least_m").value(sizes.least).key("median_m").value(sizes.median);
-    json.key("largest_m").value(sizes.largest);
-    json.key("classes").object_lines(sizes.classes, [&](const analysis::SizeClass& one) {
-      json.key("from_m").value(one.from).key("below_m").value(one.below).key("floes").value(one.count);
-      json.key("area_m2").value(one.area).key("from_on").value(one.from_on);
-    });
-  });
-}
-
 /// The floes from the scene's down to this one; of each the fracture that broke it, as in events.ndjson.
 std::string lineage_json(const io::Run& run, FloeId floe) {
   return io::json_object([&](JsonWriter& json) {
@@ -397,33 +199,13 @@ std::string lineage_json(const io::Run& run, FloeId floe) {
   });
 }
 
-std::string check_json(const analysis::RunCheck& check, const simulation::Scene& scene) {
-  const auto write = [&](JsonWriter& json) {
-    json.key("is_sound").value(check.is_sound()).key("shapes").value(check.shapes);
-    write_invalid(json, check.invalid);
-    write_worst(json, "recorded_area", check.recorded_area);
-    json.key("fractures").value(check.fractures);
-    write_worst(json, "balance", check.balance);
-    json.key("overlapping_siblings").value(check.overlapping_siblings);
-    json.key("most_shared_by_siblings_m2").value(check.siblings.area);
-    json.key("moments").value(check.instants).key("pairs").value(check.pairs);
-    json.key("undecided").value(check.undecided).key("overlapping_pairs").value(check.overlapping_pairs);
-    json.key("most_shared_m2").value(check.most_shared).key("most_shared_s").value(check.most_shared_time);
-    json.key("ice_then_m2").value(check.ice_then);
-    write_shared(json, "largest_overlap", check.worst);
-    write_shared(json, "deepest_overlap", check.deepest);
-    write_hulls(json, check, scene);
-  };
-  return io::json_object(write, JsonWriter::Layout::kIndented);
-}
-
 // ---- the command
 
 constexpr auto kExamples =
     "Examples:\n"
     "  polynya inspect runs/level-plate                        the floes at the end, a line each\n"
     "  polynya inspect runs/level-plate --at 30                at 30 s\n"
-    "  polynya inspect runs/level-plate --floe 17 --format svg > floe-17.svg\n"
+    "  polynya inspect runs/level-plate --floe 17 --format geojson > floe-17.geojson\n"
     "  polynya inspect runs/level-plate --lineage 17           the fractures that led to it\n"
     "  polynya inspect runs/level-plate --events               what broke, met and went under\n"
     "  polynya inspect runs/level-plate --check                validity, areas, overlaps, exactly\n"
@@ -493,11 +275,11 @@ int print(const io::Run& run, const Options& options) {
     write_out(options.json ? events_json(run) : event_list(run));
   } else if (options.check) {
     const analysis::RunCheck check = check_of(run, options);
-    write_out(options.json ? check_json(check, run.scene.scene) : check_text(check, run.scene.scene));
+    write_out(options.json ? to_json_text(check, run.scene.scene) : to_text(check, run.scene.scene));
     code = check.is_sound() ? kDone : kRefused;
   } else if (options.fsd) {
     const analysis::SizeDistribution sizes = analysis::size_distribution(run, time);
-    write_out(options.json ? size_json(sizes) : size_text(sizes));
+    write_out(options.json ? to_json_text(sizes) : to_text(sizes));
   } else {
     const std::vector<FloeRow> rows = floe_rows(run, time);
     write_out(options.json ? floes_json(rows, time) : floe_table(rows));
@@ -516,23 +298,22 @@ Command add_inspect(CommandLine& app) {
   CommandLine command = app.add_command("inspect", "Show the floes of a run", kExamples);
   auto options = std::make_shared<Options>();
   add_run_folder(command, options->run);
-  command.option("--at", options->at, "T", "At that time; the end of the run if not given [s]", finite());
-  auto floe = command.option("--floe", options->floe, "N",
-                             "The shape of one floe: in its body frame, or with --at where it was in the world");
-  auto lineage = command.option("--lineage", options->lineage, "N", "The tree of fractures that led to a floe");
-  auto events = command.flag("--events", options->events,
-                             "Every event of the run: fractures, ships that meet, moorings that break");
-  auto check = command.flag("--check", options->check, "Re-derive validity, areas and overlaps of the whole run");
-  auto fsd = command.flag("--fsd", options->fsd, "The distribution of floe sizes");
-  command.option("--format", options->format, "", "Of --floe; wkt if not given")
-      .one_of<ShapeFormat>({{"wkt", ShapeFormat::kWkt}, {"geojson", ShapeFormat::kGeojson}, {"svg", ShapeFormat::kSvg}})
-      .needs(floe);
-  auto json = command.flag("--json", options->json, "Print the report as JSON; a shape: --format geojson");
+  command.option("--at", &options->at, "T", "At that time; the end of the run if not given [s]", finite());
+  command.option("--floe", &options->floe, "N",
+                 "The shape of one floe: in its body frame, or with --at where it was in the world");
+  command.option("--lineage", &options->lineage, "N", "The tree of fractures that led to a floe", {},
+                 {.excludes = {"--floe"}});
+  command.flag("--events", options->events, "Every event of the run: fractures, ships that meet, moorings that break",
+               {.excludes = {"--floe", "--lineage"}});
+  command.flag("--check", options->check, "Re-derive validity, areas and overlaps of the whole run",
+               {.excludes = {"--floe", "--lineage", "--events"}});
+  command.flag("--fsd", options->fsd, "The distribution of floe sizes",
+               {.excludes = {"--floe", "--lineage", "--events", "--check"}});
+  command.choice<ShapeFormat>("--format", options->format, "Of --floe; wkt if not given",
+                              {{"wkt", ShapeFormat::kWkt}, {"geojson", ShapeFormat::kGeojson}}, {.needs = "--floe"});
+  command.flag("--json", options->json, "Print the report as JSON; a shape: --format geojson",
+               {.excludes = {"--floe"}});
   add_progress(command, options->progress);
-  floe.excludes(lineage).excludes(events).excludes(check).excludes(fsd).excludes(json);
-  lineage.excludes(events).excludes(check).excludes(fsd);
-  events.excludes(check).excludes(fsd);
-  check.excludes(fsd);
   return {command, [options] { return inspect(*options); }};
 }
 

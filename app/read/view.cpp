@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
 #include "io/run/run_folder.hpp"
@@ -159,90 +159,20 @@ std::string page_of(const std::vector<ViewedRun>& viewed, const Options& options
   return views::pair_page({{{viewed[0].data, labels[0]}, {viewed[1].data, labels[1]}}});
 }
 
-/// Makes a page too large smaller by one option alone: each advice is tried before it is given.
-class Advice {
- public:
-  Advice(const std::vector<ViewedRun>& viewed, const Options& options, double megabytes)
-      : viewed_(viewed), options_(options), megabytes_(megabytes) {}
-
-  std::string text() const {
-    std::size_t floes = 0, frames = 0, floe_bytes = 0, frame_bytes = 0;
-    for (const auto& [run, data] : viewed_) {
-      floes += data.floes, frames += data.frames;
-      floe_bytes += data.floe_bytes, frame_bytes += data.frame_bytes;
-    }
-    std::vector<std::string> ways;
-    for (const auto& way : {area(), until(), every()})
-      if (way) ways.push_back(*way);
-    ways.push_back(fmt::format("--limit {:.0f}", std::ceil(megabytes_)));
-    return fmt::format(
-        "the page would have {:.0f} MB, the limit is {:g}: {:.3g} MB of it are the shapes of {}, {:.3g} MB "
-        "where they are "
-        "in {}; what is small enough: {}",
-        megabytes_, options_.most_megabytes, in_page(floe_bytes), counted(floes, "floe"), in_page(frame_bytes),
-        counted(frames, "frame"), fmt::join(ways, ", or "));
+/// What of a page too large takes the room, and the options that leave some of it out.
+std::string too_large(const std::vector<ViewedRun>& viewed, const Options& options, double megabytes) {
+  std::size_t floes = 0, frames = 0, floe_bytes = 0, frame_bytes = 0;
+  for (const auto& [run, data] : viewed) {
+    floes += data.floes, frames += data.frames;
+    floe_bytes += data.floe_bytes, frame_bytes += data.frame_bytes;
   }
-
- private:
-  static double in_page(std::size_t bytes) { return static_cast<double>(bytes) * 4 / 3 / 1e6; }  ///< base64
-
-  bool fits(const views::PlayerSelection& part) const {
-    std::vector<ViewedRun> smaller;
-    double bytes = 0;
-    for (const auto& [run, data] : viewed_) {
-      const views::PlayerData held = views::player_data(run, part);
-      if (held.frames == 0 || held.floes == 0) return false;
-      bytes += static_cast<double>(held.columns.bytes().size()) * 4 / 3 + 1.1 * static_cast<double>(held.info.size());
-    }
-    return bytes + kPageBytes < 1e6 * options_.most_megabytes;
-  }
-
-  /// Fewer frames.
-  std::optional<std::string> every() const {
-    auto part = options_.part;
-    const auto frames = static_cast<int>(viewed_[0].data.frames) * part.frames.every;
-    for (part.frames.every *= 2; part.frames.every < frames; part.frames.every *= 2)
-      if (fits(part)) return fmt::format("--every {}", part.frames.every);
-    return {};
-  }
-
-  /// A part of the time, from where the page begins.
-  std::optional<std::string> until() const {
-    auto part = options_.part;
-    const double start = viewed_[0].data.start, span = viewed_[0].data.end - start;
-    for (const double share : {0.75, 0.5, 0.25, 0.1, 0.05}) {
-      part.frames.until = std::floor(start + share * span);
-      if (part.frames.until > start && fits(part)) return fmt::format("--until {:.0f}", part.frames.until);
-    }
-    return {};
-  }
-
-  /// The part of the world around the first ship's way, as wide as fits.
-  std::optional<std::string> area() const {
-    const io::Run& run = viewed_[0].run;
-    auto part = options_.part;
-    const auto frames = thinned_frames(run, part.frames);
-    if (part.area || frames.empty() || frames[0].ships.empty()) return {};
-    geometry::Box way = geometry::box_around(frames[0].ships[0].position, frames[0].ships[0].position);
-    for (const io::Frame& frame : frames) extend(way, frame.ships[0].position);
-    std::vector<double> distances = views::family_distances(run, way, frames);
-    std::ranges::sort(distances);
-    for (double share = options_.most_megabytes / megabytes_; share > 0.01; share *= 0.7) {
-      const auto held = static_cast<std::size_t>(share * static_cast<double>(distances.size() - 1));
-      const geometry::Box box = geometry::grown(way, distances[held]);
-      part.area = {{std::ceil(box.low.x), std::ceil(box.low.y)}, {std::floor(box.high.x), std::floor(box.high.y)}};
-      const auto& [low, high] = *part.area;
-      if (low.x < high.x && low.y < high.y && fits(part))
-        return fmt::format("--area {:.0f},{:.0f},{:.0f},{:.0f}", low.x, low.y, high.x, high.y);
-    }
-    return {};
-  }
-
-  static constexpr double kPageBytes = 4e5;  ///< of the page itself, at most
-  const std::vector<ViewedRun>& viewed_;
-  const Options& options_;
-  double megabytes_;
-};
+  const auto in_page = [](std::size_t bytes) { return static_cast<double>(bytes) * 4 / 3 / 1e6; };  // base64
+  return fmt::format(
+      "the page would have {:.0f} MB, the limit is {:g}: {:.3g} MB of it are the shapes of {}, which --area limits, "
+      "{:.3g} MB where they are in {}, which --every, --from and --until limit; or --limit {:.0f}",
+      megabytes, options.most_megabytes, in_page(floe_bytes), counted(floes, "floe"), in_page(frame_bytes),
+      counted(frames, "frame"), std::ceil(megabytes));
+}
 
 /// What is wrong with the options; empty where nothing is.
 std::string problem_of(const Options& options) {
@@ -281,7 +211,7 @@ int write_view(Options options) {
   const std::string held = contents(viewed);
   const std::string page = page_of(viewed, options);
   const double megabytes = static_cast<double>(page.size()) / 1e6;
-  if (megabytes > options.most_megabytes) return fail(kUsage, Advice(viewed, options, megabytes).text());
+  if (megabytes > options.most_megabytes) return fail(kUsage, too_large(viewed, options, megabytes));
   const fs::path in_run = fs::path(options.runs[0]) / io::run_file::kView;
   const auto written = options.out.empty() ? io::write_whole_file(in_run, page) : write_output(options.out, page);
   if (!written) return fail(kInputOutput, written.error());
@@ -299,25 +229,21 @@ Command add_view(CommandLine& app) {
       "view", "Write a page that plays a run, or two side by side, or shows a scene, in any browser, offline",
       kExamples);
   auto options = std::make_shared<Options>();
-  command.option("run", options->runs, "RUN", "The run folder, two to be shown side by side, or a scene, SCENE.json")
-      .required()
-      .takes(1, 2);
-  command.option("--out", options->out, "FILE",
+  command.option("run", &options->runs, "RUN", "The run folder, two to be shown side by side, or a scene, SCENE.json",
+                 {}, {.is_required = true, .most = 2});
+  command.option("--out", &options->out, "FILE",
                  "The page; view.html in the run folder, or beside the scene, if not given");
   command.flag("--watch", options->is_watched,
                "Of a scene: write the page again whenever the file is saved, until Ctrl-C");
-  command.option("--label", options->labels, "NAME,NAME", "Names of two runs").separated_by(',');
-  command.option("--every", options->part.frames.every, "N", "Only each N-th frame, and the last", whole(1, 1000000));
-  command.option("--from", options->part.frames.from, "S", "Only from that time on [s]", finite());
-  command.option("--until", options->part.frames.until, "S", "Only up to that time [s]", finite());
-  command
-      .option("--area", options->area, "X0,Y0,X1,Y1",
-              "Only floes that come within that part of the world [m], and what broke from the same floes of the "
-              "scene",
-              finite())
-      .separated_by(',')
-      .takes(4);
-  command.option("--limit", options->most_megabytes, "MB", "The largest page to write [MB]; 100 if not given",
+  command.option("--label", &options->labels, "NAME,NAME", "Names of two runs", {}, {.delimiter = ','});
+  command.option("--every", &options->part.frames.every, "N", "Only each N-th frame, and the last", whole(1, 1000000));
+  command.option("--from", &options->part.frames.from, "S", "Only from that time on [s]", finite());
+  command.option("--until", &options->part.frames.until, "S", "Only up to that time [s]", finite());
+  command.option("--area", &options->area, "X0,Y0,X1,Y1",
+                 "Only floes that come within that part of the world [m], and what broke from the same floes of the "
+                 "scene",
+                 finite(), {.delimiter = ',', .least = 4, .most = 4});
+  command.option("--limit", &options->most_megabytes, "MB", "The largest page to write [MB]; 100 if not given",
                  between(0.001, 2000));
   return {command, [options] { return write_view(*options); }};
 }

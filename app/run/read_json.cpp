@@ -1,11 +1,11 @@
 #include <memory>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/json_writer.hpp"
-#include "io/text/problem_collector.hpp"
+#include "io/text/problem.hpp"
 
 namespace polynya::app {
 namespace {
@@ -70,11 +70,11 @@ int read_json(const std::string& file) {
 
 }  // namespace
 
-/// For the commands that are written in Python, not in the help.
+/// Prints a JSON file's value and the place of all in it, for the commands that are written in Python; not in the help.
 Command add_read_json(CommandLine& app) {
-  CommandLine command = app.add_hidden_command("read-json", "Print a JSON file's value and the place of all in it");
+  CommandLine command = app.add_command("read-json", "", "");
   auto file = std::make_shared<std::string>();
-  command.option("file", *file, "FILE", "JSON with comments").required();
+  command.option("file", file.get(), "FILE", "JSON with comments", {}, {.is_required = true});
   return {command, [file] { return read_json(*file); }};
 }
 

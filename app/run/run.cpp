@@ -6,12 +6,11 @@
 #include <optional>
 #include <utility>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/run/load_scene.hpp"
 #include "app/run/memory.hpp"
 #include "io/run/active_run.hpp"
-#include "io/run/failure_dump.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_loop.hpp"
 #include "io/run/run_reader.hpp"
@@ -194,10 +193,10 @@ ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
 
 void add_run_options(CommandLine& command, DriverOptions& options) {
   io::RunControl& control = options.control;
-  command.option("--threads", control.threads, "N", "Threads to step on; results do not depend on it", whole(1, 1024));
-  command.option("--checkpoint-every", control.checkpoint_every, "S",
+  command.option("--threads", &control.threads, "N", "Threads to step on; results do not depend on it", whole(1, 1024));
+  command.option("--checkpoint-every", &control.checkpoint_every, "S",
                  "Simulated time between checkpoints, beside those by the clock [s]", between(1e-5, 1e7));
-  command.option("--checkpoint-every-wall", control.checkpoint_every_wall, "S",
+  command.option("--checkpoint-every-wall", &control.checkpoint_every_wall, "S",
                  "Time by the clock between checkpoints, 60 if not given; 0: none by the clock [s]", between(0, 1e7));
   command.flag("--check", control.check, "Recompute every cross-index and sum after every step; stop if one differs");
   command.flag("--no-map", options.no_map, "Do not draw final.svg and final.png");
@@ -212,10 +211,8 @@ ProgressReport progress_of(const io::RunStatus& at, double until, double wall_ti
   const double part = until > 0 ? sim_time / until : 1;
   const double left = rate > 0 ? std::max(0.0, until - sim_time) / rate : 0;
   return {part,
-          fmt::format(" {:3.0f} %  {:.1f}/{:g} s  {:.0f}x real time  {} left  {}", 100 * part, sim_time, until, rate,
+          fmt::format("{:3.0f} %  {:.1f} of {:g} s  {:.3g} x real time  {} left  {}", 100 * part, sim_time, until, rate,
                       clock_time(left), counted(at.fractures, "fracture")),
-          fmt::format("{:3.0f} %  {:.1f} of {:g} s simulated, {:.3g} x real time, {} left, {}", 100 * part, sim_time,
-                      until, rate, clock_time(left), counted(at.fractures, "fracture")),
           fmt::format(R"({{"sim_time_s":{:.6g},"until_s":{:.6g},"wall_time_s":{:.3f},"real_time_factor":{:.4g},)"
                       R"("time_left_s":{:.1f},"fractures":{}}})",
                       sim_time, until, wall, rate, left, at.fractures)};
@@ -258,7 +255,7 @@ struct RunOptions {
   std::string out;              ///< empty: runs/<scene name>
   std::optional<double> until;  ///< [s]
   std::optional<std::uint64_t> seed;
-  std::vector<io::Assignment> set;
+  std::vector<std::string> set;
   std::optional<double> panel;  ///< [m]
   bool overwrite = false;
   DriverOptions driver;
@@ -272,10 +269,12 @@ struct Start {
 
 tl::expected<Start, ExitCode> start_of(const RunOptions& options) {
   try {
-    auto loaded = load_scene(
-        options.scene,
-        {.until = options.until, .seed = options.seed, .assignments = options.set, .panel_length = options.panel},
-        ProblemFormat::kText, options.driver.progress);
+    auto loaded = load_scene(options.scene,
+                             {.until = options.until,
+                              .seed = options.seed,
+                              .assignments = assignments_of(options.set),
+                              .panel_length = options.panel},
+                             ProblemFormat::kText, options.driver.progress);
     if (!loaded) return tl::unexpected(loaded.error());
     print_hints(*loaded);
     print_fields(*loaded);
@@ -422,11 +421,11 @@ Command add_run(CommandLine& app) {
       "  polynya run scenes/level-plate.json --set ice.thickness_m=0.7 --set ships[0].position_m[1]=5\n");
   auto options = std::make_shared<RunOptions>();
   add_scene(command, options->scene);
-  command.option("--out", options->out, "DIR", "The run folder; runs/<scene name> if not given");
-  command.option("--until", options->until, "S", "Simulated time to run to, instead of the scene's [s]",
+  command.option("--out", &options->out, "DIR", "The run folder; runs/<scene name> if not given");
+  command.option("--until", &options->until, "S", "Simulated time to run to, instead of the scene's [s]",
                  between(1e-9, 1e7));
-  command.option("--seed", options->seed, "N", "Seed instead of the scene's", whole(0, 9007199254740991));
-  command.option("--panel", options->panel, "M",
+  command.option("--seed", &options->seed, "N", "Seed instead of the scene's", whole(0, 9007199254740991));
+  command.option("--panel", &options->panel, "M",
                  "Record the loads on panels of this length of all ships and structures, in panels.csv [m]",
                  between(0.1, 1000));
   add_set(command, options->set);
@@ -444,16 +443,14 @@ Command add_resume(CommandLine& app) {
                       "  polynya resume runs/level-plate --checkpoint runs/level-plate/checkpoint-000000012000.bin\n"
                       "  polynya resume runs/level-plate --from-failure     only the step that failed, once more\n");
   auto options = std::make_shared<ResumeOptions>();
-  command.option("folder", options->folder, "RUN", "The run folder").required();
-  auto checkpoint = command.option("--checkpoint", options->checkpoint, "FILE", "This one, instead of the newest");
-  auto until = command.option("--until", options->until, "S",
-                              "Simulated time to run to, instead of the run's; the same bytes as a run begun so [s]",
-                              between(1e-9, 1e7));
-  command
-      .flag("--from-failure", options->from_failure,
-            "Repeat the step for which failure.bin was dumped; nothing is written")
-      .excludes(checkpoint)
-      .excludes(until);
+  add_run_folder(command, options->folder);
+  command.option("--checkpoint", &options->checkpoint, "FILE", "This one, instead of the newest");
+  command.option("--until", &options->until, "S",
+                 "Simulated time to run to, instead of the run's; the same bytes as a run begun so [s]",
+                 between(1e-9, 1e7));
+  command.flag("--from-failure", options->from_failure,
+               "Repeat the step for which failure.bin was dumped; nothing is written",
+               {.excludes = {"--checkpoint", "--until"}});
   add_run_options(command, options->driver);
   return {command, [options] { return resume(*options); }};
 }

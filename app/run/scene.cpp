@@ -2,13 +2,13 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
 #include "app/run/load_scene.hpp"
 #include "io/import/import_report.hpp"
 #include "io/scene/floe_ice.hpp"
-#include "io/scene/scene_schema.hpp"
+#include "io/scene/scene_input.hpp"
 #include "io/text/output_file.hpp"
 
 namespace polynya::app {
@@ -18,43 +18,6 @@ namespace {
 
 constexpr std::size_t kLongestCases = std::size_t{4} << 30;  ///< [bytes]
 constexpr std::size_t kMostPrinted = 100;                    ///< cases whose problems are printed
-
-/// What is wrong with the cases so far.
-class CasesReport {
- public:
-  CasesReport(std::string name, ProblemFormat format) : name_(std::move(name)), format_(format) {}
-
-  void add(std::size_t line, const std::vector<io::Problem>& problems) {
-    if (++refused_ > kMostPrinted && format_ == ProblemFormat::kText) return;
-    if (format_ == ProblemFormat::kJson) {
-      std::string list = io::to_json_text(problems);
-      std::erase(list, '\n');
-      write_out(fmt::format("{{\"line\": {}, \"problems\": {}}}\n", line, list));
-      return;
-    }
-    for (const io::Problem& problem : problems) {
-      const bool is_of_case = problem.file == name_;
-      print_err("{}{}\n", is_of_case ? "" : fmt::format("{}:{}: ", name_, line), to_string(problem));
-    }
-  }
-
-  /// The last words, and the code to exit with.
-  ExitCode end(std::size_t count) const {
-    if (format_ == ProblemFormat::kJson) return refused_ == 0 ? kDone : kSceneInvalid;
-    if (refused_ == 0) {
-      print_out("{}: {}, all valid\n", name_, counted(count, "case"));
-      return kDone;
-    }
-    if (refused_ > kMostPrinted) print_err("{}: {} more are refused\n", name_, refused_ - kMostPrinted);
-    return fail(kSceneInvalid,
-                fmt::format("{} of {} are refused; nothing was written", refused_, counted(count, "case")));
-  }
-
- private:
-  std::string name_;
-  ProblemFormat format_;
-  std::size_t refused_ = 0;
-};
 
 /// Reads one case's scene; what is wrong with it.
 std::vector<io::Problem> problems_of(const std::string& scene_text, const std::string& scene_name,
@@ -77,16 +40,30 @@ int validate_cases(const std::string& scene, const std::string& cases, const io:
   if (!scene_text) return fail(kInputOutput, fmt::format("{}: {}", scene, scene_text.error()));
   const auto text = read_input(cases, kLongestCases);
   if (!text) return fail(kInputOutput, fmt::format("{}: {}", cases, text.error()));
-  CasesReport report(cases, format);
-  std::size_t count = 0;
+  std::size_t count = 0, refused = 0;
   for (std::size_t begin = 0; begin < text->size();) {
     const std::size_t end = std::min(text->find('\n', begin), text->size());
     const std::string_view line = std::string_view(*text).substr(begin, end - begin);
     const auto problems = problems_of(*scene_text, scene, line, cases, ++count, overrides);
-    if (!problems.empty()) report.add(count, problems);
+    refused += problems.empty() ? 0 : 1;
+    if (format == ProblemFormat::kJson && !problems.empty()) {
+      std::string list = io::to_json_text(problems);
+      std::erase(list, '\n');
+      write_out(fmt::format("{{\"line\": {}, \"problems\": {}}}\n", count, list));
+    } else if (refused <= kMostPrinted) {
+      for (const io::Problem& problem : problems)
+        print_err("{}{}\n", problem.file == cases ? "" : fmt::format("{}:{}: ", cases, count), to_string(problem));
+    }
     begin = end + 1;
   }
-  return report.end(count);
+  if (format == ProblemFormat::kJson) return refused == 0 ? kDone : kSceneInvalid;
+  if (refused > 0)
+    return fail(
+        kSceneInvalid,
+        fmt::format("{} of {} are refused{}; nothing was written", refused, counted(count, "case"),
+                    refused > kMostPrinted ? fmt::format(", of which the first {} are listed", kMostPrinted) : ""));
+  print_out("{}: {}, all valid\n", cases, counted(count, "case"));
+  return kDone;
 }
 
 // ---- polynya validate
@@ -103,7 +80,7 @@ constexpr auto kExamples =
 
 struct ValidateOptions {
   std::string scene;
-  std::vector<io::Assignment> set;
+  std::vector<std::string> set;
   std::string cases;      ///< a file of them; empty: none
   bool resolved = false;  ///< print the scene with every default filled in
   ProgressKind progress = ProgressKind::kAuto;
@@ -133,7 +110,7 @@ void print_floes(const io::LoadedScene& loaded) {
 int validate(const ValidateOptions& options) {
   const ProblemFormat format = options.json ? ProblemFormat::kJson : ProblemFormat::kText;
   io::SceneOverrides overrides;
-  overrides.assignments = options.set;
+  overrides.assignments = assignments_of(options.set);
   if (!options.cases.empty()) return validate_cases(options.scene, options.cases, overrides, format);
   const auto loaded = load_scene(options.scene, overrides, format, options.progress);
   if (!loaded) return loaded.error();
@@ -180,12 +157,12 @@ Command add_validate(CommandLine& app) {
   auto options = std::make_shared<ValidateOptions>();
   add_scene(command, options->scene);
   add_set(command, options->set);
-  auto cases =
-      command.option("--cases", options->cases, "FILE",
-                     "Check the scene once for each line of this file, an object of paths and values", not_empty());
-  auto resolved = command.flag("--resolved", options->resolved, "Print the scene with every default filled in");
-  resolved.excludes(cases);
-  command.flag("--json", options->json, "Print the problems as a JSON array; [] for none").excludes(resolved);
+  command.option("--cases", &options->cases, "FILE",
+                 "Check the scene once for each line of this file, an object of paths and values", not_empty());
+  command.flag("--resolved", options->resolved, "Print the scene with every default filled in",
+               {.excludes = {"--cases"}});
+  command.flag("--json", options->json, "Print the problems as a JSON array; [] for none",
+               {.excludes = {"--resolved"}});
   add_progress(command, options->progress);
   return {command, [options] { return validate(*options); }};
 }
@@ -196,7 +173,7 @@ Command add_init(CommandLine& app) {
                                         "  polynya init my-scene.json && polynya run my-scene.json\n"
                                         "  polynya init                         to stdout\n");
   auto file = std::make_shared<std::string>();
-  command.option("file", *file, "FILE", "Where to; stdout if not given");
+  command.option("file", file.get(), "FILE", "Where to; stdout if not given");
   return {command, [file] { return init(*file); }};
 }
 

@@ -5,7 +5,7 @@
 
 #include <fmt/ranges.h>
 
-#include "app/command_line/commands.hpp"
+#include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
 #include "app/run/load_scene.hpp"
@@ -38,7 +38,7 @@ void print_ship(const io::ShipPreset& ship) {
   print_out("{}: {}\n\n", ship.name, ship.title);
   print_out("{:<46}{:>12}  {:<10}{}\n", "particular", "value", "basis", "source");
   for (const io::Particular& p : ship.particulars)
-    print_out("{:<46}{:>12}  {:<10}{}\n", p.path, p.json, name_of(p.basis), p.source);
+    print_out("{:<46}{:>12}  {:<10}{}\n", p.path, p.json, p.basis, p.source);
   if (!ship.reported.empty()) print_out("\nlevel ice as reported\n");
   for (const io::ReportedSpeed& speed : ship.reported) {
     const std::string strength =
@@ -57,7 +57,7 @@ io::JsonValue described(std::string_view name, std::string_view title, io::JsonV
     item.set("thickness_m", speed.thickness);
     item.set("speed_m_per_s", speed.speed);
     if (speed.flexural_strength > 0) item.set("flexural_strength_kPa", 1e-3 * speed.flexural_strength);
-    item.set("source", std::string(speed.source));
+    item.set("source", speed.source);
     reported.items().push_back(std::move(item));
   }
   io::JsonValue root{io::JsonValue::Object{}, 0};
@@ -115,7 +115,7 @@ ExitCode show_text(std::string text, const std::string& name, bool is_file, cons
   }
   const io::ShipPreset* preset = io::find_ship_preset(ship->preset);
   const std::string stem = is_file ? io::name_from(name) : name;
-  const std::string title = is_file || !preset ? stem : std::string(preset->title);
+  const std::string title = is_file || !preset ? stem : preset->title;
   if (!options.is_json) {
     const io::JsonValue of_preset = preset ? json_of(*preset) : io::JsonValue{nullptr, 0};
     print_out("{}\n\n{:<46}{:>12}  {}\n", title, "particular", "value", "from");
@@ -173,7 +173,7 @@ Command add_ships(CommandLine& app) {
       "  polynya ships polaris --json   its \"ship\" as scenes have one\n"
       "  polynya ships our-ship.json    a ship as scenes have it: what is wrong, or all its particulars\n");
   auto options = std::make_shared<Options>();
-  command.option("ship", options->ship, "SHIP", "Its name, or a JSON file with one; - for stdin", not_empty());
+  command.option("ship", &options->ship, "SHIP", "Its name, or a JSON file with one; - for stdin", not_empty());
   command.flag("--json", options->is_json,
                "Print that ship, or the list of all, as JSON; of a file with every default filled in");
   command.flag("--for-performance", options->is_for_performance,

@@ -196,6 +196,39 @@ class FloeImport {
 
 }  // namespace
 
+FloesOfText floes_of(const FloeText& text, const PropertyNames& names) {
+  FloesOfText read;
+  read.refused.resize(text.entries.size());
+  NearMisses near_misses(names);
+  bool are_of_run = text.time.has_value();
+  for (std::size_t i = 0; i < text.entries.size(); ++i) {
+    const FloeEntry& entry = text.entries[i];
+    std::string& refused = read.refused[i];
+    SourceFloe& floe = read.floes.emplace_back();
+    floe.polygon = entry.polygon;
+    if (!entry.refusal.empty()) {
+      refused = entry.refusal + (entry.detail.empty() ? "" : ": " + entry.detail);
+      continue;
+    }
+    std::vector<BadProperty> bad;
+    bool was_born = false;
+    if (entry.properties) {
+      const JsonValue properties = parse_json("{" + *entry.properties + "}").root;
+      floe.properties = read_floe_properties(properties, names, bad);
+      near_misses.add(properties, floe.properties);
+      for (const BadProperty& one : bad)
+        refused += fmt::format("{}property {}: found {}, allowed: {}", refused.empty() ? "" : "; ", one.key, one.found,
+                               one.allowed);
+      was_born = properties.find("born_s") != nullptr;
+    }
+    if (entry.floe_id) floe.properties.floe_id = entry.floe_id;
+    are_of_run = are_of_run && entry.floe_id && was_born;
+  }
+  read.near_misses = near_misses.found();
+  if (are_of_run) read.run_time = text.time;
+  return read;
+}
+
 tl::expected<ImportOutcome, PlaneError> import_floes(std::vector<SourceFloe>& floes, std::vector<std::string> refused,
                                                      const std::string& crs, const ImportSettings& settings) {
   refused.resize(floes.size());

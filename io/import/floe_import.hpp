@@ -6,6 +6,7 @@
 
 #include "geometry/cut/repair.hpp"
 #include "io/import/plane.hpp"
+#include "io/text/floe_text.hpp"
 
 namespace polynya::io {
 
@@ -58,6 +59,15 @@ struct ImportOutcome {
   PlaneReport plane;
   ImportTotals totals;
 };
+
+/// The floes of a text with what their features state of them.
+struct FloesOfText {
+  std::vector<SourceFloe> floes;
+  std::vector<std::string> refused;  ///< what is wrong with each before its outline is inspected; "" for nothing
+  std::vector<NearMiss> near_misses;
+  std::optional<double> run_time;  ///< where they are those of a run at that time [s]
+};
+FloesOfText floes_of(const FloeText& text, const PropertyNames& names);
 
 /// Brings floes to the plane, repairs or refuses outlines that are not valid, simplifies them, and takes
 /// overlaps from the smaller of two (geometry/cut/overlap.hpp). `refused` has what is known to be wrong with

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "geometry/shape/point.hpp"
-#include "io/text/json_value.hpp"
+#include "io/text/json_parser.hpp"
 #include "io/text/result.hpp"
 
 namespace polynya::io {

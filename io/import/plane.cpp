@@ -10,7 +10,7 @@
 
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/angle.hpp"
-#include "io/text/degrees.hpp"
+#include "io/text/floe_text.hpp"
 
 namespace polynya::io {
 namespace {

@@ -54,7 +54,7 @@ struct PlaneError {
 /// and farther than kFarthestFloe from the origin (in the other hemisphere, say). Where that is all of them
 /// (most, of those far in the plane), it is the error; others are degrees without a system or an origin,
 /// systems that PROJ does not know, and planes that are not in metres. Coordinates without system that do not
-/// look like degrees (io/text/degrees.hpp) are metres of the plane.
+/// look like degrees (io/text/floe_text.hpp) are metres of the plane.
 tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes, std::vector<std::string>& refused,
                                                      const std::string& crs, const PlaneSettings& settings);
 

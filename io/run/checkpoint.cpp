@@ -21,52 +21,6 @@ constexpr std::size_t kHeadSize = 24;
 constexpr std::string_view kPrefix = "checkpoint-";
 constexpr std::string_view kSuffix = ".bin";
 
-/// The checksum and the length of what is written.
-class Measurer : public simulation::Serializer<Measurer> {
- public:
-  std::uint32_t crc() const { return crc_.checksum(); }
-  std::uint64_t size() const { return size_; }  ///< [bytes]
-
- private:
-  friend simulation::Serializer<Measurer>;
-  template <simulation::Number T>
-  void put_number(const T& value) {
-    crc_.process_bytes(&value, sizeof value);
-    size_ += sizeof value;
-  }
-  void put_characters(const std::string& text) {
-    crc_.process_bytes(text.data(), text.size());
-    size_ += text.size();
-  }
-  boost::crc_32_type crc_;
-  std::uint64_t size_ = 0;
-};
-
-/// Passes on what is written, in parts: a checkpoint of a million floes is 200 MB.
-class PartWriter : public simulation::Serializer<PartWriter> {
- public:
-  explicit PartWriter(const WritePart& write) : write_(write) {}
-  void end() {
-    write_(buffer_);
-    buffer_.clear();
-  }
-
- private:
-  friend simulation::Serializer<PartWriter>;
-  static constexpr std::size_t kPart = std::size_t{256} << 10;  // [bytes]
-  template <simulation::Number T>
-  void put_number(const T& value) {
-    buffer_.append(reinterpret_cast<const char*>(&value), sizeof value);
-    if (buffer_.size() > kPart) end();
-  }
-  void put_characters(const std::string& text) {
-    end();
-    write_(text);
-  }
-  const WritePart& write_;
-  std::string buffer_;
-};
-
 std::uint32_t crc_of(std::string_view bytes) {
   boost::crc_32_type crc;
   crc.process_bytes(bytes.data(), bytes.size());
@@ -125,15 +79,14 @@ std::string head_of(std::uint32_t crc, std::uint64_t size) {
   return std::string(kMark).append(head.take());
 }
 
-/// The same bytes as checkpoint_bytes().
+/// The same bytes as checkpoint_bytes(), of which those of a million floes are 200 MB.
 Result<> put(const std::filesystem::path& path, const Checkpoint& checkpoint) {
-  Measurer measured;
-  fields(measured, checkpoint);
+  simulation::ByteWriter writer;
+  fields(writer, checkpoint);
+  const std::string payload = writer.take();
   const auto produce = [&](const WritePart& write) {
-    write(head_of(measured.crc(), measured.size()));
-    PartWriter parts(write);
-    fields(parts, checkpoint);
-    parts.end();
+    write(head_of(crc_of(payload), payload.size()));
+    write(payload);
   };
   return write_whole_file_in_parts(path, produce, Durability::kSynced);
 }

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "io/run/record_reader.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/text/json_writer.hpp"
@@ -12,6 +11,7 @@
 #include "io/text/problem.hpp"
 
 namespace polynya::io {
+
 namespace {
 
 using simulation::DecidingLoad;

@@ -1,10 +1,14 @@
 #pragma once
 
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/run/csv_columns.hpp"
+#include "io/run/run_reader.hpp"
+#include "io/text/json_parser.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/world/journal.hpp"
 
@@ -54,5 +58,26 @@ std::string to_geojson(const std::vector<simulation::FloeState>& floes, double t
 class GeojsonLayer;
 /// One floe of them.
 void append_floe(GeojsonLayer& layer, const simulation::FloeState& floe);
+
+// The lines that records.hpp writes, read back. Each throws ReadError where a line is not what it should be.
+
+/// What is wrong with a line or a file.
+struct ReadError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+JsonValue json_of(std::string_view text);
+const JsonValue& json_member(const JsonValue& value, std::string_view key, JsonValue::Kind kind);
+simulation::FloeId floe_id(const JsonValue& value);
+geometry::Point point(const JsonValue& value);
+/// −1 where the scene has no ship or structure of that name.
+int ship_index(const simulation::Scene& scene, std::string_view name);
+
+simulation::BirthRecord birth_of(const JsonValue& line);
+simulation::HullSample sample_of(std::string_view line, const std::vector<const ForceColumn*>& columns,
+                                 const simulation::Scene& scene);
+/// `run` has its scene and its floes.
+RunCrushed crushed_of(std::string_view line, const Run& run);
+RunContact contact_of(std::string_view line, const Run& run);
 
 }  // namespace polynya::io

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "io/run/failure_dump.hpp"
+#include "io/run/active_run.hpp"
 #include "simulation/world/world.hpp"
 
 namespace polynya::io {

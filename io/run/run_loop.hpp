@@ -78,7 +78,7 @@ struct RunResult {
   RunEnd end = RunEnd::kFinished;
   std::string reason;  ///< of any other end
   RunSummary summary;  ///< as in summary.json
-  /// Where a failure was to be dumped (failure_dump.hpp): whether that went well.
+  /// Where a failure was to be dumped (active_run.hpp): whether that went well.
   std::optional<Result<>> dump = {};
 };
 

@@ -12,7 +12,7 @@
 #include "io/run/checkpoint.hpp"
 #include "io/run/event_records.hpp"
 #include "io/run/records.hpp"
-#include "io/text/geojson_layer.hpp"
+#include "io/text/json_writer.hpp"
 
 namespace polynya::io {
 namespace {

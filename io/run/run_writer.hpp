@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/run/force_columns.hpp"
+#include "io/run/csv_columns.hpp"
 #include "io/run/frames.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/summary.hpp"

@@ -15,7 +15,6 @@
 #include "io/text/json_writer.hpp"
 #include "io/text/problem.hpp"
 #include "io/text/source_text.hpp"
-#include "io/text/version.hpp"
 #include "simulation/world/world.hpp"
 
 namespace polynya::io {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/scene/scene_reader.hpp"
@@ -68,5 +69,8 @@ struct FinishedRun {
 };
 /// By a folder's summary.json; none where its run has not finished.
 std::optional<FinishedRun> finished_run(const std::filesystem::path& folder);
+
+/// Polynya's version, as in every summary.json.
+std::string_view version();
 
 }  // namespace polynya::io

@@ -249,7 +249,7 @@ FieldOf<ShipInput> or_preset(FieldOf<ShipInput> field) {
   return required(std::move(field));
 }
 
-const Description<PanelSettings> kPanels{
+const Description<PanelSettings> kPanelSettings{
     {required(member("length_m", "m", from(0.1, 1000), "of a panel along the waterline, from the stem to both sides",
                      &PanelSettings::length)),
      member("bottom_m", "m", from(-100, 100), "of the lowest row, above the water", &PanelSettings::bottom),
@@ -285,7 +285,7 @@ const Description<ShipInput> kShip{
      object("calibration", kCalibration,
             "of the ice that this ship breaks, by `polynya calibrate`; times the factors of `fracture.bending`",
             &ShipInput::spec, &Ship::calibration),
-     object("panels", kPanels, "of the hull, of which panels.csv has the loads of the ice", &ShipInput::spec,
+     object("panels", kPanelSettings, "of the hull, of which panels.csv has the loads of the ice", &ShipInput::spec,
             &Ship::panels)}};
 
 const Description<StructureInput> kStructure{
@@ -303,8 +303,8 @@ const Description<StructureInput> kStructure{
             "inclination of its walls from the vertical, all around: 0 crushes the ice, more presses it down "
             "as a hull does",
             &StructureInput::slope),
-     object("panels", kPanels, "of its walls, of which panels.csv has the loads of the ice", &StructureInput::spec,
-            &Structure::panels)},
+     object("panels", kPanelSettings, "of its walls, of which panels.csv has the loads of the ice",
+            &StructureInput::spec, &Structure::panels)},
     {"cylinder", "outline"}};
 
 const Description<WallPressure> kPressure{

@@ -10,7 +10,7 @@
 #include "io/scene/scene_input.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/json_writer.hpp"
-#include "io/text/problem_collector.hpp"
+#include "io/text/problem.hpp"
 
 namespace polynya::io {
 

@@ -45,55 +45,42 @@ std::string describe_range(const Field& field) {
   return text;
 }
 
+/// The innermost wrong part of a number, or of lists of numbers of these lengths; or null.
+const JsonValue* first_wrong_number(const Range& range, std::span<const Length> lengths, const JsonValue& value) {
+  if (lengths.empty()) {
+    const bool is_right = value.is(JsonKind::kNumber) && std::isfinite(value.number()) && is_in(range, value.number());
+    return is_right ? nullptr : &value;
+  }
+  const auto [least, most] = lengths.front();
+  if (!value.is(JsonKind::kArray) || std::ssize(value.items()) < least ||
+      (most > 0 && std::ssize(value.items()) > most))
+    return &value;
+  for (const JsonValue& item : value.items())
+    if (const JsonValue* wrong = first_wrong_number(range, lengths.subspan(1), item)) return wrong;
+  return nullptr;
+}
+
 /// The innermost wrong part of a value that is not made of fields, or null.
 const JsonValue* first_wrong(const Field& field, const JsonValue& value) {
-  const auto number = [&](const JsonValue& v) {
-    const bool ok = v.is(JsonKind::kNumber) && std::isfinite(v.number()) && is_in(field.range, v.number());
-    return ok ? nullptr : &v;
-  };
-  const auto each = [](const JsonValue& v, std::size_t least, auto&& check) -> const JsonValue* {
-    if (!v.is(JsonKind::kArray) || v.items().size() < least) return &v;
-    for (const JsonValue& item : v.items()) {
-      if (const JsonValue* wrong = check(item)) return wrong;
-    }
-    return nullptr;
-  };
-  const auto vector = [&](const JsonValue& v) {
-    return v.is(JsonKind::kArray) && v.items().size() == 2 ? each(v, 2, number) : &v;
-  };
-  const auto ring = [&](const JsonValue& v) { return each(v, 3, vector); };
   const auto only_if = [&](bool is_right) { return is_right ? nullptr : &value; };
   switch (field.kind) {
     case FieldKind::kText:
       return only_if(value.is(JsonKind::kText));
     case FieldKind::kName:
       return only_if(value.is(JsonKind::kText) && is_name(value.text()));
-    case FieldKind::kInteger:
-      return only_if(!number(value) && value.number() == std::floor(value.number()));
-    case FieldKind::kNumber:
-    case FieldKind::kNumberOrLaw:
-      return number(value);
     case FieldKind::kBoolean:
       return only_if(value.is(JsonKind::kBoolean));
     case FieldKind::kChoice:
       return only_if(value.is(JsonKind::kText) &&
                      std::ranges::find(field.choices, value.text()) != field.choices.end());
-    case FieldKind::kVector:
-    case FieldKind::kNumberOrVector:
-      return vector(value);
-    case FieldKind::kNumbers:
-      return each(value, 0, number);
-    case FieldKind::kLine:
-      return each(value, 2, vector);
-    case FieldKind::kRing:
-      return ring(value);
-    case FieldKind::kRings:
-      return each(value, 0, ring);
     case FieldKind::kObject:
     case FieldKind::kList:
+      return nullptr;
+    default:
       break;
   }
-  return nullptr;
+  if (const JsonValue* wrong = first_wrong_number(field.range, lengths_of(field.kind), value)) return wrong;
+  return only_if(field.kind != FieldKind::kInteger || value.number() == std::floor(value.number()));
 }
 
 /// The keys that an object cannot be without: "radius_m, or waterline_m" where there are alternatives.
@@ -243,40 +230,37 @@ JsonValue write_object(const Object& object, const void* record) {
   return value;
 }
 
+std::span<const Length> lengths_of(FieldKind kind) {
+  static constexpr Length kNumbers[]{{}}, kRings[]{{}, {3}, {2, 2}}, kLine[]{{2}, {2, 2}};
+  const std::span<const Length> ring = std::span(kRings).subspan(1), vector = std::span(kRings).subspan(2);
+  return kind == FieldKind::kVector || kind == FieldKind::kNumberOrVector ? vector
+         : kind == FieldKind::kNumbers                                    ? kNumbers
+         : kind == FieldKind::kLine                                       ? kLine
+         : kind == FieldKind::kRing                                       ? ring
+         : kind == FieldKind::kRings                                      ? std::span<const Length>(kRings)
+                                                                          : std::span<const Length>();
+}
+
 std::string describe_allowed(const Field& field) {
-  switch (field.kind) {
-    case FieldKind::kText:
-      return "text";
-    case FieldKind::kName:
-      return "1 to 100 letters, digits, spaces and . _ -, starting with a letter or digit";
-    case FieldKind::kInteger:
-      return "an integer" + describe_range(field);
-    case FieldKind::kNumber:
-      return "a number" + describe_range(field);
-    case FieldKind::kBoolean:
-      return "true or false";
-    case FieldKind::kChoice:
-      return fmt::format("one of {}", fmt::join(field.choices, ", "));
-    case FieldKind::kNumberOrLaw:
-      return "a number" + describe_range(field) + ", or a law of such";
-    case FieldKind::kVector:
-      return "[x, y], each" + describe_range(field);
-    case FieldKind::kNumberOrVector:
-      return "a number or [x, y], each" + describe_range(field);
-    case FieldKind::kNumbers:
-      return "a list of numbers, each" + describe_range(field);
-    case FieldKind::kLine:
-      return "a list of two or more [x, y], each" + describe_range(field);
-    case FieldKind::kRing:
-      return "a list of three or more [x, y], each" + describe_range(field);
-    case FieldKind::kRings:
-      return "a list of rings, each three or more [x, y], each" + describe_range(field);
-    case FieldKind::kObject:
-      return "an object";
-    case FieldKind::kList:
-      return "a list of objects, its length" + describe_range(field);
-  }
-  return "";
+  static constexpr std::string_view kWords[]{
+      "text",
+      "1 to 100 letters, digits, spaces and . _ -, starting with a letter or digit",
+      "an integer",
+      "a number",
+      "true or false",
+      "one of ",
+      "a number",
+      "[x, y], each",
+      "a number or [x, y], each",
+      "a list of numbers, each",
+      "a list of two or more [x, y], each",
+      "a list of three or more [x, y], each",
+      "a list of rings, each three or more [x, y], each",
+      "an object",
+      "a list of objects, its length"};
+  const std::string words(kWords[static_cast<std::size_t>(field.kind)]);
+  if (field.kind == FieldKind::kChoice) return words + fmt::format("{}", fmt::join(field.choices, ", "));
+  return words + describe_range(field) + (field.kind == FieldKind::kNumberOrLaw ? ", or a law of such" : "");
 }
 
 std::string show(const JsonValue& value) {

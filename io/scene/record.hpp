@@ -3,12 +3,13 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "io/text/json_value.hpp"
-#include "io/text/problem_collector.hpp"
+#include "io/text/json_parser.hpp"
+#include "io/text/problem.hpp"
 
 namespace polynya::io {
 
@@ -33,6 +34,13 @@ enum class FieldKind {
   kObject,          ///< the fields of `object`
   kList,            ///< a list of such objects
 };
+
+/// How many items a list has; a most of 0: as many as there are.
+struct Length {
+  int least = 0, most = 0;
+};
+/// Those of the lists of numbers that a kind is, from the outermost on; none of what is no list of numbers.
+std::span<const Length> lengths_of(FieldKind kind);
 
 struct Range {
   double low = -std::numeric_limits<double>::infinity();

@@ -1,7 +1,6 @@
 #include "io/scene/scene_assign.hpp"
 
 #include <charconv>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -12,42 +11,6 @@ namespace polynya::io {
 namespace {
 
 using JsonKind = JsonValue::Kind;
-
-/// One step of a path: a key of an object, or an index in a list where the key is empty.
-struct Step {
-  std::string key;
-  std::size_t index = 0;
-};
-
-/// The index that a path continues with at '[', which is cut off it; nothing where it is none.
-std::optional<std::size_t> take_index(std::string_view& path) {
-  std::size_t index = 0;
-  const char* const end = path.data() + path.size();
-  const auto [stop, error] = std::from_chars(path.data() + 1, end, index);
-  if (error != std::errc() || stop == end || *stop != ']') return {};
-  path.remove_prefix(static_cast<std::size_t>(stop - path.data()) + 1);
-  return index;
-}
-
-/// The steps of "ships[0].position_m[1]"; none where it is no path.
-std::vector<Step> steps_of(std::string_view path) {
-  std::vector<Step> steps;
-  while (!path.empty()) {
-    if (path.front() == '[' && !steps.empty()) {
-      const auto index = take_index(path);
-      if (!index) return {};
-      steps.push_back({"", *index});
-      continue;
-    }
-    if (!steps.empty() && path.front() != '.') return {};
-    if (!steps.empty()) path.remove_prefix(1);
-    const std::size_t end = std::min(path.find_first_of(".["), path.size());
-    if (end == 0) return {};
-    steps.push_back({std::string(path.substr(0, end)), 0});
-    path.remove_prefix(end);
-  }
-  return steps;
-}
 
 void shift(JsonValue& value, std::uint32_t by) {
   value.offset += by;
@@ -61,68 +24,53 @@ void shift(JsonValue& value, std::uint32_t by) {
   }
 }
 
-/// Walks one path into the scene. One use.
-class Assigner {
- public:
-  Assigner(const Assignment& assignment, std::uint32_t begin, ProblemCollector& problems)
-      : path_(assignment.path), place_(begin + assignment.key_offset), problems_(problems) {}
-
-  /// Where the value belongs; null where the path leads nowhere, which has been reported.
-  JsonValue* find(JsonValue& scene) {
-    const std::vector<Step> steps = steps_of(path_);
-    if (steps.empty()) {
-      report(std::string(path_), fmt::format("\"{}\"", path_),
-             "a path of a scene's key, as ice.thickness_m or ships[0].position_m[1]");
-      return nullptr;
+/// Where the value of "ships[0].position_m[1]" belongs. Objects on the way are made where the scene has none, items of
+/// lists must be there; null where the path leads nowhere, which has been reported.
+template <class Report>
+JsonValue* place_of(JsonValue& scene, std::string_view path, std::uint32_t offset, Report report) {
+  JsonValue* at = &scene;
+  for (std::size_t begin = 0; begin < path.size();) {
+    const std::size_t end = std::min(path.find_first_of(".[", begin + 1), path.size());
+    const std::string_view so_far = path.substr(0, end);
+    std::size_t index = 0;
+    if (path[begin] == '[' && begin > 0) {
+      const auto read = std::from_chars(path.data() + begin + 1, path.data() + end, index);
+      if (read.ec != std::errc() || read.ptr + 1 != path.data() + end || *read.ptr != ']') return report.no_path();
+      if (!at->is(JsonKind::kArray) || index >= at->items().size())
+        return report(so_far, show(*at), "an item of a list that the scene has");
+      at = &at->items()[index];
+    } else {
+      if (path[begin] == '.' && begin > 0) ++begin;
+      const std::string_view key = path.substr(begin, end - begin);
+      if (key.empty() || key[0] == '.' || key[0] == '[') return report.no_path();
+      if (!at->is(JsonKind::kObject))
+        return report(path.substr(0, begin - 1), show(*at), fmt::format("an object, to have \"{}\"", key));
+      JsonValue* there = at->find(key);
+      if (!there && end < path.size() && path[end] == '[')
+        return report(so_far, "nothing", "a list that the scene has");
+      if (!there)
+        there = &at->members().emplace_back(JsonMember{std::string(key), offset, {JsonValue::Object{}, offset}}).value;
+      at = there;
     }
-    JsonValue* at = &scene;
-    std::string so_far;
-    for (std::size_t i = 0; i < steps.size() && at; ++i) {
-      const bool is_list = i + 1 < steps.size() && steps[i + 1].key.empty();
-      at = steps[i].key.empty() ? item(*at, steps[i], so_far) : member(*at, steps[i], is_list, so_far);
-    }
-    return at;
+    begin = end;
   }
+  return at;
+}
 
- private:
-  JsonValue* item(JsonValue& list, const Step& step, std::string& so_far) {
-    const std::string name = fmt::format("{}[{}]", so_far, step.index);
-    if (!list.is(JsonKind::kArray)) {
-      report(name, show(list), "an item of a list that the scene has");
-      return nullptr;
-    }
-    if (step.index >= list.items().size()) {
-      report(name, show(list),
-             list.items().empty() ? "an item that the list has"
-                                  : fmt::format("an index from 0 to {}", list.items().size() - 1));
-      return nullptr;
-    }
-    so_far = name;
-    return &list.items()[step.index];
+/// Reports a path that leads nowhere; the place is the path's.
+struct ReportPath {
+  std::string_view path;
+  std::uint32_t offset;
+  ProblemCollector& problems;
+
+  JsonValue* operator()(std::string_view at, std::string found, std::string allowed) const {
+    problems.report(0, offset, std::string(at), std::move(found), std::move(allowed));
+    return nullptr;
   }
-
-  /// A key that the scene leaves out is made, but for a list.
-  JsonValue* member(JsonValue& object, const Step& step, bool is_list, std::string& so_far) {
-    if (!object.is(JsonKind::kObject)) {
-      report(so_far, show(object), fmt::format("an object, to have \"{}\"", step.key));
-      return nullptr;
-    }
-    so_far += (so_far.empty() ? "" : ".") + step.key;
-    if (JsonValue* there = object.find(step.key)) return there;
-    if (is_list) {
-      report(so_far, "nothing", "a list that the scene has");
-      return nullptr;
-    }
-    return &object.members().emplace_back(JsonMember{step.key, place_, {JsonValue::Object{}, place_}}).value;
+  JsonValue* no_path() const {
+    return (*this)(path, fmt::format("\"{}\"", path),
+                   "a path of a scene's key, as ice.thickness_m or ships[0].position_m[1]");
   }
-
-  void report(std::string path, std::string found, std::string allowed) {
-    problems_.report(0, place_, std::move(path), std::move(found), std::move(allowed));
-  }
-
-  std::string_view path_;
-  std::uint32_t place_;
-  ProblemCollector& problems_;
 };
 
 }  // namespace
@@ -162,7 +110,10 @@ tl::expected<std::vector<Assignment>, Problem> parse_case(std::string_view text,
 void assign(JsonValue& scene, const std::vector<Assignment>& assignments, ProblemCollector& problems) {
   for (const Assignment& assignment : assignments) {
     const std::uint32_t begin = problems.add_overlay(assignment.text);
-    JsonValue* const target = Assigner(assignment, begin, problems).find(scene);
+    const std::uint32_t offset = begin + assignment.key_offset;
+    const ReportPath report{assignment.path, offset, problems};
+    JsonValue* const target =
+        assignment.path.empty() ? report.no_path() : place_of(scene, assignment.path, offset, report);
     if (!target) continue;
     *target = assignment.value;
     shift(*target, begin);

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "io/text/json_value.hpp"
-#include "io/text/problem_collector.hpp"
+#include "io/text/json_parser.hpp"
+#include "io/text/problem.hpp"
 #include "io/text/result.hpp"
 
 namespace polynya::io {

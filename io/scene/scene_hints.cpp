@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -76,7 +75,6 @@ class Hinter {
       hint_at_side(scene_.walls[i], hull_count(scene_) - scene_.walls.size() + i);
     hint_at_crossings();
     hint_at_drift();
-    hint_at_wind();
     hint_at_step();
   }
 
@@ -103,23 +101,11 @@ class Hinter {
       add(Severity::kHint, value_at("floes", ""), "floes", "there is no ice in this scene");
       return;
     }
-    hint_at_thickness(scene_.ice.thickness, value_at("ice", "thickness_m"), "ice.thickness_m");
-    std::optional<std::size_t> last;  // entry that has its hint
-    for (std::size_t i = 0; i < scene_.floes.size(); ++i) {
-      const Origin& origin = draft_.floe_origins[i];
-      const double h = ice_of(scene_, scene_.floes[i].own_ice).thickness;
-      if (h == scene_.ice.thickness || last == origin.group) continue;
-      if (hint_at_thickness(h, value_at("floes", ""), floe_path(draft_, i) + ": ice.thickness_m")) last = origin.group;
-    }
-  }
-
-  bool hint_at_thickness(double h, const JsonValue& at, const std::string& path) {
-    if (h > kThickestIce)
-      add(Severity::kHint, at, path,
-          fmt::format("{:g} m: level ice is {:g} m at most, and bends as plates only to there", h, kThickestIce));
-    else if (h < kThinnestIce)
-      add(Severity::kHint, at, path, fmt::format("{:g} m: ice under {:g} m is slush and no plate", h, kThinnestIce));
-    return h > kThickestIce || h < kThinnestIce;
+    const double h = scene_.ice.thickness;
+    if (h > kThickestIce || h < kThinnestIce)
+      add(Severity::kHint, value_at("ice", "thickness_m"), "ice.thickness_m",
+          fmt::format("{:g} m: ice under {:g} m is slush, and level ice is {:g} m at most", h, kThinnestIce,
+                      kThickestIce));
   }
 
   void hint_at_mass(std::size_t i) {
@@ -220,23 +206,6 @@ class Hinter {
     if (drift > kFastestIce)
       add(Severity::kHint, value_at("water", "drift_m_per_s"), "water.drift_m_per_s",
           fmt::format("{:.3g} m/s: ice drifts at {:g} m/s at most", drift, kFastestIce));
-    std::optional<std::size_t> last;  // one hint a group
-    for (std::size_t i = 0; i < scene_.floes.size(); ++i) {
-      const double speed = length(scene_.floes[i].velocity);
-      const std::size_t group = draft_.floe_origins[i].group;
-      if (speed <= kFastestIce || last == group) continue;
-      last = group;
-      hints_.add(0, draft_.floe_origins[i].source == 0 ? draft_.floe_origins[i].offset : given_.offset,
-                 {.path = fmt::format("floes[{}]", group),
-                  .sentence = fmt::format("{:.3g} m/s: ice moves at {:g} m/s at most", speed, kFastestIce),
-                  .severity = Severity::kHint});
-    }
-  }
-
-  void hint_at_wind() {
-    if (!scene_.wind.blows() || scene_.water.skin_drag_coefficient > 0) return;
-    add(Severity::kHint, value_at("water", "skin_drag_coefficient"), "water.skin_drag_coefficient",
-        "0 in a wind: nothing but the form drag of their edges brakes the floes; 0.004 is common");
   }
 
   /// All of the ice is behind a wall's face.

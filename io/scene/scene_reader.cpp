@@ -8,7 +8,6 @@
 #include "io/import/import_report.hpp"
 #include "io/scene/floe_list_reader.hpp"
 #include "io/scene/scene_check.hpp"
-#include "io/scene/ship_completion.hpp"
 #include "io/scene/ship_presets.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"

@@ -1,5 +1,3 @@
-#include "io/scene/scene_schema.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -24,23 +22,16 @@ void write_number(JsonWriter& json, const Field& field, const char* type) {
   write_range(json, field.range, "minimum", "maximum");
 }
 
-/// A list whose items `write_items` describes.
-template <class WriteItems>
-void write_list(JsonWriter& json, int least, int most, WriteItems write_items) {
+/// A number, or lists of these lengths of numbers.
+void write_numbers(JsonWriter& json, const Field& field, std::span<const Length> lengths) {
+  if (lengths.empty()) return write_number(json, field, "number");
   json.key("type").value("array");
-  if (least > 0) json.key("minItems").value(least);
-  if (most > 0) json.key("maxItems").value(most);
-  json.key("items").object(write_items);
+  if (lengths.front().least > 0) json.key("minItems").value(lengths.front().least);
+  if (lengths.front().most > 0) json.key("maxItems").value(lengths.front().most);
+  json.key("items").object([&] { write_numbers(json, field, lengths.subspan(1)); });
 }
 
 void write_object(JsonWriter& json, const Object& object);
-
-void write_vector(JsonWriter& json, const Field& field) {
-  write_list(json, 2, 2, [&] { write_number(json, field, "number"); });
-}
-void write_ring(JsonWriter& json, const Field& field) {
-  write_list(json, 3, 0, [&] { write_vector(json, field); });
-}
 
 /// As JSON, in one line.
 std::string default_text(const Field& field) {
@@ -60,33 +51,27 @@ void write_type(JsonWriter& json, const Field& field) {
       return;
     case Kind::kInteger:
       return write_number(json, field, "integer");
-    case Kind::kNumber:
-      return write_number(json, field, "number");
     case Kind::kBoolean:
       json.key("type").value("boolean");
       return;
     case Kind::kChoice:
       json.key("enum").list(field.choices);
       return;
-    case Kind::kVector:
-      return write_vector(json, field);
     case Kind::kNumberOrVector:
     case Kind::kNumberOrLaw:
-      json.key("oneOf").open('[').object([&] { write_number(json, field, "number"); });
-      json.object([&] { field.object ? write_object(json, *field.object) : write_vector(json, field); }).close(']');
+      json.key("oneOf").open('[').object([&] { write_number(json, field, "number"); }).object([&] {
+        field.object ? write_object(json, *field.object) : write_numbers(json, field, lengths_of(field.kind));
+      });
+      json.close(']');
       return;
-    case Kind::kNumbers:
-      return write_list(json, 0, 0, [&] { write_number(json, field, "number"); });
-    case Kind::kLine:
-      return write_list(json, 2, 0, [&] { write_vector(json, field); });
-    case Kind::kRing:
-      return write_ring(json, field);
-    case Kind::kRings:
-      return write_list(json, 0, 0, [&] { write_ring(json, field); });
     case Kind::kObject:
       return write_object(json, *field.object);
     case Kind::kList:
-      return write_list(json, 0, static_cast<int>(field.range.high), [&] { write_object(json, *field.object); });
+      json.key("type").value("array").key("maxItems").value(static_cast<int>(field.range.high));
+      json.key("items").object([&] { write_object(json, *field.object); });
+      return;
+    default:
+      return write_numbers(json, field, lengths_of(field.kind));
   }
 }
 

@@ -1,5 +1,3 @@
-#include "io/scene/ship_completion.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,30 +1,25 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
-#include "io/text/json_value.hpp"
+#include "io/text/json_parser.hpp"
 
 namespace polynya::io {
 
 inline constexpr double kKnot = 1852.0 / 3600;  ///< [m/s]
 
-/// Where a ship's particular comes from.
-enum class Basis {
-  kPublished,  ///< by its owner, yard or operator
-  kEstimated,  ///< from published ones
-  kAssumed,    ///< nobody has published it
-  kRecall,     ///< from memory
-};
-std::string_view name_of(Basis basis);
+/// ship_presets.json, which has what there is to know of them.
+extern const std::string_view kShipPresets;
 
 /// One particular of a preset: a scene key of a ship and its value.
 struct Particular {
-  std::string_view path;  ///< below the ship, as "hull.length_m"
-  std::string_view json;  ///< its value, in the key's unit
-  Basis basis = Basis::kAssumed;
-  std::string_view source;
+  std::string path;   ///< below the ship, as "hull.length_m"
+  std::string json;   ///< its value, in the key's unit
+  std::string basis;  ///< "published", "estimated", "assumed", "recall"
+  std::string source;
 };
 
 /// What has been reported of a ship in level ice.
@@ -32,13 +27,13 @@ struct ReportedSpeed {
   double thickness = 0;          ///< [m]
   double speed = 0;              ///< [m/s]
   double flexural_strength = 0;  ///< 0: not stated [Pa]
-  std::string_view source;
+  std::string source;
 };
 
 /// A ship whose particulars a scene can ask for by name, as "ship": "polaris".
 struct ShipPreset {
-  std::string_view name;
-  std::string_view title;
+  std::string name;
+  std::string title;
   std::vector<Particular> particulars;
   std::vector<ReportedSpeed> reported;
 };

@@ -5,14 +5,13 @@
 #include <iterator>
 #include <limits>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "geometry/exact/measures.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
-#include "io/text/shape_parts.hpp"
 #include "io/text/source_text.hpp"
 #include "io/text/wkt.hpp"
 
@@ -20,44 +19,6 @@ namespace polynya::io {
 namespace {
 
 using JsonKind = JsonValue::Kind;
-
-/// Of one text: short lines can name a long boundary again and again.
-constexpr std::size_t kMostAssembled = 20'000'000;  ///< vertices, 320 MB
-
-/// The lines of a run's floes.ndjson among the entries of a text, which may hold only some of them: what is
-/// parts of a parent's shape is assembled from the entries before it.
-class BirthShapes {
- public:
-  explicit BirthShapes(const FloeText& floes) : floes_(floes) {}
-
-  /// The next entry is this floe's.
-  void add_next(std::int64_t floe) { entry_of_[floe] = floes_.entries.size(); }
-
-  /// The shape of a line that has parts of its parent's. The error is what is wrong with it or missing.
-  Result<geometry::Polygon> assemble(const JsonValue& line) {
-    const auto shape = read_shape(line);
-    if (!shape) return fail(shape.error());
-    const auto id = floe_id_in(line, "parent_id");
-    if (!id) return fail("parts of a parent's shape, without a \"parent_id\"");
-    const auto found = entry_of_.find(*id);
-    if (found == entry_of_.end())
-      return fail(
-          fmt::format("parts of the shape of floe {}, of which no line stands before (`polynya inspect RUN "
-                      "--floe ID` prints a floe's shape whole)",
-                      *id));
-    const geometry::Polygon& parent = floes_.entries[found->second].polygon;
-    if (const auto checked = check_parts(*shape, ring_sizes(parent)); !checked) return fail(checked.error());
-    assembled_ += vertex_count(parent);
-    if (assembled_ > kMostAssembled)
-      return fail(fmt::format("more than {} vertices in the shapes of parents", kMostAssembled));
-    return assembled(*shape, parent);
-  }
-
- private:
-  const FloeText& floes_;
-  std::unordered_map<std::int64_t, std::size_t> entry_of_;  ///< by floe id
-  std::size_t assembled_ = 0;                               ///< vertices
-};
 
 /// What Polynya writes of each piece in place of its parent's.
 constexpr std::string_view kOwnProperties[] = {"floe_id", "parent_id", "area_m2", "part"};
@@ -70,13 +31,12 @@ struct ParseError : std::runtime_error {
 
 class GeojsonEntries {
  public:
-  GeojsonEntries(FloeText& floes, std::string_view text, BirthShapes& births)
-      : floes_(floes), text_(text), births_(births) {}
+  GeojsonEntries(FloeText& floes, std::string_view text) : floes_(floes), text_(text) {}
 
-  /// Everything in a GeoJSON value, as one feature after the other from `feature` on; lines are left as
-  /// offsets.
+  /// Everything in a GeoJSON value, as one feature after the other from `feature` on.
   void read(const JsonValue& value, std::size_t feature) {
     note_crs(value);
+    if (const JsonValue* time = value.find("t_s", JsonKind::kNumber)) floes_.time = time->number();
     if (value.has("type", "FeatureCollection")) {
       const JsonValue* features = value.find("features", JsonKind::kArray);
       if (!features) {
@@ -94,7 +54,7 @@ class GeojsonEntries {
     FloeEntry& entry = floes_.entries.emplace_back();
     entry.feature = feature_;
     entry.member = member_++;
-    entry.line = value.offset;
+    entry.offset = value.offset;
     entry.floe_id = floe_id_;
     return entry;
   }
@@ -117,16 +77,12 @@ class GeojsonEntries {
       if (const JsonValue* properties = value.find("properties")) {
         floe_id_ = floe_id_in(*properties, "floe_id");
         properties_ = kept_of(*properties);
+        if (const JsonValue* area = properties->find("area_m2", JsonKind::kNumber))
+          floes_.stated_area += area->number();
       }
       if (!geometry || geometry->is_null()) return refuse(value, "no-geometry", "a feature without geometry");
     }
-    attempt(*geometry, [&] {
-      const bool is_birth = geometry->find("ring_m") || geometry->find("ring_parts_m");
-      if (is_birth && !geometry->find("type"))
-        read_birth(*geometry);
-      else
-        read_geometry(*geometry);
-    });
+    attempt(*geometry, [&] { read_geometry(*geometry); });
   }
 
   /// What is refused inside is recorded here, and what stands beside it is read.
@@ -158,27 +114,6 @@ class GeojsonEntries {
       kept += ':' + compact_json(text_, member.value.offset);
     }
     return kept.empty() ? nullptr : std::make_shared<const std::string>(std::move(kept));
-  }
-
-  /// A line of a run's floes.ndjson.
-  void read_birth(const JsonValue& birth) {
-    floe_id_ = floe_id_in(birth, "floe_id");
-    geometry::Polygon polygon = shape_of(birth);
-    if (floe_id_) births_.add_next(*floe_id_);
-    add(birth, std::move(polygon));
-  }
-
-  geometry::Polygon shape_of(const JsonValue& birth) {
-    if (birth.find("ring_parts_m")) {
-      auto assembled = births_.assemble(birth);
-      if (!assembled) throw ParseError("malformed", assembled.error());
-      return std::move(*assembled);
-    }
-    geometry::Polygon polygon{ring_of(*birth.find("ring_m")), {}};
-    if (const JsonValue* holes = birth.find("holes_m")) {
-      for (const JsonValue& hole : list(*holes, "a list of holes")) polygon.holes.push_back(ring_of(hole));
-    }
-    return polygon;
   }
 
   void read_geometry(const JsonValue& value) {
@@ -251,7 +186,6 @@ class GeojsonEntries {
 
   FloeText& floes_;
   std::string_view text_;
-  BirthShapes& births_;
   std::size_t feature_ = 0;
   std::size_t member_ = 0;
   std::optional<std::int64_t> floe_id_;
@@ -276,57 +210,21 @@ void for_lines(std::string_view text, Use use) {
   }
 }
 
-/// Whether the first bracket of the line is closed by its last character.
-bool is_one_object(std::string_view line) {
-  if (line.front() != '{' || line.back() != '}') return false;
-  int depth = 0;
-  for (std::size_t at = 0; at < line.size(); ++at) {
-    const char c = line[at];
-    if (c == '"') {
-      for (++at; at < line.size() && line[at] != '"'; ++at) {
-        if (line[at] == '\\') ++at;
-      }
-    } else if (c == '{' || c == '[') {
-      ++depth;
-    } else if ((c == '}' || c == ']') && --depth == 0) {
-      return at + 1 == line.size();
-    }
-  }
-  return false;
-}
-
-bool is_continued(std::string_view line) {
-  return std::string_view("]},:").find(line.front()) != std::string_view::npos ||
-         std::string_view("[{,:").find(line.back()) != std::string_view::npos;
-}
-
 /// What kinds of lines a text of floes has. Blank lines and comments do not count.
 struct LineCounts {
   std::size_t lines = 0;
-  std::size_t objects = 0;    ///< from '{' to its own '}': a line of NDJSON, sound or not
-  std::size_t continued = 0;  ///< end or begin amid a value: lines of one JSON text
-  std::size_t wkt = 0;        ///< begin with a WKT geometry
+  std::size_t objects = 0;  ///< from '{' to '}': a line of NDJSON, sound or not
+  std::size_t wkt = 0;      ///< begin with a WKT geometry
   std::string_view first_line;
-  bool is_wkt_first = false;
-
-  bool are_all_objects() const { return objects == lines && lines > 1; }
-  bool are_mostly_objects() const { return objects > continued && lines > 1; }
 };
 
 LineCounts count_lines(std::string_view text) {
   LineCounts counts;
   for_lines(text, [&counts](std::string_view whole_line, std::size_t) {
     const std::string_view line = trimmed(whole_line);
-    if (counts.lines++ == 0) {
-      counts.first_line = line;
-      counts.is_wkt_first = begins_wkt(line);
-    }
-    if (is_one_object(line))
-      ++counts.objects;
-    else if (begins_wkt(line))
-      ++counts.wkt;
-    else if (is_continued(line))
-      ++counts.continued;
+    if (counts.lines++ == 0) counts.first_line = line;
+    counts.objects += line.starts_with('{') && line.ends_with('}') ? 1 : 0;
+    counts.wkt += begins_wkt(line) ? 1 : 0;
   });
   return counts;
 }
@@ -346,22 +244,27 @@ std::string without_line(const std::string& words) {
   return words.starts_with("1:") ? "column " + words.substr(2) : words;
 }
 
+void add_syntax_error(FloeText& floes, std::size_t feature, std::uint32_t offset, std::string detail) {
+  FloeEntry& entry = floes.entries.emplace_back();
+  entry.feature = feature;
+  entry.offset = offset;
+  entry.refusal = "syntax";
+  entry.detail = std::move(detail);
+}
+
 FloeText read_ndjson(const std::string& text) {
   FloeText floes;
   floes.format = FloeFormat::kNdjson;
-  BirthShapes births(floes);
   std::size_t feature = 0;
   for_lines(text, [&](std::string_view line, std::size_t offset) {
     const std::size_t before = floes.entries.size();
-    if (const auto value = parse_lenient_json(std::string(line))) {
-      GeojsonEntries(floes, line, births).read(*value, feature);
+    if (const auto value = parse_lenient_json(line)) {
+      GeojsonEntries(floes, line).read(*value, feature);
     } else {
-      FloeEntry& entry = floes.entries.emplace_back();
-      entry.feature = feature;
-      entry.refusal = "syntax";
-      entry.detail = without_line(value.error());
+      add_syntax_error(floes, feature, 0, without_line(value.error()));
     }
-    for (std::size_t i = before; i < floes.entries.size(); ++i) floes.entries[i].line = offset;
+    for (std::size_t i = before; i < floes.entries.size(); ++i)
+      floes.entries[i].offset = static_cast<std::uint32_t>(offset);
     feature = floes.entries.size() > before ? floes.entries.back().feature + 1 : feature + 1;
   });
   return floes;
@@ -370,31 +273,21 @@ FloeText read_ndjson(const std::string& text) {
 FloeText read_wkt_floes(std::string_view text) {
   FloeText floes;
   floes.format = FloeFormat::kWkt;
-  std::vector<WktGeometry> geometries = read_wkt(text);
-  for (std::size_t i = 0; i < geometries.size(); ++i) {
-    WktGeometry& geometry = geometries[i];
-    floes.has_more_coordinates = floes.has_more_coordinates || geometry.has_more_coordinates;
+  std::size_t feature = 0;
+  for (const WktGeometry& geometry : read_wkt(text)) {
     floes.has_srid = floes.has_srid || geometry.has_srid;
-    const auto add = [&]() -> FloeEntry& {
-      FloeEntry& entry = floes.entries.emplace_back();
-      entry.feature = i;
-      entry.line = geometry.offset;
-      return entry;
-    };
-    std::size_t member = 0;
-    for (geometry::Polygon& polygon : geometry.polygons) {
-      FloeEntry& entry = add();
-      entry.member = member++;
-      entry.polygon = std::move(polygon);
-    }
-    if (geometry.refusal.empty()) continue;
-    FloeEntry& entry = add();
-    entry.member = member;
-    entry.refusal = geometry.refusal;
-    entry.detail = geometry.detail;
+    if (geometry.error.empty())
+      GeojsonEntries(floes, "").read(geometry.geojson, feature);
+    else
+      add_syntax_error(floes, feature, geometry.offset, geometry.error);
+    ++feature;
   }
   return floes;
 }
+
+constexpr double kPolarLatitude = 40;  ///< [°]
+constexpr double kLeastIce = 1;        ///< of a scene in metres [m²]
+constexpr double kMostPolarIce = 100;  ///< of a scene in degrees [°²]
 
 std::string unknown_text(std::string_view first_line) {
   constexpr std::size_t kMost = 30;  // bytes of it in the message
@@ -413,20 +306,19 @@ Result<FloeText> read_kind(std::string& text) {
   FloeText floes;
   floes.format = FloeFormat::kWkt;
   if (lines.lines == 0) return floes;
-  if (lines.are_all_objects()) return read_ndjson(text);
+  if (lines.objects == lines.lines && lines.lines > 1) return read_ndjson(text);
   std::string wrong;
-  if (!lines.is_wkt_first) {
+  if (!begins_wkt(lines.first_line)) {
     blank_hash_comments(text);
-    if (const auto value = parse_lenient_json(text)) {
+    const auto value = parse_lenient_json(text);
+    if (value) {
       floes.format = FloeFormat::kGeojson;
-      BirthShapes births(floes);
-      GeojsonEntries(floes, text, births).read(*value, 0);
+      GeojsonEntries(floes, text).read(*value, 0);
       return floes;
-    } else {
-      wrong = value.error();
     }
+    wrong = value.error();
   }
-  if (lines.are_mostly_objects()) return read_ndjson(text);
+  if (2 * lines.objects > lines.lines) return read_ndjson(text);
   if (std::string_view("{[/").find(lines.first_line.front()) != std::string_view::npos)
     return fail(wrong + " (read as GeoJSON)");
   if (lines.wkt > 0) return read_wkt_floes(text);
@@ -445,8 +337,7 @@ std::optional<std::int64_t> floe_id_in(const JsonValue& object, std::string_view
 
 FloeText read_floe_json(const JsonValue& geojson) {
   FloeText floes;
-  BirthShapes births(floes);
-  GeojsonEntries(floes, "", births).read(geojson, 0);
+  GeojsonEntries(floes, "").read(geojson, 0);
   return floes;
 }
 
@@ -458,8 +349,45 @@ Result<FloeText> read_floe_text(std::string text) {
   const LineIndex lines(text);
   auto floes = read_kind(text);
   if (!floes) return floes;
-  for (FloeEntry& entry : floes->entries) entry.line = static_cast<std::size_t>(lines.line_of(entry.line));
+  for (FloeEntry& entry : floes->entries) entry.line = static_cast<std::size_t>(lines.line_of(entry.offset));
   return floes;
+}
+
+std::string crs_name(const JsonValue& crs) {
+  const JsonValue* properties = crs.find("properties");
+  if (!properties) return "";
+  for (const char* key : {"name", "code"}) {  // of type "name", and of type "EPSG" in older files
+    const JsonValue* name = properties->find(key);
+    if (name && name->is(JsonValue::Kind::kText)) return name->text();
+    if (name && name->is(JsonValue::Kind::kNumber)) return fmt::format("EPSG:{}", name->number());
+  }
+  return "";
+}
+
+bool is_in_degrees(geometry::Point point) {
+  return std::abs(point.x) <= 540 && std::abs(point.y) <= 90;
+}
+
+void CoordinateEvidence::add(const geometry::Polygon& polygon) {
+  if (polygon.outer.empty()) return;
+  geometry::Ring within;
+  std::ranges::copy_if(polygon.outer, std::back_inserter(within), is_in_degrees);
+  ++floes;
+  are_all_whole = are_all_whole && within.size() == polygon.outer.size();
+  if (2 * within.size() <= polygon.outer.size()) return;
+  const geometry::Box of_floe = bounding_box(within);
+  if (++in_range == 1) box = of_floe;
+  extend(box, of_floe);
+  area += std::abs(geometry::signed_area(within));
+}
+
+bool CoordinateEvidence::look_polar() const {
+  const bool is_far_north_or_south = box.low.y >= kPolarLatitude || box.high.y <= -kPolarLatitude;
+  return 2 * in_range > floes && is_far_north_or_south && area < kMostPolarIce;
+}
+
+bool CoordinateEvidence::look_like_degrees() const {
+  return (floes > 0 && are_all_whole && area < kLeastIce) || look_polar();
 }
 
 }  // namespace polynya::io

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geometry/shape/polygon.hpp"
-#include "io/text/json_value.hpp"
+#include "io/text/json_parser.hpp"
 #include "io/text/result.hpp"
 
 namespace polynya::io {
@@ -22,7 +22,8 @@ struct FloeEntry {
   geometry::Polygon polygon;            ///< rings as drawn: either way round, closed or not; NaN where no number stands
   std::size_t feature = 0;              ///< which feature, line or WKT geometry of the text, from 0
   std::size_t member = 0;               ///< which polygon of it, from 0
-  std::size_t line = 1;                 ///< in the text, from 1
+  std::uint32_t offset = 0;             ///< of it in the text
+  std::size_t line = 1;                 ///< likewise, from 1
   std::optional<std::int64_t> floe_id;  ///< its property of that name
   std::shared_ptr<const std::string> properties;  ///< the feature's others, as members of JSON; null if none
   std::string refusal;                            ///< "not-a-polygon", "no-geometry", "malformed", "syntax", or empty
@@ -36,13 +37,14 @@ struct FloeText {
   bool has_srid = false;              ///< "SRID=…;" was passed over
   std::string crs;                    ///< GeoJSON's member of that name (of 2008; RFC 7946 has none), JSON; or empty
   bool has_other_crs = false;         ///< several differ; `crs` is the first
+  std::optional<double> time;         ///< GeoJSON's member "t_s", which a run writes beside its floes [s]
+  double stated_area = 0;             ///< Σ of the features' area_m2 [m²]
 };
 
 /// Reads the polygons of a text: GeoJSON (Polygon, MultiPolygon, Feature, FeatureCollection,
-/// GeometryCollection), NDJSON (one of these a line; also a run's floes.ndjson) or WKT, distinguished by the
-/// content. A text without content has no polygons. What is no polygon, a bad line of NDJSON or WKT among
-/// them, is an entry with its refusal; validity is not checked. The error is for a text that cannot be read
-/// at all: "line:column: words".
+/// GeometryCollection), NDJSON (one of these a line) or WKT, distinguished by the content. A text without content has
+/// no polygons. What is no polygon, a bad line of NDJSON or WKT among them, is an entry with its refusal; validity is
+/// not checked. The error is for a text that cannot be read at all: "line:column: words".
 Result<FloeText> read_floe_text(std::string text);
 
 /// The polygons of one GeoJSON value, likewise.
@@ -50,5 +52,28 @@ FloeText read_floe_json(const JsonValue& geojson);
 
 /// The number of a floe in a member of an object; nothing where that is no such number.
 std::optional<std::int64_t> floe_id_in(const JsonValue& object, std::string_view key);
+
+/// The name that a GeoJSON crs member gives its system; "" where it gives none.
+std::string crs_name(const JsonValue& crs);
+
+/// Whether a point may be a longitude and a latitude: one turn more or less names the same meridian.
+bool is_in_degrees(geometry::Point point);
+
+/// What a file's coordinates show without its crs. A wrong number here and there does not hide the rest.
+struct CoordinateEvidence {
+  geometry::Box box{};        ///< of the floes in the range of degrees, without vertices that are not
+  double area = 0;            ///< Σ of these floes, in squares of the unit they are in
+  std::size_t floes = 0;      ///< with an outline
+  std::size_t in_range = 0;   ///< of them with most of their vertices in the range of degrees
+  bool are_all_whole = true;  ///< all of their vertices are
+
+  void add(const geometry::Polygon& polygon);
+  /// Most floes lie on one side beyond 40 of latitude, in the range of degrees, and cover less than 100
+  /// squares, which are 3000 km² each at 75°.
+  bool look_polar() const;
+  /// Or all are in the range of degrees and cover less than one square at any latitude: no ice to simulate if
+  /// it is in m².
+  bool look_like_degrees() const;
+};
 
 }  // namespace polynya::io

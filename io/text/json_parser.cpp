@@ -1,6 +1,7 @@
 #include "io/text/json_parser.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 
@@ -12,194 +13,243 @@
 namespace polynya::io {
 namespace {
 
-std::size_t end_of_text(std::string_view text, std::size_t at) {
-  for (++at; at < text.size() && text[at] != '"'; ++at) {
-    if (text[at] == '\\') ++at;
-  }
-  return std::min(at + 1, text.size());
-}
+constexpr auto kAnyValue = "an object, a list, text in double quotes, a number, true, false or null";
+constexpr std::string_view kOfWords = "+-._0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
-/// Behind the comment that begins there; the offset itself where none does.
-std::size_t end_of_comment(std::string_view text, std::size_t at) {
-  if (text.substr(at, 2) == "//") return std::min(text.find('\n', at), text.size());
-  if (text.substr(at, 2) == "/*") return std::min(text.find("*/", at + 2), text.size() - 2) + 2;
-  return at;
-}
+/// A bracket, a sign, a text with its quotes (the last one is missing where it is not closed on its line), or a
+/// word; empty at the end.
+struct Token {
+  std::size_t begin = 0;  ///< byte in the text
+  std::string_view text = {};
+  bool is_closed = true;  ///< of a text
 
-/// Follows the parser's events through the text. The parser gives no positions, but between two events only
-/// blanks, comments, commas and colons can stand, so each event's own first byte can be found again.
-class PlaceFinder {
- public:
-  explicit PlaceFinder(std::string_view text) : text_(text) {
-    if (text_.starts_with("\xEF\xBB\xBF")) end_ = 3;
-  }
-
-  std::uint32_t start_of_token() {
-    while (end_ < text_.size()) {
-      const char c = text_[end_];
-      if (c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ',' || c == ':') {
-        if (c == ',') commas_.push_back(end_);
-        ++end_;
-      } else if (const std::size_t behind = end_of_comment(text_, end_); behind > end_) {
-        end_ = behind;
-      } else {
-        break;
-      }
-    }
-    return static_cast<std::uint32_t>(end_);
-  }
-  void pass(std::size_t length) { begin_gap(end_ + length); }
-  void pass_number() {
-    const auto is_of_number = [](char c) {
-      return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e' || c == 'E';
-    };
-    while (end_ < text_.size() && is_of_number(text_[end_])) ++end_;
-    begin_gap(end_);
-  }
-  void pass_text() { begin_gap(end_of_text(text_, end_)); }
-  /// Just behind the last token.
-  std::size_t gap() const { return gap_; }
-  /// Where commas stand between the last token and what start_of_token() found.
-  const std::vector<std::size_t>& commas() const { return commas_; }
-
- private:
-  void begin_gap(std::size_t at) {
-    end_ = gap_ = at;
-    commas_.clear();
-  }
-
-  std::string_view text_;
-  std::size_t end_ = 0;  // as far as the text has been followed
-  std::size_t gap_ = 0;
-  std::vector<std::size_t> commas_;
+  std::size_t end() const { return begin + text.size(); }
+  bool is(char sign) const { return text.size() == 1 && text[0] == sign; }
+  bool is_text() const { return text.starts_with('"'); }
 };
 
-class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
+/// Cuts a text into tokens; blanks and comments stand between them.
+class Lexer {
  public:
-  TreeBuilder(std::string_view text, JsonDocument& document) : places_(text), text_(text), document_(document) {}
+  explicit Lexer(std::string_view text, std::size_t begin = 0) : text_(text), at_(begin) {
+    if (begin == 0 && text.starts_with("\xEF\xBB\xBF")) at_ = 3;
+  }
 
-  bool null() override {
-    place(nullptr);
-    places_.pass(4);
-    return true;
+  Token next() {
+    skip();
+    const std::size_t begin = at_;
+    if (begin == text_.size()) return {begin, {}};
+    bool is_closed = true;
+    if (text_[begin] == '"')
+      is_closed = pass_text();
+    else if (kOfWords.find(text_[begin]) != std::string_view::npos)
+      at_ = std::min(text_.find_first_not_of(kOfWords, begin), text_.size());
+    else
+      do ++at_;
+      while (at_ < text_.size() && (static_cast<unsigned char>(text_[at_]) & 0xC0) == 0x80);
+    return {begin, text_.substr(begin, at_ - begin), is_closed};
   }
-  bool boolean(bool value) override {
-    place(value);
-    places_.pass(value ? 4 : 5);
-    return true;
-  }
-  bool number_integer(number_integer_t value) override { return any_number(static_cast<double>(value)); }
-  bool number_unsigned(number_unsigned_t value) override { return any_number(static_cast<double>(value)); }
-  bool number_float(number_float_t value, const string_t&) override { return any_number(value); }
-  bool string(string_t& value) override {
-    place(std::move(value));
-    places_.pass_text();
-    return true;
-  }
-  bool binary(binary_t&) override { return false; }
 
-  bool start_object(std::size_t) override { return open(JsonValue::Object{}); }
-  bool start_array(std::size_t) override { return open(JsonValue::Array{}); }
-  bool key(string_t& key) override {
-    const std::uint32_t offset = places_.start_of_token();
-    places_.pass_text();
-    follows_value_ = false;
-    open_.back()->members().push_back({std::move(key), offset, {}});
-    return true;
+ private:
+  void skip() {
+    while (at_ < text_.size()) {
+      const std::string_view rest = text_.substr(at_, 2);
+      if (rest == "//")
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      else if (const auto end = rest == "/*" ? text_.find("*/", at_ + 2) : std::string_view::npos;
+               end != std::string_view::npos)
+        at_ = end + 2;
+      else if (std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos)
+        ++at_;
+      else
+        return;
+    }
   }
-  bool end_object() override {
-    drop_repeated_keys(*open_.back());
-    return close();
-  }
-  bool end_array() override { return close(); }
-
-  bool parse_error(std::size_t position, const std::string&, const nlohmann::json::exception& error) override {
-    const std::size_t gap = places_.gap();
-    const std::size_t token = places_.start_of_token();
-    ParserStop stop{.text = text_,
-                    .reason = error.what(),
-                    .token = token,
-                    .last_read = position > 0 ? position - 1 : 0,
-                    .gap = gap,
-                    .commas = places_.commas(),
-                    .follows_value = follows_value_};
-    if (!open_.empty()) stop.open = {open_.back()->offset, open_.back()->is(JsonValue::Kind::kArray)};
-    document_.faults.push_back(fault_of(stop));
+  /// False where no quote closes it on its line.
+  bool pass_text() {
+    for (++at_; at_ < text_.size() && static_cast<unsigned char>(text_[at_]) >= 0x20; ++at_) {
+      if (text_[at_] == '"') return ++at_, true;
+      if (text_[at_] == '\\' && at_ + 1 < text_.size()) ++at_;
+    }
     return false;
   }
 
+  std::string_view text_;
+  std::size_t at_;
+};
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// The number that a word of JSON's grammar is, infinite where it is too large for a double.
+std::optional<double> number_in(std::string_view word) {
+  const std::string_view digits = word.substr(word.starts_with('-') ? 1 : 0);
+  if (digits.empty() || !is_digit(digits[0]) || (digits.size() > 1 && digits[0] == '0' && is_digit(digits[1])))
+    return {};
+  const std::size_t dot = digits.find('.');
+  if (dot != std::string_view::npos && !(dot + 1 < digits.size() && is_digit(digits[dot + 1]))) return {};
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (end != word.data() + word.size()) return {};
+  // Out of range is either too small or too large: strtod returns 0 or infinity.
+  return error == std::errc() ? value : std::strtod(std::string(word).c_str(), nullptr);
+}
+
+/// NaN, Infinity, and what is beyond the doubles.
+bool is_not_finite(std::string_view word) {
+  if (word.size() < 3 || kOfWords.find(word[0]) == std::string_view::npos) return false;
+  const std::string copy(word);
+  char* end = nullptr;
+  return !std::isfinite(std::strtod(copy.c_str(), &end)) && end == copy.c_str() + copy.size();
+}
+
+/// The token on one line.
+std::string shown(const Token& token) {
+  if (token.text.empty()) return "the end of the text";
+  if (static_cast<unsigned char>(token.text[0]) < 0x20) return "a control character";
+  const std::string_view word = token.text.substr(0, 40);
+  return token.is_text() ? std::string(word) : fmt::format("'{}'", word);
+}
+
+class Parser {
+ public:
+  Parser(std::string_view text, bool is_lenient, JsonDocument& document)
+      : text_(text), is_lenient_(is_lenient), document_(document), lexer_(text) {}
+
+  void parse() {
+    try {
+      advance();
+      value(document_.root);
+      if (!token_.text.empty()) refuse("nothing behind the outermost value");
+    } catch (JsonFault& fault) {
+      document_.faults.push_back(std::move(fault));
+    }
+  }
+
  private:
-  template <class Value>
-  JsonValue& place(Value&& value) {
-    JsonValue* slot = &document_.root;
-    if (!open_.empty()) {
-      JsonValue& parent = *open_.back();
-      slot = parent.is(JsonValue::Kind::kArray) ? &parent.items().emplace_back() : &parent.members().back().value;
+  void advance() {
+    last_end_ = token_.end();
+    token_ = lexer_.next();
+  }
+  [[noreturn]] static void stop(std::size_t offset, std::string sentence) {
+    throw JsonFault{static_cast<std::uint32_t>(offset), "", "", "", std::move(sentence)};
+  }
+  int line_of(std::size_t offset) const { return line_and_column(text_, offset).line; }
+
+  /// The token at hand is not what is allowed here.
+  [[noreturn]] void refuse(std::string_view allowed) {
+    if (token_.text.empty() && !open_.empty()) {
+      const bool is_list = open_.back().is('[');
+      stop(token_.begin, fmt::format("the text ends, but the {} that begins on line {} is not closed with '{}'",
+                                     is_list ? "list" : "object", line_of(open_.back().begin), is_list ? ']' : '}'));
     }
-    slot->data = std::forward<Value>(value);
-    slot->offset = places_.start_of_token();
-    follows_value_ = true;
-    return *slot;
+    if (token_.is('/')) allowed = "a comment: /* … */, or // to the end of the line";
+    throw JsonFault{static_cast<std::uint32_t>(token_.begin), "", shown(token_), std::string(allowed)};
   }
-  bool any_number(double value) {
-    place(value);
-    places_.pass_number();
-    return true;
-  }
-  template <class Container>
-  bool open(Container container) {
-    JsonValue& slot = place(std::move(container));
-    places_.pass(1);
-    follows_value_ = false;
-    if (open_.size() >= kDeepestNesting) {
-      document_.faults.push_back(
-          {slot.offset, "", "deeper nesting", fmt::format("at most {} levels", kDeepestNesting)});
-      return false;
+
+  void value(JsonValue& slot) {
+    slot.offset = static_cast<std::uint32_t>(token_.begin);
+    if (token_.is('{')) return object(slot.data.emplace<JsonValue::Object>(), slot);
+    if (token_.is('[')) {
+      auto& items = slot.data.emplace<JsonValue::Array>();
+      return list(']', [&] { value(items.emplace_back()); });
     }
-    open_.push_back(&slot);  // stays put: its parent grows only after it is closed
-    return true;
+    if (token_.is_text())
+      slot.data = text();
+    else if (token_.text == "true" || token_.text == "false")
+      slot.data = token_.text == "true";
+    else if (const auto number = number_in(token_.text); number && std::isfinite(*number))
+      slot.data = *number;
+    else if (is_lenient_ && is_not_finite(token_.text))
+      slot.data = std::string();
+    else if (token_.text != "null")
+      refuse(number ? "a number of at most 1.79e308" : kAnyValue);
+    advance();
   }
-  bool close() {
-    places_.start_of_token();
-    places_.pass(1);
-    follows_value_ = true;
+
+  void object(JsonValue::Object& members, const JsonValue& slot) {
+    list('}', [&] {
+      if (!token_.is_text()) refuse("a key in double quotes");
+      std::string key = text();
+      const auto offset = static_cast<std::uint32_t>(token_.begin);
+      advance();
+      if (!token_.is(':')) refuse("a colon between a key and its value");
+      advance();
+      JsonValue second;
+      const bool is_second = slot.find(key) != nullptr;
+      if (is_second)
+        document_.faults.push_back({offset, key, fmt::format("\"{}\" a second time", key), "each key once"});
+      value(is_second ? second : members.emplace_back(JsonMember{std::move(key), offset, {}}).value);
+    });
+  }
+
+  /// What stands between two brackets, with commas between the items.
+  template <class Item>
+  void list(char close, Item item) {
+    if (open_.size() >= kDeepestNesting)
+      throw JsonFault{static_cast<std::uint32_t>(token_.begin), "", "deeper nesting",
+                      fmt::format("at most {} levels", kDeepestNesting)};
+    constexpr auto kNothingBefore = "a comma too many: nothing stands before it";
+    open_.push_back(token_);
+    advance();
+    if (token_.is(',')) stop(token_.begin, kNothingBefore);
+    while (!token_.is(close)) {
+      item();
+      if (token_.is(close)) break;
+      const Token comma = token_;
+      if (!comma.is(',')) refuse_without_comma(close);
+      advance();
+      if (token_.is(',')) stop(token_.begin, kNothingBefore);
+      if (token_.is('}') || token_.is(']'))
+        stop(comma.begin, fmt::format("a comma too many: only '{}' follows it", token_.text));
+      if (token_.text.empty()) refuse(kAnyValue);
+    }
     open_.pop_back();
-    return true;
-  }
-  /// Nearly all objects are small and have none: these take no memory.
-  static bool may_repeat_keys(const JsonValue::Object& members) {
-    constexpr std::size_t kFew = 32;
-    if (members.size() > kFew) return true;
-    for (std::size_t i = 1; i < members.size(); ++i) {
-      for (std::size_t k = 0; k < i; ++k)
-        if (members[i].key == members[k].key) return true;
-    }
-    return false;
-  }
-  void drop_repeated_keys(JsonValue& object) {
-    auto& members = object.members();
-    if (!may_repeat_keys(members)) return;
-    std::vector<const JsonMember*> sorted;
-    for (const JsonMember& member : members) sorted.push_back(&member);
-    std::ranges::stable_sort(sorted, {}, [](const JsonMember* m) { return std::string_view(m->key); });
-    std::vector<std::uint32_t> repeated;
-    for (std::size_t i = 1; i < sorted.size(); ++i) {
-      if (sorted[i]->key != sorted[i - 1]->key) continue;
-      repeated.push_back(sorted[i]->key_offset);
-      document_.faults.push_back({sorted[i]->key_offset, sorted[i]->key,
-                                  fmt::format("\"{}\" a second time", sorted[i]->key), "each key once"});
-    }
-    if (repeated.empty()) return;
-    std::erase_if(members,
-                  [&](const JsonMember& m) { return std::ranges::find(repeated, m.key_offset) != repeated.end(); });
+    advance();
   }
 
-  PlaceFinder places_;
+  [[noreturn]] void refuse_without_comma(char close) {
+    const bool begins_value = token_.is('{') || token_.is('[') || token_.is_text() || number_in(token_.text) ||
+                              token_.text == "true" || token_.text == "false" || token_.text == "null";
+    if (!begins_value) refuse(fmt::format("a comma, or '{}'", close));
+    const int line_before = line_of(last_end_);
+    stop(token_.begin,
+         fmt::format("a comma is missing before {}{}", shown(token_),
+                     line_before < line_of(token_.begin) ? fmt::format(", at the end of line {}", line_before) : ""));
+  }
+
+  /// The library decodes what is more than plain ASCII.
+  std::string text() {
+    const std::string_view quoted = token_.text;
+    if (!token_.is_closed)
+      refuse("text that ends with a double quote on the same line (\\n and \\t stand for breaks and tabs)");
+    const auto is_plain = [](char c) { return c != '\\' && static_cast<unsigned char>(c) < 0x80; };
+    if (std::ranges::all_of(quoted, is_plain)) return std::string(quoted.substr(1, quoted.size() - 2));
+    const auto read = nlohmann::json::parse(quoted, nullptr, false);
+    if (!read.is_string())
+      refuse("text in UTF-8, with one of \" \\ / b f n r t u behind a backslash (a backslash itself: two of them)");
+    return read.get<std::string>();
+  }
+
   std::string_view text_;
+  bool is_lenient_;
   JsonDocument& document_;
-  std::vector<JsonValue*> open_;
-  bool follows_value_ = false;  // the last token completed a value
+  Lexer lexer_;
+  Token token_;
+  std::size_t last_end_ = 0;  ///< of the token before
+  std::vector<Token> open_;   ///< brackets that are not closed
 };
+
+JsonDocument parsed(std::string_view text, bool is_lenient) {
+  JsonDocument document;
+  if (text.size() > kLongestText)
+    document.faults.push_back(
+        {0, "", fmt::format("{} bytes", text.size()), fmt::format("at most {} bytes", kLongestText)});
+  else
+    Parser(text, is_lenient, document).parse();
+  return document;
+}
 
 }  // namespace
 
@@ -221,99 +271,7 @@ std::string_view name_of(JsonValue::Kind kind) {
 }
 
 JsonDocument parse_json(std::string_view text) {
-  JsonDocument document;
-  if (text.size() > kLongestText) {
-    document.faults.push_back(
-        {0, "", fmt::format("{} bytes", text.size()), fmt::format("at most {} bytes", kLongestText)});
-    return document;
-  }
-  if (const auto nul = text.find('\0'); nul != std::string_view::npos) {
-    document.faults.push_back({static_cast<std::uint32_t>(nul), "", "a zero byte", "text in UTF-8"});
-    return document;
-  }
-  TreeBuilder builder(text, document);
-  nlohmann::json::sax_parse(text.begin(), text.end(), &builder, nlohmann::json::input_format_t::json, true, true);
-  return document;
-}
-
-namespace {
-
-constexpr auto kAnyValue = "an object, a list, text in double quotes, a number, true, false or null";
-
-/// The word or sign at an offset, on one line.
-std::string show_at(std::string_view text, std::size_t offset) {
-  if (offset >= text.size()) return "the end of the text";
-  if (std::string_view("[]{},:").find(text[offset]) != std::string_view::npos) return fmt::format("'{}'", text[offset]);
-  std::size_t end = text.find_first_of(" \t\r\n,:[]{}\"", offset + 1);
-  if (text[offset] == '"') end = std::min(text.find_first_of("\"\n", offset + 1), text.size() - 1) + 1;
-  std::string_view word = text.substr(offset, std::min<std::size_t>(end - offset, 40));
-  if (const std::size_t last = word.find_last_not_of("\r\n"); last != std::string_view::npos)
-    word = word.substr(0, last + 1);
-  return text[offset] == '"' ? std::string(word) : fmt::format("'{}'", word);
-}
-
-/// What the parser expected, in words for people.
-std::string allowed_by(const ParserStop& stop) {
-  const auto has = [&](std::string_view words) { return stop.reason.find(words) != std::string::npos; };
-  if (has("overflow")) return "a number of at most 1.79e308";
-  if (has("missing closing quote") || has("control character"))
-    return "text that ends with a double quote on the same line (\\n and \\t stand for breaks and tabs)";
-  if (has("forbidden character after backslash"))
-    return "one of \" \\ / b f n r t u behind a backslash (a backslash itself: two of them)";
-  if (has("must be followed by")) return "\\u and four hexadecimal digits; beyond U+FFFF a surrogate pair";
-  if (has("UTF-8")) return "text in UTF-8";
-  if (has("missing '*/'") || has("invalid comment")) return "a comment: /* … */, or // to the end of the line";
-  if (has("; expected string literal")) return "a key in double quotes";
-  if (has("; expected ':'")) return "a colon between a key and its value";
-  if (has("; expected '}'")) return "a comma, or '}'";
-  if (has("; expected ']'")) return "a comma, or ']'";
-  if (has("; expected end of input")) return "nothing behind the outermost value";
-  return kAnyValue;
-}
-
-bool begins_a_value(char c) {
-  return (c >= '0' && c <= '9') || std::string_view("\"{[-tfn").find(c) != std::string_view::npos;
-}
-
-/// A comma that is missing in front of the next token, or stands where none may.
-std::optional<JsonFault> wrong_comma(const ParserStop& stop) {
-  if (!stop.open || stop.token >= stop.text.size()) return std::nullopt;
-  const char next = stop.text[stop.token];
-  const auto fault = [](std::size_t at, std::string message) {
-    return JsonFault{static_cast<std::uint32_t>(at), "", "", "", std::move(message)};
-  };
-  if (stop.commas.empty()) {
-    const bool is_apart = stop.token > stop.gap || next == '"' || next == '{' || next == '[';
-    if (!stop.follows_value || !is_apart || !begins_a_value(next) || stop.last_read < stop.token) return std::nullopt;
-    const int line_before = line_and_column(stop.text, stop.gap).line;
-    const bool is_on_a_later_line = line_before < line_and_column(stop.text, stop.token).line;
-    return fault(stop.token,
-                 fmt::format("a comma is missing before {}{}", show_at(stop.text, stop.token),
-                             is_on_a_later_line ? fmt::format(", at the end of line {}", line_before) : ""));
-  }
-  const bool begins_list = stop.gap > 0 && (stop.text[stop.gap - 1] == '{' || stop.text[stop.gap - 1] == '[');
-  if (!stop.follows_value && !begins_list) return std::nullopt;  // a key without its value
-  if (!stop.follows_value) return fault(stop.commas.front(), "a comma too many: nothing stands before it");
-  if (stop.commas.size() > 1) return fault(stop.commas[1], "a comma too many: nothing stands before it");
-  if (next == '}' || next == ']')
-    return fault(stop.commas.front(), fmt::format("a comma too many: only '{}' follows it", next));
-  return std::nullopt;
-}
-
-}  // namespace
-
-JsonFault fault_of(const ParserStop& stop) {
-  if (auto comma = wrong_comma(stop)) return *std::move(comma);
-  // What it could not use begins where no more than blanks and punctuation follow the last token, or is
-  // punctuation.
-  const std::size_t offset = std::min(stop.token, stop.last_read);
-  if (stop.open && stop.token >= stop.text.size()) {
-    return {static_cast<std::uint32_t>(offset), "", "", "",
-            fmt::format("the text ends, but the {} that begins on line {} is not closed with '{}'",
-                        stop.open->is_list ? "list" : "object", line_and_column(stop.text, stop.open->offset).line,
-                        stop.open->is_list ? ']' : '}')};
-  }
-  return {static_cast<std::uint32_t>(offset), "", show_at(stop.text, offset), allowed_by(stop)};
+  return parsed(text, false);
 }
 
 std::string message_of(const JsonFault& fault) {
@@ -321,46 +279,8 @@ std::string message_of(const JsonFault& fault) {
   return fmt::format("found {}, allowed: {}", fault.found, fault.allowed);
 }
 
-namespace {
-
-bool is_not_finite(const std::string& token) {
-  const char* const start = token.c_str();
-  char* end = nullptr;
-  const double value = std::strtod(start, &end);  // reads NaN and Infinity too
-  return end == start + token.size() && !std::isfinite(value);
-}
-
-constexpr std::string_view kOfTokens = "+-.0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
-
-/// Puts an empty text, with blanks for its length, in place of every number that is not finite.
-void blank_unfinite(std::string& text) {
-  for (std::size_t at = 0; at < text.size();) {
-    if (text[at] == '"') {
-      at = end_of_text(text, at);
-    } else if (const std::size_t behind = end_of_comment(text, at); behind > at) {
-      at = behind;
-    } else if (kOfTokens.find(text[at]) != std::string_view::npos) {
-      const std::size_t end = std::min(text.find_first_not_of(kOfTokens, at), text.size());
-      if (end - at >= 3 && is_not_finite(text.substr(at, end - at))) {
-        std::fill(text.begin() + static_cast<std::ptrdiff_t>(at), text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
-        text[at] = text[at + 1] = '"';
-      }
-      at = end;
-    } else {
-      ++at;
-    }
-  }
-}
-
-}  // namespace
-
-Result<JsonValue> parse_lenient_json(const std::string& text) {
-  JsonDocument document = parse_json(text);
-  if (!document.faults.empty()) {
-    std::string blanked = text;
-    blank_unfinite(blanked);
-    document = parse_json(blanked);
-  }
+Result<JsonValue> parse_lenient_json(std::string_view text) {
+  JsonDocument document = parsed(text, true);
   if (document.faults.empty()) return std::move(document.root);
   const JsonFault& fault = document.faults.front();
   const LineAndColumn place = line_and_column(text, fault.offset);
@@ -369,31 +289,15 @@ Result<JsonValue> parse_lenient_json(const std::string& text) {
 
 std::string compact_json(std::string_view text, std::size_t offset) {
   std::string compact;
+  Lexer lexer(text, offset);
   int depth = 0;
-  for (std::size_t at = offset; at < text.size();) {
-    std::size_t end = at + 1;
-    const char c = text[at];
-    if (c == '"') {
-      end = end_of_text(text, at);
-      compact += text.substr(at, end - at);
-    } else if (kOfTokens.find(c) != std::string_view::npos) {
-      end = std::min(text.find_first_not_of(kOfTokens, at), text.size());
-      const std::string token(text.substr(at, end - at));
-      compact += is_not_finite(token) ? "null" : token;
-    } else if (const std::size_t behind = end_of_comment(text, at); behind > at) {
-      at = behind;
-      continue;
-    } else if (std::string_view("[]{},:").find(c) != std::string_view::npos) {
-      if (c == '[' || c == '{') ++depth;
-      if (c == ']' || c == '}') --depth;
-      compact += c;
-    } else {  // a blank
-      ++at;
-      continue;
-    }
-    at = end;
-    if (depth == 0) break;
-  }
+  do {
+    const Token token = lexer.next();
+    if (token.text.empty()) break;
+    if (token.is('[') || token.is('{')) ++depth;
+    if (token.is(']') || token.is('}')) --depth;
+    compact += is_not_finite(token.text) ? "null" : token.text;
+  } while (depth > 0);
   return compact;
 }
 

@@ -2,16 +2,87 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
-#include "io/text/json_value.hpp"
 #include "io/text/result.hpp"
 
 namespace polynya::io {
-inline constexpr int kDeepestNesting = 64;
+
+struct JsonMember;
+
+/// A JSON value that remembers where in its text it stood. Objects keep their order.
+struct JsonValue {
+  using Array = std::vector<JsonValue>;
+  using Object = std::vector<JsonMember>;
+  /// In the order of Data and of name_of().
+  enum class Kind { kNull, kBoolean, kNumber, kText, kArray, kObject };
+
+  using Data = std::variant<std::nullptr_t, bool, double, std::string, Array, Object>;
+
+  Data data;
+  std::uint32_t offset = 0;  ///< of the value's first byte in its text
+
+  Kind kind() const { return static_cast<Kind>(data.index()); }
+  bool is(Kind other) const { return kind() == other; }
+  bool is_null() const { return is(Kind::kNull); }
+
+  bool boolean() const { return std::get<bool>(data); }
+  double number() const { return std::get<double>(data); }
+  const std::string& text() const { return std::get<std::string>(data); }
+  const Array& items() const { return std::get<Array>(data); }
+  Array& items() { return std::get<Array>(data); }
+  const Object& members() const { return std::get<Object>(data); }
+  Object& members() { return std::get<Object>(data); }
+
+  /// The member of that key, or null where this is no object or has none.
+  const JsonValue* find(std::string_view key) const;
+  /// The same where it is of that kind.
+  const JsonValue* find(std::string_view key, Kind kind) const {
+    const JsonValue* found = find(key);
+    return found && found->is(kind) ? found : nullptr;
+  }
+  /// Whether it has that text as a member.
+  bool has(std::string_view key, std::string_view text) const {
+    const JsonValue* found = find(key, Kind::kText);
+    return found && found->text() == text;
+  }
+  /// Gives a member of an object that value, and makes it where there is none; what is no object stays.
+  void set(std::string_view key, Data value);
+  JsonValue* find(std::string_view key) { return const_cast<JsonValue*>(std::as_const(*this).find(key)); }
+};
+
+struct JsonMember {
+  std::string key;
+  std::uint32_t key_offset = 0;  ///< of the key's opening quote
+  JsonValue value;
+};
+
+inline const JsonValue* JsonValue::find(std::string_view key) const {
+  if (!is(Kind::kObject)) return nullptr;
+  for (const JsonMember& member : members()) {
+    if (member.key == key) return &member.value;
+  }
+  return nullptr;
+}
+
+inline void JsonValue::set(std::string_view key, Data value) {
+  if (!is(Kind::kObject)) return;
+  JsonValue* member = find(key);
+  if (!member) member = &members().emplace_back(JsonMember{std::string(key), offset, {nullptr, offset}}).value;
+  member->data = std::move(value);
+}
+
+/// Offset of the value at a dotted path of keys, or of the nearest object on the way to it.
+std::uint32_t nearest_offset(const JsonValue& root, std::string_view path);
+
+/// "a number", "text", … for messages.
+std::string_view name_of(JsonValue::Kind kind);
+
+inline constexpr std::size_t kDeepestNesting = 64;
 inline constexpr std::size_t kLongestText = std::size_t{256} << 20;  ///< [bytes]
 
 /// Something wrong in a JSON text, before its meaning is read.
@@ -32,32 +103,12 @@ struct JsonDocument {
 /// far); keys that stand twice are faults and the first one counts. Nesting and length are bounded.
 JsonDocument parse_json(std::string_view text);
 
-/// Where the parser stopped in a text, and what surrounds that place.
-struct ParserStop {
-  struct Bracket {
-    std::size_t offset = 0;
-    bool is_list = false;
-  };
-  std::string_view text;
-  std::string reason;                ///< the parser's own words
-  std::size_t token = 0;             ///< where the first token begins that was not used
-  std::size_t last_read = 0;         ///< the last byte the parser read
-  std::size_t gap = 0;               ///< just behind the last token that was used
-  std::vector<std::size_t> commas;   ///< between gap and token
-  bool follows_value = false;        ///< the last token that was used completed a value
-  std::optional<Bracket> open = {};  ///< the innermost object or list that is not closed
-};
-
-/// The same in words for people: a missing comma, one too many, a bracket that is not closed, else what was
-/// found and what is allowed.
-JsonFault fault_of(const ParserStop& stop);
-
 /// "found '=', allowed: a colon", or the fault's own sentence.
 std::string message_of(const JsonFault& fault);
 
 /// JSON in which also NaN, Infinity and numbers beyond the doubles stand, as Python and others write them:
 /// each of them becomes an empty text, which no number is. The error is "line:column: words".
-Result<JsonValue> parse_lenient_json(const std::string& text);
+Result<JsonValue> parse_lenient_json(std::string_view text);
 
 /// The value that begins at an offset of a text that parse_lenient_json accepts, as it is written there but
 /// without blanks and comments; what is not finite becomes null.

@@ -165,11 +165,6 @@ bool is_replaced(const std::filesystem::path& path) {
   return !exists(status) || is_regular_file(status) || is_directory(status);
 }
 
-std::filesystem::path temporary_of(std::filesystem::path path) {
-  path += ".part";
-  return path;
-}
-
 Result<> write_through(const std::filesystem::path& path, std::string_view text) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (descriptor < 0) return failed(path, errno);
@@ -186,29 +181,13 @@ Result<> write_named_file(const std::filesystem::path& path, std::string_view te
   return is_replaced(path) ? write_whole_file(end_of_links(path), text) : write_through(path, text);
 }
 
-Result<> trial_of_named_file(const std::filesystem::path& path) {
-  if (auto followed = check_links(path); !followed) return followed;
-  if (!is_replaced(path)) {
-    if (::access(path.c_str(), W_OK) != 0) return failed(path, errno);
-    return {};
-  }
-  const std::filesystem::path target = end_of_links(path);
-  if (auto replaceable = check_replaceable(target); !replaceable) return replaceable;
-  const std::filesystem::path temporary = temporary_of(target);
-  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor < 0) return failed(path, errno);
-  ::close(descriptor);
-  ::unlink(temporary.c_str());
-  return {};
-}
-
 namespace {
 
 /// A file under its temporary name, which is removed unless the file is finished.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::filesystem::path& path)
-      : path_(path), temporary_(temporary_of(path)), descriptor_(open_new(temporary_.c_str())) {
+      : path_(path), temporary_(path.string() + ".part"), descriptor_(open_new(temporary_.c_str())) {
     if (descriptor_ < 0) error_ = errno;
   }
   TemporaryFile(const TemporaryFile&) = delete;

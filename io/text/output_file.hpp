@@ -85,8 +85,4 @@ Result<> write_whole_file_in_parts(const std::filesystem::path& path,
 /// pipe or a device is written to.
 Result<> write_named_file(const std::filesystem::path& path, std::string_view text);
 
-/// Whether write_named_file() can begin: its temporary file, or the pipe or device, is opened and nothing
-/// written. For long work that ends in a file.
-Result<> trial_of_named_file(const std::filesystem::path& path);
-
 }  // namespace polynya::io

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "io/text/json_writer.hpp"
 
 namespace polynya::io {
+
 namespace {
 
 /// Levenshtein distance in bytes, with the exchange of two neighbours as one edit.
@@ -99,6 +101,65 @@ std::string nearest(std::string_view word, const std::vector<std::string_view>& 
   }
   const std::size_t near_enough = std::max<std::size_t>(2, word.size() / 3);
   return least <= near_enough ? std::string(best) : "";
+}
+
+void ProblemCollector::add(std::size_t source, std::uint32_t offset, Problem problem) {
+  if (entries_.size() >= kMost) {
+    ++beyond_;
+    return;
+  }
+  entries_.push_back({source, offset, std::move(problem)});
+}
+
+void ProblemCollector::report(std::size_t source, std::uint32_t offset, std::string path, std::string found,
+                              std::string allowed, std::string suggestion) {
+  add(source, offset,
+      {.path = std::move(path),
+       .found = std::move(found),
+       .allowed = std::move(allowed),
+       .suggestion = std::move(suggestion)});
+}
+
+void ProblemCollector::add_faults(std::size_t source, const std::vector<JsonFault>& faults) {
+  for (const JsonFault& fault : faults)
+    add(source, fault.offset,
+        {.path = fault.path, .found = fault.found, .allowed = fault.allowed, .sentence = fault.sentence});
+}
+
+std::uint32_t ProblemCollector::add_overlay(PlacedText text) {
+  const std::size_t begin =
+      overlays_.empty() ? sources_[0].text.size() + 1 : overlays_.back().begin + overlays_.back().text.length + 1;
+  overlays_.push_back({static_cast<std::uint32_t>(begin), std::move(text)});
+  return overlays_.back().begin;
+}
+
+void ProblemCollector::place(const Entry& entry, Problem& problem) const {
+  const SourceText& source = sources_[entry.source];
+  const auto behind = std::ranges::upper_bound(overlays_, entry.offset, {}, &Overlay::begin);
+  if (entry.source == 0 && behind != overlays_.begin()) {
+    const Overlay& overlay = *std::prev(behind);
+    problem.file = overlay.text.name;
+    problem.line = overlay.text.line;
+    problem.column = problem.line > 0 ? static_cast<int>(entry.offset - overlay.begin) + 1 : 0;
+    return;
+  }
+  const auto place = line_and_column(source.text, entry.offset);
+  problem.file = source.name;
+  problem.line = place.line;
+  problem.column = place.column;
+}
+
+std::vector<Problem> ProblemCollector::take() {
+  std::ranges::stable_sort(entries_, {}, [](const Entry& e) { return std::tuple(e.source, e.offset); });
+  std::vector<Problem> problems;
+  for (Entry& entry : entries_) {
+    place(entry, entry.problem);
+    problems.push_back(std::move(entry.problem));
+  }
+  if (beyond_ > 0) problems.push_back({.file = sources_[0].name, .found = fmt::format("{} more problems", beyond_)});
+  entries_.clear();
+  beyond_ = 0;
+  return problems;
 }
 
 }  // namespace polynya::io

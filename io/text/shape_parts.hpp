@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "geometry/shape/polygon.hpp"
-#include "io/text/json_value.hpp"
+#include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/result.hpp"
 

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cstdlib>
 #include <stdexcept>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -33,13 +32,15 @@ class WktReader {
     std::vector<WktGeometry> geometries;
     for (skip_between(); at_ < text_.size(); skip_between()) {
       WktGeometry& geometry = geometries.emplace_back();
-      geometry.offset = at_;
+      geometry.offset = static_cast<std::uint32_t>(at_);
       try {
-        read_geometry(geometry, 0);
+        const std::size_t begin = at_;
+        geometry.has_srid = take_word() == "SRID";
+        at_ = geometry.has_srid ? std::min(text_.find_first_of(";\n", at_), text_.size()) : begin;
+        if (geometry.has_srid && !take(';')) fail("';'");
+        geometry.geojson = read_geometry(0);
       } catch (const SyntaxError& error) {
-        geometry.polygons.clear();
-        geometry.refusal = "syntax";
-        geometry.detail = error.what();
+        geometry.error = error.what();
         at_ = std::min(text_.find('\n', at_), text_.size());
       }
     }
@@ -56,10 +57,7 @@ class WktReader {
   }
   void skip_between() {
     skip_blanks();
-    while (at_ < text_.size() && text_[at_] == ';') {
-      ++at_;
-      skip_blanks();
-    }
+    while (take(';')) skip_blanks();
   }
   bool take(char expected) {
     skip_blanks();
@@ -67,99 +65,70 @@ class WktReader {
     ++at_;
     return true;
   }
-  void expect(char expected) {
-    if (!take(expected)) fail(fmt::format("'{}'", expected));
-  }
   [[noreturn]] void fail(std::string_view expected) {
     skip_blanks();
     const std::string found = at_ < text_.size() ? fmt::format("'{}'", text_[at_]) : "the end of the text";
     throw SyntaxError(fmt::format("found {}, expected {}", found, expected));
   }
+  bool is_at_word() {
+    skip_blanks();
+    return at_ < text_.size() && is_letter(text_[at_]);
+  }
   /// The next word in upper case; empty where none stands here.
   std::string take_word() {
-    skip_blanks();
     std::string word;
+    skip_blanks();
     for (; at_ < text_.size() && is_letter(text_[at_]); ++at_) word += static_cast<char>(text_[at_] & ~0x20);
     return word;
   }
 
-  void read_geometry(WktGeometry& geometry, int depth) {
-    std::string type = take_word();
-    if (type == "SRID") {
-      geometry.has_srid = true;
-      at_ = std::min(text_.find_first_of(";\n", at_), text_.size());
-      expect(';');
-      type = take_word();
-    }
-    if (type.empty()) fail("the name of a geometry");
-    const std::size_t behind_type = at_;
-    const std::string dimensions = take_word();
-    if (dimensions == "EMPTY") return read_empty(geometry, type);
+  JsonValue read_geometry(int depth) {
+    if (depth > kDeepestCollection) throw SyntaxError("collections nested too deep");
+    if (!is_at_word()) fail("the name of a geometry");
+    JsonValue geometry{JsonValue::Object{}, static_cast<std::uint32_t>(at_)};
+    std::string type = take_word(), next;
+    while (is_at_word() && next != "EMPTY") next = take_word();
     // "POLYGON Z" and "POLYGONZ" are both written.
-    if (dimensions != "Z" && dimensions != "M" && dimensions != "ZM") at_ = behind_type;
-    if (dimensions != "" && at_ != behind_type && take_word() == "EMPTY") return read_empty(geometry, type);
     while (type.size() > 1 && (type.back() == 'Z' || type.back() == 'M')) type.pop_back();
-    if (type == "POLYGON") {
-      geometry.polygons.push_back(read_polygon(geometry));
-    } else if (type == "MULTIPOLYGON") {
-      read_list([&] {
-        if (!take_empty()) geometry.polygons.push_back(read_polygon(geometry));
-      });
-    } else if (type == "GEOMETRYCOLLECTION") {
-      if (depth >= kDeepestCollection) throw SyntaxError("collections nested too deep");
-      read_list([&] { read_geometry(geometry, depth + 1); });
-    } else {
-      refuse(geometry, type);
-      pass_brackets();
-    }
-  }
-  static void read_empty(WktGeometry& geometry, const std::string& type) {
-    if (type == "POLYGON")
-      geometry.polygons.emplace_back();
-    else if (type != "MULTIPOLYGON" && type != "GEOMETRYCOLLECTION")
-      refuse(geometry, type);
-  }
-  static void refuse(WktGeometry& geometry, const std::string& type) {
-    geometry.refusal = "not-a-polygon";
-    geometry.detail = fmt::format("found {}, expected POLYGON, MULTIPOLYGON or GEOMETRYCOLLECTION", type);
+    const bool is_collection = type == "GEOMETRYCOLLECTION";
+    for (const auto& [upper, name] : {std::pair{"POLYGON", "Polygon"},
+                                      {"MULTIPOLYGON", "MultiPolygon"},
+                                      {"GEOMETRYCOLLECTION", "GeometryCollection"}})
+      if (type == upper) type = name;
+    geometry.set("type", type);
+    JsonValue list{JsonValue::Array{}, geometry.offset};
+    if (next != "EMPTY") list = read_list([&] { return is_collection ? read_geometry(depth + 1) : read_item(0); });
+    geometry.members().push_back({is_collection ? "geometries" : "coordinates", list.offset, std::move(list)});
+    return geometry;
   }
 
+  /// What holds nothing is left out: GEOS writes empty holes.
   template <class Read>
-  void read_list(Read read) {
-    expect('(');
-    do {
-      read();
-    } while (take(','));
-    expect(')');
-  }
-  /// What holds nothing may stand for a polygon of several or for a ring.
-  bool take_empty() {
+  JsonValue read_list(Read read) {
     skip_blanks();
-    if (at_ >= text_.size() || !is_letter(text_[at_])) return false;
-    if (take_word() != "EMPTY") fail("'(' or EMPTY");
-    return true;
+    JsonValue list{JsonValue::Array{}, static_cast<std::uint32_t>(at_)};
+    if (!take('(')) fail("'('");
+    do {
+      if (const std::size_t begin = at_; is_at_word() && take_word() == "EMPTY")
+        continue;
+      else
+        at_ = begin;
+      list.items().push_back(read());
+    } while (take(','));
+    if (!take(')')) fail("')'");
+    return list;
   }
-  geometry::Polygon read_polygon(WktGeometry& geometry) {
-    geometry::Polygon polygon;
-    bool is_first = true;
-    read_list([&] {
-      const bool is_shell = std::exchange(is_first, false);
-      if (take_empty()) return;  // GEOS writes empty holes; an empty shell is left without points
-      geometry::Ring& ring = is_shell ? polygon.outer : polygon.holes.emplace_back();
-      read_list([&] { ring.push_back(read_point(geometry)); });
-    });
-    return polygon;
-  }
-  geometry::Point read_point(WktGeometry& geometry) {
-    const double x = read_number();
-    const double y = read_number();
-    for (int more = 0; more < 2; ++more) {
+  /// A list, or a point: two to four numbers.
+  JsonValue read_item(int depth) {
+    if (depth > kDeepestCollection) throw SyntaxError("brackets nested too deep");
+    skip_blanks();
+    if (at_ < text_.size() && text_[at_] == '(') return read_list([&] { return read_item(depth + 1); });
+    JsonValue point{JsonValue::Array{}, static_cast<std::uint32_t>(at_)};
+    do {
+      point.items().push_back({read_number(), point.offset});
       skip_blanks();
-      if (at_ >= text_.size() || text_[at_] == ',' || text_[at_] == ')') break;
-      read_number();
-      geometry.has_more_coordinates = true;
-    }
-    return {x, y};
+    } while (at_ < text_.size() && text_[at_] != ',' && text_[at_] != ')');
+    return point;
   }
   double read_number() {
     skip_blanks();
@@ -172,14 +141,6 @@ class WktReader {
     if (error != std::errc{}) value = std::strtod(std::string(start, end).c_str(), nullptr);
     at_ = static_cast<std::size_t>(end - text_.data());
     return value;
-  }
-  void pass_brackets() {
-    expect('(');
-    for (int open = 1; open > 0; ++at_) {
-      if (at_ >= text_.size()) fail("')'");
-      if (text_[at_] == '(') ++open;
-      if (text_[at_] == ')') --open;
-    }
   }
 
   std::string_view text_;

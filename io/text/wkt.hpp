@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/shape/polygon.hpp"
+#include "io/text/json_parser.hpp"
 
 namespace polynya::io {
 
@@ -18,17 +19,14 @@ bool begins_wkt(std::string_view line);
 
 /// One geometry of a WKT text, or what is wrong with it.
 struct WktGeometry {
-  std::vector<geometry::Polygon> polygons;  ///< rings as drawn; a coordinate may be NaN or infinite
-  std::size_t offset = 0;                   ///< of its first byte
-  bool has_more_coordinates = false;        ///< Z or M, passed over
-  bool has_srid = false;                    ///< "SRID=…;", passed over
-  std::string refusal;                      ///< "not-a-polygon", "syntax" or empty
-  std::string detail;                       ///< for people
+  JsonValue geojson;         ///< the same as GeoJSON; a coordinate may be NaN or infinite
+  std::uint32_t offset = 0;  ///< of its first byte
+  bool has_srid = false;     ///< "SRID=…;", passed over
+  std::string error;         ///< of its syntax; or empty
 };
 
-/// The geometries of a text, in order: POLYGON, MULTIPOLYGON and GEOMETRYCOLLECTION of them, any case, with
-/// or without Z and M, "SRID=…;" before and ";" behind passed over, '#' and '//' comments to the line's end.
-/// After a syntax error reading continues at the next line.
+/// The geometries of a text, in order: any case, with or without Z and M, "SRID=…;" before and ";" behind passed
+/// over, '#' and '//' comments to the line's end. After a syntax error reading continues at the next line.
 std::vector<WktGeometry> read_wkt(std::string_view text);
 
 /// Appends "POLYGON ((…), (…))" with numbers that read back to the same doubles.

@@ -2,7 +2,7 @@
 
 #include "python/module/simulation.hpp"
 
-#include "app/ice/cut_floes.hpp"
+#include "io/text/cut.hpp"
 
 namespace polynya::python {
 namespace {
@@ -27,7 +27,7 @@ py::tuple cut(const std::string& floes, const std::string& ops, const std::strin
     } else if (!cuts) {
       reason = cuts.error().words;
     } else {
-      const io::CutReport report = app::cut_floes(text->entries, *std::move(cuts), rule);
+      const io::CutReport report = io::cut_floes(text->entries, *std::move(cuts), rule);
       pieces = io::to_floe_text(report, io::FloeFormat::kGeojson);
       ledger = io::to_ledger_json(report);
     }

@@ -108,15 +108,6 @@ class Parser(argparse.ArgumentParser):
     def shown_examples(self):
         return "Examples:\n" + "".join(f"  polynya {example}\n" for example in self.examples)
 
-    def described(self):
-        """For the manual page and the completion (app/command_line/python.cpp)."""
-        options = [
-            {"names": argument.option_strings, "type": argument.metavar or "", "meaning": argument.help}
-            for argument in self.arguments()
-        ]
-        commands = [{"name": name, "meaning": of.meaning, **of.described()} for name, of in self.commands().items()]
-        return {"examples": self.shown_examples(), "rest": self.rest, "options": options, "commands": commands}
-
     def parse_known_args(self, args=None, namespace=None):
         found, rest = super().parse_known_args(self.joined(sys.argv[1:] if args is None else args), namespace)
         if rest:

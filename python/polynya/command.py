@@ -6,21 +6,11 @@ app/command_line/console.hpp, with messages in sentences. A traceback goes into 
 """
 import importlib
 import io
-import json
 import os
 import signal
 import sys
 
 FAILED, INPUT_OUTPUT, DEFECT, CLOSED_PIPE = 4, 5, 70, 141
-OPTIONS = {  # where the command line of each is made
-    "calibrate": "polynya.calibrate.options",
-    "figures": "polynya.figures.options",
-    "loads": "polynya.loads.options",
-    "management": "polynya.management.options",
-    "movie": "polynya.movie.__main__",
-    "performance": "polynya.performance.options",
-    "study": "polynya.study.options",
-}
 
 
 class Stdout(io.FileIO):
@@ -115,18 +105,9 @@ def defect(name, error):
         return f"{words}; its traceback could not be written: {fault.strerror}"
 
 
-def describe():
-    """Prints the options of every command, as app/command_line/python.cpp reads them."""
-    parsers = {name: importlib.import_module(module).command_line() for name, module in OPTIONS.items()}
-    print(json.dumps({name: parser.described() for name, parser in parsers.items()}))
-    return 0
-
-
 def main():
     open_streams()
     name, *words = sys.argv[1:]
-    if name == "--describe":
-        return run("--describe", describe)
     sys.argv = [f"polynya {name}", *words]
     module = "polynya.figures.database" if name == "database" else f"polynya.{name}.__main__"
     return run(name, lambda: importlib.import_module(module).main())

@@ -13,7 +13,7 @@
 namespace polynya::simulation {
 
 // What happens in a run. A kind is a struct of what it alone has, with its name in records; its fields on
-// record, their units and meanings are listed in io/run/event_fields.hpp.
+// record, their units and meanings are listed in io/run/event_records.hpp.
 
 using FloeId = std::int64_t;
 inline constexpr FloeId kNoFloe = -1;

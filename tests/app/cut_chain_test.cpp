@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "app/ice/cut_floes.hpp"
 #include "geometry/cut/repair.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
+#include "io/text/cut.hpp"
 #include "tests/geometry/dice.hpp"
 
 namespace polynya::tests {
@@ -77,7 +77,7 @@ class Chain {
     std::vector<io::FloeEntry> entries = read();
     const Polygon parent = geometry::normalised(entries[random_() % entries.size()].polygon);
     const io::CutOp op = roll_op(random_, parent);
-    const io::CutReport report = app::cut_floes(entries, {op}, {});
+    const io::CutReport report = io::cut_floes(entries, {op}, {});
     for (std::size_t i = 0; i < entries.size(); ++i) {
       expect_sound(report.floes[i], geometry::normalised(entries[i].polygon));
       if (testing::Test::HasFatalFailure()) return;

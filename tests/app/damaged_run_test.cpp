@@ -11,7 +11,6 @@ namespace {
 const std::vector<Words> kReading{"inspect damaged",
                                   "inspect damaged --check",
                                   "inspect damaged --fsd",
-                                  "inspect damaged --floe 0 --format svg",
                                   "inspect damaged --floe 0 --format geojson",
                                   "view damaged",
                                   "channel damaged",

@@ -38,7 +38,7 @@ std::set<std::string> long_options(const std::string& help) {
 }
 
 std::string completed(const std::string& line) {
-  const std::string script = "source <(" POLYNYA_BINARY " completion); COMP_WORDS=(" + line +
+  const std::string script = "source " POLYNYA_BINARY ".bash; COMP_WORDS=(" + line +
                              "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _polynya; echo \" ${COMPREPLY[*]} \"";
   FILE* pipe = popen(("cd '" + folder().path().string() + "' && bash -c '" + script + "'").c_str(), "r");
   std::string text;
@@ -61,8 +61,13 @@ TEST(Guide, HelpLeadsWithExamples) {
   }
 }
 
+/// What the build writes beside the program.
+std::string page_named(const char* name) {
+  return read_file(std::filesystem::path(POLYNYA_BINARY).parent_path() / name);
+}
+
 TEST(Guide, TheManualPageHasEveryCommandAndOption) {
-  std::string page = output_of("man");
+  std::string page = page_named("polynya.1");
   page = std::regex_replace(page, std::regex(R"(\\-)"), "-");
   for (const std::string& command : subcommands(output_of("--help"))) {
     EXPECT_HAS(page, ".SS " + command + "\n") << command;
@@ -105,7 +110,7 @@ TEST(Guide, BashCompletesFilesOnlyWhereTheyAreExpected) {
 
 TEST(Guide, OptionsComeInTheOrderOfTheirUse) {
   const std::string help = output_of("cut --help");
-  const std::string page = std::regex_replace(output_of("man"), std::regex(R"(\\-)"), "-");
+  const std::string page = std::regex_replace(page_named("polynya.1"), std::regex(R"(\\-)"), "-");
   for (const auto& [text, begin] : {std::pair{help, "\n  "}, {page.substr(page.find(".SS cut\n")), "\n.B "}}) {
     std::size_t last = 0;
     for (const char* option :

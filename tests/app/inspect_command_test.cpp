@@ -63,10 +63,6 @@ TEST_F(InspectCommand, AFloesShapeReadsBackToTheSameDoubles) {
   EXPECT_EQ(feature.root.find("properties")->find("frame")->text(), "body");
   EXPECT_HAS(inspect("--floe 3").err, "body frame");
   EXPECT_EQ(inspect({"--floe", std::to_string(last.floe), "--at", "30"}).err, "");
-  const std::string svg = inspect("--floe 3 --format svg").out;
-  EXPECT_HAS(svg, "in its body frame");
-  EXPECT_BEGINS(svg, "<svg ");
-  EXPECT_HAS(svg, "</svg>");
 }
 
 TEST_F(InspectCommand, EventsAreALineEachInOrderOfTime) {

@@ -22,16 +22,14 @@ class Usage : public testing::Test {
 TEST_F(Usage, ErrorsNameTheCommandTheFaultAndWhatWasMeant) {
   const Words query = "database query --thickness 1 --speed 1 --hull-angle 60";
   const std::string commands =
-      "commands: run, resume, validate, schema, ships, performance, calibrate, init, view, channel, figures, "
-      "loads, management, movie, "
-      "export, "
-      "inspect, cut, import, database, study\n";
+      "commands: run, resume, validate, schema, ships, init, view, channel, export, inspect, cut, import, database, "
+      "performance, calibrate, figures, loads, management, movie, study\n";
   const std::string tools = "one of --disc, --crack, --line, --polygon, --ops is needed, ";
   const std::vector<Refusal> rows{
       {"", 2, "polynya: a command is missing\n" + commands},
       {"veiw x", 2, "polynya: no such command: veiw; did you mean view?\n" + commands},
-      {"run", 2, "polynya run: SCENE is missing"},
-      {"run a --until", 2, "polynya run: --until needs a value\n"},
+      {"run", 2, "polynya run: scene is required"},
+      {"run a --until", 2, "polynya run: --until: 1 required S"},
       {"run a --until -1", 2, "--until: "},
       {"run a --until soon", 2, "--until: "},
       {"run a --threads 0", 2, "--threads: "},
@@ -41,7 +39,7 @@ TEST_F(Usage, ErrorsNameTheCommandTheFaultAndWhatWasMeant) {
        "polynya run: not expected: --unitl 3 b; did you mean --until?\npolynya run --help explains its "
        "options\n"},
       {"run x --progress loud", 2, "--progress: \"loud\" is not one of: auto, bar, json, none\n"},
-      {"validate", 2, "SCENE is missing"},
+      {"validate", 2, "scene is required"},
       {"validate tiny.json --json --resolved", 2},
       {"cut floes.wkt", 2, tools + "none is given\n"},
       {"cut x --disc 0,0,1 --crack 0,0,1", 2, tools + "2 are given\n"},
@@ -63,22 +61,22 @@ TEST_F(Usage, ErrorsNameTheCommandTheFaultAndWhatWasMeant) {
       {"export shipless", 2},
       {"export shipless --geojson g --at 7", 2},
       {"figures x --load most", 2, "--load: \"most\" is not one of: true, mean, max, ships, j-over-tau-c\n"},
-      {"inspect", 2, "RUN is missing"},
-      {"inspect x --floe 1 --format dxf", 2, "--format: \"dxf\" is not one of: wkt, geojson, svg\n"},
+      {"inspect", 2, "run is required"},
+      {"inspect x --floe 1 --format dxf", 2, "--format: \"dxf\" is not one of: wkt, geojson\n"},
       {"inspect run --floe 99999", 2, "99999"},
       {"inspect run --floe -1", 2, "there is no floe -1; they go from 0 to "},
       {"inspect run --lineage 99999", 2, "99999"},
       {"inspect run --at 1e9", 2, "--at"},
       {"inspect run --at -1", 2, "--at"},
       {"inspect run --at soon", 2, "--at: "},
-      {"inspect run --format svg", 2, "--format"},
+      {"inspect run --format wkt", 2, "--format"},
       {"inspect run --floe 1 --check", 2},
       {"inspect run --check --fsd", 2},
       {"inspect run --events --check", 2},
       {"inspect run --floe 1 --lineage 1", 2},
       {"inspect run --floe 3 --json", 2},
       {"inspect run --floe 0 --at 1", 2, "floe 0"},
-      {"view", 2, "RUN is missing"},
+      {"view", 2, "run is required"},
       {"view run --every 0", 2, "--every: "},
       {"view run --every x", 2, "--every: "},
       {"view run --from 1000", 2, "no frame of run is in that part; they go from 0 to 1 s"},

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "geometry/exact/validity.hpp"
-#include "io/run/floe_shapes.hpp"
+#include "io/run/run_reader.hpp"
 #include "io/scene/scene_reader.hpp"
-#include "io/text/cut_ops.hpp"
+#include "io/text/cut.hpp"
 #include "io/text/floe_text.hpp"
 #include "io/text/json_parser.hpp"
 

@@ -1,8 +1,8 @@
-#include "io/text/cut_ops.hpp"
-
 #include <cmath>
 
 #include "expect_text.hpp"
+
+#include "io/text/cut.hpp"
 
 namespace polynya::io {
 namespace {
@@ -66,10 +66,10 @@ TEST(CutOps, WhatIsWrongIsToldWithItsNumber) {
 }
 
 TEST(CutOps, NumbersBetweenCommasAreReadToTheLastBit) {
-  const auto numbers = tests::checked(read_numbers("-0.1, 1e-6,+3.3333333333333335", 3));
+  const auto numbers = tests::checked(read_numbers("-0.1, 1e-6,3.3333333333333335", 3, 3));
   EXPECT_EQ(*numbers, (std::vector<double>{-0.1, 1e-6, 3.3333333333333335}));
   for (const char* text : {"", "1,2", "1,2,3,4", "1,2,", "1;2;3", "1,2,x", "1,2,nan", "1,2,inf", "1,2,1e999", "1 2 3"})
-    EXPECT_FALSE(read_numbers(text, 3).has_value()) << text;
+    EXPECT_FALSE(read_numbers(text, 3, 3).has_value()) << text;
 }
 
 TEST(CutOps, DiscsKeepTheirSagitta) {

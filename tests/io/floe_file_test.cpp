@@ -97,7 +97,7 @@ TEST_F(FloeFile, CoordinatesTooFarAwayAreNamedOnce) {
   EXPECT_HAS(problems(collection({floe(0, 0, 5), floe(9, 0, 5), floe(1.2e6, 0, 800)})),
              "floes[0].file (its floe 2): found [1200000, 0], allowed");
   EXPECT_HAS(problems(collection({R"({"type":"Polygon","coordinates":[[[0,0],[null,0],[1,1],[0,0]]]})"})),
-             "found null, allowed: a coordinate [m]");
+             "found [nan, 0], allowed: coordinates that are finite numbers");
 }
 
 /// A run's floes overlap where they are in contact, by the ice that was crushed there. The overlaps of any
@@ -173,8 +173,8 @@ TEST_F(FloeFile, PropertiesThatAreNearlyReadAreWarnedOf) {
   const LoadedScene named = sound(floes, R"(, "import": {"properties": "thickness_m=thickness_cm*0.01"})");
   EXPECT_EQ(named.scene.floes.size(), 2U);
   EXPECT_HAS(problems(collection({floe(0, 0, 5, R"("thickness_m":-0.5)"), floe(9, 0, 5, R"("vx_m_per_s":"fast")")})),
-             "features[0].properties.thickness_m: found -0.5, allowed: a number from 0.001 to 20 [m]",
-             "features[1].properties.vx_m_per_s: found \"fast\"");
+             "floes[0].file (its floe 0): property thickness_m: found -0.5, allowed: a number from 0.001 to 20 [m]",
+             "floes[0].file (its floe 1): property vx_m_per_s: found \"fast\"");
 }
 
 TEST_F(FloeFile, AnImportRepairsTrimsAndReports) {

@@ -113,7 +113,7 @@ TEST_F(FloeIceFile, OfTheWrongTypeOrSignAreRefusedAtTheirPlace) {
     ASSERT_FALSE(outcome.has_value()) << wrong;
     const std::string text = to_string(outcome.error().front());
     EXPECT_HAS(text, "floes.geojson:2:");
-    EXPECT_HAS(text, "features[1].properties.thickness_m");
+    EXPECT_HAS(text, "(its floe 1): property thickness_m: found ");
     EXPECT_HAS(text, "a number from 0.001 to 20 [m]");
   }
 }

@@ -1,5 +1,3 @@
-#include "io/run/floe_shapes.hpp"
-
 #include <algorithm>
 #include <cstring>
 #include <map>
@@ -11,6 +9,7 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "io/run/records.hpp"
+#include "io/run/run_reader.hpp"
 #include "io/text/json_parser.hpp"
 #include "tests/geometry/dice.hpp"
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "geometry/cut/repair.hpp"
-#include "io/text/cut_report.hpp"
+#include "io/text/cut.hpp"
 #include "io/text/wkt.hpp"
 
 namespace polynya::io {
@@ -226,40 +226,6 @@ TEST(FloeText, NumbersThatAreNoneBecomeNan) {
   EXPECT_EQ(wkt[1].y, 0);
 }
 
-TEST(FloeText, ARunsFloesMayBePartsOfEarlierOnes) {
-  const std::string first =
-      R"({"floe_id":3,"parent_id":null,"ring_m":[[0,0],[4,0],[4,4],[0,4]],"holes_m":[[[1,1],[1,2],[2,1]]]})";
-  const std::string second =
-      R"({"floe_id":7,"parent_id":3,"ring_parts_m":[[0,2,3],[[3,0],[4,1]]],"hole_parts_m":[[[1,0,3]]]})";
-  const std::string third = R"({"floe_id":9,"parent_id":7,"ring_parts_m":[[0,4,4],[[1,5]]],"hole_parts_m":[]})";
-  const FloeText floes = read(first + "\n" + second + "\n" + third + "\n");
-  ASSERT_EQ(floes.entries.size(), 3U);
-  EXPECT_EQ(floes.entries[1].polygon, (Polygon{{{4, 4}, {0, 4}, {0, 0}, {3, 0}, {4, 1}}, {{{1, 1}, {1, 2}, {2, 1}}}}));
-  EXPECT_EQ(floes.entries[2].polygon, (Polygon{{{4, 1}, {4, 4}, {0, 4}, {0, 0}, {1, 5}}, {}}));
-  EXPECT_EQ(floes.entries[2].floe_id, 9);
-  const FloeText orphans = read(first + "\n" + third + "\n" + second + "\n");
-  EXPECT_EQ(orphans.entries[1].refusal, "malformed");
-  EXPECT_HAS(orphans.entries[1].detail, "floe 7, of which no line stands before");
-  EXPECT_EQ(orphans.entries[1].line, 2U);
-  EXPECT_EQ(orphans.entries[2].polygon, floes.entries[1].polygon);
-  const FloeText wrong = read(first + "\n" + R"({"parent_id":-3,"ring_parts_m":[[0,0,3]],"hole_parts_m":[]})");
-  EXPECT_EQ(wrong.entries[1].refusal, "malformed");
-  EXPECT_HAS(wrong.entries[1].detail, "without a \"parent_id\"");
-}
-
-/// A few hundred bytes a line could name a long boundary again and again.
-TEST(FloeText, PartsOfOneLongShapeAreNotReadWithoutEnd) {
-  std::string text = R"({"floe_id":0,"parent_id":null,"ring_m":[)";
-  for (int i = 0; i < 20'000; ++i) text += fmt::format("[{},{}],", i, i % 7);
-  text.back() = ']';
-  text += ",\"holes_m\":[]}\n";
-  for (int i = 1; i <= 1'010; ++i)
-    text += fmt::format(R"({{"floe_id":{},"parent_id":0,"ring_parts_m":[[0,0,3]],"hole_parts_m":[]}})", i) + "\n";
-  const FloeText floes = read(text);
-  EXPECT_TRUE(floes.entries[1'000].refusal.empty());
-  EXPECT_HAS(floes.entries[1'001].detail, "more than 20000000 vertices");
-}
-
 TEST(FloeText, WhatCannotBeReadIsToldWithItsPlace) {
   for (const auto& [text, place] : {std::pair{"(1 2)", "1:1: neither"},
                                     {"garbage", "1:1: neither GeoJSON, nor NDJSON"},
@@ -284,10 +250,7 @@ TEST(FloeText, AnyDamageIsSurvived) {
       R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"floe_id":3},"geometry":)"
       R"({"type":"MultiPolygon","coordinates":[[[[0,0],[4,0],[4,4e0],[0,4],[0,0]],[[1,1],[1,2],[2,1]]]]}}]})",
       "SRID=3;MULTIPOLYGON Z (((0 0 1, 4 0 1, 4 4 1), (1 1 1, 1 2 1, 2 1 1)), EMPTY); "
-      "GEOMETRYCOLLECTION(POINT(1 2))",
-      "{\"ring_m\":[[0,0],[4,0],[4,4]]}\n{\"ring_m\":[[0,0],[NaN,0],[4,4]]}\n",
-      "{\"floe_id\":1,\"ring_m\":[[0,0],[4,0],[4,4]]}\n{\"parent_id\":1,\"ring_parts_m\":[[0,1,2],[[1,2]]],"
-      "\"hole_parts_m\":[]}\n"};
+      "GEOMETRYCOLLECTION(POINT(1 2))"};
   std::mt19937 dice(7);
   std::size_t readable = 0;
   for (const std::string& text : good) {

@@ -5,7 +5,6 @@
 #include "temporary_folder.hpp"
 
 #include "io/scene/scene_input.hpp"
-#include "io/scene/scene_schema.hpp"
 
 namespace polynya::io {
 namespace {

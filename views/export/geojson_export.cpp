@@ -7,7 +7,7 @@
 #include "io/run/motion_index.hpp"
 #include "io/run/records.hpp"
 #include "io/scene/floe_ice.hpp"
-#include "io/text/geojson_layer.hpp"
+#include "io/text/json_writer.hpp"
 
 namespace polynya::views {
 namespace {

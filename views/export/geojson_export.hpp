@@ -6,7 +6,7 @@
 
 #include "analysis/channel.hpp"
 #include "io/run/run_reader.hpp"
-#include "io/text/geojson_layer.hpp"
+#include "io/text/json_writer.hpp"
 
 namespace polynya::views {
 

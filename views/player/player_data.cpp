@@ -7,11 +7,11 @@
 #include <set>
 
 #include "analysis/channel.hpp"
+#include "io/run/csv_columns.hpp"
 #include "io/run/event_records.hpp"
-#include "io/run/force_columns.hpp"
 #include "io/run/records.hpp"
+#include "io/run/summary.hpp"
 #include "io/text/json_writer.hpp"
-#include "io/text/version.hpp"
 #include "simulation/ship/pattern.hpp"
 
 namespace polynya::views {

@@ -1,17 +1,44 @@
 #pragma once
 
+#include <algorithm>
+#include <charconv>
 #include <functional>
+#include <initializer_list>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "io/text/json_writer.hpp"
 #include "io/text/result.hpp"
 #include "simulation/world/journal.hpp"
 #include "simulation/world/scene.hpp"
 
 namespace polynya::io {
+
+/// Adds numbers to a row, each behind a comma.
+inline void append_csv(std::string& row, std::initializer_list<double> values) {
+  for (const double value : values) append_number(row += ',', value);
+}
+
+/// Takes the first field off a row.
+inline std::string_view csv_field(std::string_view& row) {
+  const std::string_view field = row.substr(0, row.find(','));
+  row.remove_prefix(std::min(row.size(), field.size() + 1));
+  return field;
+}
+
+/// A field as a number, "null" as not a number; nothing where it is neither.
+inline std::optional<double> csv_number(std::string_view field) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (field == "null") return std::numeric_limits<double>::quiet_NaN();
+  if (error != std::errc{} || end != field.data() + field.size()) return {};
+  return value;
+}
+
 /// Where the views show a load.
 enum class ShownWhere {
   kAlways,
@@ -31,7 +58,7 @@ enum class Over { kMean, kLargestStep, kAtEnd };
 
 /// A number that forces.csv records of each ship and structure. The writer, the reader, the checkpoint's
 /// peaks, summary.json, the player and Python follow this table, a test compares docs/run-folder.md with it:
-/// to add a column, add it in force_columns.cpp and its row, which that test prints, to that page.
+/// to add a column, add it in csv_columns.cpp and its row, which that test prints, to that page.
 struct ForceColumn {
   std::string name;       ///< with its unit: "surge_N"
   std::string_view unit;  ///< as people read it: "N·m"; empty of a count
@@ -82,5 +109,38 @@ std::span<const ForceCause> force_causes();
 
 /// Those whose columns the player plots of a scene's runs.
 std::vector<ForceCause> force_causes(const simulation::Scene& scene);
+
+/// A column of contacts.csv or panels.csv behind those that name the bodies. Writer, reader and docs/run-folder.md
+/// follow these tables (a test compares the page): to add a column, add it at the end of its table in
+/// csv_columns.cpp, and the row, which that test prints, to the page.
+template <class Row>
+struct LoadColumn {
+  std::string_view name;                   ///< with its unit: "depth_m"
+  std::string_view meaning;                ///< as docs/run-folder.md has it
+  std::function<double(const Row&)> read;  ///< not a number where there is none; of words the place in them
+  std::function<void(Row&, double)> store;
+  std::span<const std::string_view> words = {};  ///< in the place of numbers
+};
+
+using ContactColumn = LoadColumn<simulation::ContactState>;
+using PanelColumn = LoadColumn<simulation::PanelSample>;
+
+std::span<const ContactColumn> contact_columns();
+std::span<const PanelColumn> panel_columns();
+
+/// Appends their names, each behind a comma, and a line's end.
+template <class Row>
+void append_header(std::string& text, std::span<const LoadColumn<Row>> columns) {
+  for (const LoadColumn<Row>& column : columns) text.append(1, ',').append(column.name);
+  text += '\n';
+}
+
+/// Appends a row's values, likewise; nothing where there is no number.
+void append_row(std::string& text, const simulation::ContactState& row);
+void append_row(std::string& text, const simulation::PanelSample& row);
+
+/// Reads a row's values, as many as the row has: those of earlier versions had fewer. Returns whether all are good.
+bool read_row(std::string_view text, simulation::ContactState& row);
+bool read_row(std::string_view text, simulation::PanelSample& row);
 
 }  // namespace polynya::io

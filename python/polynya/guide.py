@@ -1,0 +1,128 @@
+"""Writes the manual page and bash's completion of the program, by what each of its commands prints as its help:
+`python3 guide.py PROGRAM MAN_PAGE COMPLETION` (app/CMakeLists.txt)."""
+import os
+import re
+import subprocess
+import sys
+
+TITLES = re.compile(r"^(Usage|Positionals|Subcommands|[A-Z][a-z ,]+):")
+ENTRY = re.compile(r"^  (\S.*?)(?:\s{2,}(.*))?$")
+FILES = {"FILE": "-f", "SCENE": "-f", "FLOES": "-f", "STUDY": "-f", "RUN": "-d", "DIR": "-d"}  # how bash completes them
+COMPLETION = """# Completes polynya in bash. Made by python/polynya/guide.py.
+_polynya() {
+  local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}
+  local path="" words="" choices="" value="" rest="" i
+  for ((i = 1; i < COMP_CWORD; i++)); do
+    case "$path ${COMP_WORDS[i]}" in
+    PATHS) path="$path ${COMP_WORDS[i]}" ;;
+    esac
+  done
+  case "$path $before" in
+VALUES  esac
+  case "$path" in
+KNOWN  esac
+  if [[ -z $choices && -z $value ]]; then
+    if [[ $current == -* ]]; then
+      choices=$words
+    else
+      for i in $words; do [[ $i == -* ]] || choices="$choices $i"; done
+      value=$rest
+    fi
+  fi
+  COMPREPLY=()
+  [[ -z $choices ]] || mapfile -t COMPREPLY < <(compgen -W "$choices" -- "$current")
+  if [[ $value == -f || $value == -d ]]; then
+    mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen "$value" -- "$current")
+  fi
+}
+complete -o filenames -F _polynya polynya
+"""
+
+
+class Command:
+    """A command by its help: what stands before the usage and after the lists, and in the lists name and meaning."""
+
+    def __init__(self, program, path=""):
+        words = [program, *path.split(), "--help"]
+        help_of = subprocess.run(words, capture_output=True, text=True, check=not path)
+        text = help_of.stdout if help_of.returncode == 0 else f"polynya {path} --help explains its options.\n"
+        self.path, self.begin, self.rest, self.options, self.commands = path, "", "", [], []
+        entries, is_begin = None, True
+        for line in text.splitlines():
+            entry = ENTRY.match(line) if entries is not None else None
+            if entry:
+                entries.append([entry[1], entry[2] or ""])
+            elif entries and line.startswith("     "):
+                entries[-1][1] = f"{entries[-1][1]} {line.strip()}".strip()
+            elif TITLES.match(line) and line != "Examples:" and not line.startswith("Exit codes"):
+                is_begin = False
+                entries = self.commands if line.startswith("Subcommands") else self.options
+            elif is_begin:
+                self.begin += line + "\n"
+            elif line or self.rest:
+                entries, self.rest = None, self.rest + line + "\n"
+        self.commands = [Command(program, f"{path} {name}".strip()) for name, _ in self.commands]
+
+    def all(self):
+        for command in self.commands:
+            yield command
+            yield from command.all()
+
+    def lists(self):
+        """Of each option and positional its long names, none of a positional, and the words behind them."""
+        for name, _ in self.options:
+            names, _, rest = name.partition(" ")
+            is_option = name.startswith("-")
+            kind = re.split(r"[ :=]", rest if is_option else rest or name)[0]
+            yield [each for each in names.split(",") if each.startswith("--")] if is_option else [], kind
+
+
+def roff(words):
+    words = words.replace("\\", "\\e").replace("-", "\\-")
+    return re.sub(r"^([.'])", r"\\&\1", words, flags=re.M)
+
+
+def man_page(program, version):
+    def section(command):
+        text = f".PP\n.nf\n{roff(command.begin.strip())}\n.fi\n"
+        for name, meaning in command.options:
+            text += f".TP\n.B {roff(name)}\n{roff(meaning)}\n"
+        return text + (f".PP\n{roff(command.rest)}" if command.rest and command is not program else "")
+
+    text = f'.TH POLYNYA 1 "" "polynya {version}" "User Commands"\n'
+    text += ".SH NAME\npolynya \\- simulate an icebreaker in pack ice\n"
+    text += ".SH SYNOPSIS\n.B polynya\n.I command\n[\\fIoption\\fR ...]\n.SH DESCRIPTION\n" + section(program)
+    text += ".SH COMMANDS\n" + "".join(f".SS {roff(each.path)}\n{section(each)}" for each in program.all())
+    return text + f".SH EXIT STATUS\n{roff(program.rest)}"
+
+
+def completion(program):
+    values, known = "", ""
+    for command in [program, *program.all()]:
+        path = f" {command.path}" if command.path else ""
+        words, rest = [each.path.split()[-1] for each in command.commands], "none"
+        for names, kind in command.lists():
+            choices = kind.replace("|", " ") if "|" in kind else ""
+            words += names or choices.split()
+            if not names:
+                rest = FILES.get(kind, "none")
+            elif kind not in ("", "Excludes", "Needs", "REQUIRED"):
+                action = f'choices="{choices}"' if choices else f"value={FILES.get(kind, 'none')}"
+                values += "".join(f'    "{path} {name}") {action} ;;\n' for name in names)
+        known += f'    "{path}") words="{" ".join(words)} "; rest={rest} ;;\n'
+    paths = "|".join(f'" {command.path}"' for command in program.all())
+    return COMPLETION.replace("PATHS", paths).replace("VALUES", values).replace("KNOWN", known)
+
+
+def main():
+    path, *files = sys.argv[1:]
+    path = os.path.abspath(path)
+    version = subprocess.run([path, "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
+    program = Command(path)
+    for file, text in zip(files, (man_page(program, version), completion(program))):
+        with open(file, "w", encoding="utf-8") as out:
+            out.write(text)
+
+
+if __name__ == "__main__":
+    main()
