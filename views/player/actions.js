@@ -2,48 +2,20 @@
 
 /** All actions, each group with the others at hand. */
 function makeActions(player) {
-  const actions = {};
-  const groups = [timeActions, eventActions, mapActions, layerActions, takeAwayActions, floeActions, pageActions];
+  const actions = clockActions(player.state);
+  const groups = [eventActions, mapActions, layerActions, takeAwayActions, floeActions, pageActions];
   return Object.assign(actions, ...groups.map((group) => group(player, actions)));
 }
 
-/** Time, and how fast it goes. */
-function timeActions({ run, state, range }, actions) {
-  const { frames } = run;
-  return {
-    goTo(time) {
-      state.time = Math.min(range[1], Math.max(range[0], time));
-      state.iceDirty = true;
-    },
-    goToEnd: (isEnd) => actions.goTo(isEnd ? range[1] : range[0]),
-    play(isPlaying) {
-      if (isPlaying && state.time >= range[1]) state.time = range[0];
-      state.isPlaying = isPlaying && range[1] > range[0];
-      byId("play").setAttribute("aria-pressed", String(state.isPlaying));
-      byId("play").setAttribute("aria-label", state.isPlaying ? "Pause" : "Play");
-      state.iceDirty = true;
-    },
-    togglePlay: () => actions.play(!state.isPlaying),
-    stepFrames(count) {
-      const at = lastAtMost(frames.times, state.time + 1e-9);
-      const next = count < 0 && state.time - frames.times[at] > 1e-9 ? at + 1 + count : at + count;
-      actions.goTo(frames.times[Math.min(frames.times.length - 1, Math.max(0, next))] ?? 0);
-    },
-    setRate(rate) {
-      state.rate = rate;
-      byId("rate").value = String(rate);
-    },
-    changeRate(step) {
-      const at = rates.indexOf(state.rate) + step;
-      actions.setRate(rates[Math.min(rates.length - 1, Math.max(0, at))]);
-    },
-  };
-}
-
-/** From fracture to fracture. */
+/** From frame to frame, and from event to event. */
 function eventActions({ run, state, view }, actions) {
-  const { events } = run.info;
+  const { frames: { times }, info: { events } } = run;
   return {
+    stepFrames(count) {
+      const at = lastAtMost(times, state.time + 1e-9);
+      const next = count < 0 && state.time - times[at] > 1e-9 ? at + 1 + count : at + count;
+      actions.goTo(times[Math.min(times.length - 1, Math.max(0, next))] ?? 0);
+    },
     goToEvent(index) {
       const event = events[index];
       if (!event) return;
@@ -137,12 +109,13 @@ function takeAwayActions(player) {
   const { state } = player;
   return {
     /** Sizes √area [m] `from` on and `below`; null: all. */
-    chooseSizes(range) {
+    chooseSizes(range = null) {
       state.sizes = range;
       player.sizePanel.showFields();
       player.legend.show();
       state.iceDirty = true;
     },
+    sizesBy: (what) => player.sizePanel.countBy(what),
     copyLink: () => copyLink(player.address()),
     saveMap: () => savePicture(player, mapPicture(player), "map"),
     savePlot: () => player.run.info.ships.length > 0 && savePicture(player, plotPicture(player), "plot"),
@@ -220,9 +193,4 @@ function pageActions(player, actions) {
       player.plotPanel.rebuild();
     },
   };
-}
-
-/** Half a minute for the whole run. */
-function defaultRate(duration) {
-  return rates.find((rate) => duration / rate <= 40) ?? rates[rates.length - 1];
 }

@@ -15,8 +15,8 @@ function waterlineOf(ring) {
   const first = ring.findIndex(([x], k) => x >= most && ring.at(k - 1)[0] < most);
   const points = [...ring.slice(first), ...ring.slice(0, first + 1)];
   const arcs = [0];
-  for (let k = 1; k < points.length; ++k) arcs.push(arcs[k - 1] + Math.hypot(points[k][0] - points[k - 1][0],
-    points[k][1] - points[k - 1][1]));
+  for (let k = 1; k < points.length; ++k)
+    arcs.push(arcs[k - 1] + Math.hypot(points[k][0] - points[k - 1][0], points[k][1] - points[k - 1][1]));
   const length = arcs.at(-1);
   const stem = points[1][0] >= most ? arcs[1] / 2 : 0;
   return {
@@ -65,18 +65,14 @@ function drawLoadLine(context, view, loadLine, motions, time, isMean) {
   loadLine.panelsAt(time).forEach((panels, ship) => {
     const pose = motions.ship(ship);
     if (!pose) return;
-    const [line, side] = [loadLine.lines[ship], loadLine.sides[ship]];
-    const [c, s] = [Math.cos(pose[2]), Math.sin(pose[2])];
+    const [line, side, place] = [loadLine.lines[ship], loadLine.sides[ship], placedBy(pose)];
     panels.forEach(({ largest, sum, count }, k) => {
       if (count === 0) return;
-      const ends = [k - side, k - side + 1].map((n) => Math.max(-line.length / 2,
-        Math.min(line.length / 2, n * loadPanel)));
+      const [from, to] = [k - side, k - side + 1].map((n) =>
+        Math.max(-line.length / 2, Math.min(line.length / 2 - 1e-6, n * loadPanel)));
       context.strokeStyle = loadColour((isMean ? sum / count : largest) / loadLine.most);
-      context.beginPath();
-      for (let n = 0; n <= 4; ++n) {
-        const [x, y] = line.at(ends[0] + ((ends[1] - ends[0]) * n) / 4 - (n === 4 ? 1e-6 : 0));
-        context.lineTo(...view.toScreen(pose[0] + c * x - s * y, pose[1] + s * x + c * y));
-      }
+      traceLine(context, [0, 0.25, 0.5, 0.75, 1].map((share) =>
+        view.toScreen(...place(...line.at(from + share * (to - from))))));
       context.stroke();
     });
   });

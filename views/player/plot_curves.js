@@ -20,31 +20,30 @@ function sizesOf(values) {
   return { usual: sizes[Math.floor(common * (sizes.length - 1))] ?? 0, largest };
 }
 
+/** From the least to the largest of columns, grown from [low, high]. */
+function extentOfColumns(columns, low, high) {
+  for (const values of columns) {
+    for (const value of values) {
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
+  }
+  return [low, high];
+}
+
 /** The part of the axis that columns of loads need, [at most 0, at least 0]: all of it, or without spikes. */
 function loadRange(columns, isFull) {
   const sizes = columns.map(sizesOf);
   const largest = Math.max(0, ...sizes.map((size) => size.largest));
   const reach = beyondCommon * Math.max(0, ...sizes.map((size) => size.usual));
   const limit = isFull || largest <= spike * reach ? largest : reach;
-  let [low, high] = [0, 0];
-  for (const values of columns) {
-    for (const value of values) {
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
-  }
+  const [low, high] = extentOfColumns(columns, 0, 0);
   return [Math.max(low, -limit), Math.min(high, limit)];
 }
 
-/** From the least to the largest of columns that are no loads. */
+/** That of columns that are no loads. */
 function wholeRange(columns) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const values of columns) {
-    for (const value of values) {
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
-  }
+  const [low, high] = extentOfColumns(columns, Infinity, -Infinity);
   return low <= high ? [low, high] : [0, 1];
 }
 
@@ -144,9 +143,8 @@ const isLoad = (curve) => curve.base.startsWith("N");
 /** A value with the unit that suits it. */
 function valueWords(value, base) {
   const unit = /^(N|Pa)/.test(base) ? loadUnit(Math.abs(value), base) : { factor: 1, name: base };
-  const digits = value === 0 ? "0" : Number.isInteger(value) && unit.factor === 1
-    ? String(value) : (value * unit.factor).toPrecision(4);
-  return minus(`${digits} ${unit.name}`.trim());
+  const isCount = value === 0 || (Number.isInteger(value) && unit.factor === 1);
+  return minus(`${isCount ? value : (value * unit.factor).toPrecision(4)} ${unit.name}`.trim());
 }
 
 /** The row of forces.csv whose interval holds the time; null before any. */

@@ -83,12 +83,7 @@ const amountWords = (value, isArea) =>
   (isArea ? `${sixDigits(Number(value.toPrecision(4)))} m\u00b2` : counted(value, "floe"));
 
 function drawHistogram(canvas, { width, height }, { edges }, bars, { chosen, pointed, words }, colours) {
-  const ratio = Math.min(window.devicePixelRatio || 1, 2);
-  if (canvas.width !== Math.round(width * ratio)) canvas.width = Math.round(width * ratio);
-  if (canvas.height !== Math.round(height * ratio)) canvas.height = Math.round(height * ratio);
-  const context = canvas.getContext("2d");
-  context.setTransform(ratio, 0, 0, ratio, 0, 0);
-  context.clearRect(0, 0, width, height);
+  const context = clearedCanvas(canvas, width, height);
   const { left, top } = plotInset;
   const wide = (width - left - plotInset.right) / bars.length;
   const bottom = height - plotInset.bottom;
@@ -123,25 +118,22 @@ function drawHistogram(canvas, { width, height }, { edges }, bars, { chosen, poi
 
 /** Pointers on the histogram: a drag chooses classes, a click one of them; the one under the pointer is read out. */
 function watchHistogram(canvas, { edges }, panel, actions) {
-  let from = null;
-  const classAt = (event) => {
-    const part = (pointIn(canvas, event)[0] - plotInset.left) / (canvas.clientWidth - plotInset.left - plotInset.right);
+  let from = 0;
+  const classAt = ([px]) => {
+    const part = (px - plotInset.left) / (canvas.clientWidth - plotInset.left - plotInset.right);
     return Math.min(edges.length - 2, Math.max(0, Math.floor(part * (edges.length - 1))));
   };
   const choose = (to) => actions.chooseSizes({ from: edges[Math.min(from, to)], below: edges[Math.max(from, to) + 1] });
-  canvas.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
-    canvas.setPointerCapture(event.pointerId);
-    from = classAt(event);
-    choose(from);
+  watchPointers(canvas, {
+    start(event, at) {
+      from = classAt(at);
+      choose(from);
+    },
+    drag: (at) => choose(classAt(at)),
+    hover: (event, at) => panel.point(classAt(at)),
   });
-  canvas.addEventListener("pointermove", (event) => {
-    panel.point(classAt(event));
-    if (from !== null) choose(classAt(event));
-  });
-  for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, () => { from = null; });
   canvas.addEventListener("pointerleave", () => panel.point(-1));
-  canvas.addEventListener("dblclick", () => actions.chooseSizes(null));
+  canvas.addEventListener("dblclick", () => actions.chooseSizes());
 }
 
 /** Fields for the two ends of the range; what is no range changes nothing. */
@@ -150,11 +142,10 @@ function watchSizeFields(state, actions) {
     byId(id).addEventListener("change", () => {
       const read = (field, otherwise) => (byId(field).value === "" ? otherwise : Number(byId(field).value));
       const range = { from: read("size-from", 0), below: read("size-below", Infinity) };
-      if (range.from === 0 && range.below === Infinity) actions.chooseSizes(null);
+      if (range.from === 0 && range.below === Infinity) actions.chooseSizes();
       else actions.chooseSizes(range.from >= 0 && range.below > range.from ? range : state.sizes);
     });
   }
-  byId("size-all").addEventListener("click", () => actions.chooseSizes(null));
 }
 
 function makeSizePanel(player) {
@@ -191,14 +182,11 @@ function makeSizePanel(player) {
     byId("size-from").value = state.sizes ? state.sizes.from : "";
     byId("size-below").value = Number.isFinite(state.sizes?.below) ? state.sizes.below : "";
   };
-  for (const what of ["number", "area"]) {
-    byId(`sizes-by-${what}`).addEventListener("change", () => {
-      panel.isArea = what === "area";
-      panel.show();
-    });
-  }
-  new ResizeObserver(([{ contentRect: { width, height } }]) =>
-    { // to read it of the canvas would lay out the page at each frame
+  panel.countBy = (what) => {
+    panel.isArea = what === "area";
+    panel.show();
+  };
+  new ResizeObserver(([{ contentRect: { width, height } }]) => { // to read it of the canvas lays out the page
     panel.box = { width, height };
     panel.show();
   }).observe(canvas);
