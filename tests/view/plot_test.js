@@ -74,7 +74,7 @@ test("one spike does not flatten the rest: it is marked and counted, and the ful
   assert.equal((await scale("y"))[0], low);
 });
 
-test("under the pointer the key has the row's values, with their units; elsewhere those of the present time", async () => {
+test("under the pointer the key has the values of the row, elsewhere those of the present time", async () => {
   const box = await over();
   const key = () => page.locator("#load-now output").allTextContents();
   const before = await key();

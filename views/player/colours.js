@@ -101,9 +101,8 @@ function makeColourings(run, places, most) {
 function themeColours() {
   const style = getComputedStyle(document.documentElement);
   const rules = [...document.styleSheets].flatMap((sheet) => [...sheet.cssRules]);
-  const names = [...rules.find((rule) => rule.selectorText === ":root" && rule.style.getPropertyValue("--water")).style];
-  return Object.fromEntries(names.filter((name) => name.startsWith("--")).map((name) =>
-    [name.slice(2), style.getPropertyValue(name).trim()]));
+  const names = rules.filter(({ selectorText }) => selectorText === ":root").flatMap((rule) => [...rule.style]);
+  return Object.fromEntries(names.map((name) => [name.slice(2), style.getPropertyValue(name).trim()]));
 }
 
 // The legend below the map: what the colours, marks and arrows mean that are shown now.
@@ -113,22 +112,13 @@ function makeLegend(player) {
   // As wide as its longest words from the start: the legend must not grow and shrink while the run plays.
   const channelWidth = make("output", { id: "channel-width", style: `flex: 0 1 ${23 * run.info.ships.length}ch` });
 
-  function swatchRow(colour, ...words) {
-    const swatch = make("i");
-    swatch.style.background = colour;
-    return make("span", {}, swatch, ...words);
-  }
-  function arrowRow(pixels, words) {
-    const arrow = make("i", { class: "arrow" });
-    arrow.style.width = `${pixels}px`;
-    return make("span", {}, arrow, words);
-  }
+  const row = (attributes, ...words) => make("span", {}, make("i", attributes), ...words);
+  const swatchRow = (colour, ...words) => row({ style: `background: ${colour}` }, ...words);
   /** An arrow of a round length of what is drawn at that many pixels a unit, in `words` of it. */
   function scaleRow(perUnit, words) {
     const length = roundBelow(60 / perUnit);
-    return arrowRow(length * perUnit, words(length));
+    return row({ class: "arrow", style: `width: ${length * perUnit}px` }, words(length));
   }
-
   const loadRows = () => Array.from({ length: loadSteps }, (_, step) => swatchRow(loadColour((step + 0.5) / loadSteps),
     `up to ${loadWords((player.loadLine.most * (step + 1)) / loadSteps, "N", shortNumber)}`));
 
@@ -140,8 +130,7 @@ function makeLegend(player) {
         colouring.isUsed(k));
       if (state.colourBy === "size") rows.reverse();
       if (state.sizes) rows.push(make("span", { class: "pale" }, `pale: not ${sizeRangeWords(state.sizes)}`));
-      if (run.under.went > 0) rows.push(make("span", {}, make("i", { class: "under-hull" }),
-        "ice under the hull or waiting behind it"));
+      if (run.under.went > 0) rows.push(row({ class: "under-hull" }, "ice under the hull or waiting behind it"));
       if (state.layers.startIce) rows.push(swatchRow(colours["start-ice"], "ice at the start"));
       if (state.layers.channel) rows.push(swatchRow(colours.swept, "swept by the hull"),
         swatchRow(colours.channel, "open from ice to ice ", channelWidth));

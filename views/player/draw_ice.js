@@ -81,12 +81,16 @@ const smallReach = 3; // [px]; floes that reach less far have no edge drawn
 function drawFloes(context, view, run, places, ids, look) {
   const { floes } = run;
   const buckets = look.fills.map(() => []);
-  for (const id of ids) if (view.shows(places.x[id], places.y[id], floes.reach[id])) buckets[look.bucketOf(id)].push(id);
-  onMap(context, view, { width: Math.min(1.1, Math.max(0.35, 0.4 * view.scale)) }, () => buckets.forEach((bucket, k) => {
+  for (const id of ids)
+    if (view.shows(places.x[id], places.y[id], floes.reach[id])) buckets[look.bucketOf(id)].push(id);
+  const width = Math.min(1.1, Math.max(0.35, 0.4 * view.scale));
+  onMap(context, view, { width }, () => buckets.forEach((bucket, k) => {
     context.fillStyle = look.fills[k];
     context.strokeStyle = look.edgeOf(k);
-    for (const id of bucket)
-      drawFloe(context, view, run, places, id, "fill", ...(floes.reach[id] * view.scale > smallReach ? ["stroke"] : []));
+    for (const id of bucket) {
+      const edge = floes.reach[id] * view.scale > smallReach ? ["stroke"] : [];
+      drawFloe(context, view, run, places, id, "fill", ...edge);
+    }
   }));
 }
 

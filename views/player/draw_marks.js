@@ -65,8 +65,8 @@ function traceArrow(context, sx, sy, fx, fy, length) {
   context.lineTo(ex - tip * (ux - 0.5 * uy), ey - tip * (uy + 0.5 * ux));
 }
 
-/** Arrows of the forces on ships (of floe on floe: on the first), `perNewton` pixels a newton; those of the frame before
- * go with the ship they press on. Returns the notice to show where there are none. */
+/** Arrows of the forces on ships (of floe on floe: on the first), `perNewton` pixels a newton; those of the frame
+ * before go with the ship they press on. Returns the notice to show where there are none. */
 function drawContactForces(context, view, run, motions, places, time, colours, perNewton) {
   if (run.columns.contact_t_s.length === 0) return "This run recorded no contacts.";
   const contacts = contactsOfFrame(run, motions.frame);

@@ -16,9 +16,9 @@ function wheelTurn({ deltaY, deltaMode, ctrlKey }) {
 }
 
 /**
- * Pointers that are pressed on an element, each where it is [px]: `start(event, at, count)` where one is added, `drag(at,
- * before)` where a single one moves, `pinch(after, before)` where one of two does, `end(event, at)` when the last is
- * lifted, or taken away (pointercancel). `hover(event, at)` is of every move, pressed or not.
+ * Pointers that are pressed on an element, each where it is [px]: `start(event, at, count)` where one is added,
+ * `drag(at, before)` where a single one moves, `pinch(after, before)` where one of two does, `end(event, at)` when the
+ * last is lifted, or taken away (pointercancel). `hover(event, at)` is of every move, pressed or not.
  */
 function watchPointers(element, { start, drag, pinch, hover, end }) {
   const pressed = new Map(); // pointer id → [x, y]

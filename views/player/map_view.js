@@ -60,7 +60,8 @@ function extentOf(run, motions, places, range) {
     for (const i of places.living.subarray(0, places.count)) {
       const place = placedBy([places.x[i], places.y[i], Math.atan2(places.sin[i], places.cos[i])]);
       const points = floes.shape(i);
-      for (let k = 0; k < points.length; k += 2) include(...place(points[k] - floes.cx[i], points[k + 1] - floes.cy[i]));
+      for (let k = 0; k < points.length; k += 2)
+        include(...place(points[k] - floes.cx[i], points[k + 1] - floes.cy[i]));
     }
   }
   info.ships.forEach((ship, index) => {

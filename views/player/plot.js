@@ -199,8 +199,9 @@ function watchPlot(plot, range, { onTime, onPoint }) {
 
 const shortestSpan = 20; // rows of forces.csv; the plot zooms no closer
 
-/** `on.onTime` is called with the requested time, `onPoint` with where the pointer is [px] (null: elsewhere), `onPlaced`
- * with the left end and the width of the axis of times [px], `onSpan` with the part of the run that is in view [s]. */
+/** `on.onTime` is called with the requested time, `onPoint` with where the pointer is [px] (null: elsewhere),
+ * `onPlaced` with the left end and the width of the axis of times [px], `onSpan` with the part of the run that is in
+ * view [s]. */
 class Plot {
   constructor(run, host, range, on) {
     Object.assign(this, { run, host, range, on });
@@ -215,7 +216,8 @@ class Plot {
     this.colours = {};
     this.now = make("div", { class: "now-line" });
     this.offScale = make("div", { class: "off-scale", id: "off-scale" });
-    this.pointed = make("div", { class: "reading", id: "reading", hidden: "" }, make("div", { class: "reading-words" }));
+    const words = make("div", { class: "reading-words" });
+    this.pointed = make("div", { class: "reading", id: "reading", hidden: "" }, words);
     this.timeAt = (px) => {
       const share = Math.min(1, Math.max(0, px / this.chart.over.clientWidth));
       return this.span[0] + share * (this.span[1] - this.span[0]);

@@ -3,9 +3,9 @@
 const mostKeptPoints = 4e6; // of assembled shapes, 64 MB
 
 /**
- * Gives a floe's points [x, y, ...] in its body frame [m], ring after ring; a ring ends before the point ring_ends[ring].
- * The page holds whole shapes, and of the others what floes.ndjson does (docs/run-folder.md): stretches of the parent's
- * rings and new points. These are assembled on demand and kept.
+ * Gives a floe's points [x, y, ...] in its body frame [m], ring after ring; a ring ends before the point
+ * ring_ends[ring]. The page holds whole shapes, and of the others what floes.ndjson does (docs/run-folder.md):
+ * stretches of the parent's rings and new points. These are assembled on demand and kept.
  */
 function makeShapes({ parent, rings_of: ringsOf, ring_ends: ringEnds, points_m: points, ...parts }) {
   const { part_floe: floeOf, part_ring: ringOf, part_first: firstOf, part_count: countOf } = parts;
@@ -88,30 +88,19 @@ function readRun() {
   return { info, columns, floes, frames, forces: readForces(info, columns) };
 }
 
+/** The columns of floes by their names without units, as died_s is `died` and went_under_s `wentUnder`: `reach` is of
+ * the farthest vertex from the centroid, `cameUp` from under a hull, or what such a floe broke into. */
 function readFloes(columns) {
+  const capital = (_, letter) => letter.toUpperCase();
+  const nameOf = (column) => column.replace(/_(s|m|m2|kg|Pa)$/, "").replace(/_(.)/g, capital);
+  const floes = Object.fromEntries([...floeRows, "rings_of", "ring_ends"].map((name) => [nameOf(name), columns[name]]));
   const count = columns.parent.length;
-  const floes = {
-    count,
-    parent: columns.parent,
-    generation: columns.generation,
-    born: columns.born_s,
-    died: columns.died_s,
-    wentUnder: columns.went_under_s,
-    floatsUntil: Float64Array.from(columns.died_s, (died, i) => Math.min(died, columns.went_under_s[i])),
-    cameUp: columns.came_up, // from under a hull, or what came up broke into it
-    area: columns.area_m2,
-    mass: columns.mass_kg,
-    thickness: columns.thickness_m,
-    flexuralStrength: columns.flexural_strength_Pa,
-    cx: columns.centroid_x_m,
-    cy: columns.centroid_y_m,
-    ringsOf: columns.rings_of,
-    ringEnds: columns.ring_ends,
-    shape: makeShapes(columns),
-    reach: columns.reach_m, // farthest vertex from the centroid [m]
+  Object.assign(floes, {
+    count, cx: floes.centroidX, cy: floes.centroidY, shape: makeShapes(columns),
+    floatsUntil: floes.died.map((died, i) => Math.min(died, floes.wentUnder[i])),
     oldest: new Int32Array(count), // the floe of the scene it comes from
     children: new Map(),
-  };
+  });
   for (let i = 0; i < count; ++i) {
     const parent = floes.parent[i];
     floes.oldest[i] = parent >= 0 ? floes.oldest[parent] : i;
@@ -153,12 +142,13 @@ function readFrames(bytes, floeCount, shipCount) {
   return { times: Float64Array.from(times), shipAt, shipCount, doubles, recordsOf, recordFrame, recordAt };
 }
 
-/** The rows of forces.csv, by ship: the columns that the page names. */
+/** The rows of forces.csv, by ship: the columns that the page names, and those of causes. */
 function readForces(info, columns) {
-  const names = ["force_t_s", ...info.force_columns.map(({ name }) => name)];
+  const named = [...info.force_columns.map(({ name }) => name), ...info.force_causes.map(({ column }) => column)];
   return info.ships.map((_, ship) => {
     const rows = [];
     columns.force_ship.forEach((s, row) => { if (s === ship) rows.push(row); });
-    return Object.fromEntries(names.map((name) => [name, Float64Array.from(rows, (row) => columns[name][row])]));
+    const valuesOf = (name) => Float64Array.from(rows, (row) => columns[name][row]);
+    return Object.fromEntries(["force_t_s", ...named].map((name) => [name, valuesOf(name)]));
   });
 }
