@@ -3,8 +3,13 @@
 /** All actions, each group with the others at hand. */
 function makeActions(player) {
   const actions = clockActions(player.state);
-  const groups = [eventActions, mapActions, layerActions, takeAwayActions, floeActions, pageActions];
-  return Object.assign(actions, ...groups.map((group) => group(player, actions)));
+  const redrawn = Object.entries({ ...mapActions(player, actions), ...layerActions(player) }).map(([name, act]) =>
+    [name, (...words) => {
+      act(...words);
+      player.state.iceDirty = true;
+    }]);
+  const groups = [eventActions, takeAwayActions, floeActions, pageActions].map((group) => group(player, actions));
+  return Object.assign(actions, Object.fromEntries(redrawn), ...groups);
 }
 
 /** From frame to frame, and from event to event. */
@@ -48,39 +53,32 @@ function eventActions({ run, state, view }, actions) {
 
 /** The part of the map in view. */
 function mapActions(player, actions) {
-  const { state, view } = player;
-  const { ships } = player.run.info;
+  const { state, view, run: { info: { ships } } } = player;
   return {
     pan(dx, dy) {
       view.panBy(dx, dy);
       if (state.follow >= 0) actions.setFollow(-1);
       state.isFitted = false;
-      state.iceDirty = true;
     },
     zoom(px, py, factor) {
       view.zoomAt(px, py, factor);
       state.isFitted = false;
-      state.iceDirty = true;
     },
     zoomCentre: (factor) => actions.zoom(view.width / 2, view.height / 2, factor),
     fit() {
       actions.setFollow(-1);
       view.fit(player.box);
       state.isFitted = true;
-      state.iceDirty = true;
     },
     follow: () => actions.setFollow(state.follow + 1 < ships.length ? state.follow + 1 : -1),
     setFollow(ship) {
       if (ship >= ships.length) return;
       state.follow = ship;
       byId("follow").setAttribute("aria-pressed", String(ship >= 0));
-      if (ship >= 0 && state.isFitted) {
-        const hull = ships[ship].waterline_m.map(([x]) => x);
-        const length = Math.max(...hull) - Math.min(...hull);
-        view.scale = Math.max(view.scale, Math.min(view.width, view.height) / (2.2 * length));
-        state.isFitted = false;
-      }
-      state.iceDirty = true;
+      if (ship < 0 || !state.isFitted) return;
+      const { length } = hullBox(ships[ship].waterline_m);
+      view.scale = Math.max(view.scale, Math.min(view.width, view.height) / (2.2 * length));
+      state.isFitted = false;
     },
   };
 }
@@ -93,34 +91,27 @@ function layerActions(player) {
       state.colourBy = what;
       byId(`by-${what}`).checked = true;
       player.legend.show();
-      state.iceDirty = true;
     },
     toggleLayer(name, isOn = !state.layers[name]) {
       state.layers[name] = isOn;
       byId(`layer-${name}`).checked = isOn;
       player.legend.show();
-      state.iceDirty = true;
     },
-  };
-}
-
-/** What is taken out of the page: a link, pictures. And the sizes that the map shows. */
-function takeAwayActions(player) {
-  const { state } = player;
-  return {
     /** Sizes √area [m] `from` on and `below`; null: all. */
     chooseSizes(range = null) {
       state.sizes = range;
       player.sizePanel.showFields();
       player.legend.show();
-      state.iceDirty = true;
     },
-    sizesBy: (what) => player.sizePanel.countBy(what),
-    copyLink: () => copyLink(player.address()),
-    saveMap: () => savePicture(player, mapPicture(player), "map"),
-    savePlot: () => player.run.info.ships.length > 0 && savePicture(player, plotPicture(player), "plot"),
   };
 }
+
+/** What is taken out of the page: a link, pictures. */
+const takeAwayActions = (player) => ({
+  copyLink: () => copyLink(player.address()),
+  saveMap: () => savePicture(player, mapPicture(player), "map"),
+  savePlot: () => player.run.info.ships.length > 0 && savePicture(player, plotPicture(player), "plot"),
+});
 
 /** The floe that is chosen, and the one pointed at. */
 function floeActions(player, actions) {
@@ -180,6 +171,7 @@ function pageActions(player, actions) {
       if (help.open) help.close();
       else help.showModal();
     },
+    sizesBy: (what) => player.sizePanel.countBy(what),
     toggleFullScale() {
       plot.setFull(!plot.isFull);
       player.plotPanel.showTools();

@@ -245,26 +245,31 @@ function drawHeading(context, { bow, middle, length }, pixel, colours) {
   strokeTwice(context, colours["hull-edge"], colours.hull, 2 * pixel, 2.5 * pixel);
 }
 
-function drawShip(context, view, ship, [x, y, heading], colours) {
-  const box = hullBox(ship.waterline_m);
-  const pixel = 1 / view.scale;
+/** Draws in a ship's frame [m]; `draw` gets how long a pixel is there. */
+function inShipFrame(context, view, [x, y, heading], draw) {
   context.save();
   context.translate(...view.toScreen(x, y));
   context.rotate(-heading);
   context.scale(view.scale, -view.scale);
-  context.lineJoin = context.lineCap = "round";
-  traceLine(context, ship.waterline_m);
-  context.closePath();
-  context.fillStyle = colours.hull;
-  context.fill();
-  context.strokeStyle = colours["hull-edge"];
-  context.lineWidth = 1.5 * pixel;
-  context.stroke();
-  if (!ship.is_fixed) {
+  draw(1 / view.scale);
+  context.restore();
+}
+
+function drawShip(context, view, ship, pose, colours) {
+  const box = hullBox(ship.waterline_m);
+  inShipFrame(context, view, pose, (pixel) => {
+    context.lineJoin = context.lineCap = "round";
+    traceLine(context, ship.waterline_m);
+    context.closePath();
+    context.fillStyle = colours.hull;
+    context.fill();
+    context.strokeStyle = colours["hull-edge"];
+    context.lineWidth = 1.5 * pixel;
+    context.stroke();
+    if (ship.is_fixed) return;
     if (box.beam > deckBeam * pixel) drawDeck(context, ship.waterline_m, box, pixel, colours);
     drawHeading(context, box, pixel, colours);
-  }
-  context.restore();
+  });
 }
 
 /** Strokes a path through points of the world in dashes [px]. */

@@ -157,11 +157,8 @@ function meansOf(values, first, end, size) {
   return means;
 }
 
-/**
- * What is in view, as columns: of each shown cause its mean, how high and how low they stand together, their sum, and
- * the times between
- * which each column stands [s].
- */
+/** What is in view, as columns: of each shown cause its mean, how high and how low they stand together, their sum, and
+ * the times between which each column stands [s]. */
 function stackOf(plot) {
   const { ship } = plot.shownQuantity();
   const rows = plot.run.forces[ship];
@@ -182,52 +179,29 @@ function stackOf(plot) {
   return { areas, line: line ? meansOf(rows[line.column], first, end, size) : null, high, low, starts, ends, size };
 }
 
-/** Steps from left to right along values, into the path. */
-function traceSteps({ starts, ends }, values, xOf, yOf, context) {
-  values.forEach((value, k) => {
-    context.lineTo(xOf(starts[k]), yOf(value));
-    context.lineTo(xOf(ends[k]), yOf(value));
-  });
-}
-
-/** The same back from right to left. */
-function traceStepsBack({ starts, ends }, values, xOf, yOf, context) {
-  for (let k = values.length - 1; k >= 0; --k) {
-    context.lineTo(xOf(ends[k]), yOf(values[k]));
-    context.lineTo(xOf(starts[k]), yOf(values[k]));
-  }
-}
-
 /** Draws the areas and the line of the sum into a chart. */
 function drawStack(plot, chart) {
-  const stack = stackOf(plot);
+  const { areas, line, starts, ends } = stackOf(plot);
   const { ctx, bbox } = chart;
-  const xOf = (time) => chart.valToPos(time, "x", true);
-  const yOf = (value) => chart.valToPos(value, "y", true);
+  const xOf = (time) => Math.round(chart.valToPos(time, "x", true));
+  const yOf = (value) => Math.round(chart.valToPos(value, "y", true));
   ctx.save();
   ctx.beginPath();
   ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
   ctx.clip();
-  const tops = { up: new Float64Array(stack.high.length), down: new Float64Array(stack.high.length) };
-  for (const { curve, means } of stack.areas) {
+  const [below, above] = [new Float64Array(starts.length), new Float64Array(starts.length)];
+  for (const { curve, means } of areas) {
     ctx.fillStyle = plot.colours[`cause-${curve.kind}`];
-    for (const [side, sign] of [["up", 1], ["down", -1]]) {
-      const next = tops[side].map((top, k) => (means[k] * sign > 0 ? top + means[k] : top));
-      ctx.beginPath();
-      traceSteps(stack, next, xOf, yOf, ctx);
-      traceStepsBack(stack, tops[side], xOf, yOf, ctx);
-      ctx.fill();
-      tops[side] = next;
-    }
+    means.forEach((mean, k) => {
+      const tops = mean > 0 ? above : below;
+      const [left, from] = [xOf(starts[k]), yOf(tops[k])];
+      tops[k] += mean;
+      ctx.fillRect(left, from, xOf(ends[k]) - left, yOf(tops[k]) - from);
+    });
   }
-  if (stack.line) {
-    ctx.beginPath();
-    traceSteps(stack, stack.line, xOf, yOf, ctx);
-    for (const [width, colour] of [[3.5, plot.colours.panel], [1.5, plot.colours.ink]]) {
-      ctx.lineWidth = width * devicePixelRatio;
-      ctx.strokeStyle = colour;
-      ctx.stroke();
-    }
+  if (line) {
+    traceLine(ctx, [...line].flatMap((value, k) => [starts[k], ends[k]].map((time) => [xOf(time), yOf(value)])));
+    strokeTwice(ctx, plot.colours.panel, plot.colours.ink, 1.5 * devicePixelRatio, 2 * devicePixelRatio);
   }
   ctx.restore();
 }
