@@ -85,8 +85,7 @@ test("the channel is that of `polynya channel`, carried with drifting and sheari
     for (const time of [instants[Math.floor(instants.length / 4)], instants[Math.floor(instants.length / 2)], 120]) {
       const wanted = rowsOf(polynya("channel", run, "--at", String(time), "--out", folder, "--format", "csv"))
         .filter((row) => row.has_port_ice === "1" && row.has_starboard_ice === "1");
-      await page.evaluate((at) => window.polynyaPlayer.actions.goTo(at), time);
-      await page.waitForTimeout(100);
+      await page.act("goTo", time);
       const measured = await page.evaluate(() => window.polynyaPlayer.stations(0));
       assert.equal(measured.length, wanted.length);
       bounded += wanted.length;
@@ -99,16 +98,8 @@ test("the channel is that of `polynya channel`, carried with drifting and sheari
         f.properties.part === "swept band");
       const [x, y] = swept.geometry.coordinates[0][0].reduce(([sx, sy], [px, py], k, all) =>
         [sx + px / all.length, sy + py / all.length], [0, 0]);
-      const colours = await page.evaluate(([px, py]) => {
-        const { view } = window.polynyaPlayer;
-        const context = document.getElementById("ice").getContext("2d");
-        const at = (wx, wy) => {
-          const [sx, sy] = view.toScreen(wx, wy);
-          return [...context.getImageData(sx * view.ratio, sy * view.ratio, 1, 1).data].join();
-        };
-        return [at(px, py), at(px, py + 1e4)];
-      }, [x, y]);
-      assert.notEqual(colours[0], colours[1], "the band's middle is not plain water");
+      const [band, water] = await page.colours("ice", [[x, y], [-100, 0]]);
+      assert.notEqual(band, water, "the band's middle is not plain water");
     }
     assert.match(await page.locator("#channel-width").textContent(), /m wide, .* beams/);
   });
@@ -119,14 +110,10 @@ test("the channel is that of `polynya channel`, carried with drifting and sheari
 test("there is no channel ahead of the ship", async () => {
   const file = makePage(makeRun(folder, smallScene("ahead", { floes: [], ships: [ship("a", 0)] })));
   await withPage(file, {}, async (page) => {
-    const colourAt = (time, x) => page.evaluate(async ([at, px]) => {
-      const { view, actions } = window.polynyaPlayer;
-      actions.goTo(at);
-      await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
-      const [sx, sy] = view.toScreen(px, 0);
-      return [...document.getElementById("ice").getContext("2d").getImageData(sx * view.ratio, sy * view.ratio, 1,
-        1).data].join();
-    }, [time, x]);
+    const colourAt = async (time, x) => {
+      await page.act("goTo", time);
+      return (await page.colours("ice", [[x, 0]]))[0];
+    };
     // The stem is 20 m before the centre, which goes from -20 m to 0 in 10 s.
     assert.equal(await colourAt(0, 10), await colourAt(5, 15), "still ahead of it both times");
     assert.notEqual(await colourAt(5, 15), await colourAt(10, -10), "behind it");
@@ -147,8 +134,7 @@ test("ice under the hull is drawn through it, counted, and known by a click; wha
   const stays = (floe, time) => !(ended.get(floe) <= time);
   await withPage(makePage(run, "--every", "2"), {}, async (page) => {
     for (const time of [10, 30, 60]) {
-      await page.evaluate((at) => window.polynyaPlayer.actions.goTo(at), time);
-      await page.waitForTimeout(100);
+      await page.act("goTo", time);
       const under = [...went.values()].filter(({ t_s: at, floe }) => at <= time && stays(floe, time)).map(({ floe }) =>
         floe).sort((a, b) => a - b);
       assert.deepEqual(await page.evaluate(() => [...window.polynyaPlayer.places.under].sort((a, b) => a - b)), under);
@@ -159,9 +145,8 @@ test("ice under the hull is drawn through it, counted, and known by a click; wha
       assert.equal(await living(page), there.length - under.length, "what floats");
     }
     const time = 20;
-    await page.evaluate((at) => window.polynyaPlayer.actions.goTo(at), time);
-    await page.evaluate(() => window.polynyaPlayer.actions.setFollow(0));
-    await page.waitForTimeout(100);
+    await page.act("goTo", time);
+    await page.act("setFollow", 0);
     // One that comes up, and that is on top where its centre is.
     const came = [...up.values()].filter(({ floe, children, t_s: at }) => children.length > 0
       && went.get(floe).t_s < time && time < at);
@@ -171,17 +156,15 @@ test("ice under the hull is drawn through it, counted, and known by a click; wha
       return state.hovered === floe;
     }), came.map(({ floe }) => floe));
     const clicked = up.get(onTop);
-    const colourAt = (id) => page.evaluate((floe) => {
-      const { view, places } = window.polynyaPlayer;
-      const [px, py] = view.toScreen(places.x[floe], places.y[floe]);
-      return [...document.getElementById("marks").getContext("2d").getImageData(px * view.ratio, py * view.ratio, 1,
-        1).data].join();
-    }, id);
+    const placeOf = (floe) => page.evaluate((id) => {
+      const { x, y } = window.polynyaPlayer.places;
+      return [x[id], y[id]];
+    }, floe);
+    const colourAt = async (floe) => (await page.colours("marks", [await placeOf(floe)]))[0];
     const drawn = await colourAt(clicked.floe);
     const box = await page.locator("#stage").boundingBox();
-    const [x, y] = await page.evaluate((floe) =>
-      { const { view, places } = window.polynyaPlayer; return view.toScreen(places.x[floe], places.y[floe]); },
-        clicked.floe);
+    const place = await placeOf(clicked.floe);
+    const [x, y] = await page.evaluate((at) => window.polynyaPlayer.view.toScreen(...at), place);
     await page.mouse.click(box.x + x, box.y + y);
     await page.waitForFunction((floe) => window.polynyaPlayer.state.selected === floe, clicked.floe);
     await page.waitForFunction(() => !document.querySelector("#floe-card").textContent.startsWith("Point at"));
@@ -189,8 +172,7 @@ test("ice under the hull is drawn through it, counted, and known by a click; wha
     assert.match(card, /under the hullsince [\d.]+ s/);
     assert.ok(card.includes(`as floe ${clicked.children[0]}`), card);
     assert.match(await page.locator("#legend").textContent(), /ice under the hull.*/);
-    await page.evaluate((at) => window.polynyaPlayer.actions.goTo(at), clicked.t_s + 1e-6);
-    await page.waitForTimeout(100);
+    await page.act("goTo", clicked.t_s + 1e-6);
     assert.equal(await page.evaluate((child) => window.polynyaPlayer.colourings.breakage.value(child),
       clicked.children[0]), 4);
     assert.notEqual(await colourAt(clicked.floe), drawn);

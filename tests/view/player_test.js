@@ -1,7 +1,6 @@
 // The player in a real browser. Started by tests/view/run; POLYNYA_BINARY names the program under test.
 "use strict";
-const bench = require("./bench.js");
-const { test, before, assert, fs, path, folder, open } = bench;
+const { test, before, assert, fs, path, folder, open } = require("./bench.js");
 const { makeRun, makePage, readLines, readNdjson, inspectAt, polynya } = require("./runs.js");
 
 let run, file, page;
@@ -14,12 +13,8 @@ before(async () => {
 
 const text = (id) => page.locator(`#${id}`).textContent();
 const timeShown = async () => parseFloat(await text("now"));
-/** Waits until the request is drawn. */
-const drawn = () => bench.drawn(page);
-const act = async (name, ...words) => {
-  await page.evaluate(([action, list]) => window.polynyaPlayer.actions[action](...list), [name, words]);
-  await drawn();
-};
+const act = (...words) => page.act(...words);
+const drawn = () => page.drawn();
 const picture = () => page.locator("#stage").screenshot();
 const stageBox = () => page.locator("#stage").boundingBox();
 

@@ -87,8 +87,7 @@ test("each cause has its area, one on the other from 0, above it or below it", a
 });
 
 test("the key has the causes of this ship, with their present values, and the sum", async () => {
-  await page.evaluate(() => window.polynyaPlayer.actions.goTo(4.75));
-  await page.waitForTimeout(100);
+  await page.act("goTo", 4.75);
   const row = rows[47];
   const key = await page.locator("#load-now .curve").evaluateAll((all) =>
     all.map((e) => [e.textContent.replace(/[\u2212\d.]+ \w*N$/, "").trim(),

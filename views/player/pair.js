@@ -24,14 +24,8 @@ function pageOfRun(template, { labels, axis_s }, k) {
     return text;
   };
   const options = JSON.stringify({ axis_s, label: labels[k] }).replaceAll("<", "\\u003c");
-  let [page, rest] = ["", template];
-  for (const [mark, text] of [["{{title}}", ""], ["{{options}}", options], ["{{info}}", take(`info-${k}`)],
-    ["{{columns}}", take(`columns-${k}`)]]) {
-    const at = rest.indexOf(mark);
-    page += rest.slice(0, at) + text;
-    rest = rest.slice(at + mark.length);
-  }
-  return page + rest;
+  const parts = { title: "", options, info: take(`info-${k}`), columns: take(`columns-${k}`) };
+  return template.replace(/\{\{(title|options|info|columns)\}\}/g, (_, name) => parts[name]);
 }
 
 /** Puts the two players into the page; gives them when both have started. */
