@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "io/import/floe_import.hpp"
+#include "io/import/import_report.hpp"
 #include "io/scene/floe_list_reader.hpp"
 #include "io/scene/scene_check.hpp"
 #include "io/scene/ship_completion.hpp"

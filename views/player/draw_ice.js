@@ -75,7 +75,7 @@ function onMap(context, view, { width = 1, dash = [] }, draw) {
 /** The class of a value among growing edges. */
 const classOf = (value, edges) => lastAtMost(edges, value) + 1;
 
-const smallReach = 3; // [px]; floes that reach less far have no edge drawn
+const smallReach = 5; // [px]; floes that reach less far have no edge drawn
 
 /** Draws the floes of these ids that show on the screen. `look` has their colours. */
 function drawFloes(context, view, run, places, ids, look) {
