@@ -99,14 +99,12 @@ function stackedQuantities({ info: { force_causes: causes, ships }, forces }) {
  * not 0. */
 function plotQuantities({ info, forces }) {
   const labels = { mean: `${info.forces_interval_s} s mean`, max: "step maximum", paper: "j/\u03c4c (paper)" };
-  const plots = new Map();
-  for (const column of info.force_columns) plots.set(column.plot, [...(plots.get(column.plot) ?? []), column]);
-  const isShown = ({ name, is_optional }) => !is_optional || forces.some((rows) =>
-    rows[name].some((value) => value !== 0));
-  const isOptional = ([, columns]) => Number(columns[0].is_optional);
-  return Object.fromEntries([...plots].filter(([, columns]) => columns.some(isShown)).sort((a, b) =>
-    isOptional(a) - isOptional(b))
-    .map(([label, columns]) => [columns[0].name, { label, curves: columns.map(({ name, unit, curve }) =>
+  const isShown = ({ name, is_optional }) => !is_optional || forces.some((rows) => rows[name].some(Boolean));
+  const plots = new Map([false, true].flatMap((is_optional) =>
+    info.force_columns.filter((column) => column.is_optional === is_optional).map(({ plot }) => [plot, []])));
+  for (const column of info.force_columns) plots.get(column.plot).push(column);
+  return Object.fromEntries([...plots].filter(([, columns]) => columns.some(isShown)).map(([label, columns]) =>
+    [columns[0].name, { label, curves: columns.map(({ name, unit, curve }) =>
       ({ kind: curve, label: columns.length > 1 ? labels[curve] : "", column: name, base: unit,
         scale: curve === "paper" ? "paper" : "y" })) }]));
 }
@@ -145,38 +143,29 @@ function rowsInColumn(plot) {
   return Math.max(1, Math.ceil((columnWidth * (end - first)) / Math.max(1, plot.host.clientWidth)));
 }
 
-/** Means of a column's rows, `size` of them each; groups begin at multiples of it, so that they stay when the plot
- * moves. */
-function meansOf(values, first, end, size) {
-  const means = new Float64Array(Math.ceil(end / size) - Math.floor(first / size));
-  for (let k = 0; k < means.length; ++k) {
-    const from = (Math.floor(first / size) + k) * size;
-    const to = Math.min(values.length, from + size);
-    for (let row = from; row < to; ++row) means[k] += values[row] / (to - from);
-  }
-  return means;
-}
+const meanOf = (values) => values.reduce((sum, value) => sum + value / values.length, 0);
 
-/** What is in view, as columns: of each shown cause its mean, how high and how low they stand together, their sum, and
- * the times between which each column stands [s]. */
+/** What is in view, as columns of rows: of each shown cause its mean, how high and how low they stand together, their
+ * sum, and the times between which each column stands [s]. Columns begin at multiples of their rows, so that they stay
+ * when the plot moves. */
 function stackOf(plot) {
   const { ship } = plot.shownQuantity();
   const rows = plot.run.forces[ship];
+  const times = rows.force_t_s;
   const [first, end] = plot.rowsInView(ship);
   const size = rowsInColumn(plot);
+  const columns = [];
+  for (let from = first - (first % size); from < end; from += size)
+    columns.push([from, Math.min(times.length, from + size)]);
+  const meansOf = ({ column }) => Float64Array.from(columns, (part) => meanOf(rows[column].subarray(...part)));
   const shown = plot.shownCurves();
-  const areas = shown.filter(({ kind }) => kind !== "sum").map((curve) =>
-    ({ curve, means: meansOf(rows[curve.column], first, end, size) }));
+  const areas = shown.filter(({ kind }) => kind !== "sum").map((curve) => ({ curve, means: meansOf(curve) }));
   const line = shown.find(({ kind }) => kind === "sum");
-  const count = Math.max(0, Math.ceil(end / size) - Math.floor(first / size));
-  const [high, low] = [new Float64Array(count), new Float64Array(count)];
-  for (const { means } of areas) means.forEach((mean, k) => { (mean > 0 ? high : low)[k] += mean; });
-  const times = rows.force_t_s;
+  const sumOf = (sign) => Float64Array.from(columns, (_, k) =>
+    areas.reduce((sum, { means }) => sum + Math.max(0, sign * means[k]), 0) * sign);
   const startOf = (row) => (row > 0 ? times[row - 1] : 2 * times[0] - (times[1] ?? 2 * times[0]));
-  const starts = Float64Array.from(high, (_, k) => startOf((Math.floor(first / size) + k) * size));
-  const ends = Float64Array.from(high, (_, k) =>
-    times[Math.min(times.length, (Math.floor(first / size) + k + 1) * size) - 1]);
-  return { areas, line: line ? meansOf(rows[line.column], first, end, size) : null, high, low, starts, ends, size };
+  return { areas, line: line ? meansOf(line) : null, high: sumOf(1), low: sumOf(-1),
+    starts: columns.map(([from]) => startOf(from)), ends: columns.map(([, to]) => times[to - 1]) };
 }
 
 /** Draws the areas and the line of the sum into a chart. */
