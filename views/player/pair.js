@@ -72,9 +72,7 @@ const common = {
   colours: { of: ({ state }) => state.colourBy, give: ({ actions }, by) => actions.colourBy(by) },
   layers: { of: ({ state }) => state.layers, give: ({ actions }, layers) =>
     Object.entries(layers).forEach((layer) => actions.toggleLayer(...layer)) },
-  sizes: { of: ({ state }) => state.sizes && [state.sizes.from, Number.isFinite(state.sizes.below)
-    ? state.sizes.below : null],
-    give: ({ actions }, sizes) => actions.chooseSizes(sizes && { from: sizes[0], below: sizes[1] ?? Infinity }) },
+  sizes: { of: ({ state }) => state.sizes, give: ({ actions }, sizes) => actions.chooseSizes(sizes) },
   follow: { of: ({ state }) => state.follow, give: ({ actions }, ship) => actions.setFollow(ship) },
   plot: {
     of: ({ plot }) => ({ quantity: plot.quantity, hidden: [...plot.hidden], isFull: plot.isFull, span: plot.span }),
@@ -95,25 +93,21 @@ function makeCommon(players) {
   const known = {};
   const wordsOf = ({ of }) => players.map((player) => JSON.stringify(of(player)));
   const show = () => players.forEach(({ plot }) => plot.show(...plot.span)); // each has the other's scale
-  for (const [name, thing] of Object.entries(common)) {
-    thing.give(players[1], thing.of(players[0]));
+  const give = (name, from) => {
+    const thing = common[name];
+    if (thing.isOn?.() ?? true) thing.give(players[1 - from], thing.of(players[from]));
     known[name] = wordsOf(thing);
-  }
+  };
+  for (const name of Object.keys(common)) give(name, 0);
   return {
     show,
-    /** Whether something changed. */
     share() {
-      let hasChanged = false;
       for (const [name, thing] of Object.entries(common)) {
-        const words = wordsOf(thing);
-        const changed = words.findIndex((word, k) => word !== known[name][k]);
+        const changed = wordsOf(thing).findIndex((words, k) => words !== known[name][k]);
         if (changed < 0) continue;
-        hasChanged = true;
-        if (thing.isOn?.() ?? true) thing.give(players[1 - changed], JSON.parse(words[changed]));
+        give(name, changed);
         if (name === "plot") show();
-        known[name] = wordsOf(thing);
       }
-      return hasChanged;
     },
   };
 }

@@ -1,5 +1,5 @@
 // A scene before it runs: routes, wind and current, what validate warns of, places to copy. Of the page's options,
-// `plan` (views/player/scene_plan.cpp).
+// `plan` (views/player/player_page.cpp).
 
 const currentCell = 110; // [px], of the grid of arrows
 const longestArrow = 40; // [px], of the fastest current on the screen
