@@ -113,30 +113,38 @@ function startPlaces(run, motions, time) {
   return start;
 }
 
-// Ice at rest, drawn once and kept as a picture. Most floes of a large field do not move for a while: then only
-// the others are drawn again. The picture serves as long as the view stays and none of its floes has to move.
+// Ice that hardly moves, drawn once and kept as a picture. Most floes of a large field stay where they are for a while:
+// then only the others are drawn again. The picture serves as long as the view stays and none of its floes has to move.
+
+const mostLoose = 1000; // floes outside the picture; with more of them it serves for a shorter time
 
 function makeStillIce(run, places, motions) {
-  const { floes } = run;
+  const { floes, frames: { times } } = run;
   const canvas = make("canvas");
   const kept = { look: "", from: 0, until: -1, loose: [] };
 
-  /** Whether a floe stays where it is for a time, to a quarter of a pixel. */
-  function stays(id, view, duration, endFrame) {
-    if (!motions.isSteady(id, endFrame)) return false;
-    const speed = Math.hypot(places.vx[id], places.vy[id]) + Math.abs(places.spin[id]) * floes.reach[id];
-    return speed * duration * view.scale < 0.25;
+  /** Parts the floes into those that stay where they are until a time, to a quarter of a pixel, and the others. */
+  function part(view, time, until) {
+    const endFrame = lastAtMost(times, until) + 1;
+    const isInOneFrame = until <= times[motions.frame + 1]; // then nothing changes its way
+    const stays = (id) => {
+      const speed = Math.hypot(places.vx[id], places.vy[id]) + Math.abs(places.spin[id]) * floes.reach[id];
+      return floes.floatsUntil[id] > until && speed * (until - time) * view.scale < 0.25
+        && (isInOneFrame || motions.isSteady(id, endFrame));
+    };
+    const [still, loose] = [[], []];
+    for (const id of places.living.subarray(0, places.count)) (stays(id) ? still : loose).push(id);
+    return { until, still, loose };
   }
 
-  function rebuild(view, time, until, draw) {
-    const endFrame = lastAtMost(run.frames.times, until) + 1;
-    const isStill = (id) => floes.floatsUntil[id] > until && stays(id, view, until - time, endFrame);
-    const still = [];
-    kept.loose = [];
-    for (const id of places.living.subarray(0, places.count)) (isStill(id) ? still : kept.loose).push(id);
-    floes.born.forEach((born, id) => { if (born > time && born <= until) kept.loose.push(id); });
+  function rebuild(view, time, ahead, draw) {
+    const soon = Math.min(time + ahead / 10, times[motions.frame + 1] ?? Infinity);
+    let parts = part(view, time, time + ahead);
+    if (parts.loose.length > mostLoose) parts = part(view, time, soon);
+    const { until, still, loose } = parts;
+    floes.born.forEach((born, id) => { if (born > time && born <= until) loose.push(id); });
     draw(clearedCanvas(canvas, view.width, view.height), still);
-    Object.assign(kept, { from: time, until });
+    Object.assign(kept, { from: time, until, loose });
   }
 
   /** Draws all ice alive at the time. `look` names the view and the colours; `ahead` [s] is how long a picture is to
@@ -147,7 +155,7 @@ function makeStillIce(run, places, motions) {
       draw(target, places.living.subarray(0, places.count));
       return;
     }
-    if (time < kept.from || time > kept.until) rebuild(view, time, time + ahead, draw);
+    if (time < kept.from || time > kept.until) rebuild(view, time, ahead, draw);
     target.save();
     target.resetTransform();
     target.drawImage(canvas, 0, 0);
