@@ -10,9 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "analysis/channel_parts.hpp"
 #include "analysis/floe_sizes.hpp"
-#include "analysis/placed_ice.hpp"
-#include "analysis/swept_band.hpp"
 #include "geometry/cut/repair.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/point_in_ring.hpp"
@@ -27,7 +26,9 @@ namespace {
 using geometry::Box;
 using geometry::Point;
 using geometry::Polygon;
+using geometry::Ring;
 using geometry::Vector;
+using io::GeojsonLayer;
 
 std::string describe(const geometry::CutError& error) {
   return fmt::format("{}: {}", name_of(error.reason), error.detail);
@@ -52,6 +53,71 @@ Waypoint at_way(const std::vector<Waypoint>& track, double along) {
   const Waypoint& a = *(next - 1);
   const double share = (along - a.along) / (next->along - a.along);
   return {a.point + share * (next->point - a.point), along, a.passed + share * (next->passed - a.passed)};
+}
+
+std::vector<PlacedIce> with_boxes(const std::vector<Polygon>& polygons) {
+  std::vector<PlacedIce> boxed;
+  boxed.reserve(polygons.size());
+  for (const Polygon& polygon : polygons) boxed.push_back({nullptr, polygon, bounding_box(polygon.outer)});
+  return boxed;
+}
+
+/// The part of a convex ring where `distance` is not negative; it is linear.
+template <class Distance>
+Ring clipped(const Ring& ring, Distance distance) {
+  Ring kept;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point a = ring[i], b = ring[(i + 1) % ring.size()];
+    const double at_a = distance(a), at_b = distance(b);
+    if (at_a >= 0) kept.push_back(a);
+    if ((at_a > 0 && at_b < 0) || (at_a < 0 && at_b > 0)) kept.push_back(a + at_a / (at_a - at_b) * (b - a));
+  }
+  return kept;
+}
+
+/// The part of a station's cell from ice to ice; of fewer than three corners where there is none.
+Polygon from_ice_to_ice(const ChannelStation& station, const Polygon& cell) {
+  if (!station.is_bounded() || !(station.width() > 0)) return {};
+  const auto to_port = [&](Point p) { return cross(station.forward, p - station.middle); };
+  const Ring to_starboard_of_port = clipped(cell.outer, [&](Point p) { return station.port - to_port(p); });
+  return {clipped(to_starboard_of_port, [&](Point p) { return station.starboard + to_port(p); }), {}};
+}
+
+/// How much of each floe that reaches into polygons lies in them, the largest floe first.
+tl::expected<std::vector<ChannelFloe>, std::string> floes_in(const std::vector<Polygon>& polygons,
+                                                             const std::vector<PlacedIce>& ice) {
+  std::vector<ChannelFloe> floes;
+  const std::vector<PlacedIce> boxed = with_boxes(polygons);
+  for (const PlacedIce& floe : ice) {
+    const auto parted = part(floe.polygon, near(boxed, floe.box));
+    if (!parted) return tl::unexpected(parted.error());
+    if (parted->inside_area <= 0) continue;
+    if (floes.empty() || floes.back().floe != floe.birth->floe)
+      floes.push_back({floe.birth->floe, std::sqrt(floe.birth->area), floe.birth->area, 0});
+    floes.back().inside += parted->inside_area;
+  }
+  std::ranges::stable_sort(floes, std::ranges::greater{}, &ChannelFloe::size);
+  return floes;
+}
+
+/// Measures the brash from ice to ice, in the cells of the stations and piece by piece.
+tl::expected<void, std::string> measure_brash(Channel& channel, const std::vector<Polygon>& cells,
+                                              const std::vector<PlacedIce>& brash) {
+  std::vector<Polygon> stretches;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    ChannelStation& station = channel.stations[i];
+    Polygon stretch = from_ice_to_ice(station, cells[i]);
+    if (stretch.outer.size() < 3) continue;
+    auto parted = part(stretch, near(brash, bounding_box(stretch.outer)));
+    if (!parted) return tl::unexpected(parted.error());
+    channel.area += station.channel_area = geometry::measure(stretch).area;
+    channel.brash_area += station.brash_area = parted->inside_area;
+    for (Polygon& covered : parted->inside) channel.brash.push_back(std::move(covered));
+    stretches.push_back(std::move(stretch));
+  }
+  return floes_in(stretches, brash).map([&](std::vector<ChannelFloe>&& pieces) {
+    channel.brash_pieces = std::move(pieces);
+  });
 }
 
 class ChannelMeasure {
@@ -309,87 +375,12 @@ tl::expected<std::vector<ChannelStation>, std::string> measure_stations(const io
   });
 }
 
-namespace {
-
-using geometry::Point;
-using geometry::Polygon;
-using geometry::Ring;
-
-std::vector<PlacedIce> with_boxes(const std::vector<Polygon>& polygons) {
-  std::vector<PlacedIce> boxed;
-  boxed.reserve(polygons.size());
-  for (const Polygon& polygon : polygons) boxed.push_back({nullptr, polygon, bounding_box(polygon.outer)});
-  return boxed;
-}
-
-/// The part of a convex ring where `distance` is not negative; it is linear.
-template <class Distance>
-Ring clipped(const Ring& ring, Distance distance) {
-  Ring kept;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point a = ring[i], b = ring[(i + 1) % ring.size()];
-    const double at_a = distance(a), at_b = distance(b);
-    if (at_a >= 0) kept.push_back(a);
-    if ((at_a > 0 && at_b < 0) || (at_a < 0 && at_b > 0)) kept.push_back(a + at_a / (at_a - at_b) * (b - a));
-  }
-  return kept;
-}
-
-/// The part of a station's cell from ice to ice; of fewer than three corners where there is none.
-Polygon from_ice_to_ice(const ChannelStation& station, const Polygon& cell) {
-  if (!station.is_bounded() || !(station.width() > 0)) return {};
-  const auto to_port = [&](Point p) { return cross(station.forward, p - station.middle); };
-  const Ring to_starboard_of_port = clipped(cell.outer, [&](Point p) { return station.port - to_port(p); });
-  return {clipped(to_starboard_of_port, [&](Point p) { return station.starboard + to_port(p); }), {}};
-}
-
-double share(double part, double whole) {
-  return whole > 0 ? part / whole : std::numeric_limits<double>::quiet_NaN();
-}
-
-}  // namespace
-
-tl::expected<std::vector<ChannelFloe>, std::string> floes_in(const std::vector<Polygon>& polygons,
-                                                             const std::vector<PlacedIce>& ice) {
-  std::vector<ChannelFloe> floes;
-  const std::vector<PlacedIce> boxed = with_boxes(polygons);
-  for (const PlacedIce& floe : ice) {
-    const auto parted = part(floe.polygon, near(boxed, floe.box));
-    if (!parted) return tl::unexpected(parted.error());
-    if (parted->inside_area <= 0) continue;
-    if (floes.empty() || floes.back().floe != floe.birth->floe)
-      floes.push_back({floe.birth->floe, std::sqrt(floe.birth->area), floe.birth->area, 0});
-    floes.back().inside += parted->inside_area;
-  }
-  std::ranges::stable_sort(floes, std::ranges::greater{}, &ChannelFloe::size);
-  return floes;
-}
-
-tl::expected<void, std::string> measure_brash(Channel& channel, const std::vector<Polygon>& cells,
-                                              const std::vector<PlacedIce>& brash) {
-  std::vector<Polygon> stretches;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    ChannelStation& station = channel.stations[i];
-    Polygon stretch = from_ice_to_ice(station, cells[i]);
-    if (stretch.outer.size() < 3) continue;
-    auto parted = part(stretch, near(brash, bounding_box(stretch.outer)));
-    if (!parted) return tl::unexpected(parted.error());
-    channel.area += station.channel_area = geometry::measure(stretch).area;
-    channel.brash_area += station.brash_area = parted->inside_area;
-    for (Polygon& covered : parted->inside) channel.brash.push_back(std::move(covered));
-    stretches.push_back(std::move(stretch));
-  }
-  return floes_in(stretches, brash).map([&](std::vector<ChannelFloe>&& pieces) {
-    channel.brash_pieces = std::move(pieces);
-  });
-}
-
 double ChannelStation::brash_cover() const {
-  return share(brash_area, channel_area);
+  return channel_area > 0 ? brash_area / channel_area : std::numeric_limits<double>::quiet_NaN();
 }
 
 double Channel::brash_cover() const {
-  return share(brash_area, area);
+  return area > 0 ? brash_area / area : std::numeric_limits<double>::quiet_NaN();
 }
 
 BrashSizes brash_sizes(const Channel& channel) {
@@ -404,11 +395,28 @@ BrashSizes brash_sizes(const Channel& channel) {
 
 namespace {
 
-using io::GeojsonLayer;
-
-double heading_deg(const ChannelStation& station) {
-  return 180 / std::numbers::pi * std::atan2(station.forward.y, station.forward.x);
-}
+/// A number of a station, as channel.csv and channel.geojson have it.
+struct StationColumn {
+  const char* name;
+  double (*read)(const ChannelStation& station, double beam);
+};
+constexpr StationColumn kStationColumns[] = {
+    {"along_m", [](const ChannelStation& s, double) { return s.along; }},
+    {"passed_s", [](const ChannelStation& s, double) { return s.passed; }},
+    {"x_m", [](const ChannelStation& s, double) { return s.middle.x; }},
+    {"y_m", [](const ChannelStation& s, double) { return s.middle.y; }},
+    {"track_deg",
+     [](const ChannelStation& s, double) { return 180 / std::numbers::pi * std::atan2(s.forward.y, s.forward.x); }},
+    {"port_m", [](const ChannelStation& s, double) { return s.port; }},
+    {"starboard_m", [](const ChannelStation& s, double) { return s.starboard; }},
+    {"width_m", [](const ChannelStation& s, double) { return s.width(); }},
+    {"width_over_beam", [](const ChannelStation& s, double beam) { return s.width() / beam; }},
+    {"has_port_ice", [](const ChannelStation& s, double) { return s.has_port_ice ? 1.0 : 0.0; }},
+    {"has_starboard_ice", [](const ChannelStation& s, double) { return s.has_starboard_ice ? 1.0 : 0.0; }},
+    {"ice_across_beam", [](const ChannelStation& s, double) { return s.ice_across_beam; }},
+    {"channel_area_m2", [](const ChannelStation& s, double) { return s.channel_area; }},
+    {"brash_area_m2", [](const ChannelStation& s, double) { return s.brash_area; }},
+    {"brash_cover", [](const ChannelStation& s, double) { return s.brash_cover(); }}};
 
 std::string side(double width, bool has_ice) {
   return has_ice ? fmt::format("{:.2f}", width) : fmt::format(">{:.2f}", width);
@@ -493,15 +501,12 @@ void append_floe(io::JsonWriter& json, const ChannelFloe& floe) {
   json.key("area_m2").value(floe.area).key("inside_m2").value(floe.inside);
 }
 
-void append_station(GeojsonLayer& layer, const ChannelStation& s, std::size_t number) {
-  io::JsonWriter& json = layer.start().key("part").value("station");
-  json.key("station").value(number).key("along_m").value(s.along).key("passed_s").value(s.passed);
-  json.key("port_m").value(s.port).key("starboard_m").value(s.starboard).key("width_m").value(s.width());
-  json.key("is_bounded").value(s.is_bounded()).key("ice_across_beam").value(s.ice_across_beam);
-  json.key("channel_area_m2").value(s.channel_area).key("brash_area_m2").value(s.brash_area);
-  json.key("brash_cover").value(s.brash_cover());
-  const geometry::Vector to_port = perpendicular(s.forward);
-  layer.end_with(geometry::Ring{s.middle + s.port * to_port, s.middle - s.starboard * to_port});
+void append_station(GeojsonLayer& layer, const ChannelStation& s, std::size_t number, double beam) {
+  io::JsonWriter& json = layer.start().key("part").value("station").key("station").value(number);
+  for (const auto& [name, read] : kStationColumns) json.key(name).value(read(s, beam));
+  json.key("is_bounded").value(s.is_bounded());
+  const Vector to_port = perpendicular(s.forward);
+  layer.end_with(Ring{s.middle + s.port * to_port, s.middle - s.starboard * to_port});
 }
 
 }  // namespace
@@ -523,18 +528,14 @@ std::string to_table(const Channel& channel) {
 }
 
 std::string to_csv(const Channel& channel) {
-  std::string text =
-      "station,along_m,passed_s,x_m,y_m,track_deg,port_m,starboard_m,width_m,width_over_beam,has_port_ice,"
-      "has_starboard_ice,ice_across_beam,channel_area_m2,brash_area_m2,brash_cover\n";
+  std::string text = "station";
+  for (const StationColumn& column : kStationColumns) text += fmt::format(",{}", column.name);
   for (std::size_t i = 0; i < channel.stations.size(); ++i) {
-    const ChannelStation& s = channel.stations[i];
-    io::append_number(text, static_cast<std::int64_t>(i));
-    io::append_csv(text, {s.along, s.passed, s.middle.x, s.middle.y, heading_deg(s), s.port, s.starboard, s.width(),
-                          s.width() / channel.beam, s.has_port_ice ? 1.0 : 0.0, s.has_starboard_ice ? 1.0 : 0.0,
-                          s.ice_across_beam, s.channel_area, s.brash_area, s.brash_cover()});
-    text += '\n';
+    io::append_number(text += '\n', static_cast<std::int64_t>(i));
+    for (const StationColumn& column : kStationColumns)
+      io::append_csv(text, {column.read(channel.stations[i], channel.beam)});
   }
-  return text;
+  return text + '\n';
 }
 
 std::string to_json_text(const Channel& channel) {
@@ -560,7 +561,7 @@ std::string to_geojson(const Channel& channel) {
     layer.start().key("part").value("track");
     layer.end_with(geometry::Ring(channel.track));
   }
-  for (std::size_t i = 0; i < channel.stations.size(); ++i) append_station(layer, channel.stations[i], i);
+  for (std::size_t i = 0; i < channel.stations.size(); ++i) append_station(layer, channel.stations[i], i, channel.beam);
   return layer.finish();
 }
 

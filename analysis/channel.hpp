@@ -6,7 +6,6 @@
 
 #include <tl/expected.hpp>
 
-#include "analysis/placed_ice.hpp"
 #include "geometry/shape/polygon.hpp"
 #include "io/run/motion_index.hpp"
 #include "io/run/run_reader.hpp"
@@ -99,16 +98,6 @@ tl::expected<Channel, std::string> measure_channel(const io::Run& run, const Cha
 tl::expected<std::vector<ChannelStation>, std::string> measure_stations(const io::Run& run,
                                                                         const io::MotionIndex& motions,
                                                                         const ChannelOptions& options);
-
-/// How much of each floe that reaches into polygons lies in them, the largest floe first. Fails with words
-/// where geometry refuses.
-tl::expected<std::vector<ChannelFloe>, std::string> floes_in(const std::vector<geometry::Polygon>& polygons,
-                                                             const std::vector<PlacedIce>& ice);
-
-/// Measures the brash in a channel from ice to ice, in the cells of its stations and piece by piece. Fails
-/// with words where geometry refuses.
-tl::expected<void, std::string> measure_brash(Channel& channel, const std::vector<geometry::Polygon>& cells,
-                                              const std::vector<PlacedIce>& brash);
 
 /// A channel for people: stations, widths, what is left in the band, with units in the heads.
 std::string to_table(const Channel& channel);

@@ -23,75 +23,80 @@ using geometry::Polygon;
 using geometry::Vector;
 using simulation::FloeId;
 
+using Body = simulation::ContactState::Body;
+using BodyKey = std::int64_t;  ///< a floe's id; −1 − the number of a hull
+using PairKey = std::pair<BodyKey, BodyKey>;
+
+BodyKey key_of(const Body& body) {
+  return body.ship >= 0 ? -1 - BodyKey{body.ship} : body.floe;
+}
+bool is_hull(BodyKey body) {
+  return body < 0;
+}
+
+/// Calls use(overlap) for what had been crushed at a time.
+template <class Use>
+void for_crushed(const io::Run& run, double time, Use use) {
+  auto row = std::ranges::lower_bound(run.crushed, time, {}, &io::RunCrushed::time);
+  for (; row != run.crushed.end() && row->time == time; ++row) use(row->overlap);
+}
+
 /// Compares what the bodies of a run have crushed with the work that it took (crushed.csv), at one frame after the
 /// other, into its check.
 class WorkCheck {
  public:
   WorkCheck(const io::Run& run, RunCheck& check) : run_(run), check_(check) {}
 
-  void compare(double time);
+  void compare(double time) {
+    double expected_then = 0;
+    double work_then = 0;
+    for_crushed(run_, time, [&](const simulation::CrushedOverlap& overlap) {
+      const auto [first, second] =
+          std::minmax(overlap.on, overlap.by, [](const Body& a, const Body& b) { return key_of(a) < key_of(b); });
+      if (second.ship >= 0) return;  // steel on steel
+      const fracture::Ice& of_second = ice_of(second);
+      const fracture::Ice ice = first.ship >= 0 ? of_second : fracture::crushed_between(ice_of(first), of_second);
+      const double expected = ice.compressive_strength * overlap.volume;
+      expected_then += expected;
+      work_then += overlap.work;
+      const double smaller = std::min(area_of(first), area_of(second));
+      if (overlap.volume > kUncrushedShare * smaller * ice.thickness)
+        enter({key_of(first), key_of(second)}, {first, second, time, overlap.area, expected, overlap.work});
+    });
+    if (expected_then <= check_.most_expected) return;
+    check_.most_expected = expected_then;
+    check_.work_then = work_then;
+  }
 
  private:
-  using Body = simulation::ContactState::Body;
-  using Key = std::pair<std::int64_t, std::int64_t>;  ///< two bodies: a floe's id, or −1 − the number of a hull
+  const fracture::Ice& ice_of(const Body& floe) const {
+    return simulation::ice_of(run_.scene.scene, run_.floe(floe.floe)->birth.own_ice);
+  }
 
-  const fracture::Ice& ice_of(const Body& floe) const;
-  double area_of(const Body& body) const;  ///< [m²]
-  void enter(const Key& pair, const UnpaidOverlap& overlap);
+  /// [m²]
+  double area_of(const Body& body) const {
+    if (body.ship < 0) return run_.floe(body.floe)->birth.area;
+    return geometry::measure({hull_of(run_.scene.scene, static_cast<std::size_t>(body.ship)).hull.waterline, {}}).area;
+  }
+
+  /// Of a pair that differs at several frames, that at which the most is crushed.
+  void enter(const PairKey& pair, const UnpaidOverlap& overlap) {
+    compared_.insert(pair);
+    check_.paid_pairs = compared_.size();
+    if (kMostWorkFactor * overlap.work >= overlap.expected && overlap.work <= kMostWorkFactor * overlap.expected)
+      return;
+    const auto [known, is_new] = unpaid_.try_emplace(pair, check_.unpaid.size());
+    if (is_new)
+      check_.unpaid.push_back(overlap);
+    else if (overlap.expected > check_.unpaid[known->second].expected)
+      check_.unpaid[known->second] = overlap;
+  }
 
   const io::Run& run_;
   RunCheck& check_;
-  std::set<Key> compared_;
-  std::map<Key, std::size_t> unpaid_;  ///< in the check's list
+  std::set<PairKey> compared_;
+  std::map<PairKey, std::size_t> unpaid_;  ///< in the check's list
 };
-
-std::int64_t key_of(const simulation::ContactState::Body& body) {
-  return body.ship >= 0 ? -1 - std::int64_t{body.ship} : body.floe;
-}
-
-void WorkCheck::compare(double time) {
-  double expected_then = 0;
-  double work_then = 0;
-  auto row = std::ranges::lower_bound(run_.crushed, time, {}, &io::RunCrushed::time);
-  for (; row != run_.crushed.end() && row->time == time; ++row) {
-    const simulation::CrushedOverlap& overlap = row->overlap;
-    const auto [first, second] =
-        std::minmax(overlap.on, overlap.by, [](const Body& a, const Body& b) { return key_of(a) < key_of(b); });
-    if (second.ship >= 0) continue;  // steel on steel
-    const fracture::Ice& of_second = ice_of(second);
-    const fracture::Ice ice = first.ship >= 0 ? of_second : fracture::crushed_between(ice_of(first), of_second);
-    const double expected = ice.compressive_strength * overlap.volume;
-    expected_then += expected;
-    work_then += overlap.work;
-    const double smaller = std::min(area_of(first), area_of(second));
-    if (overlap.volume > kUncrushedShare * smaller * ice.thickness)
-      enter({key_of(first), key_of(second)}, {first, second, time, overlap.area, expected, overlap.work});
-  }
-  if (expected_then <= check_.most_expected) return;
-  check_.most_expected = expected_then;
-  check_.work_then = work_then;
-}
-
-const fracture::Ice& WorkCheck::ice_of(const Body& floe) const {
-  return simulation::ice_of(run_.scene.scene, run_.floe(floe.floe)->birth.own_ice);
-}
-
-double WorkCheck::area_of(const Body& body) const {
-  if (body.ship < 0) return run_.floe(body.floe)->birth.area;
-  return geometry::measure({hull_of(run_.scene.scene, static_cast<std::size_t>(body.ship)).hull.waterline, {}}).area;
-}
-
-/// Of a pair that differs at several frames, that at which the most is crushed.
-void WorkCheck::enter(const Key& pair, const UnpaidOverlap& overlap) {
-  compared_.insert(pair);
-  check_.paid_pairs = compared_.size();
-  if (kMostWorkFactor * overlap.work >= overlap.expected && overlap.work <= kMostWorkFactor * overlap.expected) return;
-  const auto [known, is_new] = unpaid_.try_emplace(pair, check_.unpaid.size());
-  if (is_new)
-    check_.unpaid.push_back(overlap);
-  else if (overlap.expected > check_.unpaid[known->second].expected)
-    check_.unpaid[known->second] = overlap;
-}
 
 // What frames are right to (docs/run-folder.md).
 constexpr double kFrameDistance = 1e-3;  // [m]
@@ -217,8 +222,6 @@ class OverlapCheck {
   }
 
  private:
-  using BodyKey = std::int64_t;  ///< a floe's id; -1 - the number of a hull
-
   struct Placed {
     BodyKey body = 0;
     io::Motion motion;
@@ -235,15 +238,13 @@ class OverlapCheck {
     double depth = 0;  ///< 0 where they share less than kTouchingArea [m]
   };
 
-  static bool is_hull(BodyKey body) { return body < 0; }
-
   std::shared_ptr<const Polygon> polygon_of(BodyKey body) const {
     return is_hull(body) ? hulls_[static_cast<std::size_t>(-1 - body)] : run_.shape(body);
   }
 
   Point centre_of(BodyKey body) const { return is_hull(body) ? Point{} : run_.floe(body)->birth.centroid_in_body; }
 
-  simulation::ContactState::Body name_of(BodyKey body) const {
+  Body name_of(BodyKey body) const {
     if (is_hull(body)) return {static_cast<int>(-1 - body), simulation::kNoFloe};
     return {-1, body};
   }
@@ -282,15 +283,9 @@ class OverlapCheck {
     crushed_.clear();
     is_recorded_ =
         run_.has_crushed && std::ranges::any_of(run_.frames, [&](const io::Frame& f) { return f.time == time; });
-    const auto key = [](const simulation::ContactState::Body& body) {
-      return body.ship >= 0 ? -1 - BodyKey{body.ship} : body.floe;
-    };
-    auto row = std::ranges::lower_bound(run_.crushed, time, {}, &io::RunCrushed::time);
-    for (; row != run_.crushed.end() && row->time == time; ++row) {
-      const BodyKey on = key(row->overlap.on);
-      const BodyKey by = key(row->overlap.by);
-      crushed_[{std::min(on, by), std::max(on, by)}] = row->overlap.area + row->overlap.tilted;
-    }
+    for_crushed(run_, time, [&](const simulation::CrushedOverlap& overlap) {
+      crushed_[std::minmax({key_of(overlap.on), key_of(overlap.by)})] = overlap.area + overlap.tilted;
+    });
   }
 
   template <class Use>
@@ -347,11 +342,11 @@ class OverlapCheck {
   RunCheck& check_;
   io::MotionIndex motions_;
   std::vector<std::shared_ptr<const geometry::Polygon>> hulls_;
-  std::vector<Placed> bodies_;                             ///< living
-  std::map<std::pair<BodyKey, BodyKey>, double> crushed_;  ///< at the instant [m²]
-  bool is_recorded_ = false;                               ///< the instant is that of a frame
-  std::map<std::pair<BodyKey, BodyKey>, Known> known_;
-  std::set<std::pair<BodyKey, BodyKey>> overlapping_;
+  std::vector<Placed> bodies_;         ///< living
+  std::map<PairKey, double> crushed_;  ///< at the instant [m²]
+  bool is_recorded_ = false;           ///< the instant is that of a frame
+  std::map<PairKey, Known> known_;
+  std::set<PairKey> overlapping_;
 };
 
 }  // namespace

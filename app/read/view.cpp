@@ -16,7 +16,6 @@
 #include "io/run/run_reader.hpp"
 #include "io/text/output_file.hpp"
 #include "views/player/player_page.hpp"
-#include "views/player/scene_plan.hpp"
 
 namespace polynya::app {
 namespace {

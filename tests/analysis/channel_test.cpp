@@ -4,7 +4,7 @@
 
 #include "../io/expect_text.hpp"
 
-#include "analysis/swept_band.hpp"
+#include "analysis/channel_parts.hpp"
 #include "geometry/exact/measures.hpp"
 
 namespace polynya::tests {

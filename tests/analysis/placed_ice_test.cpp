@@ -1,9 +1,8 @@
-#include "analysis/placed_ice.hpp"
-
 #include <limits>
 
 #include "../io/expect_text.hpp"
 
+#include "analysis/channel_parts.hpp"
 #include "geometry/exact/measures.hpp"
 
 namespace polynya::tests {

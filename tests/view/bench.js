@@ -18,8 +18,4 @@ module.exports = {
   assert: require("node:assert/strict"),
   /** Opens a page in that browser. */
   open: async (file, options) => openPage(await browser, file, options),
-  /** Waits until what was asked for is drawn. */
-  drawn: (page) =>
-    page.evaluate(() =>
-      new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done))))),
 };

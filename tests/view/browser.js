@@ -23,5 +23,25 @@ exports.openPage = async (browser, file, options = {}) => {
   await page.waitForFunction(() => window.polynyaPlayer?.drawn > 0 || window.polynyaPair?.players.every(({ drawn }) =>
     drawn > 0));
   page.openedAfter = Date.now() - start; // [ms]
+  /** Waits until what was asked for is drawn. */
+  page.drawn = () => page.evaluate(() => new Promise((done) =>
+    requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))));
+  /** Does something with the player (of two, the first). */
+  page.act = async (name, ...words) => {
+    await page.evaluate(([action, list]) => {
+      (window.polynyaPlayer ?? window.polynyaPair.players[0]).actions[action](...list);
+    }, [name, words]);
+    await page.drawn();
+  };
+  /** Colours of a canvas at points of the world; "none" where nothing is drawn. */
+  page.colours = (canvas, points) => page.evaluate(([id, all]) => {
+    const { view } = window.polynyaPlayer;
+    const context = document.getElementById(id).getContext("2d");
+    return all.map((point) => {
+      const [x, y] = view.toScreen(...point).map((pixel) => Math.round(pixel * view.ratio));
+      const [r, g, b, a] = context.getImageData(x, y, 1, 1).data;
+      return a === 0 ? "none" : `rgb(${r}, ${g}, ${b})`;
+    });
+  }, [canvas, points]);
   return page;
 };

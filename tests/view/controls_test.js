@@ -14,8 +14,7 @@ before(async () => {
 });
 
 const played = () => page.evaluate(() => window.polynyaPlayer.state.isPlaying);
-const act = (name, ...words) => page.evaluate(([action, list]) => { window.polynyaPlayer.actions[action](...list); },
-  [name, words]);
+const act = (...words) => page.act(...words);
 const now = () => page.evaluate(() => window.polynyaPlayer.state.time);
 
 /** In the page: controls over the map, targets below a size [px], and how far the page goes sideways. */
@@ -47,7 +46,6 @@ for (const [width, height] of sizes) {
     async () => {
     await page.setViewportSize({ width, height });
     await act("select", 190); // with the links of its card
-    await page.waitForTimeout(100);
     const { controls, ...found } = await page.evaluate(measureControls, 24);
     assert.ok(controls > 25, `${controls} controls`);
     assert.deepEqual(found, { overMap: [], small: [], sideways: 0 });

@@ -85,8 +85,7 @@ test("the channel is that of `polynya channel`, carried with drifting and sheari
     for (const time of [instants[Math.floor(instants.length / 4)], instants[Math.floor(instants.length / 2)], 120]) {
       const wanted = rowsOf(polynya("channel", run, "--at", String(time), "--out", folder, "--format", "csv"))
         .filter((row) => row.has_port_ice === "1" && row.has_starboard_ice === "1");
-      await page.evaluate((at) => window.polynyaPlayer.actions.goTo(at), time);
-      await page.waitForTimeout(100);
+      await page.act("goTo", time);
       const measured = await page.evaluate(() => window.polynyaPlayer.stations(0));
       assert.equal(measured.length, wanted.length);
       bounded += wanted.length;
@@ -99,16 +98,8 @@ test("the channel is that of `polynya channel`, carried with drifting and sheari
         f.properties.part === "swept band");
       const [x, y] = swept.geometry.coordinates[0][0].reduce(([sx, sy], [px, py], k, all) =>
         [sx + px / all.length, sy + py / all.length], [0, 0]);
-      const colours = await page.evaluate(([px, py]) => {
-        const { view } = window.polynyaPlayer;
-        const context = document.getElementById("ice").getContext("2d");
-        const at = (wx, wy) => {
-          const [sx, sy] = view.toScreen(wx, wy);
-          return [...context.getImageData(sx * view.ratio, sy * view.ratio, 1, 1).data].join();
-        };
-        return [at(px, py), at(px, py + 1e4)];
-      }, [x, y]);
-      assert.notEqual(colours[0], colours[1], "the band's middle is not plain water");
+      const [band, water] = await page.colours("ice", [[x, y], [-100, 0]]);
+      assert.notEqual(band, water, "the band's middle is not plain water");
     }
     assert.match(await page.locator("#channel-width").textContent(), /m wide, .* beams/);
   });
@@ -119,14 +110,10 @@ test("the channel is that of `polynya channel`, carried with drifting and sheari
 test("there is no channel ahead of the ship", async () => {
   const file = makePage(makeRun(folder, smallScene("ahead", { floes: [], ships: [ship("a", 0)] })));
   await withPage(file, {}, async (page) => {
-    const colourAt = (time, x) => page.evaluate(async ([at, px]) => {
-      const { view, actions } = window.polynyaPlayer;
-      actions.goTo(at);
-      await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
-      const [sx, sy] = view.toScreen(px, 0);
-      return [...document.getElementById("ice").getContext("2d").getImageData(sx * view.ratio, sy * view.ratio, 1,
-        1).data].join();
-    }, [time, x]);
+    const colourAt = async (time, x) => {
+      await page.act("goTo", time);
+      return (await page.colours("ice", [[x, 0]]))[0];
+    };
     // The stem is 20 m before the centre, which goes from -20 m to 0 in 10 s.
     assert.equal(await colourAt(0, 10), await colourAt(5, 15), "still ahead of it both times");
     assert.notEqual(await colourAt(5, 15), await colourAt(10, -10), "behind it");
@@ -147,8 +134,7 @@ test("ice under the hull is drawn through it, counted, and known by a click; wha
   const stays = (floe, time) => !(ended.get(floe) <= time);
   await withPage(makePage(run, "--every", "2"), {}, async (page) => {
     for (const time of [10, 30, 60]) {
-      await page.evaluate((at) => window.polynyaPlayer.actions.goTo(at), time);
-      await page.waitForTimeout(100);
+      await page.act("goTo", time);
       const under = [...went.values()].filter(({ t_s: at, floe }) => at <= time && stays(floe, time)).map(({ floe }) =>
         floe).sort((a, b) => a - b);
       assert.deepEqual(await page.evaluate(() => [...window.polynyaPlayer.places.under].sort((a, b) => a - b)), under);
@@ -159,9 +145,8 @@ test("ice under the hull is drawn through it, counted, and known by a click; wha
       assert.equal(await living(page), there.length - under.length, "what floats");
     }
     const time = 20;
-    await page.evaluate((at) => window.polynyaPlayer.actions.goTo(at), time);
-    await page.evaluate(() => window.polynyaPlayer.actions.setFollow(0));
-    await page.waitForTimeout(100);
+    await page.act("goTo", time);
+    await page.act("setFollow", 0);
     // One that comes up, and that is on top where its centre is.
     const came = [...up.values()].filter(({ floe, children, t_s: at }) => children.length > 0
       && went.get(floe).t_s < time && time < at);
@@ -171,17 +156,15 @@ test("ice under the hull is drawn through it, counted, and known by a click; wha
       return state.hovered === floe;
     }), came.map(({ floe }) => floe));
     const clicked = up.get(onTop);
-    const colourAt = (id) => page.evaluate((floe) => {
-      const { view, places } = window.polynyaPlayer;
-      const [px, py] = view.toScreen(places.x[floe], places.y[floe]);
-      return [...document.getElementById("marks").getContext("2d").getImageData(px * view.ratio, py * view.ratio, 1,
-        1).data].join();
-    }, id);
+    const placeOf = (floe) => page.evaluate((id) => {
+      const { x, y } = window.polynyaPlayer.places;
+      return [x[id], y[id]];
+    }, floe);
+    const colourAt = async (floe) => (await page.colours("marks", [await placeOf(floe)]))[0];
     const drawn = await colourAt(clicked.floe);
     const box = await page.locator("#stage").boundingBox();
-    const [x, y] = await page.evaluate((floe) =>
-      { const { view, places } = window.polynyaPlayer; return view.toScreen(places.x[floe], places.y[floe]); },
-        clicked.floe);
+    const place = await placeOf(clicked.floe);
+    const [x, y] = await page.evaluate((at) => window.polynyaPlayer.view.toScreen(...at), place);
     await page.mouse.click(box.x + x, box.y + y);
     await page.waitForFunction((floe) => window.polynyaPlayer.state.selected === floe, clicked.floe);
     await page.waitForFunction(() => !document.querySelector("#floe-card").textContent.startsWith("Point at"));
@@ -189,8 +172,7 @@ test("ice under the hull is drawn through it, counted, and known by a click; wha
     assert.match(card, /under the hullsince [\d.]+ s/);
     assert.ok(card.includes(`as floe ${clicked.children[0]}`), card);
     assert.match(await page.locator("#legend").textContent(), /ice under the hull.*/);
-    await page.evaluate((at) => window.polynyaPlayer.actions.goTo(at), clicked.t_s + 1e-6);
-    await page.waitForTimeout(100);
+    await page.act("goTo", clicked.t_s + 1e-6);
     assert.equal(await page.evaluate((child) => window.polynyaPlayer.colourings.breakage.value(child),
       clicked.children[0]), 4);
     assert.notEqual(await colourAt(clicked.floe), drawn);
@@ -258,81 +240,4 @@ test("on a phone: nothing is cut off, a tap picks, two fingers zoom", async () =
     const factor = (await page.evaluate(() => window.polynyaPlayer.view.scale)) / scale;
     assert.ok(Math.abs(factor - 2) < 0.05, `zoomed by ${factor}`);
   });
-});
-
-test("contact circles touch their floe from inside, one for each piece of its boundary", async () => {
-  const round = Array.from({ length: 60 }, (_, k) => [50 + 6 * Math.cos((k * Math.PI) / 30),
-    6 * Math.sin((k * Math.PI) / 30)]);
-  const holed = { polygon: { outer_m: [[70, 10], [90, 10], [90, 30], [70, 30]],
-    holes_m: [[[74, 14], [74, 18], [78, 18]]] } };
-  const run = makeRun(folder,
-    smallScene("circled", { floes: [holed, { rectangle: { corner_m: [20, 0], size_m: [15, 3] } },
-    { polygon: { outer_m: round } }], ships: [ship("a", 0)] }));
-  await withPage(makePage(run), {}, async (page) => {
-    const all = await page.evaluate(() => {
-      const { run: { floes }, circlesOf } = window.polynyaPlayer;
-      return Array.from({ length: floes.count }, (_, id) => {
-        const rings = [];
-        const { points, first } = floes.shape(id);
-        let k = first;
-        for (let ring = floes.ringsOf[id]; ring < floes.ringsOf[id + 1]; ++ring) {
-          rings.push([]);
-          for (; k < first + floes.ringEnds[ring]; ++k) rings.at(-1).push([points[2 * k] - floes.cx[id],
-            points[2 * k + 1] - floes.cy[id]]);
-        }
-        return { rings, circles: Array.from(circlesOf(id)) };
-      });
-    });
-    assert.equal(all.length, 3);
-    // Of the square with a hole 20 a side, 4 + 4 + 6 of the hole; of the bar 15 and 3 a side; of the round one, whose
-    // sides are 0.63 m, one a side.
-    assert.deepEqual(all.map(({ circles }) => circles.length / 3), [80 + 14, 36, 60]);
-    let narrower = 0;
-    for (const { rings, circles } of all) {
-      const edges = rings.flatMap((ring) => ring.map((p, k) => [p, ring[(k + 1) % ring.length]]));
-      for (let k = 0; k < circles.length; k += 3) {
-        const [x, y, radius] = circles.slice(k, k + 3);
-        const nearest = Math.min(...edges.map(([[ax, ay], [bx, by]]) => {
-          const part = Math.min(1,
-            Math.max(0, ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2)));
-          return Math.hypot(x - ax - part * (bx - ax), y - ay - part * (by - ay));
-        }));
-        assert.ok(Math.abs(nearest - radius) < 1e-6, `it touches and stays inside: ${nearest}, ${radius}`);
-        const isInside = edges.reduce((odd, [[ax, ay], [bx, by]]) =>
-          (ay > y) !== (by > y) && x < ax + ((y - ay) / (by - ay)) * (bx - ax) ? !odd : odd, false);
-        assert.ok(isInside && radius <= 1 + 1e-12);
-        if (radius < 0.999) ++narrower;
-      }
-    }
-    assert.ok(narrower >= 8 + 6, "in corners circles are smaller");
-  });
-});
-
-test("many small floes are drawn pixel by pixel as they are as paths", async () => {
-  const field = { field: { corner_m: [0, 0], extent_m: 900, floe_size_m: 15, concentration: 0.7 } };
-  const run = makeRun(folder,
-    smallScene("many", { floes: [field, { polygon: { outer_m: [[-300, 0], [-60, 0], [-60, 400], [-300, 400]] } }],
-    time: { step_s: 0.05, until_s: 4 }, water: { drift_m_per_s: [0.3, 0] }, ships: [] }));
-  const file = makePage(run);
-  const shares = [];
-  for (const many of ["1000", "1e9"]) {
-    fs.writeFileSync(file, fs.readFileSync(file, "utf8").replace(/const manySmall = \S+;/,
-      `const manySmall = ${many};`));
-    await withPage(file, {}, async (page) => {
-      shares.push(await page.evaluate(() => {
-        const canvas = document.getElementById("ice");
-        const { data, width, height } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-        const cells = new Float64Array(16 * 16); // how light squares of the screen are
-        for (let y = 0; y < height; ++y)
-          for (let x = 0; x < width; ++x) {
-            const cell = Math.floor((16 * y) / height) * 16 + Math.floor((16 * x) / width);
-            cells[cell] += (data[4 * (y * width + x)] * 256) / (255 * width * height);
-          }
-        return Array.from(cells);
-      }));
-    });
-  }
-  const [pixels, paths] = shares;
-  assert.ok(Math.max(...paths) - Math.min(...paths) > 0.3, "there is ice and water");
-  paths.forEach((light, k) => assert.ok(Math.abs(light - pixels[k]) < 0.04, `${light} ${pixels[k]}`));
 });

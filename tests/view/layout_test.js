@@ -23,7 +23,7 @@ before(async () => {
     const { actions } = window.polynyaPlayer;
     actions.goTo(6);
     actions.select(4); // with the line on the map
-    actions.toggleLayer("circles", true); // with its notice
+    actions.toggleLayer("largestLoads", true); // with its notice
     actions.toggleLayer("forces", true);
     actions.toggleLayer("velocities", true);
   });

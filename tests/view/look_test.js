@@ -13,12 +13,8 @@ before(async () => {
       { rectangle: { corner_m: [2, 80], size_m: [20, 20] } }],
   }));
   page = await open(makePage(run));
-  await page.evaluate(() => {
-    const { actions } = window.polynyaPlayer;
-    for (const layer of ["track", "channel", "startIce"]) actions.toggleLayer(layer, false);
-    actions.goToEnd(true);
-  });
-  await page.waitForTimeout(100);
+  for (const layer of ["track", "channel", "startIce"]) await page.act("toggleLayer", layer, false);
+  await page.act("goToEnd", true);
 });
 
 /** The scripts' own functions, without a page. */
@@ -28,17 +24,6 @@ function scripts(...names) {
     context);
   return context;
 }
-
-/** Colours of a canvas at points of the world. */
-const colours = (canvas, points) => page.evaluate(([id, all]) => {
-  const { view } = window.polynyaPlayer;
-  const context = document.getElementById(id).getContext("2d");
-  return all.map((point) => {
-    const [x, y] = view.toScreen(...point);
-    const [r, g, b, a] = context.getImageData(Math.round(x * view.ratio), Math.round(y * view.ratio), 1, 1).data;
-    return a === 0 ? "none" : `rgb(${r}, ${g}, ${b})`;
-  });
-}, [canvas, points]);
 
 test("untouched floes, what is left of a plate, and cusps have the colours that the legend gives them", async () => {
   const births = readNdjson(run, "floes.ndjson");
@@ -53,7 +38,7 @@ test("untouched floes, what is left of a plate, and cusps have the colours that 
   assert.ok(left.length > 1, "cusps float");
   const inPlate = await page.evaluate((id) => [window.polynyaPlayer.places.x[id],
     window.polynyaPlayer.places.y[id] + 20], left[0]);
-  const [whole, cut] = await colours("ice", [[12, 90], inPlate]);
+  const [whole, cut] = await page.colours("ice", [[12, 90], inPlate]);
   assert.equal(whole, legend.whole);
   assert.equal(cut, legend.cut);
   const breakage = await page.evaluate((ids) => ids.map((id) => window.polynyaPlayer.colourings.breakage.value(id)),
@@ -110,11 +95,11 @@ test("the scale of loads leaves out only few and far larger rows", () => {
 });
 
 test("the ship shows as one: hull, deck, deck house, and a mark along its heading", async () => {
-  await page.evaluate(() => { window.polynyaPlayer.actions.goTo(0); window.polynyaPlayer.actions.setFollow(0); });
-  await page.waitForTimeout(100);
+  await page.act("goTo", 0);
+  await page.act("setFollow", 0);
   // It is 40 m long and 8 m wide, its centre at (-20, 30), its heading along x.
   const at = (along, across) => [-20 + along, 30 + across];
-  const [edge, deck, house, ahead, beside, astern] = await colours("marks",
+  const [edge, deck, house, ahead, beside, astern] = await page.colours("marks",
     [at(-10, 3.85), at(2, 2), at(-8.5, 1), at(23, 0), at(23, 4), at(-24, 0)]);
   const theme = await page.evaluate(() => {
     const probe = document.body.appendChild(document.createElement("i"));

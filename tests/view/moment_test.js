@@ -1,7 +1,6 @@
 // A link to an instant, pictures of map and plot, and the histogram of floe sizes.
 "use strict";
-const bench = require("./bench.js");
-const { test, before, assert, fs, folder, open } = bench;
+const { test, before, assert, fs, folder, open } = require("./bench.js");
 const { makeRun, makePage, readNdjson, smallScene, ship } = require("./runs.js");
 
 let page, run, file;
@@ -20,9 +19,8 @@ const state = (of = page) => of.evaluate(() => {
   const { state: { time, selected, colourBy, follow, sizes }, plot: { quantity } } = window.polynyaPlayer;
   return { time, selected, colourBy, follow, sizes, quantity };
 });
-const act = (name, ...words) => page.evaluate(([action, list]) => window.polynyaPlayer.actions[action](...list),
-  [name, words]);
-const drawn = () => bench.drawn(page);
+const act = (...words) => page.act(...words);
+const drawn = () => page.drawn();
 
 test("a link opens the page at its instant", async () => {
   assert.deepEqual(await state(), { time: 12.5, selected: 1, colourBy: "size", follow: 1, sizes: null,
@@ -129,14 +127,14 @@ test("the histogram has every floe that floats, by number or by area; a range is
   const broken = new Set(readNdjson(run, "events.ndjson").filter(({ kind }) =>
     ["bend", "split", "grind"].includes(kind)).map(({ floe }) => floe));
   const living = births.filter(({ floe_id: id }) => !broken.has(id));
-  const colours = () => page.evaluate(() => {
-    const { view, places: { x, y, living: ids, count }, run: { floes } } = window.polynyaPlayer;
-    const context = document.getElementById("ice").getContext("2d");
-    return Array.from(ids.subarray(0, count), (id) => {
-      const [px, py] = view.toScreen(x[id], y[id]);
-      return [Math.sqrt(floes.area[id]), [...context.getImageData(Math.round(px), Math.round(py), 1, 1).data].join()];
+  const colours = async () => {
+    const floating = await page.evaluate(() => {
+      const { places: { x, y, living: ids, count }, run: { floes } } = window.polynyaPlayer;
+      return Array.from(ids.subarray(0, count), (id) => ({ at: [x[id], y[id]], size: Math.sqrt(floes.area[id]) }));
     });
-  });
+    const found = await page.colours("ice", floating.map(({ at }) => at));
+    return floating.map(({ size }, k) => [size, found[k]]);
+  };
   const before = await colours();
   await page.fill("#size-from", "3");
   await page.fill("#size-below", "25");

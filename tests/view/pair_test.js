@@ -1,7 +1,6 @@
 // Two runs side by side: one file, one clock, one part of the map, one scale of the plots.
 "use strict";
-const bench = require("./bench.js");
-const { test, before, assert, fs, path, folder, open } = bench;
+const { test, before, assert, fs, path, folder, open } = require("./bench.js");
 const { makeRun, polynya, smallScene, ship } = require("./runs.js");
 
 let page, file;
@@ -17,7 +16,7 @@ before(async () => {
 const both = (read) =>
   page.evaluate((text) => window.polynyaPair.players.map(new Function("player", `return (${text})(player)`)),
     read.toString());
-const drawn = () => bench.drawn(page);
+const drawn = () => page.drawn();
 const inFirst = (css) => page.frameLocator("iframe >> nth=0").locator(css);
 const inSecond = (css) => page.frameLocator("iframe >> nth=1").locator(css);
 

@@ -10,7 +10,7 @@
 #include "geometry/shape/outline.hpp"
 #include "io/import/projection.hpp"
 #include "io/text/encoding.hpp"
-#include "views/export/vtk_file.hpp"
+#include "views/export/vtk_export.hpp"
 
 namespace polynya::tests {
 namespace {

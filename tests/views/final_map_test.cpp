@@ -4,28 +4,29 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "../io/scene_text.hpp"
 #include "../io/temporary_folder.hpp"
 
 #include "views/export/geojson_export.hpp"
 #include "views/export/vtk_export.hpp"
-#include "views/map/svg_layout.hpp"
 
 namespace polynya::views {
 namespace {
 
-/// Two ships and a structure; the second ship breaks a floe.
-io::Run run_of_three(const std::string& name) {
+/// Two ships and a structure; the second ship breaks a floe. `more` are further members of the scene.
+io::Run run_of_three(const std::string& name, const std::string& more = "") {
   const auto named = [](const std::string& members) {
     return tests::ship(R"("hull": {"length_m": 40, "beam_m": 8}, "propulsion": {"constant_speed_m_per_s": 1}, )" +
                        members);
   };
   io::Run run;
-  run.scene = tests::load(tests::scene({"\"name\": \"" + name + '"', tests::list("floes", {tests::square(200, 0, 10)}),
-                                        tests::list("ships", {named(R"("name": "north", "position_m": [0, 50])"),
-                                                              named(R"("name": "south", "position_m": [0, 0])")}),
-                                        R"("structures": [{"name": "pile", "radius_m": 5, "position_m": [90, 0]}])"}));
+  run.scene =
+      tests::load(tests::scene({"\"name\": \"" + name + '"' + more, tests::list("floes", {tests::square(200, 0, 10)}),
+                                tests::list("ships", {named(R"("name": "north", "position_m": [0, 50])"),
+                                                      named(R"("name": "south", "position_m": [0, 0])")}),
+                                R"("structures": [{"name": "pile", "radius_m": 5, "position_m": [90, 0]}])"}));
   run.label = name;
   for (int ship = 0; ship < 3; ++ship) {
     simulation::HullSample sample;
@@ -81,51 +82,52 @@ std::size_t count_of(const std::string& text, const std::string& words) {
   return count;
 }
 
-// The page is as wide as a journal's, its words have 7 to 9 pt there, and end on it.
-TEST(FinalMap, IsReadableAtItsWidthOnPaper) {
-  const std::string svg = to_svg(final_picture(run_with_floes("a-scene-of-a-long-name")));
+/// The page is as wide as a journal's; its words have 7 to 9 pt there, end on it, and do not run into each other.
+void expect_readable(const std::string& svg) {
   EXPECT_NEAR(numbers_of(svg, "width").front(), 170, 0.01);
   const double pixels = std::stod(svg.substr(svg.find("viewBox='0 0 ") + 13));
   const double points = 170 / pixels / 25.4 * 72;  // of a pixel
-  const std::vector<double> sizes = numbers_of(svg, "font-size");
-  EXPECT_GT(sizes.size(), 5U);
-  for (const double size : sizes) {
+  std::map<double, double> ends;                   // of the words of a line, by its height
+  for (std::size_t at = svg.find("<text x='"); at != std::string::npos; at = svg.find("<text x='", at + 1)) {
+    const std::size_t begin = svg.find('>', at) + 1, end = svg.find("</text>", begin);
+    const std::string tag = " " + svg.substr(at, begin - at);
+    const double left = numbers_of(tag, "x").front(), size = numbers_of(tag, "font-size").front();
+    const std::vector<double> squeezed = numbers_of(tag, "textLength");
+    const double width = squeezed.empty() ? 0.62 * size * static_cast<double>(end - begin) : squeezed.front();
     EXPECT_GE(size * points, 6.99);
     EXPECT_LE(size * points, 9.01);
+    double& before = ends.try_emplace(numbers_of(tag, "y").front(), -1).first->second;
+    EXPECT_GE(left, before) << tag;
+    before = left + width;
+    EXPECT_LE(before, pixels + 1) << tag;
   }
-  for (std::size_t at = svg.find("<text x='"); at != std::string::npos; at = svg.find("<text x='", at + 1)) {
-    const std::size_t words = svg.find('>', at) + 1;
-    const std::string tag = svg.substr(at, words - at);
-    const double left = std::stod(tag.substr(9)), size = numbers_of(tag, "font-size").front();
-    EXPECT_GE(left, -1) << tag;
-    EXPECT_LE(left + width_of(svg.substr(words, svg.find("</text>", words) - words), size), pixels + 1) << tag;
-  }
+  EXPECT_GT(ends.size(), 5U);
+}
+
+TEST(FinalMap, IsReadableAtItsWidthOnPaper) {
+  expect_readable(final_map(run_with_floes("a-scene-of-a-long-name")));
+  io::Run of_long_label = run_with_floes("long");
+  of_long_label.label = std::string(150, 'n');
+  expect_readable(final_map(of_long_label));
+  expect_readable(final_map(run_with_ice_under_a_hull()));
 }
 
 TEST(FinalMap, AWallIsDrawnAsOneAndLeavesNoTrack) {
-  Picture picture;
-  picture.ships.push_back({{{0, 0}, {50, 0}, {50, 5}, {0, 5}}, {{25, 0}, {25, 9}}, true});
-  const std::string walls = to_svg(picture);
-  EXPECT_HAS(walls, ">wall<");
-  EXPECT_LACKS(walls, "<polyline");
-  picture.ships.front().is_wall = false;
-  const std::string ships = to_svg(picture);
-  EXPECT_LACKS(ships, ">wall<");
-  EXPECT_HAS(ships, "<polyline");
+  const std::string ships = final_map(run_of_three("ships"));
+  const std::string walls =
+      final_map(run_of_three("walls", R"(, "walls": [{"from_m": [-60, -90], "to_m": [200, -90]}])"));
+  EXPECT_EQ(count_of(ships, ">wall<"), 0U);
+  EXPECT_EQ(count_of(walls, ">wall<"), 1U);
+  EXPECT_EQ(count_of(ships, "<polyline"), 3U);
+  EXPECT_EQ(count_of(walls, "<polyline"), 3U);
 }
 
 TEST(FinalMap, IceUnderAHullIsNeitherFloatingIceNorAFracture) {
-  const io::Run run = run_with_ice_under_a_hull();
-  const Picture picture = final_picture(run);
-  EXPECT_EQ(picture.floes.size(), 4U);
-  EXPECT_EQ(picture.ice_under_hulls.size(), 1U);
-  EXPECT_EQ(picture.fractures.size(), 1U);
-  EXPECT_EQ(picture_at(run, io::MotionIndex(run), 0).floes.size(), 5U);
-  EXPECT_EQ(picture.caption,
-            "1 cusp broken by bending, 0 splits, 4 floes, 1 at the start; 2 pieces went under the hull, 1 "
-            "came up");
-  const std::string with = to_svg(picture), without = to_svg(final_picture(run_with_floes("plain")));
-  for (const char* words : {">ice under the hull or waiting behind it<", ">piece that came up from under the hull<"}) {
+  const std::string with = final_map(run_with_ice_under_a_hull()), without = final_map(run_with_floes("plain"));
+  EXPECT_EQ(count_of(with, ">1 cusp broken by bending, 0 splits, 4 floes, 1 at the start<"), 1U);
+  EXPECT_EQ(count_of(without, ">1 cusp broken by bending, 0 splits, 5 floes, 1 at the start<"), 1U);
+  for (const char* words : {">2 pieces went under the hull, 1 came up<", ">ice under the hull or waiting behind it<",
+                            ">piece that came up from under the hull<"}) {
     EXPECT_EQ(count_of(with, words), 1U) << words;
     EXPECT_EQ(count_of(without, words), 0U) << words;
   }
@@ -157,25 +159,6 @@ TEST(FinalMap, IceUnderAHullIsAPartOfTheVtkExport) {
   EXPECT_EQ(count("under-hull-00001.vtp", "NumberOfLines=\"1\""), 1U);
   EXPECT_EQ(count("ice-00001.vtp", "NumberOfLines=\"4\""), 1U);
   EXPECT_EQ(count("loads-00001.vtp", "NumberOfVerts=\"4\""), 1U) << "three ships and one fracture";
-}
-
-TEST(FinalMap, ALegendKeepsEachSwatchBesideItsWords) {
-  const std::vector<Legend::Entry> entries{
-      {"short"}, {"words that take up more than the whole of a narrow page do not leave it"}, {"last"}};
-  const Legend legend(entries, 10, 200);
-  SvgText svg(210, 300);
-  double before = -1;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const geometry::Point at = legend.draw(svg, i, 0);
-    EXPECT_NEAR(at.x, 10, 1e-9) << "no room for a second one in the row";
-    EXPECT_GT(at.y, before);
-    before = at.y;
-  }
-  EXPECT_LE(before, legend.height());
-  const std::string text = svg.finish();
-  const std::vector<double> x = numbers_of(text, "x");
-  EXPECT_GT(x.size(), 5U) << "the long words in lines";
-  for (const double left : x) EXPECT_NEAR(left, 68, 1e-9) << "beside the swatches";
 }
 
 }  // namespace

@@ -2,48 +2,25 @@
 
 /** All actions, each group with the others at hand. */
 function makeActions(player) {
-  const actions = {};
-  const groups = [timeActions, eventActions, mapActions, layerActions, takeAwayActions, floeActions, pageActions];
-  return Object.assign(actions, ...groups.map((group) => group(player, actions)));
+  const actions = clockActions(player.state);
+  const redrawn = Object.entries({ ...mapActions(player, actions), ...layerActions(player) }).map(([name, act]) =>
+    [name, (...words) => {
+      act(...words);
+      player.state.iceDirty = true;
+    }]);
+  const groups = [eventActions, takeAwayActions, floeActions, pageActions].map((group) => group(player, actions));
+  return Object.assign(actions, Object.fromEntries(redrawn), ...groups);
 }
 
-/** Time, and how fast it goes. */
-function timeActions({ run, state, range }, actions) {
-  const { frames } = run;
-  return {
-    goTo(time) {
-      state.time = Math.min(range[1], Math.max(range[0], time));
-      state.iceDirty = true;
-    },
-    goToEnd: (isEnd) => actions.goTo(isEnd ? range[1] : range[0]),
-    play(isPlaying) {
-      if (isPlaying && state.time >= range[1]) state.time = range[0];
-      state.isPlaying = isPlaying && range[1] > range[0];
-      byId("play").setAttribute("aria-pressed", String(state.isPlaying));
-      byId("play").setAttribute("aria-label", state.isPlaying ? "Pause" : "Play");
-      state.iceDirty = true;
-    },
-    togglePlay: () => actions.play(!state.isPlaying),
-    stepFrames(count) {
-      const at = lastAtMost(frames.times, state.time + 1e-9);
-      const next = count < 0 && state.time - frames.times[at] > 1e-9 ? at + 1 + count : at + count;
-      actions.goTo(frames.times[Math.min(frames.times.length - 1, Math.max(0, next))] ?? 0);
-    },
-    setRate(rate) {
-      state.rate = rate;
-      byId("rate").value = String(rate);
-    },
-    changeRate(step) {
-      const at = rates.indexOf(state.rate) + step;
-      actions.setRate(rates[Math.min(rates.length - 1, Math.max(0, at))]);
-    },
-  };
-}
-
-/** From fracture to fracture. */
+/** From frame to frame, and from event to event. */
 function eventActions({ run, state, view }, actions) {
-  const { events } = run.info;
+  const { frames: { times }, info: { events } } = run;
   return {
+    stepFrames(count) {
+      const at = lastAtMost(times, state.time + 1e-9);
+      const next = count < 0 && state.time - times[at] > 1e-9 ? at + 1 + count : at + count;
+      actions.goTo(times[Math.min(times.length - 1, Math.max(0, next))] ?? 0);
+    },
     goToEvent(index) {
       const event = events[index];
       if (!event) return;
@@ -76,39 +53,32 @@ function eventActions({ run, state, view }, actions) {
 
 /** The part of the map in view. */
 function mapActions(player, actions) {
-  const { state, view } = player;
-  const { ships } = player.run.info;
+  const { state, view, run: { info: { ships } } } = player;
   return {
     pan(dx, dy) {
       view.panBy(dx, dy);
       if (state.follow >= 0) actions.setFollow(-1);
       state.isFitted = false;
-      state.iceDirty = true;
     },
     zoom(px, py, factor) {
       view.zoomAt(px, py, factor);
       state.isFitted = false;
-      state.iceDirty = true;
     },
     zoomCentre: (factor) => actions.zoom(view.width / 2, view.height / 2, factor),
     fit() {
       actions.setFollow(-1);
       view.fit(player.box);
       state.isFitted = true;
-      state.iceDirty = true;
     },
     follow: () => actions.setFollow(state.follow + 1 < ships.length ? state.follow + 1 : -1),
     setFollow(ship) {
       if (ship >= ships.length) return;
       state.follow = ship;
       byId("follow").setAttribute("aria-pressed", String(ship >= 0));
-      if (ship >= 0 && state.isFitted) {
-        const hull = ships[ship].waterline_m.map(([x]) => x);
-        const length = Math.max(...hull) - Math.min(...hull);
-        view.scale = Math.max(view.scale, Math.min(view.width, view.height) / (2.2 * length));
-        state.isFitted = false;
-      }
-      state.iceDirty = true;
+      if (ship < 0 || !state.isFitted) return;
+      const { length } = hullBox(ships[ship].waterline_m);
+      view.scale = Math.max(view.scale, Math.min(view.width, view.height) / (2.2 * length));
+      state.isFitted = false;
     },
   };
 }
@@ -121,33 +91,27 @@ function layerActions(player) {
       state.colourBy = what;
       byId(`by-${what}`).checked = true;
       player.legend.show();
-      state.iceDirty = true;
     },
     toggleLayer(name, isOn = !state.layers[name]) {
       state.layers[name] = isOn;
       byId(`layer-${name}`).checked = isOn;
       player.legend.show();
-      state.iceDirty = true;
+    },
+    /** Sizes √area [m] `from` on and `below`; null: all. */
+    chooseSizes(range = null) {
+      state.sizes = range;
+      player.sizePanel.showFields();
+      player.legend.show();
     },
   };
 }
 
-/** What is taken out of the page: a link, pictures. And the sizes that the map shows. */
-function takeAwayActions(player) {
-  const { state } = player;
-  return {
-    /** Sizes √area [m] `from` on and `below`; null: all. */
-    chooseSizes(range) {
-      state.sizes = range;
-      player.sizePanel.showFields();
-      player.legend.show();
-      state.iceDirty = true;
-    },
-    copyLink: () => copyLink(player.address()),
-    saveMap: () => savePicture(player, mapPicture(player), "map"),
-    savePlot: () => player.run.info.ships.length > 0 && savePicture(player, plotPicture(player), "plot"),
-  };
-}
+/** What is taken out of the page: a link, pictures. */
+const takeAwayActions = (player) => ({
+  copyLink: () => copyLink(player.address()),
+  saveMap: () => savePicture(player, mapPicture(player), "map"),
+  savePlot: () => player.run.info.ships.length > 0 && savePicture(player, plotPicture(player), "plot"),
+});
 
 /** The floe that is chosen, and the one pointed at. */
 function floeActions(player, actions) {
@@ -207,6 +171,7 @@ function pageActions(player, actions) {
       if (help.open) help.close();
       else help.showModal();
     },
+    sizesBy: (what) => player.sizePanel.countBy(what),
     toggleFullScale() {
       plot.setFull(!plot.isFull);
       player.plotPanel.showTools();
@@ -220,9 +185,4 @@ function pageActions(player, actions) {
       player.plotPanel.rebuild();
     },
   };
-}
-
-/** Half a minute for the whole run. */
-function defaultRate(duration) {
-  return rates.find((rate) => duration / rate <= 40) ?? rates[rates.length - 1];
 }

@@ -35,8 +35,8 @@ function hasGone(run, motions, ship, carry) {
 function posesUpTo(run, motions, ship, time) {
   const { times } = run.frames;
   const poses = [];
-  for (let f = 0; f < times.length && times[f] < time; ++f) poses.push([...motions.shipInFrame(ship, f).subarray(0, 3),
-    times[f]]);
+  for (let f = 0; f < times.length && times[f] < time; ++f)
+    poses.push([...motions.shipInFrame(ship, f).subarray(0, 3), times[f]]);
   const now = motions.ship(ship);
   if (now) poses.push([...now.subarray(0, 3), time]);
   return poses;
@@ -63,21 +63,13 @@ function evenly(poses, spacing, carry, time) {
 /** What hulls swept: their outlines painted over each other along their tracks, carried with the water. */
 function drawSweptBand(context, view, run, motions, time, colours) {
   context.fillStyle = colours.swept;
-  run.info.ships.forEach((ship, index) => {
-    const xs = ship.waterline_m.map(([x]) => x);
-    const poses = evenly(posesUpTo(run, motions, index, time), (Math.max(...xs) - Math.min(...xs)) / 8, run.carry,
-      time);
-    poses.forEach(([x, y, heading, at], k) => {
-      if (k % 16 === 0) context.beginPath();
-      const [c, s] = [Math.cos(heading), Math.sin(heading)];
-      ship.waterline_m.forEach(([px, py], corner) => {
-        const point = view.toScreen(...run.carry(x + c * px - s * py, y + s * px + c * py, at, time));
-        if (corner === 0) context.moveTo(...point);
-        else context.lineTo(...point);
-      });
-      context.closePath();
-      if (k % 16 === 15 || k + 1 === poses.length) context.fill();
-    });
+  run.info.ships.forEach(({ waterline_m: waterline }, index) => {
+    const spacing = hullBox(waterline).length / 8;
+    for (const pose of evenly(posesUpTo(run, motions, index, time), spacing, run.carry, time)) {
+      const place = placedBy(pose);
+      traceLine(context, waterline.map((corner) => view.toScreen(...run.carry(...place(...corner), pose[3], time))));
+      context.fill();
+    }
   });
 }
 
@@ -86,8 +78,7 @@ function drawSweptBand(context, view, run, motions, time, colours) {
 function stationsOf(run, ship, time) {
   const { columns: c, info } = run;
   const measured = c.channel_measured_s[lastAtMost(c.channel_measured_s, time)];
-  const across = info.ships[ship].waterline_m.map(([, y]) => y);
-  const beam = Math.max(...across) - Math.min(...across);
+  const { beam } = hullBox(info.ships[ship].waterline_m);
   const stations = [];
   for (let k = 0; k < c.channel_ship.length; ++k) {
     if (c.channel_ship[k] !== ship || c.channel_t_s[k] !== measured) continue;
@@ -111,13 +102,9 @@ function drawStations(context, view, stations, colours) {
   context.beginPath();
   for (const { x, y, fx, fy, length, port, starboard } of stations) {
     if (!view.shows(x, y, length + port + starboard)) continue;
-    [[-0.5, port], [-0.5, -starboard], [0.5, -starboard], [0.5, port]].forEach(([part, v], k) => {
-      const u = part * length;
-      const point = view.toScreen(x + fx * u - fy * v, y + fy * u + fx * v);
-      if (k === 0) context.moveTo(...point);
-      else context.lineTo(...point);
-    });
-    context.closePath();
+    const place = placedBy([x, y, Math.atan2(fy, fx)]);
+    [[-0.5, port], [-0.5, -starboard], [0.5, -starboard], [0.5, port]].forEach(([part, v], k) =>
+      context[k > 0 ? "lineTo" : "moveTo"](...view.toScreen(...place(part * length, v))));
   }
   context.fill();
 }

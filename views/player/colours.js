@@ -9,9 +9,8 @@ const cutShare = 0.2; // of the area of the scene's floe: a piece that holds as 
 /**
  * For each floe one of `breakages`. Whole: no fracture since the scene. Cut: what is left of a floe of the scene: the
  * largest piece of each bend, and every piece that holds a fifth of it. Off: all else, by the kind of fracture that
- * freed it;
- * the largest piece of a piece that broke off stays what that was. What came up from under a hull stays that, and its
- * pieces too.
+ * freed it; the largest piece of a piece that broke off stays what that was. What came up from under a hull stays that,
+ * and its pieces too.
  */
 function breakagesOf({ floes, info, breakOf }) {
   const of = new Uint8Array(floes.count);
@@ -85,87 +84,60 @@ function makeColourings(run, places, most) {
   const sizes = roundEdges(Math.sqrt(most.area) || 1);
   const speeds = roundEdges(most.speed || 1);
   const breakageOf = breakagesOf(run);
+  const colouring = (name, title, edges, value, words) =>
+    ({ title, edges, colours: ramps[name], value, words, isUsed: () => true });
   return {
-    breakage: { title: "Ice", edges: [1, 2, 3, 4], colours: ramps.breakage, value: (id) => breakageOf[id],
-      isUsed: (k) => breakageOf.includes(k),
-      words: ["whole", "cut: what is left of a floe", "split off", "broken off by bending",
-        "came up from under the hull"] },
-    generation: { title: "Fractures since the scene", edges: generations, colours: ramps.generation, value: (id) =>
-      floes.generation[id],
-      words: ["none", ...generations.map((edge, k) => countWords(edge, generations[k + 1]))] },
-    speed: { title: "Speed [m/s]", edges: speeds, colours: ramps.speed, value: (id) =>
-      Math.hypot(places.vx[id], places.vy[id]),
-      words: classes(speeds) },
-    size: { title: "Size \u221aarea [m]", edges: sizes, colours: ramps.size, value: (id) => Math.sqrt(floes.area[id]),
-      words: classes(sizes) },
+    breakage: { ...colouring("breakage", "Ice", [1, 2, 3, 4], (id) => breakageOf[id], ["whole",
+      "cut: what is left of a floe", "split off", "broken off by bending", "came up from under the hull"]),
+    isUsed: (k) => breakageOf.includes(k) },
+    generation: colouring("generation", "Fractures since the scene", generations, (id) => floes.generation[id],
+      ["none", ...generations.map((edge, k) => countWords(edge, generations[k + 1]))]),
+    speed: colouring("speed", "Speed [m/s]", speeds, (id) => Math.hypot(places.vx[id], places.vy[id]), classes(speeds)),
+    size: colouring("size", "Size \u221aarea [m]", sizes, (id) => sizeOf(floes, id), classes(sizes)),
   };
 }
 
-/** The theme's colours, from the style sheet. */
+/** The theme's colours, by the names that they have in the style sheet (player.css). */
 function themeColours() {
   const style = getComputedStyle(document.documentElement);
-  const names = ["water", "start-ice", "swept", "channel", "ice-edge", "hull", "hull-edge", "deck", "deck-house",
-    "track", "ink", "panel", "muted",
-    "accent", "highlight", "line", "family",
-    "bend", "split", "grind", "rejected_cut", "under-hull", "paper-load", "mooring_break",
-    ...["ice", "friction", "submerged", "water", "thrust", "rudder", "mooring", "ships"].map((cause) =>
-      `cause-${cause}`), "ship-0", "ship-1", "ship-2", "ship-3", "ship-4"];
-  return Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+  const rules = [...document.styleSheets].flatMap((sheet) => [...sheet.cssRules]);
+  const names = rules.filter(({ selectorText }) => selectorText === ":root").flatMap((rule) => [...rule.style]);
+  return Object.fromEntries(names.map((name) => [name.slice(2), style.getPropertyValue(name).trim()]));
 }
 
 // The legend below the map: what the colours, marks and arrows mean that are shown now.
-
-/** What the colours of the loads mean: for each, its words. */
-function loadWords(run) {
-  const most = run.columns.peak_force_N.reduce((most, force) => Math.max(most, force), 0);
-  const unit = loadUnit(most, "N");
-  return Array.from({ length: loadSteps }, (_, step) =>
-    `up to ${shortNumber((most * (step + 1) * unit.factor) / loadSteps)} ${unit.name}`);
-}
 
 function makeLegend(player) {
   const { run, state, colourings } = player;
   // As wide as its longest words from the start: the legend must not grow and shrink while the run plays.
   const channelWidth = make("output", { id: "channel-width", style: `flex: 0 1 ${23 * run.info.ships.length}ch` });
 
-  function swatchRow(colour, ...words) {
-    const swatch = make("i");
-    swatch.style.background = colour;
-    return make("span", {}, swatch, ...words);
+  const row = (attributes, ...words) => make("span", {}, make("i", attributes), ...words);
+  const swatchRow = (colour, ...words) => row({ style: `background: ${colour}` }, ...words);
+  /** An arrow of a round length of what is drawn at that many pixels a unit, in `words` of it. */
+  function scaleRow(perUnit, words) {
+    const length = roundBelow(60 / perUnit);
+    return row({ class: "arrow", style: `width: ${length * perUnit}px` }, words(length));
   }
-  function arrowRow(pixels, words) {
-    const arrow = make("i", { class: "arrow" });
-    arrow.style.width = `${pixels}px`;
-    return make("span", {}, arrow, words);
-  }
-  function velocityRow() {
-    const speed = roundBelow(60 / player.arrowScale);
-    return arrowRow(speed * player.arrowScale, `${Number(speed.toPrecision(2))} m/s`);
-  }
-  function forceRows(colours) {
-    const force = roundBelow(60 / player.forceScale);
-    const unit = loadUnit(force, "N");
-    return [arrowRow(force * player.forceScale, `${shortNumber(force * unit.factor)} ${unit.name}`),
-      swatchRow(colours.split, "crushing"), swatchRow(colours.bend, "not crushing")];
-  }
+  const loadRows = () => Array.from({ length: loadSteps }, (_, step) => swatchRow(loadColour((step + 0.5) / loadSteps),
+    `up to ${loadWords((player.loadLine.most * (step + 1)) / loadSteps, "N", shortNumber)}`));
 
   return {
     show() {
       const { colours } = player;
       const colouring = colourings[state.colourBy];
-      const rows = colouring.words.flatMap((words, k) => (colouring.isUsed?.(k) ?? true
-        ? [swatchRow(colouring.colours[k], words)] : []));
+      const rows = colouring.words.map((words, k) => swatchRow(colouring.colours[k], words)).filter((_, k) =>
+        colouring.isUsed(k));
       if (state.colourBy === "size") rows.reverse();
       if (state.sizes) rows.push(make("span", { class: "pale" }, `pale: not ${sizeRangeWords(state.sizes)}`));
-      if (run.under.went > 0) rows.push(make("span", {}, make("i", { class: "under-hull" }),
-        "ice under the hull or waiting behind it"));
+      if (run.under.went > 0) rows.push(row({ class: "under-hull" }, "ice under the hull or waiting behind it"));
       if (state.layers.startIce) rows.push(swatchRow(colours["start-ice"], "ice at the start"));
       if (state.layers.channel) rows.push(swatchRow(colours.swept, "swept by the hull"),
         swatchRow(colours.channel, "open from ice to ice ", channelWidth));
-      if (state.layers.velocities) rows.push(velocityRow());
-      if (state.layers.forces) rows.push(...forceRows(colours));
-      if (state.layers.largestLoads || state.layers.meanLoads)
-        rows.push(...loadWords(run).map((words, step) => swatchRow(loadColour((step + 0.5) / loadSteps), words)));
+      if (state.layers.velocities) rows.push(scaleRow(player.arrowScale, (v) => `${Number(v.toPrecision(2))} m/s`));
+      if (state.layers.forces) rows.push(scaleRow(player.forceScale, (force) => loadWords(force, "N", shortNumber)),
+        swatchRow(colours.split, "crushing"), swatchRow(colours.bend, "not crushing"));
+      if (state.layers.largestLoads || state.layers.meanLoads) rows.push(...loadRows());
       byId("legend").replaceChildren(make("b", {}, colouring.title), ...rows);
     },
     showWidths: (words) => { channelWidth.textContent = words.join("; ") || "\u2013"; },

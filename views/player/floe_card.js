@@ -7,36 +7,16 @@ function floeAt(run, places, x, y) {
   return found >= 0 ? found : floeAmong(run, places, places.under, x, y);
 }
 
-function floeAmong({ floes }, places, ids, x, y) {
+const probe = make("canvas").getContext("2d");
+
+function floeAmong({ floes, outline }, places, ids, x, y) {
   let best = -1;
   for (const id of ids) {
-    const dx = x - places.x[id];
-    const dy = y - places.y[id];
-    if (dx * dx + dy * dy > floes.reach[id] ** 2) continue;
-    const c = places.cos[id];
-    const s = places.sin[id];
-    if (contains(floes, id, c * dx + s * dy, -s * dx + c * dy) && (best < 0
-      || floes.area[id] < floes.area[best])) best = id;
+    const [dx, dy, c, s] = [x - places.x[id], y - places.y[id], places.cos[id], places.sin[id]];
+    if (Math.hypot(dx, dy) > floes.reach[id] || (best >= 0 && floes.area[id] >= floes.area[best])) continue;
+    if (probe.isPointInPath(outline(id), c * dx + s * dy, -s * dx + c * dy, "evenodd")) best = id;
   }
   return best;
-}
-
-/** Whether a floe's polygon holds a point, given from its centroid in its body frame. Even-odd over all rings. */
-function contains(floes, id, x, y) {
-  const { ringsOf, ringEnds } = floes;
-  const { points, first } = floes.shape(id);
-  const [px, py] = [x + floes.cx[id], y + floes.cy[id]]; // in its body frame
-  let isInside = false;
-  let start = first;
-  for (let ring = ringsOf[id]; ring < ringsOf[id + 1]; ++ring) {
-    const end = first + ringEnds[ring];
-    for (let k = start, j = end - 1; k < end; j = k++) {
-      const [xk, yk, xj, yj] = [points[2 * k], points[2 * k + 1], points[2 * j], points[2 * j + 1]];
-      if (yk > py !== yj > py && px < ((xj - xk) * (py - yk)) / (yj - yk) + xk) isInside = !isInside;
-    }
-    start = end;
-  }
-  return isInside;
 }
 
 /** The floes that broke to make this one, oldest first, itself last. */
@@ -192,7 +172,7 @@ function makeShownFloe(player) {
     if (id < 0) return;
     const facts = floeFacts(run, places, motions, id);
     const speed = places.isThere(id, state.time) ? facts.speed[0] : "not alive now";
-  chip.textContent = `floe ${id} \u00b7 ${sixDigits(run.floes.area[id])} m\u00b2 \u00b7 ${speed}`;
+    chip.textContent = `floe ${id} \u00b7 ${sixDigits(run.floes.area[id])} m\u00b2 \u00b7 ${speed}`;
   }
   return { shown, showCard };
 }

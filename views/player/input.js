@@ -15,51 +15,68 @@ function wheelTurn({ deltaY, deltaMode, ctrlKey }) {
   return (deltaMode === 1 ? 33 * deltaY : deltaY) * (ctrlKey ? 0.01 : 0.0015);
 }
 
-/** Pans and zooms by a move of one of two fingers. */
-function pinch(before, after, actions) {
-  const spread = ([a, b]) =>
-    ({ x: (a[0] + b[0]) / 2, y: (a[1] + b[1]) / 2, size: Math.hypot(a[0] - b[0], a[1] - b[1]) });
-  const [was, is] = [spread(before), spread(after)];
-  actions.pan(is.x - was.x, is.y - was.y);
-  actions.zoom(is.x, is.y, is.size / Math.max(1, was.size));
+/**
+ * Pointers that are pressed on an element, each where it is [px]: `start(event, at, count)` where one is added,
+ * `drag(at, before)` where a single one moves, `pinch(after, before)` where one of two does, `end(event, at)` when the
+ * last is lifted, or taken away (pointercancel). `hover(event, at)` is of every move, pressed or not.
+ */
+function watchPointers(element, { start, drag, pinch, hover, end }) {
+  const pressed = new Map(); // pointer id → [x, y]
+  element.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    element.setPointerCapture(event.pointerId);
+    pressed.set(event.pointerId, pointIn(element, event));
+    start?.(event, pointIn(element, event), pressed.size);
+  });
+  element.addEventListener("pointermove", (event) => {
+    const at = pointIn(element, event);
+    hover?.(event, at);
+    if (!pressed.has(event.pointerId)) return;
+    const before = [...pressed.values()];
+    pressed.set(event.pointerId, at);
+    if (pressed.size === 1) drag?.(at, before[0]);
+    else if (pressed.size === 2) pinch?.([...pressed.values()], before);
+  });
+  for (const name of ["pointerup", "pointercancel"]) {
+    element.addEventListener(name, (event) => {
+      if (pressed.delete(event.pointerId) && pressed.size === 0) end?.(event, pointIn(element, event));
+    });
+  }
 }
 
-function watchGestures(stage, actions) {
-  const fingers = new Map(); // pointer id → [x, y]
-  let moved = 0;
+function watchMap(stage, actions) {
+  let moved = 0; // since the press [px]; no end of it with two fingers
+  let waiting = [0, 0]; // moved by less than a click may [px]
   let lastTap = -Infinity;
-
-  stage.addEventListener("pointerdown", (event) => {
-    if (event.target.closest("button")) return;
-    stage.setPointerCapture(event.pointerId);
-    fingers.set(event.pointerId, pointIn(stage, event));
-    moved = fingers.size === 1 ? 0 : Infinity;
+  watchPointers(stage, {
+    start(event, at, count) {
+      moved = count === 1 ? 0 : Infinity;
+      waiting = [0, 0];
+    },
+    hover: (event, at) => event.buttons === 0 && event.pointerType !== "touch" && actions.hover(...at),
+    drag(at, before) {
+      const step = [at[0] - before[0], at[1] - before[1]];
+      moved += Math.hypot(...step);
+      waiting = waiting.map((way, k) => way + step[k]);
+      if (moved <= clickSlop) return;
+      actions.pan(...waiting);
+      waiting = [0, 0];
+    },
+    pinch(after, before) {
+      const spread = ([a, b]) =>
+        ({ x: (a[0] + b[0]) / 2, y: (a[1] + b[1]) / 2, size: Math.hypot(a[0] - b[0], a[1] - b[1]) });
+      const [was, is] = [spread(before), spread(after)];
+      actions.pan(is.x - was.x, is.y - was.y);
+      actions.zoom(is.x, is.y, is.size / Math.max(1, was.size));
+    },
+    end({ type, timeStamp }, at) {
+      if (moved > clickSlop || type === "pointercancel") return;
+      const isDouble = timeStamp - lastTap < 300;
+      lastTap = isDouble ? -Infinity : timeStamp;
+      if (isDouble) actions.zoom(...at, 2);
+      else actions.click(...at);
+    },
   });
-  stage.addEventListener("pointermove", (event) => {
-    const at = pointIn(stage, event);
-    const last = fingers.get(event.pointerId);
-    if (!last) {
-      if (event.pointerType !== "touch") actions.hover(...at);
-      return;
-    }
-    const [dx, dy] = [at[0] - last[0], at[1] - last[1]];
-    moved += Math.hypot(dx, dy);
-    if (fingers.size === 1 && moved <= clickSlop) return;
-    const before = [...fingers.values()];
-    fingers.set(event.pointerId, at);
-    if (fingers.size === 1) actions.pan(dx, dy);
-    else if (fingers.size === 2) pinch(before, [...fingers.values()], actions);
-  });
-  const lift = (event) => {
-    if (!fingers.delete(event.pointerId) || event.type === "pointercancel") return;
-    if (moved > clickSlop || fingers.size > 0) return;
-    const at = pointIn(stage, event);
-    const isDouble = event.timeStamp - lastTap < 300;
-    lastTap = isDouble ? -Infinity : event.timeStamp;
-    if (isDouble) actions.zoom(...at, 2);
-    else actions.click(...at);
-  };
-  for (const name of ["pointerup", "pointercancel"]) stage.addEventListener(name, lift);
   stage.addEventListener("pointerleave", () => actions.leave());
   stage.addEventListener("wheel", (event) => {
     event.preventDefault();
@@ -67,102 +84,54 @@ function watchGestures(stage, actions) {
   }, { passive: false });
 }
 
-// Keys. The list is also the help.
+// Controls and keys. A control states all of its own: `data-do` names its action, `data-with` what that is given,
+// `data-keys` the keys that press it.
 
-const keyHelp = [
-  ["Space", "play, pause"],
-  ["\u2190 \u2192", "back, forward one frame; with Shift ten"],
-  ["Home End", "start, end"],
-  ["[ ]", "event before, event after"],
-  ["< >", "slower, faster"],
-  ["+ \u2212", "zoom"],
-  ["W A S D", "move the map"],
-  ["0", "whole run"],
-  ["F", "follow the ship (the next ship)"],
-  ["1 2 3 4", "colour by breakage, generation, speed, size"],
-  ["H", "channel"], ["C", "contact circles"], ["V", "velocities"], ["P", "contact forces"], ["B", "fracture marks"],
-  ["L", "copy a link to this instant"], ["I", "save the map as a picture (PNG); with Shift the plot"],
-  ["X", "plot: full scale, or without spikes"],
-  ["T", "light, dark"],
-  ["Esc", "let go of the floe; close this"],
-  ["?", "this help"],
-];
+function watchControls(actions) {
+  for (const control of document.querySelectorAll("[data-do]")) {
+    const { do: name, with: given } = control.dataset;
+    const words = () => (control.tagName === "SELECT" ? [control.value] : given ? [Number(given) || given] : []);
+    control.addEventListener(control.tagName === "BUTTON" ? "click" : "change", () => actions[name](...words()));
+  }
+  // One that a pointer has used gives the focus back to the page, so that Space plays; one that keys reached keeps it.
+  let isByPointer = false;
+  const giveBack = () => isByPointer && document.activeElement.closest("button, input:not([type=number])")?.blur();
+  for (const name of ["pointerdown", "keydown"])
+    document.addEventListener(name, () => { isByPointer = name === "pointerdown"; }, true);
+  for (const name of ["change", "click"]) document.addEventListener(name, giveBack);
+}
 
-/** Whether a key is for the control with the focus. Space and Escape are the page's on a list, which Enter opens. */
+/** Whether a key is for the control with the focus. Of a list Enter opens it: Space is the page's. */
 function isForControl({ target, key }) {
-  if (target.closest("select")) return key !== " " && key !== "Escape";
+  if (target.closest("select")) return /^(Arrow|Enter|Home|End|Page)/.test(key);
   if (target.closest("input[type=number]")) return key !== "Escape";
   if (target.type === "radio" && key.startsWith("Arrow")) return true;
   return Boolean(target.closest("button, input")) && (key === " " || key === "Enter");
 }
 
-/** A control that a pointer has used gives the focus back to the page,
-  so that Space plays; one that keys have reached keeps it, but
- * for a list once its choice is made. */
-function returnFocus() {
-  let byPointer = false;
-  let lastKey = "";
-  document.addEventListener("pointerdown", () => { byPointer = true; }, true);
-  document.addEventListener("keydown", (event) => {
-    byPointer = false;
-    lastKey = event.key;
-    if (event.key === "Enter" && event.target.closest("select") && event.target.showPicker) {
-      event.preventDefault();
-      event.target.showPicker();
-    }
-  }, true);
-  const giveBack = ({ type, target }) => {
-    const control = target.closest("button, select, input:not([type=number])");
-    if (!control || control !== document.activeElement) return;
-    const isList = control.tagName === "SELECT";
-    if (isList ? type === "change" && (byPointer || !lastKey.startsWith("Arrow")) : byPointer) control.blur();
-  };
-  for (const name of ["change", "click"]) document.addEventListener(name, giveBack);
-}
-
 function watchKeys(actions) {
   const keys = {
-    " ": () => actions.togglePlay(),
-    ArrowLeft: (event) => actions.stepFrames(event.shiftKey ? -10 : -1),
-    ArrowRight: (event) => actions.stepFrames(event.shiftKey ? 10 : 1),
+    ArrowLeft: ({ shiftKey }) => actions.stepFrames(shiftKey ? -10 : -1),
+    ArrowRight: ({ shiftKey }) => actions.stepFrames(shiftKey ? 10 : 1),
     Home: () => actions.goToEnd(false),
     End: () => actions.goToEnd(true),
-    "[": () => actions.stepEvent(-1),
-    "]": () => actions.stepEvent(1),
     "<": () => actions.changeRate(-1),
     ">": () => actions.changeRate(1),
-    "+": () => actions.zoomCentre(1.4),
-    "=": () => actions.zoomCentre(1.4),
-    "-": () => actions.zoomCentre(1 / 1.4),
-    0: () => actions.fit(),
     w: () => actions.pan(0, 60),
     a: () => actions.pan(60, 0),
     s: () => actions.pan(0, -60),
     d: () => actions.pan(-60, 0),
-    f: () => actions.follow(),
-    1: () => actions.colourBy("breakage"),
-    2: () => actions.colourBy("generation"),
-    3: () => actions.colourBy("speed"),
-    4: () => actions.colourBy("size"),
-    h: () => actions.toggleLayer("channel"),
-    c: () => actions.toggleLayer("circles"),
-    v: () => actions.toggleLayer("velocities"),
-    p: () => actions.toggleLayer("forces"),
-    b: () => actions.toggleLayer("fractures"),
-    l: () => actions.copyLink(),
-    i: (event) => (event.shiftKey ? actions.savePlot() : actions.saveMap()),
-    x: () => actions.toggleFullScale(),
-    t: () => actions.toggleTheme(),
-    "?": () => actions.toggleHelp(),
+    i: ({ shiftKey }) => (shiftKey ? actions.savePlot() : actions.saveMap()),
     Escape: () => actions.letGo(),
   };
+  for (const control of document.querySelectorAll("[data-keys]"))
+    for (const key of control.dataset.keys.split(" ")) keys[key === "Space" ? " " : key] = () => control.click();
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const action = keys[event.key] ?? keys[event.key.toLowerCase()];
-    if (!action || isForControl(event)) return;
+    const isList = event.key === "Enter" && event.target.closest("select");
+    const action = isList ? () => event.target.showPicker?.() : keys[event.key] ?? keys[event.key.toLowerCase()];
+    if (!action || (!isList && isForControl(event))) return;
     event.preventDefault();
     action(event);
   });
-  returnFocus();
-  byId("keys").replaceChildren(...keyHelp.flatMap(([key, words]) => [make("dt", {}, key), make("dd", {}, words)]));
 }

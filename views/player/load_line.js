@@ -9,25 +9,15 @@ function loadColour(q) {
   return `hsl(${55 - 55 * step} 95% ${60 - 30 * step}%)`;
 }
 
-/** A waterline from its stem to port (simulation/ship/waterline.cpp): its length, and the point at an arc. */
+/** A waterline's length, and the way along it from its first vertex to its stem (simulation/ship/waterline.cpp) [m]. */
 function waterlineOf(ring) {
+  const next = (k) => ring.at(k - ring.length + 1);
+  const sides = ring.map(([x, y], k) => Math.hypot(x - next(k)[0], y - next(k)[1]));
   const most = Math.max(...ring.map(([x]) => x)) - 1e-9;
   const first = ring.findIndex(([x], k) => x >= most && ring.at(k - 1)[0] < most);
-  const points = [...ring.slice(first), ...ring.slice(0, first + 1)];
-  const arcs = [0];
-  for (let k = 1; k < points.length; ++k) arcs.push(arcs[k - 1] + Math.hypot(points[k][0] - points[k - 1][0],
-    points[k][1] - points[k - 1][1]));
-  const length = arcs.at(-1);
-  const stem = points[1][0] >= most ? arcs[1] / 2 : 0;
-  return {
-    length,
-    at(arc) {
-      const along = (((arc + stem) % length) + length) % length;
-      const k = Math.min(lastAtMost(arcs, along), points.length - 2);
-      const share = (along - arcs[k]) / (arcs[k + 1] - arcs[k]);
-      return [0, 1].map((axis) => points[k][axis] + share * (points[k + 1][axis] - points[k][axis]));
-    },
-  };
+  const isEdge = next(first)[0] >= most;
+  const sumOf = (lengths) => lengths.reduce((sum, length) => sum + length, 0);
+  return { ring, length: sumOf(sides), stem: sumOf(sides.slice(0, first)) + (isEdge ? sides[first] / 2 : 0) };
 }
 
 /** The largest peak and the sum and number of all of each panel of each ship, up to an instant. Goes on from the last
@@ -60,24 +50,23 @@ function makeLoadLine({ info, columns }) {
 /** Draws them along the hulls. Returns the notice to show where there are none. */
 function drawLoadLine(context, view, loadLine, motions, time, isMean) {
   if (loadLine.most === 0) return "This run recorded no peaks of loads.";
-  context.lineWidth = 5;
-  context.lineCap = "butt";
   loadLine.panelsAt(time).forEach((panels, ship) => {
     const pose = motions.ship(ship);
     if (!pose) return;
-    const [line, side] = [loadLine.lines[ship], loadLine.sides[ship]];
-    const [c, s] = [Math.cos(pose[2]), Math.sin(pose[2])];
-    panels.forEach(({ largest, sum, count }, k) => {
-      if (count === 0) return;
-      const ends = [k - side, k - side + 1].map((n) => Math.max(-line.length / 2,
-        Math.min(line.length / 2, n * loadPanel)));
-      context.strokeStyle = loadColour((isMean ? sum / count : largest) / loadLine.most);
-      context.beginPath();
-      for (let n = 0; n <= 4; ++n) {
-        const [x, y] = line.at(ends[0] + ((ends[1] - ends[0]) * n) / 4 - (n === 4 ? 1e-6 : 0));
-        context.lineTo(...view.toScreen(pose[0] + c * x - s * y, pose[1] + s * x + c * y));
-      }
-      context.stroke();
+    const [{ ring, length, stem }, side] = [loadLine.lines[ship], loadLine.sides[ship]];
+    inShipFrame(context, view, pose, (pixel) => {
+      traceLine(context, ring);
+      context.closePath();
+      context.lineWidth = 5 * pixel;
+      panels.forEach(({ largest, sum, count }, k) => { // a dash as long as the panel, where it is
+        if (count === 0) return;
+        const [from, to] = [k - side, k - side + 1].map((n) =>
+          Math.max(-length / 2, Math.min(length / 2, n * loadPanel)));
+        context.setLineDash([to - from, length - (to - from)]);
+        context.lineDashOffset = -(stem + from);
+        context.strokeStyle = loadColour((isMean ? sum / count : largest) / loadLine.most);
+        context.stroke();
+      });
     });
   });
   return "";

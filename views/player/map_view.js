@@ -58,13 +58,10 @@ function extentOf(run, motions, places, range) {
   for (const time of range) {
     places.setTime(time);
     for (const i of places.living.subarray(0, places.count)) {
-      const { points, first } = floes.shape(i);
-      const end = first + floes.ringEnds[floes.ringsOf[i + 1] - 1];
-      for (let k = first; k < end; ++k) {
-        const [px, py] = [points[2 * k] - floes.cx[i], points[2 * k + 1] - floes.cy[i]];
-        include(places.x[i] + places.cos[i] * px - places.sin[i] * py,
-          places.y[i] + places.sin[i] * px + places.cos[i] * py);
-      }
+      const place = placedBy([places.x[i], places.y[i], Math.atan2(places.sin[i], places.cos[i])]);
+      const points = floes.shape(i);
+      for (let k = 0; k < points.length; k += 2)
+        include(...place(points[k] - floes.cx[i], points[k + 1] - floes.cy[i]));
     }
   }
   info.ships.forEach((ship, index) => {

@@ -12,6 +12,12 @@ function lastAtMost(values, x, from = 0, end = values.length) {
   return from - 1;
 }
 
+/** Where points of a body's frame are in the world, by its pose. */
+function placedBy([x, y, angle]) {
+  const [c, s] = [Math.cos(angle), Math.sin(angle)];
+  return (px, py) => [x + c * px - s * py, y + s * px + c * py];
+}
+
 class Motions {
   constructor({ frames, floes }) {
     this.frames = frames;
@@ -66,12 +72,7 @@ class Motions {
     if (by < 0) return motion.set([floes.cx[id], floes.cy[id], 0, 0, 0, 0]), motion;
     this.ofRecorded(by);
     if (by === id) return motion;
-    const c = Math.cos(motion[2]);
-    const s = Math.sin(motion[2]);
-    const dx = floes.cx[id] - floes.cx[by];
-    const dy = floes.cy[id] - floes.cy[by];
-    motion[0] += c * dx - s * dy;
-    motion[1] += s * dx + c * dy;
+    [motion[0], motion[1]] = placedBy(motion)(floes.cx[id] - floes.cx[by], floes.cy[id] - floes.cy[by]);
     return motion;
   }
 
@@ -128,22 +129,16 @@ function readIceUnderHulls(events) {
 
 /** Outlines of what is under hulls, or waits for room behind them: through the ship, which shows between them. */
 function drawIceUnderHulls(context, view, run, places, colours) {
-  const { floes } = run;
-  const seen = places.under.filter((id) => view.shows(places.x[id], places.y[id], floes.reach[id]));
-  if (seen.length === 0) return;
-  context.save();
-  context.fillStyle = context.strokeStyle = colours["under-hull"];
-  context.lineWidth = Math.min(1.2, Math.max(0.5, 0.4 * view.scale));
-  context.setLineDash([3, 2]);
-  for (const id of seen) {
-    context.beginPath();
-    traceFloe(context, view, floes, places, id);
-    context.globalAlpha = 0.25;
-    context.fill();
-    context.globalAlpha = 1;
-    context.stroke();
-  }
-  context.restore();
+  onMap(context, view, { width: Math.min(1.2, Math.max(0.5, 0.4 * view.scale)), dash: [3, 2] }, () => {
+    context.fillStyle = context.strokeStyle = colours["under-hull"];
+    for (const id of places.under) {
+      if (!view.shows(places.x[id], places.y[id], run.floes.reach[id])) continue;
+      context.globalAlpha = 0.25;
+      drawFloe(context, view, run, places, id, "fill");
+      context.globalAlpha = 1;
+      drawFloe(context, view, run, places, id, "stroke");
+    }
+  });
 }
 
 /** The two rows of the present time above the numbers of the whole run. */

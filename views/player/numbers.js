@@ -2,8 +2,6 @@
 
 const byId = (id) => document.getElementById(id);
 
-const rates = [0.5, 1, 2, 5, 10, 20, 50, 100]; // of playing, times as fast as the run
-
 /** An element with attributes and children. */
 function make(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);
@@ -24,6 +22,12 @@ function loadUnit(largest, base) {
   return { factor: 1, name: base };
 }
 
+/** A load [N] or moment [N m] in words, its number by `digits`. */
+function loadWords(value, base, digits) {
+  const unit = loadUnit(Math.abs(value), base);
+  return `${digits(value * unit.factor)} ${unit.name}`;
+}
+
 /** The longest of 1, 2, 5 × 10ⁿ that is at most `room`. */
 function roundBelow(room) {
   const decade = 10 ** Math.floor(Math.log10(room));
@@ -36,6 +40,14 @@ function sixDigits(value) {
   return text.includes("e") && Math.abs(value) < 1e12 && Math.abs(value) >= 1e-6 ? String(Number(text)) : text;
 }
 
-function shortNumber(value) {
-  return String(Number(value.toPrecision(3)));
+const shortNumber = (value) => String(Number(value.toPrecision(3)));
+
+/** Gives a canvas a size [px] and clears it; its context has these pixels. */
+function clearedCanvas(canvas, width, height) {
+  const ratio = Math.min(window.devicePixelRatio || 1, 2);
+  canvas.width = Math.round(width * ratio);
+  canvas.height = Math.round(height * ratio);
+  const context = canvas.getContext("2d");
+  context.scale(ratio, ratio);
+  return context;
 }

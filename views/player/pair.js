@@ -24,14 +24,8 @@ function pageOfRun(template, { labels, axis_s }, k) {
     return text;
   };
   const options = JSON.stringify({ axis_s, label: labels[k] }).replaceAll("<", "\\u003c");
-  let [page, rest] = ["", template];
-  for (const [mark, text] of [["{{title}}", ""], ["{{options}}", options], ["{{info}}", take(`info-${k}`)],
-    ["{{columns}}", take(`columns-${k}`)]]) {
-    const at = rest.indexOf(mark);
-    page += rest.slice(0, at) + text;
-    rest = rest.slice(at + mark.length);
-  }
-  return page + rest;
+  const parts = { title: "", options, info: take(`info-${k}`), columns: take(`columns-${k}`) };
+  return template.replace(/\{\{(title|options|info|columns)\}\}/g, (_, name) => parts[name]);
 }
 
 /** Puts the two players into the page; gives them when both have started. */
@@ -47,41 +41,17 @@ function openPlayers() {
   })));
 }
 
-/** The one clock: time [s] and how fast it goes. A run that ends before the other stays at its end. */
-function makeClock(players) {
-  const [{ axis }] = players;
-  const clock = { time: axis[0], isPlaying: false, rate: 1 };
-  const goTo = players.map(({ actions }) => actions.goTo);
-  clock.goTo = (time) => {
-    clock.time = Math.min(axis[1], Math.max(axis[0], time));
-    players.forEach((player, k) => {
-      player.isOver = clock.time > player.range[1];
-      goTo[k](clock.time);
-    });
+/** The one clock, which all controls of the players are of. A run that ends before the other stays at its end. */
+function makePairClock(players) {
+  const clock = makeClock(players[0].axis, () => {
     byId("now").textContent = `${clock.time.toFixed(1)} s`;
-  };
-  clock.play = (isPlaying) => {
-    if (isPlaying && clock.time >= axis[1]) clock.goTo(axis[0]);
-    clock.isPlaying = isPlaying && axis[1] > axis[0];
-    byId("play").setAttribute("aria-pressed", String(clock.isPlaying));
-    byId("play").setAttribute("aria-label", clock.isPlaying ? "Pause" : "Play");
-    for (const { state } of players) state.iceDirty = true;
-  };
-  clock.setRate = (rate) => {
-    clock.rate = rate;
-    byId("rate").value = String(rate);
-    for (const { state } of players) state.rate = rate;
-  };
-  clock.tick = (passed) => {
-    if (!clock.isPlaying) return;
-    clock.goTo(clock.time + (Math.min(100, passed) / 1000) * clock.rate);
-    if (clock.time >= axis[1]) clock.play(false);
-  };
-  for (const { actions } of players) {
-    Object.assign(actions, { goTo: clock.goTo, play: clock.play, togglePlay: () => clock.play(!clock.isPlaying),
-      setRate: clock.setRate,
-      goToEnd: (isEnd) => clock.goTo(axis[isEnd ? 1 : 0]) });
-  }
+    for (const player of players) {
+      player.isOver = clock.time > player.range[1];
+      player.state.rate = clock.rate;
+      player.state.goTo(clock.time);
+    }
+  });
+  for (const { actions } of players) Object.assign(actions, clockActions(clock));
   return clock;
 }
 
@@ -102,9 +72,7 @@ const common = {
   colours: { of: ({ state }) => state.colourBy, give: ({ actions }, by) => actions.colourBy(by) },
   layers: { of: ({ state }) => state.layers, give: ({ actions }, layers) =>
     Object.entries(layers).forEach((layer) => actions.toggleLayer(...layer)) },
-  sizes: { of: ({ state }) => state.sizes && [state.sizes.from, Number.isFinite(state.sizes.below)
-    ? state.sizes.below : null],
-    give: ({ actions }, sizes) => actions.chooseSizes(sizes && { from: sizes[0], below: sizes[1] ?? Infinity }) },
+  sizes: { of: ({ state }) => state.sizes, give: ({ actions }, sizes) => actions.chooseSizes(sizes) },
   follow: { of: ({ state }) => state.follow, give: ({ actions }, ship) => actions.setFollow(ship) },
   plot: {
     of: ({ plot }) => ({ quantity: plot.quantity, hidden: [...plot.hidden], isFull: plot.isFull, span: plot.span }),
@@ -125,25 +93,21 @@ function makeCommon(players) {
   const known = {};
   const wordsOf = ({ of }) => players.map((player) => JSON.stringify(of(player)));
   const show = () => players.forEach(({ plot }) => plot.show(...plot.span)); // each has the other's scale
-  for (const [name, thing] of Object.entries(common)) {
-    thing.give(players[1], thing.of(players[0]));
+  const give = (name, from) => {
+    const thing = common[name];
+    if (thing.isOn?.() ?? true) thing.give(players[1 - from], thing.of(players[from]));
     known[name] = wordsOf(thing);
-  }
+  };
+  for (const name of Object.keys(common)) give(name, 0);
   return {
     show,
-    /** Whether something changed. */
     share() {
-      let hasChanged = false;
       for (const [name, thing] of Object.entries(common)) {
-        const words = wordsOf(thing);
-        const changed = words.findIndex((word, k) => word !== known[name][k]);
+        const changed = wordsOf(thing).findIndex((words, k) => words !== known[name][k]);
         if (changed < 0) continue;
-        hasChanged = true;
-        if (thing.isOn?.() ?? true) thing.give(players[1 - changed], JSON.parse(words[changed]));
+        give(name, changed);
         if (name === "plot") show();
-        known[name] = wordsOf(thing);
       }
-      return hasChanged;
     },
   };
 }
@@ -190,18 +154,10 @@ function toggleThemes(players) {
 
 /** The controls of the bar, and keys pressed there. */
 function watchBar(players, clock, shared, address) {
-  const help = () => players[0].frame.contentWindow.polynyaPlayer.actions.toggleHelp();
-  for (const { actions } of players) {
-    Object.assign(actions, { toggleTheme: () => toggleThemes(players), copyLink: () => copyLink(address()),
-      stepEvent: (step) => stepEvent(players, clock, step) });
-  }
-  const onClick = { play: () => clock.play(!clock.isPlaying), "event-before": () => stepEvent(players, clock, -1),
-    "event-after": () => stepEvent(players, clock, 1),
-    theme: () => toggleThemes(players), "copy-link": () => copyLink(address()), "help-button": help,
-      "same-scale": shared.show };
-  for (const [id, act] of Object.entries(onClick)) byId(id).addEventListener("click", act);
-  byId("rate").replaceChildren(...rates.map((rate) => make("option", { value: String(rate) }, `${rate}\u00d7`)));
-  byId("rate").addEventListener("change", (event) => clock.setRate(Number(event.target.value)));
+  const common = { toggleTheme: () => toggleThemes(players), copyLink: () => copyLink(address()),
+    stepEvent: (step) => stepEvent(players, clock, step) };
+  for (const { actions } of players) Object.assign(actions, common);
+  watchControls({ ...players[0].actions, shareScale: shared.show });
   document.addEventListener("keydown", (event) => { // as if it were pressed in the first player
     if (event.ctrlKey || event.metaKey || event.altKey || isForControl(event)) return;
     const { contentWindow, contentDocument } = players[0].frame;
@@ -212,28 +168,18 @@ function watchBar(players, clock, shared, address) {
 }
 
 async function startPair() {
-  returnFocus();
   const players = await openPlayers();
-  const clock = makeClock(players);
+  const clock = makePairClock(players);
   const words = () => momentOfPair(players, clock);
   joinScales(players);
   const shared = makeCommon(players);
   watchBar(players, clock, shared, () => addressOf(words()));
   byId("end").textContent = `${Number(players[0].axis[1].toFixed(1))} s`;
-  const longest = players.reduce((a, b) => (b.range[1] - b.range[0] > a.range[1] - a.range[0] ? b : a));
-  clock.setRate(longest.state.rate);
-  clock.goTo(clock.time);
+  clock.setRate(Math.max(...players.map(({ state }) => state.rate)));
   shared.show();
   const keepLink = watchMoment({ words, goTo: (link) => goToMomentOfPair(players, link), isPlaying: () =>
     clock.isPlaying });
   for (const player of players) player.keepLink = keepLink;
-  let last = performance.now();
-  const tick = (now) => {
-    clock.tick(now - last);
-    last = now;
-    shared.share();
-    requestAnimationFrame(tick);
-  };
-  requestAnimationFrame(tick);
+  runClock(clock, players[0].axis, shared.share);
   window.polynyaPair = { players, clock };
 }

@@ -1,5 +1,5 @@
 // A scene before it runs: routes, wind and current, what validate warns of, places to copy. Of the page's options,
-// `plan` (views/player/scene_plan.cpp).
+// `plan` (views/player/player_page.cpp).
 
 const currentCell = 110; // [px], of the grid of arrows
 const longestArrow = 40; // [px], of the fastest current on the screen
@@ -13,9 +13,10 @@ function currentAt(run, x, y) {
 /** Arrows of the current across the map. Returns the fastest [m/s]. */
 function drawCurrent(context, view, run, colours) {
   const arrows = [];
-  for (let px = currentCell / 2; px < view.width; px += currentCell)
-    for (let py = currentCell / 2; py < view.height; py += currentCell) arrows.push([px, py,
-      ...currentAt(run, ...view.toWorld(px, py))]);
+  for (let px = currentCell / 2; px < view.width; px += currentCell) {
+    for (let py = currentCell / 2; py < view.height; py += currentCell)
+      arrows.push([px, py, ...currentAt(run, ...view.toWorld(px, py))]);
+  }
   const fastest = Math.max(0, ...arrows.map(([, , vx, vy]) => Math.hypot(vx, vy)));
   if (fastest === 0) return 0;
   context.beginPath();
@@ -28,83 +29,57 @@ function drawCurrent(context, view, run, colours) {
   return fastest;
 }
 
-function strokeTwice(context, under, over, width) {
-  for (const [wide, colour] of [[width + 2.4, under], [width, over]]) {
-    context.lineWidth = wide;
-    context.strokeStyle = colour;
-    context.stroke();
-  }
-}
-
-/** Words on the map, readable on ice and water. */
-function drawWords(context, words, x, y, colours, align = "left") {
-  context.font = "600 12px system-ui, sans-serif";
-  context.textAlign = align;
-  context.lineWidth = 3;
-  context.strokeStyle = colours.panel;
-  context.strokeText(words, x, y);
-  context.fillStyle = colours.ink;
-  context.fillText(words, x, y);
-}
-
 /** The wind as one arrow, and how fast it and the current are. */
-function drawWindAndWords(context, view, [wx, wy], fastest, colours) {
+function drawWindAndWords(context, view, [wx, wy], fastest, { panel, ink }) {
   const wind = Math.hypot(wx, wy);
-  let y = 58;
   if (wind > 0) {
     context.beginPath();
     traceArrow(context, view.width - 44 - (24 * wx) / wind, 34 + (24 * wy) / wind, wx, wy, 48);
-    strokeTwice(context, colours.panel, colours.ink, 3);
-    drawWords(context, `wind ${shortNumber(wind)} m/s`, view.width - 84, 38, colours, "right");
-    y += 20;
+    strokeTwice(context, panel, ink, 3);
+    drawWords(context, `wind ${shortNumber(wind)} m/s`, view.width - 84, 38, ink, panel, "right");
   }
-  if (fastest > 0) drawWords(context, `current up to ${shortNumber(fastest)} m/s`, view.width - 16, wind > 0 ? y : 26,
-    colours, "right");
+  if (fastest > 0)
+    drawWords(context, `current up to ${shortNumber(fastest)} m/s`, view.width - 16, wind > 0 ? 78 : 26, ink, panel,
+      "right");
 }
 
-function drawRoute(context, view, { points_m: points, speeds_m_per_s: speeds }, colours) {
-  context.beginPath();
-  for (const point of points) context.lineTo(...view.toScreen(...point));
+function drawRoute(context, view, { points_m: points, speeds_m_per_s: speeds }, { panel, ink, highlight }) {
+  traceLine(context, points.map((point) => view.toScreen(...point)));
   context.setLineDash([10, 4]);
-  strokeTwice(context, colours.panel, colours.highlight, 2);
+  strokeTwice(context, panel, highlight, 2);
   context.setLineDash([]);
   points.slice(1).forEach((point, k) => {
     const [x, y] = view.toScreen(...point);
     context.beginPath();
     context.arc(x, y, 4.5, 0, 2 * Math.PI);
-    context.fillStyle = colours.highlight;
+    context.fillStyle = highlight;
     context.fill();
-    const isAtEdge = x > view.width - 80;
-    drawWords(context, `${k + 1}: ${shortNumber(speeds[k])} m/s`, isAtEdge ? x - 8 : x + 8, y - 6, colours, isAtEdge
-      ? "right" : "left");
+    const [side, align] = x > view.width - 80 ? [-8, "right"] : [8, "left"];
+    drawWords(context, `${k + 1}: ${shortNumber(speeds[k])} m/s`, x + side, y - 6, ink, panel, align);
   });
 }
 
 function drawProblem(context, view, problem, number, colours) {
   const [x, y] = view.toScreen(...problem.point_m);
-  context.beginPath();
-  context.moveTo(x, y - 32);
-  context.lineTo(x + 11, y - 13);
-  context.lineTo(x - 11, y - 13);
+  traceLine(context, [[x, y - 32], [x + 11, y - 13], [x - 11, y - 13]]);
   context.closePath();
   context.fillStyle = problem.severity === "hint" ? colours.accent : colours.split;
   context.fill();
   context.strokeStyle = colours.panel;
   context.lineWidth = 1.5;
   context.stroke();
-  drawWords(context, String(number), x, y - 15, colours, "center");
+  drawWords(context, String(number), x, y - 15, colours.ink, colours.panel);
 }
 
 function drawPlan(context, { plan, view, run, motions, colours, state }) {
   const fastest = drawCurrent(context, view, run, colours);
   plan.routes.forEach((route) => drawRoute(context, view, route, colours));
-  if (run.info.ships.length === 1) drawLabel(context, view, run.info.ships[0].name, motions.ship(0), colours);
+  if (run.info.ships.length === 1) drawName(context, view, run.info.ships[0].name, motions.ship(0), colours);
   plan.problems.forEach((problem, k) => problem.point_m && drawProblem(context, view, problem, k + 1, colours));
   drawWindAndWords(context, view, plan.wind_m_per_s, fastest, colours);
   if (!state.place) return;
   const [x, y] = view.toScreen(...state.place);
-  context.beginPath();
-  for (const [dx, dy] of [[9, 0], [-9, 0], [0, 9], [0, -9]]) context.moveTo(x, y), context.lineTo(x + dx, y + dy);
+  traceLine(context, [[x - 9, y], [x + 9, y], [x, y], [x, y - 9], [x, y + 9]]);
   strokeTwice(context, colours.panel, colours.highlight, 2);
 }
 

@@ -2,98 +2,66 @@
 
 // The page's words and controls.
 
+const eventCounts = { bends: "bend", splits: "split", ground: "grind", "rejected cuts": "rejected_cut",
+  "went under": "submerge", "came up": "resurface", "stayed under": "stay_under", "moorings broken": "mooring_break" };
+
 /** The panel with the numbers of the whole run. */
 function fillFacts({ run: { info, floes }, name, plan }) {
-  const count = (kind) => info.events.filter((event) => event.kind === kind).length;
+  const ofRun = (held, all) => (held === all ? held : `${held} of ${all}`);
+  const counts = Object.entries(eventCounts).map(([words, kind]) =>
+    [words, info.events.filter((event) => event.kind === kind).length]);
   const facts = {
-    "floes in all": info.floes === floes.count ? floes.count : `${info.floes} of ${floes.count}`,
+    "floes in all": ofRun(info.floes, floes.count),
     ...(info.area_m && { area: `${info.area_m.map(shortNumber).join(", ")} m` }),
-      ...(!plan && { bends: count("bend"), splits: count("split"), ...(count("grind") && { ground: count("grind") }),
-        "rejected cuts": count("rejected_cut") }),
-    ...(count("submerge") && { "went under": count("submerge"), "came up": count("resurface"),
-      ...(count("stay_under") && { "stayed under": count("stay_under") }) }),
-    ...(count("mooring_break") && { "moorings broken": count("mooring_break") }),
+    ...Object.fromEntries(counts.filter(([words, count]) => count > 0 || (!plan && /bends|splits/.test(words)))),
     ships: info.ships.map((ship) => ship.name).join(", ") || "none",
     ...(info.steps?.length && { steps: info.steps.map(({ step_s, count }) => `${count} of ${step_s} s`).join(", ") }),
-    ...(!plan
-      && { frames: info.frames === info.frames_of_run ? info.frames : `${info.frames} of ${info.frames_of_run}` }),
-    ...(name !== info.scene
-      && { "scene's name": info.scene }), seed: info.seed, scene: info.scene_hash, polynya: info.polynya,
+    ...(!plan && { frames: ofRun(info.frames, info.frames_of_run) }),
+    ...(name !== info.scene && { "scene's name": info.scene }),
+    seed: info.seed, scene: info.scene_hash, polynya: info.polynya,
   };
   byId("facts").replaceChildren(...Object.entries(facts).flatMap(([fact, value]) =>
     [make("dt", {}, fact), make("dd", {}, String(value))]));
-  if (count("submerge")) byId("facts").prepend(...rowsUnderHulls());
+  if ("went under" in facts) byId("facts").prepend(...rowsUnderHulls());
 }
 
 /** What the plot can show, forces by cause apart. */
 function quantityGroups(quantities) {
   return [[false, "Quantities"], [true, "Stacked areas"]].flatMap(([stacks, label]) => {
     const group = Object.entries(quantities).filter(([, { isStack = false }]) => isStack === stacks);
-    return group.length > 0
-      ? [make("optgroup", { label }, ...group.map(([name, { label: words }]) =>
-        make("option", { value: name }, words)))] : [];
+    const choices = group.map(([value, { label: words }]) => make("option", { value }, words));
+    return choices.length > 0 ? [make("optgroup", { label }, ...choices)] : [];
   });
 }
 
 function fillPage(player) {
-  const { run, range, name, isOneOfTwo, axis, state, plot, actions } = player;
-  const { info, frames } = run;
+  const { run: { info, frames }, range, name, isOneOfTwo, axis, state, plot, actions } = player;
   byId("scene").textContent = name;
   document.body.classList.toggle("one-of-two", isOneOfTwo);
+  document.body.classList.toggle("no-ships", info.ships.length === 0);
   for (const id of ["description", "description-whole"]) {
     byId(id).textContent = info.description;
     byId(id).classList.toggle("empty", info.description === "");
   }
   byId("end").textContent = `${Number(range[1].toFixed(1))} s`;
-  if (!info.finished) {
-    byId("badge").hidden = false;
-    byId("badge").textContent = `unfinished: ${range[1].toFixed(1)} of ${info.until_s} s` + (info.stopped_by
-      ? `, stopped by ${info.stopped_by}` : "");
-  }
+  byId("badge").hidden = info.finished;
+  byId("badge").textContent = `unfinished: ${range[1].toFixed(1)} of ${info.until_s} s`
+    + (info.stopped_by ? `, stopped by ${info.stopped_by}` : "");
   fillFacts(player);
   if (player.plan) fillPlan(player);
-
-  const onClick = {
-    play: () => actions.togglePlay(), "event-before": () => actions.stepEvent(-1), "event-after": () =>
-      actions.stepEvent(1),
-    "zoom-in": () => actions.zoomCentre(1.4), "zoom-out": () =>
-      actions.zoomCentre(1 / 1.4), fit: actions.fit, follow: actions.follow,
-    theme: actions.toggleTheme, "help-button": actions.toggleHelp, "help-close": actions.toggleHelp,
-    "full-scale": actions.toggleFullScale, "whole-run": () =>
-      actions.zoomPlot(), "save-plot": actions.savePlot, "save-map": actions.saveMap,
-    "copy-link": actions.copyLink,
-  };
-  for (const [id, act] of Object.entries(onClick)) byId(id).addEventListener("click", act);
   byId("event-before").disabled = byId("event-after").disabled = info.events.length === 0;
   byId("play").disabled = frames.times.length < 2;
-  byId("rate").replaceChildren(...rates.map((rate) => make("option", { value: String(rate) }, `${rate}\u00d7`)));
-  byId("rate").value = String(state.rate);
-  byId("rate").addEventListener("change", (event) => actions.setRate(Number(event.target.value)));
   byId("follow").disabled = info.ships.length === 0;
-  for (const what of ["breakage", "generation", "speed", "size"]) byId(`by-${what}`).addEventListener("change", () =>
-    actions.colourBy(what));
-  for (const name of Object.keys(state.layers)) {
-    byId(`layer-${name}`).checked = state.layers[name];
-    byId(`layer-${name}`).addEventListener("change", (event) => actions.toggleLayer(name, event.target.checked));
-  }
+  for (const [layer, isOn] of Object.entries(state.layers)) byId(`layer-${layer}`).checked = isOn;
   byId("track").setAttribute("aria-valuemin", String(axis[0]));
   byId("track").setAttribute("aria-valuemax", String(axis[1]));
-  document.body.classList.toggle("no-ships", info.ships.length === 0);
   byId("quantity").replaceChildren(...quantityGroups(plot.quantities));
-  byId("quantity").addEventListener("change", (event) => actions.plotQuantity(event.target.value));
+  state.setRate(playRates().find((rate) => (range[1] - range[0]) / rate <= 40) ?? playRates().at(-1));
+  watchControls(actions);
+  watchKeys(actions);
 }
 
 // The picture and the numbers at each tick of the screen.
-
-/** Moves the time on by what passed [ms] since the last tick; the run stops at its end. */
-function playOn({ state, range, actions }, passed) {
-  state.time += (Math.min(100, passed) / 1000) * state.rate;
-  if (state.time >= range[1]) {
-    state.time = range[1];
-    actions.play(false);
-  }
-  state.iceDirty = true;
-}
 
 function showNumbers({ run, state, places, plotPanel, sizePanel, timeline }) {
   const words = `${state.time.toFixed(1)} s`;
@@ -111,38 +79,25 @@ function startDrawing(player, canvases) {
   const drawIce = makeIcePicture(player, canvases[0]);
   const drawMarks = makeMarksPicture(player, canvases[1]);
   const shownFloe = makeShownFloe(player);
-
-  /** Draws what has changed. */
-  function draw() {
-    if (state.iceDirty) {
+  runClock(state, player.range, () => { // draws what has changed
+    const { iceDirty } = state;
+    if (!iceDirty && !state.marksDirty) return;
+    const before = performance.now();
+    if (iceDirty) {
       places.setTime(state.time);
       const pose = state.follow >= 0 ? motions.ship(state.follow) : null;
       if (pose) [view.x, view.y] = pose;
       drawIce();
       showNumbers(player);
     }
-    if (state.iceDirty || state.marksDirty) {
-      drawMarks(shownFloe.shown());
-      shownFloe.showCard();
-    }
-    if (state.iceDirty || state.marksDirty) player.keepLink();
+    drawMarks(shownFloe.shown());
+    shownFloe.showCard();
+    player.keepLink();
     state.iceDirty = state.marksDirty = false;
-  }
-
-  let last = 0;
-  function tick(now) {
-    if (state.isPlaying) playOn(player, now - last);
-    last = now;
-    const isDrawn = state.iceDirty;
-    const before = performance.now();
-    draw();
-    if (isDrawn) {
-      ++player.drawn;
-      if (player.drawTimes.push(performance.now() - before) > 2000) player.drawTimes.length = 0;
-    }
-    requestAnimationFrame(tick);
-  }
-  requestAnimationFrame(tick);
+    if (!iceDirty) return;
+    ++player.drawn;
+    if (player.drawTimes.push(performance.now() - before) > 2000) player.drawTimes.length = 0;
+  });
 }
 
 // The player: its parts, put together.
@@ -156,6 +111,7 @@ function readPlayedRun() {
   });
   run.under = readIceUnderHulls(run.info.events);
   run.carry = makeCarrier(run.info.water);
+  run.outline = makeOutlines(run);
   return run;
 }
 
@@ -167,13 +123,13 @@ const readOptions = () => JSON.parse(byId("page-options").textContent);
 function firstState(run, motions, range) {
   const isUnderWay = (carry) => run.frames.times.length > 0 && run.info.ships.some((_, ship) =>
     hasGone(run, motions, ship, carry));
-  return {
-    time: range[0], isPlaying: false, rate: defaultRate(range[1] - range[0]), selected: -1, hovered: -1, event: null,
-    follow: -1, colourBy: "breakage", isFitted: true, sizes: null,
-    layers: { channel: isUnderWay(run.carry), startIce: isUnderWay((x, y) => [x, y]), track: true, circles: false,
-      velocities: false, forces: false, largestLoads: false, meanLoads: false, fractures: false },
+  const state = makeClock(range, () => { state.iceDirty = true; });
+  return Object.assign(state, {
+    selected: -1, hovered: -1, event: null, follow: -1, colourBy: "breakage", isFitted: true, sizes: null,
+    layers: { channel: isUnderWay(run.carry), startIce: isUnderWay((x, y) => [x, y]), track: true, velocities: false,
+      forces: false, largestLoads: false, meanLoads: false, fractures: false },
     iceDirty: true, marksDirty: true,
-  };
+  });
 }
 
 /** The player without its controls. Includes what tests and measurements read. */
@@ -189,10 +145,9 @@ function makePlayer(canvases) {
   const colourings = makeColourings(run, places, extremes);
   return {
     run, range, plan: options.plan, axis: options.axis_s ?? range, isOneOfTwo: "axis_s" in options,
-      name: options.label ?? run.info.scene, state, view: makeMapView(byId("stage"), canvases), places, motions,
-        box: extentOf(run, motions, places, range),
-    colours: themeColours(), colourings, extremes, circlesOf: makeCircleSampler(run), cardIsStale: false, drawn: 0,
-      drawTimes: [],
+    name: options.label ?? run.info.scene, state, view: makeMapView(byId("stage"), canvases), places, motions,
+    box: extentOf(run, motions, places, range), colours: themeColours(), colourings, extremes, cardIsStale: false,
+    loadLine: makeLoadLine(run), drawn: 0, drawTimes: [],
     forceScale: 40 / (typicalForce(run) || 1), // [px/N]
     arrowScale: 40 / (colourings.speed.edges.at(-1) || 1), // [px/(m/s)]
     /** Classes of colours up to other extremes, as another run has them. */
@@ -235,8 +190,7 @@ function startPlayer() {
   player.address = () => addressOf(momentOf(player));
   player.keepLink = () => {};
   fillPage(player);
-  watchGestures(byId("stage"), player.actions);
-  watchKeys(player.actions);
+  watchMap(byId("stage"), player.actions);
   watchPage(player);
   view.resize();
   view.fit(player.box);

@@ -4,6 +4,7 @@
 #include <array>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <set>
 
 #include "analysis/channel.hpp"
@@ -17,8 +18,129 @@
 namespace polynya::views {
 
 using geometry::Box;
+using geometry::Point;
+
+void ColumnWriter::add_raw(const std::string& name, const char* type, const void* data, std::size_t count,
+                           std::size_t size) {
+  bytes_.resize((bytes_.size() + 7) / 8 * 8);
+  table_.push_back({name, type, bytes_.size(), count});
+  bytes_.append(static_cast<const char*>(data), count * size);
+}
+void ColumnWriter::add(const std::string& name, const std::vector<double>& values) {
+  add_raw(name, "f64", values.data(), values.size(), sizeof(double));
+}
+void ColumnWriter::add(const std::string& name, const std::vector<std::int32_t>& values) {
+  add_raw(name, "i32", values.data(), values.size(), sizeof(std::int32_t));
+}
+void ColumnWriter::add(const std::string& name, std::string_view bytes) {
+  add_raw(name, "u8", bytes.data(), bytes.size(), 1);
+}
 
 namespace {
+
+/// The floes of a run that a page holds.
+class HeldFloes {
+ public:
+  explicit HeldFloes(std::size_t count) : is_held_(count, true), ids_(count) { std::iota(ids_.begin(), ids_.end(), 0); }
+  /// Those whose distance is 0.
+  explicit HeldFloes(const std::vector<double>& distances) : is_held_(distances.size()) {
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+      is_held_[i] = distances[i] <= 0;
+      if (is_held_[i]) ids_.push_back(static_cast<simulation::FloeId>(i));
+    }
+  }
+  bool are_all() const { return ids_.size() == is_held_.size(); }
+  /// Also of what is no floe.
+  bool has(simulation::FloeId id) const { return id < 0 || is_held_[static_cast<std::size_t>(id)]; }
+  const std::vector<simulation::FloeId>& ids() const { return ids_; }
+
+ private:
+  std::vector<bool> is_held_;  ///< by floe
+  std::vector<simulation::FloeId> ids_;
+};
+
+/// The shapes of floes while they are gathered (views/player/run_data.js reads them).
+class ShapeColumns {
+ public:
+  explicit ShapeColumns(const io::Run& run) : run_(run) {}
+
+  void add(const simulation::BirthRecord& birth) {
+    const io::ShapeParts* parts = run_.shapes.parts_of(birth.floe);
+    const auto polygon = run_.shape(birth.floe);
+    double reach = 0;  // no hole reaches farther than the outer ring
+    for (const Point p : polygon->outer) reach = std::max(reach, distance(p, birth.centroid_in_body));
+    reach_.push_back(reach);
+    std::size_t end = 0;
+    for (const std::size_t size : io::ring_sizes(*polygon)) {
+      end += size;
+      ring_ends_.push_back(static_cast<std::int32_t>(end));
+    }
+    rings_of_.push_back(static_cast<std::int32_t>(ring_ends_.size()));
+    if (!parts) {
+      add_points(polygon->outer);
+      for (const geometry::Ring& hole : polygon->holes) add_points(hole);
+      return;
+    }
+    add_points(parts->vertices);
+    for (const io::ShapePart& part : parts->parts) {
+      part_floe_.push_back(static_cast<std::int32_t>(birth.floe));
+      part_ring_.push_back(part.ring);
+      part_first_.push_back(static_cast<std::int32_t>(part.first));
+      part_count_.push_back(static_cast<std::int32_t>(part.count));
+    }
+  }
+
+  void add_to(ColumnWriter& columns) const {
+    columns.add("rings_of", rings_of_);
+    columns.add("ring_ends", ring_ends_);
+    columns.add("part_floe", part_floe_);
+    columns.add("part_ring", part_ring_);
+    columns.add("part_first", part_first_);
+    columns.add("part_count", part_count_);
+    columns.add("reach_m", reach_);
+    columns.add("points_m", points_);
+  }
+
+ private:
+  void add_points(const geometry::Ring& ring) {
+    for (const Point p : ring) points_.insert(points_.end(), {p.x, p.y});
+  }
+
+  const io::Run& run_;
+  std::vector<std::int32_t> rings_of_{0}, ring_ends_, part_floe_, part_ring_, part_first_, part_count_;
+  std::vector<double> points_, reach_;
+};
+
+/// Of every floe held its floe_id where not all are; parent, generation, born_s, died_s, went_under_s,
+/// came_up, area_m2, mass_kg, thickness_m, flexural_strength_Pa, centroid, reach_m (of its farthest vertex
+/// from its centroid), and its shape: the ends of its rings, counted from its first vertex, and its vertices,
+/// or of one that is parts of its parent's the parts and its new vertices.
+void add_floes(ColumnWriter& columns, const io::Run& run, const HeldFloes& held) {
+  const auto add_of_floe = [&](const char* name, auto read) {
+    columns.add(name, held.ids(), [&run, read](simulation::FloeId id) { return std::invoke(read, *run.floe(id)); });
+  };
+  const auto add = [&](const char* name, auto read) {
+    add_of_floe(name, [read](const io::RunFloe& floe) { return std::invoke(read, floe.birth); });
+  };
+  using simulation::BirthRecord;
+  if (!held.are_all()) add("floe_id", &BirthRecord::floe);
+  add("parent", &BirthRecord::parent);
+  add("generation", &BirthRecord::generation);
+  add("born_s", &BirthRecord::time);
+  add_of_floe("died_s", &io::RunFloe::died);
+  add_of_floe("went_under_s", &io::RunFloe::went_under);
+  add_of_floe("came_up", &io::RunFloe::came_up);
+  add("area_m2", &BirthRecord::area);
+  add("mass_kg", &BirthRecord::mass);
+  const simulation::Scene& scene = run.scene.scene;
+  add("thickness_m", [&](const BirthRecord& birth) { return ice_of(scene, birth.own_ice).thickness; });
+  add("flexural_strength_Pa", [&](const BirthRecord& birth) { return ice_of(scene, birth.own_ice).flexural_strength; });
+  add("centroid_x_m", [](const BirthRecord& birth) { return birth.centroid_in_body.x; });
+  add("centroid_y_m", [](const BirthRecord& birth) { return birth.centroid_in_body.y; });
+  ShapeColumns shapes(run);
+  for (const simulation::FloeId id : held.ids()) shapes.add(run.floe(id)->birth);
+  shapes.add_to(columns);
+}
 
 /// How far a box has to grow on all sides to meet another [m]; 0 where they meet.
 double gap(const Box& box, const Box& other) {
@@ -111,6 +233,29 @@ void add_channels(ColumnWriter& columns, const io::Run& run, const std::vector<i
   add("channel_starboard_m", [](const Station& s) { return s.starboard; });
 }
 
+/// A cause as the page has it: a column of forces.csv, or one of its own without what others are shares of.
+struct ShownCause {
+  io::ForceCause cause;
+  std::vector<std::string_view> shares;  ///< columns
+
+  std::string column() const { return std::string(cause.column) + (shares.empty() ? "" : " without shares"); }
+  double read(const simulation::HullSample& sample) const {
+    double left = io::force_column(cause.column).read(sample);
+    for (const std::string_view share : shares) left -= io::force_column(share).read(sample);
+    return left;
+  }
+};
+
+std::vector<ShownCause> shown_causes(const simulation::Scene& scene) {
+  std::vector<ShownCause> shown;
+  for (const io::ForceCause& cause : io::force_causes(scene)) {
+    ShownCause& one = shown.emplace_back(ShownCause{cause, {}});
+    for (const io::ForceCause& other : io::force_causes(scene))
+      if (other.share_of == cause.column) one.shares.push_back(other.column);
+  }
+  return shown;
+}
+
 void add_forces(ColumnWriter& columns, const io::Run& run, const io::FrameSelection& selection) {
   std::vector<simulation::HullSample> rows;
   std::ranges::copy_if(run.samples, std::back_inserter(rows),
@@ -119,27 +264,27 @@ void add_forces(ColumnWriter& columns, const io::Run& run, const io::FrameSelect
   columns.add("force_t_s", rows, &simulation::HullSample::time);
   for (const io::ForceColumn* column : io::plotted_columns(run.scene.scene))
     columns.add(column->name, rows, column->read);
+  for (const ShownCause& cause : shown_causes(run.scene.scene)) {
+    if (!cause.shares.empty())
+      columns.add(cause.column(), rows, [&](const simulation::HullSample& s) { return cause.read(s); });
+  }
 }
 
 void write_force_columns(io::JsonWriter& json, const simulation::Scene& scene) {
-  json.key("force_columns").open('[');
-  for (const io::ForceColumn* column : io::plotted_columns(scene)) {
-    json.open('{').key("name").value(column->name).key("unit").value(column->unit);
+  json.key("force_columns").objects(io::plotted_columns(scene), [&](const io::ForceColumn* column) {
+    json.key("name").value(column->name).key("unit").value(column->unit);
     json.key("plot").value(column->plot).key("curve").value(column->curve);
-    json.key("is_optional").value(column->is_optional).close('}');
-  }
-  json.close(']');
+    json.key("is_optional").value(column->is_optional);
+  });
 }
 
 void write_force_causes(io::JsonWriter& json, const simulation::Scene& scene) {
-  json.key("force_causes").open('[');
-  for (const io::ForceCause& cause : io::force_causes(scene)) {
-    json.open('{').key("direction").value(cause.direction).key("cause").value(cause.cause);
-    json.key("words").value(cause.words).key("column").value(cause.column);
+  json.key("force_causes").objects(shown_causes(scene), [&](const ShownCause& shown) {
+    const io::ForceCause& cause = shown.cause;
+    json.key("direction").value(cause.direction).key("cause").value(cause.cause).key("column").value(shown.column());
+    json.key("words").value(shown.shares.empty() ? cause.words : cause.without_shares);
     json.key("unit").value(io::force_column(cause.column).unit);
-    json.key("share_of").value(cause.share_of).key("without_shares").value(cause.without_shares).close('}');
-  }
-  json.close(']');
+  });
 }
 
 void write_events(io::JsonWriter& json, const io::Run& run, const HeldFloes& held) {
@@ -192,14 +337,9 @@ void write_patterns(io::JsonWriter& json, const simulation::Scene& scene) {
 }
 
 void write_water(io::JsonWriter& json, const simulation::Scene& scene) {
-  const simulation::WaterSettings& water = scene.water;
-  json.key("water")
-      .open('{')
-      .key("shear_per_s")
-      .value(water.shear.rate)
-      .key("shear_direction_rad")
-      .value(water.shear.direction);
-  json.key("shear_origin_m").value(water.shear.origin);
+  const simulation::ShearSettings& shear = scene.water.shear;
+  json.key("water").open('{').key("shear_per_s").value(shear.rate).key("shear_origin_m").value(shear.origin);
+  json.key("shear_direction_rad").value(shear.direction);
   write_drift(json, scene);
   json.close('}');
 }
@@ -248,12 +388,11 @@ std::string info_of(const io::Run& run, const PlayerData& data, const PlayerSele
   write_patterns(json, scene);
   write_force_columns(json, scene);
   write_force_causes(json, scene);
-  json.key("columns").open('[');
-  for (const ColumnWriter::Column& column : data.columns.table()) {
-    json.open('{').key("name").value(column.name).key("type").value(column.type);
-    json.key("offset").value(column.offset).key("count").value(column.count).close('}');
-  }
-  json.close(']').close('}');
+  json.key("columns").objects(data.columns.table(), [&](const ColumnWriter::Column& column) {
+    json.key("name").value(column.name).key("type").value(column.type);
+    json.key("offset").value(column.offset).key("count").value(column.count);
+  });
+  json.close('}');
   return text;
 }
 
@@ -265,15 +404,15 @@ std::vector<double> family_distances(const io::Run& run, const Box& box, const s
   for (std::size_t i = 0; i < run.floes.size(); ++i) {
     const simulation::BirthRecord& birth = run.floes[i].birth;
     oldest[i] = birth.parent >= 0 ? oldest[static_cast<std::size_t>(birth.parent)] : i;
-    for (const geometry::Point p : run.shape(birth.floe)->outer)
+    for (const Point p : run.shape(birth.floe)->outer)
       reach[i] = std::max(reach[i], distance(p, birth.centroid_in_body));
   }
   std::vector<double> least(run.floes.size(), std::numeric_limits<double>::infinity());  // by oldest floe
   std::vector<std::optional<io::RecordedMotion>> last(run.floes.size());
   /// From its last record on at its velocity up to a time.
   const auto follow = [&](std::size_t floe, double time) {
-    const geometry::Point from = last[floe]->motion.position;
-    const geometry::Point to = carried_on(last[floe]->motion, time - last[floe]->time).position;
+    const Point from = last[floe]->motion.position;
+    const Point to = carried_on(last[floe]->motion, time - last[floe]->time).position;
     double& distance = least[oldest[floe]];
     distance = std::min(distance, gap(box, geometry::grown(geometry::box_around(from, to), reach[floe])));
   };

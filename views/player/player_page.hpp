@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "io/scene/scene_reader.hpp"
 #include "views/player/player_data.hpp"
 
 namespace polynya::views {
@@ -24,5 +25,10 @@ struct ShownRun {
 
 /// One HTML file that shows two runs side by side, with one clock (docs/view.md).
 std::string pair_page(const std::array<ShownRun, 2>& runs);
+
+/// What the page of a scene that has not run shows beside its ice and hulls, as the page's options: routes of ships,
+/// wind, and what `polynya validate` warns of. `stamp` is of this page: the script `stamp_file` beside it, where one is
+/// named, has that of the newest (`--watch`).
+std::string scene_plan(const io::LoadedScene& scene, const std::string& stamp, const std::string& stamp_file);
 
 }  // namespace polynya::views

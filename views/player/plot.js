@@ -1,42 +1,4 @@
-// The plot: its chart, what it reads out, what lies off its scale, its pointers and its panel.
-
-// What the plot shows in numbers: the values under the pointer, and the names and values of its curves at the present
-// time.
-
-/** A line and a box that show the values of all curves at the time under the pointer. */
-function makePlotReading(run, plot) {
-  const words = make("div", { class: "reading-words" });
-  const element = make("div", { class: "reading", id: "reading", hidden: "" }, words);
-  const { ships } = run.info;
-
-  function rowOf(curve, time) {
-    const values = plot.ships().map((k) => {
-      const at = plot.valueAt(k, curve, time);
-      return `${plot.ships().length > 1 ? `${ships[k].name} ` : ""}${at ? valueWords(at.value, curve.base) : "\u2013"}`;
-    });
-    const { label, isStack } = plot.shownQuantity();
-    return make("div", {}, make("span", {}, ...(isStack ? [lineOf(curve)] : []), curve.label || label),
-      make("b", {}, values.join(", ")));
-  }
-
-  return {
-    element,
-    show(time, px) {
-      const at = plot.valueAt(plot.ships()[0], plot.curves()[0], time);
-      const { isStack = false, sums = [] } = plot.shownQuantity();
-      words.replaceChildren(make("div", {}, make("span", {}, "row that ends at"),
-        make("b", {}, at ? `${Number(at.time.toFixed(6))} s` : "\u2013")),
-        ...[...plot.shownCurves(), ...sums].map((curve) => rowOf(curve, time)));
-      words.classList.toggle("many", isStack);
-      element.hidden = false;
-      element.style.left = `${px}px`;
-      element.classList.toggle("to-left", px > plot.chart.over.clientWidth / 2);
-    },
-    hide() {
-      element.hidden = true;
-    },
-  };
-}
+// The plot: its key, what lies off its scale, its chart, its pointers and its panel.
 
 /** How a curve looks: a line, or the colour of an area. */
 function lineOf({ kind, isArea = false }) {
@@ -44,18 +6,18 @@ function lineOf({ kind, isArea = false }) {
     ? { class: "line area", style: `background: var(--cause-${kind})` } : { class: `line ${kind}` });
 }
 
-/** The plot's key: a box to tick, a line and the present value for each curve. Gives what shows the values. */
+/** The plot's key: a box to tick, a line and a value for each curve. Gives what shows the values at a time [s]. */
 function fillPlotKey(run, plot, host, onChange) {
   const { ships } = run.info;
   const outputs = [];
   const curves = plot.curves();
   const rows = curves.map((curve) => {
     const isOfMany = plot.ships().length > 1;
-    const values = plot.ships().map((k) => {
-      const output = make("output", { "data-column": curve.column, "data-ship": ships[k].name });
-      outputs.push({ curve, ship: k, output });
-      return make("span", { class: "value", style: isOfMany ? `color: var(--ship-${k % 5})` : "" }, isOfMany
-        ? `${ships[k].name} ` : "", output);
+    const values = plot.ships().map((ship) => {
+      const output = make("output", { "data-column": curve.column, "data-ship": ships[ship].name });
+      outputs.push({ curve, ship, output });
+      const style = isOfMany ? `color: var(--ship-${ship % 5})` : "";
+      return make("span", { class: "value", style }, isOfMany ? `${ships[ship].name} ` : "", output);
     });
     if (curves.length === 1) return make("div", { class: "curve" }, ...values);
     const box = make("input", { type: "checkbox", id: `curve-${curve.kind}` });
@@ -77,7 +39,7 @@ function fillPlotKey(run, plot, host, onChange) {
   };
 }
 
-// Rows that lie off the plot's scale: counted in words, and marked at its edge.
+// Rows that lie off the plot's scale, in words above it.
 
 /** Counts the rows in view that lie off the scale, and names the largest of each curve. */
 function countOffScale(plot) {
@@ -105,38 +67,8 @@ function showOffScale(plot) {
   plot.offScale.hidden = plot.off === null && means === "";
   const words = (off) => [means, off].filter(Boolean).join("; ");
   plot.offScale.replaceChildren(
-    make("span", { class: "long" }, words(plot.off && `\u25b2 off the scale: ${plot.off.words.join("; ")}`)),
-    make("span", { class: "short" }, words(plot.off && `\u25b2 ${plot.off.count} values off the scale`)));
-}
-
-/** A mark at the edge for rows off the scale, one for each few pixels. */
-function drawOffScale(plot, chart) {
-  if (!plot.off) return;
-  for (const { curve, ship, times, values } of plot.inView()) {
-    if (!isLoad(curve)) continue;
-    chart.ctx.fillStyle = curveStyle(curve, ship, plot.run.forces.length, plot.colours).stroke.slice(0, 7);
-    drawEdgeMarks(chart, times, values, chart.scales[curve.scale]);
-  }
-}
-
-function drawEdgeMarks(chart, times, values, { min, max }) {
-  const { ctx, bbox } = chart;
-  const size = 4 * devicePixelRatio;
-  const marked = new Set();
-  values.forEach((value, row) => {
-    if (value >= min && value <= max) return;
-    const side = value > max ? 1 : -1;
-    const x = chart.valToPos(times[row], "x", true);
-    const key = side * (1 + Math.floor(x / size));
-    if (marked.has(key) || x < bbox.left) return;
-    marked.add(key);
-    const y = side > 0 ? bbox.top : bbox.top + bbox.height;
-    ctx.beginPath();
-    ctx.moveTo(x, y);
-    ctx.lineTo(x - size, y + 1.5 * side * size);
-    ctx.lineTo(x + size, y + 1.5 * side * size);
-    ctx.fill();
-  });
+    make("span", { class: "long" }, words(plot.off && `off the scale: ${plot.off.words.join("; ")}`)),
+    make("span", { class: "short" }, words(plot.off && `${plot.off.count} values off the scale`)));
 }
 
 // The plot's chart, as uPlot takes it: its axes, its curves and their rows.
@@ -173,16 +105,15 @@ function chartSeries(plot, curves) {
 
 function chartOptions(plot) {
   const curves = drawnCurves(plot);
-  const ofLoads = plot.isOfLoads();
   const rangeOf = (scale) => () => plot.axisRanges()[scale] ?? [0, 1]; // a chart that was replaced asks once more
   const isPaper = plot.scales().includes("paper");
   const isPlain = plot.scales().includes("y");
-  const placed = (chart) => plot.onPlaced(chart.over.offsetLeft, chart.over.offsetWidth);
+  const placed = (chart) => plot.on.onPlaced(chart.over.offsetLeft, chart.over.offsetWidth);
   return {
-    width: plot.host.clientWidth, height: plot.host.clientHeight, padding: [ofLoads ? 18 : 6, isPaper ? 0 : 24, 0,
-      isPlain ? 0 : 24],
+    width: plot.host.clientWidth, height: plot.host.clientHeight,
+    padding: [plot.isOfLoads() ? 18 : 6, isPaper ? 0 : 24, 0, isPlain ? 0 : 24],
     legend: { show: false }, cursor: { show: false },
-    hooks: { ready: [placed], setSize: [placed], draw: [(chart) => drawOffScale(plot, chart)],
+    hooks: { ready: [placed], setSize: [placed],
       drawAxes: plot.shownQuantity().isStack ? [(chart) => drawStack(plot, chart)] : [] },
     scales: { x: { time: false, range: () => plot.span },
       ...Object.fromEntries(plot.scales().map((name) => [name, { range: rangeOf(name) }])) },
@@ -206,25 +137,17 @@ function chartRows(plot) {
 // Pointers on the plot: a drag goes to a time, the wheel and two fingers zoom, Shift and a drag choose a part of the
 // run, a double click shows all of it again.
 
-/** Pixels of the plot from its left, and the times there. */
-function plotAxis(plot) {
-  const { over } = plot.chart;
-  return {
-    pixel: (event) => Math.min(over.clientWidth, Math.max(0, pointIn(over, event)[0])),
-    timeAt: (px) => plot.span[0] + (px / over.clientWidth) * (plot.span[1] - plot.span[0]),
-  };
-}
-
 /** Moves and zooms the plot so that the times under two fingers stay under them. */
-function pinchPlot(plot, { timeAt }, before, after) {
-  const times = before.map(timeAt);
-  const perPixel = Math.abs(times[1] - times[0]) / Math.max(8, Math.abs(after[1] - after[0]));
-  const middle = (times[0] + times[1]) / 2 - ((after[0] + after[1]) / 2) * perPixel;
+function pinchPlot(plot, after, before) {
+  const times = before.map(([px]) => plot.timeAt(px));
+  const [a, b] = after.map(([px]) => px);
+  const perPixel = Math.abs(times[1] - times[0]) / Math.max(8, Math.abs(b - a));
+  const middle = (times[0] + times[1]) / 2 - ((a + b) / 2) * perPixel;
   plot.show(middle, middle + plot.chart.over.clientWidth * perPixel);
 }
 
 /** Moves the plot by the wheel where it is turned sideways or with Shift, else zooms it at the pointer. */
-function turnPlot(plot, { pixel, timeAt }, range, event) {
+function turnPlot(plot, range, event) {
   const length = plot.span[1] - plot.span[0];
   if (Math.abs(event.deltaX) > Math.abs(event.deltaY) || event.shiftKey) {
     const turned = (event.deltaX || event.deltaY) * (event.deltaMode === 1 ? 33 : 1);
@@ -236,74 +159,52 @@ function turnPlot(plot, { pixel, timeAt }, range, event) {
   }
   if (event.deltaY > 0 && !plot.isZoomed()) return; // the page scrolls on
   event.preventDefault();
-  const at = timeAt(pixel(event));
+  const at = plot.timeAt(pointIn(plot.chart.over, event)[0]);
   const factor = Math.exp(wheelTurn(event));
   plot.show(at - factor * (at - plot.span[0]), at + factor * (plot.span[1] - at));
 }
 
-/** The part of the plot that is being chosen, from where on [px]; null where none is. */
-function makeChosenSpan(over) {
-  const element = make("div", { class: "chosen-span", hidden: "" });
-  over.append(element);
-  return {
-    from: null,
-    show(px) {
-      element.hidden = this.from === null;
-      if (element.hidden) return;
-      element.style.left = `${Math.min(px, this.from)}px`;
-      element.style.width = `${Math.abs(px - this.from)}px`;
-    },
-  };
-}
-
-function watchPlot(plot, range, onTime, reading) {
+function watchPlot(plot, range, { onTime, onPoint }) {
   const { over } = plot.chart;
-  const axis = plotAxis(plot);
-  const { pixel, timeAt } = axis;
-  const pointers = new Map(); // pointer id → pixel from the left
-  const chosen = makeChosenSpan(over);
-
-  over.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
-    over.setPointerCapture(event.pointerId);
-    pointers.set(event.pointerId, pixel(event));
-    if (event.shiftKey) chosen.from = pixel(event);
-    else if (pointers.size === 1) onTime(timeAt(pixel(event)));
-  });
-  over.addEventListener("pointermove", (event) => {
-    const px = pixel(event);
-    reading.show(timeAt(px), px);
-    if (!pointers.has(event.pointerId)) return;
-    const before = [...pointers.values()];
-    pointers.set(event.pointerId, px);
-    if (chosen.from !== null) chosen.show(px);
-    else if (pointers.size === 1) onTime(timeAt(px));
-    else if (pointers.size === 2) pinchPlot(plot, axis, before, [...pointers.values()]);
-  });
-  const lift = (event) => {
-    if (!pointers.delete(event.pointerId)) return;
-    if (event.pointerType === "touch") reading.hide();
-    if (chosen.from === null) return;
-    const ends = [chosen.from, pixel(event)].sort((a, b) => a - b);
-    chosen.from = null;
-    chosen.show();
-    if (event.type === "pointerup" && ends[1] - ends[0] > 4) plot.show(timeAt(ends[0]), timeAt(ends[1]));
+  const chosen = make("div", { class: "chosen-span", hidden: "" }); // the part that is being chosen
+  const choose = (from, to) => {
+    chosen.hidden = false;
+    chosen.style.left = `${Math.min(from, to)}px`;
+    chosen.style.width = `${Math.abs(from - to)}px`;
   };
-  for (const name of ["pointerup", "pointercancel"]) over.addEventListener(name, lift);
-  over.addEventListener("pointerleave", reading.hide);
+  let from = null; // where it begins [px]; null where none is
+  over.append(chosen);
+  watchPointers(over, {
+    start(event, [px], count) {
+      if (event.shiftKey) from = px;
+      else if (count === 1) onTime(plot.timeAt(px));
+    },
+    hover: (event, [px]) => onPoint(px),
+    drag: ([px]) => (from === null ? onTime(plot.timeAt(px)) : choose(from, px)),
+    pinch: (after, before) => pinchPlot(plot, after, before),
+    end({ type, pointerType }, [px]) {
+      if (pointerType === "touch") onPoint(null);
+      const ends = [from ?? px, px].sort((a, b) => a - b).map(plot.timeAt);
+      if (from !== null && type === "pointerup" && chosen.clientWidth > 4) plot.show(...ends);
+      from = null;
+      chosen.hidden = true;
+    },
+  });
+  over.addEventListener("pointerleave", () => onPoint(null));
   over.addEventListener("dblclick", () => plot.show(...range));
-  over.addEventListener("wheel", (event) => turnPlot(plot, axis, range, event), { passive: false });
+  over.addEventListener("wheel", (event) => turnPlot(plot, range, event), { passive: false });
 }
 
 // The plot of loads against time, in step with the picture. Drawn by uPlot; the present time is a line laid over it.
 
 const shortestSpan = 20; // rows of forces.csv; the plot zooms no closer
 
-/** `onTime` is called with the requested time, `onPlaced` with the left end and the width of the axis of times [px],
- * `onSpan` with the part of the run that is in view [s]. */
+/** `on.onTime` is called with the requested time, `onPoint` with where the pointer is [px] (null: elsewhere),
+ * `onPlaced` with the left end and the width of the axis of times [px], `onSpan` with the part of the run that is in
+ * view [s]. */
 class Plot {
-  constructor(run, host, range, { onTime, onPlaced, onSpan }) {
-    Object.assign(this, { run, host, range, onTime, onPlaced, onSpan });
+  constructor(run, host, range, on) {
+    Object.assign(this, { run, host, range, on });
     this.quantities = { ...plotQuantities(run), ...stackedQuantities(run) };
     this.quantity = Object.keys(this.quantities)[0];
     this.hidden = new Set(run.info.splits_by_j_over_tau_c ? [] : ["paper"]); // kinds of curves
@@ -315,7 +216,12 @@ class Plot {
     this.colours = {};
     this.now = make("div", { class: "now-line" });
     this.offScale = make("div", { class: "off-scale", id: "off-scale" });
-    this.reading = makePlotReading(run, this);
+    const words = make("div", { class: "reading-words" });
+    this.pointed = make("div", { class: "reading", id: "reading", hidden: "" }, words);
+    this.timeAt = (px) => {
+      const share = Math.min(1, Math.max(0, px / this.chart.over.clientWidth));
+      return this.span[0] + share * (this.span[1] - this.span[0]);
+    };
   }
 
   shownQuantity() {
@@ -400,9 +306,9 @@ class Plot {
     this.colours = colours;
     this.chart?.destroy();
     this.chart = new uPlot(chartOptions(this), chartRows(this), this.host);
-    this.chart.over.append(this.now, this.offScale, this.reading.element);
+    this.chart.over.append(this.now, this.offScale, this.pointed);
     showOffScale(this);
-    watchPlot(this, this.range, this.onTime, this.reading);
+    watchPlot(this, this.range, this.on);
     this.setTime(this.time ?? this.range[0]);
   }
 
@@ -422,7 +328,7 @@ class Plot {
     this.span = length >= range[1] - range[0] ? range : [start, start + length];
     this.chart.setScale("x", { min: this.span[0], max: this.span[1] });
     showOffScale(this);
-    this.onSpan(this.span);
+    this.on.onSpan(this.span);
     this.placeNow();
   }
 
@@ -455,38 +361,47 @@ class Plot {
 function makePlotPanel(player) {
   const { run, axis, state } = player;
   const hasShips = run.info.ships.length > 0;
-  const panel = { showLoads: () => {} };
-  const plot = new Plot(run, byId("plot"), axis, {
-    onTime: (time) => player.actions.goTo(time),
-    onPlaced: (left, width) => player.timeline.place(left, width, player.colours),
-    onSpan: (span) => {
-      player.timeline.setPart(span);
-      panel.showTools();
-    },
-  });
-  const placeTimeline = () => player.timeline.place(8, byId("track-row").clientWidth - 16, player.colours);
-
-  panel.plot = plot;
-  panel.showTools = () => {
+  const panel = { pointed: null, showLoads: () => {} };
+  const showTools = () => {
     byId("full-scale").setAttribute("aria-pressed", String(plot.isFull));
     byId("full-scale").disabled = !plot.isFull && plot.off === null;
     byId("whole-run").disabled = !plot.isZoomed();
   };
-  panel.rebuild = () => {
-    plot.build(player.colours);
-    panel.showLoads = fillPlotKey(run, plot, byId("load-now"), () => {
-      plot.build();
-      panel.showTools();
-    });
-    panel.showLoads(state.time);
-    panel.showTools();
-  };
-  /** Takes the theme's colours. */
-  panel.refresh = () => (hasShips ? panel.rebuild() : placeTimeline());
-  panel.resize = () => (hasShips ? plot.resize() : placeTimeline());
-  panel.setTime = (time) => {
-    plot.setTime(time);
-    panel.showLoads(time);
-  };
-  return panel;
+  const plot = new Plot(run, byId("plot"), axis, {
+    onTime: (time) => player.actions.goTo(time),
+    onPoint(px) { // the key has the values there, under the end of their row's interval
+      panel.pointed = px === null ? null : plot.timeAt(px);
+      const at = px === null ? null : plot.valueAt(plot.ships()[0], plot.curves()[0], panel.pointed);
+      plot.pointed.hidden = at === null;
+      plot.pointed.style.left = `${px}px`;
+      plot.pointed.classList.toggle("to-left", px > plot.chart.over.clientWidth / 2);
+      plot.pointed.firstChild.textContent = at ? `values at ${Number(at.time.toFixed(6))} s` : "";
+      panel.setTime(state.time);
+    },
+    onPlaced: (left, width) => player.timeline.place(left, width, player.colours),
+    onSpan: (span) => {
+      player.timeline.setPart(span);
+      showTools();
+    },
+  });
+  const placeTimeline = () => player.timeline.place(8, byId("track-row").clientWidth - 16, player.colours);
+  return Object.assign(panel, {
+    plot, showTools,
+    rebuild() {
+      plot.build(player.colours);
+      panel.showLoads = fillPlotKey(run, plot, byId("load-now"), () => {
+        plot.build();
+        showTools();
+      });
+      panel.setTime(state.time);
+      showTools();
+    },
+    /** Takes the theme's colours. */
+    refresh: () => (hasShips ? panel.rebuild() : placeTimeline()),
+    resize: () => (hasShips ? plot.resize() : placeTimeline()),
+    setTime(time) {
+      plot.setTime(time);
+      panel.showLoads(panel.pointed ?? time);
+    },
+  });
 }

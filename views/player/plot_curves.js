@@ -20,31 +20,30 @@ function sizesOf(values) {
   return { usual: sizes[Math.floor(common * (sizes.length - 1))] ?? 0, largest };
 }
 
+/** From the least to the largest of columns, grown from [low, high]. */
+function extentOfColumns(columns, low, high) {
+  for (const values of columns) {
+    for (const value of values) {
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
+  }
+  return [low, high];
+}
+
 /** The part of the axis that columns of loads need, [at most 0, at least 0]: all of it, or without spikes. */
 function loadRange(columns, isFull) {
   const sizes = columns.map(sizesOf);
   const largest = Math.max(0, ...sizes.map((size) => size.largest));
   const reach = beyondCommon * Math.max(0, ...sizes.map((size) => size.usual));
   const limit = isFull || largest <= spike * reach ? largest : reach;
-  let [low, high] = [0, 0];
-  for (const values of columns) {
-    for (const value of values) {
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
-  }
+  const [low, high] = extentOfColumns(columns, 0, 0);
   return [Math.max(low, -limit), Math.min(high, limit)];
 }
 
-/** From the least to the largest of columns that are no loads. */
+/** That of columns that are no loads. */
 function wholeRange(columns) {
-  let [low, high] = [Infinity, -Infinity];
-  for (const values of columns) {
-    for (const value of values) {
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
-  }
+  const [low, high] = extentOfColumns(columns, Infinity, -Infinity);
   return low <= high ? [low, high] : [0, 1];
 }
 
@@ -67,52 +66,25 @@ function rowsOffScale(times, values, [low, high]) {
   return off;
 }
 
-// Forces by what causes them: columns of forces.csv, one for each cause, that add up to the force on a ship
-// (io/run/force_causes.cpp).
-
-/** Of each direction its parts: a column without its shares has the words of what is left. */
-function partsByDirection({ force_causes: causes }) {
-  const directions = new Map();
-  for (const cause of causes) {
-    const shares = causes.filter(({ share_of: of }) => of === cause.column).map(({ column }) => column);
-    const part = { cause: cause.cause, words: shares.length > 0 ? cause.without_shares : cause.words,
-      column: cause.column, unit: cause.unit, shares };
-    directions.set(cause.direction, [...(directions.get(cause.direction) ?? []), part]);
-  }
-  return directions;
-}
-
-/** Adds a column for each part and for the sums to a ship's rows: all of them, and those above and below 0. Gives the
- * parts that are not 0 throughout. */
-function addCauses(rows, direction, parts) {
-  const sums = { sum: new Float64Array(rows.force_t_s.length), up: new Float64Array(rows.force_t_s.length),
-    down: new Float64Array(rows.force_t_s.length) };
-  for (const part of parts) {
-    const values = rows[part.column].map((value, row) => part.shares.reduce((left, share) => left - rows[share][row],
-      value));
-    rows[`${direction}: ${part.cause}`] = values;
-    values.forEach((value, row) => {
-      sums.sum[row] += value;
-      sums[value > 0 ? "up" : "down"][row] += value;
-    });
-  }
-  for (const [name, values] of Object.entries(sums)) rows[`${direction}: ${name}`] = values;
-  return parts.filter((part) => rows[`${direction}: ${part.cause}`].some((value) => value !== 0));
-}
+// Forces by what causes them: columns, one for each cause, that add up to the force on a ship
+// (io/run/force_columns.cpp).
 
 /** The plots that stack the causes, one for each ship and direction, where any force acts. */
-function stackedQuantities({ info, forces }) {
+function stackedQuantities({ info: { force_causes: causes, ships }, forces }) {
   const quantities = {};
-  for (const [direction, parts] of partsByDirection(info)) {
-    info.ships.forEach((ship, k) => {
-      const acting = addCauses(forces[k], direction, parts);
+  for (const direction of new Set(causes.map((cause) => cause.direction))) {
+    forces.forEach((rows, ship) => {
+      const acting = causes.filter((cause) => cause.direction === direction && rows[cause.column].some(Boolean));
       if (acting.length === 0) return;
-      const { unit } = acting[0];
-      const curve = (kind, label) => ({ kind, label, column: `${direction}: ${kind}`, base: unit, scale: "y" });
+      const sum = `${direction}: sum`;
+      rows[sum] = rows.force_t_s.map((_, row) => acting.reduce((all, { column }) => all + rows[column][row], 0));
+      const curve = (kind, label, column) => ({ kind, label, column, base: acting[0].unit, scale: "y" });
+      const areas = acting.map(({ cause, words, column }) => ({ ...curve(cause, words, column), isArea: true }));
       const name = `${direction.split(" ")[0].toLowerCase()}_by_cause`;
-      quantities[info.ships.length > 1 ? `${name}@${ship.name}` : name] = {
-        label: info.ships.length > 1 ? `${direction}: ${ship.name}` : direction, ship: k, isStack: true,
-        curves: [...acting.map(({ cause, words }) => ({ ...curve(cause, words), isArea: true })), curve("sum", "sum")],
+      const isOfMany = ships.length > 1;
+      quantities[isOfMany ? `${name}@${ships[ship].name}` : name] = {
+        label: isOfMany ? `${direction}: ${ships[ship].name}` : direction, ship, isStack: true,
+        curves: [...areas, curve("sum", "sum", sum)],
         sums: [curve("up", "all above 0"), curve("down", "all below 0")],
       };
     });
@@ -127,14 +99,12 @@ function stackedQuantities({ info, forces }) {
  * not 0. */
 function plotQuantities({ info, forces }) {
   const labels = { mean: `${info.forces_interval_s} s mean`, max: "step maximum", paper: "j/\u03c4c (paper)" };
-  const plots = new Map();
-  for (const column of info.force_columns) plots.set(column.plot, [...(plots.get(column.plot) ?? []), column]);
-  const isShown = ({ name, is_optional }) => !is_optional || forces.some((rows) =>
-    rows[name].some((value) => value !== 0));
-  const isOptional = ([, columns]) => Number(columns[0].is_optional);
-  return Object.fromEntries([...plots].filter(([, columns]) => columns.some(isShown)).sort((a, b) =>
-    isOptional(a) - isOptional(b))
-    .map(([label, columns]) => [columns[0].name, { label, curves: columns.map(({ name, unit, curve }) =>
+  const isShown = ({ name, is_optional }) => !is_optional || forces.some((rows) => rows[name].some(Boolean));
+  const plots = new Map([false, true].flatMap((is_optional) =>
+    info.force_columns.filter((column) => column.is_optional === is_optional).map(({ plot }) => [plot, []])));
+  for (const column of info.force_columns) plots.get(column.plot).push(column);
+  return Object.fromEntries([...plots].filter(([, columns]) => columns.some(isShown)).map(([label, columns]) =>
+    [columns[0].name, { label, curves: columns.map(({ name, unit, curve }) =>
       ({ kind: curve, label: columns.length > 1 ? labels[curve] : "", column: name, base: unit,
         scale: curve === "paper" ? "paper" : "y" })) }]));
 }
@@ -144,9 +114,8 @@ const isLoad = (curve) => curve.base.startsWith("N");
 /** A value with the unit that suits it. */
 function valueWords(value, base) {
   const unit = /^(N|Pa)/.test(base) ? loadUnit(Math.abs(value), base) : { factor: 1, name: base };
-  const digits = value === 0 ? "0" : Number.isInteger(value) && unit.factor === 1
-    ? String(value) : (value * unit.factor).toPrecision(4);
-  return minus(`${digits} ${unit.name}`.trim());
+  const isCount = value === 0 || (Number.isInteger(value) && unit.factor === 1);
+  return minus(`${isCount ? value : (value * unit.factor).toPrecision(4)} ${unit.name}`.trim());
 }
 
 /** The row of forces.csv whose interval holds the time; null before any. */
@@ -157,7 +126,7 @@ function rowAt(rows, time) {
 
 /** How a curve is drawn: in its ship's colour; the largest steps pale, behind the means; the paper's load dashed. */
 function curveStyle(curve, ship, ships, colours) {
-  if (["sum", "up", "down"].includes(curve.kind)) return { stroke: colours.ink, width: 1.5 };
+  if (curve.kind === "sum") return { stroke: colours.ink, width: 1.5 };
   const colour = curve.kind === "paper" && ships === 1 ? colours["paper-load"] : shipColour(colours, ship);
   if (curve.kind === "max") return { stroke: `${colour}80`, width: 1 };
   if (curve.kind === "paper") return { stroke: colour, width: 1, dash: [4, 3] };
@@ -174,89 +143,54 @@ function rowsInColumn(plot) {
   return Math.max(1, Math.ceil((columnWidth * (end - first)) / Math.max(1, plot.host.clientWidth)));
 }
 
-/** Means of a column's rows, `size` of them each; groups begin at multiples of it, so that they stay when the plot
- * moves. */
-function meansOf(values, first, end, size) {
-  const means = new Float64Array(Math.ceil(end / size) - Math.floor(first / size));
-  for (let k = 0; k < means.length; ++k) {
-    const from = (Math.floor(first / size) + k) * size;
-    const to = Math.min(values.length, from + size);
-    for (let row = from; row < to; ++row) means[k] += values[row] / (to - from);
-  }
-  return means;
-}
+const meanOf = (values) => values.reduce((sum, value) => sum + value / values.length, 0);
 
-/**
- * What is in view, as columns: of each shown cause its mean, how high and how low they stand together, their sum, and
- * the times between
- * which each column stands [s].
- */
+/** What is in view, as columns of rows: of each shown cause its mean, how high and how low they stand together, their
+ * sum, and the times between which each column stands [s]. Columns begin at multiples of their rows, so that they stay
+ * when the plot moves. */
 function stackOf(plot) {
   const { ship } = plot.shownQuantity();
   const rows = plot.run.forces[ship];
+  const times = rows.force_t_s;
   const [first, end] = plot.rowsInView(ship);
   const size = rowsInColumn(plot);
+  const columns = [];
+  for (let from = first - (first % size); from < end; from += size)
+    columns.push([from, Math.min(times.length, from + size)]);
+  const meansOf = ({ column }) => Float64Array.from(columns, (part) => meanOf(rows[column].subarray(...part)));
   const shown = plot.shownCurves();
-  const areas = shown.filter(({ kind }) => kind !== "sum").map((curve) =>
-    ({ curve, means: meansOf(rows[curve.column], first, end, size) }));
+  const areas = shown.filter(({ kind }) => kind !== "sum").map((curve) => ({ curve, means: meansOf(curve) }));
   const line = shown.find(({ kind }) => kind === "sum");
-  const count = Math.max(0, Math.ceil(end / size) - Math.floor(first / size));
-  const [high, low] = [new Float64Array(count), new Float64Array(count)];
-  for (const { means } of areas) means.forEach((mean, k) => { (mean > 0 ? high : low)[k] += mean; });
-  const times = rows.force_t_s;
+  const sumOf = (sign) => Float64Array.from(columns, (_, k) =>
+    areas.reduce((sum, { means }) => sum + Math.max(0, sign * means[k]), 0) * sign);
   const startOf = (row) => (row > 0 ? times[row - 1] : 2 * times[0] - (times[1] ?? 2 * times[0]));
-  const starts = Float64Array.from(high, (_, k) => startOf((Math.floor(first / size) + k) * size));
-  const ends = Float64Array.from(high, (_, k) =>
-    times[Math.min(times.length, (Math.floor(first / size) + k + 1) * size) - 1]);
-  return { areas, line: line ? meansOf(rows[line.column], first, end, size) : null, high, low, starts, ends, size };
-}
-
-/** Steps from left to right along values, into the path. */
-function traceSteps({ starts, ends }, values, xOf, yOf, context) {
-  values.forEach((value, k) => {
-    context.lineTo(xOf(starts[k]), yOf(value));
-    context.lineTo(xOf(ends[k]), yOf(value));
-  });
-}
-
-/** The same back from right to left. */
-function traceStepsBack({ starts, ends }, values, xOf, yOf, context) {
-  for (let k = values.length - 1; k >= 0; --k) {
-    context.lineTo(xOf(ends[k]), yOf(values[k]));
-    context.lineTo(xOf(starts[k]), yOf(values[k]));
-  }
+  return { areas, line: line ? meansOf(line) : null, high: sumOf(1), low: sumOf(-1),
+    starts: columns.map(([from]) => startOf(from)), ends: columns.map(([, to]) => times[to - 1]) };
 }
 
 /** Draws the areas and the line of the sum into a chart. */
 function drawStack(plot, chart) {
-  const stack = stackOf(plot);
+  const { areas, line, starts, ends } = stackOf(plot);
   const { ctx, bbox } = chart;
-  const xOf = (time) => chart.valToPos(time, "x", true);
-  const yOf = (value) => chart.valToPos(value, "y", true);
+  const xOf = (time) => Math.round(chart.valToPos(time, "x", true));
+  const yOf = (value) => Math.round(chart.valToPos(value, "y", true));
   ctx.save();
   ctx.beginPath();
   ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
   ctx.clip();
-  const tops = { up: new Float64Array(stack.high.length), down: new Float64Array(stack.high.length) };
-  for (const { curve, means } of stack.areas) {
+  const [below, above] = [new Float64Array(starts.length), new Float64Array(starts.length)];
+  for (const { curve, means } of areas) {
     ctx.fillStyle = plot.colours[`cause-${curve.kind}`];
-    for (const [side, sign] of [["up", 1], ["down", -1]]) {
-      const next = tops[side].map((top, k) => (means[k] * sign > 0 ? top + means[k] : top));
-      ctx.beginPath();
-      traceSteps(stack, next, xOf, yOf, ctx);
-      traceStepsBack(stack, tops[side], xOf, yOf, ctx);
-      ctx.fill();
-      tops[side] = next;
-    }
+    means.forEach((mean, k) => {
+      const tops = mean > 0 ? above : below;
+      const [left, from] = [xOf(starts[k]), yOf(tops[k])];
+      tops[k] += mean;
+      ctx.fillRect(left, from, xOf(ends[k]) - left, yOf(tops[k]) - from);
+    });
   }
-  if (stack.line) {
-    ctx.beginPath();
-    traceSteps(stack, stack.line, xOf, yOf, ctx);
-    for (const [width, colour] of [[3.5, plot.colours.panel], [1.5, plot.colours.ink]]) {
-      ctx.lineWidth = width * devicePixelRatio;
-      ctx.strokeStyle = colour;
-      ctx.stroke();
-    }
+  if (line) {
+    traceLine(ctx, [...line].flatMap((value, k) => [starts[k], ends[k]].map((time) => [xOf(time), yOf(value)])));
+    strokeTwice(ctx, plot.colours.panel, plot.colours.ink, 1.5 * devicePixelRatio, 2 * devicePixelRatio);
   }
   ctx.restore();
 }

@@ -1,88 +1,53 @@
 // The run as the page holds it: its columns, and the shapes of its floes.
 
-// Shapes of floes. The page holds whole ones, and of the others what floes.ndjson does (docs/run-folder.md): stretches
-// of the parent's rings and new points. These are assembled on demand, and the last ones kept.
-
 const mostKeptPoints = 4e6; // of assembled shapes, 64 MB
 
-/** Where each floe's parts and new points stand in the page's columns. */
-function shapeParts(columns) {
-  const { parent, rings_of: ringsOf, ring_ends: ringEnds } = columns;
-  const { part_floe: floeOf, part_ring: ringOf, part_count: countOf } = columns;
-  const sizeOf = (floe) => (ringsOf[floe + 1] > ringsOf[floe] ? ringEnds[ringsOf[floe + 1] - 1] : 0);
-  const partsOf = new Map(); // by floe: its first part, and one past its last one
-  floeOf.forEach((floe, part) => partsOf.set(floe, [partsOf.get(floe)?.[0] ?? part, part + 1]));
-  const newAt = new Int32Array(parent.length + 1); // the first of each floe's new points
-  for (let floe = 0; floe < parent.length; ++floe) {
-    let fresh = sizeOf(floe);
-    const [from, to] = partsOf.get(floe) ?? [0, 0];
-    for (let part = from; part < to; ++part) if (ringOf[part] >= 0) fresh -= countOf[part];
-    newAt[floe + 1] = newAt[floe] + fresh;
-  }
-  return { sizeOf, partsOf, newAt };
-}
-
-/** A floe's points from its parts and the shape of its parent. */
-function assembleShape(columns, { sizeOf, partsOf, newAt }, floe, ofParent) {
-  const { parent, rings_of: ringsOf, ring_ends: ringEnds, points_m: points } = columns;
-  const { part_ring: ringOf, part_first: firstOf, part_count: countOf } = columns;
-  const assembled = new Float64Array(2 * sizeOf(floe));
-  const [from, to] = partsOf.get(floe);
-  let at = 0;
-  const copy = (source, first, number) => {
-    assembled.set(source.subarray(2 * first, 2 * (first + number)), at);
-    at += 2 * number;
-  };
-  for (let part = from; part < to; ++part) {
-    if (ringOf[part] < 0) {
-      copy(points, newAt[floe] + firstOf[part], countOf[part]);
-      continue;
-    }
-    const ring = ringsOf[parent[floe]] + ringOf[part];
-    const start = ringOf[part] > 0 ? ringEnds[ring - 1] : 0;
-    const beforeEnd = Math.min(countOf[part], ringEnds[ring] - start - firstOf[part]);
-    copy(ofParent.points, ofParent.first + start + firstOf[part], beforeEnd);
-    copy(ofParent.points, ofParent.first + start, countOf[part] - beforeEnd);
-  }
-  return { points: assembled, first: 0 };
-}
-
-/** The shapes assembled last. */
-class KeptShapes {
-  constructor(sizeOf) {
-    this.sizeOf = sizeOf;
-    this.shapes = new Map(); // by floe, the oldest first
-    this.points = 0;
-  }
-
-  keep(floe, shape) {
-    this.shapes.set(floe, shape);
-    this.points += this.sizeOf(floe);
-    for (const oldest of this.shapes.keys()) {
-      if (this.points <= mostKeptPoints || oldest === floe) break;
-      this.shapes.delete(oldest);
-      this.points -= this.sizeOf(oldest);
-    }
-  }
-}
-
 /**
- * Gives a floe's shape: `points` [x, y, ...] in its body frame [m] from the point `first` on, ring after ring. A ring
- * ends before the
- * point `first + ring_ends[ring]`.
+ * Gives a floe's points [x, y, ...] in its body frame [m], ring after ring; a ring ends before the point
+ * ring_ends[ring]. The page holds whole shapes, and of the others what floes.ndjson does (docs/run-folder.md):
+ * stretches of the parent's rings and new points. These are assembled on demand and kept.
  */
-function makeShapes(columns) {
-  const parts = shapeParts(columns);
-  const kept = new KeptShapes(parts.sizeOf);
+function makeShapes({ parent, rings_of: ringsOf, ring_ends: ringEnds, points_m: points, ...parts }) {
+  const { part_floe: floeOf, part_ring: ringOf, part_first: firstOf, part_count: countOf } = parts;
+  const sizeOf = (floe) => (ringsOf[floe + 1] > ringsOf[floe] ? ringEnds[ringsOf[floe + 1] - 1] : 0);
+  const newAt = new Int32Array(parent.length + 1); // the first of each floe's new points
+  parent.forEach((_, floe) => { newAt[floe + 1] = sizeOf(floe); });
+  floeOf.forEach((floe, part) => { if (ringOf[part] >= 0) newAt[floe + 1] -= countOf[part]; });
+  for (let floe = 0; floe < parent.length; ++floe) newAt[floe + 1] += newAt[floe];
+  const firstPart = (floe) => lastAtMost(floeOf, floe - 1) + 1;
+  const kept = new Map();
+  let keptPoints = 0;
+
+  function assemble(floe, ofParent) {
+    const shape = new Float64Array(2 * sizeOf(floe));
+    let at = 0;
+    const copy = (source, first, count) => {
+      shape.set(source.subarray(2 * first, 2 * (first + count)), at);
+      at += 2 * count;
+    };
+    for (let part = firstPart(floe); floeOf[part] === floe; ++part) {
+      if (ringOf[part] < 0) {
+        copy(points, newAt[floe] + firstOf[part], countOf[part]);
+        continue;
+      }
+      const ring = ringsOf[parent[floe]] + ringOf[part];
+      const start = ringOf[part] > 0 ? ringEnds[ring - 1] : 0;
+      const beforeEnd = Math.min(countOf[part], ringEnds[ring] - start - firstOf[part]);
+      copy(ofParent, start + firstOf[part], beforeEnd);
+      copy(ofParent, start, countOf[part] - beforeEnd);
+    }
+    return shape;
+  }
+
   return (floe) => {
     const missing = [];
     let at = floe;
-    for (; parts.partsOf.has(at) && !kept.shapes.has(at); at = columns.parent[at]) missing.push(at);
-    let shape = kept.shapes.get(at) ?? { points: columns.points_m, first: parts.newAt[at] };
+    for (; !kept.has(at) && floeOf[firstPart(at)] === at; at = parent[at]) missing.push(at);
+    let shape = kept.get(at) ?? points.subarray(2 * newAt[at], 2 * newAt[at + 1]);
     while (missing.length > 0) {
-      const next = missing.pop();
-      shape = assembleShape(columns, parts, next, shape);
-      kept.keep(next, shape);
+      shape = assemble(missing.at(-1), shape);
+      if ((keptPoints += shape.length / 2) > mostKeptPoints) kept.clear(), keptPoints = 0;
+      kept.set(missing.pop(), shape);
     }
     return shape;
   };
@@ -90,22 +55,14 @@ function makeShapes(columns) {
 
 // The run in the page: words and lists as JSON, numbers as columns (docs/view.md).
 
-function bytesOfBase64(text) {
-  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
-  const binary = atob(text);
-  const bytes = new Uint8Array(binary.length);
-  for (let i = 0; i < binary.length; ++i) bytes[i] = binary.charCodeAt(i);
-  return bytes;
-}
+const bytesOfBase64 = (text) => Uint8Array.fromBase64?.(text) ?? Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 
 const columnTypes = { f64: Float64Array, i32: Int32Array, u8: Uint8Array };
 
 const floeRows = ["parent", "generation", "born_s", "died_s", "went_under_s", "came_up", "area_m2", "mass_kg",
-  "thickness_m", "flexural_strength_Pa",
-  "centroid_x_m", "centroid_y_m", "reach_m"];
+  "thickness_m", "flexural_strength_Pa", "centroid_x_m", "centroid_y_m", "reach_m"];
 
-/** Gives the floes of a page of an area their ids: rows of all floes of the run, in which those left out are never born
- * and have no shape. */
+/** Gives the floes of a page of an area their ids: rows of all floes of the run; those left out are never born. */
 function spreadFloes(columns, count) {
   const ids = columns.floe_id;
   for (const name of floeRows) {
@@ -131,30 +88,19 @@ function readRun() {
   return { info, columns, floes, frames, forces: readForces(info, columns) };
 }
 
+/** The columns of floes by their names without units, as died_s is `died` and went_under_s `wentUnder`: `reach` is of
+ * the farthest vertex from the centroid, `cameUp` from under a hull, or what such a floe broke into. */
 function readFloes(columns) {
+  const capital = (_, letter) => letter.toUpperCase();
+  const nameOf = (column) => column.replace(/_(s|m|m2|kg|Pa)$/, "").replace(/_(.)/g, capital);
+  const floes = Object.fromEntries([...floeRows, "rings_of", "ring_ends"].map((name) => [nameOf(name), columns[name]]));
   const count = columns.parent.length;
-  const floes = {
-    count,
-    parent: columns.parent,
-    generation: columns.generation,
-    born: columns.born_s,
-    died: columns.died_s,
-    wentUnder: columns.went_under_s,
-    floatsUntil: Float64Array.from(columns.died_s, (died, i) => Math.min(died, columns.went_under_s[i])),
-    cameUp: columns.came_up, // from under a hull, or what came up broke into it
-    area: columns.area_m2,
-    mass: columns.mass_kg,
-    thickness: columns.thickness_m,
-    flexuralStrength: columns.flexural_strength_Pa,
-    cx: columns.centroid_x_m,
-    cy: columns.centroid_y_m,
-    ringsOf: columns.rings_of,
-    ringEnds: columns.ring_ends,
-    shape: makeShapes(columns),
-    reach: columns.reach_m, // farthest vertex from the centroid [m]
+  Object.assign(floes, {
+    count, cx: floes.centroidX, cy: floes.centroidY, shape: makeShapes(columns),
+    floatsUntil: floes.died.map((died, i) => Math.min(died, floes.wentUnder[i])),
     oldest: new Int32Array(count), // the floe of the scene it comes from
     children: new Map(),
-  };
+  });
   for (let i = 0; i < count; ++i) {
     const parent = floes.parent[i];
     floes.oldest[i] = parent >= 0 ? floes.oldest[parent] : i;
@@ -196,12 +142,13 @@ function readFrames(bytes, floeCount, shipCount) {
   return { times: Float64Array.from(times), shipAt, shipCount, doubles, recordsOf, recordFrame, recordAt };
 }
 
-/** The rows of forces.csv, by ship: the columns that the page names. */
+/** The rows of forces.csv, by ship: the columns that the page names, and those of causes. */
 function readForces(info, columns) {
-  const names = ["force_t_s", ...info.force_columns.map(({ name }) => name)];
+  const named = [...info.force_columns.map(({ name }) => name), ...info.force_causes.map(({ column }) => column)];
   return info.ships.map((_, ship) => {
     const rows = [];
     columns.force_ship.forEach((s, row) => { if (s === ship) rows.push(row); });
-    return Object.fromEntries(names.map((name) => [name, Float64Array.from(rows, (row) => columns[name][row])]));
+    const valuesOf = (name) => Float64Array.from(rows, (row) => columns[name][row]);
+    return Object.fromEntries(["force_t_s", ...named].map((name) => [name, valuesOf(name)]));
   });
 }

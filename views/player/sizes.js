@@ -76,72 +76,41 @@ function paleOutOfSizes(colouring, floes, range, colours) {
 
 // The panel with the histogram of floe sizes: a drag over it chooses a range, which the map shows; others are pale.
 
-const plotInset = { left: 4, right: 4, top: 16, bottom: 18 }; // [px]
-
 /** A number of floes or an area as people read it. */
 const amountWords = (value, isArea) =>
   (isArea ? `${sixDigits(Number(value.toPrecision(4)))} m\u00b2` : counted(value, "floe"));
 
-function drawHistogram(canvas, { width, height }, { edges }, bars, { chosen, pointed, words }, colours) {
-  const ratio = Math.min(window.devicePixelRatio || 1, 2);
-  if (canvas.width !== Math.round(width * ratio)) canvas.width = Math.round(width * ratio);
-  if (canvas.height !== Math.round(height * ratio)) canvas.height = Math.round(height * ratio);
-  const context = canvas.getContext("2d");
-  context.setTransform(ratio, 0, 0, ratio, 0, 0);
-  context.clearRect(0, 0, width, height);
-  const { left, top } = plotInset;
-  const wide = (width - left - plotInset.right) / bars.length;
-  const bottom = height - plotInset.bottom;
-  const most = Math.max(...bars) || 1;
-  bars.forEach((value, k) => {
-    const isIn = chosen === null || (edges[k + 1] > chosen.from && edges[k] < chosen.below);
-    const tall = value > 0 ? Math.max(1, (value / most) * (bottom - top)) : 0;
-    context.fillStyle = isIn ? colours.accent : colours.line;
-    context.fillRect(left + k * wide + 0.5, bottom - tall, Math.max(1, wide - 1), tall);
-    if (k === pointed) {
-      context.fillStyle = `${colours.accent}30`;
-      context.fillRect(left + k * wide, top, wide, bottom - top);
-    }
+const mostLabels = 9; // below the histogram, at round sizes
+
+/** Puts a bar for each class into the histogram; gives the bars. */
+function fillHistogram(host, { edges }) {
+  const bars = edges.slice(1).map(() => make("i"));
+  let last = -Infinity;
+  const labels = edges.flatMap((edge, k) => {
+    if (k - last < bars.length / mostLabels || (k > 0 && !/^0*\.?0*[125]0*$/.test(String(edge)))) return [];
+    last = k;
+    return [make("span", { style: `left: ${(100 * k) / bars.length}%` }, `${edge}${k === 0 ? " m" : ""}`)];
   });
-  context.fillStyle = colours.muted;
-  context.fillRect(left, bottom, width - left - plotInset.right, 1);
-  context.font = "11px system-ui, sans-serif";
-  context.textBaseline = "top";
-  context.textAlign = "right";
-  context.fillText(words, width - plotInset.right, 1);
-  context.textAlign = "center";
-  let free = 0;
-  edges.forEach((edge, k) => { // from the left, as many as fit
-    const label = `${edge}${k === 0 ? " m" : ""}`;
-    const half = context.measureText(label).width / 2;
-    const x = Math.min(width - half, Math.max(half, left + k * wide));
-    if (x - half < free || !/^0*\.?0*[125]0*$/.test(String(edge)) && k > 0) return;
-    context.fillText(label, x, bottom + 4);
-    free = x + half + 8;
-  });
+  host.replaceChildren(...bars.map((bar) => make("div", {}, bar)), ...labels);
+  return bars;
 }
 
 /** Pointers on the histogram: a drag chooses classes, a click one of them; the one under the pointer is read out. */
-function watchHistogram(canvas, { edges }, panel, actions) {
-  let from = null;
-  const classAt = (event) => {
-    const part = (pointIn(canvas, event)[0] - plotInset.left) / (canvas.clientWidth - plotInset.left - plotInset.right);
-    return Math.min(edges.length - 2, Math.max(0, Math.floor(part * (edges.length - 1))));
-  };
+function watchHistogram(host, { edges }, panel, actions) {
+  let from = 0;
+  const classAt = ([px]) =>
+    Math.min(edges.length - 2, Math.max(0, Math.floor((px / host.clientWidth) * (edges.length - 1))));
   const choose = (to) => actions.chooseSizes({ from: edges[Math.min(from, to)], below: edges[Math.max(from, to) + 1] });
-  canvas.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
-    canvas.setPointerCapture(event.pointerId);
-    from = classAt(event);
-    choose(from);
+  watchPointers(host, {
+    start(event, at) {
+      from = classAt(at);
+      choose(from);
+    },
+    drag: (at) => choose(classAt(at)),
+    hover: (event, at) => panel.point(classAt(at)),
   });
-  canvas.addEventListener("pointermove", (event) => {
-    panel.point(classAt(event));
-    if (from !== null) choose(classAt(event));
-  });
-  for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, () => { from = null; });
-  canvas.addEventListener("pointerleave", () => panel.point(-1));
-  canvas.addEventListener("dblclick", () => actions.chooseSizes(null));
+  host.addEventListener("pointerleave", () => panel.point(-1));
+  host.addEventListener("dblclick", () => actions.chooseSizes());
 }
 
 /** Fields for the two ends of the range; what is no range changes nothing. */
@@ -150,59 +119,53 @@ function watchSizeFields(state, actions) {
     byId(id).addEventListener("change", () => {
       const read = (field, otherwise) => (byId(field).value === "" ? otherwise : Number(byId(field).value));
       const range = { from: read("size-from", 0), below: read("size-below", Infinity) };
-      if (range.from === 0 && range.below === Infinity) actions.chooseSizes(null);
+      if (range.from === 0 && range.below === Infinity) actions.chooseSizes();
       else actions.chooseSizes(range.from >= 0 && range.below > range.from ? range : state.sizes);
     });
   }
-  byId("size-all").addEventListener("click", () => actions.chooseSizes(null));
 }
 
-function makeSizePanel(player) {
-  const { run, state, places, actions } = player;
+function makeSizePanel({ run, state, places, actions }) {
   const classes = makeSizeClasses(run);
-  const canvas = byId("sizes");
-  const panel = { isArea: false, pointed: -1, shown: "", box: { width: 0, height: 0 } };
-  byId("size-section").hidden = classes.edges.length === 0;
+  const { edges } = classes;
+  const bars = fillHistogram(byId("sizes"), classes);
+  let [isArea, pointed, shown] = [false, -1, ""];
+  byId("size-section").hidden = bars.length === 0;
+  watchHistogram(byId("sizes"), classes, { point }, actions);
+  watchSizeFields(state, actions);
 
-  panel.show = () => {
-    if (classes.edges.length === 0) return;
-    const counts = countSizes(run, places, classes, state.sizes);
-    const bars = panel.isArea ? counts.area : counts.number;
-    const key = [bars.join(), panel.isArea, panel.pointed, panel.box.width, state.sizes?.from, state.sizes?.below,
-      player.colours.accent].join(";");
-    if (key === panel.shown || panel.box.width === 0) return;
-    panel.shown = key;
-    const { pointed, isArea } = panel;
-    const { edges } = classes;
-    const words = pointed < 0 ? `at most ${amountWords(Math.max(...bars), isArea)}`
-    : `${edges[pointed]} \u2013 ${edges[pointed + 1]} m: ${amountWords(bars[pointed], isArea)}`;
-    drawHistogram(canvas, panel.box, classes, bars, { chosen: state.sizes, pointed, words }, player.colours);
-    const { all, chosen } = counts;
+  function show() {
+    const { all, chosen, ...counts } = countSizes(run, places, classes, state.sizes);
+    const values = isArea ? counts.area : counts.number;
+    const key = [values.join(), isArea, pointed, state.sizes?.from, state.sizes?.below].join(";");
+    if (key === shown || bars.length === 0) return;
+    shown = key;
+    const most = Math.max(...values);
+    bars.forEach((bar, k) => {
+      const isIn = state.sizes === null || (edges[k + 1] > state.sizes.from && edges[k] < state.sizes.below);
+      bar.classList.toggle("out", !isIn);
+      bar.style.height = `${(100 * values[k]) / (most || 1)}%`;
+    });
+    byId("size-most").textContent = pointed < 0 ? `at most ${amountWords(most, isArea)}`
+      : `${edges[pointed]} \u2013 ${edges[pointed + 1]} m: ${amountWords(values[pointed], isArea)}`;
     byId("size-words").textContent = state.sizes === null ? "A drag over the histogram chooses sizes."
       : `${chosen.number} of ${amountWords(all.number, false)}, ${amountWords(chosen.area, true)} ` +
       `(${((100 * chosen.area) / (all.area || 1)).toFixed(1)} % of the ice)`;
     byId("size-all").disabled = state.sizes === null;
-  };
-  panel.point = (k) => {
-    panel.pointed = k;
-    panel.show();
-  };
-  panel.showFields = () => {
-    byId("size-from").value = state.sizes ? state.sizes.from : "";
-    byId("size-below").value = Number.isFinite(state.sizes?.below) ? state.sizes.below : "";
-  };
-  for (const what of ["number", "area"]) {
-    byId(`sizes-by-${what}`).addEventListener("change", () => {
-      panel.isArea = what === "area";
-      panel.show();
-    });
   }
-  new ResizeObserver(([{ contentRect: { width, height } }]) =>
-    { // to read it of the canvas would lay out the page at each frame
-    panel.box = { width, height };
-    panel.show();
-  }).observe(canvas);
-  watchHistogram(canvas, classes, panel, actions);
-  watchSizeFields(state, actions);
-  return panel;
+  function point(k) {
+    pointed = k;
+    show();
+  }
+  return {
+    show,
+    showFields() {
+      byId("size-from").value = state.sizes ? state.sizes.from : "";
+      byId("size-below").value = Number.isFinite(state.sizes?.below) ? state.sizes.below : "";
+    },
+    countBy(what) {
+      isArea = what === "area";
+      show();
+    },
+  };
 }

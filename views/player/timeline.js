@@ -3,8 +3,8 @@
 
 const nearMark = 5; // [px]
 const markedHeight = 23; // of the timeline from its top, where marks are [px]
-const markHeights = { split: 7, bend: 18, grind: 18, rejected_cut: 18,
-  mooring_break: 7 }; // of each kind of mark, from the top [px]
+/** Of each kind of mark, from the top [px]. */
+const markHeights = { split: 7, bend: 18, grind: 18, rejected_cut: 18, mooring_break: 7 };
 
 /** Whether an event has a mark. What goes under hulls and comes up has none: there is one for each cusp. */
 const isMarked = ({ kind }) => kind in markHeights;
@@ -49,26 +49,18 @@ function makeTimeline(run, track, range, actions) {
 }
 
 function drawTimeline(track, { width, pixelOf }, events, colours) {
-  const canvas = track.querySelector("canvas");
-  const ratio = Math.min(window.devicePixelRatio || 1, 2);
   const height = track.clientHeight;
-  canvas.width = Math.round(width * ratio);
-  canvas.height = Math.round(height * ratio);
-  const context = canvas.getContext("2d");
-  context.scale(ratio, ratio);
-  context.clearRect(0, 0, width, height);
+  const context = clearedCanvas(track.querySelector("canvas"), width, height);
   context.fillStyle = colours.line;
   context.fillRect(0, height - 6, width, 3);
   context.globalAlpha = 0.75;
-  for (const event of events) {
-    if (isAbove(event) || !isMarked(event)) continue;
+  for (const event of events.filter((one) => isMarked(one) && !isAbove(one))) {
     context.fillStyle = colours[event.kind];
     context.fillRect(pixelOf(event.t_s) - 0.75, 13, 1.5, 9);
   }
   context.globalAlpha = 1;
-  for (const event of events) {
-    if (isAbove(event)) drawEventMark(context, pixelOf(event.t_s), markHeights[event.kind], event.kind, 4.5, colours);
-  }
+  for (const event of events.filter(isAbove))
+    drawEventMark(context, pixelOf(event.t_s), markHeights[event.kind], event.kind, 4.5, colours);
 }
 
 /** The event whose mark is under the point, nearest first. Splits stand above bends. */
@@ -86,38 +78,37 @@ function eventAt(events, { pixelOf }, px, py) {
   return best;
 }
 
-/** Pointers on the timeline: a drag goes to a time, wherever it begins; so does a click,
-  or to the event whose mark it hits. The words of the
- * mark under the pointer stand in the tip. */
+/** Pointers on the timeline: a drag goes to a time, wherever it begins; so does a click, or to the event whose mark it
+ * hits. The words of the mark under the pointer stand in the tip. */
 function watchTimeline(track, timeline, run, actions) {
   const { events } = run.info;
   const tip = byId("timeline-tip");
-  // {px, mark}: from where on [px], and the event whose mark is there until the pointer moves away from it
-  let press = null;
-  track.addEventListener("pointerdown", (pointer) => {
-    if (pointer.button !== 0) return;
-    const [px, py] = pointIn(track, pointer);
-    track.setPointerCapture(pointer.pointerId);
-    press = { px, mark: py < markedHeight ? eventAt(events, timeline, px, py) : null };
-    if (press.mark === null) actions.goTo(timeline.timeOf(px));
-  });
-  track.addEventListener("pointermove", (pointer) => {
-    const [px, py] = pointIn(track, pointer);
-    if (press && Math.abs(px - press.px) > clickSlop) press.mark = null;
-    if (press && press.mark === null) actions.goTo(timeline.timeOf(px));
-    const found = eventAt(events, timeline, px, py);
-    tip.hidden = found === null || pointer.pointerType === "touch";
-    if (tip.hidden) return;
-    tip.textContent = eventWords(events[found]);
-    const right = Math.max(0, track.parentElement.clientWidth - tip.offsetWidth - 8);
-    tip.style.left = `${Math.min(timeline.left + px, right)}px`;
+  let from = 0; // of the press [px]
+  let mark = null; // the event whose mark is there, until the pointer moves away from it
+  const goTo = (px) => actions.goTo(timeline.timeOf(px));
+  watchPointers(track, {
+    start(event, [px, py]) {
+      from = px;
+      mark = py < markedHeight ? eventAt(events, timeline, px, py) : null;
+      if (mark === null) goTo(px);
+    },
+    drag([px]) {
+      if (Math.abs(px - from) > clickSlop) mark = null;
+      if (mark === null) goTo(px);
+    },
+    end({ type }) {
+      if (type === "pointerup" && mark !== null) actions.goToEvent(mark);
+    },
+    hover(event, [px, py]) {
+      const found = eventAt(events, timeline, px, py);
+      tip.hidden = found === null || event.pointerType === "touch";
+      if (tip.hidden) return;
+      tip.textContent = eventWords(events[found]);
+      const right = Math.max(0, track.parentElement.clientWidth - tip.offsetWidth - 8);
+      tip.style.left = `${Math.min(timeline.left + px, right)}px`;
+    },
   });
   track.addEventListener("pointerleave", () => { tip.hidden = true; });
-  track.addEventListener("pointerup", () => {
-    if (press && press.mark !== null) actions.goToEvent(press.mark);
-    press = null;
-  });
-  track.addEventListener("pointercancel", () => { press = null; });
 }
 
 const kindWords = (kind) => kind.replaceAll("_", " ");
