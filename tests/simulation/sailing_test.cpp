@@ -173,20 +173,6 @@ TEST(Sailing, TheWaterSharesABlow) {
   EXPECT_GT(wet_mass, 1.5e7);
 }
 
-TEST(Sailing, ShipsThatMeetAreAnEventAndNoLoadOfIce) {
-  Ship other = in_water(ConstantThrust{0}, 0).ships[0];
-  other.name = "other";
-  other.position_in_world = {125, 3};
-  const Trial done = run(in_water(engine(), 2, 0.01).ship(other), 10);
-  ASSERT_EQ(done.story.of_kind<ShipContact>().size(), 1U);
-  for (const HullSample& s : done.story.samples) {
-    EXPECT_EQ(s.from_ice.surge, 0);
-    EXPECT_EQ(s.friction_of_ice, dynamics::Planar{});
-  }
-  EXPECT_GT(largest(done.story, &HullSample::from_ships), 1e5);
-  expect_closed(done.simulation);
-}
-
 TEST(Sailing, ACurrentFromTheSideCarriesAShipAlong) {
   const Scene scene = in_water(ConstantThrust{0}, 0, 0.1).drift({0, 0.5});
   EXPECT_NEAR(sail(scene, 1200).back().velocity_in_world.y, 0.5, 0.05);
