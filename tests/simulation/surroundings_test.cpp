@@ -337,18 +337,6 @@ TEST(FastIce, LoadsAShipAtConstantSpeedAsAPlateTooHeavyToMoveDoes) {
   expect_closed(held.simulation);
 }
 
-TEST(FastIce, ThatMovesCrushesOnAStructure) {
-  const Trial done = run(Build()
-                             .unbreakable()
-                             .step(0.01)
-                             .structure(rectangle(-120, -12, 0, 12).outer)
-                             .floe(fast(rectangle(0.01, -40, 100, 40), {-0.2, 0})),
-                         5);
-  const double crushing = 2.8e6 * 0.5 * 24;
-  EXPECT_NEAR(done.story.samples.back().from_ice.surge / -crushing, 1, 0.02);
-  expect_closed(done.simulation);
-}
-
 TEST(FastIce, ItsPiecesAreFreeAndMoveOnAsItDid) {
   Scene scene = in_ice(ConstantSpeed{1}, fast(rectangle(0, -60, 200, 60), {-0.3, 0.1})).drift({0.05, 0}).without_drag();
   scene.fracture.cusp_fate = CuspFate::kFloat;
