@@ -35,7 +35,7 @@ std::string square(double x, double y, double side, const std::string& propertie
                      R"([[[{},{}],[{},{}],[{},{}],[{},{}],[{},{}]]]}}}})",
                      properties, x, y, x + side, y, x + side, y + side, x, y + side, x, y);
 }
-std::string collection(const std::string& features, const std::string& members = "") {
+std::string collection_of(const std::string& features, const std::string& members = "") {
   return R"({"type":"FeatureCollection",)" + members + R"("features":[)" + features + "]}\n";
 }
 double area_of(const simulation::Scene& scene) {
@@ -44,9 +44,9 @@ double area_of(const simulation::Scene& scene) {
   return sum;
 }
 
-const std::string kSvalbard = collection(square(15.60, 78.2000, 0.002, R"("floe_id":7,"thickness_m":0.8)") + ",\n" +
-                                         square(15.61, 78.2010, 0.002, R"("floe_id":9,"sensor":"S1A")") + ",\n" +
-                                         square(15.6019, 78.2001, 0.001, R"("floe_id":8)"));
+const std::string kSvalbard = collection_of(square(15.60, 78.2000, 0.002, R"("floe_id":7,"thickness_m":0.8)") + ",\n" +
+                                            square(15.61, 78.2010, 0.002, R"("floe_id":9,"sensor":"S1A")") + ",\n" +
+                                            square(15.6019, 78.2001, 0.001, R"("floe_id":8)"));
 
 TEST_F(Import, DegreesBecomeAFloeFileThatAScenesReads) {
   const Outcome done = expect_code(0, import(kSvalbard, "--origin 78.2,15.6"));
@@ -82,18 +82,18 @@ TEST_F(Import, RefusedFloesAreNamedAndTheOthersWritten) {
 
 /// Each wrong number of io's FloeImport refuses its floe alone; here, that the file and the exit code say so.
 TEST_F(Import, AFloeWithAWrongNumberIsRefusedByItself) {
-  ASSERT_EQ(import(collection(square(15.6, 78.2, 0.002)), "--origin 78.201,15.601").code, 0);
+  ASSERT_EQ(import(collection_of(square(15.6, 78.2, 0.002)), "--origin 78.201,15.601").code, 0);
   const double alone = area_of(scene()->scene);
   const std::string wrong =
       R"({"type":"Polygon","coordinates":[[[15.61,78.2],[15.612,782],[15.612,78.202],[15.61,78.2]]]})";
   const Outcome done =
-      expect_code(4, import(collection(square(15.6, 78.2, 0.002) + ",\n" + wrong), "--origin 78.201,15.601"));
+      expect_code(4, import(collection_of(square(15.6, 78.2, 0.002) + ",\n" + wrong), "--origin 78.201,15.601"));
   EXPECT_HAS(done.err, "mapped.geojson:2: feature 1, polygon 0: refused: found [15.612, 782], allowed: [longitude, ",
              "2 floes read, 1 refused; 1 written");
   EXPECT_HAS(done.out, R"("refused":1)");
   EXPECT_NEAR(area_of(scene()->scene), alone, 0.01);
   std::filesystem::remove(folder / "floes.geojson");
-  EXPECT_HAS(expect_code(4, import(collection(square(0, 0, 10, R"("thickness_m":-1)")))).err,
+  EXPECT_HAS(expect_code(4, import(collection_of(square(0, 0, 10, R"("thickness_m":-1)")))).err,
              "every floe was refused; only the report was written");
   EXPECT_FALSE(std::filesystem::exists(folder / "floes.geojson"));
 }
@@ -109,11 +109,11 @@ TEST_F(Import, WhatCannotBeReadIsRefusedInOneSentence) {
            {kSvalbard, "--crs EPSG:3413", 4, "--shift moves the floes"},
            {kSvalbard, "--crs EPSG:99999", 4, "PROJ knows no coordinate system \"EPSG:99999\", allowed: EPSG:n"},
            {kSvalbard, "--from +proj=nonsense", 4, "PROJ knows no coordinate system \"+proj=nonsense\""},
-           {collection(square(0, 0, 9), R"("crs":{"type":"name","properties":{"name":"+proj=nonsense"}},)"),
+           {collection_of(square(0, 0, 9), R"("crs":{"type":"name","properties":{"name":"+proj=nonsense"}},)"),
             {},
             4,
             "\"+proj=nonsense\""},
-           {collection(square(0, 0, 900)), "--origin 78.2,15.6", 4, "kept where no origin is given"},
+           {collection_of(square(0, 0, 900)), "--origin 78.2,15.6", 4, "kept where no origin is given"},
            {kSvalbard, "--origin 78.2,15.6 --property thicknes_m=H", 2, "did you mean thickness_m?"},
            {"{\"type\":", {}, 5, "mapped.geojson:1"},
            {"hello", {}, 5, "neither GeoJSON"}}) {

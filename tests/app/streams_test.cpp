@@ -175,7 +175,7 @@ std::string on_terminal(const Words& words, const TemporaryFolder& folder, int c
   close(stream);
   std::string text;
   char block[4096];
-  for (ssize_t count = 0; (count = read(terminal, block, sizeof block)) > 0;)
+  for (ssize_t count = 0; (count = ::read(terminal, block, sizeof block)) > 0;)
     text.append(block, static_cast<std::size_t>(count));
   close(terminal);
   EXPECT_EQ(wait_for(child, start).code, 0);
