@@ -37,7 +37,11 @@ std::set<std::string> long_options(const std::string& help) {
 }
 
 std::string completed(const std::string& line) {
-  const std::string script = "source <(" POLYNYA_BINARY " completion); COMP_WORDS=(" + line +
+  static const std::filesystem::path kCompletion = [] {
+    write_file(folder() / "completion.bash", output_of("completion"));
+    return folder() / "completion.bash";
+  }();
+  const std::string script = "source " + kCompletion.string() + "; COMP_WORDS=(" + line +
                              "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _polynya; echo \" ${COMPREPLY[*]} \"";
   FILE* pipe = popen(("cd '" + folder().path().string() + "' && bash -c '" + script + "'").c_str(), "r");
   std::string text;
