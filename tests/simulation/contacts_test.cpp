@@ -114,6 +114,7 @@ TEST(ShipContacts, AreNoIceLoadAndEndAsEq5Says) {
   for (const HullSample& sample : story.samples) {
     EXPECT_EQ(sample.from_ice.surge, 0);
     EXPECT_EQ(sample.from_ice_largest.surge, 0);
+    EXPECT_EQ(sample.friction_of_ice.surge, 0);
     EXPECT_EQ(sample.collision.surge, 0);
     EXPECT_EQ(sample.contacts, 0);
     if (sample.ship == 0) surge += scene.record.forces_interval * sample.from_ships.surge;
