@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <random>
@@ -133,8 +134,10 @@ TEST_F(Resume, ASignalStopsWithACheckpointAndNobodyElseMayWriteMeanwhile) {
   write_file(folder_ / "scene.json", crash_scene("100"));
   write_file(folder_ / "long.json", crash_scene("1e5"));
   for (const auto& [signal, name] : {std::pair{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}}) {
-    const pid_t child = start_polynya("run long.json --out run --overwrite --checkpoint-every 1", start_);
-    while (!has_ended(child) && io::checkpoints_in(folder_ / "run").empty())
+    fs::remove_all(folder_ / "run");
+    const pid_t child = start_polynya("run long.json --out run --checkpoint-every 1", start_);
+    const auto has_rows = [&] { return std::ranges::count(read_file(folder_ / "run/forces.csv"), '\n') > 1; };
+    while (!has_ended(child) && (io::checkpoints_in(folder_ / "run").empty() || !has_rows()))
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     const TemporaryFolder elsewhere;
     const Start beside{elsewhere.path()};
