@@ -66,8 +66,7 @@ class BrokenAudit : public testing::Test {
     EXPECT_TRUE(simulation->audit().is_closed());
     simulation->step();
     EXPECT_FALSE(simulation->audit().is_closed());
-    const Outcome repeated = resume("--from-failure");
-    EXPECT_EQ(repeated.code, 4) << repeated.err;
+    const Outcome repeated = expect_code(4, resume("--from-failure"));
     EXPECT_HAS(repeated.out, "now         the accounts of energy or momentum do not close\nreproduced\n");
     EXPECT_EQ(resume("--from-failure").out, repeated.out);
   }
@@ -78,8 +77,7 @@ class BrokenAudit : public testing::Test {
 
 TEST_F(BrokenAudit, IsToldAtTheEndAndDumpedAndRepeated) {
   stop_run();
-  const Outcome resumed = resume();
-  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  const Outcome resumed = expect_code(0, resume());
   EXPECT_HAS(resumed.err, "THE AUDIT IS BROKEN: energy is off by 6.00e+00 J");
   EXPECT_HAS(resumed.err, "polynya resume run --from-failure");
   const auto summary = io::parse_json(read_file(folder_ / "run/summary.json"));
@@ -89,9 +87,8 @@ TEST_F(BrokenAudit, IsToldAtTheEndAndDumpedAndRepeated) {
 
 TEST_F(BrokenAudit, StopsARunThatIsCheckedAtEveryStep) {
   stop_run();
-  const Outcome resumed = resume("--check");
-  EXPECT_EQ(resumed.code, 4) << resumed.err;
-  EXPECT_HAS(resumed.err, "stopped at 6.33 s: the accounts of energy or momentum do not close");
+  EXPECT_HAS(expect_code(4, resume("--check")).err,
+             "stopped at 6.33 s: the accounts of energy or momentum do not close");
   expect_reproduced();
 }
 

@@ -28,13 +28,9 @@ TEST_F(CommandLine, AWrongSceneIsThreeAndWritesNothing) {
     EXPECT_HAS(call(command).err, "did you mean \"thickness_m\"?", "wrong.json:1:47: time.step_s: found 0",
                "3 problems in wrong.json");
   }
-  const Outcome of_stdin = piped("run -", "wrong-in-lines.json");
-  EXPECT_EQ(of_stdin.code, 3);
-  EXPECT_BEGINS(of_stdin.err, "stdin:2:1: found '}'");
+  EXPECT_BEGINS(expect_code(3, piped("run -", "wrong-in-lines.json")).err, "stdin:2:1: found '}'");
   const std::string set = "--set ice.thickness_m=no";
-  const Outcome of_option = call("run scenes/two-floes.json " + set);
-  EXPECT_EQ(of_option.code, 3);
-  EXPECT_BEGINS(of_option.err, set + ": ice.thickness_m: found \"no\"");
+  EXPECT_BEGINS(expect_code(3, call("run scenes/two-floes.json " + set)).err, set + ": ice.thickness_m: found \"no\"");
   EXPECT_FALSE(std::filesystem::exists(folder / "runs"));
 }
 
@@ -55,11 +51,8 @@ TEST_F(CommandLine, ProblemsAreJsonOnRequest) {
   }
   EXPECT_EQ(problems.root.items()[1].find("line")->number(), 2);
   EXPECT_EQ(problems.root.items()[1].find("path")->text(), "time.step_s");
-  const Outcome sound = call("validate scenes/two-floes.json --json");
-  EXPECT_EQ(sound.code, 0);
-  EXPECT_EQ(sound.out, "[]\n");
-  const Outcome missing = call("validate missing.json --json");
-  EXPECT_EQ(missing.code, 5);
+  EXPECT_EQ(expect_code(0, call("validate scenes/two-floes.json --json")).out, "[]\n");
+  const Outcome missing = expect_code(5, call("validate missing.json --json"));
   EXPECT_TRUE(io::parse_json(missing.out).root.items().at(0).find("line")->is_null()) << missing.out;
 }
 
@@ -69,13 +62,11 @@ TEST_F(CommandLine, HintsChangeNoExitCode) {
      "mass_kg": 1e4, "moment_of_inertia_kg_m2": 5e9, "propulsion": {"thrust_N": 0}}],
     "floes": []})");
   for (const char* command : {"validate light.json", "run light.json"}) {
-    const Outcome outcome = call(command);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_HAS(outcome.err, "light.json:3:17: warning: ships[0].mass_kg: 1e+04 kg for a hull of 120 × 24 m",
+    EXPECT_HAS(expect_code(0, call(command)).err,
+               "light.json:3:17: warning: ships[0].mass_kg: 1e+04 kg for a hull of 120 × 24 m",
                "light.json:4:14: hint: floes: there is no ice");
   }
-  const Outcome json = call("validate light.json --json");
-  EXPECT_EQ(json.code, 0);
+  const Outcome json = expect_code(0, call("validate light.json --json"));
   EXPECT_EQ(json.err, "");
   const io::JsonDocument hints = io::parse_json(json.out);
   ASSERT_EQ(hints.root.items().size(), 2U) << json.out;
@@ -90,8 +81,7 @@ TEST_F(CommandLine, ASceneComesFromStdin) {
              R"({"name": "piped", "time": {"until_s": 0.1}, "floes": [{"file": "floes.geojson"}]})");
   const std::string valid = call("validate scene.json").out;
   EXPECT_EQ(piped("validate -", "scene.json").out, "stdin" + valid.substr(valid.find(':')));
-  const Outcome run = piped("run - --progress none", "scene.json");
-  EXPECT_EQ(run.code, 0) << run.err;
+  const Outcome run = expect_code(0, piped("run - --progress none", "scene.json"));
   EXPECT_TRUE(std::filesystem::exists(folder / "runs/piped/scene.json"));
 }
 
@@ -119,8 +109,7 @@ TEST_F(CommandLine, SchemaAndResolvedSceneAreJson) {
 }
 
 TEST_F(CommandLine, SetPutsValuesByTheirPaths) {
-  const Outcome run = call("run scenes/two-floes.json --set time.until_s=1 --set name=short --no-map");
-  ASSERT_EQ(run.code, 0) << run.err;
+  const Outcome run = expect_code(0, call("run scenes/two-floes.json --set time.until_s=1 --set name=short --no-map"));
   EXPECT_HAS(read_file(folder / "runs/short/scene.json"), "\"until_s\": 1");
   EXPECT_FALSE(std::filesystem::exists(folder / "runs/short/final.svg"));
   EXPECT_LACKS(run.out, "picture");
@@ -130,11 +119,9 @@ TEST_F(CommandLine, CasesAreReportedEachWithItsPlaceAndCounted) {
   const std::string thin = "{\"ice.thickness_m\": 0.4}\n";
   write_file(folder / "cases.ndjson", thin + "{\"ice.thickness_m\": -1}\n{\"floes[0].rectangle.corner_m\": [10, 0]}\n");
   const Words validate = "validate scenes/two-floes.json --cases cases.ndjson";
-  const Outcome text = call(validate), json = call(validate + "--json");
-  EXPECT_EQ(text.code, 3);
-  EXPECT_HAS(text.err, "cases.ndjson:2:21: ice.thickness_m: found -1", "cases.ndjson:3: " + scene_path("two-floes"),
-             "2 of 3 cases are refused");
-  EXPECT_EQ(json.code, 3);
+  EXPECT_HAS(expect_code(3, call(validate)).err, "cases.ndjson:2:21: ice.thickness_m: found -1",
+             "cases.ndjson:3: " + scene_path("two-floes"), "2 of 3 cases are refused");
+  const Outcome json = expect_code(3, call(validate + "--json"));
   EXPECT_BEGINS(json.out, "{\"line\": 2, \"problems\": [{");
   EXPECT_EQ(std::ranges::count(json.out, '\n'), 2);
   write_file(folder / "cases.ndjson", thin + "{}\n");

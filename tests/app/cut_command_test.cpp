@@ -5,12 +5,17 @@
 #include "program.hpp"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "geometry/cut/repair.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
+#include "io/run/event_records.hpp"
 #include "io/text/floe_text.hpp"
+#include "io/text/json_parser.hpp"
+#include "simulation/world/step.hpp"
+#include "tests/simulation/scenes.hpp"
 
 namespace polynya::tests {
 namespace {
@@ -334,9 +339,8 @@ TEST_F(CutCommand, NothingLeftIsReadAgainAsNoFloes) {
     ASSERT_EQ(cut("--disc 5,5,30 --out " + nothing).code, 0);
     for (const bool is_piped : {false, true}) {
       const Start start{.folder = folder.path(), .input = is_piped ? folder / nothing : ""};
-      const Outcome again =
-          polynya(Words{"cut", is_piped ? "-" : nothing} + "--crack 0,0,30 --out - --ledger l.json", start);
-      EXPECT_EQ(again.code, 0) << again.err;
+      const Outcome again = expect_code(
+          0, polynya(Words{"cut", is_piped ? "-" : nothing} + "--crack 0,0,30 --out - --ledger l.json", start));
       EXPECT_EQ(read_json("l.json")["totals"]["floes"], 0);
       EXPECT_HAS(again.err, "no floes in it");
       EXPECT_EQ(again.out, read(nothing)) << "and nothing again, in the same words";
@@ -363,16 +367,13 @@ TEST_F(CutCommand, LongitudeAndLatitudeAreNoMetres) {
                   {folder.path()});
   EXPECT_FALSE(std::filesystem::exists(folder / "pieces.geojson"));
   write("bare.geojson", degrees);
-  const Outcome noted = cut("--disc 15.6,78.2,0.01", "bare.geojson");
-  EXPECT_EQ(noted.code, 0);
-  EXPECT_HAS(noted.err, "look like longitude and latitude");
+  EXPECT_HAS(expect_code(0, cut("--disc 15.6,78.2,0.01", "bare.geojson")).err, "look like longitude and latitude");
 }
 
 TEST_F(CutCommand, AnExtensionOfNoFormatIsRefusedBeforeAnythingIsDone) {
   for (const char* name : {"pieces.shp", "pieces.gpkg", "pieces.txt", "pieces.geojson.bak"}) {
-    const Outcome outcome = cut(Words("--disc 0,0,1 --ledger l.json --out") + name);
-    EXPECT_EQ(outcome.code, 2) << name;
-    EXPECT_HAS(outcome.err, ".geojson", ".json", ".ndjson", ".jsonl", ".geojsonl", ".wkt");
+    EXPECT_HAS(expect_code(2, cut(Words("--disc 0,0,1 --ledger l.json --out") + name)).err, ".geojson", ".json",
+               ".ndjson", ".jsonl", ".geojsonl", ".wkt");
     EXPECT_FALSE(std::filesystem::exists(folder / name) || std::filesystem::exists(folder / "l.json"));
   }
   EXPECT_EQ(cut("--disc 0,0,1 --out PIECES.WKT").code, 0);
@@ -409,10 +410,65 @@ TEST_F(CutCommand, WhatCannotBeReadOrWrittenIsFive) {
                    {"cut broken.geojson --disc 0,0,1", 5, "broken.geojson:2:"}},
                   {folder.path()});
   // A size limit stands for a full disk: nothing half-written is left, nor is what was there lost.
-  const Outcome full = polynya("cut floes.geojson --disc 0,0,5 --out pieces.wkt", {folder.path(), 300});
-  EXPECT_EQ(full.code, 5);
-  EXPECT_HAS(full.err, "File too large");
+  EXPECT_HAS(expect_code(5, polynya("cut floes.geojson --disc 0,0,5 --out pieces.wkt", {folder.path(), 300})).err,
+             "File too large");
   EXPECT_EQ(read("pieces.wkt"), "as it was");
+}
+
+// ---- cuts that the simulation's fractures are refused
+
+using namespace simulation;
+
+/// A fracture as no contact would ask for it: its cusp misses the floe, or its crack ends inside.
+PendingFracture misplaced(fracture::Failure failure, dynamics::PersistentContact& record) {
+  PendingFracture pending;
+  pending.failure = failure;
+  pending.first_touch_in_body = {50, 5};
+  pending.point_in_water = {50, 5};
+  pending.cusp_radius = 3;
+  pending.crack_in_body.start = {-1, 5};
+  pending.crack_in_body.end = {1.0 / 3, 5};
+  pending.record = &record;
+  return pending;
+}
+
+TEST(RejectedCut, IsAnInputOfPolynyaCutThatComesToTheSame) {
+  const TemporaryFolder folder;
+  Scene scene;
+  scene.floes = {scenes::floe(scenes::rectangle(0, 0, 10, 10))};
+  World world(scene);
+  world.journal.clear();
+  dynamics::PersistentContact record;
+  world.step.fractures = {misplaced(fracture::Failure::kBend, record), misplaced(fracture::Failure::kSplit, record)};
+  apply_fractures(world.setup, world.clock, world.step, world.population, world.accounts, world.journal);
+  ASSERT_EQ(world.journal.events.size(), 2U);
+  for (const Event& event : world.journal.events) {
+    const auto& cut = std::get<RejectedCut>(event.what);
+    ASSERT_TRUE(io::write_rejected_cut(folder.path(), event.time, cut).has_value());
+    const std::string name = "rejected-cuts/00000" + std::to_string(cut.input.number);
+    const Outcome again = polynya({"cut", name + ".geojson", "--ops", name + "-ops.json", "--out", "out.wkt"}, folder);
+    SCOPED_TRACE(cut.reason);
+    SCOPED_TRACE(again.err + again.out);
+    EXPECT_EQ(world.accounts.counts.rejected_cuts, 2);
+    EXPECT_EQ(again.code, 4);
+    const std::string kind = cut.reason.substr(0, cut.reason.find(':'));
+    EXPECT_EQ(kind, cut.input.number == 1 ? "misses" : "does-not-separate");
+    EXPECT_HAS(again.err, "feature 0, polygon 0: " + kind + ": ");
+    EXPECT_HAS(again.err, "1 floe -> 1 piece");
+    EXPECT_HAS(again.err, "1 refused; nothing was cut");
+    const auto ledger = io::parse_json(again.out);
+    ASSERT_TRUE(ledger.faults.empty());
+    EXPECT_EQ(ledger.root.find("floes")->items()[0].find("rejected")->find("reason")->text(), kind);
+    if (cut.input.number == 2) {
+      EXPECT_HAS(again.out, "\"dangling_length_m\"");
+      EXPECT_HAS(again.out, R"({"line":[[-1,5],[0.3333333333333333,5]],"must_cut":true})") << "to the last bit";
+      EXPECT_HAS(again.err, "separates nothing");
+    }
+  }
+  auto one_too_many = std::get<RejectedCut>(world.journal.events[0].what);
+  one_too_many.input.number = io::kMostRejectedCuts + 1;
+  EXPECT_TRUE(io::write_rejected_cut(folder.path(), 0, one_too_many).has_value());
+  EXPECT_FALSE(std::filesystem::exists(folder / "rejected-cuts/000101.geojson"));
 }
 
 }  // namespace

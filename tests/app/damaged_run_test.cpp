@@ -1,5 +1,4 @@
 #include "program.hpp"
-#include "tiny_scene.hpp"
 #include <gtest/gtest.h>
 
 #include "io/run/records.hpp"
@@ -59,9 +58,7 @@ TEST_F(DamagedRun, ARingOfTooFewPointsIsNamedWithItsLineByEveryCommand) {
   for (const auto& [ring, hole] : rings) {
     damage(ring, hole);
     for (const auto& words : kReading) {
-      const Outcome outcome = call(words);
-      EXPECT_EQ(outcome.code, 5) << words.front() << ' ' << words.back() << ring << hole;
-      EXPECT_HAS(outcome.err, "damaged/floes.ndjson:1: ");
+      EXPECT_HAS(expect_code(5, call(words)).err, "damaged/floes.ndjson:1: ");
     }
   }
 }
@@ -74,9 +71,7 @@ TEST_F(DamagedRun, ADamagedSummaryIsNamedWithItsPlace) {
   text.insert(text.find("\"steps\": ") + 9, "j");
   write_file(summary, text);
   for (const auto& words : kReading) {
-    const Outcome outcome = call(words);
-    EXPECT_EQ(outcome.code, 5);
-    EXPECT_HAS(outcome.err, "damaged/summary.json:8:12: ");
+    EXPECT_HAS(expect_code(5, call(words)).err, "damaged/summary.json:8:12: ");
   }
   write_file(summary, whole);
 }
@@ -97,9 +92,7 @@ TEST_F(DamagedRun, ARingThatIsNotValidCrashesNoCommand) {
     }
   }
   damage("[[0,0],[1,0],[2,0]]");
-  const Outcome exported = call("export damaged --vtk vtk");
-  EXPECT_EQ(exported.code, 0);
-  EXPECT_HAS(exported.err, "note: 1 floe without triangles");
+  EXPECT_HAS(expect_code(0, call("export damaged --vtk vtk")).err, "note: 1 floe without triangles");
 }
 
 TEST_F(DamagedRun, ASizeDistributionLeavesOutAreasThatAreNone) {
@@ -108,9 +101,7 @@ TEST_F(DamagedRun, ASizeDistributionLeavesOutAreasThatAreNone) {
     const std::size_t start = text.find("\"area_m2\":") + 10;
     text.replace(start, text.find(',', start) - start, area);
     write_file(file(), text);
-    const Outcome outcome = call("inspect damaged --fsd --at 0");
-    EXPECT_EQ(outcome.code, 0) << area << outcome.err;
-    EXPECT_HAS(outcome.out, "left out: 1 floe whose");
+    EXPECT_HAS(expect_code(0, call("inspect damaged --fsd --at 0")).out, "left out: 1 floe whose");
   }
 }
 

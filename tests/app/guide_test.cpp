@@ -13,8 +13,7 @@ const TemporaryFolder& folder() {
   return kFolder;
 }
 std::string output_of(const Words& words) {
-  const Outcome outcome = polynya(words, {folder().path()});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  const Outcome outcome = expect_code(0, polynya(words, {folder().path()}));
   return outcome.out;
 }
 

@@ -35,7 +35,7 @@ std::string square(double x, double y, double side, const std::string& propertie
                      R"([[[{},{}],[{},{}],[{},{}],[{},{}],[{},{}]]]}}}})",
                      properties, x, y, x + side, y, x + side, y + side, x, y + side, x, y);
 }
-std::string collection(const std::string& features, const std::string& members = "") {
+std::string collection_of(const std::string& features, const std::string& members = "") {
   return R"({"type":"FeatureCollection",)" + members + R"("features":[)" + features + "]}\n";
 }
 double area_of(const simulation::Scene& scene) {
@@ -44,13 +44,12 @@ double area_of(const simulation::Scene& scene) {
   return sum;
 }
 
-const std::string kSvalbard = collection(square(15.60, 78.2000, 0.002, R"("floe_id":7,"thickness_m":0.8)") + ",\n" +
-                                         square(15.61, 78.2010, 0.002, R"("floe_id":9,"sensor":"S1A")") + ",\n" +
-                                         square(15.6019, 78.2001, 0.001, R"("floe_id":8)"));
+const std::string kSvalbard = collection_of(square(15.60, 78.2000, 0.002, R"("floe_id":7,"thickness_m":0.8)") + ",\n" +
+                                            square(15.61, 78.2010, 0.002, R"("floe_id":9,"sensor":"S1A")") + ",\n" +
+                                            square(15.6019, 78.2001, 0.001, R"("floe_id":8)"));
 
 TEST_F(Import, DegreesBecomeAFloeFileThatAScenesReads) {
-  const Outcome done = import(kSvalbard, "--origin 78.2,15.6");
-  EXPECT_EQ(done.code, 0) << done.err;
+  const Outcome done = expect_code(0, import(kSvalbard, "--origin 78.2,15.6"));
   EXPECT_HAS(done.err, "feature 2, polygon 0: trimmed", "to feature 0", "3 floes read, 1 trimmed; 3 written",
              "projected about 78.2, 15.6", " m2 written");
   const std::string floes = read_file(folder / "floes.geojson");
@@ -72,8 +71,7 @@ TEST_F(Import, RefusedFloesAreNamedAndTheOthersWritten) {
                            R"({"type":"Feature","geometry":)" + bow + "},\n" +
                            square(100, 0, 10, R"("thickness_m":-2)") + ",\n" +
                            R"({"type":"Feature","geometry":{"type":"Point","coordinates":[1,2]}}]})";
-  const Outcome refused = import(text);
-  EXPECT_EQ(refused.code, 4);
+  const Outcome refused = expect_code(4, import(text));
   EXPECT_HAS(refused.err, "mapped.geojson:3: feature 1, polygon 0: refused: self-crossing at (62, 1.5)",
              "mapped.geojson:4: feature 2, polygon 0: refused: property thickness_m: found -2, allowed: a "
              "number from 0.001 to 20 [m]",
@@ -84,20 +82,19 @@ TEST_F(Import, RefusedFloesAreNamedAndTheOthersWritten) {
 
 /// Each wrong number of io's FloeImport refuses its floe alone; here, that the file and the exit code say so.
 TEST_F(Import, AFloeWithAWrongNumberIsRefusedByItself) {
-  ASSERT_EQ(import(collection(square(15.6, 78.2, 0.002)), "--origin 78.201,15.601").code, 0);
+  ASSERT_EQ(import(collection_of(square(15.6, 78.2, 0.002)), "--origin 78.201,15.601").code, 0);
   const double alone = area_of(scene()->scene);
   const std::string wrong =
       R"({"type":"Polygon","coordinates":[[[15.61,78.2],[15.612,782],[15.612,78.202],[15.61,78.2]]]})";
-  const Outcome done = import(collection(square(15.6, 78.2, 0.002) + ",\n" + wrong), "--origin 78.201,15.601");
-  EXPECT_EQ(done.code, 4) << done.err;
+  const Outcome done =
+      expect_code(4, import(collection_of(square(15.6, 78.2, 0.002) + ",\n" + wrong), "--origin 78.201,15.601"));
   EXPECT_HAS(done.err, "mapped.geojson:2: feature 1, polygon 0: refused: found [15.612, 782], allowed: [longitude, ",
              "2 floes read, 1 refused; 1 written");
   EXPECT_HAS(done.out, R"("refused":1)");
   EXPECT_NEAR(area_of(scene()->scene), alone, 0.01);
   std::filesystem::remove(folder / "floes.geojson");
-  const Outcome all = import(collection(square(0, 0, 10, R"("thickness_m":-1)")));
-  EXPECT_EQ(all.code, 4);
-  EXPECT_HAS(all.err, "every floe was refused; only the report was written");
+  EXPECT_HAS(expect_code(4, import(collection_of(square(0, 0, 10, R"("thickness_m":-1)")))).err,
+             "every floe was refused; only the report was written");
   EXPECT_FALSE(std::filesystem::exists(folder / "floes.geojson"));
 }
 
@@ -112,29 +109,23 @@ TEST_F(Import, WhatCannotBeReadIsRefusedInOneSentence) {
            {kSvalbard, "--crs EPSG:3413", 4, "--shift moves the floes"},
            {kSvalbard, "--crs EPSG:99999", 4, "PROJ knows no coordinate system \"EPSG:99999\", allowed: EPSG:n"},
            {kSvalbard, "--from +proj=nonsense", 4, "PROJ knows no coordinate system \"+proj=nonsense\""},
-           {collection(square(0, 0, 9), R"("crs":{"type":"name","properties":{"name":"+proj=nonsense"}},)"),
+           {collection_of(square(0, 0, 9), R"("crs":{"type":"name","properties":{"name":"+proj=nonsense"}},)"),
             {},
             4,
             "\"+proj=nonsense\""},
-           {collection(square(0, 0, 900)), "--origin 78.2,15.6", 4, "kept where no origin is given"},
+           {collection_of(square(0, 0, 900)), "--origin 78.2,15.6", 4, "kept where no origin is given"},
            {kSvalbard, "--origin 78.2,15.6 --property thicknes_m=H", 2, "did you mean thickness_m?"},
            {"{\"type\":", {}, 5, "mapped.geojson:1"},
            {"hello", {}, 5, "neither GeoJSON"}}) {
-    const Outcome outcome = import(text, more);
-    EXPECT_EQ(outcome.code, code) << part << outcome.err;
-    EXPECT_HAS(outcome.err, part);
+    EXPECT_HAS(expect_code(code, import(text, more)).err, part);
     EXPECT_FALSE(std::filesystem::exists(folder / "floes.geojson")) << part;
   }
-  const Outcome none = polynya("import nowhere.shp --out floes.geojson", folder);
-  EXPECT_EQ(none.code, 5);
-  EXPECT_HAS(none.err, "nowhere.shp: ");
+  EXPECT_HAS(expect_code(5, polynya("import nowhere.shp --out floes.geojson", folder)).err, "nowhere.shp: ");
 }
 
 TEST_F(Import, AFileWithoutFloesGivesOneWithoutFloes) {
   for (const char* text : {"", "\n", R"({"type":"FeatureCollection","features":[]})"}) {
-    const Outcome outcome = import(text);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_HAS(outcome.err, "no floes in it", "0 floes read; 0 written");
+    EXPECT_HAS(expect_code(0, import(text)).err, "no floes in it", "0 floes read; 0 written");
   }
 }
 
@@ -144,8 +135,7 @@ TEST_F(Import, ShapefilesGeoPackagesAndFlatGeobufsAreReadByGdal) {
   const auto expected = checked(scene());
   for (const std::string name : {"mapped.shp", "mapped.gpkg", "mapped.fgb"}) {
     ASSERT_TRUE(convert("-t_srs EPSG:3413 " + name + " mapped.geojson")) << name;
-    const Outcome done = polynya({"import", name, "--shift", "--out", "floes.geojson"}, folder);
-    EXPECT_EQ(done.code, 0) << done.err;
+    const Outcome done = expect_code(0, polynya({"import", name, "--shift", "--out", "floes.geojson"}, folder));
     EXPECT_HAS(done.err, name + ": WGS 84 / NSIDC Sea Ice Polar Stereographic North", "3 written");
     const auto read = checked(scene());
     EXPECT_NEAR(area_of(read->scene), area_of(expected->scene), 1e-3) << name;
@@ -154,19 +144,16 @@ TEST_F(Import, ShapefilesGeoPackagesAndFlatGeobufsAreReadByGdal) {
   const double area = area_of(scene()->scene);
   for (const std::string name : {"degrees.shp", "degrees.gpkg", "degrees.fgb"}) {
     ASSERT_TRUE(convert(name + " mapped.geojson")) << name;
-    const Outcome done = polynya({"import", name, "--out", "floes.geojson"}, folder);
-    EXPECT_EQ(done.code, 0) << done.err;
-    EXPECT_HAS(done.err, name + ": WGS 84 (CRS84), projected about 78.20", "the floes' middle");
+    EXPECT_HAS(expect_code(0, polynya({"import", name, "--out", "floes.geojson"}, folder)).err,
+               name + ": WGS 84 (CRS84), projected about 78.20", "the floes' middle");
     EXPECT_NEAR(area_of(scene()->scene), area, 0.1) << name;
   }
   // A system without a code is converted; a file without a system is not in degrees.
   ASSERT_TRUE(convert("-t_srs '+proj=laea +lat_0=78 +lon_0=15 +datum=WGS84' own.shp mapped.geojson"));
-  const Outcome own = polynya("import own.shp --origin 78.2,15.6 --out floes.geojson", folder);
-  EXPECT_EQ(own.code, 0) << own.err;
-  EXPECT_HAS(own.err, "3 floes read, 1 trimmed; 3 written");
+  EXPECT_HAS(expect_code(0, polynya("import own.shp --origin 78.2,15.6 --out floes.geojson", folder)).err,
+             "3 floes read, 1 trimmed; 3 written");
   write_file(folder / "broken.shp", read_file(folder / "mapped.shp").substr(0, 60));
-  const Outcome broken = polynya("import broken.shp --out floes.geojson", folder);
-  EXPECT_EQ(broken.code, 5);
+  const Outcome broken = expect_code(5, polynya("import broken.shp --out floes.geojson", folder));
   EXPECT_HAS(broken.err, "broken.shp: ogr2ogr could not read it: ");
 }
 

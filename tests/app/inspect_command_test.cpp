@@ -28,8 +28,7 @@ class InspectCommand : public PlateRun {
 };
 
 TEST_F(InspectCommand, TheTableHasALineForEachLivingFloe) {
-  const Outcome at_end = inspect("");
-  ASSERT_EQ(at_end.code, 0) << at_end.err;
+  const Outcome at_end = expect_code(0, inspect(""));
   const auto all = lines(at_end.out);
   ASSERT_EQ(all.size(), 1 + living_at(run->end_time()));
   EXPECT_HAS(all[0], "floe", "parent", "born_s", "area_m2", "perimeter_m", "vertices", "holes", "mass_kg",
@@ -99,8 +98,7 @@ TEST_F(InspectCommand, TheLineageLeadsFromTheSceneToTheFloe) {
 }
 
 TEST_F(InspectCommand, ASoundRunPassesTheCheck) {
-  const Outcome outcome = inspect("--check");
-  EXPECT_EQ(outcome.code, 0) << outcome.out;
+  const Outcome outcome = expect_code(0, inspect("--check"));
   const auto all = lines(outcome.out);
   EXPECT_BEGINS(all.front(), "validity   " + std::to_string(run->floes.size()) + " shapes, 0 invalid") << outcome.out;
   EXPECT_EQ(all.back(), "sound");
@@ -111,8 +109,7 @@ TEST_F(InspectCommand, ASoundRunPassesTheCheck) {
 TEST_F(InspectCommand, ReportsAreJsonOnRequest) {
   const auto json = [](Words words) {
     words.emplace_back("--json");
-    const Outcome outcome = inspect(words);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const Outcome outcome = expect_code(0, inspect(words));
     io::JsonDocument document = io::parse_json(outcome.out);
     EXPECT_TRUE(document.faults.empty()) << outcome.out;
     return std::move(document.root);
@@ -150,8 +147,7 @@ TEST_F(InspectCommand, ADamagedRunFailsTheCheck) {
        {std::tuple{"[300,-75],[300,75]", "[300,75],[300,-75]", "floe 0: self-crossing"},
         {"\"area_m2\":45000", "\"area_m2\":45001", "(floe 0), 1 beyond"}}) {
     write_file(floes, replaced(sound, good, wrong));
-    const Outcome outcome = inspect("--check", "damaged");
-    EXPECT_EQ(outcome.code, 4) << outcome.out;
+    const Outcome outcome = expect_code(4, inspect("--check", "damaged"));
     EXPECT_HAS(outcome.out, words);
     EXPECT_EQ(lines(outcome.out).back(), "NOT SOUND");
   }

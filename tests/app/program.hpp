@@ -36,6 +36,7 @@ struct Outcome {
   int code = -1;  ///< exit code; −signal where a signal ended it
   std::string out;
   std::string err;
+  std::string line = {};  ///< of the command
 };
 
 /// How a program is started.
@@ -59,6 +60,13 @@ inline void fill_disk_of(int descriptor) {
   const int full = open("/dev/full", O_WRONLY);
   if (full < 0 || dup2(full, descriptor) < 0) _exit(126);
 }
+
+/// A ship that breaks cusps from a plate within a second.
+inline constexpr auto kTinyScene =
+    R"({"name": "tiny", "time": {"step_s": 0.01, "until_s": 1}, "record": {"frames_interval_s": 0.5},
+        "ships": [{"hull": {"length_m": 60, "beam_m": 16, "entrance_angle_deg": 30}, "mass_kg": 3e6,
+          "moment_of_inertia_kg_m2": 8e8, "position_m": [-31, 0], "propulsion": {"constant_speed_m_per_s": 2}}],
+        "floes": [{"rectangle": {"corner_m": [0.5, -40], "size_m": [120, 80]}}]})";
 
 /// Starts the built polynya; its stdout and stderr go to files in the folder.
 inline pid_t start_polynya(const Words& words, const Start& start) {
@@ -93,11 +101,19 @@ inline Outcome wait_for(pid_t child, const Start& start) {
 }
 
 inline Outcome polynya(const Words& words, const Start& start) {
-  return wait_for(start_polynya(words, start), start);
+  Outcome outcome = wait_for(start_polynya(words, start), start);
+  for (const std::string& word : words) outcome.line += word + ' ';
+  return outcome;
 }
 
 inline Outcome polynya(const Words& words, const TemporaryFolder& folder) {
   return polynya(words, Start{folder.path()});
+}
+
+/// The outcome of a command line that ends with that code.
+inline Outcome expect_code(int code, Outcome outcome) {
+  EXPECT_EQ(outcome.code, code) << outcome.line << outcome.err;
+  return outcome;
 }
 
 /// A command line that is refused: its exit code, and what the message has.
@@ -110,13 +126,10 @@ struct Refusal {
 /// Each line ends with its code and message, and prints nothing to stdout.
 inline void expect_refusals(const std::vector<Refusal>& all, const Start& start) {
   for (const Refusal& one : all) {
-    const Outcome outcome = polynya(one.words, start);
-    std::string line;
-    for (const std::string& word : one.words) line += word + ' ';
-    EXPECT_EQ(outcome.code, one.code) << line << outcome.err;
-    EXPECT_EQ(outcome.out, "") << line;
-    EXPECT_NE(outcome.err, "") << line;
-    EXPECT_HAS(outcome.err, one.message) << line;
+    const Outcome outcome = expect_code(one.code, polynya(one.words, start));
+    EXPECT_EQ(outcome.out, "") << outcome.line;
+    EXPECT_NE(outcome.err, "") << outcome.line;
+    EXPECT_HAS(outcome.err, one.message) << outcome.line;
   }
 }
 

@@ -1,6 +1,12 @@
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <random>
+
 #include "interrupted_run.hpp"
 #include <gtest/gtest.h>
 
+#include "io/run/run_reader.hpp"
 #include "io/text/json_parser.hpp"
 
 namespace polynya::tests {
@@ -29,9 +35,7 @@ class Resume : public testing::Test {
   Outcome resume(const Words& more = {}) { return polynya(Words("resume run") + more, start_); }
   void expect_refused(const Words& more, const std::string& message) {
     const std::string forces = read_file(folder_ / "run/forces.csv"), events = read_file(folder_ / "run/events.ndjson");
-    const Outcome refused = resume(more);
-    EXPECT_EQ(refused.code, 5);
-    EXPECT_HAS(refused.err, message);
+    EXPECT_HAS(expect_code(5, resume(more)).err, message);
     EXPECT_EQ(read_file(folder_ / "run/forces.csv"), forces) << "nothing is cut back before all is there";
     EXPECT_EQ(read_file(folder_ / "run/events.ndjson"), events);
   }
@@ -44,14 +48,11 @@ class Resume : public testing::Test {
 
 TEST_F(Resume, GivesTheBytesOfTheRunNobodyInterrupted) {
   interrupt();
-  const Outcome resumed = resume();
-  EXPECT_EQ(resumed.code, 0) << resumed.err;
-  EXPECT_HAS(resumed.err, checkpoints_[0].filename().string());
+  EXPECT_FALSE(checked(io::read_run(folder_ / "run"))->summary.find("finished")->boolean()) << "readable all the same";
+  EXPECT_HAS(expect_code(0, resume()).err, checkpoints_[0].filename().string());
   EXPECT_EQ(difference(), "");
   EXPECT_EQ(io::checkpoints_in(folder_ / "run").size(), 1U) << "a finished run keeps that of its end";
-  const Outcome again = resume();
-  EXPECT_EQ(again.code, 0);
-  EXPECT_HAS(again.err, "finished");
+  EXPECT_HAS(expect_code(0, resume()).err, "finished");
   // The map is drawn from the finished folder: a kill may come between.
   const std::string map = read_file(folder_ / "run/final.svg");
   fs::remove(folder_ / "run/final.svg");
@@ -106,9 +107,7 @@ TEST_F(Resume, AFinishedRunGoesOnToALaterEnd) {
   ASSERT_EQ(polynya("view run", start_).code, 0);
   for (const char* until : {"41", "60.5"}) {
     ASSERT_EQ(polynya({"run", "scene.json", "--out", "whole", "--until", until, "--overwrite"}, start_).code, 0);
-    const Outcome longer = resume({"--until", until});
-    EXPECT_EQ(longer.code, 0) << longer.err;
-    EXPECT_LACKS(longer.err, "from the start");
+    EXPECT_LACKS(expect_code(0, resume({"--until", until})).err, "from the start");
     EXPECT_EQ(difference(), "");
     EXPECT_EQ(read_file(folder_ / "run/final.svg"), read_file(folder_ / "whole/final.svg"));
     EXPECT_FALSE(fs::exists(folder_ / "run/view.html"));
@@ -130,26 +129,33 @@ TEST_F(Resume, AKilledRunMayEndElsewhere) {
   EXPECT_EQ(difference(), "");
 }
 
+/// And leaves a folder that is whole and says that it is not finished.
 TEST_F(Resume, ASignalStopsWithACheckpointAndNobodyElseMayWriteMeanwhile) {
   write_file(folder_ / "scene.json", crash_scene("100"));
   write_file(folder_ / "long.json", crash_scene("1e5"));
-  const pid_t child = start_polynya("run long.json --out run --checkpoint-every 1", start_);
-  while (!has_ended(child) && io::checkpoints_in(folder_ / "run").empty())
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  const TemporaryFolder elsewhere;
-  const Start beside{elsewhere.path()};
-  for (const auto& words : {Words{"resume", folder_ / "run"},
-                            Words{"run", folder_ / "scene.json", "--out", folder_ / "run", "--overwrite"}}) {
-    const Outcome locked = polynya(words, beside);
-    EXPECT_EQ(locked.code, 5);
-    EXPECT_HAS(locked.err, "another polynya is writing this run");
+  for (const auto& [signal, name] : {std::pair{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}}) {
+    fs::remove_all(folder_ / "run");
+    const pid_t child = start_polynya("run long.json --out run --checkpoint-every 1", start_);
+    const auto has_rows = [&] { return std::ranges::count(read_file(folder_ / "run/forces.csv"), '\n') > 1; };
+    while (!has_ended(child) && (io::checkpoints_in(folder_ / "run").empty() || !has_rows()))
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const TemporaryFolder elsewhere;
+    const Start beside{elsewhere.path()};
+    for (const auto& words : {Words{"resume", folder_ / "run"},
+                              Words{"run", folder_ / "scene.json", "--out", folder_ / "run", "--overwrite"}}) {
+      EXPECT_HAS(expect_code(5, polynya(words, beside)).err, "another polynya is writing this run");
+    }
+    kill(child, signal);
+    EXPECT_HAS(expect_code(75, wait_for(child, start_)).err, name, "polynya resume run");
+    EXPECT_FALSE(io::checkpoints_in(folder_ / "run").empty());
+    EXPECT_LE(io::checkpoints_in(folder_ / "run").size(), 2U);
+    const auto run = checked(io::read_run(folder_ / "run"));
+    EXPECT_FALSE(run->summary.find("finished")->boolean());
+    EXPECT_GT(run->samples.size(), 0U);
+    EXPECT_TRUE(fs::exists(folder_ / "run/final.svg"));
+    for (const auto file : {io::run_file::kForces, io::run_file::kEvents})
+      EXPECT_EQ(read_file(folder_ / "run" / file).back(), '\n') << file;
   }
-  kill(child, SIGTERM);
-  const Outcome stopped = wait_for(child, start_);
-  EXPECT_EQ(stopped.code, 75) << stopped.err;
-  EXPECT_HAS(stopped.err, "polynya resume run");
-  EXPECT_FALSE(io::checkpoints_in(folder_ / "run").empty());
-  EXPECT_LE(io::checkpoints_in(folder_ / "run").size(), 2U);
 }
 
 /// A size limit stands for a full disk, of 64 kB: forces.csv or floes.ndjson meets it. After it is lifted,
@@ -159,14 +165,12 @@ TEST_F(Resume, AfterAFullDiskTheRunGoesOn) {
   ASSERT_EQ(polynya("run scene.json --out whole", start_).code, 0);
   for (const rlim_t limit : {20'000, 100'000, 150'000}) {
     const Start full{folder_.path(), limit};
-    const Outcome stopped = polynya("run scene.json --out run --overwrite --checkpoint-every 1", full);
-    EXPECT_EQ(stopped.code, 5);
+    const Outcome stopped = expect_code(5, polynya("run scene.json --out run --overwrite --checkpoint-every 1", full));
     EXPECT_HAS(stopped.err, "File too large");
     EXPECT_HAS(stopped.err, "polynya resume run");
     const auto summary = io::parse_json(read_file(folder_ / "run/summary.json"));
     EXPECT_TRUE(summary.faults.empty());
-    const Outcome resumed = resume();
-    EXPECT_EQ(resumed.code, 0) << resumed.err;
+    expect_code(0, resume());
     EXPECT_EQ(difference(), "") << limit;
   }
 }
@@ -176,12 +180,9 @@ TEST_F(Resume, AFailureIsDumpedAndRepeated) {
     "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30},
       "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9, "position_m": [-62, 0], "propulsion": {"thrust_N": 9e8}}],
     "floes": [{"rectangle": {"corner_m": [0, -30], "size_m": [40, 60]}}]})");
-  const Outcome failed = polynya("run scene.json --out run --checkpoint-every 4", start_);
-  ASSERT_EQ(failed.code, 4) << failed.err;
-  EXPECT_HAS(failed.err, "--from-failure");
+  EXPECT_HAS(expect_code(4, polynya("run scene.json --out run --checkpoint-every 4", start_)).err, "--from-failure");
   const std::string states = read_file(folder_ / "run/states.csv");
-  const Outcome repeated = resume("--from-failure");
-  EXPECT_EQ(repeated.code, 4) << repeated.err;
+  const Outcome repeated = expect_code(4, resume("--from-failure"));
   EXPECT_HAS(repeated.out, "\nreproduced\n");
   EXPECT_EQ(resume("--from-failure").out, repeated.out);
   EXPECT_EQ(read_file(folder_ / "run/states.csv"), states) << "nothing is written";
@@ -197,13 +198,78 @@ TEST_F(Resume, TheBytesAreTheSameOnAnyNumberOfThreads) {
     "record": {"frames_interval_s": 2}, "structures": [{"radius_m": 30, "position_m": [430, 430]}],
     "floes": [{"field": {"corner_m": [0, 0], "extent_m": 860, "floe_size_m": 14, "concentration": 0.8}}]})");
   for (const char* threads : {"1", "2", "8"}) {
-    const Outcome outcome =
-        polynya({"run", "scene.json", "--out", std::string("on") + threads, "--threads", threads, "--progress", "none"},
-                start_);
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_LACKS(outcome.err, "TBB");
+    EXPECT_LACKS(expect_code(0, polynya({"run", "scene.json", "--out", std::string("on") + threads, "--threads",
+                                         threads, "--progress", "none"},
+                                        start_))
+                     .err,
+                 "TBB");
     EXPECT_EQ(first_difference(folder_ / "on1", folder_ / (std::string("on") + threads)), "") << threads;
   }
+}
+
+// ---- kills at random times
+
+struct CrashTally {
+  int runs = 0;
+  int kills = 0;            ///< by SIGKILL, of runs and of resumed runs, at random times
+  int before_anything = 0;  ///< of them, before the run folder had its scene
+  int resumed = 0;          ///< runs that ended after a resume from a checkpoint
+  int restarted = 0;        ///< and from the start, no checkpoint being there yet
+};
+
+CrashTally crash_trials(int kills, unsigned seed) {
+  std::cout << "seed " << seed << std::endl;  // before any fork
+  std::mt19937 random(seed);
+  const TemporaryFolder folder;
+  const Start start{.folder = folder.path(), .arrange_streams = [] { setenv("PATH", "/", 1); }};  // no rsvg-convert
+  write_file(folder / "scene.json", crash_scene("100"));
+  const Words often = "--checkpoint-every 4 --progress none";
+  const auto begin = std::chrono::steady_clock::now();
+  const Outcome whole = polynya(Words("run scene.json --out whole") + often, start);
+  const auto duration = std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
+  CrashTally tally;
+  EXPECT_EQ(whole.code, 0) << whole.err;
+  if (whole.code != 0) return tally;
+  std::uniform_int_distribution<long> delay(0, duration.count());
+  const auto run = folder / "run";
+  while (tally.kills < kills && !testing::Test::HasFailure()) {
+    std::filesystem::remove_all(run);
+    bool is_killed = kill_after(start_polynya(Words("run scene.json --out run") + often, start), start,
+                                std::chrono::microseconds(delay(random)));
+    ++tally.runs;
+    while (is_killed) {
+      ++tally.kills;
+      if (!std::filesystem::exists(run / io::run_file::kScene)) {
+        ++tally.before_anything;  // nothing was there yet that could be lost
+        break;
+      }
+      const bool has_checkpoint = !io::checkpoints_in(run).empty();
+      const pid_t child = start_polynya(Words("resume run") + often, start);
+      if (tally.kills < kills && random() % 2 == 0) {
+        is_killed = kill_after(child, start, std::chrono::microseconds(delay(random)));
+        if (is_killed) continue;
+      }
+      is_killed = false;
+      const Outcome resumed = wait_for(child, start);
+      EXPECT_TRUE(resumed.code == 0 || resumed.code == -1) << resumed.err;  // −1: it was waited for above
+      ++(has_checkpoint ? tally.resumed : tally.restarted);
+    }
+    if (!std::filesystem::exists(run / io::run_file::kScene)) continue;
+    EXPECT_EQ(first_difference(folder / "whole", run), "") << "after " << tally.kills << " kills";
+    EXPECT_EQ(io::checkpoints_in(run).size(), 1U);
+  }
+  return tally;
+}
+
+TEST(Crash, KillsLoseAndDoubleNothing) {
+  const char* wanted = std::getenv("POLYNYA_KILLS");
+  const int kills = wanted ? std::atoi(wanted) : 4;
+  const CrashTally tally = crash_trials(kills, wanted ? 7 : 1);
+  std::cout << tally.kills << " kills of " << tally.runs << " runs: " << tally.resumed << " resumed from a checkpoint, "
+            << tally.restarted << " begun again before the first, " << tally.before_anything
+            << " killed before the scene was written; every file as in the uninterrupted run\n";
+  EXPECT_GE(tally.kills, kills);
+  EXPECT_GE(tally.resumed, wanted ? 3 * kills / 10 : 0);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "interrupted_run.hpp"
-#include "tiny_scene.hpp"
 #include <gtest/gtest.h>
 
 #include "io/run/run_writer.hpp"
@@ -105,8 +104,7 @@ TEST_F(RunFolderTrial, AKillInAFreshFolderLeavesOneThatIsTaken) {
     for (int at = 1; at <= last; ++at) {
       SCOPED_TRACE(std::string(call) + " " + std::to_string(at));
       fs::remove_all(folder_ / "run");
-      const Outcome killed = run_to("run", {}, killed_at(call, at));
-      ASSERT_EQ(killed.code, -SIGKILL);
+      expect_code(-SIGKILL, run_to("run", {}, killed_at(call, at)));
       const bool has_scene = fs::exists(folder_ / "run/scene.json");
       const Outcome again = run_to("run");
       EXPECT_EQ(again.code, has_scene ? 5 : 0) << again.err;
@@ -167,10 +165,9 @@ class Unsynced {
 /// disk.
 TEST_F(RunFolderTrial, EveryByteIsOnTheDiskBeforeACheckpointGoes) {
   if (!has_strace()) GTEST_SKIP() << "no strace that works here";
-  const Outcome traced =
-      run_to("run", {"--checkpoint-every", "0.4"},
-             strace({"-y", "-s", "4096", "-o", "trace.txt", "-e", "trace=write,openat,mkdir,fsync,rename,unlink"}));
-  ASSERT_EQ(traced.code, 0) << traced.err;
+  expect_code(
+      0, run_to("run", {"--checkpoint-every", "0.4"},
+                strace({"-y", "-s", "4096", "-o", "trace.txt", "-e", "trace=write,openat,mkdir,fsync,rename,unlink"})));
   Unsynced unsynced(fs::canonical(folder_.path()) / "run");
   std::istringstream lines(read_file(folder_ / "trace.txt"));
   int gone = 0;
@@ -193,9 +190,8 @@ TEST_F(RunFolderTrial, AResumeFromASavedCheckpointIsNotLostToAKill) {
   const std::string saved = "early/checkpoint-000000000050.bin";
   if (!has_strace()) GTEST_SKIP() << "no strace that works here";
   // Killed when it would write its third checkpoint.
-  const Outcome killed =
-      call({"resume", "run", "--checkpoint", saved, "--checkpoint-every", "0.1"}, killed_at("rename", 4));
-  EXPECT_EQ(killed.code, -SIGKILL) << killed.err;
+  expect_code(-SIGKILL,
+              call({"resume", "run", "--checkpoint", saved, "--checkpoint-every", "0.1"}, killed_at("rename", 4)));
   const auto left = io::checkpoints_in(folder_ / "run");
   ASSERT_EQ(left.size(), 2U);
   EXPECT_EQ(left.front().filename(), "checkpoint-000000000070.bin");
@@ -229,9 +225,7 @@ TEST_F(RunFolderTrial, LinksInAForeignRunFolderAreNotFollowed) {
   fs::rename(folder_ / "other/states.csv", folder_ / "kept");
   fs::create_symlink("../kept", folder_ / "other/states.csv");
   const std::string kept = read_file(folder_ / "kept");
-  const Outcome refused = call({"resume", "other"});
-  EXPECT_EQ(refused.code, 5);
-  EXPECT_HAS(refused.err, "states.csv: not a regular file");
+  EXPECT_HAS(expect_code(5, call({"resume", "other"})).err, "states.csv: not a regular file");
   EXPECT_EQ(read_file(folder_ / "kept"), kept);
   EXPECT_EQ(read_file(folder_ / "precious"), "years of work");
 }
@@ -246,12 +240,8 @@ TEST_F(RunFolderTrial, AFileTooLongToBeReadIsReported) {
   *std::ranges::find(sizes, fs::file_size(contacts)) = io::kLongestRunFile + 1;  // a hole, which takes no space
   fs::resize_file(contacts, io::kLongestRunFile + 1);
   ASSERT_TRUE(io::write_checkpoint(folder_ / "run", *longer).has_value());
-  const Outcome resumed = call({"resume", "run"});
-  EXPECT_EQ(resumed.code, 0) << resumed.err;
-  EXPECT_HAS(resumed.err, "note: contacts.csv has more than the 4294967296 bytes");
-  const Outcome refused = call({"inspect", "run"});
-  EXPECT_EQ(refused.code, 5);
-  EXPECT_HAS(refused.err, "contacts.csv");
+  EXPECT_HAS(expect_code(0, call({"resume", "run"})).err, "note: contacts.csv has more than the 4294967296 bytes");
+  EXPECT_HAS(expect_code(5, call({"inspect", "run"})).err, "contacts.csv");
 }
 
 }  // namespace

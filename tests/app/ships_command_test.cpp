@@ -54,8 +54,7 @@ TEST(ShipsCommand, AShipOfAFileHasTheProblemsThatItHasInAScene) {
       expected += to_string(problem) + "\n";
     }
     write_file(folder / "ship.json", text);
-    const Outcome refused = polynya("ships ship.json --json", folder);
-    EXPECT_EQ(refused.code, 3) << text;
+    const Outcome refused = expect_code(3, polynya("ships ship.json --json", folder));
     EXPECT_TRUE(refused.out.empty()) << refused.out;
     if (text.ends_with('}') || text.ends_with(']')) {
       EXPECT_EQ(refused.err.substr(0, expected.size()), expected) << text;
@@ -69,8 +68,7 @@ TEST(ShipsCommand, AShipOfAFileIsPrintedAsItsSceneResolvesIt) {
   const std::string text = R"({"ship": "polaris", // as scenes have it
     "hull": {"draught_m": 8.5}})";
   write_file(folder / "deeper.json", text);
-  const Outcome printed = polynya("ships deeper.json --json", folder);
-  ASSERT_EQ(printed.code, 0) << printed.err;
+  const Outcome printed = expect_code(0, polynya("ships deeper.json --json", folder));
   const auto ship = nlohmann::json::parse(printed.out);
   const auto scene = checked(io::read_scene("{\"ships\": [" + text + "]}", "scene.json", "."));
   EXPECT_EQ(ship.at("ship"), nlohmann::json::parse(scene->resolved_text).at("ships").at(0));

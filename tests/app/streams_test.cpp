@@ -1,7 +1,9 @@
+#include <algorithm>
+
 #include "interrupted_run.hpp"
 #include "program.hpp"
-#include "tiny_scene.hpp"
 #include <gtest/gtest.h>
+#include <pty.h>
 #include <sys/stat.h>
 
 namespace polynya::tests {
@@ -63,8 +65,7 @@ TEST_F(Streams, TextThatAFullDiskRefusesNeverEndsInZero) {
 /// As with `polynya inspect RUN | head -1`.
 TEST_F(Streams, AClosedPipeIsQuietAndEndsAsShellsReportIt) {
   for (const auto& words : kPrinting) {
-    const Outcome read = in_folder(words);
-    EXPECT_EQ(read.code, 0) << words.front();
+    const Outcome read = expect_code(0, in_folder(words));
     EXPECT_NE(read.out, "") << words.front();
     const Outcome outcome = in_folder(words, [] { close_pipe_behind(1); });
     EXPECT_EQ(outcome.code, 141) << words.front();
@@ -121,7 +122,7 @@ TEST_F(Streams, ANamedPipeIsNoFileToRead) {
   }
 }
 
-TEST_F(Streams, APageGoesIntoAPipeADeviceOrALinksTarget) {
+TEST_F(Streams, APageGoesIntoAPipe) {
   ASSERT_EQ(in_folder("view good --out page.html").code, 0);
   const std::string page = read_file(folder->path() / "page.html");
   ASSERT_EQ(mkfifo((folder->path() / "fifo").c_str(), 0600), 0);
@@ -135,23 +136,12 @@ TEST_F(Streams, APageGoesIntoAPipeADeviceOrALinksTarget) {
   std::filesystem::remove(folder->path() / "fifo");
   waitpid(reader, nullptr, 0);
   EXPECT_TRUE(read_file(folder->path() / "read.html") == page);
-
-  write_file(folder->path() / "elsewhere/target.html", "old");
-  for (const char* target : {"elsewhere/target.html", "elsewhere/new.html"}) {
-    const auto link = folder->path() / "link.html";
-    std::filesystem::remove(link);
-    std::filesystem::create_symlink(target, link);
-    EXPECT_EQ(in_folder("view good --out link.html").code, 0);
-    EXPECT_TRUE(std::filesystem::is_symlink(link));
-    EXPECT_TRUE(read_file(folder->path() / target) == page) << target;
-  }
 }
 
 /// The line about the page goes to stderr then; a page that is a file would lose it.
 TEST_F(Streams, APageOnStdoutIsThePageAlone) {
   ASSERT_EQ(in_folder("view good --out page.html").code, 0);
-  const Outcome outcome = in_folder("view good --out /dev/stdout");
-  EXPECT_EQ(outcome.code, 0);
+  const Outcome outcome = expect_code(0, in_folder("view good --out /dev/stdout"));
   EXPECT_TRUE(outcome.out == read_file(folder->path() / "page.html"));
   EXPECT_HAS(outcome.err, "open it in a browser");
 }
@@ -168,6 +158,71 @@ TEST_F(Streams, ProductsInARunFolderReplaceALink) {
     EXPECT_EQ(in_folder({command, "foreign"}).code, 0);
     EXPECT_EQ(read_file(mine), "mine") << command;
   }
+}
+
+// ---- how far a run is
+
+/// What a program writes to stderr where that is a terminal of that many columns.
+std::string on_terminal(const Words& words, const TemporaryFolder& folder, int columns) {
+  int terminal = -1, stream = -1;
+  const winsize size{.ws_row = 24, .ws_col = static_cast<unsigned short>(columns), .ws_xpixel = 0, .ws_ypixel = 0};
+  EXPECT_EQ(openpty(&terminal, &stream, nullptr, nullptr, &size), 0);
+  const auto use_terminal = [&] { dup2(stream, 2); };
+  const Start start{.folder = folder.path(), .arrange_streams = use_terminal};
+  const pid_t child = start_polynya(words, start);
+  close(stream);
+  std::string text;
+  char block[4096];
+  for (ssize_t count = 0; (count = ::read(terminal, block, sizeof block)) > 0;)
+    text.append(block, static_cast<std::size_t>(count));
+  close(terminal);
+  EXPECT_EQ(wait_for(child, start).code, 0);
+  return text;
+}
+
+/// Columns of each line that a carriage return leads back on: characters of UTF-8, without "erase to the end
+/// of the line".
+std::vector<int> columns_of_lines(const std::string& text) {
+  std::vector<int> columns{0};
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text.compare(i, 3, "\x1b[K") == 0)
+      i += 2;
+    else if (text[i] == '\r' || text[i] == '\n')
+      columns.push_back(0);
+    else if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80)
+      ++columns.back();
+  }
+  return columns;
+}
+
+TEST(ProgressBar, FitsAnyTerminal) {
+  const TemporaryFolder folder;
+  write_file(folder / "tiny.json", kTinyScene);
+  for (const int columns : {1, 6, 20, 59, 80}) {
+    const std::string text = on_terminal({"run", "tiny.json", "--out", "run", "--overwrite"}, folder, columns);
+    std::filesystem::remove_all(folder / "run");
+    EXPECT_HAS(text, "\r");
+    EXPECT_EQ(std::ranges::count(text, '\n'), 1) << text;  // at the end
+    for (const int used : columns_of_lines(text)) EXPECT_LT(used, columns) << text;
+    EXPECT_EQ(text.find("100 %") != std::string::npos, columns > 6) << text;
+  }
+}
+
+/// A scene that comes late, as a field that takes long to make.
+TEST(ProgressBar, IsThereWhileASceneIsReadAndGoesAway) {
+  const TemporaryFolder folder;
+  write_file(folder / "tiny.json", kTinyScene);
+  Start start{folder.path()};
+  start.under = {"/bin/sh", "-c", "{ /bin/sleep 4; /bin/cat tiny.json; } | \"$@\"", "sh"};
+  EXPECT_HAS(expect_code(0, polynya("validate - --progress json", start)).err,
+             R"({"work":"reading the scene","part":null,"wall_time_s":)");
+  EXPECT_EQ(polynya("validate tiny.json --progress json", folder).err, "");
+}
+
+TEST(ProgressBar, IsLinesWhereThereIsNoTerminal) {
+  const TemporaryFolder folder;
+  write_file(folder / "tiny.json", kTinyScene);
+  EXPECT_LACKS(expect_code(0, polynya("run tiny.json --out run --progress bar", folder)).err, "\r");
 }
 
 }  // namespace

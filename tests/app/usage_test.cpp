@@ -1,6 +1,5 @@
 // Wrong words on the command line: each ends with 2, prints nothing to stdout and names what is wrong.
 #include "program.hpp"
-#include "tiny_scene.hpp"
 
 namespace polynya::tests {
 namespace {

@@ -65,8 +65,7 @@ class ViewCommand : public PlateRun {
   static Outcome view(const Words& words, const std::string& of = "run") { return on_run("view", words, of); }
   static Page page(Words words = {}) {
     words.insert(words.end(), {"--out", "page.html"});
-    const Outcome outcome = view(words);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    expect_code(0, view(words));
     return Page(folder->path() / "page.html");
   }
 };
@@ -185,9 +184,8 @@ TEST_F(ViewCommand, ThePageNeedsNothingElse) {
 }
 
 TEST_F(ViewCommand, TwoRunsStandInOnePageEachWithItsNumbers) {
-  const Outcome outcome =
-      polynya({"view", "run", "run", "--until", "20", "--label", "one,two & more", "--out", "both.html"}, *folder);
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  expect_code(
+      0, polynya({"view", "run", "run", "--until", "20", "--label", "one,two & more", "--out", "both.html"}, *folder));
   const std::filesystem::path file = folder->path() / "both.html";
   const Page first(file, "info-0", "columns-0"), second(file, "info-1", "columns-1");
   for (const Page* held : {&first, &second}) {
@@ -203,12 +201,9 @@ TEST_F(ViewCommand, TwoRunsStandInOnePageEachWithItsNumbers) {
 }
 
 TEST_F(ViewCommand, ATooLargePageIsRefusedWithTheOptionsThatMakeItSmaller) {
-  const Outcome whole = view("");
-  EXPECT_EQ(whole.code, 0) << whole.err;
-  EXPECT_BEGINS(whole.out, "run/view.html");
+  EXPECT_BEGINS(expect_code(0, view("")).out, "run/view.html");
   const auto bytes = static_cast<double>(std::filesystem::file_size(folder->path() / "run/view.html"));
-  const Outcome refused = view(fmt::format("--limit {:.3f} --out large.html", bytes / 1e6 - 0.002));
-  EXPECT_EQ(refused.code, 2);
+  const Outcome refused = expect_code(2, view(fmt::format("--limit {:.3f} --out large.html", bytes / 1e6 - 0.002)));
   EXPECT_FALSE(std::filesystem::exists(folder->path() / "large.html"));
   EXPECT_HAS(refused.err, "--area", "--every", "--from", "--until");
   EXPECT_EQ(view({"--limit", advised(refused.err, "--limit"), "--out", "large.html"}).code, 0) << refused.err;

@@ -18,7 +18,6 @@ using geometry::Pose;
 using geometry::Vector;
 using namespace scenery;
 
-constexpr std::uint64_t kSeed = 99;
 constexpr double kStep = 0.05;
 
 struct Found {
@@ -56,15 +55,15 @@ std::vector<Found> over_all_pairs(const Bodies& bodies, const ContactRule& rule)
 }
 
 /// A pack of random floes, thrown at its middle.
-struct Pack {
+struct FloePack {
   Bodies bodies;
   std::vector<BodyIndex> awake;
   BroadPhase finder;
-  Random random{kSeed};
+  Random random{99};
   bool has_covers;  ///< before another body comes near
   int corners;      ///< of a body, at least
 
-  Pack(const ContactRule& rule, int columns, bool are_covered = true, int least_corners = 5)
+  FloePack(const ContactRule& rule, int columns, bool are_covered = true, int least_corners = 5)
       : finder(rule, 15), has_covers(are_covered), corners(least_corners) {
     for (int row = 0, i = 0; row < columns; ++row) {
       for (int column = 0; column < columns; ++column, ++i) add({14.0 * column, 14.0 * row}, i % 3 != 0, columns);
@@ -112,7 +111,7 @@ struct Pack {
 };
 
 void run_against_brute_force(const ContactRule& rule, int columns, int steps) {
-  Pack pack(rule, columns);
+  FloePack pack(rule, columns);
   ContactSolver solver;
   std::vector<Contact> contacts;
   std::size_t seen = 0;
@@ -173,17 +172,17 @@ void expect_same_bounds(const std::vector<PairState>& kept, const std::vector<Pa
 
 /// Steps two packs, one of which keeps less of what is known of its pairs; their contacts are the same to the
 /// bit. Gives how many there were.
-std::size_t compare_contacts(Pack& keeping, Pack& making, bool are_bounds_the_same) {
+std::size_t compare_contacts(FloePack& keeping, FloePack& making, bool are_bounds_the_same) {
   std::vector<Contact> kept, made;
   std::size_t seen = 0;
   for (int step = 0; step < 300 && !testing::Test::HasFatalFailure(); ++step) {
-    for (Pack* pack : {&keeping, &making}) pack->finder.update(pack->bodies, pack->awake);
+    for (FloePack* pack : {&keeping, &making}) pack->finder.update(pack->bodies, pack->awake);
     keeping.finder.find_contacts(keeping.bodies, kStep, kept);
     making.finder.find_contacts(making.bodies, kStep, made);
     expect_same_contacts(kept, made);
     seen += kept.size();
     if (are_bounds_the_same) expect_same_bounds(keeping.finder.pair_states(), making.finder.pair_states());
-    for (Pack* pack : {&keeping, &making}) {
+    for (FloePack* pack : {&keeping, &making}) {
       integrate(pack->bodies, pack->awake, kStep);
       if (step % 16 == 15) pack->remove(step % pack->bodies.size());
     }
@@ -195,8 +194,8 @@ TEST(BroadPhase, FindsTheSameToTheBitWhereCoversAreMadeAsTheyAreNeeded) {
   ContactRule few;
   few.most_kept_pieces = 1000;
   constexpr int kFew = 8, kMany = 130;  // two have too many edges to be compared one by one
-  Pack keeping({}, kFew, false, kMany), making(few, kFew, false, kMany);
-  const auto covers_of = [](const Pack& pack) {
+  FloePack keeping({}, kFew, false, kMany), making(few, kFew, false, kMany);
+  const auto covers_of = [](const FloePack& pack) {
     return std::ranges::count_if(pack.bodies.boundary, [](const auto& boundary) { return boundary->is_ready(); });
   };
   EXPECT_GT(compare_contacts(keeping, making, true), 1000U);
@@ -206,7 +205,7 @@ TEST(BroadPhase, FindsTheSameToTheBitWhereCoversAreMadeAsTheyAreNeeded) {
 }
 
 TEST(BroadPhase, MakesNoCoversOfBodiesOfFewCorners) {
-  Pack pack({}, kColumns, false);
+  FloePack pack({}, kColumns, false);
   std::vector<Contact> contacts;
   pack.finder.update(pack.bodies, pack.awake);
   pack.finder.find_contacts(pack.bodies, kStep, contacts);
@@ -217,7 +216,7 @@ TEST(BroadPhase, MakesNoCoversOfBodiesOfFewCorners) {
 TEST(BroadPhase, FindsTheSameToTheBitWhereEdgesThatAreNotYetNearAreForgotten) {
   ContactRule forgetful;
   forgetful.most_pairs_with_edges = 10;
-  Pack keeping({}, kColumns, false), forgetting(forgetful, kColumns, false);
+  FloePack keeping({}, kColumns, false), forgetting(forgetful, kColumns, false);
   EXPECT_GT(compare_contacts(keeping, forgetting, false), 1000U);
 }
 

@@ -21,7 +21,7 @@ using namespace scenery;
 
 static_assert(sizeof(cpFloat) == sizeof(double), "Chipmunk in double precision");
 
-constexpr std::uint64_t kSeed = 4242;
+constexpr std::uint64_t kChipmunkSeed = 4242;
 constexpr double kOverlap = 1e-8;    // [m]
 constexpr double kAgreement = 1e-6;  // of the speeds, [m/s] and [m/s] at a metre's arm
 
@@ -166,7 +166,7 @@ TEST(Chipmunk, CentralHitsFaceToFaceAgree) {
 }
 
 TEST(Chipmunk, PlasticHitsOffCentreFaceToFaceAgree) {
-  Random random(kSeed);
+  Random random(kChipmunkSeed);
   for (int i = 0; i < 300 && !HasFailure(); ++i) {
     Scene scene;
     const double h0 = random.between(4, 20), h1 = random.between(4, 20);
@@ -181,7 +181,7 @@ TEST(Chipmunk, PlasticHitsOffCentreFaceToFaceAgree) {
 }
 
 TEST(Chipmunk, CornersOnFacesAgreeWithoutFriction) {
-  Random random(kSeed);
+  Random random(kChipmunkSeed);
   int hits = 0;
   for (int i = 0; i < 1000 && !HasFailure(); ++i) {
     Scene scene = corner_on_face(random);
@@ -192,7 +192,7 @@ TEST(Chipmunk, CornersOnFacesAgreeWithoutFriction) {
 }
 
 TEST(Chipmunk, PlasticCornersOnFacesAgreeWithFriction) {
-  Random random(kSeed);
+  Random random(kChipmunkSeed);
   int sticking = 0;
   for (int i = 0; i < 1000 && !HasFailure(); ++i) {
     Scene scene = corner_on_face(random);
@@ -205,7 +205,7 @@ TEST(Chipmunk, PlasticCornersOnFacesAgreeWithFriction) {
 }
 
 TEST(Chipmunk, ElasticCornersOnFacesAgreeWithFrictionWhereTheySlide) {
-  Random random(kSeed);
+  Random random(kChipmunkSeed);
   int compared = 0;
   for (int i = 0; i < 1000 && !HasFailure(); ++i) {
     Scene scene = corner_on_face(random);

@@ -13,7 +13,6 @@ using geometry::Point;
 using geometry::Vector;
 using namespace scenery;
 
-constexpr std::uint64_t kSeed = 20170611;
 constexpr int kTrials = 20000;
 
 NewBody random_body(Random& random) {

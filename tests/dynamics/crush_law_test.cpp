@@ -13,8 +13,6 @@ namespace {
 using geometry::Vector;
 using namespace scenery;
 
-constexpr std::uint64_t kSeed = 20170611;
-
 CrushResponse random_response(Random& random) {
   CrushResponse r;
   r.impulse_of_force = std::pow(10.0, random.between(-2, 5));

@@ -15,7 +15,6 @@ namespace {
 using geometry::Vector;
 using namespace scenery;
 
-constexpr std::uint64_t kSeed = 20170611;
 constexpr double kSlipSpeed = 0.02;  // [m/s]
 constexpr double kNarrow = 5e-5;     // [m/s]
 

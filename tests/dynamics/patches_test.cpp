@@ -17,8 +17,6 @@ using namespace scenery;
 
 // ---- boundaries and what two of them have near each other, against brute force over all edges
 
-constexpr std::uint64_t kSeed = 77;
-
 bool crosses(Point a, Point b, Point c, Point d) {
   const auto side = [](Point p, Point q, Point r) { return cross(q - p, r - p) > 0; };
   return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
@@ -48,7 +46,7 @@ Polygon random_floe(Random& random) {
 
 class RandomFloes : public ::testing::Test {
  protected:
-  Random random_{kSeed};
+  Random random_{77};
 };
 
 TEST_F(RandomFloes, CirclesLieInsideAndTouchTheBoundary) {
@@ -320,7 +318,7 @@ class RandomPatches : public ::testing::Test {
     const double radius = random_.between(3, 12);
     return random_star(random_, 3 + random_.below(9), radius, radius);
   }
-  Random random_{kSeed};
+  Random random_{77};
 };
 
 TEST_F(RandomPatches, HaveTheOverlapsExactAreaOfConvexFloesInOne) {

@@ -33,6 +33,7 @@ class Random {
   }
   std::uint64_t state_;
 };
+inline constexpr std::uint64_t kSeed = 20170611;  ///< where a test has none of its own
 
 inline geometry::Polygon rectangle(double width, double height, geometry::Point centre = {}) {
   const double x = 0.5 * width, y = 0.5 * height;

@@ -23,10 +23,10 @@ namespace polynya::geometry {
 namespace {
 
 using trials::are_equal;
-using trials::exact_area;
+using trials::exact_area_of;
 using trials::is_sound;
 
-const Ring kSquare{{0, 0}, {6, 0}, {6, 6}, {0, 6}};
+const Ring kSquareOfSix{{0, 0}, {6, 0}, {6, 6}, {0, 6}};
 
 // 6250 second cuts on degenerate first results made 33 wrong areas and 5 crashes where invalid roundings were
 // trusted.
@@ -41,7 +41,7 @@ void cut_degenerate_floes_again(const Pose& pose, unsigned seed, int first_cuts)
   };
   int cuts = 0;
   for (int i = 0; i < first_cuts && !testing::Test::HasFailure(); ++i) {
-    std::vector<Shape> generation{Shape{{transform(pose, kSquare), {}}}};
+    std::vector<Shape> generation{Shape{{transform(pose, kSquareOfSix), {}}}};
     for (int depth = 0; depth < 3; ++depth) {
       std::vector<Shape> next;
       for (const Shape& shape : generation) {
@@ -96,7 +96,7 @@ TEST(Hazards, FiftyThousandVerticesOnTheGeneralPath) {
 TEST(Hazards, NearCollinearCracks) {
   std::mt19937 random(24);
   const Pose pose{{3, 1}, Rotation::by(0.3)};
-  const Shape shape{{transform(pose, kSquare), {}}};
+  const Shape shape{{transform(pose, kSquareOfSix), {}}};
   const Ring& ring = shape.polygon.outer;
   const auto nudge = [&](Point p) {
     const auto step = [&](double v) {
@@ -123,13 +123,13 @@ TEST(Hazards, GarbagePastTheChecksIsAValueNotACrash) {
     for (int k = 0; k < 8; ++k) ring.push_back({static_cast<double>(random() % 5), static_cast<double>(random() % 5)});
     const Ring shape = without_repeats(ring);
     if (shape.size() < 3) continue;
-    static_cast<void>(cut_by_polygons_generally(exact::exactly(Polygon{shape, {}}), {{kSquare, {}}}));
+    static_cast<void>(cut_by_polygons_generally(exact::exactly(Polygon{shape, {}}), {{kSquareOfSix, {}}}));
     static_cast<void>(cut_along_generally(exact::exactly(Polygon{shape, {}}), {{-1, 2}, {7, 3}}));
     static_cast<void>(cut_by_polygon(Shape{{shape, {}}, true}, {disc_polygon({2, 2}, 1.5, 0.1), {}}));
     static_cast<void>(cut_along(Shape{{shape, {}}, true}, {{-1, 2}, {7, 3}}));
     static_cast<void>(cut_by_polygons(Shape{{shape, {}}, true},
                                       {{disc_polygon({2, 2}, 1.5, 0.1), {}}, {disc_polygon({4, 2}, 0.7, 0.1), {}}}));
-    static_cast<void>(cut_along(Shape{{shape, {kSquare}}, true}, {{-1, 2}, {3, 3}, {2, 1}, {2.5, 7}}));
+    static_cast<void>(cut_along(Shape{{shape, {kSquareOfSix}}, true}, {{-1, 2}, {3, 3}, {2, 1}, {2.5, 7}}));
   }
   SUCCEED();
 }
@@ -141,7 +141,7 @@ TEST(Hazards, HugeCoordinatesAreRefusedByName) {
   EXPECT_EQ(outcome.error().reason, CutFailure::kInvalidShape);
   EXPECT_EQ(outcome.error().detail, "not-finite");
   EXPECT_EQ(repair({shape.polygon.outer}, FillRule::kNonZero).error().reason, CutFailure::kInvalidShape);
-  const CutOutcome by_huge_tool = cut_along(Shape{{kSquare, {}}}, {{-1, 1}, {1e200, 1}});
+  const CutOutcome by_huge_tool = cut_along(Shape{{kSquareOfSix, {}}}, {{-1, 1}, {1e200, 1}});
   ASSERT_FALSE(by_huge_tool);
   EXPECT_EQ(by_huge_tool.error().reason, CutFailure::kInvalidTool);
 }
@@ -239,7 +239,7 @@ class Trial {
  public:
   explicit Trial(unsigned seed) : random_(seed) {
     floes_.push_back({Shape{{{{0, 0}, {110, 0}, {110, 200}, {0, 200}}, {}}}, {}});
-    initial_ = exact_area(floes_.front().shape);
+    initial_ = exact_area_of(floes_.front().shape);
   }
 
   // One cut of one floe in a new pose, with all that must hold of it.
@@ -261,7 +261,7 @@ class Trial {
     floes_.pop_back();
     for (const Piece& piece : outcome->pieces) {
       if (measure(piece.shape.polygon).area < kBrash)
-        brash_ += exact_area(piece.shape);
+        brash_ += exact_area_of(piece.shape);
       else
         floes_.push_back({piece.shape, floe.world_from_body});
     }
@@ -272,7 +272,7 @@ class Trial {
                 snap_rounded_, slivers_);
     EXPECT_GT(cuts_, 1000);
     exact::Rational sum = brash_ - initial_ - itemised_;
-    for (const Floe& floe : floes_) sum += exact_area(floe.shape);
+    for (const Floe& floe : floes_) sum += exact_area_of(floe.shape);
     // Each cut's defect is known to the nearest double of some 1e-15 m².
     EXPECT_LT(std::abs(sum.get_d() + slivers_), 1e-28 * cuts_ + 1e-14 * slivers_);
   }

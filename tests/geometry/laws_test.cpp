@@ -166,7 +166,7 @@ TEST(Laws, PiecesPartitionTheirParentBeforeRounding) {
       exact::Rational sum = 0;
       const std::vector<Piece>& pieces = outcome->pieces;
       for (std::size_t p = 0; p < pieces.size(); ++p) {
-        const exact::Rational area = exact_area(pieces[p].shape);
+        const exact::Rational area = exact_area_of(pieces[p].shape);
         sum += area;
         RC_ASSERT(overlap(pieces[p].shape, {}, shape, {})->exact_area == area.get_str());
         const std::string in_tool = overlap(pieces[p].shape, {}, Shape{{tool, {}}}, {})->exact_area;
@@ -174,7 +174,7 @@ TEST(Laws, PiecesPartitionTheirParentBeforeRounding) {
         for (std::size_t q = 0; q < p; ++q)
           RC_ASSERT(overlap(pieces[p].shape, {}, pieces[q].shape, {})->exact_area == "0");
       }
-      RC_ASSERT(sum == exact_area(shape));
+      RC_ASSERT(sum == exact_area_of(shape));
       shape = pieces[static_cast<std::size_t>(dice.below(static_cast<int>(pieces.size())))].shape;
     }
   });
@@ -197,7 +197,7 @@ TEST(Laws, TheOrderOfTwoToolsDoesNotMatter) {
         const std::vector<Piece> end = after_second ? after_second->pieces : std::vector<Piece>{{piece.shape}};
         for (const Piece& last : end) {
           if (last.part == Part::kInside) continue;
-          left += exact_area(last.shape);
+          left += exact_area_of(last.shape);
           ++pieces;
         }
       }

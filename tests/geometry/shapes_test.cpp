@@ -86,7 +86,7 @@ TEST(Clearance, TheAreaInABandIsWhatIsLeftOfThePolygonThere) {
   EXPECT_NEAR(area_in_band(comb, 2), 9 * 1 + 2 * 3 * 3, 1e-12) << "not convex: two teeth";
 }
 
-const Ring kSquare = square(0, 2).outer;
+const Ring kSquareOfTwo = square(0, 2).outer;
 
 Ring moved(const Ring& ring, Vector by) {
   return transform(Pose{Point{} + by, {}}, ring);
@@ -99,18 +99,18 @@ double shared_area(const Ring& a, const Ring& b) {
 }
 
 TEST(FirstContact, OfTwoSquares) {
-  const auto touch = first_contact(kSquare, moved(kSquare, {5, 1}), {-0.5, 0}, 0, 100);
+  const auto touch = first_contact(kSquareOfTwo, moved(kSquareOfTwo, {5, 1}), {-0.5, 0}, 0, 100);
   ASSERT_TRUE(touch.has_value());
   EXPECT_DOUBLE_EQ(touch->time, 6);
   EXPECT_EQ(touch->normal, (Vector{1, 0}));
   EXPECT_DOUBLE_EQ(touch->point.x, 2);
-  EXPECT_FALSE(first_contact(kSquare, moved(kSquare, {5, 1}), {-0.5, 0}, 0, 5.9)) << "later than asked";
-  EXPECT_FALSE(first_contact(kSquare, moved(kSquare, {5, 1}), {0.5, 0}, 0, 100)) << "apart from each other";
-  EXPECT_FALSE(first_contact(kSquare, moved(kSquare, {5, 2.5}), {-0.5, 0}, 0, 100)) << "past each other";
-  EXPECT_FALSE(first_contact(kSquare, moved(kSquare, {2, 0}), {0, 0.5}, 0, 100)) << "along each other";
-  EXPECT_FALSE(first_contact(kSquare, moved(kSquare, {2 + 1e-14, 0}), {0, 0.5}, 0, 100)) << "likewise";
-  EXPECT_TRUE(first_contact(kSquare, moved(kSquare, {2 - 1e-12, 0}), {-0.5, 0}, -1, 0)) << "just now";
-  EXPECT_TRUE(first_contact(kSquare, moved(kSquare, {3, 3}), {-0.5, -0.5}, 0, 100)) << "corner on corner";
+  EXPECT_FALSE(first_contact(kSquareOfTwo, moved(kSquareOfTwo, {5, 1}), {-0.5, 0}, 0, 5.9)) << "later than asked";
+  EXPECT_FALSE(first_contact(kSquareOfTwo, moved(kSquareOfTwo, {5, 1}), {0.5, 0}, 0, 100)) << "apart from each other";
+  EXPECT_FALSE(first_contact(kSquareOfTwo, moved(kSquareOfTwo, {5, 2.5}), {-0.5, 0}, 0, 100)) << "past each other";
+  EXPECT_FALSE(first_contact(kSquareOfTwo, moved(kSquareOfTwo, {2, 0}), {0, 0.5}, 0, 100)) << "along each other";
+  EXPECT_FALSE(first_contact(kSquareOfTwo, moved(kSquareOfTwo, {2 + 1e-14, 0}), {0, 0.5}, 0, 100)) << "likewise";
+  EXPECT_TRUE(first_contact(kSquareOfTwo, moved(kSquareOfTwo, {2 - 1e-12, 0}), {-0.5, 0}, -1, 0)) << "just now";
+  EXPECT_TRUE(first_contact(kSquareOfTwo, moved(kSquareOfTwo, {3, 3}), {-0.5, -0.5}, 0, 100)) << "corner on corner";
 }
 
 // Before the first touch nothing is shared, a little after it something is; where there is none the two pass.

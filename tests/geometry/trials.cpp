@@ -44,7 +44,7 @@ exact::Rational half_step(double value) {
 
 }  // namespace
 
-exact::Rational exact_area(const Shape& shape) {
+exact::Rational exact_area_of(const Shape& shape) {
   return exact::area(shape.polygon);
 }
 
@@ -57,9 +57,9 @@ testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome)
   if (!ledger.exact_balance) return testing::AssertionFailure() << "no exact balance";
   exact::Rational sum = 0, of_part[2] = {0, 0};
   for (const Piece& piece : outcome->pieces) {
-    sum += exact_area(piece.shape);
-    of_part[piece.part == Part::kOutside ? 0 : 1] += exact_area(piece.shape);
-    if (exact_area(piece.shape) <= 0) return testing::AssertionFailure() << "a piece of no area";
+    sum += exact_area_of(piece.shape);
+    of_part[piece.part == Part::kOutside ? 0 : 1] += exact_area_of(piece.shape);
+    if (exact_area_of(piece.shape) <= 0) return testing::AssertionFailure() << "a piece of no area";
     if (const auto found = find_defect(piece.shape.polygon)) {
       return testing::AssertionFailure() << name_of(found->defect) << ": " << to_code(piece.shape.polygon);
     }
@@ -75,7 +75,7 @@ testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome)
   // The pieces and what was removed are the parent, exactly, but for what the ledger names: two nearest
   // doubles.
   const exact::Rational off =
-      sum - exact_area(shape) + exact::Rational(ledger.area_slivers) - exact::Rational(ledger.rounding_defect);
+      sum - exact_area_of(shape) + exact::Rational(ledger.area_slivers) - exact::Rational(ledger.rounding_defect);
   if (abs(off) > half_step(ledger.rounding_defect) + half_step(ledger.area_slivers))
     return testing::AssertionFailure() << "the ledger is off by " << off.get_d() << " m²";
   return testing::AssertionSuccess();

@@ -14,7 +14,7 @@ namespace {
 using tests::TemporaryFolder;
 using tests::write_file;
 
-SceneOutcome read(const std::string& ice, int columns = 1, const std::string& members = "") {
+SceneOutcome read_ice(const std::string& ice, int columns = 1, const std::string& members = "") {
   return read_scene(
       fmt::format(
           R"({{{} "floes": [{{"lattice": {{"columns": {}, "rows": 1, "pitch_m": 12, "size_m": 10}}, "ice": {}}}]}})",
@@ -40,7 +40,7 @@ TEST(FloeIce, KeysAndRangesAreThoseOfTheScenesIce) {
 }
 
 TEST(FloeIce, GivenIsTheirsAndTheRestTheScenes) {
-  const auto loaded = tests::checked(read(R"({"thickness_m": 0.8, "flexural_strength_Pa": 6e5})", 3));
+  const auto loaded = tests::checked(read_ice(R"({"thickness_m": 0.8, "flexural_strength_Pa": 6e5})", 3));
   EXPECT_EQ(loaded->scene.own_ice.size(), 1u) << "once for all three";
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(ice_at(*loaded, i).thickness, 0.8);
@@ -53,7 +53,7 @@ TEST(FloeIce, OfNoScatterIsTheScenes) {
   for (const char* ice : {"{}", R"({"thickness_m": 0.5})", R"({"thickness_m": {"spread": 0}})",
                           R"({"density_kg_per_m3": {"law": "constant"}})",
                           R"({"thickness_m": {"law": "uniform", "least": 0.5, "most": 0.5}})"}) {
-    const auto loaded = tests::checked(read(ice, 2));
+    const auto loaded = tests::checked(read_ice(ice, 2));
     EXPECT_TRUE(loaded->scene.own_ice.empty()) << ice;
   }
 }
@@ -62,7 +62,7 @@ TEST(FloeIce, IsDrawnByItsLawAndTheSeed) {
   const std::string ice =
       R"({"thickness_m": {"spread": 0.2}, "compressive_strength_Pa": {"law": "normal", "mean": 2e6, "spread": 0.1},
           "tensile_strength_Pa": {"law": "uniform", "least": 4e5, "most": 9e5}})";
-  const auto loaded = tests::checked(read(ice, 4000));
+  const auto loaded = tests::checked(read_ice(ice, 4000));
   ASSERT_EQ(loaded->ice.size(), 3u);
   for (const IceReport& report : loaded->ice) {
     EXPECT_EQ(report.measures.count, 4000u);
@@ -73,7 +73,7 @@ TEST(FloeIce, IsDrawnByItsLawAndTheSeed) {
   EXPECT_GE(loaded->ice[1].measures.least, 1.4e6);
   EXPECT_LE(loaded->ice[2].measures.most, 9e5);
   const auto again = read_scene(loaded->resolved_text, "scene.json", ".");
-  const auto seeded = read(ice, 4000, R"("seed": 2,)");
+  const auto seeded = read_ice(ice, 4000, R"("seed": 2,)");
   ASSERT_TRUE(again.has_value() && seeded.has_value());
   EXPECT_EQ(ice_at(*again, 17).thickness, ice_at(*loaded, 17).thickness);
   EXPECT_NE(ice_at(*seeded, 17).thickness, ice_at(*loaded, 17).thickness);

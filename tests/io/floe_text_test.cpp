@@ -22,7 +22,7 @@ using geometry::Ring;
 const Ring kSquare{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
 const std::string kSquareText = R"({"type":"Polygon","coordinates":[[[0,0],[4,0],[4,4],[0,4],[0,0]]]})";
 
-FloeText read(const std::string& text) {
+FloeText floes_of(const std::string& text) {
   auto floes = read_floe_text(text);
   EXPECT_TRUE(floes.has_value()) << (floes ? "" : floes.error()) << "\n" << text;
   return floes ? *std::move(floes) : FloeText{};
@@ -54,7 +54,7 @@ TEST(FloeText, EveryFormatReadsBackToTheSameDoubles) {
   CutReport report;
   report.floes.emplace_back().pieces.push_back({1, geometry::Part::kOutside, 1, polygon});
   for (const FloeFormat format : {FloeFormat::kGeojson, FloeFormat::kNdjson, FloeFormat::kWkt}) {
-    const FloeText floes = read(to_floe_text(report, format));
+    const FloeText floes = floes_of(to_floe_text(report, format));
     ASSERT_EQ(floes.entries.size(), 1U);
     Polygon back = floes.entries.front().polygon;
     ASSERT_EQ(back.outer.front(), back.outer.back()) << "rings are written closed";
@@ -70,11 +70,11 @@ TEST(FloeText, TheFormatIsToldByContent) {
                                  kSquareText + "}\n]}\n";
   for (const std::string& text :
        {kSquareText, kSquareText + "\n", "\xEF\xBB\xBF \n" + kSquareText, collection, "// a note\n" + kSquareText})
-    EXPECT_EQ(read(text).format, FloeFormat::kGeojson) << text;
+    EXPECT_EQ(floes_of(text).format, FloeFormat::kGeojson) << text;
   for (const std::string& text :
        {kSquareText + "\n" + kSquareText, "\n" + kSquareText + "\r\n\r\n" + kSquareText + "\r\n",
         "\x1E" + kSquareText + "\n\x1E" + kSquareText + "\n"}) {
-    const FloeText floes = read(text);
+    const FloeText floes = floes_of(text);
     EXPECT_EQ(floes.format, FloeFormat::kNdjson) << text;
     EXPECT_EQ(floes.entries.size(), 2U);
   }
@@ -85,16 +85,16 @@ TEST(FloeText, TheFormatIsToldByContent) {
         "GEOMETRYCOLLECTION(POLYGON((0 0,4 0,4 4,0 4,0 0)),MULTIPOLYGON EMPTY)",
         "POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0), EMPTY)",
         "MULTIPOLYGON (EMPTY, ((0 0, 4 0, 4 4, 0 4, 0 0), EMPTY), empty)"}) {
-    const FloeText floes = read(text);
+    const FloeText floes = floes_of(text);
     EXPECT_EQ(floes.format, FloeFormat::kWkt) << text;
     ASSERT_EQ(floes.entries.size(), 1U) << text;
     EXPECT_EQ(geometry::normalised(floes.entries.front().polygon), (Polygon{kSquare, {}})) << text;
   }
-  EXPECT_EQ(read(collection).entries.front().floe_id, 7);
+  EXPECT_EQ(floes_of(collection).entries.front().floe_id, 7);
 }
 
 TEST(FloeText, WhatStandsInATextIsNumberedAndPlaced) {
-  const FloeText floes = read(R"({"type": "FeatureCollection", "features": [
+  const FloeText floes = floes_of(R"({"type": "FeatureCollection", "features": [
     {"type": "Feature", "geometry": {"type": "MultiPolygon", "coordinates": [
       [[[0,0],[1,0],[0,1]]],
       [[[5,0],[6,0],[5,1]]]]}},
@@ -124,7 +124,7 @@ TEST(FloeText, WhatStandsInATextIsNumberedAndPlaced) {
 }
 
 TEST(FloeText, ABadLineOfWktLeavesTheOthers) {
-  const FloeText wkt = read("POLYGON((0 0,1 0,0 1))\nPOLYGON((0 0,1 x\nPOINT(1 2)\nPOLYGON((0 0,2 0,0 2))");
+  const FloeText wkt = floes_of("POLYGON((0 0,1 0,0 1))\nPOLYGON((0 0,1 x\nPOINT(1 2)\nPOLYGON((0 0,2 0,0 2))");
   ASSERT_EQ(wkt.entries.size(), 4U);
   EXPECT_EQ(wkt.entries[1].refusal, "syntax");
   EXPECT_EQ(wkt.entries[1].detail, "found 'x', expected a number");
@@ -146,7 +146,7 @@ TEST(FloeText, ABadLineOfNdjsonIsRefusedWhereverItStands) {
     for (std::size_t at = 0; at < 4; ++at) {
       std::string text;
       for (std::size_t i = 0; i < 4; ++i) text += (i == at ? std::string(bad) : kSquareText) + "\n";
-      const FloeText floes = read(text);
+      const FloeText floes = floes_of(text);
       EXPECT_EQ(floes.format, FloeFormat::kNdjson) << text;
       ASSERT_EQ(floes.entries.size(), 4U) << text;
       for (std::size_t i = 0; i < 4; ++i) {
@@ -159,14 +159,15 @@ TEST(FloeText, ABadLineOfNdjsonIsRefusedWhereverItStands) {
 }
 
 TEST(FloeText, CommentsAndBlankLinesOfNdjsonArePassedOver) {
-  const FloeText floes = read("# from survey 7\n\n" + kSquareText + "\n// the second\n  # and\n" + kSquareText + "\n");
+  const FloeText floes =
+      floes_of("# from survey 7\n\n" + kSquareText + "\n// the second\n  # and\n" + kSquareText + "\n");
   EXPECT_EQ(floes.format, FloeFormat::kNdjson);
   ASSERT_EQ(floes.entries.size(), 2U);
   EXPECT_EQ(floes.entries[0].line, 3U);
   EXPECT_EQ(floes.entries[1].line, 6U);
-  EXPECT_EQ(read("# one\n" + kSquareText).entries.size(), 1U);
+  EXPECT_EQ(floes_of("# one\n" + kSquareText).entries.size(), 1U);
   const FloeText wkt =
-      read("// two\nPOLYGON ((0 0, 1 0, // a corner\n 0 1)) # the end\n// and\nPOLYGON ((5 0, 6 0, 5 1))\n#");
+      floes_of("// two\nPOLYGON ((0 0, 1 0, // a corner\n 0 1)) # the end\n// and\nPOLYGON ((5 0, 6 0, 5 1))\n#");
   ASSERT_EQ(wkt.entries.size(), 2U);
   EXPECT_TRUE(wkt.entries[0].refusal.empty() && wkt.entries[1].refusal.empty());
 }
@@ -184,23 +185,23 @@ TEST(FloeText, AFaultOfGeojsonIsNotTakenForNdjson) {
 
 TEST(FloeText, ATextWithoutContentHasNoFloes) {
   for (const char* text : {"", " \n\t\r\n", "# removed\n", "\xEF\xBB\xBF"})
-    EXPECT_TRUE(read(text).entries.empty()) << text;
+    EXPECT_TRUE(floes_of(text).entries.empty()) << text;
   CutReport nothing;
   nothing.floes.emplace_back();
   for (const FloeFormat format : {FloeFormat::kGeojson, FloeFormat::kNdjson, FloeFormat::kWkt})
-    EXPECT_TRUE(read(to_floe_text(nothing, format)).entries.empty());
+    EXPECT_TRUE(floes_of(to_floe_text(nothing, format)).entries.empty());
 }
 
 /// A feature's properties are kept as they are written, without blanks and comments; so is the crs.
 TEST(FloeText, PropertiesAndCrsAreKeptAsWritten) {
-  const FloeText floes = read(R"({"type": "FeatureCollection",
+  const FloeText floes = floes_of(R"({"type": "FeatureCollection",
     "crs": {"type": "name", "properties": {"name": "EPSG:3413"}}, "features": [
     {"type": "Feature", "properties": {"floe_id": 7, "name": "a  \"b\" // c", "thick_m": 0.70, // a note
       "id": 12345678901234567890, "mean": NaN, "huge": 1e999, "list": [1, /* two */ {"x": -Infinity}],
       "area_m2": 3, "part": "inside", "parent_id": 1}, "geometry": )" +
-                              kSquareText + R"(},
+                                  kSquareText + R"(},
     {"type": "Feature", "properties": null, "geometry": )" +
-                              kSquareText + "}]}");
+                                  kSquareText + "}]}");
   ASSERT_EQ(floes.entries.size(), 2U);
   EXPECT_EQ(floes.crs, R"({"type":"name","properties":{"name":"EPSG:3413"}})");
   ASSERT_NE(floes.entries[0].properties, nullptr);
@@ -208,20 +209,20 @@ TEST(FloeText, PropertiesAndCrsAreKeptAsWritten) {
             R"("name":"a  \"b\" // c","thick_m":0.70,"id":12345678901234567890,"mean":null,"huge":null,)"
             R"("list":[1,{"x":null}])");
   EXPECT_EQ(floes.entries[1].properties, nullptr);
-  EXPECT_TRUE(read("SRID=3413;"
-                   "POLYGON ((0 0, 1 0, 0 1))")
+  EXPECT_TRUE(floes_of("SRID=3413;"
+                       "POLYGON ((0 0, 1 0, 0 1))")
                   .has_srid);
 }
 
 TEST(FloeText, NumbersThatAreNoneBecomeNan) {
-  const FloeText floes = read(R"({"note": "NaN 1e999 // \"", "type": "MultiPolygon", "coordinates": [
+  const FloeText floes = floes_of(R"({"note": "NaN 1e999 // \"", "type": "MultiPolygon", "coordinates": [
     [[[NaN,0],[4,-Infinity],[1e999,null]]], [[[0,0],[1e-999,0],[4,4]]]]})");
   ASSERT_EQ(floes.entries.size(), 2U);
   const Ring& ring = floes.entries[0].polygon.outer;
   EXPECT_TRUE(std::isnan(ring[0].x) && std::isnan(ring[1].y) && std::isnan(ring[2].x) && std::isnan(ring[2].y));
   EXPECT_EQ(ring[1].x, 4);
   EXPECT_EQ(floes.entries[1].polygon.outer[1], (Point{0, 0}));
-  const Ring wkt = read("POLYGON ((nan inf, 1e999 1e-999, -Infinity 3))").entries.front().polygon.outer;
+  const Ring wkt = floes_of("POLYGON ((nan inf, 1e999 1e-999, -Infinity 3))").entries.front().polygon.outer;
   EXPECT_TRUE(std::isnan(wkt[0].x) && std::isinf(wkt[0].y) && std::isinf(wkt[1].x) && std::isinf(wkt[2].x));
   EXPECT_EQ(wkt[1].y, 0);
 }
@@ -241,7 +242,7 @@ TEST(FloeText, WhatCannotBeReadIsToldWithItsPlace) {
   EXPECT_FALSE(read_floe_text(deep).has_value());
   std::string nested;
   for (int i = 0; i < 100'000; ++i) nested += "GEOMETRYCOLLECTION(";
-  EXPECT_EQ(read(nested).entries.front().refusal, "syntax");
+  EXPECT_EQ(floes_of(nested).entries.front().refusal, "syntax");
 }
 
 /// Whatever bytes stand there, reading ends and tells; every truncation and many corruptions of a good text.

@@ -20,7 +20,7 @@ using geometry::Polygon;
 
 constexpr double kRad = std::numbers::pi / 180;
 
-SourceFloe square(double x, double y, double side) {
+SourceFloe square_floe(double x, double y, double side) {
   return {{{{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}}, {}}, {}};
 }
 simulation::GeographicOrigin origin(double latitude, double longitude, double heading = 90) {
@@ -104,7 +104,7 @@ TEST(Crs, IsKnownByItsNames) {
 TEST(Plane, DegreesComeToMetresAboutTheOrigin) {
   // By the radii of curvature a thousandth of a degree of latitude is 111.6468 m at 78.2°, of
   // longitude 22.8378 m.
-  std::vector<SourceFloe> floes{square(15.6, 78.2, 0.001)};
+  std::vector<SourceFloe> floes{square_floe(15.6, 78.2, 0.001)};
   const auto report = tests::checked(bring(floes, "", about(78.2, 15.6)));
   EXPECT_EQ(report->system, "WGS 84 (CRS84)");
   const Polygon& floe = floes[0].polygon;
@@ -115,14 +115,14 @@ TEST(Plane, DegreesComeToMetresAboutTheOrigin) {
 }
 
 TEST(Plane, ARunsCoordinatesAcrossTheAntimeridianStayTogether) {
-  std::vector<SourceFloe> floes{square(179.999, 70, 0.002)};
+  std::vector<SourceFloe> floes{square_floe(179.999, 70, 0.002)};
   floes[0].polygon.outer[1].x = floes[0].polygon.outer[2].x = -179.999;
   ASSERT_TRUE(bring(floes, "EPSG:4326", about(70, 180)));
   EXPECT_LT(std::abs(floes[0].polygon.outer[1].x - floes[0].polygon.outer[0].x), 80);
 }
 
 TEST(Plane, MetresOfThePlaneStayAsTheyAre) {
-  const std::vector<SourceFloe> before{square(100.1, -7.3, 800)};
+  const std::vector<SourceFloe> before{square_floe(100.1, -7.3, 800)};
   for (const PlaneSettings& settings : {plane(), about(78.2, 15.6)}) {
     std::vector<SourceFloe> floes = before;
     ASSERT_TRUE(bring(floes, "", settings));
@@ -135,7 +135,7 @@ TEST(Plane, MetresOfThePlaneStayAsTheyAre) {
 }
 
 TEST(Plane, AShiftIsOfWholeMetres) {
-  std::vector<SourceFloe> floes{square(1104312.5, -512345.25, 800)};
+  std::vector<SourceFloe> floes{square_floe(1104312.5, -512345.25, 800)};
   PlaneSettings settings = plane();
   settings.is_shifted = true;
   const auto report = tests::checked(bring(floes, "EPSG:3413", settings));
@@ -144,7 +144,7 @@ TEST(Plane, AShiftIsOfWholeMetres) {
 }
 
 TEST(Plane, VelocitiesTurnWithTheAxes) {
-  std::vector<SourceFloe> floes{square(15.6, 78.2, 0.001)};
+  std::vector<SourceFloe> floes{square_floe(15.6, 78.2, 0.001)};
   floes[0].properties.velocity_x = 0.3;                          // east
   floes[0].properties.velocity_y = 0.1;                          // north
   ASSERT_TRUE(bring(floes, "EPSG:4326", about(78.2, 15.6, 0)));  // x is north, y west
@@ -166,17 +166,17 @@ TEST(Plane, WhatHasNoPlaceIsRefusedWithWhatWouldDo) {
   from_polar.source = "EPSG:3413";
   PlaneSettings of_command = about(78.2, 15.6);
   of_command.keeps_metres = false;
-  const SourceFloe arctic = square(15.6, 78.2, 0.01), metres = square(0, 0, 800);
+  const SourceFloe arctic = square_floe(15.6, 78.2, 0.01), metres = square_floe(0, 0, 800);
   const std::string degrees = "EPSG:4326";
   for (const Case& c : std::vector<Case>{
            {arctic, "", plane(), {"look like longitude and latitude", "0.0001 m²", "origin 78.20,15.60"}},
            {arctic, degrees, plane(), {"no origin", "origin 78.20"}},
-           {square(15.6, -75.1, 0.01),
+           {square_floe(15.6, -75.1, 0.01),
             degrees,
             about(78.2, 15.6),
             {"75.1° S, 15.6° E lies 17", "km from the origin at 78.2° N", "in the other hemisphere", "origin -75.1"}},
-           {square(78.2, 15.6, 0.01), degrees, about(78.2, 15.6), {"exchanged", "[longitude, latitude]"}},
-           {square(15.6, 110, 0.01),
+           {square_floe(78.2, 15.6, 0.01), degrees, about(78.2, 15.6), {"exchanged", "[longitude, latitude]"}},
+           {square_floe(15.6, 110, 0.01),
             degrees,
             about(78.2, 15.6),
             {"[15.6, 110]", "-90 to 90", "latitude seems to come first"}},
@@ -184,14 +184,14 @@ TEST(Plane, WhatHasNoPlaceIsRefusedWithWhatWouldDo) {
            {arctic, degrees, to_degrees, {"EPSG:4326 (WGS 84) is not a plane in metres"}},
            {arctic, degrees, to_nowhere, {"PROJ knows no coordinate system \"EPSG:99\""}},
            {arctic, degrees, from_polar, {"names its own coordinate system, EPSG:4326"}},
-           {square(1.2e6, 0, 800), "EPSG:3413", plane(), {"found [1200000, 0]", "-1e+06 to 1e+06", "shift them"}},
+           {square_floe(1.2e6, 0, 800), "EPSG:3413", plane(), {"found [1200000, 0]", "-1e+06 to 1e+06", "shift them"}},
            {metres,
             "+proj=nonsense",
             plane(),
             {"no coordinate system \"+proj=nonsense\"", "allowed: EPSG:n", "has no crs"}},
            {metres, "metres of the ice tank", about(78.2, 15.6), {"\"metres of the ice tank\""}},
            {metres, "", of_command, {"names no coordinate system", "name it", "where no origin is given"}},
-           {square(6e6, 2e6, 900), "EPSG:2229", plane(), {"not in metres"}}}) {
+           {square_floe(6e6, 2e6, 900), "EPSG:2229", plane(), {"not in metres"}}}) {
     std::vector<SourceFloe> floes{c.floe};
     const auto report = bring(floes, c.crs, c.settings);
     ASSERT_FALSE(report) << c.parts[0];
@@ -202,7 +202,8 @@ TEST(Plane, WhatHasNoPlaceIsRefusedWithWhatWouldDo) {
 TEST(Plane, AWrongNumberDoesNotMoveTheOriginThatIsChosen) {
   PlaneSettings settings = plane();
   settings.chooses_origin = true;
-  std::vector<SourceFloe> floes{square(15.6, 78.2, 0.01), square(15.62, 78.2, 0.01), square(78.2, 15.6, 0.01)};
+  std::vector<SourceFloe> floes{square_floe(15.6, 78.2, 0.01), square_floe(15.62, 78.2, 0.01),
+                                square_floe(78.2, 15.6, 0.01)};
   std::vector<std::string> refused(floes.size());
   const auto report = tests::checked(bring_to_plane(floes, refused, "EPSG:4326", settings));
   EXPECT_NEAR(report->origin->latitude / kRad, 78.205, 0.001);
@@ -247,7 +248,7 @@ TEST(FloeImport, WrongNumbersInDegreesRefuseTheirFloesAlone) {
   ways[3].plane.target = "EPSG:3413";
   ways[3].plane.is_shifted = true;
   std::vector<SourceFloe> whole;
-  for (int i = 0; i < kFloes; ++i) whole.push_back(square(15.6 + 0.01 * i, 78.2, 0.001 * (1 + i)));
+  for (int i = 0; i < kFloes; ++i) whole.push_back(square_floe(15.6 + 0.01 * i, 78.2, 0.001 * (1 + i)));
   std::vector<ImportOutcome> expected;
   for (std::size_t way = 0; way < ways.size(); ++way) {
     std::vector<SourceFloe> floes = whole;
@@ -341,8 +342,13 @@ TEST(FloeProperties, WrongTypesAndSignsAreRefusedWithWhatIsAllowed) {
 }
 
 TEST(FloeImport, EveryChangeIsItemisedAndTheAreasAddUp) {
-  std::vector<SourceFloe> floes{
-      square(0, 0, 100), square(90, 10, 30), square(300, 0, 40), square(300, 0, 40), square(500, 0, 1), {}, {}};
+  std::vector<SourceFloe> floes{square_floe(0, 0, 100),
+                                square_floe(90, 10, 30),
+                                square_floe(300, 0, 40),
+                                square_floe(300, 0, 40),
+                                square_floe(500, 0, 1),
+                                {},
+                                {}};
   floes[5].polygon.outer = {{600, 0}, {640, 30}, {640, 0}, {600, 30}};  // a bow tie
   floes[6].polygon.outer = {{700, 0}, {750, 0.1}, {800, 0}, {800, 50}, {700, 50}};
   ImportSettings settings;
@@ -376,7 +382,7 @@ TEST(FloeImport, EveryChangeIsItemisedAndTheAreasAddUp) {
 }
 
 TEST(FloeImport, WithoutARuleCrossingOutlinesAreRefusedAndTheOthersKept) {
-  std::vector<SourceFloe> floes{square(0, 0, 10), {}, square(50, 0, 10), square(80, 0, 10)};
+  std::vector<SourceFloe> floes{square_floe(0, 0, 10), {}, square_floe(50, 0, 10), square_floe(80, 0, 10)};
   floes[1].polygon.outer = {{600, 0}, {640, 30}, {640, 0}, {600, 30}};
   ImportSettings settings;
   settings.plane = plane();

@@ -40,7 +40,7 @@ TEST(RunFolder, RefusesWhatIsNotEmptyAndWritesNothingThere) {
 }
 
 /// A run folder of this version or, without the mark, of an earlier one.
-void write_run(const fs::path& run, bool is_marked) {
+void write_old_run(const fs::path& run, bool is_marked) {
   for (const auto name : run_file::kGrowing) write_file(run / name, "old");
   for (const auto name : run_file::kMadeAtEnd) write_file(run / name, "old");
   for (const auto name : {run_file::kScene, run_file::kSummary}) write_file(run / name, "old");
@@ -55,7 +55,7 @@ TEST(RunFolder, OverwritesOnlyWhatPolynyaWrites) {
   for (const bool is_marked : {false, true}) {
     const TemporaryFolder folder;
     const fs::path run = folder / "run";
-    write_run(run, is_marked);
+    write_old_run(run, is_marked);
     EXPECT_HAS(refusal(run, false), "--overwrite");
     EXPECT_EQ(read_file(run / "forces.csv"), "old");
     const std::array foreign{"notes.txt",
@@ -78,7 +78,7 @@ TEST(RunFolder, OverwritesOnlyWhatPolynyaWrites) {
 TEST(RunFolder, RemovesThroughNoLink) {
   const TemporaryFolder folder;
   const fs::path run = folder / "run";
-  write_run(run, true);
+  write_old_run(run, true);
   write_file(folder / "elsewhere/000001.geojson", "precious");
   fs::remove_all(run / "rejected-cuts");
   fs::create_directory_symlink(folder / "elsewhere", run / "rejected-cuts");

@@ -1,20 +1,17 @@
 """`polynya study` for the tests, and small studies."""
-import csv
 import json
 import subprocess
 import sys
 
 import pytest
 
-SHIP = '''{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e7, ''' '''\
-"moment_of_inertia_kg_m2": 5e9,
-  "position_m": [-61, 75], "propulsion": {"constant_speed_m_per_s": 1}}'''
-SCENE = (
-    '''// a ship and a plate
-{"time": {"until_s": 8, "step_s": 0.01}, "ships": [%s],
- "floes": [{"rectangle": {"corner_m": [0, 0], "size_m": 150}}]}'''
-    % SHIP
-)
+from program import rows
+
+SCENE = """// a ship and a plate
+{"time": {"until_s": 8, "step_s": 0.01}, "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27},
+  "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9, "position_m": [-61, 75],
+  "propulsion": {"constant_speed_m_per_s": 1}}],
+ "floes": [{"rectangle": {"corner_m": [0, 0], "size_m": 150}}]}"""
 OF_PYTHON = [sys.executable, "-m", "polynya.study"]
 
 
@@ -46,8 +43,7 @@ def planned(folder, name="s", *words, **keys):
 
 
 def table(folder):
-    with open(folder / "table.csv", newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
+    return rows(folder / "table.csv")
 
 
 def files_of(case):

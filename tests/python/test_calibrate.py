@@ -1,17 +1,15 @@
 """The fit of two factors to tests of a ship, the table that it reads, and a calibration from beginning to end."""
 import json
-import os
 import pathlib
-import subprocess
 
 import numpy as np
 import pytest
 
+from program import succeeded
 from polynya.calibrate import fit, level_tests
 from polynya.errors import InputError
 from polynya.results.run import is_calibrated
 
-PROGRAM = os.environ["POLYNYA_PROGRAM"]
 TOOLS = pathlib.Path(__file__).parents[2] / "tools"
 HEADER = "test,thickness_m,flexural_strength_kPa,speed_m_per_s,resistance_mean_kN,resistance_sd_kN\n"
 
@@ -63,7 +61,7 @@ def test_a_scene_carries_the_factors_and_is_valid(tmp_path):
         scene = level_tests.scene(test, ship, (1.5, 0.5), 0.05)
         assert is_calibrated(scene) and not is_calibrated(level_tests.scene(test, ship, (1, 1)))
         (tmp_path / "scene.json").write_text(json.dumps(scene))
-        subprocess.run([PROGRAM, "validate", "scene.json"], cwd=tmp_path, check=True, capture_output=True)
+        succeeded("validate", "scene.json", cwd=tmp_path)
 
 
 def test_a_small_ship_from_her_tests_to_a_file_that_says_calibrated(tmp_path):
@@ -72,9 +70,8 @@ def test_a_small_ship_from_her_tests_to_a_file_that_says_calibrated(tmp_path):
             "mass_kg": 1e5, "moment_of_inertia_kg_m2": 1e6, "propulsion": {"constant_speed_m_per_s": 1}}
     (tmp_path / "tug.json").write_text(json.dumps(ship) + "// a ship as scenes have it\n")
     (tmp_path / "tests.csv").write_text(HEADER + "a,0.4,500,1,40,15\nb,0.5,500,1,55,20\nc,0.6,500,1,70,20\n")
-    words = ["calibrate", "tug.json", "tests.csv", "--points", "8", "--leave-out", "b", "--out", "out", "--jobs", "2"]
-    done = subprocess.run([PROGRAM, *words], cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
+    done = succeeded("calibrate", "tug.json", "tests.csv", "--points", 8, "--leave-out", "b", "--out", "out",
+                     "--jobs", 2, cwd=tmp_path)
     assert "predicted" in done.stdout and "with 68 %" in done.stdout
     assert "error of a mean that was left out" in done.stdout
     record = json.loads((tmp_path / "out/calibration.json").read_text())
@@ -86,8 +83,7 @@ def test_a_small_ship_from_her_tests_to_a_file_that_says_calibrated(tmp_path):
     assert written["calibration"]["load_factor"] == pytest.approx(record["factors"][0], rel=0.01)
     (tmp_path / "scene.json").write_text(json.dumps({"name": "s", "time": {"until_s": 0.1},
                                                      "ships": [written], "floes": []}))
-    run = subprocess.run([PROGRAM, "run", "scene.json", "--out", "run"], cwd=tmp_path,
-                         capture_output=True, text=True, check=True)
+    run = succeeded("run", "scene.json", "--out", "run", cwd=tmp_path)
     assert "note: calibrated: bending loads times" in run.stderr
-    page = subprocess.run([PROGRAM, "view", "run"], cwd=tmp_path, capture_output=True, text=True, check=True)
-    assert page.returncode == 0 and "s, calibrated" in (tmp_path / "run/view.html").read_text()
+    succeeded("view", "run", cwd=tmp_path)
+    assert "s, calibrated" in (tmp_path / "run/view.html").read_text()

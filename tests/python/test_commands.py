@@ -9,16 +9,16 @@ import sys
 
 import pytest
 
+from program import PROGRAM, ended
 from polynya import command
 from polynya.errors import FolderError, InputError
 
-PROGRAM = os.environ["POLYNYA_PROGRAM"]
 EXAMPLES = sorted((pathlib.Path(__file__).resolve().parents[2] / "examples").glob("*.py"))
 EXAMPLES = [path for path in EXAMPLES if path.name != "find_polynya.py"]
 BARE = [sys.executable, "-S"]  # a Python without site-packages
 
 
-def ended(words, **more):
+def of_python(*words, **more):
     return subprocess.run(list(map(str, words)), capture_output=True, text=True, check=False, **more)
 
 
@@ -74,7 +74,7 @@ def test_a_reader_that_goes_away_is_no_failure():
 @pytest.mark.parametrize("words", ["figures x", "loads x --out a", "movie x --out a.png", "performance x",
                                    "management x", "database x", "study report x"])
 def test_a_missing_package_is_one_line_with_what_to_do(words, tmp_path):
-    done = ended([*BARE, "-m", "polynya.command", *words.split()], cwd=tmp_path)
+    done = of_python(*BARE, "-m", "polynya.command", *words.split(), cwd=tmp_path)
     assert done.returncode == 5 and done.stderr.count("\n") == 1, done.stderr
     expected = rf"polynya {words.split()[0]}: .*python.* has no (numpy|matplotlib|scipy): .*/setup.sh python"
     assert re.search(expected, done.stderr)
@@ -82,20 +82,20 @@ def test_a_missing_package_is_one_line_with_what_to_do(words, tmp_path):
 
 @pytest.mark.parametrize("code", ["polynya.Run('x')", "polynya.Study('x')", "polynya.require('numpy')"])
 def test_a_python_without_numpy_names_itself_and_what_to_do(code):
-    done = ended([*BARE, "-c", f"import polynya; {code}"])
+    done = of_python(*BARE, "-c", f"import polynya; {code}")
     last = done.stderr.splitlines()[-1]
     assert done.returncode == 1 and re.search(r"python\S* \(Python [0-9.]+\) has no numpy: ", last), done.stderr
 
 
 @pytest.mark.parametrize("script", EXAMPLES, ids=lambda path: path.name)
 def test_an_example_without_numpy_prints_one_line(script):
-    done = ended([*BARE, script])
+    done = of_python(*BARE, script)
     assert done.returncode == 1 and done.stderr.count("\n") == 1 and "has no numpy: " in done.stderr, done.stderr
 
 
 def test_a_module_of_another_python_is_named(tmp_path):
     (tmp_path / "_core.cpython-36-x86_64-linux-gnu.so").touch()
-    done = ended([sys.executable, "-c", f"import polynya; polynya.__path__[1:] = [{str(tmp_path)!r}]; polynya.Scene"])
+    done = of_python(sys.executable, "-c", f"import polynya; polynya.__path__[1:] = [{str(tmp_path)!r}]; polynya.Scene")
     running = "%d.%d" % sys.version_info[:2]
     message = f"is built for Python 3.6, and this is {running} ({sys.executable})"
     assert message in done.stderr.splitlines()[-1], done.stderr
@@ -115,7 +115,7 @@ def test_wrong_words_are_answered_as_by_the_commands_in_c():
         ("study run x --job 2", "; did you mean --jobs?\npolynya study run --help explains its options\n"),
         ("performance araon --friction -1", "performance: --friction: found -1, allowed: a number ≥ 0, ≤ 2\n"),
     ):
-        done = ended([PROGRAM, *words.split()])
+        done = ended(*words.split())
         assert (done.returncode, done.stdout, message in done.stderr) == (2, "", True), done.stderr
 
 

@@ -2,7 +2,6 @@
 import gc
 import json
 import os
-import pathlib
 import subprocess
 import sys
 import weakref
@@ -11,10 +10,10 @@ import numpy
 import pytest
 
 import polynya
+from program import SCENES
 from polynya import environment
 from polynya.environment import spaces
 
-SCENES = pathlib.Path(os.environ["POLYNYA_SCENES"])
 SCENE = {
     "name": "agent",
     "time": {"step_s": 0.05, "until_s": 30},

@@ -13,22 +13,18 @@ import numpy
 import pytest
 
 import polynya
+from program import PROGRAM, TUG, ended, run_of, succeeded
 from polynya import scenery
 from polynya.figures import database, energy, loads, maps, motion, page, sizes
 from polynya.figures.subjects import labelled
 
-PROGRAM = os.environ["POLYNYA_PROGRAM"]
-SHIP = {"hull": {"length_m": 30, "beam_m": 12, "entrance_angle_deg": 30, "draught_m": 4, "stem_angle_deg": 25},
-        "mass_kg": 2e6,
-        "moment_of_inertia_kg_m2": 2e8, "position_m": [-16, 1], "speed_m_per_s": 3,
-        "propulsion": {"constant_speed_m_per_s": 3}}
 SCENE = {"time": {"step_s": 0.01, "until_s": 12}, "record": {"forces_interval_s": 0.1, "frames_interval_s": 4},
          "floes": [{"rectangle": {"corner_m": [0, -30], "size_m": [40, 60]}},
                    {"rectangle": {"corner_m": [42, -1], "size_m": 5}}]}
 SCENES = {
-    "alone": {"ships": [{"name": "breaker", **SHIP}], "fracture": {"splitting": {"model": "michel"}}},
-    "another-scene-of-a-long-name": {"ships": [{"name": "breaker", **SHIP}], "ice": {"thickness_m": 0.7}},
-    "three": {"ships": [{"name": "north", **SHIP}, {"name": "south", **SHIP, "position_m": [-16, -17]}],
+    "alone": {"ships": [TUG], "fracture": {"splitting": {"model": "michel"}}},
+    "another-scene-of-a-long-name": {"ships": [TUG], "ice": {"thickness_m": 0.7}},
+    "three": {"ships": [{**TUG, "name": "north"}, {**TUG, "name": "south", "position_m": [-16, -17]}],
               "structures": [{"name": "pile", "radius_m": 5, "position_m": [60, 40]}]},
     "no-ship": {"floes": [{"rectangle": {"corner_m": [0, 0], "size_m": 10}, "velocity_m_per_s": [1, 0]},
                           {"rectangle": {"corner_m": [12, 0], "size_m": 10}}]},
@@ -40,9 +36,7 @@ DRAW = {"floes": maps.draw, "loads": loads.draw, "motion": motion.draw, "sizes":
 def home(tmp_path_factory):
     home = tmp_path_factory.mktemp("figures")
     for name, scene in SCENES.items():
-        (home / f"{name}.json").write_text(json.dumps({"name": name, **SCENE, **scene}))
-        subprocess.run([PROGRAM, "run", f"{name}.json", "--out", name, "--no-map"],
-                       cwd=home, check=True, capture_output=True)
+        run_of(home, name, {**SCENE, **scene})
     return home
 
 
@@ -263,7 +257,7 @@ def test_long_words_break_where_they_may(runs):
 
 
 def figures(home, *words):
-    return subprocess.run([PROGRAM, "figures", *map(str, words)], cwd=home, capture_output=True, text=True, check=False)
+    return ended("figures", *words, cwd=home)
 
 
 def test_the_command_writes_every_format_and_the_same_bytes_again(home):
@@ -305,9 +299,7 @@ def test_what_is_wrong_is_named(home, words, code, message):
 
 
 def test_the_slices_of_a_database_are_drawn_faint_out_of_their_range(tmp_path):
-    done = subprocess.run([PROGRAM, "database", "show", "--svg", "plots"], cwd=tmp_path,
-                          capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
+    done = succeeded("database", "show", "--svg", "plots", cwd=tmp_path)
     assert done.stdout.endswith("".join(f"picture         plots/{name}.svg\n"
                                         for name in ("speed", "wedge-angle", "thickness")))
     given = json.loads((tmp_path / "plots/slices.json").read_text())

@@ -1,29 +1,21 @@
 """polynya loads: places, rates and their limits, fits and return values of samples that are known, and the command."""
-import csv
-import os
-import subprocess
-
 import numpy
 import polynya
 import pytest
+from program import ended, rows, run_of, succeeded
 from polynya import loads
 from polynya.loads.gather import Case, Loads, Waterline
 
-PROGRAM = os.environ["POLYNYA_PROGRAM"]
-SCENE = """{"name": "pressed", "time": {"step_s": 0.02, "until_s": 20},
-  "record": {"frames_interval_s": 5, "least_peak_N": 0},
-  "structures": [{"name": "pile", "radius_m": 5, "panels": {"length_m": 2, "bottom_m": -1, "top_m": 1, "rows": 2}}],
-  "floes": [{"rectangle": {"corner_m": [6, -20], "size_m": 20}, "velocity_m_per_s": [-0.5, 0.3]},
-            {"rectangle": {"corner_m": [27, -20], "size_m": 20}, "velocity_m_per_s": [-0.5, 0.2]}]}"""
+SCENE = {
+    "time": {"step_s": 0.02, "until_s": 20}, "record": {"frames_interval_s": 5, "least_peak_N": 0},
+    "structures": [{"name": "pile", "radius_m": 5, "panels": {"length_m": 2, "bottom_m": -1, "top_m": 1, "rows": 2}}],
+    "floes": [{"rectangle": {"corner_m": [6, -20], "size_m": 20}, "velocity_m_per_s": [-0.5, 0.3]},
+              {"rectangle": {"corner_m": [27, -20], "size_m": 20}, "velocity_m_per_s": [-0.5, 0.2]}]}
 
 
 @pytest.fixture(scope="module", name="folder")
 def ran(tmp_path_factory):
-    place = tmp_path_factory.mktemp("loads")
-    (place / "pressed.json").write_text(SCENE)
-    subprocess.run([PROGRAM, "run", "pressed.json", "--no-map", "--out", "run"],
-                   cwd=place, check=True, capture_output=True)
-    return place
+    return run_of(tmp_path_factory.mktemp("loads"), "run", SCENE).parent
 
 
 def made(forces, hours=10.0, cases=1):
@@ -85,19 +77,15 @@ def test_rules_are_as_they_are_cited():
 
 
 def test_the_command_writes_what_the_runs_hold(folder):
-    done = subprocess.run([PROGRAM, "loads", "run", "--out", "out", "--format", "png"],
-                          cwd=folder, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
+    succeeded("loads", "run", "--out", "out", "--format", "png", cwd=folder)
     run = polynya.Run(folder / "run", pandas=False)
-    with open(folder / "out/loads-panels.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
-    assert sum(int(row["peaks"]) for row in {row["panel"]: row for row in rows}.values()) == len(run.peaks)
-    mean = sum(float(row["mean_N"]) for row in rows)
+    panels = rows(folder / "out/loads-panels.csv")
+    assert sum(int(row["peaks"]) for row in {row["panel"]: row for row in panels}.values()) == len(run.peaks)
+    mean = sum(float(row["mean_N"]) for row in panels)
     assert mean * 20 == pytest.approx(run.panels["force_N"].sum() * run.summary["forces_interval_s"])
-    assert sum(float(row["loaded_s"]) for row in rows) == pytest.approx(run.panels["loaded_s"].sum())
+    assert sum(float(row["loaded_s"]) for row in panels) == pytest.approx(run.panels["loaded_s"].sum())
     page = (folder / "out/loads.html").read_text()
     for name in ("exceedance", "pressure-area", "along", "unrolled", "polar"):
         assert (folder / f"out/loads-{name}.png").stat().st_size > 5000 and f'src="loads-{name}.svg"' in page
-    wrong = subprocess.run([PROGRAM, "loads", "run", "--out", "out", "--ship", "nobody"],
-                           cwd=folder, capture_output=True, text=True, check=False)
+    wrong = ended("loads", "run", "--out", "out", "--ship", "nobody", cwd=folder)
     assert wrong.returncode == 2 and "no ship or structure is named nobody; it has: pile" in wrong.stderr

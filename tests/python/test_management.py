@@ -2,20 +2,18 @@
 import dataclasses
 import json
 import math
-import os
 import pathlib
-import subprocess
 
 import numpy
 import pytest
 
 import polynya
+from program import ended, run_of as folder_of, succeeded
 from polynya.errors import InputError
 from polynya.management import measures, study
 from polynya.management.drift import by_rows, free_drift, tide
 from polynya.management.gates import Gates, Passage, gates_of, managed_width, passages
 
-PROGRAM = os.environ["POLYNYA_PROGRAM"]
 RIG = {"name": "rig", "radius_m": 10}
 DRIFTING = {
     "time": {"step_s": 0.1, "until_s": 270}, "water": {"drift_m_per_s": [-1, 0]}, "structures": [RIG],
@@ -27,10 +25,7 @@ GATES = {"upstream_m": 320, "near_m": 145, "width_m": 320}
 
 
 def run_of(home, name, scene):
-    (home / f"{name}.json").write_text(json.dumps({"name": name, **scene}))
-    subprocess.run([PROGRAM, "run", f"{name}.json", "--out", name, "--no-map"],
-                   cwd=home, check=True, capture_output=True)
-    return polynya.Run(home / name, pandas=False)
+    return polynya.Run(folder_of(home, name, scene), pandas=False)
 
 
 @pytest.fixture(scope="module")
@@ -165,19 +160,15 @@ def test_what_cannot_be_measured_is_refused(drifting):
         gates_of(drifting, {**GATES, "near_m": 330})
 
 
-def ended(*words, cwd):
-    return subprocess.run([PROGRAM, "management", *words], cwd=cwd, capture_output=True, text=True, check=False)
-
-
 def test_the_command_writes_tables_and_a_figure(home, drifting, hit):
-    done = ended("drifting", "hit", "--upstream", "50", "--near", "20", "--width", "300", "--out", "out", cwd=home)
-    assert done.returncode == 0, done.stderr
+    gates = ["--upstream", 50, "--near", 20, "--width", 300]
+    succeeded("management", "drifting", "hit", *gates, "--out", "out", cwd=home)
     names = {path.name for path in (home / "out").iterdir()}
     assert names == {"management.csv", "management-sizes.csv", "management.png"}
-    printed = ended("hit", "--upstream", "50", "--near", "20", "--width", "300", "--json", cwd=home)
+    printed = succeeded("management", "hit", *gates, "--json", cwd=home)
     found = json.loads(printed.stdout)["hit"]
     assert found == polynya.management.of_folder(home / "hit", {"upstream_m": 50, "near_m": 20, "width_m": 300})
-    assert ended("hit", cwd=home).returncode == 3
+    assert ended("management", "hit", cwd=home).returncode == 3
 
 
 def test_a_study_compares_by_what_it_varies(home):
@@ -186,15 +177,14 @@ def test_a_study_compares_by_what_it_varies(home):
         "scene": "base.json", "repetitions": 2, "grid": {"water.drift_m_per_s[0]": [-1, -2],
                                                          "ice.thickness_m": [0.4, 0.6]},
         "collect": {"management": {"upstream_m": 330, "near_m": 100, "width_m": 300}}}))
-    for words in (["study", "run", "s.json"], ["study", "gather", "studies/s"]):
-        subprocess.run([PROGRAM, *words], cwd=home, check=True, capture_output=True)
-    done = ended("studies/s", "--json", cwd=home)
-    groups = json.loads(done.stdout)
+    succeeded("study", "run", "s.json", cwd=home)
+    succeeded("study", "gather", "studies/s", cwd=home)
+    groups = json.loads(succeeded("management", "studies/s", "--json", cwd=home).stdout)
     assert set(groups) == {"0.4", "0.6"}
     assert [x for x, _, _ in groups["0.4"]["management_cover_upstream"]] == [1, 2]
-    assert ended("studies/s", cwd=home).returncode == 0
+    succeeded("management", "studies/s", cwd=home)
     assert (pathlib.Path(home) / "studies/s/management.png").exists()
-    assert ended("studies/s", "--width", "3", cwd=home).returncode == 3
+    assert ended("management", "studies/s", "--width", 3, cwd=home).returncode == 3
 
 
 def test_means_have_students_interval():

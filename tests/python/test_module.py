@@ -1,10 +1,8 @@
 """The compiled module: the command line's bits, from Python."""
 import ast
-import csv
 import gc
 import json
 import os
-import pathlib
 import signal
 import subprocess
 import sys
@@ -15,21 +13,9 @@ import numpy
 import pytest
 
 import polynya
+from program import BREAKER, ICE, SCENES, lines, rows, run_of, succeeded
 
-PROGRAM = os.environ["POLYNYA_PROGRAM"]
-SCENES = pathlib.Path(os.environ["POLYNYA_SCENES"])
 SOURCE_PACKAGE = SCENES.parent / "python"
-
-ICE = {
-    "name": "from-python",
-    "time": {"step_s": 0.01, "until_s": 12},
-    "record": {"forces_interval_s": 0.1, "frames_interval_s": 4},
-    "ships": [{"name": "breaker", "hull": {"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30},
-               "mass_kg": 4e6, "moment_of_inertia_kg_m2": 9e8,
-               "position_m": [-31, 0], "speed_m_per_s": 3, "propulsion": {"constant_speed_m_per_s": 3}}],
-    "fracture": {"cusp_fate": "float"},
-    "floes": [{"rectangle": {"corner_m": [0, -40], "size_m": [120, 80]}}],
-}
 SEA = {
     "time": {"step_s": 0.05, "until_s": 60},
     "ships": [{"name": "sailing",
@@ -47,16 +33,7 @@ def endless():
 
 @pytest.fixture(scope="module")
 def command_lines_run(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("run")
-    (folder / "scene.json").write_text(json.dumps(ICE))
-    subprocess.run([PROGRAM, "run", folder / "scene.json", "--out", folder / "run", "--no-map"],
-                   check=True, capture_output=True)
-    return folder / "run"
-
-
-def rows(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
+    return run_of(tmp_path_factory.mktemp("run"), "run", ICE)
 
 
 def test_state_events_and_forces_are_those_of_the_command_line(command_lines_run):
@@ -64,7 +41,7 @@ def test_state_events_and_forces_are_those_of_the_command_line(command_lines_run
     for row in rows(command_lines_run / "states.csv"):
         simulation.run(until=float(row["t_s"]))
         assert (simulation.steps, simulation.state_hash) == (int(row["steps"]), row["state_hash"])
-    events = [json.loads(line) for line in (command_lines_run / "events.ndjson").read_text().splitlines()]
+    events = lines(command_lines_run / "events.ndjson")
     assert any(event["kind"] == "bend" for event in events)
     assert simulation.events() == events
     assert simulation.events() == []
@@ -72,20 +49,6 @@ def test_state_events_and_forces_are_those_of_the_command_line(command_lines_run
     forces = simulation.ships[0].forces
     assert {key: forces[key] for key in written if key != "ship"} == {
         key: pytest.approx(float(value), rel=1e-5) for key, value in written.items() if key != "ship"}
-
-
-def test_a_mooring_that_breaks_is_one_event_without_a_floe():
-    scene = json.loads(json.dumps(SEA))
-    scene["floes"] = []
-    scene["ships"][0].update(mooring={"surge_stiffness_N_per_m": 1e4, "break_load_N": 2e5},
-                             propulsion={"thrust_N": 1e5}, speed_m_per_s=3)
-    del scene["ships"][0]["steering"]
-    simulation = polynya.Simulation(scene)
-    simulation.run()
-    (event,) = simulation.events()
-    assert event["kind"] == "mooring_break" and event["ship"] == "sailing" and "floe" not in event
-    assert event["force_N"] > event["break_load_N"] == 2e5
-    assert event["force_N"] == pytest.approx(1e4 * event["offset_m"][0], rel=1e-6)
 
 
 def test_a_saved_simulation_continues_bit_for_bit():
@@ -177,7 +140,7 @@ def test_ships_are_found_by_index_and_by_name():
 
 
 def test_the_version_is_the_programs_with_and_without_the_compiled_module():
-    version = subprocess.run([PROGRAM, "--version"], check=True, capture_output=True, text=True).stdout.split()[1]
+    version = succeeded("--version").stdout.split()[1]
     assert polynya.__version__ == version
     code = "import polynya; print(polynya.__version__)"
     alone = subprocess.run([sys.executable, "-c", code], env={"PYTHONPATH": str(SOURCE_PACKAGE)},
@@ -472,8 +435,8 @@ def covered(polygons, pose, shape, cell, ahead, lines=8):
 
 def test_the_occupancy_image_is_the_share_of_each_cell_that_is_covered():
     pytest.importorskip("matplotlib")
-    turned = {**ICE["ships"][0], "heading_deg": 25, "position_m": [-40, -20]}
-    other = {**ICE["ships"][0], "name": "other", "position_m": [20, 90], "heading_deg": 100}
+    turned = {**BREAKER, "heading_deg": 25, "position_m": [-40, -20]}
+    other = {**BREAKER, "name": "other", "position_m": [20, 90], "heading_deg": 100}
     holed = {"polygon": {"outer_m": [[-60, 30], [-20, 30], [-20, 60], [-60, 60]],
                          "holes_m": [[[-50, 36], [-30, 36], [-30, 54], [-50, 54]]]}}
     scene = {**ICE, "ships": [turned, other], "floes": [*ICE["floes"], holed]}
@@ -503,7 +466,7 @@ def test_the_occupancy_image_is_the_share_of_each_cell_that_is_covered():
 
 
 def test_the_image_has_the_way_ahead_on_top_and_port_on_the_left():
-    ship = {**ICE["ships"][0], "position_m": [0, 0], "heading_deg": 90}
+    ship = {**BREAKER, "position_m": [0, 0], "heading_deg": 90}
     floe = {"rectangle": {"corner_m": [-70, 100], "size_m": [10, 10]}}  # ahead, to port
     image = polynya.Simulation({**ICE, "ships": [ship], "floes": [floe]}).occupancy(shape=(60, 60), cell_m=5)[0]
     rows, columns = numpy.nonzero(image)

@@ -10,32 +10,19 @@ import numpy
 import pytest
 
 import polynya
+from program import ICE, PROGRAM, ended, run_of
 from polynya import scenery
 from polynya.movie import film, history, picture
 from polynya.movie.__main__ import size
 
-PROGRAM = os.environ["POLYNYA_PROGRAM"]
 needs_ffmpeg = pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="ffmpeg is missing (./setup.sh python)")
-SCENE = {
-    "name": "film",
-    "time": {"step_s": 0.01, "until_s": 12},
-    "record": {"forces_interval_s": 0.1, "frames_interval_s": 2},
-    "ships": [{"name": "breaker", "hull": {"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30},
-               "mass_kg": 4e6, "moment_of_inertia_kg_m2": 9e8,
-               "position_m": [-31, 0], "speed_m_per_s": 3, "propulsion": {"constant_speed_m_per_s": 3}}],
-    "fracture": {"cusp_fate": "float"},
-    "floes": [{"rectangle": {"corner_m": [0, -40], "size_m": [120, 80]}},
-              {"rectangle": {"corner_m": [-60, 30], "size_m": [20, 10]}}],
-}
+SCENE = {**ICE, "record": {"forces_interval_s": 0.1, "frames_interval_s": 2},
+         "floes": [*ICE["floes"], {"rectangle": {"corner_m": [-60, 30], "size_m": [20, 10]}}]}
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    made = tmp_path_factory.mktemp("run")
-    (made / "scene.json").write_text(json.dumps(SCENE))
-    subprocess.run([PROGRAM, "run", made / "scene.json", "--out", made / "run", "--no-map"],
-                   check=True, capture_output=True)
-    return made / "run"
+    return run_of(tmp_path_factory.mktemp("run"), "film", SCENE)
 
 
 @pytest.fixture(scope="module")
@@ -44,8 +31,7 @@ def run(folder):
 
 
 def movie(*words, environment=None):
-    return subprocess.run([PROGRAM, "movie", *map(str, words)], capture_output=True,
-                          text=True, env={**os.environ, **(environment or {})}, check=False)
+    return ended("movie", *words, env={**os.environ, **(environment or {})})
 
 
 def area_of(path):
@@ -208,20 +194,15 @@ def test_without_ffmpeg_the_message_names_what_to_install_and_a_picture_needs_no
 
 
 def test_a_film_of_a_run_without_a_ship_has_no_chart(tmp_path):
-    (tmp_path / "scene.json").write_text(json.dumps({**{key: SCENE[key] for key in ("time", "floes")},
-                                                     "time": {"step_s": 0.1, "until_s": 1}}))
-    subprocess.run([PROGRAM, "run", tmp_path / "scene.json", "--out", tmp_path / "run", "--no-map"],
-                   check=True, capture_output=True)
-    drawn = picture.Picture(polynya.Run(tmp_path / "run"), picture.Look(size=(320, 320)))
+    alone = run_of(tmp_path, "alone", {"time": {"step_s": 0.1, "until_s": 1}, "floes": SCENE["floes"]})
+    drawn = picture.Picture(polynya.Run(alone), picture.Look(size=(320, 320)))
     assert drawn.history is None and drawn.draw(0.5).shape == (320, 320, 4)
 
 
 def test_walls_are_grey_and_make_no_tracks(tmp_path):
     walls = [{"from_m": [150, -60], "to_m": [150, 60], "pressure": {"line_load_N_per_m": 1e4}}]
-    (tmp_path / "scene.json").write_text(json.dumps({**SCENE, "time": {"step_s": 0.02, "until_s": 1}, "walls": walls}))
-    subprocess.run([PROGRAM, "run", tmp_path / "scene.json", "--out", tmp_path / "run", "--no-map"],
-                   check=True, capture_output=True)
-    drawn = picture.Picture(polynya.Run(tmp_path / "run", pandas=False), picture.Look(size=(640, 360)))
+    walled = run_of(tmp_path, "walled", {**SCENE, "time": {"step_s": 0.02, "until_s": 1}, "walls": walls})
+    drawn = picture.Picture(polynya.Run(walled, pandas=False), picture.Look(size=(640, 360)))
     pixels = drawn.draw(1.0)
     across, up = drawn._map.transData.transform((155, 0))
     assert pixels[len(pixels) - 1 - int(up), int(across), :3].tolist() == [0x8A] * 3

@@ -2,20 +2,18 @@
 import csv
 import json
 import math
-import os
 import random
 import re
-import subprocess
 
 import pytest
 
+from program import SCENES, ended, succeeded
 from polynya import formulas
 from polynya.performance import level_ice
 from polynya.performance.__main__ import hull_of, print_table, ship_of
 from polynya.performance.curve import VALIDATED_THICKNESS, Curve
 from polynya.performance.options import command_line
 
-PROGRAM = os.environ["POLYNYA_PROGRAM"]
 HULL = formulas.Hull(120, 24, 6, math.radians(30), math.radians(27))
 
 
@@ -93,8 +91,7 @@ ENGINE = {"bollard_pull_N": 1e6, "open_water_speed_m_per_s": 8}
     ("--friction", "ice.friction"),
     ("--step", "time.step_s")])
 def test_options_have_the_ranges_of_the_scenes_keys(option, key, capsys):
-    done = subprocess.run([PROGRAM, "schema"], check=True, capture_output=True, text=True)
-    field = json.loads(done.stdout)
+    field = json.loads(succeeded("schema").stdout)
     for step in key.split("."):
         field = field["properties"][step]
     field = field.get("anyOf", [field])[0]
@@ -151,8 +148,7 @@ def test_two_hundred_changed_ships_are_read_or_refused_with_their_places(tmp_pat
         ship["hull"]["block_coefficient"] = 0.58
         text = changed(ship, chance)
         path.write_text(text)
-        words = [PROGRAM, "ships", "ship.json", "--json", "--for-performance"]
-        done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
+        done = ended("ships", "ship.json", "--json", "--for-performance", cwd=tmp_path, timeout=60)
         assert done.returncode in (0, 3), text
         if done.returncode == 0:
             hull_of(json.loads(done.stdout)["ship"])
@@ -165,9 +161,7 @@ def test_two_hundred_changed_ships_are_read_or_refused_with_their_places(tmp_pat
     assert 100 < len(refused) < 200
     for text in refused[:4]:
         path.write_text(text)
-        done = subprocess.run(
-            [PROGRAM, "performance", "ship.json", "--list"], cwd=tmp_path, capture_output=True,
-            text=True, timeout=60, check=False)
+        done = ended("performance", "ship.json", "--list", cwd=tmp_path, timeout=60)
         assert done.returncode == 3 and done.stdout == ""
         assert done.stderr.startswith("ship.json:") and "Traceback" not in done.stderr
 
@@ -203,10 +197,9 @@ def test_points_outside_validation_are_marked_in_table_and_figure(capsys, tmp_pa
 
 
 def test_the_range_of_validation_is_the_documents():
-    documents = os.path.join(os.path.dirname(os.environ["POLYNYA_SCENES"]), "docs")
     for page in ("validation.md", "ships.md"):
-        with open(os.path.join(documents, page), encoding="utf-8") as file:
-            assert f"up to {VALIDATED_THICKNESS:g} m" in " ".join(file.read().split()), page
+        words = (SCENES.parent / "docs" / page).read_text(encoding="utf-8").split()
+        assert f"up to {VALIDATED_THICKNESS:g} m" in " ".join(words), page
 
 
 def test_the_curve_starts_near_the_formulas(tmp_path):

@@ -1,18 +1,15 @@
 """Run folders that a Simulation leaves, beside those of the program; what notebooks show."""
 import json
 import os
-import subprocess
 
 import pytest
 
 import polynya
-from polynya.program import program
+from program import BREAKER, succeeded
 
 SCENE = {
     "name": "recorded", "time": {"step_s": 0.01, "until_s": 20}, "record": {"frames_interval_s": 0.5},
-    "ships": [{"name": "ship", "hull": {"length_m": 60, "beam_m": 16, "entrance_angle_deg": 30, "draught_m": 4},
-               "mass_kg": 3e6,
-               "moment_of_inertia_kg_m2": 8e8, "position_m": [-31, 0], "propulsion": {"constant_speed_m_per_s": 2}}],
+    "ships": [{**BREAKER, "hull": {**BREAKER["hull"], "draught_m": 4}}],
     "floes": [{"rectangle": {"corner_m": [0.5, -40], "size_m": [120, 80]}}],
 }
 FILES = ["scene.json", "forces.csv", "events.ndjson", "floes.ndjson", "frames.bin",
@@ -21,9 +18,7 @@ FILES = ["scene.json", "forces.csv", "events.ndjson", "floes.ndjson", "frames.bi
 
 
 def run_program(*words):
-    environment = {**os.environ, "PATH": "/"}  # without rsvg-convert, which takes seconds
-    done = subprocess.run([program(), *map(str, words)], capture_output=True, text=True, env=environment, check=False)
-    assert done.returncode == 0, done.stderr
+    succeeded(*words, env={**os.environ, "PATH": "/"})  # without rsvg-convert, which takes seconds
 
 
 def without_wall_time(text):

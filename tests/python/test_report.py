@@ -1,11 +1,10 @@
 """A study's page: its pictures, its statistics, and the way from a case into the player."""
-import csv
 import json
-import os
 import re
 
 import numpy
 
+from program import SCENES, rows
 from polynya import statistics
 from polynya.study import pictures, sample
 from polynya.study.folder import PLAN, RESULT, open_study
@@ -57,10 +56,9 @@ def test_the_page_has_its_pictures_statistics_and_cases_and_needs_no_network(tmp
     study_command("report", study.folder)
     assert before == {p: p.read_bytes() for p in before}, "the same study gives the same page"
     assert page.count("--keep all</code>") == 120  # thinned: the command that brings the run back
-    with open(study.folder / "report/statistics.csv", newline="") as file:
-        rows = [row for row in csv.DictReader(file) if row["measure"] == "resistance_peak_N"]
-    assert [row["group"] for row in rows] == ["0.4", "0.5", "0.6"]
-    for row, thickness in zip(rows, (0.4, 0.5, 0.6)):
+    peaks = [row for row in rows(study.folder / "report/statistics.csv") if row["measure"] == "resistance_peak_N"]
+    assert [row["group"] for row in peaks] == ["0.4", "0.5", "0.6"]
+    for row, thickness in zip(peaks, (0.4, 0.5, 0.6)):
         assert int(row["cases"]) == 40
         assert float(row["gumbel_location_low"]) < 1e6 * thickness < float(row["gumbel_location_high"])
         assert float(row["mean_low"]) < 1e6 * thickness + 0.5772 * 5e4 < float(row["mean_high"])
@@ -87,14 +85,8 @@ def test_a_page_of_a_part_of_the_study_says_so(tmp_path):
 
 def test_a_kept_run_opens_in_the_player(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "s.json").write_text(
-        json.dumps(
-            {
-                "scene": os.path.join(os.path.abspath(os.environ["POLYNYA_SCENES"]), "level-plate.json"),
-                "set": {"time.until_s": 10}, "grid": {"ice.thickness_m": [0.4, 0.5]},
-            }
-        )
-    )
+    (tmp_path / "s.json").write_text(json.dumps({"scene": str(SCENES.resolve() / "level-plate.json"),
+                                                 "set": {"time.until_s": 10}, "grid": {"ice.thickness_m": [0.4, 0.5]}}))
     study_command("run", "s.json", "--quiet")
     study_command("report", "studies/s")
     page = (tmp_path / "studies/s/study.html").read_text()

@@ -1,29 +1,23 @@
 """Runs and studies read back: every number is the file's, and where floes and ships are is what `polynya export`
 writes."""
-import csv
 import json
-import os
 import pathlib
 import shutil
-import subprocess
 
 import numpy
 import pytest
 
 import polynya
+from program import TUG, ended, lines, rows, succeeded
 from polynya.results import hulls
 from polynya.results.motions import placed
 
-PROGRAM = os.environ["POLYNYA_PROGRAM"]
 UNTIL = 20
 SCENE = {
     "name": "read-back",
     "time": {"step_s": 0.01, "until_s": UNTIL},
     "record": {"forces_interval_s": 0.1, "frames_interval_s": 0.5, "contacts": "all"},
-    "ships": [{"name": "breaker", "hull": {"length_m": 30, "beam_m": 12, "entrance_angle_deg": 30,
-                                           "draught_m": 4, "stem_angle_deg": 25},
-               "mass_kg": 2e6, "moment_of_inertia_kg_m2": 2e8, "position_m": [-16, 1], "speed_m_per_s": 3,
-               "propulsion": {"constant_speed_m_per_s": 3}}],
+    "ships": [TUG],
     "structures": [{"name": "pile", "radius_m": 5, "position_m": [75, 30]}],
     "water": {"drift_m_per_s": [0.1, 0.3]},
     "ice": {"thickness_m": 0.5},
@@ -36,31 +30,17 @@ STUDY = {"name": "thicknesses", "scene": "scene.json", "grid": {"ice.thickness_m
          "set": {"time.until_s": 2}, "keep": "all"}
 
 
-def polynya_program(*words, cwd):
-    subprocess.run([PROGRAM, *map(str, words)], cwd=cwd, check=True, capture_output=True,
-                   env={**os.environ, "POLYNYA_PYTHON": ""})
-
-
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     home = tmp_path_factory.mktemp("results")
     (home / "scene.json").write_text(json.dumps(SCENE))
-    polynya_program("run", "scene.json", "--out", "run", "--no-map", cwd=home)
+    succeeded("run", "scene.json", "--out", "run", "--no-map", cwd=home)
     return home / "run"
 
 
 @pytest.fixture
 def copy(folder, tmp_path):
     return pathlib.Path(shutil.copytree(folder, tmp_path / "copy"))
-
-
-def rows(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
-
-
-def lines(path):
-    return [json.loads(line) for line in path.read_text().splitlines()]
 
 
 @pytest.fixture(params=[False, True], ids=["numpy", "pandas"])
@@ -125,7 +105,7 @@ def test_events_have_all_that_their_lines_have(run, folder):
 
 @pytest.mark.parametrize("time", [0, 1.3, 8, 13.7, UNTIL])
 def test_floes_and_ships_are_where_the_program_puts_them(folder, tmp_path, time):
-    polynya_program("export", folder, "--geojson", tmp_path, "--metres", "--at", time, cwd=tmp_path)
+    succeeded("export", folder, "--geojson", tmp_path, "--metres", "--at", time, cwd=tmp_path)
     frame = polynya.Run(folder, pandas=False, shapely=False).frame(time)
     ids, found = frame.floes["floe_id"].tolist(), dict(zip(frame.floes["floe_id"].tolist(), frame.polygons))
     layers = {}
@@ -177,7 +157,7 @@ def test_a_channel_is_that_of_the_command(copy):
         polynya.Run(copy).channel
     measured = polynya.Run(copy, pandas=False).measure_channel()
     assert not (copy / "channel.csv").exists()
-    polynya_program("channel", copy, cwd=copy)
+    succeeded("channel", copy, cwd=copy)
     run = polynya.Run(copy, pandas=False)
     assert columns_of(run.channel).keys() == columns_of(measured.stations).keys()
     written = rows(copy / "channel.csv")
@@ -249,11 +229,11 @@ def study(tmp_path_factory):
     home = tmp_path_factory.mktemp("study")
     (home / "scene.json").write_text(json.dumps(SCENE))
     (home / "study.json").write_text(json.dumps(STUDY))
-    polynya_program("study", "plan", "study.json", "--trial-seconds", "0", cwd=home)
+    succeeded("study", "plan", "study.json", "--trial-seconds", "0", cwd=home)
     with pytest.raises(polynya.FolderError, match="polynya study gather"):
         polynya.Study(home / "studies/thicknesses")
-    polynya_program("study", "run", "studies/thicknesses", "--jobs", "1", "--quiet", cwd=home)
-    polynya_program("study", "gather", "studies/thicknesses", cwd=home)
+    succeeded("study", "run", "studies/thicknesses", "--jobs", "1", "--quiet", cwd=home)
+    succeeded("study", "gather", "studies/thicknesses", cwd=home)
     return home / "studies/thicknesses"
 
 
@@ -280,7 +260,7 @@ def test_a_studys_table_is_the_files(study, pandas):
 def test_a_partial_study_is_read_where_that_is_wanted(study, tmp_path):
     copied = pathlib.Path(shutil.copytree(study, tmp_path / "study"))
     (copied / "cases/000001/case.json").unlink()
-    subprocess.run([PROGRAM, "study", "gather", copied], capture_output=True, check=False)
+    ended("study", "gather", copied)
     with pytest.raises(polynya.UnfinishedError, match="1 of 2 cases"):
         polynya.Study(copied)
     found = polynya.Study(copied, unfinished=True, pandas=False)

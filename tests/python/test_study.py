@@ -1,6 +1,5 @@
 """Studies: what is run, stopped, killed, gathered and sent, with the program that is built here."""
 import contextlib
-import csv
 import json
 import os
 import pathlib
@@ -13,6 +12,7 @@ import time
 
 import pytest
 
+from program import rows
 from study_command import OF_PYTHON, files_of, folder, planned, study, table, write_study
 
 
@@ -206,10 +206,10 @@ def test_a_partial_gather_says_what_is_missing_and_how_to_repair_it(folder):
     words = study("gather", "studies/s", code=4)
     assert "PARTIAL" in words and "polynya study run studies/s --cases 1" in words
     assert "polynya study run studies/s --retry-failed --cases 3" in words and "case 3: numbers stopped" in words
-    rows = table(folder / "studies/s")
-    assert [row["state"] for row in rows] == ["finished", "missing", "finished", "failed"]
-    assert [row["ice.thickness_m"] for row in rows] == ["0.4", "0.5", "0.6", "0.7"]
-    assert rows[1]["resistance_mean_N"] == "" and float(rows[0]["resistance_mean_N"]) > 0
+    cases = table(folder / "studies/s")
+    assert [row["state"] for row in cases] == ["finished", "missing", "finished", "failed"]
+    assert [row["ice.thickness_m"] for row in cases] == ["0.4", "0.5", "0.6", "0.7"]
+    assert cases[1]["resistance_mean_N"] == "" and float(cases[0]["resistance_mean_N"]) > 0
     assert "1 failed" in study("run", "studies/s", code=4)  # a failure is not tried again by itself
     study("run", "studies/s", "--retry-failed", "--cases", "3", "--quiet")
     study("gather", "studies/s")
@@ -224,9 +224,8 @@ def test_measures_are_those_of_the_run(folder):
     study("run", "studies/s", "--quiet")
     study("gather", "studies/s")
     row, run = table(folder / "studies/s")[0], folder / "studies/s/cases/000000/run"
-    with open(run / "forces.csv", newline="", encoding="utf-8") as file:
-        rows = [{k: float(v) for k, v in r.items() if k != "ship"} for r in csv.DictReader(file)]
-    kept = [-(r["surge_N"] + r["surge_from_submerged_ice_N"]) for r in rows if r["t_s"] > 5]
+    forces = [{k: float(v) for k, v in r.items() if k != "ship"} for r in rows(run / "forces.csv")]
+    kept = [-(r["surge_N"] + r["surge_from_submerged_ice_N"]) for r in forces if r["t_s"] > 5]
     summary = json.loads((run / "summary.json").read_text())
     assert float(row["resistance_mean_N"]) == pytest.approx(sum(kept) / len(kept))
     assert float(row["resistance_peak_N"]) == pytest.approx(max(kept))

@@ -12,16 +12,8 @@ namespace {
 using namespace scenes;
 using geometry::Vector;
 
-/// A ship under thrust in drifting water, into loose floes and a plate behind them.
 Scene pack(RecordedContacts contacts) {
-  Ship ship = icebreaker({0, 0}, ConstantThrust{2e6}, 2);
-  ship.heading = 0.1;
-  Scene scene = Build()
-                    .without_drag()
-                    .drift({0.2, -0.1})
-                    .ship(ship)
-                    .grid({2, -26}, 2, 5, 10, 10.5)
-                    .floe(rectangle(26, -60, 86, 60));
+  Scene scene = ship_in_pack().without_drag();
   scene.record.contacts = contacts;
   scene.record.forces_interval = scene.time.step;
   return scene;
@@ -122,6 +114,7 @@ TEST(ShipContacts, AreNoIceLoadAndEndAsEq5Says) {
   for (const HullSample& sample : story.samples) {
     EXPECT_EQ(sample.from_ice.surge, 0);
     EXPECT_EQ(sample.from_ice_largest.surge, 0);
+    EXPECT_EQ(sample.friction_of_ice.surge, 0);
     EXPECT_EQ(sample.collision.surge, 0);
     EXPECT_EQ(sample.contacts, 0);
     if (sample.ship == 0) surge += scene.record.forces_interval * sample.from_ships.surge;

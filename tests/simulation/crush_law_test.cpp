@@ -183,7 +183,7 @@ TEST(CrushLaw, TheLoadInLevelIceIsNotTheSteps) {
 
 // ---- collisions that crush by the impulse law, step by step: how long they take, and that they converge
 
-constexpr double kSpeed = 0.5;
+constexpr double kApproachSpeed = 0.5;
 constexpr double kMass = 900 * 0.5 * 2 * 7 * 7;  // of a diamond of 7 m [kg]
 
 /// A floe's corner runs into a fixed ship, along the normal of its flat bow.
@@ -226,18 +226,18 @@ TEST(CrushingCollision, TakesMassToTheThirdOverSpeedToTheThirdAtAnInclinedHull) 
   const auto time = [](double speed, double density) {
     return compression(corner_into_bow(60 * kDegree, speed, density, 5e-4)).time;
   };
-  EXPECT_NEAR(std::log(time(kSpeed, 7200) / time(kSpeed, 900)) / std::log(8), 1.0 / 3, 0.01);
-  EXPECT_NEAR(std::log(time(2 * kSpeed, 900) / time(kSpeed / 4, 900)) / std::log(8), -1.0 / 3, 0.01);
+  EXPECT_NEAR(std::log(time(kApproachSpeed, 7200) / time(kApproachSpeed, 900)) / std::log(8), 1.0 / 3, 0.01);
+  EXPECT_NEAR(std::log(time(2 * kApproachSpeed, 900) / time(kApproachSpeed / 4, 900)) / std::log(8), -1.0 / 3, 0.01);
 }
 
 TEST(CrushingCollision, TakesTheRootOfTheMassAtAVerticalWallAndCrushesAsDeepAsTheEnergyTakesIt) {
   // F = σ_c h T ξ, a spring: a quarter of its period, π/2 √(m / σ_c h T), T = 2; ½ m v² = ½ σ_c h T ξ².
-  const Compression base = compression(corner_into_bow(0, kSpeed, 900, 2e-4));
+  const Compression base = compression(corner_into_bow(0, kApproachSpeed, 900, 2e-4));
   const double root = std::sqrt(kMass / (2.8e6 * 0.5 * 2));
   EXPECT_NEAR(base.time / (std::numbers::pi / 2 * root), 1, 0.01);
-  EXPECT_NEAR(base.deepest / (kSpeed * root), 1, 0.01);
-  EXPECT_NEAR(compression(corner_into_bow(0, kSpeed, 7200, 2e-4)).time / base.time, std::sqrt(8), 0.02);
-  EXPECT_NEAR(compression(corner_into_bow(0, 4 * kSpeed, 900, 2e-4)).time / base.time, 1, 0.01);
+  EXPECT_NEAR(base.deepest / (kApproachSpeed * root), 1, 0.01);
+  EXPECT_NEAR(compression(corner_into_bow(0, kApproachSpeed, 7200, 2e-4)).time / base.time, std::sqrt(8), 0.02);
+  EXPECT_NEAR(compression(corner_into_bow(0, 4 * kApproachSpeed, 900, 2e-4)).time / base.time, 1, 0.01);
 }
 
 /// Two floes that meet corner to corner, a little off their centres, after `gap` [m].

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "simulation/state/state.hpp"
 #include "tests/simulation/scenes.hpp"
 
 namespace polynya::simulation::scenes {
@@ -60,19 +59,7 @@ TEST(Levels, ATickHasPartsWhereIceIsThinAndOnlyThere) {
 }
 
 TEST(Levels, ARunStopsWithinItsTicksAndGoesOnToTheSameState) {
-  const Scene scene = in_level_ice(0.1, 4, 0.005);
-  Simulation through(scene);
-  skip(through, 400);
-  Simulation first(scene);
-  skip(first, 217);
-  auto resumed = Simulation::resumed(scene, first.state());
-  ASSERT_TRUE(resumed.has_value()) << resumed.error();
-  skip(*resumed, 400 - 217);
-  EXPECT_EQ(resumed->state(), through.state());
-  Simulation threaded(scene);
-  threaded.set_threads(3);
-  skip(threaded, 400);
-  EXPECT_EQ(threaded.state_hash(), through.state_hash());
+  expect_resumes(in_level_ice(0.1, 4, 0.005), 217 * 0.005, 400 * 0.005, 3);
 }
 
 TEST(Levels, AreNoneByRigidImpulses) {

@@ -13,17 +13,11 @@ namespace {
 
 using geometry::Vector;
 
-/// A ship under thrust into loose floes and a plate behind them, with panels.
+/// Onto a hull with panels.
 Scene pack(Laws laws) {
-  Ship ship = icebreaker({0, 0}, ConstantThrust{2e6}, 2);
-  ship.heading = 0.1;
-  ship.panels = PanelSettings{.length = 2.5, .bottom = -0.3, .top = 0, .rows = 2};  // some ice is above and below
-  Scene scene = Build(laws)
-                    .step(0.01)
-                    .drift({0.2, -0.1})
-                    .ship(ship)
-                    .grid({2, -26}, 2, 5, 10, 10.5)
-                    .floe(rectangle(26, -60, 86, 60));
+  Scene scene = ship_in_pack(laws).step(0.01);
+  scene.ships[0].panels =
+      PanelSettings{.length = 2.5, .bottom = -0.3, .top = 0, .rows = 2};  // some ice is above and below
   scene.record.least_peak = 0;
   return scene;
 }

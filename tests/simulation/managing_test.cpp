@@ -16,9 +16,9 @@ using geometry::Point;
 using geometry::Vector;
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
-constexpr double kFar = 1500;  ///< of a pattern from the body [m]
-constexpr double kWide = 800;  ///< across the drift [m]
-constexpr double kSpeed = 4;   ///< along the pattern [m/s]
+constexpr double kFar = 1500;        ///< of a pattern from the body [m]
+constexpr double kWide = 800;        ///< across the drift [m]
+constexpr double kPatternSpeed = 4;  ///< along the pattern [m/s]
 
 ManagingPilot managing(ManagementPattern pattern, double depth = 0) {
   ManagingPilot pilot;
@@ -26,7 +26,7 @@ ManagingPilot managing(ManagementPattern pattern, double depth = 0) {
   pilot.distance = kFar;
   pilot.width = kWide;
   pilot.depth = depth;
-  pilot.speed = kSpeed;
+  pilot.speed = kPatternSpeed;
   return pilot;
 }
 
@@ -39,8 +39,8 @@ Ship manager(ManagingPilot pilot, int body, Vector drift) {
                                                                      : line.at(pilot.phase * line.lap()) - Point{};
   const Vector ahead = line.direction(line.leg_at(pilot.phase * line.lap()));
   const auto over_ground = [&](Vector v) { return v.x * upstream + v.y * perpendicular(upstream); };
-  Ship ship =
-      icebreaker({}, Engine{.bollard_pull = 1e6, .open_water_speed = 8, .power = 12e6, .propeller_area = 25}, kSpeed);
+  Ship ship = icebreaker({}, Engine{.bollard_pull = 1e6, .open_water_speed = 8, .power = 12e6, .propeller_area = 25},
+                         kPatternSpeed);
   ship.position_in_world = Point{} + over_ground(at);
   const Vector course = over_ground(ahead);
   ship.heading = std::atan2(course.y, course.x);
@@ -132,21 +132,21 @@ double swept_share(const PatternLine& line, double drift, double speed, double b
 
 TEST(Pattern, TheLinearOneLeavesNoGapsWhileDriftTimesPeriodIsWithinTheBand) {
   const PatternLine line = line_of(managing(ManagementPattern::kLinear));
-  const double period = line.lap() / kSpeed;
+  const double period = line.lap() / kPatternSpeed;
   const double drift = 0.25;
   const double spacing = drift * period;  // of two passes at an end of the line: 100 m
-  EXPECT_EQ(swept_share(line, drift, kSpeed, 1.05 * spacing), 1);
+  EXPECT_EQ(swept_share(line, drift, kPatternSpeed, 1.05 * spacing), 1);
   // Passes at a place y are at y/W and 1 − y/W of half periods: a band of b leaves |gap − b| of both gaps,
   // spacing (½ ± y/W). Of the mean over y that is (1 − b/spacing)².
-  const double half = swept_share(line, drift, kSpeed, 0.5 * spacing);
+  const double half = swept_share(line, drift, kPatternSpeed, 0.5 * spacing);
   EXPECT_NEAR(half, 0.75, 0.06);
 }
 
 TEST(Pattern, TheCircleLeavesNoGapsInItsMiddleWhileDriftTimesPeriodIsWithinTheBand) {
   const PatternLine line = line_of(managing(ManagementPattern::kCircular, kWide));
-  const double drift = 0.16, spacing = drift * line.lap() / kSpeed;
-  EXPECT_EQ(swept_share(line, drift, kSpeed, 1.05 * spacing), 1);
-  EXPECT_LT(swept_share(line, drift, kSpeed, 0.2 * spacing), 0.95);
+  const double drift = 0.16, spacing = drift * line.lap() / kPatternSpeed;
+  EXPECT_EQ(swept_share(line, drift, kPatternSpeed, 1.05 * spacing), 1);
+  EXPECT_LT(swept_share(line, drift, kPatternSpeed, 0.2 * spacing), 0.95);
 }
 
 TEST(Pattern, ShipsOfTwoPhasesComeAsNearAsTheFormsAllow) {
@@ -183,7 +183,7 @@ Followed follow(const Scene& scene, double until) {
     before = angle;
     found.reach.x = std::max(found.reach.x, std::abs(from_middle.x));
     found.reach.y = std::max(found.reach.y, std::abs(from_middle.y));
-    if (s.time > 0.25 * line.lap() / kSpeed)
+    if (s.time > 0.25 * line.lap() / kPatternSpeed)
       found.most_off = std::max(found.most_off, off_line(line, s.position_in_world));
   }
   found.laps = std::abs(turned) / kTwoPi;
@@ -192,7 +192,7 @@ Followed follow(const Scene& scene, double until) {
 
 TEST(Managing, GoesRoundACircleOverGroundInADriftInItsPeriod) {
   const ManagingPilot pilot = managing(ManagementPattern::kCircular, kWide);
-  const double period = line_of(pilot).lap() / kSpeed;
+  const double period = line_of(pilot).lap() / kPatternSpeed;
   const Followed found = follow(managed({pilot}, {-0.5, 0}), 2 * period);
   EXPECT_NEAR(found.laps, 2, 0.1);
   EXPECT_LT(found.most_off, 40);
@@ -212,7 +212,7 @@ TEST(Managing, GoesRoundARacetrackAndAlongALine) {
 TEST(Managing, APatternInTheIceIsRoundThere) {
   ManagingPilot pilot = managing(ManagementPattern::kCircular, kWide);
   pilot.drifts_with_ice = true;
-  const double drift = 0.5, period = line_of(pilot).lap() / kSpeed;
+  const double drift = 0.5, period = line_of(pilot).lap() / kPatternSpeed;
   const Story story = run(managed({pilot}, {-drift, 0}), 0.9 * period).story;
   const PatternLine line = line_of(pilot);
   for (const HullSample& s : story.samples) {

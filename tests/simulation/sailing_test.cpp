@@ -173,25 +173,6 @@ TEST(Sailing, TheWaterSharesABlow) {
   EXPECT_GT(wet_mass, 1.5e7);
 }
 
-TEST(Sailing, ShipsThatMeetAreAnEventAndNoLoadOfIce) {
-  Ship other = in_water(ConstantThrust{0}, 0).ships[0];
-  other.name = "other";
-  other.position_in_world = {125, 3};
-  const Trial done = run(in_water(engine(), 2, 0.01).ship(other), 10);
-  ASSERT_EQ(done.story.of_kind<ShipContact>().size(), 1U);
-  for (const HullSample& s : done.story.samples) {
-    EXPECT_EQ(s.from_ice.surge, 0);
-    EXPECT_EQ(s.friction_of_ice, dynamics::Planar{});
-  }
-  EXPECT_GT(largest(done.story, &HullSample::from_ships), 1e5);
-  expect_closed(done.simulation);
-}
-
-TEST(Sailing, ACurrentFromTheSideCarriesAShipAlong) {
-  const Scene scene = in_water(ConstantThrust{0}, 0, 0.1).drift({0, 0.5});
-  EXPECT_NEAR(sail(scene, 1200).back().velocity_in_world.y, 0.5, 0.05);
-}
-
 TEST(Sailing, AMooringHoldsInACurrentAndBreaksAboveItsLoad) {
   Scene scene = in_water(ConstantThrust{0}, 0, 0.1).drift({0, 0.5});
   scene.ships[0].mooring = MooringSettings{.position_in_world = {},
@@ -214,7 +195,7 @@ TEST(Sailing, AMooringHoldsInACurrentAndBreaksAboveItsLoad) {
   const HullSample after = story_broken.samples.back();
   EXPECT_TRUE(broken.world().population.helms[0].is_adrift);
   EXPECT_EQ(after.from_mooring, dynamics::Planar{});
-  EXPECT_GT(after.position_in_world.y, 100);
+  EXPECT_NEAR(after.velocity_in_world.y, 0.5, 0.1) << "the current carries it along";
 }
 
 /// One event where it breaks, whose force is stiffness times offset, above what the mooring holds; none after

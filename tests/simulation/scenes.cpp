@@ -85,6 +85,12 @@ Build& Build::of(const fracture::Ice& its_own) {
   return *this;
 }
 
+Build ship_in_pack(Laws laws) {
+  Ship ship = icebreaker({0, 0}, ConstantThrust{2e6}, 2);
+  ship.heading = 0.1;
+  return Build(laws).drift({0.2, -0.1}).ship(ship).grid({2, -26}, 2, 5, 10, 10.5).floe(rectangle(26, -60, 86, 60));
+}
+
 void listen(Simulation& simulation, Story& story) {
   Journal& journal = simulation.journal();
   const auto take = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };

@@ -92,6 +92,9 @@ class Build : public Scene {
   }
 };
 
+/// A ship under thrust in drifting water, into loose floes and a plate behind them.
+Build ship_in_pack(Laws laws = Laws::kDefault);
+
 /// Everything a run recorded.
 struct Story {
   std::vector<Event> bends() const { return of_kind<Bend>(); }

@@ -93,21 +93,6 @@ TEST(Wind, PressesAPlateOnAStructureThatOtherwiseStopsForGood) {
   expect_closed(carried.simulation);
 }
 
-/// Limit momentum on a cylinder of radius a: δ = (3 E_k / (4 p h √(2a)))^⅔, F = 2 p h √(2aδ).
-TEST(LimitMomentum, OfAFloeOnACylinderIsThatOfTheClosedForm) {
-  Scene scene = Build()
-                    .unbreakable()
-                    .without_drag()
-                    .step(1e-3)
-                    .structure(shapes::regular(2048, 10).outer)  // a facet's sagitta is 1e-5 m
-                    .floe(rectangle(10.001, -20, 50.001, 20), {-0.5, 0});
-  scene.record.forces_interval = 1e-3;
-  const Trial done = run(scene, 0.5);
-  EXPECT_NEAR(largest(done.story, &HullSample::from_ice) / 2.766e6, 1, 0.01);
-  const double moved = -only_floe(done.simulation).world_from_body.position.x;
-  EXPECT_NEAR((moved - 0.001) / 0.0488, 1, 0.02);
-}
-
 // ---- currents
 
 TEST(Shear, AFloeAloneGoesWithTheCurrentAndTurnsAtHalfTheVorticity) {
@@ -350,18 +335,6 @@ TEST(FastIce, LoadsAShipAtConstantSpeedAsAPlateTooHeavyToMoveDoes) {
   EXPECT_GT(bends_of_held, 10);
   EXPECT_NEAR(bends_of_held / static_cast<double>(heavy.simulation.counts().bends), 1, 0.1);
   expect_closed(held.simulation);
-}
-
-TEST(FastIce, ThatMovesCrushesOnAStructure) {
-  const Trial done = run(Build()
-                             .unbreakable()
-                             .step(0.01)
-                             .structure(rectangle(-120, -12, 0, 12).outer)
-                             .floe(fast(rectangle(0.01, -40, 100, 40), {-0.2, 0})),
-                         5);
-  const double crushing = 2.8e6 * 0.5 * 24;
-  EXPECT_NEAR(done.story.samples.back().from_ice.surge / -crushing, 1, 0.02);
-  expect_closed(done.simulation);
 }
 
 TEST(FastIce, ItsPiecesAreFreeAndMoveOnAsItDid) {

@@ -12,16 +12,14 @@
 namespace polynya::fracture {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 double degrees(double angle) {
-  return angle * kPi / 180;
+  return angle * std::numbers::pi / 180;
 }
 
 /// The paper's ice as a 90° wedge under its bow flank, whose inclination is 60° from the vertical.
 BendingLoad paper_load(double ship_speed) {
   BendingLoad load;
-  load.front_half_angle = load.back_half_angle = kPi / 4;
+  load.front_half_angle = load.back_half_angle = std::numbers::pi / 4;
   load.hull_angle = degrees(60);
   load.mean_approach_speed = ship_speed * std::cos(degrees(27));
   load.vertical_to_crushing = crushing_shares(load.hull_angle, load.ice.friction, load.mean_approach_speed, 0).vertical;
@@ -51,7 +49,7 @@ TEST(Failure, GroupsAtThreeSpeeds) {
   struct Row {
     double froude, force, radius;
   };
-  const WedgeSolver solver(kPi / 2, 0.05, {});
+  const WedgeSolver solver(std::numbers::pi / 2, 0.05, {});
   for (const auto& [froude, force, radius] : {Row{.005, .353, .324}, {.05, .353, .291}, {.4, .378, .154}}) {
     const auto failure = solver.failure({froude, 1e-3, 0, 0});
     ASSERT_TRUE(failure.has_value());
@@ -122,7 +120,7 @@ TEST(Failure, TimeStepsConvergeToSecondOrder) {
     SolverSettings settings;
     settings.fluid = FluidModel::kWinkler;
     settings.steps_to_failure = steps;
-    const WedgeSolver solver(kPi / 2, 0.05, settings);
+    const WedgeSolver solver(std::numbers::pi / 2, 0.05, settings);
     std::vector<double> found;
     for (const double froude : froudes) found.push_back(solver.failure({froude, 1e-3, 0, 0})->force);
     return found;
@@ -173,7 +171,7 @@ TEST(Failure, FreeSurfaceIsNearPotential) {
   settings.panel_rings = 32;
   SolverSettings potential = settings;
   potential.fluid = FluidModel::kPotential;
-  const WedgeSolver free_surface(kPi / 2, 0.05, settings), plain(kPi / 2, 0.05, potential);
+  const WedgeSolver free_surface(std::numbers::pi / 2, 0.05, settings), plain(std::numbers::pi / 2, 0.05, potential);
   for (const double froude : {0.005, 0.05, 0.4}) {
     const auto a = free_surface.failure({froude, 1e-3, 0, 0}), b = plain.failure({froude, 1e-3, 0, 0});
     ASSERT_TRUE(a && b);

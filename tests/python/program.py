@@ -1,0 +1,51 @@
+"""`polynya` for the tests, what it writes, and ships that break ice."""
+import csv
+import json
+import os
+import pathlib
+import subprocess
+
+PROGRAM = os.environ["POLYNYA_PROGRAM"]
+SCENES = pathlib.Path(os.environ["POLYNYA_SCENES"])
+BREAKER = {"name": "breaker", "hull": {"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30},
+           "mass_kg": 4e6, "moment_of_inertia_kg_m2": 9e8,
+           "position_m": [-31, 0], "speed_m_per_s": 3, "propulsion": {"constant_speed_m_per_s": 3}}
+ICE = {
+    "name": "from-python",
+    "time": {"step_s": 0.01, "until_s": 12},
+    "record": {"forces_interval_s": 0.1, "frames_interval_s": 4},
+    "ships": [BREAKER],
+    "fracture": {"cusp_fate": "float"},
+    "floes": [{"rectangle": {"corner_m": [0, -40], "size_m": [120, 80]}}],
+}
+# Small, with ice that goes under it.
+TUG = {**BREAKER, "hull": {"length_m": 30, "beam_m": 12, "entrance_angle_deg": 30, "draught_m": 4,
+                           "stem_angle_deg": 25},
+       "mass_kg": 2e6, "moment_of_inertia_kg_m2": 2e8, "position_m": [-16, 1]}
+
+
+def ended(*words, **more):
+    """What a command gave, whatever its exit code."""
+    return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, check=False, **more)
+
+
+def succeeded(*words, **more):
+    done = ended(*words, **more)
+    assert done.returncode == 0, done.stderr
+    return done
+
+
+def run_of(home, name, scene):
+    """The folder of a run of that scene, without its map."""
+    (home / f"{name}.json").write_text(json.dumps({"name": name, **scene}))
+    succeeded("run", f"{name}.json", "--out", name, "--no-map", cwd=home)
+    return home / name
+
+
+def rows(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def lines(path):
+    return [json.loads(line) for line in path.read_text().splitlines()]
