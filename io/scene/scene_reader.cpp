@@ -12,6 +12,7 @@
 #include "io/scene/ship_presets.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
+#include "simulation/world/levels.hpp"
 
 namespace polynya::io {
 namespace {
@@ -175,10 +176,12 @@ class SceneReader {
     });
     if (is_whole) {
       complete_pilots(given, draft_, problems_);
+      complete_step(given);
       check_without_ice(draft_, given, problems_);
     }
     add_floes(given, is_whole, reader);
     if (!is_whole) return false;
+    complete_step(given);
     check_ice(draft_, given, problems_);
     return problems_.count() == 0;
   }
@@ -237,6 +240,15 @@ class SceneReader {
     const JsonValue* water = given.find("water");
     if (input_.scene.wind.blows() && !(water && water->find("skin_drag_coefficient")))
       input_.scene.water.skin_drag_coefficient = kSkinDragInWind;
+  }
+
+  /// The tick, by speeds and thickness, unless the scene states it. Before the floes are there by the scene's ice,
+  /// since what needs no floe is checked first.
+  void complete_step(const JsonValue& given) {
+    const JsonValue* time = given.find("time");
+    if (time && time->find("step_s")) return;
+    draft_.scene.time.step = simulation::default_tick(draft_.scene);
+    resolved_.find("time")->set("step_s", draft_.scene.time.step);
   }
 
   /// Completes what could be read of a list of hulls into the draft; what is none has been reported.
