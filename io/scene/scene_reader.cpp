@@ -80,6 +80,7 @@ class SceneReader {
                        std::move(floes_.fields),
                        std::move(floes_.files),
                        std::move(floes_.ice),
+                       is_step_chosen_,
                        std::move(hints)};
     if (const std::size_t length = loaded.resolved_text.size(); length > longest) {
       report(0, "", fmt::format("{} bytes with every default filled in and floe files read in", length),
@@ -246,7 +247,8 @@ class SceneReader {
   /// since what needs no floe is checked first.
   void complete_step(const JsonValue& given) {
     const JsonValue* time = given.find("time");
-    if (time && time->find("step_s")) return;
+    is_step_chosen_ = !(time && time->find("step_s"));
+    if (!is_step_chosen_) return;
     draft_.scene.time.step = simulation::default_tick(draft_.scene);
     resolved_.find("time")->set("step_s", draft_.scene.time.step);
   }
@@ -303,6 +305,7 @@ class SceneReader {
   SceneInput input_;
   JsonValue resolved_;
   SceneDraft draft_;
+  bool is_step_chosen_ = false;
   FloeListReader floes_{folder_, draft_, problems_};
 };
 

@@ -83,7 +83,12 @@ double thin_ice(const Scene& scene) {
 }  // namespace
 
 double most_way(const ContactSettings& contact, double thickness) {
-  return std::min(kWayOverThickness * thickness, kWayOverCircle * contact.circle_radius);
+  return std::min(
+      {kWayOverThickness * thickness, kWayTimesThickness / thickness, kWayOverCircle * contact.circle_radius});
+}
+
+double most_way_of_floes(const ContactSettings& contact, double thickness) {
+  return std::min(kFloesWayOverThickness * thickness, kWayOverCircle * contact.circle_radius);
 }
 
 double default_tick(const Scene& scene) {

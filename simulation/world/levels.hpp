@@ -12,7 +12,11 @@ namespace polynya::simulation {
 
 /// The longest way of a hull in a step, relative to ice at it, in thicknesses: F grows to V_b within some tenths.
 /// Greater, ice is found late and loads fall.
-inline constexpr double kWayOverThickness = 0.2;
+inline constexpr double kWayOverThickness = 0.15;
+/// And times the thickness [m²]: thick ice breaks in a few large cusps, whose order decides on the next ones.
+inline constexpr double kWayTimesThickness = 0.0375;
+/// Of a floe relative to another, in thicknesses.
+inline constexpr double kFloesWayOverThickness = 0.1;
 /// And in radii of contact circles: farther on, a contact is lost from one step to the next.
 inline constexpr double kWayOverCircle = 0.25;
 
@@ -36,8 +40,10 @@ inline constexpr double kUnderThrust = 4;
 /// Of a scene's ice, by area, that its thin ice is thinner than: a few thin floes have parts of ticks.
 inline constexpr double kMostIce = 0.95;
 
-/// The longest way in a step, relative to ice of that thickness [m].
+/// The longest way of a hull in a step, relative to ice of that thickness [m].
 double most_way(const ContactSettings& contact, double thickness);
+/// The same of floes, of which the thinner is so thick.
+double most_way_of_floes(const ContactSettings& contact, double thickness);
 
 /// The tick of a scene that gives none [s]: kTickOverStep of the longest steps in which its fastest hull stays within
 /// its share of its thinnest ice, as a round number that goes into what is recorded. Ships are as fast as at the start,
