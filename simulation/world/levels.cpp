@@ -39,6 +39,13 @@ double wind_drift(const Scene& scene) {
   return fastest;
 }
 
+/// Through the water, at the start, at most [m/s].
+double fastest_floe(const Scene& scene) {
+  double fastest = 0;
+  for (const FloeSpec& floe : scene.floes) fastest = std::max(fastest, length(floe.velocity));
+  return fastest;
+}
+
 /// At which a hull and ice meet, or floes where there is no hull, at most [m/s].
 double fastest_meeting(const Scene& scene) {
   const dynamics::ShearCurrent current = current_of(scene.water.shear);
@@ -49,9 +56,7 @@ double fastest_meeting(const Scene& scene) {
   for (const Ship& ship : scene.ships) meet(ship, full_speed(ship));
   for (const Structure& structure : scene.structures) meet(structure, 0);
   for (const Wall& wall : scene.walls) meet(wall, wall.pressure ? wall.pressure->closing_speed : length(wall.velocity));
-  double of_floes = 0;
-  for (const FloeSpec& floe : scene.floes) of_floes = std::max(of_floes, length(floe.velocity));
-  return of_hulls + of_floes + wind_drift(scene) + scene.water.fastest_drift();
+  return of_hulls + fastest_floe(scene) + wind_drift(scene) + scene.water.fastest_drift();
 }
 
 /// Of any floe's rim at the start, at most [m/s].
@@ -94,9 +99,10 @@ double most_way_of_floes(const ContactSettings& contact, double thickness) {
 double default_tick(const Scene& scene) {
   const bool has_parts = scene.contact.law == ContactLaw::kCrush && scene.time.levels > 0;
   const double radius = scene.contact.circle_radius;
-  const double way = std::min((has_parts ? kTickOverStep : 1) * most_way(scene.contact, thin_ice(scene)), radius / 2);
-  const double longest =
-      std::min({way / fastest_meeting(scene), kWayOverCircle * radius / fastest_rim(scene), scene.time.until});
+  const double way = most_way(scene.contact, thin_ice(scene));
+  const double of_hulls = std::min((has_parts ? kTickOverStep : 1) * way, radius / 2);  // they have parts of ticks
+  const double longest = std::min({of_hulls / fastest_meeting(scene), way / fastest_floe(scene),
+                                   kWayOverCircle * radius / fastest_rim(scene), scene.time.until});
   const auto goes_into = [](double tick, double interval) {
     const double times = std::round(interval / tick);
     return times >= 1 && std::abs(interval / tick - times) < 1e-6 * times;
@@ -115,9 +121,8 @@ int parts_of_tick(const Setup& setup, const Clock& clock, const Population& popu
   double longest = setup.scene.time.step;
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull)
     longest = std::min(longest, longest_step(setup, population, hull));
-  int parts = 1;
-  while (parts < most && parts * longest < setup.scene.time.step) parts *= 2;
-  return std::min(most, parts * clock.finer);
+  const double needed = std::min<double>(most, std::ceil(setup.scene.time.step / longest * (1 - 1e-9)));
+  return std::min(most, static_cast<int>(needed) * clock.finer);
 }
 
 bool follow_bends(const Setup& setup, std::int64_t bends, Clock& clock) {

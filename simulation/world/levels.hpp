@@ -32,10 +32,10 @@ inline constexpr double kLastTick = 0.125;
 
 /// Of a tick that is chosen: more, and floes meet late that no hull touches; less, and steps are short where a ship is
 /// slower than it can be. Of the parts of a tick there must be left some for ice that breaks faster.
-inline constexpr double kTickOverStep = 4;
+inline constexpr double kTickOverStep = 8;
 /// Ticks to choose from [s]. Longer ones miss how ships answer.
 inline constexpr std::array kTicks{0.05, 0.025, 0.02, 0.01, 0.005, 0.0025, 0.002, 0.001, 0.0005};
-/// A ship's speed in ice by a constant thrust, at most [m/s]: nothing states it. A tick is for four times as much, too.
+/// A ship's speed in ice by a constant thrust, at most [m/s]: nothing states it. A tick has parts for more.
 inline constexpr double kUnderThrust = 4;
 /// Of a scene's ice, by area, that its thin ice is thinner than: a few thin floes have parts of ticks.
 inline constexpr double kMostIce = 0.95;
@@ -49,7 +49,7 @@ double most_way_of_floes(const ContactSettings& contact, double thickness);
 /// its share of its thinnest ice, as a round number that goes into what is recorded. Ships are as fast as at the start,
 /// or as their engines make them in open water, and the ice comes on by drift, current and wind.
 double default_tick(const Scene& scene);
-/// In how many equal parts the next tick is taken: a power of two up to 2^levels, 1 where levels is 0 [-].
+/// In how many equal parts the next tick is taken: up to 2^levels, 1 where levels is 0 [-].
 int parts_of_tick(const Setup& setup, const Clock& clock, const Population& population);
 
 /// Has the next tick taken in more or fewer parts, by the bends of the one that has passed. Returns whether loads
