@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -71,6 +72,15 @@ double fastest_rim(const Scene& scene) {
   return fastest;
 }
 
+/// In which the load of a wall takes it to its closing speed, at least [s].
+double shortest_start(const Scene& scene) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Wall& wall : scene.walls)
+    if (const auto& p = wall.pressure; p && p->line_load > 0)
+      shortest = std::min(shortest, p->closing_speed * p->mass_per_length / p->line_load);
+  return shortest;
+}
+
 /// What kMostIce of the ice is thicker than, by area [m].
 double thin_ice(const Scene& scene) {
   if (scene.own_ice.empty() || scene.floes.empty()) return scene.ice.thickness;
@@ -101,8 +111,9 @@ double default_tick(const Scene& scene) {
   const double radius = scene.contact.circle_radius;
   const double way = most_way(scene.contact, thin_ice(scene));
   const double of_hulls = std::min((has_parts ? kTickOverStep : 1) * way, radius / 2);  // they have parts of ticks
-  const double longest = std::min({of_hulls / fastest_meeting(scene), way / fastest_floe(scene),
-                                   kWayOverCircle * radius / fastest_rim(scene), scene.time.until});
+  const double longest =
+      std::min({of_hulls / fastest_meeting(scene), way / fastest_floe(scene),
+                kWayOverCircle * radius / fastest_rim(scene), shortest_start(scene), scene.time.until});
   const auto goes_into = [](double tick, double interval) {
     const double times = std::round(interval / tick);
     return times >= 1 && std::abs(interval / tick - times) < 1e-6 * times;
