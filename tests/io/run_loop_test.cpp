@@ -14,11 +14,12 @@ namespace {
 
 using namespace tests;
 
-LoadedScene small_scene() {
-  return load(scene({R"("time": {"step_s": 0.01, "until_s": 2}, "record": {"frames_interval_s": 0.5})",
-                     list("ships", {ship(R"("hull": {"length_m": 60}, "position_m": [-30.5, 2],
+LoadedScene small_scene(double until = 2) {
+  return load(
+      scene({fmt::format(R"("time": {{"step_s": 0.01, "until_s": {}}}, "record": {{"frames_interval_s": 0.5}})", until),
+             list("ships", {ship(R"("hull": {"length_m": 60}, "position_m": [-30.5, 2],
                        "propulsion": {"constant_speed_m_per_s": 2})")}),
-                     list("floes", {R"({"rectangle": {"corner_m": [0, -20], "size_m": [60, 40]}})"})}));
+             list("floes", {R"({"rectangle": {"corner_m": [0, -20], "size_m": [60, 40]}})"})}));
 }
 
 TEST(RunLoop, ReportsProgressAndFinishesTheFolder) {
@@ -62,6 +63,33 @@ TEST(RunLoop, AStoppedRunIsResumedToTheSameBytes) {
   for (const auto name : {run_file::kForces, run_file::kEvents, run_file::kFloes, run_file::kFrames, run_file::kStates,
                           run_file::kContacts, run_file::kCrushed, run_file::kFinalGeojson})
     EXPECT_EQ(read_file(folder / "run" / name), read_file(folder / "whole" / name)) << name;
+}
+
+/// Steps of several ticks end with the run: of one shorter than such a step, and of one that is stopped where its end
+/// cuts one short, the checkpoint is from before.
+TEST(RunLoop, AnEndThatCutsAStepShortLeavesNoTraceInALongerRun) {
+  const TemporaryFolder folder;
+  const LoadedScene longer = small_scene();
+  auto whole = checked(start_run(folder / "whole", longer));
+  EXPECT_EQ(run_to_end(*whole).end, RunEnd::kFinished);
+  for (const auto& [until, stop_at] : {std::pair(0.2, 1000), std::pair(0.6, 45)}) {
+    const LoadedScene shorter = small_scene(until);
+    {
+      auto run = checked(start_run(folder / "run", shorter, true));
+      const RunResult result = run_to_end(*run, {.stop = [&]() -> std::optional<std::string> {
+        return run->simulation.steps() >= stop_at ? std::optional<std::string>("enough") : std::nullopt;
+      }});
+      EXPECT_EQ(result.end, stop_at == 1000 ? RunEnd::kFinished : RunEnd::kStopped);
+    }
+    const auto checkpoints = checkpoints_in(folder / "run");
+    ASSERT_FALSE(checkpoints.empty());
+    auto lock = checked(RunLock::take(folder / "run"));
+    auto resumed = checked(resume_run(std::move(*lock), longer, checkpoints.front()));
+    EXPECT_EQ(run_to_end(*resumed).end, RunEnd::kFinished);
+    for (const auto name : {run_file::kForces, run_file::kEvents, run_file::kFloes, run_file::kFrames,
+                            run_file::kStates, run_file::kContacts, run_file::kFinalGeojson})
+      EXPECT_EQ(read_file(folder / "run" / name), read_file(folder / "whole" / name)) << name << ", until " << until;
+  }
 }
 
 TEST(RunLoop, ANumericalFailureAndALostFolderAreResults) {

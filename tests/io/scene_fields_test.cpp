@@ -222,6 +222,7 @@ TEST(SceneFields, DefaultsAreTheSimulations) {
   settings.floes.clear();
   settings.own_ice.clear();
   settings.name.clear();
+  settings.time.step = simulation::StepSettings{}.step;  // chosen for this scene
   EXPECT_TRUE(settings == simulation::Scene{});
 }
 

@@ -1,5 +1,7 @@
 // Steps by need (simulation/world/levels.hpp): parts of a tick where a hull goes fast through thin ice.
 
+#include "simulation/world/levels.hpp"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -55,11 +57,55 @@ TEST(Levels, ATickHasPartsWhereIceIsThinAndOnlyThere) {
     return level - kMostLevels;
   };
   EXPECT_LE(finest(0.1), -2);
-  EXPECT_EQ(finest(1), 0);
+  EXPECT_EQ(finest(0.5), 0);
 }
 
 TEST(Levels, ARunStopsWithinItsTicksAndGoesOnToTheSameState) {
   expect_resumes(in_level_ice(0.1, 4, 0.005), 217 * 0.005, 400 * 0.005, 3);
+}
+
+/// By hand from docs/theory/steps.md.
+TEST(Levels, ATickIsChosenBySpeedThicknessAndWhatIsRecorded) {
+  const auto scene = [](double thickness, double speed) {
+    Scene of = in_level_ice(thickness, speed, 0.005);
+    of.record.forces_interval = 0.1;
+    return of;
+  };
+  EXPECT_EQ(default_tick(scene(0.5, 2)), 0.05);    // 8 × .075 m / 2 m/s = .3 s
+  EXPECT_EQ(default_tick(scene(0.1, 8)), 0.01);    // 8 × .015 / 8 = .015
+  EXPECT_EQ(default_tick(scene(2, 8)), 0.01);      // 8 × .0375/2 / 8 = .019
+  EXPECT_EQ(default_tick(scene(0.01, 8)), 0.001);  // 8 × .0015 / 8 = .0015
+  Scene one = scene(0.5, 2);
+  one.time.levels = 0;
+  EXPECT_EQ(default_tick(one), 0.025);  // .075 / 2 = .0375
+  Scene recorded = scene(0.5, 2);
+  recorded.record.frames_interval = 0.03;
+  EXPECT_EQ(default_tick(recorded), 0.01);
+  Scene drifting = scene(0.1, 2);
+  drifting.water.drift = {-6, 0};
+  EXPECT_EQ(default_tick(drifting), 0.01);  // 8 × .015 / 8 = .015
+  Scene sailing = scene(0.5, 2);
+  sailing.ships.front().propulsion = dynamics::Engine{.bollard_pull = 1e6, .open_water_speed = 20};
+  EXPECT_EQ(default_tick(sailing), 0.025);  // the half of a circle, .5 / 20
+  Scene moving = scene(0.5, 2);
+  moving.floes.push_back(FloeSpec{rectangle(200, 0, 210, 10), {3, 0}, 0});
+  EXPECT_EQ(default_tick(moving), 0.025);  // .075 / 3
+  Scene turning = scene(0.5, 2);
+  turning.floes.push_back(FloeSpec{rectangle(200, 0, 210, 10), {}, 1});
+  EXPECT_EQ(default_tick(turning), 0.01);  // .25 / (1 × 14.1) = .018
+}
+
+TEST(Levels, AFewThinFloesDoNotChooseTheTick) {
+  Scene scene = in_level_ice(0.5, 8, 0.005);
+  scene.record.forces_interval = 0.1;
+  const double tick = default_tick(scene);
+  scene.own_ice.assign(1, scene.ice);
+  scene.own_ice.front().thickness = 0.05;
+  scene.floes.push_back(FloeSpec{rectangle(100, 0, 105, 5), {}, 0});  // 25 m² of 745
+  scene.floes.back().own_ice = 0;
+  EXPECT_EQ(default_tick(scene), tick);
+  scene.floes.back().polygon_in_world = rectangle(100, 0, 105, 100);
+  EXPECT_LT(default_tick(scene), tick);
 }
 
 TEST(Levels, AreNoneByRigidImpulses) {
