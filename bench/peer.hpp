@@ -39,6 +39,7 @@ PeerScene peer_scene(const simulation::Simulation& simulation);
 /// What a step cost and what it had to do.
 struct StepReport {
   double seconds = 0;
+  long ticks = 1;    ///< that it took
   int awake = 0;     ///< bodies that moved
   int contacts = 0;  ///< pairs that touch; −1: not counted at this step
 };
@@ -69,6 +70,7 @@ class Box2d3World {
   explicit Box2d3World(const PeerScene& scene);
   ~Box2d3World();
   StepReport step(bool counts_contacts);
+  std::vector<geometry::Point> places() const;
 
  private:
   struct Parts;

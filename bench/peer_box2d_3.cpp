@@ -79,6 +79,15 @@ Box2d3World::~Box2d3World() {
   b2DestroyWorld(parts_->world);
 }
 
+std::vector<geometry::Point> Box2d3World::places() const {
+  std::vector<geometry::Point> places;
+  for (const b2BodyId body : parts_->bodies) {
+    const b2Vec2 p = b2Body_GetPosition(body);
+    places.push_back({p.x, p.y});
+  }
+  return places;
+}
+
 StepReport Box2d3World::step(bool counts_contacts) {
   StepReport report;
   for (std::size_t i = 0; i < parts_->bodies.size(); ++i) {

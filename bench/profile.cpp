@@ -37,8 +37,10 @@ constexpr Case kCases[] = {{"voyage", "sawamura2017-fig4b.json", 550},
                            {"cylinder-shear", "cylinder-shear.json", 100}};
 
 Profile profile(const Case& at, double part, int threads) {
-  simulation::World world(
-      load(at.file, [](simulation::Scene& scene) { scene.contact.law = simulation::ContactLaw::kCrush; }));
+  simulation::World world(load(at.file, [](simulation::Scene& scene) {
+    scene.contact.law = simulation::ContactLaw::kCrush;
+    take_one_step_for_all(scene);
+  }));
   world.threads = threads;
   dynamics::ThreadLimit limit(threads);
   const auto steps = std::lround(at.until * part / world.clock.tick);

@@ -78,10 +78,12 @@ std::vector<Sweep> run_sweeps(bool is_quick) {
   std::vector<Sweep> sweeps{{"floes", {}}, {"awake", {}}, {"contacts", {}}, {"vertices", {}}, {"threads", {}}};
   const double part = is_quick ? 0.1 : 1;
   const auto measure = [&](Sweep& sweep, double x, const simulation::Scene& scene, double until, int threads = 1) {
-    const auto steps = std::lround(part * until / scene.time.step);
-    RunCost cost = run_polynya(scene, {1e9, steps, threads});
-    keep_quieter(cost, run_polynya(scene, {1e9, steps, threads}));
-    std::fprintf(stderr, "%s %g: %.1f us\n", sweep.name.c_str(), x, 1e6 * cost.mean_step());
+    simulation::Scene in_one_step = scene;
+    take_one_step_for_all(in_one_step);
+    const Limits limits{1e9, part * until, threads};
+    RunCost cost = run_polynya(in_one_step, limits);
+    keep_quieter(cost, run_polynya(in_one_step, limits));
+    std::fprintf(stderr, "%s %g: %.1f us\n", sweep.name.c_str(), x, 1e6 * cost.mean_tick());
     sweep.samples.push_back({x > 0 ? x : cost.mean_contacts, std::move(cost)});
   };
   for (const int copies : {1, 2, 5, 15, 50}) measure(sweeps[0], 2000 * copies, voyage_beside(copies), 200);
@@ -109,7 +111,7 @@ int main(int count, char** words) {
   table << "sweep,x,mean_us,median_us,mean_awake,mean_contacts\n";
   for (const Sweep& sweep : sweeps) {
     for (const Sample& s : sweep.samples) {
-      table << sweep.name << ',' << s.x << ',' << 1e6 * s.cost.mean_step() << ',' << 1e6 * s.cost.median_step() << ','
+      table << sweep.name << ',' << s.x << ',' << 1e6 * s.cost.mean_tick() << ',' << 1e6 * s.cost.median_tick() << ','
             << s.cost.mean_awake << ',' << s.cost.mean_contacts << '\n';
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -9,7 +10,7 @@
 #include <malloc.h>
 
 #include "io/scene/scene_reader.hpp"
-#include "simulation/world/world.hpp"
+#include "simulation/world/levels.hpp"
 
 namespace polynya::bench {
 namespace {
@@ -37,30 +38,34 @@ double peak_memory() {
 /// Takes the steps until a limit is met, and adds up what they report.
 template <class Step>
 void run_steps(RunCost& cost, const Limits& limits, Step step) {
+  const long most = std::lround(limits.time / cost.step);
   double spent = 0;
   double block = 0;
+  long block_end = RunCost::kBlock;
   double contacts = 0;
   long counted = 0;
   double awake = 0;
-  while (cost.steps < limits.steps && spent < limits.wall) {
-    const bool counts_contacts = cost.steps % 20 == 0;
-    const StepReport report = step(counts_contacts);
-    ++cost.steps;
+  long next_count = 0;
+  while (cost.ticks < most && spent < limits.wall) {
+    const bool counts_contacts = cost.ticks >= next_count;
+    if (counts_contacts) next_count = cost.ticks + 20;
+    const StepReport report = step(counts_contacts, most - cost.ticks);
+    cost.ticks += report.ticks;
     spent += report.seconds;
     block += report.seconds;
-    awake += report.awake;
+    awake += static_cast<double>(report.ticks) * report.awake;
     cost.most_awake = std::max(cost.most_awake, report.awake);
     if (report.contacts >= 0) {
       contacts += report.contacts;
       ++counted;
     }
-    if (cost.steps % RunCost::kBlock == 0) {
-      cost.blocks.push_back(block);
-      block = 0;
-    }
+    if (cost.ticks < block_end) continue;
+    cost.blocks.push_back(block);
+    block = 0;
+    block_end = cost.ticks + RunCost::kBlock;
   }
-  if (cost.steps % RunCost::kBlock != 0) cost.blocks.push_back(block);
-  cost.mean_awake = awake / static_cast<double>(cost.steps);
+  if (block > 0) cost.blocks.push_back(block);
+  cost.mean_awake = awake / static_cast<double>(cost.ticks);
   cost.mean_contacts = counted > 0 ? contacts / static_cast<double>(counted) : 0;
 }
 
@@ -77,7 +82,8 @@ RunCost run_peer(const Peer& peer, const PeerScene& scene, const Limits& limits)
   cost.engine = peer.name;
   cost.step = scene.step;
   Engine engine(scene);
-  run_steps(cost, limits, [&](bool counts_contacts) { return engine.step(counts_contacts); });
+  run_steps(cost, limits, [&](bool counts_contacts, long) { return engine.step(counts_contacts); });
+  if constexpr (requires { engine.places(); }) cost.places = engine.places();
   return cost;
 }
 
@@ -87,17 +93,26 @@ RunCost step_through(simulation::Simulation& simulation, const Limits& limits) {
   simulation.set_threads(limits.threads);
   cost.step = simulation.scene().time.step;
   simulation.journal().clear();
-  run_steps(cost, limits, [&](bool counts_contacts) {
+  long samples = 0;
+  run_steps(cost, limits, [&](bool counts_contacts, long most) {
     StepReport report;
+    const std::int64_t done = simulation.steps();
     const auto before = Clock::now();
-    simulation.step();
-    simulation.journal().clear();
+    simulation.step(most);
     report.seconds = seconds_since(before);
+    for (const simulation::HullSample& sample : simulation.journal().samples) {
+      if (sample.ship != 0) continue;
+      cost.surge += sample.from_ice.surge;
+      ++samples;
+    }
+    simulation.journal().clear();
+    report.ticks = static_cast<long>(simulation.steps() - done);
     report.awake =
         static_cast<int>(simulation.world().population.awake.size()) - simulation.world().population.hull_count;
     report.contacts = counts_contacts ? touching_pairs(simulation.world().step.contacts) : -1;
     return report;
   });
+  if (samples > 0) cost.surge /= static_cast<double>(samples);
   cost.bends = static_cast<int>(simulation.counts().bends);
   cost.splits = static_cast<int>(simulation.counts().splits);
   return cost;
@@ -111,23 +126,18 @@ double RunCost::total() const {
   return sum;
 }
 
-double RunCost::total_of_first(long first) const {
+double RunCost::total_of_first(double time) const {
+  const double share = std::min(1.0, time / covered()) * static_cast<double>(blocks.size());
   double sum = 0;
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const long begin = static_cast<long>(i) * kBlock;
-    const long length = std::min(kBlock, steps - begin);
-    const double share = std::clamp(static_cast<double>(first - begin) / static_cast<double>(length), 0.0, 1.0);
-    sum += share * blocks[i];
-  }
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    sum += std::clamp(share - static_cast<double>(i), 0.0, 1.0) * blocks[i];
   return sum;
 }
 
-double RunCost::median_step() const {
-  const std::size_t whole = std::max<std::size_t>(1, static_cast<std::size_t>(steps / kBlock));
-  std::vector<double> sorted(blocks.begin(),
-                             blocks.begin() + static_cast<std::ptrdiff_t>(std::min(whole, blocks.size())));
+double RunCost::median_tick() const {
+  std::vector<double> sorted = blocks;
   std::sort(sorted.begin(), sorted.end());
-  return sorted[sorted.size() / 2] / static_cast<double>(std::min(kBlock, steps));
+  return sorted[sorted.size() / 2] * static_cast<double>(blocks.size()) / static_cast<double>(ticks);
 }
 
 void keep_quieter(RunCost& cost, const RunCost& again) {
@@ -146,6 +156,11 @@ simulation::Scene load(const std::string& file, const Edit& edit) {
   return std::move(loaded->scene);
 }
 
+void take_one_step_for_all(simulation::Scene& scene) {
+  scene.time.levels = 0;
+  scene.time.step = std::min(scene.time.step, simulation::default_tick(scene));
+}
+
 RunCost run_polynya(const std::string& file, const Edit& edit, const Limits& limits) {
   forget_peak_memory();
   const auto start = Clock::now();
@@ -162,11 +177,11 @@ RunCost run_polynya(const simulation::Scene& scene, const Limits& limits) {
 }
 
 const std::vector<Peer>& peers() {
-  static const std::vector<Peer> all{{"Box2D 2.4.1", run_peer<Box2dWorld>},
+  static const std::vector<Peer> all{{"Box2D 2.4.1", run_peer<Box2dWorld>, false},
 #ifdef POLYNYA_BENCH_BOX2D_3
-                                     {"Box2D 3.2", run_peer<Box2d3World>},
+                                     {"Box2D 3.2", run_peer<Box2d3World>, true},
 #endif
-                                     {"Chipmunk 7.0.3", run_peer<ChipmunkWorld>}};
+                                     {"Chipmunk 7.0.3", run_peer<ChipmunkWorld>, false}};
   return all;
 }
 

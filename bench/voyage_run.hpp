@@ -11,29 +11,32 @@ namespace polynya::bench {
 /// How long a run may take.
 struct Limits {
   double wall = 1e9;  ///< of the steps [s]
-  long steps = 0;     ///< at most
+  double time = 0;    ///< simulated, at most [s]
   int threads = 1;    ///< of ours; the peers have one
 };
 
 /// What a run came to.
 struct RunCost {
   std::string engine;
-  long steps = 0;
-  double step = 0;             ///< Δt [s]
+  long ticks = 0;              ///< of `step`; a step of ours may take several
+  double step = 0;             ///< Δt; of ours a tick [s]
   double load = 0;             ///< from the scene's text to before the first step; 0 for the peers [s]
   double memory = 0;           ///< peak of the process during load and run [MiB]; 0: not measured
-  std::vector<double> blocks;  ///< wall time of each block of kBlock steps [s]
+  std::vector<double> blocks;  ///< wall time of each block of kBlock ticks, or of somewhat more [s]
   double mean_awake = 0;       ///< bodies
   int most_awake = 0;
   double mean_contacts = 0;  ///< over the steps at which they were counted
   int bends = 0, splits = 0;
+  double surge = 0;                     ///< mean of the first ship's, by the ice [N]
+  std::vector<geometry::Point> places;  ///< of a peer's bodies at the end
 
   static constexpr long kBlock = 100;
-  double total() const;                     ///< of the steps [s]
-  double total_of_first(long steps) const;  ///< wall time of the first so many [s]
-  double mean_step() const { return total() / static_cast<double>(steps); }
-  double median_step() const;  ///< of the blocks' means [s]
-  double real_time_factor() const { return step * static_cast<double>(steps) / total(); }
+  double covered() const { return step * static_cast<double>(ticks); }  ///< [s]
+  double total() const;                                                 ///< of the steps [s]
+  double total_of_first(double time) const;                             ///< wall time of so much simulated [s]
+  double mean_tick() const { return total() / static_cast<double>(ticks); }
+  double per_second() const { return total() / covered(); }  ///< wall time a simulated second [-]
+  double median_tick() const;                                ///< of the blocks' means [s]
 };
 
 /// Every engine takes the same steps each time, so a block's quietest run is what it costs undisturbed.
@@ -43,6 +46,9 @@ void keep_quieter(RunCost& cost, const RunCost& again);
 using Edit = std::function<void(simulation::Scene&)>;
 simulation::Scene load(const std::string& file, const Edit& edit = {});
 
+/// One step for all, in which nothing goes farther than loads allow: as a run takes it without levels, and the peers.
+void take_one_step_for_all(simulation::Scene& scene);
+
 /// Loading included, which is timed.
 RunCost run_polynya(const std::string& file, const Edit& edit, const Limits& limits);
 RunCost run_polynya(const simulation::Scene& scene, const Limits& limits);
@@ -51,6 +57,7 @@ RunCost run_polynya(const simulation::Scene& scene, const Limits& limits);
 struct Peer {
   std::string name;
   RunCost (*run)(const Peer& peer, const PeerScene& scene, const Limits& limits);
+  bool has_places = false;  ///< of its bodies at the end
 };
 /// Those that this build has.
 const std::vector<Peer>& peers();

@@ -1,6 +1,8 @@
 // Whole runs side by side with Box2D 2.4.1, Chipmunk 7.0.3 and, where its sources are, Box2D 3.2 stepping the
-// same bodies at the same step, without any fracture. One process, one engine after another.
+// same bodies without any fracture. One process, one engine after another.
 //   polynya_bench_voyages [--quick] [--csv FILE] [--only CASE] [--peer-seconds S] [--lateral METRES]
+// Ours steps by levels (simulation/world/levels.hpp), and by one step for all; the peers take that one step too, and
+// Box2D 3.2 beside it the longest one with which its bodies come to the same places.
 // Prints the table of docs/performance.md (Markdown). bench/performance.sh puts it there.
 #include <algorithm>
 #include <cstdio>
@@ -10,6 +12,7 @@
 #include <string>
 
 #include "bench/voyage_run.hpp"
+#include "simulation/world/levels.hpp"
 
 namespace polynya::bench {
 namespace {
@@ -24,16 +27,16 @@ struct Options {
   std::optional<double> lateral;
 };
 
-/// One row of the table: a scene, and what is compared.
+/// Some rows of the table: a scene, and what is compared.
 struct Case {
   std::string name;
   std::string scene;
   Edit edit;
   double until = 0;  ///< [s]
   bool has_peers = true;
-  std::string compared_to;  ///< the case whose step time is the yardstick; empty: none
+  std::string compared_to;  ///< the case whose cost is the yardstick; empty: none
   int threads = 1;          ///< of ours
-  int repeats = 1;          ///< of all its engines; of each block of steps the quietest counts
+  int repeats = 1;          ///< of all its engines; of each block of ticks the quietest counts
 };
 
 /// As many floes again, far away from the voyage.
@@ -67,9 +70,25 @@ Edit round_plate(int corners) {
   };
 }
 
-/// The scene's bodies under one or the other law of contact.
-Edit with_law(simulation::ContactLaw law) {
-  return [law](simulation::Scene& scene) { scene.contact.law = law; };
+/// The scene by the law of crushing ice, with the levels and the tick that a scene has which gives none.
+void by_levels(simulation::Scene& scene) {
+  scene.contact.law = simulation::ContactLaw::kCrush;
+  scene.time.levels = simulation::StepSettings{}.levels;
+  scene.time.step = simulation::default_tick(scene);
+}
+
+/// The same bodies by the paper's law of contact.
+void by_impulses(simulation::Scene& scene) {
+  scene.contact.law = simulation::ContactLaw::kImpulse;
+  take_one_step_for_all(scene);
+}
+
+/// An edit, and then one step for all.
+Edit in_one_step(const Edit& edit) {
+  return [edit](simulation::Scene& scene) {
+    edit(scene);
+    take_one_step_for_all(scene);
+  };
 }
 
 /// The hulls some way to port: another voyage through the same ice.
@@ -84,35 +103,41 @@ Edit moved_to_port(const Edit& edit, double lateral) {
   };
 }
 
+/// A case's floes or outlines changed, by levels.
+Edit also_by_levels(const Edit& edit) {
+  return [edit](simulation::Scene& scene) {
+    edit(scene);
+    by_levels(scene);
+  };
+}
+
 std::vector<Case> cases(bool is_quick) {
   const double part = is_quick ? 0.1 : 1;
-  const Edit crush = with_law(simulation::ContactLaw::kCrush);
-  const Edit impulse = with_law(simulation::ContactLaw::kImpulse);
   const char* fig4b = "sawamura2017-fig4b.json";
-  return {{"voyage", fig4b, crush, 550 * part, true, "", 1, 3},
-          {"voyage-impulse", fig4b, impulse, 550 * part, true, "", 1, 3},
-          {"field-10000", "field-10000.json", crush, 500 * part, true, "", 1, 3},
-          {"field-10000-impulse", "field-10000.json", impulse, 500 * part, true, "", 1, 3},
-          {"field-20000", "field-10000.json", double_the_field, 500 * part, false, "field-10000", 1, 3},
-          {"field-100000", "field-100000.json", {}, 500 * part, true, "", 1, 2},
-          {"cylinder-shear", "cylinder-shear.json", crush, 400 * part, true, "", 1, 2},
-          {"cylinder-shear-impulse", "cylinder-shear.json", impulse, 400 * part, true, "", 1, 2},
-          {"cylinder-shear-2", "cylinder-shear.json", crush, 400 * part, false, "cylinder-shear", 2, 2},
-          {"plate-100", "level-plate.json", round_plate(100), 200 * part, false, "", 1, 3},
-          {"plate-10000", "level-plate.json", round_plate(10000), 200 * part, false, "plate-100", 1, 3}};
+  const char* cylinder = "cylinder-shear.json";
+  return {
+      {"voyage", fig4b, by_levels, 550 * part, true, "", 1, 3},
+      {"voyage-impulse", fig4b, by_impulses, 550 * part, true, "", 1, 2},
+      {"field-10000", "field-10000.json", by_levels, 500 * part, true, "", 1, 3},
+      {"field-20000", "field-10000.json", also_by_levels(double_the_field), 500 * part, false, "field-10000", 1, 2},
+      {"field-100000", "field-100000.json", by_levels, 500 * part, true, "", 1, 2},
+      {"cylinder-shear", cylinder, by_levels, 400 * part, true, "", 1, 2},
+      {"cylinder-shear-2", cylinder, by_levels, 400 * part, false, "cylinder-shear", 2, 2},
+      {"plate-100", "level-plate.json", also_by_levels(round_plate(100)), 200 * part, false, "", 1, 3},
+      {"plate-10000", "level-plate.json", also_by_levels(round_plate(10000)), 200 * part, false, "plate-100", 1, 3}};
 }
 
 void print_row(const Case& at, const RunCost& cost, std::size_t floes, const std::string& ratio, std::FILE* csv) {
-  std::printf("| %s | %s | %zu | %.4g | %.0f | %.1f | %.1f | %.0f | %.1f | %.4g | %.2f | %.0f | %s |\n",
-              at.name.c_str(), cost.engine.c_str(), floes, cost.step, cost.step * static_cast<double>(cost.steps),
-              1e6 * cost.mean_step(), 1e6 * cost.median_step(), cost.mean_awake, cost.mean_contacts,
-              cost.real_time_factor(), cost.load, cost.memory, ratio.c_str());
+  std::printf("| %s | %s | %zu | %.4g | %.0f | %.3f | %.1f | %.0f | %.1f | %.4g | %.2f | %.0f | %s |\n",
+              at.name.c_str(), cost.engine.c_str(), floes, cost.step, cost.covered(), 1e3 * cost.per_second(),
+              1e6 * cost.median_tick(), cost.mean_awake, cost.mean_contacts, 1 / cost.per_second(), cost.load,
+              cost.memory, ratio.c_str());
   std::fflush(stdout);
   if (csv == nullptr) return;
-  std::fprintf(csv, "%s,%s,%zu,%.6g,%.6g,%.4f,%.4f,%.2f,%d,%.2f,%.6g,%.4f,%.1f,%d,%d,%s\n", at.name.c_str(),
-               cost.engine.c_str(), floes, cost.step, cost.step * static_cast<double>(cost.steps),
-               1e6 * cost.mean_step(), 1e6 * cost.median_step(), cost.mean_awake, cost.most_awake, cost.mean_contacts,
-               cost.real_time_factor(), cost.load, cost.memory, cost.bends, cost.splits, ratio.c_str());
+  std::fprintf(csv, "%s,\"%s\",%zu,%.6g,%.6g,%.6f,%.4f,%.2f,%d,%.2f,%.6g,%.4f,%.1f,%d,%d,%.2f,%s\n", at.name.c_str(),
+               cost.engine.c_str(), floes, cost.step, cost.covered(), 1e3 * cost.per_second(), 1e6 * cost.median_tick(),
+               cost.mean_awake, cost.most_awake, cost.mean_contacts, 1 / cost.per_second(), cost.load, cost.memory,
+               cost.bends, cost.splits, -1e-3 * cost.surge, ratio.c_str());
   std::fflush(csv);
 }
 
@@ -133,29 +158,87 @@ std::vector<RunCost> alternate(int repeats, const std::vector<std::function<RunC
   return costs;
 }
 
-void run_case(const Case& at, const std::vector<Case>& all, const Options& options, std::FILE* csv) {
-  const simulation::Scene scene = load(at.scene, at.edit);
-  const auto steps = std::lround(at.until / scene.time.step);
-  const auto ours = [&](const Case& which) {
-    return [&which, steps] { return run_polynya(which.scene, which.edit, {1e9, steps, which.threads}); };
-  };
-  const auto yardstick = std::find_if(all.begin(), all.end(), [&](const Case& c) { return c.name == at.compared_to; });
-  std::vector<std::function<RunCost()>> runs{ours(at)};
-  if (yardstick != all.end()) runs.emplace_back(ours(*yardstick));
-  const PeerScene bodies = at.has_peers ? peer_scene(simulation::Simulation{simulation::Scene(scene)}) : PeerScene{};
-  const Limits limits{options.peer_seconds, steps};
-  if (at.has_peers) {
-    for (const Peer& peer : peers()) runs.emplace_back([&] { return peer.run(peer, bodies, limits); });
+/// How far bodies are from where they are with other steps, over how far they came: of all that moved, and of the
+/// first, the ship, whichever is more.
+double astray(const PeerScene& start, const RunCost& reference, const RunCost& run) {
+  double off = 0;
+  double way = 0;
+  double of_ship = 0;
+  for (std::size_t i = 0; i < start.bodies.size(); ++i) {
+    const double moved = distance(reference.places[i], start.bodies[i].position);
+    const double beside = distance(run.places[i], reference.places[i]);
+    if (i == 0 && moved > 0) of_ship = beside / moved;
+    if (start.bodies[i].is_prescribed) continue;
+    way += moved;
+    off += beside;
   }
-  const std::vector<RunCost> costs = alternate(at.repeats, runs);
+  return std::max(of_ship, way > 0 ? off / way : 0);
+}
+
+/// The scene with the longest step with which a peer's bodies come to the places that they come to at the scene's.
+PeerScene with_longest_step(const Peer& peer, const PeerScene& scene, const Limits& limits) {
+  constexpr double kAllowed = 0.1;
+  PeerScene found = scene;
+  const RunCost reference = peer.run(peer, scene, limits);
+  if (reference.places.empty() || reference.covered() < 0.99 * limits.time) return found;
+  for (const double times : {1.25, 1.5, 2., 2.5, 3., 4., 5., 6., 8.}) {
+    PeerScene longer = scene;
+    longer.step = times * scene.step;
+    const double off = astray(scene, reference, peer.run(peer, longer, limits));
+    std::fprintf(stderr, "%s at %g s: places off by %.3f of the way\n", peer.name.c_str(), longer.step, off);
+    if (off > kAllowed) break;
+    found = longer;
+  }
+  return found;
+}
+
+/// What a case compares: ours first.
+struct Runs {
+  std::vector<std::function<RunCost()>> runs;
+  std::vector<PeerScene> scenes;  ///< of the peers, for as long as they run
+};
+
+void add_peers(const simulation::Scene& scene, const Limits& limits, Runs& to) {
+  const PeerScene bodies = peer_scene(simulation::Simulation{simulation::Scene(scene)});
+  to.scenes.reserve(2 * peers().size());
+  for (const Peer& peer : peers()) {
+    const PeerScene& at_step = to.scenes.emplace_back(bodies);
+    to.runs.emplace_back([&peer, &at_step, limits] { return peer.run(peer, at_step, limits); });
+    if (!peer.has_places) continue;
+    const PeerScene& longest = to.scenes.emplace_back(with_longest_step(peer, bodies, limits));
+    to.runs.emplace_back([&peer, &longest, limits] {
+      RunCost cost = peer.run(peer, longest, limits);
+      cost.engine += ", longest step";
+      return cost;
+    });
+  }
+}
+
+void run_case(const Case& at, const std::vector<Case>& all, const Options& options, std::FILE* csv) {
+  const auto ours = [&](const Case& which, const Edit& edit) {
+    return [&which, edit, until = at.until] { return run_polynya(which.scene, edit, {1e9, until, which.threads}); };
+  };
+  Runs compared{{ours(at, at.edit)}, {}};
+  const auto yardstick = std::find_if(all.begin(), all.end(), [&](const Case& c) { return c.name == at.compared_to; });
+  if (yardstick != all.end()) compared.runs.emplace_back(ours(*yardstick, yardstick->edit));
+  const bool has_levels = load(at.scene, at.edit).time.levels > 0 && at.has_peers;
+  if (has_levels)
+    compared.runs.emplace_back([&] {
+      RunCost cost = ours(at, in_one_step(at.edit))();
+      cost.engine += ", one step for all";
+      return cost;
+    });
+  const simulation::Scene scene = load(at.scene, in_one_step(at.edit));
+  if (at.has_peers) add_peers(scene, {options.peer_seconds, at.until}, compared);
+  const std::vector<RunCost> costs = alternate(at.repeats, compared.runs);
   const RunCost& own = costs.front();
   const std::string ratio =
-      yardstick == all.end() ? "" : times(own.mean_step() / costs[1].mean_step()) + " x " + yardstick->name;
+      yardstick == all.end() ? "" : times(own.mean_tick() / costs[1].mean_tick()) + " x " + yardstick->name;
   print_row(at, own, scene.floes.size(), ratio, csv);
   if (!at.has_peers) return;
   for (std::size_t k = 1; k < costs.size(); ++k) {
-    // Over the same steps, where a peer was stopped early.
-    const double over = costs[k].total() / own.total_of_first(costs[k].steps);
+    // Over the same time, where a peer was stopped early.
+    const double over = costs[k].total() / own.total_of_first(costs[k].covered());
     print_row(at, costs[k], scene.floes.size(), times(over) + " x Polynya", csv);
   }
 }
@@ -193,12 +276,12 @@ int main(int count, char** words) {
   std::FILE* csv = options.csv.empty() ? nullptr : std::fopen(options.csv.c_str(), "w");
   if (csv != nullptr)
     std::fputs(
-        "case,engine,floes,step_s,covered_s,mean_us,median_us,mean_awake,most_awake,mean_contacts,"
-        "real_time_factor,load_s,peak_MiB,bends,splits,ratio\n",
+        "case,engine,floes,step_s,covered_s,ms_per_s,median_us,mean_awake,most_awake,mean_contacts,"
+        "real_time_factor,load_s,peak_MiB,bends,splits,surge_kN,ratio\n",
         csv);
   std::puts(
-      "| case | engine | floes | Δt s | run s | µs/step, mean | median | awake | touching pairs | × real "
-      "time | load s | peak MiB | step time |");
+      "| case | engine | floes | Δt s | run s | ms a simulated s | µs/Δt, median | awake | touching pairs | × real "
+      "time | load s | peak MiB | time |");
   std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   auto all = cases(options.is_quick);
   if (options.lateral) {

@@ -79,12 +79,23 @@ void print_under_hull(const simulation::Counts& counts, const simulation::AreaLe
             ledger.under_ice_area);
 }
 
+/// "ticks of 0.05 s, steps of 0.025 to 0.4 s".
+std::string steps_of(const simulation::Counts& counts, double tick) {
+  std::vector<int> taken;
+  for (int k = 0; k <= 2 * simulation::kMostLevels; ++k)
+    if (counts.steps_at_level[static_cast<std::size_t>(k)] > 0) taken.push_back(k - simulation::kMostLevels);
+  const std::string ticks = fmt::format("ticks of {:g} s", tick);
+  if (taken.empty() || (taken.front() == 0 && taken.back() == 0)) return ticks;
+  return fmt::format("{}, steps of {:g} to {:g} s", ticks, std::ldexp(tick, taken.front()),
+                     std::ldexp(tick, taken.back()));
+}
+
 void print_result(const io::RunSummary& summary, const simulation::Scene& scene, const fs::path& folder,
                   const std::string& picture) {
   const auto& counts = summary.counts;
   const auto& ledger = summary.ledger;
-  print_out("simulated   {:.6g} s in {:.3g} s, {:.3g} x real time\n", summary.sim_time, summary.wall_time,
-            summary.real_time_factor());
+  print_out("simulated   {:.6g} s in {:.3g} s, {:.3g} x real time; {}\n", summary.sim_time, summary.wall_time,
+            summary.real_time_factor(), steps_of(counts, scene.time.step));
   print_out("fractures   {} broken by bending, {}, {}\n", counted(counts.bends, "cusp"),
             counted(counts.splits, "split"), counted(counts.rejected_cuts, "rejected cut"));
   if (counts.ground > 0)

@@ -150,10 +150,11 @@ int validate(const ValidateOptions& options) {
   const auto listed = [](std::size_t count, std::string_view noun) {
     return count > 0 ? ", " + counted(count, noun) : "";
   };
-  print_out("{}: valid; \"{}\" with {}{}{} and {}, {:g} s in steps of {:g} s, hash {}\n",
+  print_out("{}: valid; \"{}\" with {}{}{} and {}, {:g} s in ticks of {:g} s{}, hash {}\n",
             options.scene == "-" ? "stdin" : options.scene, scene.name, counted(scene.ships.size(), "ship"),
             listed(scene.structures.size(), "structure"), listed(scene.walls.size(), "wall"),
-            counted(scene.floes.size(), "floe"), scene.time.until, scene.time.step, loaded->hash);
+            counted(scene.floes.size(), "floe"), scene.time.until, scene.time.step,
+            loaded->is_step_chosen ? " as chosen" : "", loaded->hash);
   print_floes(*loaded);
   return kDone;
 }

@@ -63,7 +63,6 @@ Result<> RunRecorder::checkpoint(double wall_time) {
 }
 
 Result<> RunRecorder::before_end(std::int64_t ticks_left) {
-  if (simulation_->steps() == 0) return {};  // nothing is there yet that a run could go on from
   if (ticks_left >= longest_step_ || has_end_checkpoint()) return {};
   end_checkpoint_at_ = simulation_->steps();
   return checkpoint(0);  // so that folders of one run are the same bytes
@@ -125,7 +124,7 @@ Stop RunLoop::advance() {
 }
 
 std::optional<Stop> RunLoop::advance_to_end() {
-  if (simulation().steps() == 0) recorder_.begin(simulation().journal());
+  if (!writer().has_begun()) recorder_.begin(simulation().journal());
   while (simulation().steps() < last_step_)
     if (auto stop = advance_step()) return stop;
   if (const auto written = recorder_.end(); !written) return Stop{RunEnd::kFolderFailure, written.error()};
@@ -153,7 +152,9 @@ std::optional<std::string> RunLoop::failure_of_step() const {
 std::optional<Stop> RunLoop::stop_on_request() {
   auto reason = control_.stop ? control_.stop() : std::nullopt;
   if (!reason) return {};
-  if (const auto written = recorder_.checkpoint(); !written) return Stop{RunEnd::kFolderFailure, written.error()};
+  // Within the last steps, which this end cuts short, the one before them stands: a longer run goes on from there.
+  const auto written = recorder_.has_end_checkpoint() ? Result<>{} : recorder_.checkpoint();
+  if (!written) return Stop{RunEnd::kFolderFailure, written.error()};
   return Stop{RunEnd::kStopped, *reason};
 }
 

@@ -137,6 +137,7 @@ Result<RunWriter> RunWriter::resume(RunLock lock, const LoadedScene& scene, cons
   RunWriter writer(scene, std::move(files), std::move(lock));
   writer.frames_ = FrameEncoder(progress.recorded);
   writer.peaks_ = progress.peaks;
+  writer.has_begun_ = true;
   simulation.for_each_living([&](const simulation::FloeState& floe) {
     writer.add_floe(floe.floe, floe.parent, geometry::measure(*floe.polygon_in_body).centroid);
   });
@@ -211,6 +212,7 @@ void RunWriter::frame(const simulation::Simulation& simulation) {
   for (const simulation::HullState& ship : simulation.ship_states()) {
     ships.push_back({ship.world_from_ship.position, ship.heading, ship.velocity, ship.angular_velocity});
   }
+  has_begun_ = true;
   frames_.begin(simulation.time(), ships);
   simulation.for_each_living([&](const simulation::FloeState& floe) {
     frames_.add({floe.floe, motion_of(floe, centroids_in_body_[static_cast<std::size_t>(floe.floe)])});

@@ -48,6 +48,9 @@ class RunWriter {
   /// Records a frame: where everything is now.
   void frame(const simulation::Simulation& simulation);
 
+  /// Whether the folder has what there is before the first step.
+  bool has_begun() const { return has_begun_; }
+
   /// Writes what is buffered if a second has passed or much has gathered. Cheap to call after every step.
   void flush_if_due();
 
@@ -100,6 +103,7 @@ class RunWriter {
   Result<> status_;  ///< of what is written at once
   std::chrono::steady_clock::time_point last_flush_;
   bool is_displaced_ = false;
+  bool has_begun_ = false;
 };
 
 }  // namespace polynya::io

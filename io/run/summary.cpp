@@ -268,6 +268,7 @@ std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
     json.key("scene").value(scene.scene.name).key("seed").value(scene.scene.seed);
     json.key("scene_hash").value(scene.hash).key("finished").value(summary.finished);
     if (!summary.stopped_by.empty()) json.key("stopped_by").value(summary.stopped_by);
+    json.key("step_s").value(scene.scene.time.step);
     json.key("steps").value(summary.steps).key("sim_time_s").value(summary.sim_time);
     append_levels(json, summary.counts, scene.scene.time.step);
     json.key("wall_time_s").value(summary.wall_time).key("real_time_factor").value(summary.real_time_factor());

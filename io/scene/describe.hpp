@@ -268,6 +268,12 @@ FieldOf<Record> required(FieldOf<Record> field) {
   field.presence = Presence::kRequired;
   return field;
 }
+/// Where it is not given, the reader finds its value from all of the scene.
+template <class Record>
+FieldOf<Record> chosen(FieldOf<Record> field) {
+  field.presence = Presence::kChosen;
+  return field;
+}
 /// Belongs to one of its object's alternatives.
 template <class Record>
 FieldOf<Record> of(std::string_view alternative, FieldOf<Record> field) {

@@ -20,7 +20,10 @@ const Description<GeographicOrigin> kOrigin{
             "of the scene's x axis from true north, clockwise; 90: x is east, y north", &GeographicOrigin::heading)}};
 
 const Description<StepSettings> kTime{
-    {member("step_s", "s", from(1e-5, 1), "a tick: the time step Δt, but for its parts", &StepSettings::step),
+    {chosen(member("step_s", "s", from(1e-5, 1),
+                   "a tick: the time step Δt, but for its parts; if not given, .0005 to .05 s by speeds and thickness "
+                   "(docs/theory/steps.md)",
+                   &StepSettings::step)),
      member("until_s", "s", above(0, 1e7), "simulated time to run to", &StepSettings::until),
      member("levels", "", from(0, 5),
             "a tick is taken in up to 2 to this power parts, where a hull goes far in thin ice, and floes that move "

@@ -187,7 +187,8 @@ bool RecordReader::one_field(const Field& field, const JsonValue& parent, const 
     name.pop_back();
     field.set(record, {name + std::to_string(number)});
   }
-  return has_default || (!given && field.presence == Presence::kLeftOut);
+  const bool may_be_missing = field.presence == Presence::kLeftOut || field.presence == Presence::kChosen;
+  return has_default || (!given && may_be_missing);
 }
 
 bool RecordReader::checked(const Field& field, const JsonValue& value, const std::string& path, void* record) {

@@ -45,6 +45,7 @@ enum class Presence {
   kDefault,   ///< the record's own value where it is not given
   kRequired,  ///< or does not apply, see Field::alternative
   kLeftOut,   ///< may be left out, and is then not written either
+  kChosen,    ///< by all of the scene where it is not given
 };
 
 struct Object;

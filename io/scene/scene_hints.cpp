@@ -7,6 +7,7 @@
 
 #include "geometry/contact/first_contact.hpp"
 #include "io/scene/scene_check.hpp"
+#include "simulation/world/levels.hpp"
 #include "simulation/world/population.hpp"
 
 namespace polynya::io {
@@ -22,15 +23,11 @@ using simulation::Wall;
 constexpr double kSlenderBlock = 0.4, kFullBlock = 0.9;                        // [-]
 constexpr double kLeastDraughtOfBeam = 1 / 8.0, kMostDraughtOfBeam = 2 / 3.0;  // [-]
 constexpr double kMassError = 0.05;                                            ///< of what the hull displaces [-]
-constexpr double kFastestShip = 12;    ///< icebreakers reach 11 m/s in open water [m/s]
-constexpr double kFastestIce = 3;      ///< ice drifts at 1 m/s in a storm, at 3 m/s in tidal straits [m/s]
-constexpr double kThinnestIce = 0.01;  ///< thinner ice is grease and slush [m]
-constexpr double kThickestIce = 4;     ///< level ice grows no thicker; ridges are no plates [m]
-/// The longest way in a step: of the thickness, so that the load grows to breaking over several steps
-/// (docs/performance.md), and of the contact circles, beyond which a contact is lost from one step to
-/// the next (dynamics/contact/narrow_phase.cpp).
-constexpr double kLongestWayOfThickness = 0.1, kLongestWayOfCircle = 0.25;  // [-]
-constexpr double kKnots = 3600 / 1852.0;                                    ///< [kn / (m/s)]
+constexpr double kFastestShip = 12;       ///< icebreakers reach 11 m/s in open water [m/s]
+constexpr double kFastestIce = 3;         ///< ice drifts at 1 m/s in a storm, at 3 m/s in tidal straits [m/s]
+constexpr double kThinnestIce = 0.01;     ///< thinner ice is grease and slush [m]
+constexpr double kThickestIce = 4;        ///< level ice grows no thicker; ridges are no plates [m]
+constexpr double kKnots = 3600 / 1852.0;  ///< [kn / (m/s)]
 
 /// A hull's size along and across its axis [m].
 struct HullSize {
@@ -270,13 +267,13 @@ class Hinter {
     double thickness = ice_of(scene_, scene_.floes.front().own_ice).thickness;  // of the thinnest
     for (const simulation::FloeSpec& floe : scene_.floes)
       thickness = std::min(thickness, ice_of(scene_, floe.own_ice).thickness);
-    const double of_ice = kLongestWayOfThickness * thickness;
-    const double of_circle = kLongestWayOfCircle * scene_.contact.circle_radius;
+    const double of_ice = simulation::kWayOverThickness * thickness;
+    const double of_circle = simulation::kWayOverCircle * scene_.contact.circle_radius;
     if (way <= 1.005 * std::min(of_ice, of_circle)) return;  // what the sentence below gives, rounded, will do
-    const std::string why =
-        of_ice < of_circle
-            ? fmt::format("{:g} of the ice's thickness of {:g} m", kLongestWayOfThickness, thickness)
-            : fmt::format("{:g} of contact.circle_radius_m {:g}", kLongestWayOfCircle, scene_.contact.circle_radius);
+    const std::string why = of_ice < of_circle ? fmt::format("{:g} of the ice's thickness of {:g} m",
+                                                             simulation::kWayOverThickness, thickness)
+                                               : fmt::format("{:g} of contact.circle_radius_m {:g}",
+                                                             simulation::kWayOverCircle, scene_.contact.circle_radius);
     add(Severity::kWarning, value_at("time", "step_s"), "time.step_s",
         fmt::format("at {:.3g} m/s bodies move {:.2g} m in a step, more than {}: loads depend on the step; "
                     "give {:.3g} s or less",

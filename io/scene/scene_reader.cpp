@@ -12,6 +12,7 @@
 #include "io/scene/ship_presets.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
+#include "simulation/world/levels.hpp"
 
 namespace polynya::io {
 namespace {
@@ -79,6 +80,7 @@ class SceneReader {
                        std::move(floes_.fields),
                        std::move(floes_.files),
                        std::move(floes_.ice),
+                       is_step_chosen_,
                        std::move(hints)};
     if (const std::size_t length = loaded.resolved_text.size(); length > longest) {
       report(0, "", fmt::format("{} bytes with every default filled in and floe files read in", length),
@@ -175,10 +177,12 @@ class SceneReader {
     });
     if (is_whole) {
       complete_pilots(given, draft_, problems_);
+      complete_step(given);
       check_without_ice(draft_, given, problems_);
     }
     add_floes(given, is_whole, reader);
     if (!is_whole) return false;
+    complete_step(given);
     check_ice(draft_, given, problems_);
     return problems_.count() == 0;
   }
@@ -239,6 +243,16 @@ class SceneReader {
       input_.scene.water.skin_drag_coefficient = kSkinDragInWind;
   }
 
+  /// The tick, by speeds and thickness, unless the scene states it. Before the floes are there by the scene's ice,
+  /// since what needs no floe is checked first.
+  void complete_step(const JsonValue& given) {
+    const JsonValue* time = given.find("time");
+    is_step_chosen_ = !(time && time->find("step_s"));
+    if (!is_step_chosen_) return;
+    draft_.scene.time.step = simulation::default_tick(draft_.scene);
+    resolved_.find("time")->set("step_s", draft_.scene.time.step);
+  }
+
   /// Completes what could be read of a list of hulls into the draft; what is none has been reported.
   template <class Input, class Complete>
   void add_hulls(const JsonValue& given, BodyKind kind, const Description<Input>& description,
@@ -291,6 +305,7 @@ class SceneReader {
   SceneInput input_;
   JsonValue resolved_;
   SceneDraft draft_;
+  bool is_step_chosen_ = false;
   FloeListReader floes_{folder_, draft_, problems_};
 };
 

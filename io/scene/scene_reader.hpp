@@ -57,8 +57,9 @@ struct LoadedScene {
   std::string course_hash;    ///< of it without time.until_s: runs of one course that end at other times have the same
   std::vector<FieldReport> fields;
   std::vector<FileReport> files;
-  std::vector<IceReport> ice;  ///< what was drawn of it, by floe groups and properties
-  std::vector<Problem> hints;  ///< warnings and hints, by their places (io/scene/scene_check.hpp)
+  std::vector<IceReport> ice;   ///< what was drawn of it, by floe groups and properties
+  bool is_step_chosen = false;  ///< time.step_s is not given, but chosen (simulation::default_tick)
+  std::vector<Problem> hints;   ///< warnings and hints, by their places (io/scene/scene_check.hpp)
 };
 
 /// A ship as scenes have it, of a file of its own.

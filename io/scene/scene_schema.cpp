@@ -130,6 +130,7 @@ void append_table(std::string& text, const Object& object, const std::string& pa
   text += "| key | allowed | default | meaning |\n|---|---|---|---|\n";
   for (const Field& field : object.fields) {
     const std::string if_not_given = field.presence == Presence::kLeftOut   ? "left out"
+                                     : field.presence == Presence::kChosen  ? "chosen"
                                      : field.presence == Presence::kDefault ? fmt::format("`{}`", default_text(field))
                                      : field.alternative.empty()            ? "must be given"
                                                                             : "—";
@@ -173,7 +174,8 @@ constexpr auto kExampleFloes = R"(  "floes": [
 void append_settings(std::string& text, const Object& object, int depth) {
   const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
   for (const Field& field : object.fields) {
-    if (field.kind == Kind::kList || field.presence == Presence::kLeftOut) continue;
+    if (field.kind == Kind::kList || field.presence == Presence::kLeftOut || field.presence == Presence::kChosen)
+      continue;
     const bool is_last = &field == &object.fields.back();
     if (field.kind == Kind::kObject) {
       text += fmt::format("{}\"{}\": {{\n", indent, field.key);

@@ -206,7 +206,7 @@ void Assignment::see(BodyIndex a, BodyIndex b) {
   };
   if (goes_by_tick_beside(a, b)) return shorten(of_b, 0, 1);
   if (goes_by_tick_beside(b, a)) return shorten(of_a, 0, 1);
-  const double way = most_way(setup_, std::min(bodies_.thickness[a], bodies_.thickness[b]));
+  const double way = most_way_of_floes(setup_.scene.contact, std::min(bodies_.thickness[a], bodies_.thickness[b]));
   if (!is_fixed(a)) shorten(of_a, way, speed);
   if (!is_fixed(b)) shorten(of_b, way, speed);
   if (!is_fixed(a) && !is_fixed(b)) join(of_a, of_b);

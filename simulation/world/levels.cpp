@@ -1,6 +1,11 @@
 #include "simulation/world/levels.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "geometry/exact/measures.hpp"
 
 namespace polynya::simulation {
 namespace {
@@ -11,17 +16,97 @@ double longest_step(const Setup& setup, const Population& population, BodyIndex 
   double longest = setup.scene.time.step;
   population.pairs.for_bodies_at(bodies, hull, [&](BodyIndex other) {
     if (population.is_hull(other)) return;
-    const double way = most_way(setup, bodies.thickness[other]);
+    const double way = most_way(setup.scene.contact, bodies.thickness[other]);
     const double speed = length(bodies.velocity[hull] - bodies.velocity[other]);
     if (speed * longest > way) longest = way / speed;
   });
   return longest;
 }
 
+/// In ice, at most: as at the start, or as its engine makes it in open water [m/s].
+double full_speed(const Ship& ship) {
+  const double start = std::hypot(ship.speed, ship.sway_speed);
+  if (const auto* engine = std::get_if<Engine>(&ship.propulsion)) return std::max(start, engine->open_water_speed);
+  const auto* constant = std::get_if<ConstantThrust>(&ship.propulsion);
+  return constant && constant->thrust != 0 ? std::max(start, kUnderThrust) : start;
+}
+
+/// At which the wind drives ice through the water, at most [m/s].
+double wind_drift(const Scene& scene) {
+  double fastest = length(free_drift(scene, 0) - scene.water.drift_at(0));
+  for (const dynamics::FlowRow& row : scene.wind.rows)
+    fastest = std::max(fastest, length(free_drift(scene, row.time) - scene.water.drift_at(row.time)));
+  return fastest;
+}
+
+/// At which a hull and ice meet, or floes where there is no hull, at most [m/s].
+double fastest_meeting(const Scene& scene) {
+  const dynamics::ShearCurrent current = current_of(scene.water.shear);
+  double of_hulls = 0;
+  const auto meet = [&](const PlacedHull& hull, double speed) {
+    of_hulls = std::max(of_hulls, speed + length(current.velocity_at(hull.position_in_world)));
+  };
+  for (const Ship& ship : scene.ships) meet(ship, full_speed(ship));
+  for (const Structure& structure : scene.structures) meet(structure, 0);
+  for (const Wall& wall : scene.walls) meet(wall, wall.pressure ? wall.pressure->closing_speed : length(wall.velocity));
+  double of_floes = 0;
+  for (const FloeSpec& floe : scene.floes) of_floes = std::max(of_floes, length(floe.velocity));
+  return of_hulls + of_floes + wind_drift(scene) + scene.water.fastest_drift();
+}
+
+/// Of any floe's rim at the start, at most [m/s].
+double fastest_rim(const Scene& scene) {
+  const dynamics::ShearCurrent current = current_of(scene.water.shear);
+  double fastest = 0;
+  for (const FloeSpec& floe : scene.floes) {
+    const geometry::Box box = bounding_box(floe.polygon_in_world.outer);
+    const double turning = std::abs(floe.angular_velocity + current.angular_velocity()) * distance(box.low, box.high);
+    fastest = std::max(fastest, length(floe.velocity + current.velocity_at(midpoint(box.low, box.high))) + turning);
+  }
+  return fastest;
+}
+
+/// What kMostIce of the ice is thicker than, by area [m].
+double thin_ice(const Scene& scene) {
+  if (scene.own_ice.empty() || scene.floes.empty()) return scene.ice.thickness;
+  std::vector<std::pair<double, double>> ice;  // thickness, area
+  double rest = 0;
+  for (const FloeSpec& floe : scene.floes) {
+    ice.emplace_back(ice_of(scene, floe.own_ice).thickness, geometry::measure(floe.polygon_in_world).area);
+    rest += (1 - kMostIce) * ice.back().second;
+  }
+  std::ranges::sort(ice);
+  const auto found = std::ranges::find_if(ice, [&](const auto& of) { return (rest -= of.second) < 0; });
+  return found == ice.end() ? ice.back().first : found->first;
+}
+
 }  // namespace
 
-double most_way(const Setup& setup, double thickness) {
-  return std::min(kWayOverThickness * thickness, kWayOverCircle * setup.scene.contact.circle_radius);
+double most_way(const ContactSettings& contact, double thickness) {
+  return std::min(
+      {kWayOverThickness * thickness, kWayTimesThickness / thickness, kWayOverCircle * contact.circle_radius});
+}
+
+double most_way_of_floes(const ContactSettings& contact, double thickness) {
+  return std::min(kFloesWayOverThickness * thickness, kWayOverCircle * contact.circle_radius);
+}
+
+double default_tick(const Scene& scene) {
+  const bool has_parts = scene.contact.law == ContactLaw::kCrush && scene.time.levels > 0;
+  const double radius = scene.contact.circle_radius;
+  const double way = std::min((has_parts ? kTickOverStep : 1) * most_way(scene.contact, thin_ice(scene)), radius / 2);
+  const double longest =
+      std::min({way / fastest_meeting(scene), kWayOverCircle * radius / fastest_rim(scene), scene.time.until});
+  const auto goes_into = [](double tick, double interval) {
+    const double times = std::round(interval / tick);
+    return times >= 1 && std::abs(interval / tick - times) < 1e-6 * times;
+  };
+  const auto fits = [&](double tick) { return tick <= longest * (1 + 1e-9); };
+  for (const double tick : kTicks)
+    if (fits(tick) && goes_into(tick, scene.record.forces_interval) && goes_into(tick, scene.record.frames_interval))
+      return tick;
+  const auto* found = std::ranges::find_if(kTicks, fits);
+  return found == kTicks.end() ? std::min(kTicks.back(), scene.time.until) : *found;
 }
 
 int parts_of_tick(const Setup& setup, const Clock& clock, const Population& population) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "simulation/world/world.hpp"
 
 namespace polynya::simulation {
@@ -10,7 +12,11 @@ namespace polynya::simulation {
 
 /// The longest way of a hull in a step, relative to ice at it, in thicknesses: F grows to V_b within some tenths.
 /// Greater, ice is found late and loads fall.
-inline constexpr double kWayOverThickness = 0.1;
+inline constexpr double kWayOverThickness = 0.15;
+/// And times the thickness [m²]: thick ice breaks in a few large cusps, whose order decides on the next ones.
+inline constexpr double kWayTimesThickness = 0.0375;
+/// Of a floe relative to another, in thicknesses.
+inline constexpr double kFloesWayOverThickness = 0.1;
 /// And in radii of contact circles: farther on, a contact is lost from one step to the next.
 inline constexpr double kWayOverCircle = 0.25;
 
@@ -24,9 +30,25 @@ inline constexpr double kCrowded = 2;
 /// Of the last tick in that mean: two bends in a step of thick ice are by chance.
 inline constexpr double kLastTick = 0.125;
 
-/// The longest way in a step, relative to ice of that thickness [m].
-double most_way(const Setup& setup, double thickness);
+/// Of a tick that is chosen: more, and floes meet late that no hull touches; less, and steps are short where a ship is
+/// slower than it can be. Of the parts of a tick there must be left some for ice that breaks faster.
+inline constexpr double kTickOverStep = 4;
+/// Ticks to choose from [s]. Longer ones miss how ships answer.
+inline constexpr std::array kTicks{0.05, 0.025, 0.02, 0.01, 0.005, 0.0025, 0.002, 0.001, 0.0005};
+/// A ship's speed in ice by a constant thrust, at most [m/s]: nothing states it. A tick is for four times as much, too.
+inline constexpr double kUnderThrust = 4;
+/// Of a scene's ice, by area, that its thin ice is thinner than: a few thin floes have parts of ticks.
+inline constexpr double kMostIce = 0.95;
 
+/// The longest way of a hull in a step, relative to ice of that thickness [m].
+double most_way(const ContactSettings& contact, double thickness);
+/// The same of floes, of which the thinner is so thick.
+double most_way_of_floes(const ContactSettings& contact, double thickness);
+
+/// The tick of a scene that gives none [s]: kTickOverStep of the longest steps in which its fastest hull stays within
+/// its share of its thinnest ice, as a round number that goes into what is recorded. Ships are as fast as at the start,
+/// or as their engines make them in open water, and the ice comes on by drift, current and wind.
+double default_tick(const Scene& scene);
 /// In how many equal parts the next tick is taken: a power of two up to 2^levels, 1 where levels is 0 [-].
 int parts_of_tick(const Setup& setup, const Clock& clock, const Population& population);
 
