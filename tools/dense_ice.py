@@ -4,8 +4,8 @@ Usage: python3 tools/dense_ice.py [BINARY...] [--only CASE...] [--until S] [--th
        BINARY by default build/release/app/polynya; of several, each case is run by all, one after the other
 
 Without --threads: each case once on one thread. `factor` is the simulated time over the program's own wall time,
-`by processor` that over the processor's time, start-up and all, which a busy machine disturbs less. `unconverged` is the
-share of steps whose contacts are not solved to the tolerance.
+`by processor` that over the processor's time, start-up and all, which a busy machine disturbs less. `unconverged` is
+the share of steps whose contacts are not solved to the tolerance.
 
 With --threads: cylinder-shear (400 s) and pack-power-law, one after the other: one process on one thread, one on two,
 and two processes on one thread each, side by side. Two threads cannot give more than two processes that share nothing:

@@ -27,12 +27,12 @@ using Unknowns = Eigen::VectorXd;
 JamRows rows_of(const ContactConstraint& c, int a, int b) {
   const geometry::Vector n = c.normal;
   const geometry::Vector t = perpendicular(n);
-  return {.of_a = {{-n.x, -n.y, -c.arm_cross_normal_a[0]},
-                   {-n.x, -n.y, -c.arm_cross_normal_a[1]},
-                   {-t.x, -t.y, -c.arm_cross_tangent_a}},
-          .of_b = {{n.x, n.y, c.arm_cross_normal_b[0]},
-                   {n.x, n.y, c.arm_cross_normal_b[1]},
-                   {t.x, t.y, c.arm_cross_tangent_b}},
+  return {.of_a = {{-n.x, -n.y, -c.arm_cross_normal_a[0], 0},
+                   {-n.x, -n.y, -c.arm_cross_normal_a[1], 0},
+                   {-t.x, -t.y, -c.arm_cross_tangent_a, 0}},
+          .of_b = {{n.x, n.y, c.arm_cross_normal_b[0], 0},
+                   {n.x, n.y, c.arm_cross_normal_b[1], 0},
+                   {t.x, t.y, c.arm_cross_tangent_b, 0}},
           .a = a,
           .b = b};
 }

@@ -10,41 +10,40 @@
 namespace polynya::dynamics {
 namespace {
 
-using PlainRows = double[3][3];
-using PaddedRows = double[3][4];
-using Three = std::array<double, 3>;
+using Rows = double[3][4];
+using Three = std::array<double, 4>;  // and a lane, 0
 
 /// The first unknown of a body.
 Eigen::Index first_of(std::size_t body) {
   return static_cast<Eigen::Index>(3 * body);
 }
 
-/// to += pᵀ S q, of one contact; w = S q.
-inline void add_product(PaddedRows& to, const PlainRows& p, const PaddedRows& w) {
+/// to += pᵀ w
+inline void add_product(Rows& to, const Rows& p, const Rows& w) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 4; ++j) to[i][j] += p[0][i] * w[0][j] + p[1][i] * w[1][j] + p[2][i] * w[2][j];
   }
 }
 
-inline void slopes_times(const JamLoad& load, const PlainRows& q, PaddedRows& w) {
-  for (int j = 0; j < 3; ++j) {
+/// w = S q, of one contact.
+inline void slopes_times(const JamLoad& load, const Rows& q, Rows& w) {
+  for (int j = 0; j < 4; ++j) {
     w[0][j] = load.slope[0] * q[0][j];
     w[1][j] = load.slope[1] * q[1][j];
     w[2][j] = load.slip_by_apart[0] * q[0][j] + load.slip_by_apart[1] * q[1][j] + load.slope[2] * q[2][j];
   }
-  for (int i = 0; i < 3; ++i) w[i][3] = 0;
 }
 
-/// to −= l u
-inline void subtract_product(PaddedRows& to, const PaddedRows& l, const PaddedRows& u) {
+/// to −= pᵀ u
+inline void subtract_product(Rows& to, const Rows& p, const Rows& u) {
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 4; ++j) to[i][j] -= l[i][0] * u[0][j] + l[i][1] * u[1][j] + l[i][2] * u[2][j];
+    for (int j = 0; j < 4; ++j) to[i][j] -= p[0][i] * u[0][j] + p[1][i] * u[1][j] + p[2][i] * u[2][j];
   }
 }
 
 /// L U in the block's place, of its rows in the order found, the largest first, with the inverses of U's
 /// diagonal. Returns whether it is regular.
-bool factorize_own(PaddedRows& d, int (&row)[3]) {
+bool factorize_own(Rows& d, int (&row)[3]) {
   for (int k = 0; k < 3; ++k) row[k] = k;
   for (int k = 0; k < 3; ++k) {
     int largest = k;
@@ -65,21 +64,22 @@ bool factorize_own(PaddedRows& d, int (&row)[3]) {
   return true;
 }
 
-/// u = L⁻¹ u, of the rows in their order; l = l U⁻¹
-void divide(PaddedRows& u, PaddedRows& l, const PaddedRows& d, const int (&row)[3]) {
-  for (int k = 0; k < 3; ++k) {
-    const double was[3] = {u[0][k], u[1][k], u[2][k]};
-    u[0][k] = was[row[0]];
-    u[1][k] = was[row[1]] - d[1][0] * u[0][k];
-    u[2][k] = was[row[2]] - d[2][0] * u[0][k] - d[2][1] * u[1][k];
-    l[k][0] *= d[0][0];
-    l[k][1] = (l[k][1] - l[k][0] * d[0][1]) * d[1][1];
-    l[k][2] = (l[k][2] - l[k][0] * d[0][2] - l[k][1] * d[1][2]) * d[2][2];
+/// u = L⁻¹ u, of the rows in their order; l = l U⁻¹, l transposed
+inline void divide(Rows& u, Rows& l, const Rows& d, const int (&row)[3]) {
+  Rows was;
+  std::copy_n(&u[0][0], 12, &was[0][0]);
+  for (int j = 0; j < 4; ++j) {
+    u[0][j] = was[row[0]][j];
+    u[1][j] = was[row[1]][j] - d[1][0] * u[0][j];
+    u[2][j] = was[row[2]][j] - d[2][0] * u[0][j] - d[2][1] * u[1][j];
+    l[0][j] *= d[0][0];
+    l[1][j] = (l[1][j] - l[0][j] * d[0][1]) * d[1][1];
+    l[2][j] = (l[2][j] - l[0][j] * d[0][2] - l[1][j] * d[1][2]) * d[2][2];
   }
 }
 
 /// L⁻¹ x, of the rows in their order.
-void solve_lower(const PaddedRows& d, const int (&row)[3], Three& x) {
+void solve_lower(const Rows& d, const int (&row)[3], Three& x) {
   const Three was = x;
   x[0] = was[row[0]];
   x[1] = was[row[1]] - d[1][0] * x[0];
@@ -87,15 +87,20 @@ void solve_lower(const PaddedRows& d, const int (&row)[3], Three& x) {
 }
 
 /// U⁻¹ x
-void solve_upper(const PaddedRows& d, Three& x) {
+void solve_upper(const Rows& d, Three& x) {
   x[2] *= d[2][2];
   x[1] = (x[1] - d[1][2] * x[2]) * d[1][1];
   x[0] = (x[0] - d[0][1] * x[1] - d[0][2] * x[2]) * d[0][0];
 }
 
 /// x −= m y
-void subtract(Three& x, const PaddedRows& m, const Three& y) {
+void subtract(Three& x, const Rows& m, const Three& y) {
   for (int i = 0; i < 3; ++i) x[i] -= m[i][0] * y[0] + m[i][1] * y[1] + m[i][2] * y[2];
+}
+
+/// x −= mᵀ y
+void subtract_transposed(Three& x, const Rows& m, const Three& y) {
+  for (int i = 0; i < 4; ++i) x[i] -= m[0][i] * y[0] + m[1][i] * y[1] + m[2][i] * y[2];
 }
 
 }  // namespace
@@ -203,7 +208,7 @@ void JamMatrix::add(std::span<const JamRows> rows, std::span<const JamLoad> load
     const JamLoad& load = loads[k];
     if (load.slope[0] == 0 && load.slope[1] == 0 && load.slope[2] == 0) continue;
     const Places& place = places_[k];
-    PaddedRows by_a, by_b;
+    Rows by_a, by_b;
     slopes_times(load, rows[k].of_a, by_a);
     slopes_times(load, rows[k].of_b, by_b);
     if (place.a >= 0) add_product(own_[place.a].block.at, rows[k].of_a, by_a);
@@ -212,8 +217,13 @@ void JamMatrix::add(std::span<const JamRows> rows, std::span<const JamLoad> load
     Pair& pair = pairs_[place.pair];
     is_filled_[place.pair] = 1;
     const bool is_a_first = place.a < place.b;
-    add_product(is_a_first ? pair.upper.at : pair.lower.at, rows[k].of_a, by_b);
-    add_product(is_a_first ? pair.lower.at : pair.upper.at, rows[k].of_b, by_a);
+    if (is_a_first) {
+      add_product(pair.upper.at, rows[k].of_a, by_b);
+      add_product(pair.lower.at, by_a, rows[k].of_b);
+    } else {
+      add_product(pair.upper.at, rows[k].of_b, by_a);
+      add_product(pair.lower.at, by_b, rows[k].of_a);
+    }
   }
 }
 
@@ -234,7 +244,7 @@ void JamMatrix::eliminate(int body, const int* targets) {
       const int to = targets[q - p - 1];
       is_filled_[to] = 1;
       subtract_product(pairs_[to].upper.at, of_p.lower.at, pairs_[q].upper.at);
-      subtract_product(pairs_[to].lower.at, pairs_[q].lower.at, of_p.upper.at);
+      subtract_product(pairs_[to].lower.at, of_p.upper.at, pairs_[q].lower.at);
     }
   }
 }
@@ -258,7 +268,7 @@ Eigen::VectorXd JamMatrix::solve(const Eigen::VectorXd& right) const {
   for (std::size_t i = 0; i < bodies; ++i) {
     solve_lower(own_[i].block.at, own_[i].row, x[i]);
     for (int p = first_[i]; p < first_[i + 1]; ++p) {
-      if (is_filled_[p] != 0) subtract(x[later_[p]], pairs_[p].lower.at, x[i]);
+      if (is_filled_[p] != 0) subtract_transposed(x[later_[p]], pairs_[p].lower.at, x[i]);
     }
   }
   for (std::size_t i = bodies; i-- > 0;) {

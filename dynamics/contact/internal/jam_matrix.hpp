@@ -12,9 +12,9 @@
 namespace polynya::dynamics {
 
 /// The rows of one contact: speeds apart at both ends and along the line, by the velocities of its bodies
-/// (x, y, rotation), a's and b's.
+/// (x, y, rotation), a's and b's. A fourth lane, 0, makes each as long as a register.
 struct JamRows {
-  double of_a[3][3], of_b[3][3];
+  double of_a[3][4], of_b[3][4];
   int a, b;  ///< number of the body; −1 of bodies of prescribed motion
 };
 
@@ -52,7 +52,8 @@ class JamMatrix {
     Block block;
     int row[3];  ///< of the block, in the order in which they are eliminated
   };
-  /// The blocks of two bodies, (earlier, later) and (later, earlier) in the order of elimination.
+  /// The blocks of two bodies, (earlier, later) and (later, earlier) in the order of elimination; the second one
+  /// transposed: what is done to both goes along their rows.
   struct Pair {
     Block upper, lower;
   };
