@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <optional>
 
 #include "dynamics/chunks.hpp"
-#include "dynamics/contact/jam_solver.hpp"
 
 namespace polynya::dynamics {
 namespace {
@@ -18,20 +18,14 @@ constexpr int kPlainSweeps = 4;
 /// that sticks slips by more than the tolerance; far smaller, Newton's method finds fewer jams.
 constexpr double kSlipShare = 0.5;
 
+/// Contacts of an island whose memory of jams is kept for the next step. Fewer: to find the shape of a matrix again
+/// takes as long as to find the memory.
+constexpr std::uint32_t kLeastKept = 24;
+
 /// An island that needs more sweeps is jammed: Newton's method, now and again. Most small ones come to their
 /// solution by some more.
 constexpr int sweeps_to_jam(const Island& island) {
-  return island.count > 64 ? 24 : 48;
-}
-
-void solve_jam(std::span<ContactConstraint> constraints, std::span<const CrushLaw::State> states,
-               std::span<SolverBody> solver_bodies, double tolerance) {
-  std::vector<EndLaws> laws(constraints.size());
-  for (std::size_t k = 0; k < constraints.size(); ++k) {
-    const double(&inverse_mass)[2] = constraints[k].inverse_mass_at;
-    laws[k] = states[k].is_rigid ? EndLaws{rigid_law(inverse_mass[0]), rigid_law(inverse_mass[1])} : states[k].ends;
-  }
-  solve_jam(constraints, laws, solver_bodies, kSlipShare * tolerance);
+  return island.count > 64 ? 12 : 48;
 }
 
 }  // namespace
@@ -70,7 +64,7 @@ void ContactSolver::start(const Island& island, const Law& law, bool is_first) {
     for (int end = 0; end < 2; ++end)
       c.normal_impulse[end] = std::min(start_impulse(law, states[k], c, end, is_first), c.limit);
     const double most = c.friction * (c.normal_impulse[0] + c.normal_impulse[1]);
-    c.slip_impulse = is_first ? 0 : std::clamp(c.slip_impulse, -most, most);
+    c.slip_impulse = std::clamp(start_slip(law, states[k], c, is_first), -most, most);
     apply_impulses(c, c.normal_impulse[0], c.normal_impulse[1], c.slip_impulse, solver_bodies_);
   }
 }
@@ -94,15 +88,51 @@ double ContactSolver::sweep(const Island& island, const Law& law, const SolverSe
     }
     if (residual <= settings.tolerance || round + 1 >= settings.max_iterations) break;
     if (Law::kHasJams && round % to_jam == to_jam - 1) {
-      if constexpr (Law::kHasJams)
-        solve_jam(std::span(constraints_).subspan(island.first, island.count),
-                  std::span(states).subspan(island.first, island.count), solver_bodies_, settings.tolerance);
+      if constexpr (Law::kHasJams) solve_jam(island, settings.tolerance, residual);
       search.sweeps = 0;
     } else if (!is_plain) {
       accelerate(island, search);
     }
   }
   return residual;
+}
+
+void ContactSolver::solve_jam(const Island& island, double tolerance, double residual) {
+  const auto& states = std::get<States<CrushLaw>>(states_);
+  const std::span constraints = std::span(constraints_).subspan(island.first, island.count);
+  std::vector<EndLaws> laws(constraints.size());
+  for (std::size_t k = 0; k < constraints.size(); ++k) {
+    const CrushLaw::State& state = states[island.first + k];
+    const double(&inverse_mass)[2] = constraints[k].inverse_mass_at;
+    laws[k] = state.is_rigid ? EndLaws{rigid_law(inverse_mass[0]), rigid_law(inverse_mass[1])} : state.ends;
+  }
+  const std::int32_t kept = memory_of_island_[static_cast<std::size_t>(&island - islands_.islands().data())];
+  std::optional<JamMemory> own;
+  JamMemory& memory = kept < 0 ? own.emplace() : jam_memories_[static_cast<std::size_t>(kept)].memory;
+  dynamics::solve_jam(constraints, laws, solver_bodies_, kSlipShare * tolerance, residual, memory);
+}
+
+/// Large islands find the memory that they had in the step before: by their first contact.
+void ContactSolver::give_memories(const std::vector<Contact>& contacts) {
+  const std::vector<Island>& islands = islands_.islands();
+  memory_of_island_.assign(islands.size(), -1);
+  for (KeptMemory& kept : jam_memories_) kept.is_taken = false;
+  const auto give = [&](auto is_wanted) {
+    for (std::size_t i = 0; i < islands.size(); ++i) {
+      if (islands[i].count < kLeastKept || memory_of_island_[i] >= 0) continue;
+      const Contact& first = contacts[islands_.order()[islands[i].first]];
+      const auto found = std::ranges::find_if(
+          jam_memories_, [&](const KeptMemory& kept) { return !kept.is_taken && is_wanted(kept, first); });
+      if (found == jam_memories_.end()) continue;
+      found->is_taken = true;
+      found->a = first.a, found->b = first.b;
+      memory_of_island_[i] = static_cast<std::int32_t>(found - jam_memories_.begin());
+    }
+  };
+  give([](const KeptMemory& kept, const Contact& first) { return kept.a == first.a && kept.b == first.b; });
+  const auto large = std::ranges::count_if(islands, [](const Island& island) { return island.count >= kLeastKept; });
+  if (static_cast<std::size_t>(large) > jam_memories_.size()) jam_memories_.resize(static_cast<std::size_t>(large));
+  give([](const KeptMemory&, const Contact&) { return true; });
 }
 
 /// Extrapolates all impulses of an island along their search direction, within their bounds. Jammed floes
@@ -200,6 +230,7 @@ SolverResult ContactSolver::solve(Bodies& bodies, std::vector<Contact>& contacts
   const int threads = contacts.size() < 2 * kContactsPerChunk ? 1 : settings.threads;
   const auto solve_by = [&](const auto& law) {
     fill(bodies, contacts, law, settings.threads);
+    if constexpr (std::decay_t<decltype(law)>::kHasJams) give_memories(contacts);
     for_chunks(islands.size(), kIslandsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) residuals_[k] = solve_island(islands[k], law, settings);
     });

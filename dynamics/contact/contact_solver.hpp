@@ -6,6 +6,7 @@
 
 #include "dynamics/contact/contact_islands.hpp"
 #include "dynamics/contact/crush_law.hpp"
+#include "dynamics/contact/jam_solver.hpp"
 #include "dynamics/contact/restitution_law.hpp"
 
 namespace polynya::dynamics {
@@ -48,9 +49,8 @@ struct SolverResult {
 ///
 /// A response law L is a value with L::State for what it keeps of a contact within a step, and the functions
 /// that crush_law.hpp and restitution_law.hpp declare: substeps_of, state_of, begin_substep (bounds of λ),
-/// start_impulse, solve_block (one contact), end_substep, write_back (what it leaves in contact and record).
-/// One that kRestores gives impulses after the compression; of one that kHasJams, State has is_rigid and
-/// ends.
+/// start_impulse, start_slip, solve_block (one contact), end_substep, write_back (what it leaves in contact and
+/// record). One that kRestores gives impulses after the compression; of one that kHasJams, State has is_rigid and ends.
 class ContactSolver {
  public:
   SolverResult solve(Bodies& bodies, std::vector<Contact>& contacts, const ResponseLaw& law,
@@ -70,6 +70,11 @@ class ContactSolver {
     double impulse[2], slip_impulse;  // [N s]
     double normal_work, slip_work;    // [J]
   };
+  struct KeptMemory {
+    BodyIndex a = -1, b = -1;  // of the first contact of the island that had it last
+    bool is_taken = false;     // in this step
+    JamMemory memory;
+  };
   template <class Law>
   using States = std::vector<typename Law::State>;
 
@@ -82,6 +87,8 @@ class ContactSolver {
   template <class Law>
   double sweep(const Island& island, const Law& law, const SolverSettings& settings);
   void accelerate(const Island& island, Search& search);
+  void give_memories(const std::vector<Contact>& contacts);
+  void solve_jam(const Island& island, double tolerance, double residual);
   template <class Law>
   void finish(const Island& island, const Law& law);
   template <class Law>
@@ -94,6 +101,8 @@ class ContactSolver {
   std::vector<Sums> sums_;
   std::vector<Direction> directions_;
   std::vector<double> residuals_;  // of the islands
+  std::vector<KeptMemory> jam_memories_;
+  std::vector<std::int32_t> memory_of_island_;  // among them; −1: it has none that is kept
 };
 
 }  // namespace polynya::dynamics

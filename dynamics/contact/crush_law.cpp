@@ -12,9 +12,9 @@ constexpr int kMostTries = 8;
 /// The two ends of one contact line and what slows them.
 class EndPair {
  public:
-  EndPair(const std::array<CrushResponse, 2>& ends, const EndsMobility& mobility,
-          const std::array<double, 2>& closing_speed)
-      : ends_(ends), creep_{creep_slope(ends[0]), creep_slope(ends[1])}, mobility_(mobility), free_(closing_speed) {}
+  EndPair(const std::array<CrushResponse, 2>& ends, const std::array<CrushKinks, 2>& kinks,
+          const EndsMobility& mobility, const std::array<double, 2>& closing_speed)
+      : ends_(ends), kinks_(kinks), mobility_(mobility), free_(closing_speed) {}
 
   std::array<double, 2> speeds(const std::array<double, 2>& impulse) const {
     return {free_[0] - mobility_.at[0] * impulse[0] - mobility_.between * impulse[1],
@@ -23,12 +23,12 @@ class EndPair {
   /// The branches nearest to impulses and the speeds that they leave.
   ActiveBranches branches_near(const std::array<double, 2>& impulse) const {
     const auto speed = speeds(impulse);
-    return {{branch_near(ends_[0], speed[0], impulse[0], mobility_.at[0]),
-             branch_near(ends_[1], speed[1], impulse[1], mobility_.at[1])}};
+    return {{branch_near(ends_[0], kinks_[0], speed[0], impulse[0], mobility_.at[0]),
+             branch_near(ends_[1], kinks_[1], speed[1], impulse[1], mobility_.at[1])}};
   }
   std::array<double, 2> solve_on(const ActiveBranches& branches) const {
-    const BranchLine p = line_of(ends_[0], creep_[0], branches.of[0]);
-    const BranchLine q = line_of(ends_[1], creep_[1], branches.of[1]);
+    const BranchLine p = line_of(ends_[0], kinks_[0].creep, branches.of[0]);
+    const BranchLine q = line_of(ends_[1], kinks_[1].creep, branches.of[1]);
     const double right_0 = p.at_rest + p.slope * (free_[0] - ends_[0].gap_speed);
     const double right_1 = q.at_rest + q.slope * (free_[1] - ends_[1].gap_speed);
     const double m00 = 1 + p.slope * mobility_.at[0];
@@ -61,7 +61,7 @@ class EndPair {
 
  private:
   const std::array<CrushResponse, 2>& ends_;
-  double creep_[2];
+  const std::array<CrushKinks, 2>& kinks_;
   const EndsMobility& mobility_;
   std::array<double, 2> free_;
 };
@@ -79,13 +79,14 @@ double impulse_to_breaking(const CrushLaw::State& c, const ConstraintSpeeds& spe
 
 }  // namespace
 
-std::array<double, 2> crush_impulses(const std::array<CrushResponse, 2>& ends, const EndsMobility& mobility,
-                                     const std::array<double, 2>& closing_speed, ActiveBranches& branches) {
+std::array<double, 2> crush_impulses(const std::array<CrushResponse, 2>& ends, const std::array<CrushKinks, 2>& kinks,
+                                     const EndsMobility& mobility, const std::array<double, 2>& closing_speed,
+                                     ActiveBranches& branches) {
   if (closing_speed[0] <= ends[0].gap_speed && closing_speed[1] <= ends[1].gap_speed) {
     branches = {};
     return {0, 0};
   }
-  const EndPair pair(ends, mobility, closing_speed);
+  const EndPair pair(ends, kinks, mobility, closing_speed);
   if (branches == ActiveBranches{}) branches = pair.branches_near({0, 0});
   for (std::size_t end = 0; end < 2; ++end) {
     const bool never_breaks = std::isinf(ends[end].cap);
@@ -109,8 +110,10 @@ CrushLaw::State state_of(const CrushLaw& /*law*/, const Contact& c) {
           .missed = c.missed_impulse,
           .breaking_force = c.breaking_force,
           .ends = {},
+          .kinks = {},
           .branches = {},
           .last_impulse = {c.record->last_impulse[0], c.record->last_impulse[1]},
+          .last_slip = c.record->start_impulse[0],
           .is_rigid = c.is_rigid(),
           .is_broken = false};
 }
@@ -127,6 +130,7 @@ void begin_substep(const CrushLaw& law, const ConstraintSpeeds& before, bool is_
   end.gap_speed = std::max(0.0, state.loaded - state.depth) / tau;
   end.cap = state.is_broken ? 0 : 0.5 * (impulse_to_breaking(state, before, tau) + missed);
   state.ends[1] = end;
+  state.kinks[0] = state.kinks[1] = kinks_of(end);
   constraint.limit = end.cap;
 }
 
@@ -139,7 +143,7 @@ double solve_block(const CrushLaw& /*law*/, CrushLaw::State& state, ContactConst
   const auto trial = trial_speeds(mobility, apart_at(k, a, b), k.normal_impulse);
   const double p0 = k.normal_impulse[0], p1 = k.normal_impulse[1];
   if (p0 == 0 && p1 == 0 && k.slip_impulse == 0 && trial[0] <= 0 && trial[1] <= 0) return 0;
-  const auto impulse = crush_impulses(state.ends, mobility, trial, state.branches);
+  const auto impulse = crush_impulses(state.ends, state.kinks, mobility, trial, state.branches);
   const double change_0 = impulse[0] - p0;
   const double change_1 = impulse[1] - p1;
   k.normal_impulse[0] = impulse[0];
@@ -170,6 +174,7 @@ void end_substep(const CrushLaw& law, const ConstraintSpeeds& after, const Conta
 void write_back(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,
                 Contact& contact) {
   for (int end = 0; end < 2; ++end) contact.record->last_impulse[end] = constraint.normal_impulse[end];
+  contact.record->start_impulse[0] = constraint.slip_impulse;
   contact.is_broken = state.is_broken;
   contact.is_at_limit = !state.is_rigid && contact.total_normal_impulse() > 0;  // all of it crushes
   contact.record->loaded_depth = state.loaded;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "dynamics/contact/contact_constraint.hpp"
 
@@ -60,20 +61,33 @@ inline CrushBranch branch_at(const CrushResponse& r, double closing_speed) {
   return branch_at(r, creep_slope(r), closing_speed);
 }
 
+/// Where a response has its kinks: found once, asked often.
+struct CrushKinks {
+  double creep = 0;        ///< creep_slope [N s per m/s]
+  double crept = 0;        ///< the most that creeping gives [N s]
+  double creeping_to = 0;  ///< x there [m/s]
+  double crushing_to = 0;  ///< x where crushing comes to the cap; infinite where it never does [m/s]
+};
+inline CrushKinks kinks_of(const CrushResponse& r) {
+  CrushKinks kinks;
+  kinks.creep = creep_slope(r);
+  kinks.crept = std::min(kinks.creep * kCreepSpeed, r.cap);
+  kinks.creeping_to = kinks.creep > 0 ? kinks.crept / kinks.creep : 0;
+  kinks.crushing_to = r.slope == 0 ? std::numeric_limits<double>::infinity() : (r.cap - r.impulse_of_force) / r.slope;
+  return kinks;
+}
+
 /// The branch whose point (closing speed, impulse) is nearest one that need not obey the law, along
 /// (1, −1/inverse_mass), the line on which impulses change the speed of a mass. Far steadier than the branch
 /// at the speed alone, which jumps across the steep one that creeps. `inverse_mass`: > 0 [1/kg].
-inline CrushBranch branch_near(const CrushResponse& r, double closing_speed, double impulse, double inverse_mass) {
+inline CrushBranch branch_near(const CrushResponse& r, const CrushKinks& kinks, double closing_speed, double impulse,
+                               double inverse_mass) {
   const double place = closing_speed - r.gap_speed + inverse_mass * impulse;
   if (place <= 0) return CrushBranch::kApart;
-  const double creep = creep_slope(r);
-  const double crept = std::min(creep * kCreepSpeed, r.cap);  // the most that creeping gives
-  const double creeping_to = creep > 0 ? crept / creep : 0;
-  if (place <= creeping_to + inverse_mass * crept) return CrushBranch::kCreeping;
-  if (crept == r.cap) return CrushBranch::kBroken;
+  if (place <= kinks.creeping_to + inverse_mass * kinks.crept) return CrushBranch::kCreeping;
+  if (kinks.crept == r.cap) return CrushBranch::kBroken;
   if (r.slope == 0) return CrushBranch::kCrushing;
-  const double crushing_to = (r.cap - r.impulse_of_force) / r.slope;
-  return place <= crushing_to + inverse_mass * r.cap ? CrushBranch::kCrushing : CrushBranch::kBroken;
+  return place <= kinks.crushing_to + inverse_mass * r.cap ? CrushBranch::kCrushing : CrushBranch::kBroken;
 }
 
 inline BranchLine line_of(const CrushResponse& r, double creep, CrushBranch branch) {
@@ -128,8 +142,9 @@ inline std::array<double, 2> trial_speeds(const EndsMobility& k, const std::arra
 /// the branches follow from its solution, as in Newton's method, and where that goes round in circles, all
 /// pairs are tried. Starts from `branches`, or from those of û where both are apart, and leaves there those
 /// of the solution: the next one is likely on the same.
-std::array<double, 2> crush_impulses(const std::array<CrushResponse, 2>& ends, const EndsMobility& mobility,
-                                     const std::array<double, 2>& closing_speed, ActiveBranches& branches);
+std::array<double, 2> crush_impulses(const std::array<CrushResponse, 2>& ends, const std::array<CrushKinks, 2>& kinks,
+                                     const EndsMobility& mobility, const std::array<double, 2>& closing_speed,
+                                     ActiveBranches& branches);
 
 /// Both ends' law of one contact.
 using EndLaws = std::array<CrushResponse, 2>;
@@ -149,8 +164,10 @@ struct CrushLaw {
     double missed;            ///< impulse before the contact was found [N s]
     double breaking_force;    ///< [N]
     EndLaws ends;             ///< of the substep
+    std::array<CrushKinks, 2> kinks;
     ActiveBranches branches;  ///< of the ends, at the last solution
     double last_impulse[2];   ///< where the step starts [N s]
+    double last_slip;         ///< [N s]
     bool is_rigid, is_broken;
   };
 };
@@ -166,6 +183,12 @@ inline double start_impulse(const CrushLaw& law, const CrushLaw::State& state, c
                             int end, bool is_first) {
   if (!law.is_warm_started) return 0;
   return is_first ? state.last_impulse[end] : constraint.normal_impulse[end];
+}
+/// λ_t where the substep's sweeps start [N s].
+inline double start_slip(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,
+                         bool is_first) {
+  if (!is_first) return constraint.slip_impulse;
+  return law.is_warm_started ? state.last_slip : 0;
 }
 /// The impulses of both ends by the law, then the slip impulse within the Coulomb cone. Returns the largest
 /// change of a speed at the contact [m/s].

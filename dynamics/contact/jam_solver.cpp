@@ -27,22 +27,15 @@ using Unknowns = Eigen::VectorXd;
 JamRows rows_of(const ContactConstraint& c, int a, int b) {
   const geometry::Vector n = c.normal;
   const geometry::Vector t = perpendicular(n);
-  return {.of_a = {{-n.x, -n.y, -c.arm_cross_normal_a[0]},
-                   {-n.x, -n.y, -c.arm_cross_normal_a[1]},
-                   {-t.x, -t.y, -c.arm_cross_tangent_a}},
-          .of_b = {{n.x, n.y, c.arm_cross_normal_b[0]},
-                   {n.x, n.y, c.arm_cross_normal_b[1]},
-                   {t.x, t.y, c.arm_cross_tangent_b}},
+  return {.of_a = {{-n.x, -n.y, -c.arm_cross_normal_a[0], 0},
+                   {-n.x, -n.y, -c.arm_cross_normal_a[1], 0},
+                   {-t.x, -t.y, -c.arm_cross_tangent_a, 0}},
+          .of_b = {{n.x, n.y, c.arm_cross_normal_b[0], 0},
+                   {n.x, n.y, c.arm_cross_normal_b[1], 0},
+                   {t.x, t.y, c.arm_cross_tangent_b, 0}},
           .a = a,
           .b = b};
 }
-
-/// The branches that a contact is on: of its ends, and whether it slips to a side (−1, 1) or sticks (0).
-struct ActiveSet {
-  ActiveBranches ends;
-  int slip = 0;
-  friend bool operator==(const ActiveSet&, const ActiveSet&) = default;
-};
 
 /// Which half of the contacts waits in a step, without any pattern that a cycle could follow.
 bool waits(std::size_t contact, int step) {
@@ -51,13 +44,47 @@ bool waits(std::size_t contact, int step) {
   return (x >> 40U & 1U) != 0;
 }
 
+}  // namespace
+
+struct JamMemory::Parts {
+  using Speeds = std::array<double, 3>;  ///< of one contact: apart at both ends, along the line [m/s]
+  /// The branches that a contact is on: of its ends, and whether it slips to a side (−1, 1) or sticks (0).
+  struct ActiveSet {
+    ActiveBranches ends;
+    int slip = 0;
+    friend bool operator==(const ActiveSet&, const ActiveSet&) = default;
+  };
+  JamMatrix matrix;
+  std::vector<std::array<double, 3>> impulses_before;     ///< of the constraints
+  std::vector<SolverBody> bodies_before, bodies_without;  ///< those free to move; without any impulses
+  std::vector<std::int32_t> body_of;                      ///< those free to move, three unknowns each
+  std::vector<JamRows> rows;
+  std::vector<Speeds> speeds;
+  std::vector<JamLoad> loads;  ///< by the speeds, on the branches; the impulses need not obey their laws
+  std::vector<ActiveSet> active_sets;
+  std::vector<std::array<CrushKinks, 2>> kinks;  ///< of the laws
+  std::vector<double> slip_bound;                ///< [N s]
+  Unknowns mass, velocity, without;              ///< now, and without any impulses
+};
+
+namespace {
+
+using ActiveSet = JamMemory::Parts::ActiveSet;
+using Speeds = JamMemory::Parts::Speeds;
+
 class Jam {
  public:
   Jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws, std::span<SolverBody> bodies,
-      double slip_speed)
-      : constraints_(constraints), laws_(laws), bodies_(bodies), slip_speed_(slip_speed) {
+      double slip_speed, double residual, JamMemory::Parts& memory)
+      : constraints_(constraints),
+        laws_(laws),
+        bodies_(bodies),
+        slip_speed_(slip_speed),
+        residual_(residual),
+        memory_(memory) {
     number_unknowns();
-    velocity_ = velocities();
+    take(velocity_);
+    rows_.clear(), speeds_.clear(), loads_.clear(), slip_bound_.clear(), impulses_before_.clear();
     for (const ContactConstraint& c : constraints) {
       rows_.push_back(rows_of(c, number_of(c.a), number_of(c.b)));
       const ConstraintSpeeds now = speeds_at(c, bodies);
@@ -65,29 +92,32 @@ class Jam {
       loads_.push_back({{c.normal_impulse[0], c.normal_impulse[1], c.slip_impulse}, {}, {}});
       slip_bound_.push_back(c.friction * (c.normal_impulse[0] + c.normal_impulse[1]));
     }
-    constraints_before_.assign(constraints.begin(), constraints.end());
-    bodies_before_ = taken();
+    for (const ContactConstraint& c : constraints)
+      impulses_before_.push_back({c.normal_impulse[0], c.normal_impulse[1], c.slip_impulse});
+    take(bodies_before_);
+    kinks_.clear();
+    for (const EndLaws& law : laws) kinks_.push_back({kinks_of(law[0]), kinks_of(law[1])});
     for (ContactConstraint& c : constraints)
       apply_impulses(c, -c.normal_impulse[0], -c.normal_impulse[1], -c.slip_impulse, bodies);
-    bodies_without_ = taken();
-    without_ = velocities();
-    active_sets_.resize(rows_.size());
+    take(bodies_without_);
+    take(without_);
+    active_sets_.assign(rows_.size(), {});
   }
 
   bool solve() {
-    JamMatrix matrix(static_cast<int>(body_of_.size()), rows_);
+    JamMatrix& matrix = memory_.matrix;
+    matrix.take(static_cast<int>(body_of_.size()), rows_);
     for (int step = 0; step < kMostSteps; ++step) {
       const Choice choice = update_active_sets(step);
-      if (step > 0 && choice.are_sets_found && choice.are_bounds_found && enter()) return true;
+      if (step > 0 && choice.are_sets_found && choice.are_bounds_found && enter() < slip_speed_) return true;
       if (!matrix.factorize(mass_, rows_, loads_)) break;
       advance(matrix.solve(-gradient_now()));
     }
-    restore();
+    if (enter() >= residual_) restore();
     return false;
   }
 
  private:
-  using Speeds = std::array<double, 3>;  ///< of one contact: apart at both ends, along the line [m/s]
   struct Choice {
     bool are_sets_found = true;    ///< no contact would leave its own
     bool are_bounds_found = true;  ///< of friction
@@ -96,6 +126,7 @@ class Jam {
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
   void number_unknowns() {
+    body_of_.clear();
     for (const ContactConstraint& c : constraints_) {
       for (const std::int32_t body : {c.a, c.b}) {
         if (bodies_[index(body)].inverse_mass != 0) body_of_.push_back(body);
@@ -115,13 +146,12 @@ class Jam {
     const bool is_free = found != body_of_.end() && *found == body;
     return is_free ? static_cast<int>(found - body_of_.begin()) : -1;
   }
-  Unknowns velocities() const {
-    Unknowns v(mass_.size());
+  void take(Unknowns& v) const {
+    v.resize(mass_.size());
     for (std::size_t i = 0; i < body_of_.size(); ++i) {
       const SolverBody& body = bodies_[index(body_of_[i])];
       v.segment<3>(static_cast<Eigen::Index>(3 * i)) << body.velocity.x, body.velocity.y, body.angular_velocity;
     }
-    return v;
   }
 
   Choice update_active_sets(int step) {
@@ -151,7 +181,7 @@ class Jam {
     const EndsMobility mobility = mobility_of(c);
     const auto trial = trial_speeds(mobility, {speed[0], speed[1]}, impulse);
     ActiveSet set = active_sets_[k];
-    const std::array<double, 2> ends = crush_impulses(laws_[k], mobility, trial, set.ends);
+    const std::array<double, 2> ends = crush_impulses(laws_[k], kinks_[k], mobility, trial, set.ends);
     normal = ends[0] + ends[1];
     const double place = c.inverse_slip_mass * impulse[2] - speed[2];
     const double most = c.inverse_slip_mass * slip_bound_[k] + slip_speed_;
@@ -163,7 +193,7 @@ class Jam {
   JamLoad load_of(std::size_t k) const {
     JamLoad load{};
     for (std::size_t end = 0; end < 2; ++end) {
-      const BranchLine line = line_of(laws_[k][end], active_sets_[k].ends.of[end]);
+      const BranchLine line = line_of(laws_[k][end], kinks_[k][end].creep, active_sets_[k].ends.of[end]);
       load.impulse[end] = line.at_rest - line.slope * (speeds_[k][end] + laws_[k][end].gap_speed);
       load.slope[end] = line.slope;
     }
@@ -213,11 +243,12 @@ class Jam {
     for (std::size_t end = 0; end < 2; ++end) normal += std::clamp(loads_[k].impulse[end], 0.0, laws_[k][end].cap);
     return normal;
   }
-  /// Whether the impulses, which obey their bounds once entered, give the speeds that they were found at.
-  bool enter() {
+  /// Returns by how much the impulses, which obey their bounds once entered, give other speeds than they were found at
+  /// [m/s].
+  double enter() {
     put(bodies_without_);
     enter_impulses();
-    return missed_speed() < slip_speed_;
+    return missed_speed();
   }
   void enter_impulses() {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
@@ -236,19 +267,25 @@ class Jam {
     double largest = 0;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const ConstraintSpeeds now = speeds_at(constraints_[k], bodies_);
-      largest = std::max({largest, std::abs(now.apart[0] - speeds_[k][0]), std::abs(now.apart[1] - speeds_[k][1]),
-                          std::abs(now.slip - speeds_[k][2])});
+      for (const double missed :
+           {now.apart[0] - speeds_[k][0], now.apart[1] - speeds_[k][1], now.slip - speeds_[k][2]}) {
+        if (!std::isfinite(missed)) return std::numeric_limits<double>::infinity();
+        largest = std::max(largest, std::abs(missed));
+      }
     }
     return largest;
   }
   void restore() {
-    std::ranges::copy(constraints_before_, constraints_.begin());
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      ContactConstraint& c = constraints_[k];
+      c.normal_impulse[0] = impulses_before_[k][0], c.normal_impulse[1] = impulses_before_[k][1];
+      c.slip_impulse = impulses_before_[k][2];
+    }
     put(bodies_before_);
   }
-  std::vector<SolverBody> taken() const {
-    std::vector<SolverBody> all;
+  void take(std::vector<SolverBody>& all) const {
+    all.clear();
     for (const std::int32_t body : body_of_) all.push_back(bodies_[index(body)]);
-    return all;
   }
   void put(const std::vector<SolverBody>& all) {
     for (std::size_t i = 0; i < body_of_.size(); ++i) bodies_[index(body_of_[i])] = all[i];
@@ -258,18 +295,27 @@ class Jam {
   std::span<const EndLaws> laws_;
   std::span<SolverBody> bodies_;
   double slip_speed_;
-  std::vector<ContactConstraint> constraints_before_;
-  std::vector<SolverBody> bodies_before_, bodies_without_;  ///< those free to move; without any impulses
-  std::vector<std::int32_t> body_of_;                       ///< those free to move, three unknowns each
-  std::vector<JamRows> rows_;
-  std::vector<Speeds> speeds_;
-  std::vector<JamLoad> loads_;  ///< by the speeds, on the branches; the impulses need not obey their laws
-  std::vector<ActiveSet> active_sets_;
-  std::vector<double> slip_bound_;      ///< [N s]
-  Unknowns mass_, velocity_, without_;  ///< now, and without any impulses
+  double residual_;  ///< of the sweeps before [m/s]
+  JamMemory::Parts& memory_;
+  std::vector<std::array<double, 3>>& impulses_before_ = memory_.impulses_before;
+  std::vector<SolverBody>& bodies_before_ = memory_.bodies_before;
+  std::vector<SolverBody>& bodies_without_ = memory_.bodies_without;
+  std::vector<std::int32_t>& body_of_ = memory_.body_of;
+  std::vector<JamRows>& rows_ = memory_.rows;
+  std::vector<Speeds>& speeds_ = memory_.speeds;
+  std::vector<JamLoad>& loads_ = memory_.loads;
+  std::vector<ActiveSet>& active_sets_ = memory_.active_sets;
+  std::vector<std::array<CrushKinks, 2>>& kinks_ = memory_.kinks;
+  std::vector<double>& slip_bound_ = memory_.slip_bound;
+  Unknowns &mass_ = memory_.mass, &velocity_ = memory_.velocity, &without_ = memory_.without;
 };
 
 }  // namespace
+
+JamMemory::JamMemory() : parts_(std::make_unique<Parts>()) {}
+JamMemory::~JamMemory() = default;
+JamMemory::JamMemory(JamMemory&&) noexcept = default;
+JamMemory& JamMemory::operator=(JamMemory&&) noexcept = default;
 
 CrushResponse rigid_law(double inverse_mass) {
   return {.impulse_of_force = kCreepSpeed * kRigid / inverse_mass,
@@ -279,8 +325,8 @@ CrushResponse rigid_law(double inverse_mass) {
 }
 
 bool solve_jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws, std::span<SolverBody> bodies,
-               double slip_speed) {
-  return Jam(constraints, laws, bodies, slip_speed).solve();
+               double slip_speed, double residual, JamMemory& memory) {
+  return Jam(constraints, laws, bodies, slip_speed, residual, memory.parts()).solve();
 }
 
 }  // namespace polynya::dynamics

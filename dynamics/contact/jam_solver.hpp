@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 
 #include "dynamics/contact/contact_constraint.hpp"
@@ -11,6 +12,21 @@ namespace polynya::dynamics {
 /// The law of steel on steel at one end: rigid, but for a speed of a millionth of the approach.
 /// `inverse_mass`: of the end, K's diagonal [1/kg].
 CrushResponse rigid_law(double inverse_mass);
+
+/// What solving jams takes beside them. It keeps the shape of a jam's matrix for the next one between the same bodies;
+/// what is found does not depend on it.
+class JamMemory {
+ public:
+  JamMemory();
+  ~JamMemory();
+  JamMemory(JamMemory&&) noexcept;
+  JamMemory& operator=(JamMemory&&) noexcept;
+  struct Parts;
+  Parts& parts() { return *parts_; }
+
+ private:
+  std::unique_ptr<Parts> parts_;
+};
 
 /// Finds the impulses of one jammed island by Newton's method, where sweeps over its contacts converge
 /// slowly: the new velocities v minimise
@@ -28,9 +44,15 @@ CrushResponse rigid_law(double inverse_mass);
 /// constraints' impulses and the bodies' velocities.
 ///
 /// Enters the impulses into the constraints and the velocities into the bodies and returns true where no
-/// contact would leave its branches; else both stay as they were. Bodies of prescribed motion are never
-/// changed.
+/// contact would leave its branches. Else returns false; what it came to is entered where that misses its speeds by
+/// less than `residual`, that of the start [m/s], and sweeps go on from there; or both stay as they were. Bodies of
+/// prescribed motion are never changed.
 bool solve_jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws, std::span<SolverBody> bodies,
-               double slip_speed);
+               double slip_speed, double residual, JamMemory& memory);
+inline bool solve_jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws,
+                      std::span<SolverBody> bodies, double slip_speed) {
+  JamMemory memory;
+  return solve_jam(constraints, laws, bodies, slip_speed, 0, memory);
+}
 
 }  // namespace polynya::dynamics

@@ -49,7 +49,7 @@ TEST(CrushLaw, BothEndsObeyItTogether) {
     const std::array<double, 2> free{random.between(-1, 3), random.between(-1, 3)};
     const auto any_branch = [&] { return static_cast<CrushBranch>(random.below(4)); };
     ActiveBranches branches{{any_branch(), any_branch()}};  // wherever it starts from
-    const auto p = crush_impulses(ends, k, free, branches);
+    const auto p = crush_impulses(ends, {kinks_of(ends[0]), kinks_of(ends[1])}, k, free, branches);
     const std::array<double, 2> u{free[0] - k.at[0] * p[0] - k.between * p[1],
                                   free[1] - k.between * p[0] - k.at[1] * p[1]};
     for (std::size_t end = 0; end < 2; ++end) {

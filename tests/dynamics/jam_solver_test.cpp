@@ -2,6 +2,7 @@
 #include "dynamics/contact/jam_solver.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
@@ -187,6 +188,55 @@ TEST(JamSolver, StartsFromAnyImpulses) {
   }
 }
 
+/// Where it does not come to the solution: all is as before to the bit, or what it came to, if that is better, of
+/// which velocities and impulses fit each other.
+TEST(JamSolver, KeepsWhatItCameToWhereThatIsBetter) {
+  Random random(kSeed);
+  int unsolved = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    Pack pack = pack_of(random, 8, 8, 0.2);
+    for (BodyIndex i = 2; i < pack.bodies.size(); ++i) {
+      const double lighter = std::pow(10.0, random.between(0, 2));
+      pack.bodies.inverse_mass[i] *= lighter;
+      pack.bodies.inverse_moment[i] *= lighter;
+    }
+    take_masses(pack);
+    Pack as_before = pack, came_to = pack;
+    JamMemory memory;
+    if (solve_jam(as_before.constraints, as_before.laws, as_before.solver_bodies, kNarrow)) continue;
+    ++unsolved;
+    constexpr double kAny = std::numeric_limits<double>::max();
+    EXPECT_FALSE(solve_jam(came_to.constraints, came_to.laws, came_to.solver_bodies, kNarrow, kAny, memory));
+    double carried = 0;
+    for (ContactConstraint& c : came_to.constraints) {
+      carried += c.normal_impulse[0] + c.normal_impulse[1];
+      apply_impulses(c, -c.normal_impulse[0], -c.normal_impulse[1], -c.slip_impulse, came_to.solver_bodies);
+    }
+    EXPECT_GT(carried, 0);
+    for (std::size_t i = 0; i < pack.solver_bodies.size(); ++i) {
+      EXPECT_EQ(as_before.solver_bodies[i].velocity.x, pack.solver_bodies[i].velocity.x);
+      EXPECT_NEAR(came_to.solver_bodies[i].velocity.x, pack.solver_bodies[i].velocity.x, 1e-8);
+    }
+  }
+  EXPECT_GT(unsolved, 0);
+}
+
+/// What memory keeps of other jams, between other bodies or the same, changes no bit.
+TEST(JamSolver, FindsTheSameWithTheMemoryOfOtherJams) {
+  JamMemory memory;
+  for (const int columns : {6, 4, 4, 6}) {
+    Random random(kSeed);
+    Pack with_memory = pack_of(random, columns, 6, 0.2);
+    Pack alone = with_memory;
+    ASSERT_TRUE(solve_jam(with_memory.constraints, with_memory.laws, with_memory.solver_bodies, kSlipSpeed, 0, memory));
+    ASSERT_TRUE(solve_jam(alone.constraints, alone.laws, alone.solver_bodies, kSlipSpeed));
+    for (std::size_t i = 0; i < alone.solver_bodies.size(); ++i) {
+      EXPECT_EQ(with_memory.solver_bodies[i].velocity.x, alone.solver_bodies[i].velocity.x);
+      EXPECT_EQ(with_memory.solver_bodies[i].angular_velocity, alone.solver_bodies[i].angular_velocity);
+    }
+  }
+}
+
 /// A pack that sweeps do not solve: the solver of whole steps comes to its tolerance all the same.
 TEST(JamSolver, SolvesWhatSweepsDoNot) {
   Random random(kSeed);
@@ -204,8 +254,33 @@ TEST(JamSolver, SolvesWhatSweepsDoNot) {
     for (PersistentContact& record : records) record = {};
     return ContactSolver().solve(bodies, contacts, CrushLaw{.step = 0.01}, {sweeps, 1e-6}).residual;
   };
-  EXPECT_GT(residual(20), 1e-5) << "before the first pass of Newton's method";
+  EXPECT_GT(residual(10), 1e-5) << "before the first pass of Newton's method";
   EXPECT_LE(residual(60), 1e-6);
+}
+
+/// The step that repeats itself starts where it ends, friction included.
+TEST(JamSolver, AJamThatStaysIsSolvedByOneSweep) {
+  Random random(kSeed);
+  Pack pack = pack_of(random, 8, 6, 0.2);
+  std::vector<PersistentContact> records(pack.contacts.size());
+  for (std::size_t i = 0; i < pack.contacts.size(); ++i) {
+    pack.contacts[i].record = &records[i];
+    pack.contacts[i].depth = 0.05;
+    pack.contacts[i].crushing_force = 200 * pack.laws[i][0].impulse_of_force;
+    pack.contacts[i].crushing_stiffness = pack.contacts[i].crushing_force;
+  }
+  const auto residual = [&](int sweeps) {
+    Bodies bodies = pack.bodies;
+    std::vector<Contact> contacts = pack.contacts;
+    return ContactSolver().solve(bodies, contacts, CrushLaw{.step = 0.01}, {sweeps, 1e-4}).residual;
+  };
+  EXPECT_GT(residual(1), 1e-2);
+  for (PersistentContact& record : records) record = {};
+  ASSERT_LE(residual(200), 1e-4);
+  for (PersistentContact& record : records) record.loaded_depth = 0;
+  EXPECT_LE(residual(1), 2e-4);
+  for (PersistentContact& record : records) record.start_impulse[0] = 0;
+  EXPECT_GT(residual(1), 1e-2) << "without its friction";
 }
 
 // ---- the factorization of jams' matrices against a dense one
@@ -278,6 +353,20 @@ TEST(JamMatrix, SolvesWhatADenseMatrixSolves) {
         std::rotate(problem.loads.begin(), problem.loads.begin() + 1, problem.loads.end());
       }
     }
+  }
+}
+
+/// One matrix for one jam after another, of other bodies or between others.
+TEST(JamMatrix, TakesOtherJams) {
+  Random random(kSeed);
+  JamMatrix matrix;
+  for (const int bodies : {40, 7, 7, 40}) {
+    const Problem problem = problem_of(random, bodies, 0.3);
+    matrix.take(bodies, problem.rows);
+    ASSERT_TRUE(matrix.factorize(problem.mass, problem.rows, problem.loads));
+    const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(3 * Eigen::Index{bodies}, -1, 2);
+    const Eigen::VectorXd expected = dense(problem).partialPivLu().solve(right);
+    EXPECT_LT((matrix.solve(right) - expected).norm(), 1e-8 * expected.norm()) << bodies;
   }
 }
 

@@ -10,39 +10,40 @@
 namespace polynya::dynamics {
 namespace {
 
-using Block = double[3][3];
-using Three = std::array<double, 3>;
+using Rows = double[3][4];
+using Three = std::array<double, 4>;  // and a lane, 0
 
 /// The first unknown of a body.
 Eigen::Index first_of(std::size_t body) {
   return static_cast<Eigen::Index>(3 * body);
 }
 
-/// to += pᵀ S q, of one contact; w = S q.
-void add_product(Block& to, const Block& p, const Block& w) {
+/// to += pᵀ w
+inline void add_product(Rows& to, const Rows& p, const Rows& w) {
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) to[i][j] += p[0][i] * w[0][j] + p[1][i] * w[1][j] + p[2][i] * w[2][j];
+    for (int j = 0; j < 4; ++j) to[i][j] += p[0][i] * w[0][j] + p[1][i] * w[1][j] + p[2][i] * w[2][j];
   }
 }
 
-void slopes_times(const JamLoad& load, const Block& q, Block& w) {
-  for (int j = 0; j < 3; ++j) {
+/// w = S q, of one contact.
+inline void slopes_times(const JamLoad& load, const Rows& q, Rows& w) {
+  for (int j = 0; j < 4; ++j) {
     w[0][j] = load.slope[0] * q[0][j];
     w[1][j] = load.slope[1] * q[1][j];
     w[2][j] = load.slip_by_apart[0] * q[0][j] + load.slip_by_apart[1] * q[1][j] + load.slope[2] * q[2][j];
   }
 }
 
-/// to −= l u
-void subtract_product(Block& to, const Block& l, const Block& u) {
+/// to −= pᵀ u
+inline void subtract_product(Rows& to, const Rows& p, const Rows& u) {
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) to[i][j] -= l[i][0] * u[0][j] + l[i][1] * u[1][j] + l[i][2] * u[2][j];
+    for (int j = 0; j < 4; ++j) to[i][j] -= p[0][i] * u[0][j] + p[1][i] * u[1][j] + p[2][i] * u[2][j];
   }
 }
 
 /// L U in the block's place, of its rows in the order found, the largest first, with the inverses of U's
 /// diagonal. Returns whether it is regular.
-bool factorize_own(Block& d, int (&row)[3]) {
+bool factorize_own(Rows& d, int (&row)[3]) {
   for (int k = 0; k < 3; ++k) row[k] = k;
   for (int k = 0; k < 3; ++k) {
     int largest = k;
@@ -63,21 +64,22 @@ bool factorize_own(Block& d, int (&row)[3]) {
   return true;
 }
 
-/// u = L⁻¹ u, of the rows in their order; l = l U⁻¹
-void divide(Block& u, Block& l, const Block& d, const int (&row)[3]) {
-  for (int k = 0; k < 3; ++k) {
-    const double was[3] = {u[0][k], u[1][k], u[2][k]};
-    u[0][k] = was[row[0]];
-    u[1][k] = was[row[1]] - d[1][0] * u[0][k];
-    u[2][k] = was[row[2]] - d[2][0] * u[0][k] - d[2][1] * u[1][k];
-    l[k][0] *= d[0][0];
-    l[k][1] = (l[k][1] - l[k][0] * d[0][1]) * d[1][1];
-    l[k][2] = (l[k][2] - l[k][0] * d[0][2] - l[k][1] * d[1][2]) * d[2][2];
+/// u = L⁻¹ u, of the rows in their order; l = l U⁻¹, l transposed
+inline void divide(Rows& u, Rows& l, const Rows& d, const int (&row)[3]) {
+  Rows was;
+  std::copy_n(&u[0][0], 12, &was[0][0]);
+  for (int j = 0; j < 4; ++j) {
+    u[0][j] = was[row[0]][j];
+    u[1][j] = was[row[1]][j] - d[1][0] * u[0][j];
+    u[2][j] = was[row[2]][j] - d[2][0] * u[0][j] - d[2][1] * u[1][j];
+    l[0][j] *= d[0][0];
+    l[1][j] = (l[1][j] - l[0][j] * d[0][1]) * d[1][1];
+    l[2][j] = (l[2][j] - l[0][j] * d[0][2] - l[1][j] * d[1][2]) * d[2][2];
   }
 }
 
 /// L⁻¹ x, of the rows in their order.
-void solve_lower(const Block& d, const int (&row)[3], Three& x) {
+void solve_lower(const Rows& d, const int (&row)[3], Three& x) {
   const Three was = x;
   x[0] = was[row[0]];
   x[1] = was[row[1]] - d[1][0] * x[0];
@@ -85,23 +87,40 @@ void solve_lower(const Block& d, const int (&row)[3], Three& x) {
 }
 
 /// U⁻¹ x
-void solve_upper(const Block& d, Three& x) {
+void solve_upper(const Rows& d, Three& x) {
   x[2] *= d[2][2];
   x[1] = (x[1] - d[1][2] * x[2]) * d[1][1];
   x[0] = (x[0] - d[0][1] * x[1] - d[0][2] * x[2]) * d[0][0];
 }
 
 /// x −= m y
-void subtract(Three& x, const Block& m, const Three& y) {
+void subtract(Three& x, const Rows& m, const Three& y) {
   for (int i = 0; i < 3; ++i) x[i] -= m[i][0] * y[0] + m[i][1] * y[1] + m[i][2] * y[2];
+}
+
+/// x −= mᵀ y
+void subtract_transposed(Three& x, const Rows& m, const Three& y) {
+  for (int i = 0; i < 4; ++i) x[i] -= m[0][i] * y[0] + m[1][i] * y[1] + m[2][i] * y[2];
 }
 
 }  // namespace
 
-JamMatrix::JamMatrix(int bodies, std::span<const JamRows> rows)
-    : place_of_(static_cast<std::size_t>(bodies)), own_(static_cast<std::size_t>(bodies)) {
+bool JamMatrix::is_of(int bodies, std::span<const JamRows> rows) const {
+  if (static_cast<std::size_t>(bodies) != own_.size() || rows.size() != between_.size()) return false;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (between_[k] != std::array{rows[k].a, rows[k].b}) return false;
+  return true;
+}
+
+void JamMatrix::take(int bodies, std::span<const JamRows> rows) {
+  if (is_of(bodies, rows)) return;
+  between_.clear();
+  for (const JamRows& r : rows) between_.push_back({r.a, r.b});
+  place_of_.resize(static_cast<std::size_t>(bodies));
+  own_.resize(static_cast<std::size_t>(bodies));
   order_bodies(rows);
   find_pairs(rows);
+  places_.clear();
   for (const JamRows& r : rows) {
     const int a = r.a < 0 ? -1 : place_of_[r.a];
     const int b = r.b < 0 ? -1 : place_of_[r.b];
@@ -137,24 +156,28 @@ void JamMatrix::find_pairs(std::span<const JamRows> rows) {
     const auto [first, second] = std::minmax(place_of_[r.a], place_of_[r.b]);
     later[first].push_back(second);
   }
-  first_.push_back(0);
+  first_.assign(1, 0);
+  later_.clear();
   for (std::size_t i = 0; i < bodies; ++i) {
     std::vector<int>& mine = later[i];
     std::sort(mine.begin(), mine.end());
     mine.erase(std::unique(mine.begin(), mine.end()), mine.end());
-    for (const int j : mine) pairs_.push_back({.later = j, .is_filled = false, .upper = {}, .lower = {}});
-    first_.push_back(static_cast<int>(pairs_.size()));
+    later_.insert(later_.end(), mine.begin(), mine.end());
+    first_.push_back(static_cast<int>(later_.size()));
     if (!mine.empty()) later[mine[0]].insert(later[mine[0]].end(), mine.begin() + 1, mine.end());
   }
+  is_filled_.assign(later_.size(), 0);
+  pairs_.assign(later_.size(), {});
   find_targets();
 }
 
 void JamMatrix::find_targets() {
+  targets_.clear();
   for (std::size_t i = 0; i < place_of_.size(); ++i) {
     for (int p = first_[i]; p < first_[i + 1]; ++p) {
-      int at = first_[pairs_[p].later];
+      int at = first_[later_[p]];
       for (int q = p + 1; q < first_[i + 1]; ++q) {
-        while (pairs_[at].later != pairs_[q].later) ++at;
+        while (later_[at] != later_[q]) ++at;
         targets_.push_back(at);
       }
     }
@@ -163,7 +186,7 @@ void JamMatrix::find_targets() {
 
 int JamMatrix::pair_of(int earlier, int later) const {
   int at = first_[earlier];
-  while (pairs_[at].later != later) ++at;
+  while (later_[at] != later) ++at;
   return at;
 }
 
@@ -171,26 +194,36 @@ void JamMatrix::add_up(const Eigen::VectorXd& mass, std::span<const JamRows> row
   for (std::size_t i = 0; i < place_of_.size(); ++i) {
     Own& own = own_[place_of_[i]];
     own = {};
-    for (int k = 0; k < 3; ++k) own.at[k][k] = mass[first_of(i) + k];
+    for (int k = 0; k < 3; ++k) own.block.at[k][k] = mass[first_of(i) + k];
   }
-  for (Pair& pair : pairs_) {
-    if (pair.is_filled) pair = {.later = pair.later, .is_filled = false, .upper = {}, .lower = {}};
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    if (is_filled_[p] != 0) pairs_[p] = {};
+    is_filled_[p] = 0;
   }
+  add(rows, loads);
+}
+
+void JamMatrix::add(std::span<const JamRows> rows, std::span<const JamLoad> loads) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const JamLoad& load = loads[k];
     if (load.slope[0] == 0 && load.slope[1] == 0 && load.slope[2] == 0) continue;
     const Places& place = places_[k];
-    Block by_a, by_b;
-    slopes_times(load, rows[k].of_a, by_a.at);
-    slopes_times(load, rows[k].of_b, by_b.at);
-    if (place.a >= 0) add_product(own_[place.a].at, rows[k].of_a, by_a.at);
-    if (place.b >= 0) add_product(own_[place.b].at, rows[k].of_b, by_b.at);
+    Rows by_a, by_b;
+    slopes_times(load, rows[k].of_a, by_a);
+    slopes_times(load, rows[k].of_b, by_b);
+    if (place.a >= 0) add_product(own_[place.a].block.at, rows[k].of_a, by_a);
+    if (place.b >= 0) add_product(own_[place.b].block.at, rows[k].of_b, by_b);
     if (place.pair < 0) continue;
     Pair& pair = pairs_[place.pair];
-    pair.is_filled = true;
+    is_filled_[place.pair] = 1;
     const bool is_a_first = place.a < place.b;
-    add_product(is_a_first ? pair.upper.at : pair.lower.at, rows[k].of_a, by_b.at);
-    add_product(is_a_first ? pair.lower.at : pair.upper.at, rows[k].of_b, by_a.at);
+    if (is_a_first) {
+      add_product(pair.upper.at, rows[k].of_a, by_b);
+      add_product(pair.lower.at, by_a, rows[k].of_b);
+    } else {
+      add_product(pair.upper.at, rows[k].of_b, by_a);
+      add_product(pair.lower.at, by_b, rows[k].of_a);
+    }
   }
 }
 
@@ -198,20 +231,20 @@ void JamMatrix::add_up(const Eigen::VectorXd& mass, std::span<const JamRows> row
 /// contacts of a jam carry nothing: their blocks are left out.
 void JamMatrix::eliminate(int body, const int* targets) {
   const Own& own = own_[body];
-  Pair* const begin = pairs_.data() + first_[body];
-  Pair* const end = pairs_.data() + first_[body + 1];
-  for (Pair* p = begin; p != end; ++p) {
-    if (p->is_filled) divide(p->upper.at, p->lower.at, own.at, own.row);
+  const int end = first_[body + 1];
+  for (int p = first_[body]; p != end; ++p) {
+    if (is_filled_[p] != 0) divide(pairs_[p].upper.at, pairs_[p].lower.at, own.block.at, own.row);
   }
-  for (Pair* p = begin; p != end; targets += end - ++p) {
-    if (!p->is_filled) continue;
-    subtract_product(own_[p->later].at, p->lower.at, p->upper.at);
-    for (Pair* q = p + 1; q != end; ++q) {
-      if (!q->is_filled) continue;
-      Pair& to = pairs_[targets[q - p - 1]];
-      to.is_filled = true;
-      subtract_product(to.upper.at, p->lower.at, q->upper.at);
-      subtract_product(to.lower.at, q->lower.at, p->upper.at);
+  for (int p = first_[body]; p != end; targets += end - ++p) {
+    if (is_filled_[p] == 0) continue;
+    const Pair& of_p = pairs_[p];
+    subtract_product(own_[later_[p]].block.at, of_p.lower.at, of_p.upper.at);
+    for (int q = p + 1; q != end; ++q) {
+      if (is_filled_[q] == 0) continue;
+      const int to = targets[q - p - 1];
+      is_filled_[to] = 1;
+      subtract_product(pairs_[to].upper.at, of_p.lower.at, pairs_[q].upper.at);
+      subtract_product(pairs_[to].lower.at, of_p.upper.at, pairs_[q].lower.at);
     }
   }
 }
@@ -220,7 +253,7 @@ bool JamMatrix::factorize(const Eigen::VectorXd& mass, std::span<const JamRows> 
   add_up(mass, rows, loads);
   const int* target = targets_.data();
   for (int i = 0; i < static_cast<int>(own_.size()); ++i) {
-    if (!factorize_own(own_[i].at, own_[i].row)) return false;
+    if (!factorize_own(own_[i].block.at, own_[i].row)) return false;
     eliminate(i, target);
     const int pairs = first_[i + 1] - first_[i];
     target += pairs * (pairs - 1) / 2;
@@ -233,16 +266,16 @@ Eigen::VectorXd JamMatrix::solve(const Eigen::VectorXd& right) const {
   std::vector<Three> x(bodies);
   for (std::size_t i = 0; i < bodies; ++i) std::copy_n(&right[first_of(i)], 3, x[place_of_[i]].data());
   for (std::size_t i = 0; i < bodies; ++i) {
-    solve_lower(own_[i].at, own_[i].row, x[i]);
+    solve_lower(own_[i].block.at, own_[i].row, x[i]);
     for (int p = first_[i]; p < first_[i + 1]; ++p) {
-      if (pairs_[p].is_filled) subtract(x[pairs_[p].later], pairs_[p].lower.at, x[i]);
+      if (is_filled_[p] != 0) subtract_transposed(x[later_[p]], pairs_[p].lower.at, x[i]);
     }
   }
   for (std::size_t i = bodies; i-- > 0;) {
     for (int p = first_[i]; p < first_[i + 1]; ++p) {
-      if (pairs_[p].is_filled) subtract(x[i], pairs_[p].upper.at, x[pairs_[p].later]);
+      if (is_filled_[p] != 0) subtract(x[i], pairs_[p].upper.at, x[later_[p]]);
     }
-    solve_upper(own_[i].at, x[i]);
+    solve_upper(own_[i].block.at, x[i]);
   }
   Eigen::VectorXd solution(right.size());
   for (std::size_t i = 0; i < bodies; ++i) std::copy_n(x[place_of_[i]].data(), 3, &solution[first_of(i)]);
