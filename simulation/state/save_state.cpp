@@ -44,7 +44,9 @@ void write(Archive& archive, const World& world, const std::vector<dynamics::Pai
     if (floe.parent != kNoFloe) archive(floe.shape.polygon);  // else the scene's
     archive(motion_of(population.bodies, population.body_of(id)));
   }
-  archive(population.tilted, population.submerged, pairs);
+  archive(population.tilted, population.submerged);
+  if (has_flooding_decks(world.setup)) archive(population.decks);
+  archive(pairs);
   if (is_crush_law(world.setup)) archive(members(pairs, &dynamics::PersistentContact::crushed));
 }
 

@@ -77,6 +77,17 @@ void fields(Archive& archive, Is<SubmergedPiece> auto& t) {
   archive(t.floe, t.ship, t.path, t.weight, t.next_try, t.waited);
 }
 template <class Archive>
+void fields(Archive& archive, Is<fracture::DeckStrip> auto& s) {
+  archive(s.width, s.sheet, s.older, s.water);
+}
+/// Of a deck; what follows from its ice and its hull as well.
+template <class Archive>
+void fields(Archive& archive, Is<PressedDeck> auto& p) {
+  archive(p.ship, p.arm_in_ship, p.normal_in_ship, p.horizontal_in_ship, p.deck.depth, p.deck.thickness,
+          p.deck.freeboard, p.deck.hull_angle, p.state.way, p.state.pool);
+  for (auto& strip : p.deck.strips) archive(strip);
+}
+template <class Archive>
 void fields(Archive& archive, Is<SubmergedLoads> auto& l) {
   archive(l.impulse, l.area);
 }
