@@ -68,7 +68,17 @@ TEST(FloodingDeck, FloodsThroughWhatOpensTheSoonerTheSlowerTheHull) {
   EXPECT_LT(work(deck, 40), 0.3 * work(deck, 4));
   EXPECT_LT(work(deck, 4000), 0.01 * dry);
   EXPECT_LT(work(rectangle(Beside::kWater), 4), work(deck, 4)) << "over open edges sooner";
-  EXPECT_GT(work(rectangle(Beside::kSheet), 4), work(deck, 4)) << "below the sheet later";
+}
+
+TEST(FloodingDeck, StaysDryAlongTheSheetUntilItIsBelowIt) {
+  const auto pool = [](Beside sides, double way) {
+    DeckState state;
+    turn_deck(rectangle(sides), kWater, 1, way, 10, state);
+    return state.pool;
+  };
+  EXPECT_EQ(pool(Beside::kSheet, 0.2), 0);
+  EXPECT_GT(pool(Beside::kOlderCusp, 0.2), 0);
+  EXPECT_GT(pool(Beside::kSheet, 1), 0);
 }
 
 TEST(FloodingDeck, HoldsNoMoreThanThereIsRoomBetweenDeckAndHull) {
