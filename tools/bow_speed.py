@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
-"""What could grow with speed at the bow: the size of each candidate from the cusps of runs; the table of
-docs/theory/bow.md, "What grows with speed".
+"""What grows with speed at the bow: the size of each part from the cusps of runs; the tables of docs/theory/bow.md,
+"Water on the deck of a turning cusp" and "What grows with speed".
 
-  tools/bow_speed.py   the reference ship at 1-6 m/s in .5 and 1 m; --polynya PROGRAM, --work FOLDER, --jobs N
+  tools/bow_speed.py          the reference ship; --polynya PROGRAM, --work FOLDER, --jobs N
 
-A cusp of area A and depth R turns about its far edge, the near one is pressed down at w = v tan(stem). By the way:
+A cusp of area A and depth R turns about its far edge by ψ, the near one is pressed down at w = v tan(stem). By the way:
   ice       its kinetic energy, ρ_i h A w²/6
   water     that of the water below, half of a plate's that turns about its edge in water without bounds,
             (9π/512) ρ_w R A w² (1 + (R/b)²)^-½, b = A/R
   drag      of its turning by ψ, C_D ρ_w w² R A ψ/8, C_D 1.1: an upper bound, the water's own energy is in it
-  dry deck  no water above it until it lies along the hull: ρ_w g A R² (1 − cos ψ)/6 an area R², a bound
-  slots     the same, where water falls over its two sides once the deck is below the neighbours' bottom (.9 h)
+  decks     the water that is missing on its deck, for a sector of that area and radius whose straight sides border
+            older cusps: dry, no water at all (a bound); closed, sides closed; plates, sides open by the distance from
+            older cusps as thick plates along the hull; built, by what the side has moved ahead; C_d .8; and built with
+            a gap of .1 h all along the sides
 The hull works against friction too: all times η/η₀, the thrust with friction over that without. Needs numpy.
 """
 import argparse
@@ -21,49 +23,88 @@ import os
 import numpy as np
 
 from bow_study import GAP, WAY, WAY_IN, scene
-from study import ENTRANCE, G, RHO_I, RHO_W, STEM, rows_of, run_all, run_scene
+from study import G, RHO_I, RHO_W, STEM, rows_of, run_all, run_scene
 
-FRICTION, DRAG, WEIR = 0.2, 1.1, 0.6
-SPEEDS, THICKNESSES = (1, 2, 3, 4, 6), (0.5, 1)
-NORMAL = math.sin(ENTRANCE)
-TILT = math.atan(math.tan(STEM) / NORMAL)  # of the flank from the horizontal, ψ
-MORE = (math.sin(TILT) + FRICTION * math.cos(TILT)) / (math.cos(TILT) - FRICTION * math.sin(TILT)) / math.tan(TILT)
+FRICTION, DRAG, ORIFICE, STRIPS, STEPS, CUSPS = 0.2, 1.1, 0.6, 8, 80, 60
+CASES = ((0.25, 1), (0.5, 0.25), (0.5, 1), (0.5, 3), (0.5, 6), (1, 0.2), (1, 0.5), (1, 1), (1, 3), (1, 6), (1.5, 1))
+DECKS = {"dry": {"discharge": 0}, "closed": {"sides": "closed"}, "plates": {"sides": "plates"}, "built": {},
+         "C_d .8": {"discharge": 0.8}, "gap": {"gap": 0.1}}
 
 
-def dry_share(h, depth, width, speed):
-    """The part of the dry deck's work that is left where water falls over a cusp's sides."""
-    steps = 400
-    angle = np.linspace(0, TILT, steps + 1)[1:]
-    time, volume, dry, wet = depth / speed * TILT / steps, 0.0, 0.0, 0.0
-    for psi in angle:
-        edge = depth * math.sin(psi)
-        room = 0.5 * width * depth * edge
-        if edge > 0.9 * h:
-            head = edge - 0.9 * h  # of the deepest end; the sides are open where the deck is below the neighbours
-            volume += time * 2 * WEIR * 2 / 3 * math.sqrt(2 * G) * head**1.5 * depth * (head / edge) / 2.5
-        volume = min(volume, room)
-        dry += edge
-        wet += edge * (1 - volume / room)
-    return wet / dry
+def strips_of(area, depth):
+    """A sector of that area about its tip: of each strip, from the axis on, distance, width, width of the sides across
+    the hull's normal, length of the arc [m]."""
+    half = min(area / depth**2, 0.49 * math.pi)
+    wider = area / (half * depth**2)
+    edges = np.linspace(0, depth, 40 * STRIPS + 1)
+    u = depth - (edges[1:] + edges[:-1]) / 2
+    is_side = u <= depth * math.cos(half)
+    width = 2 * np.minimum(u * math.tan(half), np.sqrt(depth**2 - u**2))
+    side = np.where(is_side, 2 * math.tan(half) * depth / len(u), 0)
+    arc = np.where(is_side, 0, 2 * depth * np.diff(np.arccos(1 - edges / depth)))
+    by_strip = lambda x: wider * x.reshape(STRIPS, -1).sum(1)
+    return (np.arange(STRIPS) + 0.5) * depth / STRIPS, by_strip(width) / 40, by_strip(side), by_strip(arc)
+
+
+def between_plates(h, depth, r, psi, waterline, slope):
+    """Distance of a side at r from an older cusp of the same depth that lies along the hull or nears it [m]."""
+    turned = np.where(waterline <= r, math.pi / 2 - slope,
+                      np.arccos(np.clip(math.cos(slope) * (waterline - r) / depth, -1, 1)) - slope)
+    # Of its two corners from the side's upper one.
+    back = r * (1 - math.cos(psi)) - np.array([0 * r, h * np.sin(turned)])
+    down = np.maximum(0, (r - waterline) / math.tan(slope)) - r * math.sin(psi) + np.array([0 * r, h * np.cos(turned)])
+    off = back * math.cos(psi) + down * math.sin(psi)
+    along = down * math.cos(psi) - back * math.sin(psi)
+    return np.maximum.reduce([0 * r, off.min(0), along.min(0) - h, -along.max(0)])
+
+
+def deck_work(h, area, depth, speed, slope, discharge=ORIFICE, sides="open", gap=0):
+    """Of the missing water, over a turn under a hull at `slope` from the vertical with that speed normal to it [J]."""
+    r, width, side, arc = strips_of(area, depth)
+    strip, step, freeboard = depth / STRIPS, depth / speed / STEPS, (1 - RHO_I / RHO_W) * h
+    pool = work = before = 0.0
+    for share in (np.arange(STEPS) + 1) / STEPS:
+        psi = math.acos(math.cos(slope) * (1 - share)) - slope
+        z, waterline = np.maximum(0, r * math.sin(psi) - freeboard), depth * (1 - share)
+        hull = np.maximum(0, (r * math.cos(psi) - waterline) / math.tan(slope))
+        below = lambda y: math.cos(psi) * strip * np.sum(width * np.maximum(0, z - np.maximum(y, hull)))
+        pool, low, high = min(pool, below(0)), 0, z[-1]
+        for _ in range(14 if pool < below(0) else 0):
+            middle = (low + high) / 2
+            low, high = (middle, high) if below(middle) > pool else (low, middle)
+        y = (low + high) / 2 if pool < below(0) else 0
+        opened = {"open": r * (1 - math.cos(psi)), "closed": 0 * r,
+                  "plates": between_plates(h, depth, r, psi, waterline, slope)}[sides] + gap * h
+        sheet = np.maximum(0, r * math.sin(psi) - h)
+        fall = lambda head: np.sqrt(2 * G * head)
+        pool += step * discharge * np.sum(opened * side * fall(np.minimum(y, z))
+                                          + sheet * arc * fall(np.minimum(y, h - freeboard + sheet / 2)))
+        work += RHO_W * G * strip * np.sum(np.minimum(z, y) * r * width) * (psi - before)
+        before = psi
+    return work
 
 
 def run(arguments, name, one):
-    """Of the measured way: the contacts' mean surge, and each candidate [N]."""
+    """Of the measured way: the contacts' mean surge, the other parts, and the decks' [N]."""
     folder, _ = run_scene(arguments, name, one)
     h, v = one["ice"]["thickness_m"], one["ships"][0]["propulsion"]["constant_speed_m_per_s"]
     start = (GAP + WAY_IN) / v
     surge = np.mean([-float(row["surge_N"]) for row in rows_of(folder, "forces.csv") if float(row["t_s"]) > start])
     with open(os.path.join(folder, "events.ndjson"), encoding="utf-8") as file:
         bends = [e for e in map(json.loads, file) if e["kind"] == "bend" and e["t_s"] > start]
-    w, sums = v * math.tan(STEM), np.zeros(5)
-    for e in bends:
-        area, depth = e["submerged_area_m2"], e["cusp_radius_m"]
-        width = max(area / depth, 0.1 * depth)
-        deck = RHO_W * G * area * depth**2 * (1 - math.cos(TILT)) / 6
-        sums += (RHO_I * h * area * w**2 / 6,
-                 9 * math.pi / 512 * RHO_W * depth * area * w**2 / math.hypot(1, depth / width),
-                 DRAG * RHO_W * w**2 * depth * area * TILT / 8, deck, deck * dry_share(h, depth, width, w))
-    return np.array([surge, *(MORE * sums / WAY)])
+    sample = bends[::max(1, len(bends) // CUSPS)]
+    sums = np.zeros(3 + len(DECKS))
+    for e in sample:
+        area, depth, ahead = e["submerged_area_m2"], e["cusp_radius_m"], e["normal"][0]
+        tilt = math.atan(math.tan(STEM) / ahead)  # of the hull from the horizontal, ψ
+        more = (math.tan(tilt) + FRICTION) / (1 - FRICTION * math.tan(tilt)) / math.tan(tilt)
+        w = v * math.tan(STEM)
+        sums += more * np.array([
+            RHO_I * h * area * w**2 / 6,
+            9 * math.pi / 512 * RHO_W * depth * area * w**2 / math.hypot(1, depth**2 / area),
+            DRAG * RHO_W * w**2 * depth * area * tilt / 8,
+            *(deck_work(h, area, depth, v * ahead, math.pi / 2 - tilt, **settings) for settings in DECKS.values())])
+    return np.array([surge, *(sums * len(bends) / len(sample) / WAY)])
 
 
 def main():
@@ -74,13 +115,12 @@ def main():
     arguments = parser.parse_args()
     os.makedirs(arguments.work, exist_ok=True)
     scenes = {}
-    for h in THICKNESSES:
-        for v in SPEEDS:
-            scenes[f"{h:g}", f"{v:g}"] = scene(h, v, {}) | {"record": {"forces_interval_s": 0.1 / v,
-                                                                       "frames_interval_s": 60, "contacts": "none"}}
+    for h, v in CASES:
+        scenes[f"{h:g}", f"{v:g}"] = scene(h, v, {}) | {"record": {"forces_interval_s": 0.1 / v,
+                                                                   "frames_interval_s": 60, "contacts": "none"}}
     results = run_all(arguments, run, scenes)
-    print("| h [m] | v [m/s] | crushing and bending of the run | ice | water | drag | dry deck | slots |\n|"
-          + "---|" * 8)
+    print("| h [m] | v [m/s] | crushing and bending | ice | water | drag | decks: " + " | ".join(DECKS) + " |\n|"
+          + "---|" * (6 + len(DECKS)))
     for (h, v), found in results.items():
         print(f"| {h} | {v} | " + " | ".join(f"{1e-3 * value:.1f}" if value < 1e4
                                              else f"{1e-3 * value:.0f}" for value in found) + " |")

@@ -7,7 +7,10 @@ ice".
   tools/ship_study.py exponents    how it grows with thickness, speed, strength and friction, beside Lindqvist's
   tools/ship_study.py speeds       what ships with reported speeds reach under full power (polynya performance)
 
-Options of all: --polynya PROGRAM, --work FOLDER (run folders; they are overwritten), --jobs N. Needs numpy.
+All but speeds are means of four runs at .97 to 1.03 of the speed, each cusp of its own strength: ice scatters, and
+without that, cusps of thick ice settle into patterns. --spread S is its deviation over the mean (.2; 0: none);
+--decks wet leaves out the water that is missing on turning cusps. Options of all: --polynya PROGRAM, --work FOLDER
+(run folders; they are overwritten), --jobs N. Needs numpy.
 """
 import argparse
 import csv
@@ -20,6 +23,7 @@ import numpy as np
 from study import DRAUGHT, FEW_RECORDS, HULL, LENGTH, REFERENCE, SHIP, formulas, rows_of, run_all, run_scene
 from polynya.performance.level_ice import ENDLESS  # study.py has found the package
 
+SHARES = (0.97, 0.99, 1.01, 1.03)
 FULL, MEASURED = 2 * LENGTH, 120  # way until the hull is full, and after it [m]
 KEINONEN = 330, 510  # [kN] at .5 m and 1 m/s, of the project's physics notes (recall)
 
@@ -45,6 +49,23 @@ def run(arguments, name, scene):
             "real_time": summary["real_time_factor"]}
 
 
+def means(arguments, points):
+    """Of each point's scene, by keys, the means of four runs, and the standard error of the sum [kN]."""
+    scenes = {}
+    for key, (h, v, ice) in points.items():
+        for number, share in enumerate(SHARES):
+            one = level_ice(h, v * share, **ice)
+            bending = {"strength_spread": arguments.spread, "decks": arguments.decks}
+            scenes[(*key, str(number))] = one | {"seed": number + 1, "fracture": one["fracture"] | {"bending": bending}}
+    results = run_all(arguments, run, scenes)
+    found = {}
+    for key in points:
+        each = [results[(*key, str(number))] for number in range(len(SHARES))]
+        found[key] = {part: np.mean([r[part] for r in each]) for part in each[0]}
+        found[key]["error"] = np.std([r["contact"] + r["submerged"] for r in each], ddof=1) / len(each) ** 0.5
+    return found
+
+
 def keinonen(h, v):
     """His band at 1 m/s, by h^1.25 (recall) from .5 m; of other speeds nothing is known here."""
     return "-".join(f"{r * (h / 0.5) ** 1.25:.0f}" for r in KEINONEN) if v == 1 else ""
@@ -52,15 +73,15 @@ def keinonen(h, v):
 
 def resistance(arguments):
     points = [(0.5, v) for v in (0.25, 0.5, 1, 2, 3)] + [(h, 1) for h in (0.25, 0.75, 1, 1.5)]
-    results = run_all(arguments, run, {point: level_ice(*point) for point in points})
+    results = means(arguments, {(f"{h:g}", f"{v:g}"): (h, v, {}) for h, v in points})
     print("| h [m] | v [m/s] | crushing and bending | submersion | sum | Lindqvist: R_c + R_b | R_s | sum | Riska | "
           "Spencer, Jones | Keinonen |")
     print("|---|---|---|---|---|---|---|---|---|---|---|")
     for h, v in points:
-        r, ice = results[h, v], formulas.Ice(h)
+        r, ice = results[f"{h:g}", f"{v:g}"], formulas.Ice(h)
         crushing, bending, submersion = (1e-3 * part for part in formulas.lindqvist(REFERENCE, ice, v))
-        print(f"| {h:g} | {v:g} | {r['contact']:.0f} | {r['submerged']:.0f} | {r['contact'] + r['submerged']:.0f} | "
-              f"{crushing + bending:.0f} | "
+        print(f"| {h:g} | {v:g} | {r['contact']:.0f} | {r['submerged']:.0f} | "
+              f"{r['contact'] + r['submerged']:.0f} ± {r['error']:.0f} | {crushing + bending:.0f} | "
               f"{submersion:.0f} | {crushing + bending + submersion:.0f} | "
               f"{1e-3 * formulas.riska(REFERENCE, ice, v):.0f} | "
               f"{1e-3 * formulas.spencer_jones(REFERENCE, ice, v):.0f} | {keinonen(h, v)} |")
@@ -68,7 +89,7 @@ def resistance(arguments):
 
 def smooth(arguments):
     points = [(h, 1) for h in (0.25, 0.5, 1, 1.5)]
-    results = run_all(arguments, run, {("smooth", *point): level_ice(*point, friction=0.05) for point in points})
+    results = means(arguments, {("smooth", h, v): (h, v, {"friction": 0.05}) for h, v in points})
     print("| h [m] | crushing and bending | submersion | sum | Spencer, Jones | Lindqvist |\n|---|---|---|---|---|---|")
     for h, v in points:
         r, ice = results["smooth", h, v], formulas.Ice(h, friction=0.05)
@@ -79,14 +100,14 @@ def smooth(arguments):
 
 def exponents(arguments):
     """Of the sum and of the contact part, by least squares of the logarithms."""
-    series = {"thickness h": [(h, level_ice(h, 1), formulas.Ice(h), 1) for h in (0.25, 0.5, 0.75, 1, 1.5)],
-              "speed v": [(v, level_ice(0.5, v), formulas.Ice(0.5), v) for v in (0.5, 1, 2, 3)],
-              "strength σ_f": [(s, level_ice(0.5, 1, flexural_strength_Pa=s), formulas.Ice(0.5, flexural_strength=s),
-                                1) for s in (0.4e6, 0.8e6, 1.6e6)],
-              "friction μ": [(m, level_ice(0.5, 1, friction=m), formulas.Ice(0.5, friction=m), 1)
+    series = {"thickness h": [(h, (h, 1, {}), formulas.Ice(h), 1) for h in (0.25, 0.5, 0.75, 1, 1.5)],
+              "speed v": [(v, (0.5, v, {}), formulas.Ice(0.5), v) for v in (0.5, 1, 2, 3)],
+              "strength σ_f": [(s, (0.5, 1, {"flexural_strength_Pa": s}), formulas.Ice(0.5, flexural_strength=s), 1)
+                               for s in (0.4e6, 0.8e6, 1.6e6)],
+              "friction μ": [(m, (0.5, 1, {"friction": m}), formulas.Ice(0.5, friction=m), 1)
                              for m in (0.05, 0.1, 0.2)]}
-    results = run_all(arguments, run, {(name.split()[0], f"{x:g}"): scene
-                                       for name, points in series.items() for x, scene, _, _ in points})
+    results = means(arguments, {(name.split()[0], f"{x:g}"): point
+                                for name, points in series.items() for x, point, _, _ in points})
     print("| resistance grows with | as | crushing and bending as | Lindqvist's as | his R_c + R_b as |")
     print("|---|---|---|---|---|")
     for name, points in series.items():
@@ -129,6 +150,8 @@ def main():
     parser.add_argument("study", choices=studies)
     parser.add_argument("--polynya", default="build/release/app/polynya")
     parser.add_argument("--work", default="/tmp/ship-study")
+    parser.add_argument("--spread", type=float, default=0.2)
+    parser.add_argument("--decks", choices=("flood", "wet"), default="flood")
     parser.add_argument("--jobs", type=int, default=2)
     arguments = parser.parse_args()
     os.makedirs(arguments.work, exist_ok=True)

@@ -152,6 +152,11 @@ const Description<FractureSettings> kBending{
                   "of contact law crush: whether ice that bends under a hull recedes from it, so "
                   "that the hull comes farther before a cusp breaks, or only crushes until then",
                   {{"followed", true}, {"ignored", false}}, &FractureSettings::follows_deflection),
+     choice<bool>(
+         "decks",
+         "of contact law crush and cusp_fate under_hull: whether water reaches the deck of a cusp that a hull "
+         "presses down through what opens as it turns, and the hull bears what is missing, or is there at once",
+         {{"flood", true}, {"wet", false}}, &FractureSettings::floods_decks),
      member("strength_spread", "", from(0, 2),
             "each bending event's flexural strength scatters by this (standard deviation / the floe's own, "
             "log-normal), by the place that the hull first touched and the seed; 0: not",

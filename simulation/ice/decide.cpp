@@ -79,6 +79,7 @@ EdgePush push_of(const ShipContactLoad& load) {
   EdgePush push;
   push.speed_per_approach = load.crushed_share / std::tan(load.hull_angle);
   push.speed = push.speed_per_approach * c.approach_speed;
+  push.hull_angle = load.hull_angle;
   const double slip = c.slip_speed > 0 ? -1 : c.slip_speed < 0 ? 1 : 0;
   push.horizontal = (load.shares.horizontal / load.shares.vertical) * c.normal +
                     (slip * load.shares.tangential / load.shares.vertical) * perpendicular(c.normal);

@@ -4,6 +4,7 @@
 
 #include "fracture/beam.hpp"
 #include "fracture/turning_cusp.hpp"
+#include "geometry/exact/point_in_ring.hpp"
 
 namespace polynya::simulation {
 namespace {
@@ -23,17 +24,113 @@ fracture::TurningCusp turning(const geometry::Polygon& piece, Vector ahead) {
   return {moments.area, along(far) - along(near), moments.xx};
 }
 
+Vector ahead_of(const Population& population, const PendingFracture& bend) {
+  return rotate_back(population.bodies.rotation[population.body_of(bend.floe)], bend.normal);
+}
+
 /// What the cut's cusps weigh at the edge that the hull presses down [kg].
 double pressed_mass(const Setup& setup, const Population& population, const PendingFracture& bend,
                     const geometry::CutResult& cut) {
   const fracture::Ice& ice = ice_of_floe(setup, population, bend.floe);
-  const Vector ahead = rotate_back(population.bodies.rotation[population.body_of(bend.floe)], bend.normal);
+  const Vector ahead = ahead_of(population, bend);
   double mass = 0;
   for (const geometry::Piece& piece : cut.pieces) {
     if (piece.part != geometry::Part::kInside) continue;
     mass += fracture::edge_mass(ice, setup.scene.water.water, turning(piece.shape.polygon, ahead));
   }
   return mass;
+}
+
+/// Takes an impulse that goes into ice on its way under from the hull, by the place where they touch.
+void brake(BodyIndex ship, Vector arm, Vector impulse, dynamics::Bodies& bodies, ShipLoads& loads, AuditSums& audit) {
+  const double turned = cross(arm, impulse);
+  const Vector in_ship = rotate_back(bodies.rotation[ship], impulse);
+  loads.submerged.impulse += {in_ship.x, in_ship.y, turned};
+  if (bodies.inverse_mass[ship] == 0) return;
+  audit.energy.submersion -= push(bodies, ship, impulse, turned);
+  audit.momentum.water += impulse;
+  audit.impulses += length(impulse);
+}
+
+/// By how much a ship's speed along a direction at an arm from its centre grows by an impulse there [m/s].
+double speed_by(const dynamics::Bodies& bodies, BodyIndex ship, Vector arm, Vector direction, Vector impulse) {
+  return dot(direction,
+             bodies.inverse_mass[ship] * impulse + cross(bodies.inverse_moment[ship] * cross(arm, impulse), arm));
+}
+
+/// Whether a point of the water has a cusp or floe below that went under, the last ones first.
+bool is_over_submerged(const Population& population, Point p) {
+  const dynamics::Bodies& bodies = population.bodies;
+  return std::any_of(population.submerged.rbegin(), population.submerged.rend(), [&](const SubmergedPiece& piece) {
+    const BodyIndex body = population.body_of(piece.floe);
+    return distance(bodies.position[body], p) <= bodies.bounding_radius[body] &&
+           contains(population.floes[piece.floe].shape.polygon,
+                    inverse_transform(dynamics::water_from_body(bodies, body), p));
+  });
+}
+
+/// Of the piece's depth: how far from its edge that is looked for which is beside it [-].
+constexpr double kBeside = 0.01;
+
+/// What is beside the edge of a cusp from a to b, counter-clockwise in its floe's body frame.
+fracture::Beside beside(const Setup& setup, const Population& population, const PendingFracture& bend, Point a,
+                        Point b) {
+  const Point middle = a + 0.5 * (b - a);
+  const double rounding = 1e-9 * bend.cusp_radius;
+  const double arc = bend.cusp_radius - setup.scene.fracture.cusp_sagitta - rounding;
+  if (distance(middle, bend.first_touch_in_body) >= arc) return fracture::Beside::kSheet;
+  const Vector out = -(kBeside * bend.cusp_radius / distance(a, b)) * perpendicular(b - a);
+  const geometry::Pose pose = dynamics::water_from_body(population.bodies, population.body_of(bend.floe));
+  const bool is_over = is_over_submerged(population, transform(pose, middle + out));
+  return is_over ? fracture::Beside::kOlderCusp : fracture::Beside::kWater;
+}
+
+fracture::Deck deck_of(const Setup& setup, const Population& population, const PendingFracture& bend,
+                       const geometry::Ring& piece) {
+  const Vector ahead = ahead_of(population, bend);
+  const geometry::Rotation ahead_from_body{ahead.x, -ahead.y};
+  std::vector<Point> outline;
+  std::vector<fracture::Beside> besides;
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    outline.push_back(Point{} + rotate(ahead_from_body, piece[i] - Point{}));
+    besides.push_back(beside(setup, population, bend, piece[i], piece[i + 1 < piece.size() ? i + 1 : 0]));
+  }
+  return fracture::deck_of(ice_of_floe(setup, population, bend.floe), setup.scene.water.water, bend.push.hull_angle,
+                           outline, besides);
+}
+
+/// Decks of the cut's cusps, which the hull presses down from now on.
+void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut,
+               Population& population) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const geometry::Rotation of_ship = bodies.rotation[bend.ship];
+  for (const geometry::Piece& piece : cut.pieces) {
+    if (piece.part != geometry::Part::kInside) continue;
+    PressedDeck pressed{.ship = bend.ship,
+                        .arm_in_ship = rotate_back(of_ship, bend.point_in_water - bodies.position[bend.ship]),
+                        .normal_in_ship = rotate_back(of_ship, bend.normal),
+                        .horizontal_in_ship = rotate_back(of_ship, bend.push.horizontal),
+                        .deck = deck_of(setup, population, bend, piece.shape.polygon.outer),
+                        .state = {}};
+    if (pressed.deck.depth > 0) population.decks.push_back(pressed);
+  }
+}
+
+/// Presses a deck on over a step.
+void press(const Setup& setup, PressedDeck& pressed, dynamics::Bodies& bodies, ShipLoads& loads, AuditSums& audit) {
+  const BodyIndex ship = pressed.ship;
+  const Vector arm = rotate(bodies.rotation[ship], pressed.arm_in_ship);
+  const Vector normal = rotate(bodies.rotation[ship], pressed.normal_in_ship);
+  const Vector horizontal = rotate(bodies.rotation[ship], pressed.horizontal_in_ship);
+  const Vector through_water =
+      dynamics::velocity_at(bodies, ship, arm) - setup.current.velocity_at(bodies.position[ship]);
+  const double speed = std::max(0.0, dot(normal, through_water));
+  const double down = fracture::turn_deck(pressed.deck, setup.scene.water.water, dot(normal, horizontal),
+                                          speed * setup.step, setup.step, pressed.state);
+  if (speed == 0) return;
+  const Vector impulse = -(down * setup.step) * horizontal;
+  const double slowed = -speed_by(bodies, ship, arm, normal, impulse);  // it stops a ship and never reverses it
+  brake(ship, arm, slowed > speed ? (speed / slowed) * impulse : impulse, bodies, loads, audit);
 }
 
 }  // namespace
@@ -47,20 +144,16 @@ void turn_cusp(const Setup& setup, const PendingFracture& bend, const geometry::
   const Vector arm = bend.point_in_water - bodies.position[ship];
   const double mass = pressed_mass(setup, population, bend, cut);
   // The hull slows down by what it gives: the two move on together.
-  const auto slowed = [&](Vector impulse) {
-    return edge.speed_per_approach *
-           dot(bend.normal,
-               bodies.inverse_mass[ship] * impulse + cross(bodies.inverse_moment[ship] * cross(arm, impulse), arm));
-  };
-  const double given = mass * edge.speed / (1 + mass * std::max(0.0, slowed(edge.horizontal)));  // down on the edge
-  const Vector impulse = -given * edge.horizontal;
-  const double turned = cross(arm, impulse);
-  const Vector in_ship = rotate_back(bodies.rotation[ship], impulse);
-  loads.submerged.impulse += {in_ship.x, in_ship.y, turned};
-  if (bodies.inverse_mass[ship] == 0) return;
-  audit.energy.submersion -= push(bodies, ship, impulse, turned);
-  audit.momentum.water += impulse;
-  audit.impulses += length(impulse);
+  const double slowed = edge.speed_per_approach * speed_by(bodies, ship, arm, bend.normal, edge.horizontal);
+  const double given = mass * edge.speed / (1 + mass * std::max(0.0, slowed));  // down on the edge
+  brake(ship, arm, -given * edge.horizontal, bodies, loads, audit);
+  if (has_flooding_decks(setup)) add_decks(setup, bend, cut, population);
+}
+
+void press_decks(const Setup& setup, Population& population, std::vector<ShipLoads>& loads, AuditSums& audit) {
+  for (PressedDeck& pressed : population.decks)
+    press(setup, pressed, population.bodies, loads[static_cast<std::size_t>(pressed.ship)], audit);
+  std::erase_if(population.decks, [](const PressedDeck& p) { return p.state.way >= p.deck.depth; });
 }
 
 }  // namespace polynya::simulation

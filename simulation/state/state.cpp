@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -56,7 +57,9 @@ void write(Archive& archive, const World& world, const std::vector<dynamics::Pai
     if (floe.parent != kNoFloe) archive(floe.shape.polygon);  // else the scene's
     archive(motion_of(population.bodies, population.body_of(id)));
   }
-  archive(population.tilted, population.submerged, pairs);
+  archive(population.tilted, population.submerged);
+  if (has_flooding_decks(world.setup)) archive(population.decks);
+  archive(pairs);
   if (is_crush_law(world.setup)) archive(members(pairs, &dynamics::PersistentContact::crushed));
 }
 
@@ -88,6 +91,7 @@ namespace {
 
 constexpr double kFarthest = 1e9;               ///< from the origin that a body can have gone [m]
 constexpr double kFastest = 8 * kRunawaySpeed;  ///< pieces of a fracture may turn faster for one step [m/s]
+constexpr double kLongestCusp = 1e4;            ///< [m]
 constexpr double kOutside = 1e-3;  ///< rounded vertices may stand outside the scene's ice by less than that [m]
 
 void set_motion(dynamics::Bodies& bodies, BodyIndex i, const BodyMotion& motion) {
@@ -299,6 +303,22 @@ class StateLoader {
       bytes_.require(submerged.weight >= 0 && submerged.waited >= 0, "a negative weight or wait");
       is_submerged[static_cast<std::size_t>(submerged.floe)] = true;
       submerged.area = population_.floes[submerged.floe].area;
+    }
+    if (has_flooding_decks(world_.setup)) load_decks();
+  }
+
+  void load_decks() {
+    bytes_(population_.decks);
+    for (const PressedDeck& pressed : population_.decks) {
+      const fracture::Deck& deck = pressed.deck;
+      bytes_.require(can_take_ice(pressed.ship), "a deck under a hull that there is not");
+      bytes_.require(deck.depth > 0 && deck.depth < kLongestCusp && deck.thickness > 0 && deck.freeboard >= 0,
+                     "a deck of no size");
+      bytes_.require(deck.hull_angle > 0 && deck.hull_angle < std::numbers::pi / 2, "a hull of another slope");
+      bytes_.require(pressed.state.way >= 0 && pressed.state.way < deck.depth && pressed.state.pool >= 0,
+                     "a deck that has turned too far");
+      for (const fracture::DeckStrip& s : deck.strips)
+        bytes_.require(s.width >= 0 && s.sheet >= 0 && s.older >= 0 && s.water >= 0, "a deck of negative width");
     }
   }
 

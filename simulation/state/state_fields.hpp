@@ -68,6 +68,15 @@ void fields(auto& archive, Is<TiltedFloe> auto& t) {
 void fields(auto& archive, Is<SubmergedPiece> auto& t) {
   archive(t.floe, t.ship, t.path, t.weight, t.next_try, t.waited);
 }
+void fields(auto& archive, Is<fracture::DeckStrip> auto& s) {
+  archive(s.width, s.sheet, s.older, s.water);
+}
+/// Of a deck; what follows from its ice and its hull as well.
+void fields(auto& archive, Is<PressedDeck> auto& p) {
+  archive(p.ship, p.arm_in_ship, p.normal_in_ship, p.horizontal_in_ship, p.deck.depth, p.deck.thickness,
+          p.deck.freeboard, p.deck.hull_angle, p.state.way, p.state.pool);
+  for (auto& strip : p.deck.strips) archive(strip);
+}
 void fields(auto& archive, Is<SubmergedLoads> auto& l) {
   archive(l.impulse, l.area);
 }

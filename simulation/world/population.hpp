@@ -4,6 +4,7 @@
 
 #include "dynamics/contact/broad_phase.hpp"
 #include "dynamics/water/water_drag.hpp"
+#include "fracture/flooding_deck.hpp"
 #include "fracture/tilting.hpp"
 #include "geometry/cut/cut.hpp"
 #include "geometry/exact/measures.hpp"
@@ -44,6 +45,16 @@ struct SubmergedPiece {
   double area = 0;      ///< of the floe, beside what each step reads; in no state [m²]
 };
 
+/// A cusp that broke off under a ship's hull and turns until it lies along it. In the ship's frame where named so.
+struct PressedDeck {
+  int ship = 0;
+  geometry::Vector arm_in_ship;         ///< of the contact that broke it, from the ship's centre [m]
+  geometry::Vector normal_in_ship;      ///< of that contact, out of the hull
+  geometry::Vector horizontal_in_ship;  ///< force on the ice per force down on it [-]
+  fracture::Deck deck;
+  fracture::DeckState state;
+};
+
 /// How a ship is steered, and what it may lose.
 struct Helm {
   double lever = 0;            ///< of the thrust, −1 to 1
@@ -70,6 +81,7 @@ struct Population {
   dynamics::BroadPhase pairs;             ///< of bodies that may touch, with the memory of their contacts
   std::vector<TiltedFloe> tilted;         ///< by (ship, floe)
   std::vector<SubmergedPiece> submerged;  ///< in the order in which they went under
+  std::vector<PressedDeck> decks;         ///< in the order in which they broke off
 
   static constexpr int kAllDue = dynamics::BroadPhase::kEveryLevel;
 

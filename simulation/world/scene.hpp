@@ -122,6 +122,7 @@ struct FractureSettings {
   fracture::EdgeOutline outline = fracture::EdgeOutline::kSections;  ///< of kFsiDatabase and ContactLaw::kCrush
   BendingFactors factors;                                            ///< for all hulls
   bool follows_deflection = true;  ///< of ContactLaw::kCrush: ice that bends under a hull recedes from it
+  bool floods_decks = true;        ///< likewise: water reaches the deck of a turning cusp only through what opens
   double bending_scatter = 0;      ///< deviation / mean of each bending event's flexural strength, log-normal [-]
   fracture::SplittingModel splitting = fracture::SplittingModel::kLefm;
   double splitting_shape_factor = 0.25;  ///< n of Eq. (4) [-]

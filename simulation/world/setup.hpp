@@ -60,6 +60,12 @@ inline bool is_crush_law(const Setup& setup) {
   return std::holds_alternative<dynamics::CrushLaw>(setup.law);
 }
 
+/// Whether hulls bear the water that is missing on the decks of cusps which they press down.
+inline bool has_flooding_decks(const Setup& setup) {
+  return is_crush_law(setup) && setup.scene.fracture.floods_decks &&
+         setup.scene.fracture.cusp_fate == CuspFate::kUnderHull;
+}
+
 /// A hull's underwater form by its waterline, stem angle and draught. Its entrance angle is the mean one of
 /// the bow: tan α = ½ B / (distance from the stem to where the waterline is widest).
 Underwater underwater_of(const Hull& hull);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "simulation/ice/split_instant.hpp"
+#include "simulation/ice/turning.hpp"
 #include "simulation/world/levels.hpp"
 #include "simulation/world/limits.hpp"
 
@@ -197,7 +198,10 @@ const std::array<Stage, 34> kStages = {{
      [](World& w) { apply_forces(w.setup, w.clock, w.threads, w.population, w.accounts.audit); }},
     {"thrust", RunsIn::kTicks, [](World& w) { push_ships(w.setup, w.population, w.accounts.audit); }},
     {"pull of submerged ice", RunsIn::kTicks,
-     [](World& w) { pull_of_submerged_ice(w.setup, w.population, w.step.loads, w.accounts.audit); }},
+     [](World& w) {
+       pull_of_submerged_ice(w.setup, w.population, w.step.loads, w.accounts.audit);
+       press_decks(w.setup, w.population, w.step.loads, w.accounts.audit);
+     }},
     {"sail", RunsIn::kTicks, [](World& w) { sail(w.setup, w.clock, w.step, w.population, w.accounts); }},
     {"integrate", RunsIn::kAllSteps,
      [](World& w) {

@@ -56,6 +56,7 @@ struct EdgePush {
   double speed = 0;               ///< down, that the edge does not have when it breaks; 0 where nothing is pushed [m/s]
   double speed_per_approach = 0;  ///< of it by the hull's own along the contact's normal [-]
   geometry::Vector horizontal;    ///< force on the ice per force down on it [-]
+  double hull_angle = 0;          ///< θ_s, of the hull there from the vertical [rad]
 };
 
 /// A fracture decided in this step, to be applied at its end.

@@ -188,5 +188,44 @@ TEST(UnderHull, AChannelFillsWithBrashAndAResumedRunGoesOnBitByBit) {
   EXPECT_GT(simulation.world().population.submerged.size(), 50U);
 }
 
+/// The reference ship in a wide plate of a metre, by constant speed or thrust.
+Build in_thick_ice(const Propulsion& propulsion, double speed, bool floods_decks) {
+  Build scene = Build().step(0.01).ship(with_draught(icebreaker({-0.5, 0}, propulsion, speed)));
+  scene.floe(rectangle(0, -150, 400, 150));
+  scene.ice.thickness = 1;
+  scene.fracture.cusp_fate = CuspFate::kUnderHull;
+  scene.fracture.splitting = fracture::SplittingModel::kNone;
+  scene.fracture.floods_decks = floods_decks;
+  return scene;
+}
+
+TEST(UnderHull, DecksThatWaterHasNotReachedBrakeAFastHullMore) {
+  const auto of_decks = [](double speed) {
+    const auto surge = [&](bool floods) {
+      const Trial done = run(in_thick_ice(ConstantSpeed{speed}, speed, floods), 40 / speed);
+      EXPECT_EQ(done.simulation.world().population.decks.empty(), !floods);
+      return -mean(done.story, &HullSample::from_submerged, 20 / speed, 40 / speed, &dynamics::Planar::surge);
+    };
+    return surge(true) - surge(false);
+  };
+  const double slow = of_decks(0.1);
+  const double fast = of_decks(1);
+  EXPECT_GT(slow, 0);
+  EXPECT_GT(fast, 1.3 * slow);
+}
+
+TEST(UnderHull, DecksTakeTheirWorkFromAShipThatIsFree) {
+  const Simulation simulation = run(in_thick_ice(ConstantThrust{3e5}, 1.5, true), 20).simulation;
+  EXPECT_FALSE(simulation.world().population.decks.empty());
+  expect_closed(simulation);
+  EXPECT_GT(simulation.audit().sums.energy.submersion,
+            run(in_thick_ice(ConstantThrust{3e5}, 1.5, false), 20).simulation.audit().sums.energy.submersion);
+}
+
+TEST(UnderHull, ARunWithDecksThatTurnGoesOnBitByBit) {
+  const Simulation simulation = expect_resumes(in_thick_ice(ConstantSpeed{1}, 1, true), 15, 20).simulation;
+  EXPECT_FALSE(simulation.world().population.decks.empty());
+}
+
 }  // namespace
 }  // namespace polynya::simulation

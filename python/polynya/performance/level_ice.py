@@ -11,6 +11,9 @@ BLOCKS = 6  # of the measured way
 OF_THE_START = ("pilot", "sway_speed_m_per_s", "yaw_rate_deg_per_s")
 # A plate without end does not split; what comes up behind the stern does not load the ship.
 ENDLESS = {"splitting": {"model": "none"}, "resurface": {"enabled": False}}
+# Deviation of the flexural strength of beams at one place over their mean (recall). Without it cusps of thick ice settle
+# into patterns that can hold a ship.
+STRENGTH_SPREAD = 0.2
 
 
 def ice_keys(ice):
@@ -37,7 +40,7 @@ def scene(ship, ice, speed, lengths, step):
         "name": f"level-{ice.thickness:g}",
         "time": {"step_s": step, "until_s": math.ceil(way / speed)},
         "ice": ice_keys(ice),
-        "fracture": ENDLESS,
+        "fracture": ENDLESS | {"bending": {"strength_spread": STRENGTH_SPREAD}},
         "ships": [{key: value for key, value in ship.items() if key not in OF_THE_START} | start],
         "floes": [
             {"rectangle": {"corner_m": [0, -0.5 * width], "size_m": [way, width]}, "fast_ice": True}
