@@ -49,8 +49,8 @@ Polygon roll_polygon(std::mt19937& random) {
 }
 
 TEST(Validity, AgreesWithGeos) {
-  constexpr unsigned kSeed = 31;
-  std::mt19937 random(kSeed);
+  constexpr unsigned kPeerSeed = 31;
+  std::mt19937 random(kPeerSeed);
   GEOSContextHandle_t geos = GEOS_init_r();
   int valid = 0;
   int invalid = 0;
@@ -61,7 +61,7 @@ TEST(Validity, AgreesWithGeos) {
       continue;
     const bool ours = !find_defect(polygon);
     ++(ours ? valid : invalid);
-    ASSERT_EQ(ours, is_valid_to_geos(geos, polygon)) << "seed " << kSeed << " " << trials::to_code(polygon);
+    ASSERT_EQ(ours, is_valid_to_geos(geos, polygon)) << "seed " << kPeerSeed << " " << trials::to_code(polygon);
   }
   GEOS_finish_r(geos);
   EXPECT_GT(valid, 3000);
