@@ -1,0 +1,55 @@
+"""Mean surge in level ice by the step, one for all, as the mean of runs whose thickness differs by .3 % each.
+
+Usage: python3 tools/step_ensemble.py THICKNESS SPEED STEP... [--members N] [--binary BINARY]
+
+Thick ice breaks in patterns that repeat themselves, and jumps between them: one run is one draw. The reference ship, at
+constant speed through 150 m of fast ice that does not split; the mean is that from the way of 32 m on, brought to the
+first run's thickness by h^1.8.
+"""
+
+import argparse
+import math
+import pathlib
+import statistics
+import tempfile
+
+from study import measured_run, rows_of
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+HULL = {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30, "draught_m": 6}
+WAY, BOW = 150, 32  # [m]
+APART = 0.003  # of the thickness
+
+
+def surge(binary, thickness, speed, step):
+    ship = {"hull": HULL, "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9, "position_m": [-62, 0],
+            "propulsion": {"constant_speed_m_per_s": speed}}
+    scene = {"name": "step-ensemble", "time": {"until_s": (WAY + 30) / speed, "step_s": step, "levels": 0},
+             "ice": {"thickness_m": thickness}, "record": {"frames_interval_s": 10}, "ships": [ship],
+             "fracture": {"splitting": {"model": "none"}, "cusp_fate": "under_hull"},
+             "floes": [{"rectangle": {"corner_m": [0, -100], "size_m": [400, 200]}, "fast_ice": True}]}
+    with tempfile.TemporaryDirectory() as folder:
+        run, _, _ = measured_run(binary, folder, scene, "--no-map")
+        return statistics.fmean(-float(row["surge_N"]) for row in rows_of(run, "forces.csv")
+                                if float(row["t_s"]) * speed > BOW)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("thickness", type=float)
+    parser.add_argument("speed", type=float)
+    parser.add_argument("steps", type=float, nargs="+")
+    parser.add_argument("--members", type=int, default=8)
+    parser.add_argument("--binary", default=str(ROOT / "build/release/app/polynya"))
+    given = parser.parse_args()
+    print("| step, s | mean, kN | runs, kN |\n|---|---|---|")
+    for step in given.steps:
+        found = [surge(given.binary, given.thickness * factor, given.speed, step) / factor**1.8 / 1e3
+                 for factor in (1 + APART * i for i in range(given.members))]
+        error = statistics.stdev(found) / math.sqrt(len(found))
+        print(f"| {step:g} | {statistics.fmean(found):.1f} ± {error:.1f} | {', '.join(f'{x:.0f}' for x in found)} |",
+              flush=True)
+
+
+if __name__ == "__main__":
+    main()
