@@ -25,7 +25,7 @@ constexpr std::uint32_t kLeastKept = 24;
 /// An island that needs more sweeps is jammed: Newton's method, now and again. Most small ones come to their
 /// solution by some more.
 constexpr int sweeps_to_jam(const Island& island) {
-  return island.count > 64 ? 12 : 48;
+  return island.count > 64 ? 24 : 48;
 }
 
 }  // namespace
