@@ -192,6 +192,7 @@ TEST(UnderHull, AChannelFillsWithBrashAndAResumedRunGoesOnBitByBit) {
 Build in_thick_ice(const Propulsion& propulsion, double speed, bool floods_decks) {
   Build scene = Build().step(0.01).ship(with_draught(icebreaker({-0.5, 0}, propulsion, speed)));
   scene.floe(rectangle(0, -150, 400, 150));
+  scene.floes.back().is_fast = true;
   scene.ice.thickness = 1;
   scene.fracture.cusp_fate = CuspFate::kUnderHull;
   scene.fracture.splitting = fracture::SplittingModel::kNone;
@@ -204,11 +205,11 @@ TEST(UnderHull, DecksThatWaterHasNotReachedBrakeAFastHullMore) {
     const auto surge = [&](bool floods) {
       const Trial done = run(in_thick_ice(ConstantSpeed{speed}, speed, floods), 40 / speed);
       EXPECT_EQ(done.simulation.world().population.decks.empty(), !floods);
-      return -mean(done.story, &HullSample::from_submerged, 20 / speed, 40 / speed, &dynamics::Planar::surge);
+      return -mean(done.story, &HullSample::from_submerged, 0, 20 / speed);
     };
     return surge(true) - surge(false);
   };
-  const double slow = of_decks(0.1);
+  const double slow = of_decks(0.2);
   const double fast = of_decks(1);
   EXPECT_GT(slow, 0);
   EXPECT_GT(fast, 1.3 * slow);

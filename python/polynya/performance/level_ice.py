@@ -11,8 +11,8 @@ BLOCKS = 6  # of the measured way
 OF_THE_START = ("pilot", "sway_speed_m_per_s", "yaw_rate_deg_per_s")
 # A plate without end does not split; what comes up behind the stern does not load the ship.
 ENDLESS = {"splitting": {"model": "none"}, "resurface": {"enabled": False}}
-# Deviation of the flexural strength of beams at one place over their mean (recall). Without it cusps of thick ice settle
-# into patterns that can hold a ship.
+# Deviation of the flexural strength of beams at one place over their mean (recall). Without it cusps of thick ice
+# settle into patterns that can hold a ship.
 STRENGTH_SPREAD = 0.2
 
 
