@@ -48,7 +48,7 @@ TEST(FloodingDeck, HasTheOutlinesStrips) {
   EXPECT_NEAR(older, kCuspWidth, 1e-12);  // of the near edge: the sides do not face the hull
   EXPECT_NEAR(deck.strips.back().older, kCuspWidth, 1e-12);
   EXPECT_EQ(water, 0);
-  EXPECT_EQ(rectangle(Beside::kSea).strips.front().water, 2 * kCuspDepth / Deck::kStrips);
+  EXPECT_EQ(rectangle(Beside::kWater).strips.front().water, 2 * kCuspDepth / Deck::kStrips);
 }
 
 TEST(FloodingDeck, DryTakesTheWorkOfTheWaterThatIsMissing) {
@@ -68,7 +68,7 @@ TEST(FloodingDeck, FloodsThroughWhatOpensTheSoonerTheSlowerTheHull) {
   EXPECT_LT(work(deck, 4), 0.9 * dry);
   EXPECT_LT(work(deck, 40), 0.3 * work(deck, 4));
   EXPECT_LT(work(deck, 4000), 0.01 * dry);
-  EXPECT_LT(work(rectangle(Beside::kSea), 4), work(deck, 4)) << "over open edges sooner";
+  EXPECT_LT(work(rectangle(Beside::kWater), 4), work(deck, 4)) << "over open edges sooner";
 }
 
 TEST(FloodingDeck, StaysDryAlongTheSheetUntilItIsBelowIt) {
@@ -84,7 +84,7 @@ TEST(FloodingDeck, StaysDryAlongTheSheetUntilItIsBelowIt) {
 
 TEST(FloodingDeck, HoldsNoMoreThanThereIsRoomBetweenDeckAndHull) {
   DeckState end;
-  work(rectangle(Beside::kSea), 40, &end);
+  work(rectangle(Beside::kWater), 40, &end);
   EXPECT_NEAR(end.way, kCuspDepth, 1e-9);
   EXPECT_NEAR(end.pool, 0, 1e-3 * kCuspWidth * kCuspDepth * kCuspDepth) << "the hull has come to the axis";
 }
