@@ -64,7 +64,7 @@ void ContactSolver::start(const Island& island, const Law& law, bool is_first) {
     for (int end = 0; end < 2; ++end)
       c.normal_impulse[end] = std::min(start_impulse(law, states[k], c, end, is_first), c.limit);
     const double most = c.friction * (c.normal_impulse[0] + c.normal_impulse[1]);
-    c.slip_impulse = std::clamp(start_slip(law, states[k], c, is_first), -most, most);
+    c.slip_impulse = is_first ? 0 : std::clamp(c.slip_impulse, -most, most);
     apply_impulses(c, c.normal_impulse[0], c.normal_impulse[1], c.slip_impulse, solver_bodies_);
   }
 }

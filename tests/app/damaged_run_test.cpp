@@ -71,7 +71,7 @@ TEST_F(DamagedRun, ADamagedSummaryIsNamedWithItsPlace) {
   text.insert(text.find("\"steps\": ") + 9, "j");
   write_file(summary, text);
   for (const auto& words : kReading) {
-    EXPECT_HAS(expect_code(5, call(words)).err, "damaged/summary.json:8:12: ");
+    EXPECT_HAS(expect_code(5, call(words)).err, "damaged/summary.json:9:12: ");
   }
   write_file(summary, whole);
 }

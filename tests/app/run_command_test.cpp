@@ -55,7 +55,7 @@ TEST(RunCommand, LeadsWithTheTrueForce) {
     }
     const std::size_t first = outcome.out.find("ice force"), last = outcome.out.find("j/τ_c");
     EXPECT_NEAR(surge_in(line_with(outcome.out, "largest mean over 0.1 s")) / mean, 1, 1e-3) << outcome.out;
-    EXPECT_NEAR(surge_in(line_with(outcome.out, "largest single step of 0.005 s")) / step, 1, 1e-3);
+    EXPECT_NEAR(surge_in(line_with(outcome.out, "largest single step of")) / step, 1, 1e-3);
     const io::JsonValue& peaks = run->summary.find("peaks")->items()[0];
     EXPECT_EQ(peaks.find("surge_N")->find("value")->number(), mean);
     EXPECT_EQ(peaks.find("surge_max_N")->find("value")->number(), step);
@@ -100,7 +100,7 @@ TEST(RunCommand, ShipsThatMeetAreReportedAndNoIceLoad) {
   const std::string hull = R"("hull": {"length_m": 100, "beam_m": 20}, "propulsion": )";
   write_file(
       folder / "scene.json",
-      scene({R"("time": {"until_s": 30}, "floes": [])",
+      scene({R"("time": {"until_s": 30, "step_s": 0.01}, "floes": [])",
              R"("structures": [{"name": "pier", "radius_m": 5, "position_m": [70, 0]}])",
              list("ships", {ship(hull + R"({"constant_speed_m_per_s": 1}, "name": "leader", "position_m": [0, 0])"),
                             ship(hull + R"({"thrust_N": 0}, "name": "follower", "position_m": [-110, 0],

@@ -204,7 +204,7 @@ TEST(ProgressBar, FitsAnyTerminal) {
     EXPECT_HAS(text, "\r");
     EXPECT_EQ(std::ranges::count(text, '\n'), 1) << text;  // at the end
     for (const int used : columns_of_lines(text)) EXPECT_LT(used, columns) << text;
-    EXPECT_EQ(text.find("100 %") != std::string::npos, columns > 6) << text;
+    EXPECT_EQ(text.find("100 %") != std::string::npos, columns > 5) << text;
   }
 }
 

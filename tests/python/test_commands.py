@@ -123,5 +123,5 @@ def test_the_manual_page_is_written_without_the_python_of_commands(tmp_path):
     guide = pathlib.Path(command.__file__).with_name("guide.py")
     page, completion = tmp_path / "polynya.1", tmp_path / "polynya.bash"
     words = [sys.executable, guide, PROGRAM, page, completion]
-    without = ended(words, env={**os.environ, "POLYNYA_PYTHON": "/no/such"})
+    without = of_python(*words, env={**os.environ, "POLYNYA_PYTHON": "/no/such"})
     assert without.returncode == 0 and "polynya movie \\-\\-help explains its options" in page.read_text()

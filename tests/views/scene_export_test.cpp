@@ -132,9 +132,11 @@ TEST_F(SceneExport, TheClockOfATablePilotGoesOn) {
   EXPECT_EQ(rows[2].time, 50);
 }
 
-/// A ship that presses a plate under, in drifting water; the way is that of the frames.
+/// A ship that presses a plate under, in drifting water; the way is that of the frames. No scene has the water that is
+/// missing on decks.
 TEST_F(SceneExport, IceUnderAHullStaysThere) {
   const std::string text = R"({"time": {"step_s": 0.01, "until_s": 30}, "water": {"drift_m_per_s": [0, 0.1]},
+    "fracture": {"bending": {"decks": "wet"}},
     "ships": [{"name": "icebreaker", "hull": {"length_m": 40, "beam_m": 8, "entrance_angle_deg": 27, )"
                            R"("stem_angle_deg": 30,
       "draught_m": 2}, "mass_kg": 1e6, "moment_of_inertia_kg_m2": 1e8, "position_m": [-21, 0],
