@@ -42,8 +42,8 @@ def main():
     parser.add_argument("--only")
     given = parser.parse_args()
     quick = ["--quick"] if given.quick else []
-    print("| case | to port, m | Polynya, ms a simulated s | surge, kN | one step for all | surge, kN | Box2D 3.2 at that "
-          "step | at its longest | of, s | Box2D's longest over Polynya | both with one step |")
+    print("| case | to port, m | Polynya, ms a simulated s | surge, kN | one step for all | surge, kN "
+          "| Box2D 3.2 at that step | at its longest | of, s | Box2D's longest over Polynya | both with one step |")
     print("|---|---|---|---|---|---|---|---|---|---|---|")
     for case in CASES:
         if given.only and given.only != case:

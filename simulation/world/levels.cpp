@@ -72,13 +72,13 @@ double fastest_rim(const Scene& scene) {
   return fastest;
 }
 
-/// In which the load of a wall takes it to its closing speed, at least [s].
-double shortest_start(const Scene& scene) {
-  double shortest = std::numeric_limits<double>::infinity();
+/// Of walls that press: in which their load takes them to their closing speed, and kTickUnderPressure [s].
+double longest_by_walls(const Scene& scene) {
+  double longest = std::numeric_limits<double>::infinity();
   for (const Wall& wall : scene.walls)
     if (const auto& p = wall.pressure; p && p->line_load > 0)
-      shortest = std::min(shortest, p->closing_speed * p->mass_per_length / p->line_load);
-  return shortest;
+      longest = std::min({longest, kTickUnderPressure, p->closing_speed * p->mass_per_length / p->line_load});
+  return longest;
 }
 
 /// What kMostIce of the ice is thicker than, by area [m].
@@ -113,7 +113,7 @@ double default_tick(const Scene& scene) {
   const double of_hulls = std::min((has_parts ? kTickOverStep : 1) * way, radius / 2);  // they have parts of ticks
   const double longest =
       std::min({of_hulls / fastest_meeting(scene), way / fastest_floe(scene),
-                kWayOverCircle * radius / fastest_rim(scene), shortest_start(scene), scene.time.until});
+                kWayOverCircle * radius / fastest_rim(scene), longest_by_walls(scene), scene.time.until});
   const auto goes_into = [](double tick, double interval) {
     const double times = std::round(interval / tick);
     return times >= 1 && std::abs(interval / tick - times) < 1e-6 * times;

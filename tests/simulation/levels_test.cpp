@@ -90,6 +90,9 @@ TEST(Levels, ATickIsChosenBySpeedThicknessAndWhatIsRecorded) {
   Scene moving = scene(0.5, 2);
   moving.floes.push_back(FloeSpec{rectangle(200, 0, 210, 10), {3, 0}, 0});
   EXPECT_EQ(default_tick(moving), 0.025);  // .075 / 3
+  Scene pressed = scene(0.5, 2);
+  pressed.walls.emplace_back().pressure = WallPressure{.line_load = 1e4};
+  EXPECT_EQ(default_tick(pressed), 0.02);
   Scene turning = scene(0.5, 2);
   turning.floes.push_back(FloeSpec{rectangle(200, 0, 210, 10), {}, 1});
   EXPECT_EQ(default_tick(turning), 0.01);  // .25 / (1 × 14.1) = .018
