@@ -1,8 +1,8 @@
 """Mean loads and processor time by the default step with its levels and with one fine step for all, side by side.
 
 Usage: python3 tools/step_levels.py [BINARY] [--places N] [--only CASE] [--step S]
-       BINARY by default build/release/app/polynya; --places: lateral places of the ship, 4 by default; --step: a tick in place
-       of the default one
+       BINARY by default build/release/app/polynya; --places: lateral places of the ship, 4 by default; --step: a tick
+       in place of the default one
 
 Each case is run at each place twice: as a scene that gives no step, and by one step for all, a quarter of the shortest
 step of that run. The mean is that of the surge by contact of all ships from the time that the bow is in the ice; its

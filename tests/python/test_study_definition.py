@@ -236,7 +236,7 @@ def test_a_case_that_the_scene_does_not_allow_is_refused_before_anything_runs(fo
     for text, messages in (
         ('{"scene": "plate.json",\n %s,\n %s' % (grid, set_),
          (thickness, friction, 'mean "friction"?', "[all 2 cases]")),
-        ('{"scene": "plate.json", ' + set_, ("plate.json:4:12",)),
+        ('{"scene": "plate.json", ' + set_, ("plate.json:5:12",)),
         ('{"scene": "gone.json"}', (f"{path}:1:11: scene: {folder}/gone.json: no such file\n",)),
         ('{"scene": "s.json",}', (f"{path}:1:19: a comma too many",)),
     ):
