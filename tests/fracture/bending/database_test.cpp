@@ -90,7 +90,7 @@ TEST(DefaultDatabase, IsWhatTheSolverMakes) {
 
 // What docs/theory/bending.md promises: over the whole box, against solutions whose mesh starts four times
 // nearer the tip. Against the table's own mesh an inner radius that is too coarse would not show.
-// Of 200 points: polynya database study accuracy.
+// Of 200 points: polynya_bench_wedges accuracy.
 TEST(DefaultDatabase, AgreesWithFinerSolutionsAtRandomPoints) {
   constexpr std::uint64_t kSeed = 20170611;
   const SolverSettings& own = default_database().settings();
