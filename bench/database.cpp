@@ -7,10 +7,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include "bench/wedge_studies.hpp"
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/fsi_database_model.hpp"
-#include "fracture/bending/fsi_database_model.hpp"
-#include "bench/wedge_studies.hpp"
 #include "fracture/crushing.hpp"
 
 namespace polynya::bench {

@@ -10,8 +10,8 @@
 #include "geometry/exact/validity.hpp"
 #include "simulation/field/convex.hpp"
 #include "simulation/field/floe_field.hpp"
-#include "simulation/field/tessellation.hpp"
 #include "simulation/field/portable_math.hpp"
+#include "simulation/field/tessellation.hpp"
 #include "tests/shapes.hpp"
 
 namespace polynya::simulation {
