@@ -182,7 +182,7 @@ PeerScene with_longest_step(const Peer& peer, const PeerScene& scene, const Limi
   PeerScene found = scene;
   const RunCost reference = peer.run(peer, scene, limits);
   if (reference.places.empty() || reference.covered() < 0.99 * limits.time) return found;
-  for (const double times : {1.25, 1.5, 2., 2.5, 3., 4., 5., 6., 8.}) {
+  for (const double times : {1.25, 1.5, 2., 2.5, 3., 4., 5., 6., 8., 10., 12., 16.}) {
     PeerScene longer = scene;
     longer.step = times * scene.step;
     const double off = astray(scene, reference, peer.run(peer, longer, limits));
