@@ -180,7 +180,7 @@ void kind_fields(Line& line, auto& event, Kind& e) {
 }
 
 template <class Line>
-void kind_fields(Line& line, auto& event, Is<simulation::ShipContact> auto& e) {
+void kind_fields(Line& line, auto& event, Is<simulation::HullContact> auto& e) {
   line("ship", ShipName{event.ship}, {"", "one of the two", "ship"});
   line("by_ship", ShipName{e.other}, {"", "the other: a ship, a structure or a wall", "other ship"});
   line("point_m", event.point_in_world, {"m", "where, in the world", "at"});

@@ -140,9 +140,9 @@ constexpr std::size_t kMostShipContacts = 5;  ///< that each have a warning
 /// A warning for each two ships or structures that came into contact, the first few of them.
 std::vector<std::string> ship_contact_warnings(const Simulation& simulation) {
   std::vector<std::string> warnings;
-  const auto& contacts = simulation.world().accounts.ship_contacts;
+  const auto& contacts = simulation.world().accounts.hull_contacts;
   for (const simulation::Event& event : contacts) {
-    const auto& c = std::get<simulation::ShipContact>(event.what);
+    const auto& c = std::get<simulation::HullContact>(event.what);
     if (warnings.size() == kMostShipContacts) {
       warnings.push_back(fmt::format("{} more pairs of ships and structures came into contact (events.ndjson)",
                                      contacts.size() - kMostShipContacts));

@@ -28,15 +28,15 @@ py::tuple three_of(const dynamics::Planar& p) {
 }
 
 void bind_seen_ship(py::module_& module) {
-  using simulation::SeenShip;
-  py::class_<SeenShip>(module, "SeenShip", "A ship or structure as pilots see it.")
+  using simulation::SeenHull;
+  py::class_<SeenHull>(module, "SeenShip", "A ship or structure as pilots see it.")
       .def_property_readonly(
-          "position", [](const SeenShip& s) { return pair_of(s.position_in_world); },
+          "position", [](const SeenHull& s) { return pair_of(s.position_in_world); },
           "Of its centre of gravity, x and y [m].")
-      .def_readonly("heading", &SeenShip::heading, "[rad]")
+      .def_readonly("heading", &SeenHull::heading, "[rad]")
       .def_property_readonly(
-          "velocity", [](const SeenShip& s) { return pair_of(s.velocity); }, "Over ground, x and y [m/s].")
-      .def_readonly("length", &SeenShip::length, "Of its waterline [m].");
+          "velocity", [](const SeenHull& s) { return pair_of(s.velocity); }, "Over ground, x and y [m/s].")
+      .def_readonly("length", &SeenHull::length, "Of its waterline [m].");
 }
 
 /// A number of the view.
@@ -64,7 +64,7 @@ void bind_pilot(py::module_& module) {
       .def_property_readonly("step", &read<&V::step>, "To the next command [s].")
       .def_property_readonly(
           "ship", [](const PilotView& v) { return v.values.ship; }, "Its own index in ships.")
-      .def_readonly("ships", &PilotView::ships, "All ships and structures: SeenShip.")
+      .def_readonly("ships", &PilotView::hulls, "All ships and structures: SeenShip.")
       .def_property_readonly(
           "position", [](const PilotView& v) { return pair_of(v.own().position_in_world); },
           "Of its centre of gravity, x and y [m].")

@@ -10,12 +10,12 @@ namespace polynya::python {
 
 /// What a pilot in Python gets: a copy, which it may keep.
 struct PilotView {
-  explicit PilotView(const simulation::PilotView& seen) : values(seen), ships(seen.ships.begin(), seen.ships.end()) {
-    values.ships = {};
+  explicit PilotView(const simulation::PilotView& seen) : values(seen), hulls(seen.hulls.begin(), seen.hulls.end()) {
+    values.hulls = {};
   }
   simulation::PilotView values;  ///< without its ships
-  std::vector<simulation::SeenShip> ships;
-  const simulation::SeenShip& own() const { return ships[static_cast<std::size_t>(values.ship)]; }
+  std::vector<simulation::SeenHull> hulls;
+  const simulation::SeenHull& own() const { return hulls[static_cast<std::size_t>(values.ship)]; }
 };
 
 /// Asks a Python pilot; the GIL is held. None from it keeps lever and steering where they are. What it raises

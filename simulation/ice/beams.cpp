@@ -8,8 +8,8 @@
 
 #include "fracture/beam.hpp"
 #include "simulation/ice/crack.hpp"
+#include "simulation/ship/hull_contact_load.hpp"
 #include "simulation/ship/pressing.hpp"
-#include "simulation/ship/ship_contact_load.hpp"
 
 namespace polynya::simulation {
 namespace {

@@ -6,7 +6,7 @@
 #include "simulation/ice/breaking.hpp"
 #include "simulation/ice/crack.hpp"
 #include "simulation/ice/prescribed.hpp"
-#include "simulation/ship/ship_contact_load.hpp"
+#include "simulation/ship/hull_contact_load.hpp"
 #include "simulation/world/step.hpp"
 
 namespace polynya::simulation {
@@ -41,7 +41,7 @@ void set_crushing(Contact& c, CrushingForce crushing, double dt, bool is_just_bo
 
 /// By the paper's rule: the crack that would start at the contact, along the hull's normal through all ice
 /// ahead, and the force that it takes.
-void find_crack(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load,
+void find_crack(const Setup& setup, const dynamics::Bodies& bodies, const HullContactLoad& load,
                 PendingFracture& pending) {
   const Contact& c = load.contact;
   pending.crack_in_body = crack_through(bodies, c.b, c.middle(), c.normal, geometry::CrackReach::kFarSide);
@@ -52,7 +52,7 @@ void find_crack(const Setup& setup, const dynamics::Bodies& bodies, const ShipCo
 }
 
 /// V of the contact, V_b and the cusp. Returns whether the model answered for the load itself.
-bool measure_bending(const Setup& setup, const ShipContactLoad& load, PendingFracture& pending) {
+bool measure_bending(const Setup& setup, const HullContactLoad& load, PendingFracture& pending) {
   fracture::BendingCapacity capacity = setup.bending->capacity(bending_load(setup, load));
   const BendingFactors factors = bending_factors_of(setup.scene, load.contact.a);
   capacity.vertical_force *= factors.load;
@@ -74,7 +74,7 @@ bool measure_bending(const Setup& setup, const ShipContactLoad& load, PendingFra
 
 /// By the law of crushing ice. The hull slides the edge down at v_n/tan θ_s; what did not crush of its way the edge has
 /// gone already. A wall that is as good as vertical presses down no ice (shares).
-EdgePush push_of(const ShipContactLoad& load) {
+EdgePush push_of(const HullContactLoad& load) {
   const Contact& c = load.contact;
   EdgePush push;
   push.speed_per_approach = load.crushed_share / std::tan(load.hull_angle);
@@ -86,7 +86,7 @@ EdgePush push_of(const ShipContactLoad& load) {
   return push;
 }
 
-PendingFracture evaluate(const Setup& setup, const Population& population, const ShipContactLoad& load,
+PendingFracture evaluate(const Setup& setup, const Population& population, const HullContactLoad& load,
                          Counts& counts) {
   const Contact& c = load.contact;
   PendingFracture pending;
@@ -120,7 +120,7 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
 }
 
 /// Adds j/τ_c of a ship's contact with ice.
-void add_collision(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load, ShipLoads& loads) {
+void add_collision(const Setup& setup, const dynamics::Bodies& bodies, const HullContactLoad& load, HullLoads& loads) {
   const Contact& c = load.contact;
   const Vector force = -(load.impulse / setup.scene.contact.contact_time) * c.normal;
   const Vector in_ship = rotate_back(bodies.rotation[c.a], force);
@@ -149,7 +149,7 @@ void decide_at_ship(const Setup& setup, const Clock& clock, const Population& po
                     Counts& counts) {
   const dynamics::Bodies& bodies = population.bodies;
   const double dt = setup.step;
-  ShipContactLoad load = load_of(setup, population, c);
+  HullContactLoad load = load_of(setup, population, c);
   if (is_crush_law(setup)) {
     press_prescribed(setup, population, load);
     close_prescribed_gap(setup, bodies, c);

@@ -5,7 +5,7 @@
 #include "geometry/exact/point_in_ring.hpp"
 #include "simulation/ice/pieces.hpp"
 #include "simulation/ice/turning.hpp"
-#include "simulation/ship/ship_contact_load.hpp"
+#include "simulation/ship/hull_contact_load.hpp"
 #include "simulation/world/step.hpp"
 
 namespace polynya::simulation {

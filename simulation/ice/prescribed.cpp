@@ -117,7 +117,7 @@ double most_that_ice_bears(const Setup& setup, const Population& population, con
   return strength * (thickness * across) * (1 + ice.friction * slope_tangent);
 }
 
-void press_prescribed(const Setup& setup, const Population& population, ShipContactLoad& load) {
+void press_prescribed(const Setup& setup, const Population& population, HullContactLoad& load) {
   const Contact& c = load.contact;
   if (!is_prescribed(population.bodies, c)) return;
   const double line = load.ice.thickness * c.width / std::cos(load.hull_angle);

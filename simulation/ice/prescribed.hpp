@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simulation/ship/ship_contact_load.hpp"
+#include "simulation/ship/hull_contact_load.hpp"
 
 namespace polynya::simulation {
 
@@ -17,7 +17,7 @@ double most_that_ice_bears(const Setup& setup, const Population& population, con
 /// Enters the load of a hull in fast ice where the motion of both is prescribed: as the overlap's area grows
 /// by w per metre, so much ice crushes, whatever the overlap has become; never more than a line as long as
 /// the hull is wide bears, since nothing gives way there. Else the load is as it was.
-void press_prescribed(const Setup& setup, const Population& population, ShipContactLoad& load);
+void press_prescribed(const Setup& setup, const Population& population, HullContactLoad& load);
 
 /// Closes the gap to what has pressed in a contact of prescribed bodies whose overlap is at least as large:
 /// its depth does not show it where ice was carved out.

@@ -8,8 +8,8 @@
 
 #include "simulation/ice/crack.hpp"
 #include "simulation/ice/split_instant.hpp"
+#include "simulation/ship/hull_contact_load.hpp"
 #include "simulation/ship/pressing.hpp"
-#include "simulation/ship/ship_contact_load.hpp"
 #include "simulation/world/step.hpp"
 
 namespace polynya::simulation {

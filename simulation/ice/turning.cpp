@@ -42,7 +42,7 @@ double pressed_mass(const Setup& setup, const Population& population, const Pend
 }
 
 /// Takes an impulse that goes into ice on its way under from the hull, by the place where they touch.
-void brake(BodyIndex ship, Vector arm, Vector impulse, dynamics::Bodies& bodies, ShipLoads& loads, AuditSums& audit) {
+void brake(BodyIndex ship, Vector arm, Vector impulse, dynamics::Bodies& bodies, HullLoads& loads, AuditSums& audit) {
   const double turned = cross(arm, impulse);
   const Vector in_ship = rotate_back(bodies.rotation[ship], impulse);
   loads.submerged.impulse += {in_ship.x, in_ship.y, turned};
@@ -117,7 +117,7 @@ void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::
 }
 
 /// Presses a deck on over a step.
-void press(const Setup& setup, PressedDeck& pressed, dynamics::Bodies& bodies, ShipLoads& loads, AuditSums& audit) {
+void press(const Setup& setup, PressedDeck& pressed, dynamics::Bodies& bodies, HullLoads& loads, AuditSums& audit) {
   const BodyIndex ship = pressed.ship;
   const Vector arm = rotate(bodies.rotation[ship], pressed.arm_in_ship);
   const Vector normal = rotate(bodies.rotation[ship], pressed.normal_in_ship);
@@ -136,7 +136,7 @@ void press(const Setup& setup, PressedDeck& pressed, dynamics::Bodies& bodies, S
 }  // namespace
 
 void turn_cusp(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut, Population& population,
-               ShipLoads& loads, AuditSums& audit) {
+               HullLoads& loads, AuditSums& audit) {
   const EdgePush& edge = bend.push;
   const BodyIndex ship = bend.ship;
   if (edge.speed <= 0) return;
@@ -150,7 +150,7 @@ void turn_cusp(const Setup& setup, const PendingFracture& bend, const geometry::
   if (has_flooding_decks(setup)) add_decks(setup, bend, cut, population);
 }
 
-void press_decks(const Setup& setup, Population& population, std::vector<ShipLoads>& loads, AuditSums& audit) {
+void press_decks(const Setup& setup, Population& population, std::vector<HullLoads>& loads, AuditSums& audit) {
   for (PressedDeck& pressed : population.decks)
     press(setup, pressed, population.bodies, loads[static_cast<std::size_t>(pressed.ship)], audit);
   std::erase_if(population.decks, [](const PressedDeck& p) { return p.state.way >= p.deck.depth; });

@@ -9,10 +9,10 @@ namespace polynya::simulation {
 /// goes under it (`InsideFate::kUnderHull`). Brakes the hull, and enters it in its loads and in the accounts. Keeps the
 /// cusp's deck, where water floods decks (`has_flooding_decks`).
 void turn_cusp(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut, Population& population,
-               ShipLoads& loads, AuditSums& audit);
+               HullLoads& loads, AuditSums& audit);
 
 /// Presses the decks on that hulls press down, by the way of a step, and lets water onto them: brakes the hulls by the
 /// pressure of the water that is missing there. Those that lie along the hull end.
-void press_decks(const Setup& setup, Population& population, std::vector<ShipLoads>& loads, AuditSums& audit);
+void press_decks(const Setup& setup, Population& population, std::vector<HullLoads>& loads, AuditSums& audit);
 
 }  // namespace polynya::simulation

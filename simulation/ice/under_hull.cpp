@@ -81,7 +81,7 @@ double speed_ahead(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex
 
 }  // namespace
 
-void pull_of_submerged_ice(const Setup& setup, Population& population, std::vector<ShipLoads>& loads,
+void pull_of_submerged_ice(const Setup& setup, Population& population, std::vector<HullLoads>& loads,
                            AuditSums& audit) {
   if (population.submerged.empty()) return;
   dynamics::Bodies& bodies = population.bodies;

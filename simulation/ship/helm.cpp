@@ -7,9 +7,9 @@ namespace {
 
 using geometry::Vector;
 
-std::vector<SeenShip> seen_ships(const Setup& setup, const Clock& clock, const Population& population) {
+std::vector<SeenHull> seen_hulls(const Setup& setup, const Clock& clock, const Population& population) {
   const dynamics::Bodies& bodies = population.bodies;
-  std::vector<SeenShip> seen;
+  std::vector<SeenHull> seen;
   for (std::size_t i = 0; i < hull_count(setup.scene); ++i) {
     const geometry::Box box = bounding_box(hull_of(setup.scene, i).hull.waterline);
     seen.push_back({.position_in_world = bodies.position[i] + clock.drift(),
@@ -51,19 +51,19 @@ double steering_gain(const Sailing& sailing, const PilotView& view, double momen
   return (yaw_at(kAngle) - yaw_at(-kAngle)) / (2 * kAngle * inertia);
 }
 
-PilotView view_of(const Setup& setup, const Clock& clock, const Population& population, std::span<const SeenShip> ships,
+PilotView view_of(const Setup& setup, const Clock& clock, const Population& population, std::span<const SeenHull> hulls,
                   BodyIndex i) {
   const dynamics::Bodies& bodies = population.bodies;
   const Sailing& sailing = setup.sailing[i];
   const Helm& helm = population.helms[i];
   const Vector through_water =
       rotate_back(bodies.rotation[i], bodies.velocity[i] - setup.current.velocity_at(bodies.position[i]));
-  const Vector over_ground = rotate_back(bodies.rotation[i], ships[i].velocity);
+  const Vector over_ground = rotate_back(bodies.rotation[i], hulls[i].velocity);
   PilotView view;
   view.time = clock.time();
   view.step = clock.step;
   view.ship = i;
-  view.ships = ships;
+  view.hulls = hulls;
   view.through_water = {through_water.x, through_water.y, bodies.angular_velocity[i]};
   view.speed_over_ground = over_ground.x;
   view.lever = helm.lever;
@@ -96,14 +96,14 @@ Command commanded(const Setup& setup, const PilotView& view, const std::vector<E
 
 void take_helms(const Setup& setup, const Clock& clock, Population& population) {
   population.helms.resize(setup.scene.ships.size());
-  const std::vector<SeenShip> ships = seen_ships(setup, clock, population);
+  const std::vector<SeenHull> hulls = seen_hulls(setup, clock, population);
   for (BodyIndex i = 0; i < std::ssize(population.helms); ++i) {
     if (!setup.sailing[i].engine) continue;
     Helm& helm = population.helms[i];
-    helm.memory = memory_at_start(view_of(setup, clock, population, ships, i));
+    helm.memory = memory_at_start(view_of(setup, clock, population, hulls, i));
     PilotMemory untouched = helm.memory;
     const Command first =
-        limited(command_of(setup.scene.ships[i].pilot, view_of(setup, clock, population, ships, i), untouched),
+        limited(command_of(setup.scene.ships[i].pilot, view_of(setup, clock, population, hulls, i), untouched),
                 setup.sailing[i]);
     helm.lever = first.lever;
     helm.steering_angle = first.steering_angle;
@@ -112,12 +112,12 @@ void take_helms(const Setup& setup, const Clock& clock, Population& population) 
 
 void steer(const Setup& setup, const Clock& clock, const std::vector<ExternalPilot>& external, Population& population) {
   if (std::ranges::none_of(setup.sailing, [](const Sailing& s) { return s.engine.has_value(); })) return;
-  const std::vector<SeenShip> ships = seen_ships(setup, clock, population);
+  const std::vector<SeenHull> hulls = seen_hulls(setup, clock, population);
   for (BodyIndex i = 0; i < std::ssize(population.helms); ++i) {
     const Sailing& sailing = setup.sailing[i];
     if (!sailing.engine) continue;
     Helm& helm = population.helms[i];
-    const PilotView view = view_of(setup, clock, population, ships, i);
+    const PilotView view = view_of(setup, clock, population, hulls, i);
     const Command command = commanded(setup, view, external, helm);
     helm.lever = dynamics::approach(helm.lever, command.lever, sailing.engine->lever_rate, clock.step);
     helm.steering_angle =

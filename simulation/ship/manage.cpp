@@ -124,7 +124,7 @@ struct Frame {
 
 Frame frame_of(const ManagingPilot& pilot, const PilotView& view, PatternMemory& memory) {
   if (length(view.ice_drift) >= kLeastDrift) memory.upstream = angle_of(-view.ice_drift);
-  const SeenShip& body = view.ships[static_cast<std::size_t>(pilot.body_index)];
+  const SeenHull& body = view.hulls[static_cast<std::size_t>(pilot.body_index)];
   Frame frame;
   frame.body = body.position_in_world + memory.carried;
   frame.upstream = unit(memory.upstream);
@@ -166,7 +166,7 @@ Point point_ahead(const PatternLine& line, double place, double ahead) {
 double pace(const ManagingPilot& pilot, const PilotView& view, double own_place) {
   double error = 0;
   for (const PatternPartner& partner : pilot.partners) {
-    const double place = view.ships[static_cast<std::size_t>(partner.ship)].lap_share - partner.phase;
+    const double place = view.hulls[static_cast<std::size_t>(partner.ship)].lap_share - partner.phase;
     error += std::remainder(place - (own_place - pilot.phase), 1.0);
   }
   if (!pilot.partners.empty()) error /= static_cast<double>(pilot.partners.size());
@@ -205,8 +205,8 @@ Vector on_pattern(const ManagingPilot& pilot, const PilotView& view, Frame& fram
 
 /// Whether another ship is on its way to a floe.
 bool is_taken(const PilotView& view, FloeId floe) {
-  for (std::size_t i = 0; i < view.ships.size(); ++i)
-    if (static_cast<int>(i) != view.ship && view.ships[i].target_floe == floe) return true;
+  for (std::size_t i = 0; i < view.hulls.size(); ++i)
+    if (static_cast<int>(i) != view.ship && view.hulls[i].target_floe == floe) return true;
   return false;
 }
 
@@ -248,7 +248,7 @@ Vector to_largest_floe(const ManagingPilot& pilot, const PilotView& view, const 
 
 /// Turns a velocity so that it passes another hull at a distance at least: a ship with that to port, as both
 /// do; what stands to the side to which it passes already. Within that distance, away from it.
-Vector clear_of(const SeenShip& other, bool stands, double distance, const PilotView& view, Vector velocity) {
+Vector clear_of(const SeenHull& other, bool stands, double distance, const PilotView& view, Vector velocity) {
   const Vector to_other = other.position_in_world - view.own().position_in_world;
   const double far = length(to_other);
   const Vector towards = to_other / std::max(far, 1e-9);
@@ -265,15 +265,15 @@ Vector clear_of(const SeenShip& other, bool stands, double distance, const Pilot
 }
 
 Vector clear_of_all(const ManagingPilot& pilot, const PilotView& view, Vector velocity) {
-  const auto distance_to = [&](const SeenShip& other) {
+  const auto distance_to = [&](const SeenHull& other) {
     return pilot.safety_radius > 0 ? pilot.safety_radius : view.own().length + other.length;
   };
-  for (std::size_t i = 0; i < view.ships.size(); ++i) {
+  for (std::size_t i = 0; i < view.hulls.size(); ++i) {
     const bool is_other = static_cast<int>(i) != view.ship && static_cast<int>(i) != pilot.body_index;
-    if (is_other && !view.ships[i].is_wall)
-      velocity = clear_of(view.ships[i], view.ships[i].is_fixed, distance_to(view.ships[i]), view, velocity);
+    if (is_other && !view.hulls[i].is_wall)
+      velocity = clear_of(view.hulls[i], view.hulls[i].is_fixed, distance_to(view.hulls[i]), view, velocity);
   }
-  const SeenShip& body = view.ships[static_cast<std::size_t>(pilot.body_index)];
+  const SeenHull& body = view.hulls[static_cast<std::size_t>(pilot.body_index)];
   return clear_of(body, true, distance_to(body), view, velocity);
 }
 

@@ -91,7 +91,7 @@ void go_on(const RoutePilot& pilot, const PilotView& view, PilotMemory& memory) 
 /// The angle from the ship's heading to its course over ground, smoothed: to port positive. In a turn it is
 /// the turn's own, and is left out.
 double drift_angle(const PilotView& view, PilotMemory& memory) {
-  const SeenShip& own = view.own();
+  const SeenHull& own = view.own();
   const bool is_turning = std::abs(view.through_water.yaw) * own.length > kTurning * view.speed_over_ground;
   if (view.speed_over_ground > kLeastWay && !is_turning) {
     const double angle = wrapped(angle_of(own.velocity) - own.heading);
@@ -158,8 +158,8 @@ Command steer(const RammingPilot& pilot, const PilotView& view, PilotMemory& mem
 
 /// To where the leader's stern is, as fast as the leader and by the error of the distance.
 Command steer(const FollowingPilot& pilot, const PilotView& view, PilotMemory& memory) {
-  const SeenShip& own = view.own();
-  const SeenShip& leader = view.ships[static_cast<std::size_t>(pilot.leader)];
+  const SeenHull& own = view.own();
+  const SeenHull& leader = view.hulls[static_cast<std::size_t>(pilot.leader)];
   const Vector ahead = unit(own.heading);
   const Point stern = leader.position_in_world + leader.stern * unit(leader.heading);
   const Point stem = own.position_in_world + own.stem * ahead;

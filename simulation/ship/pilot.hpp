@@ -19,8 +19,8 @@ struct SeenFloe {
   double area = 0;                    ///< [m²]
 };
 
-/// A ship as pilots see it from others.
-struct SeenShip {
+/// A hull (of a ship, structure or wall) as pilots see it.
+struct SeenHull {
   geometry::Point position_in_world;  ///< of its centre of gravity [m]
   double heading = 0;                 ///< [rad]
   geometry::Vector velocity;          ///< over ground [m/s]
@@ -37,8 +37,8 @@ struct SeenShip {
 struct PilotView {
   double time = 0;  ///< [s]
   double step = 0;  ///< Δt to the next command [s]
-  int ship = 0;     ///< its own, among `ships`
-  std::span<const SeenShip> ships;
+  int ship = 0;     ///< its own, among `hulls`
+  std::span<const SeenHull> hulls;
   dynamics::Planar through_water;                ///< [m/s, rad/s]
   double speed_over_ground = 0;                  ///< ahead [m/s]
   double lever = 0;                              ///< where it is
@@ -51,7 +51,7 @@ struct PilotView {
   dynamics::Engine engine;
   double mass = 0;  ///< with the water's inertia ahead [kg]
 
-  const SeenShip& own() const { return ships[static_cast<std::size_t>(ship)]; }
+  const SeenHull& own() const { return hulls[static_cast<std::size_t>(ship)]; }
 };
 
 /// What the engine and the steering are to go to. What lies beyond their stops is limited to these.

@@ -162,8 +162,8 @@ class StateLoader {
       bytes_.require(count >= 0 && count <= kMostCounted, "a count that cannot be");
     bytes_.require(c.largest_residual >= 0 && c.energy_created >= 0, "a negative residual");
     bytes_.require(world_.accounts.loads.size() == hull_count(scene_), "loads of other ships");
-    for (const Event& contact : world_.accounts.ship_contacts) {
-      const int other = std::get<ShipContact>(contact.what).other;
+    for (const Event& contact : world_.accounts.hull_contacts) {
+      const int other = std::get<HullContact>(contact.what).other;
       bytes_.require(contact.ship >= 0 && contact.ship < other && other < population_.hull_count,
                      "a contact of no two ships");
     }

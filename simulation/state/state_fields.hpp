@@ -85,11 +85,11 @@ void fields(auto& archive, Is<ContactLoads> auto& l) {
 }
 /// Of the contact of two ships.
 void fields(auto& archive, Is<Event> auto& e) {
-  auto& c = std::get<ShipContact>(e.what);
+  auto& c = std::get<HullContact>(e.what);
   archive(e.time, e.ship, c.other, e.point_in_world, c.closing_speed, c.relative_speed, c.is_prescribed);
 }
-void fields(auto& archive, Is<ShipLoads> auto& l) {
-  archive(l.ice, l.ships, l.submerged, l.collision);
+void fields(auto& archive, Is<HullLoads> auto& l) {
+  archive(l.ice, l.hulls, l.submerged, l.collision);
 }
 void fields(auto& archive, Is<dynamics::Planar> auto& p) {
   archive(p.surge, p.sway, p.yaw);
@@ -179,7 +179,7 @@ void fields(auto& archive, Is<PanelLoads> auto& p) {
 
 /// Not its peaks and panels: they decide nothing of the run (state.cpp).
 void fields(auto& archive, Is<Accounts> auto& a) {
-  archive(a.ledger, a.audit, a.counts, a.loads, a.ship_contacts, a.refused_grinds);
+  archive(a.ledger, a.audit, a.counts, a.loads, a.hull_contacts, a.refused_grinds);
 }
 
 /// What a state begins with.

@@ -113,7 +113,7 @@ struct StayUnder : IceEvent {
 };
 
 /// The first contact of two ships, or of a ship and a structure.
-struct ShipContact {
+struct HullContact {
   static constexpr std::string_view kName = "ship_contact";
   int other = 0;               ///< index in the scene, greater than the event's ship
   double closing_speed = 0;    ///< along the contact's normal, before the contact acts [m/s]
@@ -134,8 +134,8 @@ struct Event {
   double time = 0;                 ///< [s]
   int ship = 0;                    ///< index in the scene; -1 where a floe did it
   geometry::Point point_in_world;  ///< of contact; of a mooring the ship's centre of gravity [m]
-  std::variant<ShipContact, MooringBreak, Bend, Split, Grind, RejectedCut, Submerge, Resurface, StayUnder>
-      what;  ///< at first a ShipContact: the one that states keep (state_fields.hpp)
+  std::variant<HullContact, MooringBreak, Bend, Split, Grind, RejectedCut, Submerge, Resurface, StayUnder>
+      what;  ///< at first a HullContact: the one that states keep (state_fields.hpp)
 
   template <class Kind>
   bool is() const {

@@ -20,10 +20,10 @@ Planar over(Planar impulse, double time) {
 
 /// Adds what a contact's impulses did to one of its two bodies, a hull.
 void add_contact(const Population& population, const dynamics::Contact& c, BodyIndex ship, double sign,
-                 ShipLoads& ship_loads) {
+                 HullLoads& hull_loads) {
   const dynamics::Bodies& bodies = population.bodies;
   const bool is_with_ship = population.is_hull(ship == c.a ? c.b : c.a);
-  ContactLoads& loads = is_with_ship ? ship_loads.ships : ship_loads.ice;
+  ContactLoads& loads = is_with_ship ? hull_loads.hulls : hull_loads.ice;
   const auto add = [&](geometry::Point at, Vector impulse, bool is_slip) {
     const Vector in_ship = rotate_back(bodies.rotation[ship], impulse);
     const Planar on_ship{in_ship.x, in_ship.y, cross(at - bodies.position[ship], impulse)};
@@ -42,9 +42,9 @@ void add_step(ContactLoads& sum, const ContactLoads& step, double dt) {
   sum.contacts = step.contacts;
 }
 
-void add_step(ShipLoads& sum, const ShipLoads& step, double dt) {
+void add_step(HullLoads& sum, const HullLoads& step, double dt) {
   add_step(sum.ice, step.ice, dt);
-  add_step(sum.ships, step.ships, dt);
+  add_step(sum.hulls, step.hulls, dt);
   sum.submerged.impulse += step.submerged.impulse;
   sum.submerged.area = step.submerged.area;
   sum.collision = larger(sum.collision, step.collision);
@@ -85,7 +85,7 @@ double thrust_of(const Wall& wall, const HullSample& s) {
 
 HullSample sample_of(const Setup& setup, const Clock& clock, const Population& population, BodyIndex ship,
                      const Accounts& accounts) {
-  const ShipLoads& loads = accounts.loads[ship];
+  const HullLoads& loads = accounts.loads[ship];
   const dynamics::Bodies& bodies = population.bodies;
   const double interval = static_cast<double>(setup.steps_per_sample) * setup.scene.time.step;
   HullSample sample;
@@ -94,8 +94,8 @@ HullSample sample_of(const Setup& setup, const Clock& clock, const Population& p
   sample.from_ice = over(loads.ice.impulse, interval);
   sample.from_ice_largest = loads.ice.largest;
   sample.collision = loads.collision;
-  sample.from_ships = over(loads.ships.impulse, interval);
-  sample.from_ships_largest = loads.ships.largest;
+  sample.from_ships = over(loads.hulls.impulse, interval);
+  sample.from_ships_largest = loads.hulls.largest;
   sample.from_submerged = over(loads.submerged.impulse, interval);
   sample.position_in_world = bodies.position[ship] + clock.drift();
   sample.heading = bodies.angle[ship];
@@ -107,14 +107,14 @@ HullSample sample_of(const Setup& setup, const Clock& clock, const Population& p
   sample.thrust = visit_hull(setup.scene, static_cast<std::size_t>(ship),
                              [&](const auto& hull) { return thrust_of(hull, sample); });
   sample.contacts = loads.ice.contacts;
-  sample.contacts_with_ships = loads.ships.contacts;
+  sample.contacts_with_ships = loads.hulls.contacts;
   return sample;
 }
 
 }  // namespace
 
 void tally_loads(const Population& population, const std::vector<dynamics::Contact>& contacts,
-                 std::vector<ShipLoads>& loads) {
+                 std::vector<HullLoads>& loads) {
   for (const dynamics::Contact& c : contacts) {
     if (population.is_hull(c.a)) add_contact(population, c, c.a, -1, loads[c.a]);
     if (population.is_hull(c.b)) add_contact(population, c, c.b, +1, loads[c.b]);
@@ -122,7 +122,7 @@ void tally_loads(const Population& population, const std::vector<dynamics::Conta
 }
 
 void record(const Setup& setup, const Clock& clock, const Population& population,
-            const std::vector<ShipLoads>& step_loads, Accounts& accounts, Journal& journal) {
+            const std::vector<HullLoads>& step_loads, Accounts& accounts, Journal& journal) {
   for (std::size_t hull = 0; hull < step_loads.size(); ++hull)
     add_step(accounts.loads[hull], step_loads[hull], setup.step);
   for (std::size_t ship = 0; ship < setup.sailing.size(); ++ship)
@@ -133,7 +133,7 @@ void record(const Setup& setup, const Clock& clock, const Population& population
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull)
     journal.samples.push_back(sample_of(setup, clock, population, hull, accounts));
   sample_panels(setup, clock, accounts.panels, journal);
-  std::ranges::fill(accounts.loads, ShipLoads{});
+  std::ranges::fill(accounts.loads, HullLoads{});
   std::ranges::fill(accounts.sailing, SailingLoads{});
 }
 

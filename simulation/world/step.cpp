@@ -225,7 +225,9 @@ const std::array<Stage, 34> kStages = {{
      [](World& w) { apply_submersions(w.setup, w.clock, w.step.submersions, w.population, w.accounts, w.journal); }},
     {"come up", RunsIn::kTogether, [](World& w) { come_up(w.setup, w.clock, w.population, w.accounts, w.journal); }},
     {"record ship events", RunsIn::kTicks,
-     [](World& w) { record_ship_events(w.setup, w.clock, w.population, w.step, w.accounts.ship_contacts, w.journal); }},
+     [](World& w) {
+       record_hull_contacts(w.setup, w.clock, w.population, w.step, w.accounts.hull_contacts, w.journal);
+     }},
     {"note touches", RunsIn::kAllSteps, [](World& w) { note_touches(w.setup, w.clock, w.population, w.step); }},
     {"put to rest", RunsIn::kTogether,
      [](World& w) { put_to_rest(w.setup, w.clock, w.step, w.population, w.accounts.audit); }},

@@ -61,7 +61,7 @@ void book_overlaps(const Setup& setup, const Population& population, const StepD
 
 /// Adds what the impulses did to the ships.
 void tally_loads(const Population& population, const std::vector<dynamics::Contact>& contacts,
-                 std::vector<ShipLoads>& loads);
+                 std::vector<HullLoads>& loads);
 
 /// Water and wind on the bodies that are due.
 void apply_forces(const Setup& setup, const Clock& clock, int threads, Population& population, AuditSums& audit);
@@ -70,7 +70,7 @@ void apply_forces(const Setup& setup, const Clock& clock, int threads, Populatio
 void push_ships(const Setup& setup, Population& population, AuditSums& audit);
 
 /// Brakes ships by the ice under their hulls, and moves that ice along its path.
-void pull_of_submerged_ice(const Setup& setup, Population& population, std::vector<ShipLoads>& loads, AuditSums& audit);
+void pull_of_submerged_ice(const Setup& setup, Population& population, std::vector<HullLoads>& loads, AuditSums& audit);
 
 /// Moves ships by water, engine, steering and mooring (sailing.hpp). After all other impulses of the step,
 /// since the water shares those too.
@@ -116,8 +116,8 @@ void apply_submersions(const Setup& setup, const Clock& clock, const std::vector
 void come_up(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts, Journal& journal);
 
 /// Records the first contact of each two ships, and the moorings that broke.
-void record_ship_events(const Setup& setup, const Clock& clock, const Population& population, const StepData& step,
-                        std::vector<Event>& known_contacts, Journal& journal);
+void record_hull_contacts(const Setup& setup, const Clock& clock, const Population& population, const StepData& step,
+                          std::vector<Event>& known_contacts, Journal& journal);
 
 /// Keeps which bodies touch others, at the ticks that put floes to rest.
 void note_touches(const Setup& setup, const Clock& clock, const Population& population, StepData& step);
@@ -126,7 +126,7 @@ void put_to_rest(const Setup& setup, const Clock& clock, const StepData& step, P
                  AuditSums& audit);
 
 void record(const Setup& setup, const Clock& clock, const Population& population,
-            const std::vector<ShipLoads>& step_loads, Accounts& accounts, Journal& journal);
+            const std::vector<HullLoads>& step_loads, Accounts& accounts, Journal& journal);
 
 /// Where bodies take different steps: in which of them a stage runs.
 enum class RunsIn : std::uint8_t {

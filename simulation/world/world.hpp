@@ -35,9 +35,9 @@ struct SubmergedLoads {
 };
 
 /// Sums over a step or a recording interval, in the ship's frame.
-struct ShipLoads {
+struct HullLoads {
   ContactLoads ice;
-  ContactLoads ships;  ///< other ships and structures
+  ContactLoads hulls;  ///< of other ships, structures and walls
   SubmergedLoads submerged;
   dynamics::Planar collision;  ///< the paper's j/τ_c of contacts with ice, component by component [N, N m]
 };
@@ -119,7 +119,7 @@ struct StepData {
   std::vector<PendingFracture> splits;  ///< by the true forces of the step
   std::vector<PendingSubmersion> submersions;
   std::vector<Event> mooring_breaks;                  ///< to be recorded after what happens to ice
-  std::vector<ShipLoads> loads;                       ///< per hull
+  std::vector<HullLoads> loads;                       ///< per hull
   std::vector<ShipMotion> start;                      ///< per ship: its motion before the step's impulses
   std::vector<geometry::Pose> water_from_hull;        ///< per hull: where it was when the contacts were found
   std::vector<std::int64_t> touched_at_step;          ///< per body: the last step at which it touched something
@@ -137,9 +137,9 @@ struct Accounts {
   MassLedger masses;  ///< likewise
   AuditSums audit;
   Counts counts;
-  std::vector<ShipLoads> loads;       ///< per hull, since the last sample
+  std::vector<HullLoads> loads;       ///< per hull, since the last sample
   std::vector<SailingLoads> sailing;  ///< per ship, since the last sample
-  std::vector<Event> ship_contacts;   ///< the first one of each pair of ships
+  std::vector<Event> hull_contacts;   ///< the first one of each pair of ships
   LoadPeaks load_peaks;
   std::vector<HullPanels> panels;                                     ///< per hull, since the last sample
   std::vector<std::pair<std::int64_t, std::int64_t>> refused_grinds;  ///< bodies that geometry refused to cut

@@ -118,7 +118,7 @@ TEST(RunCommand, ShipsThatMeetAreReportedAndNoIceLoad) {
   ASSERT_EQ(run->events.size(), 2U);
   EXPECT_NEAR(run->events[0].time, 10, 0.02);
   EXPECT_NEAR(run->events[1].time, 15, 0.02);
-  EXPECT_TRUE(std::get<simulation::ShipContact>(run->events[1].what).is_prescribed);
+  EXPECT_TRUE(std::get<simulation::HullContact>(run->events[1].what).is_prescribed);
 }
 
 TEST(RunCommand, AnExistingRunIsKeptUnlessTold) {

@@ -122,9 +122,9 @@ TEST(ShipContacts, AreNoIceLoadAndEndAsEq5Says) {
   EXPECT_NEAR(simulation.ship_states()[0].velocity.x, -0.05, 1e-6);
   EXPECT_NEAR(simulation.ship_states()[1].velocity.x, 0.05, 1e-6);
   EXPECT_NEAR(surge, 1e7 * (simulation.ship_states()[0].velocity.x - 0.5), 1e-3);
-  const std::vector<Event> met = story.of_kind<ShipContact>();
+  const std::vector<Event> met = story.of_kind<HullContact>();
   ASSERT_EQ(met.size(), 1U);
-  const auto& contact = std::get<ShipContact>(met[0].what);
+  const auto& contact = std::get<HullContact>(met[0].what);
   EXPECT_NEAR(met[0].time, 0.55, 2 * scene.time.step + 1e-9);
   EXPECT_EQ(met[0].ship, 0);
   EXPECT_EQ(contact.other, 1);
@@ -166,13 +166,13 @@ TEST(ShipContacts, OfPrescribedMotionsAreRecorded) {
     for (const double off : {-18.0, -16.9, -12.0, -3.7, 0.0, 5.0, 12.0, 16.9, 17.1, 30.0}) {
       const Story story =
           run(Build().step(step).ship(barge({0, 0}, ConstantSpeed{2})).pile({25, off}, 5).pile({-150, 0}, 5), 30).story;
-      const std::vector<Event> met = story.of_kind<ShipContact>();
+      const std::vector<Event> met = story.of_kind<HullContact>();
       if (std::abs(off) > 17) {
         EXPECT_TRUE(met.empty()) << off;
         continue;
       }
       ASSERT_EQ(met.size(), 1U) << off << " in steps of " << step;
-      const auto& contact = std::get<ShipContact>(met[0].what);
+      const auto& contact = std::get<HullContact>(met[0].what);
       // The side of the bow that meets the pile is 20 m from it at most, 25 m where it meets the very edge.
       EXPECT_GE(met[0].time, 10 - 1e-9);
       EXPECT_LE(met[0].time, (std::abs(off) < 11 ? 10 : 12.5) + 2 * step);
@@ -190,9 +190,9 @@ TEST(ShipContacts, AreRecordedOnceAlsoAfterAResume) {
                           .ship(barge({0, 100}, ConstantSpeed{1}))
                           .pile({6, 0}, 5)
                           .pile({6.5, 100}, 5);
-  EXPECT_EQ(run(scene, 3).story.of_kind<ShipContact>().size(), 2U);
-  EXPECT_EQ(run(scene, 6).story.of_kind<ShipContact>().size(), 2U);
-  EXPECT_TRUE(expect_resumes(scene, 3, 6).story.of_kind<ShipContact>().empty());
+  EXPECT_EQ(run(scene, 3).story.of_kind<HullContact>().size(), 2U);
+  EXPECT_EQ(run(scene, 6).story.of_kind<HullContact>().size(), 2U);
+  EXPECT_TRUE(expect_resumes(scene, 3, 6).story.of_kind<HullContact>().empty());
 }
 
 Trial after_one_step(const Scene& scene) {

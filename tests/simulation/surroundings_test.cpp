@@ -261,7 +261,7 @@ TEST(Wall, ThatMovesPushesIceAlongAndDoesNotMeetOtherWalls) {
                          2);
   EXPECT_NEAR(only_floe(done.simulation).velocity.x, 0.2, 1e-3);
   EXPECT_NEAR(done.simulation.ship_states()[0].world_from_ship.position.x, 0.4, 1e-9);
-  EXPECT_TRUE(done.story.of_kind<ShipContact>().empty()) << "walls cross at their ends";
+  EXPECT_TRUE(done.story.of_kind<HullContact>().empty()) << "walls cross at their ends";
   expect_closed(done.simulation);
 }
 

@@ -100,7 +100,7 @@ TEST(UnderHull, IceStopsAShipButNeverReversesIt) {
   world.population.submerged[0].weight = 1e9;  // as if the whole hull were full of ice
   for (const double speed : {1e-3, 0.0, -1e-3}) {
     world.population.bodies.velocity[0] = {speed, 0};
-    std::vector<ShipLoads> loads(1);
+    std::vector<HullLoads> loads(1);
     AuditSums audit;
     pull_of_submerged_ice(world.setup, world.population, loads, audit);
     EXPECT_NEAR(world.population.bodies.velocity[0].x, std::min(0.0, speed), 1e-18) << speed;

@@ -1,4 +1,4 @@
-#include "simulation/ship/ship_contact_load.hpp"
+#include "simulation/ship/hull_contact_load.hpp"
 
 #include <algorithm>
 #include <array>
@@ -44,7 +44,7 @@ double eq5_impulse(const Setup& setup, const dynamics::Bodies& bodies, const Con
   return dynamics::collision_impulse(c.approach_speed, setup.scene.contact.restitution, mass);
 }
 
-geometry::WedgeAngles wedge_at(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load) {
+geometry::WedgeAngles wedge_at(const Setup& setup, const dynamics::Bodies& bodies, const HullContactLoad& load) {
   const Contact& c = load.contact;
   const geometry::Pose water_from_floe = dynamics::water_from_body(bodies, c.b);
   const double l = fracture::characteristic_length(load.ice, setup.scene.water.water);
@@ -53,7 +53,7 @@ geometry::WedgeAngles wedge_at(const Setup& setup, const dynamics::Bodies& bodie
                                 rotate_back(water_from_floe.rotation, c.normal), kWedgeLengthOverL * l);
 }
 
-fracture::EdgeOpenings openings_at(const Setup& setup, const dynamics::Bodies& bodies, const ShipContactLoad& load) {
+fracture::EdgeOpenings openings_at(const Setup& setup, const dynamics::Bodies& bodies, const HullContactLoad& load) {
   const Contact& c = load.contact;
   const geometry::Pose water_from_floe = dynamics::water_from_body(bodies, c.b);
   const Point tip = inverse_transform(water_from_floe, c.tip_of_b);
@@ -70,7 +70,7 @@ fracture::EdgeOpenings openings_at(const Setup& setup, const dynamics::Bodies& b
 }
 
 /// By the law of crushing ice, at the deepest overlap that pressed.
-void press(const Setup& setup, bool can_bend, ShipContactLoad& load) {
+void press(const Setup& setup, bool can_bend, HullContactLoad& load) {
   const Contact& c = load.contact;
   const double deepest = std::max(c.depth, c.record->loaded_depth);
   const bool recedes = can_bend && setup.scene.fracture.follows_deflection && load.shares.vertical > 0;
@@ -96,7 +96,7 @@ double floe_size(const Population& population, BodyIndex body) {
   return std::sqrt(population.floes[population.floe_of(body)].area);
 }
 
-fracture::BendingLoad bending_load(const Setup& setup, const ShipContactLoad& load) {
+fracture::BendingLoad bending_load(const Setup& setup, const HullContactLoad& load) {
   const geometry::WedgeAngles& wedge = load.wedge;
   fracture::BendingLoad bending;
   bending.ice = load.ice;
@@ -114,9 +114,9 @@ fracture::BendingLoad bending_load(const Setup& setup, const ShipContactLoad& lo
   return bending;
 }
 
-ShipContactLoad load_of(const Setup& setup, const Population& population, const Contact& c) {
+HullContactLoad load_of(const Setup& setup, const Population& population, const Contact& c) {
   const dynamics::Bodies& bodies = population.bodies;
-  ShipContactLoad load{.contact = c, .ice = ice_of_body(setup, population, c.b)};
+  HullContactLoad load{.contact = c, .ice = ice_of_body(setup, population, c.b)};
   if (const double scatter = setup.scene.fracture.bending_scatter; scatter > 0)
     load.ice.flexural_strength *= strength_factor(setup.scene.seed, c.record->first_touch_in_b, scatter);
   load.impulse = eq5_impulse(setup, bodies, c);

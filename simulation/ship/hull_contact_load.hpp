@@ -12,7 +12,7 @@
 namespace polynya::simulation {
 
 /// One contact of a ship with ice, as the fracture laws see it.
-struct ShipContactLoad {
+struct HullContactLoad {
   const dynamics::Contact& contact;
   fracture::Ice ice;              ///< of the floe, with the flexural strength of this contact
   double impulse = 0;             ///< j of Eq. (5) [N s]
@@ -38,9 +38,9 @@ double floe_size(const Population& population, BodyIndex body);
 /// What a ship's contact with ice carries while the ice crushes. By the law of crushing ice, ice that can
 /// break bends away under the hull meanwhile, so that only a part of the overlap with the ice as it lay is
 /// crushed.
-ShipContactLoad load_of(const Setup& setup, const Population& population, const dynamics::Contact& c);
+HullContactLoad load_of(const Setup& setup, const Population& population, const dynamics::Contact& c);
 
 /// The load as a bending model takes it.
-fracture::BendingLoad bending_load(const Setup& setup, const ShipContactLoad& load);
+fracture::BendingLoad bending_load(const Setup& setup, const HullContactLoad& load);
 
 }  // namespace polynya::simulation

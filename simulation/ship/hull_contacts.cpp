@@ -12,7 +12,7 @@ using geometry::Vector;
 
 bool is_known(const std::vector<Event>& contacts, BodyIndex ship, BodyIndex other) {
   return std::ranges::any_of(
-      contacts, [&](const Event& e) { return e.ship == ship && std::get<ShipContact>(e.what).other == other; });
+      contacts, [&](const Event& e) { return e.ship == ship && std::get<HullContact>(e.what).other == other; });
 }
 
 geometry::Ring waterline_in_water(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex ship) {
@@ -34,13 +34,13 @@ std::optional<Event> prescribed_contact(const Setup& setup, const Clock& clock, 
                                              waterline_in_water(setup, bodies, other), velocity, earliest, 0);
   if (!touch) return std::nullopt;
   return Event{clock.time(), ship, touch->point + clock.drift(),
-               ShipContact{other, -dot(velocity, touch->normal), speed, true}};
+               HullContact{other, -dot(velocity, touch->normal), speed, true}};
 }
 
 }  // namespace
 
-void record_ship_events(const Setup& setup, const Clock& clock, const Population& population, const StepData& step,
-                        std::vector<Event>& known_contacts, Journal& journal) {
+void record_hull_contacts(const Setup& setup, const Clock& clock, const Population& population, const StepData& step,
+                          std::vector<Event>& known_contacts, Journal& journal) {
   const dynamics::Bodies& bodies = population.bodies;
   const auto enter = [&](const Event& contact) {
     known_contacts.push_back(contact);
@@ -49,7 +49,7 @@ void record_ship_events(const Setup& setup, const Clock& clock, const Population
   for (const dynamics::Contact& c : step.contacts) {
     if (!population.is_hull(c.b) || is_known(known_contacts, c.a, c.b)) continue;
     enter({clock.time(), c.a, c.middle() + clock.drift(),
-           ShipContact{c.b, c.approach_speed, std::hypot(c.approach_speed, c.slip_speed), false}});
+           HullContact{c.b, c.approach_speed, std::hypot(c.approach_speed, c.slip_speed), false}});
   }
   for (BodyIndex ship = 0; ship < population.hull_count; ++ship) {
     for (BodyIndex other = ship + 1; other < population.hull_count; ++other) {
