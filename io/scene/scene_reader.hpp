@@ -80,8 +80,8 @@ enum class ShipUse {
 struct SceneOverrides {
   std::optional<double> until;  ///< [s]
   std::optional<std::uint64_t> seed;
-  std::vector<Assignment> assignments;  ///< put before the others
-  std::optional<double> panel_length;   ///< of all ships and structures [m]
+  std::vector<Assignment> assignments;      ///< put before the others
+  std::optional<double> panel_length = {};  ///< of all ships and structures [m]
 };
 
 using SceneOutcome = tl::expected<LoadedScene, std::vector<Problem>>;

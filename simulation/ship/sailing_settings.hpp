@@ -44,15 +44,15 @@ using Steering = std::variant<NoSteering, RudderSettings, AzimuthSettings>;
 
 /// A linear mooring about a place over ground, in the axes of its heading.
 struct MooringSettings {
-  geometry::Point position_in_world;  ///< of the ship's centre of gravity where nothing pulls [m]
-  double heading = 0;                 ///< there [rad]
-  double surge_stiffness = 0;         ///< [N/m]
-  double sway_stiffness = 0;          ///< [N/m]
-  double yaw_stiffness = 0;           ///< [N m/rad]
-  double surge_damping = 0;           ///< [N s/m]
-  double sway_damping = 0;            ///< [N s/m]
-  double yaw_damping = 0;             ///< [N m s/rad]
-  double break_load = 0;              ///< horizontal force at which it breaks; 0: never [N]
+  geometry::Point position_in_world = {};  ///< of the ship's centre of gravity where nothing pulls [m]
+  double heading = 0;                      ///< there [rad]
+  double surge_stiffness = 0;              ///< [N/m]
+  double sway_stiffness = 0;               ///< [N/m]
+  double yaw_stiffness = 0;                ///< [N m/rad]
+  double surge_damping = 0;                ///< [N s/m]
+  double sway_damping = 0;                 ///< [N s/m]
+  double yaw_damping = 0;                  ///< [N m s/rad]
+  double break_load = 0;                   ///< horizontal force at which it breaks; 0: never [N]
   friend bool operator==(const MooringSettings&, const MooringSettings&) = default;
 };
 

@@ -119,11 +119,11 @@ double default_tick(const Scene& scene) {
     return times >= 1 && std::abs(interval / tick - times) < 1e-6 * times;
   };
   const auto fits = [&](double tick) { return tick <= longest * (1 + 1e-9); };
-  for (const double tick : kTicks)
+  for (const double tick : kTickChoices)
     if (fits(tick) && goes_into(tick, scene.record.forces_interval) && goes_into(tick, scene.record.frames_interval))
       return tick;
-  const auto* found = std::ranges::find_if(kTicks, fits);
-  return found == kTicks.end() ? std::min(kTicks.back(), scene.time.until) : *found;
+  const auto* found = std::ranges::find_if(kTickChoices, fits);
+  return found == kTickChoices.end() ? std::min(kTickChoices.back(), scene.time.until) : *found;
 }
 
 int parts_of_tick(const Setup& setup, const Clock& clock, const Population& population) {

@@ -216,8 +216,9 @@ TEST(Managing, APatternInTheIceIsRoundThere) {
   const Story story = run(managed({pilot}, {-drift, 0}), 0.9 * period).story;
   const PatternLine line = line_of(pilot);
   for (const HullSample& s : story.samples) {
-    if (s.ship == 0 && s.time > 0.25 * period)
+    if (s.ship == 0 && s.time > 0.25 * period) {
       ASSERT_LT(off_line(line, s.position_in_world + Vector{drift * s.time, 0}), 40) << s.time;
+    }
   }
 }
 
