@@ -74,6 +74,7 @@ class CommandLine {
   void choice(const char* name, Value& value, const char* meaning,
               std::vector<std::pair<std::string_view, Choice>> choices, const OptionTraits& traits = {}) {
     std::vector<std::string_view> names;
+    names.reserve(choices.size());
     for (const auto& each : choices) names.push_back(each.first);
     add_choice(name, std::move(names), meaning, traits,
                [&value, choices = std::move(choices)](std::size_t which) { value = choices[which].second; });

@@ -62,6 +62,7 @@ int become_python(const std::vector<std::string>& words) {
   std::vector<std::string> line{python(), "-m", kModule};
   line.insert(line.end(), words.begin(), words.end());
   std::vector<char*> arguments;
+  arguments.reserve(line.size() + 1);
   for (std::string& word : line) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   flush_out();

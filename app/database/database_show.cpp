@@ -137,7 +137,7 @@ std::string json_of(const QueryOptions& options, const BendingDatabase& database
         json.key("in_range").value(is_known && capacity.is_in_range);
       });
     };
-    const auto& [abscissa, forecast, nevel, kashtelyan] = answer;
+    const fracture::BendingForecast& forecast = answer.database;
     number("vertical_force_N", forecast.capacity.vertical_force);
     number("normal_force_N", forecast.normal_force);
     number("time_s", forecast.time);
@@ -148,8 +148,8 @@ std::string json_of(const QueryOptions& options, const BendingDatabase& database
     std::vector<std::string_view> outside;
     for (const fracture::OutsideRange& range : forecast.outside) outside.push_back(range.name);
     json.key("outside").list(is_known ? outside : std::vector<std::string_view>{"hull angle"});
-    published("nevel", nevel);
-    published("kashtelyan", kashtelyan);
+    published("nevel", answer.nevel);
+    published("kashtelyan", answer.kashtelyan);
     json.key("load").object([&] { write_load(json, options.load, load); });
     json.key("groups").object([&] { write_groups(json, fracture::scaled(load), forecast); });
     json.key("database").open('{').key("file");
@@ -161,14 +161,14 @@ std::string json_of(const QueryOptions& options, const BendingDatabase& database
 }
 
 void print_table(const SlicePoint& answer) {
-  const auto& [abscissa, forecast, nevel, kashtelyan] = answer;
+  const fracture::BendingForecast& forecast = answer.database;
   const auto row = [](const char* what, const std::string& database, const std::string& of_nevel = "",
                       const std::string& of_kashtelyan = "") {
     const std::string line = fmt::format("{:<22}{:<20}{:<20}{}", what, database, of_nevel, of_kashtelyan);
     print_out("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
   };
   const auto row_of_all = [&](const char* what, auto show) {
-    row(what, show(forecast.capacity), show(nevel), show(kashtelyan));
+    row(what, show(forecast.capacity), show(answer.nevel), show(answer.kashtelyan));
   };
   const auto yes_or_no = [](bool is_so) { return std::string(is_so ? "yes" : "no"); };
   row("", "database", "Nevel", "Kashtelyan");

@@ -83,7 +83,7 @@ std::string steps_of(const simulation::Counts& counts, double tick) {
   std::vector<int> taken;
   for (int k = 0; k <= 2 * simulation::kMostLevels; ++k)
     if (counts.steps_at_level[static_cast<std::size_t>(k)] > 0) taken.push_back(k - simulation::kMostLevels);
-  const std::string ticks = fmt::format("ticks of {:g} s", tick);
+  std::string ticks = fmt::format("ticks of {:g} s", tick);
   if (taken.empty() || (taken.front() == 0 && taken.back() == 0)) return ticks;
   return fmt::format("{}, steps of {:g} to {:g} s", ticks, std::ldexp(tick, taken.front()),
                      std::ldexp(tick, taken.back()));

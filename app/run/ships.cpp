@@ -148,7 +148,7 @@ ExitCode show(const Options& options) {
     return kDone;
   }
   if (const io::ShipPreset* ship = io::find_ship_preset(name)) {
-    if (options.is_for_performance) return show_text(fmt::format("{{\"ship\": \"{}\"}}", name), name, false, options);
+    if (options.is_for_performance) return show_text(fmt::format(R"({{"ship": "{}"}})", name), name, false, options);
     options.is_json ? print_json(described(*ship)) : print_ship(*ship);
     return kDone;
   }
