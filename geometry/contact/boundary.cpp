@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/exact/point_in_ring.hpp"
+#include "geometry/shape/segments.hpp"
 
 namespace polynya::geometry {
 
@@ -190,22 +191,9 @@ void fill_ends(const EdgeList& a, const EdgeList& b, NearEdges& edges) {
   }
 }
 
-/// Whether each of two segments has its ends on either side of the other's line, or on it: then they cross or
-/// touch, if they are not in one line.
-bool are_across(Point a0, Point a1, Point b0, Point b1) {
-  const double b_sides = cross(a1 - a0, b0 - a0) * cross(a1 - a0, b1 - a0);
-  const double a_sides = cross(b1 - b0, a0 - b0) * cross(b1 - b0, a1 - b0);
-  return b_sides <= 0 && a_sides <= 0;
-}
-
 /// Square of the distance of two segments, 0 where they cross or touch [m²].
 double squared_gap(Point a0, Point a1, Point b0, Point b1) {
-  if (are_across(a0, a1, b0, b1)) return 0;
-  const auto squared_to_segment = [](Point p, Point from, Point to) {
-    return squared_length(nearest_on_segment(from, to, p) - p);
-  };
-  return std::min({squared_to_segment(a0, b0, b1), squared_to_segment(a1, b0, b1), squared_to_segment(b0, a0, a1),
-                   squared_to_segment(b1, a0, a1)});
+  return are_across(a0, a1, b0, b1) ? 0 : squared_distance_of_ends(a0, a1, b0, b1);
 }
 
 double squared_gap(const Box& a, const Box& b) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/shape/segments.hpp"
+
 namespace polynya::simulation {
 namespace {
 
@@ -13,15 +15,6 @@ using geometry::Vector;
 double corner_area(const Ring& ring, std::size_t i) {
   const std::size_t n = ring.size();
   return 0.5 * cross(ring[i] - ring[(i + n - 1) % n], ring[(i + 1) % n] - ring[i]);
-}
-
-double squared_distance(Point p, Point from, Point to) {
-  return squared_length(p - nearest_on_segment(from, to, p));
-}
-
-bool cross_each_other(Point a, Point b, Point c, Point d) {
-  const auto side = [](Point from, Point to, Point p) { return cross(to - from, p - from) > 0; };
-  return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
 }
 
 /// Leaves what lies where dot(normal, x − origin) ≥ offset.
@@ -176,9 +169,7 @@ bool is_near_ring(const Ring& floe, const Ring& ring, double gap) {
     for (std::size_t k = 0; k < floe.size(); ++k) {
       const Point c = floe[k];
       const Point d = floe[(k + 1) % floe.size()];
-      const double nearest = std::min(
-          {squared_distance(a, c, d), squared_distance(b, c, d), squared_distance(c, a, b), squared_distance(d, a, b)});
-      if (nearest < gap * gap || cross_each_other(a, b, c, d)) return true;
+      if (squared_distance_of_ends(a, b, c, d) < gap * gap || cross_each_other(a, b, c, d)) return true;
     }
   }
   return false;

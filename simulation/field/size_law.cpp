@@ -9,6 +9,8 @@
 namespace polynya::simulation {
 namespace {
 
+/// Of log-normal sizes, in standard deviations; the next constant belongs to it. Larger: a few floes are so large that
+/// a field has no room for them.
 constexpr double kFarthestDeviation = 3;
 constexpr double kBeyondFarthest = 1.349898031630095e-03;  ///< P(Z > 3)
 constexpr double kLogUniform = 1e-9;                       ///< exponents nearer to 0 than this

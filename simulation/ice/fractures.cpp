@@ -6,6 +6,7 @@
 #include "simulation/ice/pieces.hpp"
 #include "simulation/ice/turning.hpp"
 #include "simulation/ship/hull_contact_load.hpp"
+#include "simulation/ship/waterline.hpp"
 #include "simulation/world/step.hpp"
 
 namespace polynya::simulation {
@@ -37,15 +38,11 @@ void recentre(const Population& population, PendingFracture& pending) {
   const geometry::Pose pose = dynamics::water_from_body(population.bodies, population.body_of(pending.floe));
   const geometry::Point contact = inverse_transform(pose, pending.point_in_water);
   const geometry::Polygon& polygon = population.floes[pending.floe].shape.polygon;
-  geometry::Point nearest = polygon.outer.front();
-  const auto consider = [&](const geometry::Ring& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const geometry::Point p = nearest_on_segment(ring[i], ring[i + 1 < ring.size() ? i + 1 : 0], contact);
-      if (distance(p, contact) < distance(nearest, contact)) nearest = p;
-    }
-  };
-  consider(polygon.outer);
-  for (const geometry::Ring& hole : polygon.holes) consider(hole);
+  geometry::Point nearest = nearest_place(polygon.outer, contact).point;
+  for (const geometry::Ring& hole : polygon.holes) {
+    const geometry::Point p = nearest_place(hole, contact).point;
+    if (distance(p, contact) < distance(nearest, contact)) nearest = p;
+  }
   if (distance(nearest, contact) <= kFarthestIce * pending.cusp_radius) pending.first_touch_in_body = nearest;
 }
 

@@ -88,7 +88,7 @@ PatternLine line_of(const ManagingPilot& pilot) {
 }
 
 double least_distance(const PatternLine& line, double ahead) {
-  constexpr int kPlaces = 360;
+  constexpr int kPlaces = 360;  // of a lap. Fewer: a near approach between two of them is missed
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kPlaces; ++i) {
     const double place = line.lap() * i / kPlaces;

@@ -66,6 +66,8 @@ class Apart {
     return false;
   }
 
+  /// Of the body whose normals are tried. More: two of many edges cost their product; fewer: large floes that are apart
+  /// count as near.
   static constexpr std::size_t kMostEdges = 64;
   std::span<const Point> a_;
   std::span<const Point> b_;
