@@ -76,6 +76,10 @@ ExitCode code_of(const Outcome<ExitCode>& outcome) {
   return outcome ? *outcome : fail(outcome.error().code, outcome.error().words);
 }
 
+void print_lines(const std::vector<io::Problem>& problems) {
+  for (const io::Problem& problem : problems) print_err("{}\n", to_string(problem));
+}
+
 void show_progress(std::string_view text) {
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
   std::fflush(stderr);

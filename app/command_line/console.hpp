@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <tl/expected.hpp>
@@ -62,6 +63,9 @@ template <typename... Args>
 void print_err(fmt::format_string<Args...> format, Args&&... args) {
   write_err(fmt::format(format, std::forward<Args>(args)...));
 }
+
+/// Problems, or a scene's warnings and hints, on stderr, a line each.
+void print_lines(const std::vector<io::Problem>& problems);
 
 using io::counted;
 

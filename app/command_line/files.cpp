@@ -56,6 +56,10 @@ tl::expected<std::string, std::string> read_input(const std::string& file, std::
   return text;
 }
 
+std::string input_name(const std::string& file) {
+  return file == "-" ? "stdin" : file;
+}
+
 io::Result<io::Run> read_run(const std::string& folder, ProgressKind progress) {
   return with_progress(progress, "reading the run", [&] { return io::read_run(folder); });
 }

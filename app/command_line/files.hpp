@@ -16,6 +16,9 @@ namespace polynya::app {
 /// than `longest` bytes is refused, and a named pipe, but for those that the shell makes (`<(command)`).
 tl::expected<std::string, std::string> read_input(const std::string& file, std::size_t longest);
 
+/// What an input is called in messages: the file's name, or "stdin".
+std::string input_name(const std::string& file);
+
 /// A run's folder, with its progress on stderr (io/run/run_reader.hpp).
 io::Result<io::Run> read_run(const std::string& folder, ProgressKind progress);
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 
@@ -17,7 +16,6 @@ namespace polynya::app {
 
 /// What the commands of `polynya database` share: the wedge of ice, the database, threads.
 
-inline constexpr double kDegree = 180 / std::numbers::pi;
 inline constexpr double kUsualWedgeAngle = 90;  ///< where none is given [deg]
 
 /// A wedge of floating ice and the hull that meets it, by the command line.

@@ -16,6 +16,7 @@
 #include "fracture/bending/database_text.hpp"
 #include "fracture/bending/fsi_database_model.hpp"
 #include "fracture/bending/published_forms.hpp"
+#include "geometry/shape/angle.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/output_file.hpp"
 
@@ -26,6 +27,7 @@ using fracture::BendingCapacity;
 using fracture::BendingDatabase;
 using fracture::BendingLoad;
 using fracture::FsiDatabaseModel;
+using geometry::kDegreesPerRadian;
 
 /// What a slice through the database varies.
 enum class SliceAxis : std::uint8_t {
@@ -116,7 +118,7 @@ void write_load(io::JsonWriter& json, const DatabaseLoadOptions& options, const 
 }
 
 void write_groups(io::JsonWriter& json, const fracture::ScaledLoad& scaled, const fracture::BendingForecast& forecast) {
-  json.key("opening_angle_deg").value(scaled.groups.opening_angle * kDegree);
+  json.key("opening_angle_deg").value(scaled.groups.opening_angle * kDegreesPerRadian);
   json.key("mass_ratio").value(scaled.groups.mass_ratio).key("softness").value(scaled.groups.softness);
   json.key("equivalent_softness").value(forecast.equivalent_softness).key("froude").value(scaled.groups.froude);
   json.key("characteristic_length_m").value(scaled.length_scale);
@@ -186,7 +188,7 @@ void print_for_people(const QueryOptions& options, const BendingDatabase& databa
   const fracture::ScaledLoad scaled = fracture::scaled(load);
   print_out("load      {}\n", describe(load));
   print_out("groups    2a {:g} deg, m {:.4g}, softness {:.4g}, Fr {:.4g}; l {:.4g} m\n",
-            scaled.groups.opening_angle * kDegree, scaled.groups.mass_ratio, scaled.groups.softness,
+            scaled.groups.opening_angle * kDegreesPerRadian, scaled.groups.mass_ratio, scaled.groups.softness,
             scaled.groups.froude, scaled.length_scale);
   if (answer.database.equivalent_softness != scaled.groups.softness)
     print_out("          crushes through the thickness: equivalent softness {:.4g}\n",
@@ -223,8 +225,8 @@ int query(const QueryOptions& options) {
   else
     print_for_people(options, **database, *load, answer);
   if (!can_bend(*load))
-    print_err("note: a hull {:g} deg from the vertical only crushes ice of friction {:g}\n", load->hull_angle * kDegree,
-              load->ice.friction);
+    print_err("note: a hull {:g} deg from the vertical only crushes ice of friction {:g}\n",
+              load->hull_angle * kDegreesPerRadian, load->ice.friction);
   else if (!answer.database.outside.empty())
     print_err("note: outside the database: {}; the answer is its nearest edge's\n",
               with_ranges(answer.database.outside));
@@ -238,7 +240,7 @@ constexpr double kWidestWedge = 170;  ///< towards 180 the crushed area grows wi
 
 /// From a slice's abscissae to what is shown of them.
 double scale_of(SliceAxis axis) {
-  return axis == SliceAxis::kOpeningAngle ? kDegree : 1;
+  return axis == SliceAxis::kOpeningAngle ? kDegreesPerRadian : 1;
 }
 
 std::vector<double> evenly(double low, double high, bool is_log) {
@@ -259,7 +261,8 @@ struct Member {
 /// The load itself first, then its neighbours: other speeds where the wedge's angle varies, else other wedges.
 std::vector<Member> family(const BendingLoad& load, SliceAxis axis) {
   const bool are_speeds = axis == SliceAxis::kOpeningAngle;
-  const double own = are_speeds ? load.mean_approach_speed : (load.front_half_angle + load.back_half_angle) * kDegree;
+  const double own =
+      are_speeds ? load.mean_approach_speed : (load.front_half_angle + load.back_half_angle) * kDegreesPerRadian;
   const auto name = [&](double value) { return fmt::format("{:g}{}", value, are_speeds ? " m/s" : "° wedge"); };
   std::vector<Member> members{{name(own), load}};
   for (const double value : are_speeds ? std::array{0.1, 1.0, 4.0} : std::array{45.0, 90.0, 135.0}) {
@@ -268,7 +271,7 @@ std::vector<Member> family(const BendingLoad& load, SliceAxis axis) {
     if (are_speeds)
       other.mean_approach_speed = value;
     else
-      other.front_half_angle = other.back_half_angle = 0.5 * value / kDegree;
+      other.front_half_angle = other.back_half_angle = 0.5 * value / kDegreesPerRadian;
   }
   return members;
 }
@@ -331,7 +334,7 @@ std::string database_slices(const FsiDatabaseModel& model, const std::string& ti
   const double narrowest = std::min(grid.front(), 0.5 * widest);
   const Figure figures[] = {{"speed", "normal approach speed, m/s", SliceAxis::kSpeed, 0.02, 8, true, false},
                             {"wedge-angle", "opening angle 2α of the wedge, °", SliceAxis::kOpeningAngle,
-                             narrowest / kDegree, widest / kDegree, false, false},
+                             narrowest / kDegreesPerRadian, widest / kDegreesPerRadian, false, false},
                             {"thickness", "ice thickness, m", SliceAxis::kThickness, 0.1, 3, true, true}};
   return io::json_object([&](io::JsonWriter& json) {
     json.key("title").value("Icebreaking database: " + title);
@@ -397,7 +400,7 @@ int show(const ShowOptions& options) {
   if (!load) return load.error();
   if (load->vertical_to_crushing <= 0)
     return fail(kUsage, fmt::format("a hull {:g} deg from the vertical only crushes ice of friction {:g}",
-                                    load->hull_angle * kDegree, load->ice.friction));
+                                    load->hull_angle * kDegreesPerRadian, load->ice.friction));
   const auto database = load_database(options.file);
   if (!database) return database.error();
   print_parameters(**database, options.file);

@@ -203,7 +203,7 @@ Outcome<ExitCode> cut_all(const Options& options) {
   if (!wanted_format) return tl::unexpected(wanted_format.error());
   auto ops = read_ops(options);
   if (!ops) return tl::unexpected(ops.error());
-  const std::string name = options.floes == "-" ? "stdin" : options.floes;
+  const std::string name = input_name(options.floes);
   auto text = read_input(options.floes, io::kLongestFloeText);
   if (!text) return failure(kInputOutput, fmt::format("{}: {}", name, text.error()));
   const auto floes = io::read_floe_text(std::move(*text));

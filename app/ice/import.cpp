@@ -125,7 +125,7 @@ Outcome<ExitCode> import_all(const Options& options) {
   for (const std::string& words : options.properties)
     if (auto added = io::add_property_name(words, names); !added)
       return failure(kUsage, "--property: " + added.error());
-  const std::string name = options.file == "-" ? "stdin" : options.file;
+  const std::string name = input_name(options.file);
   const auto text = read_floes(options, name);
   if (!text) return tl::unexpected(text.error());
   const std::string crs = text->crs.empty() ? "" : io::crs_name(io::parse_json(text->crs).root);

@@ -69,7 +69,7 @@ io::Result<> write_page(const io::LoadedScene& scene, const std::string& out, bo
 
 int write_once(const std::string& file, const std::string& out, bool watch) {
   const auto scene = io::read_scene_file(file);
-  for (const io::Problem& problem : scene ? scene->hints : scene.error()) print_err("{}\n", to_string(problem));
+  print_lines(scene ? scene->hints : scene.error());
   if (!scene) return kSceneInvalid;
   if (const auto written = write_page(*scene, out, watch); !written) return fail(kInputOutput, written.error());
   const std::string words =

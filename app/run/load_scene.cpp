@@ -41,14 +41,14 @@ std::string against(const PowerLawSizes& law, const FieldStatistics& field) {
 }  // namespace
 
 void print_problems(const std::string& name, const std::vector<io::Problem>& problems) {
-  for (const io::Problem& problem : problems) print_err("{}\n", to_string(problem));
+  print_lines(problems);
   print_err("polynya: {} in {}; nothing was written\n", counted(problems.size(), "problem"), name);
 }
 
 tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file, const io::SceneOverrides& overrides,
                                                    ProblemFormat format, ProgressKind progress) {
   const bool is_json = format == ProblemFormat::kJson;
-  const std::string name = file == "-" ? "stdin" : file;
+  const std::string name = input_name(file);
   auto text = with_progress(progress, "reading the scene", [&] { return read_input(file, io::kLongestScene); });
   if (!text) {
     if (is_json) write_out(io::to_json_text({{.file = name, .sentence = text.error()}}));
@@ -63,10 +63,6 @@ tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file, cons
   else
     print_problems(name, loaded.error());
   return tl::unexpected(kSceneInvalid);
-}
-
-void print_hints(const io::LoadedScene& scene) {
-  for (const io::Problem& hint : scene.hints) print_err("{}\n", to_string(hint));
 }
 
 void print_fields(const io::LoadedScene& scene) {

@@ -24,9 +24,6 @@ tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file, cons
 /// Each problem of that file on stderr, a line each, and how many there are.
 void print_problems(const std::string& name, const std::vector<io::Problem>& problems);
 
-/// The scene's warnings and hints on stderr, a line each.
-void print_hints(const io::LoadedScene& scene);
-
 /// How the scene's random fields came out, on stdout: sizes, cover, and of a size law how near the floes are
 /// to it.
 void print_fields(const io::LoadedScene& scene);

@@ -64,7 +64,7 @@ int read_json(const std::string& file) {
   }
   io::ProblemCollector problems({.name = file, .text = *text});
   problems.add_faults(0, document.faults);
-  for (const io::Problem& problem : problems.take()) print_err("{}\n", to_string(problem));
+  print_lines(problems.take());
   return kSceneInvalid;
 }
 

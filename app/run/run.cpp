@@ -287,7 +287,7 @@ tl::expected<Start, ExitCode> start_of(const RunOptions& options) {
                               .panel_length = options.panel},
                              ProblemFormat::kText, options.driver.progress);
     if (!loaded) return tl::unexpected(loaded.error());
-    print_hints(*loaded);
+    print_lines(loaded->hints);
     print_fields(*loaded);
     if (!may_fit(loaded->scene, options.scene, memory_available())) return tl::unexpected(kOutOfMemory);
     print_folder_size(loaded->scene, options.driver.control.final_geojson);

@@ -118,7 +118,7 @@ int validate(const ValidateOptions& options) {
     write_out(io::to_json_text(loaded->hints));
     return kDone;
   }
-  print_hints(*loaded);
+  print_lines(loaded->hints);
   if (options.resolved) {
     write_out(loaded->resolved_text);
     return kDone;
@@ -127,10 +127,9 @@ int validate(const ValidateOptions& options) {
   const auto listed = [](std::size_t count, std::string_view noun) {
     return count > 0 ? ", " + counted(count, noun) : "";
   };
-  print_out("{}: valid; \"{}\" with {}{}{} and {}, {:g} s in ticks of {:g} s{}, hash {}\n",
-            options.scene == "-" ? "stdin" : options.scene, scene.name, counted(scene.ships.size(), "ship"),
-            listed(scene.structures.size(), "structure"), listed(scene.walls.size(), "wall"),
-            counted(scene.floes.size(), "floe"), scene.time.until, scene.time.step,
+  print_out("{}: valid; \"{}\" with {}{}{} and {}, {:g} s in ticks of {:g} s{}, hash {}\n", input_name(options.scene),
+            scene.name, counted(scene.ships.size(), "ship"), listed(scene.structures.size(), "structure"),
+            listed(scene.walls.size(), "wall"), counted(scene.floes.size(), "floe"), scene.time.until, scene.time.step,
             loaded->is_step_chosen ? " as chosen" : "", loaded->hash);
   print_floes(*loaded);
   return kDone;

@@ -156,7 +156,7 @@ ExitCode show(const Options& options) {
   const bool is_file = name == "-" || name.ends_with(".json") || name.find('/') != std::string::npos ||
                        std::filesystem::exists(name, error);
   if (!is_file) return no_such_ship(name);
-  const std::string shown = name == "-" ? "stdin" : name;
+  const std::string shown = input_name(name);
   auto text = read_input(name, io::kLongestShip);
   if (!text) return fail(kInputOutput, fmt::format("{}: {}", shown, text.error()));
   return show_text(*std::move(text), shown, true, options);
