@@ -88,6 +88,7 @@ class ContactSolver {
   double sweep(const Island& island, const Law& law, const SolverSettings& settings);
   void accelerate(const Island& island, Search& search);
   void give_memories(const std::vector<Contact>& contacts);
+  double missed_speed(const Island& island, const CrushLaw& law) const;
   void solve_jam(const Island& island, double tolerance, double residual);
   template <class Law>
   void finish(const Island& island, const Law& law);

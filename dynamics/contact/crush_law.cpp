@@ -155,6 +155,15 @@ double solve_block(const CrushLaw& /*law*/, CrushLaw::State& state, ContactConst
       {std::abs(change_0) * mobility.at[0], std::abs(change_1) * mobility.at[1], std::abs(slip) * k.inverse_slip_mass});
 }
 
+double missed_speed(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,
+                    std::span<const SolverBody> solver_bodies) {
+  ContactConstraint k = constraint;
+  k.a = 0, k.b = 1;
+  CrushLaw::State own = state;
+  std::array<SolverBody, 2> both{solver_bodies[constraint.a], solver_bodies[constraint.b]};
+  return solve_block(law, own, k, both);
+}
+
 void end_substep(const CrushLaw& law, const ConstraintSpeeds& after, const ContactConstraint& constraint,
                  CrushLaw::State& state) {
   double closing = 0;

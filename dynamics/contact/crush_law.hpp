@@ -194,6 +194,9 @@ inline double start_slip(const CrushLaw& law, const CrushLaw::State& state, cons
 /// change of a speed at the contact [m/s].
 double solve_block(const CrushLaw& law, CrushLaw::State& state, ContactConstraint& constraint,
                    std::span<SolverBody> solver_bodies);
+/// By how much a contact misses the law at the speeds now: the change that solve_block would make [m/s].
+double missed_speed(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,
+                    std::span<const SolverBody> solver_bodies);
 void end_substep(const CrushLaw& law, const ConstraintSpeeds& after, const ContactConstraint& constraint,
                  CrushLaw::State& state);
 /// Writes what the step leaves into the contact, whose impulses are found, and its record. The constraint has

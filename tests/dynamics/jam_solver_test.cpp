@@ -258,6 +258,22 @@ TEST(JamSolver, SolvesWhatSweepsDoNot) {
   EXPECT_LE(residual(60), 1e-6);
 }
 
+/// Newton's solution ends the sweeps where no contact misses its law there, whatever a further sweep would add up.
+TEST(JamSolver, WhatNewtonsMethodSolvesIsNotSweptAgain) {
+  Random random(kSeed);
+  for (int trial = 0; trial < 10; ++trial) {
+    Pack pack = pack_of(random, 12, 10, 0.2);
+    std::vector<PersistentContact> records(pack.contacts.size());
+    for (std::size_t i = 0; i < pack.contacts.size(); ++i) {
+      pack.contacts[i].record = &records[i];
+      pack.contacts[i].depth = 0.05;
+      pack.contacts[i].crushing_force = 200 * pack.laws[i][0].impulse_of_force;
+      pack.contacts[i].crushing_stiffness = pack.contacts[i].crushing_force;
+    }
+    EXPECT_LE(ContactSolver().solve(pack.bodies, pack.contacts, CrushLaw{.step = 0.01}, {25, 1e-4}).residual, 1e-4);
+  }
+}
+
 /// The step that repeats itself starts where it ends, friction included.
 TEST(JamSolver, AJamThatStaysIsSolvedByOneSweep) {
   Random random(kSeed);
