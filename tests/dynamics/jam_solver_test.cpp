@@ -258,11 +258,18 @@ TEST(JamSolver, SolvesWhatSweepsDoNot) {
   EXPECT_LE(residual(60), 1e-6);
 }
 
-/// Newton's solution ends the sweeps where no contact misses its law there, whatever a further sweep would add up.
+/// Newton's solution ends the sweeps where no contact misses its law there. A further sweep adds up what single
+/// contacts miss: by its residual four of these are not solved.
 TEST(JamSolver, WhatNewtonsMethodSolvesIsNotSweptAgain) {
   Random random(kSeed);
-  for (int trial = 0; trial < 10; ++trial) {
-    Pack pack = pack_of(random, 12, 10, 0.2);
+  for (int trial = 0; trial < 42; ++trial) {
+    Pack pack = pack_of(random, 5 + trial % 16, 15, 0.3);
+    for (BodyIndex i = 2; i < pack.bodies.size(); ++i) {
+      const double lighter = std::pow(10.0, random.between(0, 1));
+      pack.bodies.inverse_mass[i] *= lighter;
+      pack.bodies.inverse_moment[i] *= lighter;
+    }
+    take_masses(pack);
     std::vector<PersistentContact> records(pack.contacts.size());
     for (std::size_t i = 0; i < pack.contacts.size(); ++i) {
       pack.contacts[i].record = &records[i];
@@ -270,7 +277,8 @@ TEST(JamSolver, WhatNewtonsMethodSolvesIsNotSweptAgain) {
       pack.contacts[i].crushing_force = 200 * pack.laws[i][0].impulse_of_force;
       pack.contacts[i].crushing_stiffness = pack.contacts[i].crushing_force;
     }
-    EXPECT_LE(ContactSolver().solve(pack.bodies, pack.contacts, CrushLaw{.step = 0.01}, {25, 1e-4}).residual, 1e-4);
+    EXPECT_LE(ContactSolver().solve(pack.bodies, pack.contacts, CrushLaw{.step = 0.01}, {25, 1e-4}).residual, 1e-4)
+        << trial;
   }
 }
 
