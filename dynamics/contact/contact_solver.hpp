@@ -49,7 +49,7 @@ struct SolverResult {
 ///
 /// A response law L is a value with L::State for what it keeps of a contact within a step, and the functions
 /// that crush_law.hpp and restitution_law.hpp declare: substeps_of, state_of, begin_substep (bounds of λ),
-/// start_impulse, solve_block (one contact), end_substep, write_back (what it leaves in contact and
+/// start_impulse, start_slip, solve_block (one contact), end_substep, write_back (what it leaves in contact and
 /// record). One that kRestores gives impulses after the compression; of one that kHasJams, State has is_rigid and ends.
 class ContactSolver {
  public:
@@ -88,6 +88,7 @@ class ContactSolver {
   double sweep(const Island& island, const Law& law, const SolverSettings& settings);
   void accelerate(const Island& island, Search& search);
   void give_memories(const std::vector<Contact>& contacts);
+  double missed_speed(const Island& island, const CrushLaw& law) const;
   void solve_jam(const Island& island, double tolerance, double residual);
   template <class Law>
   void finish(const Island& island, const Law& law);

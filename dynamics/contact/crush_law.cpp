@@ -113,6 +113,7 @@ CrushLaw::State state_of(const CrushLaw& /*law*/, const Contact& c) {
           .kinks = {},
           .branches = {},
           .last_impulse = {c.record->last_impulse[0], c.record->last_impulse[1]},
+          .last_slip = c.record->start_impulse[0],
           .is_rigid = c.is_rigid(),
           .is_broken = false};
 }
@@ -154,6 +155,15 @@ double solve_block(const CrushLaw& /*law*/, CrushLaw::State& state, ContactConst
       {std::abs(change_0) * mobility.at[0], std::abs(change_1) * mobility.at[1], std::abs(slip) * k.inverse_slip_mass});
 }
 
+double missed_speed(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,
+                    std::span<const SolverBody> solver_bodies) {
+  ContactConstraint k = constraint;
+  k.a = 0, k.b = 1;
+  CrushLaw::State own = state;
+  std::array<SolverBody, 2> both{solver_bodies[constraint.a], solver_bodies[constraint.b]};
+  return solve_block(law, own, k, both);
+}
+
 void end_substep(const CrushLaw& law, const ConstraintSpeeds& after, const ContactConstraint& constraint,
                  CrushLaw::State& state) {
   double closing = 0;
@@ -173,6 +183,7 @@ void end_substep(const CrushLaw& law, const ConstraintSpeeds& after, const Conta
 void write_back(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,
                 Contact& contact) {
   for (int end = 0; end < 2; ++end) contact.record->last_impulse[end] = constraint.normal_impulse[end];
+  contact.record->start_impulse[0] = constraint.slip_impulse;
   contact.is_broken = state.is_broken;
   contact.is_at_limit = !state.is_rigid && contact.total_normal_impulse() > 0;  // all of it crushes
   contact.record->loaded_depth = state.loaded;

@@ -167,6 +167,7 @@ struct CrushLaw {
     std::array<CrushKinks, 2> kinks;
     ActiveBranches branches;  ///< of the ends, at the last solution
     double last_impulse[2];   ///< where the step starts [N s]
+    double last_slip;         ///< [N s]
     bool is_rigid, is_broken;
   };
 };
@@ -183,10 +184,19 @@ inline double start_impulse(const CrushLaw& law, const CrushLaw::State& state, c
   if (!law.is_warm_started) return 0;
   return is_first ? state.last_impulse[end] : constraint.normal_impulse[end];
 }
+/// λ_t where the substep's sweeps start [N s].
+inline double start_slip(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,
+                         bool is_first) {
+  if (!is_first) return constraint.slip_impulse;
+  return law.is_warm_started ? state.last_slip : 0;
+}
 /// The impulses of both ends by the law, then the slip impulse within the Coulomb cone. Returns the largest
 /// change of a speed at the contact [m/s].
 double solve_block(const CrushLaw& law, CrushLaw::State& state, ContactConstraint& constraint,
                    std::span<SolverBody> solver_bodies);
+/// By how much a contact misses the law at the speeds now: the change that solve_block would make [m/s].
+double missed_speed(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,
+                    std::span<const SolverBody> solver_bodies);
 void end_substep(const CrushLaw& law, const ConstraintSpeeds& after, const ContactConstraint& constraint,
                  CrushLaw::State& state);
 /// Writes what the step leaves into the contact, whose impulses are found, and its record. The constraint has

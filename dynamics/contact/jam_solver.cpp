@@ -12,8 +12,8 @@ namespace {
 
 /// Newton steps; half a dozen is common. Fewer: more jams are left to the sweeps, which converge slowly.
 constexpr int kMostSteps = 60;
-/// After them half of the contacts that leave their branches wait in each step, which ends cycles. Fewer:
-/// every jam takes more steps; many more: those that cycle are not solved within kMostSteps.
+/// After them half of what would change, an end's branch or a contact's slip, waits in each step, which ends cycles.
+/// Fewer: every jam takes more steps; many more: those that cycle are not solved within kMostSteps.
 constexpr int kWholeSteps = 8;
 /// What friction's bound may still change the slip by, in slip speeds. Greater: the slip impulses found miss
 /// Coulomb's law by that share.
@@ -37,9 +37,9 @@ JamRows rows_of(const ContactConstraint& c, int a, int b) {
           .b = b};
 }
 
-/// Which half of the contacts waits in a step, without any pattern that a cycle could follow.
-bool waits(std::size_t contact, int step) {
-  std::uint64_t x = contact * 0x9E3779B97F4A7C15U + static_cast<std::uint64_t>(step) * 0xBF58476D1CE4E5B9U;
+/// Which half of all branches waits in a step, without any pattern that a cycle could follow.
+bool waits(std::size_t branch, int step) {
+  std::uint64_t x = branch * 0x9E3779B97F4A7C15U + static_cast<std::uint64_t>(step) * 0xBF58476D1CE4E5B9U;
   x = (x ^ (x >> 31U)) * 0x94D049BB133111EBU;
   return (x >> 40U & 1U) != 0;
 }
@@ -161,7 +161,12 @@ class Jam {
       const ActiveSet next = active_set_of(k, normal);
       if (next != active_sets_[k]) {
         choice.are_sets_found = false;
-        if (step < kWholeSteps || !waits(k, step)) active_sets_[k] = next;
+        const auto change = [&](auto& from, auto to, std::size_t place) {
+          if (step < kWholeSteps || !waits(3 * k + place, step)) from = to;
+        };
+        change(active_sets_[k].ends.of[0], next.ends.of[0], 0);
+        change(active_sets_[k].ends.of[1], next.ends.of[1], 1);
+        change(active_sets_[k].slip, next.slip, 2);
       }
       const double bound = constraints_[k].friction * normal;
       const double off = std::abs(bound - slip_bound_[k]) * constraints_[k].inverse_slip_mass;
