@@ -140,7 +140,7 @@ struct Accounts {
   Counts counts;
   std::vector<HullLoads> loads;       ///< per hull, since the last sample
   std::vector<SailingLoads> sailing;  ///< per ship, since the last sample
-  std::vector<Event> hull_contacts;   ///< the first one of each pair of ships
+  std::vector<Event> hull_contacts;   ///< the first one of each pair of hulls
   LoadPeaks load_peaks;
   std::vector<HullPanels> panels;                                     ///< per hull, since the last sample
   std::vector<std::pair<std::int64_t, std::int64_t>> refused_grinds;  ///< bodies that geometry refused to cut

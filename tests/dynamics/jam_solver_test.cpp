@@ -237,10 +237,8 @@ TEST(JamSolver, FindsTheSameWithTheMemoryOfOtherJams) {
   }
 }
 
-/// A pack that sweeps do not solve: the solver of whole steps comes to its tolerance all the same.
-TEST(JamSolver, SolvesWhatSweepsDoNot) {
-  Random random(kSeed);
-  Pack pack = pack_of(random, 20, 8, 0);
+/// Lets the pack's contacts overlap and crush, for the whole solver; returns their records.
+std::vector<PersistentContact> press(Pack& pack) {
   std::vector<PersistentContact> records(pack.contacts.size());
   for (std::size_t i = 0; i < pack.contacts.size(); ++i) {
     pack.contacts[i].record = &records[i];
@@ -248,6 +246,14 @@ TEST(JamSolver, SolvesWhatSweepsDoNot) {
     pack.contacts[i].crushing_force = 200 * pack.laws[i][0].impulse_of_force;
     pack.contacts[i].crushing_stiffness = pack.contacts[i].crushing_force;
   }
+  return records;
+}
+
+/// A pack that sweeps do not solve: the solver of whole steps comes to its tolerance all the same.
+TEST(JamSolver, SolvesWhatSweepsDoNot) {
+  Random random(kSeed);
+  Pack pack = pack_of(random, 20, 8, 0);
+  std::vector<PersistentContact> records = press(pack);
   const auto residual = [&](int sweeps) {
     Bodies bodies = pack.bodies;
     std::vector<Contact> contacts = pack.contacts;
@@ -270,13 +276,7 @@ TEST(JamSolver, WhatNewtonsMethodSolvesIsNotSweptAgain) {
       pack.bodies.inverse_moment[i] *= lighter;
     }
     take_masses(pack);
-    std::vector<PersistentContact> records(pack.contacts.size());
-    for (std::size_t i = 0; i < pack.contacts.size(); ++i) {
-      pack.contacts[i].record = &records[i];
-      pack.contacts[i].depth = 0.05;
-      pack.contacts[i].crushing_force = 200 * pack.laws[i][0].impulse_of_force;
-      pack.contacts[i].crushing_stiffness = pack.contacts[i].crushing_force;
-    }
+    std::vector<PersistentContact> records = press(pack);
     EXPECT_LE(ContactSolver().solve(pack.bodies, pack.contacts, CrushLaw{.step = 0.01}, {25, 1e-4}).residual, 1e-4)
         << trial;
   }
@@ -286,13 +286,7 @@ TEST(JamSolver, WhatNewtonsMethodSolvesIsNotSweptAgain) {
 TEST(JamSolver, AJamThatStaysIsSolvedByOneSweep) {
   Random random(kSeed);
   Pack pack = pack_of(random, 8, 6, 0.2);
-  std::vector<PersistentContact> records(pack.contacts.size());
-  for (std::size_t i = 0; i < pack.contacts.size(); ++i) {
-    pack.contacts[i].record = &records[i];
-    pack.contacts[i].depth = 0.05;
-    pack.contacts[i].crushing_force = 200 * pack.laws[i][0].impulse_of_force;
-    pack.contacts[i].crushing_stiffness = pack.contacts[i].crushing_force;
-  }
+  std::vector<PersistentContact> records = press(pack);
   const auto residual = [&](int sweeps) {
     Bodies bodies = pack.bodies;
     std::vector<Contact> contacts = pack.contacts;
