@@ -103,18 +103,11 @@ double open_area(const DeckSide& side, double r, const Plate& plate, const Plate
 class Turn {
  public:
   Turn(const Deck& deck, double way)
-      : deck_(deck), plate_(deck.depth, deck.thickness, deck.hull_angle, deck.depth - way) {
-    const double waterline = deck.depth - way;
+      : deck_(deck), waterline_(deck.depth - way), plate_(deck.depth, deck.thickness, deck.hull_angle, waterline_) {
     for (int k = 0; k < Deck::kStrips; ++k) {
       const double r = at(k);
       depth_[k] = std::max(0.0, plate_.z(r) - deck.freeboard);
-      hull_[k] = std::max(0.0, (plate_.x(r) - waterline) / std::tan(deck.hull_angle));
-      open_[k] = beside_sheet(k);
-      for (const DeckSide& side : deck.strips[k].sides)
-        if (side.length > 0)
-          open_[k] +=
-              open_area(side, r, plate_, Plate(side.depth, deck.thickness, deck.hull_angle, waterline - side.axis),
-                        deck.thickness);
+      hull_[k] = std::max(0.0, (plate_.x(r) - waterline_) / std::tan(deck.hull_angle));
     }
   }
 
@@ -142,10 +135,12 @@ class Turn {
   /// Into a pool with that surface [m³/s].
   double inflow(double surface) const {
     double flow = 0;
+    if (surface <= 0) return flow;
     for (int k = 0; k < Deck::kStrips; ++k) {
       const double z = depth_[k];
-      flow += kDischarge * open_[k] * std::sqrt(2 * kGravity * std::min(surface, z));
-      if (z > 0) flow += deck_.strips[k].water * over_crest(z, std::max(0.0, z - surface));
+      if (z <= 0) continue;
+      flow += kDischarge * open_at(k) * std::sqrt(2 * kGravity * std::min(surface, z));
+      flow += deck_.strips[k].water * over_crest(z, std::max(0.0, z - surface));
     }
     return flow;
   }
@@ -157,6 +152,13 @@ class Turn {
     return density * kGravity * strip() * sum;
   }
 
+  /// Of the pressure that is missing on the hull's face, along its normal [N].
+  double ahead(double surface, double density) const {
+    double sum = 0;
+    for (int k = 0; k < Deck::kStrips; ++k) sum += std::min(hull_[k], surface) * width(k);
+    return density * kGravity * strip() * plate_.cosine() / std::tan(deck_.hull_angle) * sum;
+  }
+
   /// Of the force down on the near edge, with that thrust per force, about the axis [m].
   double lever(double thrust) const {
     const double h = deck_.thickness;
@@ -165,6 +167,16 @@ class Turn {
   }
 
  private:
+  /// What stands open towards ice [m²].
+  double open_at(int k) const {
+    double open = beside_sheet(k);
+    for (const DeckSide& side : deck_.strips[k].sides) {
+      if (side.length <= 0) continue;
+      const Plate older(side.depth, deck_.thickness, deck_.hull_angle, waterline_ - side.axis);
+      open += open_area(side, at(k), plate_, older, deck_.thickness);
+    }
+    return open;
+  }
   /// What stands open between the strip's far edge and the sheet's lower corner [m²].
   double beside_sheet(int k) const {
     const double r = at(k);
@@ -183,10 +195,10 @@ class Turn {
   double width(int k) const { return deck_.strips[k].width; }
 
   const Deck& deck_;
+  double waterline_ = 0;  ///< x_w, of the hull [m]
   Plate plate_;
   std::array<double, Deck::kStrips> depth_{};  ///< of the deck below the water level [m]
   std::array<double, Deck::kStrips> hull_{};   ///< of the hull above it [m]
-  std::array<double, Deck::kStrips> open_{};   ///< towards ice [m²]
 };
 
 }  // namespace
@@ -210,19 +222,20 @@ Deck deck_of(const Ice& ice, const Water& water, double hull_angle, std::span<co
   return deck;
 }
 
-double turn_deck(const Deck& deck, const Water& water, double thrust, double way, double dt, DeckState& state) {
+DeckForces turn_deck(const Deck& deck, const Water& water, double thrust, double way, double dt, DeckState& state) {
   const double end = way_to_lie_along(deck);
   const int steps = std::clamp(static_cast<int>(std::ceil(kStepsOfATurn * way / deck.depth)), 1, kStepsOfATurn);
-  double sum = 0;
+  DeckForces sum;
   for (int i = 0; i < steps; ++i) {
     state.way = std::min(end, state.way + way / steps);
     const Turn turn(deck, state.way);
     const double surface = turn.surface_of(state.pool);
-    sum += turn.moment(surface, water.density) / turn.lever(thrust);
+    sum.down += turn.moment(surface, water.density) / turn.lever(thrust) / steps;
+    sum.ahead += turn.ahead(surface, water.density) / steps;
     // What no longer has room leaves.
     state.pool = std::min(turn.pool_below(0), state.pool + turn.inflow(surface) * dt / steps);
   }
-  return sum / steps;
+  return sum;
 }
 
 }  // namespace polynya::fracture

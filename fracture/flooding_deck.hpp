@@ -69,9 +69,14 @@ struct DeckState {
   double pool = 0;  ///< Q, of water on the deck [m³]
 };
 
-/// Lets the hull go on by `way` [m], not farther than the cusp turns, and water flow for dt [s]. Returns the mean force
-/// down on the cusp's near edge that the missing water takes, where the hull presses with `thrust` times it along its
-/// normal [N].
-double turn_deck(const Deck& deck, const Water& water, double thrust, double way, double dt, DeckState& state);
+/// What the water that is missing between deck and hull does.
+struct DeckForces {
+  double down = 0;   ///< of the hull on the cusp's near edge, for its moment about the axis [N]
+  double ahead = 0;  ///< P, on the hull along its normal, for the water that is missing on its own face [N]
+};
+
+/// Lets the hull go on by `way` [m], not farther than the cusp turns, and water flow for dt [s]. Returns the mean
+/// forces, where the hull presses with `thrust` times its force down along its normal.
+DeckForces turn_deck(const Deck& deck, const Water& water, double thrust, double way, double dt, DeckState& state);
 
 }  // namespace polynya::fracture

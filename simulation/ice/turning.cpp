@@ -132,10 +132,10 @@ void press(const Setup& setup, PressedDeck& pressed, dynamics::Bodies& bodies, H
   const Vector through_water =
       dynamics::velocity_at(bodies, ship, arm) - setup.current.velocity_at(bodies.position[ship]);
   const double speed = std::max(0.0, dot(normal, through_water));
-  const double down = fracture::turn_deck(pressed.deck, setup.scene.water.water, dot(normal, horizontal),
-                                          speed * setup.step, setup.step, pressed.state);
+  const fracture::DeckForces forces = fracture::turn_deck(
+      pressed.deck, setup.scene.water.water, dot(normal, horizontal), speed * setup.step, setup.step, pressed.state);
   if (speed == 0) return;
-  const Vector impulse = -(down * setup.step) * horizontal;
+  const Vector impulse = setup.step * (forces.ahead * normal - forces.down * horizontal);
   const double slowed = -speed_by(bodies, ship, arm, normal, impulse);  // it stops a ship and never reverses it
   brake(ship, arm, slowed > speed ? (speed / slowed) * impulse : impulse, bodies, loads, audit);
 }
