@@ -107,7 +107,7 @@ class Turn {
     for (int k = 0; k < Deck::kStrips; ++k) {
       const double r = at(k);
       depth_[k] = std::max(0.0, plate_.z(r) - deck.freeboard);
-      hull_[k] = std::max(0.0, (plate_.x(r) - waterline_) / std::tan(deck.hull_angle));
+      hull_[k] = std::max(0.0, (plate_.x(r) - waterline_) / std::tan(deck.hull_angle) - deck.freeboard);
     }
   }
 
@@ -195,10 +195,10 @@ class Turn {
   double width(int k) const { return deck_.strips[k].width; }
 
   const Deck& deck_;
-  double waterline_ = 0;  ///< x_w, of the hull [m]
+  double waterline_ = 0;  ///< x_w, of the hull at the sheet's upper side [m]
   Plate plate_;
   std::array<double, Deck::kStrips> depth_{};  ///< of the deck below the water level [m]
-  std::array<double, Deck::kStrips> hull_{};   ///< of the hull above it [m]
+  std::array<double, Deck::kStrips> hull_{};   ///< of the hull above it, below the water level [m]
 };
 
 }  // namespace

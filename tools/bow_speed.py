@@ -88,7 +88,7 @@ def deck_work(h, area, depth, speed, slope, more, discharge=ORIFICE, are_closed=
         psi, _ = plate(depth, h, slope, waterline)
         x, z = corner(r, h, psi)
         z = np.maximum(0, z - freeboard)
-        hull = np.maximum(0, (x - waterline) / math.tan(slope))
+        hull = np.maximum(0, (x - waterline) / math.tan(slope) - freeboard)
         below = lambda y: math.cos(psi) * strip * np.sum(width * np.maximum(0, z - np.maximum(y, hull)))
         most = max(most, RHO_W * G * math.cos(psi) * strip * np.sum(width * np.maximum(0, z**2 - hull**2)) / 2)
         pool, low, high = min(pool, below(0)), 0, z[-1]
