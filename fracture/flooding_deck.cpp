@@ -62,7 +62,7 @@ class Plate {
     const double sine = std::sin(hull_angle);
     const double cosine = std::cos(hull_angle);
     const double along = thickness * (1 - sine) / cosine;  // the waterline when the plate lies along the hull
-    const double at = std::clamp(waterline, along, depth);
+    const double at = std::clamp(waterline, along, std::max(along, depth));  // a short one snaps over
     const double turned =
         std::acos(std::clamp((at * cosine + thickness * sine) / std::hypot(depth, thickness), -1.0, 1.0));
     tilt_ = std::clamp(turned + beta - hull_angle, 0.0, 0.5 * std::numbers::pi - hull_angle);

@@ -137,6 +137,15 @@ TEST(FloodingDeck, StaysDryWhereNothingHasOpened) {
   EXPECT_GT(pool(ahead, 1), 0);
 }
 
+TEST(FloodingDeck, LiesBesideAnOlderCuspTooShortToTurn) {
+  Deck deck = rectangle(Beside::kOlderCusp, kHasTurned);
+  for (DeckStrip& s : deck.strips)
+    for (DeckSide& side : s.sides) side.depth = 0.1 * kThickness;
+  const Work done = work(deck, 4);
+  EXPECT_GT(done.down, 0);
+  EXPECT_TRUE(std::isfinite(done.sum()));
+}
+
 TEST(FloodingDeck, HoldsNoMoreThanThereIsRoomBetweenDeckAndHull) {
   DeckState end;
   const Deck deck = rectangle(Beside::kWater);
