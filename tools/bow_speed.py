@@ -10,9 +10,9 @@ A cusp of area A and depth R turns about its far edge by ψ, the near one is pre
             (9π/512) ρ_w R A w² (1 + (R/b)²)^-½, b = A/R
   drag      of its turning by ψ, C_D ρ_w w² R A ψ/8, C_D 1.1: an upper bound, the water's own energy is in it
   decks     the water that is missing on its deck, for a sector of that area and radius whose straight sides border
-            older cusps: dry, no water at all (a bound); closed, sides closed; plates, sides open by the distance from
-            older cusps as thick plates along the hull; built, by what the side has moved ahead; C_d .8; and built with
-            a gap of .1 h all along the sides
+            older cusps of its depth with their axes where the sides begin: dry, no water at all (all that is left is
+            friction); closed, sides and arc closed; most, the largest that any inflow could take, the cavity's greatest
+            energy and all of the dry friction; built; C_d .8; and built with a gap of .1 h all along the sides
 The hull works against friction too: all times η/η₀, the thrust with friction over that without. Needs numpy.
 """
 import argparse
@@ -27,61 +27,87 @@ from study import G, RHO_I, RHO_W, STEM, rows_of, run_all, run_scene
 
 FRICTION, DRAG, ORIFICE, STRIPS, STEPS, CUSPS = 0.2, 1.1, 0.6, 8, 80, 60
 CASES = ((0.25, 1), (0.5, 0.25), (0.5, 1), (0.5, 3), (0.5, 6), (1, 0.2), (1, 0.5), (1, 1), (1, 3), (1, 6), (1.5, 1))
-DECKS = {"dry": {"discharge": 0}, "closed": {"sides": "closed"}, "plates": {"sides": "plates"}, "built": {},
-         "C_d .8": {"discharge": 0.8}, "gap": {"gap": 0.1}}
+DECKS = {"dry": {"discharge": 0}, "most": {"discharge": 0, "is_most": True}, "sides closed": {"are_closed": True},
+         "built": {}, "C_d .8": {"discharge": 0.8}, "gap": {"gap": 0.1}}
 
 
 def strips_of(area, depth):
     """A sector of that area about its tip: of each strip, from the axis on, distance, width, width of the sides across
-    the hull's normal, length of the arc [m]."""
+    the hull's normal and their length, width of the arc across it and its length; where the sides begin [m]."""
     half = min(area / depth**2, 0.49 * math.pi)
     wider = area / (half * depth**2)
     edges = np.linspace(0, depth, 40 * STRIPS + 1)
     u = depth - (edges[1:] + edges[:-1]) / 2
     is_side = u <= depth * math.cos(half)
     width = 2 * np.minimum(u * math.tan(half), np.sqrt(depth**2 - u**2))
-    side = np.where(is_side, 2 * math.tan(half) * depth / len(u), 0)
+    across = np.where(is_side, 2 * math.tan(half) * depth / len(u), 0)
     arc = np.where(is_side, 0, 2 * depth * np.diff(np.arccos(1 - edges / depth)))
+    half_chord = np.sqrt(np.maximum(0, depth**2 - (depth - edges)**2))
     by_strip = lambda x: wider * x.reshape(STRIPS, -1).sum(1)
-    return (np.arange(STRIPS) + 0.5) * depth / STRIPS, by_strip(width) / 40, by_strip(side), by_strip(arc)
+    return ((np.arange(STRIPS) + 0.5) * depth / STRIPS, by_strip(width) / 40, by_strip(across),
+            by_strip(across / math.sin(half)), by_strip(np.where(is_side, 0, 2 * np.diff(half_chord))), by_strip(arc),
+            depth * (1 - math.cos(half)))
 
 
-def between_plates(h, depth, r, psi, waterline, slope):
-    """Distance of a side at r from an older cusp of the same depth that lies along the hull or nears it [m]."""
-    turned = np.where(waterline <= r, math.pi / 2 - slope,
-                      np.arccos(np.clip(math.cos(slope) * (waterline - r) / depth, -1, 1)) - slope)
-    # Of its two corners from the side's upper one.
-    back = r * (1 - math.cos(psi)) - np.array([0 * r, h * np.sin(turned)])
-    down = np.maximum(0, (r - waterline) / math.tan(slope)) - r * math.sin(psi) + np.array([0 * r, h * np.cos(turned)])
-    off = back * math.cos(psi) + down * math.sin(psi)
-    along = down * math.cos(psi) - back * math.sin(psi)
-    return np.maximum.reduce([0 * r, off.min(0), along.min(0) - h, -along.max(0)])
+def plate(depth, h, slope, waterline):
+    """Turn [rad] of a plate about the lower corner of its far edge, and how far it has slid down along the hull [m]."""
+    along = h * (1 - math.sin(slope)) / math.cos(slope)
+    at = min(max(waterline, along), depth)
+    turned = math.acos(min(1, (at * math.cos(slope) + h * math.sin(slope)) / math.hypot(depth, h)))
+    turn = min(max(turned + math.atan(h / depth) - slope, 0), math.pi / 2 - slope)
+    return (0 if waterline >= depth else turn), max(0, along - waterline) / math.tan(slope)
 
 
-def deck_work(h, area, depth, speed, slope, discharge=ORIFICE, sides="open", gap=0):
-    """Of the missing water, over a turn under a hull at `slope` from the vertical with that speed normal to it [J]."""
-    r, width, side, arc = strips_of(area, depth)
-    strip, step, freeboard = depth / STRIPS, depth / speed / STEPS, (1 - RHO_I / RHO_W) * h
-    pool = work = before = 0.0
+def corner(r, h, psi, sunk=0.0):
+    return r * math.cos(psi) + h * math.sin(psi), r * math.sin(psi) + h * (1 - math.cos(psi)) + sunk
+
+
+def opening(h, depth, slope, r, psi, waterline, axis, across, length):
+    """Between the sides at r and an older cusp of the same depth whose axis is there [m²]."""
+    of_older, sunk = plate(depth, h, slope, waterline - axis)
+    x, z = corner(r, h, psi)
+    older_x, older_z = corner(r - axis, h, of_older, sunk)
+    x, z = older_x + axis - x, older_z - z
+    x, z = np.array([x, x - h * math.sin(of_older)]), np.array([z, z + h * math.cos(of_older)])
+    along = (x * math.cos(psi) + z * math.sin(psi)).min(0)
+    off = z * math.cos(psi) - x * math.sin(psi)
+    return np.maximum.reduce([0 * r, along * across, (off.min(0) - h) * length, -off.max(0) * length])
+
+
+def deck_work(h, area, depth, speed, slope, more, discharge=ORIFICE, are_closed=False, is_most=False, gap=0):
+    """Of the missing water, over a turn under a hull at `slope` from the vertical with that speed normal to it, whose
+    friction makes the work at the near edge `more` times that without [J]."""
+    r, width, side, side_length, arc, arc_length, axis = strips_of(area, depth)
+    freeboard, end = (1 - RHO_I / RHO_W) * h, depth - h * (1 - math.sin(slope)) / math.cos(slope)
+    if end <= 0:
+        return 0.0
+    strip, step = depth / STRIPS, end / speed / STEPS
+    pool = lost = pressed = before = most = 0.0
     for share in (np.arange(STEPS) + 1) / STEPS:
-        psi = math.acos(math.cos(slope) * (1 - share)) - slope
-        z, waterline = np.maximum(0, r * math.sin(psi) - freeboard), depth * (1 - share)
-        hull = np.maximum(0, (r * math.cos(psi) - waterline) / math.tan(slope))
+        waterline = depth - share * end
+        psi, _ = plate(depth, h, slope, waterline)
+        x, z = corner(r, h, psi)
+        z = np.maximum(0, z - freeboard)
+        hull = np.maximum(0, (x - waterline) / math.tan(slope) - freeboard)
         below = lambda y: math.cos(psi) * strip * np.sum(width * np.maximum(0, z - np.maximum(y, hull)))
+        most = max(most, RHO_W * G * math.cos(psi) * strip * np.sum(width * np.maximum(0, z**2 - hull**2)) / 2)
         pool, low, high = min(pool, below(0)), 0, z[-1]
         for _ in range(14 if pool < below(0) else 0):
             middle = (low + high) / 2
             low, high = (middle, high) if below(middle) > pool else (low, middle)
         y = (low + high) / 2 if pool < below(0) else 0
-        opened = {"open": r * (1 - math.cos(psi)), "closed": 0 * r,
-                  "plates": between_plates(h, depth, r, psi, waterline, slope)}[sides] + gap * h
-        sheet = np.maximum(0, r * math.sin(psi) - h)
-        fall = lambda head: np.sqrt(2 * G * head)
-        pool += step * discharge * np.sum(opened * side * fall(np.minimum(y, z))
-                                          + sheet * arc * fall(np.minimum(y, h - freeboard + sheet / 2)))
-        work += RHO_W * G * strip * np.sum(np.minimum(z, y) * r * width) * (psi - before)
+        opened = gap * h * side_length
+        if not are_closed:
+            opened = opened + opening(h, depth, slope, r, psi, waterline, axis, side, side_length)
+        beside_sheet = np.where(r * math.sin(psi) < h, r * (1 - math.cos(psi)) * arc,
+                                np.hypot((x - r) * arc, (z + freeboard - h) * arc_length))
+        flow = step * discharge * np.sum((opened + beside_sheet) * np.sqrt(2 * G * np.minimum(y, z)))
+        flow = min(flow, max(0, below(0) - pool))
+        pool += flow
+        lost += RHO_W * G * y * flow
+        pressed += RHO_W * G * strip * np.sum(np.minimum(z, y) * r * width) * (psi - before)
         before = psi
-    return work
+    return (most if is_most else lost) + (more - 1) * pressed
 
 
 def run(arguments, name, one):
@@ -99,11 +125,12 @@ def run(arguments, name, one):
         tilt = math.atan(math.tan(STEM) / ahead)  # of the hull from the horizontal, ψ
         more = (math.tan(tilt) + FRICTION) / (1 - FRICTION * math.tan(tilt)) / math.tan(tilt)
         w = v * math.tan(STEM)
-        sums += more * np.array([
-            RHO_I * h * area * w**2 / 6,
-            9 * math.pi / 512 * RHO_W * depth * area * w**2 / math.hypot(1, depth**2 / area),
-            DRAG * RHO_W * w**2 * depth * area * tilt / 8,
-            *(deck_work(h, area, depth, v * ahead, math.pi / 2 - tilt, **settings) for settings in DECKS.values())])
+        sums += np.array([
+            more * RHO_I * h * area * w**2 / 6,
+            more * 9 * math.pi / 512 * RHO_W * depth * area * w**2 / math.hypot(1, depth**2 / area),
+            more * DRAG * RHO_W * w**2 * depth * area * tilt / 8,
+            *(deck_work(h, area, depth, v * ahead, math.pi / 2 - tilt, more, **settings)
+              for settings in DECKS.values())])
     return np.array([surge, *(sums * len(bends) / len(sample) / WAY)])
 
 

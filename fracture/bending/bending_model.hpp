@@ -38,8 +38,8 @@ struct BendingCapacity {
 
 /// What the crack does that opens in the bottom fibre, along the bisector, before the cusp breaks off.
 enum class RadialCracks {
-  kIgnored,     ///< the wedge breaks as if it were whole
-  kSplitWedge,  ///< it runs through and splits the wedge (docs/theory/bow.md)
+  kIgnored,     ///< the edge breaks as if it were whole
+  kSplitWedge,  ///< it runs through: a wedge splits, the sections of an edge hold as cracked ones (docs/theory/bow.md)
 };
 
 /// What of the ice's outline decides where it breaks.

@@ -84,8 +84,9 @@ SectionBreak weakest_section(const EdgeOpenings& openings, const EdgePush& push)
   return weakest_section_of_sinking(openings, push, 0);
 }
 
-SectionBreak weakest_section_of_sinking(const EdgeOpenings& openings, const EdgePush& push, double sinking) {
-  const double cracked = crack_share(openings);
+SectionBreak weakest_section_of_sinking(const EdgeOpenings& openings, const EdgePush& push, double sinking,
+                                        bool has_radial_cracks) {
+  const double cracked = has_radial_cracks ? crack_share(openings) : 0;
   std::array<double, kSectionCount> forces{};
   for (std::size_t i = 0; i < kSectionCount; ++i) {
     const double r = kSectionRadii[i] * push.length;

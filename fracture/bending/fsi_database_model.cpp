@@ -156,7 +156,7 @@ BendingCapacity FsiDatabaseModel::capacity(const BendingLoad& load) const {
   if (!load.openings) return capacity;
   const SectionBreak found = weakest_section_of_sinking(
       *load.openings, edge_push(load, scaled_load.length_scale, effective_length(*database_, groups)),
-      sinking_of(load, scaled_load, groups.opening_angle));
+      sinking_of(load, scaled_load, groups.opening_angle), radial_cracks_ == RadialCracks::kSplitWedge);
   capacity.vertical_force = found.force * scaled_load.force_scale;
   capacity.cusp_radius = found.distance * load.ice.thickness;
   return capacity;

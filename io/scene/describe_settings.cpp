@@ -138,8 +138,8 @@ const Description<FractureSettings> kBending{
                               &FractureSettings::bending),
      choice<RadialCracks>(
          "radial_cracks",
-         "of model fsi-database: whether the crack that opens below a wide wedge before its cusp breaks "
-         "splits the wedge, or is ignored",
+         "of model fsi-database: whether the crack that opens below a wide edge before its cusp breaks runs "
+         "through, so that a wedge splits and sections hold as cracked ones, or is ignored",
          {{"split", RadialCracks::kSplitWedge}, {"ignored", RadialCracks::kIgnored}}, &FractureSettings::radial_cracks),
      choice<EdgeOutline>(
          "outline",

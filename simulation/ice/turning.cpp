@@ -58,31 +58,38 @@ double speed_by(const dynamics::Bodies& bodies, BodyIndex ship, Vector arm, Vect
              bodies.inverse_mass[ship] * impulse + cross(bodies.inverse_moment[ship] * cross(arm, impulse), arm));
 }
 
-/// Whether a point of the water has a cusp or floe below that went under, the last ones first.
-bool is_over_submerged(const Population& population, Point p) {
+/// Of a cusp or floe that went under, where a point of the water is over one, the last ones first; else none.
+FloeId submerged_below(const Population& population, Point p) {
   const dynamics::Bodies& bodies = population.bodies;
-  return std::any_of(population.submerged.rbegin(), population.submerged.rend(), [&](const SubmergedPiece& piece) {
-    const BodyIndex body = population.body_of(piece.floe);
-    return distance(bodies.position[body], p) <= bodies.bounding_radius[body] &&
-           contains(population.floes[piece.floe].shape.polygon,
-                    inverse_transform(dynamics::water_from_body(bodies, body), p));
-  });
+  const auto found =
+      std::find_if(population.submerged.rbegin(), population.submerged.rend(), [&](const SubmergedPiece& piece) {
+        const BodyIndex body = population.body_of(piece.floe);
+        return distance(bodies.position[body], p) <= bodies.bounding_radius[body] &&
+               contains(population.floes[piece.floe].shape.polygon,
+                        inverse_transform(dynamics::water_from_body(bodies, body), p));
+      });
+  return found == population.submerged.rend() ? kNoFloe : found->floe;
 }
 
 /// Of the piece's depth: how far from its edge that is looked for which is beside it [-].
 constexpr double kBeside = 0.01;
 
-/// What is beside the edge of a cusp from a to b, counter-clockwise in its floe's body frame.
-fracture::Beside beside(const Setup& setup, const Population& population, const PendingFracture& bend, Point a,
-                        Point b) {
+/// The edge of a cusp from a to b, counter-clockwise in its floe's body frame, by what is beside it; x of its frame is
+/// along `ahead`, a unit vector of the body frame.
+fracture::DeckEdge deck_edge(const Setup& setup, const Population& population, const PendingFracture& bend, Point a,
+                             Point b, Vector ahead) {
   const Point middle = a + 0.5 * (b - a);
   const double rounding = 1e-9 * bend.cusp_radius;
   const double arc = bend.cusp_radius - setup.scene.fracture.cusp_sagitta - rounding;
-  if (distance(middle, bend.first_touch_in_body) >= arc) return fracture::Beside::kSheet;
+  if (distance(middle, bend.first_touch_in_body) >= arc) return {fracture::Beside::kSheet};
   const Vector out = -(kBeside * bend.cusp_radius / distance(a, b)) * perpendicular(b - a);
   const geometry::Pose pose = dynamics::water_from_body(population.bodies, population.body_of(bend.floe));
-  const bool is_over = is_over_submerged(population, transform(pose, middle + out));
-  return is_over ? fracture::Beside::kOlderCusp : fracture::Beside::kWater;
+  const FloeId older = submerged_below(population, transform(pose, middle + out));
+  if (older == kNoFloe) return {fracture::Beside::kWater};
+  const geometry::Pose of_older = dynamics::water_from_body(population.bodies, population.body_of(older));
+  const auto along = [&](Point p) { return dot(inverse_transform(pose, transform(of_older, p)) - Point{}, ahead); };
+  const auto [near, far] = std::ranges::minmax(population.floes[older].shape.polygon.outer, {}, along);
+  return {fracture::Beside::kOlderCusp, along(far), along(far) - along(near)};
 }
 
 fracture::Deck deck_of(const Setup& setup, const Population& population, const PendingFracture& bend,
@@ -90,13 +97,13 @@ fracture::Deck deck_of(const Setup& setup, const Population& population, const P
   const Vector ahead = ahead_of(population, bend);
   const geometry::Rotation ahead_from_body{ahead.x, -ahead.y};
   std::vector<Point> outline;
-  std::vector<fracture::Beside> besides;
+  std::vector<fracture::DeckEdge> edges;
   for (std::size_t i = 0; i < piece.size(); ++i) {
     outline.push_back(Point{} + rotate(ahead_from_body, piece[i] - Point{}));
-    besides.push_back(beside(setup, population, bend, piece[i], piece[i + 1 < piece.size() ? i + 1 : 0]));
+    edges.push_back(deck_edge(setup, population, bend, piece[i], piece[i + 1 < piece.size() ? i + 1 : 0], ahead));
   }
   return fracture::deck_of(ice_of_floe(setup, population, bend.floe), setup.scene.water.water, bend.push.hull_angle,
-                           outline, besides);
+                           outline, edges);
 }
 
 /// Decks of the cut's cusps, which the hull presses down from now on.
@@ -112,7 +119,7 @@ void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::
                         .horizontal_in_ship = rotate_back(of_ship, bend.push.horizontal),
                         .deck = deck_of(setup, population, bend, piece.shape.polygon.outer),
                         .state = {}};
-    if (pressed.deck.depth > 0) population.decks.push_back(pressed);
+    if (fracture::way_to_lie_along(pressed.deck) > 0) population.decks.push_back(pressed);
   }
 }
 
@@ -125,10 +132,10 @@ void press(const Setup& setup, PressedDeck& pressed, dynamics::Bodies& bodies, H
   const Vector through_water =
       dynamics::velocity_at(bodies, ship, arm) - setup.current.velocity_at(bodies.position[ship]);
   const double speed = std::max(0.0, dot(normal, through_water));
-  const double down = fracture::turn_deck(pressed.deck, setup.scene.water.water, dot(normal, horizontal),
-                                          speed * setup.step, setup.step, pressed.state);
+  const fracture::DeckForces forces = fracture::turn_deck(
+      pressed.deck, setup.scene.water.water, dot(normal, horizontal), speed * setup.step, setup.step, pressed.state);
   if (speed == 0) return;
-  const Vector impulse = -(down * setup.step) * horizontal;
+  const Vector impulse = setup.step * (forces.ahead * normal - forces.down * horizontal);
   const double slowed = -speed_by(bodies, ship, arm, normal, impulse);  // it stops a ship and never reverses it
   brake(ship, arm, slowed > speed ? (speed / slowed) * impulse : impulse, bodies, loads, audit);
 }
@@ -153,7 +160,7 @@ void turn_cusp(const Setup& setup, const PendingFracture& bend, const geometry::
 void press_decks(const Setup& setup, Population& population, std::vector<HullLoads>& loads, AuditSums& audit) {
   for (PressedDeck& pressed : population.decks)
     press(setup, pressed, population.bodies, loads[static_cast<std::size_t>(pressed.ship)], audit);
-  std::erase_if(population.decks, [](const PressedDeck& p) { return p.state.way >= p.deck.depth; });
+  std::erase_if(population.decks, [](const PressedDeck& p) { return p.state.way >= way_to_lie_along(p.deck); });
 }
 
 }  // namespace polynya::simulation

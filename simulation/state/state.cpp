@@ -315,10 +315,13 @@ class StateLoader {
       bytes_.require(deck.depth > 0 && deck.depth < kLongestCusp && deck.thickness > 0 && deck.freeboard >= 0,
                      "a deck of no size");
       bytes_.require(deck.hull_angle > 0 && deck.hull_angle < std::numbers::pi / 2, "a hull of another slope");
-      bytes_.require(pressed.state.way >= 0 && pressed.state.way < deck.depth && pressed.state.pool >= 0,
+      bytes_.require(pressed.state.way >= 0 && pressed.state.way < way_to_lie_along(deck) && pressed.state.pool >= 0,
                      "a deck that has turned too far");
-      for (const fracture::DeckStrip& s : deck.strips)
-        bytes_.require(s.width >= 0 && s.sheet >= 0 && s.older >= 0 && s.water >= 0, "a deck of negative width");
+      for (const fracture::DeckStrip& s : deck.strips) {
+        bytes_.require(s.width >= 0 && s.sheet >= 0 && s.sheet_across >= 0 && s.water >= 0, "a deck of negative width");
+        for (const fracture::DeckSide& side : s.sides)
+          bytes_.require(side.length >= 0 && side.depth >= 0, "a side of negative length");
+      }
     }
   }
 

@@ -69,7 +69,8 @@ void fields(auto& archive, Is<SubmergedPiece> auto& t) {
   archive(t.floe, t.ship, t.path, t.weight, t.next_try, t.waited);
 }
 void fields(auto& archive, Is<fracture::DeckStrip> auto& s) {
-  archive(s.width, s.sheet, s.older, s.water);
+  archive(s.width, s.sheet, s.sheet_across, s.water);
+  for (auto& side : s.sides) archive(side.facing, side.length, side.axis, side.depth);
 }
 /// Of a deck; what follows from its ice and its hull as well.
 void fields(auto& archive, Is<PressedDeck> auto& p) {

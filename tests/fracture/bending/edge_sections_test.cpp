@@ -151,5 +151,14 @@ TEST(EdgeSections, FollowTheDatabaseWithSpeed) {
   }
 }
 
+TEST(EdgeSections, AreWholeWithoutRadialCracks) {
+  const EdgePush push{15, 15, 0.2, 1.7, 0.4};
+  const auto force = [&](double opening, bool has_radial_cracks) {
+    return weakest_section_of_sinking(wedge_of(opening), push, 0, has_radial_cracks).force;
+  };
+  EXPECT_EQ(force(80, true), force(80, false)) << "no crack opens below";
+  EXPECT_GT(force(112, false), force(112, true));
+}
+
 }  // namespace
 }  // namespace polynya::fracture
