@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 #include <fmt/format.h>
 
@@ -221,32 +222,41 @@ class Hinter {
     return has_parts ? std::ldexp(scene_.time.step, -scene_.time.levels) : scene_.time.step;
   }
 
+  /// The longest way in a step (simulation/world/levels.hpp), and which bound it is.
+  std::string most_way_as_text(double thickness) const {
+    const double way = simulation::most_way(scene_.contact, thickness);
+    if (way == simulation::kWayOverThickness * thickness)
+      return fmt::format("{:g} of the ice's thickness of {:g} m", simulation::kWayOverThickness, thickness);
+    if (way == simulation::kWayTimesThickness / thickness)
+      return fmt::format("{:g} m² over the ice's thickness of {:g} m", simulation::kWayTimesThickness, thickness);
+    return fmt::format("{:g} of contact.circle_radius_m {:g}", simulation::kWayOverCircle,
+                       scene_.contact.circle_radius);
+  }
+
   void hint_at_step() {
-    double speed = 0, way = 0;
+    if (scene_.floes.empty()) return;
+    const auto thickness_of = [&](const simulation::FloeSpec& floe) { return ice_of(scene_, floe.own_ice).thickness; };
+    const auto way_in = [&](double thickness) { return simulation::most_way(scene_.contact, thickness); };
+    const auto [thin, thick] = std::ranges::minmax(scene_.floes | std::views::transform(thickness_of));
+    double speed = 0, way = 0, thickness = thin;
     const auto consider = [&](double of_one, bool is_hull) {
-      if (of_one * shortest_step(is_hull) <= way) return;
+      const double own = of_one * shortest_step(is_hull);
+      const double ice = is_hull && way_in(thick) < way_in(thin) ? thick : thin;  // floes' own way is that in thin ice
+      if (own * way_in(thickness) <= way * way_in(ice)) return;
       speed = of_one;
-      way = of_one * shortest_step(is_hull);
+      way = own;
+      thickness = ice;
     };
     for (const Ship& ship : scene_.ships) consider(std::abs(ship.speed), true);
     for (const Wall& wall : scene_.walls)
       consider(wall.pressure ? wall.pressure->closing_speed : length(wall.velocity), true);
     for (const simulation::FloeSpec& floe : scene_.floes) consider(length(floe.velocity), false);
-    if (way == 0 || scene_.floes.empty()) return;
-    double thickness = ice_of(scene_, scene_.floes.front().own_ice).thickness;  // of the thinnest
-    for (const simulation::FloeSpec& floe : scene_.floes)
-      thickness = std::min(thickness, ice_of(scene_, floe.own_ice).thickness);
-    const double of_ice = simulation::kWayOverThickness * thickness;
-    const double of_circle = simulation::kWayOverCircle * scene_.contact.circle_radius;
-    if (way <= 1.005 * std::min(of_ice, of_circle)) return;  // what the sentence below gives, rounded, will do
-    const std::string why = of_ice < of_circle ? fmt::format("{:g} of the ice's thickness of {:g} m",
-                                                             simulation::kWayOverThickness, thickness)
-                                               : fmt::format("{:g} of contact.circle_radius_m {:g}",
-                                                             simulation::kWayOverCircle, scene_.contact.circle_radius);
+    const double most = way_in(thickness);
+    if (way <= 1.005 * most) return;  // what the sentence below gives, rounded, will do
     add(Severity::kWarning, value_at("time", "step_s"), "time.step_s",
         fmt::format("at {:.3g} m/s bodies move {:.2g} m in a step, more than {}: loads depend on the step; "
                     "give {:.3g} s or less",
-                    speed, way, why, std::min(of_ice, of_circle) * scene_.time.step / way));
+                    speed, way, most_way_as_text(thickness), most * scene_.time.step / way));
   }
 
   const simulation::Scene& scene_;
