@@ -9,9 +9,10 @@ namespace polynya::dynamics {
 
 /// What restitution keeps of a contact from step to step (restitution_law.hpp); 0 by the law of crushing ice.
 struct RestitutionMemory {
-  double owed_impulse = 0;   ///< that crushing ice could not carry yet [N s]
-  double given_impulse = 0;  ///< since first contact [N s]
-  double limit = 0;          ///< of it, by the fastest approach so far of the two alone [N s]
+  double owed_impulse = 0;           ///< that crushing ice could not carry yet [N s]
+  double given_impulse = 0;          ///< since first contact [N s]
+  double limit = 0;                  ///< of it, by the fastest approach so far of the two alone [N s]
+  double start_impulse[2] = {0, 0};  ///< where the next step starts, by the compression of the last two [N s]
 };
 
 /// What became of the overlap of a contact that has pressed. By the law of crushing ice.
@@ -49,14 +50,12 @@ struct PersistentContact {
   double approach = 0;               ///< ∫ max(0, v_n) dt [m]
   double crushed_depth = 0;          ///< overlap that crushing made: the ice is gone, nothing separates it [m]
   double last_impulse[2] = {0, 0};   ///< of compression, at each end, in the last substep solved [N s]
+  double last_slip_impulse = 0;      ///< along the contact line, there [N s]
   double loaded_depth = 0;           ///< deepest overlap that pressed: the ice is gone so far [m]
   double loaded_area = 0;            ///< of that overlap [m²]
   double reach = 0;                  ///< of the contact from last_point_in_b, at the last step [m]
   std::int64_t load_track = 0;       ///< of what follows its force from step to step; 0: nothing does
   RestitutionMemory restitution;
-  /// Where the next step starts [N s]. By restitution: the compression at each end, by the last two steps. By the law
-  /// of crushing ice, which starts from last_impulse: the slip impulse of the last substep solved, and 0.
-  double start_impulse[2] = {0, 0};
   CrushedIce crushed;
   Booked booked;
   bool has_crushed = false;

@@ -113,7 +113,7 @@ CrushLaw::State state_of(const CrushLaw& /*law*/, const Contact& c) {
           .kinks = {},
           .branches = {},
           .last_impulse = {c.record->last_impulse[0], c.record->last_impulse[1]},
-          .last_slip = c.record->start_impulse[0],
+          .last_slip = c.record->last_slip_impulse,
           .is_rigid = c.is_rigid(),
           .is_broken = false};
 }
@@ -183,7 +183,7 @@ void end_substep(const CrushLaw& law, const ConstraintSpeeds& after, const Conta
 void write_back(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,
                 Contact& contact) {
   for (int end = 0; end < 2; ++end) contact.record->last_impulse[end] = constraint.normal_impulse[end];
-  contact.record->start_impulse[0] = constraint.slip_impulse;
+  contact.record->last_slip_impulse = constraint.slip_impulse;
   contact.is_broken = state.is_broken;
   contact.is_at_limit = !state.is_rigid && contact.total_normal_impulse() > 0;  // all of it crushes
   contact.record->loaded_depth = state.loaded;

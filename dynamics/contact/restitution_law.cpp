@@ -21,7 +21,7 @@ void remember_compression(const ContactConstraint& constraint, bool is_converged
     const double last = record.last_impulse[end];
     const double now = constraint.normal_impulse[end];
     const double start = now < last ? now * (now / last) : last;
-    record.start_impulse[end] = is_converged ? start : kTrustUnconverged * start;
+    record.restitution.start_impulse[end] = is_converged ? start : kTrustUnconverged * start;
     record.last_impulse[end] = now;
   }
 }

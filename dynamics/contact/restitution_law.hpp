@@ -57,7 +57,7 @@ void begin_substep(const RestitutionLaw& law, const ConstraintSpeeds& before, bo
                    RestitutionLaw::State& state, ContactConstraint& constraint);
 inline double start_impulse(const RestitutionLaw& /*law*/, const RestitutionLaw::State& state,
                             const ContactConstraint& /*constraint*/, int end, bool /*is_first*/) {
-  return state.record != nullptr ? state.record->start_impulse[end] : 0;
+  return state.record != nullptr ? state.record->restitution.start_impulse[end] : 0;
 }
 inline double start_slip(const RestitutionLaw& /*law*/, const RestitutionLaw::State& /*state*/,
                          const ContactConstraint& constraint, bool is_first) {

@@ -21,7 +21,7 @@ std::vector<Edge> edges_of(const Polygon& polygon) {
 BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
   if (boxes_.empty()) return;
   const auto count = static_cast<std::uint32_t>(boxes_.size());
-  nodes_.reserve(2 * (count / (kLeaf / 2) + 1));
+  nodes_.reserve(2 * (boxes_.size() / (kLeaf / 2) + 1));
   build(0, count);
 }
 

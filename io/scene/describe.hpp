@@ -77,7 +77,7 @@ const T* find(const Whole& whole) {
 }
 template <class T, class Whole, class Class, class Member, class... Rest>
 const T* find(const Whole& whole, Member Class::*first, Rest... rest) {
-  const Class* found = held<Class>(whole);
+  const auto* found = held<Class>(whole);
   return found ? find<T>(found->*first, rest...) : nullptr;
 }
 template <class T, class Whole>

@@ -146,7 +146,7 @@ FieldOf<IceInput> property(std::size_t index, std::string_view meaning, std::opt
   field.range = from(in_file.low, in_file.high);
   field.set = [place](void* record, const JsonValue& json) { static_cast<IceInput*>(record)->*place = json.number(); };
   field.get = [place](const void* record) -> std::optional<JsonValue> {
-    const double* found = place::find<double>(*static_cast<const IceInput*>(record), place);
+    const auto* found = place::find<double>(*static_cast<const IceInput*>(record), place);
     return found ? std::optional(JsonValue{*found}) : std::nullopt;
   };
   return field;

@@ -19,6 +19,7 @@ using NamelessFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 int spawn(std::vector<std::string> words, int out, int err, pid_t& child) {
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;

@@ -26,7 +26,7 @@ void keep_start(const dynamics::Bodies& bodies, const std::vector<Contact>& cont
     kept.push_back({{bodies.velocity[c.a], bodies.velocity[c.b]},
                     {bodies.angular_velocity[c.a], bodies.angular_velocity[c.b]},
                     {c.record->last_impulse[0], c.record->last_impulse[1]},
-                    c.record->start_impulse[0],
+                    c.record->last_slip_impulse,
                     c.record->loaded_depth});
 }
 
@@ -39,7 +39,7 @@ void go_back(const std::vector<SolverStart>& kept, const std::vector<Contact>& c
       bodies.angular_velocity[both[k]] = kept[i].angular_velocity[k];
       c.record->last_impulse[k] = kept[i].last_impulse[k];
     }
-    c.record->start_impulse[0] = kept[i].start_impulse;
+    c.record->last_slip_impulse = kept[i].last_slip_impulse;
     c.record->loaded_depth = kept[i].loaded_depth;
   }
 }

@@ -18,9 +18,10 @@ struct PanelGrid {
   const PanelSettings& settings;
   const Waterline& waterline;
   int half_columns() const { return static_cast<int>(std::ceil(waterline.length / 2 / settings.length - 1e-9)); }
-  std::size_t size() const { return static_cast<std::size_t>(2 * half_columns() * (settings.rows + 1)); }
+  std::size_t row_count() const { return static_cast<std::size_t>(settings.rows) + 1; }
+  std::size_t size() const { return std::size_t{2} * static_cast<std::size_t>(half_columns()) * row_count(); }
   std::size_t first_of(int column) const {
-    return static_cast<std::size_t>((column + half_columns()) * (settings.rows + 1));
+    return static_cast<std::size_t>(column + half_columns()) * row_count();
   }
   /// The last ones are cut off where the two sides meet [m].
   double length_of(int column) const {

@@ -241,7 +241,7 @@ namespace {
 void run_stages(World& world, RunsIn most) {
   Counts& counts = world.accounts.counts;
   const double ticks = world.setup.step / world.clock.tick;
-  ++counts.steps_at_level[static_cast<std::size_t>(kMostLevels + std::ilogb(ticks))];
+  ++counts.steps_at_level[static_cast<std::size_t>(std::ilogb(ticks) + kMostLevels)];
   counts.body_steps += static_cast<std::int64_t>(world.population.due().size());
   for (const Stage& stage : kStages)
     if (stage.in <= most) stage.run(world);

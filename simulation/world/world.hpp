@@ -106,7 +106,7 @@ struct SolverStart {
   geometry::Vector velocity[2];         ///< [m/s]
   double angular_velocity[2] = {0, 0};  ///< [rad/s]
   double last_impulse[2] = {0, 0};      ///< [N s]
-  double start_impulse = 0;             ///< of the slip [N s]
+  double last_slip_impulse = 0;         ///< [N s]
   double loaded_depth = 0;              ///< [m]
 };
 

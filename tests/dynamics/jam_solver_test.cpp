@@ -297,7 +297,7 @@ TEST(JamSolver, AJamThatStaysIsSolvedByOneSweep) {
   ASSERT_LE(residual(200), 1e-4);
   for (PersistentContact& record : records) record.loaded_depth = 0;
   EXPECT_LE(residual(1), 2e-4);
-  for (PersistentContact& record : records) record.start_impulse[0] = 0;
+  for (PersistentContact& record : records) record.last_slip_impulse = 0;
   EXPECT_GT(residual(1), 1e-2) << "without its friction";
 }
 
