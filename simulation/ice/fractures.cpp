@@ -90,8 +90,9 @@ Breakage breakage_of(const Setup& setup, const Clock& clock, const PendingFractu
   return {event_of<Bend>(clock, pending), fate_of_cusp(setup, pending.ship), &EnergyFlows::bending, &Counts::bends};
 }
 
-/// In a part of a tick: passes the other bends of a floe that bent to the pieces, from `first` on, in which their
-/// contacts are: a fast hull breaks more than one cusp of a plate in a step. A piece too small to break takes none.
+/// Passes the other bends of a floe that bent to the pieces, from `first` on, in which their contacts are: a hull
+/// breaks more than one cusp of a plate in a step. Put off to the next step, a bow in even ice would break it on one
+/// side first, which depends on the step. A piece too small to break takes none.
 void pass_bends(FloeId bent, FloeId first, std::span<PendingFracture> others, const Population& population) {
   for (PendingFracture& pending : others) {
     if (pending.floe != bent || pending.failure != fracture::Failure::kBend) continue;
@@ -129,7 +130,7 @@ void apply_fractures(const Setup& setup, const Clock& clock, StepData& step, Pop
       if (breakage.inside == InsideFate::kUnderHull)
         turn_cusp(setup, pending, *outcome, population, step.loads[pending.ship], accounts.audit);
       replace_by_pieces(setup, clock, breakage, *outcome, population, accounts, journal);
-      if (clock.parts > 1 && pending.failure == fracture::Failure::kBend)
+      if (is_crush_law(setup) && pending.failure == fracture::Failure::kBend)
         pass_bends(pending.floe, first, std::span(fractures).subspan(i + 1), population);
     } else {
       reject(setup, clock, pending, shape, outcome.error(), accounts.counts, journal);
