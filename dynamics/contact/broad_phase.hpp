@@ -107,11 +107,11 @@ class BroadPhase {
     }
   }
 
-  /// Calls use(a, b) for each pair, in no order.
+  /// Calls use(a, b, records) for each pair, in no order.
   template <class Use>
   void for_pairs(Use use) const {
     for (const Pair& pair : pairs_)
-      if (!pair.is_dropped) use(pair.a, pair.b);
+      if (!pair.is_dropped) use(pair.a, pair.b, pair.records());
   }
 
   /// Calls use(a, b, area, booked) for each pair, in no order: the overlap of its bodies that has pressed [m²],

@@ -16,7 +16,7 @@ using geometry::Point;
 using geometry::Vector;
 
 /// Times the way by a body's speed: it may be pushed meanwhile. Less, bodies meet others that take other steps, and
-/// blocks end; more, components join.
+/// blocks end; more, steps are shorter.
 constexpr double kAhead = 1.5;
 /// Beside that [m].
 constexpr double kSlack = 0.01;
@@ -26,6 +26,10 @@ constexpr double kMostAhead = 1.5;
 constexpr double kHeavy = 1000;
 /// Times that of another: such a one needs not go by the tick with it.
 constexpr double kHeavier = 100;
+/// Of the way that floes may go in a step: how far what presses one may push it.
+constexpr double kPressedShare = 0.1;
+/// And how far it may have been pushed before its step is cut short.
+constexpr double kPushedShare = 0.5;
 /// A body of more is taken by its bounding circle.
 constexpr std::size_t kFewCorners = 64;
 /// Of the awake bodies, that have to take longer steps.
@@ -98,11 +102,12 @@ class Assignment {
   std::int32_t node(BodyIndex i);
   std::span<const Point> corners(const Node& node) const;
   bool may_touch(std::int32_t a, std::int32_t b, double speed) const;
-  Node& root(std::int32_t i);
-  void join(std::int32_t a, std::int32_t b);
   void shorten(std::int32_t i, double way, double speed);
-  void see(BodyIndex a, BodyIndex b);
-  int level_of(BodyIndex i);
+  void shorten_pressed(std::int32_t i, double way, double force);
+  void see(BodyIndex a, BodyIndex b, std::span<const dynamics::PersistentContact> records);
+  int level_of(const Node& node) const;
+  void follow_partners();
+  void find_along();
   std::size_t enter(BodyIndex i);
   std::int64_t ticks_within_reach() const;
 
@@ -140,7 +145,8 @@ void Assignment::clear() {
   components_.node_of.resize(static_cast<std::size_t>(bodies_.size()), -1);
   nodes_.clear();
   components_.corners.clear();
-  components_.asleep.clear();
+  components_.touching.clear();
+  population_.moving_along.clear();
   for (auto& list : components_.of_level) list.clear();
 }
 
@@ -148,7 +154,10 @@ std::int32_t Assignment::node(BodyIndex i) {
   std::int32_t& place = components_.node_of[i];
   if (place >= 0) return place;
   place = static_cast<std::int32_t>(nodes_.size());
-  Node node{.body = i, .parent = place, .longest = time(), .box = {}, .first = components_.corners.size(), .count = 0};
+  Node node;
+  node.body = i;
+  node.longest = time();
+  node.first = components_.corners.size();
   const auto& vertices = bodies_.boundary[i]->edges.vertices;
   const bool is_exact = population_.is_hull(i) || vertices.size() <= kFewCorners;
   if (is_exact) {
@@ -163,7 +172,6 @@ std::int32_t Assignment::node(BodyIndex i) {
     node.box = geometry::grown({bodies_.position[i], bodies_.position[i]}, bodies_.bounding_radius[i]);
   }
   nodes_.push_back(node);
-  if (bodies_.is_awake[i] == 0) components_.asleep.push_back(i);
   return place;
 }
 
@@ -178,25 +186,27 @@ bool Assignment::may_touch(std::int32_t a, std::int32_t b, double speed) const {
   return !Apart(corners(nodes_[a]), corners(nodes_[b]), way).are();
 }
 
-Components::Node& Assignment::root(std::int32_t i) {
-  while (nodes_[i].parent != i) i = nodes_[i].parent = nodes_[nodes_[i].parent].parent;
-  return nodes_[i];
-}
-
-void Assignment::join(std::int32_t a, std::int32_t b) {
-  Node& of_a = root(a);
-  Node& of_b = root(b);
-  of_a.longest = std::min(of_a.longest, of_b.longest);
-  of_b.parent = of_a.parent;
-}
-
 void Assignment::shorten(std::int32_t i, double way, double speed) {
-  double& longest = root(i).longest;
+  double& longest = nodes_[i].longest;
   if (speed * longest > way) longest = way / speed;
 }
 
+/// By how far a force pushes it in a step.
+void Assignment::shorten_pressed(std::int32_t i, double way, double force) {
+  double& longest = nodes_[i].longest;
+  const double most = kPressedShare * way * bodies_.mass[nodes_[i].body];
+  if (force * longest * longest > most) longest = std::sqrt(most / force);
+}
+
+/// What a pair's contacts pressed with in their last step, at most: as if that had been a tick [N].
+double most_force(std::span<const dynamics::PersistentContact> records, double tick) {
+  double impulse = 0;
+  for (const dynamics::PersistentContact& record : records) impulse += record.last_impulse[0] + record.last_impulse[1];
+  return impulse / tick;
+}
+
 /// Two bodies that the contact search keeps as a pair.
-void Assignment::see(BodyIndex a, BodyIndex b) {
+void Assignment::see(BodyIndex a, BodyIndex b, std::span<const dynamics::PersistentContact> records) {
   if (is_fixed(a) && is_fixed(b)) return;
   const double speed = relative_speed(bodies_, a, b);
   const std::int32_t of_a = node(a);
@@ -209,23 +219,49 @@ void Assignment::see(BodyIndex a, BodyIndex b) {
   if (goes_by_tick_beside(a, b)) return shorten(of_b, 0, 1);
   if (goes_by_tick_beside(b, a)) return shorten(of_a, 0, 1);
   const double way = most_way_of_floes(setup_.scene.contact, std::min(bodies_.thickness[a], bodies_.thickness[b]));
-  if (!is_fixed(a)) shorten(of_a, way, speed);
-  if (!is_fixed(b)) shorten(of_b, way, speed);
-  if (!is_fixed(a) && !is_fixed(b)) join(of_a, of_b);
+  const double force = most_force(records, tick_);
+  for (const std::int32_t i : {of_a, of_b}) {
+    if (is_fixed(nodes_[i].body)) continue;
+    shorten(i, way, speed);
+    shorten_pressed(i, way, force);
+  }
+  if (!is_fixed(a) && !is_fixed(b) && bodies_.is_awake[a] != 0 && bodies_.is_awake[b] != 0)
+    components_.touching.push_back({of_a, of_b});
 }
 
-int Assignment::level_of(BodyIndex i) {
-  const double ticks = root(node(i)).longest / tick_ * (1 + 1e-9);
+int Assignment::level_of(const Node& node) const {
+  if (is_fixed(node.body)) return 0;
+  const double ticks = node.longest / tick_ * (1 + 1e-9);
   return ticks < 2 ? 0 : std::min(setup_.levels, static_cast<int>(std::bit_width(static_cast<unsigned>(ticks))) - 1);
+}
+
+/// No body takes steps of more than twice those of another that it may touch: what pushes the one reaches the other
+/// when it has shorter steps already.
+void Assignment::follow_partners() {
+  for (int level = 0; level + 1 < setup_.levels; ++level) {
+    for (const auto& [a, b] : components_.touching) {
+      if (nodes_[a].level == level) nodes_[b].level = std::min(nodes_[b].level, level + 1);
+      if (nodes_[b].level == level) nodes_[a].level = std::min(nodes_[a].level, level + 1);
+    }
+  }
+}
+
+/// What takes longer steps than another that it may touch has to be where that one is.
+void Assignment::find_along() {
+  for (const auto& [a, b] : components_.touching) {
+    if (nodes_[a].level > nodes_[b].level) nodes_[a].is_along = true;
+    if (nodes_[b].level > nodes_[a].level) nodes_[b].is_along = true;
+  }
 }
 
 /// Gives it its level. Returns whether it takes steps of several ticks.
 std::size_t Assignment::enter(BodyIndex i) {
-  const int level = is_fixed(i) ? 0 : level_of(i);
+  const Node& node = nodes_[components_.node_of[i]];
   const bool is_of_partners = !population_.is_hull(i) && is_heavy(i);
-  bodies_.level[i] = is_of_partners ? kNoLevel : static_cast<std::uint8_t>(level);
-  if (bodies_.is_awake[i] != 0) components_.of_level[static_cast<std::size_t>(level)].push_back(i);
-  return level > 0 ? 1 : 0;
+  bodies_.level[i] = is_of_partners ? kNoLevel : static_cast<std::uint8_t>(node.level);
+  components_.of_level[static_cast<std::size_t>(node.level)].push_back(i);
+  if (node.is_along) population_.moving_along.push_back(i);
+  return node.level > 0 ? 1 : 0;
 }
 
 std::int64_t Assignment::sort() {
@@ -235,10 +271,12 @@ std::int64_t Assignment::sort() {
   clear();
   find_heavy();
   for (const BodyIndex i : population_.awake) node(i);
-  population_.pairs.for_pairs([this](BodyIndex a, BodyIndex b) { see(a, b); });
+  population_.pairs.for_pairs([this](BodyIndex a, BodyIndex b, auto records) { see(a, b, records); });
+  for (Node& node : nodes_) node.level = level_of(node);
+  follow_partners();
+  find_along();
   std::size_t coarse = 0;
   for (const BodyIndex i : population_.awake) coarse += enter(i);
-  for (const BodyIndex i : components_.asleep) enter(i);
   const bool is_worth_it = static_cast<double>(coarse) >= kLeastShare * static_cast<double>(population_.awake.size());
   return coarse > 0 && is_worth_it ? ticks_ : 1;
 }
@@ -260,21 +298,43 @@ std::int64_t begin_block(const Setup& setup, Clock& clock, std::int64_t most, Po
   const std::int64_t block = Assignment(setup, clock, ticks, population, components).sort();
   if (block == 1) {
     clock.next_levels = clock.steps + kWait;
-    end_block(population, components);
+    end_block(population);
   }
   return block;
 }
 
-void end_block(Population& population, const Components& components) {
+void end_block(Population& population) {
   population.level = Population::kAllDue;
-  for (const BodyIndex i : components.asleep) population.bodies.level[i] = kNoLevel;
+  population.moving_along.clear();
 }
 
-bool drop_across_levels(const dynamics::Bodies& bodies, std::vector<dynamics::Contact>& contacts) {
+void begin_longer(const Population& population, int level, Components& components) {
+  const dynamics::Bodies& bodies = population.bodies;
+  for (const BodyIndex i : population.moving_along) {
+    if (bodies.level[i] != level) continue;
+    Components::Node& node = components.nodes[components.node_of[i]];
+    node.velocity = bodies.velocity[i];
+    node.angular_velocity = bodies.angular_velocity[i];
+  }
+}
+
+bool is_any_pushed(const Setup& setup, const Clock& clock, const Population& population, const Components& components) {
+  const dynamics::Bodies& bodies = population.bodies;
+  return std::ranges::any_of(population.moving_along, [&](BodyIndex i) {
+    const Components::Node& node = components.nodes[components.node_of[i]];
+    const double speed = length(bodies.velocity[i] - node.velocity) +
+                         std::abs(bodies.angular_velocity[i] - node.angular_velocity) * bodies.bounding_radius[i];
+    const double time = clock.tick * (1 << node.level);
+    return speed * time > kPushedShare * most_way_of_floes(setup.scene.contact, bodies.thickness[i]);
+  });
+}
+
+bool drop_unforeseen(const dynamics::Bodies& bodies, const Components& components,
+                     std::vector<dynamics::Contact>& contacts) {
   return std::erase_if(contacts, [&](const dynamics::Contact& c) {
            const auto a = bodies.level[c.a];
            const auto b = bodies.level[c.b];
-           return a != b && a != kNoLevel && b != kNoLevel;
+           return a != b && a != kNoLevel && b != kNoLevel && !moves_along(components, a > b ? c.a : c.b);
          }) > 0;
 }
 

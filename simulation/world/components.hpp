@@ -8,26 +8,31 @@
 
 namespace polynya::simulation {
 
-// Which bodies take steps of several ticks. Bodies that may touch within the block of ticks ahead are a component;
-// all of one take steps of 2^k ticks, as long as none of them goes farther than its share of the thickness relative
-// to another that it may touch. Hulls, and what they may touch with all its component, go by the tick (k = 0). Ice
-// that is held, or far heavier than others, joins nothing: its contacts are those of the others' steps.
+// Which bodies take steps of several ticks. A body takes steps of 2^k ticks, as long as it does not go farther than its
+// share of the thickness relative to another that it may touch within the block of ticks ahead, nor is pushed farther
+// by what presses it; and it has at most twice the step of such another. Hulls and what they may touch go by the tick
+// (k = 0). Of two bodies that touch, the shorter steps have the contact: in these the other gets its impulses, and
+// moves by the tick. Ice that is held, or far heavier than others, shortens nothing: its contacts are those of the
+// others' steps.
 
 /// Who takes which steps in a block of ticks, and where it is sought.
 struct Components {
   std::array<std::vector<BodyIndex>, kMostLevels + 1> of_level;  ///< awake bodies, ascending
-  std::vector<BodyIndex> asleep;                                 ///< that one awake may touch
   struct Node {
     BodyIndex body = 0;
-    std::int32_t parent = 0;  ///< towards the component's root
-    double longest = 0;       ///< step [s]
-    geometry::Box box;        ///< in the water frame
-    std::size_t first = 0;    ///< of its vertices
-    std::size_t count = 0;    ///< 0 of round plates of many edges: their bounding circle is taken
+    int level = 0;
+    double longest = 0;           ///< step [s]
+    geometry::Box box;            ///< in the water frame
+    std::size_t first = 0;        ///< of its vertices
+    std::size_t count = 0;        ///< 0 of round plates of many edges: their bounding circle is taken
+    bool is_along = false;        ///< in Population::moving_along
+    geometry::Vector velocity;    ///< when its step began [m/s]
+    double angular_velocity = 0;  ///< [rad/s]
   };
-  std::vector<Node> nodes;               ///< bodies awake, and `asleep`
-  std::vector<std::int32_t> node_of;     ///< by body; −1: none
-  std::vector<geometry::Point> corners;  ///< of all nodes, in the water frame
+  std::vector<Node> nodes;                            ///< bodies awake, and those that they may touch
+  std::vector<std::int32_t> node_of;                  ///< by body; −1: none
+  std::vector<geometry::Point> corners;               ///< of all nodes, in the water frame
+  std::vector<std::array<std::int32_t, 2>> touching;  ///< nodes that may touch in the block, both of steps of their own
 };
 
 /// Sorts the bodies by the steps that they take, from a tick to which all have come. Returns the number of ticks
@@ -35,11 +40,25 @@ struct Components {
 std::int64_t begin_block(const Setup& setup, Clock& clock, std::int64_t most, Population& population,
                          Components& components);
 
-/// All bodies have come to the same tick again.
-void end_block(Population& population, const Components& components);
+/// Whether a body of longer steps moves by the tick.
+inline bool moves_along(const Components& components, BodyIndex i) {
+  const auto place = static_cast<std::size_t>(i);
+  if (place >= components.node_of.size() || components.node_of[place] < 0) return false;
+  return components.nodes[static_cast<std::size_t>(components.node_of[place])].is_along;
+}
 
-/// Takes out contacts of bodies that take different steps: one came farther than by the speeds at the block's begin.
-/// Returns whether there were any.
-bool drop_across_levels(const dynamics::Bodies& bodies, std::vector<dynamics::Contact>& contacts);
+/// All bodies have come to the same tick again.
+void end_block(Population& population);
+
+/// Keeps how bodies of longer steps move that have just begun one.
+void begin_longer(const Population& population, int level, Components& components);
+
+/// Whether contacts of shorter steps have pushed a body so that its own step is too long by now.
+bool is_any_pushed(const Setup& setup, const Clock& clock, const Population& population, const Components& components);
+
+/// Takes out contacts of bodies that take different steps, where the one of longer steps is not where it is seen: one
+/// came farther than by the speeds at the block's begin. Returns whether there were any.
+bool drop_unforeseen(const dynamics::Bodies& bodies, const Components& components,
+                     std::vector<dynamics::Contact>& contacts);
 
 }  // namespace polynya::simulation

@@ -128,9 +128,51 @@ TEST(Components, LeaveWhatAShipTouchesToTheTick) {
   Simulation simulation(scene);
   go_to(simulation, 500);
   const auto& components = simulation.world().components;
-  EXPECT_EQ(components.of_level[0].size(), 3U);  // with the ship
+  EXPECT_EQ(components.of_level[0], (std::vector<BodyIndex>{0, 1}));
+  EXPECT_EQ(components.of_level[1], (std::vector<BodyIndex>{2}));  // it touches what goes by the tick
   EXPECT_EQ(simulation.world().population.awake.size(), 4U);
   EXPECT_FALSE(validate_world(simulation.world()));
+}
+
+/// A slow ship that pushes a row of floes, all near each other.
+Scene pushed_row(int floes) {
+  Build scene;
+  scene.step(0.02).ship(barge({0, 0}, ConstantSpeed{0.3}, 0.3));
+  for (int i = 0; i < floes; ++i) scene.floe(rectangle(0.5 + 10.004 * i, -5, 10.5 + 10.004 * i, 5));
+  return scene;
+}
+
+TEST(Components, OfARowHaveLongerStepsFartherFromTheShip) {
+  Simulation simulation(pushed_row(16));
+  go_to(simulation, 3000);
+  const auto& of_level = simulation.world().components.of_level;
+  EXPECT_EQ(simulation.world().population.awake.size(), 17U);
+  EXPECT_EQ(of_level[0].size(), 2U);
+  for (std::size_t level = 1; level < of_level.size(); ++level) EXPECT_FALSE(of_level[level].empty()) << level;
+  expect_closed(simulation);
+}
+
+TEST(Components, OfARowMoveAsInOneStepForAll) {
+  Simulation fine(with_levels(pushed_row(10), 0));
+  Simulation coarse(pushed_row(10));
+  for (const std::int64_t tick : {250, 1000, 3000}) {
+    go_to(fine, tick);
+    go_to(coarse, tick);
+    const auto a = coarse.floe_states(), b = fine.floe_states();
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      EXPECT_NEAR(distance(a[i].world_from_body.position, b[i].world_from_body.position), 0, 0.02) << tick;
+      EXPECT_NEAR(length(a[i].velocity - b[i].velocity), 0, 0.01) << tick << ' ' << i;
+    }
+  }
+  EXPECT_LT(coarse.counts().body_steps, fine.counts().body_steps / 2);
+  EXPECT_LT(coarse.counts().energy_created, 1e-6);
+  const auto crushed = [](const Simulation& of) {
+    double area = 0;
+    for (const auto& overlap : of.crushed_overlaps()) area += overlap.area;
+    return area;
+  };
+  EXPECT_NEAR(crushed(coarse), crushed(fine), 0.1 * crushed(fine));
+  expect_closed(coarse);
 }
 
 TEST(Components, AreAllAtOneTickWhereFramesAreDue) {
