@@ -20,8 +20,11 @@ using geometry::Vector;
 constexpr double kAhead = 1.5;
 /// Beside that [m].
 constexpr double kSlack = 0.01;
-/// The longest way ahead in a block [m], below the margin of the contact search's boxes.
-constexpr double kMostAhead = 1.5;
+/// The longest way ahead in a block [m]: farther, what a ship may touch by its end is much ice.
+constexpr double kMostAhead = 4;
+/// Below the margin of the contact search's boxes: what may go farther is not among its pairs with all that it may
+/// touch [m].
+constexpr double kAheadInPairs = 1.5;
 /// Times the mass of most floes awake: of one that is not moved by them.
 constexpr double kHeavy = 1000;
 /// Times that of another: such a one needs not go by the tick with it.
@@ -110,6 +113,7 @@ class Assignment {
   void find_along();
   std::size_t enter(BodyIndex i);
   std::int64_t ticks_within_reach() const;
+  void see_farther(BodyIndex i);
 
   const Setup& setup_;
   Population& population_;
@@ -118,14 +122,13 @@ class Assignment {
   std::vector<Node>& nodes_;
   std::int64_t ticks_;
   double tick_;
-  double heavy_ = 0;  ///< [kg]
+  double heavy_ = 0;    ///< [kg]
+  double fastest_ = 0;  ///< of any body's rim [m/s]
 };
 
-/// How many ticks may pass before any body comes out of the box in which the contact search has it.
+/// How many ticks may pass before any body comes too far.
 std::int64_t Assignment::ticks_within_reach() const {
-  double fastest = 0;
-  for (const BodyIndex i : population_.awake) fastest = std::max(fastest, rim_speed_of(bodies_, i));
-  const double most = kMostAhead / (kAhead * fastest * tick_);
+  const double most = kMostAhead / (kAhead * fastest_ * tick_);
   return most < static_cast<double>(ticks_) ? static_cast<std::int64_t>(most) : ticks_;
 }
 
@@ -229,20 +232,35 @@ void Assignment::see(BodyIndex a, BodyIndex b, std::span<const dynamics::Persist
     components_.touching.push_back({of_a, of_b});
 }
 
+/// What comes farther in the block than the contact search has pairs of.
+void Assignment::see_farther(BodyIndex i) {
+  const double way = kAhead * rim_speed_of(bodies_, i) * time();
+  if (way <= kAheadInPairs) return;
+  const double most = way + kAhead * fastest_ * time() + kSlack;
+  population_.pairs.for_bodies_near(grown(nodes_[node(i)].box, most), [&](BodyIndex other) {
+    if (other != i) see(std::min(i, other), std::max(i, other), {});
+  });
+}
+
 int Assignment::level_of(const Node& node) const {
   if (is_fixed(node.body)) return 0;
   const double ticks = node.longest / tick_ * (1 + 1e-9);
+  if (ticks >= static_cast<double>(ticks_)) return level_of_block(setup_);
   return ticks < 2 ? 0 : std::min(setup_.levels, static_cast<int>(std::bit_width(static_cast<unsigned>(ticks))) - 1);
 }
 
 /// No body takes steps of more than twice those of another that it may touch: what pushes the one reaches the other
 /// when it has shorter steps already.
 void Assignment::follow_partners() {
-  for (int level = 0; level + 1 < setup_.levels; ++level) {
+  for (int level = 0; level < setup_.levels; ++level) {
     for (const auto& [a, b] : components_.touching) {
       if (nodes_[a].level == level) nodes_[b].level = std::min(nodes_[b].level, level + 1);
       if (nodes_[b].level == level) nodes_[a].level = std::min(nodes_[a].level, level + 1);
     }
+  }
+  for (Node& node : nodes_) {
+    if (std::int64_t{1} << node.level >= ticks_) node.level = level_of_block(setup_);
+    node.longest = node.level == level_of_block(setup_) ? time() : tick_ * (1 << node.level);
   }
 }
 
@@ -265,6 +283,7 @@ std::size_t Assignment::enter(BodyIndex i) {
 }
 
 std::int64_t Assignment::sort() {
+  for (const BodyIndex i : population_.awake) fastest_ = std::max(fastest_, rim_speed_of(bodies_, i));
   ticks_ = std::min(ticks_, ticks_within_reach());
   if (ticks_ < 2) return 1;
   population_.pairs.update(bodies_, population_.awake, kAhead * static_cast<double>(ticks_) * tick_);
@@ -272,11 +291,13 @@ std::int64_t Assignment::sort() {
   find_heavy();
   for (const BodyIndex i : population_.awake) node(i);
   population_.pairs.for_pairs([this](BodyIndex a, BodyIndex b, auto records) { see(a, b, records); });
+  for (const BodyIndex i : population_.awake) see_farther(i);
   for (Node& node : nodes_) node.level = level_of(node);
   follow_partners();
   find_along();
   std::size_t coarse = 0;
   for (const BodyIndex i : population_.awake) coarse += enter(i);
+  population_.pairs.note_levels(bodies_);
   const bool is_worth_it = static_cast<double>(coarse) >= kLeastShare * static_cast<double>(population_.awake.size());
   return coarse > 0 && is_worth_it ? ticks_ : 1;
 }
@@ -293,7 +314,7 @@ std::int64_t begin_block(const Setup& setup, Clock& clock, std::int64_t most, Po
                          Components& components) {
   if (setup.levels == 0 || clock.steps < clock.next_levels) return 1;
   if (clock.changing) return 1;  // the water frame's velocity changes with the tick, for all bodies at once
-  const std::int64_t ticks = std::min({most, std::int64_t{1} << setup.levels, ticks_to_common(setup, clock)});
+  const std::int64_t ticks = std::min({most, longest_block(setup), ticks_to_common(setup, clock)});
   if (ticks < 2) return 1;
   const std::int64_t block = Assignment(setup, clock, ticks, population, components).sort();
   if (block == 1) {
@@ -318,14 +339,13 @@ void begin_longer(const Population& population, int level, Components& component
   }
 }
 
-bool is_any_pushed(const Setup& setup, const Clock& clock, const Population& population, const Components& components) {
+bool is_any_pushed(const Setup& setup, const Population& population, const Components& components) {
   const dynamics::Bodies& bodies = population.bodies;
   return std::ranges::any_of(population.moving_along, [&](BodyIndex i) {
     const Components::Node& node = components.nodes[components.node_of[i]];
     const double speed = length(bodies.velocity[i] - node.velocity) +
                          std::abs(bodies.angular_velocity[i] - node.angular_velocity) * bodies.bounding_radius[i];
-    const double time = clock.tick * (1 << node.level);
-    return speed * time > kPushedShare * most_way_of_floes(setup.scene.contact, bodies.thickness[i]);
+    return speed * node.longest > kPushedShare * most_way_of_floes(setup.scene.contact, bodies.thickness[i]);
   });
 }
 

@@ -17,7 +17,8 @@ namespace polynya::simulation {
 
 /// Who takes which steps in a block of ticks, and where it is sought.
 struct Components {
-  std::array<std::vector<BodyIndex>, kMostLevels + 1> of_level;  ///< awake bodies, ascending
+  /// Awake bodies, ascending. After those of 2^k ticks those that take the block in one step (level_of_block).
+  std::array<std::vector<BodyIndex>, kMostLevels + 2> of_level;
   struct Node {
     BodyIndex body = 0;
     int level = 0;
@@ -34,6 +35,15 @@ struct Components {
   std::vector<geometry::Point> corners;               ///< of all nodes, in the water frame
   std::vector<std::array<std::int32_t, 2>> touching;  ///< nodes that may touch in the block, both of steps of their own
 };
+
+/// The level of bodies that take a block in one step, where the block is longer than the 2^k ticks of others.
+inline int level_of_block(const Setup& setup) {
+  return setup.levels + 1;
+}
+/// Of the longest block: four times the longest of the other steps.
+inline std::int64_t longest_block(const Setup& setup) {
+  return setup.levels == 0 ? 1 : std::int64_t{4} << setup.levels;
+}
 
 /// Sorts the bodies by the steps that they take, from a tick to which all have come. Returns the number of ticks
 /// for which that holds, at most so many; 1 where all take the next tick together.
@@ -54,7 +64,7 @@ void end_block(Population& population);
 void begin_longer(const Population& population, int level, Components& components);
 
 /// Whether contacts of shorter steps have pushed a body so that its own step is too long by now.
-bool is_any_pushed(const Setup& setup, const Clock& clock, const Population& population, const Components& components);
+bool is_any_pushed(const Setup& setup, const Population& population, const Components& components);
 
 /// Takes out contacts of bodies that take different steps, where the one of longer steps is not where it is seen: one
 /// came farther than by the speeds at the block's begin. Returns whether there were any.

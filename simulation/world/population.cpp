@@ -134,7 +134,9 @@ void leave_contacts(FloeId floe, Population& population) {
   if (!population.bodies.is_awake[body]) return;
   population.bodies.is_awake[body] = 0;
   erase_from(population.awake, body);
-  if (population.level != Population::kAllDue) erase_from(population.due_some, body);
+  if (population.level == Population::kAllDue) return;
+  erase_from(population.due_some, body);
+  erase_from(population.moving_along, body);
 }
 
 void retire_floe(FloeId floe, Population& population, Journal& journal) {

@@ -248,7 +248,7 @@ namespace {
 void run_stages(World& world, RunsIn most) {
   Counts& counts = world.accounts.counts;
   const double ticks = world.setup.step / world.clock.tick;
-  ++counts.steps_at_level[static_cast<std::size_t>(kMostLevels + std::ilogb(ticks))];
+  ++counts.steps_at_level[static_cast<std::size_t>(kMostLevels + std::min(kMostLevels, std::ilogb(ticks)))];
   counts.body_steps += static_cast<std::int64_t>(world.population.due().size());
   for (const Stage& stage : kStages)
     if (stage.in <= most) stage.run(world);
@@ -270,26 +270,26 @@ void run_tick(World& world, RunsIn most) {
 /// the same tick at the block's end, which comes early where steps are too long by what happened.
 class Block {
  public:
-  Block(World& world, std::int64_t ticks) : world_(world), ticks_(static_cast<int>(ticks)) {}
+  Block(World& world, std::int64_t ticks)
+      : world_(world), ticks_(static_cast<int>(ticks)), longest_(level_of_block(world.setup)) {}
 
   void run() {
     world_.step.has_met = false;
     bool is_over = false;
     for (int tick = 0; !is_over && tick < ticks_ && !world_.failure; ++tick) {
-      for (int level = kLongest; level > 0; --level)
-        if (tick % (1 << level) == 0) begin(level, tick);
-      for (int level = kLongest; level > 0; --level)
+      for (int level = longest_; level > 0; --level)
+        if (tick % ticks_of(level) == 0) begin(level, tick);
+      for (int level = longest_; level > 0; --level)
         if (step_of(level).end == tick + 1) end(level, tick, tick + 1);
       step_those_of(0, [&] { run_tick(world_, lags(tick + 1) ? RunsIn::kTicks : RunsIn::kTogether); });
-      is_over = world_.step.has_met || is_any_pushed(world_.setup, world_.clock, world_.population, world_.components);
-      for (int level = kLongest; is_over && level > 0; --level) end(level, tick + 1, tick + 1);
+      is_over = world_.step.has_met || is_any_pushed(world_.setup, world_.population, world_.components);
+      for (int level = longest_; is_over && level > 0; --level) end(level, tick + 1, tick + 1);
     }
     keep_contacts();
     end_block(world_.population);
   }
 
  private:
-  static constexpr int kLongest = kMostLevels;
   /// The last one of a level, in ticks of the block.
   struct LongerStep {
     int come_to = 0;  ///< where its bodies are, but for those that move along
@@ -298,6 +298,7 @@ class Block {
     std::vector<dynamics::Contact> contacts;  ///< where recorded
   };
 
+  int ticks_of(int level) const { return level == longest_ ? ticks_ : 1 << level; }
   LongerStep& step_of(int level) { return steps_[static_cast<std::size_t>(level)]; }
 
   /// What contacts do in a step that begins now.
@@ -305,7 +306,7 @@ class Block {
     if (of_level(level).empty()) return;
     LongerStep& step = step_of(level);
     step.begin = tick;
-    step.end = std::min(tick + (1 << level), ticks_);
+    step.end = std::min(tick + ticks_of(level), ticks_);
     const Clock now = world_.clock;
     take_step(world_.setup, world_.clock, step.end - tick, 1);
     step_those_of(level, [&] { run_stages(world_, RunsIn::kAllSteps); });
@@ -341,7 +342,7 @@ class Block {
   }
 
   bool lags(int tick) {
-    for (int level = 1; level <= kLongest; ++level)
+    for (int level = 1; level <= longest_; ++level)
       if (!of_level(level).empty() && step_of(level).come_to != tick) return true;
     return false;
   }
@@ -349,7 +350,7 @@ class Block {
   /// Of the longer steps, where recorded.
   void keep_contacts() {
     StepData& kept = world_.step;
-    for (int level = 1; level <= kLongest; ++level) {
+    for (int level = 1; level <= longest_; ++level) {
       const LongerStep& step = step_of(level);
       kept.longer_contacts.insert(kept.longer_contacts.end(), step.contacts.begin(), step.contacts.end());
       kept.longer_steps.resize(kept.longer_contacts.size(), (step.end - step.begin) * world_.clock.tick);
@@ -370,7 +371,8 @@ class Block {
 
   World& world_;
   int ticks_;
-  std::array<LongerStep, kMostLevels + 1> steps_{};  ///< by level
+  int longest_;                                      ///< level: of the block in one step
+  std::array<LongerStep, kMostLevels + 2> steps_{};  ///< by level
   std::vector<BodyIndex> moved_;                     ///< at a step's end
 };
 
