@@ -55,7 +55,8 @@ struct PersistentContact {
   std::int64_t load_track = 0;       ///< of what follows its force from step to step; 0: nothing does
   RestitutionMemory restitution;
   /// Where the next step starts [N s]. By restitution: the compression at each end, by the last two steps. By the law
-  /// of crushing ice, which starts from last_impulse: the slip impulse of the last substep solved, and 0.
+  /// of crushing ice, which starts from last_impulse: the slip impulse of the last substep solved, and how long that
+  /// was [s].
   double start_impulse[2] = {0, 0};
   CrushedIce crushed;
   Booked booked;

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 
 #include "simulation/world/levels.hpp"
@@ -29,10 +30,13 @@ constexpr double kAheadInPairs = 1.5;
 constexpr double kHeavy = 1000;
 /// Times that of another: such a one needs not go by the tick with it.
 constexpr double kHeavier = 100;
-/// Of the way that floes may go in a step: how far what presses one may push it.
-constexpr double kPressedShare = 0.1;
-/// And how far it may have been pushed before its step is cut short.
-constexpr double kPushedShare = 0.5;
+/// By how much a contact may change the speed of one of its bodies in a step that is longer than the other's [m/s]. The
+/// other's steps do not see what else holds it, so ice crushes by about that speed: 1 mm in 100 s.
+constexpr double kPressedSpeed = 1e-5;
+/// By how much contacts of shorter steps may before its step is cut short [m/s]: it is struck.
+constexpr double kStruckSpeed = 0.1;
+/// And so that it goes by no more than this share of a floe's way in a step.
+constexpr double kStruckWay = 0.5;
 /// A body of more is taken by its bounding circle.
 constexpr std::size_t kFewCorners = 64;
 /// Of the awake bodies, that have to take longer steps.
@@ -106,9 +110,9 @@ class Assignment {
   std::span<const Point> corners(const Node& node) const;
   bool may_touch(std::int32_t a, std::int32_t b, double speed) const;
   void shorten(std::int32_t i, double way, double speed);
-  void shorten_pressed(std::int32_t i, double way, double force);
   void see(BodyIndex a, BodyIndex b, std::span<const dynamics::PersistentContact> records);
-  int level_of(const Node& node) const;
+  int level_of(double time) const;
+  void find_partners();
   void follow_partners();
   void find_along();
   std::size_t enter(BodyIndex i);
@@ -194,18 +198,14 @@ void Assignment::shorten(std::int32_t i, double way, double speed) {
   if (speed * longest > way) longest = way / speed;
 }
 
-/// By how far a force pushes it in a step.
-void Assignment::shorten_pressed(std::int32_t i, double way, double force) {
-  double& longest = nodes_[i].longest;
-  const double most = kPressedShare * way * bodies_.mass[nodes_[i].body];
-  if (force * longest * longest > most) longest = std::sqrt(most / force);
-}
-
-/// What a pair's contacts pressed with in their last step, at most: as if that had been a tick [N].
-double most_force(std::span<const dynamics::PersistentContact> records, double tick) {
-  double impulse = 0;
-  for (const dynamics::PersistentContact& record : records) impulse += record.last_impulse[0] + record.last_impulse[1];
-  return impulse / tick;
+/// What a pair's contacts pressed with in their last step [N].
+double force_of(std::span<const dynamics::PersistentContact> records) {
+  double force = 0;
+  for (const dynamics::PersistentContact& record : records) {
+    const double time = record.start_impulse[1];
+    if (time > 0) force += (record.last_impulse[0] + record.last_impulse[1]) / time;
+  }
+  return force;
 }
 
 /// Two bodies that the contact search keeps as a pair.
@@ -222,14 +222,12 @@ void Assignment::see(BodyIndex a, BodyIndex b, std::span<const dynamics::Persist
   if (goes_by_tick_beside(a, b)) return shorten(of_b, 0, 1);
   if (goes_by_tick_beside(b, a)) return shorten(of_a, 0, 1);
   const double way = most_way_of_floes(setup_.scene.contact, std::min(bodies_.thickness[a], bodies_.thickness[b]));
-  const double force = most_force(records, tick_);
-  for (const std::int32_t i : {of_a, of_b}) {
-    if (is_fixed(nodes_[i].body)) continue;
-    shorten(i, way, speed);
-    shorten_pressed(i, way, force);
-  }
-  if (!is_fixed(a) && !is_fixed(b) && bodies_.is_awake[a] != 0 && bodies_.is_awake[b] != 0)
-    components_.touching.push_back({of_a, of_b});
+  for (const std::int32_t i : {of_a, of_b})
+    if (!is_fixed(nodes_[i].body)) shorten(i, way, speed);
+  if (is_fixed(a) || is_fixed(b) || bodies_.is_awake[a] == 0 || bodies_.is_awake[b] == 0) return;
+  const double force = force_of(records);
+  const double mass = std::min(bodies_.mass[a], bodies_.mass[b]);
+  components_.touching.push_back({of_a, of_b, force > 0 ? kPressedSpeed * mass / force : time()});
 }
 
 /// What comes farther in the block than the contact search has pairs of.
@@ -242,20 +240,46 @@ void Assignment::see_farther(BodyIndex i) {
   });
 }
 
-int Assignment::level_of(const Node& node) const {
-  if (is_fixed(node.body)) return 0;
-  const double ticks = node.longest / tick_ * (1 + 1e-9);
+int Assignment::level_of(double time) const {
+  const double ticks = time / tick_ * (1 + 1e-9);
   if (ticks >= static_cast<double>(ticks_)) return level_of_block(setup_);
   return ticks < 2 ? 0 : std::min(setup_.levels, static_cast<int>(std::bit_width(static_cast<unsigned>(ticks))) - 1);
+}
+
+void Assignment::find_partners() {
+  auto& first = components_.first_partner;
+  first.assign(nodes_.size() + 1, 0);
+  for (const auto& touch : components_.touching) {
+    ++first[touch.a];
+    ++first[touch.b];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  components_.partners.resize(2 * components_.touching.size());
+  for (std::int32_t i = 0; i < std::ssize(components_.touching); ++i) {
+    const auto& touch = components_.touching[i];
+    components_.partners[--first[touch.a]] = {touch.b, i};
+    components_.partners[--first[touch.b]] = {touch.a, i};
+  }
 }
 
 /// No body takes steps of more than twice those of another that it may touch: what pushes the one reaches the other
 /// when it has shorter steps already.
 void Assignment::follow_partners() {
-  for (int level = 0; level < setup_.levels; ++level) {
-    for (const auto& [a, b] : components_.touching) {
-      if (nodes_[a].level == level) nodes_[b].level = std::min(nodes_[b].level, level + 1);
-      if (nodes_[b].level == level) nodes_[a].level = std::min(nodes_[a].level, level + 1);
+  find_partners();
+  std::array<std::vector<std::int32_t>, kMostLevels + 2> of_level;
+  for (std::int32_t i = 0; i < std::ssize(nodes_); ++i) of_level[nodes_[i].level].push_back(i);
+  for (int level = 0; level <= setup_.levels; ++level) {
+    for (std::size_t k = 0; k < of_level[level].size(); ++k) {
+      const std::int32_t i = of_level[level][k];
+      if (nodes_[i].level != level) continue;
+      for (std::int32_t p = components_.first_partner[i]; p < components_.first_partner[i + 1]; ++p) {
+        const auto [other, touch] = components_.partners[p];
+        const int apart = level_of(components_.touching[touch].longest);
+        const int most = std::clamp(apart, level, level + 1);
+        if (nodes_[other].level <= most) continue;
+        nodes_[other].level = most;
+        of_level[most].push_back(other);
+      }
     }
   }
   for (Node& node : nodes_) {
@@ -266,7 +290,7 @@ void Assignment::follow_partners() {
 
 /// What takes longer steps than another that it may touch has to be where that one is.
 void Assignment::find_along() {
-  for (const auto& [a, b] : components_.touching) {
+  for (const auto& [a, b, longest] : components_.touching) {
     if (nodes_[a].level > nodes_[b].level) nodes_[a].is_along = true;
     if (nodes_[b].level > nodes_[a].level) nodes_[b].is_along = true;
   }
@@ -292,7 +316,7 @@ std::int64_t Assignment::sort() {
   for (const BodyIndex i : population_.awake) node(i);
   population_.pairs.for_pairs([this](BodyIndex a, BodyIndex b, auto records) { see(a, b, records); });
   for (const BodyIndex i : population_.awake) see_farther(i);
-  for (Node& node : nodes_) node.level = level_of(node);
+  for (Node& node : nodes_) node.level = is_fixed(node.body) ? 0 : level_of(node.longest);
   follow_partners();
   find_along();
   std::size_t coarse = 0;
@@ -339,13 +363,14 @@ void begin_longer(const Population& population, int level, Components& component
   }
 }
 
-bool is_any_pushed(const Setup& setup, const Population& population, const Components& components) {
+bool is_any_struck(const Setup& setup, const Population& population, const Components& components) {
   const dynamics::Bodies& bodies = population.bodies;
   return std::ranges::any_of(population.moving_along, [&](BodyIndex i) {
     const Components::Node& node = components.nodes[components.node_of[i]];
     const double speed = length(bodies.velocity[i] - node.velocity) +
                          std::abs(bodies.angular_velocity[i] - node.angular_velocity) * bodies.bounding_radius[i];
-    return speed * node.longest > kPushedShare * most_way_of_floes(setup.scene.contact, bodies.thickness[i]);
+    const double way = kStruckWay * most_way_of_floes(setup.scene.contact, bodies.thickness[i]);
+    return speed > kStruckSpeed || speed * node.longest > way;
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "simulation/world/population.hpp"
@@ -9,11 +10,11 @@
 namespace polynya::simulation {
 
 // Which bodies take steps of several ticks. A body takes steps of 2^k ticks, as long as it does not go farther than its
-// share of the thickness relative to another that it may touch within the block of ticks ahead, nor is pushed farther
-// by what presses it; and it has at most twice the step of such another. Hulls and what they may touch go by the tick
-// (k = 0). Of two bodies that touch, the shorter steps have the contact: in these the other gets its impulses, and
-// moves by the tick. Ice that is held, or far heavier than others, shortens nothing: its contacts are those of the
-// others' steps.
+// share of the thickness relative to another that it may touch within the block of ticks ahead; and it has at most
+// twice the step of such another, or the same where the two press each other by more than a little. Hulls and what they
+// may touch go by the tick (k = 0). Of two bodies that touch, the shorter steps have the contact: in these the other
+// gets its impulses, and moves by the tick. Ice that is held, or far heavier than others, shortens nothing: its
+// contacts are those of the others' steps.
 
 /// Who takes which steps in a block of ticks, and where it is sought.
 struct Components {
@@ -30,10 +31,18 @@ struct Components {
     geometry::Vector velocity;    ///< when its step began [m/s]
     double angular_velocity = 0;  ///< [rad/s]
   };
-  std::vector<Node> nodes;                            ///< bodies awake, and those that they may touch
-  std::vector<std::int32_t> node_of;                  ///< by body; −1: none
-  std::vector<geometry::Point> corners;               ///< of all nodes, in the water frame
-  std::vector<std::array<std::int32_t, 2>> touching;  ///< nodes that may touch in the block, both of steps of their own
+  std::vector<Node> nodes;               ///< bodies awake, and those that they may touch
+  std::vector<std::int32_t> node_of;     ///< by body; −1: none
+  std::vector<geometry::Point> corners;  ///< of all nodes, in the water frame
+  /// Of two nodes that may touch in the block, both of steps of their own.
+  struct Touch {
+    std::int32_t a = 0;
+    std::int32_t b = 0;
+    double longest = 0;  ///< step of one that has a longer one than the other [s]
+  };
+  std::vector<Touch> touching;
+  std::vector<std::int32_t> first_partner;                      ///< by node, in `partners`
+  std::vector<std::pair<std::int32_t, std::int32_t>> partners;  ///< the other node and the place in `touching`
 };
 
 /// The level of bodies that take a block in one step, where the block is longer than the 2^k ticks of others.
@@ -63,8 +72,8 @@ void end_block(Population& population);
 /// Keeps how bodies of longer steps move that have just begun one.
 void begin_longer(const Population& population, int level, Components& components);
 
-/// Whether contacts of shorter steps have pushed a body so that its own step is too long by now.
-bool is_any_pushed(const Setup& setup, const Population& population, const Components& components);
+/// Whether contacts of shorter steps have struck a body so that its own step is too long by now.
+bool is_any_struck(const Setup& setup, const Population& population, const Components& components);
 
 /// Takes out contacts of bodies that take different steps, where the one of longer steps is not where it is seen: one
 /// came farther than by the speeds at the block's begin. Returns whether there were any.

@@ -282,7 +282,7 @@ class Block {
       for (int level = longest_; level > 0; --level)
         if (step_of(level).end == tick + 1) end(level, tick, tick + 1);
       step_those_of(0, [&] { run_tick(world_, lags(tick + 1) ? RunsIn::kTicks : RunsIn::kTogether); });
-      is_over = world_.step.has_met || is_any_pushed(world_.setup, world_.population, world_.components);
+      is_over = world_.step.has_met || is_any_struck(world_.setup, world_.population, world_.components);
       for (int level = longest_; is_over && level > 0; --level) end(level, tick + 1, tick + 1);
     }
     keep_contacts();

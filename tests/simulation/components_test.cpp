@@ -137,41 +137,38 @@ TEST(Components, LeaveWhatAShipTouchesToTheTick) {
 /// A slow ship that pushes a row of floes, all near each other.
 Scene pushed_row(int floes) {
   Build scene;
-  scene.step(0.02).ship(barge({0, 0}, ConstantSpeed{0.3}, 0.3));
-  for (int i = 0; i < floes; ++i) scene.floe(rectangle(0.5 + 10.004 * i, -5, 10.5 + 10.004 * i, 5));
+  scene.step(0.02).ship(barge({0, 0}, ConstantSpeed{0.05}, 0.05));
+  for (int i = 0; i < floes; ++i) scene.floe(rectangle(0.2 + 10.004 * i, -5, 10.2 + 10.004 * i, 5));
   return scene;
 }
 
 TEST(Components, OfARowHaveLongerStepsFartherFromTheShip) {
-  Simulation simulation(pushed_row(16));
-  go_to(simulation, 3000);
-  const auto& of_level = simulation.world().components.of_level;
-  EXPECT_EQ(simulation.world().population.awake.size(), 17U);
-  EXPECT_EQ(of_level[0].size(), 2U);
-  for (std::size_t level = 1; level < of_level.size(); ++level) EXPECT_FALSE(of_level[level].empty()) << level;
+  Simulation simulation(pushed_row(14));
+  go_to(simulation, 2000);
+  const auto& level = simulation.world().population.bodies.level;
+  EXPECT_EQ(simulation.world().population.awake.size(), 15U);
+  EXPECT_EQ(level[1], 0);
+  EXPECT_GT(level[14], 2);
+  EXPECT_FALSE(simulation.world().components.touching.empty());
   expect_closed(simulation);
 }
 
 TEST(Components, OfARowMoveAsInOneStepForAll) {
-  Simulation fine(with_levels(pushed_row(10), 0));
-  Simulation coarse(pushed_row(10));
-  for (const std::int64_t tick : {250, 1000, 3000}) {
+  Simulation fine(with_levels(pushed_row(14), 0));
+  Simulation coarse(pushed_row(14));
+  for (const std::int64_t tick : {500, 2000, 4000}) {
     go_to(fine, tick);
     go_to(coarse, tick);
     const auto a = coarse.floe_states(), b = fine.floe_states();
     for (std::size_t i = 0; i < b.size(); ++i) {
       EXPECT_NEAR(distance(a[i].world_from_body.position, b[i].world_from_body.position), 0, 0.02) << tick;
-      EXPECT_NEAR(length(a[i].velocity - b[i].velocity), 0, 0.01) << tick << ' ' << i;
+      EXPECT_NEAR(length(a[i].velocity - b[i].velocity), 0, 0.003) << tick << ' ' << i;
     }
   }
-  EXPECT_LT(coarse.counts().body_steps, fine.counts().body_steps / 2);
-  EXPECT_LT(coarse.counts().energy_created, 1e-6);
-  const auto crushed = [](const Simulation& of) {
-    double area = 0;
-    for (const auto& overlap : of.crushed_overlaps()) area += overlap.area;
-    return area;
-  };
-  EXPECT_NEAR(crushed(coarse), crushed(fine), 0.1 * crushed(fine));
+  EXPECT_LT(coarse.counts().body_steps, 0.8 * static_cast<double>(fine.counts().body_steps));
+  EXPECT_LT(coarse.counts().energy_created, 0.02);  // as in one step for all, of 800 J
+  const double crushed = fine.audit().sums.energy.crushing;
+  EXPECT_NEAR(coarse.audit().sums.energy.crushing, crushed, 0.01 * crushed);
   expect_closed(coarse);
 }
 
