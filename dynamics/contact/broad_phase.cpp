@@ -101,7 +101,7 @@ void BroadPhase::leave_movers(BodyIndex body) {
 }
 
 void BroadPhase::wake(const Bodies& bodies, BodyIndex body) {
-  if (!entries_[body].pairs.empty()) has_short_ = false;  // they may be of shorter steps from now on
+  note_short(body);
   enter_mover(bodies, body);
   add_pairs_of(bodies, body);
 }
@@ -241,6 +241,20 @@ void BroadPhase::note_levels(const Bodies& bodies) {
     if (level_of_pair(bodies.level.data(), active_[i].a, active_[i].b) < kShortLevels)
       short_.push_back(static_cast<std::uint32_t>(i));
   has_short_ = true;
+}
+
+/// Those of a body that was asleep may be of shorter steps from now on.
+void BroadPhase::note_short(BodyIndex body) {
+  if (!has_short_) return;
+  for (const std::uint32_t slot : entries_[body].pairs) {
+    const ActivePair pair{pairs_[slot].a, pairs_[slot].b, -1, slot};
+    const auto first = std::lower_bound(active_.begin(), active_.end(), pair);
+    for (auto active = first; active != active_.end() && !(pair < *active); ++active) {  // dropped ones too
+      const auto place = static_cast<std::uint32_t>(active - active_.begin());
+      const auto after = std::lower_bound(short_.begin(), short_.end(), place);
+      if (after == short_.end() || *after != place) short_.insert(after, place);
+    }
+  }
 }
 
 /// The pairs that may touch by now, by (a, b): of the active ones from begin to end, and of the recent ones

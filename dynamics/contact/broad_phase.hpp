@@ -165,6 +165,7 @@ class BroadPhase {
   void keep_cover(const Bodies& bodies, BodyIndex body);
   template <class Wanted>
   std::vector<PairState> states_where(Wanted is_wanted) const;
+  void note_short(BodyIndex body);
   void drop_pair(std::uint32_t pair);
   void mark_dropped(std::uint32_t pair);
   void merge_new();

@@ -161,13 +161,13 @@ TEST(Components, OfARowMoveAsInOneStepForAll) {
     go_to(coarse, tick);
     const auto a = coarse.floe_states(), b = fine.floe_states();
     for (std::size_t i = 0; i < b.size(); ++i) {
-      EXPECT_NEAR(distance(a[i].world_from_body.position, b[i].world_from_body.position), 0, 0.02) << tick;
+      EXPECT_NEAR(distance(a[i].world_from_body.position, b[i].world_from_body.position), 0, 0.1) << tick;  // of 4 m
       EXPECT_NEAR(length(a[i].velocity - b[i].velocity), 0, 0.003) << tick << ' ' << i;
     }
   }
   EXPECT_LT(coarse.counts().body_steps, 0.8 * static_cast<double>(fine.counts().body_steps));
-  EXPECT_LT(coarse.counts().energy_created, 0.02);  // as in one step for all, of 800 J
   const double crushed = fine.audit().sums.energy.crushing;
+  EXPECT_LT(coarse.counts().energy_created, 1e-4 * crushed);
   EXPECT_NEAR(coarse.audit().sums.energy.crushing, crushed, 0.01 * crushed);
   expect_closed(coarse);
 }
