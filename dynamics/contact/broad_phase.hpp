@@ -82,6 +82,8 @@ class BroadPhase {
   /// Notes which pairs are of a level that short steps take, where bodies have just got theirs: the search of such a
   /// step then leaves out the others. Finds the same contacts.
   void note_levels(const Bodies& bodies);
+  /// The same of one that takes shorter steps from now on.
+  void note_short(BodyIndex body);
 
   /// The pairs, by (a, b): together with the bodies, all that decides which contacts the next steps find.
   std::vector<PairState> pair_states() const;
@@ -165,7 +167,6 @@ class BroadPhase {
   void keep_cover(const Bodies& bodies, BodyIndex body);
   template <class Wanted>
   std::vector<PairState> states_where(Wanted is_wanted) const;
-  void note_short(BodyIndex body);
   void drop_pair(std::uint32_t pair);
   void mark_dropped(std::uint32_t pair);
   void merge_new();

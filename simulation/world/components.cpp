@@ -363,24 +363,49 @@ void begin_longer(const Population& population, int level, Components& component
   }
 }
 
-bool is_any_struck(const Setup& setup, const Population& population, const Components& components) {
+std::vector<BodyIndex> find_struck(const Setup& setup, const Population& population, const Components& components) {
   const dynamics::Bodies& bodies = population.bodies;
-  return std::ranges::any_of(population.moving_along, [&](BodyIndex i) {
+  std::vector<BodyIndex> struck;
+  for (const BodyIndex i : population.moving_along) {
     const Components::Node& node = components.nodes[components.node_of[i]];
     const double speed = length(bodies.velocity[i] - node.velocity) +
                          std::abs(bodies.angular_velocity[i] - node.angular_velocity) * bodies.bounding_radius[i];
     const double way = kStruckWay * most_way_of_floes(setup.scene.contact, bodies.thickness[i]);
-    return speed > kStruckSpeed || speed * node.longest > way;
-  });
+    if (speed > kStruckSpeed || speed * node.longest > way) struck.push_back(i);
+  }
+  return struck;
 }
 
-bool drop_unforeseen(const dynamics::Bodies& bodies, const Components& components,
-                     std::vector<dynamics::Contact>& contacts) {
-  return std::erase_if(contacts, [&](const dynamics::Contact& c) {
-           const auto a = bodies.level[c.a];
-           const auto b = bodies.level[c.b];
-           return a != b && a != kNoLevel && b != kNoLevel && !moves_along(components, a > b ? c.a : c.b);
-         }) > 0;
+void move_along(BodyIndex i, Population& population, Components& components) {
+  Components::Node& node = components.nodes[components.node_of[i]];
+  node.is_along = true;
+  node.velocity = population.bodies.velocity[i];
+  node.angular_velocity = population.bodies.angular_velocity[i];
+  insert_into(population.moving_along, i);
+}
+
+void take_out_of_level(BodyIndex i, Population& population, Components& components) {
+  Components::Node& node = components.nodes[components.node_of[i]];
+  erase_from(components.of_level[population.bodies.level[i]], i);
+  erase_from(population.moving_along, i);
+  insert_into(components.of_level[0], i);
+  population.bodies.level[i] = 0;
+  population.pairs.note_short(i);
+  node.level = 0;
+  node.is_along = false;
+}
+
+void drop_unforeseen(const dynamics::Bodies& bodies, const Components& components,
+                     std::vector<dynamics::Contact>& contacts, std::vector<BodyIndex>& met) {
+  std::erase_if(contacts, [&](const dynamics::Contact& c) {
+    const auto a = bodies.level[c.a];
+    const auto b = bodies.level[c.b];
+    if (a == b || a == kNoLevel || b == kNoLevel) return false;
+    const BodyIndex longer = a > b ? c.a : c.b;
+    if (moves_along(components, longer)) return false;
+    met.push_back(longer);
+    return true;
+  });
 }
 
 }  // namespace polynya::simulation

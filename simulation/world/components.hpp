@@ -59,11 +59,15 @@ inline std::int64_t longest_block(const Setup& setup) {
 std::int64_t begin_block(const Setup& setup, Clock& clock, std::int64_t most, Population& population,
                          Components& components);
 
+/// Whether a body was there and awake, or near one that is, when the block began.
+inline bool has_node(const Components& components, BodyIndex i) {
+  const auto place = static_cast<std::size_t>(i);
+  return place < components.node_of.size() && components.node_of[place] >= 0;
+}
 /// Whether a body of longer steps moves by the tick.
 inline bool moves_along(const Components& components, BodyIndex i) {
   const auto place = static_cast<std::size_t>(i);
-  if (place >= components.node_of.size() || components.node_of[place] < 0) return false;
-  return components.nodes[static_cast<std::size_t>(components.node_of[place])].is_along;
+  return has_node(components, i) && components.nodes[static_cast<std::size_t>(components.node_of[place])].is_along;
 }
 
 /// All bodies have come to the same tick again.
@@ -72,12 +76,35 @@ void end_block(Population& population);
 /// Keeps how bodies of longer steps move that have just begun one.
 void begin_longer(const Population& population, int level, Components& components);
 
-/// Whether contacts of shorter steps have struck a body so that its own step is too long by now.
-bool is_any_struck(const Setup& setup, const Population& population, const Components& components);
+/// The bodies of longer steps that contacts of shorter ones have struck so that their own are too long by now;
+/// ascending.
+std::vector<BodyIndex> find_struck(const Setup& setup, const Population& population, const Components& components);
+
+/// Has a body of longer steps move by the tick from now on; it is where what goes by the tick is.
+void move_along(BodyIndex i, Population& population, Components& components);
+
+/// Has a body that moved along go by the tick itself. Calls use(other) for each of longer steps that it may touch and
+/// that does not move along yet.
+template <class Use>
+void go_by_tick(BodyIndex i, Population& population, Components& components, Use use);
 
 /// Takes out contacts of bodies that take different steps, where the one of longer steps is not where it is seen: one
-/// came farther than by the speeds at the block's begin. Returns whether there were any.
-bool drop_unforeseen(const dynamics::Bodies& bodies, const Components& components,
-                     std::vector<dynamics::Contact>& contacts);
+/// came farther than by the speeds at the block's begin. Adds that one to `met`.
+void drop_unforeseen(const dynamics::Bodies& bodies, const Components& components,
+                     std::vector<dynamics::Contact>& contacts, std::vector<BodyIndex>& met);
+
+void take_out_of_level(BodyIndex i, Population& population, Components& components);
+
+template <class Use>
+void go_by_tick(BodyIndex i, Population& population, Components& components, Use use) {
+  take_out_of_level(i, population, components);
+  const std::int32_t node = components.node_of[static_cast<std::size_t>(i)];
+  const auto& first = components.first_partner;
+  for (std::int32_t p = first[node]; p < first[node + 1]; ++p) {
+    const Components::Node& other = components.nodes[components.partners[p].first];
+    const int level = population.bodies.level[static_cast<std::size_t>(other.body)];
+    if (level > 0 && level != dynamics::kNoLevel && !other.is_along) use(other.body);
+  }
+}
 
 }  // namespace polynya::simulation

@@ -131,6 +131,9 @@ void retire_floe(FloeId floe, Population& population, Journal& journal);
 
 void wake(BodyIndex body, Population& population);
 
+void insert_into(std::vector<BodyIndex>& ascending, BodyIndex body);
+void erase_from(std::vector<BodyIndex>& ascending, BodyIndex body);
+
 /// Makes the drag table of a floe that is about to move.
 void add_drag(BodyIndex body, Population& population);
 

@@ -79,8 +79,7 @@ void find_contacts(const Setup& setup, int threads, const Components& components
                    StepData& step, Counts& counts) {
   std::vector<dynamics::Contact>& contacts = step.contacts;
   population.pairs.find_contacts(population.bodies, setup.step, contacts, threads, population.level);
-  if (population.level != Population::kAllDue && drop_unforeseen(population.bodies, components, contacts))
-    step.has_met = true;
+  if (population.level != Population::kAllDue) drop_unforeseen(population.bodies, components, contacts, step.met);
   counts.unpaired_stretches += population.pairs.take_unpaired_stretches();
   counts.peak_contacts = std::max(counts.peak_contacts, static_cast<std::int64_t>(contacts.size()));
   population.pairs.take_blind_overlaps(step.blind_overlaps);
@@ -266,15 +265,16 @@ void run_tick(World& world, RunsIn most) {
 }
 
 /// A block of ticks in which bodies take steps of their own. A longer step begins with what contacts do in it, where
-/// all are at its first tick that it concerns; water and wind act, and its bodies move, when it ends. All have come to
-/// the same tick at the block's end, which comes early where steps are too long by what happened.
+/// all are at its first tick that it concerns; water and wind act, and its bodies move, when it ends. Those that
+/// shorter steps meet before they were to, or strike, are brought to the tick at hand. All have come to the same at the
+/// block's end.
 class Block {
  public:
   Block(World& world, std::int64_t ticks)
       : world_(world), ticks_(static_cast<int>(ticks)), longest_(level_of_block(world.setup)) {}
 
   void run() {
-    world_.step.has_met = false;
+    world_.step.met.clear();
     bool is_over = false;
     for (int tick = 0; !is_over && tick < ticks_ && !world_.failure; ++tick) {
       for (int level = longest_; level > 0; --level)
@@ -282,7 +282,9 @@ class Block {
       for (int level = longest_; level > 0; --level)
         if (step_of(level).end == tick + 1) end(level, tick, tick + 1);
       step_those_of(0, [&] { run_tick(world_, lags(tick + 1) ? RunsIn::kTicks : RunsIn::kTogether); });
-      is_over = world_.step.has_met || is_any_struck(world_.setup, world_.population, world_.components);
+      if (tick + 1 == ticks_) break;
+      is_over = !bring_met(tick + 1);
+      for (const BodyIndex i : find_struck(world_.setup, world_.population, world_.components)) quicken(i, tick + 1);
       for (int level = longest_; is_over && level > 0; --level) end(level, tick + 1, tick + 1);
     }
     keep_contacts();
@@ -328,6 +330,45 @@ class Block {
     step_those_of(level, [&] { move_longer(); });
     world_.clock = clock;
     step.come_to = tick;
+  }
+
+  /// Moves a body of longer steps to the tick that has passed, and with the ticks from then on.
+  void bring(BodyIndex i, int tick) {
+    const int ticks = tick - step_of(world_.population.bodies.level[i]).come_to;
+    moved_.assign(1, i);
+    if (ticks > 0) integrate(world_.population.bodies, moved_, ticks * world_.clock.tick);
+    move_along(i, world_.population, world_.components);
+  }
+
+  /// What bodies of shorter steps met, though it lags behind. Returns whether all of it could be brought: not what was
+  /// not there when the block began.
+  bool bring_met(int tick) {
+    bool are_brought = true;
+    for (const BodyIndex i : world_.step.met) {
+      if (world_.population.bodies.is_awake[i] == 0 || moves_along(world_.components, i)) continue;
+      if (has_node(world_.components, i))
+        bring(i, tick);
+      else
+        are_brought = false;
+    }
+    world_.step.met.clear();
+    return are_brought;
+  }
+
+  /// Ends the step of a body that moves along: it goes by the tick from then on.
+  void quicken(BodyIndex i, int tick) {
+    Population& population = world_.population;
+    const LongerStep& step = step_of(population.bodies.level[i]);
+    const Clock clock = world_.clock;
+    if (tick > step.come_to) {
+      world_.clock.steps -= tick - step.come_to;
+      take_step(world_.setup, world_.clock, tick - step.come_to, 1);
+      population.level = population.bodies.level[i];
+      population.due_some.assign(1, i);
+      apply_forces(world_.setup, world_.clock, 1, population, world_.accounts.audit);
+      world_.clock = clock;
+    }
+    go_by_tick(i, population, world_.components, [&](BodyIndex other) { bring(other, tick); });
   }
 
   void move_longer() {
