@@ -37,6 +37,9 @@ constexpr double kPressedSpeed = 1e-5;
 constexpr double kStruckSpeed = 0.1;
 /// And so that it goes by no more than this share of a floe's way in a step.
 constexpr double kStruckWay = 0.5;
+/// How many bodies in a row that may touch go by the tick from one that has to, before the next ones have steps of two
+/// ticks, four and so on: what strikes the first is held by the others' mass in the same tick. Fewer, loads fall.
+constexpr int kHops = 6;
 /// A body of more is taken by its bounding circle.
 constexpr std::size_t kFewCorners = 64;
 /// Of the awake bodies, that have to take longer steps.
@@ -266,22 +269,27 @@ void Assignment::find_partners() {
 /// when it has shorter steps already.
 void Assignment::follow_partners() {
   find_partners();
-  std::array<std::vector<std::int32_t>, kMostLevels + 2> of_level;
-  for (std::int32_t i = 0; i < std::ssize(nodes_); ++i) of_level[nodes_[i].level].push_back(i);
-  for (int level = 0; level <= setup_.levels; ++level) {
-    for (std::size_t k = 0; k < of_level[level].size(); ++k) {
-      const std::int32_t i = of_level[level][k];
-      if (nodes_[i].level != level) continue;
+  std::vector<std::vector<std::int32_t>> of_rank(static_cast<std::size_t>(kHops + setup_.levels + 1));
+  for (std::int32_t i = 0; i < std::ssize(nodes_); ++i) {
+    nodes_[i].rank = nodes_[i].level == 0 ? 0 : kHops - 1 + nodes_[i].level;
+    of_rank[nodes_[i].rank].push_back(i);
+  }
+  const auto level_at = [](int rank) { return std::max(0, rank - (kHops - 1)); };
+  for (int rank = 0; rank < std::ssize(of_rank); ++rank) {
+    for (std::size_t k = 0; k < of_rank[rank].size(); ++k) {
+      const std::int32_t i = of_rank[rank][k];
+      if (nodes_[i].rank != rank) continue;
       for (std::int32_t p = components_.first_partner[i]; p < components_.first_partner[i + 1]; ++p) {
         const auto [other, touch] = components_.partners[p];
         const int apart = level_of(components_.touching[touch].longest);
-        const int most = std::clamp(apart, level, level + 1);
-        if (nodes_[other].level <= most) continue;
-        nodes_[other].level = most;
-        of_level[most].push_back(other);
+        const int most = level_at(rank) < apart ? rank + 1 : rank;
+        if (nodes_[other].rank <= most) continue;
+        nodes_[other].rank = most;
+        of_rank[most].push_back(other);
       }
     }
   }
+  for (Node& node : nodes_) node.level = level_at(node.rank);
   for (Node& node : nodes_) {
     if (std::int64_t{1} << node.level >= ticks_) node.level = level_of_block(setup_);
     node.longest = node.level == level_of_block(setup_) ? time() : tick_ * (1 << node.level);

@@ -23,6 +23,7 @@ struct Components {
   struct Node {
     BodyIndex body = 0;
     int level = 0;
+    int rank = 0;                 ///< levels, in steps of one more body from what has a shorter step
     double longest = 0;           ///< step [s]
     geometry::Box box;            ///< in the water frame
     std::size_t first = 0;        ///< of its vertices
