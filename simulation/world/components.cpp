@@ -45,7 +45,7 @@ constexpr std::size_t kFewCorners = 64;
 /// Of the awake bodies, that have to take longer steps.
 constexpr double kLeastShare = 0.25;
 /// Ticks after which it is tried again, where too few would.
-constexpr std::int64_t kWait = 8;
+constexpr std::int64_t kWait = 16;
 
 /// A bound of the speed at which any two points of two bodies that touch part or close [m/s].
 double relative_speed(const dynamics::Bodies& bodies, BodyIndex a, BodyIndex b) {

