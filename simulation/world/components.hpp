@@ -11,10 +11,10 @@ namespace polynya::simulation {
 
 // Which bodies take steps of several ticks. A body takes steps of 2^k ticks, as long as it does not go farther than its
 // share of the thickness relative to another that it may touch within the block of ticks ahead; and it has at most
-// twice the step of such another, or the same where the two press each other by more than a little. Hulls and what they
-// may touch go by the tick (k = 0). Of two bodies that touch, the shorter steps have the contact: in these the other
-// gets its impulses, and moves by the tick. Ice that is held, or far heavier than others, shortens nothing: its
-// contacts are those of the others' steps.
+// twice the step of such another, or the same where the two press each other by more than a little. Hulls, what they
+// may touch and a few more bodies in a row go by the tick (k = 0). Of two bodies that touch, the shorter steps have the
+// contact: in these the other gets its impulses, and moves by the tick. Ice that is held, or far heavier than others,
+// shortens nothing: its contacts are those of the others' steps.
 
 /// Who takes which steps in a block of ticks, and where it is sought.
 struct Components {
