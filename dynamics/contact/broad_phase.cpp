@@ -101,6 +101,7 @@ void BroadPhase::leave_movers(BodyIndex body) {
 }
 
 void BroadPhase::wake(const Bodies& bodies, BodyIndex body) {
+  note_short(body);
   enter_mover(bodies, body);
   add_pairs_of(bodies, body);
 }
@@ -198,6 +199,7 @@ void BroadPhase::merge_new() {
   merge(recent_, new_);
   new_.clear();
   const std::size_t many = 16 + active_.size() / 8;
+  if (dropped_ > many || recent_.size() > many) has_short_ = false;
   if (dropped_ > many) {
     erase_dropped(active_);
     erase_dropped(recent_);
@@ -223,6 +225,38 @@ void BroadPhase::update(const Bodies& bodies, const std::vector<BodyIndex>& awak
   if (!new_.empty() || dropped_ > 0) merge_new();
 }
 
+namespace {
+
+/// Of a pair, whose bodies take steps of their own.
+int level_of_pair(const std::uint8_t* level, BodyIndex a, BodyIndex b) {
+  const std::uint8_t lower = std::min(level[a], level[b]);
+  return lower == kNoLevel ? 0 : lower;
+}
+
+}  // namespace
+
+void BroadPhase::note_levels(const Bodies& bodies) {
+  short_.clear();
+  for (std::size_t i = 0; i < active_.size(); ++i)
+    if (level_of_pair(bodies.level.data(), active_[i].a, active_[i].b) < kShortLevels)
+      short_.push_back(static_cast<std::uint32_t>(i));
+  has_short_ = true;
+}
+
+/// Those of a body that was asleep may be of shorter steps from now on.
+void BroadPhase::note_short(BodyIndex body) {
+  if (!has_short_) return;
+  for (const std::uint32_t slot : entries_[body].pairs) {
+    const ActivePair pair{pairs_[slot].a, pairs_[slot].b, -1, slot};
+    const auto first = std::lower_bound(active_.begin(), active_.end(), pair);
+    for (auto active = first; active != active_.end() && !(pair < *active); ++active) {  // dropped ones too
+      const auto place = static_cast<std::uint32_t>(active - active_.begin());
+      const auto after = std::lower_bound(short_.begin(), short_.end(), place);
+      if (after == short_.end() || *after != place) short_.insert(after, place);
+    }
+  }
+}
+
 /// The pairs that may touch by now, by (a, b): of the active ones from begin to end, and of the recent ones
 /// that belong between these. Returns how many.
 std::size_t BroadPhase::find_pending(const Bodies& bodies, std::size_t begin, std::size_t end,
@@ -237,16 +271,21 @@ std::size_t BroadPhase::find_pending(const Bodies& bodies, std::size_t begin, st
   const double* travel = bodies.travel.data();
   const std::uint8_t* level = bodies.level.data();
   ActivePair** next = pending.data();
-  const auto level_of = [](std::uint8_t lower) { return lower == kNoLevel ? 0 : lower; };
   const auto consider = [&](ActivePair& active) {
     const bool is_apart = travel[active.a] + travel[active.b] <= active.separation_bound;
-    const bool is_due = level_ == kEveryLevel || level_of(std::min(level[active.a], level[active.b])) == level_;
+    const bool is_due = level_ == kEveryLevel || level_of_pair(level, active.a, active.b) == level_;
     *next = &active;  // without a branch: which pairs may touch is unpredictable
     next += static_cast<int>(is_due) & static_cast<int>(!(is_apart & rule_.is_culling));
   };
-  for (ActivePair* active = active_.data() + begin; active != active_.data() + end; ++active) {
-    while (recent != last_recent && *recent < *active) consider(*recent++);
-    consider(*active);
+  const auto consider_next = [&](ActivePair& active) {
+    while (recent != last_recent && *recent < active) consider(*recent++);
+    consider(active);
+  };
+  if (has_short_ && level_ != kEveryLevel && level_ < kShortLevels) {
+    auto place = std::lower_bound(short_.begin(), short_.end(), begin);
+    for (; place != short_.end() && *place < end; ++place) consider_next(active_[*place]);
+  } else {
+    for (std::size_t i = begin; i < end; ++i) consider_next(active_[i]);
   }
   while (recent != last_recent) consider(*recent++);
   return static_cast<std::size_t>(next - pending.data());

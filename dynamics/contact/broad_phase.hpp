@@ -79,6 +79,11 @@ class BroadPhase {
   void find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads = 1,
                      int level = kEveryLevel);
   static constexpr int kEveryLevel = -1;
+  /// Notes which pairs are of a level that short steps take, where bodies have just got theirs: the search of such a
+  /// step then leaves out the others. Finds the same contacts.
+  void note_levels(const Bodies& bodies);
+  /// The same of one that takes shorter steps from now on.
+  void note_short(BodyIndex body);
 
   /// The pairs, by (a, b): together with the bodies, all that decides which contacts the next steps find.
   std::vector<PairState> pair_states() const;
@@ -107,11 +112,11 @@ class BroadPhase {
     }
   }
 
-  /// Calls use(a, b) for each pair, in no order.
+  /// Calls use(a, b, records) for each pair, in no order.
   template <class Use>
   void for_pairs(Use use) const {
     for (const Pair& pair : pairs_)
-      if (!pair.is_dropped) use(pair.a, pair.b);
+      if (!pair.is_dropped) use(pair.a, pair.b, pair.records());
   }
 
   /// Calls use(a, b, area, booked) for each pair, in no order: the overlap of its bodies that has pressed [m²],
@@ -180,14 +185,17 @@ class BroadPhase {
   std::vector<double> travel_limits_;  // of bodies: the grown box contains one until it has travelled this far
   std::vector<Pair> pairs_;            // slots
   std::vector<std::uint32_t> free_pairs_;
-  std::vector<ActivePair> active_;     // pairs in use, by (a, b), dropped ones included
-  std::vector<ActivePair> recent_;     // the same; merged into active_ when there are many
-  std::vector<ActivePair> new_;        // not sorted yet
-  std::size_t dropped_ = 0;            // of all three
-  int level_ = kEveryLevel;            // of find_contacts
-  double kept_pieces_ = 0;             // of all bodies' covers
-  struct Share {                       // of the pairs in use, for one thread at a time
-    std::vector<ActivePair*> pending;  // those that may touch in this step, and room for more
+  std::vector<ActivePair> active_;        // pairs in use, by (a, b), dropped ones included
+  std::vector<ActivePair> recent_;        // the same; merged into active_ when there are many
+  std::vector<ActivePair> new_;           // not sorted yet
+  std::size_t dropped_ = 0;               // of all three
+  static constexpr int kShortLevels = 4;  // of levels below, pairs are noted
+  std::vector<std::uint32_t> short_;      // their places in active_
+  bool has_short_ = false;                // they hold
+  int level_ = kEveryLevel;               // of find_contacts
+  double kept_pieces_ = 0;                // of all bodies' covers
+  struct Share {                          // of the pairs in use, for one thread at a time
+    std::vector<ActivePair*> pending;     // those that may touch in this step, and room for more
     PairScratch scratch;
     std::vector<Contact> contacts;
   };

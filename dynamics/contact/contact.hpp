@@ -51,6 +51,7 @@ struct PersistentContact {
   double crushed_depth = 0;          ///< overlap that crushing made: the ice is gone, nothing separates it [m]
   double last_impulse[2] = {0, 0};   ///< of compression, at each end, in the last substep solved [N s]
   double last_slip_impulse = 0;      ///< along the contact line, there [N s]
+  double last_substep = 0;           ///< how long that was; 0 by restitution [s]
   double loaded_depth = 0;           ///< deepest overlap that pressed: the ice is gone so far [m]
   double loaded_area = 0;            ///< of that overlap [m²]
   double reach = 0;                  ///< of the contact from last_point_in_b, at the last step [m]

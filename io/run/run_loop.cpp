@@ -38,7 +38,7 @@ RunRecorder::RunRecorder(Simulation& simulation, RunWriter& writer, const Loaded
       scene_(&scene),
       wall_time_before_(wall_time),
       steps_per_frame_(steps_in(scene.scene.record.frames_interval, scene.scene.time.step)),
-      longest_step_(std::int64_t{1} << simulation.world().setup.levels) {}
+      longest_step_(longest_block(simulation.world().setup)) {}
 
 void RunRecorder::begin(simulation::Journal& journal) {
   writer_->record(journal);

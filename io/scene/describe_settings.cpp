@@ -27,7 +27,7 @@ const Description<StepSettings> kTime{
      member("until_s", "s", above(0, 1e7), "simulated time to run to", &StepSettings::until),
      member("levels", "", from(0, 5),
             "a tick is taken in up to 2 to this power parts, where a hull goes far in thin ice, and floes that move "
-            "little take up to as many ticks in a step; 0: one step for all, as always by law impulse",
+            "little take up to four times as many ticks in a step; 0: one step for all, as always by law impulse",
             &StepSettings::levels)}};
 
 const Description<ShearSettings> kShear{

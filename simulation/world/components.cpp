@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 
 #include "simulation/world/levels.hpp"
@@ -16,22 +17,35 @@ using geometry::Point;
 using geometry::Vector;
 
 /// Times the way by a body's speed: it may be pushed meanwhile. Less, bodies meet others that take other steps, and
-/// blocks end; more, components join.
+/// blocks end; more, steps are shorter.
 constexpr double kAhead = 1.5;
 /// Beside that [m].
 constexpr double kSlack = 0.01;
-/// The longest way ahead in a block [m], below the margin of the contact search's boxes.
-constexpr double kMostAhead = 1.5;
+/// The longest way ahead in a block [m]: farther, what a ship may touch by its end is much ice.
+constexpr double kMostAhead = 4;
+/// Below the margin of the contact search's boxes: what may go farther is not among its pairs with all that it may
+/// touch [m].
+constexpr double kAheadInPairs = 1.5;
 /// Times the mass of most floes awake: of one that is not moved by them.
 constexpr double kHeavy = 1000;
 /// Times that of another: such a one needs not go by the tick with it.
 constexpr double kHeavier = 100;
+/// By how much a contact may change the speed of one of its bodies in a step that is longer than the other's [m/s]. The
+/// other's steps do not see what else holds it, so ice crushes by about that speed: 1 mm in 100 s.
+constexpr double kPressedSpeed = 1e-5;
+/// By how much contacts of shorter steps may before its step is cut short [m/s]: it is struck.
+constexpr double kStruckSpeed = 0.1;
+/// And so that it goes by no more than this share of a floe's way in a step.
+constexpr double kStruckWay = 0.5;
+/// How many bodies in a row that may touch go by the tick from one that has to, before the next ones have steps of two
+/// ticks, four and so on: what strikes the first is held by the others' mass in the same tick. Fewer, loads fall.
+constexpr int kHops = 6;
 /// A body of more is taken by its bounding circle.
 constexpr std::size_t kFewCorners = 64;
 /// Of the awake bodies, that have to take longer steps.
 constexpr double kLeastShare = 0.25;
 /// Ticks after which it is tried again, where too few would.
-constexpr std::int64_t kWait = 8;
+constexpr std::int64_t kWait = 16;
 
 /// A bound of the speed at which any two points of two bodies that touch part or close [m/s].
 double relative_speed(const dynamics::Bodies& bodies, BodyIndex a, BodyIndex b) {
@@ -98,13 +112,15 @@ class Assignment {
   std::int32_t node(BodyIndex i);
   std::span<const Point> corners(const Node& node) const;
   bool may_touch(std::int32_t a, std::int32_t b, double speed) const;
-  Node& root(std::int32_t i);
-  void join(std::int32_t a, std::int32_t b);
   void shorten(std::int32_t i, double way, double speed);
-  void see(BodyIndex a, BodyIndex b);
-  int level_of(BodyIndex i);
+  void see(BodyIndex a, BodyIndex b, std::span<const dynamics::PersistentContact> records);
+  int level_of(double time) const;
+  void find_partners();
+  void follow_partners();
+  void find_along();
   std::size_t enter(BodyIndex i);
   std::int64_t ticks_within_reach() const;
+  void see_farther(BodyIndex i);
 
   const Setup& setup_;
   Population& population_;
@@ -113,14 +129,13 @@ class Assignment {
   std::vector<Node>& nodes_;
   std::int64_t ticks_;
   double tick_;
-  double heavy_ = 0;  ///< [kg]
+  double heavy_ = 0;    ///< [kg]
+  double fastest_ = 0;  ///< of any body's rim [m/s]
 };
 
-/// How many ticks may pass before any body comes out of the box in which the contact search has it.
+/// How many ticks may pass before any body comes too far.
 std::int64_t Assignment::ticks_within_reach() const {
-  double fastest = 0;
-  for (const BodyIndex i : population_.awake) fastest = std::max(fastest, rim_speed_of(bodies_, i));
-  const double most = kMostAhead / (kAhead * fastest * tick_);
+  const double most = kMostAhead / (kAhead * fastest_ * tick_);
   return most < static_cast<double>(ticks_) ? static_cast<std::int64_t>(most) : ticks_;
 }
 
@@ -140,7 +155,8 @@ void Assignment::clear() {
   components_.node_of.resize(static_cast<std::size_t>(bodies_.size()), -1);
   nodes_.clear();
   components_.corners.clear();
-  components_.asleep.clear();
+  components_.touching.clear();
+  population_.moving_along.clear();
   for (auto& list : components_.of_level) list.clear();
 }
 
@@ -148,7 +164,10 @@ std::int32_t Assignment::node(BodyIndex i) {
   std::int32_t& place = components_.node_of[i];
   if (place >= 0) return place;
   place = static_cast<std::int32_t>(nodes_.size());
-  Node node{.body = i, .parent = place, .longest = time(), .box = {}, .first = components_.corners.size(), .count = 0};
+  Node node;
+  node.body = i;
+  node.longest = time();
+  node.first = components_.corners.size();
   const auto& vertices = bodies_.boundary[i]->edges.vertices;
   const bool is_exact = population_.is_hull(i) || vertices.size() <= kFewCorners;
   if (is_exact) {
@@ -163,7 +182,6 @@ std::int32_t Assignment::node(BodyIndex i) {
     node.box = geometry::grown({bodies_.position[i], bodies_.position[i]}, bodies_.bounding_radius[i]);
   }
   nodes_.push_back(node);
-  if (bodies_.is_awake[i] == 0) components_.asleep.push_back(i);
   return place;
 }
 
@@ -178,25 +196,23 @@ bool Assignment::may_touch(std::int32_t a, std::int32_t b, double speed) const {
   return !Apart(corners(nodes_[a]), corners(nodes_[b]), way).are();
 }
 
-Components::Node& Assignment::root(std::int32_t i) {
-  while (nodes_[i].parent != i) i = nodes_[i].parent = nodes_[nodes_[i].parent].parent;
-  return nodes_[i];
-}
-
-void Assignment::join(std::int32_t a, std::int32_t b) {
-  Node& of_a = root(a);
-  Node& of_b = root(b);
-  of_a.longest = std::min(of_a.longest, of_b.longest);
-  of_b.parent = of_a.parent;
-}
-
 void Assignment::shorten(std::int32_t i, double way, double speed) {
-  double& longest = root(i).longest;
+  double& longest = nodes_[i].longest;
   if (speed * longest > way) longest = way / speed;
 }
 
+/// What a pair's contacts pressed with in their last step [N].
+double force_of(std::span<const dynamics::PersistentContact> records) {
+  double force = 0;
+  for (const dynamics::PersistentContact& record : records) {
+    const double time = record.last_substep;
+    if (time > 0) force += (record.last_impulse[0] + record.last_impulse[1]) / time;
+  }
+  return force;
+}
+
 /// Two bodies that the contact search keeps as a pair.
-void Assignment::see(BodyIndex a, BodyIndex b) {
+void Assignment::see(BodyIndex a, BodyIndex b, std::span<const dynamics::PersistentContact> records) {
   if (is_fixed(a) && is_fixed(b)) return;
   const double speed = relative_speed(bodies_, a, b);
   const std::int32_t of_a = node(a);
@@ -209,36 +225,111 @@ void Assignment::see(BodyIndex a, BodyIndex b) {
   if (goes_by_tick_beside(a, b)) return shorten(of_b, 0, 1);
   if (goes_by_tick_beside(b, a)) return shorten(of_a, 0, 1);
   const double way = most_way_of_floes(setup_.scene.contact, std::min(bodies_.thickness[a], bodies_.thickness[b]));
-  if (!is_fixed(a)) shorten(of_a, way, speed);
-  if (!is_fixed(b)) shorten(of_b, way, speed);
-  if (!is_fixed(a) && !is_fixed(b)) join(of_a, of_b);
+  for (const std::int32_t i : {of_a, of_b})
+    if (!is_fixed(nodes_[i].body)) shorten(i, way, speed);
+  if (is_fixed(a) || is_fixed(b) || bodies_.is_awake[a] == 0 || bodies_.is_awake[b] == 0) return;
+  const double force = force_of(records);
+  const double mass = std::min(bodies_.mass[a], bodies_.mass[b]);
+  components_.touching.push_back({of_a, of_b, force > 0 ? kPressedSpeed * mass / force : time()});
 }
 
-int Assignment::level_of(BodyIndex i) {
-  const double ticks = root(node(i)).longest / tick_ * (1 + 1e-9);
+/// What comes farther in the block than the contact search has pairs of.
+void Assignment::see_farther(BodyIndex i) {
+  const double way = kAhead * rim_speed_of(bodies_, i) * time();
+  if (way <= kAheadInPairs) return;
+  const double most = way + kAhead * fastest_ * time() + kSlack;
+  population_.pairs.for_bodies_near(grown(nodes_[node(i)].box, most), [&](BodyIndex other) {
+    if (other != i) see(std::min(i, other), std::max(i, other), {});
+  });
+}
+
+int Assignment::level_of(double time) const {
+  const double ticks = time / tick_ * (1 + 1e-9);
+  if (ticks >= static_cast<double>(ticks_)) return level_of_block(setup_);
   return ticks < 2 ? 0 : std::min(setup_.levels, static_cast<int>(std::bit_width(static_cast<unsigned>(ticks))) - 1);
+}
+
+void Assignment::find_partners() {
+  auto& first = components_.first_partner;
+  first.assign(nodes_.size() + 1, 0);
+  for (const auto& touch : components_.touching) {
+    ++first[touch.a];
+    ++first[touch.b];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  components_.partners.resize(2 * components_.touching.size());
+  for (std::int32_t i = 0; i < std::ssize(components_.touching); ++i) {
+    const auto& touch = components_.touching[i];
+    components_.partners[--first[touch.a]] = {touch.b, i};
+    components_.partners[--first[touch.b]] = {touch.a, i};
+  }
+}
+
+/// No body takes steps of more than twice those of another that it may touch: what pushes the one reaches the other
+/// when it has shorter steps already.
+void Assignment::follow_partners() {
+  find_partners();
+  std::vector<std::vector<std::int32_t>> of_rank(static_cast<std::size_t>(kHops + setup_.levels + 1));
+  for (std::int32_t i = 0; i < std::ssize(nodes_); ++i) {
+    nodes_[i].rank = nodes_[i].level == 0 ? 0 : kHops - 1 + nodes_[i].level;
+    of_rank[nodes_[i].rank].push_back(i);
+  }
+  const auto level_at = [](int rank) { return std::max(0, rank - (kHops - 1)); };
+  for (int rank = 0; rank < std::ssize(of_rank); ++rank) {
+    for (std::size_t k = 0; k < of_rank[rank].size(); ++k) {
+      const std::int32_t i = of_rank[rank][k];
+      if (nodes_[i].rank != rank) continue;
+      for (std::int32_t p = components_.first_partner[i]; p < components_.first_partner[i + 1]; ++p) {
+        const auto [other, touch] = components_.partners[p];
+        const int apart = level_of(components_.touching[touch].longest);
+        const int most = level_at(rank) < apart ? rank + 1 : rank;
+        if (nodes_[other].rank <= most) continue;
+        nodes_[other].rank = most;
+        of_rank[most].push_back(other);
+      }
+    }
+  }
+  for (Node& node : nodes_) node.level = level_at(node.rank);
+  for (Node& node : nodes_) {
+    if (std::int64_t{1} << node.level >= ticks_) node.level = level_of_block(setup_);
+    node.longest = node.level == level_of_block(setup_) ? time() : tick_ * (1 << node.level);
+  }
+}
+
+/// What takes longer steps than another that it may touch has to be where that one is.
+void Assignment::find_along() {
+  for (const auto& [a, b, longest] : components_.touching) {
+    if (nodes_[a].level > nodes_[b].level) nodes_[a].is_along = true;
+    if (nodes_[b].level > nodes_[a].level) nodes_[b].is_along = true;
+  }
 }
 
 /// Gives it its level. Returns whether it takes steps of several ticks.
 std::size_t Assignment::enter(BodyIndex i) {
-  const int level = is_fixed(i) ? 0 : level_of(i);
+  const Node& node = nodes_[components_.node_of[i]];
   const bool is_of_partners = !population_.is_hull(i) && is_heavy(i);
-  bodies_.level[i] = is_of_partners ? kNoLevel : static_cast<std::uint8_t>(level);
-  if (bodies_.is_awake[i] != 0) components_.of_level[static_cast<std::size_t>(level)].push_back(i);
-  return level > 0 ? 1 : 0;
+  bodies_.level[i] = is_of_partners ? kNoLevel : static_cast<std::uint8_t>(node.level);
+  components_.of_level[static_cast<std::size_t>(node.level)].push_back(i);
+  if (node.is_along) population_.moving_along.push_back(i);
+  return node.level > 0 ? 1 : 0;
 }
 
 std::int64_t Assignment::sort() {
+  for (const BodyIndex i : population_.awake) fastest_ = std::max(fastest_, rim_speed_of(bodies_, i));
   ticks_ = std::min(ticks_, ticks_within_reach());
   if (ticks_ < 2) return 1;
   population_.pairs.update(bodies_, population_.awake, kAhead * static_cast<double>(ticks_) * tick_);
   clear();
   find_heavy();
   for (const BodyIndex i : population_.awake) node(i);
-  population_.pairs.for_pairs([this](BodyIndex a, BodyIndex b) { see(a, b); });
+  population_.pairs.for_pairs([this](BodyIndex a, BodyIndex b, auto records) { see(a, b, records); });
+  for (const BodyIndex i : population_.awake) see_farther(i);
+  for (Node& node : nodes_) node.level = is_fixed(node.body) ? 0 : level_of(node.longest);
+  follow_partners();
+  find_along();
   std::size_t coarse = 0;
   for (const BodyIndex i : population_.awake) coarse += enter(i);
-  for (const BodyIndex i : components_.asleep) enter(i);
+  population_.pairs.note_levels(bodies_);
   const bool is_worth_it = static_cast<double>(coarse) >= kLeastShare * static_cast<double>(population_.awake.size());
   return coarse > 0 && is_worth_it ? ticks_ : 1;
 }
@@ -255,27 +346,74 @@ std::int64_t begin_block(const Setup& setup, Clock& clock, std::int64_t most, Po
                          Components& components) {
   if (setup.levels == 0 || clock.steps < clock.next_levels) return 1;
   if (clock.changing) return 1;  // the water frame's velocity changes with the tick, for all bodies at once
-  const std::int64_t ticks = std::min({most, std::int64_t{1} << setup.levels, ticks_to_common(setup, clock)});
+  const std::int64_t ticks = std::min({most, longest_block(setup), ticks_to_common(setup, clock)});
   if (ticks < 2) return 1;
   const std::int64_t block = Assignment(setup, clock, ticks, population, components).sort();
   if (block == 1) {
     clock.next_levels = clock.steps + kWait;
-    end_block(population, components);
+    end_block(population);
   }
   return block;
 }
 
-void end_block(Population& population, const Components& components) {
+void end_block(Population& population) {
   population.level = Population::kAllDue;
-  for (const BodyIndex i : components.asleep) population.bodies.level[i] = kNoLevel;
+  population.moving_along.clear();
 }
 
-bool drop_across_levels(const dynamics::Bodies& bodies, std::vector<dynamics::Contact>& contacts) {
-  return std::erase_if(contacts, [&](const dynamics::Contact& c) {
-           const auto a = bodies.level[c.a];
-           const auto b = bodies.level[c.b];
-           return a != b && a != kNoLevel && b != kNoLevel;
-         }) > 0;
+void begin_longer(const Population& population, int level, Components& components) {
+  const dynamics::Bodies& bodies = population.bodies;
+  for (const BodyIndex i : population.moving_along) {
+    if (bodies.level[i] != level) continue;
+    Components::Node& node = components.nodes[components.node_of[i]];
+    node.velocity = bodies.velocity[i];
+    node.angular_velocity = bodies.angular_velocity[i];
+  }
+}
+
+std::vector<BodyIndex> find_struck(const Setup& setup, const Population& population, const Components& components) {
+  const dynamics::Bodies& bodies = population.bodies;
+  std::vector<BodyIndex> struck;
+  for (const BodyIndex i : population.moving_along) {
+    const Components::Node& node = components.nodes[components.node_of[i]];
+    const double speed = length(bodies.velocity[i] - node.velocity) +
+                         std::abs(bodies.angular_velocity[i] - node.angular_velocity) * bodies.bounding_radius[i];
+    const double way = kStruckWay * most_way_of_floes(setup.scene.contact, bodies.thickness[i]);
+    if (speed > kStruckSpeed || speed * node.longest > way) struck.push_back(i);
+  }
+  return struck;
+}
+
+void move_along(BodyIndex i, Population& population, Components& components) {
+  Components::Node& node = components.nodes[components.node_of[i]];
+  node.is_along = true;
+  node.velocity = population.bodies.velocity[i];
+  node.angular_velocity = population.bodies.angular_velocity[i];
+  insert_into(population.moving_along, i);
+}
+
+void take_out_of_level(BodyIndex i, Population& population, Components& components) {
+  Components::Node& node = components.nodes[components.node_of[i]];
+  erase_from(components.of_level[population.bodies.level[i]], i);
+  erase_from(population.moving_along, i);
+  insert_into(components.of_level[0], i);
+  population.bodies.level[i] = 0;
+  population.pairs.note_short(i);
+  node.level = 0;
+  node.is_along = false;
+}
+
+void drop_unforeseen(const dynamics::Bodies& bodies, const Components& components,
+                     std::vector<dynamics::Contact>& contacts, std::vector<BodyIndex>& met) {
+  std::erase_if(contacts, [&](const dynamics::Contact& c) {
+    const auto a = bodies.level[c.a];
+    const auto b = bodies.level[c.b];
+    if (a == b || a == kNoLevel || b == kNoLevel) return false;
+    const BodyIndex longer = a > b ? c.a : c.b;
+    if (moves_along(components, longer)) return false;
+    met.push_back(longer);
+    return true;
+  });
 }
 
 }  // namespace polynya::simulation

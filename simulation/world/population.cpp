@@ -56,15 +56,6 @@ NewFloe new_floe_of(FloeSpec& spec, Point centroid, const Setup& setup) {
   return floe;
 }
 
-void insert_into(std::vector<BodyIndex>& ascending, BodyIndex body) {
-  ascending.insert(std::ranges::lower_bound(ascending, body), body);
-}
-void erase_from(std::vector<BodyIndex>& ascending, BodyIndex body) {
-  // Not of std::ranges, whose subrange the fuzzers' clang does not take.
-  const auto [first, last] = std::equal_range(ascending.begin(), ascending.end(), body);
-  ascending.erase(first, last);
-}
-
 }  // namespace
 
 Population::Population(const Setup& setup)
@@ -134,7 +125,9 @@ void leave_contacts(FloeId floe, Population& population) {
   if (!population.bodies.is_awake[body]) return;
   population.bodies.is_awake[body] = 0;
   erase_from(population.awake, body);
-  if (population.level != Population::kAllDue) erase_from(population.due_some, body);
+  if (population.level == Population::kAllDue) return;
+  erase_from(population.due_some, body);
+  erase_from(population.moving_along, body);
 }
 
 void retire_floe(FloeId floe, Population& population, Journal& journal) {
@@ -147,6 +140,15 @@ void retire_floe(FloeId floe, Population& population, Journal& journal) {
   population.floes[floe].is_under = false;
   journal.deaths.push_back({floe, std::move(population.floes[floe].shape.polygon)});
   population.floes[floe].shape = {};
+}
+
+void insert_into(std::vector<BodyIndex>& ascending, BodyIndex body) {
+  ascending.insert(std::ranges::lower_bound(ascending, body), body);
+}
+void erase_from(std::vector<BodyIndex>& ascending, BodyIndex body) {
+  // Not of std::ranges, whose subrange the fuzzers' clang does not take.
+  const auto [first, last] = std::equal_range(ascending.begin(), ascending.end(), body);
+  ascending.erase(first, last);
 }
 
 void wake(BodyIndex body, Population& population) {

@@ -70,16 +70,17 @@ struct Population {
   explicit Population(const Setup& setup);
 
   int hull_count = 0;
-  dynamics::DragArea drag_area;           ///< the scene's
-  bool has_skin_drag = false;             ///< likewise
-  dynamics::Bodies bodies;                ///< the hulls as the scene numbers them, then floes by id
-  std::vector<Helm> helms;                ///< per ship
-  std::vector<Floe> floes;                ///< by id
-  std::vector<BodyIndex> awake;           ///< ascending
-  std::vector<BodyIndex> due_some;        ///< of them those that the step at hand moves, where that is not all
-  int level = kAllDue;                    ///< Bodies::level of these
-  dynamics::BroadPhase pairs;             ///< of bodies that may touch, with the memory of their contacts
-  std::vector<TiltedFloe> tilted;         ///< by (ship, floe)
+  dynamics::DragArea drag_area;         ///< the scene's
+  bool has_skin_drag = false;           ///< likewise
+  dynamics::Bodies bodies;              ///< the hulls as the scene numbers them, then floes by id
+  std::vector<Helm> helms;              ///< per ship
+  std::vector<Floe> floes;              ///< by id
+  std::vector<BodyIndex> awake;         ///< ascending
+  std::vector<BodyIndex> due_some;      ///< of them those that the step at hand moves, where that is not all
+  int level = kAllDue;                  ///< Bodies::level of these
+  std::vector<BodyIndex> moving_along;  ///< those of longer steps that move with the ticks (components.hpp); ascending
+  dynamics::BroadPhase pairs;           ///< of bodies that may touch, with the memory of their contacts
+  std::vector<TiltedFloe> tilted;       ///< by (ship, floe)
   std::vector<SubmergedPiece> submerged;  ///< in the order in which they went under
   std::vector<PressedDeck> decks;         ///< in the order in which they broke off
 
@@ -129,6 +130,9 @@ void leave_contacts(FloeId floe, Population& population);
 void retire_floe(FloeId floe, Population& population, Journal& journal);
 
 void wake(BodyIndex body, Population& population);
+
+void insert_into(std::vector<BodyIndex>& ascending, BodyIndex body);
+void erase_from(std::vector<BodyIndex>& ascending, BodyIndex body);
 
 /// Makes the drag table of a floe that is about to move.
 void add_drag(BodyIndex body, Population& population);

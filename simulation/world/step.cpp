@@ -72,12 +72,14 @@ void push_ship(dynamics::Bodies& bodies, BodyIndex ship, double thrust_impulse, 
 
 void find_pairs(Population& population) {
   population.pairs.update(population.bodies, population.due());
+  if (population.level == 0) population.pairs.update(population.bodies, population.moving_along);
 }
 
-void find_contacts(const Setup& setup, int threads, Population& population, StepData& step, Counts& counts) {
+void find_contacts(const Setup& setup, int threads, const Components& components, Population& population,
+                   StepData& step, Counts& counts) {
   std::vector<dynamics::Contact>& contacts = step.contacts;
   population.pairs.find_contacts(population.bodies, setup.step, contacts, threads, population.level);
-  if (population.level != Population::kAllDue && drop_across_levels(population.bodies, contacts)) step.has_met = true;
+  if (population.level != Population::kAllDue) drop_unforeseen(population.bodies, components, contacts, step.met);
   counts.unpaired_stretches += population.pairs.take_unpaired_stretches();
   counts.peak_contacts = std::max(counts.peak_contacts, static_cast<std::int64_t>(contacts.size()));
   population.pairs.take_blind_overlaps(step.blind_overlaps);
@@ -122,7 +124,11 @@ std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clo
                                             const std::vector<dynamics::Contact>& contacts, Population& population) {
   const double dt = setup.step;
   if (setup.separation) separate(population.bodies, contacts, *setup.separation, dt);
-  const double fastest = integrate(population.bodies, population.due(), dt, threads);
+  double fastest = integrate(population.bodies, population.due(), dt, threads);
+  if (population.level == 0) {  // those that move with the ticks, of longer steps
+    const double of_others = integrate(population.bodies, population.moving_along, dt, threads);
+    if (!(of_others < fastest)) fastest = of_others;
+  }
   if (fastest < kRunawaySpeed) return std::nullopt;
   const auto runaway = std::ranges::find_if(
       population.awake, [&](BodyIndex i) { return !(population.bodies.rim_speed[i] < kRunawaySpeed); });
@@ -172,7 +178,7 @@ const std::array<Stage, 34> kStages = {{
     {"keep motion", RunsIn::kTicks, [](World& w) { keep_motion(w.population, w.step); }},
     {"find pairs", RunsIn::kAllSteps, [](World& w) { find_pairs(w.population); }},
     {"find contacts", RunsIn::kAllSteps,
-     [](World& w) { find_contacts(w.setup, w.threads, w.population, w.step, w.accounts.counts); }},
+     [](World& w) { find_contacts(w.setup, w.threads, w.components, w.population, w.step, w.accounts.counts); }},
     {"decide", RunsIn::kAllSteps,
      [](World& w) { decide(w.setup, w.clock, w.threads, w.population, w.step, w.accounts.counts); }},
     {"limit by tilt", RunsIn::kTicks, [](World& w) { limit_by_tilt(w.setup, w.population, w.step); }},
@@ -194,7 +200,7 @@ const std::array<Stage, 34> kStages = {{
        follow_loads(w.setup, w.clock, w.population, w.step, w.accounts.load_peaks, w.journal);
        load_panels(w.setup, w.population, w.step, w.accounts.panels);
      }},
-    {"water and wind", RunsIn::kAllSteps,
+    {"water and wind", RunsIn::kTicks,
      [](World& w) { apply_forces(w.setup, w.clock, w.threads, w.population, w.accounts.audit); }},
     {"thrust", RunsIn::kTicks, [](World& w) { push_ships(w.setup, w.population, w.accounts.audit); }},
     {"pull of submerged ice", RunsIn::kTicks,
@@ -203,12 +209,12 @@ const std::array<Stage, 34> kStages = {{
        press_decks(w.setup, w.population, w.step.loads, w.accounts.audit);
      }},
     {"sail", RunsIn::kTicks, [](World& w) { sail(w.setup, w.clock, w.step, w.population, w.accounts); }},
-    {"integrate", RunsIn::kAllSteps,
+    {"integrate", RunsIn::kTicks,
      [](World& w) {
        auto failure = integrate_motion(w.setup, w.clock, w.threads, w.step.contacts, w.population);
        if (failure && !w.failure) w.failure = std::move(failure);
      }},
-    {"advance the clock", RunsIn::kAllSteps, [](World& w) { advance(w.clock); }},
+    {"advance the clock", RunsIn::kTicks, [](World& w) { advance(w.clock); }},
     {"apply fractures", RunsIn::kAllSteps,
      [](World& w) { apply_fractures(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
     {"grind", RunsIn::kAllSteps,
@@ -228,7 +234,7 @@ const std::array<Stage, 34> kStages = {{
      [](World& w) {
        record_hull_contacts(w.setup, w.clock, w.population, w.step, w.accounts.hull_contacts, w.journal);
      }},
-    {"note touches", RunsIn::kAllSteps, [](World& w) { note_touches(w.setup, w.clock, w.population, w.step); }},
+    {"note touches", RunsIn::kTicks, [](World& w) { note_touches(w.setup, w.clock, w.population, w.step); }},
     {"put to rest", RunsIn::kTogether,
      [](World& w) { put_to_rest(w.setup, w.clock, w.step, w.population, w.accounts.audit); }},
     {"record", RunsIn::kTicks,
@@ -241,7 +247,7 @@ namespace {
 void run_stages(World& world, RunsIn most) {
   Counts& counts = world.accounts.counts;
   const double ticks = world.setup.step / world.clock.tick;
-  ++counts.steps_at_level[static_cast<std::size_t>(std::ilogb(ticks) + kMostLevels)];
+  ++counts.steps_at_level[static_cast<std::size_t>(std::min(std::ilogb(ticks), kMostLevels) + kMostLevels)];
   counts.body_steps += static_cast<std::int64_t>(world.population.due().size());
   for (const Stage& stage : kStages)
     if (stage.in <= most) stage.run(world);
@@ -258,59 +264,138 @@ void run_tick(World& world, RunsIn most) {
   counts.crowded_ticks += follow_bends(world.setup, counts.bends - bends, world.clock);
 }
 
-/// Keeps the contacts of a longer step that ends with what is recorded.
-void keep_contacts(StepData& step, double dt) {
-  step.longer_contacts.insert(step.longer_contacts.end(), step.contacts.begin(), step.contacts.end());
-  step.longer_steps.resize(step.longer_contacts.size(), dt);
-}
-
-/// A step of several ticks of the bodies that are due, up to the tick that is so many after the clock's.
-void run_longer(World& world, int ticks, int after, bool is_last) {
-  const Clock now = world.clock;
-  world.clock.steps += after - ticks;
-  take_step(world.setup, world.clock, ticks, 1);
-  run_stages(world, RunsIn::kAllSteps);
-  if (is_last && world.setup.scene.record.contacts == RecordedContacts::kAll)
-    keep_contacts(world.step, world.setup.step);
-  world.clock = now;
-}
-
-/// A block of ticks in which bodies take steps of their own. Those of longer steps lag behind what goes by the tick
-/// until theirs are due; all have come to the same tick at its end, which comes early where two of different steps
-/// meet.
+/// A block of ticks in which bodies take steps of their own. A longer step begins with what contacts do in it, where
+/// all are at its first tick that it concerns; water and wind act, and its bodies move, when it ends. Those that
+/// shorter steps meet before they were to, or strike, are brought to the tick at hand. All have come to the same at the
+/// block's end.
 class Block {
  public:
-  Block(World& world, std::int64_t ticks) : world_(world), ticks_(static_cast<int>(ticks)) {}
+  Block(World& world, std::int64_t ticks)
+      : world_(world), ticks_(static_cast<int>(ticks)), longest_(level_of_block(world.setup)) {}
 
   void run() {
-    world_.step.has_met = false;
-    for (int tick = 1; tick <= ticks_ && !world_.failure; ++tick) {
-      catch_up(tick, 1, tick == ticks_);
-      step_those_of(0, [&] { run_tick(world_, lags(tick) ? RunsIn::kTicks : RunsIn::kTogether); });
-      if (!world_.step.has_met) continue;
-      catch_up(tick, 0, true);
-      break;
+    world_.step.met.clear();
+    bool is_over = false;
+    for (int tick = 0; !is_over && tick < ticks_ && !world_.failure; ++tick) {
+      for (int level = longest_; level > 0; --level)
+        if (tick % ticks_of(level) == 0) begin(level, tick);
+      for (int level = longest_; level > 0; --level)
+        if (step_of(level).end == tick + 1) end(level, tick, tick + 1);
+      step_those_of(0, [&] { run_tick(world_, lags(tick + 1) ? RunsIn::kTicks : RunsIn::kTogether); });
+      if (tick + 1 == ticks_) break;
+      is_over = !bring_met(tick + 1);
+      for (const BodyIndex i : find_struck(world_.setup, world_.population, world_.components)) quicken(i, tick + 1);
+      for (int level = longest_; is_over && level > 0; --level) end(level, tick + 1, tick + 1);
     }
-    end_block(world_.population, world_.components);
+    keep_contacts();
+    end_block(world_.population);
   }
 
  private:
-  static constexpr int kLongest = kMostLevels;
+  /// The last one of a level, in ticks of the block.
+  struct LongerStep {
+    int come_to = 0;  ///< where its bodies are, but for those that move along
+    int begin = 0;
+    int end = 0;
+    std::vector<dynamics::Contact> contacts;  ///< where recorded
+  };
 
-  /// Steps all that are due at a tick, or that owe, up to it; the clock is `after` ticks before.
-  void catch_up(int tick, int after, bool is_last) {
-    for (int level = kLongest; level > 0; --level) {
-      int& done = done_[static_cast<std::size_t>(level)];
-      if (done == tick || of_level(level).empty() || !(is_last || tick % (1 << level) == 0)) continue;
-      step_those_of(level, [&] { run_longer(world_, tick - done, after, is_last); });
-      done = tick;
+  int ticks_of(int level) const { return level == longest_ ? ticks_ : 1 << level; }
+  LongerStep& step_of(int level) { return steps_[static_cast<std::size_t>(level)]; }
+
+  /// What contacts do in a step that begins now.
+  void begin(int level, int tick) {
+    if (of_level(level).empty()) return;
+    LongerStep& step = step_of(level);
+    step.begin = tick;
+    step.end = std::min(tick + ticks_of(level), ticks_);
+    const Clock now = world_.clock;
+    take_step(world_.setup, world_.clock, step.end - tick, 1);
+    step_those_of(level, [&] { run_stages(world_, RunsIn::kAllSteps); });
+    world_.clock.steps += step.end - tick;
+    note_touches(world_.setup, world_.clock, world_.population, world_.step);
+    world_.clock = now;
+    begin_longer(world_.population, level, world_.components);
+    if (world_.setup.scene.record.contacts == RecordedContacts::kAll) step.contacts = world_.step.contacts;
+  }
+
+  /// Water, wind and motion of a step, up to a tick; the clock is at one of the same or the one before.
+  void end(int level, int now, int tick) {
+    LongerStep& step = step_of(level);
+    const int ticks = tick - step.come_to;
+    if (ticks == 0 || of_level(level).empty()) return;
+    const Clock clock = world_.clock;
+    world_.clock.steps -= now - step.come_to;
+    take_step(world_.setup, world_.clock, ticks, 1);
+    step_those_of(level, [&] { move_longer(); });
+    world_.clock = clock;
+    step.come_to = tick;
+  }
+
+  /// Moves a body of longer steps to the tick that has passed, and with the ticks from then on.
+  void bring(BodyIndex i, int tick) {
+    const int ticks = tick - step_of(world_.population.bodies.level[i]).come_to;
+    moved_.assign(1, i);
+    if (ticks > 0) integrate(world_.population.bodies, moved_, ticks * world_.clock.tick);
+    move_along(i, world_.population, world_.components);
+  }
+
+  /// What bodies of shorter steps met, though it lags behind. Returns whether all of it could be brought: not what was
+  /// not there when the block began.
+  bool bring_met(int tick) {
+    bool are_brought = true;
+    for (const BodyIndex i : world_.step.met) {
+      if (world_.population.bodies.is_awake[i] == 0 || moves_along(world_.components, i)) continue;
+      if (has_node(world_.components, i))
+        bring(i, tick);
+      else
+        are_brought = false;
     }
+    world_.step.met.clear();
+    return are_brought;
+  }
+
+  /// Ends the step of a body that moves along: it goes by the tick from then on.
+  void quicken(BodyIndex i, int tick) {
+    Population& population = world_.population;
+    const LongerStep& step = step_of(population.bodies.level[i]);
+    const Clock clock = world_.clock;
+    if (tick > step.come_to) {
+      world_.clock.steps -= tick - step.come_to;
+      take_step(world_.setup, world_.clock, tick - step.come_to, 1);
+      population.level = population.bodies.level[i];
+      population.due_some.assign(1, i);
+      apply_forces(world_.setup, world_.clock, 1, population, world_.accounts.audit);
+      world_.clock = clock;
+    }
+    go_by_tick(i, population, world_.components, [&](BodyIndex other) { bring(other, tick); });
+  }
+
+  void move_longer() {
+    Population& population = world_.population;
+    apply_forces(world_.setup, world_.clock, world_.threads, population, world_.accounts.audit);
+    moved_ = population.due_some;
+    std::erase_if(moved_, [&](BodyIndex i) { return moves_along(world_.components, i); });
+    moved_.swap(population.due_some);
+    auto failure = integrate_motion(world_.setup, world_.clock, world_.threads, world_.step.contacts, population);
+    moved_.swap(population.due_some);
+    if (failure && !world_.failure) world_.failure = std::move(failure);
   }
 
   bool lags(int tick) {
-    for (int level = 1; level <= kLongest; ++level)
-      if (!of_level(level).empty() && done_[static_cast<std::size_t>(level)] != tick) return true;
+    for (int level = 1; level <= longest_; ++level)
+      if (!of_level(level).empty() && step_of(level).come_to != tick) return true;
     return false;
+  }
+
+  /// Of the longer steps, where recorded.
+  void keep_contacts() {
+    StepData& kept = world_.step;
+    for (int level = 1; level <= longest_; ++level) {
+      const LongerStep& step = step_of(level);
+      kept.longer_contacts.insert(kept.longer_contacts.end(), step.contacts.begin(), step.contacts.end());
+      kept.longer_steps.resize(kept.longer_contacts.size(), (step.end - step.begin) * world_.clock.tick);
+    }
   }
 
   std::vector<BodyIndex>& of_level(int level) { return world_.components.of_level[static_cast<std::size_t>(level)]; }
@@ -327,7 +412,9 @@ class Block {
 
   World& world_;
   int ticks_;
-  std::array<int, kMostLevels + 1> done_{};  ///< ticks of the block, by level
+  int longest_;                                      ///< level: of the block in one step
+  std::array<LongerStep, kMostLevels + 2> steps_{};  ///< by level
+  std::vector<BodyIndex> moved_;                     ///< at a step's end
 };
 
 }  // namespace

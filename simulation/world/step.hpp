@@ -32,7 +32,8 @@ void keep_motion(const Population& population, StepData& step);
 
 void find_pairs(Population& population);
 
-void find_contacts(const Setup& setup, int threads, Population& population, StepData& step, Counts& counts);
+void find_contacts(const Setup& setup, int threads, const Components& components, Population& population,
+                   StepData& step, Counts& counts);
 
 /// What each contact can carry, and whether ice breaks there: impulse, crush, bend or split.
 void decide(const Setup& setup, const Clock& clock, int threads, const Population& population, StepData& step,

@@ -128,7 +128,7 @@ struct StepData {
   std::unordered_map<FloeId, BeamShape> beam_shapes;  ///< of slender floes that forces may break, once they may
   std::vector<dynamics::Contact> longer_contacts;     ///< of the longer steps that ended with it, where recorded
   std::vector<double> longer_steps;                   ///< of each of them [s]
-  bool has_met = false;                               ///< one that takes other steps
+  std::vector<BodyIndex> met;                         ///< lagging behind, by bodies of shorter steps
   std::vector<SolverStart> solver_start;              ///< per contact, where splits by the true forces are found
 };
 
