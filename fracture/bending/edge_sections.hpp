@@ -40,11 +40,9 @@ struct SectionBreak {
 double moment_of_force(double distance);
 double moment_of_moment(double distance);
 
-/// How much more an edge bears than the bending of its sections alone, by the opening of the section that breaks:
-/// by three-dimensional elements (docs/theory/bow.md), of wedges that stay whole,
+/// How much more an edge that stays whole bears than the bending of its sections alone, by the opening of the section
+/// that breaks, by three-dimensional elements of wedges (docs/theory/bow.md).
 double hold_of_whole(double opening);
-/// and of true edges that a radial crack has parted below, their parts held together above by the closed crack.
-double hold_of_cracked(double opening);
 
 /// The top fibre of a section of width w has
 ///   σ h² / V = {6 [λ m_V(r/λ) − (x̄ + η e) m_M(r/λ)] − η} h / w
