@@ -98,7 +98,7 @@ SectionStresses stresses_of_whole(const EdgeOpenings& openings, const EdgePush& 
 
 /// A section nearer to the crushed facet than kGap h is part of how the load gets into the ice; what lies farther of
 /// its share of ln r counts.
-SectionStresses stresses_of_rims(const EdgeOpenings& openings, const EdgePush& push) {
+SectionStresses stresses_of_rims(const EdgeOpenings& openings, const EdgePush& push, double sinking) {
   constexpr double kGap = 1;
   const double least = 1.5 * push.distance + kGap;  // x̄ is two thirds of the facet
   const double half_step = std::sqrt(kSectionStep);
@@ -114,9 +114,10 @@ SectionStresses stresses_of_rims(const EdgeOpenings& openings, const EdgePush& p
     const double of_force = at_mean_opening + kGrowthWithOpening * (opening - 2);
     const double force = of_force * (push.effective_length * moment_of_force(place) - push.distance * held);
     const double lever = kRimOfLever * push.thrust * push.lever * held;
-    const double stress = (6 * (force - lever) - kRimOfThrust * push.thrust) / (openings[i] * r);
+    const double growth = 6 * kRimOfLever * push.thrust * sinking * interpolated(kDrop, place) * std::max(0.0, held);
+    const double bears = bearing(6 * (force - lever) - kRimOfThrust * push.thrust, growth, openings[i] * r);
     const double share = std::min(1.0, std::log(r * half_step / least) / std::log(kSectionStep));
-    stresses[i] = std::max(0.0, stress) * std::pow(share, 1 / kWeibull);
+    stresses[i] = std::pow(share, 1 / kWeibull) / bears;
   }
   return stresses;
 }
@@ -147,7 +148,7 @@ SectionBreak weakest_section_of_sinking(const EdgeOpenings& openings, const Edge
   // By V = σ_f h²: whichever section has most of it breaks.
   SectionStresses whole{}, rims{}, both{};
   if (cracked < 1) whole = stresses_of_whole(openings, push, sinking);
-  if (cracked > 0) rims = stresses_of_rims(openings, push);
+  if (cracked > 0) rims = stresses_of_rims(openings, push, sinking);
   for (std::size_t i = 0; i < kSectionCount; ++i) both[i] = std::lerp(whole[i], rims[i], cracked);
   const Vertex at = greatest_of(both);
   const double place = cracked > 0 ? std::lerp(greatest_of(whole).place, expected_place(rims), cracked) : at.place;
