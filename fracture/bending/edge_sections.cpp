@@ -102,7 +102,7 @@ SectionStresses stresses_of_rims(const EdgeOpenings& openings, const EdgePush& p
   constexpr double kGap = 1;
   const double least = 1.5 * push.distance + kGap;  // x̄ is two thirds of the facet
   const double half_step = std::sqrt(kSectionStep);
-  constexpr double kWidest = 270 * geometry::kRadiansPerDegree;
+  constexpr double kWidest = 180 * geometry::kRadiansPerDegree;
   const double at_mean_opening = kRimOfForce + kGrowthWithLength * (std::clamp(push.length, 10.0, 21.0) / 15 - 1);
   SectionStresses stresses{};
   for (std::size_t i = 0; i < kSectionCount; ++i) {
