@@ -20,7 +20,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
 from scipy.spatial import Delaunay, cKDTree
 
-from bow_solid import resampled
+from bow_solid import chord, resampled
 
 NU = 0.3
 PUSH = 0.02
@@ -297,18 +297,6 @@ def centre_of(points, radius):
         r = np.hypot(*off.T)
         centre = centre - np.linalg.lstsq(-off / r[:, None], r - radius, rcond=None)[0]
     return centre, np.abs(np.hypot(*(points - centre).T) - radius).max()
-
-
-def chord(outline, step, length):
-    """Where the outline leaves a circle about its first vertex."""
-    a, k = outline[0], 0
-    while True:
-        k += step
-        b = outline[k % len(outline)]
-        if math.hypot(*b) > length:
-            d, f = b - a, a
-            return a + (-(f @ d) + math.sqrt(max(0, (f @ d) ** 2 - (d @ d) * (f @ f - length ** 2)))) / (d @ d) * d
-        a = b
 
 
 def study_edges(arguments):

@@ -121,7 +121,7 @@ class Solid:
         """Outline in h, its first vertex the tip at (0, 0); the facet falls by 1/slope towards the tip (slope tan θ_s);
         l in h."""
         normal = np.asarray(normal) / math.hypot(*normal)
-        self.normal, self.depth = normal, depth
+        self.outline, self.normal, self.depth = np.asarray(outline), normal, depth
         points, triangles = mesh(outline, normal, depth, reach * l, ratio, finest, 0.4 * l, crack)
         if crack is not None:
             points, triangles = slit(points, triangles, crack)
@@ -283,16 +283,65 @@ def peak_along(r, stress, least, most):
     return y[top], math.exp(fine[np.argmax(fit(fine))])
 
 
+WEIBULL = 6  # m of ice whose strength scatters by .2
+
+
+def sampled(solid, tensors, points):
+    """Of tensors at the vertices, linear within the triangles; where a point lies in none, the nearest one's mean."""
+    plan = solid.plan[:solid.corner_count]
+    _, near = cKDTree(plan[solid.triangles].mean(1)).query(points, k=12)
+    result = tensors[solid.triangles[near[:, 0]]].mean(1)
+    missing = np.ones(len(points), bool)
+    for k in range(12):
+        triangles = solid.triangles[near[:, k]]
+        a, b, c = np.moveaxis(plan[triangles], 1, 0)
+        cross = lambda u, v: u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+        share = np.stack([cross(b - points, c - points), cross(c - points, a - points), cross(a - points, b - points)],
+                         1) / cross(b - a, c - a)[:, None]
+        found = missing & (share.min(1) > -0.02)
+        result[found] = np.einsum("pi,pijk->pjk", share[found], tensors[triangles[found]])
+        missing &= ~found
+    return result
+
+
+def expected_place(solid, outline, top):
+    """exp of the mean of ln r by the greatest stress on circles about the tip to the power WEIBULL: where the ice
+    breaks on an average if the strength of each ring scatters for itself."""
+    radii = np.exp(np.arange(math.log(solid.depth + GAP) + 0.03, math.log(1.041 * solid.l), 0.06))
+    most = []
+    for r in radii:
+        forward, backward = chord(outline, 1, r), chord(outline, -1, r)
+        start = math.atan2(forward[1], forward[0])
+        angle = start + (math.atan2(backward[1], backward[0]) - start) % (2 * math.pi) * np.linspace(0.01, 0.99, 17)
+        points = r * np.c_[np.cos(angle), np.sin(angle)]
+        most.append(np.linalg.eigvalsh(sampled(solid, top, points)[:, :2, :2])[:, 1].max())
+    weight = np.maximum(most, 0) ** WEIBULL
+    return math.exp(weight @ np.log(radii) / weight.sum())
+
+
+def chord(outline, step, length):
+    """Where the outline leaves a circle about its first vertex."""
+    a, k = outline[0], 0
+    while True:
+        k += step
+        b = outline[k % len(outline)]
+        if math.hypot(*b) > length:
+            d, f = b - a, a
+            return a + (-(f @ d) + math.sqrt(max(0, (f @ d) ** 2 - (d @ d) * (f @ f - length ** 2)))) / (d @ d) * d
+        a = b
+
+
 def breaking(solid, thrusts):
     """For each H/V: V_b [σ_f h²], by the top's greatest principal stress farther than GAP from the facet, its distance
-    from the tip [h], and V by the bottom's greatest tension."""
+    from the tip [h], the expected one, and V by the bottom's greatest tension."""
     results, p = [], solid.plan[:solid.corner_count]
     r, s = np.hypot(*p.T), p @ solid.normal
     for top, bottom, u in solid.solve(thrusts):
         most, below = np.linalg.eigvalsh(top)[:, 2], np.linalg.eigvalsh(bottom)[:, 2]
         ahead = (s > solid.depth + 0.03) & (r > solid.depth + GAP) & (r < 2 * solid.l)
         stress, place = peak_along(r[ahead], most[ahead], solid.depth + GAP, 2 * solid.l)
-        results.append({"V": 1 / stress, "R": place, "bottom": 1 / below[r > solid.depth + 0.3].max(),
+        results.append({"V": 1 / stress, "R": place, "expected": expected_place(solid, solid.outline, top),
+                        "bottom": 1 / below[r > solid.depth + 0.3].max(),
                         "w": -u[(solid.levels - 1) * solid.count:][np.argmin(r), 2]})
     return results
 

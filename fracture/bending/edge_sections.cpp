@@ -24,6 +24,13 @@ constexpr std::array<double, 21> kDrop = {0,       0.16033, 0.30268, 0.42768, 0.
                                           0.77576, 0.83124, 0.87678, 0.91365, 0.94305, 0.96609, 0.98377,
                                           0.99699, 1.00656, 1.01316, 1.01740, 1.01978, 1.02073, 1.02061};
 
+/// The rims of sections, by elements of 107 edges of runs (docs/theory/bow.md): what they have of the mean bending
+/// stress under V at l = 15 h and an opening of 2 rad, how that grows with either, and what they have of the mean
+/// stress by the thrust's lever, most of which does not reach them, and by the thrust itself.
+constexpr double kRimOfForce = 0.95, kGrowthWithLength = 0.185, kGrowthWithOpening = -0.146;
+constexpr double kRimOfLever = 0.36, kRimOfThrust = 1.34;
+constexpr double kWeibull = 6;  ///< m of ice whose strength scatters by .2
+
 double interpolated(const std::array<double, 21>& table, double at) {
   const double x = std::clamp(at / kTableStep, 0.0, static_cast<double>(table.size() - 1));
   const auto i = std::min(static_cast<std::size_t>(x), table.size() - 2);
@@ -36,15 +43,33 @@ double bearing(double pull, double growth, double capacity) {
   return 2 * capacity / (pull + std::sqrt(pull * pull + 4 * growth * capacity));
 }
 
-/// The vertex of the parabola through three points at -1, 0, 1 of which the middle one is least.
+using SectionStresses = std::array<double, kSectionCount>;  ///< σ h² / V
+
+/// The greatest of sections and its place among them, by the parabola through it and its neighbours.
 struct Vertex {
   double place = 0, value = 0;
 };
-Vertex vertex_of(double before, double least, double after) {
-  const double curvature = before - 2 * least + after;
-  if (!(curvature > 0) || !std::isfinite(curvature)) return {0, least};
-  const double place = std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
-  return {place, least + 0.5 * place * (after - before) + 0.5 * place * place * curvature};
+Vertex greatest_of(const SectionStresses& stresses) {
+  const auto most = static_cast<std::size_t>(std::ranges::max_element(stresses) - stresses.begin());
+  const Vertex at{static_cast<double>(most), stresses[most]};
+  if (most == 0 || most + 1 == kSectionCount) return at;
+  const double before = stresses[most - 1], after = stresses[most + 1];
+  const double curvature = 2 * at.value - before - after;
+  if (!(curvature > 0)) return at;
+  const double shift = std::clamp(0.5 * (after - before) / curvature, -0.5, 0.5);
+  return {at.place + shift, at.value + 0.5 * shift * (after - before) - 0.5 * shift * shift * curvature};
+}
+
+/// Where the edge breaks on an average, in ln r, if the strength of each section scatters for itself: by the weakest
+/// link that place is a section's with a probability in proportion to σ^m [Weibull].
+double expected_place(const SectionStresses& stresses) {
+  double sum = 0, moment = 0;
+  for (std::size_t i = 0; i < kSectionCount; ++i) {
+    const double cube = stresses[i] * stresses[i] * stresses[i];
+    sum += cube * cube;
+    moment += static_cast<double>(i) * cube * cube;
+  }
+  return sum > 0 ? moment / sum : greatest_of(stresses).place;
 }
 
 /// Whether a radial crack opens below before the edge breaks: 0 no, 1 yes; between, so that an edge that widens a
@@ -55,6 +80,46 @@ double crack_share(const EdgeOpenings& openings) {
   double widest = 0;
   for (std::size_t i = 0; i < kSectionCount && kSectionRadii[i] <= kReach; ++i) widest = std::max(widest, openings[i]);
   return std::clamp((widest - kWhole) / (kCracked - kWhole), 0.0, 1.0);
+}
+
+SectionStresses stresses_of_whole(const EdgeOpenings& openings, const EdgePush& push, double sinking) {
+  SectionStresses stresses{};
+  for (std::size_t i = 0; i < kSectionCount; ++i) {
+    const double r = kSectionRadii[i] * push.length;
+    const double place = r / push.effective_length;
+    const double held = moment_of_moment(place);
+    const double moment =
+        push.effective_length * moment_of_force(place) - (push.distance + push.thrust * push.lever) * held;
+    const double growth = 6 * push.thrust * sinking * interpolated(kDrop, place) * std::max(0.0, held);
+    stresses[i] = 1 / bearing(6 * moment - push.thrust, growth, hold_of_whole(openings[i]) * openings[i] * r);
+  }
+  return stresses;
+}
+
+/// A section nearer to the crushed facet than kGap h is part of how the load gets into the ice; what lies farther of
+/// its share of ln r counts.
+SectionStresses stresses_of_rims(const EdgeOpenings& openings, const EdgePush& push, double sinking) {
+  constexpr double kGap = 1;
+  const double least = 1.5 * push.distance + kGap;  // x̄ is two thirds of the facet
+  const double half_step = std::sqrt(kSectionStep);
+  constexpr double kWidest = 180 * geometry::kRadiansPerDegree;
+  const double at_mean_opening = kRimOfForce + kGrowthWithLength * (std::clamp(push.length, 10.0, 21.0) / 15 - 1);
+  SectionStresses stresses{};
+  for (std::size_t i = 0; i < kSectionCount; ++i) {
+    const double r = kSectionRadii[i] * push.length;
+    if (r * half_step <= least) continue;
+    const double place = r / push.effective_length;
+    const double held = moment_of_moment(place);
+    const double opening = std::min(openings[i], kWidest);
+    const double of_force = at_mean_opening + kGrowthWithOpening * (opening - 2);
+    const double force = of_force * (push.effective_length * moment_of_force(place) - push.distance * held);
+    const double lever = kRimOfLever * push.thrust * push.lever * held;
+    const double growth = 6 * kRimOfLever * push.thrust * sinking * interpolated(kDrop, place) * std::max(0.0, held);
+    const double bears = bearing(6 * (force - lever) - kRimOfThrust * push.thrust, growth, openings[i] * r);
+    const double share = std::min(1.0, std::log(r * half_step / least) / std::log(kSectionStep));
+    stresses[i] = std::pow(share, 1 / kWeibull) / bears;
+  }
+  return stresses;
 }
 
 }  // namespace
@@ -73,13 +138,6 @@ double hold_of_whole(double opening) {
   return 1 + kGrowth * std::max(0.0, opening - kBeam);
 }
 
-double hold_of_cracked(double opening) {
-  constexpr double kNone = 117 * geometry::kRadiansPerDegree;  ///< where it bears what its sections do
-  constexpr double kLeast = 90 * geometry::kRadiansPerDegree, kMost = 150 * geometry::kRadiansPerDegree;
-  constexpr double kGrowth = 0.4;  ///< per radian
-  return 1 + kGrowth * (std::clamp(opening, kLeast, kMost) - kNone);
-}
-
 SectionBreak weakest_section(const EdgeOpenings& openings, const EdgePush& push) {
   return weakest_section_of_sinking(openings, push, 0);
 }
@@ -87,22 +145,14 @@ SectionBreak weakest_section(const EdgeOpenings& openings, const EdgePush& push)
 SectionBreak weakest_section_of_sinking(const EdgeOpenings& openings, const EdgePush& push, double sinking,
                                         bool has_radial_cracks) {
   const double cracked = has_radial_cracks ? crack_share(openings) : 0;
-  std::array<double, kSectionCount> forces{};
-  for (std::size_t i = 0; i < kSectionCount; ++i) {
-    const double r = kSectionRadii[i] * push.length;
-    const double place = r / push.effective_length;
-    const double held = moment_of_moment(place);
-    const double moment =
-        push.effective_length * moment_of_force(place) - (push.distance + push.thrust * push.lever) * held;
-    const double hold = std::lerp(hold_of_whole(openings[i]), hold_of_cracked(openings[i]), cracked);
-    const double growth = 6 * push.thrust * sinking * interpolated(kDrop, place) * std::max(0.0, held);
-    forces[i] = bearing(6 * moment - push.thrust, growth, hold * openings[i] * r);
-  }
-  const auto least = static_cast<std::size_t>(std::ranges::min_element(forces) - forces.begin());
-  const bool is_inside = least > 0 && least + 1 < kSectionCount;
-  const Vertex at =
-      is_inside ? vertex_of(forces[least - 1], forces[least], forces[least + 1]) : Vertex{0, forces[least]};
-  return {at.value, kSectionRadii[least] * std::pow(kSectionStep, at.place) * push.length};
+  // By V = σ_f h²: whichever section has most of it breaks.
+  SectionStresses whole{}, rims{}, both{};
+  if (cracked < 1) whole = stresses_of_whole(openings, push, sinking);
+  if (cracked > 0) rims = stresses_of_rims(openings, push, sinking);
+  for (std::size_t i = 0; i < kSectionCount; ++i) both[i] = std::lerp(whole[i], rims[i], cracked);
+  const Vertex at = greatest_of(both);
+  const double place = cracked > 0 ? std::lerp(greatest_of(whole).place, expected_place(rims), cracked) : at.place;
+  return {1 / at.value, kSectionRadii[0] * std::pow(kSectionStep, place) * push.length};
 }
 
 }  // namespace polynya::fracture

@@ -40,16 +40,19 @@ struct SectionBreak {
 double moment_of_force(double distance);
 double moment_of_moment(double distance);
 
-/// How much more an edge bears than the bending of its sections alone, by the opening of the section that breaks:
-/// by three-dimensional elements (docs/theory/bow.md), of wedges that stay whole,
+/// How much more an edge that stays whole bears than the bending of its sections alone, by the opening of the section
+/// that breaks, by three-dimensional elements of wedges (docs/theory/bow.md).
 double hold_of_whole(double opening);
-/// and of true edges that a radial crack has parted below, their parts held together above by the closed crack.
-double hold_of_cracked(double opening);
 
-/// The top fibre of a section of width w has
+/// The top fibre of a section of width w has, where the edge stays whole,
 ///   σ h² / V = {6 [λ m_V(r/λ) − (x̄ + η e) m_M(r/λ)] − η} h / w
 /// by bending under V, by the thrust's lever, which lifts, and by the thrust itself, which closes. Where that
-/// is most, a cusp breaks off: at the narrowest section that is far enough from the load.
+/// is most, a cusp breaks off: at the narrowest section that is far enough from the load. Where a radial crack has
+/// opened below, the rims of the sections have most:
+///   σ h² / V = {6 [A (λ m_V − x̄ m_M) − .36 η e m_M] − 1.34 η} h / w, A = .95 + .185 (l/15h − 1) − .146 (θ − 2),
+/// and R is where ice breaks on an average whose sections' strengths scatter by .2: that stress is flat along r, so
+/// that its maximum is nowhere in particular. V within 15 % and R within 34 % of elements of 133 other edges, 90th
+/// percentiles; range l/h 10 to 21, η 1.3 to 3.2, openings up to 180° (beyond held: 17 % too strong at the stem).
 SectionBreak weakest_section(const EdgeOpenings& openings, const EdgePush& push);
 
 }  // namespace polynya::fracture
