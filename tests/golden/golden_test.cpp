@@ -102,7 +102,7 @@ TEST(Golden, EverySceneEndsInItsState) {
     compare(now.has_parts ? name + "/parts" : name, now);
     if (now.has_parts) compare(name, run(entry.path(), until->second.until, Steps::kOneForAll));
   }
-  EXPECT_EQ(used, goldens.size()) << "a golden without its scene";
+  if (!renews) EXPECT_EQ(used, goldens.size()) << "a golden without its scene";
 }
 
 }  // namespace
