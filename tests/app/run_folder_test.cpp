@@ -180,7 +180,7 @@ TEST_F(RunFolderTrial, EveryByteIsOnTheDiskBeforeACheckpointGoes) {
     }
     unsynced.take(call);
   }
-  EXPECT_EQ(gone, 6);
+  EXPECT_EQ(gone, 4);
   EXPECT_EQ(difference("run"), "");
 }
 
