@@ -123,7 +123,8 @@ def run(arguments, name, one):
     for e in sample:
         area, depth, ahead = e["submerged_area_m2"], e["cusp_radius_m"], e["normal"][0]
         tilt = math.atan(math.tan(STEM) / ahead)  # of the hull from the horizontal, ψ
-        more = (math.tan(tilt) + FRICTION) / (1 - FRICTION * math.tan(tilt)) / math.tan(tilt)
+        held = max(0.1, 1 - FRICTION * math.tan(tilt))  # beside a shoulder friction would hold the cusp up
+        more = (math.tan(tilt) + FRICTION) / held / math.tan(tilt)
         w = v * math.tan(STEM)
         sums += np.array([
             more * RHO_I * h * area * w**2 / 6,

@@ -88,7 +88,9 @@ def loads_by_place(arguments, name, one):
     one, and the largest."""
     folder, _ = run_scene(arguments, name, one)
     v = one["ships"][0]["propulsion"]["constant_speed_m_per_s"]
-    rows = [row for row in rows_of(folder, "contacts.csv") if float(row["t_s"]) > (GAP + WAY_IN) / v]
+    # Rows of frames: where a contact ends between two, it has one more.
+    rows = [row for row in rows_of(folder, "contacts.csv")
+            if not row["ended_by"] and float(row["t_s"]) > (GAP + WAY_IN) / v]
     t, x, y, fx, fy = (np.array([float(row[key]) for row in rows]) for key in ("t_s", "x_m", "y_m", "fx_N", "fy_N"))
     behind, found = START + v * t + LENGTH / 2 - x, []
     frames, frame = np.unique(t, return_inverse=True)
