@@ -21,7 +21,7 @@ const Description<GeographicOrigin> kOrigin{
 
 const Description<StepSettings> kTime{
     {chosen(member("step_s", "s", from(1e-5, 1),
-                   "a tick: the time step Δt, but for its parts; if not given, .0005 to .1 s by speeds and thickness "
+                   "a tick: the time step Δt, but for its parts; if not given, .0005 to .05 s by speeds and thickness "
                    "(docs/theory/steps.md)",
                    &StepSettings::step)),
      member("until_s", "s", above(0, 1e7), "simulated time to run to", &StepSettings::until),

@@ -33,8 +33,8 @@ inline constexpr double kLastTick = 0.125;
 /// Of a tick that is chosen: more, and floes meet late that no hull touches; less, and steps are short where a ship is
 /// slower than it can be. Of the parts of a tick there must be left some for ice that breaks faster.
 inline constexpr double kTickOverStep = 8;
-/// Ticks to choose from [s]. Longer ones miss how ships answer; shorter first ones have shorter parts than hulls need.
-inline constexpr std::array kTickChoices{0.1, 0.05, 0.025, 0.02, 0.01, 0.005, 0.0025, 0.002, 0.001, 0.0005};
+/// Ticks to choose from [s]. Longer ones slow dense ice down: its jams are harder to solve.
+inline constexpr std::array kTickChoices{0.05, 0.025, 0.02, 0.01, 0.005, 0.0025, 0.002, 0.001, 0.0005};
 /// Where a wall presses, at most [s]: jams of longer ones are not solved to the tolerance (scenes/pressure.json: .2 %
 /// of ticks of .02 s, 12 % of .05 s, which take longer in all).
 inline constexpr double kTickUnderPressure = 0.02;

@@ -81,7 +81,7 @@ TEST(Levels, ATickIsChosenBySpeedThicknessAndWhatIsRecorded) {
     of.record.forces_interval = 0.1;
     return of;
   };
-  EXPECT_EQ(default_tick(scene(0.5, 2)), 0.1);     // 8 × .075 m / 2 m/s = .3 s
+  EXPECT_EQ(default_tick(scene(0.5, 2)), 0.05);    // 8 × .075 m / 2 m/s = .3 s
   EXPECT_EQ(default_tick(scene(0.1, 8)), 0.01);    // 8 × .015 / 8 = .015
   EXPECT_EQ(default_tick(scene(2, 8)), 0.01);      // 8 × .0375/2 / 8 = .019
   EXPECT_EQ(default_tick(scene(0.01, 8)), 0.001);  // 8 × .0015 / 8 = .0015
