@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 
 #include <fmt/format.h>
 
@@ -237,7 +236,9 @@ class Hinter {
     if (scene_.floes.empty()) return;
     const auto thickness_of = [&](const simulation::FloeSpec& floe) { return ice_of(scene_, floe.own_ice).thickness; };
     const auto way_in = [&](double thickness) { return simulation::most_way(scene_.contact, thickness); };
-    const auto [thin, thick] = std::ranges::minmax(scene_.floes | std::views::transform(thickness_of));
+    const auto thinnest_and_thickest = std::ranges::minmax_element(scene_.floes, {}, thickness_of);
+    const double thin = thickness_of(*thinnest_and_thickest.min);
+    const double thick = thickness_of(*thinnest_and_thickest.max);
     double speed = 0, way = 0, thickness = thin;
     const auto consider = [&](double of_one, bool is_hull) {
       const double own = of_one * shortest_step(is_hull);
