@@ -15,7 +15,7 @@ import pathlib
 import statistics
 import tempfile
 
-from study import measured_run, rows_of
+from study import measured_run, rows_of, slant_of, slanted_ice
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 HULL = {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30, "draught_m": 6}
@@ -27,18 +27,16 @@ def members(count, is_slanted):
     """Of each its factor on the thickness, and the slant of its edge."""
     if not is_slanted:
         return [(1 + APART * i, 0) for i in range(count)]
-    return [(0.97 + 0.06 * (i + 0.5) / count, 0.03 + 0.07 * (0.61803 * i % 1)) for i in range(count)]
+    return [(0.97 + 0.06 * (i + 0.5) / count, slant_of(i)) for i in range(count)]
 
 
 def surge(binary, thickness, speed, step, slant, way):
     ship = {"hull": HULL, "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9, "position_m": [-62, 0],
             "propulsion": {"constant_speed_m_per_s": speed}}
-    end = way + 250
-    edge = [[-100 * slant, -100], [end, -100], [end, 100], [100 * slant, 100]]
     scene = {"name": "step-ensemble", "time": {"until_s": (way + 30) / speed, "step_s": step, "levels": 0},
              "ice": {"thickness_m": thickness}, "record": {"frames_interval_s": 10}, "ships": [ship],
              "fracture": {"splitting": {"model": "none"}, "cusp_fate": "under_hull"},
-             "floes": [{"polygon": {"outer_m": edge}, "fast_ice": True}]}
+             "floes": [slanted_ice(slant, way + 250)]}
     with tempfile.TemporaryDirectory() as folder:
         run, _, _ = measured_run(binary, folder, scene, "--no-map")
         return statistics.fmean(-float(row["surge_N"]) for row in rows_of(run, "forces.csv")

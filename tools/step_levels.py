@@ -19,7 +19,7 @@ import pathlib
 import statistics
 import tempfile
 
-from study import measured_run, rows_of
+from study import measured_run, rows_of, slant_of, slanted_ice
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 HULL = {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30, "draught_m": 6}
@@ -34,12 +34,10 @@ def level_ice(thickness, followers=0):
     """Level ice is the same at all places: its thickness and the slant of its edge differ instead."""
     def case(place):
         ships = [ship(-62 - 170 * i, 0, 1.5, f"ship {i}") for i in range(followers + 1)]
-        slant = 0.03 + 0.07 * (0.61803 * place % 1)
-        edge = [[-100 * slant, -100], [400, -100], [400, 100], [100 * slant, 100]]
         return {"time": {"until_s": 80 + 115 * followers},
                 "ice": {"thickness_m": thickness * (0.97 + 0.06 * (0.75488 * place % 1))},
                 "fracture": {"splitting": {"model": "none"}, "cusp_fate": "under_hull"}, "ships": ships,
-                "floes": [{"polygon": {"outer_m": edge}, "fast_ice": True}]}
+                "floes": [slanted_ice(slant_of(place), 400)]}
     return case
 
 

@@ -22,6 +22,17 @@ YOUNG, POISSON, FLEXURAL = ICE.young, ICE.poisson, ICE.flexural_strength
 FEW_RECORDS = {"record": {"forces_interval_s": 0.1, "frames_interval_s": 60, "contacts": "none"}}
 
 
+def slant_of(number):
+    """Of the edge of one of many plates, 2 to 6 degrees, spread evenly over any first ones [rad]."""
+    return 0.03 + 0.07 * (0.61803 * number % 1)
+
+
+def slanted_ice(slant, end):
+    """A plate of fast ice, 200 m wide, from x = 0 to `end` [m]; its edge has that slant."""
+    return {"polygon": {"outer_m": [[-100 * slant, -100], [end, -100], [end, 100], [100 * slant, 100]]},
+            "fast_ice": True}
+
+
 def lindqvist(h, v):
     """Of the reference ship."""
     return formulas.lindqvist(REFERENCE, formulas.Ice(h), v)

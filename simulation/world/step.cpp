@@ -303,18 +303,27 @@ class Block {
   int ticks_of(int level) const { return level == longest_ ? ticks_ : 1 << level; }
   LongerStep& step_of(int level) { return steps_[static_cast<std::size_t>(level)]; }
 
+  /// Works in a step of so many ticks that begins so many before the clock's; the clock stays.
+  template <class Work>
+  void in_step(int back, int ticks, Work work) {
+    const Clock now = world_.clock;
+    world_.clock.steps -= back;
+    take_step(world_.setup, world_.clock, ticks, 1);
+    work();
+    world_.clock = now;
+  }
+
   /// What contacts do in a step that begins now.
   void begin(int level, int tick) {
     if (of_level(level).empty()) return;
     LongerStep& step = step_of(level);
     step.begin = tick;
     step.end = std::min(tick + ticks_of(level), ticks_);
-    const Clock now = world_.clock;
-    take_step(world_.setup, world_.clock, step.end - tick, 1);
-    step_those_of(level, [&] { run_stages(world_, RunsIn::kAllSteps); });
-    world_.clock.steps += step.end - tick;
-    note_touches(world_.setup, world_.clock, world_.population, world_.step);
-    world_.clock = now;
+    in_step(0, step.end - tick, [&] {
+      step_those_of(level, [&] { run_stages(world_, RunsIn::kAllSteps); });
+      world_.clock.steps += step.end - tick;
+      note_touches(world_.setup, world_.clock, world_.population, world_.step);
+    });
     begin_longer(world_.population, level, world_.components);
     if (world_.setup.scene.record.contacts == RecordedContacts::kAll) step.contacts = world_.step.contacts;
   }
@@ -324,11 +333,7 @@ class Block {
     LongerStep& step = step_of(level);
     const int ticks = tick - step.come_to;
     if (ticks == 0 || of_level(level).empty()) return;
-    const Clock clock = world_.clock;
-    world_.clock.steps -= now - step.come_to;
-    take_step(world_.setup, world_.clock, ticks, 1);
-    step_those_of(level, [&] { move_longer(); });
-    world_.clock = clock;
+    in_step(now - step.come_to, ticks, [&] { step_those_of(level, [&] { move_longer(); }); });
     step.come_to = tick;
   }
 
@@ -358,15 +363,13 @@ class Block {
   /// Ends the step of a body that moves along: it goes by the tick from then on.
   void quicken(BodyIndex i, int tick) {
     Population& population = world_.population;
-    const LongerStep& step = step_of(population.bodies.level[i]);
-    const Clock clock = world_.clock;
-    if (tick > step.come_to) {
-      world_.clock.steps -= tick - step.come_to;
-      take_step(world_.setup, world_.clock, tick - step.come_to, 1);
-      population.level = population.bodies.level[i];
-      population.due_some.assign(1, i);
-      apply_forces(world_.setup, world_.clock, 1, population, world_.accounts.audit);
-      world_.clock = clock;
+    const int ticks = tick - step_of(population.bodies.level[i]).come_to;
+    if (ticks > 0) {
+      in_step(ticks, ticks, [&] {
+        population.level = population.bodies.level[i];
+        population.due_some.assign(1, i);
+        apply_forces(world_.setup, world_.clock, 1, population, world_.accounts.audit);
+      });
     }
     go_by_tick(i, population, world_.components, [&](BodyIndex other) { bring(other, tick); });
   }

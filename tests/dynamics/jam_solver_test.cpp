@@ -249,19 +249,19 @@ std::vector<PersistentContact> press(Pack& pack) {
   return records;
 }
 
+/// Of the whole solver; the pack stays as it is, but for its records.
+double residual_of(Pack pack, int sweeps, double tolerance) {
+  return ContactSolver().solve(pack.bodies, pack.contacts, CrushLaw{.step = 0.01}, {sweeps, tolerance}).residual;
+}
+
 /// A pack that sweeps do not solve: the solver of whole steps comes to its tolerance all the same.
 TEST(JamSolver, SolvesWhatSweepsDoNot) {
   Random random(kSeed);
   Pack pack = pack_of(random, 20, 8, 0);
   std::vector<PersistentContact> records = press(pack);
-  const auto residual = [&](int sweeps) {
-    Bodies bodies = pack.bodies;
-    std::vector<Contact> contacts = pack.contacts;
-    for (PersistentContact& record : records) record = {};
-    return ContactSolver().solve(bodies, contacts, CrushLaw{.step = 0.01}, {sweeps, 1e-6}).residual;
-  };
-  EXPECT_GT(residual(10), 1e-5) << "before the first pass of Newton's method";
-  EXPECT_LE(residual(60), 1e-6);
+  EXPECT_GT(residual_of(pack, 10, 1e-6), 1e-5) << "before the first pass of Newton's method";
+  for (PersistentContact& record : records) record = {};
+  EXPECT_LE(residual_of(pack, 60, 1e-6), 1e-6);
 }
 
 /// Newton's solution ends the sweeps where no contact misses its law there. A further sweep adds up what single
@@ -277,8 +277,7 @@ TEST(JamSolver, WhatNewtonsMethodSolvesIsNotSweptAgain) {
     }
     take_masses(pack);
     std::vector<PersistentContact> records = press(pack);
-    EXPECT_LE(ContactSolver().solve(pack.bodies, pack.contacts, CrushLaw{.step = 0.01}, {25, 1e-4}).residual, 1e-4)
-        << trial;
+    EXPECT_LE(residual_of(pack, 25, 1e-4), 1e-4) << trial;
   }
 }
 
@@ -287,11 +286,7 @@ TEST(JamSolver, AJamThatStaysIsSolvedByOneSweep) {
   Random random(kSeed);
   Pack pack = pack_of(random, 8, 6, 0.2);
   std::vector<PersistentContact> records = press(pack);
-  const auto residual = [&](int sweeps) {
-    Bodies bodies = pack.bodies;
-    std::vector<Contact> contacts = pack.contacts;
-    return ContactSolver().solve(bodies, contacts, CrushLaw{.step = 0.01}, {sweeps, 1e-4}).residual;
-  };
+  const auto residual = [&](int sweeps) { return residual_of(pack, sweeps, 1e-4); };
   EXPECT_GT(residual(1), 1e-2);
   for (PersistentContact& record : records) record = {};
   ASSERT_LE(residual(200), 1e-4);
