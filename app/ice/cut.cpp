@@ -86,7 +86,7 @@ void report_losses(const std::string& name, const io::FloeText& floes, io::FloeF
 
 constexpr std::size_t kLongestOps = std::size_t{64} << 20;  ///< [bytes]
 
-constexpr auto kExamples =
+constexpr auto kCutExamples =
     "Examples:\n"
     "  polynya cut floes.geojson --disc 10,5,3 --out pieces.geojson        ledger to stdout\n"
     "  polynya cut floes.wkt --crack 0,0,30 --out - --ledger ledger.json   pieces to stdout\n"
@@ -96,7 +96,7 @@ constexpr auto kExamples =
     "Exit codes: 0 all were cut, 2 usage, 4 some polygons were refused (the others are cut), 5 "
     "input/output.\n";
 
-struct Options {
+struct CutOptions {
   std::string floes;                            ///< a file, or "-" for stdin; so are the other files
   std::string disc, crack, line, polygon, ops;  ///< the one that is given; the others empty
   io::Keep keep = io::Keep::kOutside;
@@ -117,7 +117,7 @@ Outcome<std::vector<io::CutOp>> one_op(const char* where, io::ToolOutcome<io::Cu
   return std::vector<io::CutOp>{std::move(*op)};
 }
 
-Outcome<std::vector<io::CutOp>> read_ops(const Options& options) {
+Outcome<std::vector<io::CutOp>> read_ops(const CutOptions& options) {
   const std::string* const tools[] = {&options.disc, &options.crack, &options.line, &options.polygon, &options.ops};
   const auto given = std::ranges::count_if(tools, [](const std::string* tool) { return !tool->empty(); });
   if (given != 1) {
@@ -164,7 +164,7 @@ Outcome<std::optional<io::FloeFormat>> output_format(const std::string& file) {
 }
 
 /// Pieces go to --out; the ledger to --ledger, or to stdout unless the pieces are there.
-io::Result<> write_results(const Options& options, const io::CutReport& report, io::FloeFormat format) {
+io::Result<> write_results(const CutOptions& options, const io::CutReport& report, io::FloeFormat format) {
   std::string ledger = options.ledger;
   std::string out = options.out;
   if (ledger.empty() && out != "-") ledger = "-";
@@ -194,7 +194,7 @@ Outcome<void> check_units(const std::string& name, const io::FloeText& floes) {
   return {};
 }
 
-Outcome<ExitCode> cut_all(const Options& options) {
+Outcome<ExitCode> cut_all(const CutOptions& options) {
   if (!options.out.empty() && options.out == options.ledger)
     return failure(kUsage, "--out and --ledger are one and the same");
   if (options.floes == "-" && (options.polygon == "-" || options.ops == "-"))
@@ -223,8 +223,8 @@ Outcome<ExitCode> cut_all(const Options& options) {
 }  // namespace
 
 Command add_cut(CommandLine& app) {
-  CommandLine command = app.add_command("cut", "Cut floes exactly, with every square metre accounted for", kExamples);
-  auto options = std::make_shared<Options>();
+  CommandLine command = app.add_command("cut", "Cut floes exactly, with every square metre accounted for", kCutExamples);
+  auto options = std::make_shared<CutOptions>();
   command.option("floes", &options->floes, "FLOES", "GeoJSON, NDJSON or WKT, recognised by content; - for stdin", {},
                  {.is_required = true});
   const auto tool = [&](const char* name, std::string& value, const char* type, const char* meaning) {

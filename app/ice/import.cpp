@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostReported = 20;  ///< messages about floes; the report has all
 
-constexpr auto kExamples =
+constexpr auto kImportExamples =
     "Examples:\n"
     "  polynya import svalbard.geojson --origin 78.2,15.6 --out floes.geojson    longitude, latitude\n"
     "  polynya import floes.shp --crs EPSG:3413 --shift --out floes.geojson      by GDAL's ogr2ogr\n"
@@ -28,7 +28,7 @@ constexpr auto kExamples =
     "Exit codes: 0 done, 2 usage, 4 some floes were refused (the others are written) or all of them, 5 "
     "input/output.\n";
 
-struct Options {
+struct ImportOptions {
   std::string file;    ///< or "-" for stdin
   std::string out;     ///< or "-" for stdout
   std::string report;  ///< empty: stdout, unless the floes go there
@@ -56,7 +56,7 @@ Outcome<std::optional<simulation::GeographicOrigin>> read_origin(const std::stri
                                       (n.size() > 2 ? n[2] : 90) * geometry::kRadiansPerDegree};
 }
 
-Outcome<io::FloeText> read_floes(const Options& options, const std::string& name) {
+Outcome<io::FloeText> read_floes(const ImportOptions& options, const std::string& name) {
   const auto format = options.file == "-" ? std::nullopt : io::foreign_format(options.file);
   auto found = format ? io::read_foreign_file(options.file, *format, options.layer, io::kLongestFloeText)
                       : read_input(options.file, io::kLongestFloeText);
@@ -99,7 +99,7 @@ void report_totals(const std::string& name, const io::ImportOutcome& imported,
 }
 
 /// Without `geojson` the report alone.
-io::Result<> write_results(const Options& options, const std::optional<std::string>& geojson,
+io::Result<> write_results(const ImportOptions& options, const std::optional<std::string>& geojson,
                            const std::string& report) {
   if (geojson)
     if (auto written = write_output(options.out, *geojson); !written) return written;
@@ -107,7 +107,7 @@ io::Result<> write_results(const Options& options, const std::optional<std::stri
   return options.out == "-" ? io::Result<>{} : write_output("-", report);
 }
 
-Outcome<ExitCode> import_all(const Options& options) {
+Outcome<ExitCode> import_all(const ImportOptions& options) {
   if (options.out == options.report) return failure(kUsage, "--out and --report are one and the same");
   io::ImportSettings settings = options.settings;
   auto origin = read_origin(options.origin);
@@ -154,7 +154,7 @@ Outcome<ExitCode> import_all(const Options& options) {
   return totals.refused == 0 ? kDone : kRefused;
 }
 
-void add_plane_options(CommandLine& command, Options& options) {
+void add_plane_options(CommandLine& command, ImportOptions& options) {
   const OptionTraits traits{.group = "The plane"};
   command.option("--origin", &options.origin, "LAT,LON",
                  "Metres about this place [°], x to the east; a third number is the heading of x, as in a scene's "
@@ -168,7 +168,7 @@ void add_plane_options(CommandLine& command, Options& options) {
                "Move the middle of the floes' box to (0, 0), by whole metres", traits);
 }
 
-void add_floe_options(CommandLine& command, Options& options) {
+void add_floe_options(CommandLine& command, ImportOptions& options) {
   io::ImportSettings& settings = options.settings;
   command.choice<geometry::FillRule>(
       "--repair", settings.repair,
@@ -190,8 +190,8 @@ void add_floe_options(CommandLine& command, Options& options) {
 
 Command add_import(CommandLine& app) {
   CommandLine command =
-      app.add_command("import", "Make a floe file of mapped ice: project, repair, part overlaps", kExamples);
-  auto options = std::make_shared<Options>();
+      app.add_command("import", "Make a floe file of mapped ice: project, repair, part overlaps", kImportExamples);
+  auto options = std::make_shared<ImportOptions>();
   command.option("file", &options->file, "FILE",
                  "GeoJSON, NDJSON or WKT, recognised by content; shapefile, GeoPackage or FlatGeobuf by ogr2ogr; - "
                  "for stdin",

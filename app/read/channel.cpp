@@ -11,7 +11,7 @@
 namespace polynya::app {
 namespace {
 
-constexpr auto kExamples =
+constexpr auto kChannelExamples =
     "Examples:\n"
     "  polynya channel runs/sawamura2017-fig4b                 also writes channel.csv and channel.geojson "
     "there\n"
@@ -20,7 +20,7 @@ constexpr auto kExamples =
     "\n"
     "Exit codes: 0 done, 2 usage, 5 input/output.\n";
 
-struct Options {
+struct MeasureOptions {
   std::string run;
   std::string out;  ///< folder for channel.csv and channel.geojson; empty: the run's
   std::string ship;
@@ -30,7 +30,7 @@ struct Options {
   ProgressKind progress = ProgressKind::kAuto;
 };
 
-int measure(const Options& options) {
+int measure(const MeasureOptions& options) {
   const auto run = read_run(options.run, options.progress);
   if (!run) return fail(kInputOutput, run.error());
   analysis::ChannelOptions wanted = options.measure;
@@ -56,8 +56,8 @@ int measure(const Options& options) {
 }  // namespace
 
 Command add_channel(CommandLine& app) {
-  CommandLine command = app.add_command("channel", "Measure the channel behind a ship", kExamples);
-  auto options = std::make_shared<Options>();
+  CommandLine command = app.add_command("channel", "Measure the channel behind a ship", kChannelExamples);
+  auto options = std::make_shared<MeasureOptions>();
   add_run_folder(command, options->run);
   command.option("--at", &options->measure.time, "S", "At that time instead of the end [s]", finite());
   command.option("--ship", &options->ship, "NAME", "Which ship; the first one if not given");

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr auto kExamples =
+constexpr auto kExportExamples =
     "Examples:\n"
     "  polynya export runs/sawamura2017-fig4b --vtk paraview         open paraview/run.pvd in ParaView\n"
     "  polynya export runs/at-sea --geojson qgis --at 300            longitude, latitude from the scene's "
@@ -23,7 +23,7 @@ constexpr auto kExamples =
     "\n"
     "Exit codes: 0 done, 2 usage, 5 input/output.\n";
 
-struct Options {
+struct ExportOptions {
   std::string run;
   std::string vtk;           ///< folder; empty: none
   std::string geojson;       ///< folder; empty: none
@@ -35,7 +35,7 @@ struct Options {
   bool is_in_metres = false;  ///< GeoJSON in the scene's plane though it has an origin
 };
 
-int write_vtk(const io::Run& run, const Options& options) {
+int write_vtk(const io::Run& run, const ExportOptions& options) {
   if (const auto made = make_folder(options.vtk); !made) return fail(kInputOutput, made.error());
   io::FrameSelection selection;
   selection.every = options.every;
@@ -63,7 +63,7 @@ int write_files(const fs::path& folder, const std::vector<std::pair<std::string,
   return kDone;
 }
 
-int write_geojson(const io::Run& run, double time, const Options& options) {
+int write_geojson(const io::Run& run, double time, const ExportOptions& options) {
   io::Project project;
   if (const auto& origin = run.scene.scene.origin; origin && !options.is_in_metres) {
     auto degrees = views::degrees_about(*origin);
@@ -77,7 +77,7 @@ int write_geojson(const io::Run& run, double time, const Options& options) {
 }
 
 /// A scene of its own that starts where the run was then.
-int write_scene(const io::Run& run, double time, const Options& options) {
+int write_scene(const io::Run& run, double time, const ExportOptions& options) {
   const auto scene =
       with_progress(options.progress, "making the scene", [&] { return views::continued_scene(run, time); });
   if (!scene) return fail(kInputOutput, scene.error());
@@ -89,7 +89,7 @@ int write_scene(const io::Run& run, double time, const Options& options) {
   return kDone;
 }
 
-int export_run(const Options& options) {
+int export_run(const ExportOptions& options) {
   if (options.vtk.empty() && options.geojson.empty() && !options.is_scene)
     return fail(kUsage,
                 "--vtk DIR (for ParaView), --geojson DIR (for QGIS) or --scene (to continue the run) is needed");
@@ -111,8 +111,8 @@ int export_run(const Options& options) {
 
 Command add_export(CommandLine& app) {
   CommandLine command =
-      app.add_command("export", "Write a run for ParaView or QGIS, or a scene that continues it", kExamples);
-  auto options = std::make_shared<Options>();
+      app.add_command("export", "Write a run for ParaView or QGIS, or a scene that continues it", kExportExamples);
+  auto options = std::make_shared<ExportOptions>();
   add_run_folder(command, options->run);
   command.option("--vtk", &options->vtk, "DIR", "Folder for run.pvd and its .vtp frames");
   command.option("--every", &options->every, "N", "Of VTK only each N-th frame, and the last", whole(1, 1000000));

@@ -201,7 +201,7 @@ std::string lineage_json(const io::Run& run, FloeId floe) {
 
 // ---- the command
 
-constexpr auto kExamples =
+constexpr auto kInspectExamples =
     "Examples:\n"
     "  polynya inspect runs/level-plate                        the floes at the end, a line each\n"
     "  polynya inspect runs/level-plate --at 30                at 30 s\n"
@@ -214,7 +214,7 @@ constexpr auto kExamples =
     "\n"
     "Exit codes: 0 done, 2 usage, 4 --check found a shape or an area wrong, 5 input/output.\n";
 
-struct Options {
+struct InspectOptions {
   std::string run;
   std::optional<double> at;    ///< [s]; the end of the run if not given
   std::optional<FloeId> floe;  ///< its shape
@@ -231,7 +231,7 @@ std::string unknown_floe(const io::Run& run, FloeId id) {
   return fmt::format("there is no floe {}; they go from 0 to {}", id, std::ssize(run.floes) - 1);
 }
 
-int print_floe(const io::Run& run, const Options& options) {
+int print_floe(const io::Run& run, const InspectOptions& options) {
   const io::RunFloe* floe = run.floe(*options.floe);
   if (!floe) return fail(kUsage, unknown_floe(run, *options.floe));
   ShapeView view{floe->birth, ice_of(run.scene.scene, floe->birth.own_ice), *run.shape(*options.floe), {}};
@@ -254,13 +254,13 @@ int print_floe(const io::Run& run, const Options& options) {
   return kDone;
 }
 
-analysis::RunCheck check_of(const io::Run& run, const Options& options) {
+analysis::RunCheck check_of(const io::Run& run, const InspectOptions& options) {
   return with_progress(options.progress, "checking the run", [&](WorkProgress& progress) {
     return analysis::check_run(run, options.at, [&](double part) { progress.set_part(part); });
   });
 }
 
-int print(const io::Run& run, const Options& options) {
+int print(const io::Run& run, const InspectOptions& options) {
   if (options.at && !(*options.at >= run.start_time() && *options.at <= run.end_time())) {
     return fail(kUsage, fmt::format("--at {:g}: the run goes from {:g} to {:g} s", *options.at, run.start_time(),
                                     run.end_time()));
@@ -287,7 +287,7 @@ int print(const io::Run& run, const Options& options) {
   return code;
 }
 
-int inspect(const Options& options) {
+int inspect(const InspectOptions& options) {
   const auto run = read_run(options.run, options.progress);
   return run ? print(*run, options) : fail(kInputOutput, run.error());
 }
@@ -295,8 +295,8 @@ int inspect(const Options& options) {
 }  // namespace
 
 Command add_inspect(CommandLine& app) {
-  CommandLine command = app.add_command("inspect", "Show the floes of a run", kExamples);
-  auto options = std::make_shared<Options>();
+  CommandLine command = app.add_command("inspect", "Show the floes of a run", kInspectExamples);
+  auto options = std::make_shared<InspectOptions>();
   add_run_folder(command, options->run);
   command.option("--at", &options->at, "T", "At that time; the end of the run if not given [s]", finite());
   command.option("--floe", &options->floe, "N",

@@ -98,7 +98,7 @@ int write_scene_view(const std::string& scene, const std::string& out, bool watc
   return code;
 }
 
-constexpr auto kExamples =
+constexpr auto kViewExamples =
     "Examples:\n"
     "  polynya view runs/sawamura2017-fig4b                    runs/sawamura2017-fig4b/view.html\n"
     "  polynya view runs/sawamura2017-fig4b --out voyage.html\n"
@@ -109,7 +109,7 @@ constexpr auto kExamples =
     "\n"
     "Exit codes: 0 done, 2 usage (also: larger than --limit), 5 input/output.\n";
 
-struct Options {
+struct ViewOptions {
   std::vector<std::string> runs;    ///< one, or two side by side
   std::vector<std::string> labels;  ///< of two; chosen if empty
   std::string out;                  ///< empty: view.html in the run folder
@@ -140,7 +140,7 @@ tl::expected<ViewedRun, int> read_viewed(const std::string& folder, const views:
 
 /// What two runs are called: as their scenes, their folders, or their whole paths; the first of these that
 /// differ.
-std::array<std::string, 2> labels_of(const std::vector<ViewedRun>& viewed, const Options& options) {
+std::array<std::string, 2> labels_of(const std::vector<ViewedRun>& viewed, const ViewOptions& options) {
   if (!options.labels.empty()) return {options.labels[0], options.labels[1]};
   const auto both = [&](auto name) { return std::array<std::string, 2>{name(0), name(1)}; };
   auto scenes = both([&](std::size_t k) { return shown_name(viewed[k].run.scene.scene); });
@@ -152,14 +152,14 @@ std::array<std::string, 2> labels_of(const std::vector<ViewedRun>& viewed, const
   return folders[0] != folders[1] ? folders : both([&](std::size_t k) { return options.runs[k]; });
 }
 
-std::string page_of(const std::vector<ViewedRun>& viewed, const Options& options) {
+std::string page_of(const std::vector<ViewedRun>& viewed, const ViewOptions& options) {
   if (viewed.size() == 1) return player_page(viewed[0].run, viewed[0].data);
   const auto labels = labels_of(viewed, options);
   return views::pair_page({{{viewed[0].data, labels[0]}, {viewed[1].data, labels[1]}}});
 }
 
 /// What of a page too large takes the room, and the options that leave some of it out.
-std::string too_large(const std::vector<ViewedRun>& viewed, const Options& options, double megabytes) {
+std::string too_large(const std::vector<ViewedRun>& viewed, const ViewOptions& options, double megabytes) {
   std::size_t floes = 0, frames = 0, floe_bytes = 0, frame_bytes = 0;
   for (const auto& [run, data] : viewed) {
     floes += data.floes, frames += data.frames;
@@ -174,7 +174,7 @@ std::string too_large(const std::vector<ViewedRun>& viewed, const Options& optio
 }
 
 /// What is wrong with the options; empty where nothing is.
-std::string problem_of(const Options& options) {
+std::string problem_of(const ViewOptions& options) {
   if (options.runs.size() == 2 && options.out.empty()) return "two runs: --out FILE has to state where their page goes";
   if (!options.labels.empty() && (options.runs.size() != 2 || options.labels.size() != 2))
     return fmt::format("--label: {} for {}; two names for two runs", counted(options.labels.size(), "name"),
@@ -194,7 +194,7 @@ std::string contents(const std::vector<ViewedRun>& viewed) {
   return fmt::format("{}", fmt::join(all, "; "));
 }
 
-int write_view(Options options) {
+int write_view(ViewOptions options) {
   const fs::path first = options.runs[0];
   if (options.runs.size() == 1 && first.extension() == ".json" && !fs::is_directory(first))
     return write_scene_view(options.runs[0], options.out, options.is_watched);
@@ -226,8 +226,8 @@ int write_view(Options options) {
 Command add_view(CommandLine& app) {
   CommandLine command = app.add_command(
       "view", "Write a page that plays a run, or two side by side, or shows a scene, in any browser, offline",
-      kExamples);
-  auto options = std::make_shared<Options>();
+      kViewExamples);
+  auto options = std::make_shared<ViewOptions>();
   command.option("run", &options->runs, "RUN", "The run folder, two to be shown side by side, or a scene, SCENE.json",
                  {}, {.is_required = true, .most = 2});
   command.option("--out", &options->out, "FILE",

@@ -68,7 +68,7 @@ int validate_cases(const std::string& scene, const std::string& cases, const io:
 
 // ---- polynya validate
 
-constexpr auto kExamples =
+constexpr auto kSceneExamples =
     "Examples:\n"
     "  polynya validate scene.json\n"
     "  polynya validate scene.json --resolved   with every default filled in\n"
@@ -153,7 +153,7 @@ int init(const std::string& file) {
 
 Command add_validate(CommandLine& app) {
   CommandLine command =
-      app.add_command("validate", "Check a scene and report everything that is wrong with it", kExamples);
+      app.add_command("validate", "Check a scene and report everything that is wrong with it", kSceneExamples);
   auto options = std::make_shared<ValidateOptions>();
   add_scene(command, options->scene);
   add_set(command, options->set);

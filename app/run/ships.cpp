@@ -96,7 +96,7 @@ void print_particulars(const std::string& path, const io::JsonValue& resolved, c
   }
 }
 
-struct Options {
+struct ShipsOptions {
   std::string ship;  ///< a preset's name or a file; empty: all presets
   bool is_json = false;
   bool is_for_performance = false;
@@ -104,7 +104,7 @@ struct Options {
 
 /// A ship that is read as one of a scene. `name` stands in messages; its places are not shown where the text
 /// is no file.
-ExitCode show_text(std::string text, const std::string& name, bool is_file, const Options& options) {
+ExitCode show_text(std::string text, const std::string& name, bool is_file, const ShipsOptions& options) {
   const auto use = options.is_for_performance ? io::ShipUse::kLevelIce : io::ShipUse::kScene;
   auto ship = io::read_ship(std::move(text), name, use);
   if (!ship) {
@@ -141,7 +141,7 @@ ExitCode no_such_ship(const std::string& name) {
                                   meant.empty() ? "" : fmt::format("did you mean {}? ", meant), fmt::join(names, " ")));
 }
 
-ExitCode show(const Options& options) {
+ExitCode show(const ShipsOptions& options) {
   const std::string& name = options.ship;
   if (name.empty()) {
     options.is_json ? print_list_as_json() : print_list();
@@ -172,7 +172,7 @@ Command add_ships(CommandLine& app) {
       "  polynya ships polaris          every particular, its source, and which are assumed\n"
       "  polynya ships polaris --json   its \"ship\" as scenes have one\n"
       "  polynya ships our-ship.json    a ship as scenes have it: what is wrong, or all its particulars\n");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ShipsOptions>();
   command.option("ship", &options->ship, "SHIP", "Its name, or a JSON file with one; - for stdin", not_empty());
   command.flag("--json", options->is_json,
                "Print that ship, or the list of all, as JSON; of a file with every default filled in");
