@@ -21,7 +21,7 @@ target_compile_options(polynya_warnings INTERFACE -Wall -Wextra -Wconversion -Ws
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # False alarms of GCC 12 inside the standard library's strings, variants and vectors once inlined.
   target_compile_options(polynya_warnings INTERFACE
-    -Wno-restrict -Wno-maybe-uninitialized -Wno-alloc-size-larger-than -Wno-array-bounds)
+    -Wno-restrict -Wno-maybe-uninitialized -Wno-alloc-size-larger-than -Wno-array-bounds -Wno-stringop-overflow)
 endif()
 
 # Headers of the standard library, and with fmt::fmt those of fmt too, are compiled once instead of in every source: a

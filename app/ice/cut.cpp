@@ -223,7 +223,8 @@ Outcome<ExitCode> cut_all(const CutOptions& options) {
 }  // namespace
 
 Command add_cut(CommandLine& app) {
-  CommandLine command = app.add_command("cut", "Cut floes exactly, with every square metre accounted for", kCutExamples);
+  CommandLine command =
+      app.add_command("cut", "Cut floes exactly, with every square metre accounted for", kCutExamples);
   auto options = std::make_shared<CutOptions>();
   command.option("floes", &options->floes, "FLOES", "GeoJSON, NDJSON or WKT, recognised by content; - for stdin", {},
                  {.is_required = true});

@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <new>
 #include <optional>
 #include <utility>
 
+#include "analysis/run_result.hpp"
 #include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/run/load_scene.hpp"
@@ -15,7 +15,6 @@
 #include "io/run/run_loop.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/run/run_writer.hpp"
-#include "io/run/summary.hpp"
 #include "simulation/simulation.hpp"
 #include "views/map/final_map.hpp"
 
@@ -25,105 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using io::RunEnd;
 using simulation::Simulation;
-
-// ---- the result
-
-/// "-1.89 MN"
-std::string with_unit(double newtons) {
-  const double size = std::abs(newtons);
-  return size >= 1e6   ? fmt::format("{:.4g} MN", newtons / 1e6)
-         : size >= 1e3 ? fmt::format("{:.4g} kN", newtons / 1e3)
-                       : fmt::format("{:.4g} N", newtons);
-}
-
-std::string with_time(const io::Peak& peak) {
-  if (peak.value == 0) return "0 N";
-  return fmt::format("{} at {:.6g} s", with_unit(peak.value), peak.time);
-}
-
-/// What a peak of that column is of.
-std::string measure_of(const io::ForceColumn& column, const simulation::Scene& scene) {
-  if (column.curve == "paper") return "j/τ_c of the paper";
-  return column.over == io::Over::kMean ? fmt::format("mean over {:.6g} s", recording_interval(scene))
-                                        : fmt::format("single step of {:.6g} s", scene.time.step);
-}
-
-/// The largest loads on each ship and structure (docs/theory/forces.md): of ice, then of other ships
-/// and structures, the paper's last.
-std::string force_lines(const io::RunSummary& summary, const simulation::Scene& scene) {
-  std::string text;
-  const std::vector<const io::ForceColumn*> columns = io::peak_columns(scene);
-  for (const io::ShipPeaks& peaks : summary.peaks) {
-    bool is_free = true;
-    for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
-      const bool is_by_ice = columns[i]->plot == "Surge force of the ice";
-      if (!is_by_ice && columns[i]->plot != "Surge force of ships") continue;
-      const io::Peak& surge = peaks.of_column[i];
-      const io::Peak& sway = peaks.of_column[i + 1];
-      if (surge.value == 0 && sway.value == 0) continue;
-      is_free = false;
-      text += fmt::format("{:<12}{}: surge {}, sway {} (largest {})\n", is_by_ice ? "ice force" : "ship force",
-                          peaks.ship, with_time(surge), with_time(sway), measure_of(*columns[i], scene));
-    }
-    if (is_free) text += fmt::format("ice force   {}: none\n", peaks.ship);
-  }
-  return text;
-}
-
-void print_under_hull(const simulation::Counts& counts, const simulation::AreaLedger& ledger) {
-  if (counts.went_under == 0) return;
-  print_out("under hull  {} went under, {} of them tilted floes; {} came up, {} stayed under the ice\n",
-            counted(counts.went_under, "piece"), counts.tilted_under, counts.came_up, counts.stayed_under);
-  print_out("            {:.6f} m2 are there at the end, {:.6f} m2 stayed under the ice\n", ledger.under_hull_area,
-            ledger.under_ice_area);
-}
-
-/// "ticks of 0.05 s, steps of 0.025 to 0.4 s".
-std::string steps_of(const simulation::Counts& counts, double tick) {
-  std::vector<int> taken;
-  for (int k = 0; k <= 2 * simulation::kMostLevels; ++k)
-    if (counts.steps_at_level[static_cast<std::size_t>(k)] > 0) taken.push_back(k - simulation::kMostLevels);
-  std::string ticks = fmt::format("ticks of {:g} s", tick);
-  if (taken.empty() || (taken.front() == 0 && taken.back() == 0)) return ticks;
-  return fmt::format("{}, steps of {:g} to {:g} s", ticks, std::ldexp(tick, taken.front()),
-                     std::ldexp(tick, taken.back()));
-}
-
-void print_result(const io::RunSummary& summary, const simulation::Scene& scene, const fs::path& folder,
-                  const std::string& picture) {
-  const auto& counts = summary.counts;
-  const auto& ledger = summary.ledger;
-  print_out("simulated   {:.6g} s in {:.3g} s, {:.3g} x real time; {}\n", summary.sim_time, summary.wall_time,
-            summary.real_time_factor(), steps_of(counts, scene.time.step));
-  print_out("fractures   {} broken by bending, {}, {}\n", counted(counts.bends, "cusp"),
-            counted(counts.splits, "split"), counted(counts.rejected_cuts, "rejected cut"));
-  if (counts.ground > 0)
-    print_out("ground      {} that contacts did not part, to brash\n", counted(counts.ground, "overlap"));
-  print_under_hull(counts, ledger);
-  print_out("floes       {} -> {}\n", counts.floes_initial, counts.floes_final);
-  const double submerged = ledger.submerged_area + ledger.under_hull_area + ledger.under_ice_area;
-  print_out(
-      "ice         {:.6f} m2 = {:.6f} floes + {:.6f} submerged + {:.6f} brash (imbalance {:.1e}, rounding "
-      "{:.1e} m2)\n",
-      ledger.initial_ice_area, ledger.floe_area, submerged, ledger.brash_area, ledger.imbalance,
-      ledger.rounding_defect);
-  const auto& masses = summary.masses;
-  print_out("            {:.6g} t = {:.6g} floes + {:.6g} submerged + {:.6g} brash (imbalance {:.1e} t)\n",
-            1e-3 * masses.initial_ice_mass, 1e-3 * masses.floe_mass,
-            1e-3 * (masses.submerged_mass + masses.under_hull_mass + masses.under_ice_mass), 1e-3 * masses.brash_mass,
-            1e-3 * masses.imbalance);
-  const simulation::EnergyFlows& energy = summary.audit.sums.energy;
-  const simulation::BoundaryFlows& boundaries = summary.audit.sums.boundaries;
-  print_out(
-      "energy      {:.4g} kJ in: {:.4g} drag, {:.4g} friction, {:.4g} crushing, {:.4g} collisions, {:.4g} in "
-      "motion (imbalance {:.1e} of it)\n",
-      (energy.thrust + energy.current + boundaries.wind + boundaries.walls + summary.audit.sums.initial_energy) / 1e3,
-      energy.drag / 1e3, energy.friction / 1e3, energy.crushing / 1e3, energy.restitution / 1e3,
-      summary.audit.kinetic_energy / 1e3, summary.audit.energy_imbalance / std::max(summary.audit.turnover, 1e-300));
-  print_out("{}", force_lines(summary, scene));
-  print_out("run folder  {}\n", folder.string());
-  if (!picture.empty()) print_out("picture     {}\n", (folder / picture).string());
-}
 
 // ---- driving a run
 
@@ -198,7 +98,10 @@ ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
   if (result.end != RunEnd::kFinished) report_stop(run, result);
   if (result.dump) report_dump(folder.string(), *result.dump);
   for (const std::string& warning : result.summary.warnings) print_err("note: {}\n", warning);
-  if (result.end != RunEnd::kFolderFailure) print_result(result.summary, run.scene.scene, folder, *picture);
+  if (result.end != RunEnd::kFolderFailure) {
+    print_out("{}run folder  {}\n", analysis::result_text(result.summary, run.scene.scene), folder.string());
+    if (!picture->empty()) print_out("picture     {}\n", (folder / *picture).string());
+  }
   return exit_code_of(result.end);
 }
 
@@ -289,7 +192,7 @@ tl::expected<Start, ExitCode> start_of(const RunOptions& options) {
     if (!loaded) return tl::unexpected(loaded.error());
     print_lines(loaded->hints);
     print_fields(*loaded);
-    if (!may_fit(loaded->scene, options.scene, memory_available())) return tl::unexpected(kOutOfMemory);
+    if (!may_fit(loaded->scene, options.scene, io::memory_available())) return tl::unexpected(kOutOfMemory);
     print_folder_size(loaded->scene, options.driver.control.final_geojson);
     Start start;
     start.simulation = std::make_unique<simulation::Simulation>(loaded->scene);

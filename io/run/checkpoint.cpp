@@ -6,6 +6,7 @@
 #include <boost/crc.hpp>
 #include <fmt/format.h>
 
+#include "io/text/output_file.hpp"
 #include "io/text/source_text.hpp"
 #include "simulation/state/archive.hpp"
 #include "simulation/state/state_fields.hpp"
@@ -38,13 +39,6 @@ std::int64_t steps_of(const std::filesystem::path& path) {
 
 std::filesystem::path path_of(const std::filesystem::path& folder, const Checkpoint& checkpoint) {
   return folder / fmt::format("{}{:012}{}", kPrefix, checkpoint.steps, kSuffix);
-}
-
-Result<> remove_file(const std::filesystem::path& path) {
-  std::error_code error;
-  std::filesystem::remove(path, error);
-  if (error) return fail(fmt::format("{}: {}", path.string(), error.message()));
-  return {};
 }
 
 template <class Archive>

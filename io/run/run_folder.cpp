@@ -92,14 +92,12 @@ Result<> make_folder(const fs::path& folder) {
   return {};
 }
 
-/// Removes one file, or the link of that name, and what a crash left of writing it.
-Result<> remove_file(const fs::path& path) {
+/// Removes one file and what a crash left of writing it.
+Result<> remove_with_part(const fs::path& path) {
   fs::path part = path;
   part += ".part";
-  for (const fs::path& each : {part, path})
-    if (::unlink(each.c_str()) != 0 && errno != ENOENT)
-      return fail(fmt::format("{}: {}", each.string(), std::strerror(errno)));
-  return {};
+  const auto removed = remove_file(part);
+  return removed ? remove_file(path) : removed;
 }
 
 /// What is written when a run has ended, and what commands make of it.
@@ -120,12 +118,12 @@ Result<> remove_run(const fs::path& folder) {
   std::vector<fs::path> names = made_at_end();
   names.insert(names.end(), run_file::kGrowing.begin(), run_file::kGrowing.end());
   names.emplace_back(run_file::kScene);
-  Result<> removed = remove_file(folder / run_file::kSummary);
+  Result<> removed = remove_with_part(folder / run_file::kSummary);
   if (removed) removed = sync_folder(folder);
   if (removed) removed = remove_checkpoints(folder);
   if (removed) removed = remove_rejected_cuts(folder);
   for (const fs::path& name : names)
-    if (removed) removed = remove_file(folder / name);
+    if (removed) removed = remove_with_part(folder / name);
   return removed;
 }
 
@@ -183,7 +181,7 @@ Result<> set_end(const fs::path& folder, const LoadedScene& scene) {
   summary.members().push_back({"stopped_by", 0, {std::string("resumed to another end, or killed then")}});
   Result<> done = write_whole_file(folder / run_file::kSummary, to_json_text(summary) + "\n", Durability::kSynced);
   for (const fs::path& name : made_at_end())
-    if (done) done = remove_file(folder / name);
+    if (done) done = remove_with_part(folder / name);
   if (done) done = write_whole_file(folder / run_file::kScene, scene.resolved_text, Durability::kSynced);
   return done;
 }

@@ -121,6 +121,13 @@ bool is_still_at(int descriptor, const std::filesystem::path& path) {
          opened.st_ino == named.st_ino;
 }
 
+Result<> remove_file(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::remove(path, error);
+  if (error) return fail(fmt::format("{}: {}", path.string(), error.message()));
+  return {};
+}
+
 Result<> sync_folder(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder.empty() ? "." : folder;
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY);

@@ -68,6 +68,9 @@ enum class Durability {
 /// are taken at their word.
 Result<> sync_folder(const std::filesystem::path& folder);
 
+/// Removes a file, or the link of that name, or an empty folder; one that is not there is no error.
+Result<> remove_file(const std::filesystem::path& path);
+
 /// Writes a file of a run folder at once: to a temporary name beside it, then renamed, so that a reader gets
 /// the old or the new one. A link of that name is replaced, not followed: run folders come from elsewhere
 /// too. A pipe, a device or a folder is refused and stays.

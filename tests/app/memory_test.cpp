@@ -1,8 +1,6 @@
 // A run that does not fit into memory: it is refused before it starts, or ends as one that was killed.
 #include "app/run/memory.hpp"
 
-#include <cmath>
-
 #include "interrupted_run.hpp"
 #include "program.hpp"
 #include <sys/resource.h>
@@ -94,46 +92,7 @@ TEST(Memory, IsEstimatedWithinAFactorOfWhatRunsTake) {
 
 #endif
 
-// ---- what is known of memory before a run
-
 using app::may_fit;
-using app::memory_available;
-using app::MemoryAvailable;
-
-TEST(MemoryAvailable, IsWhatTheMachineHasFreeWithSwapAndWhatThisProcessHas) {
-  const TemporaryFolder root;
-  write_file(root / "proc/meminfo", "MemTotal: 9000 kB\nMemAvailable:    3000 kB\nSwapFree: 1000 kB\n");
-  write_file(root / "proc/self/statm", "100 0 0 0 0 0 0\n");
-  EXPECT_EQ(memory_available(root.path()).bytes, 4000 * 1024);
-  write_file(root / "proc/self/statm", "100 10 0 0 0 0 0\n");
-  EXPECT_GT(memory_available(root.path()).bytes, 4000 * 1024);
-}
-
-TEST(MemoryAvailable, IsTheLeastThatAControlGroupLeaves) {
-  const TemporaryFolder root;
-  write_file(root / "proc/meminfo", "MemAvailable:    30000 kB\n");
-  write_file(root / "proc/self/cgroup", "0::/jobs/mine\n");
-  write_file(root / "sys/fs/cgroup/jobs/mine/memory.max", "max\n");
-  write_file(root / "sys/fs/cgroup/jobs/mine/memory.current", "50\n");
-  write_file(root / "sys/fs/cgroup/jobs/memory.max", "5000000\n");
-  write_file(root / "sys/fs/cgroup/jobs/memory.current", "4000000\n");
-  write_file(root / "sys/fs/cgroup/jobs/memory.stat", "anon 1000000\nfile 2500000\n");
-  const MemoryAvailable available = memory_available(root.path());
-  EXPECT_EQ(available.bytes, 3500000);
-  EXPECT_EQ(available.source, "the control group's limit");
-  write_file(root / "proc/self/cgroup", "5:cpu,memory:/old\n");
-  write_file(root / "sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
-  write_file(root / "sys/fs/cgroup/memory/memory.usage_in_bytes", "7000\n");
-  write_file(root / "sys/fs/cgroup/memory/old/memory.limit_in_bytes", "2000000\n");
-  write_file(root / "sys/fs/cgroup/memory/old/memory.usage_in_bytes", "500000\n");
-  EXPECT_EQ(memory_available(root.path()).bytes, 1500000);
-}
-
-TEST(MemoryAvailable, IsUnknownWhereNothingTells) {
-  const TemporaryFolder root;
-  EXPECT_TRUE(std::isinf(memory_available(root.path()).bytes));
-  EXPECT_GT(memory_available().bytes, 1e6);
-}
 
 TEST(MemoryCheck, RefusesWhatSurelyDoesNotFitAndNotesWhatMayNot) {
   simulation::Scene scene;

@@ -14,7 +14,7 @@ namespace polynya::views {
 extern const std::string_view kPlayerTemplate;
 extern const std::string_view kPairTemplate;
 
-/// One HTML file that shows a run and needs nothing else (docs/view.md); with `options` a scene (scene_plan()).
+/// One HTML file that shows a run and needs nothing else (docs/view.md); with `options` a scene (scene_page.cpp).
 std::string player_page(const io::Run& run, const PlayerData& data, const std::string& options = "{}");
 
 /// A run of a page of two.
@@ -25,10 +25,5 @@ struct ShownRun {
 
 /// One HTML file that shows two runs side by side, with one clock (docs/view.md).
 std::string pair_page(const std::array<ShownRun, 2>& runs);
-
-/// What the page of a scene that has not run shows beside its ice and hulls, as the page's options: routes of ships,
-/// wind, and what `polynya validate` warns of. `stamp` is of this page: the script `stamp_file` beside it, where one is
-/// named, has that of the newest (`--watch`).
-std::string scene_plan(const io::LoadedScene& scene, const std::string& stamp, const std::string& stamp_file);
 
 }  // namespace polynya::views
