@@ -7,9 +7,9 @@ Usage: python3 tools/step_cliff.py [BINARY] [--way M] [--ways H] [--places N] [-
 
 A ship of 80 m by 20 m at constant speed in fast ice that does not split. The run beside it has one step for all, a
 quarter of the shortest that the first one took. The mean is that of the surge by contact from the time its bow is
-in the ice. Thick ice breaks in patterns that repeat, so both runs are the mean of several places of the ship, fractions
-of a metre apart. The standard error is that of 16 parts of the way, at all places. A row whose two means differ by more
-than 5 % is marked.
+in the ice, whose edge is slanted by 2 to 6 degrees. Thick ice breaks in patterns that repeat, so both runs are the mean
+of several places of the ship, fractions of a metre apart, each with its slant. The standard error is that of 16 parts of
+the way, at all places. A row whose two means differ by more than 5 % is marked.
 """
 
 import argparse
@@ -18,24 +18,23 @@ import pathlib
 import statistics
 import tempfile
 
-from study import measured_run, rows_of
+from study import measured_run, rows_of, slant_of, slanted_ice
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 THICKNESSES = (0.05, 0.3, 2)  # [m]
 SPEEDS = (0.25, 1.5, 8)  # [m/s]
 THICK = 1  # ice that is broken at several places [m]
-BOW = 22  # the way after which the bow is in the ice [m]
+BOW = 24  # the way after which the bow is in the ice [m]
 PARTS = 16
 ALLOWED = 0.05
 
 
-def scene(thickness, speed, place, way, time):
+def scene(thickness, speed, number, way, time):
     ship = {"hull": {"length_m": 80, "beam_m": 20, "entrance_angle_deg": 25, "stem_angle_deg": 28, "draught_m": 6},
-            "mass_kg": 6e6, "moment_of_inertia_kg_m2": 2.5e9, "position_m": [-41, place],
+            "mass_kg": 6e6, "moment_of_inertia_kg_m2": 2.5e9, "position_m": [-43, 0.37 * number],
             "propulsion": {"constant_speed_m_per_s": speed}}
-    plate = {"rectangle": {"corner_m": [0, -60], "size_m": [way + 100, 120]}, "fast_ice": True}
     return {"name": "step-cliff", "time": {"until_s": (way + BOW) / speed, **time}, "ice": {"thickness_m": thickness},
-            "ships": [ship], "floes": [plate],
+            "ships": [ship], "floes": [slanted_ice(slant_of(number), way + 100)],
             "fracture": {"splitting": {"model": "none"}, "cusp_fate": "under_hull"},
             "record": {"frames_interval_s": 1e6, "forces_interval_s": max(0.1, round(1 / speed, 1)),
                        "contacts": "none"}}
@@ -84,7 +83,7 @@ def main():
     print("|---|---|---|---|---|---|---|---|---|---|")
     for thickness, speed in cases:
         way = max(given.way, given.ways * thickness)
-        places = [0.37 * i for i in range(given.places if thickness >= THICK else 1)]
+        places = range(given.places if thickness >= THICK else 1)
 
         def runs(time):
             return Runs(given.binary, [scene(thickness, speed, place, way, time) for place in places])
