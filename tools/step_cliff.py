@@ -8,8 +8,8 @@ Usage: python3 tools/step_cliff.py [BINARY] [--way M] [--ways H] [--places N] [-
 A ship of 80 m by 20 m at constant speed in fast ice that does not split. The run beside it has one step for all, a
 quarter of the shortest that the first one took. The mean is that of the surge by contact from the time its bow is
 in the ice, whose edge is slanted by 2 to 6 degrees. Thick ice breaks in patterns that repeat, so both runs are the mean
-of several places of the ship, fractions of a metre apart, each with its slant. The standard error is that of 16 parts of
-the way, at all places. A row whose two means differ by more than 5 % is marked.
+of several places of the ship, fractions of a metre apart, each with its slant. The standard error is that of 16 parts
+of the way, at all places. A row whose two means differ by more than 5 % is marked.
 """
 
 import argparse
