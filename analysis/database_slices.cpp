@@ -135,6 +135,7 @@ void write_figure(io::JsonWriter& json, const FsiDatabaseModel& model, const Ben
   };
   const std::vector<Member> members = family(load, figure.axis);
   std::vector<Curve> curves;
+  curves.reserve(members.size() + 2);
   for (const Member& member : members)
     curves.push_back(
         {"database, " + member.name, "database", slice(model, member.load, figure.axis, abscissae), of_database});

@@ -60,16 +60,16 @@ struct Table {
 
   /// The number at the end of a path of pointers to members.
   template <class... Path>
-  ForceColumn& number(std::string name, std::string_view unit, Over over, std::string meaning, const Shown& shown,
-                      Path... path) {
+  ForceColumn& number(const std::string& name, std::string_view unit, Over over, const std::string& meaning,
+                      const Shown& shown, Path... path) {
     const bool is_turn = unit.starts_with("°");
     const double scale = is_turn ? geometry::kDegreesPerRadian : 1;
     const double inverse = is_turn ? geometry::kRadiansPerDegree : 1;
     const auto where = shown.plotted ? shown.plotted : shown.peak;
     return columns.emplace_back(
-        ForceColumn{.name = std::move(name),
+        ForceColumn{.name = name,
                     .unit = unit,
-                    .meaning = std::move(meaning),
+                    .meaning = meaning,
                     .over = over,
                     .read = [=](const S& s) { return scale * static_cast<double>((s.*....*path)); },
                     .store =

@@ -124,7 +124,7 @@ class Reader {
     const std::string& name = member(key, Kind::kText).text();
     ship.index = ship_index(scene_, name);
     if (ship.index < 0 && !(name.empty() && ship.may_be_none))
-      throw ReadError(fmt::format("\"{}\" is \"{}\", which is not in the scene", key, shortened(name, 60)));
+      throw ReadError(fmt::format(R"("{}" is "{}", which is not in the scene)", key, shortened(name, 60)));
   }
 
   const JsonValue* at_;

@@ -68,9 +68,9 @@ std::shared_ptr<const Polygon> FloeShapes::of(FloeId id) const {
     missing.push_back(at);
     at = floe(at).parent;
   }
-  for (auto next = missing.rbegin(); next != missing.rend(); ++next) {
-    shape = std::make_shared<const Polygon>(assembled(floe(*next).parts, *shape));
-    keep(*next, shape);
+  for (; !missing.empty(); missing.pop_back()) {
+    shape = std::make_shared<const Polygon>(assembled(floe(missing.back()).parts, *shape));
+    keep(missing.back(), shape);
   }
   return shape;
 }

@@ -126,12 +126,13 @@ void append(JsonWriter& json, const simulation::PeakCounts& peaks, double least)
 
 /// The lengths of the steps that the run took.
 void append_levels(JsonWriter& json, const simulation::Counts& counts, double tick) {
-  std::vector<int> levels;
-  for (int k = 0; k <= 2 * simulation::kMostLevels; ++k)
-    if (counts.steps_at_level[static_cast<std::size_t>(k)] > 0) levels.push_back(k - simulation::kMostLevels);
-  json.key("levels").objects(levels, [&](int level) {
+  std::vector<std::size_t> taken;
+  for (std::size_t k = 0; k < counts.steps_at_level.size(); ++k)
+    if (counts.steps_at_level[k] > 0) taken.push_back(k);
+  json.key("levels").objects(taken, [&](std::size_t k) {
+    const int level = static_cast<int>(k) - simulation::kMostLevels;
     json.key("level").value(level).key("step_s").value(std::ldexp(tick, level));
-    json.key("steps").value(counts.steps_at_level[static_cast<std::size_t>(level + simulation::kMostLevels)]);
+    json.key("steps").value(counts.steps_at_level[k]);
   });
 }
 

@@ -98,10 +98,10 @@ BeamShape shape_of(const Setup& setup, const Population& population, BodyIndex f
   const double reach = bodies.bounding_radius[floe];
   beam.least_width = reach;
   for (int k = 1; k < kSections; ++k) {
-    auto part = part_at(setup, population, floe, beam, reach * (2.0 * k / kSections - 1));
+    const auto part = part_at(setup, population, floe, beam, reach * (2.0 * k / kSections - 1));
     if (!part) continue;
     beam.least_width = std::min(beam.least_width, part->section.width);
-    beam.parts.push_back(std::move(*part));
+    beam.parts.push_back(*part);
   }
   return beam;
 }

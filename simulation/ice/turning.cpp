@@ -15,9 +15,9 @@ using geometry::Vector;
 /// A piece that turns about the line across `ahead`, a unit vector, through the point of it that is farthest there.
 fracture::TurningCusp turning(const geometry::Polygon& piece, Vector ahead) {
   const auto along = [&](Point p) { return dot(p - Point{}, ahead); };
-  const auto ends = std::ranges::minmax(piece.outer, {}, along);
-  const Point near = ends.min;
-  const Point far = ends.max;
+  const auto ends = std::ranges::minmax_element(piece.outer, {}, along);
+  const Point near = *ends.min;
+  const Point far = *ends.max;
   const geometry::Rotation ahead_from_body{ahead.x, -ahead.y};
   const fracture::PlaneMoments moments =
       fracture::moments_of(piece, {Point{} - rotate(ahead_from_body, far - Point{}), ahead_from_body});
@@ -88,8 +88,8 @@ fracture::DeckEdge deck_edge(const Setup& setup, const Population& population, c
   if (older == kNoFloe) return {fracture::Beside::kWater};
   const geometry::Pose of_older = dynamics::water_from_body(population.bodies, population.body_of(older));
   const auto along = [&](Point p) { return dot(inverse_transform(pose, transform(of_older, p)) - Point{}, ahead); };
-  const auto [near, far] = std::ranges::minmax(population.floes[older].shape.polygon.outer, {}, along);
-  return {fracture::Beside::kOlderCusp, along(far), along(far) - along(near)};
+  const auto ends = std::ranges::minmax_element(population.floes[older].shape.polygon.outer, {}, along);
+  return {fracture::Beside::kOlderCusp, along(*ends.max), along(*ends.max) - along(*ends.min)};
 }
 
 fracture::Deck deck_of(const Setup& setup, const Population& population, const PendingFracture& bend,

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "temporary_folder.hpp"
+#include <gtest/gtest.h>
 
 namespace polynya::tests {
 namespace {
