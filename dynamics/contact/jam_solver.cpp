@@ -20,6 +20,9 @@ constexpr int kMostSteps = 60;
 /// branch by most: that ends cycles. Fewer: every jam takes more steps; many more: those that cycle are not solved
 /// within kMostSteps.
 constexpr int kWholeSteps = 4;
+/// After them only half of how the bound of what slips changes follows within the step: where all of it does, the matrix
+/// may be nearly singular, and speeds jump. Sooner: every jam takes more steps; later: a few are never solved.
+constexpr int kWholeBoundSteps = 16;
 /// What friction's bound may still change the slip by, in slip speeds. Greater: the slip impulses found miss
 /// Coulomb's law by that share.
 constexpr double kBoundFound = 0.05;
@@ -211,6 +214,7 @@ class Jam {
 
   Choice update_active_sets(int step) {
     Choice choice;
+    share_that_follows_ = step < kWholeBoundSteps ? 1 : 0.5;
     find_changes();
     double most = 0;
     for (const Change& change : changes_) most = std::max({most, change.by[0], change.by[1], change.by[2]});
@@ -290,10 +294,11 @@ class Jam {
       load.impulse[end] = line.at_rest - line.slope * (speeds_[k][end] + laws_[k][end].gap_speed);
       load.slope[end] = line.slope;
     }
-    const double friction = active_sets_[k].slip * constraints_[k].friction;
+    const double friction = share_that_follows_ * active_sets_[k].slip * constraints_[k].friction;
     for (int end = 0; end < 2; ++end) load.slip_by_apart[end] = friction * load.slope[end];
     load.slope[2] = 0;
-    load.impulse[2] = friction * (load.impulse[0] + load.impulse[1]);
+    load.impulse[2] = friction * (load.impulse[0] + load.impulse[1]) +
+                      (1 - share_that_follows_) * active_sets_[k].slip * slip_bound_[k];
     if (active_sets_[k].slip != 0) return;
     find_stick_slope(k);
     load.slope[2] = stick_slope_[k];
@@ -389,6 +394,7 @@ class Jam {
   std::span<SolverBody> bodies_;
   double slip_speed_;
   double residual_;  ///< of the sweeps before [m/s]
+  double share_that_follows_ = 1;  ///< of the bound of what slips
   JamMemory::Parts& memory_;
   std::vector<std::array<double, 3>>& impulses_before_ = memory_.impulses_before;
   std::vector<SolverBody>& bodies_before_ = memory_.bodies_before;
