@@ -7,10 +7,6 @@
 
 #include "dynamics/contact/internal/jam_matrix.hpp"
 
-#ifdef JAM_STATS
-extern int g_jam_steps;
-#endif
-
 namespace polynya::dynamics {
 namespace {
 
@@ -20,8 +16,8 @@ constexpr int kMostSteps = 60;
 /// branch by most: that ends cycles. Fewer: every jam takes more steps; many more: those that cycle are not solved
 /// within kMostSteps.
 constexpr int kWholeSteps = 4;
-/// After them only half of how the bound of what slips changes follows within the step: where all of it does, the matrix
-/// may be nearly singular, and speeds jump. Sooner: every jam takes more steps; later: a few are never solved.
+/// After them only half of how the bound of what slips changes follows within the step: where all of it does, the
+/// matrix may be nearly singular, and speeds jump. Sooner: every jam takes more steps; later: a few are never solved.
 constexpr int kWholeBoundSteps = 16;
 /// What friction's bound may still change the slip by, in slip speeds. Greater: the slip impulses found miss
 /// Coulomb's law by that share.
@@ -161,9 +157,6 @@ class Jam {
     JamMatrix& matrix = memory_.matrix;
     matrix.take(static_cast<int>(body_of_.size()), rows_);
     for (int step = 0; step < kMostSteps; ++step) {
-#ifdef JAM_STATS
-      ++g_jam_steps;
-#endif
       const Choice choice = update_active_sets(step);
       if (step > 0 && choice.are_sets_found && choice.are_bounds_found && enter() < slip_speed_) return true;
       if (!matrix.factorize(mass_, rows_, loads_)) break;
@@ -261,8 +254,8 @@ class Jam {
   /// By how much an end's impulse, on the line of its branch, is beyond where the branch is the nearest [m/s].
   double beyond_branch(std::size_t k, std::size_t end) const {
     const Line& line = lines_[k][end];
-    const double place = -speeds_[k][end] - laws_[k][end].gap_speed +
-                         constraints_[k].inverse_mass_at[end] * loads_[k].impulse[end];
+    const double place =
+        -speeds_[k][end] - laws_[k][end].gap_speed + constraints_[k].inverse_mass_at[end] * loads_[k].impulse[end];
     return std::max(line.after - place, place - line.to);
   }
   /// The branches that a contact's ends would be on by themselves, were its bodies free but for the impulses of the
@@ -393,7 +386,7 @@ class Jam {
   std::span<const EndLaws> laws_;
   std::span<SolverBody> bodies_;
   double slip_speed_;
-  double residual_;  ///< of the sweeps before [m/s]
+  double residual_;                ///< of the sweeps before [m/s]
   double share_that_follows_ = 1;  ///< of the bound of what slips
   JamMemory::Parts& memory_;
   std::vector<std::array<double, 3>>& impulses_before_ = memory_.impulses_before;

@@ -392,7 +392,8 @@ TEST(JamMatrix, SolvesWhatADenseMatrixSolves) {
   }
 }
 
-/// Rows of bodies that no changed slope comes to are kept: the factors are those of a matrix that is all new, bit for bit.
+/// Rows of bodies that no changed slope comes to are kept: the factors are those of a matrix that is all new, bit for
+/// bit.
 TEST(JamMatrix, KeepsRowsWithoutChangedSlopes) {
   Random random(kSeed);
   Problem problem = problem_of(random, 40, 0.3);

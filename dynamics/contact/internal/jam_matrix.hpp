@@ -27,8 +27,8 @@ struct JamLoad {
 /// Of each body three unknowns or what goes with them (x, y, rotation), and a lane of 0.
 using JamVector = std::vector<std::array<double, 4>>;
 
-/// Adds the speeds of contacts that velocities of their bodies make: those of prescribed motion have 0, one element more
-/// than there are bodies.
+/// Adds the speeds of contacts that velocities of their bodies make: those of prescribed motion have 0, one element
+/// more than there are bodies.
 POLYNYA_AVX2_CLONE void add_speeds(std::span<const JamRows> rows, std::span<const std::array<double, 4>> velocities,
                                    std::span<std::array<double, 3>> speeds);
 /// Takes what the contacts' impulses give from the bodies' momenta, those of prescribed motion together at the end.
@@ -105,8 +105,8 @@ class JamMatrix {
   std::vector<int> later_;                   ///< of each pair: place of the one eliminated later
   std::vector<std::uint8_t> is_filled_;      ///< of each pair: not zero with the slopes at hand
   std::vector<Pair> pairs_;
-  std::vector<int> targets_;       ///< the pair of each two bodies that have pairs with an earlier one
-  std::vector<int> first_target_;  ///< of each pair's with those after it
+  std::vector<int> targets_;        ///< the pair of each two bodies that have pairs with an earlier one
+  std::vector<int> first_target_;   ///< of each pair's with those after it
   std::vector<int> first_earlier_;  ///< of each body, by place; one more at the end
   std::vector<Earlier> earlier_;
   std::vector<int> first_contact_;  ///< of each body, by place; one more at the end
