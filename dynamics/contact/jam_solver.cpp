@@ -42,27 +42,6 @@ JamRows rows_of(const ContactConstraint& c, int a, int b) {
           .b = b};
 }
 
-/// After which place a branch begins, and to which one it is the nearest (branch_near) [m/s].
-std::array<double, 2> places_of(const CrushResponse& law, const CrushKinks& kinks, double inverse_mass,
-                                CrushBranch branch) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const double creeping_to = kinks.creeping_to + inverse_mass * kinks.crept;
-  const double crushing_to = kinks.crept == law.cap ? creeping_to
-                             : law.slope == 0       ? kInfinity
-                                                    : kinks.crushing_to + inverse_mass * law.cap;
-  switch (branch) {
-    case CrushBranch::kApart:
-      return {-kInfinity, 0};
-    case CrushBranch::kCreeping:
-      return {0, creeping_to};
-    case CrushBranch::kCrushing:
-      return {creeping_to, crushing_to};
-    case CrushBranch::kBroken:
-      return {crushing_to, kInfinity};
-  }
-  return {};
-}
-
 /// Which half of all branches waits in a step, without any pattern that a cycle could follow.
 bool waits(std::size_t branch, int step) {
   std::uint64_t x = branch * 0x9E3779B97F4A7C15U + static_cast<std::uint64_t>(step) * 0xBF58476D1CE4E5B9U;
@@ -241,6 +220,7 @@ class Jam {
       normal_[k] = beyond[0] <= 0 && beyond[1] <= 0 ? normal_within_law(k) : find_branches(k, set.ends);
       const double slipping = c.inverse_slip_mass * loads_[k].impulse[2] - speeds_[k][2];
       const double most = c.inverse_slip_mass * slip_bound_[k] + stick_speed(k);
+      // Within the bound so far: within the new one, stick and slip may follow each other for ever.
       set.slip = std::abs(slipping) <= most ? 0 : slipping > 0 ? 1 : -1;
       if (set == active_sets_[k]) continue;
       const auto by = [&](auto from, auto to, double beyond_it) { return from != to ? beyond_it : 0; };
