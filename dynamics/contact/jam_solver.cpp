@@ -75,6 +75,7 @@ struct JamMemory::Parts {
   std::vector<double> normal;                             ///< impulse of a contact by itself [N s]
   std::vector<std::array<double, 3>> impulses_before;     ///< of the constraints
   std::vector<SolverBody> bodies_before, bodies_without;  ///< those free to move; without any impulses
+  std::vector<std::int32_t> number_of;                    ///< of the solver's bodies that a jam has had
   std::vector<std::int32_t> body_of;                      ///< those free to move, three unknowns each
   std::vector<JamRows> rows;
   std::vector<Speeds> speeds;
@@ -155,15 +156,19 @@ class Jam {
 
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
+  /// In the order in which the contacts have them.
   void number_unknowns() {
     body_of_.clear();
+    std::vector<std::int32_t>& number = memory_.number_of;
+    if (number.size() < bodies_.size()) number.resize(bodies_.size());
+    for (const ContactConstraint& c : constraints_) number[index(c.a)] = number[index(c.b)] = -1;
     for (const ContactConstraint& c : constraints_) {
       for (const std::int32_t body : {c.a, c.b}) {
-        if (bodies_[index(body)].inverse_mass != 0) body_of_.push_back(body);
+        if (number[index(body)] >= 0 || bodies_[index(body)].inverse_mass == 0) continue;
+        number[index(body)] = static_cast<std::int32_t>(body_of_.size());
+        body_of_.push_back(body);
       }
     }
-    std::ranges::sort(body_of_);
-    body_of_.erase(std::unique(body_of_.begin(), body_of_.end()), body_of_.end());
     mass_.assign(body_of_.size() + 1, {});
     for (std::size_t i = 0; i < body_of_.size(); ++i) {
       const SolverBody& body = bodies_[index(body_of_[i])];
@@ -171,11 +176,7 @@ class Jam {
       mass_[i] = {mass, mass, 1 / body.inverse_moment, 0};
     }
   }
-  int number_of(std::int32_t body) const {
-    const auto found = std::ranges::lower_bound(body_of_, body);
-    const bool is_free = found != body_of_.end() && *found == body;
-    return is_free ? static_cast<int>(found - body_of_.begin()) : -1;
-  }
+  int number_of(std::int32_t body) const { return memory_.number_of[index(body)]; }
   void take(JamVector& v) const {
     v.assign(mass_.size(), {});
     for (std::size_t i = 0; i < body_of_.size(); ++i) {
@@ -187,7 +188,7 @@ class Jam {
   Choice update_active_sets(int step) {
     Choice choice;
     share_that_follows_ = step < kWholeBoundSteps ? 1 : 0.5;
-    find_changes();
+    if (step == 0) find_all_changes();
     double most = 0;
     for (const Change& change : changes_) most = std::max({most, change.by[0], change.by[1], change.by[2]});
     for (const Change& change : changes_) {
@@ -207,29 +208,36 @@ class Jam {
       const double off = std::abs(bound - slip_bound_[k]) * constraints_[k].inverse_slip_mass;
       choice.are_bounds_found &= off < kBoundFound * slip_speed_;
       slip_bound_[k] = bound;
-      find_load(k);
+      if (step == 0)
+        find_load(k);
+      else
+        find_slip_load(k);
+    }
+    if (step > 0) {
+      for (const Change& change : changes_) find_load(change.contact);
     }
     return choice;
   }
-  void find_changes() {
+  void find_all_changes() {
     changes_.clear();
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      const ContactConstraint& c = constraints_[k];
-      const std::array<double, 2> beyond{beyond_branch(k, 0), beyond_branch(k, 1)};
-      ActiveSet set = active_sets_[k];
-      normal_[k] = beyond[0] <= 0 && beyond[1] <= 0 ? normal_within_law(k) : find_branches(k, set.ends);
-      const double slipping = c.inverse_slip_mass * loads_[k].impulse[2] - speeds_[k][2];
-      const double most = c.inverse_slip_mass * slip_bound_[k] + stick_speed(k);
-      // Within the bound so far: within the new one, stick and slip may follow each other for ever.
-      set.slip = std::abs(slipping) <= most ? 0 : slipping > 0 ? 1 : -1;
-      if (set == active_sets_[k]) continue;
-      const auto by = [&](auto from, auto to, double beyond_it) { return from != to ? beyond_it : 0; };
-      const ActiveSet& now = active_sets_[k];
-      changes_.push_back({k,
-                          set,
-                          {by(now.ends.of[0], set.ends.of[0], beyond[0]), by(now.ends.of[1], set.ends.of[1], beyond[1]),
-                           by(now.slip, set.slip, std::abs(std::abs(slipping) - most))}});
-    }
+    for (std::size_t k = 0; k < rows_.size(); ++k) find_change(k);
+  }
+  void find_change(std::size_t k) {
+    const ContactConstraint& c = constraints_[k];
+    const std::array<double, 2> beyond{beyond_branch(k, 0), beyond_branch(k, 1)};
+    ActiveSet set = active_sets_[k];
+    normal_[k] = beyond[0] <= 0 && beyond[1] <= 0 ? normal_within_law(k) : find_branches(k, set.ends);
+    const double slipping = c.inverse_slip_mass * loads_[k].impulse[2] - speeds_[k][2];
+    const double most = c.inverse_slip_mass * slip_bound_[k] + stick_speed(k);
+    // Within the bound so far: within the new one, stick and slip may follow each other for ever.
+    set.slip = std::abs(slipping) <= most ? 0 : slipping > 0 ? 1 : -1;
+    if (set == active_sets_[k]) return;
+    const auto by = [&](auto from, auto to, double beyond_it) { return from != to ? beyond_it : 0; };
+    const ActiveSet& now = active_sets_[k];
+    changes_.push_back({k,
+                        set,
+                        {by(now.ends.of[0], set.ends.of[0], beyond[0]), by(now.ends.of[1], set.ends.of[1], beyond[1]),
+                         by(now.slip, set.slip, std::abs(std::abs(slipping) - most))}});
   }
   /// By how much an end's impulse, on the line of its branch, is beyond where the branch is the nearest [m/s].
   double beyond_branch(std::size_t k, std::size_t end) const {
@@ -267,6 +275,10 @@ class Jam {
       load.impulse[end] = line.at_rest - line.slope * (speeds_[k][end] + laws_[k][end].gap_speed);
       load.slope[end] = line.slope;
     }
+    find_slip_load(k);
+  }
+  void find_slip_load(std::size_t k) {
+    JamLoad& load = loads_[k];
     const double friction = share_that_follows_ * active_sets_[k].slip * constraints_[k].friction;
     for (int end = 0; end < 2; ++end) load.slip_by_apart[end] = friction * load.slope[end];
     load.slope[2] = 0;
@@ -301,12 +313,14 @@ class Jam {
       for (std::size_t j = 0; j < 4; ++j) velocity_[i][j] += memory_.direction[i][j];
     }
     add_speeds(rows_, memory_.direction, speeds_);
+    changes_.clear();
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       find_load(k);
       if (active_sets_[k].slip != 0) {  // by impulses within their laws: others would turn the slip round
         slip_bound_[k] = constraints_[k].friction * normal_within_law(k);
         loads_[k].impulse[2] = active_sets_[k].slip * slip_bound_[k];
       }
+      find_change(k);
     }
   }
   double normal_within_law(std::size_t k) const {

@@ -178,7 +178,9 @@ void JamMatrix::order_bodies(std::span<const JamRows> rows) {
 /// [Davis2006].
 void JamMatrix::find_pairs(std::span<const JamRows> rows) {
   const std::size_t bodies = place_of_.size();
-  std::vector<std::vector<int>> later(bodies);
+  std::vector<std::vector<int>>& later = later_of_;
+  if (later.size() < bodies) later.resize(bodies);
+  for (std::size_t i = 0; i < bodies; ++i) later[i].clear();
   for (const JamRows& r : rows) {
     if (r.a < 0 || r.b < 0) continue;
     const auto [first, second] = std::minmax(place_of_[r.a], place_of_[r.b]);

@@ -100,6 +100,7 @@ class JamMatrix {
   std::vector<std::array<int, 2>> between_;  ///< the bodies of each contact
   std::vector<int> place_of_;                ///< of each body in the order of elimination
   std::vector<int> body_at_;                 ///< each place
+  std::vector<std::vector<int>> later_of_;   ///< of each place, while its pairs are found
   std::vector<int> first_;                   ///< of each body's pairs with later ones, by place; one more at the end
   std::vector<Own> own_;                     ///< by place
   std::vector<int> later_;                   ///< of each pair: place of the one eliminated later
