@@ -66,6 +66,42 @@ class EndPair {
   std::array<double, 2> free_;
 };
 
+EndsLine line_on(const CrushLaw::State& c, const EndsMobility& mobility) {
+  EndsLine line;
+  const BranchLine p = line_of(c.ends[0], c.kinks[0].creep, c.branches.of[0]);
+  const BranchLine q = line_of(c.ends[1], c.kinks[1].creep, c.branches.of[1]);
+  const double m00 = 1 + p.slope * mobility.at[0], m11 = 1 + q.slope * mobility.at[1];
+  const double m01 = p.slope * mobility.between, m10 = q.slope * mobility.between;
+  const double inverse = 1 / (m00 * m11 - m01 * m10);
+  line.at_rest[0] = (m11 * p.at_rest - m01 * q.at_rest) * inverse;
+  line.at_rest[1] = (m00 * q.at_rest - m10 * p.at_rest) * inverse;
+  line.by[0][0] = m11 * p.slope * inverse, line.by[0][1] = -m01 * q.slope * inverse;
+  line.by[1][0] = -m10 * p.slope * inverse, line.by[1][1] = m00 * q.slope * inverse;
+  for (std::size_t end = 0; end < 2; ++end) {
+    const auto places = places_of(c.ends[end], c.kinks[end], mobility.at[end], c.branches.of[end]);
+    line.after[end] = places[0], line.to[end] = places[1];
+  }
+  return line;
+}
+
+/// crush_impulses, on the line of the last solution where that is on its branches still.
+std::array<double, 2> impulses_of(CrushLaw::State& c, const EndsMobility& mobility,
+                                  const std::array<double, 2>& closing_speed) {
+  if (c.has_line) {
+    const EndsLine& line = c.line;
+    const double x0 = closing_speed[0] - c.ends[0].gap_speed, x1 = closing_speed[1] - c.ends[1].gap_speed;
+    const double p0 = line.at_rest[0] + line.by[0][0] * x0 + line.by[0][1] * x1;
+    const double p1 = line.at_rest[1] + line.by[1][0] * x0 + line.by[1][1] * x1;
+    const double place_0 = x0 - mobility.between * p1, place_1 = x1 - mobility.between * p0;
+    if (place_0 > line.after[0] && place_0 <= line.to[0] && place_1 > line.after[1] && place_1 <= line.to[1])
+      return {std::clamp(p0, 0.0, c.ends[0].cap), std::clamp(p1, 0.0, c.ends[1].cap)};
+  }
+  const auto impulse = crush_impulses(c.ends, c.kinks, mobility, closing_speed, c.branches);
+  c.line = line_on(c, mobility);
+  c.has_line = true;
+  return impulse;
+}
+
 /// The most impulse that the ice gives in a time τ before it breaks: where the force grows to the breaking
 /// force sooner, at the speed of closing now, all until then [N s].
 double impulse_to_breaking(const CrushLaw::State& c, const ConstraintSpeeds& speeds, double tau) {
@@ -78,6 +114,26 @@ double impulse_to_breaking(const CrushLaw::State& c, const ConstraintSpeeds& spe
 }
 
 }  // namespace
+
+std::array<double, 2> places_of(const CrushResponse& law, const CrushKinks& kinks, double inverse_mass,
+                                CrushBranch branch) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double creeping_to = kinks.creeping_to + inverse_mass * kinks.crept;
+  const double crushing_to = kinks.crept == law.cap ? creeping_to
+                             : law.slope == 0       ? kInfinity
+                                                    : kinks.crushing_to + inverse_mass * law.cap;
+  switch (branch) {
+    case CrushBranch::kApart:
+      return {-kInfinity, 0};
+    case CrushBranch::kCreeping:
+      return {0, creeping_to};
+    case CrushBranch::kCrushing:
+      return {creeping_to, crushing_to};
+    case CrushBranch::kBroken:
+      return {crushing_to, kInfinity};
+  }
+  return {};
+}
 
 std::array<double, 2> crush_impulses(const std::array<CrushResponse, 2>& ends, const std::array<CrushKinks, 2>& kinks,
                                      const EndsMobility& mobility, const std::array<double, 2>& closing_speed,
@@ -112,6 +168,8 @@ CrushLaw::State state_of(const CrushLaw& /*law*/, const Contact& c) {
           .ends = {},
           .kinks = {},
           .branches = {},
+          .line = {},
+          .has_line = false,
           .last_impulse = {c.record->last_impulse[0], c.record->last_impulse[1]},
           .last_slip = c.record->last_slip_impulse,
           .is_rigid = c.is_rigid(),
@@ -131,6 +189,7 @@ void begin_substep(const CrushLaw& law, const ConstraintSpeeds& before, bool is_
   end.cap = state.is_broken ? 0 : 0.5 * (impulse_to_breaking(state, before, tau) + missed);
   state.ends[1] = end;
   state.kinks[0] = state.kinks[1] = kinks_of(end);
+  state.has_line = false;
   constraint.limit = end.cap;
 }
 
@@ -143,7 +202,7 @@ double solve_block(const CrushLaw& /*law*/, CrushLaw::State& state, ContactConst
   const auto trial = trial_speeds(mobility, apart_at(k, a, b), k.normal_impulse);
   const double p0 = k.normal_impulse[0], p1 = k.normal_impulse[1];
   if (p0 == 0 && p1 == 0 && k.slip_impulse == 0 && trial[0] <= 0 && trial[1] <= 0) return 0;
-  const auto impulse = crush_impulses(state.ends, state.kinks, mobility, trial, state.branches);
+  const auto impulse = impulses_of(state, mobility, trial);
   const double change_0 = impulse[0] - p0;
   const double change_1 = impulse[1] - p1;
   k.normal_impulse[0] = impulse[0];

@@ -137,6 +137,10 @@ inline std::array<double, 2> trial_speeds(const EndsMobility& k, const std::arra
           -apart[1] + k.between * impulse[0] + k.at[1] * impulse[1]};
 }
 
+/// After which place a branch begins, and to which one it is the nearest (branch_near) [m/s].
+std::array<double, 2> places_of(const CrushResponse& law, const CrushKinks& kinks, double inverse_mass,
+                                CrushBranch branch);
+
 /// The impulses of both ends that obey the law together: λ_i = λ_i(û_i − (K λ)_i), û the closing speeds
 /// without them [m/s]. On each pair of branches this is a 2 × 2 system, (I + diag(β) K) λ = α + β (û − g/τ);
 /// the branches follow from its solution, as in Newton's method, and where that goes round in circles, all
@@ -145,6 +149,14 @@ inline std::array<double, 2> trial_speeds(const EndsMobility& k, const std::arra
 std::array<double, 2> crush_impulses(const std::array<CrushResponse, 2>& ends, const std::array<CrushKinks, 2>& kinks,
                                      const EndsMobility& mobility, const std::array<double, 2>& closing_speed,
                                      ActiveBranches& branches);
+
+/// The impulses of both ends on one pair of branches, λ = at_rest + by (û − g/τ), and between which places
+/// (branch_near) that holds: solved once, asked in each sweep.
+struct EndsLine {
+  double at_rest[2];       ///< [N s]
+  double by[2][2];         ///< [N s per m/s]
+  double after[2], to[2];  ///< [m/s]
+};
 
 /// Both ends' law of one contact.
 using EndLaws = std::array<CrushResponse, 2>;
@@ -166,6 +178,8 @@ struct CrushLaw {
     EndLaws ends;             ///< of the substep
     std::array<CrushKinks, 2> kinks;
     ActiveBranches branches;  ///< of the ends, at the last solution
+    EndsLine line;            ///< of these branches
+    bool has_line;            ///< in this substep
     double last_impulse[2];   ///< where the step starts [N s]
     double last_slip;         ///< [N s]
     bool is_rigid, is_broken;

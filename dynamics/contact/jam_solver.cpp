@@ -12,17 +12,22 @@ namespace {
 
 /// Newton steps; half a dozen is common. Fewer: more jams are left to the sweeps, which converge slowly.
 constexpr int kMostSteps = 60;
-/// After them half of what would change, an end's branch or a contact's slip, waits in each step, which ends cycles.
-/// Fewer: every jam takes more steps; many more: those that cycle are not solved within kMostSteps.
-constexpr int kWholeSteps = 8;
+/// After them half of what would change, an end's branch or a contact's slip, waits in each step, but what misses its
+/// branch by most: that ends cycles. Fewer: every jam takes more steps; many more: those that cycle are not solved
+/// within kMostSteps.
+constexpr int kWholeSteps = 4;
+/// After them only half of how the bound of what slips changes follows within the step: where all of it does, the
+/// matrix may be nearly singular, and speeds jump. Sooner: every jam takes more steps; later: a few are never solved.
+constexpr int kWholeBoundSteps = 16;
 /// What friction's bound may still change the slip by, in slip speeds. Greater: the slip impulses found miss
 /// Coulomb's law by that share.
 constexpr double kBoundFound = 0.05;
+/// The slope of what sticks, in bounds per slip speed: where it starts, and how far it stays while the bound changes.
+/// Less far: more rows of the matrix are factorized again. Steeper: Newton's method finds fewer jams.
+constexpr double kStickStart = 1.4, kStickRange = 2;
 /// Impulse per speed of rigid ends, in masses. Smaller: steel sinks into steel at a visible speed; far
 /// greater: the masses are lost to rounding beside it, and the matrix is singular.
 constexpr double kRigid = 1e6;
-
-using Unknowns = Eigen::VectorXd;
 
 JamRows rows_of(const ContactConstraint& c, int a, int b) {
   const geometry::Vector n = c.normal;
@@ -54,22 +59,41 @@ struct JamMemory::Parts {
     int slip = 0;
     friend bool operator==(const ActiveSet&, const ActiveSet&) = default;
   };
+  /// The lines of an end's branch and where the branch begins and ends, as places (branch_near).
+  struct Line {
+    double at_rest, slope;  ///< [N s], [N s per m/s]
+    double after, to;       ///< [m/s]
+  };
+  /// Where a contact would leave its branches: for which others, and by how much it is beyond those at hand [m/s].
+  struct Change {
+    std::size_t contact;
+    ActiveSet to;
+    std::array<double, 3> by;  ///< of its ends, and of its slip
+  };
   JamMatrix matrix;
+  std::vector<Change> changes;
+  std::vector<double> normal;                             ///< impulse of a contact by itself [N s]
   std::vector<std::array<double, 3>> impulses_before;     ///< of the constraints
   std::vector<SolverBody> bodies_before, bodies_without;  ///< those free to move; without any impulses
+  std::vector<std::int32_t> number_of;                    ///< of the solver's bodies that a jam has had
   std::vector<std::int32_t> body_of;                      ///< those free to move, three unknowns each
   std::vector<JamRows> rows;
   std::vector<Speeds> speeds;
   std::vector<JamLoad> loads;  ///< by the speeds, on the branches; the impulses need not obey their laws
   std::vector<ActiveSet> active_sets;
   std::vector<std::array<CrushKinks, 2>> kinks;  ///< of the laws
+  std::vector<std::array<Line, 2>> lines;        ///< of the branches
   std::vector<double> slip_bound;                ///< [N s]
-  Unknowns mass, velocity, without;              ///< now, and without any impulses
+  std::vector<double> stick_slope;               ///< slip impulse by slip where it sticks [N s per m/s]
+  JamVector mass, velocity, without;             ///< now, and without any impulses; one more for prescribed motion
+  JamVector direction;
 };
 
 namespace {
 
 using ActiveSet = JamMemory::Parts::ActiveSet;
+using Change = JamMemory::Parts::Change;
+using Line = JamMemory::Parts::Line;
 using Speeds = JamMemory::Parts::Speeds;
 
 class Jam {
@@ -102,6 +126,11 @@ class Jam {
     take(bodies_without_);
     take(without_);
     active_sets_.assign(rows_.size(), {});
+    stick_slope_.assign(rows_.size(), 0);
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    constexpr Line kNone{.at_rest = 0, .slope = 0, .after = kInfinity, .to = kInfinity};  // the impulses are on none
+    lines_.assign(rows_.size(), {kNone, kNone});
+    normal_.resize(rows_.size());
   }
 
   bool solve() {
@@ -111,7 +140,9 @@ class Jam {
       const Choice choice = update_active_sets(step);
       if (step > 0 && choice.are_sets_found && choice.are_bounds_found && enter() < slip_speed_) return true;
       if (!matrix.factorize(mass_, rows_, loads_)) break;
-      advance(matrix.solve(-gradient_now()));
+      find_imbalance();
+      matrix.solve(memory_.direction);
+      advance();
     }
     if (enter() >= residual_) restore();
     return false;
@@ -125,122 +156,171 @@ class Jam {
 
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
+  /// In the order in which the contacts have them.
   void number_unknowns() {
     body_of_.clear();
+    std::vector<std::int32_t>& number = memory_.number_of;
+    if (number.size() < bodies_.size()) number.resize(bodies_.size());
+    for (const ContactConstraint& c : constraints_) number[index(c.a)] = number[index(c.b)] = -1;
     for (const ContactConstraint& c : constraints_) {
       for (const std::int32_t body : {c.a, c.b}) {
-        if (bodies_[index(body)].inverse_mass != 0) body_of_.push_back(body);
+        if (number[index(body)] >= 0 || bodies_[index(body)].inverse_mass == 0) continue;
+        number[index(body)] = static_cast<std::int32_t>(body_of_.size());
+        body_of_.push_back(body);
       }
     }
-    std::ranges::sort(body_of_);
-    body_of_.erase(std::unique(body_of_.begin(), body_of_.end()), body_of_.end());
-    mass_.resize(static_cast<Eigen::Index>(3 * body_of_.size()));
+    mass_.assign(body_of_.size() + 1, {});
     for (std::size_t i = 0; i < body_of_.size(); ++i) {
       const SolverBody& body = bodies_[index(body_of_[i])];
       const double mass = 1 / body.inverse_mass;
-      mass_.segment<3>(static_cast<Eigen::Index>(3 * i)) << mass, mass, 1 / body.inverse_moment;
+      mass_[i] = {mass, mass, 1 / body.inverse_moment, 0};
     }
   }
-  int number_of(std::int32_t body) const {
-    const auto found = std::ranges::lower_bound(body_of_, body);
-    const bool is_free = found != body_of_.end() && *found == body;
-    return is_free ? static_cast<int>(found - body_of_.begin()) : -1;
-  }
-  void take(Unknowns& v) const {
-    v.resize(mass_.size());
+  int number_of(std::int32_t body) const { return memory_.number_of[index(body)]; }
+  void take(JamVector& v) const {
+    v.assign(mass_.size(), {});
     for (std::size_t i = 0; i < body_of_.size(); ++i) {
       const SolverBody& body = bodies_[index(body_of_[i])];
-      v.segment<3>(static_cast<Eigen::Index>(3 * i)) << body.velocity.x, body.velocity.y, body.angular_velocity;
+      v[i] = {body.velocity.x, body.velocity.y, body.angular_velocity, 0};
     }
   }
 
   Choice update_active_sets(int step) {
     Choice choice;
+    share_that_follows_ = step < kWholeBoundSteps ? 1 : 0.5;
+    if (step == 0) find_all_changes();
+    double most = 0;
+    for (const Change& change : changes_) most = std::max({most, change.by[0], change.by[1], change.by[2]});
+    for (const Change& change : changes_) {
+      const std::size_t k = change.contact;
+      const auto take = [&](auto& from, auto to, std::size_t place) {
+        if (step < kWholeSteps || !waits(3 * k + place, step) || change.by[place] == most) from = to;
+      };
+      take(active_sets_[k].ends.of[0], change.to.ends.of[0], 0);
+      take(active_sets_[k].ends.of[1], change.to.ends.of[1], 1);
+      take(active_sets_[k].slip, change.to.slip, 2);
+      find_lines(k);
+    }
+    choice.are_sets_found = changes_.empty();
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-      double normal = 0;
-      const ActiveSet next = active_set_of(k, normal);
-      if (next != active_sets_[k]) {
-        choice.are_sets_found = false;
-        const auto change = [&](auto& from, auto to, std::size_t place) {
-          if (step < kWholeSteps || !waits(3 * k + place, step)) from = to;
-        };
-        change(active_sets_[k].ends.of[0], next.ends.of[0], 0);
-        change(active_sets_[k].ends.of[1], next.ends.of[1], 1);
-        change(active_sets_[k].slip, next.slip, 2);
-      }
-      const double bound = constraints_[k].friction * normal;
+      if (step == 0) find_lines(k);
+      const double bound = constraints_[k].friction * normal_[k];
       const double off = std::abs(bound - slip_bound_[k]) * constraints_[k].inverse_slip_mass;
       choice.are_bounds_found &= off < kBoundFound * slip_speed_;
       slip_bound_[k] = bound;
-      loads_[k] = load_of(k);
+      if (step == 0)
+        find_load(k);
+      else
+        find_slip_load(k);
+    }
+    if (step > 0) {
+      for (const Change& change : changes_) find_load(change.contact);
     }
     return choice;
   }
-  /// The branches that a contact would be on by itself, were its bodies free but for the impulses of the
-  /// others: both ends together, then its slip within the bound so far. (Within the new bound, stick and slip
-  /// may follow each other for ever.) `normal`: its impulses then, both ends' [N s].
-  ActiveSet active_set_of(std::size_t k, double& normal) const {
+  void find_all_changes() {
+    changes_.clear();
+    for (std::size_t k = 0; k < rows_.size(); ++k) find_change(k);
+  }
+  void find_change(std::size_t k) {
     const ContactConstraint& c = constraints_[k];
-    const Speeds& speed = speeds_[k];
-    const double(&impulse)[3] = loads_[k].impulse;
-    const EndsMobility mobility = mobility_of(c);
-    const auto trial = trial_speeds(mobility, {speed[0], speed[1]}, impulse);
+    const std::array<double, 2> beyond{beyond_branch(k, 0), beyond_branch(k, 1)};
     ActiveSet set = active_sets_[k];
-    const std::array<double, 2> ends = crush_impulses(laws_[k], kinks_[k], mobility, trial, set.ends);
-    normal = ends[0] + ends[1];
-    const double place = c.inverse_slip_mass * impulse[2] - speed[2];
-    const double most = c.inverse_slip_mass * slip_bound_[k] + slip_speed_;
-    set.slip = std::abs(place) <= most ? 0 : place > 0 ? 1 : -1;
-    return set;
+    normal_[k] = beyond[0] <= 0 && beyond[1] <= 0 ? normal_within_law(k) : find_branches(k, set.ends);
+    const double slipping = c.inverse_slip_mass * loads_[k].impulse[2] - speeds_[k][2];
+    const double most = c.inverse_slip_mass * slip_bound_[k] + stick_speed(k);
+    // Within the bound so far: within the new one, stick and slip may follow each other for ever.
+    set.slip = std::abs(slipping) <= most ? 0 : slipping > 0 ? 1 : -1;
+    if (set == active_sets_[k]) return;
+    const auto by = [&](auto from, auto to, double beyond_it) { return from != to ? beyond_it : 0; };
+    const ActiveSet& now = active_sets_[k];
+    changes_.push_back({k,
+                        set,
+                        {by(now.ends.of[0], set.ends.of[0], beyond[0]), by(now.ends.of[1], set.ends.of[1], beyond[1]),
+                         by(now.slip, set.slip, std::abs(std::abs(slipping) - most))}});
+  }
+  /// By how much an end's impulse, on the line of its branch, is beyond where the branch is the nearest [m/s].
+  double beyond_branch(std::size_t k, std::size_t end) const {
+    const Line& line = lines_[k][end];
+    const double place =
+        -speeds_[k][end] - laws_[k][end].gap_speed + constraints_[k].inverse_mass_at[end] * loads_[k].impulse[end];
+    return std::max(line.after - place, place - line.to);
+  }
+  /// The branches that a contact's ends would be on by themselves, were its bodies free but for the impulses of the
+  /// others. Returns both ends' impulses then [N s].
+  double find_branches(std::size_t k, ActiveBranches& branches) const {
+    const EndsMobility mobility = mobility_of(constraints_[k]);
+    const auto trial = trial_speeds(mobility, {speeds_[k][0], speeds_[k][1]}, loads_[k].impulse);
+    const std::array<double, 2> ends = crush_impulses(laws_[k], kinks_[k], mobility, trial, branches);
+    return ends[0] + ends[1];
+  }
+  void find_lines(std::size_t k) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const CrushBranch branch = active_sets_[k].ends.of[end];
+      const BranchLine line = line_of(laws_[k][end], kinks_[k][end].creep, branch);
+      const auto [after, to] = places_of(laws_[k][end], kinks_[k][end], constraints_[k].inverse_mass_at[end], branch);
+      lines_[k][end] = {line.at_rest, line.slope, after, to};
+    }
+  }
+  /// The slip at which what sticks comes to its bound [m/s].
+  double stick_speed(std::size_t k) const {
+    return stick_slope_[k] > 0 ? slip_bound_[k] / stick_slope_[k] : slip_speed_;
   }
   /// By the speeds now, on the branches as if they had no ends. The bound of what slips follows the normal
   /// impulses within the step: the exact derivative of Coulomb's law, which is not symmetric.
-  JamLoad load_of(std::size_t k) const {
-    JamLoad load{};
+  void find_load(std::size_t k) {
+    JamLoad& load = loads_[k];
     for (std::size_t end = 0; end < 2; ++end) {
-      const BranchLine line = line_of(laws_[k][end], kinks_[k][end].creep, active_sets_[k].ends.of[end]);
+      const Line& line = lines_[k][end];
       load.impulse[end] = line.at_rest - line.slope * (speeds_[k][end] + laws_[k][end].gap_speed);
       load.slope[end] = line.slope;
     }
-    if (active_sets_[k].slip == 0) {
-      load.slope[2] = slip_bound_[k] / slip_speed_;
-      load.impulse[2] = -load.slope[2] * speeds_[k][2];
-      return load;
-    }
-    const double friction = active_sets_[k].slip * constraints_[k].friction;
-    load.impulse[2] = friction * (load.impulse[0] + load.impulse[1]);
-    for (int end = 0; end < 2; ++end) load.slip_by_apart[end] = friction * load.slope[end];
-    return load;
+    find_slip_load(k);
   }
-  Unknowns gradient_now() const {
-    Unknowns gradient = mass_.cwiseProduct(velocity_ - without_);
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      const JamRows& r = rows_[k];
-      for (int row = 0; row < 3; ++row) {
-        for (int i = 0; i < 3; ++i) {
-          if (r.a >= 0) gradient[3 * r.a + i] -= loads_[k].impulse[row] * r.of_a[row][i];
-          if (r.b >= 0) gradient[3 * r.b + i] -= loads_[k].impulse[row] * r.of_b[row][i];
-        }
-      }
+  void find_slip_load(std::size_t k) {
+    JamLoad& load = loads_[k];
+    const double friction = share_that_follows_ * active_sets_[k].slip * constraints_[k].friction;
+    for (int end = 0; end < 2; ++end) load.slip_by_apart[end] = friction * load.slope[end];
+    load.slope[2] = 0;
+    load.impulse[2] = friction * (load.impulse[0] + load.impulse[1]) +
+                      (1 - share_that_follows_) * active_sets_[k].slip * slip_bound_[k];
+    if (active_sets_[k].slip != 0) return;
+    find_stick_slope(k);
+    load.slope[2] = stick_slope_[k];
+    load.impulse[2] = -load.slope[2] * speeds_[k][2];
+  }
+  /// The slope of what sticks stays while its bound does not change much: with it the matrix's rows do.
+  void find_stick_slope(std::size_t k) {
+    const double most = slip_bound_[k] / slip_speed_;
+    if (stick_slope_[k] < most || stick_slope_[k] > kStickRange * most) stick_slope_[k] = kStickStart * most;
+  }
+  /// The momenta that are missed.
+  void find_imbalance() {
+    JamVector& missed = memory_.direction;
+    missed.resize(mass_.size());
+    for (std::size_t i = 0; i < mass_.size(); ++i) {
+      for (std::size_t j = 0; j < 4; ++j) missed[i][j] = mass_[i][j] * (velocity_[i][j] - without_[i][j]);
     }
-    return gradient;
+    subtract_impulses(rows_, loads_, missed);
+    for (auto& of_body : missed) {
+      for (double& each : of_body) each = -each;
+    }
+    missed.back() = {};
   }
   /// Changes the velocities, and with them speeds and impulses.
-  void advance(const Unknowns& direction) {
-    velocity_ += direction;
+  void advance() {
+    for (std::size_t i = 0; i < velocity_.size(); ++i) {
+      for (std::size_t j = 0; j < 4; ++j) velocity_[i][j] += memory_.direction[i][j];
+    }
+    add_speeds(rows_, memory_.direction, speeds_);
+    changes_.clear();
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-      const JamRows& r = rows_[k];
-      for (std::size_t row = 0; row < 3; ++row) {
-        for (int i = 0; i < 3; ++i) {
-          if (r.a >= 0) speeds_[k][row] += r.of_a[row][i] * direction[3 * r.a + i];
-          if (r.b >= 0) speeds_[k][row] += r.of_b[row][i] * direction[3 * r.b + i];
-        }
-      }
-      loads_[k] = load_of(k);
+      find_load(k);
       if (active_sets_[k].slip != 0) {  // by impulses within their laws: others would turn the slip round
         slip_bound_[k] = constraints_[k].friction * normal_within_law(k);
         loads_[k].impulse[2] = active_sets_[k].slip * slip_bound_[k];
       }
+      find_change(k);
     }
   }
   double normal_within_law(std::size_t k) const {
@@ -300,7 +380,8 @@ class Jam {
   std::span<const EndLaws> laws_;
   std::span<SolverBody> bodies_;
   double slip_speed_;
-  double residual_;  ///< of the sweeps before [m/s]
+  double residual_;                ///< of the sweeps before [m/s]
+  double share_that_follows_ = 1;  ///< of the bound of what slips
   JamMemory::Parts& memory_;
   std::vector<std::array<double, 3>>& impulses_before_ = memory_.impulses_before;
   std::vector<SolverBody>& bodies_before_ = memory_.bodies_before;
@@ -311,8 +392,12 @@ class Jam {
   std::vector<JamLoad>& loads_ = memory_.loads;
   std::vector<ActiveSet>& active_sets_ = memory_.active_sets;
   std::vector<std::array<CrushKinks, 2>>& kinks_ = memory_.kinks;
+  std::vector<Change>& changes_ = memory_.changes;
+  std::vector<double>& normal_ = memory_.normal;
+  std::vector<std::array<Line, 2>>& lines_ = memory_.lines;
   std::vector<double>& slip_bound_ = memory_.slip_bound;
-  Unknowns &mass_ = memory_.mass, &velocity_ = memory_.velocity, &without_ = memory_.without;
+  std::vector<double>& stick_slope_ = memory_.stick_slope;
+  JamVector &mass_ = memory_.mass, &velocity_ = memory_.velocity, &without_ = memory_.without;
 };
 
 }  // namespace

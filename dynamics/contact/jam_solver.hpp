@@ -39,7 +39,7 @@ class JamMemory {
 /// body. The active set of the next one are the branches of λ = λ(û − K λ), solved for each contact alone, û
 /// = u + K λ its trial closing speeds and K its mobility (primal-dual active sets, [Hintermueller2003]).
 /// After some steps half of the contacts wait in each, which ends cycles. Ψ is friction: the slip impulse
-/// grows to its bound, μ times the normal impulses, within `slip_speed` [m/s]. The bound of what slips
+/// grows to its bound, μ times the normal impulses, within `slip_speed` [m/s] or less. The bound of what slips
 /// follows within the step: the exact derivative of Coulomb's law, not symmetric [Alart1991]. Starts from the
 /// constraints' impulses and the bodies' velocities.
 ///

@@ -300,7 +300,7 @@ TEST(JamSolver, AJamThatStaysIsSolvedByOneSweep) {
 
 struct Problem {
   int bodies = 0;
-  Eigen::VectorXd mass;
+  JamVector mass;  // one more, for bodies of prescribed motion
   std::vector<JamRows> rows;
   std::vector<JamLoad> loads;
 };
@@ -308,8 +308,10 @@ struct Problem {
 /// Contacts between bodies drawn at random, some of prescribed motion, some that meet twice; a third of the
 /// contacts carries nothing.
 Problem problem_of(Random& random, int bodies, double friction) {
-  Problem problem{.bodies = bodies, .mass = Eigen::VectorXd(3 * bodies), .rows = {}, .loads = {}};
-  for (int i = 0; i < 3 * bodies; ++i) problem.mass[i] = std::pow(10.0, random.between(0, 3));
+  Problem problem{.bodies = bodies, .mass = JamVector(static_cast<std::size_t>(bodies) + 1), .rows = {}, .loads = {}};
+  for (int i = 0; i < 3 * bodies; ++i)
+    problem.mass[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)] =
+        std::pow(10.0, random.between(0, 3));
   for (int k = 0; k < 2 * bodies; ++k) {
     JamRows rows{};
     rows.a = random.below(bodies + 1) - 1;
@@ -332,8 +334,29 @@ Problem problem_of(Random& random, int bodies, double friction) {
   return problem;
 }
 
+/// The unknowns of the bodies one after the other.
+Eigen::VectorXd flat(const JamVector& of_bodies) {
+  Eigen::VectorXd all(3 * (static_cast<Eigen::Index>(of_bodies.size()) - 1));
+  for (Eigen::Index i = 0; i < all.size(); ++i)
+    all[i] = of_bodies[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)];
+  return all;
+}
+
+/// Of −1 to 2.
+JamVector right_side(int bodies) {
+  JamVector right(static_cast<std::size_t>(bodies) + 1);
+  for (int i = 0; i < 3 * bodies; ++i)
+    right[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)] = -1 + 3.0 * i / (3 * bodies);
+  return right;
+}
+
+Eigen::VectorXd solution_of(const JamMatrix& matrix, JamVector right) {
+  matrix.solve(right);
+  return flat(right);
+}
+
 Eigen::MatrixXd dense(const Problem& problem) {
-  Eigen::MatrixXd matrix = problem.mass.asDiagonal();
+  Eigen::MatrixXd matrix = flat(problem.mass).asDiagonal();
   for (std::size_t k = 0; k < problem.rows.size(); ++k) {
     const JamRows& rows = problem.rows[k];
     const JamLoad& load = problem.loads[k];
@@ -359,13 +382,31 @@ TEST(JamMatrix, SolvesWhatADenseMatrixSolves) {
       JamMatrix matrix(bodies, problem.rows);
       for (int time = 0; time < 2; ++time) {  // the second with other slopes in the same places
         ASSERT_TRUE(matrix.factorize(problem.mass, problem.rows, problem.loads));
-        const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(3 * Eigen::Index{bodies}, -1, 2);
-        const Eigen::VectorXd expected = dense(problem).partialPivLu().solve(right);
-        EXPECT_LT((matrix.solve(right) - expected).norm(), 1e-8 * expected.norm())
+        const JamVector right = right_side(bodies);
+        const Eigen::VectorXd expected = dense(problem).partialPivLu().solve(flat(right));
+        EXPECT_LT((solution_of(matrix, right) - expected).norm(), 1e-8 * expected.norm())
             << bodies << " bodies, friction " << friction << ", time " << time;
         std::rotate(problem.loads.begin(), problem.loads.begin() + 1, problem.loads.end());
       }
     }
+  }
+}
+
+/// Rows of bodies that no changed slope comes to are kept: the factors are those of a matrix that is all new, bit for
+/// bit.
+TEST(JamMatrix, KeepsRowsWithoutChangedSlopes) {
+  Random random(kSeed);
+  Problem problem = problem_of(random, 40, 0.3);
+  JamMatrix matrix(40, problem.rows);
+  ASSERT_TRUE(matrix.factorize(problem.mass, problem.rows, problem.loads));
+  const JamVector right = right_side(40);
+  for (int time = 0; time < 20; ++time) {
+    JamLoad& changed = problem.loads[static_cast<std::size_t>(random.below(80))];
+    changed = time % 3 == 0 ? JamLoad{} : problem.loads[static_cast<std::size_t>(random.below(80))];
+    ASSERT_TRUE(matrix.factorize(problem.mass, problem.rows, problem.loads));
+    JamMatrix other(40, problem.rows);
+    ASSERT_TRUE(other.factorize(problem.mass, problem.rows, problem.loads));
+    EXPECT_EQ(solution_of(matrix, right), solution_of(other, right)) << time;
   }
 }
 
@@ -377,16 +418,16 @@ TEST(JamMatrix, TakesOtherJams) {
     const Problem problem = problem_of(random, bodies, 0.3);
     matrix.take(bodies, problem.rows);
     ASSERT_TRUE(matrix.factorize(problem.mass, problem.rows, problem.loads));
-    const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(3 * Eigen::Index{bodies}, -1, 2);
-    const Eigen::VectorXd expected = dense(problem).partialPivLu().solve(right);
-    EXPECT_LT((matrix.solve(right) - expected).norm(), 1e-8 * expected.norm()) << bodies;
+    const JamVector right = right_side(bodies);
+    const Eigen::VectorXd expected = dense(problem).partialPivLu().solve(flat(right));
+    EXPECT_LT((solution_of(matrix, right) - expected).norm(), 1e-8 * expected.norm()) << bodies;
   }
 }
 
 TEST(JamMatrix, RefusesWhatIsSingular) {
   Random random(kSeed);
   Problem problem = problem_of(random, 5, 0);
-  problem.mass.setZero();
+  for (auto& of_body : problem.mass) of_body = {};
   for (JamLoad& load : problem.loads) load = {};
   EXPECT_FALSE(JamMatrix(5, problem.rows).factorize(problem.mass, problem.rows, problem.loads));
 }

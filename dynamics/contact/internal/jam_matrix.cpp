@@ -13,11 +13,6 @@ namespace {
 using Rows = double[3][4];
 using Three = std::array<double, 4>;  // and a lane, 0
 
-/// The first unknown of a body.
-Eigen::Index first_of(std::size_t body) {
-  return static_cast<Eigen::Index>(3 * body);
-}
-
 /// to += pᵀ w
 inline void add_product(Rows& to, const Rows& p, const Rows& w) {
   for (int i = 0; i < 3; ++i) {
@@ -105,6 +100,34 @@ void subtract_transposed(Three& x, const Rows& m, const Three& y) {
 
 }  // namespace
 
+void add_speeds(std::span<const JamRows> rows, std::span<const std::array<double, 4>> velocities,
+                std::span<std::array<double, 3>> speeds) {
+  const std::size_t prescribed = velocities.size() - 1;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const JamRows& r = rows[k];
+    const double* a = velocities[r.a < 0 ? prescribed : static_cast<std::size_t>(r.a)].data();
+    const double* b = velocities[r.b < 0 ? prescribed : static_cast<std::size_t>(r.b)].data();
+    for (int row = 0; row < 3; ++row) {
+      double lane[4];
+      for (int i = 0; i < 4; ++i) lane[i] = r.of_a[row][i] * a[i] + r.of_b[row][i] * b[i];
+      speeds[k][static_cast<std::size_t>(row)] += lane[0] + lane[1] + lane[2];
+    }
+  }
+}
+
+void subtract_impulses(std::span<const JamRows> rows, std::span<const JamLoad> loads,
+                       std::span<std::array<double, 4>> momenta) {
+  const std::size_t prescribed = momenta.size() - 1;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const JamRows& r = rows[k];
+    double* a = momenta[r.a < 0 ? prescribed : static_cast<std::size_t>(r.a)].data();
+    double* b = momenta[r.b < 0 ? prescribed : static_cast<std::size_t>(r.b)].data();
+    const double(&p)[3] = loads[k].impulse;
+    for (int i = 0; i < 4; ++i) a[i] -= p[0] * r.of_a[0][i] + p[1] * r.of_a[1][i] + p[2] * r.of_a[2][i];
+    for (int i = 0; i < 4; ++i) b[i] -= p[0] * r.of_b[0][i] + p[1] * r.of_b[1][i] + p[2] * r.of_b[2][i];
+  }
+}
+
 bool JamMatrix::is_of(int bodies, std::span<const JamRows> rows) const {
   if (static_cast<std::size_t>(bodies) != own_.size() || rows.size() != between_.size()) return false;
   for (std::size_t k = 0; k < rows.size(); ++k)
@@ -113,6 +136,7 @@ bool JamMatrix::is_of(int bodies, std::span<const JamRows> rows) const {
 }
 
 void JamMatrix::take(int bodies, std::span<const JamRows> rows) {
+  is_changed_.assign(static_cast<std::size_t>(bodies), 1);
   if (is_of(bodies, rows)) return;
   between_.clear();
   for (const JamRows& r : rows) between_.push_back({r.a, r.b});
@@ -126,6 +150,8 @@ void JamMatrix::take(int bodies, std::span<const JamRows> rows) {
     const int b = r.b < 0 ? -1 : place_of_[r.b];
     places_.push_back({a, b, a < 0 || b < 0 ? -1 : pair_of(std::min(a, b), std::max(a, b))});
   }
+  slopes_.assign(rows.size(), {});
+  find_contacts();
 }
 
 /// An order in which few blocks fill in.
@@ -144,13 +170,17 @@ void JamMatrix::order_bodies(std::span<const JamRows> rows) {
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
   Eigen::AMDOrdering<int>()(graph, order);
   for (int i = 0; i < bodies; ++i) place_of_[order.indices()[i]] = i;
+  body_at_.resize(place_of_.size());
+  for (int i = 0; i < bodies; ++i) body_at_[place_of_[i]] = i;
 }
 
 /// A body's pairs are those of its contacts, and those of the bodies that it is the first later one of
 /// [Davis2006].
 void JamMatrix::find_pairs(std::span<const JamRows> rows) {
   const std::size_t bodies = place_of_.size();
-  std::vector<std::vector<int>> later(bodies);
+  std::vector<std::vector<int>>& later = later_of_;
+  if (later.size() < bodies) later.resize(bodies);
+  for (std::size_t i = 0; i < bodies; ++i) later[i].clear();
   for (const JamRows& r : rows) {
     if (r.a < 0 || r.b < 0) continue;
     const auto [first, second] = std::minmax(place_of_[r.a], place_of_[r.b]);
@@ -172,9 +202,16 @@ void JamMatrix::find_pairs(std::span<const JamRows> rows) {
 }
 
 void JamMatrix::find_targets() {
-  targets_.clear();
-  for (std::size_t i = 0; i < place_of_.size(); ++i) {
+  targets_.clear(), first_target_.clear();
+  first_earlier_.assign(place_of_.size() + 1, 0);
+  for (const int later : later_) ++first_earlier_[later + 1];
+  for (std::size_t i = 0; i < place_of_.size(); ++i) first_earlier_[i + 1] += first_earlier_[i];
+  earlier_.resize(later_.size());
+  std::vector<int> next(first_earlier_.begin(), first_earlier_.end() - 1);
+  for (int i = 0; i < static_cast<int>(place_of_.size()); ++i) {
     for (int p = first_[i]; p < first_[i + 1]; ++p) {
+      earlier_[next[later_[p]]++] = {i, p};
+      first_target_.push_back(static_cast<int>(targets_.size()));
       int at = first_[later_[p]];
       for (int q = p + 1; q < first_[i + 1]; ++q) {
         while (later_[at] != later_[q]) ++at;
@@ -184,102 +221,131 @@ void JamMatrix::find_targets() {
   }
 }
 
+void JamMatrix::find_contacts() {
+  first_contact_.assign(place_of_.size() + 1, 0);
+  const auto for_each_body = [&](auto&& visit) {
+    for (int k = 0; k < static_cast<int>(places_.size()); ++k) {
+      if (places_[k].a >= 0) visit(places_[k].a, k);
+      if (places_[k].b >= 0) visit(places_[k].b, k);
+    }
+  };
+  for_each_body([&](int body, int /*contact*/) { ++first_contact_[body + 1]; });
+  for (std::size_t i = 0; i < place_of_.size(); ++i) first_contact_[i + 1] += first_contact_[i];
+  contacts_.resize(first_contact_.back());
+  std::vector<int> next(first_contact_.begin(), first_contact_.end() - 1);
+  for_each_body([&](int body, int contact) { contacts_[next[body]++] = contact; });
+}
+
 int JamMatrix::pair_of(int earlier, int later) const {
   int at = first_[earlier];
   while (later_[at] != later) ++at;
   return at;
 }
 
-void JamMatrix::add_up(const Eigen::VectorXd& mass, std::span<const JamRows> rows, std::span<const JamLoad> loads) {
-  for (std::size_t i = 0; i < place_of_.size(); ++i) {
-    Own& own = own_[place_of_[i]];
-    own = {};
-    for (int k = 0; k < 3; ++k) own.block.at[k][k] = mass[first_of(i) + k];
+void JamMatrix::mark_changed(std::span<const JamLoad> loads) {
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    const JamLoad& load = loads[k];
+    const Slopes now{{load.slope[0], load.slope[1], load.slope[2]}, {load.slip_by_apart[0], load.slip_by_apart[1]}};
+    if (now == slopes_[k]) continue;
+    slopes_[k] = now;
+    if (places_[k].a >= 0) is_changed_[places_[k].a] = 1;
+    if (places_[k].b >= 0) is_changed_[places_[k].b] = 1;
   }
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+}
+
+/// A body's own block and its pairs, by its mass and its contacts. Most contacts of a jam carry nothing: their blocks
+/// are left out.
+void JamMatrix::add_up(int body, const double* mass, std::span<const JamRows> rows, std::span<const JamLoad> loads) {
+  Own& own = own_[body];
+  own = {};
+  for (int k = 0; k < 3; ++k) own.block.at[k][k] = mass[k];
+  for (int p = first_[body]; p < first_[body + 1]; ++p) {
     if (is_filled_[p] != 0) pairs_[p] = {};
     is_filled_[p] = 0;
   }
-  add(rows, loads);
-}
-
-void JamMatrix::add(std::span<const JamRows> rows, std::span<const JamLoad> loads) {
-  for (std::size_t k = 0; k < rows.size(); ++k) {
+  for (int i = first_contact_[body]; i < first_contact_[body + 1]; ++i) {
+    const int k = contacts_[i];
     const JamLoad& load = loads[k];
     if (load.slope[0] == 0 && load.slope[1] == 0 && load.slope[2] == 0) continue;
     const Places& place = places_[k];
-    Rows by_a, by_b;
-    slopes_times(load, rows[k].of_a, by_a);
-    slopes_times(load, rows[k].of_b, by_b);
-    if (place.a >= 0) add_product(own_[place.a].block.at, rows[k].of_a, by_a);
-    if (place.b >= 0) add_product(own_[place.b].block.at, rows[k].of_b, by_b);
-    if (place.pair < 0) continue;
+    const bool is_a = place.a == body;
+    const Rows& mine = is_a ? rows[k].of_a : rows[k].of_b;
+    const Rows& others = is_a ? rows[k].of_b : rows[k].of_a;
+    Rows by_mine;
+    slopes_times(load, mine, by_mine);
+    add_product(own.block.at, mine, by_mine);
+    if (place.pair < 0 || body != std::min(place.a, place.b)) continue;
+    Rows by_others;
+    slopes_times(load, others, by_others);
     Pair& pair = pairs_[place.pair];
     is_filled_[place.pair] = 1;
-    const bool is_a_first = place.a < place.b;
-    if (is_a_first) {
-      add_product(pair.upper.at, rows[k].of_a, by_b);
-      add_product(pair.lower.at, by_a, rows[k].of_b);
-    } else {
-      add_product(pair.upper.at, rows[k].of_b, by_a);
-      add_product(pair.lower.at, by_b, rows[k].of_a);
-    }
+    add_product(pair.upper.at, mine, by_others);
+    add_product(pair.lower.at, by_mine, others);
   }
 }
 
-/// Takes what a body's blocks contribute from those of the later ones. Its own block is factorized. Most
-/// contacts of a jam carry nothing: their blocks are left out.
-void JamMatrix::eliminate(int body, const int* targets) {
-  const Own& own = own_[body];
-  const int end = first_[body + 1];
-  for (int p = first_[body]; p != end; ++p) {
-    if (is_filled_[p] != 0) divide(pairs_[p].upper.at, pairs_[p].lower.at, own.block.at, own.row);
-  }
-  for (int p = first_[body]; p != end; targets += end - ++p) {
+/// Takes from a body's blocks what those eliminated before it contribute.
+void JamMatrix::take_earlier(int body) {
+  for (int e = first_earlier_[body]; e < first_earlier_[body + 1]; ++e) {
+    const int p = earlier_[e].pair;
     if (is_filled_[p] == 0) continue;
     const Pair& of_p = pairs_[p];
-    subtract_product(own_[later_[p]].block.at, of_p.lower.at, of_p.upper.at);
-    for (int q = p + 1; q != end; ++q) {
+    subtract_product(own_[body].block.at, of_p.lower.at, of_p.upper.at);
+    const int* target = targets_.data() + first_target_[p];
+    const int end = first_[earlier_[e].body + 1];
+    for (int q = p + 1; q != end; ++q, ++target) {
       if (is_filled_[q] == 0) continue;
-      const int to = targets[q - p - 1];
-      is_filled_[to] = 1;
-      subtract_product(pairs_[to].upper.at, of_p.lower.at, pairs_[q].upper.at);
-      subtract_product(pairs_[to].lower.at, of_p.upper.at, pairs_[q].lower.at);
+      is_filled_[*target] = 1;
+      subtract_product(pairs_[*target].upper.at, of_p.lower.at, pairs_[q].upper.at);
+      subtract_product(pairs_[*target].lower.at, of_p.upper.at, pairs_[q].lower.at);
     }
   }
 }
 
-bool JamMatrix::factorize(const Eigen::VectorXd& mass, std::span<const JamRows> rows, std::span<const JamLoad> loads) {
-  add_up(mass, rows, loads);
-  const int* target = targets_.data();
-  for (int i = 0; i < static_cast<int>(own_.size()); ++i) {
-    if (!factorize_own(own_[i].block.at, own_[i].row)) return false;
-    eliminate(i, target);
-    const int pairs = first_[i + 1] - first_[i];
-    target += pairs * (pairs - 1) / 2;
+bool JamMatrix::factorize_row(int body) {
+  Own& own = own_[body];
+  if (!factorize_own(own.block.at, own.row)) return false;
+  for (int p = first_[body]; p < first_[body + 1]; ++p) {
+    if (is_filled_[p] != 0) divide(pairs_[p].upper.at, pairs_[p].lower.at, own.block.at, own.row);
   }
   return true;
 }
 
-Eigen::VectorXd JamMatrix::solve(const Eigen::VectorXd& right) const {
-  const std::size_t bodies = own_.size();
-  std::vector<Three> x(bodies);
-  for (std::size_t i = 0; i < bodies; ++i) std::copy_n(&right[first_of(i)], 3, x[place_of_[i]].data());
-  for (std::size_t i = 0; i < bodies; ++i) {
+bool JamMatrix::factorize(const JamVector& mass, std::span<const JamRows> rows, std::span<const JamLoad> loads) {
+  mark_changed(loads);
+  for (int i = 0; i < static_cast<int>(own_.size()); ++i) {
+    if (is_changed_[i] == 0) continue;
+    add_up(i, mass[body_at_[i]].data(), rows, loads);
+    take_earlier(i);
+    if (!factorize_row(i)) return false;
+    is_changed_[i] = 0;
+    // The next one that it fills has the others that it fills among its own.
+    if (first_[i] < first_[i + 1]) is_changed_[later_[first_[i]]] = 1;
+  }
+  return true;
+}
+
+void JamMatrix::solve_ordered(JamVector& x) const {
+  const int bodies = static_cast<int>(own_.size());
+  for (int i = 0; i < bodies; ++i) {
     solve_lower(own_[i].block.at, own_[i].row, x[i]);
     for (int p = first_[i]; p < first_[i + 1]; ++p) {
       if (is_filled_[p] != 0) subtract_transposed(x[later_[p]], pairs_[p].lower.at, x[i]);
     }
   }
-  for (std::size_t i = bodies; i-- > 0;) {
+  for (int i = bodies; i-- > 0;) {
     for (int p = first_[i]; p < first_[i + 1]; ++p) {
       if (is_filled_[p] != 0) subtract(x[i], pairs_[p].upper.at, x[later_[p]]);
     }
     solve_upper(own_[i].block.at, x[i]);
   }
-  Eigen::VectorXd solution(right.size());
-  for (std::size_t i = 0; i < bodies; ++i) std::copy_n(x[place_of_[i]].data(), 3, &solution[first_of(i)]);
-  return solution;
+}
+
+void JamMatrix::solve(JamVector& x) const {
+  ordered_.resize(own_.size());
+  for (std::size_t i = 0; i < own_.size(); ++i) ordered_[place_of_[i]] = x[i];
+  solve_ordered(ordered_);
+  for (std::size_t i = 0; i < own_.size(); ++i) x[i] = ordered_[place_of_[i]];
 }
 
 }  // namespace polynya::dynamics

@@ -5,8 +5,6 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "geometry/shape/avx2_clone.hpp"
 
 namespace polynya::dynamics {
@@ -26,22 +24,36 @@ struct JamLoad {
   double slip_by_apart[2];
 };
 
+/// Of each body three unknowns or what goes with them (x, y, rotation), and a lane of 0.
+using JamVector = std::vector<std::array<double, 4>>;
+
+/// Adds the speeds of contacts that velocities of their bodies make: those of prescribed motion have 0, one element
+/// more than there are bodies.
+POLYNYA_AVX2_CLONE void add_speeds(std::span<const JamRows> rows, std::span<const std::array<double, 4>> velocities,
+                                   std::span<std::array<double, 3>> speeds);
+/// Takes what the contacts' impulses give from the bodies' momenta, those of prescribed motion together at the end.
+POLYNYA_AVX2_CLONE void subtract_impulses(std::span<const JamRows> rows, std::span<const JamLoad> loads,
+                                          std::span<std::array<double, 4>> momenta);
+
 /// M + Σ Jᵀ S J of a jam's bodies and contacts, S the slopes: sparse, positive definite, and symmetric where
 /// no bound follows the speeds. Factorized as L U, in blocks of the three unknowns of a
 /// body, with pivots sought within them: the row of body i holds the blocks with those eliminated after it.
+/// A step of Newton's method changes few slopes: bodies none of whose contacts, and none of those eliminated before
+/// them that they are filled by, have other slopes than at the last factorization keep their rows.
 class JamMatrix {
  public:
   JamMatrix() = default;
   JamMatrix(int bodies, std::span<const JamRows> rows) { take(bodies, rows); }
 
   /// Finds which blocks there are, for all slopes, and the order of elimination. Of a jam whose contacts are between
-  /// the same bodies as those of the last one it keeps both.
+  /// the same bodies as those of the last one it keeps both. All rows of the next factorization are new.
   void take(int bodies, std::span<const JamRows> rows);
 
-  /// `mass`: 3 a body. Returns whether it succeeded; it fails where masses and slopes differ by more than
-  /// doubles bear.
-  bool factorize(const Eigen::VectorXd& mass, std::span<const JamRows> rows, std::span<const JamLoad> loads);
-  Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
+  /// `mass`: of the bodies, the same since they were taken, as the rows. Returns whether it succeeded; it fails where
+  /// masses and slopes differ by more than doubles bear.
+  bool factorize(const JamVector& mass, std::span<const JamRows> rows, std::span<const JamLoad> loads);
+  /// Solves in place; an element beyond those of the bodies stays.
+  void solve(JamVector& x) const;
 
  private:
   /// Each row has a fourth lane, 0, that makes it as long as a register.
@@ -62,24 +74,48 @@ class JamMatrix {
     int a, b, pair;
   };
 
+  /// A body eliminated before another one, and their pair.
+  struct Earlier {
+    int body, pair;
+  };
+  /// What of a load is in the matrix.
+  struct Slopes {
+    double own[3], slip_by_apart[2];
+    friend bool operator==(const Slopes&, const Slopes&) = default;
+  };
+
   bool is_of(int bodies, std::span<const JamRows> rows) const;
   void order_bodies(std::span<const JamRows> rows);
   void find_pairs(std::span<const JamRows> rows);
   void find_targets();
+  void find_contacts();
   int pair_of(int earlier, int later) const;
-  void add_up(const Eigen::VectorXd& mass, std::span<const JamRows> rows, std::span<const JamLoad> loads);
-  POLYNYA_AVX2_CLONE void eliminate(int body, const int* targets);
-  POLYNYA_AVX2_CLONE void add(std::span<const JamRows> rows, std::span<const JamLoad> loads);
+  void mark_changed(std::span<const JamLoad> loads);
+  POLYNYA_AVX2_CLONE void add_up(int body, const double* mass, std::span<const JamRows> rows,
+                                 std::span<const JamLoad> loads);
+  POLYNYA_AVX2_CLONE void take_earlier(int body);
+  POLYNYA_AVX2_CLONE bool factorize_row(int body);
+  POLYNYA_AVX2_CLONE void solve_ordered(JamVector& x) const;
 
   std::vector<std::array<int, 2>> between_;  ///< the bodies of each contact
   std::vector<int> place_of_;                ///< of each body in the order of elimination
+  std::vector<int> body_at_;                 ///< each place
+  std::vector<std::vector<int>> later_of_;   ///< of each place, while its pairs are found
   std::vector<int> first_;                   ///< of each body's pairs with later ones, by place; one more at the end
   std::vector<Own> own_;                     ///< by place
   std::vector<int> later_;                   ///< of each pair: place of the one eliminated later
   std::vector<std::uint8_t> is_filled_;      ///< of each pair: not zero with the slopes at hand
   std::vector<Pair> pairs_;
-  std::vector<int> targets_;  ///< the pair of each two bodies that have pairs with an earlier one
+  std::vector<int> targets_;        ///< the pair of each two bodies that have pairs with an earlier one
+  std::vector<int> first_target_;   ///< of each pair's with those after it
+  std::vector<int> first_earlier_;  ///< of each body, by place; one more at the end
+  std::vector<Earlier> earlier_;
+  std::vector<int> first_contact_;  ///< of each body, by place; one more at the end
+  std::vector<int> contacts_;
   std::vector<Places> places_;
+  mutable JamVector ordered_;             ///< by place
+  std::vector<Slopes> slopes_;            ///< of the last factorization
+  std::vector<std::uint8_t> is_changed_;  ///< of each body, by place: its row since the last factorization
 };
 
 }  // namespace polynya::dynamics
