@@ -10,8 +10,8 @@
 
 namespace polynya::dynamics {
 
-/// A body in the contact solver.
-struct SolverBody {
+/// A body in the contact solver. In a cache line of its own: its neighbour may be another thread's.
+struct alignas(64) SolverBody {
   geometry::Vector velocity;  ///< of the centre of mass [m/s]
   double angular_velocity;    ///< [rad/s]
   double inverse_mass;        ///< 0: prescribed motion [1/kg]
