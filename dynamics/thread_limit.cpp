@@ -7,8 +7,18 @@
 namespace polynya::dynamics {
 namespace {
 
-/// How often a thread yields before it sleeps: some 200 µs. The serial parts of a step in dense ice are shorter.
-constexpr int kPatience = 1000;
+/// How often a thread asks for a loop before it sleeps: for some 200 µs, longer than most serial parts of a step.
+constexpr int kPatience = 10'000;
+/// And for the end of one before others may have its core: where there are more threads than cores.
+constexpr int kShortPatience = 1000;
+
+void pause() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
 
 constexpr int kBits = 20;  // of a chunk's number
 constexpr std::uint64_t kMask = (std::uint64_t{1} << kBits) - 1;
@@ -93,7 +103,7 @@ void ThreadLimit::serve(bool from_front) {
     if (open != seen)
       seen = open, waited = 0;
     else if (waited++ < patience_)
-      std::this_thread::yield();
+      pause();
     else
       open_.wait(seen, std::memory_order_acquire);
   }
@@ -106,7 +116,8 @@ void ThreadLimit::run(std::size_t count, const Work& work) {
   open_.notify_all();
   ThreadLimit* const own = std::exchange(executing, nullptr);
   while (run_one(true)) continue;
-  while (unfinished_.load(std::memory_order_acquire) > 0) std::this_thread::yield();
+  for (int waited = 0; unfinished_.load(std::memory_order_acquire) > 0; ++waited)
+    waited < kShortPatience ? pause() : std::this_thread::yield();
   executing = own;
   if (!has_failed_.test()) return;
   has_failed_.clear();
