@@ -29,8 +29,7 @@ constexpr std::uint64_t loop_of(std::uint64_t open) {
 constexpr std::uint64_t chunks(std::uint64_t loop, std::uint64_t begin, std::uint64_t end) {
   return loop << (2 * kBits) | begin << kBits | end;
 }
-
-constexpr std::uint64_t kOver = ~std::uint64_t{0} << (2 * kBits);  // no more loops
+constexpr std::uint64_t kOver = chunks(0, 1, 0);  // no more loops
 
 thread_local ThreadLimit* executing = nullptr;
 
@@ -81,7 +80,7 @@ bool ThreadLimit::run_one(bool from_front) {
   do {
     begin = open >> kBits & kMask;
     end = open & kMask;
-    if (begin == end) return false;
+    if (begin >= end) return false;
   } while (!open_.compare_exchange_weak(open,
                                         chunks(loop_of(open), begin + (from_front ? 1 : 0), end - (from_front ? 0 : 1)),
                                         std::memory_order_acquire));
