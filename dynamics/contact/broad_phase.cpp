@@ -343,20 +343,26 @@ void BroadPhase::find_contacts(const Bodies& bodies, double dt, std::vector<Cont
                                int level) {
   constexpr std::size_t kLeastShare = 16;  // of pairs that may touch: fewer are not worth another thread
   constexpr std::size_t kMostShares = 64;  // more take memory
-  contacts.clear();
   level_ = level;
   if (!new_.empty() || dropped_ > 0) merge_new();
   const std::span<ActivePair* const> pending = find_all_pending(bodies, threads);
   const std::size_t share = std::max(kLeastShare, chunk_count(pending.size(), kMostShares));
   const std::size_t shares = std::max<std::size_t>(1, chunk_count(pending.size(), share));
   if (shares_.size() < shares) shares_.resize(shares);
-  if (shares == 1 || threads == 1) return collide_share(bodies, pending, dt, shares_[0].scratch, contacts);
+  if (shares == 1 || threads == 1) {
+    contacts.clear();
+    return collide_share(bodies, pending, dt, shares_[0].scratch, contacts);
+  }
   for_chunks(pending.size(), share, threads, [&](std::size_t k, std::size_t begin, std::size_t end) {
     shares_[k].contacts.clear();
     collide_share(bodies, pending.subspan(begin, end - begin), dt, shares_[k].scratch, shares_[k].contacts);
   });
-  for (const Share& of : std::span(shares_).first(shares))
-    contacts.insert(contacts.end(), of.contacts.begin(), of.contacts.end());
+  std::size_t count = 0;
+  for (Share& of : std::span(shares_).first(shares)) of.first = std::exchange(count, count + of.contacts.size());
+  contacts.resize(count);
+  for_chunks(shares, 1, threads, [&](std::size_t k, std::size_t, std::size_t) {
+    std::ranges::copy(shares_[k].contacts, contacts.begin() + static_cast<std::ptrdiff_t>(shares_[k].first));
+  });
 }
 
 void BroadPhase::take_blind_overlaps(std::vector<BlindOverlap>& overlaps) {

@@ -205,6 +205,7 @@ class BroadPhase {
   struct Share {                          // of those that may touch, for one thread at a time
     PairScratch scratch;
     std::vector<Contact> contacts;
+    std::size_t first = 0;  // of these, among all
   };
   std::vector<Share> shares_;
   std::vector<std::uint32_t> own_pairs_;  // of a body, while some of them are dropped

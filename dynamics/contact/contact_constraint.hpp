@@ -19,7 +19,7 @@ struct alignas(64) SolverBody {
 };
 
 /// Those that touch, and the velocities found for them.
-void take_bodies(const Bodies& bodies, std::span<const BodyIndex> touched, std::vector<SolverBody>& solver_bodies);
+void take_bodies(const Bodies& bodies, std::span<const BodyIndex> touched, std::span<SolverBody> solver_bodies);
 void give_back_bodies(std::span<const SolverBody> solver_bodies, std::span<const BodyIndex> touched, Bodies& bodies);
 
 /// The constraint of one contact line, with the impulses found so far; [0] and [1] are its ends. J and K are

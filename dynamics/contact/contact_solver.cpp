@@ -51,7 +51,11 @@ void for_parts(const Island& island, int threads, Use use) {
 template <class Law>
 void ContactSolver::fill(const Bodies& bodies, const std::vector<Contact>& contacts, const Law& law, int threads) {
   auto& states = std::get<States<Law>>(states_);
-  take_bodies(bodies, islands_.bodies_touched(), solver_bodies_);
+  const std::span touched = islands_.bodies_touched();
+  solver_bodies_.resize(touched.size());
+  for_chunks(touched.size(), kContactsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    take_bodies(bodies, touched.subspan(begin, end - begin), std::span(solver_bodies_).subspan(begin, end - begin));
+  });
   constraints_.resize(contacts.size());
   states.resize(contacts.size());
   sums_.resize(contacts.size());
@@ -283,7 +287,11 @@ void ContactSolver::write_back(Bodies& bodies, std::vector<Contact>& contacts, c
       dynamics::write_back(law, states[k], constraints_[k], contact);
     }
   });
-  give_back_bodies(solver_bodies_, islands_.bodies_touched(), bodies);
+  const std::span touched = islands_.bodies_touched();
+  for_chunks(touched.size(), kContactsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    give_back_bodies(std::span(solver_bodies_).subspan(begin, end - begin), touched.subspan(begin, end - begin),
+                     bodies);
+  });
 }
 
 SolverResult ContactSolver::solve(Bodies& bodies, std::vector<Contact>& contacts, const ResponseLaw& any_law,
