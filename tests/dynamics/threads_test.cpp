@@ -1,7 +1,9 @@
 // Loops on several threads: each chunk once, and the same impulses on any number of them.
 #include <atomic>
 #include <set>
+#include <span>
 #include <stdexcept>
+#include <utility>
 
 #include <gtest/gtest.h>
 
