@@ -303,38 +303,66 @@ void BroadPhase::collide(const Bodies& bodies, ActivePair& active, double dt, Pa
   active.separation_bound = travelled + std::max(0.0, clearance - kRounding);
 }
 
-void BroadPhase::collide_share(const Bodies& bodies, std::size_t begin, std::size_t end, double dt, Share& share,
-                               std::vector<Contact>& contacts) {
+/// All that may touch by now, by (a, b). Valid until the next call.
+std::span<BroadPhase::ActivePair* const> BroadPhase::find_all_pending(const Bodies& bodies, int threads) {
+  const bool are_few = has_short_ && level_ != kEveryLevel && level_ < kShortLevels;
+  const std::size_t chunk = are_few ? std::max<std::size_t>(1, active_.size()) : 4096;
+  const std::size_t chunks = std::max<std::size_t>(1, chunk_count(active_.size(), chunk));
+  if (pending_.size() < chunks) pending_.resize(chunks);
+  const auto find = [&](std::size_t k, std::size_t begin, std::size_t end) {
+    pending_[k].count = find_pending(bodies, begin, end, pending_[k].pairs);
+  };
+  if (chunks == 1) {
+    find(0, 0, active_.size());
+    return {pending_[0].pairs.data(), pending_[0].count};
+  }
+  for_chunks(active_.size(), chunk, threads, find);
+  all_pending_.clear();
+  for (const auto& [pairs, count] : std::span(pending_).first(chunks))
+    all_pending_.insert(all_pending_.end(), pairs.data(), pairs.data() + count);
+  return all_pending_;
+}
+
+void BroadPhase::collide_share(const Bodies& bodies, std::span<ActivePair* const> pending, double dt,
+                               PairScratch& scratch, std::vector<Contact>& contacts) {
   constexpr std::size_t kAhead = 8;  // pairs whose memory is fetched ahead of their turn
-  const std::size_t count = find_pending(bodies, begin, end, share.pending);
-  share.scratch.keeps_distant_edges = static_cast<double>(active_.size()) <= rule_.most_pairs_with_edges;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i + kAhead < count) __builtin_prefetch(&pairs_[share.pending[i + kAhead]->slot]);
-    if (i + kAhead / 2 < count) {
-      const Pair& pair = pairs_[share.pending[i + kAhead / 2]->slot];
+  scratch.keeps_distant_edges = static_cast<double>(active_.size()) <= rule_.most_pairs_with_edges;
+  for (std::size_t i = 0; i < pending.size(); ++i) {
+    if (i + kAhead < pending.size()) __builtin_prefetch(&pairs_[pending[i + kAhead]->slot]);
+    if (i + kAhead / 2 < pending.size()) {
+      const Pair& pair = pairs_[pending[i + kAhead / 2]->slot];
       __builtin_prefetch(&pair.near);
       __builtin_prefetch(pair.parts.get());
     }
-    collide(bodies, *share.pending[i], dt, share.scratch, contacts);
+    collide(bodies, *pending[i], dt, scratch, contacts);
   }
-  share.scratch.covers.clear();
+  scratch.covers.clear();
 }
 
 void BroadPhase::find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads,
                                int level) {
-  constexpr std::size_t kPairsPerShare = 2048;  // fewer are not worth another thread
-  contacts.clear();
+  constexpr std::size_t kLeastShare = 16;  // of pairs that may touch: fewer are not worth another thread
+  constexpr std::size_t kMostShares = 64;  // more take memory
   level_ = level;
   if (!new_.empty() || dropped_ > 0) merge_new();
-  const std::size_t chunks = std::max<std::size_t>(1, chunk_count(active_.size(), kPairsPerShare));
-  if (shares_.size() < chunks) shares_.resize(chunks);
-  if (chunks == 1) return collide_share(bodies, 0, active_.size(), dt, shares_.front(), contacts);
-  for_chunks(active_.size(), kPairsPerShare, threads, [&](std::size_t k, std::size_t begin, std::size_t end) {
+  const std::span<ActivePair* const> pending = find_all_pending(bodies, threads);
+  const std::size_t share = std::max(kLeastShare, chunk_count(pending.size(), kMostShares));
+  const std::size_t shares = std::max<std::size_t>(1, chunk_count(pending.size(), share));
+  if (shares_.size() < shares) shares_.resize(shares);
+  if (shares == 1 || threads == 1) {
+    contacts.clear();
+    return collide_share(bodies, pending, dt, shares_[0].scratch, contacts);
+  }
+  for_chunks(pending.size(), share, threads, [&](std::size_t k, std::size_t begin, std::size_t end) {
     shares_[k].contacts.clear();
-    collide_share(bodies, begin, end, dt, shares_[k], shares_[k].contacts);
+    collide_share(bodies, pending.subspan(begin, end - begin), dt, shares_[k].scratch, shares_[k].contacts);
   });
-  for (std::size_t k = 0; k < chunks; ++k)
-    contacts.insert(contacts.end(), shares_[k].contacts.begin(), shares_[k].contacts.end());
+  std::size_t count = 0;
+  for (Share& of : std::span(shares_).first(shares)) of.first = std::exchange(count, count + of.contacts.size());
+  contacts.resize(count);
+  for_chunks(shares, 1, threads, [&](std::size_t k, std::size_t, std::size_t) {
+    std::ranges::copy(shares_[k].contacts, contacts.begin() + static_cast<std::ptrdiff_t>(shares_[k].first));
+  });
 }
 
 void BroadPhase::take_blind_overlaps(std::vector<BlindOverlap>& overlaps) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "dynamics/contact/hash_grid.hpp"
@@ -173,7 +174,8 @@ class BroadPhase {
   void erase_dropped(std::vector<ActivePair>& list);
   struct Share;
   std::size_t find_pending(const Bodies& bodies, std::size_t begin, std::size_t end, std::vector<ActivePair*>& pending);
-  void collide_share(const Bodies& bodies, std::size_t begin, std::size_t end, double dt, Share& share,
+  std::span<ActivePair* const> find_all_pending(const Bodies& bodies, int threads);
+  void collide_share(const Bodies& bodies, std::span<ActivePair* const> pending, double dt, PairScratch& scratch,
                      std::vector<Contact>& contacts);
   void collide(const Bodies& bodies, ActivePair& active, double dt, PairScratch& scratch,
                std::vector<Contact>& contacts);
@@ -194,10 +196,16 @@ class BroadPhase {
   bool has_short_ = false;                // they hold
   int level_ = kEveryLevel;               // of find_contacts
   double kept_pieces_ = 0;                // of all bodies' covers
-  struct Share {                          // of the pairs in use, for one thread at a time
-    std::vector<ActivePair*> pending;     // those that may touch in this step, and room for more
+  struct Pending {
+    std::vector<ActivePair*> pairs;  // and room for more
+    std::size_t count = 0;
+  };
+  std::vector<Pending> pending_;          // that may touch in this step, of chunks of the pairs in use
+  std::vector<ActivePair*> all_pending_;  // where they are several
+  struct Share {                          // of those that may touch, for one thread at a time
     PairScratch scratch;
     std::vector<Contact> contacts;
+    std::size_t first = 0;  // of these, among all
   };
   std::vector<Share> shares_;
   std::vector<std::uint32_t> own_pairs_;  // of a body, while some of them are dropped

@@ -19,11 +19,11 @@ constexpr double kHeldInverseMass = 1e-13;
 
 }  // namespace
 
-void take_bodies(const Bodies& bodies, std::span<const BodyIndex> touched, std::vector<SolverBody>& solver_bodies) {
-  solver_bodies.clear();
-  for (const BodyIndex body : touched) {
-    solver_bodies.push_back(
-        {bodies.velocity[body], bodies.angular_velocity[body], bodies.inverse_mass[body], bodies.inverse_moment[body]});
+void take_bodies(const Bodies& bodies, std::span<const BodyIndex> touched, std::span<SolverBody> solver_bodies) {
+  for (std::size_t place = 0; place < touched.size(); ++place) {
+    const BodyIndex body = touched[place];
+    solver_bodies[place] = {bodies.velocity[body], bodies.angular_velocity[body], bodies.inverse_mass[body],
+                            bodies.inverse_moment[body]};
   }
 }
 

@@ -10,8 +10,8 @@
 
 namespace polynya::dynamics {
 
-/// A body in the contact solver.
-struct SolverBody {
+/// A body in the contact solver. In a cache line of its own: its neighbour may be another thread's.
+struct alignas(64) SolverBody {
   geometry::Vector velocity;  ///< of the centre of mass [m/s]
   double angular_velocity;    ///< [rad/s]
   double inverse_mass;        ///< 0: prescribed motion [1/kg]
@@ -19,7 +19,7 @@ struct SolverBody {
 };
 
 /// Those that touch, and the velocities found for them.
-void take_bodies(const Bodies& bodies, std::span<const BodyIndex> touched, std::vector<SolverBody>& solver_bodies);
+void take_bodies(const Bodies& bodies, std::span<const BodyIndex> touched, std::span<SolverBody> solver_bodies);
 void give_back_bodies(std::span<const SolverBody> solver_bodies, std::span<const BodyIndex> touched, Bodies& bodies);
 
 /// The constraint of one contact line, with the impulses found so far; [0] and [1] are its ends. J and K are

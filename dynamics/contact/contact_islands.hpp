@@ -7,16 +7,30 @@
 
 namespace polynya::dynamics {
 
-/// Contacts [first, first + count) of the order: those of bodies that touch, directly or through others.
+/// Contacts of the order.
+struct ContactRange {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
+
+/// Contacts [first, first + count) of the order: those of bodies that touch, directly or through others. A large island
+/// has two halves that share no body that moves, then the contacts between them; of others the first half is all.
 struct Island {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
+  std::uint32_t halves[2] = {0, 0};  ///< contacts in each
+
+  ContactRange all() const { return {first, first + count}; }
+  ContactRange first_half() const { return {first, first + halves[0]}; }
+  ContactRange second_half() const { return {first + halves[0], first + halves[0] + halves[1]}; }
+  ContactRange between() const { return {first + halves[0] + halves[1], first + count}; }
+  bool is_divided() const { return halves[0] < count; }
 };
 
 /// The contacts of one step, island by island. A body of prescribed motion connects nothing.
 class ContactIslands {
  public:
-  /// Islands come in the order of their first contact, and contacts keep their order within each.
+  /// Islands come in the order of their first contact, and contacts keep their order within each part of one.
   void find(const Bodies& bodies, const std::vector<Contact>& contacts);
 
   const std::vector<Island>& islands() const { return islands_; }
@@ -29,6 +43,7 @@ class ContactIslands {
  private:
   std::int32_t place_of(BodyIndex body);
   std::int32_t root_of(std::int32_t place);
+  void divide(const Bodies& bodies, const std::vector<Contact>& contacts, Island& island);
 
   std::vector<BodyIndex> touched_;
   std::vector<std::int32_t> places_;         // two for each contact
@@ -38,6 +53,7 @@ class ContactIslands {
   std::vector<std::int32_t> island_of_contact_;
   std::vector<std::uint32_t> order_;
   std::vector<Island> islands_;
+  std::vector<double> coordinates_;  // of an island's contacts, sorted to their median
 };
 
 }  // namespace polynya::dynamics

@@ -35,12 +35,27 @@ constexpr int sweeps_to_jam(const Island& island) {
   return is_large(island) ? 24 : 48;
 }
 
+/// Calls use(part, range) for each part of an island: for its two halves, 0 and 1, side by side, then for what is
+/// between, 2.
+template <class Use>
+void for_parts(const Island& island, int threads, Use use) {
+  if (!island.is_divided()) return use(std::size_t{0}, island.all());
+  for_chunks(2, 1, threads, [&](std::size_t half, std::size_t, std::size_t) {
+    use(half, half == 0 ? island.first_half() : island.second_half());
+  });
+  use(std::size_t{2}, island.between());
+}
+
 }  // namespace
 
 template <class Law>
 void ContactSolver::fill(const Bodies& bodies, const std::vector<Contact>& contacts, const Law& law, int threads) {
   auto& states = std::get<States<Law>>(states_);
-  take_bodies(bodies, islands_.bodies_touched(), solver_bodies_);
+  const std::span touched = islands_.bodies_touched();
+  solver_bodies_.resize(touched.size());
+  for_chunks(touched.size(), kContactsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    take_bodies(bodies, touched.subspan(begin, end - begin), std::span(solver_bodies_).subspan(begin, end - begin));
+  });
   constraints_.resize(contacts.size());
   states.resize(contacts.size());
   sums_.resize(contacts.size());
@@ -59,41 +74,38 @@ void ContactSolver::fill(const Bodies& bodies, const std::vector<Contact>& conta
 
 /// Starts a substep: bounds of the impulses, and those to start from.
 template <class Law>
-void ContactSolver::start(const Island& island, const Law& law, bool is_first) {
+void ContactSolver::start(const Island& island, const Law& law, bool is_first, int threads) {
   auto& states = std::get<States<Law>>(states_);
-  const std::uint32_t end_of_island = island.first + island.count;
-  for (std::uint32_t k = island.first; k < end_of_island; ++k) {
-    sums_[k].before = speeds_at(constraints_[k], solver_bodies_);
-    begin_substep(law, sums_[k].before, is_first, states[k], constraints_[k]);
-  }
-  for (std::uint32_t k = island.first; k < end_of_island; ++k) {
-    ContactConstraint& c = constraints_[k];
-    for (int end = 0; end < 2; ++end)
-      c.normal_impulse[end] = std::min(start_impulse(law, states[k], c, end, is_first), c.limit);
-    const double most = c.friction * (c.normal_impulse[0] + c.normal_impulse[1]);
-    const bool is_kept = !is_first || is_large(island);
-    c.slip_impulse = is_kept ? std::clamp(start_slip(law, states[k], c, is_first), -most, most) : 0;
-    apply_impulses(c, c.normal_impulse[0], c.normal_impulse[1], c.slip_impulse, solver_bodies_);
-  }
+  for_parts(island, threads, [&](std::size_t, ContactRange range) {
+    for (std::uint32_t k = range.begin; k < range.end; ++k) {
+      sums_[k].before = speeds_at(constraints_[k], solver_bodies_);
+      begin_substep(law, sums_[k].before, is_first, states[k], constraints_[k]);
+    }
+  });
+  for_parts(island, threads, [&](std::size_t, ContactRange range) {
+    for (std::uint32_t k = range.begin; k < range.end; ++k) {
+      ContactConstraint& c = constraints_[k];
+      for (int end = 0; end < 2; ++end)
+        c.normal_impulse[end] = std::min(start_impulse(law, states[k], c, end, is_first), c.limit);
+      const double most = c.friction * (c.normal_impulse[0] + c.normal_impulse[1]);
+      const bool is_kept = !is_first || is_large(island);
+      c.slip_impulse = is_kept ? std::clamp(start_slip(law, states[k], c, is_first), -most, most) : 0;
+      apply_impulses(c, c.normal_impulse[0], c.normal_impulse[1], c.slip_impulse, solver_bodies_);
+    }
+  });
 }
 
 /// Sweeps over an island until it is solved or the sweeps are used up. Returns the residual [m/s].
 template <class Law>
 double ContactSolver::sweep(const Island& island, const Law& law, const SolverSettings& settings) {
-  auto& states = std::get<States<Law>>(states_);
   const int to_jam = sweeps_to_jam(island);
   Search search;
   double residual = 0;
   for (int round = 0; round < settings.max_iterations; ++round) {
     const bool is_plain = round < kPlainSweeps;
-    residual = 0;
-    for (std::uint32_t k = island.first; k < island.first + island.count; ++k) {
-      ContactConstraint& c = constraints_[k];
-      if (!is_plain)
-        directions_[k].before[0] = c.normal_impulse[0], directions_[k].before[1] = c.normal_impulse[1],
-        directions_[k].before[2] = c.slip_impulse;
-      residual = std::max(residual, solve_block(law, states[k], c, solver_bodies_));
-    }
+    const Swept swept = sweep_once(island, law, search, is_plain, settings.threads);
+    search.is_due = false;
+    residual = swept.residual;
     if (residual <= settings.tolerance || round + 1 >= settings.max_iterations) break;
     if (Law::kHasJams && round % to_jam == to_jam - 1) {
       if constexpr (Law::kHasJams) {
@@ -104,10 +116,41 @@ double ContactSolver::sweep(const Island& island, const Law& law, const SolverSe
       }
       search.sweeps = 0;
     } else if (!is_plain) {
-      accelerate(island, search);
+      search.follow(swept.change);
     }
   }
   return residual;
+}
+
+/// One sweep, from the impulses extrapolated if that is due.
+template <class Law>
+ContactSolver::Swept ContactSolver::sweep_once(const Island& island, const Law& law, const Search& search,
+                                               bool is_plain, int threads) {
+  if (search.is_due && island.is_divided()) extrapolate(island.between(), search);
+  Swept swept[3];
+  for_parts(island, threads, [&](std::size_t part, ContactRange range) {
+    if (search.is_due && part < 2) extrapolate(range, search);
+    swept[part] = sweep_range(range, law, is_plain);
+  });
+  return {std::max({swept[0].residual, swept[1].residual, swept[2].residual}),
+          swept[0].change + swept[1].change + swept[2].change};
+}
+
+template <class Law>
+ContactSolver::Swept ContactSolver::sweep_range(ContactRange range, const Law& law, bool is_plain) {
+  auto& states = std::get<States<Law>>(states_);
+  Swept swept;
+  for (std::uint32_t k = range.begin; k < range.end; ++k) {
+    ContactConstraint& c = constraints_[k];
+    const double before[3] = {c.normal_impulse[0], c.normal_impulse[1], c.slip_impulse};
+    swept.residual = std::max(swept.residual, solve_block(law, states[k], c, solver_bodies_));
+    if (is_plain) continue;
+    std::ranges::copy(before, directions_[k].before);
+    const double d[3] = {c.normal_impulse[0] - before[0], c.normal_impulse[1] - before[1], c.slip_impulse - before[2]};
+    swept.change +=
+        d[0] * d[0] * c.inverse_mass_at[0] + d[1] * d[1] * c.inverse_mass_at[1] + d[2] * d[2] * c.inverse_slip_mass;
+  }
+  return swept;
 }
 
 /// By how much an island's contacts miss the law, all at the speeds that they are at now [m/s].
@@ -157,22 +200,21 @@ void ContactSolver::give_memories(const std::vector<Contact>& contacts) {
   give([](const KeptMemory&, const Contact&) { return true; });
 }
 
-/// Extrapolates all impulses of an island along their search direction, within their bounds. Jammed floes
-/// need it, whose impulses grow by little in each sweep.
-void ContactSolver::accelerate(const Island& island, Search& search) {
-  double change = 0;  // squared, as kinetic energy has it
-  for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
-    const ContactConstraint& c = constraints_[i];
-    const double(&before)[3] = directions_[i].before;
-    const double d[3] = {c.normal_impulse[0] - before[0], c.normal_impulse[1] - before[1], c.slip_impulse - before[2]};
-    change +=
-        d[0] * d[0] * c.inverse_mass_at[0] + d[1] * d[1] * c.inverse_mass_at[1] + d[2] * d[2] * c.inverse_slip_mass;
-  }
-  const bool is_first = search.sweeps++ == 0;
-  const bool has_grown = change > search.last_change * (1 + 1e-6);
-  const double share = is_first || has_grown ? 0 : std::min(1.0, change / search.last_change);
-  search.last_change = change;
-  for (std::uint32_t i = island.first; i < island.first + island.count; ++i) {
+/// After a sweep whose changes have that squared size.
+void ContactSolver::Search::follow(double change) {
+  const bool is_first = sweeps++ == 0;
+  const bool has_grown = change > last_change * (1 + 1e-6);
+  share = is_first || has_grown ? 0 : std::min(1.0, change / last_change);
+  last_change = change;
+  is_due = true;
+}
+
+/// Extrapolates impulses along their search direction, within their bounds. Jammed floes need it, whose impulses grow
+/// by little in each sweep.
+void ContactSolver::extrapolate(ContactRange range, const Search& search) {
+  const bool is_first = search.sweeps == 1;
+  const double share = search.share;
+  for (std::uint32_t i = range.begin; i < range.end; ++i) {
     ContactConstraint& c = constraints_[i];
     Direction& direction = directions_[i];
     const double p[3] = {c.normal_impulse[0], c.normal_impulse[1], c.slip_impulse};
@@ -193,28 +235,30 @@ void ContactSolver::accelerate(const Island& island, Search& search) {
 /// Ends a substep: its impulses and their work. Impulses together change the kinetic energy by each one times
 /// the mean of the speeds before and after.
 template <class Law>
-void ContactSolver::finish(const Island& island, const Law& law) {
+void ContactSolver::finish(const Island& island, const Law& law, int threads) {
   auto& states = std::get<States<Law>>(states_);
-  for (std::uint32_t k = island.first; k < island.first + island.count; ++k) {
-    const ContactConstraint& constraint = constraints_[k];
-    Sums& sums = sums_[k];
-    const ConstraintSpeeds after = speeds_at(constraint, solver_bodies_);
-    for (int end = 0; end < 2; ++end) {
-      const double p = constraint.normal_impulse[end];
-      sums.impulse[end] += p;
-      sums.normal_work += 0.5 * p * (sums.before.apart[end] + after.apart[end]);
+  for_parts(island, threads, [&](std::size_t, ContactRange range) {
+    for (std::uint32_t k = range.begin; k < range.end; ++k) {
+      const ContactConstraint& constraint = constraints_[k];
+      Sums& sums = sums_[k];
+      const ConstraintSpeeds after = speeds_at(constraint, solver_bodies_);
+      for (int end = 0; end < 2; ++end) {
+        const double p = constraint.normal_impulse[end];
+        sums.impulse[end] += p;
+        sums.normal_work += 0.5 * p * (sums.before.apart[end] + after.apart[end]);
+      }
+      sums.slip_impulse += constraint.slip_impulse;
+      sums.slip_work += 0.5 * constraint.slip_impulse * (sums.before.slip + after.slip);
+      end_substep(law, after, constraint, states[k]);
     }
-    sums.slip_impulse += constraint.slip_impulse;
-    sums.slip_work += 0.5 * constraint.slip_impulse * (sums.before.slip + after.slip);
-    end_substep(law, after, constraint, states[k]);
-  }
+  });
 }
 
 template <class Law>
 double ContactSolver::solve_island(const Island& island, const Law& law, const SolverSettings& settings) {
   double residual = 0;
   for (int substep = 0; substep < substeps_of(law); ++substep) {
-    start(island, law, substep == 0);
+    start(island, law, substep == 0, settings.threads);
     residual = std::max(residual, sweep(island, law, settings));
     if constexpr (Law::kRestores) {
       const bool is_converged = residual <= settings.tolerance;
@@ -223,25 +267,31 @@ double ContactSolver::solve_island(const Island& island, const Law& law, const S
         has_given |= restore(law, is_converged, std::get<States<Law>>(states_)[k], constraints_[k], solver_bodies_);
       if (has_given) residual = std::max(residual, sweep(island, law, settings));
     }
-    finish(island, law);
+    finish(island, law, settings.threads);
   }
   return residual;
 }
 
 template <class Law>
-void ContactSolver::write_back(Bodies& bodies, std::vector<Contact>& contacts, const Law& law) {
+void ContactSolver::write_back(Bodies& bodies, std::vector<Contact>& contacts, const Law& law, int threads) {
   const auto& states = std::get<States<Law>>(states_);
-  for (std::size_t k = 0; k < constraints_.size(); ++k) {
-    Contact& contact = contacts[islands_.order()[k]];
-    const Sums& sums = sums_[k];
-    for (int end = 0; end < 2; ++end) contact.normal_impulse[end] = sums.impulse[end];
-    contact.slip_impulse = sums.slip_impulse;
-    contact.normal_work = sums.normal_work;
-    contact.slip_work = sums.slip_work;
-    contact.prescribed_work = prescribed_work(constraints_[k], solver_bodies_, bodies, contact);
-    dynamics::write_back(law, states[k], constraints_[k], contact);
-  }
-  give_back_bodies(solver_bodies_, islands_.bodies_touched(), bodies);
+  for_chunks(constraints_.size(), kContactsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      Contact& contact = contacts[islands_.order()[k]];
+      const Sums& sums = sums_[k];
+      std::ranges::copy(sums.impulse, contact.normal_impulse);
+      contact.slip_impulse = sums.slip_impulse;
+      contact.normal_work = sums.normal_work;
+      contact.slip_work = sums.slip_work;
+      contact.prescribed_work = prescribed_work(constraints_[k], solver_bodies_, bodies, contact);
+      dynamics::write_back(law, states[k], constraints_[k], contact);
+    }
+  });
+  const std::span touched = islands_.bodies_touched();
+  for_chunks(touched.size(), kContactsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    give_back_bodies(std::span(solver_bodies_).subspan(begin, end - begin), touched.subspan(begin, end - begin),
+                     bodies);
+  });
 }
 
 SolverResult ContactSolver::solve(Bodies& bodies, std::vector<Contact>& contacts, const ResponseLaw& any_law,
@@ -249,14 +299,17 @@ SolverResult ContactSolver::solve(Bodies& bodies, std::vector<Contact>& contacts
   islands_.find(bodies, contacts);
   const std::vector<Island>& islands = islands_.islands();
   residuals_.assign(islands.size(), 0);
-  const int threads = contacts.size() < 2 * kContactsPerChunk ? 1 : settings.threads;
   const auto solve_by = [&](const auto& law) {
     fill(bodies, contacts, law, settings.threads);
     if constexpr (std::decay_t<decltype(law)>::kHasJams) give_memories(contacts);
-    for_chunks(islands.size(), kIslandsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) residuals_[k] = solve_island(islands[k], law, settings);
-    });
-    write_back(bodies, contacts, law);
+    for (std::size_t k = 0; k < islands.size(); ++k)
+      if (islands[k].is_divided()) residuals_[k] = solve_island(islands[k], law, settings);
+    for_chunks(islands.size(), kIslandsPerChunk, settings.threads,
+               [&](std::size_t, std::size_t begin, std::size_t end) {
+                 for (std::size_t k = begin; k < end; ++k)
+                   if (!islands[k].is_divided()) residuals_[k] = solve_island(islands[k], law, settings);
+               });
+    write_back(bodies, contacts, law, settings.threads);
   };
   std::visit(solve_by, any_law);
   SolverResult result;

@@ -45,7 +45,7 @@ struct SolverResult {
 /// largest change of a speed at a contact, max(|Δλ_e| K_ee, |Δλ_t| K_t); an island is solved where it is
 /// within the tolerance. After the first sweeps, each is extrapolated along the search direction of the
 /// nonsmooth nonlinear conjugate gradients of [Silcowitz2010]; jams of crushing ice are solved by Newton's
-/// method (jam_solver.hpp).
+/// method (jam_solver.hpp). A large island is swept by halves, side by side, then between them.
 ///
 /// A response law L is a value with L::State for what it keeps of a contact within a step, and the functions
 /// that crush_law.hpp and restitution_law.hpp declare: substeps_of, state_of, begin_substep (bounds of λ),
@@ -64,6 +64,13 @@ class ContactSolver {
   struct Search {
     double last_change = 0;  // squared size of the last sweep's changes
     int sweeps = 0;          // since the search started
+    double share = 0;        // of the last direction that the next one keeps
+    bool is_due = false;     // impulses are to be extrapolated
+    void follow(double change);
+  };
+  struct Swept {
+    double residual = 0;  // [m/s]
+    double change = 0;    // squared size of the changes, as kinetic energy has it
   };
   struct Sums {  // of one contact over the substeps
     ConstraintSpeeds before;
@@ -83,17 +90,21 @@ class ContactSolver {
   template <class Law>
   double solve_island(const Island& island, const Law& law, const SolverSettings& settings);
   template <class Law>
-  void start(const Island& island, const Law& law, bool is_first);
+  void start(const Island& island, const Law& law, bool is_first, int threads);
   template <class Law>
   double sweep(const Island& island, const Law& law, const SolverSettings& settings);
-  void accelerate(const Island& island, Search& search);
+  template <class Law>
+  Swept sweep_once(const Island& island, const Law& law, const Search& search, bool is_plain, int threads);
+  template <class Law>
+  Swept sweep_range(ContactRange range, const Law& law, bool is_plain);
+  void extrapolate(ContactRange range, const Search& search);
   void give_memories(const std::vector<Contact>& contacts);
   double missed_speed(const Island& island, const CrushLaw& law) const;
   void solve_jam(const Island& island, double tolerance, double residual);
   template <class Law>
-  void finish(const Island& island, const Law& law);
+  void finish(const Island& island, const Law& law, int threads);
   template <class Law>
-  void write_back(Bodies& bodies, std::vector<Contact>& contacts, const Law& law);
+  void write_back(Bodies& bodies, std::vector<Contact>& contacts, const Law& law, int threads);
 
   ContactIslands islands_;
   std::vector<SolverBody> solver_bodies_;       // by their places in the islands
