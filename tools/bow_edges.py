@@ -134,7 +134,7 @@ def by_elements(edge, ratio, finest):
         r = 0.3 * edge["l"]
         forward = chord(np.array(edge["ring"]), 1, r)
         middle = math.atan2(forward[1], forward[0]) + 0.5 * openings(edge, [r])[0]
-        result["cracked"] = bow_solid.breaking(bow_solid.Solid(*arguments, crack=(middle, 2 * edge["l"])), thrusts)[0]
+        result["cracked"] = bow_solid.breaking(bow_solid.Solid(*arguments, cracks=[(middle, 2 * edge["l"])]), thrusts)[0]
     return result
 
 
@@ -205,8 +205,8 @@ def study_wedges(_):
     depth, slope, l = 0.36, math.tan(math.radians(38.2)), 15.0
     print("| 2α | H/V | whole: V_b [σ_f h²] at R/l | cracked | sections alone | bottom cracks at |\n|" + "---|" * 6)
     for degrees in (40, 60, 80, 90, 100, 112, 130, 150, 180):
-        solids = [bow_solid.Solid(bow_solid.wedge(degrees, 6 * l), (1, 0), depth, slope, l, 0.18, 0.2, crack=crack)
-                  for crack in (None, (0.0, 2 * l))]
+        solids = [bow_solid.Solid(bow_solid.wedge(degrees, 6 * l), (1, 0), depth, slope, l, 0.18, 0.2, cracks=cracks)
+                  for cracks in ((), [(0.0, 2 * l)])]
         thrusts = (0.0, 1.0, 1.7)
         whole, cracked = (bow_solid.breaking(solid, thrusts) for solid in solids)
         r = np.linspace(0.05, 1.5, 300) * l

@@ -100,7 +100,7 @@ SectionStresses stresses_of_whole(const EdgeOpenings& openings, const EdgePush& 
 /// its share of ln r counts.
 SectionStresses stresses_of_rims(const EdgeOpenings& openings, const EdgePush& push, double sinking) {
   constexpr double kGap = 1;
-  const double least = 1.5 * push.distance + kGap;  // x̄ is two thirds of the facet
+  const double least = push.facet + kGap;
   const double half_step = std::sqrt(kSectionStep);
   constexpr double kWidest = 180 * geometry::kRadiansPerDegree;
   const double at_mean_opening = kRimOfForce + kGrowthWithLength * (std::clamp(push.length, 10.0, 21.0) / 15 - 1);

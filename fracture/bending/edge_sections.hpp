@@ -27,6 +27,7 @@ struct EdgePush {
   double distance = 0;          ///< x̄, of the load from the first touch
   double thrust = 0;            ///< η = H / V, inwards over down
   double lever = 0;             ///< of the thrust above the middle plane
+  double facet = 0;             ///< from the first touch to the far end of what the hull has crushed
 };
 
 /// The section where an edge breaks.

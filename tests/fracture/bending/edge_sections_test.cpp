@@ -118,7 +118,7 @@ TEST(EdgeSections, OfWholeWedgesAreTheElements) {
   const double depth = 0.36, slope = std::tan(38.2 * kDegree);
   for (const auto& [degrees, thrust, force] :
        {Row{40, 1.7, 0.150}, {40, 1, 0.141}, {60, 1.7, 0.233}, {60, 1, 0.219}, {80, 1.7, 0.331}, {80, 1, 0.308}}) {
-    const EdgePush push{15, 15, 2 * depth / 3, thrust, 0.5 - depth / (3 * slope)};
+    const EdgePush push{15, 15, 2 * depth / 3, thrust, 0.5 - depth / (3 * slope), depth};
     EXPECT_NEAR(weakest_section(wedge_of(degrees), push).force / force, 1, 0.04) << degrees << " " << thrust;
   }
 }
@@ -131,7 +131,7 @@ TEST(EdgeSections, OfCrackedEdgesAreTheElements) {
     double force, distance;
   };
   const auto push = [](double length, double distance, double thrust, double lever) {
-    return EdgePush{length, length, distance, thrust, lever};
+    return EdgePush{length, length, distance, thrust, lever, 1.5 * distance};
   };
   for (const auto& [load, degrees, force, distance] :
        {Row{push(21.19, 0.224, 1.593, 0.358), {105, 101, 101, 101, 108, 116, 132, 157, 169, 252, 265, 273}, 0.378, 3.9},
