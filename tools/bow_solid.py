@@ -128,7 +128,7 @@ class Solid:
         normal = np.asarray(normal) / math.hypot(*normal)
         self.outline, self.normal, self.depth = np.asarray(outline), normal, depth
         self.across = np.array([-normal[1], normal[0]])
-        self.half_angle, self.slope, self.spread = half_angle, slope, 1
+        self.half_angle, self.slope = half_angle, slope
         points, triangles = mesh(outline, normal, depth, reach * l, ratio, finest, 0.4 * l, cracks, half_angle)
         for crack in cracks:
             points, triangles = slit(points, triangles, crack)
@@ -146,9 +146,7 @@ class Solid:
                                  for layer in range(LAYERS)])
         # A crack closes above: the parts hang together at their top fibres.
         self.first = np.arange(n)
-        for i, j in cKDTree(self.plan).query_pairs(1e-9) if is_held is not False else ():
-            if math.hypot(*self.plan[i]) < (0 if is_held is True else is_held):
-                continue
+        for i, j in cKDTree(self.plan).query_pairs(1e-9) if is_held else ():
             self.first[max(i, j)] = min(self.first[max(i, j)], i, j)
         top = (levels - 1) * n
         self.prisms = np.where(self.prisms >= top, top + self.first[np.maximum(self.prisms - top, 0)], self.prisms)
@@ -233,7 +231,7 @@ class Solid:
         size = 3 * len(self.nodes)
         load = np.zeros((size, 2))
         load[3 * top + 2::3, 0][:self.count] = -share
-        apart = 0 if self.half_angle is None else self.spread * self.apart()
+        apart = 0 if self.half_angle is None else self.apart()
         for a in range(2):
             load[3 * top + a::3, 1][:self.count] = share * self.normal[a]
             load[3 * top + a::3, 0][:self.count] += apart * self.across[a]
@@ -244,10 +242,11 @@ class Solid:
             free[3 * (rim + level * self.count)] = free[3 * (rim + level * self.count) + 1] = False
         at = np.flatnonzero(free)
         k = self.stiffness()[at][:, at]
-        factor = splu(k, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+        self.free = at
+        self.factor = splu(k, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
         x = np.zeros((size, 2))
         for i in range(2):
-            x[at, i] = factor.solve(load[at, i])
+            x[at, i] = self.factor.solve(load[at, i])
         results = []
         for thrust in thrusts:
             u = (x[:, 0] + thrust * x[:, 1]).reshape(-1, 3)
@@ -344,6 +343,16 @@ def expected_place(solid, outline, top):
         most.append(np.linalg.eigvalsh(sampled(solid, top, points)[:, :2, :2])[:, 1].max())
     weight = np.maximum(most, 0) ** WEIBULL
     return math.exp(weight @ np.log(radii) / weight.sum())
+
+
+def next_crack(solid, bottom, directions):
+    """V at which the bottom fibre is pulled apart across one of these directions, up to l from the tip."""
+    radii, most = np.exp(np.arange(math.log(solid.depth + 0.5), math.log(solid.l), 0.1)), 0
+    for angle in directions:
+        across = np.array([-math.sin(angle), math.cos(angle)])
+        there = sampled(solid, bottom, np.outer(radii, (across[1], -across[0])))[:, :2, :2]
+        most = max(most, np.einsum("i,pij,j->p", across, there, across).max())
+    return 1 / max(most, 1e-9)
 
 
 def chord(outline, step, length):
