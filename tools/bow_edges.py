@@ -162,10 +162,12 @@ def by_sections(edge, share=None, load_place=2 / 3):
     of_force = 0.95 + 0.185 * (np.clip(l, 10, 21) / 15 - 1) - 0.146 * (np.minimum(opening, math.pi) - 2)
     counts = np.clip(np.log(r * 1.25 ** 0.5 / (edge["depth"] + 1)) / math.log(1.25), 0, 1)
     rims = np.maximum(0, 6 * (of_force * moment - 0.36 * couple) - 1.34 * thrust) / (opening * r) * counts ** (1 / 6)
+    widest = opening[r <= 0.5 * l].max()
+    next_cracks = 0.6 * (1 + max(0, widest - math.pi))
     stress = share * rims + (1 - share) * whole
     weight = rims ** 6
     place = share * (weight @ np.arange(12)) / max(weight.sum(), 1e-30) + (1 - share) * np.argmax(whole)
-    return 1 / stress.max(), r[np.argmax(stress)], r[0] * 1.25 ** place
+    return 1 / max(stress.max(), share / next_cracks), r[np.argmax(stress)], r[0] * 1.25 ** place
 
 
 def different(edges):

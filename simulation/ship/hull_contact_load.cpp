@@ -69,8 +69,8 @@ fracture::EdgeOpenings openings_at(const Setup& setup, const dynamics::Bodies& b
   return openings;
 }
 
-/// Where the overlap's centroid is between its point farthest inside the hull and its far end: in plan it is taken as the
-/// two triangles on the contact line, that of the ice's corner and that of the hull's, (m + d) / 3d.
+/// Where the overlap's centroid is between its point farthest inside the hull and its far end: in plan it is taken as
+/// the two triangles on the contact line, that of the ice's corner and that of the hull's, (m + d) / 3d.
 double place_of_load(const Contact& c) {
   if (!(c.depth > 0)) return 2.0 / 3;
   return (1 + std::clamp(dot(c.middle() - c.tip_of_b, c.normal) / c.depth, 0.0, 1.0)) / 3;
