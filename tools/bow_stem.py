@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""What the ice ahead of a stem bears: three-dimensional elements of the notches that cusps of runs left, beside the law.
+"""What the ice ahead of a stem bears: three-dimensional elements of the notches that cusps left, beside the law.
 
   tools/bow_stem.py RUN... [--cusps N] [--strength S]
 
 A stem crushes a groove and presses its two flanks apart. Radial cracks open one after the other, along the bisectors of
 what they part, until the next one takes more than the ice bears. Their faces press on each other where they close, up
-to S times the flexural strength, without friction; "tied": held together at the top fibres instead. Runs of level ice at
-constant speed along x. Needs numpy, scipy and matplotlib.
+to S times the flexural strength, without friction; "tied": held together at the top fibres instead. Runs of level ice
+at constant speed along x. Needs numpy, scipy and matplotlib.
 """
 import argparse
 import json
@@ -97,7 +97,7 @@ class Parted:
             self.flexibility, self.gap = rows @ self.by_force, rows @ self.bare.ravel()[self.solid.free]
 
     def surfaces(self, force, strength):
-        """Of the top and of the bottom, per V/h², at that V: Gauss-Seidel of the faces' pressures within their limits."""
+        """Of the top and of the bottom, per V/h², at that V; Gauss-Seidel of the faces' forces."""
         u = self.bare.ravel().copy()
         if len(self.area):
             pressed, most = np.zeros(len(self.area)), strength * self.area / force
