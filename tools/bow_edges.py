@@ -63,8 +63,9 @@ def stress_of_section(r, width, l, offset, thrust):
     return (6 * (l * np.interp(rho, RADII, LEVER) - offset * np.interp(rho, RADII, HOLD)) - thrust) / width
 
 
-def edges_of(run, count, seed=1):
-    """Of bends of a run: the outline from the tip, in thicknesses, and the hull's push."""
+def edges_of(run, count, seed=1, is_stem=False):
+    """Of bends of a run at the flanks, or at the stem: the outline from the tip, in thicknesses, and the hull's
+    push."""
     with open(os.path.join(run, "scene.json"), encoding="utf-8") as file:
         scene = json.load(file)
     ice, ship = scene["ice"], scene["ships"][0]
@@ -74,7 +75,7 @@ def edges_of(run, count, seed=1):
     rings, made = outer_rings(run)
     with open(os.path.join(run, "events.ndjson"), encoding="utf-8") as file:
         bends = [e for e in map(json.loads, file) if e["kind"] == "bend" and len(e["children"]) >= 1
-                 and e["normal"][0] < 0.9]
+                 and (e["normal"][0] > 0.9) == is_stem]
     found = []
     for e in np.random.default_rng(seed).permutation(bends[len(bends) // 4:]):
         if len(found) == count:
@@ -134,7 +135,8 @@ def by_elements(edge, ratio, finest):
         r = 0.3 * edge["l"]
         forward = chord(np.array(edge["ring"]), 1, r)
         middle = math.atan2(forward[1], forward[0]) + 0.5 * openings(edge, [r])[0]
-        result["cracked"] = bow_solid.breaking(bow_solid.Solid(*arguments, crack=(middle, 2 * edge["l"])), thrusts)[0]
+        result["cracked"] = bow_solid.breaking(bow_solid.Solid(*arguments, cracks=[(middle, 2 * edge["l"])]),
+                                               thrusts)[0]
     return result
 
 
@@ -145,13 +147,14 @@ def hold_of_whole(opening):
 RADII_OF_LAW = 0.08 * 1.25 ** np.arange(12)  # [l]
 
 
-def by_sections(edge, share=None):
-    """V_b, R and the expected R of the law; `share` of the crack as the outline has it, or as given."""
+def by_sections(edge, share=None, load_place=2 / 3):
+    """V_b, R and the expected R of the law; `share` of the crack as the outline has it, or as given; the load's place
+    between the first touch and the far end of the facet."""
     l, thrust = edge["l"], edge["thrust"]
     r = RADII_OF_LAW * l
     opening = openings(edge, r)
     lever, hold = (np.interp(r / l, RADII, column) for column in (LEVER, HOLD))
-    distance, up = 2 / 3 * edge["depth"], max(0, 0.5 - edge["depth"] / (3 * edge["slope"]))
+    distance, up = load_place * edge["depth"], max(0, 0.5 - edge["depth"] / (3 * edge["slope"]))
     moment, couple = l * lever - distance * hold, thrust * up * hold
     if share is None:
         share = np.clip((math.degrees(opening[r <= 0.5 * l].max()) - 90) / 15, 0, 1)
@@ -159,10 +162,12 @@ def by_sections(edge, share=None):
     of_force = 0.95 + 0.185 * (np.clip(l, 10, 21) / 15 - 1) - 0.146 * (np.minimum(opening, math.pi) - 2)
     counts = np.clip(np.log(r * 1.25 ** 0.5 / (edge["depth"] + 1)) / math.log(1.25), 0, 1)
     rims = np.maximum(0, 6 * (of_force * moment - 0.36 * couple) - 1.34 * thrust) / (opening * r) * counts ** (1 / 6)
+    widest = opening[r <= 0.5 * l].max()
+    next_cracks = 0.6 * (1 + max(0, widest - math.pi))
     stress = share * rims + (1 - share) * whole
     weight = rims ** 6
     place = share * (weight @ np.arange(12)) / max(weight.sum(), 1e-30) + (1 - share) * np.argmax(whole)
-    return 1 / stress.max(), r[np.argmax(stress)], r[0] * 1.25 ** place
+    return 1 / max(stress.max(), share / next_cracks), r[np.argmax(stress)], r[0] * 1.25 ** place
 
 
 def different(edges):
@@ -205,8 +210,8 @@ def study_wedges(_):
     depth, slope, l = 0.36, math.tan(math.radians(38.2)), 15.0
     print("| 2α | H/V | whole: V_b [σ_f h²] at R/l | cracked | sections alone | bottom cracks at |\n|" + "---|" * 6)
     for degrees in (40, 60, 80, 90, 100, 112, 130, 150, 180):
-        solids = [bow_solid.Solid(bow_solid.wedge(degrees, 6 * l), (1, 0), depth, slope, l, 0.18, 0.2, crack=crack)
-                  for crack in (None, (0.0, 2 * l))]
+        solids = [bow_solid.Solid(bow_solid.wedge(degrees, 6 * l), (1, 0), depth, slope, l, 0.18, 0.2, cracks=cracks)
+                  for cracks in ((), [(0.0, 2 * l)])]
         thrusts = (0.0, 1.0, 1.7)
         whole, cracked = (bow_solid.breaking(solid, thrusts) for solid in solids)
         r = np.linspace(0.05, 1.5, 300) * l

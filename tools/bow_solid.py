@@ -61,9 +61,9 @@ def resampled(line, size):
     return np.array(points)
 
 
-def mesh(outline, normal, depth, reach, ratio, finest, coarsest, crack=None):
+def mesh(outline, normal, depth, reach, ratio, finest, coarsest, cracks=(), half_angle=None):
     """Triangles of the ice within `reach` of the outline's first vertex, which is the tip; an edge of the mesh along
-    the facet's inner end and, where there is one, along the crack (its direction and length)."""
+    the facet's inner end (a stem's two flanks) and along each crack (its direction and length)."""
     size = lambda p: min(coarsest, max(finest, ratio * math.hypot(*p)))
     closed = np.vstack([outline, outline[:1]])
     edge = [outline[0]]
@@ -72,12 +72,15 @@ def mesh(outline, normal, depth, reach, ratio, finest, coarsest, crack=None):
             edge.append(p)
     path = Path(outline)
     across = np.array([-normal[1], normal[0]])
-    lines = [np.array([depth * normal + t * across for t in np.arange(-6 * max(depth, finest),
-                                                                      6 * max(depth, finest), 0.7 * finest)])]
-    if crack is not None:
-        along = np.array([math.cos(crack[0]), math.sin(crack[0])])
-        at, points = 0.7 * finest, []
-        while at < crack[1]:
+    back = 0 if half_angle is None else 1 / math.tan(half_angle)
+    steps = 0.7 * finest * np.arange(-math.ceil(9 * max(depth / finest, 1)), math.ceil(9 * max(depth / finest, 1)))
+    lines = [depth * normal + np.outer(steps, across) / math.hypot(1, back) - np.outer(abs(steps), normal) * back /
+             math.hypot(1, back)]
+    for angle, length in cracks:
+        along = np.array([math.cos(angle), math.sin(angle)])
+        nearest = min((abs(angle - other) for other, _ in cracks if other != angle), default=1)
+        at, points = finest * max(0.7, 0.42 / nearest), []
+        while at < length:
             points.append(at * along)
             at += 0.7 * size(at * along)
         lines.append(np.array(points))
@@ -117,13 +120,17 @@ def mesh(outline, normal, depth, reach, ratio, finest, coarsest, crack=None):
 
 
 class Solid:
-    def __init__(self, outline, normal, depth, slope, l, ratio=0.2, finest=0.12, reach=4.0, crack=None):
+    def __init__(self, outline, normal, depth, slope, l, ratio=0.2, finest=0.12, reach=4.0, cracks=(),
+                 half_angle=None, is_held=True):
         """Outline in h, its first vertex the tip at (0, 0); the facet falls by 1/slope towards the tip (slope tan θ_s);
-        l in h."""
+        l in h. A stem of that half-angle has crushed a groove whose two flanks it presses apart. The parts of
+        cracks are held together at their top fibres or not at all."""
         normal = np.asarray(normal) / math.hypot(*normal)
         self.outline, self.normal, self.depth = np.asarray(outline), normal, depth
-        points, triangles = mesh(outline, normal, depth, reach * l, ratio, finest, 0.4 * l, crack)
-        if crack is not None:
+        self.across = np.array([-normal[1], normal[0]])
+        self.half_angle, self.slope = half_angle, slope
+        points, triangles = mesh(outline, normal, depth, reach * l, ratio, finest, 0.4 * l, cracks, half_angle)
+        for crack in cracks:
             points, triangles = slit(points, triangles, crack)
         ends = np.sort(np.stack([triangles[:, list(e)] for e in ENDS], 1), 2)
         keys, inverse = np.unique(ends[..., 0].ravel() * len(points) + ends[..., 1].ravel(), return_inverse=True)
@@ -132,16 +139,15 @@ class Solid:
         self.six = np.hstack([triangles, len(points) + inverse.reshape(-1, 3)])
         self.triangles, self.corner_count = triangles, len(points)
         levels, n = 2 * LAYERS + 1, len(self.plan)
-        along = self.plan @ normal
-        height = 1 - np.clip((depth - along) / max(slope, 1e-6), 0, 1 - THINNEST)
+        height = 1 - np.clip(self.passed(self.plan) / max(slope, 1e-6), 0, 1 - THINNEST)
         self.levels, self.count = levels, n
         self.nodes = np.concatenate([np.c_[self.plan, height * k / (levels - 1)] for k in range(levels)])
         self.prisms = np.vstack([np.hstack([self.six + n * (2 * layer + k) for k in range(3)])
                                  for layer in range(LAYERS)])
         # A crack closes above: the parts hang together at their top fibres.
         self.first = np.arange(n)
-        for i, j in cKDTree(self.plan).query_pairs(1e-9) if crack is not None else ():
-            self.first[max(i, j)] = min(i, j)
+        for i, j in cKDTree(self.plan).query_pairs(1e-9) if is_held else ():
+            self.first[max(i, j)] = min(self.first[max(i, j)], i, j)
         top = (levels - 1) * n
         self.prisms = np.where(self.prisms >= top, top + self.first[np.maximum(self.prisms - top, 0)], self.prisms)
         self.k = 1 / (12 * (1 - NU ** 2) * l ** 4)
@@ -186,16 +192,31 @@ class Solid:
                              shape=(size, size))
         return matrix.tocsc()
 
+    def apart(self):
+        """Of a stem's flanks, what each node has of the push to either side, per V: half of it times H/V of a flank
+        across the ship."""
+        pressed, side = self.is_pressed(), np.zeros(self.count)
+        left = self.plan[self.triangles].mean(1) @ self.across > 0
+        mean = sum(w * triangle_shape(p)[0] for p, w in zip(TRIANGLE, TRIANGLE_WEIGHTS))
+        for on, sign in ((pressed & left, 1), (pressed & ~left, -1)):
+            of = np.bincount(self.six[on].ravel(), (self.areas()[on, None] * mean).ravel(), self.count)
+            side += sign * 0.5 * of / (of.sum() * self.slope * math.tan(self.half_angle))
+        return np.bincount(self.first, side, self.count)
+
     def areas(self):
         c = self.plan[self.triangles]
         a, b = c[:, 1] - c[:, 0], c[:, 2] - c[:, 0]
         return abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
 
+    def passed(self, points):
+        """How far the hull's waterline is past points of the plan, along the normal."""
+        back = 0 if self.half_angle is None else abs(points @ self.across) / math.tan(self.half_angle)
+        return self.depth - points @ self.normal - back
+
     def is_pressed(self):
         """The triangles of the facet at the tip."""
         middle = self.plan[self.triangles].mean(1)
-        pressed = (middle @ self.normal < self.depth) & (np.hypot(*middle.T) < max(4 * self.depth, 1.0))
-        return pressed
+        return (self.passed(middle) > 0) & (np.hypot(*middle.T) < max(4 * self.depth, 1.0))
 
     def solve(self, thrusts):
         """For each H/V: stress tensors at the vertices of the top and of the bottom surface, per V/h²."""
@@ -208,10 +229,12 @@ class Solid:
         share = np.bincount(self.first, share, self.count)
         self.centroid = float(share @ (self.plan @ self.normal))
         size = 3 * len(self.nodes)
-        load = np.zeros((size, 3))
+        load = np.zeros((size, 2))
         load[3 * top + 2::3, 0][:self.count] = -share
+        apart = 0 if self.half_angle is None else self.apart()
         for a in range(2):
             load[3 * top + a::3, 1][:self.count] = share * self.normal[a]
+            load[3 * top + a::3, 0][:self.count] += apart * self.across[a]
         free = np.zeros(size, bool)
         free[(3 * np.unique(self.prisms)[:, None] + np.arange(3)).ravel()] = True
         rim = np.flatnonzero(np.hypot(*self.plan.T) > 0.93 * self.reach)
@@ -219,10 +242,11 @@ class Solid:
             free[3 * (rim + level * self.count)] = free[3 * (rim + level * self.count) + 1] = False
         at = np.flatnonzero(free)
         k = self.stiffness()[at][:, at]
-        factor = splu(k, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+        self.free = at
+        self.factor = splu(k, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
         x = np.zeros((size, 2))
         for i in range(2):
-            x[at, i] = factor.solve(load[at, i])
+            x[at, i] = self.factor.solve(load[at, i])
         results = []
         for thrust in thrusts:
             u = (x[:, 0] + thrust * x[:, 1]).reshape(-1, 3)
@@ -245,14 +269,16 @@ class Solid:
 
 
 def slit(points, triangles, crack):
-    """Parts the mesh along the crack: a second vertex for each on it but its end, for the triangles on its left."""
+    """Parts the mesh along the crack: a second vertex for each on it but its end, for the triangles on its left, up to
+    the opposite of it or to an earlier crack."""
     along = np.array([math.cos(crack[0]), math.sin(crack[0])])
-    s, off = points @ along, points @ np.array([-along[1], along[0]])
+    across = np.array([-along[1], along[0]])
+    s, off = points @ along, points @ across
     on = np.flatnonzero((abs(off) < 1e-9) & (s > -1e-9))
     on = on[np.argsort(s[on])][:-1]
     twin = np.arange(len(points))
     twin[on] = len(points) + np.arange(len(on))
-    left = points[triangles].mean(1) @ np.array([-along[1], along[0]]) > 0
+    left = points[triangles].mean(1) @ across > 0
     triangles = triangles.copy()
     triangles[left] = twin[triangles[left]]
     return np.vstack([points, points[on]]), triangles
@@ -317,6 +343,16 @@ def expected_place(solid, outline, top):
         most.append(np.linalg.eigvalsh(sampled(solid, top, points)[:, :2, :2])[:, 1].max())
     weight = np.maximum(most, 0) ** WEIBULL
     return math.exp(weight @ np.log(radii) / weight.sum())
+
+
+def next_crack(solid, bottom, directions):
+    """V at which the bottom fibre is pulled apart across one of these directions, up to l from the tip."""
+    radii, most = np.exp(np.arange(math.log(solid.depth + 0.5), math.log(solid.l), 0.1)), 0
+    for angle in directions:
+        across = np.array([-math.sin(angle), math.cos(angle)])
+        there = sampled(solid, bottom, np.outer(radii, (across[1], -across[0])))[:, :2, :2]
+        most = max(most, np.einsum("i,pij,j->p", across, there, across).max())
+    return 1 / max(most, 1e-9)
 
 
 def chord(outline, step, length):

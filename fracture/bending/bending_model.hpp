@@ -24,6 +24,8 @@ struct BendingLoad {
   /// angles, Eq. (2).
   double vertical_force = 0;
   double thrust = 0;  ///< H / V of the contact, inwards over down [-]
+  /// Of the load between the first touch (0) and ξ (1): 2/3 of ice that ends in a corner, 1/3 of a hull's corner.
+  double load_place = 2.0 / 3;
   /// The edge's true outline; none: an infinite wedge of 2α.
   std::optional<EdgeOpenings> openings;
 };

@@ -72,14 +72,27 @@ double expected_place(const SectionStresses& stresses) {
   return sum > 0 ? moment / sum : greatest_of(stresses).place;
 }
 
-/// Whether a radial crack opens below before the edge breaks: 0 no, 1 yes; between, so that an edge that widens a
-/// little does not bear much less.
-double crack_share(const EdgeOpenings& openings) {
-  constexpr double kWhole = 90 * geometry::kRadiansPerDegree, kCracked = 105 * geometry::kRadiansPerDegree;
-  constexpr double kReach = 0.5;  // of l: where the bottom fibre is pulled across
+/// The widest opening where the bottom fibre is pulled across.
+double widest_near(const EdgeOpenings& openings) {
+  constexpr double kReach = 0.5;  // of l
   double widest = 0;
   for (std::size_t i = 0; i < kSectionCount && kSectionRadii[i] <= kReach; ++i) widest = std::max(widest, openings[i]);
+  return widest;
+}
+
+/// Whether a radial crack opens below before the edge breaks: 0 no, 1 yes; between, so that an edge that widens a
+/// little does not bear much less.
+double crack_share(double widest) {
+  constexpr double kWhole = 90 * geometry::kRadiansPerDegree, kCracked = 105 * geometry::kRadiansPerDegree;
   return std::clamp((widest - kWhole) / (kCracked - kWhole), 0.0, 1.0);
+}
+
+/// V / (σ_f h²) at which its halves crack radially too: such parts break at once, but in a notch, where they are too
+/// many until the third cracks. By elements of edges wider than 150°; the thrust, which closes sections, does not
+/// matter.
+double held_until_next_cracks(double widest) {
+  constexpr double kSecondCracks = 0.6;
+  return kSecondCracks * (1 + std::max(0.0, widest - 180 * geometry::kRadiansPerDegree));
 }
 
 SectionStresses stresses_of_whole(const EdgeOpenings& openings, const EdgePush& push, double sinking) {
@@ -100,7 +113,7 @@ SectionStresses stresses_of_whole(const EdgeOpenings& openings, const EdgePush& 
 /// its share of ln r counts.
 SectionStresses stresses_of_rims(const EdgeOpenings& openings, const EdgePush& push, double sinking) {
   constexpr double kGap = 1;
-  const double least = 1.5 * push.distance + kGap;  // x̄ is two thirds of the facet
+  const double least = push.facet + kGap;
   const double half_step = std::sqrt(kSectionStep);
   constexpr double kWidest = 180 * geometry::kRadiansPerDegree;
   const double at_mean_opening = kRimOfForce + kGrowthWithLength * (std::clamp(push.length, 10.0, 21.0) / 15 - 1);
@@ -144,7 +157,8 @@ SectionBreak weakest_section(const EdgeOpenings& openings, const EdgePush& push)
 
 SectionBreak weakest_section_of_sinking(const EdgeOpenings& openings, const EdgePush& push, double sinking,
                                         bool has_radial_cracks) {
-  const double cracked = has_radial_cracks ? crack_share(openings) : 0;
+  const double widest = widest_near(openings);
+  const double cracked = has_radial_cracks ? crack_share(widest) : 0;
   // By V = σ_f h²: whichever section has most of it breaks.
   SectionStresses whole{}, rims{}, both{};
   if (cracked < 1) whole = stresses_of_whole(openings, push, sinking);
@@ -152,7 +166,8 @@ SectionBreak weakest_section_of_sinking(const EdgeOpenings& openings, const Edge
   for (std::size_t i = 0; i < kSectionCount; ++i) both[i] = std::lerp(whole[i], rims[i], cracked);
   const Vertex at = greatest_of(both);
   const double place = cracked > 0 ? std::lerp(greatest_of(whole).place, expected_place(rims), cracked) : at.place;
-  return {1 / at.value, kSectionRadii[0] * std::pow(kSectionStep, place) * push.length};
+  return {1 / std::max(at.value, cracked / held_until_next_cracks(widest)),
+          kSectionRadii[0] * std::pow(kSectionStep, place) * push.length};
 }
 
 }  // namespace polynya::fracture

@@ -88,7 +88,8 @@ EdgePush edge_push(const BendingLoad& load, double length, double effective_leng
   EdgePush push;
   push.length = length / load.ice.thickness;
   push.effective_length = effective_length * push.length;
-  push.distance = 2 * depth / 3;
+  push.distance = load.load_place * depth;
+  push.facet = depth;
   push.thrust = load.thrust;
   push.lever = std::max(0.0, 0.5 - depth / (3 * std::tan(load.hull_angle)));
   return push;

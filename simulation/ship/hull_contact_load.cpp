@@ -69,6 +69,13 @@ fracture::EdgeOpenings openings_at(const Setup& setup, const dynamics::Bodies& b
   return openings;
 }
 
+/// Where the overlap's centroid is between its point farthest inside the hull and its far end: in plan it is taken as
+/// the two triangles on the contact line, that of the ice's corner and that of the hull's, (m + d) / 3d.
+double place_of_load(const Contact& c) {
+  if (!(c.depth > 0)) return 2.0 / 3;
+  return (1 + std::clamp(dot(c.middle() - c.tip_of_b, c.normal) / c.depth, 0.0, 1.0)) / 3;
+}
+
 /// By the law of crushing ice, at the deepest overlap that pressed.
 void press(const Setup& setup, bool can_bend, HullContactLoad& load) {
   const Contact& c = load.contact;
@@ -110,6 +117,7 @@ fracture::BendingLoad bending_load(const Setup& setup, const HullContactLoad& lo
   bending.vertical_to_crushing = load.shares.vertical;
   bending.vertical_force = load.vertical_force;
   bending.openings = load.openings;
+  bending.load_place = place_of_load(load.contact);
   if (load.openings && load.shares.vertical > 0) bending.thrust = load.shares.horizontal / load.shares.vertical;
   return bending;
 }
