@@ -7,7 +7,7 @@ cd "$(dirname "$0")"
 
 declare -A packages=(
   [build]="g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libgmp-dev libmpfr-dev
-           nlohmann-json3-dev libcli11-dev libfmt-dev libexpected-dev libproj-dev librsvg2-bin python3"
+           nlohmann-json3-dev libcli11-dev libfmt-dev libexpected-dev libtbb-dev libproj-dev librsvg2-bin python3"
   [test]="libgtest-dev librapidcheck-dev libchipmunk-dev libgeos-dev python3 strace"
   [view]="chromium nodejs npm"
   [python]="python3 python3-numpy python3-scipy python3-matplotlib python3-pytest

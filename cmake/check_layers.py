@@ -50,6 +50,7 @@ TOGETHER = {"simulation/world", "simulation/ship", "simulation/ice"}
 PACKAGES = {
     r"CGAL/": ["geometry/"],
     r"gmp(xx)?\.h": ["geometry/exact/"],
+    r"(tbb|oneapi)/": ["dynamics/"],
     r"Eigen/": ["fracture/bending/", "dynamics/contact/internal/jam_matrix"],
     r"boost/container/": ["dynamics/"],
     r"boost/math/": ["fracture/bending/", "fracture/scatter"],

@@ -2,13 +2,13 @@
 #include <atomic>
 #include <set>
 #include <span>
-#include <stdexcept>
 #include <utility>
 
 #include <gtest/gtest.h>
 
 #include "dynamics/chunks.hpp"
 #include "dynamics/contact/contact_islands.hpp"
+#include "dynamics/thread_limit.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::dynamics {
@@ -34,22 +34,6 @@ TEST(Threads, RunEachChunkOfManyLoopsOnce) {
       }
     });
   }
-}
-
-TEST(Threads, PassOnWhatAChunkThrowsAndGoOn) {
-  ThreadLimit limit(3);
-  limit.execute([&] {
-    for (std::size_t thrower = 0; thrower < 20; ++thrower) {
-      std::atomic<int> others = 0;
-      const auto work = [&](std::size_t chunk, std::size_t, std::size_t) {
-        if (chunk == thrower) throw std::runtime_error("thrown");
-        ++others;
-      };
-      EXPECT_THROW(for_chunks(20, 1, 3, work), std::runtime_error);
-      EXPECT_EQ(others, 19);
-    }
-  });
-  EXPECT_EQ(ThreadLimit::current(), nullptr);
 }
 
 /// Floes that overlap a little, in columns and rows, between two walls that close.

@@ -51,7 +51,7 @@ TEST_F(UnderHullRun, EveryFloeEitherFloatsOrIsUnder) {
     for (const RunFloe& floe : run->floes) there += floe.birth.time <= frame.time && frame.time < floe.died ? 1 : 0;
     EXPECT_EQ(floating.size() + under.size(), there) << frame.time;
   }
-  EXPECT_GT(floes_under_hulls_at(*run, motions, run->end_time()).size(), 5U);
+  EXPECT_GE(floes_under_hulls_at(*run, motions, run->end_time()).size(), 5U);
 }
 
 TEST_F(UnderHullRun, ThinnedFramesHaveWhatIsUnderWhereItIs) {
