@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/cut/repair.hpp"
 #include "geometry/shape/angle.hpp"
 #include "io/run/csv_columns.hpp"
 #include "io/scene/floe_ice.hpp"
@@ -126,7 +127,8 @@ void append_floe(GeojsonLayer& layer, const simulation::FloeState& floe) {
   if (floe.is_fast) json.key("fast_ice").value(true);
   if (!floe.under_hull_of.empty())
     json.key("under_hull_of").value(floe.under_hull_of).key("under_hull_path_m").value(floe.under_path);
-  layer.end_with(transform(floe.world_from_body, *floe.polygon_in_body));
+  // Two corners of a cut may round to one point far from the origin, which a scene that continues the run would refuse.
+  layer.end_with(normalised(transform(floe.world_from_body, *floe.polygon_in_body)));
 }
 
 using simulation::FloeId;

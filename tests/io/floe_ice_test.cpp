@@ -130,5 +130,18 @@ TEST_F(FloeIceFile, WhatARunWritesReadsBack) {
   EXPECT_EQ(again->scene.floes[1].own_ice, simulation::kSceneIce);
 }
 
+TEST_F(FloeIceFile, CornersThatRoundToOnePointFarFromTheOriginAreWrittenOnce) {
+  const auto loaded = tests::checked(read_file(feature(1000, "")));
+  const simulation::Simulation simulation(loaded->scene);
+  std::vector<simulation::FloeState> states = simulation.floe_states();
+  const geometry::Polygon in_body{{{-5, -5}, {5, -5}, {5, 0}, {5, 1e-17}, {5, 5}, {-5, 5}}, {}};
+  states[0].polygon_in_body = &in_body;
+  states[0].world_from_body.position = {1000, 1000};
+  write_file(folder / "again.geojson", to_geojson(states, 0));
+  const auto again =
+      tests::checked(read_scene(R"({"floes": [{"file": "again.geojson"}]})", "scene.json", folder.path()));
+  EXPECT_EQ(again->scene.floes[0].polygon_in_world.outer.size(), 5U);
+}
+
 }  // namespace
 }  // namespace polynya::io
