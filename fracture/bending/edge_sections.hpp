@@ -52,9 +52,9 @@ double hold_of_whole(double opening);
 /// opened below, the rims of the sections have most:
 ///   σ h² / V = {6 [A (λ m_V − x̄ m_M) − .36 η e m_M] − 1.34 η} h / w, A = .95 + .185 (l/15h − 1) − .146 (θ − 2),
 /// and R is where ice breaks on an average whose sections' strengths scatter by .2: that stress is flat along r, so
-/// that its maximum is nowhere in particular. More than .6 (1 + ⟨θ − π⟩), θ the widest within .5 l, it does not bear:
-/// there the next radial cracks open. V within 18 % and R within 33 % of elements of 110 other edges, 90th percentiles;
-/// range l/h 10 to 21, η .6 to 8.4; at the stem V within 22 %, R half as large again.
+/// that its maximum is nowhere in particular. It does not bear more than .6 (1 + ⟨θ − π⟩), θ the widest within
+/// .5 l: there the next radial cracks open. V within 18 % and R within 33 % of elements of 110 other edges, 90th
+/// percentiles; range l/h 10 to 21, η .6 to 8.4; at the stem V within 22 %, R half as large again.
 SectionBreak weakest_section(const EdgeOpenings& openings, const EdgePush& push);
 
 }  // namespace polynya::fracture
