@@ -67,13 +67,11 @@ std::string under_hull_lines(const simulation::Counts& counts, const simulation:
 
 /// "ticks of 0.05 s, steps of 0.025 to 0.4 s".
 std::string steps_of(const simulation::Counts& counts, double tick) {
-  std::vector<int> taken;
-  for (int k = 0; k <= 2 * simulation::kMostLevels; ++k)
-    if (counts.steps_at_level[static_cast<std::size_t>(k)] > 0) taken.push_back(k - simulation::kMostLevels);
+  const std::vector<io::StepsTaken> taken = io::steps_taken(counts);
   std::string ticks = fmt::format("ticks of {:g} s", tick);
-  if (taken.empty() || (taken.front() == 0 && taken.back() == 0)) return ticks;
-  return fmt::format("{}, steps of {:g} to {:g} s", ticks, std::ldexp(tick, taken.front()),
-                     std::ldexp(tick, taken.back()));
+  if (taken.empty() || (taken.front().level == 0 && taken.back().level == 0)) return ticks;
+  return fmt::format("{}, steps of {:g} to {:g} s", ticks, std::ldexp(tick, taken.front().level),
+                     std::ldexp(tick, taken.back().level));
 }
 
 }  // namespace

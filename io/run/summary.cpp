@@ -126,13 +126,9 @@ void append(JsonWriter& json, const simulation::PeakCounts& peaks, double least)
 
 /// The lengths of the steps that the run took.
 void append_levels(JsonWriter& json, const simulation::Counts& counts, double tick) {
-  std::vector<std::size_t> taken;
-  for (std::size_t k = 0; k < counts.steps_at_level.size(); ++k)
-    if (counts.steps_at_level[k] > 0) taken.push_back(k);
-  json.key("levels").objects(taken, [&](std::size_t k) {
-    const int level = static_cast<int>(k) - simulation::kMostLevels;
-    json.key("level").value(level).key("step_s").value(std::ldexp(tick, level));
-    json.key("steps").value(counts.steps_at_level[k]);
+  json.key("levels").objects(steps_taken(counts), [&](const StepsTaken& taken) {
+    json.key("level").value(taken.level).key("step_s").value(std::ldexp(tick, taken.level));
+    json.key("steps").value(taken.steps);
   });
 }
 
@@ -221,6 +217,14 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
 }
 
 }  // namespace
+
+std::vector<StepsTaken> steps_taken(const simulation::Counts& counts) {
+  std::vector<StepsTaken> taken;
+  for (std::size_t k = 0; k < counts.steps_at_level.size(); ++k)
+    if (const std::int64_t steps = counts.steps_at_level[k]; steps > 0)
+      taken.push_back({static_cast<int>(k) - simulation::kMostLevels, steps});
+  return taken;
+}
 
 RunSummary summarise(const Simulation& simulation, const RunWriter& writer, const std::string& stopped_by,
                      double wall_time) {
