@@ -87,8 +87,8 @@ EndsLine line_on(const CrushLaw::State& c, const EndsMobility& mobility) {
 /// crush_impulses, on the line of the last solution where that is on its branches still.
 std::array<double, 2> impulses_of(CrushLaw::State& c, const EndsMobility& mobility,
                                   const std::array<double, 2>& closing_speed) {
-  if (c.has_line) {
-    const EndsLine& line = c.line;
+  if (c.line) {
+    const EndsLine& line = *c.line;
     const double x0 = closing_speed[0] - c.ends[0].gap_speed, x1 = closing_speed[1] - c.ends[1].gap_speed;
     const double p0 = line.at_rest[0] + line.by[0][0] * x0 + line.by[0][1] * x1;
     const double p1 = line.at_rest[1] + line.by[1][0] * x0 + line.by[1][1] * x1;
@@ -98,7 +98,6 @@ std::array<double, 2> impulses_of(CrushLaw::State& c, const EndsMobility& mobili
   }
   const auto impulse = crush_impulses(c.ends, c.kinks, mobility, closing_speed, c.branches);
   c.line = line_on(c, mobility);
-  c.has_line = true;
   return impulse;
 }
 
@@ -169,7 +168,6 @@ CrushLaw::State state_of(const CrushLaw& /*law*/, const Contact& c) {
           .kinks = {},
           .branches = {},
           .line = {},
-          .has_line = false,
           .last_impulse = {c.record->last_impulse[0], c.record->last_impulse[1]},
           .last_slip = c.record->last_slip_impulse,
           .is_rigid = c.is_rigid(),
@@ -189,7 +187,7 @@ void begin_substep(const CrushLaw& law, const ConstraintSpeeds& before, bool is_
   end.cap = state.is_broken ? 0 : 0.5 * (impulse_to_breaking(state, before, tau) + missed);
   state.ends[1] = end;
   state.kinks[0] = state.kinks[1] = kinks_of(end);
-  state.has_line = false;
+  state.line.reset();
   constraint.limit = end.cap;
 }
 

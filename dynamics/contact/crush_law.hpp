@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "dynamics/contact/contact_constraint.hpp"
 
@@ -177,11 +178,10 @@ struct CrushLaw {
     double breaking_force;    ///< [N]
     EndLaws ends;             ///< of the substep
     std::array<CrushKinks, 2> kinks;
-    ActiveBranches branches;  ///< of the ends, at the last solution
-    EndsLine line;            ///< of these branches
-    bool has_line;            ///< in this substep
-    double last_impulse[2];   ///< where the step starts [N s]
-    double last_slip;         ///< [N s]
+    ActiveBranches branches;       ///< of the ends, at the last solution
+    std::optional<EndsLine> line;  ///< of these branches, once it is solved in this substep
+    double last_impulse[2];        ///< where the step starts [N s]
+    double last_slip;              ///< [N s]
     bool is_rigid, is_broken;
   };
 };
