@@ -5,10 +5,11 @@ measured".
   tools/uikku_bench.py [TESTS.csv]   mean, standard deviation, largest, least, and share of the time without contact
 
 Constant speed into fast ice that does not split; 100 m are measured after the hull is full; step min(.02 s, .01 m / v).
+The ice's edge slants by 2 to 6 degrees, each run's by another: along a straight one a bow breaks mirror images.
 TESTS.csv has the columns of tools/uikku_tests.csv (the default: scale 1:31.56, values in full scale). The angles of the
 bow are doubtful, so that both sets that are named for it are run; --angles chooses one. Options: --set KEY=VALUE of the
-scene, several times; --speeds N runs each test at N speeds within 3 %; --polynya PROGRAM, --work FOLDER (run folders;
-they are overwritten), --jobs N. Needs numpy.
+scene, several times; --speeds N runs each test at N speeds within 3 %; --average S: running means of forces over S [s],
+.1 if not given; --polynya PROGRAM, --work FOLDER (run folders; they are overwritten), --jobs N. Needs numpy.
 """
 import argparse
 import json
@@ -18,7 +19,7 @@ import sys
 
 import numpy as np
 
-from study import run_all, run_scene
+from study import run_all, run_scene, slant_of
 from polynya.calibrate import level_tests  # study.py has found the package
 
 HERE = pathlib.Path(__file__).parent
@@ -28,11 +29,11 @@ ANGLES = {"stated": {"stem": 30, "entrance": 21, "friction": 0.05},
           "inverted": {"stem": 28.5, "entrance": 25, "friction": 0.03}}
 
 
-def scene(test, particulars, share, settings):
-    """A test at that share of its speed, with settings of the scene's keys."""
+def scene(test, particulars, share, slant, settings):
+    """A test at that share of its speed, the ice's edge with that slant [rad], with settings of the scene's keys."""
     ship = json.loads((HERE / "uikku.json").read_text(encoding="utf-8"))
     ship["hull"] |= {"entrance_angle_deg": particulars["entrance"], "stem_angle_deg": particulars["stem"]}
-    whole = level_tests.scene(test, ship, (1, 1), particulars["friction"], share)
+    whole = level_tests.scene(test, ship, (1, 1), particulars["friction"], share, slant=slant)
     for key, value in settings:
         *path, last = key.split(".")
         inner = whole
@@ -46,10 +47,11 @@ def run(arguments, name, one):
     """Of the measured way: the resistance [kN], its part under the hull, the share of the time without contact."""
     folder, summary = run_scene(arguments, name, one)
     contact, submerged = level_tests.measured(pathlib.Path(folder), one)
-    total = contact + submerged
+    count = round(arguments.average / level_tests.AVERAGE)
+    total = np.convolve(contact + submerged, np.full(count, 1 / count), "valid")
     return {"mean": total.mean(), "sd": total.std(ddof=1), "max": total.max(), "min": total.min(),
             "submerged": submerged.mean(),
-            "without_contact": np.mean(contact < 1e-3 * total.max()), "real_time": summary["real_time_factor"]}
+            "without_contact": np.mean(contact < 1e-3 * contact.max()), "real_time": summary["real_time_factor"]}
 
 
 def table(tests, results, angles, speeds):
@@ -79,6 +81,7 @@ def main():
     parser.add_argument("--angles", choices=(*ANGLES, "both"), default="both")
     parser.add_argument("--set", action="append", default=[], dest="settings", metavar="KEY=VALUE")
     parser.add_argument("--speeds", type=int, default=1)
+    parser.add_argument("--average", type=float, default=level_tests.AVERAGE, metavar="S")
     parser.add_argument("--polynya", default="build/release/app/polynya")
     parser.add_argument("--work", default="/tmp/uikku-bench")
     parser.add_argument("--jobs", type=int, default=2)
@@ -94,7 +97,8 @@ def main():
     tests = level_tests.read_tests(arguments.tests)
     chosen = list(ANGLES) if arguments.angles == "both" else [arguments.angles]
     shares = [1.0] if arguments.speeds == 1 else np.linspace(0.97, 1.03, arguments.speeds)
-    scenes = {(angles, test.name, number): scene(test, ANGLES[angles], float(share), settings)
+    scenes = {(angles, test.name, number): scene(test, ANGLES[angles], float(share), slant_of(number),
+                                                     settings)
               for angles in chosen for test in tests for number, share in enumerate(shares)}
     results = run_all(arguments, run, scenes)
     for angles in chosen:

@@ -13,6 +13,7 @@ from ..study.measures import rows_by_ship
 MEASURED = 100  # way over which the ice's force is measured, once the hull is full of ice [m]
 GAP = 2  # of water before the ice [m]
 AVERAGE = 0.1  # over which forces are averaged [s]
+SLANT = 0.07  # of the ice's edge: along a straight one a bow breaks mirror images for a long way, as no ice does [rad]
 # Columns of a table of tests, with the least and the largest value of each; the first are required.
 REQUIRED = {
     "thickness_m": (1e-3, 20),
@@ -97,9 +98,10 @@ def way_in(hull, is_full=True):
     return bow + (1.05 * (stem - stern) if is_full else 5)
 
 
-def scene(test, ship, factors, friction=None, share=1.0, is_full=True):
-    """The ship at constant speed, `share` of the test's, into fast ice that does not split; `factors` on the load at
-    which ice bends off, and on the radius of cusps. It is measured once the hull is full of ice, or the bow in it."""
+def scene(test, ship, factors, friction=None, share=1.0, is_full=True, slant=SLANT):
+    """The ship at constant speed, `share` of the test's, into fast ice that does not split, whose edge has that slant
+    [rad]; `factors` on the load at which ice bends off, and on the radius of cusps. It is measured once the hull is
+    full of ice, or the bow in it."""
     way, (stern, stem, beam) = way_in(ship["hull"], is_full) + MEASURED, ends_of(ship["hull"])
     speed, kept = share * test.speed, ("name", "hull", "mass_kg", "moment_of_inertia_kg_m2")
     placed = {key: ship[key] for key in kept if key in ship} | {
@@ -108,14 +110,20 @@ def scene(test, ship, factors, friction=None, share=1.0, is_full=True):
         "calibration": {"load_factor": factors[0], "cusp_radius_factor": factors[1]},
     }
     ice = test.ice if friction is None or "friction" in test.ice else test.ice | {"friction": friction}
-    width = 7 * beam
+    side = 3.5 * beam
+    end, skew = way + 50, slant * side
     return {
         "name": f"test-{test.name}",
         "time": {"step_s": min(0.02, 0.01 / speed), "until_s": (way + GAP) / speed},
         "ice": ice,
         "fracture": {key: dict(value) for key, value in ENDLESS.items()},
         "ships": [placed],
-        "floes": [{"rectangle": {"corner_m": [0, -width / 2], "size_m": [way + 50, width]}, "fast_ice": True}],
+        "floes": [
+            {
+                "polygon": {"outer_m": [[-skew, -side], [end, -side], [end, side], [skew, side]]},
+                "fast_ice": True,
+            }
+        ],
         "record": {"forces_interval_s": AVERAGE, "frames_interval_s": 60, "contacts": "none"},
     }
 
