@@ -195,8 +195,8 @@ void begin_substep(const CrushLaw& law, const ConstraintSpeeds& before, bool is_
 /// λ of one end where the substep's sweeps start [N s].
 inline double start_impulse(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,
                             int end, bool is_first) {
-  if (!law.is_warm_started) return 0;
-  return is_first ? state.last_impulse[end] : constraint.normal_impulse[end];
+  if (!is_first) return constraint.normal_impulse[end];
+  return law.is_warm_started ? state.last_impulse[end] : 0;
 }
 /// λ_t where the substep's sweeps start [N s].
 inline double start_slip(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,
