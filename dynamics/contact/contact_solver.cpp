@@ -228,7 +228,9 @@ void ContactSolver::extrapolate(ContactRange range, const Search& search) {
     for (int end = 0; end < 2; ++end) c.normal_impulse[end] = std::clamp(extrapolated[end], c.least[end], c.limit);
     const double most = c.friction * (c.normal_impulse[0] + c.normal_impulse[1]);
     c.slip_impulse = std::clamp(extrapolated[2], -most, most);
-    apply_impulses(c, c.normal_impulse[0] - p[0], c.normal_impulse[1] - p[1], c.slip_impulse - p[2], solver_bodies_);
+    const double change[3] = {c.normal_impulse[0] - p[0], c.normal_impulse[1] - p[1], c.slip_impulse - p[2]};
+    if (change[0] == 0 && change[1] == 0 && change[2] == 0) continue;  // most contacts of a jam carry nothing
+    apply_impulses(c, change[0], change[1], change[2], solver_bodies_);
   }
 }
 

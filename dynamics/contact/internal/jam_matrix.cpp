@@ -10,18 +10,28 @@
 namespace polynya::dynamics {
 namespace {
 
+/// Of what clones for AVX2 call: else it is compiled for other processors.
+#define POLYNYA_IN_CLONE [[gnu::always_inline]] inline
+
 using Rows = double[3][4];
 using Three = std::array<double, 4>;  // and a lane, 0
 
-/// to += pᵀ w
-inline void add_product(Rows& to, const Rows& p, const Rows& w) {
+/// to += block
+POLYNYA_IN_CLONE void add(Rows& to, const Rows& block) {
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 4; ++j) to[i][j] += p[0][i] * w[0][j] + p[1][i] * w[1][j] + p[2][i] * w[2][j];
+    for (int j = 0; j < 4; ++j) to[i][j] += block[i][j];
+  }
+}
+
+/// to = pᵀ w
+POLYNYA_IN_CLONE void product(Rows& to, const Rows& p, const Rows& w) {
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 4; ++j) to[i][j] = p[0][i] * w[0][j] + p[1][i] * w[1][j] + p[2][i] * w[2][j];
   }
 }
 
 /// w = S q, of one contact.
-inline void slopes_times(const JamLoad& load, const Rows& q, Rows& w) {
+POLYNYA_IN_CLONE void slopes_times(const JamLoad& load, const Rows& q, Rows& w) {
   for (int j = 0; j < 4; ++j) {
     w[0][j] = load.slope[0] * q[0][j];
     w[1][j] = load.slope[1] * q[1][j];
@@ -30,7 +40,7 @@ inline void slopes_times(const JamLoad& load, const Rows& q, Rows& w) {
 }
 
 /// to −= pᵀ u
-inline void subtract_product(Rows& to, const Rows& p, const Rows& u) {
+POLYNYA_IN_CLONE void subtract_product(Rows& to, const Rows& p, const Rows& u) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 4; ++j) to[i][j] -= p[0][i] * u[0][j] + p[1][i] * u[1][j] + p[2][i] * u[2][j];
   }
@@ -38,7 +48,7 @@ inline void subtract_product(Rows& to, const Rows& p, const Rows& u) {
 
 /// L U in the block's place, of its rows in the order found, the largest first, with the inverses of U's
 /// diagonal. Returns whether it is regular.
-bool factorize_own(Rows& d, int (&row)[3]) {
+POLYNYA_IN_CLONE bool factorize_own(Rows& d, int (&row)[3]) {
   for (int k = 0; k < 3; ++k) row[k] = k;
   for (int k = 0; k < 3; ++k) {
     int largest = k;
@@ -60,7 +70,7 @@ bool factorize_own(Rows& d, int (&row)[3]) {
 }
 
 /// u = L⁻¹ u, of the rows in their order; l = l U⁻¹, l transposed
-inline void divide(Rows& u, Rows& l, const Rows& d, const int (&row)[3]) {
+POLYNYA_IN_CLONE void divide(Rows& u, Rows& l, const Rows& d, const int (&row)[3]) {
   Rows was;
   std::copy_n(&u[0][0], 12, &was[0][0]);
   for (int j = 0; j < 4; ++j) {
@@ -74,7 +84,7 @@ inline void divide(Rows& u, Rows& l, const Rows& d, const int (&row)[3]) {
 }
 
 /// L⁻¹ x, of the rows in their order.
-void solve_lower(const Rows& d, const int (&row)[3], Three& x) {
+POLYNYA_IN_CLONE void solve_lower(const Rows& d, const int (&row)[3], Three& x) {
   const Three was = x;
   x[0] = was[row[0]];
   x[1] = was[row[1]] - d[1][0] * x[0];
@@ -82,19 +92,19 @@ void solve_lower(const Rows& d, const int (&row)[3], Three& x) {
 }
 
 /// U⁻¹ x
-void solve_upper(const Rows& d, Three& x) {
+POLYNYA_IN_CLONE void solve_upper(const Rows& d, Three& x) {
   x[2] *= d[2][2];
   x[1] = (x[1] - d[1][2] * x[2]) * d[1][1];
   x[0] = (x[0] - d[0][1] * x[1] - d[0][2] * x[2]) * d[0][0];
 }
 
 /// x −= m y
-void subtract(Three& x, const Rows& m, const Three& y) {
+POLYNYA_IN_CLONE void subtract(Three& x, const Rows& m, const Three& y) {
   for (int i = 0; i < 3; ++i) x[i] -= m[i][0] * y[0] + m[i][1] * y[1] + m[i][2] * y[2];
 }
 
 /// x −= mᵀ y
-void subtract_transposed(Three& x, const Rows& m, const Three& y) {
+POLYNYA_IN_CLONE void subtract_transposed(Three& x, const Rows& m, const Three& y) {
   for (int i = 0; i < 4; ++i) x[i] -= m[0][i] * y[0] + m[1][i] * y[1] + m[2][i] * y[2];
 }
 
@@ -137,6 +147,7 @@ bool JamMatrix::is_of(int bodies, std::span<const JamRows> rows) const {
 
 void JamMatrix::take(int bodies, std::span<const JamRows> rows) {
   is_changed_.assign(static_cast<std::size_t>(bodies), 1);
+  slopes_.assign(rows.size(), {});
   if (is_of(bodies, rows)) return;
   between_.clear();
   for (const JamRows& r : rows) between_.push_back({r.a, r.b});
@@ -150,7 +161,7 @@ void JamMatrix::take(int bodies, std::span<const JamRows> rows) {
     const int b = r.b < 0 ? -1 : place_of_[r.b];
     places_.push_back({a, b, a < 0 || b < 0 ? -1 : pair_of(std::min(a, b), std::max(a, b))});
   }
-  slopes_.assign(rows.size(), {});
+  of_contact_.resize(rows.size());
   find_contacts();
 }
 
@@ -242,20 +253,32 @@ int JamMatrix::pair_of(int earlier, int later) const {
   return at;
 }
 
-void JamMatrix::mark_changed(std::span<const JamLoad> loads) {
+void JamMatrix::mark_changed(std::span<const JamRows> rows, std::span<const JamLoad> loads) {
   for (std::size_t k = 0; k < loads.size(); ++k) {
     const JamLoad& load = loads[k];
     const Slopes now{{load.slope[0], load.slope[1], load.slope[2]}, {load.slip_by_apart[0], load.slip_by_apart[1]}};
     if (now == slopes_[k]) continue;
     slopes_[k] = now;
+    find_blocks(places_[k], rows[k], load, of_contact_[k]);
     if (places_[k].a >= 0) is_changed_[places_[k].a] = 1;
     if (places_[k].b >= 0) is_changed_[places_[k].b] = 1;
   }
 }
 
+void JamMatrix::find_blocks(const Places& place, const JamRows& rows, const JamLoad& load, OfContact& found) {
+  Rows by_a, by_b;
+  slopes_times(load, rows.of_a, by_a);
+  slopes_times(load, rows.of_b, by_b);
+  product(found.of_a.at, rows.of_a, by_a);
+  product(found.of_b.at, rows.of_b, by_b);
+  const bool is_a_earlier = place.a < place.b;
+  product(found.pair.upper.at, is_a_earlier ? rows.of_a : rows.of_b, is_a_earlier ? by_b : by_a);
+  product(found.pair.lower.at, is_a_earlier ? by_a : by_b, is_a_earlier ? rows.of_b : rows.of_a);
+}
+
 /// A body's own block and its pairs, by its mass and its contacts. Most contacts of a jam carry nothing: their blocks
 /// are left out.
-void JamMatrix::add_up(int body, const double* mass, std::span<const JamRows> rows, std::span<const JamLoad> loads) {
+void JamMatrix::add_up(int body, const double* mass) {
   Own& own = own_[body];
   own = {};
   for (int k = 0; k < 3; ++k) own.block.at[k][k] = mass[k];
@@ -265,22 +288,15 @@ void JamMatrix::add_up(int body, const double* mass, std::span<const JamRows> ro
   }
   for (int i = first_contact_[body]; i < first_contact_[body + 1]; ++i) {
     const int k = contacts_[i];
-    const JamLoad& load = loads[k];
-    if (load.slope[0] == 0 && load.slope[1] == 0 && load.slope[2] == 0) continue;
+    if (slopes_[k] == Slopes{}) continue;
     const Places& place = places_[k];
-    const bool is_a = place.a == body;
-    const Rows& mine = is_a ? rows[k].of_a : rows[k].of_b;
-    const Rows& others = is_a ? rows[k].of_b : rows[k].of_a;
-    Rows by_mine;
-    slopes_times(load, mine, by_mine);
-    add_product(own.block.at, mine, by_mine);
+    const OfContact& c = of_contact_[k];
+    add(own.block.at, (place.a == body ? c.of_a : c.of_b).at);
     if (place.pair < 0 || body != std::min(place.a, place.b)) continue;
-    Rows by_others;
-    slopes_times(load, others, by_others);
     Pair& pair = pairs_[place.pair];
     is_filled_[place.pair] = 1;
-    add_product(pair.upper.at, mine, by_others);
-    add_product(pair.lower.at, by_mine, others);
+    add(pair.upper.at, c.pair.upper.at);
+    add(pair.lower.at, c.pair.lower.at);
   }
 }
 
@@ -312,10 +328,10 @@ bool JamMatrix::factorize_row(int body) {
 }
 
 bool JamMatrix::factorize(const JamVector& mass, std::span<const JamRows> rows, std::span<const JamLoad> loads) {
-  mark_changed(loads);
+  mark_changed(rows, loads);
   for (int i = 0; i < static_cast<int>(own_.size()); ++i) {
     if (is_changed_[i] == 0) continue;
-    add_up(i, mass[body_at_[i]].data(), rows, loads);
+    add_up(i, mass[body_at_[i]].data());
     take_earlier(i);
     if (!factorize_row(i)) return false;
     is_changed_[i] = 0;

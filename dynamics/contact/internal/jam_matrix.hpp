@@ -73,6 +73,11 @@ class JamMatrix {
   struct Places {
     int a, b, pair;
   };
+  /// What a contact adds to them, found again where its slopes change.
+  struct OfContact {
+    Block of_a, of_b;
+    Pair pair;
+  };
 
   /// A body eliminated before another one, and their pair.
   struct Earlier {
@@ -90,9 +95,10 @@ class JamMatrix {
   void find_targets();
   void find_contacts();
   int pair_of(int earlier, int later) const;
-  void mark_changed(std::span<const JamLoad> loads);
-  POLYNYA_AVX2_CLONE void add_up(int body, const double* mass, std::span<const JamRows> rows,
-                                 std::span<const JamLoad> loads);
+  void mark_changed(std::span<const JamRows> rows, std::span<const JamLoad> loads);
+  POLYNYA_AVX2_CLONE static void find_blocks(const Places& place, const JamRows& rows, const JamLoad& load,
+                                             OfContact& found);
+  POLYNYA_AVX2_CLONE void add_up(int body, const double* mass);
   POLYNYA_AVX2_CLONE void take_earlier(int body);
   POLYNYA_AVX2_CLONE bool factorize_row(int body);
   POLYNYA_AVX2_CLONE void solve_ordered(JamVector& x) const;
@@ -113,6 +119,7 @@ class JamMatrix {
   std::vector<int> first_contact_;  ///< of each body, by place; one more at the end
   std::vector<int> contacts_;
   std::vector<Places> places_;
+  std::vector<OfContact> of_contact_;
   mutable JamVector ordered_;             ///< by place
   std::vector<Slopes> slopes_;            ///< of the last factorization
   std::vector<std::uint8_t> is_changed_;  ///< of each body, by place: its row since the last factorization
