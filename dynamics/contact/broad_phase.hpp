@@ -102,14 +102,14 @@ class BroadPhase {
     });
   }
 
-  /// Calls use(other) for each body of a pair with this one whose box meets its box where they are now: the same
-  /// after a resume, though more pairs are kept then.
-  template <class Use>
-  void for_bodies_at(const Bodies& bodies, BodyIndex body, Use use) const {
+  /// Calls use(other) for each body of a pair with this one that is wanted, and whose box meets its box where they are
+  /// now: the same after a resume, though more pairs are kept then.
+  template <class Wanted, class Use>
+  void for_bodies_at(const Bodies& bodies, BodyIndex body, Wanted is_wanted, Use use) const {
     const geometry::Box box = box_in_water(bodies, body);
     for (const std::uint32_t slot : entries_[static_cast<std::size_t>(body)].pairs) {
       const BodyIndex other = pairs_[slot].a == body ? pairs_[slot].b : pairs_[slot].a;
-      if (overlaps(box_in_water(bodies, other), box)) use(other);
+      if (is_wanted(other) && overlaps(box_in_water(bodies, other), box)) use(other);
     }
   }
 

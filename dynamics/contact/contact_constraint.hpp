@@ -73,8 +73,8 @@ inline ConstraintSpeeds speeds_at(const ContactConstraint& k, std::span<const So
 }
 
 /// Changes the velocities by impulses on b, and their opposites on a.
-inline void apply_impulses(const ContactConstraint& k, double impulse_0, double impulse_1, double slip_impulse,
-                           std::span<SolverBody> solver_bodies) {
+[[gnu::always_inline]] inline void apply_impulses(const ContactConstraint& k, double impulse_0, double impulse_1,
+                                                  double slip_impulse, std::span<SolverBody> solver_bodies) {
   SolverBody& a = solver_bodies[k.a];
   SolverBody& b = solver_bodies[k.b];
   const geometry::Vector impulse = (impulse_0 + impulse_1) * k.normal + slip_impulse * perpendicular(k.normal);
