@@ -48,10 +48,8 @@ constexpr double kLeastShare = 0.25;
 constexpr std::int64_t kWait = 16;
 
 /// A bound of the speed at which any two points of two bodies that touch part or close [m/s].
-double relative_speed(const dynamics::Bodies& bodies, BodyIndex a, BodyIndex b) {
-  return length(bodies.velocity[a] - bodies.velocity[b]) +
-         std::abs(bodies.angular_velocity[a]) * bodies.bounding_radius[a] +
-         std::abs(bodies.angular_velocity[b]) * bodies.bounding_radius[b];
+double relative_speed(const Components::Node& a, const Components::Node& b) {
+  return length(a.velocity - b.velocity) + a.turning + b.turning;
 }
 
 /// Whether two bodies are farther from each other than a way, by the normals of their edges and the line of their
@@ -106,14 +104,17 @@ class Assignment {
   double time() const { return static_cast<double>(ticks_) * tick_; }
   /// Ice that moves what it meets and is not moved by it goes by the tick, and joins nothing.
   bool is_heavy(BodyIndex i) const { return is_held(bodies_, i) || bodies_.mass[i] >= heavy_; }
-  bool is_fixed(BodyIndex i) const { return population_.is_hull(i) || is_heavy(i); }
+  bool is_fixed(BodyIndex i) const {
+    const std::int32_t place = components_.node_of[i];
+    return place >= 0 ? nodes_[place].is_fixed : population_.is_hull(i) || is_heavy(i);
+  }
   void find_heavy();
   void clear();
   std::int32_t node(BodyIndex i);
   std::span<const Point> corners(const Node& node) const;
   bool may_touch(std::int32_t a, std::int32_t b, double speed) const;
   void shorten(std::int32_t i, double way, double speed);
-  void see(BodyIndex a, BodyIndex b, std::span<const dynamics::PersistentContact> records);
+  void see(BodyIndex a, BodyIndex b, const dynamics::Pair* pair);
   int level_of(double time) const;
   void find_partners();
   void follow_partners();
@@ -166,6 +167,10 @@ std::int32_t Assignment::node(BodyIndex i) {
   place = static_cast<std::int32_t>(nodes_.size());
   Node node;
   node.body = i;
+  node.is_fixed = population_.is_hull(i) || is_heavy(i);
+  node.velocity = bodies_.velocity[i];
+  node.angular_velocity = bodies_.angular_velocity[i];
+  node.turning = std::abs(node.angular_velocity) * bodies_.bounding_radius[i];
   node.longest = time();
   node.first = components_.corners.size();
   const auto& vertices = bodies_.boundary[i]->edges.vertices;
@@ -211,12 +216,12 @@ double force_of(std::span<const dynamics::PersistentContact> records) {
   return force;
 }
 
-/// Two bodies that the contact search keeps as a pair.
-void Assignment::see(BodyIndex a, BodyIndex b, std::span<const dynamics::PersistentContact> records) {
+/// Two bodies, and what the contact search keeps of them where they are a pair.
+void Assignment::see(BodyIndex a, BodyIndex b, const dynamics::Pair* pair) {
   if (is_fixed(a) && is_fixed(b)) return;
-  const double speed = relative_speed(bodies_, a, b);
   const std::int32_t of_a = node(a);
   const std::int32_t of_b = node(b);
+  const double speed = relative_speed(nodes_[of_a], nodes_[of_b]);
   if (!may_touch(of_a, of_b, speed)) return;
   const auto goes_by_tick_beside = [&](BodyIndex other, BodyIndex i) {
     return population_.is_hull(other) ||
@@ -226,9 +231,9 @@ void Assignment::see(BodyIndex a, BodyIndex b, std::span<const dynamics::Persist
   if (goes_by_tick_beside(b, a)) return shorten(of_a, 0, 1);
   const double way = most_way_of_floes(setup_.scene.contact, std::min(bodies_.thickness[a], bodies_.thickness[b]));
   for (const std::int32_t i : {of_a, of_b})
-    if (!is_fixed(nodes_[i].body)) shorten(i, way, speed);
+    if (!nodes_[i].is_fixed) shorten(i, way, speed);
   if (is_fixed(a) || is_fixed(b) || bodies_.is_awake[a] == 0 || bodies_.is_awake[b] == 0) return;
-  const double force = force_of(records);
+  const double force = pair != nullptr ? force_of(pair->records()) : 0;
   const double mass = std::min(bodies_.mass[a], bodies_.mass[b]);
   components_.touching.push_back({of_a, of_b, force > 0 ? kPressedSpeed * mass / force : time()});
 }
@@ -239,7 +244,7 @@ void Assignment::see_farther(BodyIndex i) {
   if (way <= kAheadInPairs) return;
   const double most = way + kAhead * fastest_ * time() + kSlack;
   population_.pairs.for_bodies_near(grown(nodes_[node(i)].box, most), [&](BodyIndex other) {
-    if (other != i) see(std::min(i, other), std::max(i, other), {});
+    if (other != i) see(std::min(i, other), std::max(i, other), nullptr);
   });
 }
 
@@ -322,9 +327,9 @@ std::int64_t Assignment::sort() {
   clear();
   find_heavy();
   for (const BodyIndex i : population_.awake) node(i);
-  population_.pairs.for_pairs([this](BodyIndex a, BodyIndex b, auto records) { see(a, b, records); });
+  population_.pairs.for_pairs([this](const dynamics::Pair& pair) { see(pair.a, pair.b, &pair); });
   for (const BodyIndex i : population_.awake) see_farther(i);
-  for (Node& node : nodes_) node.level = is_fixed(node.body) ? 0 : level_of(node.longest);
+  for (Node& node : nodes_) node.level = node.is_fixed ? 0 : level_of(node.longest);
   follow_partners();
   find_along();
   std::size_t coarse = 0;
@@ -398,7 +403,7 @@ void take_out_of_level(BodyIndex i, Population& population, Components& componen
   erase_from(population.moving_along, i);
   insert_into(components.of_level[0], i);
   population.bodies.level[i] = 0;
-  population.pairs.note_short(i);
+  population.pairs.note_level(population.bodies, i);
   node.level = 0;
   node.is_along = false;
 }

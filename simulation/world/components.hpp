@@ -28,9 +28,11 @@ struct Components {
     geometry::Box box;            ///< in the water frame
     std::size_t first = 0;        ///< of its vertices
     std::size_t count = 0;        ///< 0 of round plates of many edges: their bounding circle is taken
+    bool is_fixed = false;        ///< it goes by the tick and joins nothing
     bool is_along = false;        ///< in Population::moving_along
-    geometry::Vector velocity;    ///< when its step began [m/s]
+    geometry::Vector velocity;    ///< when its step began, or the block [m/s]
     double angular_velocity = 0;  ///< [rad/s]
+    double turning = 0;           ///< of its rim, when the block began [m/s]
   };
   std::vector<Node> nodes;               ///< bodies awake, and those that they may touch
   std::vector<std::int32_t> node_of;     ///< by body; −1: none
