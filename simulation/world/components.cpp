@@ -95,7 +95,8 @@ class Assignment {
         components_(components),
         nodes_(components.nodes),
         ticks_(ticks),
-        tick_(clock.tick) {}
+        tick_(clock.tick),
+        least_(parts_of_tick(setup, clock, population) > 1 ? 1 : 2) {}
 
   std::int64_t sort();
 
@@ -130,6 +131,7 @@ class Assignment {
   std::vector<Node>& nodes_;
   std::int64_t ticks_;
   double tick_;
+  int least_;           ///< level above 0: one tick is a longer step only where a tick has parts
   double heavy_ = 0;    ///< [kg]
   double fastest_ = 0;  ///< of any body's rim [m/s]
 };
@@ -251,7 +253,8 @@ void Assignment::see_farther(BodyIndex i) {
 int Assignment::level_of(double time) const {
   const double ticks = time / tick_ * (1 + 1e-9);
   if (ticks >= static_cast<double>(ticks_)) return level_of_block(setup_);
-  return ticks < 2 ? 0 : std::min(setup_.levels, static_cast<int>(std::bit_width(static_cast<unsigned>(ticks))) - 1);
+  const int level = std::min(setup_.levels + 1, static_cast<int>(std::bit_width(static_cast<unsigned>(ticks))));
+  return level < least_ ? 0 : level;
 }
 
 void Assignment::find_partners() {
@@ -274,12 +277,12 @@ void Assignment::find_partners() {
 /// when it has shorter steps already.
 void Assignment::follow_partners() {
   find_partners();
-  std::vector<std::vector<std::int32_t>> of_rank(static_cast<std::size_t>(kHops + setup_.levels + 1));
+  std::vector<std::vector<std::int32_t>> of_rank(static_cast<std::size_t>(kHops + level_of_block(setup_)));
   for (std::int32_t i = 0; i < std::ssize(nodes_); ++i) {
-    nodes_[i].rank = nodes_[i].level == 0 ? 0 : kHops - 1 + nodes_[i].level;
+    nodes_[i].rank = nodes_[i].level == 0 ? 0 : kHops + nodes_[i].level - least_;
     of_rank[nodes_[i].rank].push_back(i);
   }
-  const auto level_at = [](int rank) { return std::max(0, rank - (kHops - 1)); };
+  const auto level_at = [this](int rank) { return rank < kHops ? 0 : rank - kHops + least_; };
   for (int rank = 0; rank < std::ssize(of_rank); ++rank) {
     for (std::size_t k = 0; k < of_rank[rank].size(); ++k) {
       const std::int32_t i = of_rank[rank][k];
@@ -296,8 +299,9 @@ void Assignment::follow_partners() {
   }
   for (Node& node : nodes_) node.level = level_at(node.rank);
   for (Node& node : nodes_) {
-    if (std::int64_t{1} << node.level >= ticks_) node.level = level_of_block(setup_);
-    node.longest = node.level == level_of_block(setup_) ? time() : tick_ * (1 << node.level);
+    if (node.level == 0) continue;
+    if (ticks_of_level(node.level) >= ticks_) node.level = level_of_block(setup_);
+    node.longest = node.level == level_of_block(setup_) ? time() : tick_ * ticks_of_level(node.level);
   }
 }
 
