@@ -24,7 +24,16 @@ double crushed_overlap_area(const Overlap& overlap, double thickness, double hul
   return overlap.area / sine * -std::expm1(p * std::log1p(-reach / overlap.depth));
 }
 
-CrushedArea crushed_overlap_at(const Overlap& overlap, double depth, double thickness, double hull_angle) {
+namespace {
+
+/// A hull's inclination from the vertical.
+struct HullSlant {
+  double sine, tangent;
+  explicit HullSlant(double angle)
+      : sine(angle == 0 ? 0 : std::sin(angle)), tangent(angle == 0 ? 0 : std::tan(angle)) {}
+};
+
+CrushedArea crushed_at(const Overlap& overlap, double depth, double thickness, const HullSlant& hull) {
   if (overlap.area <= 0 || overlap.depth <= 0) return {};
   const double p = std::clamp(overlap.depth * overlap.width / overlap.area, 1.0, 3.0);
   const auto area_at = [&](double x) {
@@ -34,15 +43,21 @@ CrushedArea crushed_overlap_at(const Overlap& overlap, double depth, double thic
   const auto slope_at = [&](double x, double area) { return x > 0 ? p * area / x : 0.0; };
   const double area = area_at(depth);
   const double slope = slope_at(depth, area);
-  const double sine = hull_angle == 0 ? 0 : std::sin(hull_angle);
-  if (sine < kVertical) return {thickness * slope, thickness * (p - 1) * slope / depth};
-  const double inner = depth - thickness * std::tan(hull_angle);
+  if (hull.sine < kVertical) return {thickness * slope, thickness * (p - 1) * slope / depth};
+  const double inner = depth - thickness * hull.tangent;
   const double inner_area = area_at(inner);
-  return {(area - inner_area) / sine, std::max(0.0, slope - slope_at(inner, inner_area)) / sine};
+  return {(area - inner_area) / hull.sine, std::max(0.0, slope - slope_at(inner, inner_area)) / hull.sine};
+}
+
+}  // namespace
+
+CrushedArea crushed_overlap_at(const Overlap& overlap, double depth, double thickness, double hull_angle) {
+  return crushed_at(overlap, depth, thickness, HullSlant(hull_angle));
 }
 
 double crushed_volume(const Overlap& overlap, double reached_area, double thickness, double hull_angle) {
   if (overlap.area <= 0 || overlap.depth <= 0 || reached_area <= 0) return 0;
+  if (hull_angle == 0) return thickness * reached_area;  // between floes: most contacts
   const double p = std::clamp(overlap.depth * overlap.width / overlap.area, 1.0, 3.0);
   const double depth = overlap.depth * std::pow(reached_area / overlap.area, 1 / p);
   const double reach = thickness * std::tan(hull_angle) / depth;
@@ -53,7 +68,8 @@ double crushed_volume(const Overlap& overlap, double reached_area, double thickn
 
 RecedingCrush crushed_receding(const Overlap& overlap, double depth, double thickness, double hull_angle,
                                double recession) {
-  RecedingCrush result{depth, crushed_overlap_at(overlap, depth, thickness, hull_angle)};
+  const HullSlant hull(hull_angle);
+  RecedingCrush result{depth, crushed_at(overlap, depth, thickness, hull)};
   if (recession <= 0 || depth <= 0) return result;
   // ξ + r A_c(ξ) grows, and is convex but where the facet comes to span the thickness: Newton's method,
   // within a bracket.
@@ -66,7 +82,7 @@ RecedingCrush crushed_receding(const Overlap& overlap, double depth, double thic
     if (std::abs(excess) <= kTolerance * depth || deep - shallow <= kTolerance * depth) break;
     const double next = result.penetration - excess / (1 + recession * result.crushed.slope);
     result.penetration = next > shallow && next < deep ? next : 0.5 * (shallow + deep);
-    result.crushed = crushed_overlap_at(overlap, result.penetration, thickness, hull_angle);
+    result.crushed = crushed_at(overlap, result.penetration, thickness, hull);
   }
   const double growth = 1 + recession * result.crushed.slope;
   result.share = 1 / growth;

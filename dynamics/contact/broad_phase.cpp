@@ -101,7 +101,7 @@ void BroadPhase::leave_movers(BodyIndex body) {
 }
 
 void BroadPhase::wake(const Bodies& bodies, BodyIndex body) {
-  note_short(body);
+  note_level(bodies, body);
   enter_mover(bodies, body);
   add_pairs_of(bodies, body);
 }
@@ -199,7 +199,7 @@ void BroadPhase::merge_new() {
   merge(recent_, new_);
   new_.clear();
   const std::size_t many = 16 + active_.size() / 8;
-  if (dropped_ > many || recent_.size() > many) has_short_ = false;
+  if (dropped_ > many || recent_.size() > many) has_levels_ = false;
   if (dropped_ > many) {
     erase_dropped(active_);
     erase_dropped(recent_);
@@ -235,24 +235,30 @@ int level_of_pair(const std::uint8_t* level, BodyIndex a, BodyIndex b) {
 
 }  // namespace
 
-void BroadPhase::note_levels(const Bodies& bodies) {
-  short_.clear();
-  for (std::size_t i = 0; i < active_.size(); ++i)
-    if (level_of_pair(bodies.level.data(), active_[i].a, active_[i].b) < kShortLevels)
-      short_.push_back(static_cast<std::uint32_t>(i));
-  has_short_ = true;
+std::vector<std::uint32_t>& BroadPhase::places_of(int level) {
+  const auto place = static_cast<std::size_t>(level);
+  if (of_level_.size() <= place) of_level_.resize(place + 1);
+  return of_level_[place];
 }
 
-/// Those of a body that was asleep may be of shorter steps from now on.
-void BroadPhase::note_short(BodyIndex body) {
-  if (!has_short_) return;
+void BroadPhase::note_levels(const Bodies& bodies) {
+  for (auto& places : of_level_) places.clear();
+  const std::uint8_t* level = bodies.level.data();
+  for (std::size_t i = 0; i < active_.size(); ++i)
+    places_of(level_of_pair(level, active_[i].a, active_[i].b)).push_back(static_cast<std::uint32_t>(i));
+  has_levels_ = true;
+}
+
+void BroadPhase::note_level(const Bodies& bodies, BodyIndex body) {
+  if (!has_levels_) return;
   for (const std::uint32_t slot : entries_[body].pairs) {
     const ActivePair pair{pairs_[slot].a, pairs_[slot].b, -1, slot};
+    std::vector<std::uint32_t>& places = places_of(level_of_pair(bodies.level.data(), pair.a, pair.b));
     const auto first = std::lower_bound(active_.begin(), active_.end(), pair);
     for (auto active = first; active != active_.end() && !(pair < *active); ++active) {  // dropped ones too
       const auto place = static_cast<std::uint32_t>(active - active_.begin());
-      const auto after = std::lower_bound(short_.begin(), short_.end(), place);
-      if (after == short_.end() || *after != place) short_.insert(after, place);
+      const auto after = std::lower_bound(places.begin(), places.end(), place);
+      if (after == places.end() || *after != place) places.insert(after, place);
     }
   }
 }
@@ -281,9 +287,10 @@ std::size_t BroadPhase::find_pending(const Bodies& bodies, std::size_t begin, st
     while (recent != last_recent && *recent < active) consider(*recent++);
     consider(active);
   };
-  if (has_short_ && level_ != kEveryLevel && level_ < kShortLevels) {
-    auto place = std::lower_bound(short_.begin(), short_.end(), begin);
-    for (; place != short_.end() && *place < end; ++place) consider_next(active_[*place]);
+  if (has_levels_ && level_ != kEveryLevel) {
+    const std::vector<std::uint32_t>& places = places_of(level_);
+    auto place = std::lower_bound(places.begin(), places.end(), begin);
+    for (; place != places.end() && *place < end; ++place) consider_next(active_[*place]);
   } else {
     for (std::size_t i = begin; i < end; ++i) consider_next(active_[i]);
   }
@@ -305,8 +312,9 @@ void BroadPhase::collide(const Bodies& bodies, ActivePair& active, double dt, Pa
 
 /// All that may touch by now, by (a, b). Valid until the next call.
 std::span<BroadPhase::ActivePair* const> BroadPhase::find_all_pending(const Bodies& bodies, int threads) {
-  const bool are_few = has_short_ && level_ != kEveryLevel && level_ < kShortLevels;
-  const std::size_t chunk = are_few ? std::max<std::size_t>(1, active_.size()) : 4096;
+  constexpr std::size_t kFew = 4096;
+  const bool are_few = has_levels_ && level_ != kEveryLevel && places_of(level_).size() <= kFew;
+  const std::size_t chunk = are_few ? std::max<std::size_t>(1, active_.size()) : kFew;
   const std::size_t chunks = std::max<std::size_t>(1, chunk_count(active_.size(), chunk));
   if (pending_.size() < chunks) pending_.resize(chunks);
   const auto find = [&](std::size_t k, std::size_t begin, std::size_t end) {

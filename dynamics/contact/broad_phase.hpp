@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -80,11 +81,11 @@ class BroadPhase {
   void find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads = 1,
                      int level = kEveryLevel);
   static constexpr int kEveryLevel = -1;
-  /// Notes which pairs are of a level that short steps take, where bodies have just got theirs: the search of such a
-  /// step then leaves out the others. Finds the same contacts.
+  /// Notes which pairs are of which level, where bodies have just got theirs: the search of a step then leaves out the
+  /// others. Finds the same contacts.
   void note_levels(const Bodies& bodies);
-  /// The same of one that takes shorter steps from now on.
-  void note_short(BodyIndex body);
+  /// The same of one that has got another.
+  void note_level(const Bodies& bodies, BodyIndex body);
 
   /// The pairs, by (a, b): together with the bodies, all that decides which contacts the next steps find.
   std::vector<PairState> pair_states() const;
@@ -102,22 +103,24 @@ class BroadPhase {
     });
   }
 
-  /// Calls use(other) for each body of a pair with this one that is wanted, and whose box meets its box where they are
-  /// now: the same after a resume, though more pairs are kept then.
-  template <class Wanted, class Use>
-  void for_bodies_at(const Bodies& bodies, BodyIndex body, Wanted is_wanted, Use use) const {
-    const geometry::Box box = box_in_water(bodies, body);
+  /// Calls use(other) for each body of a pair with this one of which matters(other) and whose box meets its box where
+  /// they are now: the same after a resume, though more pairs are kept then.
+  template <class Matters, class Use>
+  void for_bodies_at(const Bodies& bodies, BodyIndex body, Matters matters, Use use) const {
+    std::optional<geometry::Box> box;
     for (const std::uint32_t slot : entries_[static_cast<std::size_t>(body)].pairs) {
       const BodyIndex other = pairs_[slot].a == body ? pairs_[slot].b : pairs_[slot].a;
-      if (is_wanted(other) && overlaps(box_in_water(bodies, other), box)) use(other);
+      if (!matters(other)) continue;
+      if (!box) box = box_in_water(bodies, body);
+      if (overlaps(box_in_water(bodies, other), *box)) use(other);
     }
   }
 
-  /// Calls use(a, b, records) for each pair, in no order.
+  /// Calls use(pair) for each pair, in no order.
   template <class Use>
   void for_pairs(Use use) const {
     for (const Pair& pair : pairs_)
-      if (!pair.is_dropped) use(pair.a, pair.b, pair.records());
+      if (!pair.is_dropped) use(pair);
   }
 
   /// Calls use(a, b, area, booked) for each pair, in no order: the overlap of its bodies that has pressed [m²],
@@ -187,15 +190,16 @@ class BroadPhase {
   std::vector<double> travel_limits_;  // of bodies: the grown box contains one until it has travelled this far
   std::vector<Pair> pairs_;            // slots
   std::vector<std::uint32_t> free_pairs_;
-  std::vector<ActivePair> active_;        // pairs in use, by (a, b), dropped ones included
-  std::vector<ActivePair> recent_;        // the same; merged into active_ when there are many
-  std::vector<ActivePair> new_;           // not sorted yet
-  std::size_t dropped_ = 0;               // of all three
-  static constexpr int kShortLevels = 4;  // of levels below, pairs are noted
-  std::vector<std::uint32_t> short_;      // their places in active_
-  bool has_short_ = false;                // they hold
-  int level_ = kEveryLevel;               // of find_contacts
-  double kept_pieces_ = 0;                // of all bodies' covers
+  std::vector<ActivePair> active_;  // pairs in use, by (a, b), dropped ones included
+  std::vector<ActivePair> recent_;  // the same; merged into active_ when there are many
+  std::vector<ActivePair> new_;     // not sorted yet
+  std::size_t dropped_ = 0;         // of all three
+  std::vector<std::vector<std::uint32_t>>
+      of_level_;             // places in active_, ascending; also of levels that pairs had before
+  bool has_levels_ = false;  // they hold
+  std::vector<std::uint32_t>& places_of(int level);
+  int level_ = kEveryLevel;  // of find_contacts
+  double kept_pieces_ = 0;   // of all bodies' covers
   struct Pending {
     std::vector<ActivePair*> pairs;  // and room for more
     std::size_t count = 0;

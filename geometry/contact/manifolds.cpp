@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -21,17 +22,25 @@ struct EdgeLanes {
   // Four vector instructions of four doubles. Fewer leave their time to the loop, more to lanes that are not
   // used.
   static constexpr std::size_t kMost = 16;
-  double along_a[kMost], along_b[kMost];            // where their lines meet, as shares of the edges
-  double starts_inside[kMost], is_crossing[kMost];  // 1 or 0
+  double along_a[kMost], along_b[kMost];  // where their lines meet, as shares of the edges
+  double starts_inside[kMost];            // 1 or 0
 };
+/// A bit for each lane.
+constexpr std::array<std::uint64_t, EdgeLanes::kMost> kLaneBits = [] {
+  std::array<std::uint64_t, EdgeLanes::kMost> bits{};
+  for (std::size_t i = 0; i < bits.size(); ++i) bits[i] = std::uint64_t{1} << i;
+  return bits;
+}();
 
-/// Brings b's edges into a's frame and finds which pairs cross. Which side of an edge along d a point is on
-/// is decided by the sign of its turn, left where it is positive. A zero is decided as if all of b were moved
-/// by (ε, ε²), ε → 0: the same tie-break on both boundaries makes crossings alternate between entering and
+/// Brings b's edges into a's frame and finds which pairs cross: the bits of their lanes. Which side of an edge along d
+/// a point is on is decided by the sign of its turn, left where it is positive. A zero is decided as if all of b were
+/// moved by (ε, ε²), ε → 0: the same tie-break on both boundaries makes crossings alternate between entering and
 /// leaving.
-POLYNYA_AVX2_CLONE void find_crossing_lanes(const double* __restrict ends, std::size_t stride, std::size_t count,
-                                            const Pose& a_from_b, EdgeLanes& __restrict l) {
+POLYNYA_AVX2_CLONE std::uint64_t find_crossing_lanes(const double* __restrict ends, std::size_t stride,
+                                                     std::size_t count, const Pose& a_from_b, EdgeLanes& __restrict l) {
   const Pose pose = a_from_b;
+  const std::uint64_t* bits = kLaneBits.data();
+  std::uint64_t which = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Point a0{ends[i], ends[i + stride]};
     const Point a1{ends[i + 2 * stride], ends[i + 3 * stride]};
@@ -53,8 +62,9 @@ POLYNYA_AVX2_CLONE void find_crossing_lanes(const double* __restrict ends, std::
     l.along_a[i] = turn != 0 ? std::clamp(cross(ab, db) * per_turn, 0.0, 1.0) : 0.5;
     l.along_b[i] = turn != 0 ? std::clamp(cross(ab, da) * per_turn, 0.0, 1.0) : 0.5;
     l.starts_inside[i] = is_a0_left ? 1 : 0;
-    l.is_crossing[i] = (is_b0_left != is_b1_left) & (is_a0_left != is_a1_left) ? 1 : 0;
+    which |= (is_b0_left != is_b1_left) & (is_a0_left != is_a1_left) ? bits[i] : 0;
   }
+  return which;
 }
 
 /// Along an edge, as a share of it [-]. Far smaller, crossings that rounding swapped are not put in turn, and
@@ -104,9 +114,8 @@ void find_crossings(const Pose& a_from_b, const NearEdges& edges, std::vector<Cr
   for (std::size_t first = 0; first < edges.pairs.size(); first += EdgeLanes::kMost) {
     const double* ends = edges.ends.data() + first;
     const std::size_t count = std::min(EdgeLanes::kMost, edges.pairs.size() - first);
-    find_crossing_lanes(ends, edges.stride, (count + 3) / 4 * 4, a_from_b, lanes);
-    unsigned which = 0;  // those that cross, a bit each: without a branch for every pair
-    for (std::size_t i = 0; i < count; ++i) which |= static_cast<unsigned>(lanes.is_crossing[i]) << i;
+    std::uint64_t which = find_crossing_lanes(ends, edges.stride, (count + 3) / 4 * 4, a_from_b, lanes);
+    which &= (std::uint64_t{1} << count) - 1;
     for (; which != 0; which &= which - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(which));
       const Point a0{ends[i], ends[i + edges.stride]};

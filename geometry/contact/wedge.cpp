@@ -43,10 +43,16 @@ void wedge_angles(const EdgeList& edges, std::uint32_t tip_edge, Point tip, Vect
     std::uint32_t e = tip_edge;
     bool is_round = false;  // the whole ring is nearer than the length
     for (std::size_t i = 0; i < lengths.size(); ++i) {
+      const std::uint32_t before = e;
       while (!is_round && distance(tip, end_of(e)) <= lengths[i]) {
         from = end_of(e);
         e = after(e);
         is_round = e == tip_edge;
+      }
+      const bool is_along_edge = from == tip && e == before;  // chords of one direction
+      if (i > 0 && is_along_edge) {
+        angles[i].*angle = angles[i - 1].*angle;
+        continue;
       }
       const Point at = is_round && from != tip ? from : exit_point(from, end_of(e), tip, lengths[i]);
       angles[i].*angle = angle_between(inward, at - tip);

@@ -30,11 +30,12 @@ CrushingForce deepest_crushing_force(const fracture::Ice& ice, const Contact& c,
 /// Enters what the law of crushing ice takes of a contact. One that is found for the first time has pressed
 /// while its bodies came to overlap so far: with F ∝ ξ^n, n = k ξ / F, it has given F ξ / ((1 + n) v). But
 /// for pieces of floes that broke just now, whose contacts were there before.
-void set_crushing(Contact& c, CrushingForce crushing, double dt, bool is_just_born) {
+template <class IsJustBorn>
+void set_crushing(Contact& c, CrushingForce crushing, double dt, IsJustBorn is_just_born) {
   c.crushing_force = crushing.force;
   c.crushing_stiffness = crushing.stiffness;
   const bool is_new = c.record->loaded_depth == 0 && c.record->age <= dt;
-  if (!is_new || is_just_born || crushing.force <= 0 || c.approach_speed <= 0) return;
+  if (!is_new || crushing.force <= 0 || c.approach_speed <= 0 || is_just_born()) return;
   const double exponent = crushing.stiffness * c.depth / crushing.force;
   c.missed_impulse = std::min(dt, c.depth / c.approach_speed) * crushing.force / (1 + exponent);
 }
@@ -139,7 +140,7 @@ void decide_between_floes(const Setup& setup, const Clock& clock, const Populati
       fracture::crushed_between(ice_of_body(setup, population, c.a), ice_of_body(setup, population, c.b));
   if (is_crush_law(setup))
     set_crushing(c, deepest_crushing_force(ice, c, 0), dt,
-                 is_just_born(population, clock, c.a) || is_just_born(population, clock, c.b));
+                 [&] { return is_just_born(population, clock, c.a) || is_just_born(population, clock, c.b); });
   else
     c.crushing_force = crushing_force(ice, c, 0);
 }
@@ -158,7 +159,7 @@ void decide_at_ship(const Setup& setup, const Clock& clock, const Population& po
   const double horizontal = load.shares.horizontal;
   if (is_crush_law(setup))
     set_crushing(c, {horizontal * load.normal_force, horizontal * load.stiffness}, dt,
-                 is_just_born(population, clock, c.b));
+                 [&] { return is_just_born(population, clock, c.b); });
   else
     c.crushing_force = horizontal * load.normal_force;
   c.friction = load.shares.tangential / horizontal;

@@ -70,18 +70,28 @@ Vector force_on(const Contact& c, BodyIndex floe, double dt) {
 }
 
 double opening_bound(const Setup& setup, std::span<const Contact> contacts) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr double kLeast = 1e-3;  // of a sine: below, rounding shows
   const double friction = setup.scene.ice.friction;
-  const double with_slip = std::sqrt(1 + friction * friction);
   double sum = 0;
+  double half_sine = 0.5 * std::numbers::sqrt2, half_cosine = half_sine;  // of half of the sharpest corner
   for (const Contact& c : contacts) {
-    const auto is_sharp = [&](Point tip) { return dot(c.ends[0] - tip, c.ends[1] - tip) > 0; };
-    if (is_sharp(c.tip_of_a) || is_sharp(c.tip_of_b)) return std::numeric_limits<double>::infinity();
     const double slip = c.friction * c.friction;
     const double normal = c.is_broken ? c.breaking_force : c.steady_share / setup.step * c.total_normal_impulse();
+    if (!(normal > 0)) continue;
     sum += normal * std::sqrt(1 + slip);
+    for (const Point tip : {c.tip_of_a, c.tip_of_b}) {
+      const Vector u = c.ends[0] - tip, v = c.ends[1] - tip;
+      const double both = dot(u, v);
+      if (!(both > 0)) continue;
+      const double cosine = std::min(1.0, both / std::sqrt(squared_length(u) * squared_length(v)));
+      half_sine = std::min(half_sine, std::sqrt(0.5 * (1 - cosine)));
+      half_cosine = std::max(half_cosine, std::sqrt(0.5 * (1 + cosine)));
+    }
   }
-  if (friction >= 1) return std::numeric_limits<double>::infinity();
-  return 0.5 * std::numbers::sqrt2 * with_slip / (1 - friction) * sum;
+  const double sine = half_sine - friction * half_cosine;
+  if (sum == 0) return 0;
+  return sine < kLeast ? kInfinity : 0.5 * std::sqrt(1 + friction * friction) / sine * sum;
 }
 
 void press(const Setup& setup, const dynamics::Bodies& bodies, std::span<const Contact> contacts, BodyIndex floe,

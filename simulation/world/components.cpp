@@ -48,10 +48,8 @@ constexpr double kLeastShare = 0.25;
 constexpr std::int64_t kWait = 16;
 
 /// A bound of the speed at which any two points of two bodies that touch part or close [m/s].
-double relative_speed(const dynamics::Bodies& bodies, BodyIndex a, BodyIndex b) {
-  return length(bodies.velocity[a] - bodies.velocity[b]) +
-         std::abs(bodies.angular_velocity[a]) * bodies.bounding_radius[a] +
-         std::abs(bodies.angular_velocity[b]) * bodies.bounding_radius[b];
+double relative_speed(const Components::Node& a, const Components::Node& b) {
+  return length(a.velocity - b.velocity) + a.turning + b.turning;
 }
 
 /// Whether two bodies are farther from each other than a way, by the normals of their edges and the line of their
@@ -97,7 +95,8 @@ class Assignment {
         components_(components),
         nodes_(components.nodes),
         ticks_(ticks),
-        tick_(clock.tick) {}
+        tick_(clock.tick),
+        least_(parts_of_tick(setup, clock, population) > 1 ? 1 : 2) {}
 
   std::int64_t sort();
 
@@ -106,14 +105,17 @@ class Assignment {
   double time() const { return static_cast<double>(ticks_) * tick_; }
   /// Ice that moves what it meets and is not moved by it goes by the tick, and joins nothing.
   bool is_heavy(BodyIndex i) const { return is_held(bodies_, i) || bodies_.mass[i] >= heavy_; }
-  bool is_fixed(BodyIndex i) const { return population_.is_hull(i) || is_heavy(i); }
+  bool is_fixed(BodyIndex i) const {
+    const std::int32_t place = components_.node_of[i];
+    return place >= 0 ? nodes_[place].is_fixed : population_.is_hull(i) || is_heavy(i);
+  }
   void find_heavy();
   void clear();
   std::int32_t node(BodyIndex i);
   std::span<const Point> corners(const Node& node) const;
   bool may_touch(std::int32_t a, std::int32_t b, double speed) const;
   void shorten(std::int32_t i, double way, double speed);
-  void see(BodyIndex a, BodyIndex b, std::span<const dynamics::PersistentContact> records);
+  void see(BodyIndex a, BodyIndex b, const dynamics::Pair* pair);
   int level_of(double time) const;
   void find_partners();
   void follow_partners();
@@ -129,6 +131,7 @@ class Assignment {
   std::vector<Node>& nodes_;
   std::int64_t ticks_;
   double tick_;
+  int least_;           ///< level above 0: one tick is a longer step only where a tick has parts
   double heavy_ = 0;    ///< [kg]
   double fastest_ = 0;  ///< of any body's rim [m/s]
 };
@@ -166,6 +169,10 @@ std::int32_t Assignment::node(BodyIndex i) {
   place = static_cast<std::int32_t>(nodes_.size());
   Node node;
   node.body = i;
+  node.is_fixed = population_.is_hull(i) || is_heavy(i);
+  node.velocity = bodies_.velocity[i];
+  node.angular_velocity = bodies_.angular_velocity[i];
+  node.turning = std::abs(node.angular_velocity) * bodies_.bounding_radius[i];
   node.longest = time();
   node.first = components_.corners.size();
   const auto& vertices = bodies_.boundary[i]->edges.vertices;
@@ -211,12 +218,12 @@ double force_of(std::span<const dynamics::PersistentContact> records) {
   return force;
 }
 
-/// Two bodies that the contact search keeps as a pair.
-void Assignment::see(BodyIndex a, BodyIndex b, std::span<const dynamics::PersistentContact> records) {
+/// Two bodies, and what the contact search keeps of them where they are a pair.
+void Assignment::see(BodyIndex a, BodyIndex b, const dynamics::Pair* pair) {
   if (is_fixed(a) && is_fixed(b)) return;
-  const double speed = relative_speed(bodies_, a, b);
   const std::int32_t of_a = node(a);
   const std::int32_t of_b = node(b);
+  const double speed = relative_speed(nodes_[of_a], nodes_[of_b]);
   if (!may_touch(of_a, of_b, speed)) return;
   const auto goes_by_tick_beside = [&](BodyIndex other, BodyIndex i) {
     return population_.is_hull(other) ||
@@ -226,9 +233,9 @@ void Assignment::see(BodyIndex a, BodyIndex b, std::span<const dynamics::Persist
   if (goes_by_tick_beside(b, a)) return shorten(of_a, 0, 1);
   const double way = most_way_of_floes(setup_.scene.contact, std::min(bodies_.thickness[a], bodies_.thickness[b]));
   for (const std::int32_t i : {of_a, of_b})
-    if (!is_fixed(nodes_[i].body)) shorten(i, way, speed);
+    if (!nodes_[i].is_fixed) shorten(i, way, speed);
   if (is_fixed(a) || is_fixed(b) || bodies_.is_awake[a] == 0 || bodies_.is_awake[b] == 0) return;
-  const double force = force_of(records);
+  const double force = pair != nullptr ? force_of(pair->records()) : 0;
   const double mass = std::min(bodies_.mass[a], bodies_.mass[b]);
   components_.touching.push_back({of_a, of_b, force > 0 ? kPressedSpeed * mass / force : time()});
 }
@@ -239,14 +246,15 @@ void Assignment::see_farther(BodyIndex i) {
   if (way <= kAheadInPairs) return;
   const double most = way + kAhead * fastest_ * time() + kSlack;
   population_.pairs.for_bodies_near(grown(nodes_[node(i)].box, most), [&](BodyIndex other) {
-    if (other != i) see(std::min(i, other), std::max(i, other), {});
+    if (other != i) see(std::min(i, other), std::max(i, other), nullptr);
   });
 }
 
 int Assignment::level_of(double time) const {
   const double ticks = time / tick_ * (1 + 1e-9);
   if (ticks >= static_cast<double>(ticks_)) return level_of_block(setup_);
-  return ticks < 2 ? 0 : std::min(setup_.levels, static_cast<int>(std::bit_width(static_cast<unsigned>(ticks))) - 1);
+  const int level = std::min(setup_.levels + 1, static_cast<int>(std::bit_width(static_cast<unsigned>(ticks))));
+  return level < least_ ? 0 : level;
 }
 
 void Assignment::find_partners() {
@@ -269,12 +277,12 @@ void Assignment::find_partners() {
 /// when it has shorter steps already.
 void Assignment::follow_partners() {
   find_partners();
-  std::vector<std::vector<std::int32_t>> of_rank(static_cast<std::size_t>(kHops + setup_.levels + 1));
+  std::vector<std::vector<std::int32_t>> of_rank(static_cast<std::size_t>(kHops + level_of_block(setup_)));
   for (std::int32_t i = 0; i < std::ssize(nodes_); ++i) {
-    nodes_[i].rank = nodes_[i].level == 0 ? 0 : kHops - 1 + nodes_[i].level;
+    nodes_[i].rank = nodes_[i].level == 0 ? 0 : kHops + nodes_[i].level - least_;
     of_rank[nodes_[i].rank].push_back(i);
   }
-  const auto level_at = [](int rank) { return std::max(0, rank - (kHops - 1)); };
+  const auto level_at = [this](int rank) { return rank < kHops ? 0 : rank - kHops + least_; };
   for (int rank = 0; rank < std::ssize(of_rank); ++rank) {
     for (std::size_t k = 0; k < of_rank[rank].size(); ++k) {
       const std::int32_t i = of_rank[rank][k];
@@ -291,8 +299,9 @@ void Assignment::follow_partners() {
   }
   for (Node& node : nodes_) node.level = level_at(node.rank);
   for (Node& node : nodes_) {
-    if (std::int64_t{1} << node.level >= ticks_) node.level = level_of_block(setup_);
-    node.longest = node.level == level_of_block(setup_) ? time() : tick_ * (1 << node.level);
+    if (node.level == 0) continue;
+    if (ticks_of_level(node.level) >= ticks_) node.level = level_of_block(setup_);
+    node.longest = node.level == level_of_block(setup_) ? time() : tick_ * ticks_of_level(node.level);
   }
 }
 
@@ -322,9 +331,9 @@ std::int64_t Assignment::sort() {
   clear();
   find_heavy();
   for (const BodyIndex i : population_.awake) node(i);
-  population_.pairs.for_pairs([this](BodyIndex a, BodyIndex b, auto records) { see(a, b, records); });
+  population_.pairs.for_pairs([this](const dynamics::Pair& pair) { see(pair.a, pair.b, &pair); });
   for (const BodyIndex i : population_.awake) see_farther(i);
-  for (Node& node : nodes_) node.level = is_fixed(node.body) ? 0 : level_of(node.longest);
+  for (Node& node : nodes_) node.level = node.is_fixed ? 0 : level_of(node.longest);
   follow_partners();
   find_along();
   std::size_t coarse = 0;
@@ -398,7 +407,7 @@ void take_out_of_level(BodyIndex i, Population& population, Components& componen
   erase_from(population.moving_along, i);
   insert_into(components.of_level[0], i);
   population.bodies.level[i] = 0;
-  population.pairs.note_short(i);
+  population.pairs.note_level(population.bodies, i);
   node.level = 0;
   node.is_along = false;
 }

@@ -12,14 +12,16 @@ namespace polynya::simulation {
 // Which bodies take steps of several ticks. A body takes steps of 2^k ticks, as long as it does not go farther than its
 // share of the thickness relative to another that it may touch within the block of ticks ahead; and it has at most
 // twice the step of such another, or the same where the two press each other by more than a little. Hulls, what they
-// may touch and a few more bodies in a row go by the tick (k = 0). Of two bodies that touch, the shorter steps have the
+// may touch and a few more bodies in a row go by the tick, or by its parts where it has some: these are level 0, and
+// from 1 on levels are of 2^(level − 1) ticks. Of two bodies that touch, the shorter steps have the
 // contact: in these the other gets its impulses, and moves by the tick. Ice that is held, or far heavier than others,
 // shortens nothing: its contacts are those of the others' steps.
 
 /// Who takes which steps in a block of ticks, and where it is sought.
 struct Components {
-  /// Awake bodies, ascending. After those of 2^k ticks those that take the block in one step (level_of_block).
-  std::array<std::vector<BodyIndex>, kMostLevels + 2> of_level;
+  /// Awake bodies, ascending: those that go by the tick, or by its parts, of ticks_of_level, and last those that take
+  /// the block in one step (level_of_block).
+  std::array<std::vector<BodyIndex>, kMostLevels + 3> of_level;
   struct Node {
     BodyIndex body = 0;
     int level = 0;
@@ -28,9 +30,11 @@ struct Components {
     geometry::Box box;            ///< in the water frame
     std::size_t first = 0;        ///< of its vertices
     std::size_t count = 0;        ///< 0 of round plates of many edges: their bounding circle is taken
+    bool is_fixed = false;        ///< it goes by the tick and joins nothing
     bool is_along = false;        ///< in Population::moving_along
-    geometry::Vector velocity;    ///< when its step began [m/s]
+    geometry::Vector velocity;    ///< when its step began, or the block [m/s]
     double angular_velocity = 0;  ///< [rad/s]
+    double turning = 0;           ///< of its rim, when the block began [m/s]
   };
   std::vector<Node> nodes;               ///< bodies awake, and those that they may touch
   std::vector<std::int32_t> node_of;     ///< by body; −1: none
@@ -46,9 +50,13 @@ struct Components {
   std::vector<std::pair<std::int32_t, std::int32_t>> partners;  ///< the other node and the place in `touching`
 };
 
+/// Of the steps of a level from 1 on.
+inline int ticks_of_level(int level) {
+  return 1 << (level - 1);
+}
 /// The level of bodies that take a block in one step, where the block is longer than the 2^k ticks of others.
 inline int level_of_block(const Setup& setup) {
-  return setup.levels + 1;
+  return setup.levels + 2;
 }
 /// Of the longest block: four times the longest of the other steps.
 inline std::int64_t longest_block(const Setup& setup) {

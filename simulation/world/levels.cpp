@@ -15,12 +15,11 @@ namespace {
 double longest_step(const Setup& setup, const Population& population, BodyIndex hull) {
   const dynamics::Bodies& bodies = population.bodies;
   double longest = setup.scene.time.step;
-  const auto way_in = [&](BodyIndex other) { return most_way(setup.scene.contact, bodies.thickness[other]); };
-  const auto speed_to = [&](BodyIndex other) { return length(bodies.velocity[hull] - bodies.velocity[other]); };
+  const auto way = [&](BodyIndex other) { return most_way(setup.scene.contact, bodies.thickness[other]); };
+  const auto speed = [&](BodyIndex other) { return length(bodies.velocity[hull] - bodies.velocity[other]); };
   population.pairs.for_bodies_at(
-      bodies, hull,
-      [&](BodyIndex other) { return !population.is_hull(other) && speed_to(other) * longest > way_in(other); },
-      [&](BodyIndex other) { longest = way_in(other) / speed_to(other); });
+      bodies, hull, [&](BodyIndex other) { return !population.is_hull(other) && speed(other) * longest > way(other); },
+      [&](BodyIndex other) { longest = way(other) / speed(other); });
   return longest;
 }
 

@@ -154,10 +154,12 @@ inline const fracture::Ice& ice_of_floe(const Setup& setup, const Population& po
   return ice_of(setup.scene, population.floes[floe].own_ice);
 }
 inline const fracture::Ice& ice_of_body(const Setup& setup, const Population& population, BodyIndex body) {
+  if (setup.scene.own_ice.empty()) return setup.scene.ice;
   return ice_of_floe(setup, population, population.floe_of(body));
 }
 
 inline const IceLimits& limits_of_body(const Setup& setup, const Population& population, BodyIndex body) {
+  if (setup.ice_limits.size() == 1) return setup.ice_limits.front();  // without a look at a floe that is in no cache
   const std::int32_t own_ice = population.floes[population.floe_of(body)].own_ice;
   return setup.ice_limits[own_ice == kSceneIce ? 0 : static_cast<std::size_t>(own_ice) + 1];
 }

@@ -300,7 +300,7 @@ class Block {
     std::vector<dynamics::Contact> contacts;  ///< where recorded
   };
 
-  int ticks_of(int level) const { return level == longest_ ? ticks_ : 1 << level; }
+  int ticks_of(int level) const { return level == longest_ ? ticks_ : ticks_of_level(level); }
   LongerStep& step_of(int level) { return steps_[static_cast<std::size_t>(level)]; }
 
   /// Works in a step of so many ticks that begins so many before the clock's; the clock stays.
@@ -416,7 +416,7 @@ class Block {
   World& world_;
   int ticks_;
   int longest_;                                      ///< level: of the block in one step
-  std::array<LongerStep, kMostLevels + 2> steps_{};  ///< by level
+  std::array<LongerStep, kMostLevels + 3> steps_{};  ///< by level
   std::vector<BodyIndex> moved_;                     ///< at a step's end
 };
 

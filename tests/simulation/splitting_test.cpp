@@ -199,7 +199,9 @@ TEST(Splitting, WhatPassesFloesOverIsNoLessThanTheirPushes) {
         EXPECT_LE(pressed.most, bound * (1 + 1e-9));
         corners += !pressed.contacts.empty() && pressed.contacts.front().is_corner ? 1 : 0;
       }
-      (std::isinf(bound) ? sharp : bounded) += 1;
+      const auto is_sharp = [&](Point tip) { return dot(c.ends[0] - tip, c.ends[1] - tip) > 0; };
+      bounded += std::isfinite(bound) ? 1 : 0;
+      sharp += std::isfinite(bound) && (is_sharp(c.tip_of_a) || is_sharp(c.tip_of_b)) ? 1 : 0;
     }
   }
   EXPECT_GT(bounded, 1000);
