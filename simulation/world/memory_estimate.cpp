@@ -90,7 +90,7 @@ class KeptCovers {
 };
 
 /// Factor for pairs, contacts and the heap's unused part: measured on drifting lattices
-/// (tests/app/memory_test.cpp).
+/// (tests/app/run_command_test.cpp).
 constexpr double kBesides = 1.2;
 
 }  // namespace

@@ -9,6 +9,9 @@
 
 #include "io/run/checkpoint.hpp"
 #include "io/run/run_folder.hpp"
+#include "io/run/run_writer.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "simulation/simulation.hpp"
 
 namespace polynya::tests {
 
@@ -70,6 +73,32 @@ inline bool kill_at_checkpoints(const Words& words, const Start& start, const st
   while (!has_ended(child) && io::checkpoints_in(run).size() < count)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   return kill_after(child, start, {});
+}
+
+/// Leaves a run as a kill after so many steps does; its checkpoints are written at these steps, after `change`.
+inline void leave_run(
+    const std::filesystem::path& scene_file, const std::filesystem::path& run, std::int64_t end,
+    const std::vector<std::int64_t>& checkpoints, std::int64_t frame_every,
+    const std::function<void(simulation::Simulation&)>& change = [](simulation::Simulation&) {}) {
+  const auto scene = checked(io::read_scene_file(scene_file));
+  simulation::Simulation simulation(scene->scene);
+  auto writer = checked(io::RunWriter::create(run, false, *scene));
+  for (std::int64_t step = 0;; ++step) {
+    writer->record(simulation.journal());
+    if (step % frame_every == 0) writer->frame(simulation);
+    if (std::ranges::find(checkpoints, step) != checkpoints.end()) {
+      change(simulation);
+      io::Checkpoint checkpoint;
+      checkpoint.course_hash = scene->course_hash;
+      checkpoint.steps = step;
+      checkpoint.progress = writer->sync().value();
+      checkpoint.state = simulation.state();
+      checkpoint.state_hash = simulation.state_hash();
+      ASSERT_TRUE(io::write_checkpoint(run, checkpoint).has_value());
+    }
+    if (step == end) return;
+    simulation.step();
+  }
 }
 
 }  // namespace polynya::tests

@@ -2,10 +2,13 @@
 #include "interrupted_run.hpp"
 #include "program.hpp"
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include "app/run/memory.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/json_parser.hpp"
+#include "simulation/world/memory_estimate.hpp"
 
 namespace polynya::tests {
 namespace {
@@ -79,14 +82,7 @@ TEST(RunCommand, AMooringThatBreaksIsAnEventOfEveryView) {
                   "break_load_N": 1e5})")})}));
   const Outcome outcome = expect_code(0, polynya("run scene.json --out run", folder));
   EXPECT_HAS(line_with(outcome.err, "mooring of tanker broke at"), "events.ndjson");
-  const auto run = checked(io::read_run(folder / "run"));
-  ASSERT_EQ(run->events.size(), 1U);
-  const auto& broken = std::get<simulation::MooringBreak>(run->events[0].what);
-  EXPECT_GT(broken.force, 1e5);
-  EXPECT_NEAR(broken.offset_in_moored_place.x, run->events[0].point_in_world.x - 5, 1e-9);
   const std::string line = read_file(folder / "run/events.ndjson");
-  EXPECT_HAS(line, R"("kind":"mooring_break")", R"("ship":"tanker")", "force_N", "break_load_N\":1e+05", "offset_m",
-             "point_m", "t_s");
   const Outcome events = polynya("inspect run --events", folder);
   EXPECT_HAS(events.out, "mooring_break of tanker at (");
   EXPECT_HAS(events.out, "breaks above 1e+05 N");
@@ -119,16 +115,6 @@ TEST(RunCommand, ShipsThatMeetAreReportedAndNoIceLoad) {
   EXPECT_NEAR(run->events[0].time, 10, 0.02);
   EXPECT_NEAR(run->events[1].time, 15, 0.02);
   EXPECT_TRUE(std::get<simulation::HullContact>(run->events[1].what).is_prescribed);
-}
-
-TEST(RunCommand, AnExistingRunIsKeptUnlessTold) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(polynya("run scenes/level-plate.json --until 2", folder).code, 0);
-  const std::string kept = read_file(folder / "runs/level-plate/forces.csv");
-  EXPECT_HAS(expect_code(5, polynya("run scenes/level-plate.json --until 3", folder)).err, "--overwrite");
-  EXPECT_EQ(read_file(folder / "runs/level-plate/forces.csv"), kept);
-  EXPECT_EQ(polynya("run scenes/level-plate.json --until 3 --overwrite", folder).code, 0);
-  EXPECT_NE(read_file(folder / "runs/level-plate/forces.csv"), kept);
 }
 
 TEST(RunCommand, JsonProgressIsOneObjectALine) {
@@ -169,6 +155,108 @@ TEST(Products, AreMadeOfARunAndRemovedWithIt) {
   for (const std::string name :
        {"channel.csv", "channel.geojson", "figure-loads.svg", "figure-energy.png", "figure-floes.pdf"})
     EXPECT_FALSE(std::filesystem::exists(folder / ("run/" + name))) << name;
+}
+
+// ---- a run that does not fit into memory: refused before it starts, or ended as one that was killed
+
+/// Floes in a square, at rest until the first step, in which all of them come to move: that takes more memory
+/// than they had before. Two steps.
+std::string drifting_floes(int rows) {
+  return R"({"name": "drifting", "time": {"step_s": 0.02, "until_s": 0.04}, "record": {"frames_interval_s": 0.02},
+    "floes": [{"lattice": {"rows": )" +
+         std::to_string(rows) + R"(, "columns": )" + std::to_string(rows) +
+         R"(, "pitch_m": 10, "size_m": 9.5}, "velocity_m_per_s": [0.1, 0]}]})";
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // these take all addresses
+
+constexpr rlim_t kMegabyte = 1'000'000;
+
+Outcome run_within(rlim_t addresses, const Start& start, const Words& words) {
+  Start limited = start;
+  limited.arrange_streams = [addresses] {
+    const rlimit limit{addresses, addresses};
+    if (setrlimit(RLIMIT_AS, &limit) != 0) _exit(126);
+  };
+  return polynya(words, limited);
+}
+
+/// What a run that memory ended leaves is what kill -9 leaves: nothing yet, or a folder that goes on.
+TEST(Memory, RunsOutAndLeavesNothingOrARunThatGoesOn) {
+  const TemporaryFolder folder;
+  const Start start{folder.path()};
+  write_file(folder / "scene.json", drifting_floes(100));
+  ASSERT_EQ(polynya("run scene.json --out whole --progress none", start).code, 0);
+  int before = 0, during = 0;
+  for (rlim_t limit = 40; limit < 400; limit += 20) {
+    const std::string out = "run" + std::to_string(limit);
+    const Outcome outcome =
+        run_within(limit * kMegabyte, start, {"run", "scene.json", "--out", out, "--progress", "none"});
+    if (outcome.code == 0) break;
+    SCOPED_TRACE(std::to_string(limit) + " MB: " + outcome.err);
+    if (!std::filesystem::exists(folder / out)) {
+      ++before;
+      continue;
+    }
+    if (outcome.code == 4) {
+      EXPECT_HAS(outcome.err, "polynya resume " + out);
+    }
+    if (++during % 3 != 1) continue;
+    EXPECT_EQ(polynya({"resume", out, "--progress", "none"}, start).code, 0);
+    EXPECT_EQ(first_difference(folder / "whole", folder / out), "");
+  }
+  EXPECT_GT(before, 0);
+  EXPECT_GT(during, 0);
+}
+
+/// The most memory that a run had [bytes]. Without rsvg-convert, whose memory would count too.
+double peak_of_run(const std::string& scene, Start start) {
+  start.arrange_streams = [] { setenv("PATH", "", 1); };
+  const pid_t child = start_polynya({"run", scene, "--out", scene + "-run", "--progress", "none"}, start);
+  int status = 0;
+  rusage usage{};
+  wait4(child, &status, 0, &usage);
+  EXPECT_EQ(status, 0);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+TEST(Memory, IsEstimatedWithinAFactorOfWhatRunsTake) {
+  const TemporaryFolder folder;
+  const Start start{folder.path()};
+  write_file(folder / "few.json", drifting_floes(2));
+  const double program = peak_of_run("few.json", start);
+  for (const int rows : {50, 100}) {
+    const std::string name = std::to_string(rows) + ".json";
+    write_file(folder / name, drifting_floes(rows));
+    const double taken = peak_of_run(name, start) - program;
+    const auto scene = checked(io::read_scene_file(folder / name));
+    const simulation::MemoryEstimate estimate = simulation::estimate_memory(scene->scene);
+    EXPECT_LT(estimate.at_start, taken) << "a run that fits would be refused";
+    EXPECT_LT(taken, 7 * estimate.at_start);
+    EXPECT_LT(estimate.all_moving, 1.5 * taken);
+    EXPECT_LT(taken, 1.5 * estimate.all_moving);
+  }
+}
+
+#endif
+
+using app::may_fit;
+
+TEST(MemoryCheck, RefusesWhatSurelyDoesNotFitAndNotesWhatMayNot) {
+  simulation::Scene scene;
+  const geometry::Ring square{{0, 0}, {9, 0}, {9, 9}, {0, 9}};
+  scene.floes.assign(1000, {{square, {}}, {}, 0});
+  const auto said_of = [&](double bytes, bool expected) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(may_fit(scene, "scene.json", {bytes, "a limit"}), expected);
+    return testing::internal::GetCapturedStderr();
+  };
+  const std::string refusal = said_of(200e3, false);
+  EXPECT_HAS(refusal,
+             "scene.json: 1000 floes take at least 1 MB of memory, and there are 0 MB (a limit); "
+             "nothing was written");
+  EXPECT_HAS(said_of(3e6, true), "note: scene.json: the run takes about");
+  EXPECT_EQ(said_of(1e9, true), "");
 }
 
 }  // namespace

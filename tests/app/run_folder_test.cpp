@@ -7,10 +7,6 @@
 #include "interrupted_run.hpp"
 #include <gtest/gtest.h>
 
-#include "io/run/run_writer.hpp"
-#include "io/scene/scene_reader.hpp"
-#include "simulation/simulation.hpp"
-
 namespace polynya::tests {
 namespace {
 
@@ -42,33 +38,12 @@ class RunFolderTrial : public testing::Test {
     return call(Words{"run", "tiny.json", "--out", name, "--progress", "none"} + more, under);
   }
   std::string difference(const std::string& name) const { return first_difference(folder_ / "whole", folder_ / name); }
-  /// Leaves the run as a kill after so many steps does; its checkpoints are written at these steps.
-  void leave_run(const std::string& name, std::int64_t end, const std::vector<std::int64_t>& checkpoints) const;
+  void leave_run(const std::string& name, std::int64_t end, const std::vector<std::int64_t>& checkpoints) const {
+    tests::leave_run(folder_ / "tiny.json", folder_ / name, end, checkpoints, 50);
+  }
 
   const TemporaryFolder folder_;
 };
-
-void RunFolderTrial::leave_run(const std::string& name, std::int64_t end,
-                               const std::vector<std::int64_t>& checkpoints) const {
-  const auto scene = checked(io::read_scene_file(folder_ / "tiny.json"));
-  simulation::Simulation simulation(scene->scene);
-  auto writer = checked(io::RunWriter::create(folder_ / name, false, *scene));
-  for (std::int64_t step = 0;; ++step) {
-    writer->record(simulation.journal());
-    if (step % 50 == 0) writer->frame(simulation);
-    if (std::ranges::find(checkpoints, step) != checkpoints.end()) {
-      io::Checkpoint checkpoint;
-      checkpoint.course_hash = scene->course_hash;
-      checkpoint.steps = step;
-      checkpoint.progress = writer->sync().value();
-      checkpoint.state = simulation.state();
-      checkpoint.state_hash = simulation.state_hash();
-      ASSERT_TRUE(io::write_checkpoint(folder_ / name, checkpoint).has_value());
-    }
-    if (step == end) return;
-    simulation.step();
-  }
-}
 
 /// A kill at any call that changes the folder leaves what the next run takes, and what resume, where it takes
 /// it, brings to the end.

@@ -73,12 +73,6 @@ TEST_F(Streams, AClosedPipeIsQuietAndEndsAsShellsReportIt) {
   }
 }
 
-TEST_F(Streams, AClosedStdoutIsReported) {
-  const Outcome outcome = in_folder("schema", [] { close(1); });
-  EXPECT_EQ(outcome.code, 5);
-  EXPECT_HAS(outcome.err, "polynya: stdout: it is closed");
-}
-
 TEST_F(Streams, MessagesThatCannotBeWrittenNeverEndInZero) {
   const Words noisy = "cut floes.wkt --crack 5,5,30";
   ASSERT_NE(in_folder(noisy).err, "");

@@ -4,11 +4,10 @@
 
 #include "../base64.hpp"
 #include "../io/scene_text.hpp"
-#include "plate_run.hpp"
+#include "program.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "io/run/csv_columns.hpp"
 #include "io/run/motion_index.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/json_parser.hpp"
@@ -70,34 +69,6 @@ class ViewCommand : public PlateRun {
   }
 };
 
-TEST_F(ViewCommand, ThePageHoldsTheRunsOwnNumbers) {
-  const Page held = page();
-  EXPECT_EQ(held.text, page().text) << "the same bytes again";
-  const auto expect = [&](const char* name, const auto& rows, auto value) {
-    using Number = std::decay_t<decltype(value(rows[0]))>;
-    std::vector<Number> expected;
-    for (const auto& row : rows) expected.push_back(value(row));
-    EXPECT_GT(expected.size(), 0U);
-    EXPECT_EQ(held.column<Number>(name), expected) << name;
-  };
-  EXPECT_EQ(held.columns.at("frames"), read_file(folder->path() / "run/frames.bin"));
-  expect("area_m2", run->floes, [](const io::RunFloe& floe) { return floe.birth.area; });
-  expect("mass_kg", run->floes, [](const io::RunFloe& floe) { return floe.birth.mass; });
-  expect("born_s", run->floes, [](const io::RunFloe& floe) { return floe.birth.time; });
-  expect("died_s", run->floes, [](const io::RunFloe& floe) { return floe.died; });
-  expect("parent", run->floes, [](const io::RunFloe& floe) { return static_cast<std::int32_t>(floe.birth.parent); });
-  expect("force_t_s", run->samples, [](const simulation::HullSample& row) { return row.time; });
-  for (const char* name : {"surge_N", "surge_max_N"})
-    expect(name, run->samples, [&](const simulation::HullSample& row) { return io::force_column(name).read(row); });
-  EXPECT_EQ(held.info.find("events")->items().size(), run->events.size());
-  const io::JsonValue& cause = held.info.find("force_causes")->items().at(0);
-  EXPECT_EQ(cause.find("column")->text() + cause.find("unit")->text(), "surge_NN");
-  expect("contact_t_s", run->contacts, [](const auto& contact) { return contact.time; });
-  expect("contact_fx_N", run->contacts, [](const auto& contact) { return contact.state.force.x; });
-  expect("contact_by_floe", run->contacts,
-         [](const auto& contact) { return static_cast<std::int32_t>(contact.state.by.floe); });
-}
-
 /// A floe's rings from the page's columns: whole, or assembled from those of its parent.
 std::vector<geometry::Ring> rings_in(const Page& held, std::size_t floe,
                                      const std::vector<std::vector<geometry::Ring>>& before, std::size_t& points_used) {
@@ -136,8 +107,10 @@ std::vector<geometry::Ring> rings_in(const Page& held, std::size_t floe,
 }
 
 /// To the bit, and each new vertex once: the page grows with what is new, as floes.ndjson does.
-TEST_F(ViewCommand, ThePageHoldsTheShapesThemselves) {
+TEST_F(ViewCommand, ThePageHoldsFramesAndShapesThemselves) {
   const Page held = page();
+  EXPECT_EQ(held.text, page().text) << "the same bytes again";
+  EXPECT_EQ(held.columns.at("frames"), read_file(folder->path() / "run/frames.bin"));
   std::vector<std::vector<geometry::Ring>> all;
   std::size_t points_used = 0;
   for (std::size_t floe = 0; floe < run->floes.size(); ++floe) {

@@ -245,19 +245,6 @@ TEST(ContactsTogether, APlasticRowMovesOnAsOne) {
   for (const Vector velocity : row.bodies.velocity) EXPECT_NEAR(velocity.x, 2.0 / 6, 1e-9);
 }
 
-TEST(ContactsTogether, MirroredScenesGiveMirroredResults) {
-  // A fixed wall hit squarely by a floe over a wide contact: no turn, and v⁺ = −ε v⁻ all over the line.
-  Bodies bodies;
-  add_held(bodies, rectangle(10, 40), {-5, 0});
-  add_floe(bodies, rectangle(10, 10), {5, 0}, {-1, 0});
-  std::vector<Contact> contacts{contact_at(0, 1, {0, 0}, {1, 0}, 10)};
-  const RestitutionLaw law{.restitution = 0.4};
-  ASSERT_TRUE(ContactSolver().solve(bodies, contacts, law, {500, 1e-12}).is_converged());
-  EXPECT_NEAR(bodies.velocity[1].x, 0.4, 1e-10);
-  EXPECT_NEAR(bodies.angular_velocity[1], 0, 1e-10);
-  EXPECT_NEAR(contacts[0].normal_impulse[0], contacts[0].normal_impulse[1], 1e-6);
-}
-
 // ---- a contact that crushes
 
 Bodies two_floes(double gap_speed, double offset) {

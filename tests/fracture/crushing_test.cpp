@@ -144,10 +144,6 @@ TEST(CrushingShares, AVerticalWallTakesAllFrictionAlongItself) {
   EXPECT_EQ(shares.tangential, 0.2);
 }
 
-TEST(CrushingForce, IsStrengthTimesArea) {
-  EXPECT_DOUBLE_EQ(crushing_force({}, 0.1), 0.28e6);
-}
-
 // ---- overlaps other than wedges, against closed forms
 
 TEST(CrushedOverlapArea, OfAStraightEdgeIsItsFlatForm) {

@@ -45,16 +45,6 @@ CutFailure failure_of(const CutOutcome& outcome) {
   return outcome ? CutFailure::kInternal : outcome.error().reason;
 }
 
-TEST(Cut, CornerBiteLeavesTwoExactPieces) {
-  const Shape square = shape_of(kSquareOfTen);
-  const CutResult result = checked_cut(square, Polygon{box_ring({8, 8}, {12, 12}), {}});
-  ASSERT_EQ(result.pieces.size(), 2u);
-  EXPECT_EQ(result.pieces[0].part, Part::kOutside);
-  EXPECT_EQ(result.ledger.area_outside, 96);
-  EXPECT_EQ(result.ledger.area_inside, 4);
-  EXPECT_EQ(result.ledger.rounding_defect, 0);
-}
-
 TEST(Cut, DiscInsideLeavesAHoleAndDiscOverAllLeavesNothingOutside) {
   const Shape square = shape_of(kSquareOfTen);
   const Polygon disc{disc_polygon({5, 5}, 2, 0.01), {}};

@@ -410,12 +410,5 @@ TEST(PowerCells, OfTwoSitesInOnePlaceOneHasTheCell) {
   EXPECT_EQ(cells, 2);
 }
 
-TEST(PowerDiagram, WithoutWeightsTwoSitesMeetAtTheirBisector) {
-  const auto cells = power_diagram({{{1, 1}, 0}, {{3, 1}, 0}}, {{0, 0}, {4, 2}});
-  EXPECT_DOUBLE_EQ(signed_area(cells[0]), 4);
-  const auto weighted = power_diagram({{{1, 1}, 2}, {{3, 1}, 0}}, {{0, 0}, {4, 2}});
-  EXPECT_DOUBLE_EQ(signed_area(weighted[0]), 5) << "the bisector moves by (w₁ − w₂) / 2d = 0.5 m";
-}
-
 }  // namespace
 }  // namespace polynya::geometry

@@ -5,6 +5,10 @@
 #include "temporary_folder.hpp"
 
 #include "geometry/exact/measures.hpp"
+#include "io/run/records.hpp"
+#include "io/scene/floe_ice.hpp"
+#include "io/scene/scene_input.hpp"
+#include "simulation/simulation.hpp"
 
 namespace polynya::io {
 namespace {
@@ -154,10 +158,6 @@ TEST_F(FloeFile, AWrongLatitudeIsAProblemOfItsFloe) {
       ASSERT_EQ(refused.error().size(), 1U);
       EXPECT_HAS(to_string(refused.error().front()),
                  "(its floe 1): found [15.612, 782], allowed: [longitude, latitude]");
-      const LoadedScene turned =
-          sound(collection({floe(15.6, 78.2, 0.001), floe(375.61, 78.2, 0.001)}, name), entry, kOrigin);
-      for (const simulation::FloeSpec& one : turned.scene.floes)
-        EXPECT_NEAR(geometry::measure(one.polygon_in_world).area, 22.8378 * 111.6468, 2);
     }
   }
 }
@@ -188,6 +188,99 @@ TEST_F(FloeFile, AnImportRepairsTrimsAndReports) {
   EXPECT_EQ(totals.area_trimmed, 8);
   expect_reads_back(loaded);
   EXPECT_HAS(problems(floes, R"(, "import": {})"), "self-crossing", R"("repair": "non-zero")");
+}
+
+// ---- ice of their own: what it reads as, what it is drawn from, and what is refused
+
+SceneOutcome read_ice(const std::string& ice, int columns = 1, const std::string& members = "") {
+  return read(fmt::format(
+      R"({{{} "floes": [{{"lattice": {{"columns": {}, "rows": 1, "pitch_m": 12, "size_m": 10}}, "ice": {}}}]}})",
+      members, columns, ice));
+}
+
+const fracture::Ice& ice_at(const LoadedScene& loaded, std::size_t floe) {
+  return ice_of(loaded.scene, loaded.scene.floes[floe].own_ice);
+}
+
+TEST(FloeIce, KeysAndRangesAreThoseOfTheScenesIce) {
+  for (const FloeIceProperty& property : floe_ice_properties()) {
+    for (const Object* object : std::initializer_list<const Object*>{&ice_description(), &floe_ice_description()}) {
+      const auto field = std::ranges::find(object->fields, property.key, &Field::key);
+      ASSERT_NE(field, object->fields.end()) << property.key;
+      EXPECT_EQ(field->unit, property.unit);
+      EXPECT_EQ(field->range.low, property.range.low) << property.key;
+      EXPECT_EQ(field->range.high, property.range.high) << property.key;
+    }
+  }
+  EXPECT_EQ(floe_ice_description().fields.size(), kFloeIceProperties + 1) << "and the seed";
+}
+
+TEST(FloeIce, GivenIsTheirsAndTheRestTheScenes) {
+  const auto loaded = checked(read_ice(R"({"thickness_m": 0.8, "flexural_strength_Pa": 6e5})", 3));
+  EXPECT_EQ(loaded->scene.own_ice.size(), 1u) << "once for all three";
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(ice_at(*loaded, i).thickness, 0.8);
+    EXPECT_EQ(ice_at(*loaded, i).flexural_strength, 6e5);
+    EXPECT_EQ(ice_at(*loaded, i).density, 900);
+  }
+}
+
+TEST(FloeIce, OfNoScatterIsTheScenes) {
+  for (const char* ice : {"{}", R"({"thickness_m": 0.5})", R"({"thickness_m": {"spread": 0}})",
+                          R"({"density_kg_per_m3": {"law": "constant"}})",
+                          R"({"thickness_m": {"law": "uniform", "least": 0.5, "most": 0.5}})"}) {
+    const auto loaded = checked(read_ice(ice, 2));
+    EXPECT_TRUE(loaded->scene.own_ice.empty()) << ice;
+  }
+}
+
+TEST(FloeIce, IsDrawnByItsLawAndTheSeed) {
+  const std::string ice =
+      R"({"thickness_m": {"spread": 0.2}, "compressive_strength_Pa": {"law": "normal", "mean": 2e6, "spread": 0.1},
+          "tensile_strength_Pa": {"law": "uniform", "least": 4e5, "most": 9e5}})";
+  const auto loaded = checked(read_ice(ice, 4000));
+  ASSERT_EQ(loaded->ice.size(), 3u);
+  for (const IceReport& report : loaded->ice) {
+    EXPECT_EQ(report.measures.count, 4000u);
+    EXPECT_LT(report.measures.distance, 1.63 / std::sqrt(4000.0)) << report.property;
+  }
+  EXPECT_NEAR(loaded->ice[0].measures.mean, 0.5, 0.01);
+  EXPECT_NEAR(loaded->ice[1].measures.mean, 2e6, 2e4);
+  EXPECT_GE(loaded->ice[1].measures.least, 1.4e6);
+  EXPECT_LE(loaded->ice[2].measures.most, 9e5);
+  const auto again = read(loaded->resolved_text);
+  const auto seeded = read_ice(ice, 4000, R"("seed": 2,)");
+  ASSERT_TRUE(again.has_value() && seeded.has_value());
+  EXPECT_EQ(ice_at(*again, 17).thickness, ice_at(*loaded, 17).thickness);
+  EXPECT_NE(ice_at(*seeded, 17).thickness, ice_at(*loaded, 17).thickness);
+}
+
+TEST_F(FloeFile, FeaturesGiveTheirIceBeforeTheEntryAndTheScene) {
+  const LoadedScene loaded = sound(
+      collection({floe(0, 0, 400, R"("thickness_m":0.9,"name":"a")"),
+                  floe(1000, 0, 400, R"("thickness_m":null,"fracture_toughness_Pa_sqrt_m":2e5)"), floe(2000, 0, 400)}),
+      R"(, "ice": {"thickness_m": 0.7, "tensile_strength_Pa": {"spread": 0.3}})");
+  EXPECT_EQ(ice_at(loaded, 0).thickness, 0.9);
+  EXPECT_EQ(ice_at(loaded, 1).thickness, 0.7);
+  EXPECT_EQ(ice_at(loaded, 1).fracture_toughness, 2e5);
+  EXPECT_EQ(ice_at(loaded, 2).fracture_toughness, 150e3);
+  expect_reads_back(loaded);
+}
+
+/// Of each floe its ice; corners that round to one point far from the origin once.
+TEST_F(FloeFile, WhatARunWritesReadsBack) {
+  const LoadedScene loaded =
+      sound(collection({floe(0, 0, 400, R"("thickness_m":0.9,"density_kg_per_m3":870)"), floe(1000, 0, 400)}));
+  const simulation::Simulation simulation(loaded.scene);
+  std::vector<simulation::FloeState> states = simulation.floe_states();
+  const geometry::Polygon in_body{{{-5, -5}, {5, -5}, {5, 0}, {5, 1e-17}, {5, 5}, {-5, 5}}, {}};
+  states[1].polygon_in_body = &in_body;
+  states[1].world_from_body.position = {1000, 1000};
+  const LoadedScene again = sound(to_geojson(states, 0));
+  EXPECT_EQ(again.scene.own_ice.size(), 1u);
+  EXPECT_EQ(ice_at(again, 0).density, 870);
+  EXPECT_EQ(again.scene.floes[1].own_ice, simulation::kSceneIce);
+  EXPECT_EQ(again.scene.floes[1].polygon_in_world.outer.size(), 5U);
 }
 
 }  // namespace

@@ -101,17 +101,21 @@ TEST(Crs, IsKnownByItsNames) {
   for (const char* nothing : {"EPSG:1", "metres of the ice tank", ""}) EXPECT_FALSE(find_crs(nothing));
 }
 
+/// A thousandth of a degree by the radii of curvature: a (1 − e²)/(1 − e² sin²φ)^1.5 north, a cos φ/√(1 − e² sin²φ)
+/// east.
 TEST(Plane, DegreesComeToMetresAboutTheOrigin) {
-  // By the radii of curvature a thousandth of a degree of latitude is 111.6468 m at 78.2°, of
-  // longitude 22.8378 m.
-  std::vector<SourceFloe> floes{square_floe(15.6, 78.2, 0.001)};
-  const auto report = tests::checked(bring(floes, "", about(78.2, 15.6)));
-  EXPECT_EQ(report->system, "WGS 84 (CRS84)");
-  const Polygon& floe = floes[0].polygon;
-  EXPECT_NEAR(floe.outer[0].x, 0, 1e-6);
-  EXPECT_NEAR(floe.outer[0].y, 0, 1e-6);
-  EXPECT_NEAR(floe.outer[1].x, 22.8378, 1e-3);
-  EXPECT_NEAR(floe.outer[3].y, 111.6468, 1e-3);
+  for (const auto& [latitude, east, north] :
+       {std::tuple{78.2, 22.8378, 111.6468}, {0.0, 111.3195, 110.5743}, {-60.0, 55.8000, 111.4123}}) {
+    std::vector<SourceFloe> floes{square_floe(15.6, latitude, 0.001)};
+    ASSERT_TRUE(bring(floes, "EPSG:4326", about(latitude, 15.6)));
+    const Polygon& floe = floes[0].polygon;
+    EXPECT_NEAR(floe.outer[0].x, 0, 1e-6);
+    EXPECT_NEAR(floe.outer[0].y, 0, 1e-6);
+    EXPECT_NEAR(floe.outer[1].x, east, 1e-3);
+    EXPECT_NEAR(floe.outer[3].y, north, 1e-3);
+  }
+  std::vector<SourceFloe> without_crs{square_floe(15.6, 78.2, 0.001)};
+  EXPECT_EQ(tests::checked(bring(without_crs, "", about(78.2, 15.6)))->system, "WGS 84 (CRS84)");
 }
 
 TEST(Plane, ARunsCoordinatesAcrossTheAntimeridianStayTogether) {

@@ -2,10 +2,13 @@
 #include "io/run/run_loop.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene_text.hpp"
 #include "temporary_folder.hpp"
+#include <gtest/gtest.h>
 
+#include "io/run/available_memory.hpp"
 #include "io/run/checkpoint.hpp"
 #include "io/run/run_folder.hpp"
 
@@ -13,6 +16,8 @@ namespace polynya::io {
 namespace {
 
 using namespace tests;
+using io::memory_available;
+using io::MemoryAvailable;
 
 LoadedScene small_scene(double until = 2) {
   return load(
@@ -20,6 +25,24 @@ LoadedScene small_scene(double until = 2) {
              list("ships", {ship(R"("hull": {"length_m": 60}, "position_m": [-30.5, 2],
                        "propulsion": {"constant_speed_m_per_s": 2})")}),
              list("floes", {R"({"rectangle": {"corner_m": [0, -20], "size_m": [60, 40]}})"})}));
+}
+
+/// Stops when that holds, for "enough" reason.
+template <class Holds>
+RunControl until(Holds holds) {
+  return {.stop = [holds]() mutable { return holds() ? std::optional<std::string>("enough") : std::nullopt; }};
+}
+
+/// From its newest checkpoint the run in a folder ends as that in `whole`.
+void expect_resumes_to(const TemporaryFolder& folder, const LoadedScene& scene) {
+  const auto checkpoints = checkpoints_in(folder / "run");
+  ASSERT_FALSE(checkpoints.empty());
+  auto lock = checked(RunLock::take(folder / "run"));
+  auto resumed = checked(resume_run(std::move(*lock), scene, checkpoints.front()));
+  EXPECT_EQ(run_to_end(*resumed).end, RunEnd::kFinished);
+  for (const auto name : {run_file::kForces, run_file::kEvents, run_file::kFloes, run_file::kFrames, run_file::kStates,
+                          run_file::kContacts, run_file::kCrushed, run_file::kFinalGeojson})
+    EXPECT_EQ(read_file(folder / "run" / name), read_file(folder / "whole" / name)) << name;
 }
 
 TEST(RunLoop, ReportsProgressAndFinishesTheFolder) {
@@ -45,24 +68,15 @@ TEST(RunLoop, AStoppedRunIsResumedToTheSameBytes) {
   EXPECT_EQ(run_to_end(*whole).end, RunEnd::kFinished);
   {
     auto run = checked(start_run(folder / "run", small));
-    int steps = 0;
-    const RunResult result = run_to_end(*run, {.stop = [&]() -> std::optional<std::string> {
-      return ++steps == 50 ? std::optional<std::string>("enough") : std::nullopt;
-    }});
+    const RunResult result = run_to_end(*run, until([steps = 0]() mutable { return ++steps == 50; }));
     EXPECT_EQ(result.end, RunEnd::kStopped);
     EXPECT_EQ(result.reason, "enough");
     EXPECT_GE(result.summary.steps, 50);
     EXPECT_LT(result.summary.steps, 200);
     EXPECT_FALSE(result.summary.finished);
   }
-  const auto checkpoints = checkpoints_in(folder / "run");
-  ASSERT_EQ(checkpoints.size(), 1U);
-  auto lock = checked(RunLock::take(folder / "run"));
-  auto resumed = checked(resume_run(std::move(*lock), small, checkpoints.front()));
-  EXPECT_EQ(run_to_end(*resumed).end, RunEnd::kFinished);
-  for (const auto name : {run_file::kForces, run_file::kEvents, run_file::kFloes, run_file::kFrames, run_file::kStates,
-                          run_file::kContacts, run_file::kCrushed, run_file::kFinalGeojson})
-    EXPECT_EQ(read_file(folder / "run" / name), read_file(folder / "whole" / name)) << name;
+  EXPECT_EQ(checkpoints_in(folder / "run").size(), 1U);
+  expect_resumes_to(folder, small);
 }
 
 /// Steps of several ticks end with the run: of one shorter than such a step, and of one that is stopped where its end
@@ -72,23 +86,15 @@ TEST(RunLoop, AnEndThatCutsAStepShortLeavesNoTraceInALongerRun) {
   const LoadedScene longer = small_scene();
   auto whole = checked(start_run(folder / "whole", longer));
   EXPECT_EQ(run_to_end(*whole).end, RunEnd::kFinished);
-  for (const auto& [until, stop_at] : {std::pair(0.2, 1000), std::pair(0.6, 45)}) {
-    const LoadedScene shorter = small_scene(until);
+  for (const auto& [until_s, stop_at] : {std::pair(0.2, 1000), std::pair(0.6, 45)}) {
+    const LoadedScene shorter = small_scene(until_s);
     {
       auto run = checked(start_run(folder / "run", shorter, true));
-      const RunResult result = run_to_end(*run, {.stop = [&]() -> std::optional<std::string> {
-        return run->simulation.steps() >= stop_at ? std::optional<std::string>("enough") : std::nullopt;
-      }});
+      const RunResult result = run_to_end(*run, until([&, at = stop_at] { return run->simulation.steps() >= at; }));
       EXPECT_EQ(result.end, stop_at == 1000 ? RunEnd::kFinished : RunEnd::kStopped);
     }
-    const auto checkpoints = checkpoints_in(folder / "run");
-    ASSERT_FALSE(checkpoints.empty());
-    auto lock = checked(RunLock::take(folder / "run"));
-    auto resumed = checked(resume_run(std::move(*lock), longer, checkpoints.front()));
-    EXPECT_EQ(run_to_end(*resumed).end, RunEnd::kFinished);
-    for (const auto name : {run_file::kForces, run_file::kEvents, run_file::kFloes, run_file::kFrames,
-                            run_file::kStates, run_file::kContacts, run_file::kFinalGeojson})
-      EXPECT_EQ(read_file(folder / "run" / name), read_file(folder / "whole" / name)) << name << ", until " << until;
+    SCOPED_TRACE(until_s);
+    expect_resumes_to(folder, longer);
   }
 }
 
@@ -132,6 +138,43 @@ TEST(RunLoop, ALargeFinalGeojsonIsWrittenOnRequestAlone) {
   };
   EXPECT_NEAR(size(run_file::kFloes) / estimated.floes, 1, 0.3);
   EXPECT_NEAR(size(run_file::kFinalGeojson) / estimated.final_geojson, 1, 0.3);
+}
+
+// ---- the memory that there is
+
+TEST(MemoryAvailable, IsWhatTheMachineHasFreeWithSwapAndWhatThisProcessHas) {
+  const TemporaryFolder root;
+  write_file(root / "proc/meminfo", "MemTotal: 9000 kB\nMemAvailable:    3000 kB\nSwapFree: 1000 kB\n");
+  write_file(root / "proc/self/statm", "100 0 0 0 0 0 0\n");
+  EXPECT_EQ(memory_available(root.path()).bytes, 4000 * 1024);
+  write_file(root / "proc/self/statm", "100 10 0 0 0 0 0\n");
+  EXPECT_GT(memory_available(root.path()).bytes, 4000 * 1024);
+}
+
+TEST(MemoryAvailable, IsTheLeastThatAControlGroupLeaves) {
+  const TemporaryFolder root;
+  write_file(root / "proc/meminfo", "MemAvailable:    30000 kB\n");
+  write_file(root / "proc/self/cgroup", "0::/jobs/mine\n");
+  write_file(root / "sys/fs/cgroup/jobs/mine/memory.max", "max\n");
+  write_file(root / "sys/fs/cgroup/jobs/mine/memory.current", "50\n");
+  write_file(root / "sys/fs/cgroup/jobs/memory.max", "5000000\n");
+  write_file(root / "sys/fs/cgroup/jobs/memory.current", "4000000\n");
+  write_file(root / "sys/fs/cgroup/jobs/memory.stat", "anon 1000000\nfile 2500000\n");
+  const MemoryAvailable available = memory_available(root.path());
+  EXPECT_EQ(available.bytes, 3500000);
+  EXPECT_EQ(available.source, "the control group's limit");
+  write_file(root / "proc/self/cgroup", "5:cpu,memory:/old\n");
+  write_file(root / "sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
+  write_file(root / "sys/fs/cgroup/memory/memory.usage_in_bytes", "7000\n");
+  write_file(root / "sys/fs/cgroup/memory/old/memory.limit_in_bytes", "2000000\n");
+  write_file(root / "sys/fs/cgroup/memory/old/memory.usage_in_bytes", "500000\n");
+  EXPECT_EQ(memory_available(root.path()).bytes, 1500000);
+}
+
+TEST(MemoryAvailable, IsUnknownWhereNothingTells) {
+  const TemporaryFolder root;
+  EXPECT_TRUE(std::isinf(memory_available(root.path()).bytes));
+  EXPECT_GT(memory_available().bytes, 1e6);
 }
 
 }  // namespace

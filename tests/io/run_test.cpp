@@ -1,4 +1,5 @@
 // What a run writes reads back; what is damaged is refused with its line.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <regex>
@@ -7,6 +8,7 @@
 
 #include "scene_text.hpp"
 #include "temporary_folder.hpp"
+#include <gtest/gtest.h>
 
 #include "geometry/exact/measures.hpp"
 #include "io/run/csv_columns.hpp"
@@ -14,6 +16,7 @@
 #include "io/run/motion_index.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
+#include "io/run/run_loop.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/run/run_writer.hpp"
 
@@ -416,6 +419,128 @@ TEST_F(RunFiles, TheSummaryHasItsKeys) {
   expect_keys(summary.find("counts"), {"floes_initial", "floes_final", "bends", "splits", "crush_contacts",
                                        "rejected_cuts", "database_out_of_range"});
   EXPECT_BEGINS(text(run_file::kForces), "t_s,ship,");
+}
+
+// ---- what causes the forces on a ship, against the columns of forces.csv
+
+/// What the parts of each direction add up to; a share counts in the column that contains it.
+std::map<std::string_view, double> sums(const simulation::HullSample& row) {
+  std::map<std::string_view, double> sums;
+  for (const ForceCause& cause : force_causes())
+    if (cause.share_of.empty()) sums[cause.direction] += force_column(cause.column).read(row);
+  return sums;
+}
+
+TEST(ForceCauses, AddUpToTheForceOnTheShip) {
+  simulation::HullSample row;  // each number in it another power of two
+  row.from_ice.surge = 1, row.from_ice.sway = 2, row.from_ice.yaw = 4;
+  row.from_ships.surge = 8, row.from_ships.sway = 16, row.from_ships.yaw = 32;
+  row.from_submerged = {64, 1048576, 128};
+  row.from_water = {256, 512, 1024};
+  row.from_rudder = {2048, 4096, 8192};
+  row.from_mooring = {16384, 32768, 65536};
+  row.thrust = 131072;
+  row.from_engine = {0, 262144, 524288};
+  row.friction_of_ice = {0.5, 0.25, 0.125};  // a share of the first three
+  const auto sum = sums(row);
+  ASSERT_EQ(sum.size(), 3U);
+  EXPECT_EQ(sum.at("Surge force by cause"), 1 + 8 + 64 + 256 + 2048 + 16384 + 131072);
+  EXPECT_EQ(sum.at("Sway force by cause"), 2 + 16 + 1048576 + 512 + 4096 + 32768 + 262144);
+  EXPECT_EQ(sum.at("Yaw moment by cause"), 4 + 32 + 128 + 1024 + 8192 + 65536 + 524288);
+}
+
+TEST(ForceCauses, HaveEachColumnOnceAndSharesOfColumnsOfTheirDirection) {
+  for (const ForceCause& cause : force_causes()) {
+    const auto is_this = [&](const ForceCause& other) { return other.column == cause.column; };
+    EXPECT_EQ(std::ranges::count_if(force_causes(), is_this), 1) << cause.column;
+    EXPECT_EQ(force_column(cause.column).unit, cause.direction.starts_with("Yaw") ? "N·m" : "N");
+    if (cause.share_of.empty()) continue;
+    const auto causes = force_causes();
+    const auto whole = std::ranges::find(causes, cause.share_of, &ForceCause::column);
+    ASSERT_TRUE(whole != causes.end()) << cause.share_of;
+    EXPECT_EQ(whole->direction, cause.direction);
+    EXPECT_FALSE(whole->without_shares.empty());
+  }
+}
+
+TEST(ForceCauses, AreShownWhereAShipHasThem) {
+  simulation::Scene scene;
+  scene.ships.resize(1);
+  scene.ships[0].propulsion = simulation::ConstantSpeed{1};
+  const auto has = [&](std::string_view column) {
+    const auto causes = force_causes(scene);
+    return std::ranges::find(causes, column, &ForceCause::column) != causes.end();
+  };
+  EXPECT_TRUE(has("surge_N") && has("thrust_N"));
+  EXPECT_FALSE(has("surge_from_ice_friction_N") || has("surge_from_mooring_N") || has("surge_from_ships_N"));
+  scene.ships[0].propulsion = simulation::ConstantThrust{1};
+  scene.ships[0].mooring.emplace();
+  EXPECT_TRUE(has("surge_from_ice_friction_N") && has("surge_from_mooring_N"));
+  scene.ships.push_back(scene.ships[0]);
+  EXPECT_TRUE(has("surge_from_ships_N"));
+}
+
+// ---- ice that goes under a hull, read back: what is under, what came up, and thinned frames
+
+/// 35 s into a small plate, in drifting water: what is under the hull moves.
+class UnderHullRun : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = new tests::TemporaryFolder;
+    const LoadedScene loaded = tests::load(tests::scene(
+        {R"("time": {"step_s": 0.01, "until_s": 35}, "water": {"drift_m_per_s": [0, 0.1]})",
+         R"("floes": [{"rectangle": {"corner_m": [0, -25], "size_m": [100, 50]}}])",
+         tests::list("ships", {tests::ship(R"("hull": {"length_m": 40, "beam_m": 8, "draught_m": 2}, "mass_kg": 1e6,
+           "moment_of_inertia_kg_m2": 1e8, "position_m": [-21, 0], "propulsion": {"constant_speed_m_per_s": 2})")})}));
+    auto active = tests::checked(start_run(folder->path() / "run", loaded, true));
+    ASSERT_EQ(run_to_end(*active).end, RunEnd::kFinished);
+    auto read = tests::checked(read_run(folder->path() / "run"));
+    run = new io::Run(std::move(*read));
+  }
+  static void TearDownTestSuite() {
+    delete run;
+    delete folder;
+  }
+  static inline tests::TemporaryFolder* folder = nullptr;
+  static inline io::Run* run = nullptr;
+};
+
+TEST_F(UnderHullRun, BrashIsWhatCameUpAndWhatItBrokeInto) {
+  std::size_t came_up = 0;
+  for (const RunFloe& floe : run->floes) {
+    const RunFloe* parent = run->floe(floe.birth.parent);
+    const bool rose = parent && run->events.at(*parent->death_event).is<simulation::Resurface>();
+    EXPECT_EQ(floe.came_up, rose || (parent && parent->came_up)) << floe.birth.floe;
+    came_up += floe.came_up;
+  }
+  EXPECT_GT(came_up, 5U);
+}
+
+TEST_F(UnderHullRun, EveryFloeEitherFloatsOrIsUnder) {
+  const MotionIndex motions(*run);
+  for (const Frame& frame : run->frames) {
+    const auto floating = floes_at(*run, motions, frame.time), under = floes_under_hulls_at(*run, motions, frame.time);
+    std::size_t there = 0;
+    for (const RunFloe& floe : run->floes) there += floe.birth.time <= frame.time && frame.time < floe.died ? 1 : 0;
+    EXPECT_EQ(floating.size() + under.size(), there) << frame.time;
+  }
+  EXPECT_GE(floes_under_hulls_at(*run, motions, run->end_time()).size(), 5U);
+}
+
+TEST_F(UnderHullRun, ThinnedFramesHaveWhatIsUnderWhereItIs) {
+  io::Run thin = *run;
+  thin.frames = thinned_frames(*run, {.every = 4});
+  ASSERT_LT(thin.frames.size(), run->frames.size() / 2);
+  const MotionIndex all(*run), some(thin);
+  std::size_t compared = 0;
+  for (const Frame& frame : thin.frames) {
+    for (const PlacedFloe& floe : floes_under_hulls_at(*run, all, frame.time)) {
+      const auto motion = tests::checked(some.floe_at(floe.birth->floe, frame.time));
+      EXPECT_LT(distance(motion->position, floe.motion->position), 1e-9);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 20U);
 }
 
 }  // namespace

@@ -394,5 +394,97 @@ TEST(SceneProblems, ASceneThatCouldNotBeReadBackIsRefused) {
   EXPECT_GE(kLongestScene, 2 * kLongestFloesFile);
 }
 
+// ---- what a valid scene is hinted at: with its place, its severity and its numbers, and never refused
+
+struct Change {
+  const char* from;
+  const char* to;
+};
+using Changes = std::vector<Change>;
+
+// Nothing to remark. One line each, so that a hint's line is its ship's.
+std::vector<Problem> hints_of(const Changes& changes) {
+  std::string text =
+      R"({"time": {"until_s": 100}, "ice": {"thickness_m": 0.5}, "water": {"drift_m_per_s": [0.1, 0]},
+"ships": [
+{"name": "first", "hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e7, )"
+      R"("moment_of_inertia_kg_m2": 5e9, "position_m": [-100, 0], "heading_deg": 0, )"
+      R"("propulsion": {"constant_speed_m_per_s": 2}},
+{"name": "second", "hull": {"length_m": 60, "beam_m": 12, "entrance_angle_deg": 27}, "mass_kg": 1e6, )"
+      R"("moment_of_inertia_kg_m2": 3e8, "position_m": [-100, 100], "heading_deg": 10, "speed_m_per_s": 1, )"
+      R"("propulsion": {"thrust_N": 1e4}}],
+"structures": [{"name": "pier", "radius_m": 5, "position_m": [50, -200]}],
+"floes": [{"rectangle": {"corner_m": [80, -50], "size_m": [200, 200]}}]})";
+  for (const auto& [from, to] : changes) text = replaced(text, from, to);
+  return load(text).hints;
+}
+
+const Change kTurned{"\"heading_deg\": 0", "\"heading_deg\": 180"};
+
+/// "LINE: severity: path: " and further words of the one hint.
+TEST(SceneHints, HaveAPlaceASeverityAndNumbers) {
+  struct Row {
+    Changes changes;
+    const char* begin;
+    std::vector<const char*> words;
+  };
+  const Change one_metre{"\"thickness_m\": 0.5", "\"thickness_m\": 1"}, thick{"0.5}", "9}"};
+  const Change slow{"\"speed_m_per_s\": 1,", "\"speed_m_per_s\": 0,"},
+      fast{"_speed_m_per_s\": 2", "_speed_m_per_s\": 18"};
+  for (const auto& [changes, begin, words] :
+       {Row{{{"1e4}", "1e4}, \"mooring\": {}"}},
+            "4: warning: ships[1].mooring: ",
+            {"holds nothing", "surge_stiffness_N_per_m"}},
+        Row{{{"1e7", "1e4"}},
+            "3: warning: ships[0].mass_kg: ",
+            {"1e+04 kg", "120 × 24 m", "3.5e+06 to 4.1e+07 kg", "3 to 16 m", "0.4 to 0.9"}},
+        Row{{{"1e6", "1e8"}}, "4: warning: ships[1].mass_kg: ", {"1e+08 kg"}},
+        Row{{kTurned}, "3: warning: ships[0].heading_deg: ", {"away from all ice", "120 m behind"}},
+        Row{{{"1e4}", "-1e4}"}, slow}, "4: warning: ships[1].heading_deg: ", {"away from all ice"}},
+        Row{{{"[50, -200]", "[50, 2]"}},
+            "3: warning: ships[0].propulsion: ",
+            {"meets pier", "after 42.7", "without a force"}},
+        Row{{{R"({"rectangle": {"corner_m": [80, -50], "size_m": [200, 200]}})", ""}}, "6: hint: floes: ", {"no ice"}},
+        Row{{thick}, "1: hint: ice.thickness_m: ", {"9 m", "4 m"}},
+        Row{{{"0.5}", "0.001}"}, {"100}", R"(100, "step_s": 1e-5})"}},
+            "1: hint: ice.thickness_m: ",
+            {"0.001 m", "0.01 m"}},
+        Row{{{"100}", R"(100, "step_s": 0.06, "levels": 0})"}},
+            "1: warning: time.step_s: ",
+            {"at 2 m/s", "0.12 m in a step", "0.15 of the ice's thickness of 0.5 m", "give 0.0375 s or less"}},
+        Row{{{"100}", R"(100, "step_s": 0.025, "levels": 0})"}, one_metre},
+            "1: warning: time.step_s: ",
+            {"0.05 m in a step", "0.0375 m² over the ice's thickness of 1 m", "give 0.0187 s or less"}},
+        Row{{{"100}", R"(100, "step_s": 0.02, "levels": 0}, "contact": {"circle_radius_m": 0.1})"}},
+            "1: warning: time.step_s: ",
+            {"0.04 m in a step", "0.25 of contact.circle_radius_m 0.1", "give 0.0125 s or less"}},
+        Row{{{"100}", R"(100, "step_s": 0.06})"}, {"0.5}", "0.01}"}},
+            "1: warning: time.step_s: ",
+            {"at 2 m/s", "0.0037 m in a step", "0.15 of the ice's thickness of 0.01 m", "give 0.024 s or less"}},
+        Row{{fast, {"100}", R"(100, "step_s": 0.002})"}},
+            "3: hint: ships[0].propulsion: ",
+            {"18 m/s (35 kn)", "12 m/s"}},
+        Row{{{"1e4}", "2e5}"}}, "4: hint: ships[1].propulsion: ", {"21 m/s by 100 s"}},
+        Row{{{"[0.1, 0]", "[0, 6]"}}, "1: hint: water.drift_m_per_s: ", {"6 m/s", "3 m/s"}}}) {
+    const std::vector<Problem> hints = hints_of(changes);
+    ASSERT_EQ(hints.size(), 1U) << begin;
+    std::string text = to_string(hints[0]);
+    EXPECT_GT(hints[0].column, 0);
+    text = replaced(text, fmt::format(":{}: ", hints[0].column), ": ");
+    EXPECT_BEGINS(text, std::string("scene.json:") + begin);
+    for (const char* part : words) EXPECT_HAS(text, part);
+  }
+}
+
+/// Where a hint could be wrong there is none: the ice drifts after the ship, or moves by itself; the
+/// structure stands beside the course, or after its end.
+TEST(SceneHints, AreSilentWhereTheSceneMayMeanIt) {
+  for (const Changes& changes :
+       {Changes{}, Changes{{"[0.1, 0]", "[-2.5, 0]"}, kTurned},
+        Changes{{"200]}}]", "200]}, \"velocity_m_per_s\": [-1, 0]}]"}, kTurned}, Changes{{"[50, -200]", "[50, -18]"}},
+        Changes{{"[50, -200]", "[200, 0]"}, {"[80, -50]", "[300, -50]"}}})
+    EXPECT_EQ(in_words(hints_of(changes)), "");
+}
+
 }  // namespace
 }  // namespace polynya::io

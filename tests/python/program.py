@@ -3,6 +3,7 @@ import csv
 import json
 import os
 import pathlib
+import re
 import subprocess
 
 PROGRAM = os.environ["POLYNYA_PROGRAM"]
@@ -49,3 +50,32 @@ def rows(path):
 
 def lines(path):
     return [json.loads(line) for line in path.read_text().splitlines()]
+
+
+WRONG = ["null", "true", '"x"', '""', '"\\u0000"', "[]", "{}", "[null]", '{"a": [{}]}', "-1", "0", "1.5", "-1e308"]
+WRONG += ["1e308", "1e-320", "1e999", "NaN", "-Infinity", "1" * 400, '"' + "y" * 5000 + '"', "[" * 90 + "]" * 90]
+
+
+def mutated(dice, value):
+    """The text of a JSON value with one thing changed: a value, a key, or the text itself."""
+    value = json.loads(json.dumps(value))
+    kind = dice.choice(["value", "value", "value", "drop", "rename", "cut", "comma", "twice"])
+    parents, parent = [value], value
+    while isinstance(parent, (dict, list)) and parent:
+        parents.append(parent)
+        parent = parent[dice.choice(list(parent) if isinstance(parent, dict) else range(len(parent)))]
+    parent = dice.choice(parents)
+    key = dice.choice(list(parent) if isinstance(parent, dict) else range(len(parent)))
+    if kind == "drop":
+        del parent[key]
+    elif kind == "rename" and isinstance(parent, dict):
+        parent[key[:-1] + dice.choice("xyz_ü/~")] = parent.pop(key)
+    elif kind == "value":
+        parent[key] = "@"
+    text = json.dumps(value, indent=dice.choice([None, 1])).replace('"@"', dice.choice(WRONG))
+    if kind == "cut":
+        return text[: dice.randrange(len(text))]
+    if kind in ("comma", "twice"):
+        at = dice.choice([match.end() for match in re.finditer("[{]" if kind == "twice" else "[][{},]", text)])
+        return text[:at] + (", " if kind == "comma" else '"count": 1, "count": 2, ') + text[at:]
+    return text

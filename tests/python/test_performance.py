@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from program import SCENES, ended, succeeded
+from program import SCENES, ended, mutated, succeeded
 from polynya import formulas
 from polynya.performance import level_ice
 from polynya.performance.__main__ import hull_of, print_table, ship_of
@@ -114,31 +114,6 @@ def test_other_options_have_ranges_too(capsys):
         assert "allowed: " in capsys.readouterr().err
 
 
-def changed(ship, chance):
-    """The text of a ship with one thing wrong, or at least changed."""
-    where = chance.choice([(ship, key) for key in ship] + [(part, key) for part in ship.values()
-                                                           if isinstance(part, dict) for key in part])
-    part, key = where
-    kind = chance.choice(["drop", "rename", "type", "negative", "huge", "infinity",
-                          "nan", "overflow", "null", "truncate", "comma"])
-    value = part[key]
-    if kind in ("drop", "rename"):
-        del part[key]
-        if kind == "rename":
-            part[key[:-1] + "q"] = value
-    elif kind in ("type", "negative", "huge", "infinity", "nan", "overflow", "null"):
-        part[key] = {"type": chance.choice(["22.4", [1], {}, True, 7]), "negative": -8.9,
-                     "huge": 1e300, "infinity": math.inf,
-                     "nan": math.nan, "overflow": 0.123456789, "null": None}[kind]
-    text = json.dumps(ship, indent=1).replace("0.123456789", "1e999")
-    if kind == "truncate":
-        return text[: chance.randrange(len(text))]
-    if kind == "comma":
-        at = chance.choice([match.start() for match in re.finditer("[,}]", text)])
-        return text[:at] + "," + text[at:]
-    return text
-
-
 def test_two_hundred_changed_ships_are_read_or_refused_with_their_places(tmp_path):
     chance = random.Random(31)
     path, refused = tmp_path / "ship.json", []
@@ -146,7 +121,7 @@ def test_two_hundred_changed_ships_are_read_or_refused_with_their_places(tmp_pat
         ship = {"name": "x", "mass_kg": 1.65e7, "speed_m_per_s": 2, **json.loads(json.dumps(SHIP))}
         ship["propulsion"]["engine"] |= {"power_MW": 22.4, "propellers": 2, "propeller_diameter_m": 4.87}
         ship["hull"]["block_coefficient"] = 0.58
-        text = changed(ship, chance)
+        text = mutated(chance, ship)
         path.write_text(text)
         done = ended("ships", "ship.json", "--json", "--for-performance", cwd=tmp_path, timeout=60)
         assert done.returncode in (0, 3), text

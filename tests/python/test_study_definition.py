@@ -14,6 +14,7 @@ from polynya.study.definition import read_definition
 from polynya.study.expand import count_cases, expand
 from polynya.study.folder import list_of_numbers, numbers_of_list, open_study
 from polynya.study.located_json import LocatedJson, StudyError
+from program import mutated
 from study_command import SCENE, folder, planned, study, write_study
 
 
@@ -146,33 +147,6 @@ WHOLE_STUDY = {
     "collect": {"from_s": 1, "quantiles": [0.5], "time_to": {"lead": {"point_m": [1, 2], "within_m": 3}}},
     "keep": "summary", "report": {"against": "ice.friction", "map": ["ice.thickness_m", "ice.friction"], "channels": 2},
 }
-WRONG = ["null", "true", '"x"', '""', '"\\u0000"', "[]", "{}", "[null]", '{"a": [{}]}', "-1", "0", "1.5", "-1e308"]
-WRONG += ["1e308", "1e-320", "1e999", "NaN", "-Infinity", "1" * 400, '"' + "y" * 5000 + '"', "[" * 90 + "]" * 90]
-
-
-def mutated(dice, study):
-    """The text of a study with one thing changed: a value, a key, or the text itself."""
-    study = json.loads(json.dumps(study))
-    kind = dice.choice(["value", "value", "value", "drop", "rename", "cut", "comma", "twice"])
-    parents, parent = [study], study
-    while isinstance(parent, (dict, list)) and parent:
-        parents.append(parent)
-        parent = parent[dice.choice(list(parent) if isinstance(parent, dict) else range(len(parent)))]
-    parent = dice.choice(parents)
-    key = dice.choice(list(parent) if isinstance(parent, dict) else range(len(parent)))
-    if kind == "drop":
-        del parent[key]
-    elif kind == "rename" and isinstance(parent, dict):
-        parent[key[:-1] + dice.choice("xyz_ü/~")] = parent.pop(key)
-    elif kind == "value":
-        parent[key] = "@"
-    text = json.dumps(study, indent=dice.choice([None, 1])).replace('"@"', dice.choice(WRONG))
-    if kind == "cut":
-        return text[: dice.randrange(len(text))]
-    if kind in ("comma", "twice"):
-        at = dice.choice([match.end() for match in re.finditer("[{]" if kind == "twice" else "[][{},]", text)])
-        return text[:at] + (", " if kind == "comma" else '"count": 1, "count": 2, ') + text[at:]
-    return text
 
 
 @pytest.mark.parametrize("part", range(3))

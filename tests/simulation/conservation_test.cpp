@@ -147,6 +147,7 @@ TEST(Fracture, EveryFloeHasItsParentAndTheEventThatMadeItAndTheAreasBalanceAtEve
       }
       listen(done.simulation, done.story);
       EXPECT_EQ(done.simulation.area_ledger().submerged_area > 1, fate == CuspFate::kSubmerge);
+      EXPECT_EQ(done.simulation.counts().floated_cusps > 0, fate == CuspFate::kFloat);
       EXPECT_TRUE(done.story.rejected_cuts().empty());
       EXPECT_GT(done.story.events.size(), 2u);
       expect_lineage(done);

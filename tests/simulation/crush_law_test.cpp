@@ -184,7 +184,6 @@ TEST(CrushLaw, TheLoadInLevelIceIsNotTheSteps) {
 // ---- collisions that crush by the impulse law, step by step: how long they take, and that they converge
 
 constexpr double kApproachSpeed = 0.5;
-constexpr double kMass = 900 * 0.5 * 2 * 7 * 7;  // of a diamond of 7 m [kg]
 
 /// A floe's corner runs into a fixed ship, along the normal of its flat bow.
 Scene corner_into_bow(double hull_angle, double speed, double density, double step, double restitution = 0) {
@@ -201,43 +200,25 @@ Scene corner_into_bow(double hull_angle, double speed, double density, double st
   return scene;
 }
 
-struct Compression {
-  double time = -1;     ///< from first contact to the end of the approach [s]
-  double deepest = -1;  ///< [m]
-};
-
-Compression compression(const Scene& scene) {
+/// From first contact to the end of the approach [s].
+double time_of_compression(const Scene& scene) {
   Simulation simulation(scene);
-  Compression found;
   double start = -1;
-  for (int step = 0; step < 200000 && found.time < 0; ++step) {
+  for (int step = 0; step < 200000; ++step) {
     simulation.step();
-    for (const dynamics::Contact& c : simulation.world().step.contacts) {
-      if (start < 0) start = simulation.time();
-      found.deepest = std::max(found.deepest, c.depth);
-    }
-    if (start >= 0 && simulation.floe_states()[0].velocity.x >= -1e-9) found.time = simulation.time() - start;
+    if (start < 0 && !simulation.world().step.contacts.empty()) start = simulation.time();
+    if (start >= 0 && simulation.floe_states()[0].velocity.x >= -1e-9) return simulation.time() - start;
   }
-  return found;
+  return -1;
 }
 
 TEST(CrushingCollision, TakesMassToTheThirdOverSpeedToTheThirdAtAnInclinedHull) {
   // F = k ξ²: the time of compression goes as (m / k v)^⅓.
   const auto time = [](double speed, double density) {
-    return compression(corner_into_bow(60 * kDegree, speed, density, 5e-4)).time;
+    return time_of_compression(corner_into_bow(60 * kDegree, speed, density, 5e-4));
   };
   EXPECT_NEAR(std::log(time(kApproachSpeed, 7200) / time(kApproachSpeed, 900)) / std::log(8), 1.0 / 3, 0.01);
   EXPECT_NEAR(std::log(time(2 * kApproachSpeed, 900) / time(kApproachSpeed / 4, 900)) / std::log(8), -1.0 / 3, 0.01);
-}
-
-TEST(CrushingCollision, TakesTheRootOfTheMassAtAVerticalWallAndCrushesAsDeepAsTheEnergyTakesIt) {
-  // F = σ_c h T ξ, a spring: a quarter of its period, π/2 √(m / σ_c h T), T = 2; ½ m v² = ½ σ_c h T ξ².
-  const Compression base = compression(corner_into_bow(0, kApproachSpeed, 900, 2e-4));
-  const double root = std::sqrt(kMass / (2.8e6 * 0.5 * 2));
-  EXPECT_NEAR(base.time / (std::numbers::pi / 2 * root), 1, 0.01);
-  EXPECT_NEAR(base.deepest / (kApproachSpeed * root), 1, 0.01);
-  EXPECT_NEAR(compression(corner_into_bow(0, kApproachSpeed, 7200, 2e-4)).time / base.time, std::sqrt(8), 0.02);
-  EXPECT_NEAR(compression(corner_into_bow(0, 4 * kApproachSpeed, 900, 2e-4)).time / base.time, 1, 0.01);
 }
 
 /// Two floes that meet corner to corner, a little off their centres, after `gap` [m].

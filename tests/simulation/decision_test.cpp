@@ -99,26 +99,6 @@ TEST(Decision, AnInclinedBowBendsWhenItsVerticalForceReachesTheCapacity) {
   }
 }
 
-TEST(Decision, CuspsSubmergeOrFloat) {
-  std::vector<Event> first;
-  for (const CuspFate fate : {CuspFate::kSubmerge, CuspFate::kFloat}) {
-    Scene scene = ship_against(icebreaker({0, 0}, ConstantSpeed{1}), rectangle(0.5, -60, 60.5, 60));
-    scene.fracture.cusp_fate = fate;
-    const auto [simulation, story] = run_to_first_event(scene, 20);
-    ASSERT_EQ(story.bends().size(), 1u);
-    const auto event = story.bends()[0];
-    first.push_back(event);
-    double area = 0;
-    for (const FloeState& state : simulation.floe_states()) area += state.area;
-    EXPECT_NEAR(area + event.ice()->submerged_area + event.ice()->brash_area, 7200, 1e-9);
-    EXPECT_EQ(event.ice()->submerged_area > 0, fate == CuspFate::kSubmerge);
-    EXPECT_EQ(simulation.counts().floated_cusps, fate == CuspFate::kFloat ? 1 : 0);
-  }
-  EXPECT_EQ(first[0].time, first[1].time) << "until the first cusp nothing differs";
-  EXPECT_EQ(std::get<Bend>(first[0].what).cusp_radius, std::get<Bend>(first[1].what).cusp_radius);
-  EXPECT_EQ(first[0].ice()->children.size() + 1, first[1].ice()->children.size());
-}
-
 TEST(Decision, ARejectedCutIsRecordedCountedAndLeavesTheFloe) {
   // A plate whose far edge crosses itself: no valid floe, and so no cut of it is either.
   const geometry::Polygon crossed{{{0.5, -30}, {60, -30}, {60, 30}, {40, 30}, {45, 35}, {45, 29}, {0.5, 30}}, {}};

@@ -161,15 +161,6 @@ TEST(FloeField, StaysInsideAnOutline) {
   EXPECT_NEAR(inside, outcome.floe_area, 1e-6);
 }
 
-TEST(FloeField, ReportsTheReachableConcentration) {
-  FloeField field = field_of(400, 0.95, 0.25);
-  field.gap = 2;
-  const FloeFieldOutcome outcome = make_floe_field(field);
-  EXPECT_LT(outcome.reachable_concentration, 0.9);
-  EXPECT_GT(outcome.reachable_concentration, 0.6);
-  EXPECT_NEAR(outcome.concentration(), outcome.reachable_concentration, 1e-9);
-}
-
 TEST(SizeLaw, QuantilesAndSharesAgreeAndMeansAreThoseOfTheLaw) {
   // PHYSICS-2 §5: a 1.87, 10 to 100 m has the mean 18.85 m and the mean square 508.8 m².
   const PowerLawSizes power{1.87, 10, 100};

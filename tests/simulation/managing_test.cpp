@@ -340,22 +340,6 @@ TEST(ChangingDrift, FreeIceGoesWithTheWaterAndWhatStandsStays) {
   EXPECT_NEAR(length(floes[0].velocity - scene.water.drift_at(simulation.time())), 0, 0.01);
 }
 
-TEST(ChangingDrift, OfRowsThatAreEqualIsTheSteadyOne) {
-  Build steady = Build().step(0.05).drift({0.3, -0.1}).ship(icebreaker({0, 0}, ConstantSpeed{1}));
-  steady.floe(rectangle(2, -40, 60, 40));
-  Build by_rows = steady;
-  by_rows.water.drift = {};
-  const double speed = std::hypot(0.3, 0.1), direction = std::atan2(-0.1, 0.3);
-  by_rows.water.drift_rows = {{0, speed, direction}, {30, speed, direction}};
-  const Story one = run(steady, 10).story, other = run(by_rows, 10).story;
-  ASSERT_EQ(one.samples.size(), other.samples.size());
-  EXPECT_EQ(one.bends().size(), other.bends().size());
-  EXPECT_GT(one.bends().size(), 0U);
-  for (std::size_t i = 0; i < one.samples.size(); ++i) {
-    ASSERT_NEAR(one.samples[i].position_in_world.x, other.samples[i].position_in_world.x, 1e-6);
-  }
-}
-
 TEST(ChangingDrift, AMooredShipRidesAsTheSpringOfItsMooringHasIt) {
   // Slow against its own period, the ship lies where the mooring's pull is its resistance to the current, and what
   // would speed it up with the water around it.

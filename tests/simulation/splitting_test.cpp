@@ -1,10 +1,13 @@
-// Splitting by the forces that contacts really carry (docs/theory/splitting.md).
+// What splits floes, by the forces that contacts really carry (docs/theory/splitting.md), and slender floes that break
+// across (docs/theory/beams.md).
 #include "fracture/splitting.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "fracture/characteristic_length.hpp"
 #include "simulation/ship/pressing.hpp"
 #include "simulation/world/world.hpp"
 #include "tests/dynamics/scenery.hpp"
@@ -15,6 +18,7 @@ namespace {
 
 using namespace scenes;
 using geometry::Point;
+using geometry::Polygon;
 using geometry::Vector;
 
 constexpr double kOpeningOfStem = 0.633;  // per force ahead, of the reference ship with μ 0.2
@@ -207,6 +211,185 @@ TEST(Splitting, WhatPassesFloesOverIsNoLessThanTheirPushes) {
   EXPECT_GT(bounded, 1000);
   EXPECT_GT(sharp, 10);
   EXPECT_GT(corners, 1000);
+}
+
+// ---- cracks beside free edges, through holes and at the corners of sterns
+
+const double kCharacteristicLength = fracture::characteristic_length(fracture::Ice{}, fracture::Water{});  // [m]
+
+/// The stem meets a large plate at a distance from the edge on its right.
+Story beside_edge(double distance) {
+  return run_to_first_event(
+             Build().ship(steep_icebreaker({0, 0}, ConstantSpeed{1})).floe(rectangle(0.001, -distance, 400, 400)), 2)
+      .story;
+}
+
+TEST(TurningCrack, EndsAtTheEdgeBesideItAndPartsACompactPiece) {
+  // Here what turns leaves no sliver, and no straight crack to the edge: each would leave one.
+  const double b = 1.03 * kCharacteristicLength;
+  const Story story = beside_edge(b);
+  ASSERT_EQ(story.splits().size(), 1u);
+  const auto event = story.splits()[0];
+  const fracture::FailureCriteria& c = event.criteria();
+  EXPECT_NEAR(c.opening_capacity / fracture::turning_crack_force(fracture::Ice{}, b), 1, 0.01);
+  EXPECT_GE(c.opening_force, c.opening_capacity);
+  EXPECT_NEAR(c.crack_width / b, 2, 0.02);
+  EXPECT_NEAR(c.crack_length / b, 0.63 + 1 / std::sin(1.1817), 0.02);
+  double least = 1e9;
+  for (const Birth& birth : story.births)
+    if (birth.parent != kNoFloe) least = std::min(least, birth.area);
+  EXPECT_NEAR(least / (b * b), 0.835, 0.015) << "as by finite elements";
+}
+
+TEST(TurningCrack, DoesNotRunWhereItWouldLeaveASliver) {
+  const double b = 0.85 * kCharacteristicLength;
+  for (const auto& event : beside_edge(b).splits())
+    EXPECT_GT(event.criteria().opening_capacity, 2 * fracture::turning_crack_force(fracture::Ice{}, b));
+}
+
+TEST(TurningCrack, NoSplitLeavesAStrip) {
+  // A plate of a kilometre, entered 40 m from its side by a hull that only crushes and splits.
+  const auto [simulation, story] = run(
+      Build().step(0.01).ship(steep_icebreaker({0, 0}, ConstantSpeed{3}, 3)).floe(rectangle(0.01, -40, 1000, 960)), 60);
+  ASSERT_GT(story.splits().size(), 2u);
+  for (const auto& event : story.splits()) {
+    double least = 1e9;
+    for (const Birth& birth : story.births)
+      if (std::ranges::count(event.ice()->children, birth.floe) > 0) least = std::min(least, birth.area);
+    const double length = event.criteria().crack_length;
+    EXPECT_LE(length, 8.001 * least / length) << "at " << event.time;
+  }
+}
+
+TEST(Splitting, ACrackThroughAHoleBreaksEachStretchByACriterionOfItsOwn) {
+  // 20 m of ice, a hole of 10 m and 30 m of ice: F_max of 30 m, neither that of 20 m nor that of 50 m.
+  Polygon plate = rectangle(0.001, -200, 60, 200);
+  plate.holes = {{{20, -5}, {20, 5}, {30, 5}, {30, -5}}};
+  const Story story =
+      run_to_first_event(Build().ship(steep_icebreaker({0, 0}, ConstantSpeed{0.5})).floe(plate), 3).story;
+  ASSERT_EQ(story.splits().size(), 1u);
+  const auto event = story.splits()[0];
+  const fracture::FailureCriteria& c = event.criteria();
+  EXPECT_NEAR(c.crack_length, 30, 1e-6);
+  EXPECT_NEAR(c.opening_capacity / fracture::lefm_splitting_force(fracture::Ice{}, 30, 400), 1, 1e-6);
+  EXPECT_GE(c.opening_force, c.opening_capacity);
+  EXPECT_LT(c.opening_force, 1.05 * c.opening_capacity);
+  EXPECT_EQ(event.ice()->children.size(), 2u);
+}
+
+TEST(Splitting, CracksBeginOutsideOfThePileThatOpensThem) {
+  const Story story = run(Build().step(0.01).pile({0, 0}, 5).floe(rectangle(5.01, -60, 125, 60), {-1.5, 0}), 30).story;
+  ASSERT_GT(story.splits().size(), 0u);
+  for (const auto& event : story.splits())
+    EXPECT_GT(std::hypot(event.point_in_world.x, event.point_in_world.y), 4.9) << "at " << event.time;
+}
+
+TEST(Splitting, ASternsCornerOpensNoCrackWhileItsTransomLeavesTheIce) {
+  // A box's rear corner lies on an edge that rises by a tenth along its side; the floe drifts onto it. Under
+  // way the side bears.
+  const Polygon ice{{{-220, 2.05}, {120, 36.05}, {80, 336}, {-260, 302}}, {}};
+  const auto splits = [&](double speed) {
+    return run(Build().ship(barge({0, 0}, ConstantSpeed{speed}, speed)).floe(ice, {0, -0.4}), 2).story.splits().size();
+  };
+  EXPECT_GT(splits(0), 0u);
+  EXPECT_EQ(splits(2), 0u);
+}
+
+// ---- slender floes below κ l
+
+constexpr double kThickness = 1.6;  // [m]
+constexpr double kWidth = 3;        // [m]
+constexpr double kBeamLength = 24;  // [m]
+
+/// Ice that floats free ahead of a ship's stem, across it.
+Build across(const Ship& ship, double length, double step = 0.002) {
+  Build scene;
+  scene.ice.thickness = kThickness;
+  scene.step(step).ship(ship).floe(rectangle(0.01, -length / 2, 0.01 + kWidth, length / 2));
+  return scene;
+}
+
+/// By which its middle section comes to σ_f, at a quarter or an eighth of F Λ [N].
+double breaking_force(double share) {
+  return fracture::Ice{}.flexural_strength * kThickness * kWidth * kWidth / 6 / (share * kBeamLength);
+}
+
+TEST(Beams, ALongFloeAcrossAStemBreaksInTheMiddleAndAShortOneDoesNot) {
+  Ship ship = icebreaker({0, 0}, ConstantSpeed{3}, 3);
+  for (const double draught : {0.0, 6.0}) {  // with it the floe tilts
+    ship.hull.draught = draught;
+    const auto [simulation, story] = run(across(ship, kBeamLength), 3);
+    ASSERT_GE(story.splits().size(), 1u) << draught;
+    const Event event = story.splits()[0];
+    EXPECT_EQ(event.ship, 0);
+    EXPECT_EQ(event.ice()->floe, 0);
+    EXPECT_EQ(event.ice()->children.size(), 2u);
+    EXPECT_NEAR(event.criteria().crack_length, kWidth, 1e-6);
+    EXPECT_LT(event.criteria().floe_size, event.criteria().breakable_size);
+    for (const Birth& birth : story.births) {
+      if (birth.parent == 0) {
+        EXPECT_NEAR(birth.area, kBeamLength * kWidth / 2, 1);
+      }
+    }
+    expect_closed(simulation);
+    EXPECT_EQ(run(across(ship, 4), 3).story.splits().size(), 0u) << draught;
+  }
+}
+
+/// M = F Λ/8 against σ_f h w²/6, where the hull presses nothing down; at the instant at which it comes to that.
+TEST(Beams, AFreeFloeBreaksAtTheForceOfTheClosedForm) {
+  for (const double step : {0.001, 0.005, 0.02}) {
+    const Trial trial = run_to_first_event(across(steep_icebreaker({0, 0}, ConstantSpeed{3}, 3), kBeamLength, step), 1);
+    ASSERT_EQ(trial.story.splits().size(), 1u) << step;
+    const fracture::FailureCriteria c = trial.story.splits()[0].criteria();
+    EXPECT_GE(c.split_share(), 1) << step;
+    EXPECT_LE(c.split_share(), 1.05) << step;
+    EXPECT_NEAR(c.contact_force / c.split_share() / breaking_force(1.0 / 8), 1, 1e-3) << step;
+    EXPECT_EQ(trial.simulation.counts().unresolved_splits, 0);
+  }
+}
+
+/// Between a stem and two floes that stand it takes half of that: M = F Λ/4.
+TEST(Beams, AFloeBetweenThreeBreaksAtHalfOfThat) {
+  Build scene = across(steep_icebreaker({0, 0}, ConstantSpeed{0.3}, 0.3), kBeamLength);
+  for (const double y : {-12.0, 11.9}) scene.floe(fast(rectangle(0.01 + kWidth, y, 20, y + 0.1)));
+  const Trial trial = run_to_first_event(scene, 3);
+  ASSERT_EQ(trial.story.splits().size(), 1u);
+  const fracture::FailureCriteria c = trial.story.splits()[0].criteria();
+  EXPECT_NEAR(c.contact_force / c.split_share() / breaking_force(1.0 / 4), 1, 0.05);
+}
+
+/// Where a face pushes at an edge, along the floe rather than across it, the force is off the floe's axis by half
+/// its width: it bends the end that it is at, and presses the rest. Each break is in the ice.
+TEST(Beams, BreakWithinTheFloe) {
+  const Trial trial = run(across(steep_icebreaker({0, 0}, ConstantSpeed{3}, 3), kBeamLength, 0.001), 2);
+  for (const Event& event : trial.story.splits()) {
+    EXPECT_LT(std::abs(event.point_in_world.y), 20);
+    EXPECT_LT(event.point_in_world.x, 3 * event.time + 5);
+    for (const Birth& birth : trial.story.births) {
+      if (std::ranges::count(event.ice()->children, birth.floe) > 0) {
+        EXPECT_GT(birth.area, 4) << event.time;
+      }
+    }
+  }
+  EXPECT_LE(trial.story.splits().size(), 3u);
+}
+
+TEST(Beams, AreKeptWholeWhereTheSceneSaysSo) {
+  const Ship ship = steep_icebreaker({0, 0}, ConstantSpeed{3}, 3);
+  EXPECT_TRUE(run(across(ship, kBeamLength).unbreakable(), 1).story.splits().empty());
+  Build none = across(ship, kBeamLength);
+  none.fracture.splitting = fracture::SplittingModel::kNone;
+  EXPECT_TRUE(run(none, 1).story.splits().empty());
+  Build paper(Laws::kPaper);
+  paper.ice.thickness = kThickness;
+  paper.step(0.002).ship(ship).floe(across(ship, kBeamLength).floes[0]);
+  EXPECT_TRUE(run(paper, 1).story.splits().empty());
+}
+
+TEST(Beams, AreTheSameAfterAResume) {
+  const Scene scene = across(icebreaker({0, 0}, ConstantSpeed{3}, 3), kBeamLength);
+  EXPECT_GE(expect_resumes(scene, 0.02, 1).story.splits().size(), 1u);
 }
 
 }  // namespace

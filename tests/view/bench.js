@@ -1,6 +1,7 @@
 // What every test of the player begins with: a folder and a browser of its own, which go when it ends.
 "use strict";
 const { test, before, after } = require("node:test");
+const assert = require("node:assert/strict");
 const fs = require("node:fs");
 const os = require("node:os");
 const path = require("node:path");
@@ -8,14 +9,19 @@ const { startBrowser, openPage } = require("./browser.js");
 
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-view-"));
 const browser = startBrowser();
+const opened = [];
 after(async () => {
   await (await browser).close();
   fs.rmSync(folder, { recursive: true, force: true });
+  assert.deepEqual(opened.flatMap(({ errors }) => errors), [], "errors of the pages");
 });
 
 module.exports = {
-  test, before, fs, path, folder,
-  assert: require("node:assert/strict"),
-  /** Opens a page in that browser. */
-  open: async (file, options) => openPage(await browser, file, options),
+  test, before, fs, path, folder, assert,
+  /** Opens a page in that browser, in which nothing may go wrong. */
+  open: async (file, options) => {
+    const page = await openPage(await browser, file, options);
+    opened.push(page);
+    return page;
+  },
 };

@@ -30,6 +30,19 @@ exports.makePage = (run, ...options) => {
 exports.readLines = (run, file) => fs.readFileSync(path.join(run, file), "utf8").trim().split("\n").filter(Boolean);
 exports.readNdjson = (run, file) => exports.readLines(run, file).map((line) => JSON.parse(line));
 
+/** Gives the rows of forces.csv known loads: loadsOf(k) has those of row k by column. The rows, as objects. */
+exports.giveLoads = (run, loadsOf) => {
+  const [header, ...lines] = exports.readLines(run, "forces.csv");
+  const names = header.split(",");
+  const rows = lines.map((line, k) => {
+    const fields = line.split(",");
+    for (const [column, load] of Object.entries(loadsOf(k))) fields[names.indexOf(column)] = String(load);
+    return fields;
+  });
+  fs.writeFileSync(path.join(run, "forces.csv"), `${[names, ...rows].map((row) => row.join(",")).join("\n")}\n`);
+  return rows.map((fields) => Object.fromEntries(fields.map((field, k) => [names[k], Number(field)])));
+};
+
 /** The table of `polynya inspect RUN --at T`, by floe. */
 exports.inspectAt = (run, time) => {
   const [names, ...rows] = exports.polynya("inspect", run, "--at", String(time)).trim().split("\n").map((row) =>

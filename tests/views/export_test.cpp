@@ -1,15 +1,21 @@
-// Where exports put things: closed forms of the projection, triangles that cover a polygon, VTK's layout.
+// What is exported: triangles that cover a polygon, VTK's layout, scenes that continue a run.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
 
 #include "../base64.hpp"
-#include "../io/expect_text.hpp"
+#include "../io/scene_text.hpp"
+#include "../io/temporary_folder.hpp"
+#include <fmt/format.h>
 
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/outline.hpp"
-#include "io/import/projection.hpp"
+#include "io/run/motion_index.hpp"
+#include "io/run/run_loop.hpp"
 #include "io/text/encoding.hpp"
+#include "io/text/json_parser.hpp"
+#include "views/export/scene_export.hpp"
 #include "views/export/vtk_export.hpp"
 
 namespace polynya::tests {
@@ -17,43 +23,6 @@ namespace {
 
 using geometry::Polygon;
 using geometry::Ring;
-using simulation::GeographicOrigin;
-
-constexpr double kRad = std::numbers::pi / 180;
-
-/// WGS 84's radii of curvature at a latitude: along the meridian and across it [m].
-double meridian_radius(double latitude) {
-  const double e2 = 0.00669437999014, s = std::sin(latitude);
-  return 6378137 * (1 - e2) / std::pow(1 - e2 * s * s, 1.5);
-}
-double normal_radius(double latitude) {
-  const double e2 = 0.00669437999014, s = std::sin(latitude);
-  return 6378137 / std::sqrt(1 - e2 * s * s);
-}
-
-TEST(Geographic, SmallStepsFollowTheRadiiOfCurvature) {
-  for (const double latitude : {-60.0, 0.0, 45.0, 78.2}) {
-    const double lat = latitude * kRad;
-    const GeographicOrigin north_up{lat, 0, 90 * kRad};  // x east, y north
-    const double d = 10;
-    EXPECT_NEAR(io::GeographicPlane::about(north_up)->geographic_of({0, d}).latitude - lat, d / meridian_radius(lat),
-                1e-11);
-    EXPECT_NEAR(io::GeographicPlane::about(north_up)->geographic_of({d, 0}).longitude,
-                d / (normal_radius(lat) * std::cos(lat)), 1e-11);
-    const GeographicOrigin x_north{lat, 0, 0};  // x north, y west
-    EXPECT_NEAR(io::GeographicPlane::about(x_north)->geographic_of({d, 0}).latitude - lat, d / meridian_radius(lat),
-                1e-11);
-    EXPECT_LT(io::GeographicPlane::about(x_north)->geographic_of({0, d}).longitude, 0);
-  }
-}
-
-TEST(Geographic, ConvergesOnThePole) {
-  const GeographicOrigin pole{90 * kRad, 0, 0};
-  for (const double angle : {0.1, 1.0, 2.5})
-    EXPECT_NEAR(
-        io::GeographicPlane::about(pole)->geographic_of({1000 * std::cos(angle), 1000 * std::sin(angle)}).latitude,
-        90 * kRad - 1000 / meridian_radius(90 * kRad), 1e-10);
-}
 
 double covered(const Polygon& polygon) {
   Ring corners = polygon.outer;
@@ -117,6 +86,161 @@ TEST(VtkFile, HoldsPointsCellsAndColumnsAsItsHeaderSays) {
   EXPECT_EQ(value_at(text, "mass_kg", 1), 8.25);
   EXPECT_EQ(value_at(text, "velocity_m_per_s", 4), 4);
   EXPECT_LACKS(views::to_pvd(views::VtkTimeline{{{0.5, 1, "a&b.vtp"}}}), "a&b");
+}
+
+// ---- a run's end, or one of its frames, as the start of another
+
+/// A ship that pushes floes too small to break against each other, in a drifting sheared current.
+std::string crowd(double until) {
+  return fmt::format(R"({{
+    "name": "crowd", "time": {{"step_s": 0.01, "until_s": {}}},
+    "record": {{"forces_interval_s": 0.1, "frames_interval_s": 1}},
+    "water": {{"drift_m_per_s": [0.1, -0.2], "shear": {{"rate_per_s": 1e-4}}}},
+    "ships": [{{"name": "pusher", "hull": {{"length_m": 60, "beam_m": 14, "entrance_angle_deg": 30}}, "mass_kg": 3e6,
+               "moment_of_inertia_kg_m2": 5e8, "position_m": [-31, 1], "speed_m_per_s": 2, )"
+                     R"("propulsion": {{"thrust_N": 2e5}}}}],
+    "floes": [{{"lattice": {{"columns": 8, "rows": 9, "origin_m": [0, -36], "pitch_m": 8, "size_m": 7.9}}}}]}})",
+                     until);
+}
+
+class SceneExport : public testing::Test {
+ protected:
+  /// Runs a scene in the folder and reads the run.
+  io::Run run(const std::string& name, const io::LoadedScene& scene) const {
+    auto active = io::start_run(folder / name, scene);
+    EXPECT_TRUE(active) << active.error();
+    EXPECT_EQ(run_to_end(*active).end, io::RunEnd::kFinished);
+    auto read = io::read_run(folder / name);
+    EXPECT_TRUE(read) << read.error();
+    return std::move(*read);
+  }
+  io::LoadedScene load(const std::string& text) const { return tests::load(text, folder.path()); }
+  /// The scene that continues a run from a time.
+  io::LoadedScene continued(const io::Run& run, double time) const {
+    const auto scene = views::continued_scene(run, time);
+    EXPECT_TRUE(scene) << scene.error();
+    for (const auto& [name, text] : scene->files) write_file(folder / name, text);
+    return load(scene->files[0].second);
+  }
+  TemporaryFolder folder;
+};
+
+/// How far apart two runs are at their ends [m].
+struct Miss {
+  double ship = 0;
+  double floes = 0;  ///< the largest of all
+};
+Miss miss_between(const io::Run& a, const io::Run& b) {
+  const io::MotionIndex motions_a(a), motions_b(b);
+  Miss miss;
+  miss.ship =
+      geometry::distance(motions_a.ship_at(0, a.end_time())->position, motions_b.ship_at(0, b.end_time())->position);
+  EXPECT_EQ(a.floes.size(), b.floes.size());
+  for (std::size_t i = 0; i < a.floes.size(); ++i) {
+    const auto id = static_cast<simulation::FloeId>(i);
+    const auto p = motions_a.floe_at(id, a.end_time()), q = motions_b.floe_at(id, b.end_time());
+    if (p && q) miss.floes = std::max(miss.floes, geometry::distance(p->position, q->position));
+  }
+  return miss;
+}
+
+TEST_F(SceneExport, ContinuingFromTheEndMovesAsAnUnbrokenRun) {
+  const io::Run whole = run("whole", load(crowd(12)));
+  const io::Run half = run("half", load(crowd(8)));
+  const io::LoadedScene scene = continued(half, half.end_time());
+  EXPECT_TRUE(std::ranges::any_of(scene.scene.floes, [](const simulation::FloeSpec& floe) {
+    return length(floe.velocity) > 0.05;
+  })) << "ice is on the move";
+  EXPECT_EQ(scene.scene.floes[5].source_floe, 5);
+  const io::LoadedScene again = load(scene.resolved_text);
+  EXPECT_EQ(again.hash, scene.hash);
+  const io::Run rest = run("rest", load([&] {
+                             std::string text = read_file(folder / "scene.json");
+                             const std::size_t at = text.find("\"until_s\": ");
+                             return text.replace(at, text.find_first_of(",\n}", at) - at, "\"until_s\": 4");
+                           }()));
+  const Miss miss = miss_between(whole, rest);
+  EXPECT_LT(miss.ship, 2e-3);
+  EXPECT_LT(miss.floes, 0.2);
+  const double moved = distance(io::MotionIndex(whole).ship_at(0, 12)->position, {-31, 1});
+  EXPECT_GT(moved, 5);
+}
+
+TEST_F(SceneExport, AFrameIsAStartToo) {
+  const io::Run whole = run("whole", load(crowd(12)));
+  const auto scene = checked(views::continued_scene(whole, 8.6));
+  EXPECT_EQ(scene->time, 8);
+  EXPECT_TRUE(scene->left_out.empty());
+  const io::LoadedScene loaded = continued(whole, 8.6);
+  EXPECT_NEAR(loaded.scene.time.until, 4, 1e-12);
+  EXPECT_NEAR(loaded.scene.water.shear.origin.y, -1.6, 1e-12);
+  const Miss miss = miss_between(whole, run("rest", loaded));
+  EXPECT_LT(miss.ship, 2e-3);
+  EXPECT_LT(miss.floes, 0.2);
+}
+
+TEST_F(SceneExport, AShipGoesOnAsItWent) {
+  const io::Run whole = run("whole", load(crowd(6)));
+  const auto at = io::MotionIndex(whole).ship_at(0, 6);
+  const io::LoadedScene loaded = continued(whole, 6);
+  const simulation::Ship& ship = loaded.scene.ships[0];
+  EXPECT_EQ(ship.position_in_world, at->position);
+  const geometry::Vector ahead{std::cos(at->angle), std::sin(at->angle)};
+  EXPECT_NEAR(length(ship.speed * ahead + ship.sway_speed * perpendicular(ahead) - at->velocity), 0, 1e-12);
+  EXPECT_NEAR(ship.yaw_rate, at->angular_velocity, 1e-12);
+}
+
+TEST_F(SceneExport, TheClockOfATablePilotGoesOn) {
+  const std::string text = R"({"time": {"step_s": 0.1, "until_s": 40}, "ships": [{"ship": "reference",
+    "pilot": {"table": {"rows": [{"t_s": 0, "lever": 0}, {"t_s": 20, "lever": 1}, {"t_s": 60, "lever": 0.2}]}}}]})";
+  const io::LoadedScene loaded = continued(run("sailing", load(text)), 10);
+  const auto& rows = std::get<simulation::TablePilot>(loaded.scene.ships[0].pilot).rows;
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0].time, 0);
+  EXPECT_NEAR(rows[0].lever, 0.5, 1e-12);
+  EXPECT_EQ(rows[1].time, 10);
+  EXPECT_EQ(rows[2].time, 50);
+}
+
+/// A ship that presses a plate under, in drifting water; the way is that of the frames. No scene has the water that is
+/// missing on decks.
+TEST_F(SceneExport, IceUnderAHullStaysThere) {
+  const std::string text = R"({"time": {"step_s": 0.01, "until_s": 30}, "water": {"drift_m_per_s": [0, 0.1]},
+    "fracture": {"bending": {"decks": "wet"}},
+    "ships": [{"name": "icebreaker", "hull": {"length_m": 40, "beam_m": 8, "entrance_angle_deg": 27, )"
+                           R"("stem_angle_deg": 30,
+      "draught_m": 2}, "mass_kg": 1e6, "moment_of_inertia_kg_m2": 1e8, "position_m": [-21, 0],
+      "propulsion": {"constant_speed_m_per_s": 2}}],
+    "floes": [{"rectangle": {"corner_m": [0, -25], "size_m": [100, 50]}}]})";
+  const io::Run whole = run("whole", load(text));
+  for (const double time : {20.0, 30.0}) {
+    const auto before = floes_under_hulls_at(whole, io::MotionIndex(whole), time);
+    ASSERT_GT(before.size(), 5U);
+    EXPECT_TRUE(checked(views::continued_scene(whole, time))->left_out.empty());
+    const io::LoadedScene scene = continued(whole, time);
+    EXPECT_EQ(load(scene.resolved_text).hash, scene.hash);
+    const io::Run rest = run(fmt::format("rest-{}", time), scene);
+    const auto after = floes_under_hulls_at(rest, io::MotionIndex(rest), 0);
+    ASSERT_EQ(after.size(), before.size());
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      EXPECT_NEAR(after[i].birth->area, before[i].birth->area, 1e-9);
+      EXPECT_LT(distance(after[i].motion->position, before[i].motion->position), 2e-3);
+    }
+    if (time == 30.0) continue;
+    // The ice comes up behind the ship as in the run that went on, but for where it finds room.
+    const auto area_under = [](const io::Run& of, double at) {
+      double area = 0;
+      for (const io::PlacedFloe& floe : floes_under_hulls_at(of, io::MotionIndex(of), at)) area += floe.birth->area;
+      return area;
+    };
+    EXPECT_NEAR(area_under(rest, 2), area_under(whole, 22), 0.2 * area_under(whole, 22));
+    const auto force = [](const io::Run& of, double at) {
+      const auto row = std::ranges::lower_bound(of.samples, at - 1e-6, {}, &simulation::HullSample::time);
+      return row->from_submerged.surge;
+    };
+    EXPECT_LT(force(whole, 20.1), 0);
+    EXPECT_NEAR(force(rest, 0.1), force(whole, 20.1), 0.25 * std::abs(force(whole, 20.1)));
+  }
 }
 
 }  // namespace

@@ -42,16 +42,6 @@ TEST(DatabaseBuild, SameBytesForAnyNumberOfThreads) {
     EXPECT_EQ(write_database(*build_database(coarse_settings(), small_grid(), threads)), one) << threads;
 }
 
-TEST(DatabaseBuild, ProgressReachesTheTotal) {
-  std::vector<std::size_t> seen;
-  const auto built = build_database(coarse_settings(), small_grid(), 2, [&](std::size_t done, std::size_t total) {
-    EXPECT_EQ(total, 6U);
-    seen.push_back(done);
-  });
-  EXPECT_TRUE(built.has_value());
-  EXPECT_EQ(seen, (std::vector<std::size_t>{1, 2, 3, 4, 5, 6}));
-}
-
 TEST(DatabaseBuild, UnusableGridsAreErrors) {
   const auto error_of = [](auto change) {
     DatabaseGrid grid = small_grid();
@@ -262,17 +252,6 @@ TEST(FsiDatabaseModel, ForceGrowsWithThicknessStrengthAndAngle) {
   grows([](BendingLoad& l, double a) { l.front_half_angle = l.back_half_angle = a; }, 0.18, 1.43);
 }
 
-TEST(FsiDatabaseModel, RadiusFallsWithSpeed) {
-  BendingLoad load = load_of(1, 0.75, 0);
-  double previous = 1e9;
-  for (double speed = 0.25; speed < 8; speed += 0.05) {
-    load.mean_approach_speed = speed;
-    const double radius = kModel.capacity(load).cusp_radius;
-    EXPECT_LT(radius, previous) << speed;
-    previous = radius;
-  }
-}
-
 // ---- physical answers
 
 TEST(FsiDatabaseModel, IsTheDirectSolution) {
@@ -401,19 +380,6 @@ TEST(DatabaseText, RefusesWithTheLineAndTheReason) {
     EXPECT_EQ(read.error().line, line) << read.error().message;
     EXPECT_NE(read.error().message.find(reason), std::string::npos) << read.error().message;
   }
-}
-
-TEST(DatabaseText, RefusesAChangedNumberByItsHash) {
-  std::string text = write_database(small_database());
-  const auto entry = text.find('\n', text.find("entries 24")) + 3;
-  text[entry] = text[entry] == '7' ? '8' : '7';
-  const auto read = parse_database(text);
-  ASSERT_FALSE(read.has_value());
-  EXPECT_NE(read.error().message.find("hash"), std::string::npos);
-}
-
-TEST(DatabaseText, RefusesTooLargeAFile) {
-  EXPECT_FALSE(parse_database(std::string(kLargestFile + 1, 'x')).has_value());
 }
 
 // Damage of any kind is refused or, where it leaves a sound file, read: never a crash, never a silent
