@@ -91,7 +91,7 @@ struct ValidateOptions {
 void print_floes(const io::LoadedScene& loaded) {
   print_fields(loaded);
   for (const io::IceReport& report : loaded.ice) {
-    const io::FloeIceProperty& property = io::floe_ice_properties()[report.property];
+    const io::FloeProperty& property = io::floe_ice_properties()[report.property];
     const fracture::ScatterMeasures& drawn = report.measures;
     print_out("floes[{}].ice.{}: {} drawn, {:.4g} {} ± {:.3g} %, from {:.4g} to {:.4g}, {:.2g} off the law (KS)\n",
               report.group, property.key, drawn.count, drawn.mean, property.unit, 100 * drawn.spread, drawn.least,

@@ -1,8 +1,11 @@
 #include "io/import/floe_import.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <map>
 #include <span>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -10,6 +13,7 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/outline.hpp"
+#include "io/text/child_process.hpp"
 #include "io/text/problem.hpp"
 #include "simulation/world/limits.hpp"
 
@@ -36,8 +40,8 @@ Sum sum_of(const std::vector<Polygon>& polygons) {
 /// The floes of one file on their way.
 class FloeImport {
  public:
-  FloeImport(std::vector<SourceFloe>& floes, const std::vector<std::string>& refused, const ImportSettings& settings)
-      : sources_(floes), refused_(refused), settings_(settings) {}
+  FloeImport(const std::vector<SourceFloe>& floes, const ImportSettings& settings)
+      : sources_(floes), settings_(settings) {}
 
   ImportOutcome run(PlaneReport plane) {
     outcome_.plane = std::move(plane);
@@ -60,7 +64,7 @@ class FloeImport {
   void take(std::size_t i) {
     drawn_.push_back(geometry::normalised(sources_[i].polygon));
     const Polygon& polygon = drawn_.back();
-    if (!refused_[i].empty()) return refuse(i, refused_[i]);
+    if (!sources_[i].refused.empty()) return refuse(i, sources_[i].refused);
     const auto defect = geometry::find_defect(polygon);
     if (!defect) {
       read_.push_back(i);
@@ -184,8 +188,7 @@ class FloeImport {
     }
   }
 
-  std::vector<SourceFloe>& sources_;
-  const std::vector<std::string>& refused_;
+  const std::vector<SourceFloe>& sources_;
   const ImportSettings& settings_;
   std::vector<Polygon> drawn_;     ///< as read, in the plane and in house notation
   std::vector<std::size_t> read_;  ///< those not refused
@@ -194,31 +197,94 @@ class FloeImport {
   ImportOutcome outcome_;
 };
 
+constexpr const char* kConverter = "ogr2ogr";
+
+/// GDAL's reason among its warnings: the first line that is one, without the list of drivers it tried.
+std::string reason_in(std::string_view text) {
+  std::string_view reason = text.substr(0, text.find('\n'));
+  bool is_found = false;
+  for_pieces(text, '\n', [&](std::string_view line, std::size_t) {
+    if (is_found || !(line.starts_with("ERROR") || line.starts_with("Unable"))) return;
+    reason = line.substr(0, line.find(" with the following"));
+    is_found = true;
+  });
+  return std::string(reason);
+}
+
+Result<ChildOutput> convert(const std::filesystem::path& file, std::string_view format, const std::string& layer,
+                            bool to_degrees, std::size_t longest) {
+  std::vector<std::string> words{kConverter, "-f", "GeoJSON", "-lco", "RFC7946=NO", "-lco", "COORDINATE_PRECISION=15",
+                                 "-dim",     "XY"};
+  if (to_degrees) words.insert(words.end(), {"-t_srs", "OGC:CRS84"});
+  words.insert(words.end(), {"/vsistdout/", std::filesystem::absolute(file).string()});
+  if (!layer.empty()) words.push_back(layer);
+  auto output = run_child(words, longest);
+  if (output) return output;
+  if (output.error().starts_with(std::string(kConverter) + " wrote")) return output;
+  return fail(
+      fmt::format("a {} is read by GDAL's ogr2ogr, which is not there ({}): apt-get install gdal-bin, "
+                  "or convert the file to GeoJSON elsewhere",
+                  format, output.error()));
+}
+
+/// The format of a file by how it begins; empty where it is none of these, or cannot be read.
+std::string_view foreign_format(const std::filesystem::path& file) {
+  std::array<char, 16> bytes{};
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return {};  // opening a pipe would wait for its writer
+  std::FILE* const stream = std::fopen(file.c_str(), "rb");
+  if (!stream) return {};
+  const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), stream);
+  std::fclose(stream);
+  const std::string_view begin(bytes.data(), count);
+  using namespace std::string_view_literals;
+  if (begin.starts_with("\x00\x00\x27\x0a"sv)) return "shapefile";
+  if (begin.starts_with("SQLite format 3"sv)) return "GeoPackage";
+  if (begin.starts_with("fgb\x03"sv)) return "FlatGeobuf file";
+  return {};
+}
+
 }  // namespace
+
+std::optional<Result<std::string>> read_foreign_file(const std::filesystem::path& file, const std::string& layer,
+                                                     std::size_t longest) {
+  const std::string_view format = foreign_format(file);
+  if (format.empty()) return {};
+  auto output = convert(file, format, layer, false, longest);
+  if (!output) return fail(output.error());
+  if (output->code != 0 || output->out.empty()) {
+    const std::string reason = reason_in(output->err);
+    return fail(fmt::format("ogr2ogr could not read it: {}",
+                            reason.empty() ? fmt::format("it ended with code {}", output->code) : reason));
+  }
+  // ogr2ogr writes no system that has no code, and of a GeoPackage not WGS 84 either: where the layer has
+  // one, it can convert from it. Without one it fails.
+  const std::string_view head = std::string_view(output->out).substr(0, output->out.find("\"features\":"));
+  if (head.find("\"crs\":") != std::string_view::npos) return std::move(output->out);
+  auto in_degrees = convert(file, format, layer, true, longest);
+  if (!in_degrees || in_degrees->code != 0 || in_degrees->out.empty()) return std::move(output->out);
+  std::string& text = in_degrees->out;
+  if (text.substr(0, text.find("\"features\":")).find("\"crs\":") == std::string::npos)
+    text.insert(text.find('{') + 1, R"("crs": {"type": "name", "properties": {"name": "OGC:CRS84"}},)");
+  return std::move(text);
+}
 
 FloesOfText floes_of(const FloeText& text, const PropertyNames& names) {
   FloesOfText read;
-  read.refused.resize(text.entries.size());
   NearMisses near_misses(names);
   bool are_of_run = text.time.has_value();
-  for (std::size_t i = 0; i < text.entries.size(); ++i) {
-    const FloeEntry& entry = text.entries[i];
-    std::string& refused = read.refused[i];
+  for (const FloeEntry& entry : text.entries) {
     SourceFloe& floe = read.floes.emplace_back();
     floe.polygon = entry.polygon;
     if (!entry.refusal.empty()) {
-      refused = entry.refusal + (entry.detail.empty() ? "" : ": " + entry.detail);
+      floe.refused = entry.refusal + (entry.detail.empty() ? "" : ": " + entry.detail);
       continue;
     }
-    std::vector<BadProperty> bad;
     bool was_born = false;
     if (entry.properties) {
       const JsonValue properties = parse_json("{" + *entry.properties + "}").root;
-      floe.properties = read_floe_properties(properties, names, bad);
+      floe.properties = read_floe_properties(properties, names, floe.refused);
       near_misses.add(properties, floe.properties);
-      for (const BadProperty& one : bad)
-        refused += fmt::format("{}property {}: found {}, allowed: {}", refused.empty() ? "" : "; ", one.key, one.found,
-                               one.allowed);
       was_born = properties.find("born_s") != nullptr;
     }
     if (entry.floe_id) floe.properties.floe_id = entry.floe_id;
@@ -229,12 +295,11 @@ FloesOfText floes_of(const FloeText& text, const PropertyNames& names) {
   return read;
 }
 
-tl::expected<ImportOutcome, PlaneError> import_floes(std::vector<SourceFloe>& floes, std::vector<std::string> refused,
-                                                     const std::string& crs, const ImportSettings& settings) {
-  refused.resize(floes.size());
-  auto plane = bring_to_plane(floes, refused, crs, settings.plane);
+tl::expected<ImportOutcome, PlaneError> import_floes(std::vector<SourceFloe>& floes, const std::string& crs,
+                                                     const ImportSettings& settings) {
+  auto plane = bring_to_plane(floes, crs, settings.plane);
   if (!plane) return tl::unexpected(std::move(plane.error()));
-  return FloeImport(floes, refused, settings).run(std::move(*plane));
+  return FloeImport(floes, settings).run(std::move(*plane));
 }
 
 }  // namespace polynya::io

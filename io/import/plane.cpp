@@ -50,19 +50,26 @@ std::optional<Point> find_point(const geometry::Polygon& polygon, Condition is_i
   return found;
 }
 
-/// "75.1° S, 16° E"
-std::string place_in_words(double latitude, double longitude) {
-  const double lon = std::remainder(longitude, 360);
-  return fmt::format("{:.6g}° {}, {:.6g}° {}", std::abs(latitude), latitude < 0 ? "S" : "N", std::abs(lon),
-                     lon < 0 ? "W" : "E");
+/// "75.1° S, 16° E", of longitude and latitude in degrees.
+std::string place_in_words(Point at) {
+  const double longitude = std::remainder(at.x, 360);
+  return fmt::format("{:.6g}° {}, {:.6g}° {}", std::abs(at.y), at.y < 0 ? "S" : "N", std::abs(longitude),
+                     longitude < 0 ? "W" : "E");
 }
 
-/// Between two places, latitude and longitude, on a sphere of the Earth's radius [m]; angles [rad].
-double great_circle(double latitude_a, double longitude_a, double latitude_b, double longitude_b) {
+/// Between two places, longitude and latitude in degrees, on a sphere of the Earth's radius [m].
+double great_circle(Point a, Point b) {
   constexpr double kEarthRadius = 6371e3;  // [m]
-  const double cosine = std::sin(latitude_a) * std::sin(latitude_b) +
-                        std::cos(latitude_a) * std::cos(latitude_b) * std::cos(longitude_a - longitude_b);
+  const auto radians = [](double degrees) { return degrees / geometry::kDegreesPerRadian; };
+  const double cosine = std::sin(radians(a.y)) * std::sin(radians(b.y)) +
+                        std::cos(radians(a.y)) * std::cos(radians(b.y)) * std::cos(radians(a.x) - radians(b.x));
   return kEarthRadius * std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
+/// Longitude and latitude [°].
+template <class Place>
+Point degrees_of(const Place& place) {
+  return {geometry::kDegreesPerRadian * place.longitude, geometry::kDegreesPerRadian * place.latitude};
 }
 
 double median(std::vector<double> values) {
@@ -80,8 +87,7 @@ struct MisplacedFloe {
 /// Brings one file's floes to the plane, step by step.
 class PlaneImport {
  public:
-  PlaneImport(std::vector<SourceFloe>& floes, std::vector<std::string>& refused, const PlaneSettings& settings)
-      : floes_(floes), refused_(refused), settings_(settings) {}
+  PlaneImport(std::vector<SourceFloe>& floes, const PlaneSettings& settings) : floes_(floes), settings_(settings) {}
 
   tl::expected<PlaneReport, PlaneError> run(const std::string& crs) {
     auto system = system_of(crs);
@@ -101,14 +107,14 @@ class PlaneImport {
   using Done = tl::expected<void, PlaneError>;
   using Others = std::optional<std::size_t>;  ///< how many floes more
 
-  bool is_kept(std::size_t floe) const { return refused_[floe].empty(); }
+  static bool is_kept(const SourceFloe& floe) { return floe.refused.empty(); }
 
   /// The floes, of those not refused before, with a point of which it is true.
   template <class Condition>
   std::vector<MisplacedFloe> find_floes(Condition is_it) const {
     std::vector<MisplacedFloe> found;
     for (std::size_t i = 0; i < floes_.size(); ++i) {
-      if (!is_kept(i)) continue;
+      if (!is_kept(floes_[i])) continue;
       if (const auto point = find_point(floes_[i].polygon, is_it)) found.push_back({i, *point});
     }
     return found;
@@ -119,11 +125,11 @@ class PlaneImport {
   template <class Words>
   Done refuse_floes(const std::vector<MisplacedFloe>& misplaced, Words words_of, double share = 1) {
     if (misplaced.empty()) return {};
-    const auto kept = static_cast<std::size_t>(std::ranges::count(refused_, ""));
+    const auto kept = static_cast<std::size_t>(std::ranges::count_if(floes_, is_kept));
     const auto count = static_cast<double>(misplaced.size());
     if (misplaced.size() == kept || count > share * static_cast<double>(kept))
       return refuse(words_of(misplaced.front(), Others(misplaced.size() - 1)), misplaced.front().floe);
-    for (const MisplacedFloe& one : misplaced) refused_[one.floe] = words_of(one, Others());
+    for (const MisplacedFloe& one : misplaced) floes_[one.floe].refused = words_of(one, Others());
     return {};
   }
 
@@ -169,10 +175,8 @@ class PlaneImport {
       const double of_floe = std::abs(geometry::signed_area(ring));
       area += of_floe;
       ++floes;
-      const Point at = ring.front();
       if (of_floe < kLeastIce && std::ranges::all_of(ring, is_in_degrees) &&
-          great_circle(at.y / geometry::kDegreesPerRadian, at.x / geometry::kDegreesPerRadian,
-                       settings_.origin->latitude, settings_.origin->longitude) < kFarthestFloe)
+          great_circle(ring.front(), degrees_of(*settings_.origin)) < kFarthestFloe)
         ++near;
     }
     return floes > 0 && (area < kLeastIce || 10 * near >= floes);
@@ -183,19 +187,15 @@ class PlaneImport {
   Point middle_of_degrees() const {
     std::vector<Point> points;
     std::vector<double> latitudes, longitudes;
-    for (std::size_t i = 0; i < floes_.size(); ++i)
-      if (is_kept(i)) std::ranges::copy_if(floes_[i].polygon.outer, std::back_inserter(points), is_in_degrees);
+    for (const SourceFloe& floe : floes_)
+      if (is_kept(floe)) std::ranges::copy_if(floe.polygon.outer, std::back_inserter(points), is_in_degrees);
     if (points.empty()) return {};
     for (const Point p : points) {
-      latitudes.push_back(p.y / geometry::kDegreesPerRadian);
-      longitudes.push_back(std::remainder(p.x - points[0].x, 360) / geometry::kDegreesPerRadian);  // also across 180°
+      latitudes.push_back(p.y);
+      longitudes.push_back(std::remainder(p.x - points[0].x, 360));  // also across 180°
     }
-    const double latitude = median(std::move(latitudes));
-    const double longitude = median(std::move(longitudes)) + points[0].x / geometry::kDegreesPerRadian;
-    const auto is_near = [&](Point p) {
-      return great_circle(p.y / geometry::kDegreesPerRadian, p.x / geometry::kDegreesPerRadian, latitude, longitude) <
-             kFarthestFloe;
-    };
+    const Point middle{median(std::move(longitudes)) + points[0].x, median(std::move(latitudes))};
+    const auto is_near = [&](Point p) { return great_circle(p, middle) < kFarthestFloe; };
     const bool are_all = std::ranges::none_of(points, is_near);
     double x = 0, y = 0, z = 0;
     for (const Point p : points) {
@@ -290,7 +290,7 @@ class PlaneImport {
   Done apply(Steps steps) {
     std::vector<MisplacedFloe> lost;
     for (std::size_t i = 0; i < floes_.size(); ++i) {
-      if (!is_kept(i)) continue;
+      if (!is_kept(floes_[i])) continue;
       turn_velocity(floes_[i], steps);
       std::optional<Point> without_image;
       for_rings(floes_[i], [&](Ring& ring) {
@@ -326,20 +326,15 @@ class PlaneImport {
   Done check_hemisphere(const GeographicPlane& plane, const std::vector<SourceFloe>& as_read) {
     const auto far = find_floes([](Point p) { return length(p - Point{}) > kFarthestFloe; });
     return refuse_floes(far, [&](const MisplacedFloe& one, Others others) {
-      const simulation::GeographicOrigin& origin = *report_.origin;
-      const Geographic at = plane.geographic_of(one.point);
-      const double latitude = geometry::kDegreesPerRadian * at.latitude,
-                   longitude = geometry::kDegreesPerRadian * at.longitude;
-      std::string words = fmt::format(
-          "{} lies {:.0f} km from the origin at {}{}{}, allowed: up to {:g} km", place_in_words(latitude, longitude),
-          length(one.point - Point{}) / 1000,
-          place_in_words(geometry::kDegreesPerRadian * origin.latitude, geometry::kDegreesPerRadian * origin.longitude),
-          latitude * origin.latitude < 0 ? ", in the other hemisphere" : "", more_in_words(others),
-          kFarthestFloe / 1000);
+      const Point origin = degrees_of(*report_.origin), at = degrees_of(plane.geographic_of(one.point));
+      std::string words = fmt::format("{} lies {:.0f} km from the origin at {}{}{}, allowed: up to {:g} km",
+                                      place_in_words(at), length(one.point - Point{}) / 1000, place_in_words(origin),
+                                      at.y * origin.y < 0 ? ", in the other hemisphere" : "", more_in_words(others),
+                                      kFarthestFloe / 1000);
       const std::span<const SourceFloe> all(as_read);
       if (are_swapped(plane, others || all.empty() ? all : all.subspan(one.floe, 1)))
         return words + ". With latitude and longitude exchanged it lies near it: GeoJSON has [longitude, latitude]";
-      if (others) words += ": " + settings_.origin_in_words(latitude, std::remainder(longitude, 360));
+      if (others) words += ": " + settings_.origin_in_words(at.y, std::remainder(at.x, 360));
       return words;
     });
   }
@@ -360,8 +355,8 @@ class PlaneImport {
   void shift() {
     std::vector<double> xs, ys;
     std::vector<Point> points;
-    for (std::size_t i = 0; i < floes_.size(); ++i)
-      if (is_kept(i)) std::ranges::copy(floes_[i].polygon.outer, std::back_inserter(points));
+    for (const SourceFloe& floe : floes_)
+      if (is_kept(floe)) std::ranges::copy(floe.polygon.outer, std::back_inserter(points));
     if (points.empty()) return;
     for (const Point p : points) {
       xs.push_back(p.x);
@@ -396,16 +391,15 @@ class PlaneImport {
   }
 
   std::vector<SourceFloe>& floes_;
-  std::vector<std::string>& refused_;
   const PlaneSettings& settings_;
   PlaneReport report_;
 };
 
 }  // namespace
 
-tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes, std::vector<std::string>& refused,
-                                                     const std::string& crs, const PlaneSettings& settings) {
-  return PlaneImport(floes, refused, settings).run(crs);
+tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes, const std::string& crs,
+                                                     const PlaneSettings& settings) {
+  return PlaneImport(floes, settings).run(crs);
 }
 
 }  // namespace polynya::io

@@ -16,6 +16,7 @@ inline constexpr double kFarthestFloe = 1e6;  ///< a coordinate in the plane [m]
 struct SourceFloe {
   geometry::Polygon polygon;  ///< rings as drawn, in the file's coordinates
   FloeProperties properties;
+  std::string refused;  ///< why it is; empty: it is not
 };
 
 /// Which plane the floes of a file come to.
@@ -49,13 +50,12 @@ struct PlaneError {
 };
 
 /// Brings floes to metres in a plane, by PROJ, their velocities with them. `crs` is the system that the file
-/// names, or empty. `refused` has for each floe why it is refused, "" for none: those are left as they are.
-/// Added to it are floes with a coordinate that is not finite, with a latitude beyond ±90, without an image,
-/// and farther than kFarthestFloe from the origin (in the other hemisphere, say). Where that is all of them
-/// (most, of those far in the plane), it is the error; others are degrees without a system or an origin,
-/// systems that PROJ does not know, and planes that are not in metres. Coordinates without system that do not
-/// look like degrees (io/text/floe_text.hpp) are metres of the plane.
-tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes, std::vector<std::string>& refused,
-                                                     const std::string& crs, const PlaneSettings& settings);
+/// names, or empty. Floes that are refused are left as they are. Refused are then also those with a coordinate that
+/// is not finite, with a latitude beyond ±90, without an image, and farther than kFarthestFloe from the origin (in the
+/// other hemisphere, say). Where that is all of them (most, of those far in the plane), it is the error; others are
+/// degrees without a system or an origin, systems that PROJ does not know, and planes that are not in metres.
+/// Coordinates without system that do not look like degrees (io/text/floe_text.hpp) are metres of the plane.
+tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes, const std::string& crs,
+                                                     const PlaneSettings& settings);
 
 }  // namespace polynya::io

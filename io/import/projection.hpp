@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geometry/shape/point.hpp"
-#include "io/text/result.hpp"
+#include "io/text/source_text.hpp"
 #include "simulation/world/scene.hpp"
 
 struct PJconsts;  // PROJ's PJ

@@ -36,6 +36,10 @@ constexpr Axis kSurge{"surge", "_N", "N", "Surge force", "force", "forward", &Pl
 constexpr Axis kSway{"sway", "_N", "N", "Sway force", "force", "to port", &Planar::sway};
 constexpr Axis kYaw{"yaw", "_Nm", "N·m", "Yaw moment", "moment", "counter-clockwise", &Planar::yaw};
 
+std::string name_of(const Axis& axis, std::string_view stem) {
+  return fmt::format("{}{}{}", axis.key, stem, axis.suffix);
+}
+
 /// A load of which rows have surge, sway and yaw.
 struct Load {
   std::string_view stem;  ///< "_from_water": surge_from_water_N, …
@@ -55,39 +59,36 @@ struct Shown {
   std::string plot = {};
 };
 
+/// A column of the number at the end of a path of pointers to members: in degrees, of one in radians.
+template <class Row, class... Path>
+Column<Row> number(std::string name, std::string meaning, Path... path) {
+  const bool is_turn = name.find("_deg") != std::string::npos;
+  const double scale = is_turn ? geometry::kDegreesPerRadian : 1;
+  const double inverse = is_turn ? geometry::kRadiansPerDegree : 1;
+  return {std::move(name), std::move(meaning),
+          [=](const Row& row) { return scale * static_cast<double>((row.*....*path)); },
+          [=](Row& row, double value) {
+            auto& place = (row.*....*path);
+            place = static_cast<std::remove_reference_t<decltype(place)>>(inverse * value);
+          }};
+}
+
 struct Table {
   std::vector<ForceColumn> columns = {};
 
-  /// The number at the end of a path of pointers to members.
   template <class... Path>
-  ForceColumn& number(const std::string& name, std::string_view unit, Over over, const std::string& meaning,
-                      const Shown& shown, Path... path) {
-    const bool is_turn = unit.starts_with("°");
-    const double scale = is_turn ? geometry::kDegreesPerRadian : 1;
-    const double inverse = is_turn ? geometry::kRadiansPerDegree : 1;
+  ForceColumn& add(std::string name, std::string_view unit, Over over, std::string meaning, const Shown& shown,
+                   Path... path) {
     const auto where = shown.plotted ? shown.plotted : shown.peak;
-    return columns.emplace_back(
-        ForceColumn{.name = name,
-                    .unit = unit,
-                    .meaning = meaning,
-                    .over = over,
-                    .read = [=](const S& s) { return scale * static_cast<double>((s.*....*path)); },
-                    .store =
-                        [=](S& s, double value) {
-                          auto& place = (s.*....*path);
-                          place = static_cast<std::remove_reference_t<decltype(place)>>(inverse * value);
-                        },
-                    .peak = shown.peak,
-                    .plotted = shown.plotted,
-                    .plot = shown.plot,
-                    .is_optional = where && is_of_newer_runs(*where)});
+    return columns.emplace_back(ForceColumn{number<S>(std::move(name), std::move(meaning), path...), unit, over,
+                                            shown.peak, shown.plotted, shown.plot, "mean",
+                                            where && is_of_newer_runs(*where)});
   }
   void load(const Load& l) {
     const std::string_view source = l.source_in_titles.empty() ? l.source : l.source_in_titles;
     for (const Axis& axis : l.axes)
-      number(fmt::format("{}{}{}", axis.key, l.stem, axis.suffix), axis.unit, l.over,
-             fmt::format("{} {} {}", axis.noun, l.source, axis.direction),
-             {l.where, {}, fmt::format("{} {}", axis.title, source)}, l.place, axis.component)
+      add(name_of(axis, l.stem), axis.unit, l.over, fmt::format("{} {} {}", axis.noun, l.source, axis.direction),
+          {l.where, {}, fmt::format("{} {}", axis.title, source)}, l.place, axis.component)
           .curve = l.curve;
   }
 };
@@ -99,31 +100,31 @@ void add_contact_loads(Table& t) {
   t.load({"_from_ships", &S::from_ships, kMean, kOfShips, kAmongShips, "of ships"});
   t.load({"_from_ships_max", &S::from_ships_largest, kLargestStep, kOfShips, kAmongShips, "of ships", "max"});
   t.load({"_from_submerged_ice", &S::from_submerged, kMean, "of the ice under the hull", kUnderHulls, {}, "mean"});
-  t.number("ice_under_hull_m2", "m²", kAtEnd, "ice under the hull", {kUnderHulls, {}, "Ice under the hull"},
-           &S::submerged_area);
+  t.add("ice_under_hull_m2", "m²", kAtEnd, "ice under the hull", {kUnderHulls, {}, "Ice under the hull"},
+        &S::submerged_area);
   t.load({"_j_over_tau_c", &S::collision, kLargestStep, "of the ice by the paper, j/τ_c,", kWhereItSplits, "of the ice",
           "paper"});
 }
 
 void add_motion(Table& t) {
-  t.number("x_m", "m", kAtEnd, "centre of gravity, over ground", {}, &S::position_in_world, &Point::x);
-  t.number("y_m", "m", kAtEnd, "centre of gravity, over ground", {}, &S::position_in_world, &Point::y);
-  t.number("heading_deg", "°", kAtEnd, "from the x axis, counter-clockwise", {}, &S::heading);
-  t.columns.push_back({.name = "speed_m_per_s",
-                       .unit = "m/s",
-                       .meaning = "over ground",
-                       .read = [](const S& s) { return length(s.velocity_in_world); },
-                       .store = [](S&, double) {},  // it follows from the velocity
-                       .peak = kAlways,
-                       .plot = "Speed over ground"});
-  t.number("vx_m_per_s", "m/s", kAtEnd, "velocity over ground", {}, &S::velocity_in_world, &Vector::x);
-  t.number("vy_m_per_s", "m/s", kAtEnd, "velocity over ground", {}, &S::velocity_in_world, &Vector::y);
-  t.number("yaw_rate_deg_per_s", "°/s", kAtEnd, "counter-clockwise", {}, &S::yaw_rate);
+  t.add("x_m", "m", kAtEnd, "centre of gravity, over ground", {}, &S::position_in_world, &Point::x);
+  t.add("y_m", "m", kAtEnd, "centre of gravity, over ground", {}, &S::position_in_world, &Point::y);
+  t.add("heading_deg", "°", kAtEnd, "from the x axis, counter-clockwise", {}, &S::heading);
+  t.columns.push_back({{"speed_m_per_s", "over ground", [](const S& s) { return length(s.velocity_in_world); },
+                        [](S&, double) {}},  // it follows from the velocity
+                       "m/s",
+                       kAtEnd,
+                       kAlways,
+                       {},
+                       "Speed over ground"});
+  t.add("vx_m_per_s", "m/s", kAtEnd, "velocity over ground", {}, &S::velocity_in_world, &Vector::x);
+  t.add("vy_m_per_s", "m/s", kAtEnd, "velocity over ground", {}, &S::velocity_in_world, &Vector::y);
+  t.add("yaw_rate_deg_per_s", "°/s", kAtEnd, "counter-clockwise", {}, &S::yaw_rate);
 }
 
 void add_sailing_loads(Table& t) {
-  t.number("thrust_N", "N", kMean, "along the heading; of a ship at constant speed what it takes to hold it",
-           {{}, {}, "Thrust"}, &S::thrust);
+  t.add("thrust_N", "N", kMean, "along the heading; of a ship at constant speed what it takes to hold it",
+        {{}, {}, "Thrust"}, &S::thrust);
   t.load({"_from_thrusters",
           &S::from_engine,
           kMean,
@@ -142,18 +143,18 @@ void add_sailing_loads(Table& t) {
 }
 
 void add_helm(Table& t) {
-  t.number("lever", "", kAtEnd, "of the thrust, a share of the power: −1 full astern to 1 full ahead",
-           {{}, kWithEngines, "Thrust lever"}, &S::lever);
-  t.number("steering_deg", "°", kAtEnd, "angle of rudder or thrusters, to port", {{}, kWithEngines, "Steering angle"},
-           &S::steering_angle);
-  t.number("delivered_power_W", "W", kAtEnd, "power of the engine at that lever; 0 where none is given",
-           {{}, kWithEngines, "Delivered power"}, &S::delivered_power);
-  t.number("rams", "", kAtEnd, "charges after the first, of a pilot that rams", {{}, kRamming, "Rams"}, &S::rams);
-  t.number("gained_m", "m", kAtEnd, "by rams, from where the ship was first stuck", {{}, kRamming, "Gained by ramming"},
-           &S::gained);
-  t.number("contacts", "", kAtEnd, "with ice", {{}, {}, "Contacts at the hull"}, &S::contacts);
-  t.number("contacts_with_ships", "", kAtEnd, "with other ships and structures", {}, &S::contacts_with_ships)
-      .is_optional = true;
+  t.add("lever", "", kAtEnd, "of the thrust, a share of the power: −1 full astern to 1 full ahead",
+        {{}, kWithEngines, "Thrust lever"}, &S::lever);
+  t.add("steering_deg", "°", kAtEnd, "angle of rudder or thrusters, to port", {{}, kWithEngines, "Steering angle"},
+        &S::steering_angle);
+  t.add("delivered_power_W", "W", kAtEnd, "power of the engine at that lever; 0 where none is given",
+        {{}, kWithEngines, "Delivered power"}, &S::delivered_power);
+  t.add("rams", "", kAtEnd, "charges after the first, of a pilot that rams", {{}, kRamming, "Rams"}, &S::rams);
+  t.add("gained_m", "m", kAtEnd, "by rams, from where the ship was first stuck", {{}, kRamming, "Gained by ramming"},
+        &S::gained);
+  t.add("contacts", "", kAtEnd, "with ice", {{}, {}, "Contacts at the hull"}, &S::contacts);
+  t.add("contacts_with_ships", "", kAtEnd, "with other ships and structures", {}, &S::contacts_with_ships).is_optional =
+      true;
 }
 
 std::vector<ForceColumn> all_columns() {
@@ -239,39 +240,42 @@ Result<std::vector<const ForceColumn*>> force_columns_in(std::string_view header
 
 namespace {
 
-constexpr std::string_view kDirections[]{"Surge force by cause", "Sway force by cause", "Yaw moment by cause"};
+constexpr std::pair<Axis, std::string_view> kDirections[]{
+    {kSurge, "Surge force by cause"}, {kSway, "Sway force by cause"}, {kYaw, "Yaw moment by cause"}};
 
 /// What one cause gives in each direction.
-struct Row {
+struct Cause {
   std::string_view cause, words;
-  std::string_view columns[3];  ///< empty: none
+  std::string_view stem;  ///< of its columns: "_from_water"
 };
-constexpr Row kIce{"ice", "ice on the hull, with friction", {"surge_N", "sway_N", "yaw_Nm"}};
-constexpr Row kFriction{
-    "friction", "ice: friction", {"surge_from_ice_friction_N", "sway_from_ice_friction_N", "yaw_from_ice_friction_Nm"}};
-constexpr Row kRows[]{
-    kIce,
-    kFriction,
-    {"submerged",
-     "ice under the hull",
-     {"surge_from_submerged_ice_N", "sway_from_submerged_ice_N", "yaw_from_submerged_ice_Nm"}},
-    {"water", "water on the hull", {"surge_from_water_N", "sway_from_water_N", "yaw_from_water_Nm"}},
-    {"thrust", "thrust", {"thrust_N"}},
-    {"thrust", "thrusters", {"", "sway_from_thrusters_N", "yaw_from_thrusters_Nm"}},
-    {"rudder", "rudder", {"surge_from_rudder_N", "sway_from_rudder_N", "yaw_from_rudder_Nm"}},
-    {"mooring", "mooring", {"surge_from_mooring_N", "sway_from_mooring_N", "yaw_from_mooring_Nm"}},
-    {"ships", "other ships", {"surge_from_ships_N", "sway_from_ships_N", "yaw_from_ships_Nm"}},
-};
+constexpr Cause kIce{"ice", "ice on the hull, with friction", ""};
+constexpr Cause kFriction{"friction", "ice: friction", "_from_ice_friction"};
+constexpr Cause kThrust{"thrust", "thrust", "thrust_N"};  // a column of its own: of surge alone
+constexpr Cause kCauses[]{kIce,
+                          kFriction,
+                          {"submerged", "ice under the hull", "_from_submerged_ice"},
+                          {"water", "water on the hull", "_from_water"},
+                          kThrust,
+                          {"thrust", "thrusters", "_from_thrusters"},
+                          {"rudder", "rudder", "_from_rudder"},
+                          {"mooring", "mooring", "_from_mooring"},
+                          {"ships", "other ships", "_from_ships"}};
+
+/// The column of a cause in a direction; null where it gives nothing there.
+const ForceColumn* column_of(const Cause& cause, const Axis& axis) {
+  if (cause.stem != kThrust.stem) return find_column(name_of(axis, cause.stem));
+  return axis.component == kSurge.component ? find_column(cause.stem) : nullptr;
+}
 
 std::vector<ForceCause> all_causes() {
   std::vector<ForceCause> causes;
-  for (std::size_t i = 0; i < std::size(kDirections); ++i) {
-    for (const Row& row : kRows) {
-      if (row.columns[i].empty()) continue;
-      ForceCause& cause = causes.emplace_back();
-      cause = {kDirections[i], row.cause, row.words, row.columns[i]};
-      if (row.cause == kFriction.cause) cause.share_of = kIce.columns[i];
-      if (row.cause == kIce.cause) cause.without_shares = "ice: crushing and pushing";
+  for (const auto& [axis, direction] : kDirections) {
+    for (const Cause& cause : kCauses) {
+      const ForceColumn* column = column_of(cause, axis);
+      if (!column) continue;
+      ForceCause& added = causes.emplace_back(ForceCause{direction, cause.cause, cause.words, column->name});
+      if (cause.cause == kFriction.cause) added.share_of = column_of(kIce, axis)->name;
+      if (cause.cause == kIce.cause) added.without_shares = "ice: crushing and pushing";
     }
   }
   return causes;
@@ -280,8 +284,8 @@ std::vector<ForceCause> all_causes() {
 }  // namespace
 
 std::span<const ForceCause> force_causes() {
-  static const std::vector<ForceCause> kCauses = all_causes();
-  return kCauses;
+  static const std::vector<ForceCause> causes = all_causes();
+  return causes;
 }
 
 std::vector<ForceCause> force_causes(const simulation::Scene& scene) {
@@ -299,56 +303,6 @@ using simulation::ContactState;
 using simulation::PanelSample;
 
 constexpr std::array<std::string_view, 5> kPeakEnds{"", "bend", "split", "slip", "tilt"};
-
-/// A column of the number at the end of a path of pointers to members.
-template <class Row, class... Path>
-LoadColumn<Row> number(std::string_view name, std::string_view meaning, Path... path) {
-  const auto at = [path...](auto& row) -> auto& {
-    return (row.*....*path);
-  };
-  return {name, meaning, [at](const Row& row) { return static_cast<double>(at(row)); },
-          [at](Row& row, double value) {
-            auto& place = at(row);
-            place = static_cast<std::remove_reference_t<decltype(place)>>(value);
-          }};
-}
-
-template <class Row>
-void append_values(std::string& text, const Row& row, std::span<const LoadColumn<Row>> columns) {
-  for (const LoadColumn<Row>& column : columns) {
-    const double value = column.read(row);
-    text += ',';
-    if (!column.words.empty())
-      text += column.words[static_cast<std::size_t>(value)];
-    else if (!std::isnan(value))
-      append_number(text, value);
-  }
-  text += '\n';
-}
-
-/// Of a field; nothing where it is neither a number nor a word of the column.
-template <class Row>
-std::optional<double> value_of(std::string_view field, const LoadColumn<Row>& column) {
-  if (column.words.empty()) return field.empty() ? ContactState::kNowhere : csv_number(field);
-  const auto word = std::ranges::find(column.words, field);
-  if (word == column.words.end()) return {};
-  return static_cast<double>(word - column.words.begin());
-}
-
-template <class Row>
-bool read_values(std::string_view text, Row& row, std::span<const LoadColumn<Row>> columns) {
-  bool has_more = true;
-  for (const LoadColumn<Row>& column : columns) {
-    if (!has_more) return true;
-    const std::size_t comma = text.find(',');
-    has_more = comma != std::string_view::npos;
-    const auto value = value_of(text.substr(0, comma), column);
-    if (!value) return false;
-    column.store(row, *value);
-    if (has_more) text.remove_prefix(comma + 1);
-  }
-  return !has_more;
-}
 
 }  // namespace
 
@@ -396,17 +350,21 @@ std::span<const PanelColumn> panel_columns() {
   return columns;
 }
 
-void append_row(std::string& text, const ContactState& row) {
-  append_values(text, row, contact_columns());
+std::span<const CrushedColumn> crushed_columns() {
+  using S = simulation::CrushedOverlap;
+  static const std::array columns{number<S>("crushed_m2", "", &S::area), number<S>("tilted_m2", "", &S::tilted),
+                                  number<S>("crushed_m3", "", &S::volume), number<S>("crushing_J", "", &S::work)};
+  return columns;
 }
-void append_row(std::string& text, const PanelSample& row) {
-  append_values(text, row, panel_columns());
-}
-bool read_row(std::string_view text, ContactState& row) {
-  return read_values(text, row, contact_columns());
-}
-bool read_row(std::string_view text, PanelSample& row) {
-  return read_values(text, row, panel_columns());
+
+double value_of(std::string_view field, std::span<const std::string_view> words) {
+  const auto word = std::ranges::find(words, field);
+  if (word != words.end()) return static_cast<double>(word - words.begin());
+  if (words.empty() && field.empty()) return ContactState::kNowhere;
+  const auto number = words.empty() ? csv_number(field) : std::nullopt;
+  if (!number)
+    throw ReadError(fmt::format("\"{}\" is not {}", field, words.empty() ? "a number" : "a word of its column"));
+  return *number;
 }
 
 }  // namespace polynya::io

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <functional>
 #include <initializer_list>
 #include <limits>
@@ -12,11 +13,24 @@
 #include <vector>
 
 #include "io/text/json_writer.hpp"
-#include "io/text/result.hpp"
+#include "io/text/source_text.hpp"
+#include "simulation/simulation.hpp"
 #include "simulation/world/journal.hpp"
 #include "simulation/world/scene.hpp"
 
 namespace polynya::io {
+
+/// A column of forces.csv, contacts.csv, crushed.csv or panels.csv, behind those that name time and bodies. Writer,
+/// reader, Python and docs/run-folder.md follow these tables (a test compares the page): to add a column, add it at the
+/// end of its table in csv_columns.cpp, and its row, which that test prints, to the page.
+template <class Row>
+struct Column {
+  std::string name;                        ///< with its unit: "surge_N"
+  std::string meaning;                     ///< as docs/run-folder.md has it
+  std::function<double(const Row&)> read;  ///< not a number where there is none; of words the place in them
+  std::function<void(Row&, double)> store;
+  std::span<const std::string_view> words = {};  ///< in the place of numbers
+};
 
 /// Adds numbers to a row, each behind a comma.
 inline void append_csv(std::string& row, std::initializer_list<double> values) {
@@ -56,16 +70,11 @@ enum class ShownWhere {
 /// What a number is of the steps of its interval.
 enum class Over { kMean, kLargestStep, kAtEnd };
 
-/// A number that forces.csv records of each ship and structure. The writer, the reader, the checkpoint's
-/// peaks, summary.json, the player and Python follow this table, a test compares docs/run-folder.md with it:
-/// to add a column, add it in csv_columns.cpp and its row, which that test prints, to that page.
-struct ForceColumn {
-  std::string name;       ///< with its unit: "surge_N"
+/// A number that forces.csv records of each ship and structure; the checkpoint's peaks, summary.json and the player
+/// follow its table too.
+struct ForceColumn : Column<simulation::HullSample> {
   std::string_view unit;  ///< as people read it: "N·m"; empty of a count
-  std::string meaning;    ///< as docs/run-folder.md has it
   Over over = Over::kAtEnd;
-  std::function<double(const simulation::HullSample& row)> read;
-  std::function<void(simulation::HullSample& row, double value)> store;
   std::optional<ShownWhere> peak = {};     ///< where summary.json has its largest value by magnitude
   std::optional<ShownWhere> plotted = {};  ///< where it has a plot, if that is not where it has a peak
   std::string plot = {};                   ///< title of its plot in the player; empty: none
@@ -94,7 +103,7 @@ Result<std::vector<const ForceColumn*>> force_columns_in(std::string_view header
 
 /// A part of the force on a ship by what causes it: a column of forces.csv, without the columns that are
 /// shares of it. The parts of one direction add up to the force on the ship, mass × acceleration
-/// (docs/run-folder.md). To add one, add a line to force_causes.cpp.
+/// (docs/run-folder.md).
 struct ForceCause {
   std::string_view direction;            ///< title of the player's plot that stacks the parts: "Surge force by cause"
   std::string_view cause;                ///< "friction": names its colour
@@ -110,37 +119,47 @@ std::span<const ForceCause> force_causes();
 /// Those whose columns the player plots of a scene's runs.
 std::vector<ForceCause> force_causes(const simulation::Scene& scene);
 
-/// A column of contacts.csv or panels.csv behind those that name the bodies. Writer, reader and docs/run-folder.md
-/// follow these tables (a test compares the page): to add a column, add it at the end of its table in
-/// csv_columns.cpp, and the row, which that test prints, to the page.
-template <class Row>
-struct LoadColumn {
-  std::string_view name;                   ///< with its unit: "depth_m"
-  std::string_view meaning;                ///< as docs/run-folder.md has it
-  std::function<double(const Row&)> read;  ///< not a number where there is none; of words the place in them
-  std::function<void(Row&, double)> store;
-  std::span<const std::string_view> words = {};  ///< in the place of numbers
-};
-
-using ContactColumn = LoadColumn<simulation::ContactState>;
-using PanelColumn = LoadColumn<simulation::PanelSample>;
-
+using ContactColumn = Column<simulation::ContactState>;
+using CrushedColumn = Column<simulation::CrushedOverlap>;
+using PanelColumn = Column<simulation::PanelSample>;
 std::span<const ContactColumn> contact_columns();
+std::span<const CrushedColumn> crushed_columns();
 std::span<const PanelColumn> panel_columns();
 
-/// Appends their names, each behind a comma, and a line's end.
-template <class Row>
-void append_header(std::string& text, std::span<const LoadColumn<Row>> columns) {
-  for (const LoadColumn<Row>& column : columns) text.append(1, ',').append(column.name);
+/// What a table begins with: the names of its columns behind those of time and bodies.
+template <class Columns>
+std::string csv_header(std::string first, const Columns& columns) {
+  for (const auto& column : columns) first.append(1, ',').append(column.name);
+  return first + '\n';
+}
+
+/// Appends a row's values, each behind a comma, and a line's end; `none` where there is no number.
+template <class Row, class Columns>
+void append_row(std::string& text, const Row& row, const Columns& columns, std::string_view none = {}) {
+  for (const auto& column : columns) {
+    const double value = column.read(row);
+    text += ',';
+    if (!column.words.empty())
+      text += column.words[static_cast<std::size_t>(value)];
+    else if (std::isnan(value))
+      text += none;
+    else
+      append_number(text, value);
+  }
   text += '\n';
 }
 
-/// Appends a row's values, likewise; nothing where there is no number.
-void append_row(std::string& text, const simulation::ContactState& row);
-void append_row(std::string& text, const simulation::PanelSample& row);
+/// The value of a field; throws ReadError where it is neither a number nor one of the column's words.
+double value_of(std::string_view field, std::span<const std::string_view> words = {});
 
-/// Reads a row's values, as many as the row has: those of earlier versions had fewer. Returns whether all are good.
-bool read_row(std::string_view text, simulation::ContactState& row);
-bool read_row(std::string_view text, simulation::PanelSample& row);
+/// Reads a row's values, as many as the row has: those of earlier versions had fewer. Throws ReadError.
+template <class Row>
+void read_row(std::string_view text, Row& row, std::span<const Column<Row>> columns) {
+  for (const Column<Row>& column : columns) {
+    if (text.empty()) return;
+    column.store(row, value_of(csv_field(text), column.words));
+  }
+  if (!text.empty()) throw ReadError("more fields than there are columns");
+}
 
 }  // namespace polynya::io

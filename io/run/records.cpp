@@ -35,52 +35,43 @@ void append_bodies(std::string& text, double time, const simulation::ContactStat
 }  // namespace
 
 std::string forces_header() {
-  std::string header = "t_s,ship";
-  for (const ForceColumn& column : force_columns()) header.append(1, ',').append(column.name);
-  return header + '\n';
+  return csv_header("t_s,ship", force_columns());
 }
 
-void append_forces_row(std::string& text, const simulation::HullSample& s, std::string_view hull_name) {
-  append_number(text, s.time);
-  text += ',';
-  text += hull_name;
-  for (const ForceColumn& column : force_columns()) append_csv(text, {column.read(s)});
-  text += '\n';
+void append_forces_row(std::string& text, const simulation::HullSample& sample, const simulation::Scene& scene) {
+  append_number(text, sample.time);
+  text.append(1, ',').append(hull_name(scene, sample.ship));
+  append_row(text, sample, force_columns(), "null");
 }
 
 std::string contacts_header() {
-  std::string header = "t_s,ship,floe_id,by_ship,by_floe_id";
-  append_header(header, contact_columns());
-  return header;
+  return csv_header("t_s,ship,floe_id,by_ship,by_floe_id", contact_columns());
 }
 
 void append_contact(std::string& text, double time, const simulation::ContactState& contact,
                     const simulation::Scene& scene) {
   append_bodies(text, time, contact.on, contact.by, scene);
-  append_row(text, contact);
+  append_row(text, contact, contact_columns());
 }
 
 std::string panels_header() {
-  std::string header = "t_s,ship";
-  append_header(header, panel_columns());
-  return header;
+  return csv_header("t_s,ship", panel_columns());
 }
 
 void append_panel(std::string& text, const simulation::PanelSample& sample, const simulation::Scene& scene) {
   append_number(text, sample.time);
   text.append(1, ',').append(hull_name(scene, sample.hull));
-  append_row(text, sample);
+  append_row(text, sample, panel_columns());
 }
 
-std::string_view crushed_header() {
-  return "t_s,ship,floe_id,by_ship,by_floe_id,crushed_m2,tilted_m2,crushed_m3,crushing_J\n";
+std::string crushed_header() {
+  return csv_header("t_s,ship,floe_id,by_ship,by_floe_id", crushed_columns());
 }
 
 void append_crushed(std::string& text, double time, const simulation::CrushedOverlap& overlap,
                     const simulation::Scene& scene) {
   append_bodies(text, time, overlap.on, overlap.by, scene);
-  append_csv(text, {overlap.area, overlap.tilted, overlap.volume, overlap.work});
-  text += '\n';
+  append_row(text, overlap, crushed_columns(), "null");
 }
 
 std::string_view states_header() {
@@ -138,11 +129,6 @@ namespace {
 double number(const JsonValue& value, std::string_view key) {
   return json_member(value, key, JsonValue::Kind::kNumber).number();
 }
-FloeId floe_id(const JsonValue& value, std::string_view key) {
-  const JsonValue* found = value.find(key);
-  if (!found) throw ReadError(fmt::format("\"{}\" is missing", key));
-  return floe_id(*found);
-}
 double take_number(std::string_view& row) {
   const std::string_view field = csv_field(row);
   const auto value = csv_number(field);
@@ -153,7 +139,7 @@ double take_number(std::string_view& row) {
 simulation::ContactState::Body body_of(std::string_view& line, const Run& run) {
   const std::string_view ship = csv_field(line);
   std::string_view floe = csv_field(line);
-  simulation::ContactState::Body body{ship_index(run.scene.scene, ship), simulation::kNoFloe};
+  simulation::ContactState::Body body{hull_named(run.scene.scene, ship), simulation::kNoFloe};
   if (ship.empty()) body.floe = static_cast<FloeId>(take_number(floe));
   if (body.ship < 0 && !run.floe(body.floe)) throw ReadError("a contact of what there is not");
   return body;
@@ -167,12 +153,6 @@ JsonValue json_of(std::string_view text) {
   return std::move(document.root);
 }
 
-const JsonValue& json_member(const JsonValue& value, std::string_view key, JsonValue::Kind kind) {
-  const JsonValue* found = value.find(key, kind);
-  if (!found) throw ReadError(fmt::format("\"{}\" is not {}", key, name_of(kind)));
-  return *found;
-}
-
 FloeId floe_id(const JsonValue& value) {
   if (value.is_null()) return simulation::kNoFloe;
   if (!value.is(JsonValue::Kind::kNumber) || !(value.number() >= 0 && value.number() < 1e9))
@@ -180,26 +160,15 @@ FloeId floe_id(const JsonValue& value) {
   return static_cast<FloeId>(value.number());
 }
 
-geometry::Point point(const JsonValue& value) {
-  if (!value.is(JsonValue::Kind::kArray) || value.items().size() != 2 ||
-      !value.items()[0].is(JsonValue::Kind::kNumber) || !value.items()[1].is(JsonValue::Kind::kNumber))
-    throw ReadError("not a point");
-  return {value.items()[0].number(), value.items()[1].number()};
-}
-
-int ship_index(const simulation::Scene& scene, std::string_view name) {
-  return hull_named(scene, name);
-}
-
 simulation::BirthRecord birth_of(const JsonValue& line) {
   simulation::BirthRecord birth;
-  birth.floe = floe_id(line, "floe_id");
-  birth.parent = floe_id(line, "parent_id");
+  birth.floe = floe_id(json_member(line, "floe_id"));
+  birth.parent = floe_id(json_member(line, "parent_id"));
   birth.time = number(line, "born_s");
   birth.generation = static_cast<int>(number(line, "generation"));
   birth.area = number(line, "area_m2");
   birth.mass = number(line, "mass_kg");
-  birth.centroid_in_body = point(json_member(line, "centroid_m", JsonValue::Kind::kArray));
+  birth.centroid_in_body = point_of(json_member(line, "centroid_m"));
   return birth;
 }
 
@@ -207,32 +176,32 @@ simulation::HullSample sample_of(std::string_view line, const std::vector<const 
                                  const simulation::Scene& scene) {
   simulation::HullSample s;
   s.time = take_number(line);
-  s.ship = ship_index(scene, csv_field(line));
+  s.ship = hull_named(scene, csv_field(line));
   for (const ForceColumn* column : columns) column->store(s, take_number(line));
   return s;
 }
 
+namespace {
+
+/// A row of two bodies at an instant.
+template <class Record, class Row>
+Record record_of(std::string_view line, const Run& run, Row Record::*row, std::span<const Column<Row>> columns) {
+  Record record;
+  record.time = take_number(line);
+  (record.*row).on = body_of(line, run);
+  (record.*row).by = body_of(line, run);
+  read_row(line, record.*row, columns);
+  return record;
+}
+
+}  // namespace
+
 RunCrushed crushed_of(std::string_view line, const Run& run) {
-  RunCrushed crushed;
-  crushed.time = take_number(line);
-  crushed.overlap.on = body_of(line, run);
-  crushed.overlap.by = body_of(line, run);
-  crushed.overlap.area = take_number(line);
-  if (line.empty()) return crushed;  // of a version that did not book it
-  crushed.overlap.tilted = take_number(line);
-  crushed.overlap.volume = take_number(line);
-  crushed.overlap.work = take_number(line);
-  return crushed;
+  return record_of(line, run, &RunCrushed::overlap, crushed_columns());
 }
 
 RunContact contact_of(std::string_view line, const Run& run) {
-  RunContact contact;
-  contact.time = take_number(line);
-  simulation::ContactState& state = contact.state;
-  state.on = body_of(line, run);
-  state.by = body_of(line, run);
-  if (!read_row(line, state)) throw ReadError("a contact with what is no number");
-  return contact;
+  return record_of(line, run, &RunContact::state, contact_columns());
 }
 
 }  // namespace polynya::io

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,7 +25,7 @@ std::string_view hull_name(const simulation::Scene& scene, int ship);
 
 /// forces.csv's first line: the names of its columns, with their units.
 std::string forces_header();
-void append_forces_row(std::string& text, const simulation::HullSample& sample, std::string_view hull_name);
+void append_forces_row(std::string& text, const simulation::HullSample& sample, const simulation::Scene& scene);
 
 /// contacts.csv: who touched whom at a frame, and how hard at the peaks of a contact's force.
 std::string contacts_header();
@@ -40,7 +39,7 @@ void append_panel(std::string& text, const simulation::PanelSample& sample, cons
 /// crushed.csv: the overlap of two bodies at a frame that their contacts have pressed, as it is booked. Pairs below
 /// this share of the smaller body are left out.
 inline constexpr double kLeastCrushedShare = 1e-3;
-std::string_view crushed_header();
+std::string crushed_header();
 void append_crushed(std::string& text, double time, const simulation::CrushedOverlap& overlap,
                     const simulation::Scene& scene);
 
@@ -61,17 +60,8 @@ void append_floe(GeojsonLayer& layer, const simulation::FloeState& floe);
 
 // The lines that records.hpp writes, read back. Each throws ReadError where a line is not what it should be.
 
-/// What is wrong with a line or a file.
-struct ReadError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 JsonValue json_of(std::string_view text);
-const JsonValue& json_member(const JsonValue& value, std::string_view key, JsonValue::Kind kind);
 simulation::FloeId floe_id(const JsonValue& value);
-geometry::Point point(const JsonValue& value);
-/// −1 where the scene has no ship or structure of that name.
-int ship_index(const simulation::Scene& scene, std::string_view name);
 
 simulation::BirthRecord birth_of(const JsonValue& line);
 simulation::HullSample sample_of(std::string_view line, const std::vector<const ForceColumn*>& columns,

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "io/scene/scene_reader.hpp"
-#include "io/text/result.hpp"
+#include "io/text/source_text.hpp"
 #include "simulation/world/scene.hpp"
 
 namespace polynya::io {

@@ -22,21 +22,19 @@ namespace {
 constexpr std::size_t kMostKept = std::size_t{4} << 20;  ///< vertices of assembled shapes, 64 MB
 }  // namespace
 
-Result<> FloeShapes::add(ShapeParts shape, FloeId parent) {
+void FloeShapes::add(ShapeParts shape, FloeId parent) {
   Floe floe;
   floe.ring_sizes = ring_sizes(shape);
   if (shape.has_parent()) {
     if (parent < 0 || static_cast<std::size_t>(parent) >= floes_.size())
-      return fail("parts of a parent that is not on a line before");
-    if (auto checked = check_parts(shape, floes_[static_cast<std::size_t>(parent)].ring_sizes); !checked)
-      return checked;
+      throw ReadError("parts of a parent that is not on a line before");
+    check_parts(shape, floes_[static_cast<std::size_t>(parent)].ring_sizes);
     floe.parent = parent;
     floe.parts = std::move(shape);
   } else {
     floe.whole = std::make_shared<const Polygon>(assembled(shape, {}));
   }
   floes_.push_back(std::move(floe));
-  return {};
 }
 
 const ShapeParts* FloeShapes::parts_of(FloeId id) const {
@@ -99,17 +97,14 @@ JsonValue document_of(const std::filesystem::path& folder, std::string_view name
 template <class Use>
 void for_lines(const std::filesystem::path& folder, std::string_view name, Use use) {
   const std::string text = text_of(folder, name);
-  std::size_t start = 0;
-  for (int number = 1;; ++number) {
-    const std::size_t end = text.find('\n', start);
-    if (end == std::string::npos) return;
+  int number = 0;
+  for_pieces(std::string_view(text).substr(0, text.rfind('\n') + 1), '\n', [&](std::string_view line, std::size_t) {
     try {
-      use(std::string_view(text).substr(start, end - start), number);
+      use(line, ++number);
     } catch (const ReadError& error) {
       throw ReadError(fmt::format("{}:{}: {}", (folder / name).string(), number, error.what()));
     }
-    start = end + 1;
-  }
+  });
 }
 
 /// Uses each row of a table whose first line is to be the header.
@@ -141,9 +136,7 @@ void read_floes(Run& run) {
     else if (birth.floe < std::ssize(run.scene.scene.floes))
       birth.own_ice = run.scene.scene.floes[static_cast<std::size_t>(birth.floe)].own_ice;
     if (birth.floe != static_cast<FloeId>(run.floes.size())) throw ReadError("floes are not in the order of their ids");
-    auto shape = read_shape(json);
-    if (!shape) throw ReadError(shape.error());
-    if (const auto added = run.shapes.add(std::move(*shape), birth.parent); !added) throw ReadError(added.error());
+    run.shapes.add(read_shape(json), birth.parent);
     run.floes.push_back({.birth = birth, .death_event = {}});
   });
 }

@@ -14,8 +14,8 @@
 #include "io/run/frames.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/json_parser.hpp"
-#include "io/text/result.hpp"
 #include "io/text/shape_parts.hpp"
+#include "io/text/source_text.hpp"
 #include "simulation/world/journal.hpp"
 
 namespace polynya::io {
@@ -25,9 +25,9 @@ namespace polynya::io {
 /// threads at once.
 class FloeShapes {
  public:
-  /// The next floe, by id. The error is why the parts cannot be of that parent; nothing is added then.
-  Result<> add(ShapeParts shape, simulation::FloeId parent);
-  void add(const geometry::Polygon& shape) { static_cast<void>(add(whole(shape), simulation::kNoFloe)); }
+  /// The next floe, by id. Throws ReadError where the parts cannot be of that parent; nothing is added then.
+  void add(ShapeParts shape, simulation::FloeId parent);
+  void add(const geometry::Polygon& shape) { add(whole(shape), simulation::kNoFloe); }
 
   std::size_t size() const { return floes_.size(); }
 

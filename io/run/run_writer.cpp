@@ -28,7 +28,7 @@ std::string header_of(std::size_t file) {
   if (file == kFrames) return FrameEncoder::header();
   if (file == kContacts) return contacts_header();
   if (file == kPanels) return panels_header();
-  if (file == kCrushed) return std::string(crushed_header());
+  if (file == kCrushed) return crushed_header();
   return std::string(file == kStates ? states_header() : "");
 }
 
@@ -193,8 +193,7 @@ void RunWriter::record(simulation::Journal& journal) {
       if (auto written = write_rejected_cut(folder(), event.time, *cut); !written) status_ = std::move(written);
   }
   for (const simulation::HullSample& sample : journal.samples) {
-    append_line(kForces,
-                [&](std::string& line) { append_forces_row(line, sample, hull_name(scene_->scene, sample.ship)); });
+    append_line(kForces, [&](std::string& line) { append_forces_row(line, sample, scene_->scene); });
   }
   for (const simulation::HullSample& sample : journal.samples) {
     std::vector<Peak>& peaks = peaks_[static_cast<std::size_t>(sample.ship)].of_column;

@@ -256,7 +256,20 @@ const Description<PanelSettings> kPanelSettings{
      member("top_m", "m", from(-100, 100), "of the highest row, above the water", &PanelSettings::top),
      member("rows", "", from(1, 100), "of panels between the two, of one height", &PanelSettings::rows)}};
 
-const Description<ShipInput> kShip{
+const Description<WallPressure> kPressure{
+    {required(member("line_load_N_per_m", "N/m", above(0, 1e8),
+                     "q, along the wall's normal: it closes until ice bears that, and gives way where more "
+                     "presses",
+                     &WallPressure::line_load)),
+     member("closing_speed_m_per_s", "m/s", above(0, 10),
+            "at which it closes where nothing bears; its damping is q over that speed", &WallPressure::closing_speed),
+     member("mass_kg_per_m", "kg/m", from(1e3, 1e9),
+            "of what moves with the wall; that of a kilometre of ice of half a metre",
+            &WallPressure::mass_per_length)}};
+
+}  // namespace
+
+const Description<ShipInput> kShipDescription{
     {preset(),
      as(FieldKind::kName, member("name", "", {}, "its name in the outputs; # is its number", &ShipInput::name)),
      or_preset(object("hull", kHull, "the waterline, by its main dimensions or point by point")),
@@ -288,7 +301,7 @@ const Description<ShipInput> kShip{
      object("panels", kPanelSettings, "of the hull, of which panels.csv has the loads of the ice", &ShipInput::spec,
             &Ship::panels)}};
 
-const Description<StructureInput> kStructure{
+const Description<StructureInput> kStructureDescription{
     {as(FieldKind::kName, member("name", "", {}, "its name in the outputs; # is its number", &StructureInput::name)),
      of("cylinder", required(member("radius_m", "m", from(0.1, 1000), "of a cylinder or cone at the waterline",
                                     &StructureInput::form, &Cylinder::radius))),
@@ -307,18 +320,7 @@ const Description<StructureInput> kStructure{
             &StructureInput::spec, &Structure::panels)},
     {"cylinder", "outline"}};
 
-const Description<WallPressure> kPressure{
-    {required(member("line_load_N_per_m", "N/m", above(0, 1e8),
-                     "q, along the wall's normal: it closes until ice bears that, and gives way where more "
-                     "presses",
-                     &WallPressure::line_load)),
-     member("closing_speed_m_per_s", "m/s", above(0, 10),
-            "at which it closes where nothing bears; its damping is q over that speed", &WallPressure::closing_speed),
-     member("mass_kg_per_m", "kg/m", from(1e3, 1e9),
-            "of what moves with the wall; that of a kilometre of ice of half a metre",
-            &WallPressure::mass_per_length)}};
-
-const Description<WallInput> kWall{
+const Description<WallInput> kWallDescription{
     {as(FieldKind::kName, member("name", "", {}, "its name in the outputs; # is its number", &WallInput::name)),
      required(member("from_m", "m", coordinate(),
                      "an end of its face, which runs from here to to_m with the ice to its left", &WallInput::from)),
@@ -328,17 +330,5 @@ const Description<WallInput> kWall{
             &WallInput::velocity),
      object("pressure", kPressure, "moves it along its normal instead, by a load that the ice is to bear",
             &WallInput::pressure)}};
-
-}  // namespace
-
-const Description<ShipInput>& ship_description() {
-  return kShip;
-}
-const Description<StructureInput>& structure_description() {
-  return kStructure;
-}
-const Description<WallInput>& wall_description() {
-  return kWall;
-}
 
 }  // namespace polynya::io

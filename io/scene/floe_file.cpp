@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "io/import/foreign_file.hpp"
+#include "io/import/floe_import.hpp"
 #include "io/scene/floe_list_reader.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/floe_text.hpp"
@@ -19,14 +19,11 @@ std::string origin_in_scene(double latitude, double longitude) {
 }
 
 /// Words between commas.
-std::vector<std::string> words_of(const std::string& text) {
-  std::vector<std::string> words;
-  for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find(',', start), text.size());
-    const std::size_t first = text.find_first_not_of(' ', start);
-    if (first < end) words.push_back(text.substr(first, text.find_last_not_of(' ', end - 1) - first + 1));
-    start = end + 1;
-  }
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words;
+  for_pieces(text, ',', [&words](std::string_view piece, std::size_t) {
+    if (const auto word = trimmed(piece); !word.empty()) words.push_back(word);
+  });
   return words;
 }
 
@@ -54,7 +51,7 @@ class FloeFileReader {
     }
     result_.source = problems_.add_source({file.string(), std::move(*text)});
     PropertyNames names;
-    for (const std::string& words : words_of(import_.properties))
+    for (const std::string_view words : words_of(import_.properties))
       if (auto added = add_property_name(words, names); !added)
         report_entry(added.error(), "KEY=NAME, as thickness_m=THICK or thickness_m=CM*0.01");
     auto read = read_floe_text(problems_.source(result_.source).text);
@@ -62,18 +59,16 @@ class FloeFileReader {
     if (problems_.count() > before) return {};
     text_ = *std::move(read);
     FloesOfText floes = floes_of(text_, names);
-    result_.run_time = floes.run_time;
-    result_.near_misses = std::move(floes.near_misses);
-    place(floes, plane_of(origin));
+    result_.report = {.run_time = floes.run_time, .near_misses = std::move(floes.near_misses), .offset = offset_};
+    place(floes.floes, plane_of(origin));
     if (problems_.count() > before) return {};
     return std::move(result_);
   }
 
  private:
   Result<std::string> text_of(const std::filesystem::path& file) const {
-    const auto format = foreign_format(file);
-    return format ? read_foreign_file(file, *format, import_.layer, kLongestFloesFile)
-                  : read_text_file(file, kLongestFloesFile);
+    auto foreign = read_foreign_file(file, import_.layer, kLongestFloesFile);
+    return foreign ? *std::move(foreign) : read_text_file(file, kLongestFloesFile);
   }
 
   /// Where the features' area_m2 are those of their coordinates, these are metres, however small.
@@ -94,23 +89,22 @@ class FloeFileReader {
     return plane;
   }
 
-  void place(FloesOfText& read, PlaneSettings plane) {
-    std::vector<SourceFloe>& floes = read.floes;
+  void place(std::vector<SourceFloe>& floes, PlaneSettings plane) {
     const std::string crs = text_.crs.empty() ? "" : crs_name(parse_json(text_.crs).root);
     const auto offset_of = [&](std::size_t floe) { return text_.entries[floe].offset; };
     if (!is_imported_) {
-      auto placed = bring_to_plane(floes, read.refused, crs, plane);
+      auto placed = bring_to_plane(floes, crs, plane);
       if (!placed) return report(placed.error());
       for (std::size_t i = 0; i < floes.size(); ++i) {
-        if (!read.refused[i].empty()) report({i, read.refused[i]});
+        if (!floes[i].refused.empty()) report({i, floes[i].refused});
         result_.floes.push_back({in_house_notation(std::move(floes[i].polygon)), floes[i].properties, offset_of(i)});
       }
-      result_.plane = std::move(*placed);
+      result_.report.plane = std::move(*placed);
       return;
     }
     ImportSettings settings = import_.settings;
     settings.plane = std::move(plane);
-    auto imported = import_floes(floes, std::move(read.refused), crs, settings);
+    auto imported = import_floes(floes, crs, settings);
     if (!imported) return report(imported.error());
     for (const ImportItem& item : imported->items) {
       if (item.refused.empty()) continue;
@@ -118,8 +112,8 @@ class FloeFileReader {
                                                                      " makes a valid polygon of it"
                                                                    : "")});
     }
-    result_.plane = std::move(imported->plane);
-    result_.totals = imported->totals;
+    result_.report.plane = std::move(imported->plane);
+    result_.report.totals = imported->totals;
     for (ImportedFloe& floe : imported->floes)
       result_.floes.push_back({std::move(floe.polygon), floes[floe.source].properties, offset_of(floe.source)});
   }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,26 +13,7 @@
 
 namespace polynya::io {
 
-inline constexpr std::size_t kFloeIceProperties = 6;  ///< of ice, that a floe may have of its own
-
-/// Properties that a feature of a floe file gives, by their numbers.
-using GivenIce = std::vector<std::pair<std::uint8_t, double>>;
-
-/// A property of ice that a floe may have of its own: a key of the scene's "ice", of an entry of "floes" and
-/// of a feature's properties in a floe file, and of the floes that a run writes.
-struct FloeIceProperty {
-  std::string_view key;
-  std::string_view unit;
-  Range range;
-  double fracture::Ice::*value = nullptr;
-  std::optional<NumberOrLaw> IceInput::*input = nullptr;
-};
-const std::array<FloeIceProperty, kFloeIceProperties>& floe_ice_properties();
-
-/// What a floe file states of a floe's ice, by the properties' numbers.
-GivenIce ice_of(const FloeProperties& properties);
-
-/// Writes all of them as members of the object at hand.
+/// Writes the properties that a floe may have of its own as members of the object at hand.
 void append_ice(JsonWriter& json, const fracture::Ice& ice);
 
 /// The ice of one entry of the scene's "floes". What a floe's feature gives comes before the entry's own, and
@@ -46,13 +26,13 @@ class GroupIce {
                                     const std::string& path, ProblemCollector& problems);
 
   /// The index in the scene's own_ice of the floe that is added next.
-  std::int32_t add_to(simulation::Scene& scene, const GivenIce& given);
+  std::int32_t add_to(simulation::Scene& scene, const FloeProperties& given);
 
   /// What was drawn of each law, in the order of the properties.
   std::vector<IceReport> reports(std::size_t group) const;
 
   /// The entry's and the feature's properties of the floe that was added last; none where it has none.
-  std::optional<IceInput> spelled_out(const simulation::Scene& scene, const GivenIce& given) const;
+  std::optional<IceInput> spelled_out(const simulation::Scene& scene, const FloeProperties& given) const;
 
  private:
   struct Law {

@@ -10,7 +10,7 @@
 #include "io/scene/scene_input.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/problem.hpp"
-#include "io/text/result.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::io {
 
@@ -25,10 +25,7 @@ struct FileFloe {
 struct FloeFile {
   std::size_t source = 0;  ///< index in the ProblemCollector's sources
   std::vector<FileFloe> floes;
-  std::optional<double> run_time;  ///< where the floes are those of a run at that time [s]
-  PlaneReport plane;
-  std::optional<ImportTotals> totals;  ///< where its entry has an "import"
-  std::vector<NearMiss> near_misses;
+  FileReport report;  ///< without its group
 };
 
 /// Makes the floes of the scene's list: lattices, fields, files and single floes.
@@ -52,18 +49,18 @@ class FloeListReader {
   void add_floes(const geometry::Polygon& polygon);
   void add_floes(FieldInput& field);
   void add_floes(const FileInput& file);
+  /// Floes that the entry stands for in the resolved scene too.
+  void add_all(std::vector<geometry::Polygon> floes, bool are_known_valid);
   FloeGroup spelled_out(FileFloe& floe, bool is_of_run) const;
-  void add_floe(const FloeGroup& group, geometry::Polygon polygon, const GivenIce& given, Origin origin);
+  void add_floe(const FloeGroup& group, geometry::Polygon polygon, const FloeProperties& given, Origin origin);
   void check_fast_ice(bool is_fast);
   int ship_over(const std::string& name, const Origin& origin);
   bool has_room_for(std::size_t count, const std::string& path);
   Result<std::filesystem::path> locate(const std::string& name) const;
-  void report(std::uint32_t offset, std::string path, std::string found, std::string allowed) {
-    problems_.report(0, offset, std::move(path), std::move(found), std::move(allowed));
+  /// Reports what is wrong with a member of the entry at hand: "lattice.size_m".
+  void report(std::string_view key, std::string found, std::string allowed) const {
+    ReportAt{problems_, *item_, path_}(key, std::move(found), std::move(allowed));
   }
-  /// Where a member of the entry at hand is.
-  std::uint32_t offset_of(std::string_view key) const { return nearest_offset(*item_, key); }
-  void write_group() { written.items().push_back(write(floes_description(), group_)); }
 
   const std::filesystem::path& folder_;
   SceneDraft& draft_;

@@ -100,9 +100,6 @@ std::string key_path(std::string_view path, std::string_view key);
 /// "a number > 0, ≤ 20 [m]", "one of nevel, kashtelyan".
 std::string describe_allowed(const Field& field);
 
-/// A value as messages show it: "-0.5", "\"nevle\"", "a list of 3".
-std::string show(const JsonValue& value);
-
 /// Reads JSON objects into records. Every problem is reported with its place.
 class RecordReader {
  public:

@@ -91,7 +91,7 @@ void write_object(JsonWriter& json, const Object& object) {
                               [&](std::string_view alternative) { write_required(json, object, alternative); });
   }
   json.key("properties").open('{');
-  if (&object == &scene_description()) json.key("$schema").open('{').key("type").value("string").close('}');
+  if (&object == &kSceneDescription) json.key("$schema").open('{').key("type").value("string").close('}');
   for (const Field& field : object.fields) {
     json.key(field.key).open('{');
     if (!field.meaning.empty())
@@ -179,14 +179,14 @@ void append_settings(std::string& text, const Object& object, int depth) {
 std::string scene_schema() {
   const auto write = [](JsonWriter& json) {
     json.key("$schema").value("https://json-schema.org/draft/2020-12/schema").key("title").value("Polynya scene");
-    write_object(json, scene_description());
+    write_object(json, kSceneDescription);
   };
   return json_object(write, JsonWriter::Layout::kIndented);
 }
 
 std::string scene_tables() {
   std::string text;
-  append_table(text, scene_description(), "");
+  append_table(text, kSceneDescription, "");
   text.pop_back();
   return text;
 }
@@ -195,7 +195,7 @@ std::string commented_scene() {
   std::string text =
       "// A scene for polynya. What stands here are the defaults; delete what you do not change.\n"
       "// Everything a scene may hold: docs/scene.md, or `polynya schema`.\n{\n";
-  append_settings(text, scene_description(), 1);
+  append_settings(text, kSceneDescription, 1);
   text += kExampleShips;
   text += kExampleFloes;
   text += "}\n";

@@ -121,7 +121,7 @@ void fill_in_presets(JsonValue& scene) {
     JsonValue particulars = json_of(*preset);
     if (has_no_engine(ship) && !ship.find("steering"))
       std::erase_if(particulars.members(), [](const JsonMember& member) { return member.key == "steering"; });
-    merge(ship_description(), ship, particulars, offset);
+    merge(kShipDescription, ship, particulars, offset);
   }
 }
 

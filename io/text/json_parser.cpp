@@ -255,12 +255,20 @@ JsonDocument parsed(std::string_view text, bool is_lenient) {
 
 std::uint32_t nearest_offset(const JsonValue& root, std::string_view path) {
   const JsonValue* value = &root;
-  while (!path.empty()) {
-    const auto dot = std::min(path.find('.'), path.size());
-    const JsonValue* next = value->find(path.substr(0, dot));
+  for (std::size_t begin = 0; begin < path.size();) {
+    const std::size_t end = std::min(path.find_first_of(".[", begin + 1), path.size());
+    const std::string_view step = path.substr(begin, end - begin);
+    const JsonValue* next = nullptr;
+    if (!step.starts_with('[')) {
+      next = value->find(step.substr(step.starts_with('.') ? 1 : 0));
+    } else if (value->is(JsonValue::Kind::kArray)) {
+      std::size_t index = 0;
+      std::from_chars(step.data() + 1, step.data() + step.size(), index);
+      if (index < value->items().size()) next = &value->items()[index];
+    }
     if (!next) break;
     value = next;
-    path.remove_prefix(std::min(dot + 1, path.size()));
+    begin = end;
   }
   return value->offset;
 }
@@ -268,6 +276,18 @@ std::uint32_t nearest_offset(const JsonValue& root, std::string_view path) {
 std::string_view name_of(JsonValue::Kind kind) {
   constexpr std::string_view kNames[]{"null", "true or false", "a number", "text", "a list", "an object"};
   return kNames[static_cast<std::size_t>(kind)];
+}
+
+const JsonValue& json_member(const JsonValue& value, std::string_view key) {
+  const JsonValue* found = value.find(key);
+  if (!found) throw ReadError(fmt::format("\"{}\" is missing", key));
+  return *found;
+}
+
+const JsonValue& json_member(const JsonValue& value, std::string_view key, JsonValue::Kind kind) {
+  const JsonValue* found = value.find(key, kind);
+  if (!found) throw ReadError(fmt::format("\"{}\" is not {}", key, name_of(kind)));
+  return *found;
 }
 
 JsonDocument parse_json(std::string_view text) {

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "io/text/result.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::io {
 
@@ -76,11 +76,15 @@ inline void JsonValue::set(std::string_view key, Data value) {
   member->data = std::move(value);
 }
 
-/// Offset of the value at a dotted path of keys, or of the nearest object on the way to it.
+/// Offset of the value at a path, "hull.length_m" or "rows[2].t_s", or of the nearest value on the way to it.
 std::uint32_t nearest_offset(const JsonValue& root, std::string_view path);
 
 /// "a number", "text", … for messages.
 std::string_view name_of(JsonValue::Kind kind);
+
+/// The member of that key, of that kind where one is given; throws ReadError where there is none.
+const JsonValue& json_member(const JsonValue& value, std::string_view key);
+const JsonValue& json_member(const JsonValue& value, std::string_view key, JsonValue::Kind kind);
 
 inline constexpr std::size_t kDeepestNesting = 64;
 inline constexpr std::size_t kLongestText = std::size_t{256} << 20;  ///< [bytes]

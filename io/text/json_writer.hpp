@@ -22,6 +22,12 @@ void append_number(std::string& text, std::int64_t value);
 /// Appends text as a JSON string with its quotes.
 void append_text(std::string& text, std::string_view value);
 
+/// Text as it may stand in XML (SVG): &, < and > escaped.
+std::string escaped(std::string_view text);
+
+/// Bytes as base64 text (RFC 4648, with padding, no line breaks).
+std::string to_base64(std::string_view bytes);
+
 /// Writes JSON into a string it is given, so that buffers can be used again.
 ///
 ///   JsonWriter json(line);

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/text/result.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::io {
 

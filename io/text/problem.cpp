@@ -86,6 +86,24 @@ std::string shortened(std::string_view text, std::size_t most) {
   return fmt::format("{}…", text.substr(0, end));
 }
 
+std::string show(const JsonValue& value) {
+  std::string text;
+  switch (value.kind()) {
+    case JsonValue::Kind::kNumber:
+      append_number(text, value.number());
+      return text;
+    case JsonValue::Kind::kText:
+      append_text(text, shortened(value.text(), 60));
+      return text;
+    case JsonValue::Kind::kBoolean:
+      return value.boolean() ? "true" : "false";
+    case JsonValue::Kind::kArray:
+      return fmt::format("a list of {}", value.items().size());
+    default:
+      return std::string(name_of(value.kind()));
+  }
+}
+
 std::string nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
   std::string_view best;
   std::size_t least = std::string_view::npos;

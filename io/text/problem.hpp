@@ -62,6 +62,9 @@ std::string counted(Count count, std::string_view noun, std::string_view plural 
 /// A text of at most `most` bytes, cut between two characters and then ended by "…".
 std::string shortened(std::string_view text, std::size_t most);
 
+/// A value as messages show it: "-0.5", "\"nevle\"", "a list of 3".
+std::string show(const JsonValue& value);
+
 /// The candidate fewest edits away from a word, or "" where none is near enough to be meant.
 std::string nearest(std::string_view word, const std::vector<std::string_view>& candidates);
 

@@ -17,6 +17,12 @@ LineAndColumn line_and_column(std::string_view text, std::size_t offset) {
           .column = 1 + static_cast<int>(std::ranges::count_if(before.substr(line_start), is_character))};
 }
 
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
+}
+
 LineIndex::LineIndex(std::string_view text) : text_(text) {
   for (std::size_t at = text.find('\n'); at != std::string_view::npos; at = text.find('\n', at + 1))
     ends_.push_back(at);
