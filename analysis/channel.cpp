@@ -16,8 +16,8 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/point_in_ring.hpp"
 #include "geometry/shape/outline.hpp"
-#include "io/run/csv_columns.hpp"
-#include "io/run/motion_index.hpp"
+#include "io/run/records.hpp"
+#include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
 
 namespace polynya::analysis {

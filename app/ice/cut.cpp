@@ -181,7 +181,7 @@ io::Result<> write_results(const CutOptions& options, const io::CutReport& repor
 /// Degrees have no areas in m².
 Outcome<void> check_units(const std::string& name, const io::FloeText& floes) {
   constexpr auto kRemedy = "polynya import makes metres of them";
-  const std::string crs = floes.crs.empty() ? "" : io::crs_name(io::parse_json(floes.crs).root);
+  const std::string crs = io::crs_name(floes.crs);
   const auto known = io::find_crs(crs);
   if (!crs.empty() && known && known->is_geographic)
     return failure(kRefused,

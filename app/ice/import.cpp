@@ -7,7 +7,6 @@
 #include "app/command_line/files.hpp"
 #include "geometry/shape/angle.hpp"
 #include "io/import/floe_import.hpp"
-#include "io/import/import_report.hpp"
 #include "io/text/cut.hpp"
 #include "io/text/floe_text.hpp"
 #include "io/text/json_parser.hpp"
@@ -128,7 +127,7 @@ Outcome<ExitCode> import_all(const ImportOptions& options) {
   const std::string name = input_name(options.file);
   const auto text = read_floes(options, name);
   if (!text) return tl::unexpected(text.error());
-  const std::string crs = text->crs.empty() ? "" : io::crs_name(io::parse_json(text->crs).root);
+  const std::string crs = io::crs_name(text->crs);
   io::FloesOfText read = io::floes_of(*text, names);
   const auto imported = with_progress(options.progress, "projecting and taking apart",
                                       [&] { return import_floes(read.floes, crs, settings); });

@@ -6,8 +6,8 @@
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
 #include "app/run/load_scene.hpp"
-#include "io/import/import_report.hpp"
-#include "io/scene/floe_ice.hpp"
+#include "io/import/floe_import.hpp"
+#include "io/import/floe_properties.hpp"
 #include "io/scene/scene_input.hpp"
 #include "io/text/output_file.hpp"
 

@@ -113,6 +113,10 @@ std::span<const FloeProperty> floe_properties() {
   return kProperties;
 }
 
+void append_ice(JsonWriter& json, const Ice& ice) {
+  for (const FloeProperty& property : floe_ice_properties()) json.key(property.key).value(ice.*property.ice);
+}
+
 Result<> add_property_name(std::string_view words, PropertyNames& names) {
   const std::size_t equals = words.find('=');
   if (equals == std::string_view::npos)

@@ -10,6 +10,7 @@
 
 #include "fracture/materials.hpp"
 #include "io/text/json_parser.hpp"
+#include "io/text/json_writer.hpp"
 #include "io/text/source_text.hpp"
 
 namespace polynya::io {
@@ -48,6 +49,9 @@ inline constexpr std::size_t kFloeIceProperties = 6;  ///< of ice, that a floe m
 inline std::span<const FloeProperty> floe_ice_properties() {
   return floe_properties().first(kFloeIceProperties);
 }
+
+/// Writes them as members of the object at hand.
+void append_ice(JsonWriter& json, const fracture::Ice& ice);
 
 /// Under which other names, and in which other units, a file has a property.
 struct PropertyName {

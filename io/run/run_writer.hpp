@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "io/run/csv_columns.hpp"
 #include "io/run/frames.hpp"
+#include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/summary.hpp"
 #include "io/scene/scene_reader.hpp"

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "io/import/floe_properties.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_writer.hpp"
-#include "io/scene/floe_ice.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/problem.hpp"

@@ -90,7 +90,7 @@ class FloeFileReader {
   }
 
   void place(std::vector<SourceFloe>& floes, PlaneSettings plane) {
-    const std::string crs = text_.crs.empty() ? "" : crs_name(parse_json(text_.crs).root);
+    const std::string crs = crs_name(text_.crs);
     const auto offset_of = [&](std::size_t floe) { return text_.entries[floe].offset; };
     if (!is_imported_) {
       auto placed = bring_to_plane(floes, crs, plane);

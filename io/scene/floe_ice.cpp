@@ -1,9 +1,8 @@
-#include "io/scene/floe_ice.hpp"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
+#include "io/scene/floe_list_reader.hpp"
 #include "io/scene/record.hpp"
 #include "simulation/ice/ice_scatter.hpp"
 
@@ -70,10 +69,6 @@ bool is_same(const Ice& a, const Ice& b) {
 }
 
 }  // namespace
-
-void append_ice(JsonWriter& json, const Ice& ice) {
-  for (const FloeProperty& property : floe_ice_properties()) json.key(property.key).value(ice.*property.ice);
-}
 
 std::optional<GroupIce> GroupIce::of(const simulation::Scene& scene, const FloeGroup& group, const JsonValue& item,
                                      const std::string& path, ProblemCollector& problems) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -290,7 +291,7 @@ void FloeListReader::add(std::size_t index, FloeGroup group, const JsonValue& it
   if (!ice_of_group) return;
   ice_ = std::move(*ice_of_group);
   std::visit([&](auto& form) { add_floes(form); }, group_.form);
-  for (IceReport& one : ice_.reports(index)) ice.push_back(one);
+  std::ranges::move(ice_.reports(index), std::back_inserter(loaded_.ice));
 }
 
 /// Fast ice does not turn, and what rigid impulses do between two prescribed motions is not defined.
@@ -346,7 +347,7 @@ void FloeListReader::add_floes(FieldInput& input) {
   simulation::FloeFieldOutcome outcome = simulation::make_floe_field(*field);
   if (!check_cover(*field, outcome, report_field)) return;
   add_all(std::exchange(outcome.floes, {}), true);
-  fields.push_back({index_, field->gap, std::move(outcome)});
+  loaded_.fields.push_back({index_, field->gap, std::move(outcome)});
 }
 
 bool FloeListReader::has_room_for(std::size_t count, const std::string& path) {
@@ -382,7 +383,7 @@ void FloeListReader::add_floes(const FileInput& input) {
     written.items().push_back(write(kFloesDescription, entry));
     if (floe.properties.thickness) ++came.with_thickness;
   }
-  files.push_back(std::move(came));
+  loaded_.files.push_back(std::move(came));
 }
 
 /// The entry that a floe of a file is in the resolved scene: what the file states of it stands there instead

@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "fracture/scatter.hpp"
 #include "io/import/floe_import.hpp"
-#include "io/scene/floe_ice.hpp"
+#include "io/import/floe_properties.hpp"
 #include "io/scene/scene_input.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/problem.hpp"
@@ -28,20 +29,46 @@ struct FloeFile {
   FileReport report;  ///< without its group
 };
 
+/// The ice of one entry of the scene's "floes". What a floe's feature gives comes before the entry's own, and
+/// that before the scene's.
+class GroupIce {
+ public:
+  /// The scene's ice is complete. Nothing where the entry's is wrong, which is reported; `path` is the
+  /// entry's, `item` its JSON.
+  static std::optional<GroupIce> of(const simulation::Scene& scene, const FloeGroup& group, const JsonValue& item,
+                                    const std::string& path, ProblemCollector& problems);
+
+  /// The index in the scene's own_ice of the floe that is added next.
+  std::int32_t add_to(simulation::Scene& scene, const FloeProperties& given);
+
+  /// What was drawn of each law, in the order of the properties.
+  std::vector<IceReport> reports(std::size_t group) const;
+
+  /// The entry's and the feature's properties of the floe that was added last; none where it has none.
+  std::optional<IceInput> spelled_out(const simulation::Scene& scene, const FloeProperties& given) const;
+
+ private:
+  struct Law {
+    std::size_t property = 0;
+    fracture::ScatterLaw law;
+    std::vector<double> drawn;
+  };
+  std::vector<Law> laws_;
+  std::uint64_t seed_ = 0;
+};
+
 /// Makes the floes of the scene's list: lattices, fields, files and single floes.
 class FloeListReader {
  public:
   /// All of these outlive it. `folder` is the scene's.
-  FloeListReader(const std::filesystem::path& folder, SceneDraft& draft, ProblemCollector& problems)
-      : folder_(folder), draft_(draft), problems_(problems) {}
+  FloeListReader(const std::filesystem::path& folder, SceneDraft& draft, LoadedScene& loaded,
+                 ProblemCollector& problems)
+      : folder_(folder), draft_(draft), loaded_(loaded), problems_(problems) {}
 
-  /// Adds the floes of one entry, whose JSON is `item`.
+  /// Adds the floes of one entry, whose JSON is `item`, to the draft, and how they came to it to the loaded scene.
   void add(std::size_t index, FloeGroup group, const JsonValue& item);
 
   JsonValue written{JsonValue::Array{}};  ///< the entries, complete, files spelled out
-  std::vector<FieldReport> fields;
-  std::vector<IceReport> ice;
-  std::vector<FileReport> files;
 
  private:
   void add_floes(const LatticeInput& lattice);
@@ -64,6 +91,7 @@ class FloeListReader {
 
   const std::filesystem::path& folder_;
   SceneDraft& draft_;
+  LoadedScene& loaded_;
   ProblemCollector& problems_;
   std::size_t index_ = 0;            ///< of the entry at hand
   const JsonValue* item_ = nullptr;  ///< its JSON

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "io/import/import_report.hpp"
+#include "io/import/floe_import.hpp"
 #include "io/scene/floe_list_reader.hpp"
 #include "io/scene/scene_check.hpp"
 #include "io/scene/ship_presets.hpp"
@@ -54,18 +54,6 @@ void override_scene(JsonValue& root, const SceneOverrides& overrides) {
   if (!overrides.until) return;
   if (!root.find("time")) root.set("time", JsonValue::Object{});
   if (JsonValue* time = root.find("time")) time->set("until_s", *overrides.until);
-}
-
-void shift(JsonValue& value, std::uint32_t by) {
-  value.offset += by;
-  if (value.is(JsonKind::kArray)) {
-    for (JsonValue& item : value.items()) shift(item, by);
-  } else if (value.is(JsonKind::kObject)) {
-    for (JsonMember& member : value.members()) {
-      member.key_offset += by;
-      shift(member.value, by);
-    }
-  }
 }
 
 /// Where the value of "ships[0].position_m[1]" belongs. Objects on the way are made where the scene has none, items of
@@ -128,7 +116,7 @@ void assign(JsonValue& scene, const std::vector<Assignment>& assignments, Proble
         assignment.path.empty() ? report.no_path() : place_of(scene, assignment.path, offset, report);
     if (!target) continue;
     *target = assignment.value;
-    shift(*target, begin);
+    for_offsets(*target, [begin](std::uint32_t& place) { place += begin; });
   }
 }
 
@@ -146,26 +134,19 @@ class SceneReader {
     override_scene(document.root, overrides);
     if (!complete(document.root)) return tl::unexpected(problems_.take());
     add_scene_hints(draft_, document.root, problems_);
-    for (const FileReport& file : floes_.files) add_file_hints(file);
-    std::vector<Problem> hints = problems_.take();
-    LoadedScene loaded{std::move(draft_.scene),
-                       std::move(input_.description),
-                       to_json_text(resolved_),
-                       "",
-                       "",
-                       std::move(floes_.fields),
-                       std::move(floes_.files),
-                       std::move(floes_.ice),
-                       is_step_chosen_,
-                       std::move(hints)};
-    if (const std::size_t length = loaded.resolved_text.size(); length > longest) {
+    for (const FileReport& file : loaded_.files) add_file_hints(file);
+    loaded_.hints = problems_.take();
+    loaded_.scene = std::move(draft_.scene);
+    loaded_.description = std::move(input_.description);
+    loaded_.resolved_text = to_json_text(resolved_);
+    if (const std::size_t length = loaded_.resolved_text.size(); length > longest) {
       report(0, "", fmt::format("{} bytes with every default filled in and floe files read in", length),
              fmt::format("at most {} bytes: fewer floes, or coordinates of fewer digits", longest));
       return tl::unexpected(problems_.take());
     }
-    loaded.hash = hash_of({loaded.resolved_text});
-    loaded.course_hash = course_hash_of(loaded.resolved_text);
-    return loaded;
+    loaded_.hash = hash_of({loaded_.resolved_text});
+    loaded_.course_hash = course_hash_of(loaded_.resolved_text);
+    return std::move(loaded_);
   }
 
   tl::expected<LoadedShip, std::vector<Problem>> read_ship(ShipUse use) {
@@ -323,8 +304,8 @@ class SceneReader {
   /// since what needs no floe is checked first.
   void complete_step(const JsonValue& given) {
     const JsonValue* time = given.find("time");
-    is_step_chosen_ = !(time && time->find("step_s"));
-    if (!is_step_chosen_) return;
+    loaded_.is_step_chosen = !(time && time->find("step_s"));
+    if (!loaded_.is_step_chosen) return;
     draft_.scene.time.step = simulation::default_tick(draft_.scene);
     resolved_.find("time")->set("step_s", draft_.scene.time.step);
   }
@@ -381,8 +362,8 @@ class SceneReader {
   SceneInput input_;
   JsonValue resolved_;
   SceneDraft draft_;
-  bool is_step_chosen_ = false;
-  FloeListReader floes_{folder_, draft_, problems_};
+  LoadedScene loaded_;
+  FloeListReader floes_{folder_, draft_, loaded_, problems_};
 };
 
 }  // namespace

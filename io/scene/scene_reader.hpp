@@ -45,7 +45,7 @@ struct FileReport {
 /// How a property of the floes of one entry came out that was drawn.
 struct IceReport {
   std::size_t group = 0;     ///< index in the scene's "floes"
-  std::size_t property = 0;  ///< its number (floe_ice.hpp)
+  std::size_t property = 0;  ///< its number (floe_properties.hpp)
   fracture::ScatterMeasures measures;
 };
 

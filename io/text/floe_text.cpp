@@ -515,8 +515,9 @@ void append_wkt(std::string& text, const geometry::Polygon& polygon) {
   text += ')';
 }
 
-std::string crs_name(const JsonValue& crs) {
-  const JsonValue* properties = crs.find("properties");
+std::string crs_name(const std::string& crs) {
+  const JsonDocument document = parse_json(crs);
+  const JsonValue* properties = document.root.find("properties");
   if (!properties) return "";
   for (const char* key : {"name", "code"}) {  // of type "name", and of type "EPSG" in older files
     const JsonValue* name = properties->find(key);

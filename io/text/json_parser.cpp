@@ -133,7 +133,7 @@ class Parser {
     token_ = lexer_.next();
   }
   [[noreturn]] static void stop(std::size_t offset, std::string sentence) {
-    throw JsonFault{static_cast<std::uint32_t>(offset), "", "", "", std::move(sentence)};
+    throw JsonFault{{.sentence = std::move(sentence)}, static_cast<std::uint32_t>(offset)};
   }
   int line_of(std::size_t offset) const { return line_and_column(text_, offset).line; }
 
@@ -145,7 +145,8 @@ class Parser {
                                      is_list ? "list" : "object", line_of(open_.back().begin), is_list ? ']' : '}'));
     }
     if (token_.is('/')) allowed = "a comment: /* … */, or // to the end of the line";
-    throw JsonFault{static_cast<std::uint32_t>(token_.begin), "", shown(token_), std::string(allowed)};
+    throw JsonFault{{.found = shown(token_), .allowed = std::string(allowed)},
+                    static_cast<std::uint32_t>(token_.begin)};
   }
 
   void value(JsonValue& slot) {
@@ -179,7 +180,8 @@ class Parser {
       JsonValue second;
       const bool is_second = slot.find(key) != nullptr;
       if (is_second)
-        document_.faults.push_back({offset, key, fmt::format("\"{}\" a second time", key), "each key once"});
+        document_.faults.push_back(
+            {{.path = key, .found = fmt::format("\"{}\" a second time", key), .allowed = "each key once"}, offset});
       value(is_second ? second : members.emplace_back(JsonMember{std::move(key), offset, {}}).value);
     });
   }
@@ -188,8 +190,8 @@ class Parser {
   template <class Item>
   void list(char close, Item item) {
     if (open_.size() >= kDeepestNesting)
-      throw JsonFault{static_cast<std::uint32_t>(token_.begin), "", "deeper nesting",
-                      fmt::format("at most {} levels", kDeepestNesting)};
+      throw JsonFault{{.found = "deeper nesting", .allowed = fmt::format("at most {} levels", kDeepestNesting)},
+                      static_cast<std::uint32_t>(token_.begin)};
     constexpr auto kNothingBefore = "a comma too many: nothing stands before it";
     open_.push_back(token_);
     advance();
@@ -245,7 +247,7 @@ JsonDocument parsed(std::string_view text, bool is_lenient) {
   JsonDocument document;
   if (text.size() > kLongestText)
     document.faults.push_back(
-        {0, "", fmt::format("{} bytes", text.size()), fmt::format("at most {} bytes", kLongestText)});
+        {{.found = fmt::format("{} bytes", text.size()), .allowed = fmt::format("at most {} bytes", kLongestText)}});
   else
     Parser(text, is_lenient, document).parse();
   return document;
@@ -294,17 +296,16 @@ JsonDocument parse_json(std::string_view text) {
   return parsed(text, false);
 }
 
-std::string message_of(const JsonFault& fault) {
-  if (!fault.sentence.empty()) return fault.sentence;
-  return fmt::format("found {}, allowed: {}", fault.found, fault.allowed);
+std::string first_fault(const JsonDocument& document, std::string_view text) {
+  const JsonFault& fault = document.faults.front();
+  const LineAndColumn place = line_and_column(text, fault.offset);
+  return fmt::format("{}:{}: {}", place.line, place.column, message_of(fault));
 }
 
 Result<JsonValue> parse_lenient_json(std::string_view text) {
   JsonDocument document = parsed(text, true);
-  if (document.faults.empty()) return std::move(document.root);
-  const JsonFault& fault = document.faults.front();
-  const LineAndColumn place = line_and_column(text, fault.offset);
-  return fail(fmt::format("{}:{}: {}", place.line, place.column, message_of(fault)));
+  if (!document.faults.empty()) return fail(first_fault(document, text));
+  return std::move(document.root);
 }
 
 std::string compact_json(std::string_view text, std::size_t offset) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -40,13 +41,18 @@ class JsonWriter {
   JsonWriter& open(char bracket);
   JsonWriter& close(char bracket);
   JsonWriter& key(std::string_view name);
-  JsonWriter& value(double number);
+  JsonWriter& value(double number) {
+    return put([=](std::string& text) { append_number(text, number); });
+  }
   template <std::integral Number>
   JsonWriter& value(Number number) {
-    return whole(static_cast<std::int64_t>(number));
+    return put([=](std::string& text) { append_number(text, static_cast<std::int64_t>(number)); });
   }
   JsonWriter& value(bool truth) { return json(truth ? "true" : "false"); }
-  JsonWriter& value(std::string_view words);
+  JsonWriter& value(std::nullptr_t) { return json("null"); }
+  JsonWriter& value(std::string_view words) {
+    return put([=](std::string& text) { append_text(text, words); });
+  }
   JsonWriter& value(const char* words) { return value(std::string_view(words)); }
   JsonWriter& value(geometry::Point point);
   JsonWriter& value(geometry::Vector vector) { return value(geometry::Point{vector.x, vector.y}); }
@@ -58,7 +64,7 @@ class JsonWriter {
   JsonWriter& value(const std::optional<Value>& known) {
     return known ? value(*known) : null();
   }
-  JsonWriter& null() { return json("null"); }
+  JsonWriter& null() { return value(nullptr); }
   template <class Values>
   JsonWriter& list(const Values& values) {
     open('[');
@@ -92,12 +98,19 @@ class JsonWriter {
   /// A GeoJSON geometry.
   JsonWriter& polygon(const geometry::Polygon& polygon);
   /// A value that is JSON already.
-  JsonWriter& json(std::string_view raw);
+  JsonWriter& json(std::string_view raw) {
+    return put([=](std::string& text) { text += raw; });
+  }
   /// The next item or member starts on a line of its own.
   void start_line() { starts_line_ = true; }
 
  private:
-  JsonWriter& whole(std::int64_t number);
+  template <class Append>
+  JsonWriter& put(Append append) {
+    separate();
+    append(text_);
+    return *this;
+  }
   void separate();
   void break_line();
   std::string& text_;

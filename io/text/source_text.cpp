@@ -38,6 +38,35 @@ LineAndColumn LineIndex::at(std::size_t offset) const {
   return {line, line_and_column(text_.substr(start), offset - start).column};
 }
 
+std::string_view name_of(Severity severity) {
+  constexpr std::string_view kNames[]{"error", "warning", "hint"};
+  return kNames[static_cast<std::size_t>(severity)];
+}
+
+std::string message_of(const Problem& problem) {
+  if (!problem.sentence.empty()) return problem.sentence;
+  constexpr std::size_t kLongestFound = 1000;  // [bytes]
+  std::string text = "found " + shortened(problem.found, kLongestFound);
+  if (!problem.allowed.empty()) text += ", allowed: " + problem.allowed;
+  if (!problem.suggestion.empty()) text += fmt::format("; did you mean \"{}\"?", problem.suggestion);
+  return text;
+}
+
+std::string to_string(const Problem& problem) {
+  std::string text = problem.line > 0 ? fmt::format("{}:{}:{}: ", problem.file, problem.line, problem.column)
+                                      : fmt::format("{}: ", problem.file);
+  if (problem.severity != Severity::kError) text += fmt::format("{}: ", name_of(problem.severity));
+  if (!problem.path.empty()) text += shortened(problem.path, kLongestPath) + ": ";
+  return text + message_of(problem);
+}
+
+std::string shortened(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return std::string(text);
+  std::size_t end = most;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return fmt::format("{}…", text.substr(0, end));
+}
+
 Result<std::string> read_text_file(const std::filesystem::path& path, std::size_t longest) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);

@@ -64,6 +64,40 @@ class LineIndex {
   std::vector<std::size_t> ends_;
 };
 
+/// What a problem does to a file: an error refuses it, the others do not. In the order of name_of().
+enum class Severity {
+  kError,
+  kWarning,  ///< it works, and is probably not meant
+  kHint,     ///< it is unusual
+};
+
+std::string_view name_of(Severity severity);
+
+/// One thing wrong in an input file, with its place.
+struct Problem {
+  std::string file = {};
+  int line = 0;           ///< from 1; 0 where there is no place (an option on the command line)
+  int column = 0;         ///< from 1, in characters; a tab is one
+  std::string path = {};  ///< of the JSON value: "ships[0].hull.length_m"
+  std::string found = {};
+  std::string allowed = {};
+  std::string suggestion = {};  ///< nearest known key or choice; empty where none is near
+  std::string sentence = {};    ///< in place of found and allowed where those do not fit; else empty
+  Severity severity = Severity::kError;
+};
+
+inline constexpr std::size_t kLongestPath = 160;  ///< in messages [bytes]
+
+/// "found 0, allowed: a number > 0, ≤ 20 [m]"
+std::string message_of(const Problem& problem);
+
+/// "scene.json:12:5: ice.thickness_m: found 0, allowed: a number > 0, ≤ 20 [m]"; what is no error has its
+/// severity behind the place: "scene.json:9:3: hint: ice.thickness_m: …"
+std::string to_string(const Problem& problem);
+
+/// A text of at most `most` bytes, cut between two characters and then ended by "…".
+std::string shortened(std::string_view text, std::size_t most);
+
 /// The whole of a regular file, or what is wrong with it in words. Longer files are refused, not read.
 Result<std::string> read_text_file(const std::filesystem::path& path, std::size_t longest);
 

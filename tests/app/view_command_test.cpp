@@ -8,8 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "io/run/csv_columns.hpp"
-#include "io/run/motion_index.hpp"
+#include "io/run/records.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/json_parser.hpp"
 

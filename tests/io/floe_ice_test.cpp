@@ -1,9 +1,8 @@
 // Ice of floes in scenes and floe files: what it reads as, what it is drawn from, and what is refused.
-#include "io/scene/floe_ice.hpp"
-
 #include "scene_text.hpp"
 #include "temporary_folder.hpp"
 
+#include "io/import/floe_properties.hpp"
 #include "io/run/records.hpp"
 #include "io/scene/scene_input.hpp"
 #include "simulation/simulation.hpp"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "io/run/csv_columns.hpp"
+#include "io/run/records.hpp"
 
 namespace polynya::io {
 namespace {

@@ -9,9 +9,7 @@
 #include "temporary_folder.hpp"
 
 #include "geometry/exact/measures.hpp"
-#include "io/run/csv_columns.hpp"
 #include "io/run/event_records.hpp"
-#include "io/run/motion_index.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_reader.hpp"

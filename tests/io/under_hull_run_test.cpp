@@ -2,7 +2,6 @@
 #include "scene_text.hpp"
 #include "temporary_folder.hpp"
 
-#include "io/run/motion_index.hpp"
 #include "io/run/run_loop.hpp"
 #include "io/run/run_reader.hpp"
 

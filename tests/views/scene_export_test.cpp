@@ -8,8 +8,8 @@
 #include "../io/temporary_folder.hpp"
 #include <fmt/format.h>
 
-#include "io/run/motion_index.hpp"
 #include "io/run/run_loop.hpp"
+#include "io/run/run_reader.hpp"
 #include "io/text/json_parser.hpp"
 
 namespace polynya::tests {

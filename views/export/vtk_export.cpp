@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "geometry/shape/outline.hpp"
-#include "io/run/motion_index.hpp"
-#include "io/scene/floe_ice.hpp"
+#include "io/import/floe_properties.hpp"
+#include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/output_file.hpp"
 #include "simulation/state/archive.hpp"
