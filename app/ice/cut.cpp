@@ -9,7 +9,7 @@
 #include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
-#include "io/import/projection.hpp"
+#include "io/import/plane.hpp"
 #include "io/text/floe_text.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/problem.hpp"

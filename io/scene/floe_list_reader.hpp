@@ -22,13 +22,6 @@ struct FileFloe {
   std::uint32_t offset = 0;  ///< of its coordinates in the file
 };
 
-/// A floe file as a scene has it.
-struct FloeFile {
-  std::size_t source = 0;  ///< index in the ProblemCollector's sources
-  std::vector<FileFloe> floes;
-  FileReport report;  ///< without its group
-};
-
 /// The ice of one entry of the scene's "floes". What a floe's feature gives comes before the entry's own, and
 /// that before the scene's.
 class GroupIce {
@@ -107,12 +100,5 @@ geometry::Polygon rectangle(geometry::Point corner, geometry::Vector size);
 /// clockwise. Which way rings run and whether they are closed are matters of notation; nothing else is
 /// changed.
 geometry::Polygon in_house_notation(geometry::Polygon polygon);
-
-/// Reads a floe file of a scene: GeoJSON, or what GDAL converts (io/import/foreign_file.hpp), brought to the
-/// plane about the scene's origin. None where anything is wrong with it: then there are problems, of the file
-/// or of the entry's `file` at `offset` in the scene.
-std::optional<FloeFile> read_floe_file(const std::filesystem::path& file, const std::optional<FileImport>& import,
-                                       const std::optional<simulation::GeographicOrigin>& origin,
-                                       const std::string& path, std::uint32_t offset, ProblemCollector& problems);
 
 }  // namespace polynya::io

@@ -28,25 +28,10 @@ constexpr double kThinnestIce = 0.01;     ///< thinner ice is grease and slush [
 constexpr double kThickestIce = 4;        ///< level ice grows no thicker; ridges are no plates [m]
 constexpr double kKnots = 3600 / 1852.0;  ///< [kn / (m/s)]
 
-/// A hull's size along and across its axis [m].
-struct HullSize {
-  double length = 0;
-  double beam = 0;
-};
-HullSize size_of(const Ship& ship) {
-  const geometry::Box box = geometry::bounding_box(ship.hull.waterline);
-  return {box.high.x - box.low.x, box.high.y - box.low.y};
-}
-
 Vector ahead_of(const PlacedHull& hull) {
   return {std::cos(hull.heading), std::sin(hull.heading)};
 }
 
-double thrust_of(const Ship& ship) {
-  const auto* constant = std::get_if<simulation::ConstantThrust>(&ship.propulsion);
-  const auto* engine = std::get_if<simulation::Engine>(&ship.propulsion);
-  return constant ? constant->thrust : engine ? engine->bollard_pull : 0;
-}
 bool is_steered(const Ship& ship) {
   return !std::holds_alternative<simulation::NoSteering>(ship.steering);
 }
@@ -107,7 +92,7 @@ class Hinter {
 
   void hint_at_mass(std::size_t i) {
     const Ship& ship = scene_.ships[i];
-    const auto [length, beam] = size_of(ship);
+    const auto [length, beam] = size_of(ship.hull);
     const double displaced =
         scene_.water.water.density * ship.water.block_coefficient * length * beam * ship.hull.draught;
     if (displaced > 0 && std::abs(ship.mass / displaced - 1) > kMassError)

@@ -44,34 +44,35 @@ std::string default_text(const Field& field) {
 void write_type(JsonWriter& json, const Field& field) {
   switch (field.kind) {
     case Kind::kText:
-      json.key("type").value("string");
-      return;
     case Kind::kName:
-      json.key("type").value("string").key("pattern").value("^[0-9A-Za-z][0-9A-Za-z ._-]{0,99}$");
-      return;
+      json.key("type").value("string");
+      if (field.kind == Kind::kName) json.key("pattern").value("^[0-9A-Za-z][0-9A-Za-z ._-]{0,99}$");
+      break;
     case Kind::kInteger:
-      return write_number(json, field, "integer");
+      write_number(json, field, "integer");
+      break;
     case Kind::kBoolean:
       json.key("type").value("boolean");
-      return;
+      break;
     case Kind::kChoice:
       json.key("enum").list(field.choices);
-      return;
+      break;
     case Kind::kNumberOrVector:
     case Kind::kNumberOrLaw:
       json.key("oneOf").open('[').object([&] { write_number(json, field, "number"); }).object([&] {
         field.object ? write_object(json, *field.object) : write_numbers(json, field, lengths_of(field.kind));
       });
       json.close(']');
-      return;
+      break;
     case Kind::kObject:
-      return write_object(json, *field.object);
+      write_object(json, *field.object);
+      break;
     case Kind::kList:
       json.key("type").value("array").key("maxItems").value(static_cast<int>(field.range.high));
       json.key("items").object([&] { write_object(json, *field.object); });
-      return;
+      break;
     default:
-      return write_numbers(json, field, lengths_of(field.kind));
+      write_numbers(json, field, lengths_of(field.kind));
   }
 }
 

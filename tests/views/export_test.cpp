@@ -8,7 +8,7 @@
 
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/outline.hpp"
-#include "io/import/projection.hpp"
+#include "io/import/plane.hpp"
 #include "io/text/json_writer.hpp"
 #include "views/export/vtk_export.hpp"
 

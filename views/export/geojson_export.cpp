@@ -4,7 +4,7 @@
 
 #include "geometry/shape/angle.hpp"
 #include "io/import/floe_properties.hpp"
-#include "io/import/projection.hpp"
+#include "io/import/plane.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
