@@ -22,8 +22,7 @@ const Description<SizeLaw> kSizes{
                                  &PowerLawSizes::exponent))),
      of("power law", required(member<SizeLaw>("least_m", "m", from(0.1, 1e4), "least √area", &PowerLawSizes::least))),
      of("power law",
-        required(member<SizeLaw>("largest_m", "m", from(0.1, 1e4), "largest √area", &PowerLawSizes::largest)))},
-    {"equal", "log-normal", "power law"}};
+        required(member<SizeLaw>("largest_m", "m", from(0.1, 1e4), "largest √area", &PowerLawSizes::largest)))}};
 
 const Description<FieldInput> kField{
     {of("rectangle", required(member("corner_m", "m", coordinate(), "corner of its region with the least x and y",
@@ -71,8 +70,7 @@ const Description<FieldInput> kField{
             "regions no floe may reach into; ships, structures and walls are kept clear without being asked for",
             &FieldInput::keep_clear),
      member("seed", "", from(0, kLargestSeed), "another one gives another field; the scene's seed is added",
-            &FieldInput::field, &FloeField::seed)},
-    {"rectangle", "outline", "channel"}};
+            &FieldInput::field, &FloeField::seed)}};
 
 const Description<LatticeInput> kLattice{
     {member("origin_m", "m", coordinate(), "corner of the lattice's area with the least x and y",
@@ -143,7 +141,7 @@ FieldOf<IceInput> property(std::size_t index, std::string_view meaning) {
              const auto* number = place::held<double>(given(record));
              return number ? std::optional(JsonValue{*number}) : std::nullopt;
            },
-           .open = [own](void* record) -> void* { return &place::hold<LawInput>(own(record)); },
+           .open = [own](void* record) -> void* { return place::held<LawInput>(own(record)); },
            .find = [given](const void* record, std::size_t) -> const void* {
              return place::held<LawInput>(given(record));
            }}};
@@ -210,7 +208,6 @@ const Description<FloeGroup> kFloesDescription{
      member("under_hull_of", "", {}, "the ship under whose hull it is at the start, as a run left it",
             &FloeGroup::under_hull_of),
      member("under_hull_path_m", "m", from(-1000, 1e5), "then how far that ship has come over it; 0 if not given",
-            &FloeGroup::under_hull_path)},
-    {"lattice", "rectangle", "polygon", "field", "file"}};
+            &FloeGroup::under_hull_path)}};
 
 }  // namespace polynya::io

@@ -34,8 +34,7 @@ const Description<ShipInput> kHull{
                      &Ship::water, &HullWaterSettings::block_coefficient)),
      choice<bool>("submersion_speed_factor",
                   "how the load of ice under the hull grows with speed: by 1 + 9.4 v/√(gL), or not",
-                  {{"lindqvist", true}, {"none", false}}, &ShipInput::spec, &Ship::hull, &Hull::has_speed_factor)},
-    {"wedge bow", "outline"}};
+                  {{"lindqvist", true}, {"none", false}}, &ShipInput::spec, &Ship::hull, &Hull::has_speed_factor)}};
 
 const Description<EngineInput> kEngine{
     {required(member("open_water_speed_m_per_s", "m/s", above(0, 30),
@@ -65,8 +64,7 @@ const Description<ShipInput> kPropulsion{
                         "velocity over ground and heading are held; the forces reported are what it takes to "
                         "hold them",
                         &ShipInput::propulsion, &ConstantSpeed::speed))),
-     of("engine", required(object("engine", kEngine, "propellers, and what drives them", &ShipInput::propulsion)))},
-    {"thrust", "constant speed", "engine"}};
+     of("engine", required(object("engine", kEngine, "propellers, and what drives them", &ShipInput::propulsion)))}};
 
 const Description<HullWaterSettings> kHullWater{
     {choice<bool>("model",
@@ -95,8 +93,7 @@ const Description<AzimuthSettings> kAzimuth{
 
 const Description<Steering> kSteering{
     {of("rudder", required(object<Steering>("rudder", kRudder, "at the stern, in the race of the propellers"))),
-     of("azimuth", required(object<Steering>("azimuth", kAzimuth, "thrusters at the stern that turn all thrust")))},
-    {"rudder", "azimuth"}};
+     of("azimuth", required(object<Steering>("azimuth", kAzimuth, "thrusters at the stern that turn all thrust")))}};
 
 FieldOf<MooringInput> stiffness(std::string_view key, std::string_view unit, std::string_view meaning,
                                 double MooringSettings::*place) {
@@ -229,8 +226,7 @@ const Description<PilotSettings> kPilot{
      pilot("table", "lever and rudder by the clock", kTable),
      pilot("ram", "ahead until it is stuck, back, and ahead again; counts rams and metres gained", kRam),
      pilot("follow", "another ship at a distance", kFollow),
-     pilot("manage", "breaks the ice that drifts onto another ship or a structure", kManage)},
-    {"constant", "hold_speed", "hold_heading", "route", "table", "ram", "follow", "manage"}};
+     pilot("manage", "breaks the ice that drifts onto another ship or a structure", kManage)}};
 
 /// Presets are filled in before a scene is read, and their names with them: what is left is none.
 FieldOf<ShipInput> preset() {
@@ -317,8 +313,7 @@ const Description<StructureInput> kStructureDescription{
             "as a hull does",
             &StructureInput::slope),
      object("panels", kPanelSettings, "of its walls, of which panels.csv has the loads of the ice",
-            &StructureInput::spec, &Structure::panels)},
-    {"cylinder", "outline"}};
+            &StructureInput::spec, &Structure::panels)}};
 
 const Description<WallInput> kWallDescription{
     {as(FieldKind::kName, member("name", "", {}, "its name in the outputs; # is its number", &WallInput::name)),
