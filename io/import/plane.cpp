@@ -181,8 +181,14 @@ namespace {
 
 constexpr const char* kDegreesByOgc = "OGC:CRS84";
 
-tl::unexpected<PlaneError> refuse(std::string words, std::optional<std::size_t> floe = {}) {
-  return tl::unexpected(PlaneError{floe, std::move(words)});
+[[noreturn]] void refuse(std::string words, std::optional<std::size_t> floe = {}) {
+  throw PlaneError{floe, std::move(words)};
+}
+
+template <class Value>
+Value or_refuse(Result<Value> found) {
+  if (!found) refuse(std::move(found.error()));
+  return *std::move(found);
 }
 
 bool is_finite(Point p) {
@@ -248,22 +254,20 @@ class PlaneImport {
  public:
   PlaneImport(std::vector<SourceFloe>& floes, const PlaneSettings& settings) : floes_(floes), settings_(settings) {}
 
-  tl::expected<PlaneReport, PlaneError> run(const std::string& crs) {
-    auto system = system_of(crs);
-    if (!system) return tl::unexpected(system.error());
-    if (auto checked = check_numbers(); !checked) return tl::unexpected(checked.error());
-    if (!system->empty()) {
-      if (auto projected = project(*system, !crs.empty()); !projected) return tl::unexpected(projected.error());
-    } else if (settings_.origin) {
+  /// Throws PlaneError.
+  PlaneReport run(const std::string& crs) {
+    const std::string system = system_of(crs);
+    check_numbers();
+    if (!system.empty())
+      project(system, !crs.empty());
+    else if (settings_.origin)
       report_.origin = settings_.origin;
-    }
     if (settings_.is_shifted) shift();
-    if (auto near = check_distance(); !near) return tl::unexpected(near.error());
+    check_distance();
     return std::move(report_);
   }
 
  private:
-  using Done = tl::expected<void, PlaneError>;
   using Others = std::optional<std::size_t>;  ///< how many floes more
 
   static bool is_kept(const SourceFloe& floe) { return floe.refused.empty(); }
@@ -282,44 +286,42 @@ class PlaneImport {
   /// Refuses floes one by one; the file where they are more of it than `share`, or all. words_of(floe,
   /// others) is why: `others` are how many more there are where the file is refused, none where the floe is.
   template <class Words>
-  Done refuse_floes(const std::vector<MisplacedFloe>& misplaced, Words words_of, double share = 1) {
-    if (misplaced.empty()) return {};
+  void refuse_floes(const std::vector<MisplacedFloe>& misplaced, Words words_of, double share = 1) {
+    if (misplaced.empty()) return;
     const auto kept = static_cast<std::size_t>(std::ranges::count_if(floes_, is_kept));
     const auto count = static_cast<double>(misplaced.size());
     if (misplaced.size() == kept || count > share * static_cast<double>(kept))
-      return refuse(words_of(misplaced.front(), Others(misplaced.size() - 1)), misplaced.front().floe);
+      refuse(words_of(misplaced.front(), Others(misplaced.size() - 1)), misplaced.front().floe);
     for (const MisplacedFloe& one : misplaced) floes_[one.floe].refused = words_of(one, Others());
-    return {};
   }
 
   /// The system that the coordinates are in; empty where they are metres of the plane already.
-  tl::expected<std::string, PlaneError> system_of(const std::string& crs) {
+  std::string system_of(const std::string& crs) const {
     if (!crs.empty() && !settings_.source.empty() && crs != settings_.source)
-      return refuse(
-          fmt::format("the file names its own coordinate system, {}, where {} is given", crs, settings_.source));
+      refuse(fmt::format("the file names its own coordinate system, {}, where {} is given", crs, settings_.source));
     if (!crs.empty() || !settings_.source.empty()) return crs.empty() ? settings_.source : crs;
     CoordinateEvidence evidence;
     for (const SourceFloe& floe : floes_) evidence.add(floe.polygon);
     const bool is_projected = settings_.origin || !settings_.target.empty();
     if (!settings_.are_metres && (evidence.look_like_degrees() || (settings_.origin && lie_about_origin()))) {
-      if (is_projected) return std::string(kDegreesByOgc);
+      if (is_projected) return kDegreesByOgc;
       const Point middle = middle_of_degrees();
-      return refuse(fmt::format(
+      refuse(fmt::format(
           "these look like longitude and latitude, and the file names no coordinate system: {} "
           "within ±180, ±90, and as metres {:.4g} m² of ice in all. {} projects them; metres "
           "are kept where a crs member names a projected system",
           evidence.are_all_whole ? "all" : "most", evidence.area, settings_.origin_in_words(middle.y, middle.x)));
     }
     if (!settings_.target.empty())
-      return refuse(fmt::format("the file names no coordinate system to project to {} from: {}", settings_.target,
-                                settings_.source_in_words));
+      refuse(fmt::format("the file names no coordinate system to project to {} from: {}", settings_.target,
+                         settings_.source_in_words));
     if (settings_.origin && !settings_.keeps_metres && evidence.floes > 0)
-      return refuse(
+      refuse(
           fmt::format("the file names no coordinate system to project from, and its coordinates do "
                       "not look like longitude and latitude: {}; metres of the plane are kept "
                       "where no origin is given",
                       settings_.source_in_words));
-    return std::string();
+    return "";
   }
 
   /// Whether the floes are degrees about the origin, whatever a few wrong numbers show: those of a tenth or
@@ -368,43 +370,40 @@ class PlaneImport {
             to_thousandths(geometry::kDegreesPerRadian * std::atan2(z, std::hypot(x, y)))};
   }
 
-  Done project(const std::string& system, bool is_of_file) {
+  void project(const std::string& system, bool is_of_file) {
     const auto crs = find_crs(system);
-    if (!crs) return refuse(crs.error() + (is_of_file ? "; a file of metres in a plane of its own has no crs" : ""));
+    if (!crs) refuse(crs.error() + (is_of_file ? "; a file of metres in a plane of its own has no crs" : ""));
     report_.system = crs->name;
-    if (crs->is_geographic) {
-      if (auto checked = check_degrees(); !checked) return checked;
-    } else if (!crs->is_projected) {
-      return refuse(fmt::format("{} is neither longitude and latitude nor a plane", crs->name));
-    }
+    if (crs->is_geographic)
+      check_degrees();
+    else if (!crs->is_projected)
+      refuse(fmt::format("{} is neither longitude and latitude nor a plane", crs->name));
     if (!settings_.target.empty()) return project_to_target(system);
     std::optional<simulation::GeographicOrigin> origin = settings_.origin;
     if (!origin && crs->is_geographic) {
       const Point middle = middle_of_degrees();
       if (!settings_.chooses_origin)
-        return refuse(fmt::format("longitude and latitude ({}), and no origin to project them about: {}", crs->name,
-                                  settings_.origin_in_words(middle.y, middle.x)));
+        refuse(fmt::format("longitude and latitude ({}), and no origin to project them about: {}", crs->name,
+                           settings_.origin_in_words(middle.y, middle.x)));
       origin = {middle.y / geometry::kDegreesPerRadian, middle.x / geometry::kDegreesPerRadian, std::numbers::pi / 2};
       report_.is_origin_chosen = true;
     }
     if (origin) return project_about(*origin, system, crs->is_geographic);
     if (!crs->is_metric)
-      return refuse(
-          fmt::format("{} is not in metres: an origin, or a projected system in metres, is needed", crs->name));
+      refuse(fmt::format("{} is not in metres: an origin, or a projected system in metres, is needed", crs->name));
     report_.target = system;
-    return {};
   }
 
-  Done check_numbers() {
+  void check_numbers() {
     const auto is_none = [](Point p) { return !is_finite(p); };
-    return refuse_floes(find_floes(is_none), [](const MisplacedFloe& one, Others) {
+    refuse_floes(find_floes(is_none), [](const MisplacedFloe& one, Others) {
       return fmt::format("found [{}, {}], allowed: coordinates that are finite numbers", one.point.x, one.point.y);
     });
   }
 
-  Done check_degrees() {
+  void check_degrees() {
     const auto is_beyond = [](Point p) { return !is_in_degrees(p); };
-    return refuse_floes(find_floes(is_beyond), [](const MisplacedFloe& one, Others others) {
+    refuse_floes(find_floes(is_beyond), [](const MisplacedFloe& one, Others others) {
       const Point p = one.point;
       if (std::abs(p.y) <= 90)
         return fmt::format(
@@ -417,36 +416,30 @@ class PlaneImport {
     });
   }
 
-  Done project_to_target(const std::string& system) {
-    const auto target = find_crs(settings_.target);
-    if (!target) return refuse(target.error());
-    if (!target->is_metric)
-      return refuse(fmt::format("{} ({}) is not a plane in metres", settings_.target, target->name));
-    const auto steps = Projection::between(system, settings_.target);
-    if (!steps) return refuse(steps.error());
+  void project_to_target(const std::string& system) {
+    const Crs target = or_refuse(find_crs(settings_.target));
+    if (!target.is_metric) refuse(fmt::format("{} ({}) is not a plane in metres", settings_.target, target.name));
+    const Projection steps = or_refuse(Projection::between(system, settings_.target));
     report_.target = settings_.target;
-    return apply([&](std::vector<Point>& points) { steps->apply(points); });
+    apply([&](std::vector<Point>& points) { steps.apply(points); });
   }
 
-  Done project_about(const simulation::GeographicOrigin& origin, const std::string& system, bool is_geographic) {
-    const auto steps = Projection::between(system, GeographicPlane::system(origin));
-    if (!steps) return refuse(steps.error());
+  void project_about(const simulation::GeographicOrigin& origin, const std::string& system, bool is_geographic) {
+    const Projection steps = or_refuse(Projection::between(system, GeographicPlane::system(origin)));
     report_.origin = origin;
-    const auto plane = GeographicPlane::about(origin);
-    if (!plane) return refuse(plane.error());
+    const GeographicPlane plane = or_refuse(GeographicPlane::about(origin));
     std::vector<SourceFloe> as_read;
     if (is_geographic) as_read = floes_;
-    auto applied = apply([&](std::vector<Point>& points) {
-      steps->apply(points);
-      plane->turn(points);
+    apply([&](std::vector<Point>& points) {
+      steps.apply(points);
+      plane.turn(points);
     });
-    if (!applied) return applied;
-    return check_hemisphere(*plane, as_read);
+    check_hemisphere(plane, as_read);
   }
 
   /// Projects all rings, and turns velocities as their axes turn there.
   template <class Steps>
-  Done apply(Steps steps) {
+  void apply(Steps steps) {
     std::vector<MisplacedFloe> lost;
     for (std::size_t i = 0; i < floes_.size(); ++i) {
       if (!is_kept(floes_[i])) continue;
@@ -460,7 +453,7 @@ class PlaneImport {
       });
       if (without_image) lost.push_back({i, *without_image});
     }
-    return refuse_floes(lost, [](const MisplacedFloe& one, Others) {
+    refuse_floes(lost, [](const MisplacedFloe& one, Others) {
       return fmt::format("[{}, {}] has no image in that plane", one.point.x, one.point.y);
     });
   }
@@ -482,9 +475,9 @@ class PlaneImport {
   }
 
   /// Floes beyond the plane's reach from the origin, named by where they are on the Earth.
-  Done check_hemisphere(const GeographicPlane& plane, const std::vector<SourceFloe>& as_read) {
+  void check_hemisphere(const GeographicPlane& plane, const std::vector<SourceFloe>& as_read) {
     const auto far = find_floes([](Point p) { return length(p - Point{}) > kFarthestFloe; });
-    return refuse_floes(far, [&](const MisplacedFloe& one, Others others) {
+    refuse_floes(far, [&](const MisplacedFloe& one, Others others) {
       const Point origin = degrees_of(*report_.origin), at = degrees_of(plane.geographic_of(one.point));
       std::string words = fmt::format("{} lies {:.0f} km from the origin at {}{}{}, allowed: up to {:g} km",
                                       place_in_words(at), length(one.point - Point{}) / 1000, place_in_words(origin),
@@ -534,13 +527,13 @@ class PlaneImport {
     }
   }
 
-  Done check_distance() {
+  void check_distance() {
     const auto far = find_floes([](Point p) { return std::max(std::abs(p.x), std::abs(p.y)) > kFarthestFloe; });
     const auto words_of = [&](const MisplacedFloe& one, Others others) {
       return fmt::format("found [{:.12g}, {:.12g}]{}, allowed: coordinates from {:g} to {:g} [m]: {}", one.point.x,
                          one.point.y, more_in_words(others), -kFarthestFloe, kFarthestFloe, settings_.shift_in_words);
     };
-    return refuse_floes(far, words_of, 0.5);  // most of them: the file needs a shift
+    refuse_floes(far, words_of, 0.5);  // most of them: the file needs a shift
   }
 
   /// ", and as far in 3 more floes"
@@ -558,7 +551,11 @@ class PlaneImport {
 
 tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes, const std::string& crs,
                                                      const PlaneSettings& settings) {
-  return PlaneImport(floes, settings).run(crs);
+  try {
+    return PlaneImport(floes, settings).run(crs);
+  } catch (PlaneError& error) {
+    return tl::unexpected(std::move(error));
+  }
 }
 
 }  // namespace polynya::io

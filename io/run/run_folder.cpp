@@ -152,10 +152,6 @@ Result<RunLock> RunLock::take(const std::filesystem::path& folder) {
   return lock;
 }
 
-bool RunLock::is_in_place() const {
-  return is_still_at(descriptor_, folder_ / run_file::kLock);
-}
-
 FolderSize estimate_folder_size(const simulation::Scene& scene) {
   // A vertex is two numbers of 16 to 18 digits; a floe's other members are those of append_birth,
   // append_floe.

@@ -80,7 +80,7 @@ class RunLock {
   const std::filesystem::path& folder() const { return folder_; }
 
   /// Whether the folder is still there under its name: it was neither removed, moved nor replaced.
-  bool is_in_place() const;
+  bool is_in_place() const { return is_still_at(descriptor_, folder_ / run_file::kLock); }
 
  private:
   RunLock(Descriptor descriptor, std::filesystem::path folder)

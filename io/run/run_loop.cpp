@@ -116,10 +116,6 @@ Result<> dump_failure(const ActiveRun& run) {
 
 constexpr std::int64_t kStepsBetweenReports = 16;  ///< looking at the clock costs as much as a small step
 
-double seconds_since(std::chrono::steady_clock::time_point then) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
-}
-
 /// Steps in a time [s], at least 1.
 std::int64_t steps_in(double duration, double step) {
   return std::max<std::int64_t>(1, std::llround(duration / step));
@@ -138,14 +134,6 @@ RunRecorder::RunRecorder(Simulation& simulation, RunWriter& writer, const Loaded
 void RunRecorder::begin(simulation::Journal& journal) {
   writer_.record(journal);
   writer_.frame(simulation_);
-}
-
-void RunRecorder::record_step() {
-  writer_.record(simulation_.journal());
-}
-
-void RunRecorder::frame_if_due() {
-  if (is_frame_due()) writer_.frame(simulation_);
 }
 
 Result<> RunRecorder::checkpoint(double wall_time) {
@@ -171,14 +159,6 @@ Result<> RunRecorder::end() {
   auto written = has_end_checkpoint() ? Result<>{} : checkpoint(0);
   if (written && !is_frame_due()) writer_.frame(simulation_);
   return written;
-}
-
-double RunRecorder::wall_time() const {
-  return wall_time_before_ + seconds_since(start_);
-}
-
-double RunRecorder::checkpoint_age() const {
-  return seconds_since(last_checkpoint_);
 }
 
 namespace {

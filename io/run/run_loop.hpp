@@ -58,8 +58,10 @@ class RunRecorder {
   RunRecorder(simulation::Simulation& simulation, RunWriter& writer, const LoadedScene& scene, double wall_time = 0);
   /// Where nothing has been stepped yet: what there is, and a first frame.
   void begin(simulation::Journal& journal);
-  void record_step();
-  void frame_if_due();
+  void record_step() { writer_.record(simulation_.journal()); }
+  void frame_if_due() {
+    if (is_frame_due()) writer_.frame(simulation_);
+  }
   Result<> checkpoint() { return checkpoint(wall_time()); }
   /// Before a step, with the ticks to the end of the run: the checkpoint from which a longer run goes on, ahead of
   /// steps of several ticks that this end would cut short.
@@ -69,11 +71,14 @@ class RunRecorder {
   /// At the end: a checkpoint where before_end() has written none, and behind it a frame where none was due. A longer
   /// run goes on without the frame that only this end has.
   Result<> end();
-  double wall_time() const;       ///< of the run so far [s]
-  double checkpoint_age() const;  ///< by the clock [s]
+  double wall_time() const { return wall_time_before_ + seconds_since(start_); }  ///< of the run so far [s]
+  double checkpoint_age() const { return seconds_since(last_checkpoint_); }       ///< by the clock [s]
 
  private:
   using Clock = std::chrono::steady_clock;
+  static double seconds_since(Clock::time_point then) {
+    return std::chrono::duration<double>(Clock::now() - then).count();
+  }
   Result<> checkpoint(double wall_time);
   bool is_frame_due() const { return simulation_.steps() % steps_per_frame_ == 0; }
   simulation::Simulation& simulation_;

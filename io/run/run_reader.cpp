@@ -37,10 +37,6 @@ void FloeShapes::add(ShapeParts shape, FloeId parent) {
   floes_.push_back(std::move(floe));
 }
 
-const ShapeParts* FloeShapes::parts_of(FloeId id) const {
-  return floe(id).whole ? nullptr : &floe(id).parts;
-}
-
 std::shared_ptr<const Polygon> FloeShapes::find(FloeId id) const {
   if (floe(id).whole) return floe(id).whole;
   const auto found = kept_.find(id);

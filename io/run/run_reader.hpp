@@ -37,7 +37,7 @@ class FloeShapes {
   std::shared_ptr<const geometry::Polygon> of(simulation::FloeId floe) const;
 
   /// What of the floe's shape is its parent's; null where nothing is.
-  const ShapeParts* parts_of(simulation::FloeId floe) const;
+  const ShapeParts* parts_of(simulation::FloeId id) const { return floe(id).whole ? nullptr : &floe(id).parts; }
 
  private:
   struct Floe {

@@ -102,10 +102,6 @@ bool OutputFile::sync() {
   return status_.has_value();
 }
 
-bool OutputFile::is_in_place() const {
-  return is_still_at(descriptor_, name_);
-}
-
 bool is_still_at(int descriptor, const std::filesystem::path& path) {
   struct stat opened {
   }, named{};

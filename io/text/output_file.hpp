@@ -30,6 +30,9 @@ class Descriptor {
   int opened_;
 };
 
+/// Whether an open file still has that name.
+bool is_still_at(int descriptor, const std::filesystem::path& path);
+
 /// A file that grows by whole records (a line, a frame). Records are buffered; what is on disk always ends
 /// with a whole one: where a write fails half way, the file is cut back to the last whole record. Links are
 /// not followed: run folders come from elsewhere too.
@@ -55,7 +58,7 @@ class OutputFile {
   bool sync();
   std::uint64_t size() const { return size_; }  ///< on disk [bytes]
   /// Whether the file still has its name: it was neither removed nor replaced.
-  bool is_in_place() const;
+  bool is_in_place() const { return is_still_at(descriptor_, name_); }
   const std::string& name() const { return name_; }
   /// Forgets what is buffered.
   void drop() {
@@ -74,9 +77,6 @@ class OutputFile {
   std::uint64_t size_ = 0;                ///< on disk [bytes]
   Result<> status_;
 };
-
-/// Whether an open file still has that name.
-bool is_still_at(int descriptor, const std::filesystem::path& path);
 
 enum class Durability {
   kRenamed,  ///< whole whatever happens to the program
