@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
-#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <span>
@@ -33,11 +32,6 @@ struct Column {
   std::function<void(Row&, double)> store;
   std::span<const std::string_view> words = {};  ///< in the place of numbers
 };
-
-/// Adds numbers to a row, each behind a comma.
-inline void append_csv(std::string& row, std::initializer_list<double> values) {
-  for (const double value : values) append_number(row += ',', value);
-}
 
 /// Takes the first field off a row.
 inline std::string_view csv_field(std::string_view& row) {

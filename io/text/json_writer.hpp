@@ -80,20 +80,18 @@ class JsonWriter {
   }
   /// A list of objects; `write(item)` writes the members of each.
   template <class Items, class Write>
-  JsonWriter& objects(const Items& items, Write write) {
+  JsonWriter& objects(const Items& items, Write write, bool has_lines = false) {
     open('[');
-    for (const auto& item : items) object([&] { write(item); });
+    for (const auto& item : items) {
+      if (has_lines) start_line();
+      object([&] { write(item); });
+    }
     return close(']');
   }
   /// The same, each object on a line of its own.
   template <class Items, class Write>
   JsonWriter& object_lines(const Items& items, Write write) {
-    open('[');
-    for (const auto& item : items) {
-      start_line();
-      object([&] { write(item); });
-    }
-    return close(']');
+    return objects(items, write, true);
   }
   /// A GeoJSON geometry.
   JsonWriter& polygon(const geometry::Polygon& polygon);
