@@ -85,7 +85,7 @@ inline constexpr double kFarthestFloe = 1e6;  ///< a coordinate in the plane [m]
 struct SourceFloe {
   geometry::Polygon polygon;  ///< rings as drawn, in the file's coordinates
   FloeProperties properties;
-  std::string refused;  ///< why it is; empty: it is not
+  std::string refused = {};  ///< why it is; empty: it is not
 };
 
 /// Which plane the floes of a file come to.

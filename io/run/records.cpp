@@ -13,6 +13,7 @@
 #include "geometry/cut/repair.hpp"
 #include "geometry/shape/angle.hpp"
 #include "io/import/floe_properties.hpp"
+#include "io/run/run_folder.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/shape_parts.hpp"
@@ -392,8 +393,18 @@ void append_bodies(std::string& text, double time, const simulation::ContactStat
 
 }  // namespace
 
-std::string forces_header() {
-  return csv_header("t_s,ship", force_columns());
+std::string header_of(std::string_view file) {
+  const auto table = [](std::string first, const auto& columns) {
+    for (const auto& column : columns) first.append(1, ',').append(column.name);
+    return first + '\n';
+  };
+  constexpr auto kBodies = "t_s,ship,floe_id,by_ship,by_floe_id";
+  if (file == run_file::kForces) return table("t_s,ship", force_columns());
+  if (file == run_file::kPanels) return table("t_s,ship", panel_columns());
+  if (file == run_file::kContacts) return table(kBodies, contact_columns());
+  if (file == run_file::kCrushed) return table(kBodies, crushed_columns());
+  if (file == run_file::kFrames) return FrameEncoder::header();
+  return file == run_file::kStates ? "t_s,steps,state_hash\n" : "";
 }
 
 void append_forces_row(std::string& text, const simulation::HullSample& sample, const simulation::Scene& scene) {
@@ -402,18 +413,10 @@ void append_forces_row(std::string& text, const simulation::HullSample& sample, 
   append_row(text, sample, force_columns(), "null");
 }
 
-std::string contacts_header() {
-  return csv_header("t_s,ship,floe_id,by_ship,by_floe_id", contact_columns());
-}
-
 void append_contact(std::string& text, double time, const simulation::ContactState& contact,
                     const simulation::Scene& scene) {
   append_bodies(text, time, contact.on, contact.by, scene);
   append_row(text, contact, contact_columns());
-}
-
-std::string panels_header() {
-  return csv_header("t_s,ship", panel_columns());
 }
 
 void append_panel(std::string& text, const simulation::PanelSample& sample, const simulation::Scene& scene) {
@@ -422,18 +425,10 @@ void append_panel(std::string& text, const simulation::PanelSample& sample, cons
   append_row(text, sample, panel_columns());
 }
 
-std::string crushed_header() {
-  return csv_header("t_s,ship,floe_id,by_ship,by_floe_id", crushed_columns());
-}
-
 void append_crushed(std::string& text, double time, const simulation::CrushedOverlap& overlap,
                     const simulation::Scene& scene) {
   append_bodies(text, time, overlap.on, overlap.by, scene);
   append_row(text, overlap, crushed_columns(), "null");
-}
-
-std::string_view states_header() {
-  return "t_s,steps,state_hash\n";
 }
 
 void append_state(std::string& text, double time, std::int64_t steps, std::uint64_t hash) {

@@ -122,13 +122,6 @@ std::span<const ContactColumn> contact_columns();
 std::span<const CrushedColumn> crushed_columns();
 std::span<const PanelColumn> panel_columns();
 
-/// What a table begins with: the names of its columns behind those of time and bodies.
-template <class Columns>
-std::string csv_header(std::string first, const Columns& columns) {
-  for (const auto& column : columns) first.append(1, ',').append(column.name);
-  return first + '\n';
-}
-
 /// Appends a row's values, each behind a comma, and a line's end; `none` where there is no number.
 template <class Row, class Columns>
 void append_row(std::string& text, const Row& row, const Columns& columns, std::string_view none = {}) {
@@ -166,30 +159,28 @@ inline std::optional<simulation::FloeId> id_or_none(simulation::FloeId floe) {
 /// The name of a ship or structure, by its index; empty where there is none.
 std::string_view hull_name(const simulation::Scene& scene, int ship);
 
-/// The lines of a run's text files (docs/run-folder.md). Each appends whole lines to a buffer.
+/// The lines of a run's files (docs/run-folder.md). Each function appends whole lines to a buffer.
 
-/// forces.csv's first line: the names of its columns, with their units.
-std::string forces_header();
+/// What one that grows begins with: of a table the names of its columns, with their units.
+std::string header_of(std::string_view file);
+
+/// forces.csv: the loads on a hull in an interval.
 void append_forces_row(std::string& text, const simulation::HullSample& sample, const simulation::Scene& scene);
 
 /// contacts.csv: who touched whom at a frame, and how hard at the peaks of a contact's force.
-std::string contacts_header();
 void append_contact(std::string& text, double time, const simulation::ContactState& contact,
                     const simulation::Scene& scene);
 
 /// panels.csv: what ice did to a panel of a hull in an interval.
-std::string panels_header();
 void append_panel(std::string& text, const simulation::PanelSample& sample, const simulation::Scene& scene);
 
 /// crushed.csv: the overlap of two bodies at a frame that their contacts have pressed, as it is booked. Pairs below
 /// this share of the smaller body are left out.
 inline constexpr double kLeastCrushedShare = 1e-3;
-std::string crushed_header();
 void append_crushed(std::string& text, double time, const simulation::CrushedOverlap& overlap,
                     const simulation::Scene& scene);
 
 /// states.csv: a hash of everything at each frame.
-std::string_view states_header();
 void append_state(std::string& text, double time, std::int64_t steps, std::uint64_t hash);
 
 /// `parent` is the shape of the floe that it broke from; null where it is of the scene. With a scene also the

@@ -99,13 +99,14 @@ void for_lines(const std::filesystem::path& folder, std::string_view name, Use u
   });
 }
 
-/// Uses each row of a table whose first line is to be the header.
+/// Uses each row of a table, whose first line is to be its header.
 template <class Use>
-void for_rows(const std::filesystem::path& folder, std::string_view name, std::string_view header, Use use) {
+void for_rows(const std::filesystem::path& folder, std::string_view name, Use use) {
+  const std::string header = header_of(name);
   for_lines(folder, name, [&](std::string_view line, int number) {
     if (number > 1)
       use(line);
-    else if (header.substr(0, line.size()) != line)
+    else if (!header.starts_with(line))
       throw ReadError("columns of another version");
   });
 }
@@ -169,7 +170,7 @@ void read_forces(Run& run) {
 
 /// Peaks stand where they ended.
 void read_contacts(Run& run) {
-  for_rows(run.folder, run_file::kContacts, contacts_header(), [&](std::string_view line) {
+  for_rows(run.folder, run_file::kContacts, [&](std::string_view line) {
     RunContact contact = contact_of(line, run);
     const bool is_peak = contact.state.ended_by != simulation::PeakEnd::kNone;
     (is_peak ? run.peaks : run.contacts).push_back(contact);
@@ -221,7 +222,7 @@ Result<Run> read_run(const std::filesystem::path& folder) {
     read_forces(run);
     if (std::filesystem::exists(folder / run_file::kContacts)) read_contacts(run);
     if (run.has_crushed = std::filesystem::exists(folder / run_file::kCrushed); run.has_crushed)
-      for_rows(folder, run_file::kCrushed, crushed_header(),
+      for_rows(folder, run_file::kCrushed,
                [&](std::string_view line) { run.crushed.push_back(crushed_of(line, run)); });
     auto frames = decode_frames(text_of(folder, run_file::kFrames));
     if (!frames) return fail(fmt::format("{}: {}", (folder / run_file::kFrames).string(), frames.error()));

@@ -22,16 +22,6 @@ enum : std::size_t { kFloes, kEvents, kFrames, kContacts, kCrushed, kStates, kFo
 constexpr std::size_t kMuchBuffered = std::size_t{256} << 10;  ///< [bytes]
 constexpr auto kLongestWait = std::chrono::seconds(1);
 
-/// What a file that grows begins with.
-std::string header_of(std::size_t file) {
-  if (file == kForces) return forces_header();
-  if (file == kFrames) return FrameEncoder::header();
-  if (file == kContacts) return contacts_header();
-  if (file == kPanels) return panels_header();
-  if (file == kCrushed) return crushed_header();
-  return std::string(file == kStates ? states_header() : "");
-}
-
 Motion motion_of(const simulation::FloeState& floe, geometry::Point centroid_in_body) {
   return {transform(floe.world_from_body, centroid_in_body), floe.angle, floe.velocity, floe.angular_velocity};
 }
@@ -66,7 +56,7 @@ Result<RunWriter> RunWriter::begin(RunLock lock, const LoadedScene& scene) {
     files.push_back(std::move(*file));
   }
   RunWriter writer(scene, std::move(files), std::move(lock));
-  for (std::size_t i = 0; i < writer.files_.size(); ++i) writer.file(i).append(header_of(i));
+  for (std::size_t i = 0; i < writer.files_.size(); ++i) writer.file(i).append(header_of(kGrowing[i]));
   writer.flush();
   if (const auto status = writer.status(); !status) return fail(status.error());
   RunSummary first;
@@ -114,7 +104,7 @@ Result<> check_progress(const RunProgress& progress, const std::filesystem::path
   for (std::size_t i = 0; i < files; ++i)
     if (auto checked = check_size(folder / kGrowing[i], progress.file_sizes[i]); !checked) return checked;
   for (std::size_t i = 0; i < files; ++i)
-    if (auto checked = check_header(folder / kGrowing[i], header_of(i)); !checked) return checked;
+    if (auto checked = check_header(folder / kGrowing[i], header_of(kGrowing[i])); !checked) return checked;
   return {};
 }
 

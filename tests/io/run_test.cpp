@@ -196,7 +196,7 @@ TEST_F(RunFiles, ReadBackWhatWasWritten) {
 }
 
 TEST_F(RunFiles, PanelsHaveTheirTable) {
-  std::string expected = panels_header();
+  std::string expected = header_of(run_file::kPanels);
   for (const simulation::PanelSample& panel : recorded.panels) append_panel(expected, panel, scene.scene);
   EXPECT_GT(recorded.panels.size(), 30U);
   EXPECT_EQ(text(run_file::kPanels), expected);
