@@ -16,8 +16,7 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/point_in_ring.hpp"
 #include "geometry/shape/outline.hpp"
-#include "io/run/csv_columns.hpp"
-#include "io/run/motion_index.hpp"
+#include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
 
 namespace polynya::analysis {
@@ -533,7 +532,7 @@ std::string to_csv(const Channel& channel) {
   for (std::size_t i = 0; i < channel.stations.size(); ++i) {
     io::append_number(text += '\n', static_cast<std::int64_t>(i));
     for (const StationColumn& column : kStationColumns)
-      io::append_csv(text, {column.read(channel.stations[i], channel.beam)});
+      io::append_number(text += ',', column.read(channel.stations[i], channel.beam));
   }
   return text + '\n';
 }

@@ -12,7 +12,7 @@
 #include "geometry/exact/point_in_ring.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/box_tree.hpp"
-#include "io/run/motion_index.hpp"
+#include "io/run/run_reader.hpp"
 
 namespace polynya::analysis {
 namespace {

@@ -6,10 +6,10 @@
 
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
+#include "io/import/floe_properties.hpp"
 #include "io/run/event_records.hpp"
-#include "io/run/motion_index.hpp"
 #include "io/run/records.hpp"
-#include "io/scene/floe_ice.hpp"
+#include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
 
 namespace polynya::analysis {

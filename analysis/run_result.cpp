@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "io/run/csv_columns.hpp"
+#include "io/run/records.hpp"
 #include "io/text/problem.hpp"
 
 namespace polynya::analysis {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/command_line/progress.hpp"
-#include "io/scene/scene_assign.hpp"
+#include "io/scene/scene_reader.hpp"
 
 // CLI11 takes seconds to compile wherever it is included: command_line.cpp alone does.
 namespace CLI {

@@ -8,7 +8,7 @@
 
 #include "app/command_line/progress.hpp"
 #include "io/run/run_reader.hpp"
-#include "io/text/result.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::app {
 

@@ -9,7 +9,7 @@
 #include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
-#include "io/import/projection.hpp"
+#include "io/import/plane.hpp"
 #include "io/text/floe_text.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/problem.hpp"
@@ -181,7 +181,7 @@ io::Result<> write_results(const CutOptions& options, const io::CutReport& repor
 /// Degrees have no areas in m².
 Outcome<void> check_units(const std::string& name, const io::FloeText& floes) {
   constexpr auto kRemedy = "polynya import makes metres of them";
-  const std::string crs = floes.crs.empty() ? "" : io::crs_name(io::parse_json(floes.crs).root);
+  const std::string crs = io::crs_name(floes.crs);
   const auto known = io::find_crs(crs);
   if (!crs.empty() && known && known->is_geographic)
     return failure(kRefused,

@@ -6,8 +6,7 @@
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
 #include "geometry/shape/angle.hpp"
-#include "io/import/foreign_file.hpp"
-#include "io/import/import_report.hpp"
+#include "io/import/floe_import.hpp"
 #include "io/text/cut.hpp"
 #include "io/text/floe_text.hpp"
 #include "io/text/json_parser.hpp"
@@ -57,9 +56,9 @@ Outcome<std::optional<simulation::GeographicOrigin>> read_origin(const std::stri
 }
 
 Outcome<io::FloeText> read_floes(const ImportOptions& options, const std::string& name) {
-  const auto format = options.file == "-" ? std::nullopt : io::foreign_format(options.file);
-  auto found = format ? io::read_foreign_file(options.file, *format, options.layer, io::kLongestFloeText)
-                      : read_input(options.file, io::kLongestFloeText);
+  std::optional<io::Result<std::string>> foreign;
+  if (options.file != "-") foreign = io::read_foreign_file(options.file, options.layer, io::kLongestFloeText);
+  auto found = foreign ? *std::move(foreign) : read_input(options.file, io::kLongestFloeText);
   if (!found) return failure(kInputOutput, fmt::format("{}: {}", name, found.error()));
   auto floes = io::read_floe_text(std::move(*found));
   if (!floes) return failure(kInputOutput, fmt::format("{}:{}", name, floes.error()));
@@ -128,10 +127,10 @@ Outcome<ExitCode> import_all(const ImportOptions& options) {
   const std::string name = input_name(options.file);
   const auto text = read_floes(options, name);
   if (!text) return tl::unexpected(text.error());
-  const std::string crs = text->crs.empty() ? "" : io::crs_name(io::parse_json(text->crs).root);
+  const std::string crs = io::crs_name(text->crs);
   io::FloesOfText read = io::floes_of(*text, names);
   const auto imported = with_progress(options.progress, "projecting and taking apart",
-                                      [&] { return import_floes(read.floes, std::move(read.refused), crs, settings); });
+                                      [&] { return import_floes(read.floes, crs, settings); });
   if (!imported) {
     std::string place = name;
     if (const auto floe = imported.error().floe) {

@@ -7,9 +7,9 @@
 #include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
-#include "io/run/motion_index.hpp"
-#include "io/scene/floe_ice.hpp"
-#include "io/text/wkt.hpp"
+#include "io/import/floe_properties.hpp"
+#include "io/run/run_reader.hpp"
+#include "io/text/floe_text.hpp"
 
 namespace polynya::app {
 namespace {

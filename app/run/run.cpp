@@ -10,7 +10,6 @@
 #include "app/command_line/console.hpp"
 #include "app/run/load_scene.hpp"
 #include "app/run/memory.hpp"
-#include "io/run/active_run.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_loop.hpp"
 #include "io/run/run_reader.hpp"

@@ -6,8 +6,8 @@
 #include "app/command_line/console.hpp"
 #include "app/command_line/files.hpp"
 #include "app/run/load_scene.hpp"
-#include "io/import/import_report.hpp"
-#include "io/scene/floe_ice.hpp"
+#include "io/import/floe_import.hpp"
+#include "io/import/floe_properties.hpp"
 #include "io/scene/scene_input.hpp"
 #include "io/text/output_file.hpp"
 
@@ -91,7 +91,7 @@ struct ValidateOptions {
 void print_floes(const io::LoadedScene& loaded) {
   print_fields(loaded);
   for (const io::IceReport& report : loaded.ice) {
-    const io::FloeIceProperty& property = io::floe_ice_properties()[report.property];
+    const io::FloeProperty& property = io::floe_ice_properties()[report.property];
     const fracture::ScatterMeasures& drawn = report.measures;
     print_out("floes[{}].ice.{}: {} drawn, {:.4g} {} ± {:.3g} %, from {:.4g} to {:.4g}, {:.2g} off the law (KS)\n",
               report.group, property.key, drawn.count, drawn.mean, property.unit, 100 * drawn.spread, drawn.least,

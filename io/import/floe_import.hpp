@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -60,19 +61,50 @@ struct ImportOutcome {
   ImportTotals totals;
 };
 
+/// A file of floes that GDAL reads for us, a shapefile, a GeoPackage or a FlatGeobuf file by how it begins, as GeoJSON
+/// with a crs member where it has a system: by ogr2ogr, run as a child process. `layer` is empty where the file has
+/// one. Coordinates in a system that ogr2ogr does not name are converted to longitude and latitude (OGC:CRS84). None
+/// where the file is of none of these formats, or cannot be read. Fails where ogr2ogr is not installed, with what
+/// ogr2ogr reports, or where the text would be longer than `longest` [bytes].
+std::optional<Result<std::string>> read_foreign_file(const std::filesystem::path& file, const std::string& layer,
+                                                     std::size_t longest);
+
 /// The floes of a text with what their features state of them.
 struct FloesOfText {
-  std::vector<SourceFloe> floes;
-  std::vector<std::string> refused;  ///< what is wrong with each before its outline is inspected; "" for nothing
+  std::vector<SourceFloe> floes;  ///< refused where anything is wrong with them before their outlines are inspected
   std::vector<NearMiss> near_misses;
   std::optional<double> run_time;  ///< where they are those of a run at that time [s]
 };
 FloesOfText floes_of(const FloeText& text, const PropertyNames& names);
 
 /// Brings floes to the plane, repairs or refuses outlines that are not valid, simplifies them, and takes
-/// overlaps from the smaller of two (geometry/cut/overlap.hpp). `refused` has what is known to be wrong with
-/// floes before, by their index, "" elsewhere; it may be empty. The floes' properties are left in `floes`.
-tl::expected<ImportOutcome, PlaneError> import_floes(std::vector<SourceFloe>& floes, std::vector<std::string> refused,
-                                                     const std::string& crs, const ImportSettings& settings);
+/// overlaps from the smaller of two (geometry/cut/overlap.hpp). The floes' properties are left in `floes`.
+tl::expected<ImportOutcome, PlaneError> import_floes(std::vector<SourceFloe>& floes, const std::string& crs,
+                                                     const ImportSettings& settings);
+
+/// The imported floes as GeoJSON in metres, with the properties of the features they are of: `entries` are
+/// those of the file, one for each of its floes.
+std::string to_geojson(const ImportOutcome& imported, const std::vector<SourceFloe>& floes,
+                       const std::vector<FloeEntry>& entries);
+
+/// The report of an import as JSON: totals, how the coordinates came to the plane, and each floe that did not
+/// stay as it was (docs/import.md).
+std::string to_json_text(const ImportOutcome& imported, const std::string& file, const std::vector<FloeEntry>& entries,
+                         const std::vector<NearMiss>& near_misses);
+
+/// "812 floes read, 3 repaired, 12 trimmed, 2 dropped, 1 refused; 809 written"
+std::string counts_in_words(const ImportTotals& totals);
+
+/// "2 of 3 floes have a thickness of their own"
+std::string thickness_in_words(std::size_t with_thickness, std::size_t floes);
+
+/// "123.4 m² read + 0.5 repaired − 3 trimmed − 1 dropped = 119.9 m² written"
+std::string areas_in_words(const ImportTotals& totals);
+
+/// How the coordinates came to the plane: "WGS 84, projected about 78.2, 15.6"
+std::string plane_in_words(const PlaneReport& plane);
+
+/// What happened to a floe: "self-crossing at (0, 0), repaired, +3 m²; trimmed, −2 m² to feature 3"
+std::string item_in_words(const ImportItem& item, const std::vector<FloeEntry>& entries);
 
 }  // namespace polynya::io

@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "io/text/json_writer.hpp"
 #include "io/text/problem.hpp"
 
 namespace polynya::io {
 namespace {
 
 using JsonKind = JsonValue::Kind;
+using fracture::Ice;
 
 constexpr std::string_view kFloeId = "floe_id";
 constexpr std::string_view kFastIce = "fast_ice";
@@ -21,28 +21,16 @@ constexpr std::string_view kUnderHullOf = "under_hull_of";
 constexpr double kLargestId = 9007199254740991;  ///< 2^53 − 1
 
 constexpr FloeProperty kProperties[] = {
-    {"thickness_m", "m", 0.001, 20, &FloeProperties::thickness},
-    {"density_kg_per_m3", "kg/m³", 100, 1100, &FloeProperties::density},
-    {"flexural_strength_Pa", "Pa", 1, 1e9, &FloeProperties::flexural_strength},
-    {"compressive_strength_Pa", "Pa", 1, 1e10, &FloeProperties::compressive_strength},
-    {"tensile_strength_Pa", "Pa", 1, 1e9, &FloeProperties::tensile_strength},
-    {"fracture_toughness_Pa_sqrt_m", "Pa √m", 1, 1e9, &FloeProperties::fracture_toughness},
+    {"thickness_m", "m", 0.001, 20, &FloeProperties::thickness, &Ice::thickness},
+    {"density_kg_per_m3", "kg/m³", 100, 1100, &FloeProperties::density, &Ice::density},
+    {"flexural_strength_Pa", "Pa", 1, 1e9, &FloeProperties::flexural_strength, &Ice::flexural_strength},
+    {"compressive_strength_Pa", "Pa", 1, 1e10, &FloeProperties::compressive_strength, &Ice::compressive_strength},
+    {"tensile_strength_Pa", "Pa", 1, 1e9, &FloeProperties::tensile_strength, &Ice::tensile_strength},
+    {"fracture_toughness_Pa_sqrt_m", "Pa √m", 1, 1e9, &FloeProperties::fracture_toughness, &Ice::fracture_toughness},
     {"vx_m_per_s", "m/s", -20, 20, &FloeProperties::velocity_x},
     {"vy_m_per_s", "m/s", -20, 20, &FloeProperties::velocity_y},
     {"angular_velocity_deg_per_s", "°/s", -360, 360, &FloeProperties::angular_velocity},
     {"under_hull_path_m", "m", -1000, 1e5, &FloeProperties::under_hull_path}};
-
-std::string shown(const JsonValue& value) {
-  std::string text;
-  if (value.is(JsonKind::kNumber)) {
-    append_number(text, value.number());
-  } else if (value.is(JsonKind::kText)) {
-    append_text(text, value.text().substr(0, 60));
-  } else {
-    text = name_of(value.kind());
-  }
-  return text;
-}
 
 /// Where the file has a property, and by what its values are multiplied.
 struct Place {
@@ -60,30 +48,6 @@ Place place_of(std::string_view key, const JsonValue& properties, const Property
   const JsonValue* value = properties.find(place.key);
   if (value && !value->is_null()) place.value = value;
   return place;
-}
-
-void read_number(const FloeProperty& property, const Place& place, FloeProperties& result,
-                 std::vector<BadProperty>& bad) {
-  if (!place.value) return;
-  const double value = place.value->is(JsonKind::kNumber) ? place.factor * place.value->number() : std::nan("");
-  if (value >= property.low && value <= property.high) {
-    result.*property.member = value;
-    return;
-  }
-  std::string found = shown(*place.value);
-  if (place.factor != 1 && std::isfinite(value)) found += fmt::format(", which is {:.9g}", value);
-  bad.push_back({place.value, place.key, std::move(found),
-                 fmt::format("a number from {:g} to {:g} [{}]", property.low, property.high, property.unit)});
-}
-
-void read_id(const Place& place, FloeProperties& result, std::vector<BadProperty>& bad) {
-  if (!place.value) return;
-  const double id = place.value->is(JsonKind::kNumber) ? place.value->number() : -1;
-  if (id >= 0 && id <= kLargestId && id == std::floor(id)) {
-    result.floe_id = static_cast<std::int64_t>(id);
-    return;
-  }
-  bad.push_back({place.value, place.key, shown(*place.value), "a whole number ≥ 0"});
 }
 
 /// Units in a property's name, and what they are of the SI's.
@@ -149,6 +113,10 @@ std::span<const FloeProperty> floe_properties() {
   return kProperties;
 }
 
+void append_ice(JsonWriter& json, const Ice& ice) {
+  for (const FloeProperty& property : floe_ice_properties()) json.key(property.key).value(ice.*property.ice);
+}
+
 Result<> add_property_name(std::string_view words, PropertyNames& names) {
   const std::size_t equals = words.find('=');
   if (equals == std::string_view::npos)
@@ -175,28 +143,42 @@ Result<> add_property_name(std::string_view words, PropertyNames& names) {
   return {};
 }
 
-FloeProperties read_floe_properties(const JsonValue& properties, const PropertyNames& names,
-                                    std::vector<BadProperty>& bad) {
+FloeProperties read_floe_properties(const JsonValue& properties, const PropertyNames& names, std::string& wrong) {
   FloeProperties result;
-  if (const JsonValue* fast = properties.find(kFastIce); fast && !fast->is_null()) {
-    if (fast->is(JsonKind::kBoolean))
-      result.is_fast = fast->boolean();
-    else
-      bad.push_back({fast, std::string(kFastIce), shown(*fast), "true or false"});
+  /// `take` returns whether it is what is allowed.
+  const auto read = [&](std::string_view key, std::string_view allowed, auto take) {
+    const Place place = place_of(key, properties, names);
+    if (!place.value || take(*place.value, place.factor)) return;
+    const bool is_scaled = place.factor != 1 && place.value->is(JsonKind::kNumber) && key != kFloeId;
+    wrong +=
+        fmt::format("{}property {}: found {}{}, allowed: {}", wrong.empty() ? "" : "; ", place.key, show(*place.value),
+                    is_scaled ? fmt::format(", which is {:.9g}", place.factor * place.value->number()) : "", allowed);
+  };
+  read(kFastIce, "true or false", [&](const JsonValue& value, double) {
+    if (value.is(JsonKind::kBoolean)) result.is_fast = value.boolean();
+    return result.is_fast.has_value();
+  });
+  read(kUnderHullOf, "the name of a ship", [&](const JsonValue& value, double) {
+    if (value.is(JsonKind::kText)) result.under_hull_of = value.text();
+    return result.under_hull_of.has_value();
+  });
+  read(kFloeId, "a whole number ≥ 0", [&](const JsonValue& value, double) {
+    const double id = value.is(JsonKind::kNumber) ? value.number() : -1;
+    if (id >= 0 && id <= kLargestId && id == std::floor(id)) result.floe_id = static_cast<std::int64_t>(id);
+    return result.floe_id.has_value();
+  });
+  for (const FloeProperty& property : kProperties) {
+    const auto allowed = fmt::format("a number from {:g} to {:g} [{}]", property.low, property.high, property.unit);
+    read(property.key, allowed, [&](const JsonValue& value, double factor) {
+      const double number = value.is(JsonKind::kNumber) ? factor * value.number() : std::nan("");
+      if (number >= property.low && number <= property.high) result.*property.member = number;
+      return (result.*property.member).has_value();
+    });
   }
-  if (const JsonValue* ship = properties.find(kUnderHullOf); ship && !ship->is_null()) {
-    if (ship->is(JsonKind::kText))
-      result.under_hull_of = ship->text();
-    else
-      bad.push_back({ship, std::string(kUnderHullOf), shown(*ship), "the name of a ship"});
-  }
-  read_id(place_of(kFloeId, properties, names), result, bad);
-  for (const FloeProperty& property : kProperties)
-    read_number(property, place_of(property.key, properties, names), result, bad);
   return result;
 }
 
-void NearMisses::add(const JsonValue& properties, const FloeProperties& read, std::size_t floes) {
+void NearMisses::add(const JsonValue& properties, const FloeProperties& read) {
   if (!properties.is(JsonKind::kObject)) return;
   for (const JsonMember& member : properties.members()) {
     const auto is_it = [&](const FloeProperty& property) { return property.key == member.key; };
@@ -214,7 +196,7 @@ void NearMisses::add(const JsonValue& properties, const FloeProperties& read, st
     if (!known->second) continue;
     NearMiss& miss = found_[*known->second];
     const auto* property = std::ranges::find(kProperties, miss.meant, &FloeProperty::key);
-    if (!(read.*property->member)) miss.floes += floes;
+    if (!(read.*property->member)) ++miss.floes;
   }
 }
 

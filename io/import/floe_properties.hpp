@@ -8,9 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "geometry/shape/point.hpp"
+#include "fracture/materials.hpp"
 #include "io/text/json_parser.hpp"
-#include "io/text/result.hpp"
+#include "io/text/json_writer.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::io {
 
@@ -31,16 +32,26 @@ struct FloeProperties {
   std::optional<double> under_hull_path;       ///< then how far that has come over it [m]
 };
 
-/// A number among the properties. The names and ranges are those of the scene's keys; the first six are of
-/// the ice, in the order of io/scene/floe_ice.hpp.
+/// A number among the properties. The names and ranges are those of the scene's keys.
 struct FloeProperty {
   std::string_view key;   ///< in the file
   std::string_view unit;  ///< as shown to people
   double low = 0;         ///< least value
   double high = 0;
   std::optional<double> FloeProperties::*member = nullptr;
+  double fracture::Ice::*ice = nullptr;  ///< of those of the ice
 };
 std::span<const FloeProperty> floe_properties();
+
+inline constexpr std::size_t kFloeIceProperties = 6;  ///< of ice, that a floe may have of its own: the first ones
+/// A property of ice that a floe may have of its own: a key of the scene's "ice", of an entry of "floes" and of a
+/// feature's properties in a floe file, and of the floes that a run writes.
+inline std::span<const FloeProperty> floe_ice_properties() {
+  return floe_properties().first(kFloeIceProperties);
+}
+
+/// Writes them as members of the object at hand.
+void append_ice(JsonWriter& json, const fracture::Ice& ice);
 
 /// Under which other names, and in which other units, a file has a property.
 struct PropertyName {
@@ -52,17 +63,9 @@ using PropertyNames = std::map<std::string, PropertyName, std::less<>>;  ///< by
 /// "thickness_m=THICK_CM*0.01": a property's key, the file's name for it, and a factor where one is needed.
 Result<> add_property_name(std::string_view words, PropertyNames& names);
 
-/// A property that a floe cannot have.
-struct BadProperty {
-  const JsonValue* value = nullptr;
-  std::string key;      ///< in the file
-  std::string found;    ///< "-0.4"
-  std::string allowed;  ///< "a number from 0.001 to 20 [m]"
-};
-
-/// Reads the properties of a feature; null is none. The bad ones are appended.
-FloeProperties read_floe_properties(const JsonValue& properties, const PropertyNames& names,
-                                    std::vector<BadProperty>& bad);
+/// Reads the properties of a feature; null is none. What a floe cannot have is appended to `wrong`: "property
+/// thickness_m: found -0.4, allowed: a number from 0.001 to 20 [m]".
+FloeProperties read_floe_properties(const JsonValue& properties, const PropertyNames& names, std::string& wrong);
 
 /// A property that is not read, though its name is near that of one that is.
 struct NearMiss {
@@ -76,8 +79,8 @@ struct NearMiss {
 class NearMisses {
  public:
   explicit NearMisses(PropertyNames names) : names_(std::move(names)) {}
-  /// Adds the properties of floes, and what was read of them.
-  void add(const JsonValue& properties, const FloeProperties& read, std::size_t floes = 1);
+  /// Adds the properties of a floe, and what was read of them.
+  void add(const JsonValue& properties, const FloeProperties& read);
   /// By their first occurrence.
   const std::vector<NearMiss>& found() const { return found_; }
 

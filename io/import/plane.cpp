@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <span>
 
+#include <dlfcn.h>
 #include <fmt/format.h>
+#include <proj.h>
 
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/angle.hpp"
@@ -20,10 +23,172 @@ using geometry::Point;
 using geometry::Ring;
 using geometry::Vector;
 
+constexpr const char* kDegreesByProj = "+proj=longlat +datum=WGS84 +no_defs +type=crs";
+
+/// PROJ, loaded when it is first asked: it brings 37 libraries along, which each command would wait for and
+/// carry otherwise. POLYNYA_PROJ is the name of the one that this was built with.
+class Proj {
+ public:
+  void* const library = dlopen(POLYNYA_PROJ, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+
+#define POLYNYA_OF_PROJ(name) decltype(&::name) const name = find<decltype(&::name)>(#name)
+  POLYNYA_OF_PROJ(proj_context_create);
+  POLYNYA_OF_PROJ(proj_context_destroy);
+  POLYNYA_OF_PROJ(proj_context_set_enable_network);
+  POLYNYA_OF_PROJ(proj_log_level);
+  POLYNYA_OF_PROJ(proj_create);
+  POLYNYA_OF_PROJ(proj_create_crs_to_crs);
+  POLYNYA_OF_PROJ(proj_normalize_for_visualization);
+  POLYNYA_OF_PROJ(proj_destroy);
+  POLYNYA_OF_PROJ(proj_is_crs);
+  POLYNYA_OF_PROJ(proj_get_name);
+  POLYNYA_OF_PROJ(proj_get_type);
+  POLYNYA_OF_PROJ(proj_get_source_crs);
+  POLYNYA_OF_PROJ(proj_crs_get_sub_crs);
+  POLYNYA_OF_PROJ(proj_crs_get_coordinate_system);
+  POLYNYA_OF_PROJ(proj_cs_get_axis_info);
+  POLYNYA_OF_PROJ(proj_trans);
+#undef POLYNYA_OF_PROJ
+
+ private:
+  template <class Function>
+  Function find(const char* name) const {
+    return library != nullptr ? reinterpret_cast<Function>(dlsym(library, name)) : nullptr;
+  }
+};
+
+const Proj& proj() {
+  static const Proj loaded;
+  return loaded;
+}
+
+bool has_proj() {
+  return proj().library != nullptr;
+}
+constexpr const char* kNoProj = POLYNYA_PROJ " cannot be loaded: ./setup.sh, or apt-get install libproj25";
+
+/// A context that reads PROJ's own files alone, and prints nothing.
+pj_ctx* quiet_context() {
+  pj_ctx* const context = proj().proj_context_create();
+  proj().proj_log_level(context, PJ_LOG_NONE);
+  proj().proj_context_set_enable_network(context, 0);
+  return context;
+}
+
+/// Whether a system's first axis is in metres.
+bool is_metric(pj_ctx* context, const PJ* crs) {
+  PJ* const axes = proj().proj_crs_get_coordinate_system(context, crs);
+  double metres = 0;
+  const bool has_axis = axes != nullptr && proj().proj_cs_get_axis_info(context, axes, 0, nullptr, nullptr, nullptr,
+                                                                        &metres, nullptr, nullptr, nullptr) == 1;
+  proj().proj_destroy(axes);
+  return has_axis && metres == 1;
+}
+
+void transform_all(PJ* steps, PJ_DIRECTION direction, std::vector<Point>& points) {
+  for (Point& p : points) {
+    PJ_COORD place{};
+    place.xy = {p.x, p.y};
+    const PJ_COORD at = proj().proj_trans(steps, direction, place);
+    p = {at.xy.x, at.xy.y};
+    if (!std::isfinite(p.x) || !std::isfinite(p.y))  // PROJ gives HUGE_VAL
+      p.x = p.y = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+}  // namespace
+
+void Projection::Free::operator()(PJconsts* object) const {
+  proj().proj_destroy(object);
+}
+void Projection::Free::operator()(pj_ctx* context) const {
+  proj().proj_context_destroy(context);
+}
+
+Result<Crs> find_crs(const std::string& definition) {
+  if (!has_proj()) return fail(kNoProj);
+  const std::unique_ptr<pj_ctx, Projection::Free> context(quiet_context());
+  std::unique_ptr<PJ, Projection::Free> crs(proj().proj_create(context.get(), definition.c_str()));
+  if (!crs || proj().proj_is_crs(crs.get()) == 0)
+    return fail(fmt::format("PROJ knows no coordinate system \"{}\", allowed: EPSG:n, OGC:CRS84, a PROJ string, WKT",
+                            definition));
+  Crs found;
+  if (const char* name = proj().proj_get_name(crs.get())) found.name = name;
+  PJ_TYPE type = proj().proj_get_type(crs.get());
+  if (type == PJ_TYPE_BOUND_CRS || type == PJ_TYPE_COMPOUND_CRS) {
+    crs.reset(type == PJ_TYPE_BOUND_CRS ? proj().proj_get_source_crs(context.get(), crs.get())
+                                        : proj().proj_crs_get_sub_crs(context.get(), crs.get(), 0));
+    if (!crs) return fail(fmt::format("\"{}\" has no horizontal system", definition));
+    type = proj().proj_get_type(crs.get());
+  }
+  found.is_geographic = type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_GEOGRAPHIC_3D_CRS;
+  found.is_projected = type == PJ_TYPE_PROJECTED_CRS || type == PJ_TYPE_ENGINEERING_CRS;
+  found.is_metric = found.is_projected && is_metric(context.get(), crs.get());
+  return found;
+}
+
+Result<Projection> Projection::between(const std::string& from, const std::string& to) {
+  if (!has_proj()) return fail(kNoProj);
+  Projection projection;
+  projection.context_.reset(quiet_context());
+  pj_ctx* const context = projection.context_.get();
+  const std::unique_ptr<PJ, Free> steps(proj().proj_create_crs_to_crs(context, from.c_str(), to.c_str(), nullptr));
+  if (!steps) return fail(fmt::format(R"(PROJ has no way from "{}" to "{}")", from, to));
+  projection.steps_.reset(proj().proj_normalize_for_visualization(context, steps.get()));
+  if (!projection.steps_) return fail(fmt::format(R"(PROJ has no way from "{}" to "{}")", from, to));
+  return projection;
+}
+
+void Projection::apply(std::vector<Point>& points) const {
+  transform_all(steps_.get(), PJ_FWD, points);
+}
+void Projection::apply_inverse(std::vector<Point>& points) const {
+  transform_all(steps_.get(), PJ_INV, points);
+}
+
+std::string GeographicPlane::system(const simulation::GeographicOrigin& origin) {
+  return fmt::format("+proj=aeqd +lat_0={} +lon_0={} +datum=WGS84 +units=m +no_defs +type=crs",
+                     geometry::kDegreesPerRadian * origin.latitude, geometry::kDegreesPerRadian * origin.longitude);
+}
+
+Result<GeographicPlane> GeographicPlane::about(const simulation::GeographicOrigin& origin) {
+  auto from_degrees = Projection::between(kDegreesByProj, system(origin));
+  if (!from_degrees) return fail(from_degrees.error());
+  return GeographicPlane(origin, std::move(*from_degrees));
+}
+
+Geographic GeographicPlane::geographic_of(Point point) const {
+  // The x axis heads `heading` clockwise from north; y is 90° to port of it.
+  const double sin_h = std::sin(origin_.heading), cos_h = std::cos(origin_.heading);
+  std::vector<Point> at{{point.x * sin_h - point.y * cos_h, point.x * cos_h + point.y * sin_h}};
+  from_degrees_.apply_inverse(at);
+  const double origin_longitude = geometry::kDegreesPerRadian * origin_.longitude;
+  const double longitude = origin_longitude + std::remainder(at[0].x - origin_longitude, 360);
+  return {at[0].y / geometry::kDegreesPerRadian, longitude / geometry::kDegreesPerRadian};
+}
+
+void GeographicPlane::place(std::vector<Point>& degrees) const {
+  from_degrees_.apply(degrees);
+  turn(degrees);
+}
+
+void GeographicPlane::turn(std::vector<Point>& east_north) const {
+  const double sin_h = std::sin(origin_.heading), cos_h = std::cos(origin_.heading);
+  for (Point& p : east_north) p = {p.x * sin_h + p.y * cos_h, p.y * sin_h - p.x * cos_h};
+}
+
+namespace {
+
 constexpr const char* kDegreesByOgc = "OGC:CRS84";
 
-tl::unexpected<PlaneError> refuse(std::string words, std::optional<std::size_t> floe = {}) {
-  return tl::unexpected(PlaneError{floe, std::move(words)});
+[[noreturn]] void refuse(std::string words, std::optional<std::size_t> floe = {}) {
+  throw PlaneError{floe, std::move(words)};
+}
+
+template <class Value>
+Value or_refuse(Result<Value> found) {
+  if (!found) refuse(std::move(found.error()));
+  return *std::move(found);
 }
 
 bool is_finite(Point p) {
@@ -50,19 +215,26 @@ std::optional<Point> find_point(const geometry::Polygon& polygon, Condition is_i
   return found;
 }
 
-/// "75.1° S, 16° E"
-std::string place_in_words(double latitude, double longitude) {
-  const double lon = std::remainder(longitude, 360);
-  return fmt::format("{:.6g}° {}, {:.6g}° {}", std::abs(latitude), latitude < 0 ? "S" : "N", std::abs(lon),
-                     lon < 0 ? "W" : "E");
+/// "75.1° S, 16° E", of longitude and latitude in degrees.
+std::string place_in_words(Point at) {
+  const double longitude = std::remainder(at.x, 360);
+  return fmt::format("{:.6g}° {}, {:.6g}° {}", std::abs(at.y), at.y < 0 ? "S" : "N", std::abs(longitude),
+                     longitude < 0 ? "W" : "E");
 }
 
-/// Between two places, latitude and longitude, on a sphere of the Earth's radius [m]; angles [rad].
-double great_circle(double latitude_a, double longitude_a, double latitude_b, double longitude_b) {
+/// Between two places, longitude and latitude in degrees, on a sphere of the Earth's radius [m].
+double great_circle(Point a, Point b) {
   constexpr double kEarthRadius = 6371e3;  // [m]
-  const double cosine = std::sin(latitude_a) * std::sin(latitude_b) +
-                        std::cos(latitude_a) * std::cos(latitude_b) * std::cos(longitude_a - longitude_b);
+  const auto radians = [](double degrees) { return degrees / geometry::kDegreesPerRadian; };
+  const double cosine = std::sin(radians(a.y)) * std::sin(radians(b.y)) +
+                        std::cos(radians(a.y)) * std::cos(radians(b.y)) * std::cos(radians(a.x) - radians(b.x));
   return kEarthRadius * std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
+/// Longitude and latitude [°].
+template <class Place>
+Point degrees_of(const Place& place) {
+  return {geometry::kDegreesPerRadian * place.longitude, geometry::kDegreesPerRadian * place.latitude};
 }
 
 double median(std::vector<double> values) {
@@ -80,35 +252,32 @@ struct MisplacedFloe {
 /// Brings one file's floes to the plane, step by step.
 class PlaneImport {
  public:
-  PlaneImport(std::vector<SourceFloe>& floes, std::vector<std::string>& refused, const PlaneSettings& settings)
-      : floes_(floes), refused_(refused), settings_(settings) {}
+  PlaneImport(std::vector<SourceFloe>& floes, const PlaneSettings& settings) : floes_(floes), settings_(settings) {}
 
-  tl::expected<PlaneReport, PlaneError> run(const std::string& crs) {
-    auto system = system_of(crs);
-    if (!system) return tl::unexpected(system.error());
-    if (auto checked = check_numbers(); !checked) return tl::unexpected(checked.error());
-    if (!system->empty()) {
-      if (auto projected = project(*system, !crs.empty()); !projected) return tl::unexpected(projected.error());
-    } else if (settings_.origin) {
+  /// Throws PlaneError.
+  PlaneReport run(const std::string& crs) {
+    const std::string system = system_of(crs);
+    check_numbers();
+    if (!system.empty())
+      project(system, !crs.empty());
+    else if (settings_.origin)
       report_.origin = settings_.origin;
-    }
     if (settings_.is_shifted) shift();
-    if (auto near = check_distance(); !near) return tl::unexpected(near.error());
+    check_distance();
     return std::move(report_);
   }
 
  private:
-  using Done = tl::expected<void, PlaneError>;
   using Others = std::optional<std::size_t>;  ///< how many floes more
 
-  bool is_kept(std::size_t floe) const { return refused_[floe].empty(); }
+  static bool is_kept(const SourceFloe& floe) { return floe.refused.empty(); }
 
   /// The floes, of those not refused before, with a point of which it is true.
   template <class Condition>
   std::vector<MisplacedFloe> find_floes(Condition is_it) const {
     std::vector<MisplacedFloe> found;
     for (std::size_t i = 0; i < floes_.size(); ++i) {
-      if (!is_kept(i)) continue;
+      if (!is_kept(floes_[i])) continue;
       if (const auto point = find_point(floes_[i].polygon, is_it)) found.push_back({i, *point});
     }
     return found;
@@ -117,44 +286,42 @@ class PlaneImport {
   /// Refuses floes one by one; the file where they are more of it than `share`, or all. words_of(floe,
   /// others) is why: `others` are how many more there are where the file is refused, none where the floe is.
   template <class Words>
-  Done refuse_floes(const std::vector<MisplacedFloe>& misplaced, Words words_of, double share = 1) {
-    if (misplaced.empty()) return {};
-    const auto kept = static_cast<std::size_t>(std::ranges::count(refused_, ""));
+  void refuse_floes(const std::vector<MisplacedFloe>& misplaced, Words words_of, double share = 1) {
+    if (misplaced.empty()) return;
+    const auto kept = static_cast<std::size_t>(std::ranges::count_if(floes_, is_kept));
     const auto count = static_cast<double>(misplaced.size());
     if (misplaced.size() == kept || count > share * static_cast<double>(kept))
-      return refuse(words_of(misplaced.front(), Others(misplaced.size() - 1)), misplaced.front().floe);
-    for (const MisplacedFloe& one : misplaced) refused_[one.floe] = words_of(one, Others());
-    return {};
+      refuse(words_of(misplaced.front(), Others(misplaced.size() - 1)), misplaced.front().floe);
+    for (const MisplacedFloe& one : misplaced) floes_[one.floe].refused = words_of(one, Others());
   }
 
   /// The system that the coordinates are in; empty where they are metres of the plane already.
-  tl::expected<std::string, PlaneError> system_of(const std::string& crs) {
+  std::string system_of(const std::string& crs) const {
     if (!crs.empty() && !settings_.source.empty() && crs != settings_.source)
-      return refuse(
-          fmt::format("the file names its own coordinate system, {}, where {} is given", crs, settings_.source));
+      refuse(fmt::format("the file names its own coordinate system, {}, where {} is given", crs, settings_.source));
     if (!crs.empty() || !settings_.source.empty()) return crs.empty() ? settings_.source : crs;
     CoordinateEvidence evidence;
     for (const SourceFloe& floe : floes_) evidence.add(floe.polygon);
     const bool is_projected = settings_.origin || !settings_.target.empty();
     if (!settings_.are_metres && (evidence.look_like_degrees() || (settings_.origin && lie_about_origin()))) {
-      if (is_projected) return std::string(kDegreesByOgc);
+      if (is_projected) return kDegreesByOgc;
       const Point middle = middle_of_degrees();
-      return refuse(fmt::format(
+      refuse(fmt::format(
           "these look like longitude and latitude, and the file names no coordinate system: {} "
           "within ±180, ±90, and as metres {:.4g} m² of ice in all. {} projects them; metres "
           "are kept where a crs member names a projected system",
           evidence.are_all_whole ? "all" : "most", evidence.area, settings_.origin_in_words(middle.y, middle.x)));
     }
     if (!settings_.target.empty())
-      return refuse(fmt::format("the file names no coordinate system to project to {} from: {}", settings_.target,
-                                settings_.source_in_words));
+      refuse(fmt::format("the file names no coordinate system to project to {} from: {}", settings_.target,
+                         settings_.source_in_words));
     if (settings_.origin && !settings_.keeps_metres && evidence.floes > 0)
-      return refuse(
+      refuse(
           fmt::format("the file names no coordinate system to project from, and its coordinates do "
                       "not look like longitude and latitude: {}; metres of the plane are kept "
                       "where no origin is given",
                       settings_.source_in_words));
-    return std::string();
+    return "";
   }
 
   /// Whether the floes are degrees about the origin, whatever a few wrong numbers show: those of a tenth or
@@ -169,10 +336,8 @@ class PlaneImport {
       const double of_floe = std::abs(geometry::signed_area(ring));
       area += of_floe;
       ++floes;
-      const Point at = ring.front();
       if (of_floe < kLeastIce && std::ranges::all_of(ring, is_in_degrees) &&
-          great_circle(at.y / geometry::kDegreesPerRadian, at.x / geometry::kDegreesPerRadian,
-                       settings_.origin->latitude, settings_.origin->longitude) < kFarthestFloe)
+          great_circle(ring.front(), degrees_of(*settings_.origin)) < kFarthestFloe)
         ++near;
     }
     return floes > 0 && (area < kLeastIce || 10 * near >= floes);
@@ -183,19 +348,15 @@ class PlaneImport {
   Point middle_of_degrees() const {
     std::vector<Point> points;
     std::vector<double> latitudes, longitudes;
-    for (std::size_t i = 0; i < floes_.size(); ++i)
-      if (is_kept(i)) std::ranges::copy_if(floes_[i].polygon.outer, std::back_inserter(points), is_in_degrees);
+    for (const SourceFloe& floe : floes_)
+      if (is_kept(floe)) std::ranges::copy_if(floe.polygon.outer, std::back_inserter(points), is_in_degrees);
     if (points.empty()) return {};
     for (const Point p : points) {
-      latitudes.push_back(p.y / geometry::kDegreesPerRadian);
-      longitudes.push_back(std::remainder(p.x - points[0].x, 360) / geometry::kDegreesPerRadian);  // also across 180°
+      latitudes.push_back(p.y);
+      longitudes.push_back(std::remainder(p.x - points[0].x, 360));  // also across 180°
     }
-    const double latitude = median(std::move(latitudes));
-    const double longitude = median(std::move(longitudes)) + points[0].x / geometry::kDegreesPerRadian;
-    const auto is_near = [&](Point p) {
-      return great_circle(p.y / geometry::kDegreesPerRadian, p.x / geometry::kDegreesPerRadian, latitude, longitude) <
-             kFarthestFloe;
-    };
+    const Point middle{median(std::move(longitudes)) + points[0].x, median(std::move(latitudes))};
+    const auto is_near = [&](Point p) { return great_circle(p, middle) < kFarthestFloe; };
     const bool are_all = std::ranges::none_of(points, is_near);
     double x = 0, y = 0, z = 0;
     for (const Point p : points) {
@@ -209,43 +370,40 @@ class PlaneImport {
             to_thousandths(geometry::kDegreesPerRadian * std::atan2(z, std::hypot(x, y)))};
   }
 
-  Done project(const std::string& system, bool is_of_file) {
+  void project(const std::string& system, bool is_of_file) {
     const auto crs = find_crs(system);
-    if (!crs) return refuse(crs.error() + (is_of_file ? "; a file of metres in a plane of its own has no crs" : ""));
+    if (!crs) refuse(crs.error() + (is_of_file ? "; a file of metres in a plane of its own has no crs" : ""));
     report_.system = crs->name;
-    if (crs->is_geographic) {
-      if (auto checked = check_degrees(); !checked) return checked;
-    } else if (!crs->is_projected) {
-      return refuse(fmt::format("{} is neither longitude and latitude nor a plane", crs->name));
-    }
+    if (crs->is_geographic)
+      check_degrees();
+    else if (!crs->is_projected)
+      refuse(fmt::format("{} is neither longitude and latitude nor a plane", crs->name));
     if (!settings_.target.empty()) return project_to_target(system);
     std::optional<simulation::GeographicOrigin> origin = settings_.origin;
     if (!origin && crs->is_geographic) {
       const Point middle = middle_of_degrees();
       if (!settings_.chooses_origin)
-        return refuse(fmt::format("longitude and latitude ({}), and no origin to project them about: {}", crs->name,
-                                  settings_.origin_in_words(middle.y, middle.x)));
+        refuse(fmt::format("longitude and latitude ({}), and no origin to project them about: {}", crs->name,
+                           settings_.origin_in_words(middle.y, middle.x)));
       origin = {middle.y / geometry::kDegreesPerRadian, middle.x / geometry::kDegreesPerRadian, std::numbers::pi / 2};
       report_.is_origin_chosen = true;
     }
     if (origin) return project_about(*origin, system, crs->is_geographic);
     if (!crs->is_metric)
-      return refuse(
-          fmt::format("{} is not in metres: an origin, or a projected system in metres, is needed", crs->name));
+      refuse(fmt::format("{} is not in metres: an origin, or a projected system in metres, is needed", crs->name));
     report_.target = system;
-    return {};
   }
 
-  Done check_numbers() {
+  void check_numbers() {
     const auto is_none = [](Point p) { return !is_finite(p); };
-    return refuse_floes(find_floes(is_none), [](const MisplacedFloe& one, Others) {
+    refuse_floes(find_floes(is_none), [](const MisplacedFloe& one, Others) {
       return fmt::format("found [{}, {}], allowed: coordinates that are finite numbers", one.point.x, one.point.y);
     });
   }
 
-  Done check_degrees() {
+  void check_degrees() {
     const auto is_beyond = [](Point p) { return !is_in_degrees(p); };
-    return refuse_floes(find_floes(is_beyond), [](const MisplacedFloe& one, Others others) {
+    refuse_floes(find_floes(is_beyond), [](const MisplacedFloe& one, Others others) {
       const Point p = one.point;
       if (std::abs(p.y) <= 90)
         return fmt::format(
@@ -258,39 +416,33 @@ class PlaneImport {
     });
   }
 
-  Done project_to_target(const std::string& system) {
-    const auto target = find_crs(settings_.target);
-    if (!target) return refuse(target.error());
-    if (!target->is_metric)
-      return refuse(fmt::format("{} ({}) is not a plane in metres", settings_.target, target->name));
-    const auto steps = Projection::between(system, settings_.target);
-    if (!steps) return refuse(steps.error());
+  void project_to_target(const std::string& system) {
+    const Crs target = or_refuse(find_crs(settings_.target));
+    if (!target.is_metric) refuse(fmt::format("{} ({}) is not a plane in metres", settings_.target, target.name));
+    const Projection steps = or_refuse(Projection::between(system, settings_.target));
     report_.target = settings_.target;
-    return apply([&](std::vector<Point>& points) { steps->apply(points); });
+    apply([&](std::vector<Point>& points) { steps.apply(points); });
   }
 
-  Done project_about(const simulation::GeographicOrigin& origin, const std::string& system, bool is_geographic) {
-    const auto steps = Projection::between(system, GeographicPlane::system(origin));
-    if (!steps) return refuse(steps.error());
+  void project_about(const simulation::GeographicOrigin& origin, const std::string& system, bool is_geographic) {
+    const Projection steps = or_refuse(Projection::between(system, GeographicPlane::system(origin)));
     report_.origin = origin;
-    const auto plane = GeographicPlane::about(origin);
-    if (!plane) return refuse(plane.error());
+    const GeographicPlane plane = or_refuse(GeographicPlane::about(origin));
     std::vector<SourceFloe> as_read;
     if (is_geographic) as_read = floes_;
-    auto applied = apply([&](std::vector<Point>& points) {
-      steps->apply(points);
-      plane->turn(points);
+    apply([&](std::vector<Point>& points) {
+      steps.apply(points);
+      plane.turn(points);
     });
-    if (!applied) return applied;
-    return check_hemisphere(*plane, as_read);
+    check_hemisphere(plane, as_read);
   }
 
   /// Projects all rings, and turns velocities as their axes turn there.
   template <class Steps>
-  Done apply(Steps steps) {
+  void apply(Steps steps) {
     std::vector<MisplacedFloe> lost;
     for (std::size_t i = 0; i < floes_.size(); ++i) {
-      if (!is_kept(i)) continue;
+      if (!is_kept(floes_[i])) continue;
       turn_velocity(floes_[i], steps);
       std::optional<Point> without_image;
       for_rings(floes_[i], [&](Ring& ring) {
@@ -301,7 +453,7 @@ class PlaneImport {
       });
       if (without_image) lost.push_back({i, *without_image});
     }
-    return refuse_floes(lost, [](const MisplacedFloe& one, Others) {
+    refuse_floes(lost, [](const MisplacedFloe& one, Others) {
       return fmt::format("[{}, {}] has no image in that plane", one.point.x, one.point.y);
     });
   }
@@ -323,23 +475,18 @@ class PlaneImport {
   }
 
   /// Floes beyond the plane's reach from the origin, named by where they are on the Earth.
-  Done check_hemisphere(const GeographicPlane& plane, const std::vector<SourceFloe>& as_read) {
+  void check_hemisphere(const GeographicPlane& plane, const std::vector<SourceFloe>& as_read) {
     const auto far = find_floes([](Point p) { return length(p - Point{}) > kFarthestFloe; });
-    return refuse_floes(far, [&](const MisplacedFloe& one, Others others) {
-      const simulation::GeographicOrigin& origin = *report_.origin;
-      const Geographic at = plane.geographic_of(one.point);
-      const double latitude = geometry::kDegreesPerRadian * at.latitude,
-                   longitude = geometry::kDegreesPerRadian * at.longitude;
-      std::string words = fmt::format(
-          "{} lies {:.0f} km from the origin at {}{}{}, allowed: up to {:g} km", place_in_words(latitude, longitude),
-          length(one.point - Point{}) / 1000,
-          place_in_words(geometry::kDegreesPerRadian * origin.latitude, geometry::kDegreesPerRadian * origin.longitude),
-          latitude * origin.latitude < 0 ? ", in the other hemisphere" : "", more_in_words(others),
-          kFarthestFloe / 1000);
+    refuse_floes(far, [&](const MisplacedFloe& one, Others others) {
+      const Point origin = degrees_of(*report_.origin), at = degrees_of(plane.geographic_of(one.point));
+      std::string words = fmt::format("{} lies {:.0f} km from the origin at {}{}{}, allowed: up to {:g} km",
+                                      place_in_words(at), length(one.point - Point{}) / 1000, place_in_words(origin),
+                                      at.y * origin.y < 0 ? ", in the other hemisphere" : "", more_in_words(others),
+                                      kFarthestFloe / 1000);
       const std::span<const SourceFloe> all(as_read);
       if (are_swapped(plane, others || all.empty() ? all : all.subspan(one.floe, 1)))
         return words + ". With latitude and longitude exchanged it lies near it: GeoJSON has [longitude, latitude]";
-      if (others) words += ": " + settings_.origin_in_words(latitude, std::remainder(longitude, 360));
+      if (others) words += ": " + settings_.origin_in_words(at.y, std::remainder(at.x, 360));
       return words;
     });
   }
@@ -360,8 +507,8 @@ class PlaneImport {
   void shift() {
     std::vector<double> xs, ys;
     std::vector<Point> points;
-    for (std::size_t i = 0; i < floes_.size(); ++i)
-      if (is_kept(i)) std::ranges::copy(floes_[i].polygon.outer, std::back_inserter(points));
+    for (const SourceFloe& floe : floes_)
+      if (is_kept(floe)) std::ranges::copy(floe.polygon.outer, std::back_inserter(points));
     if (points.empty()) return;
     for (const Point p : points) {
       xs.push_back(p.x);
@@ -380,13 +527,13 @@ class PlaneImport {
     }
   }
 
-  Done check_distance() {
+  void check_distance() {
     const auto far = find_floes([](Point p) { return std::max(std::abs(p.x), std::abs(p.y)) > kFarthestFloe; });
     const auto words_of = [&](const MisplacedFloe& one, Others others) {
       return fmt::format("found [{:.12g}, {:.12g}]{}, allowed: coordinates from {:g} to {:g} [m]: {}", one.point.x,
                          one.point.y, more_in_words(others), -kFarthestFloe, kFarthestFloe, settings_.shift_in_words);
     };
-    return refuse_floes(far, words_of, 0.5);  // most of them: the file needs a shift
+    refuse_floes(far, words_of, 0.5);  // most of them: the file needs a shift
   }
 
   /// ", and as far in 3 more floes"
@@ -396,16 +543,19 @@ class PlaneImport {
   }
 
   std::vector<SourceFloe>& floes_;
-  std::vector<std::string>& refused_;
   const PlaneSettings& settings_;
   PlaneReport report_;
 };
 
 }  // namespace
 
-tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes, std::vector<std::string>& refused,
-                                                     const std::string& crs, const PlaneSettings& settings) {
-  return PlaneImport(floes, refused, settings).run(crs);
+tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes, const std::string& crs,
+                                                     const PlaneSettings& settings) {
+  try {
+    return PlaneImport(floes, settings).run(crs);
+  } catch (PlaneError& error) {
+    return tl::unexpected(std::move(error));
+  }
 }
 
 }  // namespace polynya::io

@@ -15,6 +15,27 @@ namespace polynya::io {
 
 using simulation::Is;
 
+template <class Archive>
+void fields(Archive& archive, Is<Peak> auto& p) {
+  archive(p.value, p.time);
+}
+template <class Archive>
+void fields(Archive& archive, Is<ShipPeaks> auto& p) {
+  archive(p.ship, p.of_column);
+}
+template <class Archive>
+void fields(Archive& archive, Is<RecordedMotion> auto& r) {
+  archive(r.time, r.motion);
+}
+template <class Archive>
+void fields(Archive& archive, Is<RunProgress> auto& p) {
+  archive(p.file_sizes, p.recorded, p.peaks);
+}
+template <class Archive>
+void fields(Archive& archive, Is<Checkpoint> auto& c) {
+  archive(c.program_version, c.course_hash, c.steps, c.wall_time, c.progress, c.state, c.state_hash, c.failure);
+}
+
 namespace {
 
 constexpr std::string_view kMark = "PLYNYCKP";
@@ -41,60 +62,35 @@ std::filesystem::path path_of(const std::filesystem::path& folder, const Checkpo
   return folder / fmt::format("{}{:012}{}", kPrefix, checkpoint.steps, kSuffix);
 }
 
-template <class Archive>
-void fields(Archive& archive, Is<Checkpoint> auto& c) {
-  archive(c.program_version, c.course_hash, c.steps, c.wall_time, c.progress, c.state, c.state_hash, c.failure);
-}
-
-}  // namespace
-
-template <class Archive>
-void fields(Archive& archive, Is<Peak> auto& p) {
-  archive(p.value, p.time);
-}
-template <class Archive>
-void fields(Archive& archive, Is<ShipPeaks> auto& p) {
-  archive(p.ship, p.of_column);
-}
-template <class Archive>
-void fields(Archive& archive, Is<RecordedMotion> auto& r) {
-  archive(r.time, r.motion);
-}
-template <class Archive>
-void fields(Archive& archive, Is<RunProgress> auto& p) {
-  archive(p.file_sizes, p.recorded, p.peaks);
-}
-
-namespace {
-
-std::string head_of(std::uint32_t crc, std::uint64_t size) {
-  simulation::ByteWriter head;
-  head(kCheckpointVersion, crc, size);
-  return std::string(kMark).append(head.take());
-}
-
-/// The same bytes as checkpoint_bytes(), of which those of a million floes are 200 MB.
-Result<> put(const std::filesystem::path& path, const Checkpoint& checkpoint) {
+std::string payload_of(const Checkpoint& checkpoint) {
   simulation::ByteWriter writer;
   fields(writer, checkpoint);
-  const std::string payload = writer.take();
-  const auto produce = [&](const WritePart& write) {
-    write(head_of(crc_of(payload), payload.size()));
-    write(payload);
-  };
-  return write_whole_file_in_parts(path, produce, Durability::kSynced);
+  return writer.take();
+}
+
+std::string head_of(std::string_view payload) {
+  simulation::ByteWriter head;
+  head(kCheckpointVersion, crc_of(payload), std::uint64_t{payload.size()});
+  return std::string(kMark).append(head.take());
 }
 
 }  // namespace
 
 std::string checkpoint_file_of(std::string_view payload) {
-  return head_of(crc_of(payload), payload.size()).append(payload);
+  return head_of(payload).append(payload);
 }
 
 std::string checkpoint_bytes(const Checkpoint& checkpoint) {
-  simulation::ByteWriter payload;
-  fields(payload, checkpoint);
-  return checkpoint_file_of(payload.take());
+  return checkpoint_file_of(payload_of(checkpoint));
+}
+
+Result<> write_checkpoint_file(const std::filesystem::path& path, const Checkpoint& checkpoint) {
+  const std::string payload = payload_of(checkpoint);  // of a million floes 200 MB, which are not copied
+  const auto produce = [&](const WritePart& write) {
+    write(head_of(payload));
+    write(payload);
+  };
+  return write_whole_file_in_parts(path, produce, Durability::kSynced);
 }
 
 Result<Checkpoint> read_checkpoint(std::string_view bytes) {
@@ -129,7 +125,7 @@ std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& f
 }
 
 Result<> write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint) {
-  if (auto written = put(path_of(folder, checkpoint), checkpoint); !written) return written;
+  if (auto written = write_checkpoint_file(path_of(folder, checkpoint), checkpoint); !written) return written;
   const std::vector<std::filesystem::path> found = checkpoints_in(folder);
   const auto is_older = [&](const auto& path) { return steps_of(path) < checkpoint.steps; };
   const auto kept = std::ranges::find_if(found, is_older);
@@ -144,7 +140,7 @@ Result<> rewind_to(const std::filesystem::path& folder, const Checkpoint& checkp
   const auto own = path_of(folder, checkpoint);
   std::error_code ignored;  // where there is no such file yet
   if (!std::filesystem::equivalent(file, own, ignored))
-    if (auto written = put(own, checkpoint); !written) return written;
+    if (auto written = write_checkpoint_file(own, checkpoint); !written) return written;
   for (const auto& path : checkpoints_in(folder)) {
     if (steps_of(path) <= checkpoint.steps) break;
     if (auto removed = remove_file(path); !removed) return removed;

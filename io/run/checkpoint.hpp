@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/run/run_writer.hpp"
-#include "io/text/result.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::io {
 
@@ -35,14 +35,16 @@ inline constexpr std::uint32_t kCheckpointVersion = 21;
 std::string checkpoint_file_of(std::string_view payload);
 std::string checkpoint_bytes(const Checkpoint& checkpoint);
 
+/// Writes a file of these bytes to a temporary name, synced and renamed.
+Result<> write_checkpoint_file(const std::filesystem::path& path, const Checkpoint& checkpoint);
+
 /// The error is why the bytes are no checkpoint, or a damaged one, or one of another version.
 Result<Checkpoint> read_checkpoint(std::string_view bytes);
 
 /// The checkpoints in a run folder, the newest first: "checkpoint-000000012000.bin" after 12 000 steps.
 std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder);
 
-/// Writes a checkpoint into a run folder, to a temporary name, synced and renamed; only then all others are
-/// removed but the newest that is older.
+/// Writes a checkpoint into a run folder; only then all others are removed but the newest that is older.
 Result<> write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint);
 
 /// Makes a checkpoint, read from a file in the folder or elsewhere, the newest of a run folder that is to be

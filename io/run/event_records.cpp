@@ -9,6 +9,7 @@
 #include "io/text/json_writer.hpp"
 #include "io/text/output_file.hpp"
 #include "io/text/problem.hpp"
+#include "io/text/shape_parts.hpp"
 
 namespace polynya::io {
 
@@ -116,13 +117,11 @@ class Reader {
   void read(std::string_view key, std::vector<FloeId>& value) {
     for (const JsonValue& item : member(key, Kind::kArray).items()) value.push_back(floe_id(item));
   }
-  void read(std::string_view key, geometry::Point& value) { value = point(member(key, Kind::kArray)); }
-  void read(std::string_view key, geometry::Vector& value) {
-    value = point(member(key, Kind::kArray)) - geometry::Point{};
-  }
+  void read(std::string_view key, geometry::Point& value) { value = point_of(*at_->find(key)); }
+  void read(std::string_view key, geometry::Vector& value) { value = point_of(*at_->find(key)) - geometry::Point{}; }
   void read(std::string_view key, ShipName<int>& ship) {
     const std::string& name = member(key, Kind::kText).text();
-    ship.index = ship_index(scene_, name);
+    ship.index = hull_named(scene_, name);
     if (ship.index < 0 && !(name.empty() && ship.may_be_none))
       throw ReadError(fmt::format(R"("{}" is "{}", which is not in the scene)", key, shortened(name, 60)));
   }
@@ -165,7 +164,7 @@ void for_kinds(auto use) {
 
 void write(JsonWriter& json, const Event& event, Writer line) {
   json.open('{');
-  fields(line, event);
+  io::fields(line, event);
   json.close('}');
 }
 
@@ -193,7 +192,7 @@ Event event_of(const JsonValue& line, const Scene& scene) {
   for_kinds([&](Event& event) {
     if (name_of(event) != kind) return;
     Reader reader(line, scene);
-    fields(reader, event);
+    io::fields(reader, event);
     read = std::move(event);
   });
   if (!read) throw ReadError(fmt::format("an unknown kind of event, \"{}\"", shortened(kind, 60)));
@@ -204,7 +203,7 @@ std::vector<EventField> event_fields() {
   std::vector<EventField> all;
   for_kinds([&](Event& event) {
     Lister line{all, name_of(event)};
-    fields(line, std::as_const(event));
+    io::fields(line, std::as_const(event));
   });
   return all;
 }

@@ -9,7 +9,7 @@
 
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
-#include "io/text/result.hpp"
+#include "io/text/source_text.hpp"
 #include "simulation/state/archive.hpp"
 #include "simulation/world/event.hpp"
 #include "simulation/world/scene.hpp"

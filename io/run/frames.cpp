@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 #include "simulation/state/state_fields.hpp"
 
@@ -13,23 +14,15 @@ constexpr std::string_view kFrameMark = "FRAM";
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kHeaderSize = 16;
 constexpr std::size_t kFrameHeadSize = 24;
-constexpr std::size_t kMotionSize = 48;
-constexpr std::size_t kFloeSize = 56;
+// What the file has of them is what they are.
+static_assert(sizeof(Motion) == 48 && sizeof(FloeMotion) == 56 && std::is_trivially_copyable_v<FloeMotion>);
 
-template <class Number>
-Number take(std::string_view& bytes) {
-  Number value;
+template <class Value>
+Value take(std::string_view& bytes) {
+  Value value;
   std::memcpy(&value, bytes.data(), sizeof value);
   bytes.remove_prefix(sizeof value);
   return value;
-}
-
-Motion take_motion(std::string_view& bytes) {
-  Motion m;
-  for (double* value : {&m.position.x, &m.position.y, &m.angle, &m.velocity.x, &m.velocity.y, &m.angular_velocity}) {
-    *value = take<double>(bytes);
-  }
-  return m;
 }
 
 /// All of a frame but its floes.
@@ -106,12 +99,9 @@ Result<std::vector<Frame>> decode_frames(std::string_view bytes) {
     const std::size_t floes = take<std::uint32_t>(bytes);
     bytes.remove_prefix(4);
     Frame frame{.time = take<double>(bytes), .ships = {}, .floes = {}};
-    if (bytes.size() < ships * kMotionSize + floes * kFloeSize) break;
-    for (std::size_t i = 0; i < ships; ++i) frame.ships.push_back(take_motion(bytes));
-    for (std::size_t i = 0; i < floes; ++i) {
-      const auto id = take<std::int64_t>(bytes);
-      frame.floes.push_back({id, take_motion(bytes)});
-    }
+    if (bytes.size() < ships * sizeof(Motion) + floes * sizeof(FloeMotion)) break;
+    for (std::size_t i = 0; i < ships; ++i) frame.ships.push_back(take<Motion>(bytes));
+    for (std::size_t i = 0; i < floes; ++i) frame.floes.push_back(take<FloeMotion>(bytes));
     frames.push_back(std::move(frame));
   }
   return frames;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geometry/shape/point.hpp"
-#include "io/text/result.hpp"
+#include "io/text/source_text.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/state/archive.hpp"
 

@@ -1,19 +1,378 @@
 #include "io/run/records.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "geometry/cut/repair.hpp"
 #include "geometry/shape/angle.hpp"
-#include "io/run/csv_columns.hpp"
-#include "io/scene/floe_ice.hpp"
+#include "io/import/floe_properties.hpp"
+#include "io/run/run_folder.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
-#include "io/text/problem.hpp"
 #include "io/text/shape_parts.hpp"
 
 namespace polynya::io {
+
+namespace {
+
+using S = simulation::HullSample;
+using dynamics::Planar;
+using geometry::Point;
+using geometry::Vector;
+using enum Over;
+using enum ShownWhere;
+
+/// Whether older runs do not have what is shown there.
+constexpr bool is_of_newer_runs(ShownWhere where) {
+  return where != kAlways && where != kWhereItSplits;
+}
+
+/// What a load is in one of the ship's axes.
+struct Axis {
+  std::string_view key, suffix, unit, title, noun, direction;
+  double Planar::*component;
+};
+constexpr Axis kSurge{"surge", "_N", "N", "Surge force", "force", "forward", &Planar::surge};
+constexpr Axis kSway{"sway", "_N", "N", "Sway force", "force", "to port", &Planar::sway};
+constexpr Axis kYaw{"yaw", "_Nm", "N·m", "Yaw moment", "moment", "counter-clockwise", &Planar::yaw};
+
+std::string name_of(const Axis& axis, std::string_view stem) {
+  return fmt::format("{}{}{}", axis.key, stem, axis.suffix);
+}
+
+/// A load of which rows have surge, sway and yaw.
+struct Load {
+  std::string_view stem;  ///< "_from_water": surge_from_water_N, …
+  Planar S::*place;
+  Over over = kMean;
+  std::string_view source;  ///< "of the water": force of the water forward, Surge force of the water
+  ShownWhere where = kAlways;
+  std::string_view source_in_titles = {};  ///< where it is shorter there
+  std::string_view curve = "mean";
+  std::vector<Axis> axes = {kSurge, kSway, kYaw};
+};
+
+/// Where a number has its peak or its plot, and the plot's title.
+struct Shown {
+  std::optional<ShownWhere> peak = {};
+  std::optional<ShownWhere> plotted = {};
+  std::string plot = {};
+};
+
+/// A column of the number at the end of a path of pointers to members: in degrees, of one in radians.
+template <class Row, class... Path>
+Column<Row> number(std::string name, std::string meaning, Path... path) {
+  const bool is_turn = name.find("_deg") != std::string::npos;
+  const double scale = is_turn ? geometry::kDegreesPerRadian : 1;
+  const double inverse = is_turn ? geometry::kRadiansPerDegree : 1;
+  return {std::move(name), std::move(meaning),
+          [=](const Row& row) { return scale * static_cast<double>((row.*....*path)); },
+          [=](Row& row, double value) {
+            auto& place = (row.*....*path);
+            place = static_cast<std::remove_reference_t<decltype(place)>>(inverse * value);
+          }};
+}
+
+struct Table {
+  std::vector<ForceColumn> columns = {};
+
+  template <class... Path>
+  ForceColumn& add(std::string name, std::string_view unit, Over over, std::string meaning, const Shown& shown,
+                   Path... path) {
+    const auto where = shown.plotted ? shown.plotted : shown.peak;
+    return columns.emplace_back(ForceColumn{number<S>(std::move(name), std::move(meaning), path...), unit, over,
+                                            shown.peak, shown.plotted, shown.plot, "mean",
+                                            where && is_of_newer_runs(*where)});
+  }
+  void load(const Load& l) {
+    const std::string_view source = l.source_in_titles.empty() ? l.source : l.source_in_titles;
+    for (const Axis& axis : l.axes)
+      add(name_of(axis, l.stem), axis.unit, l.over, fmt::format("{} {} {}", axis.noun, l.source, axis.direction),
+          {l.where, {}, fmt::format("{} {}", axis.title, source)}, l.place, axis.component)
+          .curve = l.curve;
+  }
+};
+
+void add_contact_loads(Table& t) {
+  t.load({"", &S::from_ice, kMean, "of the ice"});
+  t.load({"_max", &S::from_ice_largest, kLargestStep, "of the ice", kAlways, {}, "max"});
+  constexpr std::string_view kOfShips = "of other ships and structures";
+  t.load({"_from_ships", &S::from_ships, kMean, kOfShips, kAmongShips, "of ships"});
+  t.load({"_from_ships_max", &S::from_ships_largest, kLargestStep, kOfShips, kAmongShips, "of ships", "max"});
+  t.load({"_from_submerged_ice", &S::from_submerged, kMean, "of the ice under the hull", kUnderHulls, {}, "mean"});
+  t.add("ice_under_hull_m2", "m²", kAtEnd, "ice under the hull", {kUnderHulls, {}, "Ice under the hull"},
+        &S::submerged_area);
+  t.load({"_j_over_tau_c", &S::collision, kLargestStep, "of the ice by the paper, j/τ_c,", kWhereItSplits, "of the ice",
+          "paper"});
+}
+
+void add_motion(Table& t) {
+  t.add("x_m", "m", kAtEnd, "centre of gravity, over ground", {}, &S::position_in_world, &Point::x);
+  t.add("y_m", "m", kAtEnd, "centre of gravity, over ground", {}, &S::position_in_world, &Point::y);
+  t.add("heading_deg", "°", kAtEnd, "from the x axis, counter-clockwise", {}, &S::heading);
+  t.columns.push_back({{"speed_m_per_s", "over ground", [](const S& s) { return length(s.velocity_in_world); },
+                        [](S&, double) {}},  // it follows from the velocity
+                       "m/s",
+                       kAtEnd,
+                       kAlways,
+                       {},
+                       "Speed over ground"});
+  t.add("vx_m_per_s", "m/s", kAtEnd, "velocity over ground", {}, &S::velocity_in_world, &Vector::x);
+  t.add("vy_m_per_s", "m/s", kAtEnd, "velocity over ground", {}, &S::velocity_in_world, &Vector::y);
+  t.add("yaw_rate_deg_per_s", "°/s", kAtEnd, "counter-clockwise", {}, &S::yaw_rate);
+}
+
+void add_sailing_loads(Table& t) {
+  t.add("thrust_N", "N", kMean, "along the heading; of a ship at constant speed what it takes to hold it",
+        {{}, {}, "Thrust"}, &S::thrust);
+  t.load({"_from_thrusters",
+          &S::from_engine,
+          kMean,
+          "of turned thrusters",
+          kWithThrusters,
+          "of thrusters",
+          "mean",
+          {kSway, kYaw}});
+  t.load(
+      {"_from_water", &S::from_water, kMean, "of the water on the hull, with its inertia,", kInWater, "of the water"});
+  t.load(
+      {"_from_rudder", &S::from_rudder, kMean, "of the rudder, with the hull's share,", kWithRudders, "of the rudder"});
+  t.load({"_from_mooring", &S::from_mooring, kMean, "of the mooring", kMoored});
+  t.load({"_from_ice_friction", &S::friction_of_ice, kMean,
+          "of the ice's friction along the waterline, a share of that of the ice,", kInWater, "of the ice's friction"});
+}
+
+void add_helm(Table& t) {
+  t.add("lever", "", kAtEnd, "of the thrust, a share of the power: −1 full astern to 1 full ahead",
+        {{}, kWithEngines, "Thrust lever"}, &S::lever);
+  t.add("steering_deg", "°", kAtEnd, "angle of rudder or thrusters, to port", {{}, kWithEngines, "Steering angle"},
+        &S::steering_angle);
+  t.add("delivered_power_W", "W", kAtEnd, "power of the engine at that lever; 0 where none is given",
+        {{}, kWithEngines, "Delivered power"}, &S::delivered_power);
+  t.add("rams", "", kAtEnd, "charges after the first, of a pilot that rams", {{}, kRamming, "Rams"}, &S::rams);
+  t.add("gained_m", "m", kAtEnd, "by rams, from where the ship was first stuck", {{}, kRamming, "Gained by ramming"},
+        &S::gained);
+  t.add("contacts", "", kAtEnd, "with ice", {{}, {}, "Contacts at the hull"}, &S::contacts);
+  t.add("contacts_with_ships", "", kAtEnd, "with other ships and structures", {}, &S::contacts_with_ships).is_optional =
+      true;
+}
+
+std::vector<ForceColumn> all_columns() {
+  Table table;
+  add_contact_loads(table);
+  add_motion(table);
+  add_sailing_loads(table);
+  add_helm(table);
+  return std::move(table.columns);
+}
+
+template <class Condition>
+std::vector<const ForceColumn*> columns_where(Condition condition) {
+  std::vector<const ForceColumn*> columns;
+  for (const ForceColumn& column : force_columns())
+    if (condition(column)) columns.push_back(&column);
+  return columns;
+}
+
+const ForceColumn* find_column(std::string_view name) {
+  const auto found = std::ranges::find(force_columns(), name, &ForceColumn::name);
+  return found == force_columns().end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::span<const ForceColumn> force_columns() {
+  static const std::vector<ForceColumn> kColumns = all_columns();
+  return kColumns;
+}
+
+bool is_shown(ShownWhere where, const simulation::Scene& scene) {
+  if (where == kAmongShips) return hull_count(scene) > 1;
+  if (where == kUnderHulls) return has_draught(scene);
+  const auto any_ship = [&](auto condition) { return std::ranges::any_of(scene.ships, condition); };
+  using simulation::Ship;
+  if (where == kInWater) return any_ship(simulation::sails);
+  if (where == kWithEngines)
+    return any_ship([](const Ship& s) { return std::holds_alternative<simulation::Engine>(s.propulsion); });
+  if (where == kWithRudders)
+    return any_ship([](const Ship& s) { return std::holds_alternative<simulation::RudderSettings>(s.steering); });
+  if (where == kWithThrusters)
+    return any_ship([](const Ship& s) { return std::holds_alternative<simulation::AzimuthSettings>(s.steering); });
+  if (where == kRamming)
+    return any_ship([](const Ship& s) { return std::holds_alternative<simulation::RammingPilot>(s.pilot); });
+  if (where == kMoored) return any_ship([](const Ship& s) { return s.mooring.has_value(); });
+  return where == kAlways || splits_by_j_over_tau_c(scene);
+}
+
+std::vector<const ForceColumn*> peak_columns(const simulation::Scene& scene) {
+  return columns_where([&](const ForceColumn& c) { return c.peak && is_shown(*c.peak, scene); });
+}
+
+std::vector<const ForceColumn*> plotted_columns(const simulation::Scene& scene) {
+  return columns_where([&](const ForceColumn& c) {
+    const std::optional<ShownWhere> where = c.plotted ? c.plotted : c.peak;
+    return !c.plot.empty() && (!where || !is_of_newer_runs(*where) || is_shown(*where, scene));
+  });
+}
+
+const ForceColumn& force_column(std::string_view name) {
+  const ForceColumn* found = find_column(name);
+  assert(found != nullptr);
+  return *found;
+}
+
+Result<std::vector<const ForceColumn*>> force_columns_in(std::string_view header) {
+  if (csv_field(header) != "t_s" || csv_field(header) != "ship") return fail("columns of another version");
+  std::vector<const ForceColumn*> columns;
+  while (!header.empty()) {
+    const std::string_view name = csv_field(header);
+    const ForceColumn* found = find_column(name);
+    if (found == nullptr || std::ranges::count(columns, found) > 0)
+      return fail(fmt::format("a column \"{}\" of another version, or a second one", name));
+    columns.push_back(found);
+  }
+  for (const ForceColumn& column : force_columns()) {
+    if (!column.is_optional && std::ranges::count(columns, &column) == 0)
+      return fail(fmt::format("no column \"{}\"", column.name));
+  }
+  return columns;
+}
+
+namespace {
+
+constexpr std::pair<Axis, std::string_view> kDirections[]{
+    {kSurge, "Surge force by cause"}, {kSway, "Sway force by cause"}, {kYaw, "Yaw moment by cause"}};
+
+/// What one cause gives in each direction.
+struct Cause {
+  std::string_view cause, words;
+  std::string_view stem;  ///< of its columns: "_from_water"
+};
+constexpr Cause kIce{"ice", "ice on the hull, with friction", ""};
+constexpr Cause kFriction{"friction", "ice: friction", "_from_ice_friction"};
+constexpr Cause kThrust{"thrust", "thrust", "thrust_N"};  // a column of its own: of surge alone
+constexpr Cause kCauses[]{kIce,
+                          kFriction,
+                          {"submerged", "ice under the hull", "_from_submerged_ice"},
+                          {"water", "water on the hull", "_from_water"},
+                          kThrust,
+                          {"thrust", "thrusters", "_from_thrusters"},
+                          {"rudder", "rudder", "_from_rudder"},
+                          {"mooring", "mooring", "_from_mooring"},
+                          {"ships", "other ships", "_from_ships"}};
+
+/// The column of a cause in a direction; null where it gives nothing there.
+const ForceColumn* column_of(const Cause& cause, const Axis& axis) {
+  if (cause.stem != kThrust.stem) return find_column(name_of(axis, cause.stem));
+  return axis.component == kSurge.component ? find_column(cause.stem) : nullptr;
+}
+
+std::vector<ForceCause> all_causes() {
+  std::vector<ForceCause> causes;
+  for (const auto& [axis, direction] : kDirections) {
+    for (const Cause& cause : kCauses) {
+      const ForceColumn* column = column_of(cause, axis);
+      if (!column) continue;
+      ForceCause& added = causes.emplace_back(ForceCause{direction, cause.cause, cause.words, column->name});
+      if (cause.cause == kFriction.cause) added.share_of = column_of(kIce, axis)->name;
+      if (cause.cause == kIce.cause) added.without_shares = "ice: crushing and pushing";
+    }
+  }
+  return causes;
+}
+
+}  // namespace
+
+std::span<const ForceCause> force_causes() {
+  static const std::vector<ForceCause> causes = all_causes();
+  return causes;
+}
+
+std::vector<ForceCause> force_causes(const simulation::Scene& scene) {
+  const std::vector<const ForceColumn*> plotted = plotted_columns(scene);
+  std::vector<ForceCause> causes;
+  std::ranges::copy_if(force_causes(), std::back_inserter(causes), [&](const ForceCause& cause) {
+    return std::ranges::find(plotted, cause.column, &ForceColumn::name) != plotted.end();
+  });
+  return causes;
+}
+
+namespace {
+
+using simulation::ContactState;
+using simulation::PanelSample;
+
+constexpr std::array<std::string_view, 5> kPeakEnds{"", "bend", "split", "slip", "tilt"};
+
+}  // namespace
+
+std::span<const ContactColumn> contact_columns() {
+  using S = ContactState;
+  static const std::array columns{
+      number<S>("x_m", "where the force acts, over ground, when the step began: the contact line's centre of pressure",
+                &S::point_in_world, &geometry::Point::x),
+      number<S>("y_m", "likewise", &S::point_in_world, &geometry::Point::y),
+      number<S>("fx_N", "the force on the first by the second, over ground: momentum given in the step, by its length",
+                &S::force, &geometry::Vector::x),
+      number<S>("fy_N", "likewise", &S::force, &geometry::Vector::y),
+      number<S>("depth_m", "of the overlap, along the contact's normal", &S::depth),
+      number<S>("is_crushing", "1 where the contact pressed with all that crushing ice carries, else 0",
+                &S::is_crushing),
+      number<S>("arc_m",
+                "of that place on the waterline of `ship`, from its stem along the waterline, to port; to starboard "
+                "negative; empty on a floe",
+                &S::arc),
+      number<S>("station_m", "of that place along the ship, from its stem aft; empty on a floe", &S::station),
+      number<S>("width_m", "of the contact line", &S::width),
+      number<S>("height_m", "of the ice that presses: its thickness, or what crushed of it at an inclined hull",
+                &S::height),
+      number<S>("pressure_Pa", "nominal: the force along the contact's normal, by width and height", &S::pressure),
+      number<S>("thickness_m", "of the ice, of two floes the thinner; 0 of steel", &S::thickness),
+      ContactColumn{"ended_by",
+                    "of a peak what ended it: `bend`, `split`, `tilt` or `slip`; empty of a contact at a frame",
+                    [](const S& s) { return static_cast<double>(s.ended_by); },
+                    [](S& s, double word) { s.ended_by = static_cast<simulation::PeakEnd>(word); }, kPeakEnds}};
+  return columns;
+}
+
+std::span<const PanelColumn> panel_columns() {
+  using S = PanelSample;
+  static const std::array columns{
+      number<S>("panel", "its number from the stem, to port 0, 1, …, to starboard −1, −2, …", &S::column),
+      number<S>("row", "from the bottom, 0, 1, …; −1: what acts above and below all rows", &S::row),
+      number<S>("surge_N", "mean force of the ice forward", &S::load, &dynamics::Planar::surge),
+      number<S>("sway_N", "mean force of the ice to port", &S::load, &dynamics::Planar::sway),
+      number<S>("yaw_Nm", "mean moment of the ice counter-clockwise", &S::load, &dynamics::Planar::yaw),
+      number<S>("force_N", "mean of what acts along the normals of its contacts", &S::force),
+      number<S>("force_max_N", "of that, the largest step", &S::largest),
+      number<S>("pressure_Pa", "`force_N` by the panel's area", &S::pressure),
+      number<S>("loaded_s", "how long ice pressed on it in the interval", &S::loaded)};
+  return columns;
+}
+
+std::span<const CrushedColumn> crushed_columns() {
+  using S = simulation::CrushedOverlap;
+  static const std::array columns{number<S>("crushed_m2", "", &S::area), number<S>("tilted_m2", "", &S::tilted),
+                                  number<S>("crushed_m3", "", &S::volume), number<S>("crushing_J", "", &S::work)};
+  return columns;
+}
+
+double value_of(std::string_view field, std::span<const std::string_view> words) {
+  const auto word = std::ranges::find(words, field);
+  if (word != words.end()) return static_cast<double>(word - words.begin());
+  if (words.empty() && field.empty()) return ContactState::kNowhere;
+  const auto number = words.empty() ? csv_number(field) : std::nullopt;
+  if (!number)
+    throw ReadError(fmt::format("\"{}\" is not {}", field, words.empty() ? "a number" : "a word of its column"));
+  return *number;
+}
 
 std::string_view hull_name(const simulation::Scene& scene, int ship) {
   const auto hull = static_cast<std::size_t>(ship);
@@ -34,57 +393,42 @@ void append_bodies(std::string& text, double time, const simulation::ContactStat
 
 }  // namespace
 
-std::string forces_header() {
-  std::string header = "t_s,ship";
-  for (const ForceColumn& column : force_columns()) header.append(1, ',').append(column.name);
-  return header + '\n';
+std::string header_of(std::string_view file) {
+  const auto table = [](std::string first, const auto& columns) {
+    for (const auto& column : columns) first.append(1, ',').append(column.name);
+    return first + '\n';
+  };
+  constexpr auto kBodies = "t_s,ship,floe_id,by_ship,by_floe_id";
+  if (file == run_file::kForces) return table("t_s,ship", force_columns());
+  if (file == run_file::kPanels) return table("t_s,ship", panel_columns());
+  if (file == run_file::kContacts) return table(kBodies, contact_columns());
+  if (file == run_file::kCrushed) return table(kBodies, crushed_columns());
+  if (file == run_file::kFrames) return FrameEncoder::header();
+  return file == run_file::kStates ? "t_s,steps,state_hash\n" : "";
 }
 
-void append_forces_row(std::string& text, const simulation::HullSample& s, std::string_view hull_name) {
-  append_number(text, s.time);
-  text += ',';
-  text += hull_name;
-  for (const ForceColumn& column : force_columns()) append_csv(text, {column.read(s)});
-  text += '\n';
-}
-
-std::string contacts_header() {
-  std::string header = "t_s,ship,floe_id,by_ship,by_floe_id";
-  append_header(header, contact_columns());
-  return header;
+void append_forces_row(std::string& text, const simulation::HullSample& sample, const simulation::Scene& scene) {
+  append_number(text, sample.time);
+  text.append(1, ',').append(hull_name(scene, sample.ship));
+  append_row(text, sample, force_columns(), "null");
 }
 
 void append_contact(std::string& text, double time, const simulation::ContactState& contact,
                     const simulation::Scene& scene) {
   append_bodies(text, time, contact.on, contact.by, scene);
-  append_row(text, contact);
-}
-
-std::string panels_header() {
-  std::string header = "t_s,ship";
-  append_header(header, panel_columns());
-  return header;
+  append_row(text, contact, contact_columns());
 }
 
 void append_panel(std::string& text, const simulation::PanelSample& sample, const simulation::Scene& scene) {
   append_number(text, sample.time);
   text.append(1, ',').append(hull_name(scene, sample.hull));
-  append_row(text, sample);
-}
-
-std::string_view crushed_header() {
-  return "t_s,ship,floe_id,by_ship,by_floe_id,crushed_m2,tilted_m2,crushed_m3,crushing_J\n";
+  append_row(text, sample, panel_columns());
 }
 
 void append_crushed(std::string& text, double time, const simulation::CrushedOverlap& overlap,
                     const simulation::Scene& scene) {
   append_bodies(text, time, overlap.on, overlap.by, scene);
-  append_csv(text, {overlap.area, overlap.tilted, overlap.volume, overlap.work});
-  text += '\n';
-}
-
-std::string_view states_header() {
-  return "t_s,steps,state_hash\n";
+  append_row(text, overlap, crushed_columns(), "null");
 }
 
 void append_state(std::string& text, double time, std::int64_t steps, std::uint64_t hash) {
@@ -138,11 +482,6 @@ namespace {
 double number(const JsonValue& value, std::string_view key) {
   return json_member(value, key, JsonValue::Kind::kNumber).number();
 }
-FloeId floe_id(const JsonValue& value, std::string_view key) {
-  const JsonValue* found = value.find(key);
-  if (!found) throw ReadError(fmt::format("\"{}\" is missing", key));
-  return floe_id(*found);
-}
 double take_number(std::string_view& row) {
   const std::string_view field = csv_field(row);
   const auto value = csv_number(field);
@@ -153,7 +492,7 @@ double take_number(std::string_view& row) {
 simulation::ContactState::Body body_of(std::string_view& line, const Run& run) {
   const std::string_view ship = csv_field(line);
   std::string_view floe = csv_field(line);
-  simulation::ContactState::Body body{ship_index(run.scene.scene, ship), simulation::kNoFloe};
+  simulation::ContactState::Body body{hull_named(run.scene.scene, ship), simulation::kNoFloe};
   if (ship.empty()) body.floe = static_cast<FloeId>(take_number(floe));
   if (body.ship < 0 && !run.floe(body.floe)) throw ReadError("a contact of what there is not");
   return body;
@@ -167,12 +506,6 @@ JsonValue json_of(std::string_view text) {
   return std::move(document.root);
 }
 
-const JsonValue& json_member(const JsonValue& value, std::string_view key, JsonValue::Kind kind) {
-  const JsonValue* found = value.find(key, kind);
-  if (!found) throw ReadError(fmt::format("\"{}\" is not {}", key, name_of(kind)));
-  return *found;
-}
-
 FloeId floe_id(const JsonValue& value) {
   if (value.is_null()) return simulation::kNoFloe;
   if (!value.is(JsonValue::Kind::kNumber) || !(value.number() >= 0 && value.number() < 1e9))
@@ -180,26 +513,15 @@ FloeId floe_id(const JsonValue& value) {
   return static_cast<FloeId>(value.number());
 }
 
-geometry::Point point(const JsonValue& value) {
-  if (!value.is(JsonValue::Kind::kArray) || value.items().size() != 2 ||
-      !value.items()[0].is(JsonValue::Kind::kNumber) || !value.items()[1].is(JsonValue::Kind::kNumber))
-    throw ReadError("not a point");
-  return {value.items()[0].number(), value.items()[1].number()};
-}
-
-int ship_index(const simulation::Scene& scene, std::string_view name) {
-  return hull_named(scene, name);
-}
-
 simulation::BirthRecord birth_of(const JsonValue& line) {
   simulation::BirthRecord birth;
-  birth.floe = floe_id(line, "floe_id");
-  birth.parent = floe_id(line, "parent_id");
+  birth.floe = floe_id(json_member(line, "floe_id"));
+  birth.parent = floe_id(json_member(line, "parent_id"));
   birth.time = number(line, "born_s");
   birth.generation = static_cast<int>(number(line, "generation"));
   birth.area = number(line, "area_m2");
   birth.mass = number(line, "mass_kg");
-  birth.centroid_in_body = point(json_member(line, "centroid_m", JsonValue::Kind::kArray));
+  birth.centroid_in_body = point_of(json_member(line, "centroid_m"));
   return birth;
 }
 
@@ -207,32 +529,32 @@ simulation::HullSample sample_of(std::string_view line, const std::vector<const 
                                  const simulation::Scene& scene) {
   simulation::HullSample s;
   s.time = take_number(line);
-  s.ship = ship_index(scene, csv_field(line));
+  s.ship = hull_named(scene, csv_field(line));
   for (const ForceColumn* column : columns) column->store(s, take_number(line));
   return s;
 }
 
+namespace {
+
+/// A row of two bodies at an instant.
+template <class Record, class Row>
+Record record_of(std::string_view line, const Run& run, Row Record::*row, std::span<const Column<Row>> columns) {
+  Record record;
+  record.time = take_number(line);
+  (record.*row).on = body_of(line, run);
+  (record.*row).by = body_of(line, run);
+  read_row(line, record.*row, columns);
+  return record;
+}
+
+}  // namespace
+
 RunCrushed crushed_of(std::string_view line, const Run& run) {
-  RunCrushed crushed;
-  crushed.time = take_number(line);
-  crushed.overlap.on = body_of(line, run);
-  crushed.overlap.by = body_of(line, run);
-  crushed.overlap.area = take_number(line);
-  if (line.empty()) return crushed;  // of a version that did not book it
-  crushed.overlap.tilted = take_number(line);
-  crushed.overlap.volume = take_number(line);
-  crushed.overlap.work = take_number(line);
-  return crushed;
+  return record_of(line, run, &RunCrushed::overlap, crushed_columns());
 }
 
 RunContact contact_of(std::string_view line, const Run& run) {
-  RunContact contact;
-  contact.time = take_number(line);
-  simulation::ContactState& state = contact.state;
-  state.on = body_of(line, run);
-  state.by = body_of(line, run);
-  if (!read_row(line, state)) throw ReadError("a contact with what is no number");
-  return contact;
+  return record_of(line, run, &RunContact::state, contact_columns());
 }
 
 }  // namespace polynya::io

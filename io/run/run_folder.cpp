@@ -139,25 +139,17 @@ std::span<const std::string_view> growing_files(const simulation::Scene& scene) 
 Result<RunLock> RunLock::take(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / run_file::kLock;
   const auto refuse = [&](const std::string& reason) { return fail(fmt::format("{}: {}", file.string(), reason)); };
-  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+  Descriptor descriptor(::open(file.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666));
   if (descriptor < 0)
     return refuse(errno == ELOOP ? "a link; remove it if the folder is a run's" : std::strerror(errno));
-  RunLock lock(descriptor, folder);
+  RunLock lock(std::move(descriptor), folder);
   struct stat status {};
-  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return refuse("not a regular file");
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+  if (::fstat(lock.descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) return refuse("not a regular file");
+  if (::flock(lock.descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     return fail(fmt::format("{}: another polynya is writing this run", folder.string()));
   // File systems without locks go without.
   if (!lock.is_in_place()) return refuse("removed by another program meanwhile; try again");
   return lock;
-}
-
-bool RunLock::is_in_place() const {
-  return is_still_at(descriptor_, folder_ / run_file::kLock);
-}
-
-RunLock::~RunLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 FolderSize estimate_folder_size(const simulation::Scene& scene) {

@@ -8,7 +8,8 @@
 #include <utility>
 
 #include "io/scene/scene_reader.hpp"
-#include "io/text/result.hpp"
+#include "io/text/output_file.hpp"
+#include "io/text/source_text.hpp"
 #include "simulation/world/scene.hpp"
 
 namespace polynya::io {
@@ -75,23 +76,16 @@ class RunLock {
  public:
   /// Makes the file where there is none. The error names what is in the way.
   static Result<RunLock> take(const std::filesystem::path& folder);
-  RunLock(RunLock&& other) noexcept
-      : descriptor_(std::exchange(other.descriptor_, -1)), folder_(std::move(other.folder_)) {}
-  RunLock& operator=(RunLock&& other) noexcept {
-    std::swap(descriptor_, other.descriptor_);
-    std::swap(folder_, other.folder_);
-    return *this;
-  }
-  ~RunLock();
 
   const std::filesystem::path& folder() const { return folder_; }
 
   /// Whether the folder is still there under its name: it was neither removed, moved nor replaced.
-  bool is_in_place() const;
+  bool is_in_place() const { return is_still_at(descriptor_, folder_ / run_file::kLock); }
 
  private:
-  RunLock(int descriptor, std::filesystem::path folder) : descriptor_(descriptor), folder_(std::move(folder)) {}
-  int descriptor_ = -1;
+  RunLock(Descriptor descriptor, std::filesystem::path folder)
+      : descriptor_(std::move(descriptor)), folder_(std::move(folder)) {}
+  Descriptor descriptor_;
   std::filesystem::path folder_;
 };
 

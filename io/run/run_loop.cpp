@@ -6,24 +6,115 @@
 
 #include <fmt/format.h>
 
-#include "io/run/active_run.hpp"
+#include "simulation/state/validate_world.hpp"
 #include "simulation/world/world.hpp"
 
 namespace polynya::io {
-namespace {
 
 using simulation::Simulation;
 
-constexpr std::int64_t kStepsBetweenReports = 16;  ///< looking at the clock costs as much as a small step
-
-struct Stop {
-  RunEnd end = RunEnd::kFinished;
-  std::string reason;
-};
-
-double seconds_since(std::chrono::steady_clock::time_point then) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
+Result<ActiveRun> start_run(const std::filesystem::path& folder, const LoadedScene& scene, bool overwrite) {
+  Simulation simulation(scene.scene);
+  auto writer = RunWriter::create(folder, overwrite, scene);
+  if (!writer) return fail(writer.error());
+  return ActiveRun{scene, std::move(simulation), std::move(*writer)};
 }
+
+std::int64_t last_step_of(const simulation::StepSettings& time) {
+  return static_cast<std::int64_t>(std::ceil(time.until / time.step - 1e-9));
+}
+
+Result<ActiveRun> resume_run(RunLock lock, const LoadedScene& scene, const std::filesystem::path& file) {
+  auto checkpoint = read_checkpoint_file(file, scene.course_hash);
+  if (!checkpoint) return fail(checkpoint.error());
+  const simulation::StepSettings& time = scene.scene.time;
+  if (checkpoint->steps > last_step_of(time))
+    return fail(fmt::format("{}: at {:.6g} s, behind the end of the run at {:.6g} s", file.string(),
+                            static_cast<double>(checkpoint->steps) * time.step, time.until));
+  auto simulation = simulation_at(scene, *checkpoint);
+  if (!simulation) return fail(fmt::format("{}: {}", file.string(), simulation.error()));
+  const auto finished = finished_run(lock.folder());
+  auto writer = RunWriter::resume(std::move(lock), scene, *checkpoint, file, *simulation);
+  if (!writer) return fail(writer.error());
+  return ActiveRun{scene, std::move(*simulation), std::move(*writer),
+                   finished ? finished->wall_time : checkpoint->wall_time};
+}
+
+Result<Simulation> simulation_at(const LoadedScene& scene, const Checkpoint& checkpoint) {
+  auto simulation = Simulation::resumed(scene.scene, checkpoint.state);
+  if (!simulation) return fail("damaged: " + simulation.error());
+  if (simulation->steps() != checkpoint.steps || simulation->state_hash() != checkpoint.state_hash)
+    return fail("damaged: its state is not the one that was saved");
+  return simulation;
+}
+
+Checkpoint checkpoint_of(const Simulation& simulation, const LoadedScene& scene, RunProgress progress,
+                         double wall_time) {
+  return {.program_version = std::string(version()),
+          .course_hash = scene.course_hash,
+          .steps = simulation.steps(),
+          .wall_time = wall_time,
+          .progress = std::move(progress),
+          .state = simulation.state(),
+          .state_hash = simulation.state_hash(),
+          .failure = ""};
+}
+
+namespace {
+
+std::optional<std::string> numerical_failure_of(const Simulation& simulation) {
+  auto failure = simulation.numerical_failure();
+  return failure ? std::optional("numerical failure: " + *failure) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> failure_after_step(const Simulation& simulation) {
+  if (auto failure = numerical_failure_of(simulation)) return failure;
+  if (!simulation.audit().is_closed()) return "the accounts of energy or momentum do not close";
+  if (auto wrong = validate_world(simulation.world())) return "the world contradicts itself: " + *wrong;
+  return {};
+}
+
+namespace {
+
+/// The run at its newest checkpoint that can be read and is sound, or at its start.
+Simulation at_last_checkpoint(const ActiveRun& run) {
+  for (const auto& path : checkpoints_in(run.writer.folder())) {
+    const auto checkpoint = read_checkpoint_file(path, run.scene.course_hash);
+    if (!checkpoint || checkpoint->steps >= run.simulation.steps()) continue;
+    auto there = Simulation::resumed(run.scene.scene, checkpoint->state);
+    if (there && !failure_after_step(*there)) return std::move(*there);
+  }
+  return Simulation(run.scene.scene);
+}
+
+/// Writes the state before the first step after which something is wrong into the run folder, with what it
+/// is. The step is found by stepping again from the newest sound checkpoint, which costs nothing where
+/// nothing fails.
+Result<> dump_failure(const ActiveRun& run) {
+  const auto step = [last = last_step_of(run.scene.scene.time)](Simulation& simulation) {
+    simulation.step(last - simulation.steps());
+    simulation.journal().clear();
+  };
+  Simulation ahead = at_last_checkpoint(run);
+  Simulation before = at_last_checkpoint(run);
+  std::optional<std::string> failure;
+  std::int64_t last_sound = before.steps();
+  while (!failure && ahead.steps() < run.simulation.steps()) {
+    last_sound = ahead.steps();
+    step(ahead);
+    failure = failure_after_step(ahead);
+  }
+  if (!failure) return fail("it did not come again");
+  while (before.steps() < last_sound) step(before);
+  before.journal().clear();
+  Checkpoint dump = checkpoint_of(before, run.scene, {}, 0);
+  dump.failure = *failure;
+  return write_checkpoint_file(run.writer.folder() / run_file::kFailure, dump);
+}
+
+constexpr std::int64_t kStepsBetweenReports = 16;  ///< looking at the clock costs as much as a small step
 
 /// Steps in a time [s], at least 1.
 std::int64_t steps_in(double duration, double step) {
@@ -33,82 +124,133 @@ std::int64_t steps_in(double duration, double step) {
 }  // namespace
 
 RunRecorder::RunRecorder(Simulation& simulation, RunWriter& writer, const LoadedScene& scene, double wall_time)
-    : simulation_(&simulation),
-      writer_(&writer),
-      scene_(&scene),
+    : simulation_(simulation),
+      writer_(writer),
+      scene_(scene),
       wall_time_before_(wall_time),
       steps_per_frame_(steps_in(scene.scene.record.frames_interval, scene.scene.time.step)),
       longest_step_(longest_block(simulation.world().setup)) {}
 
 void RunRecorder::begin(simulation::Journal& journal) {
-  writer_->record(journal);
-  writer_->frame(*simulation_);
-}
-
-void RunRecorder::record_step() {
-  writer_->record(simulation_->journal());
-}
-
-void RunRecorder::frame_if_due() {
-  if (is_frame_due()) writer_->frame(*simulation_);
+  writer_.record(journal);
+  writer_.frame(simulation_);
 }
 
 Result<> RunRecorder::checkpoint(double wall_time) {
-  auto progress = writer_->sync();
+  auto progress = writer_.sync();
   if (!progress) return fail(progress.error());
   auto written =
-      write_checkpoint(writer_->folder(), checkpoint_of(*simulation_, *scene_, std::move(*progress), wall_time));
+      write_checkpoint(writer_.folder(), checkpoint_of(simulation_, scene_, std::move(*progress), wall_time));
   last_checkpoint_ = Clock::now();
   return written;
 }
 
 Result<> RunRecorder::before_end(std::int64_t ticks_left) {
   if (ticks_left >= longest_step_ || has_end_checkpoint()) return {};
-  end_checkpoint_at_ = simulation_->steps();
+  end_checkpoint_at_ = simulation_.steps();
   return checkpoint(0);  // so that folders of one run are the same bytes
 }
 
 bool RunRecorder::has_end_checkpoint() const {
-  return end_checkpoint_at_ && simulation_->steps() - *end_checkpoint_at_ < longest_step_;
+  return end_checkpoint_at_ && simulation_.steps() - *end_checkpoint_at_ < longest_step_;
 }
 
 Result<> RunRecorder::end() {
   auto written = has_end_checkpoint() ? Result<>{} : checkpoint(0);
-  if (written && !is_frame_due()) writer_->frame(*simulation_);
+  if (written && !is_frame_due()) writer_.frame(simulation_);
   return written;
 }
 
-double RunRecorder::wall_time() const {
-  return wall_time_before_ + seconds_since(start_);
-}
-
-double RunRecorder::checkpoint_age() const {
-  return seconds_since(last_checkpoint_);
-}
-
 namespace {
+
+/// Why a run ends before its scene does.
+struct Stop {
+  RunEnd end = RunEnd::kFinished;
+  std::string reason;
+};
+
+std::optional<Stop> stop_where_failed(const Result<>& written) {
+  if (written) return {};
+  return Stop{RunEnd::kFolderFailure, written.error()};
+}
 
 class RunLoop {
  public:
   RunLoop(ActiveRun& run, const RunControl& control)
       : run_(run), control_(control), recorder_(run.simulation, run.writer, run.scene, run.wall_time) {
-    const simulation::StepSettings& time = simulation().scene().time;
+    const simulation::StepSettings& time = run.scene.scene.time;
     last_step_ = last_step_of(time);
     if (control.checkpoint_every > 0) steps_per_checkpoint_ = steps_in(control.checkpoint_every, time.step);
   }
 
-  Stop advance();
-  RunResult finish(const Stop& stop);
+  /// Steps to the end of the run; nothing where it got there.
+  std::optional<Stop> advance() {
+    simulation().set_threads(control_.threads);
+    if (!run_.writer.has_begun()) recorder_.begin(simulation().journal());
+    while (simulation().steps() < last_step_)
+      if (auto stop = advance_step()) return stop;
+    return stop_where_failed(recorder_.end());
+  }
+
+  RunResult finish(const Stop& stop) {
+    RunResult result{stop.end, stop.reason, summarise(simulation(), run_.writer, stop.reason, recorder_.wall_time())};
+    // Before the run is finished: that takes away the checkpoints from which the failure is sought.
+    const std::size_t floes = run_.scene.scene.floes.size();
+    const bool has_floes = control_.final_geojson || floes <= kMostFloesInFinal;
+    if (!has_floes)
+      result.summary.warnings.push_back(
+          fmt::format("no {} was written, of {} floes at the start: --final-geojson writes it, polynya export "
+                      "--geojson makes it of the last frame",
+                      run_file::kFinalGeojson, floes));
+    const bool is_failure = stop.end == RunEnd::kNumericalFailure || !result.summary.audit.is_closed();
+    if (is_failure && !run_.writer.is_displaced()) result.dump = dump_failure(run_);
+    if (const auto written = run_.writer.finish(result.summary, has_floes ? &simulation() : nullptr); !written) {
+      result.end = RunEnd::kFolderFailure;
+      result.reason = written.error();
+    }
+    return result;
+  }
 
  private:
-  std::optional<Stop> advance_to_end();
-  std::optional<Stop> advance_step();
-  std::optional<Stop> stop_on_request();
-  std::optional<Stop> work_between_steps();
-  std::optional<std::string> failure_of_step() const;
-
   Simulation& simulation() { return run_.simulation; }
-  RunWriter& writer() { return run_.writer; }
+
+  std::optional<Stop> advance_step() {
+    before_ = simulation().steps();
+    if (auto stop = stop_where_failed(recorder_.before_end(last_step_ - before_))) return stop;
+    simulation().step(last_step_ - before_);
+    recorder_.record_step();
+    auto failure = control_.check ? failure_after_step(simulation()) : numerical_failure_of(simulation());
+    if (failure) return Stop{RunEnd::kNumericalFailure, *std::move(failure)};
+    recorder_.frame_if_due();
+    if (auto stop = stop_on_request()) return stop;
+    return work_between_steps();
+  }
+
+  std::optional<Stop> stop_on_request() {
+    auto reason = control_.stop ? control_.stop() : std::nullopt;
+    if (!reason) return {};
+    // Within the last steps, which this end cuts short, the one before them stands: a longer run goes on from there.
+    if (!recorder_.has_end_checkpoint())
+      if (auto failed = stop_where_failed(recorder_.checkpoint())) return failed;
+    return Stop{RunEnd::kStopped, *reason};
+  }
+
+  /// Checkpoints, flushing and progress, each where it is due.
+  std::optional<Stop> work_between_steps() {
+    const std::int64_t step = simulation().steps();
+    const auto is_due = [&](std::int64_t every) { return step / every > before_ / every; };
+    const bool is_report_due = is_due(kStepsBetweenReports);
+    const bool is_checkpoint_due =
+        !recorder_.has_end_checkpoint() && ((steps_per_checkpoint_ > 0 && is_due(steps_per_checkpoint_)) ||
+                                            (is_report_due && control_.checkpoint_every_wall > 0 &&
+                                             recorder_.checkpoint_age() >= control_.checkpoint_every_wall));
+    if (is_checkpoint_due) return stop_where_failed(recorder_.checkpoint());
+    if (!is_report_due) return {};
+    run_.writer.flush_if_due();
+    if (auto stop = stop_where_failed(run_.writer.status())) return stop;
+    if (control_.progress) control_.progress({simulation().time(), fractures_of(simulation().world().accounts.counts)});
+    return {};
+  }
 
   ActiveRun& run_;
   const RunControl& control_;
@@ -118,88 +260,11 @@ class RunLoop {
   std::int64_t steps_per_checkpoint_ = 0;  ///< 0: by the clock alone
 };
 
-Stop RunLoop::advance() {
-  simulation().set_threads(control_.threads);
-  return advance_to_end().value_or(Stop{});
-}
-
-std::optional<Stop> RunLoop::advance_to_end() {
-  if (!writer().has_begun()) recorder_.begin(simulation().journal());
-  while (simulation().steps() < last_step_)
-    if (auto stop = advance_step()) return stop;
-  if (const auto written = recorder_.end(); !written) return Stop{RunEnd::kFolderFailure, written.error()};
-  return {};
-}
-
-std::optional<Stop> RunLoop::advance_step() {
-  before_ = simulation().steps();
-  if (const auto written = recorder_.before_end(last_step_ - before_); !written)
-    return Stop{RunEnd::kFolderFailure, written.error()};
-  simulation().step(last_step_ - before_);
-  recorder_.record_step();
-  if (auto failure = failure_of_step()) return Stop{RunEnd::kNumericalFailure, *failure};
-  recorder_.frame_if_due();
-  if (auto stop = stop_on_request()) return stop;
-  return work_between_steps();
-}
-
-std::optional<std::string> RunLoop::failure_of_step() const {
-  if (control_.check) return failure_after_step(run_.simulation);
-  if (auto failure = run_.simulation.numerical_failure()) return "numerical failure: " + *failure;
-  return {};
-}
-
-std::optional<Stop> RunLoop::stop_on_request() {
-  auto reason = control_.stop ? control_.stop() : std::nullopt;
-  if (!reason) return {};
-  // Within the last steps, which this end cuts short, the one before them stands: a longer run goes on from there.
-  const auto written = recorder_.has_end_checkpoint() ? Result<>{} : recorder_.checkpoint();
-  if (!written) return Stop{RunEnd::kFolderFailure, written.error()};
-  return Stop{RunEnd::kStopped, *reason};
-}
-
-/// Checkpoints, flushing and progress, each where it is due.
-std::optional<Stop> RunLoop::work_between_steps() {
-  const std::int64_t step = simulation().steps();
-  const auto is_due = [&](std::int64_t every) { return step / every > before_ / every; };
-  const bool is_report_due = is_due(kStepsBetweenReports);
-  const bool is_checkpoint_due =
-      !recorder_.has_end_checkpoint() && ((steps_per_checkpoint_ > 0 && is_due(steps_per_checkpoint_)) ||
-                                          (is_report_due && control_.checkpoint_every_wall > 0 &&
-                                           recorder_.checkpoint_age() >= control_.checkpoint_every_wall));
-  if (!is_checkpoint_due && !is_report_due) return {};
-  if (!is_checkpoint_due) writer().flush_if_due();
-  if (const auto written = is_checkpoint_due ? recorder_.checkpoint() : writer().status(); !written)
-    return Stop{RunEnd::kFolderFailure, written.error()};
-  if (!is_checkpoint_due && control_.progress)
-    control_.progress({simulation().time(), fractures_of(simulation().world().accounts.counts)});
-  return {};
-}
-
-RunResult RunLoop::finish(const Stop& stop) {
-  RunResult result{stop.end, stop.reason, summarise(simulation(), writer(), stop.reason, recorder_.wall_time())};
-  // Before the run is finished: that takes away the checkpoints from which the failure is sought.
-  const std::size_t floes = run_.scene.scene.floes.size();
-  const bool has_floes = control_.final_geojson || floes <= kMostFloesInFinal;
-  if (!has_floes)
-    result.summary.warnings.push_back(
-        fmt::format("no {} was written, of {} floes at the start: --final-geojson writes it, polynya export "
-                    "--geojson makes it of the last frame",
-                    run_file::kFinalGeojson, floes));
-  const bool is_failure = stop.end == RunEnd::kNumericalFailure || !result.summary.audit.is_closed();
-  if (is_failure && !writer().is_displaced()) result.dump = dump_failure(run_);
-  if (const auto written = writer().finish(result.summary, has_floes ? &simulation() : nullptr); !written) {
-    result.end = RunEnd::kFolderFailure;
-    result.reason = written.error();
-  }
-  return result;
-}
-
 }  // namespace
 
 RunResult run_to_end(ActiveRun& run, const RunControl& control) {
   RunLoop loop(run, control);
-  return loop.finish(loop.advance());
+  return loop.finish(loop.advance().value_or(Stop{}));
 }
 
 }  // namespace polynya::io

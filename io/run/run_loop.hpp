@@ -2,15 +2,48 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 
-#include "io/run/active_run.hpp"
+#include "io/run/checkpoint.hpp"
+#include "io/run/run_writer.hpp"
 #include "io/run/summary.hpp"
+#include "io/scene/scene_reader.hpp"
+#include "io/text/source_text.hpp"
+#include "simulation/simulation.hpp"
 
 namespace polynya::io {
+
+/// A run somewhere between its start and its end, and its folder.
+struct ActiveRun {
+  const LoadedScene& scene;  ///< outlives this
+  simulation::Simulation simulation;
+  RunWriter writer;
+  double wall_time = 0;  ///< that it has taken before [s]
+};
+
+/// The step that a run ends with.
+std::int64_t last_step_of(const simulation::StepSettings& time);
+
+/// A run before its first step. The error is what is wrong with the folder (RunWriter::create).
+Result<ActiveRun> start_run(const std::filesystem::path& folder, const LoadedScene& scene, bool overwrite = false);
+
+/// A run at a checkpoint of its folder, read from `file`: the folder is cut back to it (RunWriter::resume), and
+/// becomes that of a run to the scene's end, which may be another than it had.
+Result<ActiveRun> resume_run(RunLock lock, const LoadedScene& scene, const std::filesystem::path& file);
+
+/// The simulation of a checkpoint, checked against the hash it was saved with.
+Result<simulation::Simulation> simulation_at(const LoadedScene& scene, const Checkpoint& checkpoint);
+
+/// Where a run stands between two steps, its journal having been written.
+Checkpoint checkpoint_of(const simulation::Simulation& simulation, const LoadedScene& scene, RunProgress progress,
+                         double wall_time);
+
+/// What is wrong with a run after a step: numbers that are none, accounts that do not close, a world that
+/// contradicts itself. Nothing where all is well.
+std::optional<std::string> failure_after_step(const simulation::Simulation& simulation);
 
 /// How far a run is.
 struct RunStatus {
@@ -25,8 +58,10 @@ class RunRecorder {
   RunRecorder(simulation::Simulation& simulation, RunWriter& writer, const LoadedScene& scene, double wall_time = 0);
   /// Where nothing has been stepped yet: what there is, and a first frame.
   void begin(simulation::Journal& journal);
-  void record_step();
-  void frame_if_due();
+  void record_step() { writer_.record(simulation_.journal()); }
+  void frame_if_due() {
+    if (is_frame_due()) writer_.frame(simulation_);
+  }
   Result<> checkpoint() { return checkpoint(wall_time()); }
   /// Before a step, with the ticks to the end of the run: the checkpoint from which a longer run goes on, ahead of
   /// steps of several ticks that this end would cut short.
@@ -36,16 +71,19 @@ class RunRecorder {
   /// At the end: a checkpoint where before_end() has written none, and behind it a frame where none was due. A longer
   /// run goes on without the frame that only this end has.
   Result<> end();
-  double wall_time() const;       ///< of the run so far [s]
-  double checkpoint_age() const;  ///< by the clock [s]
+  double wall_time() const { return wall_time_before_ + seconds_since(start_); }  ///< of the run so far [s]
+  double checkpoint_age() const { return seconds_since(last_checkpoint_); }       ///< by the clock [s]
 
  private:
   using Clock = std::chrono::steady_clock;
+  static double seconds_since(Clock::time_point then) {
+    return std::chrono::duration<double>(Clock::now() - then).count();
+  }
   Result<> checkpoint(double wall_time);
-  bool is_frame_due() const { return simulation_->steps() % steps_per_frame_ == 0; }
-  simulation::Simulation* simulation_;
-  RunWriter* writer_;
-  const LoadedScene* scene_;
+  bool is_frame_due() const { return simulation_.steps() % steps_per_frame_ == 0; }
+  simulation::Simulation& simulation_;
+  RunWriter& writer_;
+  const LoadedScene& scene_;
   double wall_time_before_;
   std::int64_t steps_per_frame_;
   std::int64_t longest_step_;                      ///< [ticks]
@@ -78,7 +116,8 @@ struct RunResult {
   RunEnd end = RunEnd::kFinished;
   std::string reason;  ///< of any other end
   RunSummary summary;  ///< as in summary.json
-  /// Where a failure was to be dumped (active_run.hpp): whether that went well.
+  /// Where a failure was to be dumped, the state before the first step after which something is wrong: whether that
+  /// went well.
   std::optional<Result<>> dump = {};
 };
 

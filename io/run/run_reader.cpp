@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "io/run/csv_columns.hpp"
 #include "io/run/event_records.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
@@ -22,25 +22,19 @@ namespace {
 constexpr std::size_t kMostKept = std::size_t{4} << 20;  ///< vertices of assembled shapes, 64 MB
 }  // namespace
 
-Result<> FloeShapes::add(ShapeParts shape, FloeId parent) {
+void FloeShapes::add(ShapeParts shape, FloeId parent) {
   Floe floe;
   floe.ring_sizes = ring_sizes(shape);
   if (shape.has_parent()) {
     if (parent < 0 || static_cast<std::size_t>(parent) >= floes_.size())
-      return fail("parts of a parent that is not on a line before");
-    if (auto checked = check_parts(shape, floes_[static_cast<std::size_t>(parent)].ring_sizes); !checked)
-      return checked;
+      throw ReadError("parts of a parent that is not on a line before");
+    check_parts(shape, floes_[static_cast<std::size_t>(parent)].ring_sizes);
     floe.parent = parent;
     floe.parts = std::move(shape);
   } else {
     floe.whole = std::make_shared<const Polygon>(assembled(shape, {}));
   }
   floes_.push_back(std::move(floe));
-  return {};
-}
-
-const ShapeParts* FloeShapes::parts_of(FloeId id) const {
-  return floe(id).whole ? nullptr : &floe(id).parts;
 }
 
 std::shared_ptr<const Polygon> FloeShapes::find(FloeId id) const {
@@ -77,8 +71,6 @@ std::shared_ptr<const Polygon> FloeShapes::of(FloeId id) const {
 
 namespace {
 
-using simulation::FloeId;
-
 std::string text_of(const std::filesystem::path& folder, std::string_view name) {
   auto text = read_text_file(folder / name, kLongestRunFile);
   if (!text) throw ReadError(fmt::format("{}: {}", (folder / name).string(), text.error()));
@@ -90,35 +82,31 @@ JsonValue document_of(const std::filesystem::path& folder, std::string_view name
   const std::string text = text_of(folder, name);
   JsonDocument document = parse_json(text);
   if (document.faults.empty()) return std::move(document.root);
-  const JsonFault& fault = document.faults.front();
-  const LineAndColumn place = line_and_column(text, fault.offset);
-  throw ReadError(fmt::format("{}:{}:{}: {}", (folder / name).string(), place.line, place.column, message_of(fault)));
+  throw ReadError(fmt::format("{}:{}", (folder / name).string(), first_fault(document, text)));
 }
 
 /// Uses each whole line of a file.
 template <class Use>
 void for_lines(const std::filesystem::path& folder, std::string_view name, Use use) {
   const std::string text = text_of(folder, name);
-  std::size_t start = 0;
-  for (int number = 1;; ++number) {
-    const std::size_t end = text.find('\n', start);
-    if (end == std::string::npos) return;
+  int number = 0;
+  for_pieces(std::string_view(text).substr(0, text.rfind('\n') + 1), '\n', [&](std::string_view line, std::size_t) {
     try {
-      use(std::string_view(text).substr(start, end - start), number);
+      use(line, ++number);
     } catch (const ReadError& error) {
       throw ReadError(fmt::format("{}:{}: {}", (folder / name).string(), number, error.what()));
     }
-    start = end + 1;
-  }
+  });
 }
 
-/// Uses each row of a table whose first line is to be the header.
+/// Uses each row of a table, whose first line is to be its header.
 template <class Use>
-void for_rows(const std::filesystem::path& folder, std::string_view name, std::string_view header, Use use) {
+void for_rows(const std::filesystem::path& folder, std::string_view name, Use use) {
+  const std::string header = header_of(name);
   for_lines(folder, name, [&](std::string_view line, int number) {
     if (number > 1)
       use(line);
-    else if (header.substr(0, line.size()) != line)
+    else if (!header.starts_with(line))
       throw ReadError("columns of another version");
   });
 }
@@ -141,9 +129,7 @@ void read_floes(Run& run) {
     else if (birth.floe < std::ssize(run.scene.scene.floes))
       birth.own_ice = run.scene.scene.floes[static_cast<std::size_t>(birth.floe)].own_ice;
     if (birth.floe != static_cast<FloeId>(run.floes.size())) throw ReadError("floes are not in the order of their ids");
-    auto shape = read_shape(json);
-    if (!shape) throw ReadError(shape.error());
-    if (const auto added = run.shapes.add(std::move(*shape), birth.parent); !added) throw ReadError(added.error());
+    run.shapes.add(read_shape(json), birth.parent);
     run.floes.push_back({.birth = birth, .death_event = {}});
   });
 }
@@ -184,7 +170,7 @@ void read_forces(Run& run) {
 
 /// Peaks stand where they ended.
 void read_contacts(Run& run) {
-  for_rows(run.folder, run_file::kContacts, contacts_header(), [&](std::string_view line) {
+  for_rows(run.folder, run_file::kContacts, [&](std::string_view line) {
     RunContact contact = contact_of(line, run);
     const bool is_peak = contact.state.ended_by != simulation::PeakEnd::kNone;
     (is_peak ? run.peaks : run.contacts).push_back(contact);
@@ -236,7 +222,7 @@ Result<Run> read_run(const std::filesystem::path& folder) {
     read_forces(run);
     if (std::filesystem::exists(folder / run_file::kContacts)) read_contacts(run);
     if (run.has_crushed = std::filesystem::exists(folder / run_file::kCrushed); run.has_crushed)
-      for_rows(folder, run_file::kCrushed, crushed_header(),
+      for_rows(folder, run_file::kCrushed,
                [&](std::string_view line) { run.crushed.push_back(crushed_of(line, run)); });
     auto frames = decode_frames(text_of(folder, run_file::kFrames));
     if (!frames) return fail(fmt::format("{}: {}", (folder / run_file::kFrames).string(), frames.error()));
@@ -245,6 +231,153 @@ Result<Run> read_run(const std::filesystem::path& folder) {
   } catch (const ReadError& error) {
     return fail(error.what());
   }
+}
+
+geometry::Polygon polygon_in_world(geometry::Polygon polygon, geometry::Point centroid_in_body, const Motion& motion) {
+  const geometry::Rotation rotation = geometry::Rotation::by(motion.angle);
+  const auto place = [&](geometry::Ring& points) {
+    for (geometry::Point& p : points) p = motion.position + rotate(rotation, p - centroid_in_body);
+  };
+  place(polygon.outer);
+  std::ranges::for_each(polygon.holes, place);
+  return polygon;
+}
+
+MotionIndex::MotionIndex(const Run& run) : floes_(run.floes.size()), ships_(hull_count(run.scene.scene)) {
+  for (const Frame& frame : run.frames) {
+    frame_times_.push_back(frame.time);
+    for (const FloeMotion& floe : frame.floes) {
+      const auto id = static_cast<std::size_t>(floe.floe);
+      if (id < floes_.size()) floes_[id].push_back({frame.time, floe.motion});
+    }
+    for (std::size_t i = 0; i < std::min(ships_.size(), frame.ships.size()); ++i) ships_[i].push_back(frame.ships[i]);
+  }
+}
+
+const RecordedMotion* MotionIndex::last_record(FloeId floe, double time) const {
+  const auto& records = floes_[static_cast<std::size_t>(floe)];
+  if (records.empty()) return nullptr;
+  const auto after = std::ranges::upper_bound(records, time, {}, &RecordedMotion::time);
+  return after == records.begin() ? &records.front() : &*(after - 1);
+}
+
+namespace {
+
+Motion between(const Motion& a, const Motion& b, double part) {
+  const auto mix = [&](double from, double to) { return from + part * (to - from); };
+  return {{mix(a.position.x, b.position.x), mix(a.position.y, b.position.y)},
+          mix(a.angle, b.angle),
+          {mix(a.velocity.x, b.velocity.x), mix(a.velocity.y, b.velocity.y)},
+          mix(a.angular_velocity, b.angular_velocity)};
+}
+
+}  // namespace
+
+std::optional<Motion> MotionIndex::floe_at(FloeId floe, double time) const {
+  if (floe < 0 || static_cast<std::size_t>(floe) >= floes_.size()) return std::nullopt;
+  const RecordedMotion* last = last_record(floe, time);
+  if (!last) return std::nullopt;
+  const Motion carried = carried_on(last->motion, time - last->time);
+  const auto next_frame = std::ranges::upper_bound(frame_times_, time);
+  if (next_frame == frame_times_.end() || next_frame == frame_times_.begin() || last->time > time) return carried;
+  const RecordedMotion* next = last_record(floe, *next_frame);
+  if (next == last) return carried;
+  const double start = *(next_frame - 1);
+  const double part = (time - start) / (*next_frame - start);
+  return between(carried_on(last->motion, start - last->time), next->motion, part);
+}
+
+std::optional<Motion> MotionIndex::ship_at(std::size_t ship, double time) const {
+  if (ship >= ships_.size() || ships_[ship].empty()) return std::nullopt;
+  const auto& motions = ships_[ship];
+  const auto next = static_cast<std::size_t>(std::ranges::upper_bound(frame_times_, time) - frame_times_.begin());
+  if (next == 0) return motions.front();
+  if (next >= motions.size()) return carried_on(motions.back(), time - frame_times_[motions.size() - 1]);
+  const double start = frame_times_[next - 1];
+  return between(motions[next - 1], motions[next], (time - start) / (frame_times_[next] - start));
+}
+
+std::vector<Frame> thinned_frames(const Run& run, const FrameSelection& selection) {
+  if (selection.is_all()) return run.frames;
+  std::map<simulation::FloeId, RecordedMotion> skipped;  // since the last frame that stayed
+  std::vector<Frame> frames;
+  std::size_t last = 0;  // one past the last selected frame
+  for (std::size_t i = 0; i < run.frames.size(); ++i) {
+    if (selection.has(run.frames[i].time)) last = i + 1;
+  }
+  int selected = 0;
+  for (std::size_t i = 0; i < last; ++i) {
+    const Frame& frame = run.frames[i];
+    for (const FloeMotion& floe : frame.floes) skipped[floe.floe] = {frame.time, floe.motion};
+    if (!selection.has(frame.time)) continue;
+    if (selected++ % selection.every != 0 && i + 1 != last) continue;
+    Frame kept{.time = frame.time, .ships = frame.ships, .floes = {}};
+    for (const auto& [floe, at] : skipped) {
+      if (run.is_alive(floe, frame.time) || run.is_under(floe, frame.time))
+        kept.floes.push_back({floe, carried_on(at.motion, frame.time - at.time)});
+    }
+    skipped.clear();
+    frames.push_back(std::move(kept));
+  }
+  return frames;
+}
+
+geometry::Pose pose_of(const simulation::BirthRecord& birth, const Motion& motion) {
+  const geometry::Rotation rotation = geometry::Rotation::by(motion.angle);
+  return {motion.position - rotate(rotation, birth.centroid_in_body - geometry::Point{}), rotation};
+}
+
+namespace {
+
+/// Of the youngest of the floe and those it broke from that a frame has.
+geometry::Pose body_pose(const Run& run, const MotionIndex& motions, const simulation::BirthRecord& floe, double time) {
+  const simulation::BirthRecord* at = &floe;
+  while (true) {
+    if (const auto motion = motions.floe_at(at->floe, time)) return pose_of(*at, *motion);
+    const RunFloe* parent = at->parent < at->floe ? run.floe(at->parent) : nullptr;
+    if (!parent) return {};
+    at = &parent->birth;
+  }
+}
+
+PlacedFloe placed(const Run& run, const MotionIndex& motions, const simulation::BirthRecord& floe, double time) {
+  return {&floe, run.shape(floe.floe), body_pose(run, motions, floe, time), motions.floe_at(floe.floe, time)};
+}
+
+}  // namespace
+
+void for_floes_at(const Run& run, const MotionIndex& motions, double time,
+                  const std::function<void(const PlacedFloe&)>& use) {
+  for (const RunFloe& floe : run.floes)
+    if (run.is_alive(floe.birth.floe, time)) use(placed(run, motions, floe.birth, time));
+}
+
+std::vector<PlacedFloe> floes_at(const Run& run, const MotionIndex& motions, double time) {
+  std::vector<PlacedFloe> floes;
+  for_floes_at(run, motions, time, [&](const PlacedFloe& floe) { floes.push_back(floe); });
+  return floes;
+}
+
+std::vector<PlacedFloe> floes_under_hulls_at(const Run& run, const MotionIndex& motions, double time) {
+  std::vector<PlacedFloe> floes;
+  for (const RunFloe& floe : run.floes)
+    if (run.is_under(floe.birth.floe, time)) floes.push_back(placed(run, motions, floe.birth, time));
+  return floes;
+}
+
+geometry::Pose ship_pose_at(const Run& run, const MotionIndex& motions, std::size_t ship, double time) {
+  if (const auto motion = motions.ship_at(ship, time)) return {motion->position, geometry::Rotation::by(motion->angle)};
+  const simulation::PlacedHull& hull = hull_of(run.scene.scene, ship);
+  return {hull.position_in_world, geometry::Rotation::by(hull.heading)};
+}
+
+std::vector<double> frame_times_until(const Run& run, double time) {
+  std::vector<double> times;
+  for (const Frame& frame : run.frames) {
+    if (frame.time < time) times.push_back(frame.time);
+  }
+  times.push_back(time);
+  return times;
 }
 
 }  // namespace polynya::io

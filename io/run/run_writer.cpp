@@ -22,16 +22,6 @@ enum : std::size_t { kFloes, kEvents, kFrames, kContacts, kCrushed, kStates, kFo
 constexpr std::size_t kMuchBuffered = std::size_t{256} << 10;  ///< [bytes]
 constexpr auto kLongestWait = std::chrono::seconds(1);
 
-/// What a file that grows begins with.
-std::string header_of(std::size_t file) {
-  if (file == kForces) return forces_header();
-  if (file == kFrames) return FrameEncoder::header();
-  if (file == kContacts) return contacts_header();
-  if (file == kPanels) return panels_header();
-  if (file == kCrushed) return std::string(crushed_header());
-  return std::string(file == kStates ? states_header() : "");
-}
-
 Motion motion_of(const simulation::FloeState& floe, geometry::Point centroid_in_body) {
   return {transform(floe.world_from_body, centroid_in_body), floe.angle, floe.velocity, floe.angular_velocity};
 }
@@ -66,7 +56,7 @@ Result<RunWriter> RunWriter::begin(RunLock lock, const LoadedScene& scene) {
     files.push_back(std::move(*file));
   }
   RunWriter writer(scene, std::move(files), std::move(lock));
-  for (std::size_t i = 0; i < writer.files_.size(); ++i) writer.file(i).append(header_of(i));
+  for (std::size_t i = 0; i < writer.files_.size(); ++i) writer.file(i).append(header_of(kGrowing[i]));
   writer.flush();
   if (const auto status = writer.status(); !status) return fail(status.error());
   RunSummary first;
@@ -114,7 +104,7 @@ Result<> check_progress(const RunProgress& progress, const std::filesystem::path
   for (std::size_t i = 0; i < files; ++i)
     if (auto checked = check_size(folder / kGrowing[i], progress.file_sizes[i]); !checked) return checked;
   for (std::size_t i = 0; i < files; ++i)
-    if (auto checked = check_header(folder / kGrowing[i], header_of(i)); !checked) return checked;
+    if (auto checked = check_header(folder / kGrowing[i], header_of(kGrowing[i])); !checked) return checked;
   return {};
 }
 
@@ -168,24 +158,19 @@ RunWriter::RunWriter(const LoadedScene& scene, std::vector<OutputFile> files, Ru
 }
 
 void RunWriter::record(simulation::Journal& journal) {
-  const auto append_line = [&](std::size_t which, auto&& write) {
-    line_.clear();
-    write(line_);
-    file(which).append(line_);
-  };
   std::unordered_map<simulation::FloeId, const geometry::Polygon*> broken;
   for (const simulation::Death& death : journal.deaths) broken[death.floe] = &death.polygon_in_body;
   for (const simulation::Birth& birth : journal.births) {
     add_floe(birth.floe, birth.parent, birth.centroid_in_body);
     const auto parent = broken.find(birth.parent);
-    append_line(kFloes, [&](std::string& line) {
+    append(kFloes, [&](std::string& line) {
       append_birth(line, birth, parent != broken.end() ? parent->second : nullptr, &scene_->scene);
     });
     if (file(kFloes).buffered() > kMuchBuffered && !is_displaced_) file(kFloes).flush();
   }
   for (const simulation::Event& event : journal.events) {
     const simulation::IceEvent* ice = event.ice();
-    append_line(kEvents, [&](std::string& line) {
+    append(kEvents, [&](std::string& line) {
       append_event(line, event, scene_->scene,
                    ice ? parents_[static_cast<std::size_t>(ice->floe)] : simulation::kNoFloe);
     });
@@ -193,17 +178,14 @@ void RunWriter::record(simulation::Journal& journal) {
       if (auto written = write_rejected_cut(folder(), event.time, *cut); !written) status_ = std::move(written);
   }
   for (const simulation::HullSample& sample : journal.samples) {
-    append_line(kForces,
-                [&](std::string& line) { append_forces_row(line, sample, hull_name(scene_->scene, sample.ship)); });
-  }
-  for (const simulation::HullSample& sample : journal.samples) {
+    append(kForces, [&](std::string& line) { append_forces_row(line, sample, scene_->scene); });
     std::vector<Peak>& peaks = peaks_[static_cast<std::size_t>(sample.ship)].of_column;
     for (std::size_t i = 0; i < peaks.size(); ++i) peaks[i].include(peak_columns_[i]->read(sample), sample.time);
   }
   for (const simulation::LoadPeak& peak : journal.peaks)
-    append_line(kContacts, [&](std::string& line) { append_contact(line, peak.time, peak.state, scene_->scene); });
+    append(kContacts, [&](std::string& line) { append_contact(line, peak.time, peak.state, scene_->scene); });
   for (const simulation::PanelSample& sample : journal.panels)
-    append_line(kPanels, [&](std::string& line) { append_panel(line, sample, scene_->scene); });
+    append(kPanels, [&](std::string& line) { append_panel(line, sample, scene_->scene); });
   journal.clear();
 }
 
@@ -218,18 +200,17 @@ void RunWriter::frame(const simulation::Simulation& simulation) {
     frames_.add({floe.floe, motion_of(floe, centroids_in_body_[static_cast<std::size_t>(floe.floe)])});
   });
   file(kFrames).append(frames_.end());
-  line_.clear();  // an instant's contacts are one record: no file holds a part of them
-  for (const simulation::ContactState& contact : simulation.contact_states())
-    append_contact(line_, simulation.time(), contact, scene_->scene);
-  if (!line_.empty()) file(kContacts).append(line_);
-  line_.clear();
-  for (const simulation::CrushedOverlap& overlap : simulation.crushed_overlaps()) {
-    if (overlap.share >= kLeastCrushedShare) append_crushed(line_, simulation.time(), overlap, scene_->scene);
-  }
-  if (!line_.empty()) file(kCrushed).append(line_);
-  line_.clear();
-  append_state(line_, simulation.time(), simulation.counts().steps, simulation.state_hash());
-  file(kStates).append(line_);
+  append(kContacts, [&](std::string& lines) {
+    for (const simulation::ContactState& contact : simulation.contact_states())
+      append_contact(lines, simulation.time(), contact, scene_->scene);
+  });
+  append(kCrushed, [&](std::string& lines) {
+    for (const simulation::CrushedOverlap& overlap : simulation.crushed_overlaps())
+      if (overlap.share >= kLeastCrushedShare) append_crushed(lines, simulation.time(), overlap, scene_->scene);
+  });
+  append(kStates, [&](std::string& line) {
+    append_state(line, simulation.time(), simulation.counts().steps, simulation.state_hash());
+  });
 }
 
 Result<> RunWriter::sync_files() {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "io/run/csv_columns.hpp"
 #include "io/run/frames.hpp"
+#include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/summary.hpp"
 #include "io/scene/scene_reader.hpp"
@@ -86,6 +86,13 @@ class RunWriter {
   /// Keeps what events and frames need of a floe.
   void add_floe(simulation::FloeId floe, simulation::FloeId parent, geometry::Point centroid_in_body);
   OutputFile& file(std::size_t which) { return files_[which]; }
+  /// Appends what `write` puts into a text as one record, of which no file holds a part.
+  template <class Write>
+  void append(std::size_t which, Write write) {
+    record_.clear();
+    write(record_);
+    if (!record_.empty()) file(which).append(record_);
+  }
   void flush();
   Result<> sync_files();
   /// Keeps it as the failure if the folder or a file in it has lost its name.
@@ -99,7 +106,7 @@ class RunWriter {
   std::vector<const ForceColumn*> peak_columns_;
   std::vector<ShipPeaks> peaks_;
   RunLock lock_;
-  std::string line_;
+  std::string record_;
   Result<> status_;  ///< of what is written at once
   std::chrono::steady_clock::time_point last_flush_;
   bool is_displaced_ = false;

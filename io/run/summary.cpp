@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "io/import/floe_properties.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_writer.hpp"
-#include "io/scene/floe_ice.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/problem.hpp"
@@ -52,10 +52,10 @@ void append_ice_of_floes(JsonWriter& json, const simulation::Scene& scene) {
   const auto own = std::ranges::count_if(
       scene.floes, [](const simulation::FloeSpec& floe) { return floe.own_ice != simulation::kSceneIce; });
   json.key("ice").open('{').key("floes_with_own_ice").value(static_cast<std::int64_t>(own));
-  for (const FloeIceProperty& property : floe_ice_properties()) {
+  for (const FloeProperty& property : floe_ice_properties()) {
     double least = std::numeric_limits<double>::infinity(), most = 0, mean = 0;
     for (const simulation::FloeSpec& floe : scene.floes) {
-      const double value = ice_of(scene, floe.own_ice).*property.value;
+      const double value = ice_of(scene, floe.own_ice).*property.ice;
       least = std::min(least, value);
       most = std::max(most, value);
       mean += value / static_cast<double>(scene.floes.size());

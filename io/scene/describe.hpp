@@ -46,47 +46,36 @@ struct Optional<std::optional<T>> : std::true_type {
   using Value = T;
 };
 
-/// What holds a T: itself, what is derived from it, an optional or a variant. Null where it holds none.
-template <class T, class Held>
-const T* held(const Held& holder) {
-  if constexpr (std::is_convertible_v<const Held*, const T*>) {
+/// A T, as constant as what holds it.
+template <class T, class Holder>
+using Held = std::conditional_t<std::is_const_v<Holder>, const T, T>;
+
+/// The T in what holds it: itself, what is derived from it, an optional or a variant. Where that holds none, it is null
+/// of a constant, and else made.
+template <class T, class Holder>
+Held<T, Holder>* held(Holder& holder) {
+  if constexpr (std::is_convertible_v<Holder*, const T*>) {
     return &holder;
-  } else if constexpr (Optional<Held>::value) {
+  } else if constexpr (Optional<std::remove_const_t<Holder>>::value) {
+    if constexpr (!std::is_const_v<Holder>)
+      if (!holder) holder.emplace();
     return holder ? held<T>(*holder) : nullptr;
   } else {
+    if constexpr (!std::is_const_v<Holder>)
+      if (!std::holds_alternative<T>(holder)) holder.template emplace<T>();
     return std::get_if<T>(&holder);
   }
 }
-/// The same, made to hold a T.
-template <class T, class Held>
-T& hold(Held& holder) {
-  if constexpr (std::is_convertible_v<Held*, T*>) {
-    return holder;
-  } else if constexpr (Optional<Held>::value) {
-    if (!holder) holder.emplace();
-    return hold<T>(*holder);
-  } else {
-    if (!std::holds_alternative<T>(holder)) holder.template emplace<T>();
-    return std::get<T>(holder);
-  }
-}
 
+/// The T at the end of a path of pointers to members, likewise.
 template <class T, class Whole>
-const T* find(const Whole& whole) {
+Held<T, Whole>* at(Whole& whole) {
   return held<T>(whole);
 }
 template <class T, class Whole, class Class, class Member, class... Rest>
-const T* find(const Whole& whole, Member Class::*first, Rest... rest) {
-  const auto* found = held<Class>(whole);
-  return found ? find<T>(found->*first, rest...) : nullptr;
-}
-template <class T, class Whole>
-T& make(Whole& whole) {
-  return hold<T>(whole);
-}
-template <class T, class Whole, class Class, class Member, class... Rest>
-T& make(Whole& whole, Member Class::*first, Rest... rest) {
-  return make<T>(hold<Class>(whole).*first, rest...);
+Held<T, Whole>* at(Whole& whole, Member Class::*first, Rest... rest) {
+  auto* found = held<Class>(whole);
+  return found ? at<T>(found->*first, rest...) : nullptr;
 }
 
 template <class Pointer>
@@ -167,14 +156,14 @@ namespace place {
 template <class Record, class T, class Read, class Write, class... Path>
 FieldOf<Record> leaf(Field field, Read read, Write write, Path... path) {
   field.set = [read, path...](void* record, const JsonValue& json) {
-    make<T>(*static_cast<Record*>(record), path...) = read(json);
+    *at<T>(*static_cast<Record*>(record), path...) = read(json);
   };
   field.get = [write, path...](const void* record) -> std::optional<JsonValue> {
-    const T* found = find<T>(*static_cast<const Record*>(record), path...);
+    const T* found = at<T>(*static_cast<const Record*>(record), path...);
     return found ? std::optional(write(*found)) : std::nullopt;
   };
   Record constructed{};
-  if (field.presence == Presence::kDefault) field.default_value = write(make<T>(constructed, path...));
+  if (field.presence == Presence::kDefault) field.default_value = write(*at<T>(constructed, path...));
   return {std::move(field)};
 }
 
@@ -219,9 +208,9 @@ auto object(std::string_view key, const Description<Part>& description, std::str
   if constexpr (sizeof...(Path) > 0) {
     if (place::Optional<typename place::Last<Path...>::Member>::value) field.presence = Presence::kLeftOut;
   }
-  field.open = [path...](void* record) -> void* { return &place::make<Part>(*static_cast<Record*>(record), path...); };
+  field.open = [path...](void* record) -> void* { return place::at<Part>(*static_cast<Record*>(record), path...); };
   field.find = [path...](const void* record, std::size_t) -> const void* {
-    return place::find<Part>(*static_cast<const Record*>(record), path...);
+    return place::at<Part>(*static_cast<const Record*>(record), path...);
   };
   return field;
 }
@@ -237,14 +226,14 @@ auto list(std::string_view key, Range length, std::string_view meaning, const De
                          .object = &items,
                          .default_value = {JsonValue::Array{}}}};
   field.open = [path...](void* record) -> void* {
-    return &place::make<std::vector<Item>>(*static_cast<Record*>(record), path...).emplace_back();
+    return &place::at<std::vector<Item>>(*static_cast<Record*>(record), path...)->emplace_back();
   };
   field.find = [path...](const void* record, std::size_t item) -> const void* {
-    const auto* found = place::find<std::vector<Item>>(*static_cast<const Record*>(record), path...);
+    const auto* found = place::at<std::vector<Item>>(*static_cast<const Record*>(record), path...);
     return found && item < found->size() ? &(*found)[item] : nullptr;
   };
   field.drop = [path...](void* record) {
-    place::make<std::vector<Item>>(*static_cast<Record*>(record), path...).pop_back();
+    place::at<std::vector<Item>>(*static_cast<Record*>(record), path...)->pop_back();
   };
   return field;
 }

@@ -22,8 +22,7 @@ const Description<SizeLaw> kSizes{
                                  &PowerLawSizes::exponent))),
      of("power law", required(member<SizeLaw>("least_m", "m", from(0.1, 1e4), "least √area", &PowerLawSizes::least))),
      of("power law",
-        required(member<SizeLaw>("largest_m", "m", from(0.1, 1e4), "largest √area", &PowerLawSizes::largest)))},
-    {"equal", "log-normal", "power law"}};
+        required(member<SizeLaw>("largest_m", "m", from(0.1, 1e4), "largest √area", &PowerLawSizes::largest)))}};
 
 const Description<FieldInput> kField{
     {of("rectangle", required(member("corner_m", "m", coordinate(), "corner of its region with the least x and y",
@@ -71,8 +70,7 @@ const Description<FieldInput> kField{
             "regions no floe may reach into; ships, structures and walls are kept clear without being asked for",
             &FieldInput::keep_clear),
      member("seed", "", from(0, kLargestSeed), "another one gives another field; the scene's seed is added",
-            &FieldInput::field, &FloeField::seed)},
-    {"rectangle", "outline", "channel"}};
+            &FieldInput::field, &FloeField::seed)}};
 
 const Description<LatticeInput> kLattice{
     {member("origin_m", "m", coordinate(), "corner of the lattice's area with the least x and y",
@@ -121,7 +119,42 @@ const Description<FileImport> kImport{
             &FileImport::properties)}};
 
 using fracture::ScatterKind;
-const Description<LawInput> kLaw{
+
+/// A property that floe files have too, by its number there: a number, or the law that it is drawn by.
+FieldOf<IceInput> property(std::size_t index, std::string_view meaning) {
+  const FloeProperty& in_file = floe_ice_properties()[index];
+  const auto given = [index](const void* record) -> const std::optional<NumberOrLaw>& {
+    return static_cast<const IceInput*>(record)->properties[index];
+  };
+  const auto own = [index](void* record) -> std::optional<NumberOrLaw>& {
+    return static_cast<IceInput*>(record)->properties[index];
+  };
+  return {{.key = in_file.key,
+           .kind = FieldKind::kNumberOrLaw,
+           .unit = in_file.unit,
+           .range = from(in_file.low, in_file.high),
+           .meaning = meaning,
+           .presence = Presence::kLeftOut,
+           .object = &kLawDescription,
+           .set = [own](void* record, const JsonValue& json) { own(record) = json.number(); },
+           .get = [given](const void* record) -> std::optional<JsonValue> {
+             const auto* number = place::held<double>(given(record));
+             return number ? std::optional(JsonValue{*number}) : std::nullopt;
+           },
+           .open = [own](void* record) -> void* { return place::held<LawInput>(own(record)); },
+           .find = [given](const void* record, std::size_t) -> const void* {
+             return place::held<LawInput>(given(record));
+           }}};
+}
+
+template <class Form>
+FieldOf<FloeGroup> form(std::string_view key, const Description<Form>& description, std::string_view meaning) {
+  return of(key, required(object(key, description, meaning, &FloeGroup::form)));
+}
+
+}  // namespace
+
+const Description<LawInput> kLawDescription{
     {choice<ScatterKind>("law", "constant; uniform between least and most; normal or log_normal, cut off at them",
                          {{"constant", ScatterKind::kConstant},
                           {"uniform", ScatterKind::kUniform},
@@ -137,37 +170,14 @@ const Description<LawInput> kLaw{
             &LawInput::least),
      member("most", "", {}, "no floe has more; likewise", &LawInput::most)}};
 
-/// A property that floe files have too, by its number there: a number, or the law that it is drawn by.
-FieldOf<IceInput> property(std::size_t index, std::string_view meaning, std::optional<NumberOrLaw> IceInput::*place) {
-  const FloeProperty& in_file = floe_properties()[index];
-  FieldOf<IceInput> field = object(in_file.key, kLaw, meaning, place);
-  field.kind = FieldKind::kNumberOrLaw;
-  field.unit = in_file.unit;
-  field.range = from(in_file.low, in_file.high);
-  field.set = [place](void* record, const JsonValue& json) { static_cast<IceInput*>(record)->*place = json.number(); };
-  field.get = [place](const void* record) -> std::optional<JsonValue> {
-    const auto* found = place::find<double>(*static_cast<const IceInput*>(record), place);
-    return found ? std::optional(JsonValue{*found}) : std::nullopt;
-  };
-  return field;
-}
-
-const Description<IceInput> kOwnIce{
-    {property(0, "thickness h", &IceInput::thickness),
-     property(1, "density ρ_i, less than the water's", &IceInput::density),
-     property(2, "flexural strength σ_f", &IceInput::flexural_strength),
-     property(3, "compressive strength σ_c; of two floes the weaker ice crushes", &IceInput::compressive_strength),
-     property(4, "tensile strength σ_t", &IceInput::tensile_strength),
-     property(5, "fracture toughness K_IC", &IceInput::fracture_toughness),
+const Description<IceInput> kFloeIceDescription{
+    {property(0, "thickness h"), property(1, "density ρ_i, less than the water's"),
+     property(2, "flexural strength σ_f"), property(3, "compressive strength σ_c; of two floes the weaker ice crushes"),
+     property(4, "tensile strength σ_t"), property(5, "fracture toughness K_IC"),
      member("seed", "", from(0, kLargestSeed), "another one draws other floes' ice; the scene's seed is added",
             &IceInput::seed)}};
 
-template <class Form>
-FieldOf<FloeGroup> form(std::string_view key, const Description<Form>& description, std::string_view meaning) {
-  return of(key, required(object(key, description, meaning, &FloeGroup::form)));
-}
-
-const Description<FloeGroup> kFloeGroup{
+const Description<FloeGroup> kFloesDescription{
     {form("lattice", kLattice, "rows and columns of equal rectangles"), form("rectangle", kRectangle, "one rectangle"),
      form("polygon", kPolygon, "one polygon, with holes"),
      form("field", kField, "random convex floes at a concentration"),
@@ -186,7 +196,7 @@ const Description<FloeGroup> kFloeGroup{
             &FloeGroup::velocity),
      member("angular_velocity_deg_per_s", "°/s", from(-360, 360),
             "counter-clockwise, at the start; a shear's own turning comes on top", &FloeGroup::angular_velocity),
-     object("ice", kOwnIce,
+     object("ice", kFloeIceDescription,
             "what of their ice is not the scene's: given, or drawn floe by floe; pieces have their floe's",
             &FloeGroup::ice),
      member("crushed_overlaps", "", {},
@@ -198,19 +208,6 @@ const Description<FloeGroup> kFloeGroup{
      member("under_hull_of", "", {}, "the ship under whose hull it is at the start, as a run left it",
             &FloeGroup::under_hull_of),
      member("under_hull_path_m", "m", from(-1000, 1e5), "then how far that ship has come over it; 0 if not given",
-            &FloeGroup::under_hull_path)},
-    {"lattice", "rectangle", "polygon", "field", "file"}};
-
-}  // namespace
-
-const Description<LawInput>& law_description() {
-  return kLaw;
-}
-const Description<IceInput>& floe_ice_description() {
-  return kOwnIce;
-}
-const Description<FloeGroup>& floes_description() {
-  return kFloeGroup;
-}
+            &FloeGroup::under_hull_path)}};
 
 }  // namespace polynya::io

@@ -86,18 +86,6 @@ const Description<dynamics::Wind> kWind{
      member("drag_coefficient", "", from(0, 1), "C_a", &dynamics::Wind::drag_coefficient),
      member("air_density_kg_per_m3", "kg/m³", from(0, 10), "ρ_a", &dynamics::Wind::density)}};
 
-const Description<Ice> kIce{
-    {member("thickness_m", "m", from(1e-3, 20), "thickness h, of every floe without one of its own", &Ice::thickness),
-     member("density_kg_per_m3", "kg/m³", from(100, 1100), "density ρ_i, less than the water's", &Ice::density),
-     member("youngs_modulus_Pa", "Pa", from(1e6, 1e12), "Young's modulus E", &Ice::youngs_modulus),
-     member("poisson_ratio", "", below(0, 0.5), "Poisson's ratio ν (the paper gives none)", &Ice::poisson_ratio),
-     member("flexural_strength_Pa", "Pa", from(1, 1e9), "flexural strength σ_f", &Ice::flexural_strength),
-     member("compressive_strength_Pa", "Pa", from(1, 1e10), "compressive strength σ_c", &Ice::compressive_strength),
-     member("tensile_strength_Pa", "Pa", from(1, 1e9), "tensile strength σ_t", &Ice::tensile_strength),
-     member("fracture_toughness_Pa_sqrt_m", "Pa √m", from(1, 1e9), "fracture toughness K_IC, for splitting by lefm",
-            &Ice::fracture_toughness),
-     member("friction", "", from(0, 2), "friction coefficient μ, hull on ice and ice on ice", &Ice::friction)}};
-
 const Description<ContactSettings> kContact{
     {member("circle_radius_m", "m", from(0.01, 100), "radius of the contact circles", &ContactSettings::circle_radius),
      choice<ContactNormal>(
@@ -244,7 +232,21 @@ const Description<RecordSettings> kRecord{
             "time constant of the gauge through which a contact's force is followed for its peaks; 0: each step's own",
             &RecordSettings::peak_response)}};
 
-const Description<SceneInput> kScene{
+}  // namespace
+
+const Description<Ice> kIceDescription{
+    {member("thickness_m", "m", from(1e-3, 20), "thickness h, of every floe without one of its own", &Ice::thickness),
+     member("density_kg_per_m3", "kg/m³", from(100, 1100), "density ρ_i, less than the water's", &Ice::density),
+     member("youngs_modulus_Pa", "Pa", from(1e6, 1e12), "Young's modulus E", &Ice::youngs_modulus),
+     member("poisson_ratio", "", below(0, 0.5), "Poisson's ratio ν (the paper gives none)", &Ice::poisson_ratio),
+     member("flexural_strength_Pa", "Pa", from(1, 1e9), "flexural strength σ_f", &Ice::flexural_strength),
+     member("compressive_strength_Pa", "Pa", from(1, 1e10), "compressive strength σ_c", &Ice::compressive_strength),
+     member("tensile_strength_Pa", "Pa", from(1, 1e9), "tensile strength σ_t", &Ice::tensile_strength),
+     member("fracture_toughness_Pa_sqrt_m", "Pa √m", from(1, 1e9), "fracture toughness K_IC, for splitting by lefm",
+            &Ice::fracture_toughness),
+     member("friction", "", from(0, 2), "friction coefficient μ, hull on ice and ice on ice", &Ice::friction)}};
+
+const Description<SceneInput> kSceneDescription{
     {as(FieldKind::kName,
         member("name", "", {}, "names the run folder; if left out, the scene file's name", &SceneInput::name)),
      member("description", "", {}, "for people", &SceneInput::description),
@@ -258,23 +260,14 @@ const Description<SceneInput> kScene{
      object("time", kTime, "", &SceneInput::scene, &Scene::time),
      object("water", kWater, "", &SceneInput::scene, &Scene::water),
      object("wind", kWind, "", &SceneInput::scene, &Scene::wind),
-     object("ice", kIce, "", &SceneInput::scene, &Scene::ice),
+     object("ice", kIceDescription, "", &SceneInput::scene, &Scene::ice),
      object("contact", kContact, "", &SceneInput::scene, &Scene::contact),
      object("fracture", kFracture, "", &SceneInput::scene, &Scene::fracture),
      object("record", kRecord, "", &SceneInput::scene, &Scene::record),
-     list_of<SceneInput>("ships", 100, "the ships", ship_description()),
-     list_of<SceneInput>("structures", 100, "what stands in the ice and does not move", structure_description()),
+     list_of<SceneInput>("ships", 100, "the ships", kShipDescription),
+     list_of<SceneInput>("structures", 100, "what stands in the ice and does not move", kStructureDescription),
      list_of<SceneInput>("walls", 100, "straight boundaries that ice cannot pass, and that may press on it",
-                         wall_description()),
-     list_of<SceneInput>("floes", kLargestCount, "the ice, in groups", floes_description())}};
-
-}  // namespace
-
-const Description<SceneInput>& scene_description() {
-  return kScene;
-}
-const Description<fracture::Ice>& ice_description() {
-  return kIce;
-}
+                         kWallDescription),
+     list_of<SceneInput>("floes", kLargestCount, "the ice, in groups", kFloesDescription)}};
 
 }  // namespace polynya::io

@@ -34,8 +34,7 @@ const Description<ShipInput> kHull{
                      &Ship::water, &HullWaterSettings::block_coefficient)),
      choice<bool>("submersion_speed_factor",
                   "how the load of ice under the hull grows with speed: by 1 + 9.4 v/√(gL), or not",
-                  {{"lindqvist", true}, {"none", false}}, &ShipInput::spec, &Ship::hull, &Hull::has_speed_factor)},
-    {"wedge bow", "outline"}};
+                  {{"lindqvist", true}, {"none", false}}, &ShipInput::spec, &Ship::hull, &Hull::has_speed_factor)}};
 
 const Description<EngineInput> kEngine{
     {required(member("open_water_speed_m_per_s", "m/s", above(0, 30),
@@ -65,8 +64,7 @@ const Description<ShipInput> kPropulsion{
                         "velocity over ground and heading are held; the forces reported are what it takes to "
                         "hold them",
                         &ShipInput::propulsion, &ConstantSpeed::speed))),
-     of("engine", required(object("engine", kEngine, "propellers, and what drives them", &ShipInput::propulsion)))},
-    {"thrust", "constant speed", "engine"}};
+     of("engine", required(object("engine", kEngine, "propellers, and what drives them", &ShipInput::propulsion)))}};
 
 const Description<HullWaterSettings> kHullWater{
     {choice<bool>("model",
@@ -95,8 +93,7 @@ const Description<AzimuthSettings> kAzimuth{
 
 const Description<Steering> kSteering{
     {of("rudder", required(object<Steering>("rudder", kRudder, "at the stern, in the race of the propellers"))),
-     of("azimuth", required(object<Steering>("azimuth", kAzimuth, "thrusters at the stern that turn all thrust")))},
-    {"rudder", "azimuth"}};
+     of("azimuth", required(object<Steering>("azimuth", kAzimuth, "thrusters at the stern that turn all thrust")))}};
 
 FieldOf<MooringInput> stiffness(std::string_view key, std::string_view unit, std::string_view meaning,
                                 double MooringSettings::*place) {
@@ -229,8 +226,7 @@ const Description<PilotSettings> kPilot{
      pilot("table", "lever and rudder by the clock", kTable),
      pilot("ram", "ahead until it is stuck, back, and ahead again; counts rams and metres gained", kRam),
      pilot("follow", "another ship at a distance", kFollow),
-     pilot("manage", "breaks the ice that drifts onto another ship or a structure", kManage)},
-    {"constant", "hold_speed", "hold_heading", "route", "table", "ram", "follow", "manage"}};
+     pilot("manage", "breaks the ice that drifts onto another ship or a structure", kManage)}};
 
 /// Presets are filled in before a scene is read, and their names with them: what is left is none.
 FieldOf<ShipInput> preset() {
@@ -256,7 +252,20 @@ const Description<PanelSettings> kPanelSettings{
      member("top_m", "m", from(-100, 100), "of the highest row, above the water", &PanelSettings::top),
      member("rows", "", from(1, 100), "of panels between the two, of one height", &PanelSettings::rows)}};
 
-const Description<ShipInput> kShip{
+const Description<WallPressure> kPressure{
+    {required(member("line_load_N_per_m", "N/m", above(0, 1e8),
+                     "q, along the wall's normal: it closes until ice bears that, and gives way where more "
+                     "presses",
+                     &WallPressure::line_load)),
+     member("closing_speed_m_per_s", "m/s", above(0, 10),
+            "at which it closes where nothing bears; its damping is q over that speed", &WallPressure::closing_speed),
+     member("mass_kg_per_m", "kg/m", from(1e3, 1e9),
+            "of what moves with the wall; that of a kilometre of ice of half a metre",
+            &WallPressure::mass_per_length)}};
+
+}  // namespace
+
+const Description<ShipInput> kShipDescription{
     {preset(),
      as(FieldKind::kName, member("name", "", {}, "its name in the outputs; # is its number", &ShipInput::name)),
      or_preset(object("hull", kHull, "the waterline, by its main dimensions or point by point")),
@@ -288,7 +297,7 @@ const Description<ShipInput> kShip{
      object("panels", kPanelSettings, "of the hull, of which panels.csv has the loads of the ice", &ShipInput::spec,
             &Ship::panels)}};
 
-const Description<StructureInput> kStructure{
+const Description<StructureInput> kStructureDescription{
     {as(FieldKind::kName, member("name", "", {}, "its name in the outputs; # is its number", &StructureInput::name)),
      of("cylinder", required(member("radius_m", "m", from(0.1, 1000), "of a cylinder or cone at the waterline",
                                     &StructureInput::form, &Cylinder::radius))),
@@ -304,21 +313,9 @@ const Description<StructureInput> kStructure{
             "as a hull does",
             &StructureInput::slope),
      object("panels", kPanelSettings, "of its walls, of which panels.csv has the loads of the ice",
-            &StructureInput::spec, &Structure::panels)},
-    {"cylinder", "outline"}};
+            &StructureInput::spec, &Structure::panels)}};
 
-const Description<WallPressure> kPressure{
-    {required(member("line_load_N_per_m", "N/m", above(0, 1e8),
-                     "q, along the wall's normal: it closes until ice bears that, and gives way where more "
-                     "presses",
-                     &WallPressure::line_load)),
-     member("closing_speed_m_per_s", "m/s", above(0, 10),
-            "at which it closes where nothing bears; its damping is q over that speed", &WallPressure::closing_speed),
-     member("mass_kg_per_m", "kg/m", from(1e3, 1e9),
-            "of what moves with the wall; that of a kilometre of ice of half a metre",
-            &WallPressure::mass_per_length)}};
-
-const Description<WallInput> kWall{
+const Description<WallInput> kWallDescription{
     {as(FieldKind::kName, member("name", "", {}, "its name in the outputs; # is its number", &WallInput::name)),
      required(member("from_m", "m", coordinate(),
                      "an end of its face, which runs from here to to_m with the ice to its left", &WallInput::from)),
@@ -328,17 +325,5 @@ const Description<WallInput> kWall{
             &WallInput::velocity),
      object("pressure", kPressure, "moves it along its normal instead, by a load that the ice is to bear",
             &WallInput::pressure)}};
-
-}  // namespace
-
-const Description<ShipInput>& ship_description() {
-  return kShip;
-}
-const Description<StructureInput>& structure_description() {
-  return kStructure;
-}
-const Description<WallInput>& wall_description() {
-  return kWall;
-}
 
 }  // namespace polynya::io

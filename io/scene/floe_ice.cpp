@@ -1,9 +1,8 @@
-#include "io/scene/floe_ice.hpp"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
+#include "io/scene/floe_list_reader.hpp"
 #include "io/scene/record.hpp"
 #include "simulation/ice/ice_scatter.hpp"
 
@@ -17,115 +16,59 @@ using fracture::ScatterLaw;
 constexpr double kDeviations = 3;     ///< off the mean where a normal law without bounds is cut off
 constexpr double kLeastShare = 0.01;  ///< of a law between its bounds: less is taken for a slip
 
-/// As the scene has it.
-std::string word_of(const LawInput& law) {
-  return write(law_description(), law).find("law")->text();
-}
-
-/// Completes the law of one property of one entry; `value` is its JSON.
-class LawReader {
- public:
-  LawReader(const FloeIceProperty& property, const JsonValue& value, std::string path, ProblemCollector& problems)
-      : property_(property), value_(value), path_(std::move(path)), problems_(problems) {}
-
-  std::optional<ScatterLaw> read(const NumberOrLaw& given, double scene_value) {
-    if (const double* number = std::get_if<double>(&given))
-      return ScatterLaw{.kind = ScatterKind::kConstant, .mean = *number};
-    input_ = std::get<LawInput>(given);
-    const std::string word = word_of(input_);
-    const bool is_uniform = input_.kind == ScatterKind::kUniform;
-    const bool is_constant = input_.kind == ScatterKind::kConstant;
-    check("mean", input_.mean, word, false, is_uniform);
-    check("spread", input_.spread, word, !is_uniform && !is_constant, is_uniform || is_constant);
-    check("least", input_.least, word, is_uniform, is_constant);
-    check("most", input_.most, word, is_uniform, is_constant);
-    if (!is_good_) return std::nullopt;
-    ScatterLaw law{.kind = input_.kind, .mean = input_.mean.value_or(scene_value), .spread = input_.spread.value_or(0)};
-    set_bounds(law);
-    check_bounds(law);
-    return is_good_ ? std::optional(law) : std::nullopt;
-  }
-
- private:
-  void report(std::string_view key, std::string found, std::string allowed) {
-    problems_.report(0, nearest_offset(value_, key), key.empty() ? path_ : fmt::format("{}.{}", path_, key),
-                     std::move(found), std::move(allowed));
-    is_good_ = false;
-  }
-
-  void check(std::string_view key, std::optional<double> given, const std::string& word, bool is_needed,
-             bool is_refused) {
+/// Reports what the kind of a law needs, and what it has no use for.
+void check_keys(const LawInput& law, const ReportAt& report) {
+  const std::string word = write(kLawDescription, law).find("law")->text();
+  const auto check = [&](std::string_view key, std::optional<double> given, bool is_needed, bool is_refused) {
     if (!given && is_needed) report(key, "nothing", fmt::format("a number: law {} needs it", word));
     if (given && is_refused) report(key, show({*given}), fmt::format("nothing: law {} has none", word));
-  }
+  };
+  const bool is_uniform = law.kind == ScatterKind::kUniform;
+  const bool is_constant = law.kind == ScatterKind::kConstant;
+  check("mean", law.mean, false, is_uniform);
+  check("spread", law.spread, !is_uniform && !is_constant, is_uniform || is_constant);
+  check("least", law.least, is_uniform, is_constant);
+  check("most", law.most, is_uniform, is_constant);
+}
 
-  void set_bounds(ScatterLaw& law) const {
-    law.least = property_.range.low;
-    law.most = property_.range.high;
-    if (law.kind == ScatterKind::kNormal) {
-      law.least = std::max(law.least, law.mean * (1 - kDeviations * law.spread));
-      law.most = std::min(law.most, law.mean * (1 + kDeviations * law.spread));
-    }
-    law.least = input_.least.value_or(law.least);
-    law.most = input_.most.value_or(law.most);
+void check_bounds(const ScatterLaw& law, std::string_view unit, const ReportAt& report) {
+  if (law.least > law.most) {
+    report("least", fmt::format("{:g}", law.least), fmt::format("at most `most`, {:g} [{}]", law.most, unit));
+  } else if (const double share = share_within_bounds(law); share < kLeastShare) {
+    report("", fmt::format("a law of which {:.2g} lies between {:g} and {:g}", share, law.least, law.most),
+           fmt::format("bounds around the mean, {:g} [{}], that hold {:g} of it or more", law.mean, unit, kLeastShare));
   }
+}
 
-  void check_bounds(const ScatterLaw& law) {
-    if (law.least > law.most) {
-      report("least", fmt::format("{:g}", law.least),
-             fmt::format("at most `most`, {:g} [{}]", law.most, property_.unit));
-    } else if (const double share = share_within_bounds(law); share < kLeastShare) {
-      report("", fmt::format("a law of which {:.2g} lies between {:g} and {:g}", share, law.least, law.most),
-             fmt::format("bounds around the mean, {:g} [{}], that hold {:g} of it or more", law.mean, property_.unit,
-                         kLeastShare));
-    }
+/// The law of one property of one entry, complete; nothing where it is wrong, which is reported.
+std::optional<ScatterLaw> complete_law(const NumberOrLaw& given, const FloeProperty& property, double scene_value,
+                                       const ReportAt& report) {
+  if (const double* number = std::get_if<double>(&given))
+    return ScatterLaw{.kind = ScatterKind::kConstant, .mean = *number};
+  const auto& input = std::get<LawInput>(given);
+  const std::size_t problems_before = report.problems.count();
+  check_keys(input, report);
+  if (report.problems.count() > problems_before) return std::nullopt;
+  ScatterLaw law{.kind = input.kind,
+                 .mean = input.mean.value_or(scene_value),
+                 .spread = input.spread.value_or(0),
+                 .least = property.low,
+                 .most = property.high};
+  if (law.kind == ScatterKind::kNormal) {
+    law.least = std::max(law.least, law.mean * (1 - kDeviations * law.spread));
+    law.most = std::min(law.most, law.mean * (1 + kDeviations * law.spread));
   }
-
-  const FloeIceProperty& property_;
-  const JsonValue& value_;
-  std::string path_;
-  ProblemCollector& problems_;
-  LawInput input_;
-  bool is_good_ = true;
-};
+  law.least = input.least.value_or(law.least);
+  law.most = input.most.value_or(law.most);
+  check_bounds(law, property.unit, report);
+  return report.problems.count() > problems_before ? std::nullopt : std::optional(law);
+}
 
 bool is_same(const Ice& a, const Ice& b) {
-  return std::ranges::all_of(floe_ice_properties(), [&](const FloeIceProperty& p) { return a.*p.value == b.*p.value; });
+  return std::ranges::all_of(floe_ice_properties(), [&](const FloeProperty& p) { return a.*p.ice == b.*p.ice; });
 }
 
 }  // namespace
-
-const std::array<FloeIceProperty, kFloeIceProperties>& floe_ice_properties() {
-  static const auto kProperties = [] {
-    constexpr std::array<double Ice::*, kFloeIceProperties> kValues{&Ice::thickness,         &Ice::density,
-                                                                    &Ice::flexural_strength, &Ice::compressive_strength,
-                                                                    &Ice::tensile_strength,  &Ice::fracture_toughness};
-    constexpr std::array<std::optional<NumberOrLaw> IceInput::*, kFloeIceProperties> kInputs{
-        &IceInput::thickness,         &IceInput::density,
-        &IceInput::flexural_strength, &IceInput::compressive_strength,
-        &IceInput::tensile_strength,  &IceInput::fracture_toughness};
-    std::array<FloeIceProperty, kFloeIceProperties> properties;
-    for (std::size_t i = 0; i < properties.size(); ++i) {
-      const FloeProperty& in_file = floe_properties()[i];
-      properties[i] = {in_file.key, in_file.unit, {.low = in_file.low, .high = in_file.high}, kValues[i], kInputs[i]};
-    }
-    return properties;
-  }();
-  return kProperties;
-}
-
-GivenIce ice_of(const FloeProperties& properties) {
-  GivenIce given;
-  for (std::size_t i = 0; i < kFloeIceProperties; ++i) {
-    if (const auto& value = properties.*floe_properties()[i].member)
-      given.emplace_back(static_cast<std::uint8_t>(i), *value);
-  }
-  return given;
-}
-
-void append_ice(JsonWriter& json, const Ice& ice) {
-  for (const FloeIceProperty& property : floe_ice_properties()) json.key(property.key).value(ice.*property.value);
-}
 
 std::optional<GroupIce> GroupIce::of(const simulation::Scene& scene, const FloeGroup& group, const JsonValue& item,
                                      const std::string& path, ProblemCollector& problems) {
@@ -134,12 +77,12 @@ std::optional<GroupIce> GroupIce::of(const simulation::Scene& scene, const FloeG
   ice.seed_ = scene.seed + group.ice->seed;
   bool is_good = true;
   for (std::size_t i = 0; i < kFloeIceProperties; ++i) {
-    const FloeIceProperty& property = floe_ice_properties()[i];
-    const std::optional<NumberOrLaw>& given = (*group.ice).*property.input;
+    const FloeProperty& property = floe_ice_properties()[i];
+    const std::optional<NumberOrLaw>& given = group.ice->properties[i];
     if (!given) continue;
-    LawReader reader(property, *item.find("ice")->find(property.key), fmt::format("{}.ice.{}", path, property.key),
-                     problems);
-    if (auto law = reader.read(*given, scene.ice.*property.value))
+    const ReportAt report{problems, *item.find("ice")->find(property.key),
+                          fmt::format("{}.ice.{}", path, property.key)};
+    if (auto law = complete_law(*given, property, scene.ice.*property.ice, report))
       ice.laws_.push_back({i, *law, {}});
     else
       is_good = false;
@@ -148,17 +91,16 @@ std::optional<GroupIce> GroupIce::of(const simulation::Scene& scene, const FloeG
   return ice;
 }
 
-std::int32_t GroupIce::add_to(simulation::Scene& scene, const GivenIce& given) {
-  if (laws_.empty() && given.empty()) return simulation::kSceneIce;
+std::int32_t GroupIce::add_to(simulation::Scene& scene, const FloeProperties& given) {
   Ice ice = scene.ice;
   for (Law& law : laws_) {
-    const bool is_given =
-        std::ranges::any_of(given, [&](const auto& of_feature) { return of_feature.first == law.property; });
-    if (is_given) continue;
+    const FloeProperty& property = floe_ice_properties()[law.property];
+    if (given.*property.member) continue;
     law.drawn.push_back(simulation::drawn_property(law.law, seed_, scene.floes.size(), law.property));
-    ice.*floe_ice_properties()[law.property].value = law.drawn.back();
+    ice.*property.ice = law.drawn.back();
   }
-  for (const auto& [property, value] : given) ice.*floe_ice_properties()[property].value = value;
+  for (const FloeProperty& property : floe_ice_properties())
+    if (const auto& value = given.*property.member) ice.*property.ice = *value;
   if (is_same(ice, scene.ice)) return simulation::kSceneIce;
   if (scene.own_ice.empty() || !is_same(ice, scene.own_ice.back())) scene.own_ice.push_back(ice);
   return static_cast<std::int32_t>(scene.own_ice.size()) - 1;
@@ -173,17 +115,16 @@ std::vector<IceReport> GroupIce::reports(std::size_t group) const {
   return reports;
 }
 
-std::optional<IceInput> GroupIce::spelled_out(const simulation::Scene& scene, const GivenIce& given) const {
-  if (laws_.empty() && given.empty()) return std::nullopt;
+std::optional<IceInput> GroupIce::spelled_out(const simulation::Scene& scene, const FloeProperties& given) const {
   const Ice& ice = ice_of(scene, scene.floes.back().own_ice);
   IceInput own;
-  const auto set = [&](std::size_t property) {
-    const FloeIceProperty& of = floe_ice_properties()[property];
-    own.*of.input = ice.*of.value;
-  };
-  for (const Law& law : laws_) set(law.property);
-  for (const auto& [property, value] : given) set(property);
-  return own;
+  for (std::size_t i = 0; i < kFloeIceProperties; ++i) {
+    const FloeProperty& property = floe_ice_properties()[i];
+    if (given.*property.member || std::ranges::count(laws_, i, &Law::property) > 0)
+      own.properties[i] = ice.*property.ice;
+  }
+  const bool has_any = std::ranges::any_of(own.properties, [](const auto& property) { return property.has_value(); });
+  return has_any ? std::optional(own) : std::nullopt;
 }
 
 }  // namespace polynya::io

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/pose.hpp"
 #include "io/scene/scene_check.hpp"
+#include "io/text/floe_text.hpp"
 #include "simulation/world/setup.hpp"
 
 namespace polynya::io {
@@ -99,13 +101,13 @@ ChannelRegion channel_region(const std::vector<Point>& line, double width) {
 
 class FieldReader {
  public:
-  FieldReader(FieldInput& input, const JsonValue& item, const std::string& path, const simulation::Scene& scene,
-              ProblemCollector& problems)
-      : input_(input), json_(*item.find("field")), path_(path), scene_(scene), problems_(problems) {}
+  FieldReader(FieldInput& input, const simulation::Scene& scene, const ReportAt& report)
+      : input_(input), scene_(scene), report_(report) {}
 
   std::optional<FloeField> read() {
     field_ = input_.field;
-    const std::size_t problems_before = problems_.count();
+    const std::size_t problems_before = report_.problems.count();
+    const auto is_sound = [&] { return report_.problems.count() == problems_before; };
     choose_sizes();
     set_region();
     field_.seed += scene_.seed;
@@ -114,38 +116,29 @@ class FieldReader {
       const simulation::PlacedHull& hull = hull_of(scene_, i);
       if (hull.hull.waterline.size() >= 3) field_.kept_clear.push_back(waterline_in_world(hull));
     }
-    if (problems_.count() > problems_before) return std::nullopt;
-    check_rings();
-    if (problems_.count() > problems_before) return std::nullopt;
-    if (field_.law) check_law();
-    if (problems_.count() > problems_before) return std::nullopt;
-    return field_;
+    if (is_sound()) check_rings();
+    if (is_sound() && field_.law) check_law();
+    return is_sound() ? std::optional(std::move(field_)) : std::nullopt;
   }
 
  private:
-  /// An index in a list of the field, as keep_clear_m[2], stands in the path alone: the place is the list's.
-  void report(std::string_view key, std::string found, std::string allowed) {
-    problems_.report(0, nearest_offset(json_, key.substr(0, key.find('['))), key.empty() ? path_ : key_path(path_, key),
-                     std::move(found), std::move(allowed));
-  }
-
   /// Sizes are a law's or floe_size_m's, and go with their own keys.
   void choose_sizes() {
     const bool has_size = input_.floe_size.has_value();
     if (has_size == field_.law.has_value())
-      report(has_size ? "sizes" : "", has_size ? "sizes beside floe_size_m" : "neither sizes nor floe_size_m",
-             "one of sizes and floe_size_m");
+      report_(has_size ? "sizes" : "", has_size ? "sizes beside floe_size_m" : "neither sizes nor floe_size_m",
+              "one of sizes and floe_size_m");
     if (field_.law && input_.size_spread)
-      report("size_spread", "size_spread beside sizes", "sizes with mean_m and spread");
+      report_("size_spread", "size_spread beside sizes", "sizes with mean_m and spread");
     const auto check_without_law = [&](std::string_view key, bool is_given) {
-      if (has_size && is_given) report(key, fmt::format("{} with floe_size_m", key), "sizes instead");
+      if (has_size && is_given) report_(key, fmt::format("{} with floe_size_m", key), "sizes instead");
     };
     check_without_law("aspect", input_.aspect.has_value());
     check_without_law("orientation_deg", input_.orientation.has_value());
     check_without_law("least_corners", input_.least_corners.has_value());
     check_without_law("packing", input_.packing.has_value());
     if (input_.orientation && !input_.aspect)
-      report("orientation_deg", "orientation_deg without aspect", "both, or neither");
+      report_("orientation_deg", "orientation_deg without aspect", "both, or neither");
     field_.orientation = input_.orientation;
     if (field_.law)
       complete_law();
@@ -173,12 +166,12 @@ class FieldReader {
     field_.least_corners = filled_in(input_.least_corners, field_.least_corners);
     field_.packing = filled_in(input_.packing, packing);
     if (field_.least_corners > field_.most_corners)
-      report("least_corners", fmt::format("{}, more than most_corners", field_.least_corners),
-             fmt::format("at most {}", field_.most_corners));
+      report_("least_corners", fmt::format("{}, more than most_corners", field_.least_corners),
+              fmt::format("at most {}", field_.most_corners));
     if (field_.packing < field_.concentration)
-      report("packing", fmt::format("{:g}, less than the concentration", field_.packing),
-             fmt::format("at least {:g}: floes, and the holes among them that further floes would fill",
-                         field_.concentration));
+      report_("packing", fmt::format("{:g}, less than the concentration", field_.packing),
+              fmt::format("at least {:g}: floes, and the holes among them that further floes would fill",
+                          field_.concentration));
   }
 
   void set_region() {
@@ -197,11 +190,11 @@ class FieldReader {
     const auto& line = channel.centreline;
     for (std::size_t i = 1; i < line.size(); ++i) {
       if (line[i] == line[i - 1])
-        return report("centreline_m", fmt::format("point {} a second time", i), "points that differ");
+        return report_("centreline_m", fmt::format("point {} a second time", i), "points that differ");
     }
     ChannelRegion region = channel_region(line, channel.width);
     if (region.too_sharp >= 0)
-      return report(
+      return report_(
           "centreline_m",
           fmt::format("a bend at point {} that is too sharp for {:g} m of width", region.too_sharp + 1, channel.width),
           "longer legs, wider angles or less width");
@@ -211,7 +204,7 @@ class FieldReader {
 
   void check_ring(const geometry::Ring& ring, const std::string& key) {
     if (const auto defect = geometry::find_defect({ring, {}}))
-      report(key, "an invalid ring: " + describe(*defect), "a simple ring");
+      report_(key, "an invalid ring: " + describe(*defect), "a simple ring");
   }
   void check_rings() {
     if (!field_.is_rectangle)
@@ -230,25 +223,23 @@ class FieldReader {
   void check_law() {
     const auto* power = std::get_if<PowerLawSizes>(&*field_.law);
     if (power && power->least >= power->largest)
-      return report("sizes.least_m", fmt::format("{:g}, not below largest_m", power->least),
-                    fmt::format("less than {:g}", power->largest));
+      return report_("sizes.least_m", fmt::format("{:g}, not below largest_m", power->least),
+                     fmt::format("less than {:g}", power->largest));
     const double count = simulation::floe_count(field_);
     const double width = width_of_region();
     // The bounds of a power law are asked for; a log-normal law has none that a field would have to reach.
     const double largest = power ? power->largest : simulation::size_at(*field_.law, 1 - 0.5 / std::max(count, 1.0));
     if (largest > width) {
       const std::string_view key = power ? "sizes.largest_m" : "sizes";
-      return report(
+      return report_(
           key, fmt::format("floes of up to {:.4g} m in a region {:.4g} m across", largest, width),
           power ? fmt::format("at most {:.4g}, or a wider region", width) : "smaller floes, or a wider region");
     }
   }
 
   FieldInput& input_;
-  const JsonValue& json_;
-  const std::string& path_;
   const simulation::Scene& scene_;
-  ProblemCollector& problems_;
+  const ReportAt& report_;  ///< of the entry's "field"
   FloeField field_;
 };
 
@@ -264,26 +255,149 @@ std::string remedy(const FloeField& field, const simulation::FloeFieldOutcome& o
   return fmt::format("{}, or most_corners above {}", most, field.most_corners);
 }
 
-/// The field that an entry asks for: its region, its seed, what ships keep clear, and the defaults that
-/// depend on whether it has a size law; these are put into `input` too. Nothing where it cannot be made; what
-/// is wrong has been reported at `path`. `item` is the entry's JSON.
-std::optional<FloeField> complete_field(FieldInput& input, const JsonValue& item, const std::string& path,
-                                        const simulation::Scene& scene, ProblemCollector& problems) {
-  return FieldReader(input, item, path, scene, problems).read();
-}
-
 /// Reports a cover that the field did not reach; true where there is none.
-bool check_cover(const FloeField& field, const simulation::FloeFieldOutcome& outcome, const JsonValue& item,
-                 const std::string& path, ProblemCollector& problems) {
-  const JsonValue& concentration = *item.find("field")->find("concentration");
+bool check_cover(const FloeField& field, const simulation::FloeFieldOutcome& outcome, const ReportAt& report) {
   if (field.law && outcome.region_area <= 0) {
-    problems.report(0, item.offset, path, "no room: all of the region is kept clear", "a region with free water");
+    report("", "no room: all of the region is kept clear", "a region with free water");
     return false;
   }
   if (outcome.reachable_concentration >= field.concentration) return true;
-  problems.report(0, concentration.offset, path + ".concentration", show(concentration), remedy(field, outcome));
+  report("concentration", show(*report.value.find("concentration")), remedy(field, outcome));
   return false;
 }
+
+/// A floe file as a scene has it.
+struct FloeFile {
+  std::size_t source = 0;  ///< index in the ProblemCollector's sources
+  std::vector<FileFloe> floes;
+  FileReport report;  ///< without its group
+};
+
+std::string origin_in_scene(double latitude, double longitude) {
+  return fmt::format(R"("origin": {{"latitude_deg": {:.6g}, "longitude_deg": {:.6g}}} in the scene)", latitude,
+                     longitude);
+}
+
+/// Words between commas.
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words;
+  for_pieces(text, ',', [&words](std::string_view piece, std::size_t) {
+    if (const auto word = trimmed(piece); !word.empty()) words.push_back(word);
+  });
+  return words;
+}
+
+/// Reads a floe file of a scene: GeoJSON, or what GDAL converts (io/import/floe_import.hpp), brought to the plane about
+/// the scene's origin. One use. `offset` is that of the entry's `file` in the scene.
+class FloeFileReader {
+ public:
+  FloeFileReader(const std::optional<FileImport>& import, std::string path, std::uint32_t offset,
+                 ProblemCollector& problems)
+      : is_imported_(import.has_value()),
+        import_(import.value_or(FileImport{})),
+        path_(std::move(path)),
+        offset_(offset),
+        problems_(problems) {}
+
+  /// None where anything is wrong with it: then there are problems, of the file or of the entry.
+  std::optional<FloeFile> read(const std::filesystem::path& file,
+                               const std::optional<simulation::GeographicOrigin>& origin) {
+    const std::size_t before = problems_.count();
+    if (origin && !import_.settings.plane.target.empty())
+      report_entry("import.crs in a scene that has an origin", "one of the two: the scene has one plane");
+    auto text = text_of(file);
+    if (!text) {
+      report_entry("\"" + file.string() + "\": " + text.error(),
+                   fmt::format("a floe file of at most {} bytes", kLongestFloesFile));
+      return {};
+    }
+    result_.source = problems_.add_source({file.string(), std::move(*text)});
+    PropertyNames names;
+    for (const std::string_view words : words_of(import_.properties))
+      if (auto added = add_property_name(words, names); !added)
+        report_entry(added.error(), "KEY=NAME, as thickness_m=THICK or thickness_m=CM*0.01");
+    auto read = read_floe_text(problems_.source(result_.source).text);
+    if (!read) report_entry(fmt::format("\"{}\":{}", file.string(), read.error()), "a floe file (docs/import.md)");
+    if (problems_.count() > before) return {};
+    text_ = *std::move(read);
+    FloesOfText floes = floes_of(text_, names);
+    result_.report = {.run_time = floes.run_time, .near_misses = std::move(floes.near_misses), .offset = offset_};
+    place(floes.floes, plane_of(origin));
+    if (problems_.count() > before) return {};
+    return std::move(result_);
+  }
+
+ private:
+  Result<std::string> text_of(const std::filesystem::path& file) const {
+    auto foreign = read_foreign_file(file, import_.layer, kLongestFloesFile);
+    return foreign ? *std::move(foreign) : read_text_file(file, kLongestFloesFile);
+  }
+
+  /// Where the features' area_m2 are those of their coordinates, these are metres, however small.
+  bool are_metres() const {
+    CoordinateEvidence evidence;
+    for (const FloeEntry& entry : text_.entries) evidence.add(entry.polygon);
+    return text_.stated_area > 0 && std::abs(text_.stated_area - evidence.area) <= 1e-3 * evidence.area;
+  }
+
+  PlaneSettings plane_of(const std::optional<simulation::GeographicOrigin>& origin) const {
+    PlaneSettings plane = import_.settings.plane;
+    if (plane.target.empty()) plane.origin = origin;
+    plane.are_metres = are_metres();
+    plane.origin_in_words = origin_in_scene;
+    plane.shift_in_words = R"("import": {"shift": true} beside "file" moves them to the middle of the plane, )"
+                           "an origin in the scene projects them about a place";
+    plane.source_in_words = R"("import": {"from": "EPSG:n"} beside "file" names it)";
+    return plane;
+  }
+
+  void place(std::vector<SourceFloe>& floes, PlaneSettings plane) {
+    const std::string crs = crs_name(text_.crs);
+    const auto offset_of = [&](std::size_t floe) { return text_.entries[floe].offset; };
+    if (!is_imported_) {
+      auto placed = bring_to_plane(floes, crs, plane);
+      if (!placed) return report(placed.error());
+      for (std::size_t i = 0; i < floes.size(); ++i) {
+        if (!floes[i].refused.empty()) report({i, floes[i].refused});
+        result_.floes.push_back({in_house_notation(std::move(floes[i].polygon)), floes[i].properties, offset_of(i)});
+      }
+      result_.report.plane = std::move(*placed);
+      return;
+    }
+    ImportSettings settings = import_.settings;
+    settings.plane = std::move(plane);
+    auto imported = import_floes(floes, crs, settings);
+    if (!imported) return report(imported.error());
+    for (const ImportItem& item : imported->items) {
+      if (item.refused.empty()) continue;
+      report({item.source, item.refused + (item.is_outline_refused ? R"(; "repair": "non-zero" in its "import")"
+                                                                     " makes a valid polygon of it"
+                                                                   : "")});
+    }
+    result_.report.plane = std::move(imported->plane);
+    result_.report.totals = imported->totals;
+    for (ImportedFloe& floe : imported->floes)
+      result_.floes.push_back({std::move(floe.polygon), floes[floe.source].properties, offset_of(floe.source)});
+  }
+
+  void report(const PlaneError& error) {
+    const std::uint32_t offset = error.floe ? text_.entries[*error.floe].offset : 0;
+    const std::string path = error.floe ? fmt::format("{} (its floe {})", path_, *error.floe) : path_;
+    problems_.add(result_.source, offset, {.path = path, .sentence = error.words});
+  }
+
+  void report_entry(std::string found, std::string allowed) {
+    problems_.report(0, offset_, path_, std::move(found), std::move(allowed));
+  }
+
+  const bool is_imported_;
+  const FileImport import_;
+  std::string path_;
+  std::uint32_t offset_;
+  ProblemCollector& problems_;
+  FloeText text_;
+  FloeFile result_;
+};
 
 }  // namespace
 
@@ -311,102 +425,99 @@ void FloeListReader::add(std::size_t index, FloeGroup group, const JsonValue& it
   if (!ice_of_group) return;
   ice_ = std::move(*ice_of_group);
   std::visit([&](auto& form) { add_floes(form); }, group_.form);
-  for (IceReport& one : ice_.reports(index)) ice.push_back(one);
+  std::ranges::move(ice_.reports(index), std::back_inserter(loaded_.ice));
 }
 
 /// Fast ice does not turn, and what rigid impulses do between two prescribed motions is not defined.
 void FloeListReader::check_fast_ice(bool is_fast) {
   if (!is_fast) return;
   if (group_.is_fast && group_.angular_velocity != 0)
-    report(offset_of("angular_velocity_deg_per_s"), path_ + ".angular_velocity_deg_per_s",
-           fmt::format("{:g}, of fast ice", from_si("°", group_.angular_velocity)), "0: fast ice does not turn");
+    report("angular_velocity_deg_per_s", fmt::format("{:g}, of fast ice", from_si("°", group_.angular_velocity)),
+           "0: fast ice does not turn");
   if (draft_.scene.contact.law == simulation::ContactLaw::kImpulse)
-    report(offset_of("fast_ice"), path_ + ".fast_ice", "true with contact.law impulse", "contact.law crush, or false");
+    report("fast_ice", "true with contact.law impulse", "contact.law crush, or false");
+}
+
+void FloeListReader::add_all(std::vector<Polygon> floes, bool are_known_valid) {
+  const bool are_numbered =
+      std::holds_alternative<LatticeInput>(group_.form) || std::holds_alternative<FieldInput>(group_.form);
+  int member = 0;
+  for (Polygon& floe : floes)
+    add_floe(group_, std::move(floe), {},
+             {.offset = item_->offset,
+              .group = index_,
+              .member = are_numbered ? member++ : -1,
+              .is_known_valid = are_known_valid});
+  written.items().push_back(write(kFloesDescription, group_));
 }
 
 void FloeListReader::add_floes(const LatticeInput& lattice) {
   const bool is_too_wide = (lattice.size.x > lattice.pitch.x && lattice.columns > 1) ||
                            (lattice.size.y > lattice.pitch.y && lattice.rows > 1);
   if (is_too_wide)
-    report(offset_of("lattice.size_m"), path_ + ".lattice.size_m",
-           fmt::format("{} × {} m, more than the pitch", lattice.size.x, lattice.size.y),
+    report("lattice.size_m", fmt::format("{} × {} m, more than the pitch", lattice.size.x, lattice.size.y),
            fmt::format("at most pitch_m, {} × {} m, or neighbours overlap", lattice.pitch.x, lattice.pitch.y));
   const auto count = static_cast<std::size_t>(lattice.columns) * static_cast<std::size_t>(lattice.rows);
-  if (is_too_wide || !has_room_for(count, path_)) return;
-  int member = 0;
-  for (geometry::Polygon& floe : floes_of(lattice))
-    add_floe(group_, std::move(floe), {},
-             {.offset = item_->offset, .group = index_, .member = member++, .is_known_valid = true});
-  write_group();
+  if (!is_too_wide && has_room_for(count, path_)) add_all(floes_of(lattice), true);
 }
 
 void FloeListReader::add_floes(const RectangleInput& rectangle) {
-  if (!has_room_for(1, path_)) return;
-  add_floe(group_, floe_of(rectangle), {}, {.offset = item_->offset, .group = index_, .is_known_valid = true});
-  write_group();
+  if (has_room_for(1, path_)) add_all({floe_of(rectangle)}, true);
 }
 
-void FloeListReader::add_floes(const geometry::Polygon& polygon) {
-  if (!has_room_for(1, path_)) return;
-  add_floe(group_, in_house_notation(polygon), {}, {.offset = item_->offset, .group = index_});
-  write_group();
+void FloeListReader::add_floes(const Polygon& polygon) {
+  if (has_room_for(1, path_)) add_all({in_house_notation(polygon)}, false);
 }
 
 void FloeListReader::add_floes(FieldInput& input) {
-  const std::string path = path_ + ".field";
-  const auto field = complete_field(input, *item_, path, draft_.scene, problems_);
+  const ReportAt report_field{problems_, *item_->find("field"), path_ + ".field"};
+  const auto field = FieldReader(input, draft_.scene, report_field).read();
   if (!field) return;
   const double count = simulation::floe_count(*field);
   if (count < 1)
-    return report(offset_of("field"), path, "room for less than one floe",
-                  "a region for some floes of that size at the concentration");
-  if (!has_room_for(static_cast<std::size_t>(std::min(count, 1e9)), path)) return;
+    return report_field("", "room for less than one floe", "a region for some floes of that size at the concentration");
+  if (!has_room_for(static_cast<std::size_t>(std::min(count, 1e9)), report_field.path)) return;
   if (problems_.count() > 0) return;  // a million floes take half a minute; the scene is refused anyway
   simulation::FloeFieldOutcome outcome = simulation::make_floe_field(*field);
-  if (!check_cover(*field, outcome, *item_, path, problems_)) return;
-  int member = 0;
-  for (geometry::Polygon& floe : outcome.floes)
-    add_floe(group_, std::move(floe), {},
-             {.offset = item_->offset, .group = index_, .member = member++, .is_known_valid = true});
-  outcome.floes.clear();
-  outcome.floes.shrink_to_fit();
-  fields.push_back({index_, field->gap, std::move(outcome)});
-  write_group();
+  if (!check_cover(*field, outcome, report_field)) return;
+  add_all(std::exchange(outcome.floes, {}), true);
+  loaded_.fields.push_back({index_, field->gap, std::move(outcome)});
 }
 
 bool FloeListReader::has_room_for(std::size_t count, const std::string& path) {
   if (draft_.scene.floes.size() + count <= kMostFloes) return true;
-  report(item_->offset, path, fmt::format("{} floes in all", draft_.scene.floes.size() + count),
-         fmt::format("at most {}", kMostFloes));
+  problems_.report(0, item_->offset, path, fmt::format("{} floes in all", draft_.scene.floes.size() + count),
+                   fmt::format("at most {}", kMostFloes));
   return false;
 }
 
 void FloeListReader::add_floes(const FileInput& input) {
   const std::string path = path_ + ".file";
-  const std::uint32_t name = offset_of("file");
+  const std::uint32_t name = nearest_offset(*item_, "file");
   const auto found = locate(input.name);
   if (!found)
-    return report(name, path, show({input.name}) + ": " + found.error(), "a floe file in the scene's folder or below");
-  auto file = read_floe_file(*found, input.import, draft_.scene.origin, path, name, problems_);
+    return report("file", show({input.name}) + ": " + found.error(), "a floe file in the scene's folder or below");
+  auto file = FloeFileReader(input.import, path, name, problems_).read(*found, draft_.scene.origin);
   if (!file || !has_room_for(file->floes.size(), path)) return;
+  FileReport& came = file->report;
+  came.group = index_;
+  came.floes = file->floes.size();
   const auto is_fast = [](const FileFloe& floe) { return floe.properties.is_fast.value_or(false); };
   check_fast_ice(!group_.is_fast && std::ranges::any_of(file->floes, is_fast));
   for (std::size_t i = 0; i < file->floes.size(); ++i) {
-    const GivenIce given = ice_of(file->floes[i].properties);
-    FloeGroup entry = spelled_out(file->floes[i], file->run_time.has_value());
-    add_floe(entry, std::get<geometry::Polygon>(entry.form), given,
+    FileFloe& floe = file->floes[i];
+    FloeGroup entry = spelled_out(floe, came.run_time.has_value());
+    add_floe(entry, std::get<Polygon>(entry.form), floe.properties,
              {.source = file->source,
-              .offset = file->floes[i].offset,
+              .offset = floe.offset,
               .group = index_,
               .member = static_cast<int>(i),
-              .is_known_valid = file->totals.has_value()});
-    entry.ice = ice_.spelled_out(draft_.scene, given);
-    written.items().push_back(write(floes_description(), entry));
+              .is_known_valid = came.totals.has_value()});
+    entry.ice = ice_.spelled_out(draft_.scene, floe.properties);
+    written.items().push_back(write(kFloesDescription, entry));
+    if (floe.properties.thickness) ++came.with_thickness;
   }
-  const auto with_thickness =
-      std::ranges::count_if(file->floes, [](const FileFloe& floe) { return floe.properties.thickness.has_value(); });
-  files.push_back({index_, std::move(file->plane), file->run_time, file->totals, file->floes.size(),
-                   static_cast<std::size_t>(with_thickness), std::move(file->near_misses), name});
+  loaded_.files.push_back(std::move(came));
 }
 
 /// The entry that a floe of a file is in the resolved scene: what the file states of it stands there instead
@@ -461,7 +572,8 @@ int FloeListReader::ship_over(const std::string& name, const Origin& origin) {
   return -1;
 }
 
-void FloeListReader::add_floe(const FloeGroup& group, geometry::Polygon polygon, const GivenIce& given, Origin origin) {
+void FloeListReader::add_floe(const FloeGroup& group, geometry::Polygon polygon, const FloeProperties& given,
+                              Origin origin) {
   const std::int32_t own_ice = ice_.add_to(draft_.scene, given);
   draft_.scene.floes.push_back({std::move(polygon), group.velocity, group.angular_velocity, group.is_fast, own_ice,
                                 group.has_crushed_overlaps.value_or(false), group.source_floe.value_or(-1),

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "fracture/scatter.hpp"
 #include "io/import/floe_import.hpp"
-#include "io/scene/floe_ice.hpp"
+#include "io/import/floe_properties.hpp"
 #include "io/scene/scene_input.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/problem.hpp"
-#include "io/text/result.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::io {
 
@@ -21,30 +22,46 @@ struct FileFloe {
   std::uint32_t offset = 0;  ///< of its coordinates in the file
 };
 
-/// A floe file as a scene has it.
-struct FloeFile {
-  std::size_t source = 0;  ///< index in the ProblemCollector's sources
-  std::vector<FileFloe> floes;
-  std::optional<double> run_time;  ///< where the floes are those of a run at that time [s]
-  PlaneReport plane;
-  std::optional<ImportTotals> totals;  ///< where its entry has an "import"
-  std::vector<NearMiss> near_misses;
+/// The ice of one entry of the scene's "floes". What a floe's feature gives comes before the entry's own, and
+/// that before the scene's.
+class GroupIce {
+ public:
+  /// The scene's ice is complete. Nothing where the entry's is wrong, which is reported; `path` is the
+  /// entry's, `item` its JSON.
+  static std::optional<GroupIce> of(const simulation::Scene& scene, const FloeGroup& group, const JsonValue& item,
+                                    const std::string& path, ProblemCollector& problems);
+
+  /// The index in the scene's own_ice of the floe that is added next.
+  std::int32_t add_to(simulation::Scene& scene, const FloeProperties& given);
+
+  /// What was drawn of each law, in the order of the properties.
+  std::vector<IceReport> reports(std::size_t group) const;
+
+  /// The entry's and the feature's properties of the floe that was added last; none where it has none.
+  std::optional<IceInput> spelled_out(const simulation::Scene& scene, const FloeProperties& given) const;
+
+ private:
+  struct Law {
+    std::size_t property = 0;
+    fracture::ScatterLaw law;
+    std::vector<double> drawn;
+  };
+  std::vector<Law> laws_;
+  std::uint64_t seed_ = 0;
 };
 
 /// Makes the floes of the scene's list: lattices, fields, files and single floes.
 class FloeListReader {
  public:
   /// All of these outlive it. `folder` is the scene's.
-  FloeListReader(const std::filesystem::path& folder, SceneDraft& draft, ProblemCollector& problems)
-      : folder_(folder), draft_(draft), problems_(problems) {}
+  FloeListReader(const std::filesystem::path& folder, SceneDraft& draft, LoadedScene& loaded,
+                 ProblemCollector& problems)
+      : folder_(folder), draft_(draft), loaded_(loaded), problems_(problems) {}
 
-  /// Adds the floes of one entry, whose JSON is `item`.
+  /// Adds the floes of one entry, whose JSON is `item`, to the draft, and how they came to it to the loaded scene.
   void add(std::size_t index, FloeGroup group, const JsonValue& item);
 
   JsonValue written{JsonValue::Array{}};  ///< the entries, complete, files spelled out
-  std::vector<FieldReport> fields;
-  std::vector<IceReport> ice;
-  std::vector<FileReport> files;
 
  private:
   void add_floes(const LatticeInput& lattice);
@@ -52,21 +69,22 @@ class FloeListReader {
   void add_floes(const geometry::Polygon& polygon);
   void add_floes(FieldInput& field);
   void add_floes(const FileInput& file);
+  /// Floes that the entry stands for in the resolved scene too.
+  void add_all(std::vector<geometry::Polygon> floes, bool are_known_valid);
   FloeGroup spelled_out(FileFloe& floe, bool is_of_run) const;
-  void add_floe(const FloeGroup& group, geometry::Polygon polygon, const GivenIce& given, Origin origin);
+  void add_floe(const FloeGroup& group, geometry::Polygon polygon, const FloeProperties& given, Origin origin);
   void check_fast_ice(bool is_fast);
   int ship_over(const std::string& name, const Origin& origin);
   bool has_room_for(std::size_t count, const std::string& path);
   Result<std::filesystem::path> locate(const std::string& name) const;
-  void report(std::uint32_t offset, std::string path, std::string found, std::string allowed) {
-    problems_.report(0, offset, std::move(path), std::move(found), std::move(allowed));
+  /// Reports what is wrong with a member of the entry at hand: "lattice.size_m".
+  void report(std::string_view key, std::string found, std::string allowed) const {
+    ReportAt{problems_, *item_, path_}(key, std::move(found), std::move(allowed));
   }
-  /// Where a member of the entry at hand is.
-  std::uint32_t offset_of(std::string_view key) const { return nearest_offset(*item_, key); }
-  void write_group() { written.items().push_back(write(floes_description(), group_)); }
 
   const std::filesystem::path& folder_;
   SceneDraft& draft_;
+  LoadedScene& loaded_;
   ProblemCollector& problems_;
   std::size_t index_ = 0;            ///< of the entry at hand
   const JsonValue* item_ = nullptr;  ///< its JSON
@@ -82,12 +100,5 @@ geometry::Polygon rectangle(geometry::Point corner, geometry::Vector size);
 /// clockwise. Which way rings run and whether they are closed are matters of notation; nothing else is
 /// changed.
 geometry::Polygon in_house_notation(geometry::Polygon polygon);
-
-/// Reads a floe file of a scene: GeoJSON, or what GDAL converts (io/import/foreign_file.hpp), brought to the
-/// plane about the scene's origin. None where anything is wrong with it: then there are problems, of the file
-/// or of the entry's `file` at `offset` in the scene.
-std::optional<FloeFile> read_floe_file(const std::filesystem::path& file, const std::optional<FileImport>& import,
-                                       const std::optional<simulation::GeographicOrigin>& origin,
-                                       const std::string& path, std::uint32_t offset, ProblemCollector& problems);
 
 }  // namespace polynya::io

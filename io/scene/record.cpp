@@ -264,24 +264,6 @@ std::string describe_allowed(const Field& field) {
   return words + describe_range(field) + (field.kind == FieldKind::kNumberOrLaw ? ", or a law of such" : "");
 }
 
-std::string show(const JsonValue& value) {
-  std::string text;
-  switch (value.kind()) {
-    case JsonKind::kNumber:
-      append_number(text, value.number());
-      return text;
-    case JsonKind::kText:
-      append_text(text, shortened(value.text(), 60));
-      return text;
-    case JsonKind::kBoolean:
-      return value.boolean() ? "true" : "false";
-    case JsonKind::kArray:
-      return fmt::format("a list of {}", value.items().size());
-    default:
-      return std::string(name_of(value.kind()));
-  }
-}
-
 double to_si(std::string_view unit, double value) {
   if (unit.starts_with("°")) return value * std::numbers::pi / 180;
   if (unit == "kN") return 1e3 * value;

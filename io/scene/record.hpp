@@ -78,7 +78,8 @@ struct Field {
   std::function<void(void*)> drop = {};                                 ///< the last item
 };
 
-/// The fields of one object. Where there are alternatives, exactly one is chosen by giving any of its fields.
+/// The fields of one object. Where there are alternatives, whose fields follow each other, exactly one is chosen by
+/// giving any of its fields.
 struct Object {
   std::vector<Field> fields;
   std::vector<std::string_view> alternatives = {};
@@ -90,8 +91,11 @@ struct FieldOf : Field {};
 /// The fields of an object that becomes a Record.
 template <class Record>
 struct Description : Object {
-  Description(const std::vector<FieldOf<Record>>& of, std::vector<std::string_view> or_else = {})
-      : Object{{of.begin(), of.end()}, std::move(or_else)} {}
+  Description(const std::vector<FieldOf<Record>>& of) : Object{{of.begin(), of.end()}} {
+    for (const Field& field : fields)
+      if (!field.alternative.empty() && (alternatives.empty() || alternatives.back() != field.alternative))
+        alternatives.push_back(field.alternative);
+  }
 };
 
 /// "ships[2].hull.beam_m": a key below a path, which is empty of the scene itself.
@@ -99,9 +103,6 @@ std::string key_path(std::string_view path, std::string_view key);
 
 /// "a number > 0, ≤ 20 [m]", "one of nevel, kashtelyan".
 std::string describe_allowed(const Field& field);
-
-/// A value as messages show it: "-0.5", "\"nevle\"", "a list of 3".
-std::string show(const JsonValue& value);
 
 /// Reads JSON objects into records. Every problem is reported with its place.
 class RecordReader {

@@ -56,11 +56,7 @@ void check_own_density(const SceneDraft& draft, ProblemCollector& problems) {
 
 /// At the start [m/s].
 double speed_of(const simulation::Scene& scene, const simulation::Ship& ship) {
-  const auto* constant = std::get_if<simulation::ConstantThrust>(&ship.propulsion);
-  const auto* engine = std::get_if<simulation::Engine>(&ship.propulsion);
-  const double thrust = constant ? std::abs(constant->thrust) : engine ? engine->bollard_pull : 0;
-  const double gained = thrust / ship.mass * scene.time.step;
-  return std::abs(ship.speed) + gained;
+  return std::abs(ship.speed) + std::abs(thrust_of(ship)) / ship.mass * scene.time.step;
 }
 
 /// Of its rim at the start [m/s]; 0 of what can be no floe, which is refused for that.
@@ -103,21 +99,17 @@ bool is_too_fast_for_step(const Fastest& fastest, const simulation::Scene& scene
 
 void report_step(const Fastest& fastest, const simulation::Scene& scene, const JsonValue& given,
                  ProblemCollector& problems) {
-  problems.add(0, nearest_offset(given, "time.step_s"),
-               {.path = "time.step_s",
-                .found = fmt::format("{}: {} moves {:.3g} m in one step at {:.3g} m/s", scene.time.step, fastest.path,
-                                     fastest.speed * scene.time.step, fastest.speed),
-                .allowed = fmt::format("a step in which nothing moves as far as a circle's radius, {} m",
-                                       scene.contact.circle_radius)});
+  ReportAt{problems, given, ""}(
+      "time.step_s",
+      fmt::format("{}: {} moves {:.3g} m in one step at {:.3g} m/s", scene.time.step, fastest.path,
+                  fastest.speed * scene.time.step, fastest.speed),
+      fmt::format("a step in which nothing moves as far as a circle's radius, {} m", scene.contact.circle_radius));
 }
 
 /// Rows of a flow over time ascend, and stand alone.
 void check_flow(const std::vector<dynamics::FlowRow>& rows, geometry::Vector constant, const std::string& table,
                 const std::string& instead, const JsonValue& given, ProblemCollector& problems) {
-  const auto report = [&](const std::string& path, std::string found, std::string allowed) {
-    problems.add(0, nearest_offset(given, path),
-                 {.path = path, .found = std::move(found), .allowed = std::move(allowed)});
-  };
+  const ReportAt report{problems, given, ""};
   for (std::size_t i = 1; i < rows.size(); ++i)
     if (rows[i].time <= rows[i - 1].time)
       report(fmt::format("{}[{}].t_s", table, i), fmt::format("{:g}", rows[i].time),
@@ -225,13 +217,12 @@ void check_hulls(const SceneDraft& draft, ProblemCollector& problems) {
         report("name", fmt::format("\"{}\" a second time", placed.name), "each ship and structure its own name");
     }
     const auto& hull = placed.hull;
-    const geometry::Box box = bounding_box(hull.waterline);
     if (placed.panels && placed.panels->top <= placed.panels->bottom)
       report("panels.top_m", fmt::format("{:g}", placed.panels->top),
              fmt::format("above bottom_m, {:g} [m]", placed.panels->bottom));
-    if (hull.draught > box.high.x - box.low.x)
+    if (const double length = size_of(hull).x; hull.draught > length)
       report("hull.draught_m", fmt::format("{:g}", hull.draught),
-             fmt::format("at most the waterline's length, {:g} [m]", box.high.x - box.low.x));
+             fmt::format("at most the waterline's length, {:g} [m]", length));
     if (!hull.angles_from_vertical.empty() && hull.angles_from_vertical.size() != hull.waterline.size())
       report("hull.angles_from_vertical_deg", fmt::format("{} angles", hull.angles_from_vertical.size()),
              fmt::format("none, or one for each of the waterline's {} vertices", hull.waterline.size()));
@@ -330,6 +321,16 @@ std::string_view list_of(BodyKind kind) {
   return kLists[static_cast<std::size_t>(kind)];
 }
 
+geometry::Vector size_of(const simulation::Hull& hull) {
+  const geometry::Box box = bounding_box(hull.waterline);
+  return box.high - box.low;
+}
+
+double thrust_of(const simulation::Ship& ship) {
+  const auto* constant = std::get_if<simulation::ConstantThrust>(&ship.propulsion);
+  const auto* engine = std::get_if<simulation::Engine>(&ship.propulsion);
+  return constant ? constant->thrust : engine ? engine->bollard_pull : 0;
+}
 std::string hull_path(const SceneDraft& draft, std::size_t hull) {
   const Origin& origin = draft.hull_origins[hull];
   return fmt::format("{}[{}]", list_of(origin.kind), origin.group);

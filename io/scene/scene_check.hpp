@@ -18,6 +18,12 @@ std::string_view list_of(simulation::BodyKind kind);
 std::string hull_path(const SceneDraft& draft, std::size_t hull);
 std::string floe_path(const SceneDraft& draft, std::size_t floe);
 
+/// Of a waterline, along and across the hull's axis [m].
+geometry::Vector size_of(const simulation::Hull& hull);
+
+/// Constant thrust or bollard pull along the heading; 0 of a ship at constant speed [N].
+double thrust_of(const simulation::Ship& ship);
+
 /// A waterline in the world.
 geometry::Polygon waterline_in_world(const simulation::PlacedHull& hull);
 

@@ -28,25 +28,10 @@ constexpr double kThinnestIce = 0.01;     ///< thinner ice is grease and slush [
 constexpr double kThickestIce = 4;        ///< level ice grows no thicker; ridges are no plates [m]
 constexpr double kKnots = 3600 / 1852.0;  ///< [kn / (m/s)]
 
-/// A hull's size along and across its axis [m].
-struct HullSize {
-  double length = 0;
-  double beam = 0;
-};
-HullSize size_of(const Ship& ship) {
-  const geometry::Box box = geometry::bounding_box(ship.hull.waterline);
-  return {box.high.x - box.low.x, box.high.y - box.low.y};
-}
-
 Vector ahead_of(const PlacedHull& hull) {
   return {std::cos(hull.heading), std::sin(hull.heading)};
 }
 
-double thrust_of(const Ship& ship) {
-  const auto* constant = std::get_if<simulation::ConstantThrust>(&ship.propulsion);
-  const auto* engine = std::get_if<simulation::Engine>(&ship.propulsion);
-  return constant ? constant->thrust : engine ? engine->bollard_pull : 0;
-}
 bool is_steered(const Ship& ship) {
   return !std::holds_alternative<simulation::NoSteering>(ship.steering);
 }
@@ -76,38 +61,29 @@ class Hinter {
   }
 
  private:
-  void add(Severity severity, const JsonValue& at, std::string path, std::string sentence) {
-    hints_.add(0, at.offset, {.path = std::move(path), .sentence = std::move(sentence), .severity = severity});
+  void add(Severity severity, const std::string& path, std::string sentence) {
+    hints_.add(0, nearest_offset(given_, path), {.path = path, .sentence = std::move(sentence), .severity = severity});
   }
   void add(Severity severity, std::size_t hull, std::string_view key, std::string sentence) {
-    const Origin& origin = draft_.hull_origins[hull];
-    const JsonValue& item = given_.find(list_of(origin.kind))->items()[origin.group];
-    const JsonValue* member = item.find(key);
-    add(severity, member ? *member : item, fmt::format("{}.{}", hull_path(draft_, hull), key), std::move(sentence));
-  }
-  /// A member of an object of the scene, or what is there of it.
-  const JsonValue& value_at(std::string_view object, std::string_view key) const {
-    const JsonValue* found = given_.find(object);
-    const JsonValue* member = found ? found->find(key) : nullptr;
-    return member ? *member : found ? *found : given_;
+    add(severity, fmt::format("{}.{}", hull_path(draft_, hull), key), std::move(sentence));
   }
 
   void hint_at_ice() {
     if (scene_.floes.empty() && std::ranges::any_of(scene_.ships, simulation::sails)) return;
     if (scene_.floes.empty()) {
-      add(Severity::kHint, value_at("floes", ""), "floes", "there is no ice in this scene");
+      add(Severity::kHint, "floes", "there is no ice in this scene");
       return;
     }
     const double h = scene_.ice.thickness;
     if (h > kThickestIce || h < kThinnestIce)
-      add(Severity::kHint, value_at("ice", "thickness_m"), "ice.thickness_m",
+      add(Severity::kHint, "ice.thickness_m",
           fmt::format("{:g} m: ice under {:g} m is slush, and level ice is {:g} m at most", h, kThinnestIce,
                       kThickestIce));
   }
 
   void hint_at_mass(std::size_t i) {
     const Ship& ship = scene_.ships[i];
-    const auto [length, beam] = size_of(ship);
+    const auto [length, beam] = size_of(ship.hull);
     const double displaced =
         scene_.water.water.density * ship.water.block_coefficient * length * beam * ship.hull.draught;
     if (displaced > 0 && std::abs(ship.mass / displaced - 1) > kMassError)
@@ -201,7 +177,7 @@ class Hinter {
   void hint_at_drift() {
     const double drift = scene_.water.fastest_drift();
     if (drift > kFastestIce)
-      add(Severity::kHint, value_at("water", "drift_m_per_s"), "water.drift_m_per_s",
+      add(Severity::kHint, "water.drift_m_per_s",
           fmt::format("{:.3g} m/s: ice drifts at {:g} m/s at most", drift, kFastestIce));
   }
 
@@ -254,7 +230,7 @@ class Hinter {
     for (const simulation::FloeSpec& floe : scene_.floes) consider(length(floe.velocity), false);
     const double most = way_in(thickness);
     if (way <= 1.005 * most) return;  // what the sentence below gives, rounded, will do
-    add(Severity::kWarning, value_at("time", "step_s"), "time.step_s",
+    add(Severity::kWarning, "time.step_s",
         fmt::format("at {:.3g} m/s bodies move {:.2g} m in a step, more than {}: loads depend on the step; "
                     "give {:.3g} s or less",
                     speed, way, most_way_as_text(thickness), most * scene_.time.step / way));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "fracture/scatter.hpp"
 #include "geometry/shape/polygon.hpp"
 #include "io/import/floe_import.hpp"
+#include "io/import/floe_properties.hpp"
 #include "io/scene/record.hpp"
 #include "simulation/field/floe_field.hpp"
 #include "simulation/world/scene.hpp"
@@ -91,8 +93,7 @@ using NumberOrLaw = std::variant<double, LawInput>;
 
 /// Of the ice of an entry's floes, what is not the scene's.
 struct IceInput {
-  std::optional<NumberOrLaw> thickness, density, flexural_strength, compressive_strength, tensile_strength,
-      fracture_toughness;
+  std::array<std::optional<NumberOrLaw>, kFloeIceProperties> properties;  ///< in the order of floe_ice_properties()
   std::uint64_t seed = 0;
 };
 
@@ -152,14 +153,14 @@ struct FloeGroup {
   std::optional<double> under_hull_path;     ///< [m]
 };
 
-const Description<SceneInput>& scene_description();
-const Description<ShipInput>& ship_description();
-const Description<StructureInput>& structure_description();
-const Description<WallInput>& wall_description();
-const Description<FloeGroup>& floes_description();
-const Description<fracture::Ice>& ice_description();
-const Description<IceInput>& floe_ice_description();
-const Description<LawInput>& law_description();
+extern const Description<SceneInput> kSceneDescription;
+extern const Description<ShipInput> kShipDescription;
+extern const Description<StructureInput> kStructureDescription;
+extern const Description<WallInput> kWallDescription;
+extern const Description<FloeGroup> kFloesDescription;
+extern const Description<fracture::Ice> kIceDescription;
+extern const Description<IceInput> kFloeIceDescription;
+extern const Description<LawInput> kLawDescription;
 
 /// Where a body of the scene stands in the text, for messages.
 struct Origin {

@@ -1,11 +1,12 @@
 #include "io/scene/scene_reader.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <span>
 
 #include <fmt/format.h>
 
-#include "io/import/import_report.hpp"
+#include "io/import/floe_import.hpp"
 #include "io/scene/floe_list_reader.hpp"
 #include "io/scene/scene_check.hpp"
 #include "io/scene/ship_presets.hpp"
@@ -55,6 +56,70 @@ void override_scene(JsonValue& root, const SceneOverrides& overrides) {
   if (JsonValue* time = root.find("time")) time->set("until_s", *overrides.until);
 }
 
+/// Where the value of "ships[0].position_m[1]" belongs. Objects on the way are made where the scene has none, items of
+/// lists must be there; null where the path leads nowhere, which has been reported.
+template <class Report>
+JsonValue* place_of(JsonValue& scene, std::string_view path, std::uint32_t offset, Report report) {
+  JsonValue* at = &scene;
+  for (std::size_t begin = 0; begin < path.size();) {
+    const std::size_t end = std::min(path.find_first_of(".[", begin + 1), path.size());
+    const std::string_view so_far = path.substr(0, end);
+    std::size_t index = 0;
+    if (path[begin] == '[' && begin > 0) {
+      const auto read = std::from_chars(path.data() + begin + 1, path.data() + end, index);
+      if (read.ec != std::errc() || read.ptr + 1 != path.data() + end || *read.ptr != ']') return report.no_path();
+      if (!at->is(JsonKind::kArray) || index >= at->items().size())
+        return report(so_far, show(*at), "an item of a list that the scene has");
+      at = &at->items()[index];
+    } else {
+      if (path[begin] == '.' && begin > 0) ++begin;
+      const std::string_view key = path.substr(begin, end - begin);
+      if (key.empty() || key[0] == '.' || key[0] == '[') return report.no_path();
+      if (!at->is(JsonKind::kObject))
+        return report(path.substr(0, begin - 1), show(*at), fmt::format("an object, to have \"{}\"", key));
+      JsonValue* there = at->find(key);
+      if (!there && end < path.size() && path[end] == '[')
+        return report(so_far, "nothing", "a list that the scene has");
+      if (!there)
+        there = &at->members().emplace_back(JsonMember{std::string(key), offset, {JsonValue::Object{}, offset}}).value;
+      at = there;
+    }
+    begin = end;
+  }
+  return at;
+}
+
+/// Reports a path that leads nowhere; the place is the path's.
+struct ReportPath {
+  std::string_view path;
+  std::uint32_t offset;
+  ProblemCollector& problems;
+
+  JsonValue* operator()(std::string_view at, std::string found, std::string allowed) const {
+    problems.report(0, offset, std::string(at), std::move(found), std::move(allowed));
+    return nullptr;
+  }
+  JsonValue* no_path() const {
+    return (*this)(path, fmt::format("\"{}\"", path),
+                   "a path of a scene's key, as ice.thickness_m or ships[0].position_m[1]");
+  }
+};
+
+/// Puts the values into a scene before it is resolved, in order. Objects on the way are made where the scene
+/// has none; what is no key of a scene is found when it is resolved. Items of lists must be there.
+void assign(JsonValue& scene, const std::vector<Assignment>& assignments, ProblemCollector& problems) {
+  for (const Assignment& assignment : assignments) {
+    const std::uint32_t begin = problems.add_overlay(assignment.text);
+    const std::uint32_t offset = begin + assignment.key_offset;
+    const ReportPath report{assignment.path, offset, problems};
+    JsonValue* const target =
+        assignment.path.empty() ? report.no_path() : place_of(scene, assignment.path, offset, report);
+    if (!target) continue;
+    *target = assignment.value;
+    for_offsets(*target, [begin](std::uint32_t& place) { place += begin; });
+  }
+}
+
 /// Reads a scene's text into a draft. One use.
 class SceneReader {
  public:
@@ -69,26 +134,19 @@ class SceneReader {
     override_scene(document.root, overrides);
     if (!complete(document.root)) return tl::unexpected(problems_.take());
     add_scene_hints(draft_, document.root, problems_);
-    for (const FileReport& file : floes_.files) add_file_hints(file);
-    std::vector<Problem> hints = problems_.take();
-    LoadedScene loaded{std::move(draft_.scene),
-                       std::move(input_.description),
-                       to_json_text(resolved_),
-                       "",
-                       "",
-                       std::move(floes_.fields),
-                       std::move(floes_.files),
-                       std::move(floes_.ice),
-                       is_step_chosen_,
-                       std::move(hints)};
-    if (const std::size_t length = loaded.resolved_text.size(); length > longest) {
+    for (const FileReport& file : loaded_.files) add_file_hints(file);
+    loaded_.hints = problems_.take();
+    loaded_.scene = std::move(draft_.scene);
+    loaded_.description = std::move(input_.description);
+    loaded_.resolved_text = to_json_text(resolved_);
+    if (const std::size_t length = loaded_.resolved_text.size(); length > longest) {
       report(0, "", fmt::format("{} bytes with every default filled in and floe files read in", length),
              fmt::format("at most {} bytes: fewer floes, or coordinates of fewer digits", longest));
       return tl::unexpected(problems_.take());
     }
-    loaded.hash = hash_of({loaded.resolved_text});
-    loaded.course_hash = course_hash_of(loaded.resolved_text);
-    return loaded;
+    loaded_.hash = hash_of({loaded_.resolved_text});
+    loaded_.course_hash = course_hash_of(loaded_.resolved_text);
+    return std::move(loaded_);
   }
 
   tl::expected<LoadedShip, std::vector<Problem>> read_ship(ShipUse use) {
@@ -156,22 +214,22 @@ class SceneReader {
   bool complete(JsonValue& given) {
     fill_in_presets(given);
     RecordReader reader(problems_);
-    const bool is_whole = reader.read(scene_description(), given, "", input_);
+    const bool is_whole = reader.read(kSceneDescription, given, "", input_);
     if (!given.is(JsonKind::kObject)) return false;
-    auto ships = items(given, "ships", ship_description(), reader);
-    auto structures = items(given, "structures", structure_description(), reader);
-    auto walls = items(given, "walls", wall_description(), reader);
+    auto ships = items(given, "ships", kShipDescription, reader);
+    auto structures = items(given, "structures", kStructureDescription, reader);
+    auto walls = items(given, "walls", kWallDescription, reader);
     complete_fate_of_ice(given, ships);
     complete_skin_drag(given);
-    resolved_ = write(scene_description(), input_);
+    resolved_ = write(kSceneDescription, input_);
     simulation::Scene& scene = draft_.scene = std::move(input_.scene);
     scene.name = input_.name;
-    add_hulls(given, BodyKind::kShip, ship_description(), ships, [&](auto& ship, auto& item, const auto& path) {
+    add_hulls(given, BodyKind::kShip, kShipDescription, ships, [&](auto& ship, auto& item, const auto& path) {
       scene.ships.push_back(complete_ship(ship, item, path, scene.water.water.density, problems_));
     });
-    add_hulls(given, BodyKind::kStructure, structure_description(), structures,
+    add_hulls(given, BodyKind::kStructure, kStructureDescription, structures,
               [&](auto& structure, auto&, auto&&) { scene.structures.push_back(complete_structure(structure)); });
-    add_hulls(given, BodyKind::kWall, wall_description(), walls, [&](auto& wall, auto& item, const auto& path) {
+    add_hulls(given, BodyKind::kWall, kWallDescription, walls, [&](auto& wall, auto& item, const auto& path) {
       if (auto completed = complete_wall(wall, item, path, problems_)) scene.walls.push_back(*std::move(completed));
     });
     if (is_whole) {
@@ -246,8 +304,8 @@ class SceneReader {
   /// since what needs no floe is checked first.
   void complete_step(const JsonValue& given) {
     const JsonValue* time = given.find("time");
-    is_step_chosen_ = !(time && time->find("step_s"));
-    if (!is_step_chosen_) return;
+    loaded_.is_step_chosen = !(time && time->find("step_s"));
+    if (!loaded_.is_step_chosen) return;
     draft_.scene.time.step = simulation::default_tick(draft_.scene);
     resolved_.find("time")->set("step_s", draft_.scene.time.step);
   }
@@ -271,7 +329,7 @@ class SceneReader {
     const auto list = items_of(given, "floes");
     for (std::size_t i = 0; i < list.size(); ++i) {
       FloeGroup group;
-      const bool is_good = reader.read(floes_description(), list[i], fmt::format("floes[{}]", i), group);
+      const bool is_good = reader.read(kFloesDescription, list[i], fmt::format("floes[{}]", i), group);
       if (is_good && is_whole) floes_.add(i, std::move(group), list[i]);
     }
     *resolved_.find("floes") = std::move(floes_.written);
@@ -304,11 +362,43 @@ class SceneReader {
   SceneInput input_;
   JsonValue resolved_;
   SceneDraft draft_;
-  bool is_step_chosen_ = false;
-  FloeListReader floes_{folder_, draft_, problems_};
+  LoadedScene loaded_;
+  FloeListReader floes_{folder_, draft_, loaded_, problems_};
 };
 
 }  // namespace
+
+Result<Assignment> parse_assignment(std::string_view words, std::string_view option) {
+  const std::size_t equals = words.find('=');
+  if (equals == 0 || equals == std::string_view::npos)
+    return fail(fmt::format("\"{}\" is not KEY=VALUE, as ice.thickness_m=0.7", words));
+  const std::string_view value = words.substr(equals + 1);
+  JsonDocument document = parse_json(value);
+  if (!document.faults.empty()) document.root.data = std::string(value);
+  return Assignment{std::string(words.substr(0, equals)),
+                    std::move(document.root),
+                    0,
+                    {fmt::format("{} {}", option, words), 0, words.size()}};
+}
+
+tl::expected<std::vector<Assignment>, Problem> parse_case(std::string_view text, const std::string& file, int line) {
+  JsonDocument document = parse_json(text);
+  if (!document.faults.empty()) {
+    const JsonFault& fault = document.faults.front();
+    return tl::unexpected(Problem{
+        .file = file, .line = line, .column = static_cast<int>(fault.offset) + 1, .sentence = message_of(fault)});
+  }
+  if (!document.root.is(JsonKind::kObject))
+    return tl::unexpected(Problem{.file = file,
+                                  .line = line,
+                                  .column = 1,
+                                  .found = show(document.root),
+                                  .allowed = "an object of paths and values"});
+  std::vector<Assignment> assignments;
+  for (JsonMember& member : document.root.members())
+    assignments.push_back({member.key, std::move(member.value), member.key_offset, {file, line, text.size()}});
+  return assignments;
+}
 
 std::string name_from(const std::string& file) {
   std::string name = std::filesystem::path(file).stem().string().substr(0, 100);

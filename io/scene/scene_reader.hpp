@@ -4,14 +4,14 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
-
-#include <tl/expected.hpp>
 
 #include "fracture/scatter.hpp"
 #include "io/import/floe_import.hpp"
-#include "io/scene/scene_assign.hpp"
+#include "io/text/json_parser.hpp"
 #include "io/text/problem.hpp"
+#include "io/text/source_text.hpp"
 #include "simulation/field/floe_field.hpp"
 #include "simulation/world/scene.hpp"
 
@@ -33,19 +33,19 @@ struct FieldReport {
 /// How a floe file of the scene came to it.
 struct FileReport {
   std::size_t group = 0;  ///< index in the scene's "floes"
-  PlaneReport plane;
-  std::optional<double> run_time;      ///< of floes of a run [s]
-  std::optional<ImportTotals> totals;  ///< where it was imported
-  std::size_t floes = 0;               ///< that it gave
-  std::size_t with_thickness = 0;      ///< of their own
-  std::vector<NearMiss> near_misses;
+  PlaneReport plane = {};
+  std::optional<double> run_time = {};      ///< of floes of a run [s]
+  std::optional<ImportTotals> totals = {};  ///< where it was imported
+  std::size_t floes = 0;                    ///< that it gave
+  std::size_t with_thickness = 0;           ///< of their own
+  std::vector<NearMiss> near_misses = {};
   std::uint32_t offset = 0;  ///< of its name in the scene
 };
 
 /// How a property of the floes of one entry came out that was drawn.
 struct IceReport {
   std::size_t group = 0;     ///< index in the scene's "floes"
-  std::size_t property = 0;  ///< its number (floe_ice.hpp)
+  std::size_t property = 0;  ///< its number (floe_properties.hpp)
   fracture::ScatterMeasures measures;
 };
 
@@ -75,6 +75,21 @@ enum class ShipUse {
   kScene,
   kLevelIce,  ///< `polynya performance`: also main dimensions, draught and engine are needed, and no mooring
 };
+
+/// A value in place of the scene's own, of one key by its path.
+struct Assignment {
+  std::string path;              ///< "ice.thickness_m", "ships[0].position_m[1]"
+  JsonValue value;               ///< its offsets are in the text that the assignment was read from
+  std::uint32_t key_offset = 0;  ///< in that text
+  PlacedText text;
+};
+
+/// "ice.thickness_m=0.7": the value is JSON or, where it is not, a text without quotes. `option` is its name
+/// in problems. The error says what is no KEY=VALUE.
+Result<Assignment> parse_assignment(std::string_view words, std::string_view option = "--set");
+
+/// One line of a file of cases: {"ice.thickness_m": 0.7, "seed": 3}. `line` counts from 1.
+tl::expected<std::vector<Assignment>, Problem> parse_case(std::string_view text, const std::string& file, int line);
 
 /// What the command line puts in place of the scene's own.
 struct SceneOverrides {

@@ -44,34 +44,35 @@ std::string default_text(const Field& field) {
 void write_type(JsonWriter& json, const Field& field) {
   switch (field.kind) {
     case Kind::kText:
-      json.key("type").value("string");
-      return;
     case Kind::kName:
-      json.key("type").value("string").key("pattern").value("^[0-9A-Za-z][0-9A-Za-z ._-]{0,99}$");
-      return;
+      json.key("type").value("string");
+      if (field.kind == Kind::kName) json.key("pattern").value("^[0-9A-Za-z][0-9A-Za-z ._-]{0,99}$");
+      break;
     case Kind::kInteger:
-      return write_number(json, field, "integer");
+      write_number(json, field, "integer");
+      break;
     case Kind::kBoolean:
       json.key("type").value("boolean");
-      return;
+      break;
     case Kind::kChoice:
       json.key("enum").list(field.choices);
-      return;
+      break;
     case Kind::kNumberOrVector:
     case Kind::kNumberOrLaw:
       json.key("oneOf").open('[').object([&] { write_number(json, field, "number"); }).object([&] {
         field.object ? write_object(json, *field.object) : write_numbers(json, field, lengths_of(field.kind));
       });
       json.close(']');
-      return;
+      break;
     case Kind::kObject:
-      return write_object(json, *field.object);
+      write_object(json, *field.object);
+      break;
     case Kind::kList:
       json.key("type").value("array").key("maxItems").value(static_cast<int>(field.range.high));
       json.key("items").object([&] { write_object(json, *field.object); });
-      return;
+      break;
     default:
-      return write_numbers(json, field, lengths_of(field.kind));
+      write_numbers(json, field, lengths_of(field.kind));
   }
 }
 
@@ -91,7 +92,7 @@ void write_object(JsonWriter& json, const Object& object) {
                               [&](std::string_view alternative) { write_required(json, object, alternative); });
   }
   json.key("properties").open('{');
-  if (&object == &scene_description()) json.key("$schema").open('{').key("type").value("string").close('}');
+  if (&object == &kSceneDescription) json.key("$schema").open('{').key("type").value("string").close('}');
   for (const Field& field : object.fields) {
     json.key(field.key).open('{');
     if (!field.meaning.empty())
@@ -179,14 +180,14 @@ void append_settings(std::string& text, const Object& object, int depth) {
 std::string scene_schema() {
   const auto write = [](JsonWriter& json) {
     json.key("$schema").value("https://json-schema.org/draft/2020-12/schema").key("title").value("Polynya scene");
-    write_object(json, scene_description());
+    write_object(json, kSceneDescription);
   };
   return json_object(write, JsonWriter::Layout::kIndented);
 }
 
 std::string scene_tables() {
   std::string text;
-  append_table(text, scene_description(), "");
+  append_table(text, kSceneDescription, "");
   text.pop_back();
   return text;
 }
@@ -195,7 +196,7 @@ std::string commented_scene() {
   std::string text =
       "// A scene for polynya. What stands here are the defaults; delete what you do not change.\n"
       "// Everything a scene may hold: docs/scene.md, or `polynya schema`.\n{\n";
-  append_settings(text, scene_description(), 1);
+  append_settings(text, kSceneDescription, 1);
   text += kExampleShips;
   text += kExampleFloes;
   text += "}\n";

@@ -280,8 +280,7 @@ class PilotCheck {
 
   /// A structure or a wall nearer to a leg than half the beam.
   const simulation::PlacedHull* structure_on(Point from, Point to) const {
-    const geometry::Box box = bounding_box(ship_.hull.waterline);
-    const double half_beam = 0.5 * (box.high.y - box.low.y);
+    const double half_beam = 0.5 * size_of(ship_.hull).y;
     for (std::size_t k = draft_.scene.ships.size(); k < hull_count(draft_.scene); ++k) {
       const simulation::PlacedHull& hull = hull_of(draft_.scene, k);
       const geometry::Ring ring = waterline_in_world(hull).outer;
@@ -329,11 +328,7 @@ class PilotCheck {
 
   double safety_radius(const simulation::ManagingPilot& pilot, std::size_t other) const {
     if (pilot.safety_radius > 0) return pilot.safety_radius;
-    const auto length_of = [&](std::size_t hull) {
-      const geometry::Box box = bounding_box(hull_of(draft_.scene, hull).hull.waterline);
-      return box.high.x - box.low.x;
-    };
-    return length_of(index_) + length_of(other);
+    return size_of(ship_.hull).x + size_of(hull_of(draft_.scene, other).hull).x;
   }
 
   /// The pattern has a form, and stays clear of the body.

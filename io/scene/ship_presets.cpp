@@ -31,48 +31,29 @@ std::vector<ShipPreset> make_presets() {
 /// Puts a value at a dotted path, making the objects on the way.
 void put_at(JsonValue& object, std::string_view path, JsonValue value) {
   const std::size_t dot = path.find('.');
-  const std::string key(path.substr(0, dot));
-  JsonValue* member = object.find(key);
-  if (!member) member = &object.members().emplace_back(JsonMember{key, 0, {JsonValue::Object{}, 0}}).value;
+  const std::string_view key = path.substr(0, dot);
+  if (!object.find(key)) object.set(key, JsonValue::Object{});
   if (dot == std::string_view::npos)
-    *member = std::move(value);
+    *object.find(key) = std::move(value);
   else
-    put_at(*member, path.substr(dot + 1), std::move(value));
-}
-
-const Field* field_of(const Object& table, std::string_view key) {
-  const auto found =
-      std::find_if(table.fields.begin(), table.fields.end(), [&](const Field& field) { return field.key == key; });
-  return found == table.fields.end() ? nullptr : &*found;
+    put_at(*object.find(key), path.substr(dot + 1), std::move(value));
 }
 
 /// Whether the object has a field of another one of its table's alternatives.
 bool chose_another(const Object& table, const JsonValue& object, const Field& field) {
-  if (field.alternative.empty()) return false;
-  return std::any_of(table.fields.begin(), table.fields.end(), [&](const Field& other) {
+  return !field.alternative.empty() && std::ranges::any_of(table.fields, [&](const Field& other) {
     return !other.alternative.empty() && other.alternative != field.alternative && object.find(other.key);
   });
 }
 
-void place_at(JsonValue& value, std::uint32_t offset) {
-  value.offset = offset;
-  if (!value.is(JsonValue::Kind::kObject)) return;
-  for (JsonMember& member : value.members()) {
-    member.key_offset = offset;
-    place_at(member.value, offset);
-  }
-}
-
 void merge(const Object& table, JsonValue& given, const JsonValue& preset, std::uint32_t offset) {
   for (const JsonMember& member : preset.members()) {
-    const Field* field = field_of(table, member.key);
-    if (!field || chose_another(table, given, *field)) continue;
+    const auto field = std::ranges::find(table.fields, member.key, &Field::key);
+    if (field == table.fields.end() || chose_another(table, given, *field)) continue;
     JsonValue* own = given.find(member.key);
     if (!own) {
-      JsonMember added = member;
-      added.key_offset = offset;
-      place_at(added.value, offset);
-      given.members().push_back(std::move(added));
+      JsonMember& added = given.members().emplace_back(JsonMember{member.key, offset, member.value});
+      for_offsets(added.value, [offset](std::uint32_t& place) { place = offset; });
     } else if (field->object && own->is(JsonValue::Kind::kObject)) {
       merge(*field->object, *own, member.value, offset);
     }
@@ -95,8 +76,7 @@ std::span<const ShipPreset> ship_presets() {
 
 const ShipPreset* find_ship_preset(std::string_view name) {
   const auto presets = ship_presets();
-  const auto found =
-      std::find_if(presets.begin(), presets.end(), [&](const ShipPreset& preset) { return preset.name == name; });
+  const auto found = std::ranges::find(presets, name, &ShipPreset::name);
   return found == presets.end() ? nullptr : &*found;
 }
 
@@ -121,7 +101,7 @@ void fill_in_presets(JsonValue& scene) {
     JsonValue particulars = json_of(*preset);
     if (has_no_engine(ship) && !ship.find("steering"))
       std::erase_if(particulars.members(), [](const JsonMember& member) { return member.key == "steering"; });
-    merge(ship_description(), ship, particulars, offset);
+    merge(kShipDescription, ship, particulars, offset);
   }
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "io/text/result.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::io {
 

@@ -17,7 +17,6 @@
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/problem.hpp"
-#include "io/text/wkt.hpp"
 
 namespace polynya::io {
 

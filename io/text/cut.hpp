@@ -12,7 +12,7 @@
 #include "geometry/cut/repair.hpp"
 #include "geometry/shape/polygon.hpp"
 #include "io/text/floe_text.hpp"
-#include "io/text/result.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::io {
 

@@ -1,7 +1,9 @@
 #include "io/text/floe_text.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <limits>
 #include <stdexcept>
@@ -13,7 +15,6 @@
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/source_text.hpp"
-#include "io/text/wkt.hpp"
 
 namespace polynya::io {
 namespace {
@@ -192,6 +193,174 @@ class GeojsonEntries {
   std::shared_ptr<const std::string> properties_;
 };
 
+void add_syntax_error(FloeText& floes, std::size_t feature, std::size_t offset, std::string detail) {
+  FloeEntry& entry = floes.entries.emplace_back();
+  entry.feature = feature;
+  entry.offset = static_cast<std::uint32_t>(offset);
+  entry.refusal = "syntax";
+  entry.detail = std::move(detail);
+}
+
+constexpr int kDeepestCollection = 64;
+
+/// Whether it is one of A to Z or a to z.
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+/// What is wrong at the reader's place; ends the geometry it stands in.
+struct SyntaxError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Reads WKT in any case, with or without Z and M.
+class WktReader {
+ public:
+  explicit WktReader(std::string_view text) : text_(text) {}
+
+  /// The geometries of the text in order, '#' and '//' comments between them. After a syntax error reading continues at
+  /// the next line.
+  FloeText read() {
+    FloeText floes;
+    floes.format = FloeFormat::kWkt;
+    std::size_t number = 0;
+    for (skip_between(); at_ < text_.size(); skip_between()) {
+      const std::size_t begin = at_;
+      try {
+        skip_srid(floes);
+        GeojsonEntries(floes, "").read(read_geometry(0), number);
+      } catch (const SyntaxError& error) {
+        add_syntax_error(floes, number, begin, error.what());
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      }
+      ++number;
+    }
+    return floes;
+  }
+
+ private:
+  void skip_blanks() {
+    for (; at_ < text_.size(); ++at_) {
+      const bool is_comment = text_[at_] == '#' || text_.substr(at_, 2) == "//";
+      if (!is_comment && kBlanks.find(text_[at_]) == kBlanks.npos) return;
+      if (is_comment) at_ = std::min(text_.find('\n', at_), text_.size() - 1);
+    }
+  }
+  void skip_between() {
+    skip_blanks();
+    while (take(';')) skip_blanks();
+  }
+  /// "SRID=…;" is passed over.
+  void skip_srid(FloeText& floes) {
+    const std::size_t begin = at_;
+    if (take_word() != "SRID") {
+      at_ = begin;
+      return;
+    }
+    floes.has_srid = true;
+    at_ = std::min(text_.find_first_of(";\n", at_), text_.size());
+    if (!take(';')) fail("';'");
+  }
+  bool take(char expected) {
+    skip_blanks();
+    if (at_ >= text_.size() || text_[at_] != expected) return false;
+    ++at_;
+    return true;
+  }
+  [[noreturn]] void fail(std::string_view expected) {
+    skip_blanks();
+    const std::string found = at_ < text_.size() ? fmt::format("'{}'", text_[at_]) : "the end of the text";
+    throw SyntaxError(fmt::format("found {}, expected {}", found, expected));
+  }
+  bool is_at_word() {
+    skip_blanks();
+    return at_ < text_.size() && is_letter(text_[at_]);
+  }
+  /// The next word in upper case; empty where none stands here.
+  std::string take_word() {
+    std::string word;
+    skip_blanks();
+    for (; at_ < text_.size() && is_letter(text_[at_]); ++at_) word += static_cast<char>(text_[at_] & ~0x20);
+    return word;
+  }
+
+  JsonValue read_geometry(int depth) {
+    if (depth > kDeepestCollection) throw SyntaxError("collections nested too deep");
+    if (!is_at_word()) fail("the name of a geometry");
+    JsonValue geometry{JsonValue::Object{}, static_cast<std::uint32_t>(at_)};
+    std::string type = take_word(), next;
+    while (is_at_word() && next != "EMPTY") next = take_word();
+    // "POLYGON Z" and "POLYGONZ" are both written.
+    while (type.size() > 1 && (type.back() == 'Z' || type.back() == 'M')) type.pop_back();
+    const bool is_collection = type == "GEOMETRYCOLLECTION";
+    for (const auto& [upper, name] : {std::pair{"POLYGON", "Polygon"},
+                                      {"MULTIPOLYGON", "MultiPolygon"},
+                                      {"GEOMETRYCOLLECTION", "GeometryCollection"}})
+      if (type == upper) type = name;
+    geometry.set("type", type);
+    JsonValue list{JsonValue::Array{}, geometry.offset};
+    if (next != "EMPTY") list = read_list([&] { return is_collection ? read_geometry(depth + 1) : read_item(0); });
+    geometry.members().push_back({is_collection ? "geometries" : "coordinates", list.offset, std::move(list)});
+    return geometry;
+  }
+
+  /// What holds nothing is left out: GEOS writes empty holes.
+  template <class Read>
+  JsonValue read_list(Read read) {
+    skip_blanks();
+    JsonValue list{JsonValue::Array{}, static_cast<std::uint32_t>(at_)};
+    if (!take('(')) fail("'('");
+    do {
+      if (const std::size_t begin = at_; is_at_word() && take_word() == "EMPTY")
+        continue;
+      else
+        at_ = begin;
+      list.items().push_back(read());
+    } while (take(','));
+    if (!take(')')) fail("')'");
+    return list;
+  }
+  /// A list, or a point: two to four numbers.
+  JsonValue read_item(int depth) {
+    if (depth > kDeepestCollection) throw SyntaxError("brackets nested too deep");
+    skip_blanks();
+    if (at_ < text_.size() && text_[at_] == '(') return read_list([&] { return read_item(depth + 1); });
+    JsonValue point{JsonValue::Array{}, static_cast<std::uint32_t>(at_)};
+    do {
+      point.items().push_back({read_number(), point.offset});
+      skip_blanks();
+    } while (at_ < text_.size() && text_[at_] != ',' && text_[at_] != ')');
+    return point;
+  }
+  double read_number() {
+    skip_blanks();
+    const std::size_t sign = at_ < text_.size() && text_[at_] == '+' ? 1 : 0;
+    const char* const start = text_.data() + at_ + sign;
+    double value = 0;
+    const auto [end, error] = std::from_chars(start, text_.data() + text_.size(), value);
+    if (end == start) fail("a number");
+    // Out of range is either too small or too large: strtod returns 0 or infinity.
+    if (error != std::errc{}) value = std::strtod(std::string(start, end).c_str(), nullptr);
+    at_ = static_cast<std::size_t>(end - text_.data());
+    return value;
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+/// Whether a trimmed line begins with the name of a geometry, or with any word that a bracket follows.
+bool begins_wkt(std::string_view line) {
+  const auto end_of_word = static_cast<std::size_t>(std::ranges::find_if_not(line, is_letter) - line.begin());
+  std::string word(line.substr(0, end_of_word));
+  for (char& c : word) c = static_cast<char>(c & ~0x20);  // upper case
+  const auto begins = [&](std::string_view name) { return word.starts_with(name); };
+  if (begins("POLYGON") || begins("MULTIPOLYGON") || begins("GEOMETRYCOLLECTION") || begins("SRID") ||
+      begins("POINT") || begins("LINESTRING") || begins("MULTIPOINT") || begins("MULTILINESTRING"))
+    return true;
+  return !word.empty() && trimmed(line.substr(end_of_word)).starts_with('(');
+}
+
 // What kind of text it is, by its lines.
 
 /// Whether a trimmed line is a comment: '#' or '//' to its end.
@@ -202,12 +371,9 @@ bool is_comment(std::string_view line) {
 /// Calls use(line, offset) for each line that is neither blank nor a comment.
 template <class Use>
 void for_lines(std::string_view text, Use use) {
-  for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    const std::string_view line = text.substr(start, end - start);
-    if (const auto words = trimmed(line); !words.empty() && !is_comment(words)) use(line, start);
-    start = end + 1;
-  }
+  for_pieces(text, '\n', [&use](std::string_view line, std::size_t offset) {
+    if (const auto words = trimmed(line); !words.empty() && !is_comment(words)) use(line, offset);
+  });
 }
 
 /// What kinds of lines a text of floes has. Blank lines and comments do not count.
@@ -231,25 +397,15 @@ LineCounts count_lines(std::string_view text) {
 
 /// Blanks for comments that begin a line with '#', which JSON's parser refuses.
 void blank_hash_comments(std::string& text) {
-  for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    const std::size_t first = text.find_first_not_of(kBlanks, start);
-    if (first < end && text[first] == '#') std::fill(&text[first], &text[end], ' ');
-    start = end + 1;
-  }
+  for_pieces(text, '\n', [&text](std::string_view line, std::size_t offset) {
+    if (trimmed(line).starts_with('#'))
+      std::fill_n(text.begin() + static_cast<std::ptrdiff_t>(offset), line.size(), ' ');
+  });
 }
 
 /// Without the line of a place in a text of one line.
 std::string without_line(const std::string& words) {
   return words.starts_with("1:") ? "column " + words.substr(2) : words;
-}
-
-void add_syntax_error(FloeText& floes, std::size_t feature, std::uint32_t offset, std::string detail) {
-  FloeEntry& entry = floes.entries.emplace_back();
-  entry.feature = feature;
-  entry.offset = offset;
-  entry.refusal = "syntax";
-  entry.detail = std::move(detail);
 }
 
 FloeText read_ndjson(const std::string& text) {
@@ -270,19 +426,15 @@ FloeText read_ndjson(const std::string& text) {
   return floes;
 }
 
-FloeText read_wkt_floes(std::string_view text) {
-  FloeText floes;
-  floes.format = FloeFormat::kWkt;
-  std::size_t feature = 0;
-  for (const WktGeometry& geometry : read_wkt(text)) {
-    floes.has_srid = floes.has_srid || geometry.has_srid;
-    if (geometry.error.empty())
-      GeojsonEntries(floes, "").read(geometry.geojson, feature);
-    else
-      add_syntax_error(floes, feature, geometry.offset, geometry.error);
-    ++feature;
+void append_ring(std::string& text, const geometry::Ring& ring) {
+  text += '(';
+  for (std::size_t i = 0; i <= ring.size() && !ring.empty(); ++i) {
+    if (i > 0) text += ", ";
+    append_number(text, ring[i % ring.size()].x);
+    text += ' ';
+    append_number(text, ring[i % ring.size()].y);
   }
-  return floes;
+  text += ')';
 }
 
 constexpr double kPolarLatitude = 40;  ///< [°]
@@ -321,7 +473,7 @@ Result<FloeText> read_kind(std::string& text) {
   if (2 * lines.objects > lines.lines) return read_ndjson(text);
   if (std::string_view("{[/").find(lines.first_line.front()) != std::string_view::npos)
     return fail(wrong + " (read as GeoJSON)");
-  if (lines.wkt > 0) return read_wkt_floes(text);
+  if (lines.wkt > 0) return WktReader(text).read();
   return fail("1:1: " + unknown_text(lines.first_line));
 }
 
@@ -353,8 +505,19 @@ Result<FloeText> read_floe_text(std::string text) {
   return floes;
 }
 
-std::string crs_name(const JsonValue& crs) {
-  const JsonValue* properties = crs.find("properties");
+void append_wkt(std::string& text, const geometry::Polygon& polygon) {
+  text += "POLYGON (";
+  append_ring(text, polygon.outer);
+  for (const geometry::Ring& hole : polygon.holes) {
+    text += ", ";
+    append_ring(text, hole);
+  }
+  text += ')';
+}
+
+std::string crs_name(const std::string& crs) {
+  const JsonDocument document = parse_json(crs);
+  const JsonValue* properties = document.root.find("properties");
   if (!properties) return "";
   for (const char* key : {"name", "code"}) {  // of type "name", and of type "EPSG" in older files
     const JsonValue* name = properties->find(key);

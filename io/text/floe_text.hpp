@@ -8,7 +8,7 @@
 
 #include "geometry/shape/polygon.hpp"
 #include "io/text/json_parser.hpp"
-#include "io/text/result.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::io {
 
@@ -50,11 +50,14 @@ Result<FloeText> read_floe_text(std::string text);
 /// The polygons of one GeoJSON value, likewise.
 FloeText read_floe_json(const JsonValue& geojson);
 
+/// Appends "POLYGON ((…), (…))" with numbers that read back to the same doubles.
+void append_wkt(std::string& text, const geometry::Polygon& polygon);
+
 /// The number of a floe in a member of an object; nothing where that is no such number.
 std::optional<std::int64_t> floe_id_in(const JsonValue& object, std::string_view key);
 
-/// The name that a GeoJSON crs member gives its system; "" where it gives none.
-std::string crs_name(const JsonValue& crs);
+/// The name that a GeoJSON crs member (FloeText::crs) gives its system; "" where it gives none.
+std::string crs_name(const std::string& crs);
 
 /// Whether a point may be a longitude and a latitude: one turn more or less names the same meridian.
 bool is_in_degrees(geometry::Point point);

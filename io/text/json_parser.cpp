@@ -133,7 +133,7 @@ class Parser {
     token_ = lexer_.next();
   }
   [[noreturn]] static void stop(std::size_t offset, std::string sentence) {
-    throw JsonFault{static_cast<std::uint32_t>(offset), "", "", "", std::move(sentence)};
+    throw JsonFault{{.sentence = std::move(sentence)}, static_cast<std::uint32_t>(offset)};
   }
   int line_of(std::size_t offset) const { return line_and_column(text_, offset).line; }
 
@@ -145,7 +145,8 @@ class Parser {
                                      is_list ? "list" : "object", line_of(open_.back().begin), is_list ? ']' : '}'));
     }
     if (token_.is('/')) allowed = "a comment: /* … */, or // to the end of the line";
-    throw JsonFault{static_cast<std::uint32_t>(token_.begin), "", shown(token_), std::string(allowed)};
+    throw JsonFault{{.found = shown(token_), .allowed = std::string(allowed)},
+                    static_cast<std::uint32_t>(token_.begin)};
   }
 
   void value(JsonValue& slot) {
@@ -179,7 +180,8 @@ class Parser {
       JsonValue second;
       const bool is_second = slot.find(key) != nullptr;
       if (is_second)
-        document_.faults.push_back({offset, key, fmt::format("\"{}\" a second time", key), "each key once"});
+        document_.faults.push_back(
+            {{.path = key, .found = fmt::format("\"{}\" a second time", key), .allowed = "each key once"}, offset});
       value(is_second ? second : members.emplace_back(JsonMember{std::move(key), offset, {}}).value);
     });
   }
@@ -188,8 +190,8 @@ class Parser {
   template <class Item>
   void list(char close, Item item) {
     if (open_.size() >= kDeepestNesting)
-      throw JsonFault{static_cast<std::uint32_t>(token_.begin), "", "deeper nesting",
-                      fmt::format("at most {} levels", kDeepestNesting)};
+      throw JsonFault{{.found = "deeper nesting", .allowed = fmt::format("at most {} levels", kDeepestNesting)},
+                      static_cast<std::uint32_t>(token_.begin)};
     constexpr auto kNothingBefore = "a comma too many: nothing stands before it";
     open_.push_back(token_);
     advance();
@@ -245,7 +247,7 @@ JsonDocument parsed(std::string_view text, bool is_lenient) {
   JsonDocument document;
   if (text.size() > kLongestText)
     document.faults.push_back(
-        {0, "", fmt::format("{} bytes", text.size()), fmt::format("at most {} bytes", kLongestText)});
+        {{.found = fmt::format("{} bytes", text.size()), .allowed = fmt::format("at most {} bytes", kLongestText)}});
   else
     Parser(text, is_lenient, document).parse();
   return document;
@@ -255,12 +257,20 @@ JsonDocument parsed(std::string_view text, bool is_lenient) {
 
 std::uint32_t nearest_offset(const JsonValue& root, std::string_view path) {
   const JsonValue* value = &root;
-  while (!path.empty()) {
-    const auto dot = std::min(path.find('.'), path.size());
-    const JsonValue* next = value->find(path.substr(0, dot));
+  for (std::size_t begin = 0; begin < path.size();) {
+    const std::size_t end = std::min(path.find_first_of(".[", begin + 1), path.size());
+    const std::string_view step = path.substr(begin, end - begin);
+    const JsonValue* next = nullptr;
+    if (!step.starts_with('[')) {
+      next = value->find(step.substr(step.starts_with('.') ? 1 : 0));
+    } else if (value->is(JsonValue::Kind::kArray)) {
+      std::size_t index = 0;
+      std::from_chars(step.data() + 1, step.data() + step.size(), index);
+      if (index < value->items().size()) next = &value->items()[index];
+    }
     if (!next) break;
     value = next;
-    path.remove_prefix(std::min(dot + 1, path.size()));
+    begin = end;
   }
   return value->offset;
 }
@@ -270,21 +280,32 @@ std::string_view name_of(JsonValue::Kind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
+const JsonValue& json_member(const JsonValue& value, std::string_view key) {
+  const JsonValue* found = value.find(key);
+  if (!found) throw ReadError(fmt::format("\"{}\" is missing", key));
+  return *found;
+}
+
+const JsonValue& json_member(const JsonValue& value, std::string_view key, JsonValue::Kind kind) {
+  const JsonValue* found = value.find(key, kind);
+  if (!found) throw ReadError(fmt::format("\"{}\" is not {}", key, name_of(kind)));
+  return *found;
+}
+
 JsonDocument parse_json(std::string_view text) {
   return parsed(text, false);
 }
 
-std::string message_of(const JsonFault& fault) {
-  if (!fault.sentence.empty()) return fault.sentence;
-  return fmt::format("found {}, allowed: {}", fault.found, fault.allowed);
+std::string first_fault(const JsonDocument& document, std::string_view text) {
+  const JsonFault& fault = document.faults.front();
+  const LineAndColumn place = line_and_column(text, fault.offset);
+  return fmt::format("{}:{}: {}", place.line, place.column, message_of(fault));
 }
 
 Result<JsonValue> parse_lenient_json(std::string_view text) {
   JsonDocument document = parsed(text, true);
-  if (document.faults.empty()) return std::move(document.root);
-  const JsonFault& fault = document.faults.front();
-  const LineAndColumn place = line_and_column(text, fault.offset);
-  return fail(fmt::format("{}:{}: {}", place.line, place.column, message_of(fault)));
+  if (!document.faults.empty()) return fail(first_fault(document, text));
+  return std::move(document.root);
 }
 
 std::string compact_json(std::string_view text, std::size_t offset) {

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "io/text/result.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::io {
 
@@ -76,22 +76,36 @@ inline void JsonValue::set(std::string_view key, Data value) {
   member->data = std::move(value);
 }
 
-/// Offset of the value at a dotted path of keys, or of the nearest object on the way to it.
+/// Calls use(offset) for the places of a value, of all within it and of their keys.
+template <class Use>
+void for_offsets(JsonValue& value, Use use) {
+  use(value.offset);
+  if (value.is(JsonValue::Kind::kArray)) {
+    for (JsonValue& item : value.items()) for_offsets(item, use);
+  } else if (value.is(JsonValue::Kind::kObject)) {
+    for (JsonMember& member : value.members()) {
+      use(member.key_offset);
+      for_offsets(member.value, use);
+    }
+  }
+}
+
+/// Offset of the value at a path, "hull.length_m" or "rows[2].t_s", or of the nearest value on the way to it.
 std::uint32_t nearest_offset(const JsonValue& root, std::string_view path);
 
 /// "a number", "text", … for messages.
 std::string_view name_of(JsonValue::Kind kind);
 
+/// The member of that key, of that kind where one is given; throws ReadError where there is none.
+const JsonValue& json_member(const JsonValue& value, std::string_view key);
+const JsonValue& json_member(const JsonValue& value, std::string_view key, JsonValue::Kind kind);
+
 inline constexpr std::size_t kDeepestNesting = 64;
 inline constexpr std::size_t kLongestText = std::size_t{256} << 20;  ///< [bytes]
 
-/// Something wrong in a JSON text, before its meaning is read.
-struct JsonFault {
+/// Something wrong in a JSON text, before its meaning is read. It has the path of a key that stands twice; none else.
+struct JsonFault : Problem {
   std::uint32_t offset = 0;  ///< byte in the text
-  std::string path;          ///< of the member, for a key that stands twice; else empty
-  std::string found;
-  std::string allowed;
-  std::string sentence = {};  ///< a plain sentence in place of found and allowed, or empty
 };
 
 struct JsonDocument {
@@ -103,8 +117,8 @@ struct JsonDocument {
 /// far); keys that stand twice are faults and the first one counts. Nesting and length are bounded.
 JsonDocument parse_json(std::string_view text);
 
-/// "found '=', allowed: a colon", or the fault's own sentence.
-std::string message_of(const JsonFault& fault);
+/// The first fault of a document, "12:5: found '=', allowed: a colon", by its text; it has one.
+std::string first_fault(const JsonDocument& document, std::string_view text);
 
 /// JSON in which also NaN, Infinity and numbers beyond the doubles stand, as Python and others write them:
 /// each of them becomes an empty text, which no number is. The error is "line:column: words".

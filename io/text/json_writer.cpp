@@ -44,6 +44,34 @@ void append_text(std::string& text, std::string_view value) {
   text += '"';
 }
 
+std::string escaped(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '&')
+      safe += "&amp;";
+    else if (c == '<')
+      safe += "&lt;";
+    else if (c == '>')
+      safe += "&gt;";
+    else
+      safe += c;
+  }
+  return safe;
+}
+
+std::string to_base64(std::string_view bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = bytes.size() - i < 3 ? bytes.size() - i : 3;
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? static_cast<std::uint8_t>(bytes[i + k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[group >> (18 - 6 * k) & 63U] : '=';
+  }
+  return text;
+}
+
 namespace {
 
 void append_point(std::string& text, geometry::Point point) {
@@ -96,42 +124,16 @@ JsonWriter& JsonWriter::key(std::string_view name) {
   return *this;
 }
 
-JsonWriter& JsonWriter::value(double number) {
-  separate();
-  append_number(text_, number);
-  return *this;
-}
-JsonWriter& JsonWriter::whole(std::int64_t number) {
-  separate();
-  append_number(text_, number);
-  return *this;
-}
-JsonWriter& JsonWriter::value(std::string_view words) {
-  separate();
-  append_text(text_, words);
-  return *this;
-}
-JsonWriter& JsonWriter::json(std::string_view raw) {
-  separate();
-  text_ += raw;
-  return *this;
-}
-
 JsonWriter& JsonWriter::value(geometry::Point point) {
-  separate();
-  append_point(text_, point);
-  return *this;
+  return put([=](std::string& text) { append_point(text, point); });
 }
 
 JsonWriter& JsonWriter::value(const geometry::Ring& ring) {
-  separate();
-  text_ += '[';
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    if (i > 0) text_ += ',';
-    append_point(text_, ring[i]);
-  }
-  text_ += ']';
-  return *this;
+  return put([&](std::string& text) {
+    text += '[';
+    for (std::size_t i = 0; i < ring.size(); ++i) append_point(i > 0 ? text += ',' : text, ring[i]);
+    text += ']';
+  });
 }
 
 JsonWriter& JsonWriter::value(const geometry::Polygon& polygon) {
@@ -166,48 +168,38 @@ bool holds_only_numbers(const JsonValue& value) {
   return value.is(JsonValue::Kind::kArray) && std::ranges::all_of(value.items(), holds_only_numbers);
 }
 
-void write(JsonWriter& json, const JsonValue& value) {
-  switch (value.kind()) {
-    case JsonValue::Kind::kNull:
-      json.null();
-      return;
-    case JsonValue::Kind::kBoolean:
-      json.value(value.boolean());
-      return;
-    case JsonValue::Kind::kNumber:
-      json.value(value.number());
-      return;
-    case JsonValue::Kind::kText:
-      json.value(value.text());
-      return;
-    case JsonValue::Kind::kArray:
-      if (holds_only_numbers(value)) {
-        std::string flat;
-        append_flat(flat, value);
-        json.json(flat);
-        return;
-      }
-      json.open('[');
-      for (const JsonValue& item : value.items()) write(json, item);
-      json.close(']');
-      return;
-    case JsonValue::Kind::kObject:
-      json.open('{');
-      for (const JsonMember& member : value.members()) {
-        json.key(member.key);
-        write(json, member.value);
-      }
-      json.close('}');
-      return;
+/// Writes a value as one of a JsonValue's kinds.
+struct ValueWriter {
+  JsonWriter& json;
+
+  void operator()(const auto& plain) const { json.value(plain); }
+  void operator()(const JsonValue::Array& items) const {
+    json.open('[');
+    for (const JsonValue& item : items) write(item);
+    json.close(']');
   }
-}
+  void operator()(const JsonValue::Object& members) const {
+    json.open('{');
+    for (const JsonMember& member : members) {
+      json.key(member.key);
+      write(member.value);
+    }
+    json.close('}');
+  }
+  void write(const JsonValue& value) const {
+    if (!value.is(JsonValue::Kind::kArray) || !holds_only_numbers(value)) return std::visit(*this, value.data);
+    std::string flat;
+    append_flat(flat, value);
+    json.json(flat);
+  }
+};
 
 }  // namespace
 
 std::string to_json_text(const JsonValue& value) {
   std::string text;
   JsonWriter json(text, JsonWriter::Layout::kIndented);
-  write(json, value);
+  ValueWriter{json}.write(value);
   return text + "\n";
 }
 

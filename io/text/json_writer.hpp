@@ -1,6 +1,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -22,6 +23,12 @@ void append_number(std::string& text, std::int64_t value);
 /// Appends text as a JSON string with its quotes.
 void append_text(std::string& text, std::string_view value);
 
+/// Text as it may stand in XML (SVG): &, < and > escaped.
+std::string escaped(std::string_view text);
+
+/// Bytes as base64 text (RFC 4648, with padding, no line breaks).
+std::string to_base64(std::string_view bytes);
+
 /// Writes JSON into a string it is given, so that buffers can be used again.
 ///
 ///   JsonWriter json(line);
@@ -34,13 +41,18 @@ class JsonWriter {
   JsonWriter& open(char bracket);
   JsonWriter& close(char bracket);
   JsonWriter& key(std::string_view name);
-  JsonWriter& value(double number);
+  JsonWriter& value(double number) {
+    return put([=](std::string& text) { append_number(text, number); });
+  }
   template <std::integral Number>
   JsonWriter& value(Number number) {
-    return whole(static_cast<std::int64_t>(number));
+    return put([=](std::string& text) { append_number(text, static_cast<std::int64_t>(number)); });
   }
   JsonWriter& value(bool truth) { return json(truth ? "true" : "false"); }
-  JsonWriter& value(std::string_view words);
+  JsonWriter& value(std::nullptr_t) { return json("null"); }
+  JsonWriter& value(std::string_view words) {
+    return put([=](std::string& text) { append_text(text, words); });
+  }
   JsonWriter& value(const char* words) { return value(std::string_view(words)); }
   JsonWriter& value(geometry::Point point);
   JsonWriter& value(geometry::Vector vector) { return value(geometry::Point{vector.x, vector.y}); }
@@ -52,7 +64,7 @@ class JsonWriter {
   JsonWriter& value(const std::optional<Value>& known) {
     return known ? value(*known) : null();
   }
-  JsonWriter& null() { return json("null"); }
+  JsonWriter& null() { return value(nullptr); }
   template <class Values>
   JsonWriter& list(const Values& values) {
     open('[');
@@ -68,30 +80,35 @@ class JsonWriter {
   }
   /// A list of objects; `write(item)` writes the members of each.
   template <class Items, class Write>
-  JsonWriter& objects(const Items& items, Write write) {
+  JsonWriter& objects(const Items& items, Write write, bool has_lines = false) {
     open('[');
-    for (const auto& item : items) object([&] { write(item); });
+    for (const auto& item : items) {
+      if (has_lines) start_line();
+      object([&] { write(item); });
+    }
     return close(']');
   }
   /// The same, each object on a line of its own.
   template <class Items, class Write>
   JsonWriter& object_lines(const Items& items, Write write) {
-    open('[');
-    for (const auto& item : items) {
-      start_line();
-      object([&] { write(item); });
-    }
-    return close(']');
+    return objects(items, write, true);
   }
   /// A GeoJSON geometry.
   JsonWriter& polygon(const geometry::Polygon& polygon);
   /// A value that is JSON already.
-  JsonWriter& json(std::string_view raw);
+  JsonWriter& json(std::string_view raw) {
+    return put([=](std::string& text) { text += raw; });
+  }
   /// The next item or member starts on a line of its own.
   void start_line() { starts_line_ = true; }
 
  private:
-  JsonWriter& whole(std::int64_t number);
+  template <class Append>
+  JsonWriter& put(Append append) {
+    separate();
+    append(text_);
+    return *this;
+  }
   void separate();
   void break_line();
   std::string& text_;

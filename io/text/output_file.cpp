@@ -44,20 +44,22 @@ constexpr std::size_t kMuchKept = std::size_t{4} << 20;  ///< of an empty buffer
 
 }  // namespace
 
+bool Descriptor::close() {
+  const int opened = std::exchange(opened_, -1);
+  return opened < 0 || ::close(opened) == 0;
+}
+
 Result<OutputFile> OutputFile::create(const std::filesystem::path& path) {
-  const int descriptor = open_new(path.c_str());
+  Descriptor descriptor(open_new(path.c_str()));
   if (descriptor < 0) return failed_in_run_folder(path, errno);
-  return OutputFile(descriptor, path.string());
+  return OutputFile(std::move(descriptor), path.string());
 }
 
 Result<OutputFile> OutputFile::reopen(const std::filesystem::path& path, std::uint64_t size) {
   // Not blocking: a pipe without a reader is refused instead of waited for.
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  Descriptor descriptor(::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (descriptor < 0) return failed_in_run_folder(path, errno);
-  const auto refuse = [&](const std::string& reason) {
-    ::close(descriptor);
-    return fail(fmt::format("{}: {}", path.string(), reason));
-  };
+  const auto refuse = [&](const std::string& reason) { return fail(fmt::format("{}: {}", path.string(), reason)); };
   struct stat status {};
   if (::fstat(descriptor, &status) != 0) return refuse(std::strerror(errno));
   if (!S_ISREG(status.st_mode)) return refuse("not a regular file");
@@ -66,23 +68,13 @@ Result<OutputFile> OutputFile::reopen(const std::filesystem::path& path, std::ui
   const auto end = static_cast<off_t>(size);
   if (::ftruncate(descriptor, end) != 0 || ::lseek(descriptor, end, SEEK_SET) != end)
     return refuse(std::strerror(errno));
-  OutputFile file(descriptor, path.string());
+  OutputFile file(std::move(descriptor), path.string());
   file.size_ = size;
   return file;
 }
 
-OutputFile::OutputFile(OutputFile&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)),
-      name_(std::move(other.name_)),
-      buffer_(std::move(other.buffer_)),
-      record_ends_(std::move(other.record_ends_)),
-      size_(other.size_),
-      status_(std::move(other.status_)) {}
-
 OutputFile::~OutputFile() {
-  if (descriptor_ < 0) return;
-  flush();
-  ::close(descriptor_);
+  if (descriptor_ >= 0) flush();
 }
 
 bool OutputFile::flush() {
@@ -110,10 +102,6 @@ bool OutputFile::sync() {
   return status_.has_value();
 }
 
-bool OutputFile::is_in_place() const {
-  return is_still_at(descriptor_, name_);
-}
-
 bool is_still_at(int descriptor, const std::filesystem::path& path) {
   struct stat opened {
   }, named{};
@@ -130,13 +118,10 @@ Result<> remove_file(const std::filesystem::path& path) {
 
 Result<> sync_folder(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder.empty() ? "." : folder;
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY);
+  const Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY));
   if (descriptor < 0 && errno == EACCES) return {};
-  if (descriptor < 0) return failed_in_run_folder(path, errno);
-  Result<> synced;
-  if (::fsync(descriptor) != 0 && errno != EINVAL) synced = failed_in_run_folder(path, errno);
-  ::close(descriptor);
-  return synced;
+  if (descriptor < 0 || (::fsync(descriptor) != 0 && errno != EINVAL)) return failed_in_run_folder(path, errno);
+  return {};
 }
 
 namespace {
@@ -157,35 +142,18 @@ std::filesystem::path end_of_links(std::filesystem::path path) {
   return path;
 }
 
-/// Whether the links of that name can be followed.
-Result<> check_links(const std::filesystem::path& path) {
-  std::error_code error;
-  static_cast<void>(std::filesystem::status(path, error));
-  if (error != std::errc::too_many_symbolic_link_levels) return {};
-  return fail(fmt::format("{}: {}", path.string(), error.message()));
-}
-
-/// Whether that name is a file to be replaced at once, rather than a pipe or a device to write to.
-bool is_replaced(const std::filesystem::path& path) {
-  std::error_code ignored;
-  const auto status = std::filesystem::status(path, ignored);
-  return !exists(status) || is_regular_file(status) || is_directory(status);
-}
-
-Result<> write_through(const std::filesystem::path& path, std::string_view text) {
-  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-  if (descriptor < 0) return failed(path, errno);
-  Result<> written;
-  if (write_all(descriptor, text) != text.size()) written = failed(path, errno);
-  if (::close(descriptor) != 0 && written) written = failed(path, errno);
-  return written;
-}
-
 }  // namespace
 
 Result<> write_named_file(const std::filesystem::path& path, std::string_view text) {
-  if (auto followed = check_links(path); !followed) return followed;
-  return is_replaced(path) ? write_whole_file(end_of_links(path), text) : write_through(path, text);
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (error == std::errc::too_many_symbolic_link_levels)
+    return fail(fmt::format("{}: {}", path.string(), error.message()));
+  if (!exists(status) || is_regular_file(status) || is_directory(status))
+    return write_whole_file(end_of_links(path), text);
+  Descriptor descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC));  // of a pipe or a device
+  if (descriptor < 0 || write_all(descriptor, text) != text.size() || !descriptor.close()) return failed(path, errno);
+  return {};
 }
 
 namespace {
@@ -200,7 +168,6 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
     if (!is_finished_) ::unlink(temporary_.c_str());
   }
 
@@ -211,7 +178,7 @@ class TemporaryFile {
   /// Gives it its name. The error number, 0 where all went well.
   int finish(bool is_synced) {
     if (error_ == 0 && is_synced && ::fsync(descriptor_) != 0) error_ = errno;
-    if (descriptor_ >= 0 && ::close(std::exchange(descriptor_, -1)) != 0 && error_ == 0) error_ = errno;
+    if (!descriptor_.close() && error_ == 0) error_ = errno;
     if (error_ == 0 && ::rename(temporary_.c_str(), path_.c_str()) != 0) error_ = errno;
     is_finished_ = error_ == 0;
     return error_;
@@ -220,7 +187,7 @@ class TemporaryFile {
  private:
   const std::filesystem::path& path_;
   std::filesystem::path temporary_;
-  int descriptor_;
+  Descriptor descriptor_;
   int error_ = 0;
   bool is_finished_ = false;
 };

@@ -5,11 +5,33 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "io/text/result.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::io {
+
+/// An open file, which is closed with this.
+class Descriptor {
+ public:
+  explicit Descriptor(int opened) : opened_(opened) {}  ///< negative: none
+  Descriptor(Descriptor&& other) noexcept : opened_(std::exchange(other.opened_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(opened_, other.opened_);
+    return *this;
+  }
+  ~Descriptor() { close(); }
+  operator int() const { return opened_; }
+  /// Whether all that was written is where it belongs; errno is why not.
+  bool close();
+
+ private:
+  int opened_;
+};
+
+/// Whether an open file still has that name.
+bool is_still_at(int descriptor, const std::filesystem::path& path);
 
 /// A file that grows by whole records (a line, a frame). Records are buffered; what is on disk always ends
 /// with a whole one: where a write fails half way, the file is cut back to the last whole record. Links are
@@ -21,7 +43,7 @@ class OutputFile {
   /// Opens a file that had that size [bytes] when it was last known to be whole: what is beyond is cut off. A
   /// shorter file, and what is no regular file, is refused and left as it is.
   static Result<OutputFile> reopen(const std::filesystem::path& path, std::uint64_t size);
-  OutputFile(OutputFile&& other) noexcept;
+  OutputFile(OutputFile&&) noexcept = default;
   ~OutputFile();
 
   void append(std::string_view record) {
@@ -36,7 +58,7 @@ class OutputFile {
   bool sync();
   std::uint64_t size() const { return size_; }  ///< on disk [bytes]
   /// Whether the file still has its name: it was neither removed nor replaced.
-  bool is_in_place() const;
+  bool is_in_place() const { return is_still_at(descriptor_, name_); }
   const std::string& name() const { return name_; }
   /// Forgets what is buffered.
   void drop() {
@@ -47,17 +69,14 @@ class OutputFile {
   const Result<>& status() const { return status_; }
 
  private:
-  OutputFile(int descriptor, std::string name) : descriptor_(descriptor), name_(std::move(name)) {}
-  int descriptor_ = -1;
+  OutputFile(Descriptor descriptor, std::string name) : descriptor_(std::move(descriptor)), name_(std::move(name)) {}
+  Descriptor descriptor_;
   std::string name_;
   std::string buffer_;
   std::vector<std::size_t> record_ends_;  ///< in the buffer
   std::uint64_t size_ = 0;                ///< on disk [bytes]
   Result<> status_;
 };
-
-/// Whether an open file still has that name.
-bool is_still_at(int descriptor, const std::filesystem::path& path);
 
 enum class Durability {
   kRenamed,  ///< whole whatever happens to the program

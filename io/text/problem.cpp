@@ -34,30 +34,7 @@ std::string_view without_unit(std::string_view key) {
   return key.substr(0, key.rfind('_'));
 }
 
-constexpr std::size_t kLongestPath = 160, kLongestFound = 1000;  ///< in messages [bytes]
-
 }  // namespace
-
-std::string_view name_of(Severity severity) {
-  constexpr std::string_view kNames[]{"error", "warning", "hint"};
-  return kNames[static_cast<std::size_t>(severity)];
-}
-
-std::string message_of(const Problem& problem) {
-  if (!problem.sentence.empty()) return problem.sentence;
-  std::string text = "found " + shortened(problem.found, kLongestFound);
-  if (!problem.allowed.empty()) text += ", allowed: " + problem.allowed;
-  if (!problem.suggestion.empty()) text += fmt::format("; did you mean \"{}\"?", problem.suggestion);
-  return text;
-}
-
-std::string to_string(const Problem& problem) {
-  std::string text = problem.line > 0 ? fmt::format("{}:{}:{}: ", problem.file, problem.line, problem.column)
-                                      : fmt::format("{}: ", problem.file);
-  if (problem.severity != Severity::kError) text += fmt::format("{}: ", name_of(problem.severity));
-  if (!problem.path.empty()) text += shortened(problem.path, kLongestPath) + ": ";
-  return text + message_of(problem);
-}
 
 std::string to_json_text(const std::vector<Problem>& problems) {
   std::string text;
@@ -79,11 +56,22 @@ std::string places_in_words(std::span<const geometry::Point> places, std::size_t
   return text;
 }
 
-std::string shortened(std::string_view text, std::size_t most) {
-  if (text.size() <= most) return std::string(text);
-  std::size_t end = most;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-  return fmt::format("{}…", text.substr(0, end));
+std::string show(const JsonValue& value) {
+  std::string text;
+  switch (value.kind()) {
+    case JsonValue::Kind::kNumber:
+      append_number(text, value.number());
+      return text;
+    case JsonValue::Kind::kText:
+      append_text(text, shortened(value.text(), 60));
+      return text;
+    case JsonValue::Kind::kBoolean:
+      return value.boolean() ? "true" : "false";
+    case JsonValue::Kind::kArray:
+      return fmt::format("a list of {}", value.items().size());
+    default:
+      return std::string(name_of(value.kind()));
+  }
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
@@ -121,9 +109,7 @@ void ProblemCollector::report(std::size_t source, std::uint32_t offset, std::str
 }
 
 void ProblemCollector::add_faults(std::size_t source, const std::vector<JsonFault>& faults) {
-  for (const JsonFault& fault : faults)
-    add(source, fault.offset,
-        {.path = fault.path, .found = fault.found, .allowed = fault.allowed, .sentence = fault.sentence});
+  for (const JsonFault& fault : faults) add(source, fault.offset, fault);
 }
 
 std::uint32_t ProblemCollector::add_overlay(PlacedText text) {

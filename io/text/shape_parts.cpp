@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -160,22 +159,21 @@ std::vector<std::size_t> ring_sizes(const geometry::Polygon& polygon) {
   return sizes;
 }
 
-Result<> check_parts(const ShapeParts& shape, const std::vector<std::size_t>& parent_ring_sizes) {
+void check_parts(const ShapeParts& shape, const std::vector<std::size_t>& parent_ring_sizes) {
   const std::size_t most = std::accumulate(parent_ring_sizes.begin(), parent_ring_sizes.end(), std::size_t{0});
   std::size_t taken = 0;
   for (const ShapePart& part : shape.parts) {
     if (part.ring == ShapePart::kNew) continue;
     const auto ring = static_cast<std::size_t>(part.ring);
     if (ring >= parent_ring_sizes.size())
-      return fail(fmt::format("ring {} of a parent that has {}", ring, parent_ring_sizes.size()));
+      throw ReadError(fmt::format("ring {} of a parent that has {}", ring, parent_ring_sizes.size()));
     const std::size_t size = parent_ring_sizes[ring];
     if (part.first >= size || part.count > size)
-      return fail(fmt::format("{} vertices from vertex {} of the parent's ring {}, which has {}", part.count,
-                              part.first, ring, size));
+      throw ReadError(fmt::format("{} vertices from vertex {} of the parent's ring {}, which has {}", part.count,
+                                  part.first, ring, size));
     taken += part.count;
   }
-  if (taken > most) return fail(fmt::format("{} vertices of a parent that has {}", taken, most));
-  return {};
+  if (taken > most) throw ReadError(fmt::format("{} vertices of a parent that has {}", taken, most));
 }
 
 Polygon assembled(const ShapeParts& shape, const Polygon& parent) {
@@ -203,90 +201,50 @@ constexpr std::string_view kRingParts = "ring_parts_m";
 constexpr std::string_view kHoleParts = "hole_parts_m";
 constexpr double kMostVertices = 4e9;
 
-/// Ends the reading of a shape.
-struct NoShape : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 const JsonValue::Array& list(const JsonValue& value, std::string_view expected) {
   if (!value.is(JsonKind::kArray))
-    throw NoShape(fmt::format("{} where {} is expected", name_of(value.kind()), expected));
+    throw ReadError(fmt::format("{} where {} is expected", name_of(value.kind()), expected));
   return value.items();
-}
-
-const JsonValue& member(const JsonValue& line, std::string_view key) {
-  const JsonValue* found = line.find(key);
-  if (!found) throw NoShape(fmt::format("\"{}\" is missing", key));
-  return *found;
 }
 
 double number(const JsonValue& value, std::string_view expected) {
   if (!value.is(JsonKind::kNumber))
-    throw NoShape(fmt::format("{} where {} is expected", name_of(value.kind()), expected));
+    throw ReadError(fmt::format("{} where {} is expected", name_of(value.kind()), expected));
   return value.number();
-}
-
-Point point(const JsonValue& value) {
-  const JsonValue::Array& items = list(value, "[x, y]");
-  if (items.size() != 2) throw NoShape(fmt::format("{} numbers where [x, y] is expected", items.size()));
-  return {number(items[0], "a coordinate"), number(items[1], "a coordinate")};
 }
 
 std::uint32_t whole_number(const JsonValue& value) {
   constexpr std::string_view kExpected = "[ring, first vertex, vertices]";
   const double n = number(value, kExpected);
   if (!(n >= 0 && n < kMostVertices && n == std::floor(n)))
-    throw NoShape(fmt::format("{} where {} is expected", n, kExpected));
+    throw ReadError(fmt::format("{} where {} is expected", n, kExpected));
   return static_cast<std::uint32_t>(n);
 }
 
-class ShapeReader {
- public:
-  ShapeParts read(const JsonValue& line) {
-    const bool has_parts = line.find(kRingParts) != nullptr;
-    const auto read_ring = [&](const JsonValue& ring) { has_parts ? read_parts(ring) : read_points(ring); };
-    read_ring(member(line, has_parts ? kRingParts : kRing));
-    for (const JsonValue& hole : list(member(line, has_parts ? kHoleParts : kHoles), "a list of holes"))
-      read_ring(hole);
-    const std::vector<std::size_t> sizes = ring_sizes(shape_);
-    for (std::size_t ring = 0; ring < sizes.size(); ++ring) {
-      if (sizes[ring] < 3) throw NoShape(fmt::format("ring {} has {} vertices; it takes 3 or more", ring, sizes[ring]));
+/// Adds new vertices to the ring at hand.
+void add_points(ShapeParts& shape, const JsonValue::Array& points) {
+  Ring ring;
+  for (const JsonValue& item : points) ring.push_back(point_of(item));
+  append_new(shape, ring, 0, ring.size());
+}
+
+/// Adds stretches of a parent's ring, and what is new between them.
+void add_parts(ShapeParts& shape, const JsonValue::Array& parts) {
+  for (const JsonValue& part : parts) {
+    const JsonValue::Array& items = list(part, "a part of a ring");
+    if (items.empty()) throw ReadError("a part of a ring with nothing in it");
+    if (items.front().is(JsonKind::kArray)) {
+      add_points(shape, items);
+      continue;
     }
-    return std::move(shape_);
+    if (items.size() != 3)
+      throw ReadError(fmt::format("{} numbers where [ring, first vertex, vertices] is expected", items.size()));
+    const std::uint32_t of = whole_number(items[0]);
+    if (of > static_cast<std::uint32_t>(std::numeric_limits<std::int32_t>::max()))
+      throw ReadError(fmt::format("ring {} of a parent", of));
+    shape.parts.push_back({static_cast<std::int32_t>(of), whole_number(items[1]), whole_number(items[2])});
   }
-
- private:
-  void read_points(const JsonValue& ring) {
-    add_new(list(ring, "a ring, a list of [x, y]"));
-    shape_.ring_ends.push_back(static_cast<std::uint32_t>(shape_.parts.size()));
-  }
-
-  void read_parts(const JsonValue& ring) {
-    for (const JsonValue& part : list(ring, "a list of parts of a ring")) {
-      const JsonValue::Array& items = list(part, "a part of a ring");
-      if (items.empty()) throw NoShape("a part of a ring with nothing in it");
-      if (items.front().is(JsonKind::kArray)) {
-        add_new(items);
-        continue;
-      }
-      if (items.size() != 3)
-        throw NoShape(fmt::format("{} numbers where [ring, first vertex, vertices] is expected", items.size()));
-      const std::uint32_t of = whole_number(items[0]);
-      if (of > static_cast<std::uint32_t>(std::numeric_limits<std::int32_t>::max()))
-        throw NoShape(fmt::format("ring {} of a parent", of));
-      shape_.parts.push_back({static_cast<std::int32_t>(of), whole_number(items[1]), whole_number(items[2])});
-    }
-    shape_.ring_ends.push_back(static_cast<std::uint32_t>(shape_.parts.size()));
-  }
-
-  void add_new(const JsonValue::Array& points) {
-    shape_.parts.push_back({ShapePart::kNew, static_cast<std::uint32_t>(shape_.vertices.size()),
-                            static_cast<std::uint32_t>(points.size())});
-    for (const JsonValue& item : points) shape_.vertices.push_back(point(item));
-  }
-
-  ShapeParts shape_;
-};
+}
 
 void append_part(JsonWriter& json, const ShapeParts& shape, const ShapePart& part, bool is_listed) {
   if (part.ring != ShapePart::kNew) {
@@ -314,12 +272,29 @@ void append_shape(JsonWriter& json, const ShapeParts& shape) {
   json.close(']');
 }
 
-Result<ShapeParts> read_shape(const JsonValue& line) {
-  try {
-    return ShapeReader().read(line);
-  } catch (const NoShape& wrong) {
-    return fail(std::string(wrong.what()));
-  }
+Point point_of(const JsonValue& value) {
+  const JsonValue::Array& items = list(value, "[x, y]");
+  if (items.size() != 2) throw ReadError(fmt::format("{} numbers where [x, y] is expected", items.size()));
+  return {number(items[0], "a coordinate"), number(items[1], "a coordinate")};
+}
+
+ShapeParts read_shape(const JsonValue& line) {
+  const bool has_parts = line.find(kRingParts) != nullptr;
+  ShapeParts shape;
+  const auto read_ring = [&](const JsonValue& ring) {
+    if (has_parts)
+      add_parts(shape, list(ring, "a list of parts of a ring"));
+    else
+      add_points(shape, list(ring, "a ring, a list of [x, y]"));
+    close_ring(shape);
+  };
+  read_ring(json_member(line, has_parts ? kRingParts : kRing));
+  for (const JsonValue& hole : list(json_member(line, has_parts ? kHoleParts : kHoles), "a list of holes"))
+    read_ring(hole);
+  const std::vector<std::size_t> sizes = ring_sizes(shape);
+  for (std::size_t ring = 0; ring < sizes.size(); ++ring)
+    if (sizes[ring] < 3) throw ReadError(fmt::format("ring {} has {} vertices; it takes 3 or more", ring, sizes[ring]));
+  return shape;
 }
 
 }  // namespace polynya::io

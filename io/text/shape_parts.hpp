@@ -6,7 +6,7 @@
 #include "geometry/shape/polygon.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
-#include "io/text/result.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::io {
 
@@ -39,8 +39,8 @@ ShapeParts parts_of(const geometry::Polygon& shape, const geometry::Polygon& par
 std::vector<std::size_t> ring_sizes(const ShapeParts& shape);
 std::vector<std::size_t> ring_sizes(const geometry::Polygon& polygon);
 
-/// Whether parts can be of a parent with rings of these sizes.
-Result<> check_parts(const ShapeParts& shape, const std::vector<std::size_t>& parent_ring_sizes);
+/// Throws ReadError where parts cannot be of a parent with rings of these sizes.
+void check_parts(const ShapeParts& shape, const std::vector<std::size_t>& parent_ring_sizes);
 
 /// The shape itself, to the bit. `parent` is not used by parts that are all new. Needs parts without fault.
 geometry::Polygon assembled(const ShapeParts& shape, const geometry::Polygon& parent);
@@ -48,7 +48,8 @@ geometry::Polygon assembled(const ShapeParts& shape, const geometry::Polygon& pa
 /// Adds the members of a line of floes.ndjson that hold the shape.
 void append_shape(JsonWriter& json, const ShapeParts& shape);
 
-/// The shape of a line of floes.ndjson. The error is what in it is no shape.
-Result<ShapeParts> read_shape(const JsonValue& line);
+/// A point of a JSON line, [x, y], and the shape of a line of floes.ndjson. Throw ReadError where it is none.
+geometry::Point point_of(const JsonValue& value);
+ShapeParts read_shape(const JsonValue& line);
 
 }  // namespace polynya::io

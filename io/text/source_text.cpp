@@ -17,6 +17,12 @@ LineAndColumn line_and_column(std::string_view text, std::size_t offset) {
           .column = 1 + static_cast<int>(std::ranges::count_if(before.substr(line_start), is_character))};
 }
 
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
+}
+
 LineIndex::LineIndex(std::string_view text) : text_(text) {
   for (std::size_t at = text.find('\n'); at != std::string_view::npos; at = text.find('\n', at + 1))
     ends_.push_back(at);
@@ -30,6 +36,35 @@ LineAndColumn LineIndex::at(std::size_t offset) const {
   const int line = line_of(offset);
   const std::size_t start = line > 1 ? ends_[static_cast<std::size_t>(line) - 2] + 1 : 0;
   return {line, line_and_column(text_.substr(start), offset - start).column};
+}
+
+std::string_view name_of(Severity severity) {
+  constexpr std::string_view kNames[]{"error", "warning", "hint"};
+  return kNames[static_cast<std::size_t>(severity)];
+}
+
+std::string message_of(const Problem& problem) {
+  if (!problem.sentence.empty()) return problem.sentence;
+  constexpr std::size_t kLongestFound = 1000;  // [bytes]
+  std::string text = "found " + shortened(problem.found, kLongestFound);
+  if (!problem.allowed.empty()) text += ", allowed: " + problem.allowed;
+  if (!problem.suggestion.empty()) text += fmt::format("; did you mean \"{}\"?", problem.suggestion);
+  return text;
+}
+
+std::string to_string(const Problem& problem) {
+  std::string text = problem.line > 0 ? fmt::format("{}:{}:{}: ", problem.file, problem.line, problem.column)
+                                      : fmt::format("{}: ", problem.file);
+  if (problem.severity != Severity::kError) text += fmt::format("{}: ", name_of(problem.severity));
+  if (!problem.path.empty()) text += shortened(problem.path, kLongestPath) + ": ";
+  return text + message_of(problem);
+}
+
+std::string shortened(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return std::string(text);
+  std::size_t end = most;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return fmt::format("{}…", text.substr(0, end));
 }
 
 Result<std::string> read_text_file(const std::filesystem::path& path, std::size_t longest) {

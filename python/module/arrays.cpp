@@ -5,7 +5,7 @@
 #include "python/module/numpy_arrays.hpp"
 #include "python/module/simulation.hpp"
 
-#include "io/run/csv_columns.hpp"
+#include "io/run/records.hpp"
 #include "simulation/world/world.hpp"
 
 namespace polynya::python {

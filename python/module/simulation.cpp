@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include "io/run/active_run.hpp"
 #include "io/run/checkpoint.hpp"
 #include "io/run/event_records.hpp"
+#include "io/run/run_loop.hpp"
 #include "simulation/world/world.hpp"
 
 namespace polynya::python {

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "geometry/cut/repair.hpp"
-#include "io/run/motion_index.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/floe_text.hpp"
 #include "io/text/json_parser.hpp"

@@ -32,16 +32,16 @@ void read_floes(const std::string& text) {
 
 void read_births(const std::string& text) {
   polynya::io::FloeShapes shapes;
-  for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    const auto line = polynya::io::parse_json(std::string_view(text).substr(start, end - start));
-    auto shape = polynya::io::read_shape(line.root);
-    if (!shape) return require(!shape.error().empty());
-    const auto parent = polynya::io::floe_id_in(line.root, "parent_id");
-    if (!shapes.add(std::move(*shape), parent.value_or(-1))) return;
-    const auto polygon = shapes.of(static_cast<std::int64_t>(shapes.size()) - 1);
-    require(polygon->outer.size() >= 3 && vertex_count(*polygon) < text.size());
-    start = end + 1;
+  try {
+    polynya::io::for_pieces(text, '\n', [&](std::string_view words, std::size_t) {
+      const auto line = polynya::io::parse_json(words);
+      const auto parent = polynya::io::floe_id_in(line.root, "parent_id");
+      shapes.add(polynya::io::read_shape(line.root), parent.value_or(-1));
+      const auto polygon = shapes.of(static_cast<std::int64_t>(shapes.size()) - 1);
+      require(polygon->outer.size() >= 3 && vertex_count(*polygon) < text.size());
+    });
+  } catch (const polynya::io::ReadError& error) {
+    require(error.what()[0] != '\0');
   }
 }
 

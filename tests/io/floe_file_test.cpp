@@ -203,16 +203,16 @@ const fracture::Ice& ice_at(const LoadedScene& loaded, std::size_t floe) {
 }
 
 TEST(FloeIce, KeysAndRangesAreThoseOfTheScenesIce) {
-  for (const FloeIceProperty& property : floe_ice_properties()) {
-    for (const Object* object : std::initializer_list<const Object*>{&ice_description(), &floe_ice_description()}) {
+  for (const FloeProperty& property : floe_ice_properties()) {
+    for (const Object* object : std::initializer_list<const Object*>{&kIceDescription, &kFloeIceDescription}) {
       const auto field = std::ranges::find(object->fields, property.key, &Field::key);
       ASSERT_NE(field, object->fields.end()) << property.key;
       EXPECT_EQ(field->unit, property.unit);
-      EXPECT_EQ(field->range.low, property.range.low) << property.key;
-      EXPECT_EQ(field->range.high, property.range.high) << property.key;
+      EXPECT_EQ(field->range.low, property.low) << property.key;
+      EXPECT_EQ(field->range.high, property.high) << property.key;
     }
   }
-  EXPECT_EQ(floe_ice_description().fields.size(), kFloeIceProperties + 1) << "and the seed";
+  EXPECT_EQ(kFloeIceDescription.fields.size(), kFloeIceProperties + 1) << "and the seed";
 }
 
 TEST(FloeIce, GivenIsTheirsAndTheRestTheScenes) {

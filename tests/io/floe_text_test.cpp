@@ -10,7 +10,6 @@
 
 #include "geometry/cut/repair.hpp"
 #include "io/text/cut.hpp"
-#include "io/text/wkt.hpp"
 
 namespace polynya::io {
 namespace {

@@ -169,7 +169,7 @@ TEST(SceneFields, EveryFieldRoundTripsAndReachesTheScene) {
   for (const std::string& base_text : {kFirst, kSecond, kThird, kFourth, kFifth, fleet()}) {
     const LoadedScene base = load(base_text);
     JsonValue tree = parse_json(base.resolved_text).root;
-    walk(scene_description(), tree, "", [&](const Field& field, JsonValue& value, const std::string& path) {
+    walk(kSceneDescription, tree, "", [&](const Field& field, JsonValue& value, const std::string& path) {
       if (value.is(JsonValue::Kind::kArray) && value.items().empty()) return;
       // A constant speed is said twice in a resolved scene, and must be changed in both places.
       if (path == ".ships.speed_m_per_s" &&
@@ -203,7 +203,7 @@ TEST(SceneFields, EveryFieldRoundTripsAndReachesTheScene) {
         tree.find("ships")->items()[0].find("speed_m_per_s")->data = before;
     });
   }
-  std::set<std::string> expected = all_leaves(scene_description(), "");
+  std::set<std::string> expected = all_leaves(kSceneDescription, "");
   expected.erase(".floes.file");  // becomes polygons in the resolved scene
   std::erase_if(expected, [](const std::string& path) { return path.starts_with(".floes.import."); });
   expected.erase(".ships.ship");  // becomes the preset's particulars
@@ -235,7 +235,7 @@ TEST(SceneFields, EveryRangeIsKept) {
   const LoadedScene base = load(kFirst);
   JsonValue tree = parse_json(base.resolved_text).root;
   int tried = 0;
-  walk(scene_description(), tree, "", [&](const Field& field, JsonValue& value, const std::string& path) {
+  walk(kSceneDescription, tree, "", [&](const Field& field, JsonValue& value, const std::string& path) {
     const auto before = value.data;
     std::vector<decltype(value.data)> wrong{nullptr, JsonValue::Object{}};
     wrong.emplace_back(field.kind == FieldKind::kBoolean ? decltype(value.data){1.0} : decltype(value.data){true});
@@ -278,7 +278,7 @@ TEST(SceneSchema, NamesEveryFieldOnceWhereItBelongs) {
       }
     }
   };
-  check(scene_description(), document.root);
+  check(kSceneDescription, document.root);
 }
 
 TEST(SceneDocs, HoldTheTablesAsThePrintedOnes) {

@@ -3,10 +3,10 @@
 #include <memory>
 
 #include "geometry/shape/angle.hpp"
-#include "io/import/projection.hpp"
-#include "io/run/motion_index.hpp"
+#include "io/import/floe_properties.hpp"
+#include "io/import/plane.hpp"
 #include "io/run/records.hpp"
-#include "io/scene/floe_ice.hpp"
+#include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
 
 namespace polynya::views {

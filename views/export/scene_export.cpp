@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "geometry/shape/angle.hpp"
-#include "io/run/motion_index.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
+#include "io/run/run_reader.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/source_text.hpp"

@@ -11,9 +11,8 @@
 #include <fmt/format.h>
 
 #include "geometry/shape/outline.hpp"
-#include "io/run/motion_index.hpp"
-#include "io/scene/floe_ice.hpp"
-#include "io/text/encoding.hpp"
+#include "io/import/floe_properties.hpp"
+#include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/output_file.hpp"
 #include "simulation/state/archive.hpp"
@@ -134,7 +133,7 @@ class IceExport {
                       {"born_s", {}, 1, false},        {"area_m2", {}, 1, false},          {"mass_kg", {}, 1, false},
                       {"speed_m_per_s", {}, 1, false}, {"velocity_m_per_s", {}, 3, false}, {"is_outline", {}, 1, true},
                       {"came_up", {}, 1, true}};
-    for (const io::FloeIceProperty& property : io::floe_ice_properties())
+    for (const io::FloeProperty& property : io::floe_ice_properties())
       data.cell_data.push_back({std::string(property.key), {}, 1, false});
     for (const io::PlacedFloe& floe : floes) {
       for (std::size_t ring = 0; ring <= floe.polygon_in_body->holes.size(); ++ring) add_cell(data, floe, true);

@@ -8,7 +8,6 @@
 #include <tl/expected.hpp>
 
 #include "geometry/shape/polygon.hpp"
-#include "io/run/motion_index.hpp"
 #include "io/run/run_reader.hpp"
 
 namespace polynya::views {

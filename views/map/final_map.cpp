@@ -11,10 +11,10 @@
 
 #include <fmt/format.h>
 
-#include "io/run/motion_index.hpp"
 #include "io/run/run_folder.hpp"
+#include "io/run/run_reader.hpp"
 #include "io/text/child_process.hpp"
-#include "io/text/encoding.hpp"
+#include "io/text/json_writer.hpp"
 #include "io/text/output_file.hpp"
 #include "io/text/problem.hpp"
 

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "analysis/channel.hpp"
-#include "io/run/csv_columns.hpp"
 #include "io/run/event_records.hpp"
 #include "io/run/records.hpp"
 #include "io/run/summary.hpp"

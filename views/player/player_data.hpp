@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "geometry/shape/point.hpp"
-#include "io/run/motion_index.hpp"
 #include "io/run/run_reader.hpp"
 
 namespace polynya::views {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "io/text/encoding.hpp"
 #include "io/text/json_writer.hpp"
 
 namespace polynya::views {
