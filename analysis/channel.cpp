@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "analysis/channel_parts.hpp"
-#include "analysis/floe_sizes.hpp"
+#include "analysis/run_listing.hpp"
 #include "geometry/cut/repair.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/point_in_ring.hpp"

@@ -105,4 +105,8 @@ struct RunCheck {
 RunCheck check_run(const io::Run& run, std::optional<double> only_at = {},
                    const std::function<void(double)>& on_part = {});
 
+/// What it found as `polynya inspect --check` prints it: for people, and as JSON (docs/inspect.md).
+std::string to_text(const RunCheck& check, const simulation::Scene& scene);
+std::string to_json_text(const RunCheck& check, const simulation::Scene& scene);
+
 }  // namespace polynya::analysis

@@ -6,7 +6,7 @@
 
 #include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
-#include "app/run/memory.hpp"
+#include "app/run/load_scene.hpp"
 #include "io/run/summary.hpp"
 
 namespace polynya::app {

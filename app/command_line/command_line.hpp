@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "app/command_line/progress.hpp"
+#include "app/command_line/console.hpp"
 #include "io/scene/scene_assign.hpp"
 
 // CLI11 takes seconds to compile wherever it is included: command_line.cpp alone does.

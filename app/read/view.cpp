@@ -9,12 +9,10 @@
 
 #include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
-#include "app/command_line/files.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/output_file.hpp"
 #include "views/player/player_page.hpp"
-#include "views/player/scene_page.hpp"
 
 namespace polynya::app {
 namespace {

@@ -5,11 +5,10 @@
 #include <optional>
 #include <utility>
 
-#include "analysis/run_result.hpp"
+#include "analysis/run_listing.hpp"
 #include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/run/load_scene.hpp"
-#include "app/run/memory.hpp"
 #include "io/run/active_run.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_loop.hpp"

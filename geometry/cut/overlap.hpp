@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/cut/cut.hpp"
+#include "geometry/shape/polygon.hpp"
 #include "geometry/shape/pose.hpp"
 
 namespace polynya::geometry {
@@ -69,5 +70,17 @@ struct Trimmed {
 /// corners [m]. Shared areas of at most kTouchingArea are the rounding of shared
 /// edges and stay. All polygons must be valid. Each is cut exactly, by one of the others after the other;
 std::vector<Trimmed> make_disjoint(const std::vector<Polygon>& polygons, double gap);
+
+/// Where and when two outlines that move in straight lines without turning first meet.
+struct FirstContact {
+  double time = 0;  ///< from now on [s]
+  Point point;      ///< where that point of a is now [m]
+  Vector normal;    ///< unit, from a into b
+};
+
+/// The first contact of `a` and `b` at a time in [from, until] [s], b moving at `velocity` relative to a
+/// [m/s]; both are counter-clockwise and in one frame. A time before 0 lies in the past. Outlines that only
+/// slide along each other have none.
+std::optional<FirstContact> first_contact(const Ring& a, const Ring& b, Vector velocity, double from, double until);
 
 }  // namespace polynya::geometry

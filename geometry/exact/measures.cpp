@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
-#include "geometry/exact/internal/areas.hpp"
 #include "geometry/exact/internal/error_free.hpp"
 #include "geometry/exact/internal/exact_polygon.hpp"
 
@@ -77,11 +77,11 @@ TwiceArea twice_area(const Ring& ring) {
 }
 
 // Half of it as the nearest double, where the doubt leaves no other.
-bool is_nearest(const TwiceArea& twice, double& area) {
+std::optional<double> nearest_half(const TwiceArea& twice) {
   const TwoDoubles sum = two_sum(twice.value, twice.low);
   const double gap = std::abs(sum.high) - std::nextafter(std::abs(sum.high), 0);  // to the closer neighbour
-  area = sum.high / 2;
-  return std::abs(sum.low) + twice.doubt < gap / 2;
+  if (std::abs(sum.low) + twice.doubt < gap / 2) return sum.high / 2;
+  return {};
 }
 
 bool is_finite(const Polygon& polygon) {
@@ -92,16 +92,16 @@ bool is_finite(const Polygon& polygon) {
 
 }  // namespace
 
-double nearest_area(const Ring& ring) {
-  double area = 0;
-  return is_nearest(twice_area(ring), area) ? area : exact_area({ring, {}});
+double signed_area(const Ring& ring) {
+  const auto nearest = nearest_half(twice_area(ring));
+  return nearest ? *nearest : exact_area({ring, {}});
 }
 
 double nearest_area(const Polygon& polygon) {
   TwiceArea sum = twice_area(polygon.outer);
   for (const Ring& hole : polygon.holes) sum += twice_area(hole);
-  double area = 0;
-  return is_nearest(sum, area) ? area : exact_area(polygon);
+  const auto nearest = nearest_half(sum);
+  return nearest ? *nearest : exact_area(polygon);
 }
 
 RingArea ring_area(const Ring& ring) {
@@ -259,10 +259,6 @@ double ring_area_in_band(const Ring& ring, double half_width) {
 }
 
 }  // namespace
-
-double signed_area(const Ring& ring) {
-  return nearest_area(ring);
-}
 
 Measures measure(const Polygon& polygon) {
   if (polygon.outer.size() < 3) return {};

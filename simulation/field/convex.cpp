@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/shape/segments.hpp"
+#include "geometry/shape/point.hpp"
 
 namespace polynya::simulation {
 namespace {

@@ -1,10 +1,9 @@
 // A run that does not fit into memory: it is refused before it starts, or ends as one that was killed.
-#include "app/run/memory.hpp"
-
 #include "interrupted_run.hpp"
 #include "program.hpp"
 #include <sys/resource.h>
 
+#include "app/run/load_scene.hpp"
 #include "io/run/run_folder.hpp"
 #include "simulation/world/memory_estimate.hpp"
 

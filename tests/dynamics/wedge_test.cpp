@@ -1,5 +1,4 @@
 // The wedge of ice at a contact, and the straight crack through a floe.
-#include "geometry/contact/wedge.hpp"
 
 #include <algorithm>
 

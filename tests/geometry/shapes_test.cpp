@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "geometry/contact/boundary.hpp"
-#include "geometry/contact/first_contact.hpp"
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/point_in_ring.hpp"

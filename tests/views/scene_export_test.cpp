@@ -1,6 +1,4 @@
 // A run's end, or one of its frames, as the start of another.
-#include "views/export/scene_export.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +9,7 @@
 #include "io/run/motion_index.hpp"
 #include "io/run/run_loop.hpp"
 #include "io/text/json_parser.hpp"
+#include "views/export/export.hpp"
 
 namespace polynya::tests {
 namespace {

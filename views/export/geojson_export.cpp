@@ -1,13 +1,13 @@
-#include "views/export/geojson_export.hpp"
-
 #include <memory>
 
+#include "analysis/channel.hpp"
 #include "geometry/shape/angle.hpp"
 #include "io/import/projection.hpp"
 #include "io/run/motion_index.hpp"
 #include "io/run/records.hpp"
 #include "io/scene/floe_ice.hpp"
 #include "io/text/json_writer.hpp"
+#include "views/export/export.hpp"
 
 namespace polynya::views {
 namespace {

@@ -52,8 +52,7 @@ function drawRoute(context, view, { points_m: points, speeds_m_per_s: speeds }, 
     const [x, y] = view.toScreen(...point);
     context.beginPath();
     context.arc(x, y, 4.5, 0, 2 * Math.PI);
-    context.fillStyle = highlight;
-    context.fill();
+    fillWith(context, highlight);
     const [side, align] = x > view.width - 80 ? [-8, "right"] : [8, "left"];
     drawWords(context, `${k + 1}: ${shortNumber(speeds[k])} m/s`, x + side, y - 6, ink, panel, align);
   });
@@ -63,11 +62,8 @@ function drawProblem(context, view, problem, number, colours) {
   const [x, y] = view.toScreen(...problem.point_m);
   traceLine(context, [[x, y - 32], [x + 11, y - 13], [x - 11, y - 13]]);
   context.closePath();
-  context.fillStyle = problem.severity === "hint" ? colours.accent : colours.split;
-  context.fill();
-  context.strokeStyle = colours.panel;
-  context.lineWidth = 1.5;
-  context.stroke();
+  fillWith(context, problem.severity === "hint" ? colours.accent : colours.split);
+  strokeWith(context, colours.panel, 1.5);
   drawWords(context, String(number), x, y - 15, colours.ink, colours.panel);
 }
 

@@ -1,5 +1,3 @@
-#include "views/player/player_data.hpp"
-
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -14,27 +12,12 @@
 #include "io/run/summary.hpp"
 #include "io/text/json_writer.hpp"
 #include "simulation/ship/pattern.hpp"
+#include "views/player/player_page.hpp"
 
 namespace polynya::views {
 
 using geometry::Box;
 using geometry::Point;
-
-void ColumnWriter::add_raw(const std::string& name, const char* type, const void* data, std::size_t count,
-                           std::size_t size) {
-  bytes_.resize((bytes_.size() + 7) / 8 * 8);
-  table_.push_back({name, type, bytes_.size(), count});
-  bytes_.append(static_cast<const char*>(data), count * size);
-}
-void ColumnWriter::add(const std::string& name, const std::vector<double>& values) {
-  add_raw(name, "f64", values.data(), values.size(), sizeof(double));
-}
-void ColumnWriter::add(const std::string& name, const std::vector<std::int32_t>& values) {
-  add_raw(name, "i32", values.data(), values.size(), sizeof(std::int32_t));
-}
-void ColumnWriter::add(const std::string& name, std::string_view bytes) {
-  add_raw(name, "u8", bytes.data(), bytes.size(), 1);
-}
 
 namespace {
 
@@ -147,6 +130,45 @@ double gap(const Box& box, const Box& other) {
   const double across = std::max(other.low.x - box.high.x, box.low.x - other.high.x);
   const double up = std::max(other.low.y - box.high.y, box.low.y - other.high.y);
   return std::max({0.0, across, up});
+}
+
+/// Of each floe of a run how far a box has to grow on all sides for the floe, or one of its family (all that broke from
+/// one floe of the scene), to come within it at one of these frames [m]; 0 where one does as it is. By the floes'
+/// circles and the boxes of their ways from record to record.
+std::vector<double> family_distances(const io::Run& run, const Box& box, const std::vector<io::Frame>& frames) {
+  std::vector<std::size_t> oldest(run.floes.size());
+  std::vector<double> reach(run.floes.size());
+  for (std::size_t i = 0; i < run.floes.size(); ++i) {
+    const simulation::BirthRecord& birth = run.floes[i].birth;
+    oldest[i] = birth.parent >= 0 ? oldest[static_cast<std::size_t>(birth.parent)] : i;
+    for (const Point p : run.shape(birth.floe)->outer)
+      reach[i] = std::max(reach[i], distance(p, birth.centroid_in_body));
+  }
+  std::vector<double> least(run.floes.size(), std::numeric_limits<double>::infinity());  // by oldest floe
+  std::vector<std::optional<io::RecordedMotion>> last(run.floes.size());
+  /// From its last record on at its velocity up to a time.
+  const auto follow = [&](std::size_t floe, double time) {
+    const Point from = last[floe]->motion.position;
+    const Point to = carried_on(last[floe]->motion, time - last[floe]->time).position;
+    double& distance = least[oldest[floe]];
+    distance = std::min(distance, gap(box, geometry::grown(geometry::box_around(from, to), reach[floe])));
+  };
+  double before = 0;  // of the frame before [s]
+  for (const io::Frame& frame : frames) {
+    for (const auto& [id, motion] : frame.floes) {
+      const auto floe = static_cast<std::size_t>(id);
+      if (last[floe]) follow(floe, before);
+      last[floe] = io::RecordedMotion{frame.time, motion};
+      follow(floe, frame.time);
+    }
+    before = frame.time;
+  }
+  for (std::size_t i = 0; i < last.size(); ++i) {
+    if (last[i]) follow(i, std::min(before, run.floes[i].died));
+  }
+  std::vector<double> distances(run.floes.size());
+  for (std::size_t i = 0; i < distances.size(); ++i) distances[i] = least[oldest[i]];
+  return distances;
 }
 
 void add_frames(ColumnWriter& columns, const std::vector<io::Frame>& frames) {
@@ -397,42 +419,6 @@ std::string info_of(const io::Run& run, const PlayerData& data, const PlayerSele
 }
 
 }  // namespace
-
-std::vector<double> family_distances(const io::Run& run, const Box& box, const std::vector<io::Frame>& frames) {
-  std::vector<std::size_t> oldest(run.floes.size());
-  std::vector<double> reach(run.floes.size());
-  for (std::size_t i = 0; i < run.floes.size(); ++i) {
-    const simulation::BirthRecord& birth = run.floes[i].birth;
-    oldest[i] = birth.parent >= 0 ? oldest[static_cast<std::size_t>(birth.parent)] : i;
-    for (const Point p : run.shape(birth.floe)->outer)
-      reach[i] = std::max(reach[i], distance(p, birth.centroid_in_body));
-  }
-  std::vector<double> least(run.floes.size(), std::numeric_limits<double>::infinity());  // by oldest floe
-  std::vector<std::optional<io::RecordedMotion>> last(run.floes.size());
-  /// From its last record on at its velocity up to a time.
-  const auto follow = [&](std::size_t floe, double time) {
-    const Point from = last[floe]->motion.position;
-    const Point to = carried_on(last[floe]->motion, time - last[floe]->time).position;
-    double& distance = least[oldest[floe]];
-    distance = std::min(distance, gap(box, geometry::grown(geometry::box_around(from, to), reach[floe])));
-  };
-  double before = 0;  // of the frame before [s]
-  for (const io::Frame& frame : frames) {
-    for (const auto& [id, motion] : frame.floes) {
-      const auto floe = static_cast<std::size_t>(id);
-      if (last[floe]) follow(floe, before);
-      last[floe] = io::RecordedMotion{frame.time, motion};
-      follow(floe, frame.time);
-    }
-    before = frame.time;
-  }
-  for (std::size_t i = 0; i < last.size(); ++i) {
-    if (last[i]) follow(i, std::min(before, run.floes[i].died));
-  }
-  std::vector<double> distances(run.floes.size());
-  for (std::size_t i = 0; i < distances.size(); ++i) distances[i] = least[oldest[i]];
-  return distances;
-}
 
 PlayerData player_data(const io::Run& run, const PlayerSelection& selection) {
   PlayerData data;

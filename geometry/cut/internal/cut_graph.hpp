@@ -41,8 +41,6 @@ struct Rings {
     const int n = static_cast<int>(points.size());
     return points[static_cast<std::size_t>(i < 0 ? i + n : (i >= n ? i - n : i))];
   }
-  exact::Point exact_point(int ring, int i) const { return exact::exactly(point(ring, i)); }
-  const Polygon& polygon() const { return polygon_; }
 
  private:
   const Polygon& polygon_;

@@ -52,7 +52,6 @@ Ring exactly(const geometry::Ring& ring);
 Polygon exactly(const geometry::Polygon& polygon);
 
 /// Every vertex to its nearest doubles. Nothing is welded: the result may be invalid.
-geometry::Ring rounded(const Ring& ring);
 geometry::Polygon rounded(const Polygon& polygon);
 
 /// Signed area: positive where the ring runs counter-clockwise [m²].
