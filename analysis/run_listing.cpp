@@ -336,8 +336,7 @@ std::string result_text(const io::RunSummary& summary, const simulation::Scene& 
   text += under_hull_lines(counts, ledger);
   add("floes       {} -> {}\n", counts.floes_initial, counts.floes_final);
   const double submerged = ledger.submerged_area + ledger.under_hull_area + ledger.under_ice_area;
-  add("ice         {:.6f} m2 = {:.6f} floes + {:.6f} submerged + {:.6f} brash (imbalance {:.1e}, rounding "
-      "{:.1e} m2)\n",
+  add("ice         {:.6f} m2 = {:.6f} floes + {:.6f} submerged + {:.6f} brash (imbalance {:.1e}, rounding {:.1e} m2)\n",
       ledger.initial_ice_area, ledger.floe_area, submerged, ledger.brash_area, ledger.imbalance,
       ledger.rounding_defect);
   const auto& masses = summary.masses;

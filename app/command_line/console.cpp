@@ -138,10 +138,6 @@ ExitCode fail(ExitCode code, std::string_view message) {
   return code;
 }
 
-ExitCode code_of(const Outcome<ExitCode>& outcome) {
-  return outcome ? *outcome : fail(outcome.error().code, outcome.error().words);
-}
-
 void print_lines(const std::vector<io::Problem>& problems) {
   for (const io::Problem& problem : problems) print_err("{}\n", to_string(problem));
 }

@@ -35,18 +35,6 @@ enum ExitCode {
   kClosedPipe = 141,      ///< the reader of stdout or stderr went away, as a shell reports SIGPIPE
 };
 
-/// Why a command ends: its exit code, and the message, which is still to be printed.
-struct Failure {
-  ExitCode code;
-  std::string words;
-};
-template <class Value>
-using Outcome = tl::expected<Value, Failure>;
-
-inline tl::unexpected<Failure> failure(ExitCode code, std::string words) {
-  return tl::unexpected(Failure{code, std::move(words)});
-}
-
 // Every text of the program goes through here. A text that could not be written never ends in exit code 0;
 // fmt::print and std::cout are not used, since the one throws and the other forgets where stdout is a closed
 // pipe or a full disk.
@@ -81,8 +69,12 @@ using io::counted;
 /// "polynya: " and the message on stderr; returns the code.
 ExitCode fail(ExitCode code, std::string_view message);
 
-/// The code that a command ends with; a failure's message goes to stderr.
-ExitCode code_of(const Outcome<ExitCode>& outcome);
+/// What a part of a command came to, or the code that the command ends with, whose message is on stderr by then.
+template <class Value>
+using Outcome = tl::expected<Value, ExitCode>;
+inline tl::unexpected<ExitCode> failure(ExitCode code, std::string_view message) {
+  return tl::unexpected(fail(code, message));
+}
 
 /// Shows how far some work is, on stderr. It may be lost.
 void show_progress(std::string_view text);

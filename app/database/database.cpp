@@ -11,7 +11,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <tl/expected.hpp>
 
 #include "analysis/database_slices.hpp"
 #include "app/command_line/command_line.hpp"
@@ -55,10 +54,6 @@ struct DatabaseLoadOptions {
   double hull_angle_deg = 60;             ///< θ_s, from the vertical
 };
 
-tl::unexpected<ExitCode> usage(const std::string& problem) {
-  return tl::unexpected(fail(kUsage, problem));
-}
-
 /// The options of the ice, the water and the hull; defaults are the paper's.
 void add_load(CommandLine& command, DatabaseLoadOptions& load) {
   command.option("--wedge-angle", &load.wedge_angle_deg, "DEG", "Opening angle of the wedge of ice",
@@ -94,15 +89,15 @@ void add_point(CommandLine& command, DatabaseLoadOptions& load, bool is_required
 
 /// The database of that file, or the shipped one for an empty name. Reports on stderr why a file cannot be read or is
 /// not a database of this version; the code is then kInputOutput.
-tl::expected<DatabasePointer, ExitCode> load_database(const std::string& file) {
+Outcome<DatabasePointer> load_database(const std::string& file) {
   // The shipped one lives as long as the program: nothing to delete.
   if (file.empty()) return DatabasePointer(DatabasePointer(), &fracture::default_database());
   const auto text = io::read_text_file(file, fracture::kLargestFile);
-  if (!text) return tl::unexpected(fail(kInputOutput, fmt::format("{}: {}", file, text.error())));
+  if (!text) return failure(kInputOutput, fmt::format("{}: {}", file, text.error()));
   auto database = fracture::parse_database(*text);
   if (database) return std::make_shared<const BendingDatabase>(*std::move(database));
   print_err("polynya: {}:{}: {}\n", file, database.error().line, database.error().message);
-  return tl::unexpected(fail(kInputOutput, file + " is not an icebreaking database that this version reads"));
+  return failure(kInputOutput, file + " is not an icebreaking database that this version reads");
 }
 
 std::string database_title(const std::string& file) {
@@ -111,17 +106,17 @@ std::string database_title(const std::string& file) {
 
 /// The load, with c_V from the hull's angle, the friction and the slip. Reports on stderr where the options contradict
 /// each other.
-tl::expected<BendingLoad, ExitCode> bending_load(const DatabaseLoadOptions& options) {
+Outcome<BendingLoad> bending_load(const DatabaseLoadOptions& options) {
   const bool has_edges = options.front_angle_deg || options.back_angle_deg;
   if (has_edges && !(options.front_angle_deg && options.back_angle_deg))
-    return usage("--front-angle and --back-angle go together");
+    return failure(kUsage, "--front-angle and --back-angle go together");
   if (has_edges && options.wedge_angle_deg)
-    return usage("--wedge-angle and the pair --front-angle, --back-angle exclude each other");
+    return failure(kUsage, "--wedge-angle and the pair --front-angle, --back-angle exclude each other");
   if (has_edges && *options.front_angle_deg + *options.back_angle_deg < kNarrowestWedge)
-    return usage("between --front-angle and --back-angle there is no ice");
+    return failure(kUsage, "between --front-angle and --back-angle there is no ice");
   if (options.ice.density >= options.water.density)
-    return usage(fmt::format("ice of {:g} kg/m3 does not float in water of {:g} kg/m3", options.ice.density,
-                             options.water.density));
+    return failure(kUsage, fmt::format("ice of {:g} kg/m3 does not float in water of {:g} kg/m3", options.ice.density,
+                                       options.water.density));
   BendingLoad load;
   load.ice = options.ice;
   load.water = options.water;
@@ -245,8 +240,7 @@ Command add_build(CommandLine& app) {
 constexpr auto kQueryExamples =
     "Examples:\n"
     "  polynya database query --thickness 0.5 --speed 0.89 --wedge-angle 90 --hull-angle 60\n"
-    "  polynya database query --thickness 1 --speed 2 --front-angle 30 --back-angle 70 --hull-angle 50 "
-    "--json\n";
+    "  polynya database query --thickness 1 --speed 2 --front-angle 30 --back-angle 70 --hull-angle 50 --json\n";
 
 struct QueryOptions {
   std::string file;  ///< empty: the shipped one
@@ -502,8 +496,7 @@ Command add_database(CommandLine& app) {
       "  polynya database show --svg plots\n"
       "  polynya database build --fluid free-surface\n"
       "\n"
-      "Exit codes: 0 done, 2 usage, 4 a wedge does not break, 5 input/output, or a file that is no such "
-      "database.\n");
+      "Exit codes: 0 done, 2 usage, 4 a wedge does not break, 5 input/output, or a file that is no such database.\n");
   command.require_command();
   auto commands = std::make_shared<Commands>();
   for (const auto add : {add_build, add_show, add_query}) commands->push_back(add(command));

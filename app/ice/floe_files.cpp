@@ -56,11 +56,9 @@ void report_totals(const io::CutReport& report) {
   const io::CutTotals totals = io::totals_of(report);
   const auto floes = std::ranges::count_if(
       report.floes, [](const io::CutFloe& floe) { return !floe.rejected || !floe.pieces.empty(); });
-  print_err(
-      "polynya: {} -> {}; {:.9g} m2 = {:.9g} in pieces + {:.9g} removed (exact defect {}, rounding {:.2e} "
-      "m2)\n",
-      counted(floes, "floe"), counted(totals.pieces, "piece"), totals.area, totals.area_of_pieces, totals.removed,
-      totals.exact_defect, totals.rounding_defect);
+  print_err("polynya: {} -> {}; {:.9g} m2 = {:.9g} in pieces + {:.9g} removed (exact defect {}, rounding {:.2e} m2)\n",
+            counted(floes, "floe"), counted(totals.pieces, "piece"), totals.area, totals.area_of_pieces, totals.removed,
+            totals.exact_defect, totals.rounding_defect);
   if (totals.snap_rounded > 0) {
     print_err("polynya: {} piece{} snap-rounded: nearest doubles did not make a valid polygon\n", totals.snap_rounded,
               totals.snap_rounded == 1 ? " was" : "s were");
@@ -95,8 +93,7 @@ constexpr auto kCutExamples =
     "  polynya cut - --polygon channel.geojson --keep both --out pieces.ndjson < floes.ndjson\n"
     "  polynya cut floes.geojson --ops cuts.json --repair even-odd --out pieces.geojson\n"
     "\n"
-    "Exit codes: 0 all were cut, 2 usage, 4 some polygons were refused (the others are cut), 5 "
-    "input/output.\n";
+    "Exit codes: 0 all were cut, 2 usage, 4 some polygons were refused (the others are cut), 5 input/output.\n";
 
 struct CutOptions {
   std::string floes;                            ///< a file, or "-" for stdin; so are the other files
@@ -108,7 +105,7 @@ struct CutOptions {
   std::optional<geometry::FillRule> repair;
 };
 
-tl::unexpected<Failure> failure(const std::string& where, const io::ToolError& error) {
+tl::unexpected<ExitCode> failure(const std::string& where, const io::ToolError& error) {
   const bool is_invalid = error.kind == io::ToolError::Kind::kInvalidPolygon;
   return failure(is_invalid ? kRefused : kUsage, fmt::format("{}: {}", where, error.words));
 }
@@ -196,28 +193,27 @@ Outcome<void> check_units(const std::string& name, const io::FloeText& floes) {
   return {};
 }
 
-Outcome<ExitCode> cut_all(const CutOptions& options) {
+ExitCode cut_all(const CutOptions& options) {
   if (!options.out.empty() && options.out == options.ledger)
-    return failure(kUsage, "--out and --ledger are one and the same");
+    return fail(kUsage, "--out and --ledger are one and the same");
   if (options.floes == "-" && (options.polygon == "-" || options.ops == "-"))
-    return failure(kUsage, "stdin can be read once");
+    return fail(kUsage, "stdin can be read once");
   const auto wanted_format = output_format(options.out);
-  if (!wanted_format) return tl::unexpected(wanted_format.error());
+  if (!wanted_format) return wanted_format.error();
   auto ops = read_ops(options);
-  if (!ops) return tl::unexpected(ops.error());
+  if (!ops) return ops.error();
   const std::string name = input_name(options.floes);
   auto text = read_input(options.floes, io::kLongestFloeText);
-  if (!text) return failure(kInputOutput, fmt::format("{}: {}", name, text.error()));
+  if (!text) return fail(kInputOutput, fmt::format("{}: {}", name, text.error()));
   const auto floes = io::read_floe_text(std::move(*text));
-  if (!floes) return failure(kInputOutput, fmt::format("{}:{}", name, floes.error()));
-  if (const auto units = check_units(name, *floes); !units) return tl::unexpected(units.error());
+  if (!floes) return fail(kInputOutput, fmt::format("{}:{}", name, floes.error()));
+  if (const auto units = check_units(name, *floes); !units) return units.error();
   const io::FloeFormat format = wanted_format->value_or(floes->format);
   report_losses(name, *floes, format);
   io::CutReport report = cut_floes(floes->entries, std::move(*ops), options.repair);
   report.crs = floes->crs;
   report_floes(name, report);
-  if (const auto written = write_results(options, report, format); !written)
-    return failure(kInputOutput, written.error());
+  if (const auto written = write_results(options, report, format); !written) return fail(kInputOutput, written.error());
   report_totals(report);
   return io::totals_of(report).rejected == 0 ? kDone : kRefused;
 }
@@ -230,12 +226,10 @@ constexpr auto kImportExamples =
     "Examples:\n"
     "  polynya import svalbard.geojson --origin 78.2,15.6 --out floes.geojson    longitude, latitude\n"
     "  polynya import floes.shp --crs EPSG:3413 --shift --out floes.geojson      by GDAL's ogr2ogr\n"
-    "  polynya import drawn.geojson --repair non-zero --simplify 0.5 --min-area 4 --gap 0.1 --out "
-    "floes.geojson\n"
+    "  polynya import drawn.geojson --repair non-zero --simplify 0.5 --min-area 4 --gap 0.1 --out floes.geojson\n"
     "  polynya import floes.gpkg --layer ice --property thickness_m=CM*0.01 --out floes.geojson\n"
     "\n"
-    "Exit codes: 0 done, 2 usage, 4 some floes were refused (the others are written) or all of them, 5 "
-    "input/output.\n";
+    "Exit codes: 0 done, 2 usage, 4 some floes were refused (the others are written) or all of them, 5 input/output.\n";
 
 struct ImportOptions {
   std::string file;    ///< or "-" for stdin
@@ -316,13 +310,13 @@ io::Result<> write_results(const ImportOptions& options, const std::optional<std
   return options.out == "-" ? io::Result<>{} : write_output("-", report);
 }
 
-Outcome<ExitCode> import_all(const ImportOptions& options) {
-  if (options.out == options.report) return failure(kUsage, "--out and --report are one and the same");
+ExitCode import_all(const ImportOptions& options) {
+  if (options.out == options.report) return fail(kUsage, "--out and --report are one and the same");
   io::ImportSettings settings = options.settings;
   auto origin = read_origin(options.origin);
-  if (!origin) return tl::unexpected(origin.error());
+  if (!origin) return origin.error();
   if (*origin && !settings.plane.target.empty())
-    return failure(kUsage, "--origin and --crs: the plane is either about a place or that of a system");
+    return fail(kUsage, "--origin and --crs: the plane is either about a place or that of a system");
   settings.plane.origin = *origin;
   settings.plane.chooses_origin = true;
   settings.plane.keeps_metres = false;
@@ -332,11 +326,10 @@ Outcome<ExitCode> import_all(const ImportOptions& options) {
   settings.plane.source_in_words = "--from EPSG:n names it";
   io::PropertyNames names;
   for (const std::string& words : options.properties)
-    if (auto added = io::add_property_name(words, names); !added)
-      return failure(kUsage, "--property: " + added.error());
+    if (auto added = io::add_property_name(words, names); !added) return fail(kUsage, "--property: " + added.error());
   const std::string name = input_name(options.file);
   const auto text = read_floes(options, name);
-  if (!text) return tl::unexpected(text.error());
+  if (!text) return text.error();
   const std::string crs = text->crs.empty() ? "" : io::crs_name(io::parse_json(text->crs).root);
   io::FloesOfText read = io::floes_of(*text, names);
   const auto imported = with_progress(options.progress, "projecting and taking apart",
@@ -347,7 +340,7 @@ Outcome<ExitCode> import_all(const ImportOptions& options) {
       const io::FloeEntry& entry = text->entries[*floe];
       place += fmt::format(":{}: feature {}, polygon {}", entry.line, entry.feature, entry.member);
     }
-    return failure(kRefused, fmt::format("{}: {}; nothing was written", place, imported.error().words));
+    return fail(kRefused, fmt::format("{}: {}; nothing was written", place, imported.error().words));
   }
   report_items(name, *imported, text->entries);
   const io::ImportTotals& totals = imported->totals;
@@ -357,9 +350,9 @@ Outcome<ExitCode> import_all(const ImportOptions& options) {
   if (const auto written =
           write_results(options, geojson, to_json_text(*imported, name, text->entries, read.near_misses));
       !written)
-    return failure(kInputOutput, written.error());
+    return fail(kInputOutput, written.error());
   report_totals(name, *imported, read.near_misses);
-  if (are_all_refused) return failure(kRefused, name + ": every floe was refused; only the report was written");
+  if (are_all_refused) return fail(kRefused, name + ": every floe was refused; only the report was written");
   return totals.refused == 0 ? kDone : kRefused;
 }
 
@@ -422,7 +415,7 @@ Command add_cut(CommandLine& app) {
       "--repair", options->repair,
       "Make valid polygons of those that are not, exactly, by what the rule fills; else they are refused",
       {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
-  return {command, [options] { return code_of(cut_all(*options)); }};
+  return {command, [options] { return cut_all(*options); }};
 }
 
 Command add_import(CommandLine& app) {
@@ -440,7 +433,7 @@ Command add_import(CommandLine& app) {
   add_plane_options(command, *options);
   add_floe_options(command, *options);
   add_progress(command, options->progress);
-  return {command, [options] { return code_of(import_all(*options)); }};
+  return {command, [options] { return import_all(*options); }};
 }
 
 }  // namespace polynya::app

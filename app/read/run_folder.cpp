@@ -27,8 +27,7 @@ using simulation::FloeId;
 
 constexpr auto kChannelExamples =
     "Examples:\n"
-    "  polynya channel runs/sawamura2017-fig4b                 also writes channel.csv and channel.geojson "
-    "there\n"
+    "  polynya channel runs/sawamura2017-fig4b                 also writes channel.csv and channel.geojson there\n"
     "  polynya channel runs/sawamura2017-fig4b --at 300 --out /tmp\n"
     "  polynya channel runs/sawamura2017-fig4b --json | jq .mean_width_m\n"
     "\n"
@@ -72,8 +71,7 @@ int measure(const MeasureOptions& options) {
 constexpr auto kExportExamples =
     "Examples:\n"
     "  polynya export runs/sawamura2017-fig4b --vtk paraview         open paraview/run.pvd in ParaView\n"
-    "  polynya export runs/at-sea --geojson qgis --at 300            longitude, latitude from the scene's "
-    "origin\n"
+    "  polynya export runs/at-sea --geojson qgis --at 300            longitude, latitude from the scene's origin\n"
     "  polynya export --scene runs/sawamura2017-fig4b --at 300       a scene that continues from there\n"
     "\n"
     "Exit codes: 0 done, 2 usage, 5 input/output.\n";

@@ -91,16 +91,15 @@ struct ViewedRun {
   views::PlayerData data;
 };
 
-/// The error has its exit code.
-tl::expected<ViewedRun, int> read_viewed(const std::string& folder, const views::PlayerSelection& part) {
+Outcome<ViewedRun> read_viewed(const std::string& folder, const views::PlayerSelection& part) {
   auto run = io::read_run(folder);
-  if (!run) return tl::unexpected(fail(kInputOutput, run.error()));
+  if (!run) return failure(kInputOutput, run.error());
   views::PlayerData data = views::player_data(*run, part);
   if (data.frames == 0 && !run->frames.empty())
-    return tl::unexpected(fail(kUsage, fmt::format("no frame of {} is in that part; they go from {:g} to {:g} s",
-                                                   folder, run->start_time(), run->end_time())));
+    return failure(kUsage, fmt::format("no frame of {} is in that part; they go from {:g} to {:g} s", folder,
+                                       run->start_time(), run->end_time()));
   if (data.floes == 0 && !run->floes.empty())
-    return tl::unexpected(fail(kUsage, fmt::format("no floe of {} comes within --area", folder)));
+    return failure(kUsage, fmt::format("no floe of {} comes within --area", folder));
   return ViewedRun{std::move(*run), std::move(data)};
 }
 

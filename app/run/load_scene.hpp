@@ -3,8 +3,6 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
-
 #include "app/command_line/console.hpp"
 #include "io/run/available_memory.hpp"
 #include "io/scene/scene_reader.hpp"
@@ -18,9 +16,9 @@ enum class ProblemFormat { kText, kJson };
 /// The scene of that file, or of stdin where its name is "-" (floe files are then searched in the working
 /// folder), with its progress on stderr. Where it cannot be read or is wrong, every problem has been printed,
 /// and it is the code to exit with.
-tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file, const io::SceneOverrides& overrides = {},
-                                                   ProblemFormat format = ProblemFormat::kText,
-                                                   ProgressKind progress = ProgressKind::kNone);
+Outcome<io::LoadedScene> load_scene(const std::string& file, const io::SceneOverrides& overrides = {},
+                                    ProblemFormat format = ProblemFormat::kText,
+                                    ProgressKind progress = ProgressKind::kNone);
 
 /// Each problem of that file on stderr, a line each, and how many there are.
 void print_problems(const std::string& name, const std::vector<io::Problem>& problems);

@@ -64,26 +64,10 @@ void report_stop(const io::ActiveRun& run, const io::RunResult& result) {
 
 void report_dump(const std::string& folder, const io::Result<>& dump) {
   if (dump)
-    print_err(
-        "polynya: the state before the step that failed is in failure.bin: polynya resume {} "
-        "--from-failure\n",
-        folder);
+    print_err("polynya: the state before the step that failed is in failure.bin: polynya resume {} --from-failure\n",
+              folder);
   else
     print_err("polynya: the failure could not be dumped: {}\n", dump.error());
-}
-
-ExitCode exit_code_of(RunEnd end) {
-  switch (end) {
-    case RunEnd::kFinished:
-      return kDone;
-    case RunEnd::kStopped:
-      return kStopped;
-    case RunEnd::kNumericalFailure:
-      return kNumericalFailure;
-    case RunEnd::kFolderFailure:
-      return kInputOutput;
-  }
-  return kDone;
 }
 
 ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
@@ -101,7 +85,10 @@ ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
     print_out("{}run folder  {}\n", analysis::result_text(result.summary, run.scene.scene), folder.string());
     if (!picture->empty()) print_out("picture     {}\n", (folder / *picture).string());
   }
-  return exit_code_of(result.end);
+  return result.end == RunEnd::kFinished           ? kDone
+         : result.end == RunEnd::kStopped          ? kStopped
+         : result.end == RunEnd::kNumericalFailure ? kNumericalFailure
+                                                   : kInputOutput;
 }
 
 void add_run_options(CommandLine& command, DriverOptions& options) {
@@ -180,7 +167,7 @@ struct Start {
   std::unique_ptr<simulation::Simulation> simulation;
 };
 
-tl::expected<Start, ExitCode> start_of(const RunOptions& options) {
+Outcome<Start> start_of(const RunOptions& options) {
   try {
     auto loaded = load_scene(options.scene,
                              {.until = options.until,
@@ -198,8 +185,8 @@ tl::expected<Start, ExitCode> start_of(const RunOptions& options) {
     start.scene = std::make_unique<io::LoadedScene>(std::move(*loaded));
     return start;
   } catch (const std::bad_alloc&) {
-    return tl::unexpected(fail(kOutOfMemory, fmt::format("{}: {}; nothing was written; {}", options.scene,
-                                                         out_of_memory(), kToNeedLessMemory)));
+    return failure(kOutOfMemory,
+                   fmt::format("{}: {}; nothing was written; {}", options.scene, out_of_memory(), kToNeedLessMemory));
   }
 }
 
@@ -257,8 +244,7 @@ std::string no_run_in(const fs::path& folder) {
   const std::string name = folder.string();
   if (io::is_marked_run_folder(folder))
     return fmt::format(
-        "{0}: no run to resume: polynya was killed before it had written {1}; start the run again: polynya "
-        "run "
+        "{0}: no run to resume: polynya was killed before it had written {1}; start the run again: polynya run "
         "SCENE --out {0} --overwrite",
         name, io::run_file::kScene);
   return fmt::format("{}: no run to resume: there is no {}", name, io::run_file::kScene);

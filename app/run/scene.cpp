@@ -81,8 +81,7 @@ constexpr auto kSceneExamples =
     "  polynya validate scene.json\n"
     "  polynya validate scene.json --resolved   with every default filled in\n"
     "  polynya validate scene.json --set ice.thickness_m=0.7\n"
-    "  polynya validate scene.json --cases cases.ndjson   each line as many --set: {\"ice.thickness_m\": "
-    "0.7}\n"
+    "  polynya validate scene.json --cases cases.ndjson   each line as many --set: {\"ice.thickness_m\": 0.7}\n"
     "  polynya validate scene.json --json       the problems as a JSON array, for editors\n"
     "  make-scene | polynya validate -          a scene from stdin\n";
 

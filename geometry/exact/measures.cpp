@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 
-#include "geometry/exact/internal/error_free.hpp"
 #include "geometry/exact/internal/exact_polygon.hpp"
 
 namespace polynya::geometry {

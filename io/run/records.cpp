@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/cut/repair.hpp"
+#include "geometry/cut/cut.hpp"
 #include "geometry/shape/angle.hpp"
 #include "io/run/csv_columns.hpp"
 #include "io/scene/floe_ice.hpp"

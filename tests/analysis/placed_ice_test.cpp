@@ -2,7 +2,7 @@
 
 #include "../io/expect_text.hpp"
 
-#include "analysis/channel_parts.hpp"
+#include "analysis/channel.hpp"
 #include "geometry/exact/measures.hpp"
 
 namespace polynya::tests {

@@ -1,7 +1,7 @@
 #include "plate_run.hpp"
 #include <gtest/gtest.h>
 
-#include "geometry/cut/repair.hpp"
+#include "geometry/cut/cut.hpp"
 #include "io/run/motion_index.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/floe_text.hpp"

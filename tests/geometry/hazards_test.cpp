@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/cut/cut.hpp"
 #include "geometry/cut/internal/cut_paths.hpp"
-#include "geometry/cut/repair.hpp"
 #include "geometry/exact/internal/predicates.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"

@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include <tl/expected.hpp>
-
 #include "geometry/shape/polygon.hpp"
 #include "io/run/motion_index.hpp"
 #include "io/run/run_reader.hpp"
@@ -51,8 +49,8 @@ struct VtkExport {
 
 /// Writes a run for ParaView (docs/export.md): run.pvd, and for each selected frame the ice, the ships, their
 /// loads and the contacts. The error names the file.
-tl::expected<VtkExport, std::string> export_vtk(const io::Run& run, const io::FrameSelection& selection,
-                                                const std::filesystem::path& folder);
+io::Result<VtkExport> export_vtk(const io::Run& run, const io::FrameSelection& selection,
+                                 const std::filesystem::path& folder);
 
 /// From the scene's plane about a place to longitude and latitude [°]. Fails where PROJ cannot be loaded.
 io::Result<io::Project> degrees_about(const simulation::GeographicOrigin& origin);

@@ -68,8 +68,7 @@ std::string to_vtp(const VtkPolyData& data) {
   std::vector<double> coordinates;
   for (const geometry::Point p : data.points) coordinates.insert(coordinates.end(), {p.x, p.y, 0.0});
   std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\" "
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\">\n<PolyData>\n";
   text += fmt::format(
       "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{}"
@@ -273,8 +272,8 @@ VtkPolyData contacts_at(const io::Run& run, double time) {
 
 }  // namespace
 
-tl::expected<VtkExport, std::string> export_vtk(const io::Run& run, const io::FrameSelection& selection,
-                                                const std::filesystem::path& folder) {
+io::Result<VtkExport> export_vtk(const io::Run& run, const io::FrameSelection& selection,
+                                 const std::filesystem::path& folder) {
   IceExport ice(run);
   const io::MotionIndex motions(run);
   std::vector<VtkFile> files;

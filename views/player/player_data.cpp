@@ -3,6 +3,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <ranges>
 #include <set>
 
 #include "analysis/channel.hpp"
@@ -325,13 +326,10 @@ void write_events(io::JsonWriter& json, const io::Run& run, const HeldFloes& hel
 }
 
 void write_ships(io::JsonWriter& json, const simulation::Scene& scene) {
-  json.key("ships").open('[');
-  for (std::size_t i = 0; i < hull_count(scene); ++i) {
-    json.open('{').key("name").value(hull_of(scene, i).name);
-    json.key("waterline_m").value(hull_of(scene, i).hull.waterline);
-    json.key("is_fixed").value(is_grounded(kind_of_hull(scene, i))).close('}');
-  }
-  json.close(']');
+  json.key("ships").objects(std::views::iota(std::size_t{0}, hull_count(scene)), [&](std::size_t hull) {
+    json.key("name").value(hull_of(scene, hull).name).key("waterline_m").value(hull_of(scene, hull).hull.waterline);
+    json.key("is_fixed").value(is_grounded(kind_of_hull(scene, hull)));
+  });
 }
 
 /// The drift of the water over time: t, x and y of its path, and the free drift of ice.

@@ -153,14 +153,12 @@ std::string scene_plan(const io::LoadedScene& scene, const std::string& stamp, c
   const geometry::Vector wind = scene.scene.wind.velocity_at(0);
   json.key("wind_m_per_s").value(Point{wind.x, wind.y});
   write_routes(json, scene.scene);
-  json.key("problems").open('[');
-  for (const io::Problem& problem : scene.hints) {
-    json.open('{').key("severity").value(name_of(problem.severity)).key("path").value(problem.path);
+  json.key("problems").objects(scene.hints, [&](const io::Problem& problem) {
+    json.key("severity").value(name_of(problem.severity)).key("path").value(problem.path);
     json.key("words").value(message_of(problem)).key("line").value(problem.line);
     if (const auto place = place_of(problem, scene.scene)) json.key("point_m").value(*place);
-    json.close('}');
-  }
-  json.close(']').close('}').close('}');
+  });
+  json.close('}').close('}');
   return text;
 }
 

@@ -6,7 +6,7 @@
 
 #include "geometry/cut/internal/cut_graph.hpp"
 #include "geometry/cut/internal/snap_rounding.hpp"
-#include "geometry/exact/internal/error_free.hpp"
+#include "geometry/exact/internal/exact_polygon.hpp"
 #include "geometry/exact/point_in_ring.hpp"
 #include "geometry/shape/box_tree.hpp"
 

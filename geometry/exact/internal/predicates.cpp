@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/exact/internal/error_free.hpp"
 #include "geometry/exact/internal/exact_polygon.hpp"
 
 namespace polynya::geometry {
