@@ -13,7 +13,7 @@
 #include "analysis/run_listing.hpp"
 #include "geometry/cut/cut.hpp"
 #include "geometry/exact/measures.hpp"
-#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/shape/outline.hpp"
 #include "io/run/csv_columns.hpp"
 #include "io/run/motion_index.hpp"

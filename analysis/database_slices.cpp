@@ -57,11 +57,6 @@ std::vector<SlicePoint> slice(const FsiDatabaseModel& model, const BendingLoad& 
 constexpr int kPoints = 161;
 constexpr double kWidestWedge = 170;  ///< towards 180 the crushed area grows without bound [deg]
 
-/// From a slice's abscissae to what is shown of them.
-double scale_of(SliceAxis axis) {
-  return axis == SliceAxis::kOpeningAngle ? kDegreesPerRadian : 1;
-}
-
 std::vector<double> evenly(double low, double high, bool is_log) {
   std::vector<double> values;
   for (int i = 0; i < kPoints; ++i) {
@@ -127,7 +122,7 @@ void write_curve(io::JsonWriter& json, const Curve& curve) {
 void write_figure(io::JsonWriter& json, const FsiDatabaseModel& model, const BendingLoad& load, const Figure& figure) {
   const std::vector<double> abscissae = evenly(figure.low, figure.high, figure.is_x_log);
   std::vector<double> shown = abscissae;
-  for (double& value : shown) value *= scale_of(figure.axis);
+  for (double& value : shown) value *= figure.axis == SliceAxis::kOpeningAngle ? kDegreesPerRadian : 1;
   json.key("name").value(figure.name).key("x_label").value(figure.x_label);
   json.key("is_x_log").value(figure.is_x_log).key("is_radius_log").value(figure.is_radius_log);
   const auto of_database = [](const SlicePoint& p) -> const auto& {

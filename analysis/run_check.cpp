@@ -12,7 +12,7 @@
 #include "fracture/crushing.hpp"
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/measures.hpp"
-#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/box_tree.hpp"
 #include "io/run/motion_index.hpp"
@@ -449,12 +449,6 @@ void write_shared(JsonWriter& json, std::string_view key, const SharedIce& share
   json.close('}');
 }
 
-void write_invalid(JsonWriter& json, const std::vector<InvalidFloe>& invalid) {
-  json.key("invalid").objects(invalid, [&](const InvalidFloe& floe) {
-    json.key("floe_id").value(floe.floe).key("defect").value(floe.defect).key("places_m").value(floe.places_in_body);
-  });
-}
-
 void write_hulls(JsonWriter& json, const RunCheck& check, const simulation::Scene& scene) {
   const auto write_body = [&](std::string_view key, const simulation::ContactState::Body& body) {
     json.key(key);
@@ -537,7 +531,9 @@ std::string to_text(const RunCheck& check, const simulation::Scene& scene) {
 std::string to_json_text(const RunCheck& check, const simulation::Scene& scene) {
   const auto write = [&](JsonWriter& json) {
     json.key("is_sound").value(check.is_sound()).key("shapes").value(check.shapes);
-    write_invalid(json, check.invalid);
+    json.key("invalid").objects(check.invalid, [&](const InvalidFloe& floe) {
+      json.key("floe_id").value(floe.floe).key("defect").value(floe.defect).key("places_m").value(floe.places_in_body);
+    });
     write_worst(json, "recorded_area", check.recorded_area);
     json.key("fractures").value(check.fractures);
     write_worst(json, "balance", check.balance);

@@ -43,11 +43,6 @@ using io::id_or_none;
 using io::JsonWriter;
 using simulation::FloeId;
 
-std::string_view validity_of(const geometry::Polygon& polygon) {
-  const auto found = find_defect(polygon);
-  return found ? name_of(found->defect) : "yes";
-}
-
 /// What happened, where and what decided it, in a line.
 std::string described(const io::Run& run, const simulation::Event& event) {
   const std::string_view ship = io::hull_name(run.scene.scene, event.ship);
@@ -92,13 +87,14 @@ std::vector<FloeRow> floe_rows(const io::Run& run, double time) {
     const simulation::BirthRecord& birth = floe.birth;
     if (!run.is_alive(birth.floe, time)) continue;
     const auto polygon = run.shape(birth.floe);
+    const auto found = find_defect(*polygon);
     FloeRow& row = rows.emplace_back(FloeRow{.birth = birth,
                                              .ice = ice_of(run.scene.scene, birth.own_ice),
                                              .perimeter = perimeter(*polygon),
                                              .vertices = vertex_count(*polygon),
                                              .holes = polygon->holes.size(),
                                              .speed = {},
-                                             .validity = validity_of(*polygon)});
+                                             .validity = found ? name_of(found->defect) : "yes"});
     if (const auto motion = motions.floe_at(birth.floe, time)) row.speed = length(motion->velocity);
   }
   return rows;

@@ -61,11 +61,6 @@ ProgressKind kind_for_stderr(ProgressKind kind) {
   return isatty(STDERR_FILENO) != 0 && !is_dumb ? ProgressKind::kBar : ProgressKind::kLines;
 }
 
-int terminal_width() {
-  winsize size{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
-}
-
 /// As many of the fields, two blanks apart, as fit into that many columns. A longer line would wrap, and a
 /// carriage return would not lead back to its start.
 std::string fitted(const std::string& fields, int columns) {
@@ -204,7 +199,9 @@ void ProgressOutput::show(const ProgressReport& report) const {
   } else if (kind_ == ProgressKind::kLines) {
     line = report.words + "\n";
   } else {
-    const int columns = terminal_width() - 1;  // the last one would wrap some terminals
+    winsize size{};
+    const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    const int columns = (is_known ? size.ws_col : 80) - 1;  // the last one would wrap some terminals
     const int room = columns - static_cast<int>(report.words.size()) - 1;
     line = fmt::format("\r{}{}\x1b[K", room >= 8 && report.part >= 0 ? bar(report.part, std::min(room, 40)) + " " : "",
                        fitted(report.words, columns));

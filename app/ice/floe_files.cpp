@@ -242,10 +242,6 @@ struct ImportOptions {
   io::ImportSettings settings;
 };
 
-std::string origin_option(double latitude, double longitude) {
-  return fmt::format("--origin {:.6g},{:.6g}", latitude, longitude);
-}
-
 Outcome<std::optional<simulation::GeographicOrigin>> read_origin(const std::string& words) {
   if (words.empty()) return std::nullopt;
   const auto numbers = io::read_numbers(words, 2, 3);
@@ -320,7 +316,9 @@ ExitCode import_all(const ImportOptions& options) {
   settings.plane.origin = *origin;
   settings.plane.chooses_origin = true;
   settings.plane.keeps_metres = false;
-  settings.plane.origin_in_words = origin_option;
+  settings.plane.origin_in_words = [](double latitude, double longitude) {
+    return fmt::format("--origin {:.6g},{:.6g}", latitude, longitude);
+  };
   settings.plane.shift_in_words =
       "--shift moves the floes to the middle of the plane, --origin LAT,LON projects them about a place";
   settings.plane.source_in_words = "--from EPSG:n names it";

@@ -224,12 +224,6 @@ int print_floe(const io::Run& run, const InspectOptions& options) {
   return kDone;
 }
 
-analysis::RunCheck check_of(const io::Run& run, const InspectOptions& options) {
-  return with_progress(options.progress, "checking the run", [&](WorkProgress& progress) {
-    return analysis::check_run(run, options.at, [&](double part) { progress.set_part(part); });
-  });
-}
-
 int print(const io::Run& run, const InspectOptions& options) {
   if (options.at && !(*options.at >= run.start_time() && *options.at <= run.end_time())) {
     return fail(kUsage, fmt::format("--at {:g}: the run goes from {:g} to {:g} s", *options.at, run.start_time(),
@@ -245,7 +239,9 @@ int print(const io::Run& run, const InspectOptions& options) {
   } else if (options.events) {
     write_out(options.json ? analysis::events_json(run) : analysis::event_list(run));
   } else if (options.check) {
-    const analysis::RunCheck check = check_of(run, options);
+    const auto check = with_progress(options.progress, "checking the run", [&](WorkProgress& progress) {
+      return analysis::check_run(run, options.at, [&](double part) { progress.set_part(part); });
+    });
     write_out(options.json ? to_json_text(check, run.scene.scene) : to_text(check, run.scene.scene));
     code = check.is_sound() ? kDone : kRefused;
   } else if (options.fsd) {

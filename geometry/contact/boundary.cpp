@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/shape/box_tree.hpp"
 
 namespace polynya::geometry {

@@ -24,10 +24,6 @@ std::uint32_t previous_edge(const EdgeList& edges, std::uint32_t edge) {
   return edge;
 }
 
-double angle_between(Vector unit, Vector v) {
-  return std::atan2(std::abs(cross(unit, v)), dot(unit, v));
-}
-
 }  // namespace
 
 WedgeAngles wedge_angles(const EdgeList& edges, std::uint32_t tip_edge, Point tip, Vector inward, double length) {
@@ -50,7 +46,7 @@ void wedge_angles(const EdgeList& edges, std::uint32_t tip_edge, Point tip, Vect
         is_round = e == tip_edge;
       }
       const Point at = is_round && from != tip ? from : exit_point(from, end_of(e), tip, lengths[i]);
-      angles[i].*angle = angle_between(inward, at - tip);
+      angles[i].*angle = std::atan2(std::abs(cross(inward, at - tip)), dot(inward, at - tip));
     }
   };
   measure([&](std::uint32_t e) { return edges.to(e); }, [&](std::uint32_t e) { return edges.next[e]; },

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "geometry/contact/boundary.hpp"
-#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/shape/avx2_clone.hpp"
 
 namespace polynya::geometry {
@@ -116,15 +116,6 @@ void find_crossings(const Pose& a_from_b, const NearEdges& edges, std::vector<Cr
                            lanes.starts_inside[i] == 0, 0});
     }
   }
-}
-
-/// Orders the scratch's crossings along a, and a copy of them along b.
-void order_crossings(const Boundary& a, const Boundary& b, ManifoldScratch& scratch) {
-  std::vector<Crossing>& by_a = scratch.crossings;
-  order_along(kOnA, a.edges.ring, by_a);
-  for (std::uint32_t i = 0; i < by_a.size(); ++i) by_a[i].place_on_a = i;
-  scratch.by_b = by_a;
-  order_along(kOnB, b.edges.ring, scratch.by_b);
 }
 
 /// The crossing that follows number i along its ring, in an order of crossings.
@@ -494,7 +485,10 @@ bool add_manifold(const Boundary& a, const Boundary& b, const Pose& a_from_b, co
 /// The manifolds of boundaries that cross more than twice.
 int find_several(const Boundary& a, const Boundary& b, const Pose& a_from_b, ManifoldScratch& scratch,
                  std::vector<ContactManifold>& manifolds) {
-  order_crossings(a, b, scratch);
+  order_along(kOnA, a.edges.ring, scratch.crossings);
+  for (std::uint32_t i = 0; i < scratch.crossings.size(); ++i) scratch.crossings[i].place_on_a = i;
+  scratch.by_b = scratch.crossings;
+  order_along(kOnB, b.edges.ring, scratch.by_b);
   trace_loops(a, b, scratch);
   measure_loops(a, b, a_from_b, scratch);
   int left_out = 0;

@@ -9,7 +9,7 @@
 #include "geometry/cut/internal/cut_paths.hpp"
 #include "geometry/cut/internal/snap_rounding.hpp"
 #include "geometry/exact/internal/exact_polygon.hpp"
-#include "geometry/exact/internal/predicates.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/box_tree.hpp"
 

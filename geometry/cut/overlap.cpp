@@ -8,8 +8,8 @@
 
 #include "geometry/cut/internal/arrangement.hpp"
 #include "geometry/cut/internal/cut_paths.hpp"
-#include "geometry/exact/internal/predicates.hpp"
 #include "geometry/exact/measures.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/shape/box_tree.hpp"
 #include "geometry/shape/outline.hpp"
 
@@ -83,13 +83,6 @@ unsigned sides_beyond(Point p, const Box& box) {
 bool overlap_deeply(const Box& a, const Box& b) {
   return std::min(a.high.x, b.high.x) - std::max(a.low.x, b.low.x) > kTouchingDepth &&
          std::min(a.high.y, b.high.y) - std::max(a.low.y, b.low.y) > kTouchingDepth;
-}
-
-/// Shared area of two valid polygons [m²], found exactly.
-double area_in_common(const Polygon& a, const Polygon& b) {
-  const auto cut = cut_by_polygon({a}, b);
-  if (cut) return cut->ledger.area_inside;
-  return cut.error().reason == CutFailure::kMisses ? 0 : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// Of the polygon about a disc of the gap: its corners reach 1/cos(15°), 4 % beyond it. More make floes'
@@ -228,11 +221,6 @@ std::vector<FirstContact> meetings(const Ring& a, const Ring& b, Vector velocity
   return found;
 }
 
-bool overlap_at(const Ring& a, const Ring& b, Vector shift_of_b) {
-  const auto shared = overlap({{a, {}}}, {}, {{b, {}}}, {Point{} + shift_of_b, {}});
-  return !shared || shared->area > kLeastShared;
-}
-
 }  // namespace
 
 tl::expected<Overlap, CutError> overlap(const Shape& a, const Pose& world_from_a, const Shape& b,
@@ -316,7 +304,9 @@ std::vector<OverlappingPair> find_overlapping_pairs(const std::vector<Polygon>& 
     if (!overlap_deeply(boxes[i], boxes[j]) || has_separating_edge(p.outer, q.outer, kTouchingDepth, kTouchingDepth) ||
         has_separating_edge(q.outer, p.outer, kTouchingDepth, kTouchingDepth))
       continue;
-    const double area = area_in_common(p, q);
+    const auto cut = cut_by_polygon({p}, q);
+    if (!cut && cut.error().reason == CutFailure::kMisses) continue;
+    const double area = cut ? cut->ledger.area_inside : std::numeric_limits<double>::quiet_NaN();
     if (!(area <= kTouchingArea)) found.push_back({i, j, area});
   }
   return found;
@@ -355,7 +345,8 @@ std::optional<FirstContact> first_contact(const Ring& a, const Ring& b, Vector v
   if (velocity == Vector{}) return {};
   for (const FirstContact& touch : meetings(a, b, velocity, from, until)) {
     const double later = touch.time + kFurtherOn / length(velocity);
-    if (overlap_at(a, b, later * velocity)) return touch;
+    const auto shared = overlap({{a, {}}}, {}, {{b, {}}}, {Point{} + later * velocity, {}});
+    if (!shared || shared->area > kLeastShared) return touch;
   }
   return {};
 }

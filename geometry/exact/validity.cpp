@@ -7,8 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "geometry/exact/internal/predicates.hpp"
-#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/shape/box_tree.hpp"
 
 namespace polynya::geometry {

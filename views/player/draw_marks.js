@@ -90,7 +90,6 @@ function drawContactForces(context, view, run, motions, places, time, colours, p
     }
     strokeTwice(context, colours.panel, colour, 2, 2);
   }
-  return "";
 }
 
 // What is drawn over the ice besides ships: velocities, lineage, marks, scale bar.

@@ -67,5 +67,4 @@ function drawLoadLine(context, view, loadLine, motions, time, isMean) {
       });
     });
   });
-  return "";
 }

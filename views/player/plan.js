@@ -4,18 +4,15 @@
 const currentCell = 110; // [px], of the grid of arrows
 const longestArrow = 40; // [px], of the fastest current on the screen
 
-/** The current over ground at a place [m/s]. */
-function currentAt(run, x, y) {
-  const [toX, toY] = run.carry(x, y, 0, 1);
-  return [toX - x, toY - y];
-}
-
-/** Arrows of the current across the map. Returns the fastest [m/s]. */
+/** Arrows of the current over ground across the map. Returns the fastest [m/s]. */
 function drawCurrent(context, view, run, colours) {
   const arrows = [];
   for (let px = currentCell / 2; px < view.width; px += currentCell) {
-    for (let py = currentCell / 2; py < view.height; py += currentCell)
-      arrows.push([px, py, ...currentAt(run, ...view.toWorld(px, py))]);
+    for (let py = currentCell / 2; py < view.height; py += currentCell) {
+      const [x, y] = view.toWorld(px, py);
+      const [toX, toY] = run.carry(x, y, 0, 1); // in a second
+      arrows.push([px, py, toX - x, toY - y]);
+    }
   }
   const fastest = Math.max(0, ...arrows.map(([, , vx, vy]) => Math.hypot(vx, vy)));
   if (fastest === 0) return 0;

@@ -172,12 +172,6 @@ std::vector<double> family_distances(const io::Run& run, const Box& box, const s
   return distances;
 }
 
-void add_frames(ColumnWriter& columns, const std::vector<io::Frame>& frames) {
-  std::string bytes = io::FrameEncoder::header();
-  for (const io::Frame& frame : frames) bytes += frame_bytes(frame.time, frame.ships, frame.floes);
-  columns.add("frames", bytes);
-}
-
 void add_contacts(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames,
                   const HeldFloes& held) {
   std::vector<io::RunContact> contacts;
@@ -356,14 +350,6 @@ void write_patterns(io::JsonWriter& json, const simulation::Scene& scene) {
   json.close(']');
 }
 
-void write_water(io::JsonWriter& json, const simulation::Scene& scene) {
-  const simulation::ShearSettings& shear = scene.water.shear;
-  json.key("water").open('{').key("shear_per_s").value(shear.rate).key("shear_origin_m").value(shear.origin);
-  json.key("shear_direction_rad").value(shear.direction);
-  write_drift(json, scene);
-  json.close('}');
-}
-
 void write_summary(io::JsonWriter& json, const io::Run& run) {
   const io::JsonValue* finished = run.summary.find("finished", io::JsonValue::Kind::kBoolean);
   json.key("finished").value(finished && finished->boolean());
@@ -404,7 +390,11 @@ std::string info_of(const io::Run& run, const PlayerData& data, const PlayerSele
   write_levels(json, run);
   write_ships(json, scene);
   write_events(json, run, held);
-  write_water(json, scene);
+  const simulation::ShearSettings& shear = scene.water.shear;
+  json.key("water").open('{').key("shear_per_s").value(shear.rate).key("shear_origin_m").value(shear.origin);
+  json.key("shear_direction_rad").value(shear.direction);
+  write_drift(json, scene);
+  json.close('}');
   write_patterns(json, scene);
   write_force_columns(json, scene);
   write_force_causes(json, scene);
@@ -428,9 +418,12 @@ PlayerData player_data(const io::Run& run, const PlayerSelection& selection) {
   data.floe_bytes = data.columns.bytes().size();
   data.frames = frames.size();
   if (!frames.empty()) data.start = frames.front().time, data.end = frames.back().time;
-  for (io::Frame& frame : frames)
+  std::string bytes = io::FrameEncoder::header();
+  for (io::Frame& frame : frames) {
     std::erase_if(frame.floes, [&](const io::FloeMotion& record) { return !held.has(record.floe); });
-  add_frames(data.columns, frames);
+    bytes += frame_bytes(frame.time, frame.ships, frame.floes);
+  }
+  data.columns.add("frames", bytes);
   data.frame_bytes = data.columns.bytes().size() - data.floe_bytes;
   add_forces(data.columns, run, selection.frames);
   add_contacts(data.columns, run, frames, held);

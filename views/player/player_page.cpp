@@ -46,13 +46,6 @@ std::string pair_info(const std::array<ShownRun, 2>& runs) {
   return text;
 }
 
-std::string as_json(std::string_view words) {
-  std::string text;
-  io::JsonWriter json(text);
-  json.value(words);
-  return text;
-}
-
 }  // namespace
 
 std::string player_page(const io::Run& run, const PlayerData& data, const std::string& options) {
@@ -64,9 +57,11 @@ std::string player_page(const io::Run& run, const PlayerData& data, const std::s
 
 std::string pair_page(const std::array<ShownRun, 2>& runs) {
   const auto& [first, second] = runs;
+  std::string player;
+  io::JsonWriter(player).value(kPlayerTemplate);
   return filled(kPairTemplate, {{"{{title}}", io::escaped(first.label + " and " + second.label)},
                                 {"{{pair}}", in_script(pair_info(runs))},
-                                {"{{player}}", in_script(as_json(kPlayerTemplate))},
+                                {"{{player}}", in_script(player)},
                                 {"{{info}}", in_script(first.data.info)},
                                 {"{{columns}}", io::to_base64(first.data.columns.bytes())},
                                 {"{{info}}", in_script(second.data.info)},

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "geometry/cut/internal/cut_paths.hpp"
-#include "geometry/exact/internal/predicates.hpp"
+#include "geometry/exact/predicates.hpp"
 
 namespace polynya::geometry {
 

@@ -7,7 +7,7 @@
 #include "geometry/cut/internal/cut_graph.hpp"
 #include "geometry/cut/internal/snap_rounding.hpp"
 #include "geometry/exact/internal/exact_polygon.hpp"
-#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/shape/box_tree.hpp"
 
 namespace polynya::geometry {
@@ -280,12 +280,14 @@ bool are_apart(const Segment& s, const Segment& t) {
   return meeting.kind == Meeting::kTouch && end != End::kNone && end == end_at(t, meeting.at);
 }
 
-std::vector<Point> rounded_nodes(const std::vector<Node>& nodes) {
+// No two rounded nodes in one point?
+bool are_rounded_apart(const std::vector<Node>& nodes) {
   std::vector<Point> points;
   for (const Node& node : nodes) {
     if (node.is_active && node.is_rounded) points.push_back(node.at);
   }
-  return points;
+  std::ranges::sort(points, precedes);
+  return std::ranges::adjacent_find(points) == points.end();
 }
 
 // The nodes come in order along the shape.
@@ -298,12 +300,6 @@ bool is_split(const LocalCut& cut, EdgeId e) {
     if (node->is_active) return true;
   }
   return false;
-}
-
-// No point twice?
-bool are_distinct(std::vector<Point> points) {
-  std::sort(points.begin(), points.end(), precedes);
-  return std::adjacent_find(points.begin(), points.end()) == points.end();
 }
 
 // Has every edge a length, and do they meet in shared ends only?
@@ -326,7 +322,7 @@ bool are_clear_of(const std::vector<Segment>& changed, const std::vector<Segment
 // exact subdivision, where edges meet in nodes only. So only these are checked, against all edges near them.
 bool changed_edges_are_apart(const LocalCut& cut, const Box& tool_box, const std::vector<EdgeId>& near_tool) {
   if (cut.changed.empty()) return true;
-  if (!are_distinct(rounded_nodes(cut.nodes)) || !are_apart(cut.changed)) return false;
+  if (!are_rounded_apart(cut.nodes) || !are_apart(cut.changed)) return false;
   if (!are_clear_of(cut.changed, cut.placed)) return false;
   Ring ends;
   for (const Segment& s : cut.changed) {
@@ -522,12 +518,6 @@ bool is_cleanly_rounded(const LocalCut& cut, const std::vector<PiecePlan>& plans
   return true;
 }
 
-// Does the cut join no rings, or none that could pinch? A chord between two rings makes one boundary of both,
-// and where they touched already that boundary touches itself, away from all nodes.
-bool joins_no_touching_rings(const LocalCut& cut, const Polygon& shape) {
-  return cut.graph.rings_met <= 1 || !has_touching_rings(shape);
-}
-
 }  // namespace
 
 std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
@@ -538,7 +528,9 @@ std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
   if (!nodes) return {};
   LocalCut cut{rings, tool, std::move(*nodes), {}, {}, {}};
   cut.graph = trace_faces(rings, tool, cut.nodes);
-  if (!cut.graph.is_consistent || !joins_no_touching_rings(cut, shape)) return {};
+  // A chord between two rings makes one boundary of both, and where they touched already that boundary touches itself,
+  // away from all nodes.
+  if (!cut.graph.is_consistent || (cut.graph.rings_met > 1 && has_touching_rings(shape))) return {};
   if (cut.graph.walks.empty()) {
     switch (relate_apart(cut, shape)) {
       case Apart::kUncovered:

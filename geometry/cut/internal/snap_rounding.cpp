@@ -189,13 +189,6 @@ geometry::Polygon welded(const geometry::Polygon& polygon) {
   return result;
 }
 
-std::vector<Region> enclosed_regions(const geometry::Polygon& rings) {
-  std::vector<SourceSegment> segments;
-  append_segments(segments, exactly(rings), 0);
-  const auto inside = [](Winding w) { return w.shape > 0 ? 0 : -1; };
-  return overlay(segments, inside, Seams::kDissolve).regions;
-}
-
 }  // namespace
 
 Lattice Lattice::spanning(const Polygon& polygon) {
@@ -231,8 +224,11 @@ double Lattice::width(double size) const {
 std::optional<std::vector<geometry::Polygon>> snapped(const Polygon& polygon, const Lattice& lattice) {
   const geometry::Polygon rings = welded(Snapping(polygon, lattice).polygon());
   if (!rings.outer.empty() && !find_defect(rings)) return std::vector{rings};
+  std::vector<SourceSegment> segments;
+  append_segments(segments, exactly(rings), 0);
+  const auto inside = [](Winding w) { return w.shape > 0 ? 0 : -1; };
   std::vector<geometry::Polygon> parts;
-  for (const Region& region : enclosed_regions(rings)) {
+  for (const Region& region : overlay(segments, inside, Seams::kDissolve).regions) {
     geometry::Polygon part = welded(rounded(region.polygon));
     if (part.outer.empty()) continue;
     if (find_defect(part)) return {};
