@@ -49,20 +49,19 @@ void print_problems(const std::string& name, const std::vector<io::Problem>& pro
   print_err("polynya: {} in {}; nothing was written\n", counted(problems.size(), "problem"), name);
 }
 
-Outcome<io::LoadedScene> load_scene(const std::string& file, const io::SceneOverrides& overrides, ProblemFormat format,
-                                    ProgressKind progress) {
-  const bool is_json = format == ProblemFormat::kJson;
+Outcome<io::LoadedScene> load_scene(const std::string& file, const io::SceneOverrides& overrides, ProgressKind progress,
+                                    bool as_json) {
   const std::string name = input_name(file);
   auto text = with_progress(progress, "reading the scene", [&] { return read_input(file, io::kLongestScene); });
   if (!text) {
-    if (is_json) write_out(io::to_json_text({{.file = name, .sentence = text.error()}}));
+    if (as_json) write_out(io::to_json_text({{.file = name, .sentence = text.error()}}));
     return failure(kInputOutput, fmt::format("{}: {}", name, text.error()));
   }
   auto loaded = with_progress(progress, "making the scene", [&] {
     return io::read_scene(std::move(*text), name, std::filesystem::path(file).parent_path(), overrides);
   });
   if (loaded) return std::move(*loaded);
-  if (is_json)
+  if (as_json)
     write_out(io::to_json_text(loaded.error()));
   else
     print_problems(name, loaded.error());

@@ -10,15 +10,11 @@
 
 namespace polynya::app {
 
-/// How problems are printed: a line each on stderr, or as one JSON array on stdout.
-enum class ProblemFormat { kText, kJson };
-
 /// The scene of that file, or of stdin where its name is "-" (floe files are then searched in the working
 /// folder), with its progress on stderr. Where it cannot be read or is wrong, every problem has been printed,
-/// and it is the code to exit with.
+/// and it is the code to exit with: a line each on stderr, with `as_json` as one array on stdout.
 Outcome<io::LoadedScene> load_scene(const std::string& file, const io::SceneOverrides& overrides = {},
-                                    ProblemFormat format = ProblemFormat::kText,
-                                    ProgressKind progress = ProgressKind::kNone);
+                                    ProgressKind progress = ProgressKind::kNone, bool as_json = false);
 
 /// Each problem of that file on stderr, a line each, and how many there are.
 void print_problems(const std::string& name, const std::vector<io::Problem>& problems);

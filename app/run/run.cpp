@@ -71,7 +71,7 @@ void report_dump(const std::string& folder, const io::Result<>& dump) {
 }
 
 ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
-  { const simulation::Simulation freed = std::move(run.simulation); }  // makes room for the map
+  { const Simulation freed = std::move(run.simulation); }  // makes room for the map
   const fs::path& folder = run.writer.folder();
   const io::Result<std::string> picture = no_map || result.end == RunEnd::kFolderFailure ? "" : draw_map(folder);
   if (!picture) {
@@ -163,8 +163,8 @@ struct RunOptions {
 
 /// A run before its first step. Whether it fits into memory is checked before anything is written.
 struct Start {
-  std::unique_ptr<io::LoadedScene> scene;
-  std::unique_ptr<simulation::Simulation> simulation;
+  io::LoadedScene scene;
+  Simulation simulation;
 };
 
 Outcome<Start> start_of(const RunOptions& options) {
@@ -174,16 +174,14 @@ Outcome<Start> start_of(const RunOptions& options) {
                               .seed = options.seed,
                               .assignments = assignments_of(options.set),
                               .panel_length = options.panel},
-                             ProblemFormat::kText, options.driver.progress);
+                             options.driver.progress);
     if (!loaded) return tl::unexpected(loaded.error());
     print_lines(loaded->hints);
     print_fields(*loaded);
     if (!may_fit(loaded->scene, options.scene, io::memory_available())) return tl::unexpected(kOutOfMemory);
     print_folder_size(loaded->scene, options.driver.control.final_geojson);
-    Start start;
-    start.simulation = std::make_unique<simulation::Simulation>(loaded->scene);
-    start.scene = std::make_unique<io::LoadedScene>(std::move(*loaded));
-    return start;
+    Simulation simulation(loaded->scene);
+    return Start{*std::move(loaded), std::move(simulation)};
   } catch (const std::bad_alloc&) {
     return failure(kOutOfMemory,
                    fmt::format("{}: {}; nothing was written; {}", options.scene, out_of_memory(), kToNeedLessMemory));
@@ -191,14 +189,14 @@ Outcome<Start> start_of(const RunOptions& options) {
 }
 
 int run(const RunOptions& options) {
-  const auto start = start_of(options);
+  auto start = start_of(options);
   if (!start) return start.error();
-  const fs::path folder = options.out.empty() ? fs::path("runs") / start->scene->scene.name : fs::path(options.out);
+  const fs::path folder = options.out.empty() ? fs::path("runs") / start->scene.scene.name : fs::path(options.out);
   watch_signals();
   return within_memory(folder, [&]() -> int {
-    auto writer = io::RunWriter::create(folder, options.overwrite, *start->scene);
+    auto writer = io::RunWriter::create(folder, options.overwrite, start->scene);
     if (!writer) return fail(kInputOutput, writer.error());
-    return drive_run({*start->scene, std::move(*start->simulation), std::move(*writer)}, options.driver);
+    return drive_run({start->scene, std::move(start->simulation), std::move(*writer)}, options.driver);
   });
 }
 
@@ -303,8 +301,8 @@ int resume(const ResumeOptions& options) {
   if (const auto end = finished())
     return report_finished(folder, *end, options.driver.no_map);  // by another polynya meanwhile
   watch_signals();
-  const auto scene = load_scene(scene_file.string(), {.until = options.until, .seed = {}, .assignments = {}},
-                                ProblemFormat::kText, options.driver.progress);
+  const auto scene =
+      load_scene(scene_file.string(), {.until = options.until, .seed = {}, .assignments = {}}, options.driver.progress);
   if (!scene) return scene.error();
   return within_memory(folder, [&] { return resume_from_checkpoint(*scene, std::move(*lock), options); });
 }

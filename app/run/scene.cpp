@@ -43,7 +43,7 @@ std::vector<io::Problem> problems_of(const std::string& scene_text, const std::s
 /// a line a problem on stderr, or on stdout a JSON object for each case that is refused. The code to exit
 /// with.
 int validate_cases(const std::string& scene, const std::string& cases, const io::SceneOverrides& overrides,
-                   ProblemFormat format) {
+                   bool as_json) {
   const auto scene_text = read_input(scene, io::kLongestScene);
   if (!scene_text) return fail(kInputOutput, fmt::format("{}: {}", scene, scene_text.error()));
   const auto text = read_input(cases, kLongestCases);
@@ -54,7 +54,7 @@ int validate_cases(const std::string& scene, const std::string& cases, const io:
     const std::string_view line = std::string_view(*text).substr(begin, end - begin);
     const auto problems = problems_of(*scene_text, scene, line, cases, ++count, overrides);
     refused += problems.empty() ? 0 : 1;
-    if (format == ProblemFormat::kJson && !problems.empty()) {
+    if (as_json && !problems.empty()) {
       std::string list = io::to_json_text(problems);
       std::erase(list, '\n');
       write_out(fmt::format("{{\"line\": {}, \"problems\": {}}}\n", count, list));
@@ -64,7 +64,7 @@ int validate_cases(const std::string& scene, const std::string& cases, const io:
     }
     begin = end + 1;
   }
-  if (format == ProblemFormat::kJson) return refused == 0 ? kDone : kSceneInvalid;
+  if (as_json) return refused == 0 ? kDone : kSceneInvalid;
   if (refused > 0)
     return fail(
         kSceneInvalid,
@@ -115,11 +115,10 @@ void print_floes(const io::LoadedScene& loaded) {
 }
 
 int validate(const ValidateOptions& options) {
-  const ProblemFormat format = options.json ? ProblemFormat::kJson : ProblemFormat::kText;
   io::SceneOverrides overrides;
   overrides.assignments = assignments_of(options.set);
-  if (!options.cases.empty()) return validate_cases(options.scene, options.cases, overrides, format);
-  const auto loaded = load_scene(options.scene, overrides, format, options.progress);
+  if (!options.cases.empty()) return validate_cases(options.scene, options.cases, overrides, options.json);
+  const auto loaded = load_scene(options.scene, overrides, options.progress, options.json);
   if (!loaded) return loaded.error();
   if (options.json) {
     write_out(io::to_json_text(loaded->hints));
