@@ -196,8 +196,7 @@ class ChannelMeasure {
     });
   }
 
-  /// Neighbouring cells share the corners between them: each joint has the mean of the directions
-  /// beside it.
+  /// Neighbouring cells share the corners between them: each joint has the mean of the directions beside it.
   Done find_stations() {
     const double behind_ship = track_.back().along - behind_;
     const auto count = static_cast<std::size_t>(std::max(0.0, std::floor(behind_ship / channel_.spacing)));

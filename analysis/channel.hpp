@@ -65,8 +65,7 @@ struct Channel {
   std::vector<geometry::Polygon> open_water;  ///< joined to the track by water or brash, from the first to
                                               ///< the last bounded cell [m]
   double open_area = 0;                       ///< [m²]
-  // From ice to ice, in the bounded cells. Brash is ice that came up from under a hull, and what it broke
-  // into.
+  // From ice to ice, in the bounded cells. Brash is ice that came up from under a hull, and what it broke into.
   double area = 0;                        ///< of them together [m²]
   std::vector<geometry::Polygon> brash;   ///< in there [m]
   double brash_area = 0;                  ///< [m²]
@@ -93,8 +92,7 @@ BrashSizes brash_sizes(const Channel& channel);
 /// Fails with words where the ship or the time is not in the run, or geometry refuses.
 io::Result<Channel> measure_channel(const io::Run& run, const ChannelOptions& options);
 
-/// The stations of that channel alone, without the shares that ice and brash cover in them: for many
-/// instants.
+/// The stations of that channel alone, without the shares that ice and brash cover in them: for many instants.
 io::Result<std::vector<ChannelStation>> measure_stations(const io::Run& run, const io::MotionIndex& motions,
                                                          const ChannelOptions& options);
 
@@ -146,9 +144,8 @@ geometry::Polygon carried_by_water(const simulation::WaterSettings& water, geome
 std::vector<double> straight_pieces(const io::Run& run, const io::MotionIndex& motions, std::size_t ship, double time,
                                     double tolerance);
 
-/// The convex hulls of a ship's waterline at both ends of each straight piece, carried by the water to
-/// `time`: together they are what the hull swept, right to the tolerance. A waterline that is not convex is
-/// taken as its convex hull.
+/// The convex hulls of a ship's waterline at both ends of each straight piece, carried by the water to `time`: together
+/// they are what the hull swept, right to the tolerance. A waterline that is not convex is taken as its convex hull.
 std::vector<geometry::Polygon> swept_pieces(const io::Run& run, const io::MotionIndex& motions, std::size_t ship,
                                             double time, double tolerance);
 

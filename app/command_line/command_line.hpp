@@ -142,8 +142,7 @@ struct ProgramText {
   std::string version;
 };
 
-/// Parses the words and runs the command that they choose, or prints help, version or what is wrong with
-/// them.
+/// Parses the words and runs the command that they choose, or prints help, version or what is wrong with them.
 int run_command_line(const ProgramText& text, const std::function<Commands(CommandLine&)>& add_commands, int count,
                      const char* const* words);
 

@@ -35,9 +35,8 @@ enum ExitCode {
   kClosedPipe = 141,      ///< the reader of stdout or stderr went away, as a shell reports SIGPIPE
 };
 
-// Every text of the program goes through here. A text that could not be written never ends in exit code 0;
-// fmt::print and std::cout are not used, since the one throws and the other forgets where stdout is a closed
-// pipe or a full disk.
+// Every text of the program goes through here. A text that could not be written never ends in exit code 0; fmt::print
+// and std::cout are not used, since the one throws and the other forgets where stdout is a closed pipe or a full disk.
 
 /// Opens what is closed of descriptors 0, 1 and 2, or the first files of a run would get them. Reading from
 /// stdin and writing to stdout and stderr fail then. Makes writing to a closed pipe, or past a file size

@@ -350,8 +350,7 @@ Outcome<ViewedRun> read_viewed(const std::string& folder, const views::PlayerSel
   return ViewedRun{std::move(*run), std::move(data)};
 }
 
-/// What two runs are called: as their scenes, their folders, or their whole paths; the first of these that
-/// differ.
+/// What two runs are called: as their scenes, their folders, or their whole paths; the first of these that differ.
 std::array<std::string, 2> labels_of(const std::vector<ViewedRun>& viewed, const ViewOptions& options) {
   if (!options.labels.empty()) return {options.labels[0], options.labels[1]};
   const auto both = [&](auto name) { return std::array<std::string, 2>{name(0), name(1)}; };

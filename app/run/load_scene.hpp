@@ -19,8 +19,7 @@ Outcome<io::LoadedScene> load_scene(const std::string& file, const io::SceneOver
 /// Each problem of that file on stderr, a line each, and how many there are.
 void print_problems(const std::string& name, const std::vector<io::Problem>& problems);
 
-/// How the scene's random fields came out, on stdout: sizes, cover, and of a size law how near the floes are
-/// to it.
+/// How the scene's random fields came out, on stdout: sizes, cover, and of a size law how near the floes are to it.
 void print_fields(const io::LoadedScene& scene);
 
 /// Whether a run of a scene may fit into memory. Where it surely does not, that is reported on stderr; where

@@ -39,9 +39,8 @@ std::vector<io::Problem> problems_of(const std::string& scene_text, const std::s
   return loaded ? std::vector<io::Problem>{} : loaded.error();
 }
 
-/// Checks a scene once for each line of a file of cases (docs/studies.md) and prints what is wrong with each:
-/// a line a problem on stderr, or on stdout a JSON object for each case that is refused. The code to exit
-/// with.
+/// Checks a scene once for each line of a file of cases (docs/studies.md) and prints what is wrong with each: a line a
+/// problem on stderr, or on stdout a JSON object for each case that is refused. The code to exit with.
 int validate_cases(const std::string& scene, const std::string& cases, const io::SceneOverrides& overrides,
                    bool as_json) {
   const auto scene_text = read_input(scene, io::kLongestScene);

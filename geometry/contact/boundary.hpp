@@ -31,8 +31,7 @@ struct PieceEdges {
   std::uint32_t edges = 1;  ///< this many in all, the next ones of the same ring
 };
 
-/// A piece of boundary with one contact circle: a part of one long edge, or some short edges in a
-/// row.
+/// A piece of boundary with one contact circle: a part of one long edge, or some short edges in a row.
 struct BoundaryPiece : PieceEdges {
   Point middle;                   ///< half-way along it, on the boundary, in the body frame [m]
   double reach = 0;               ///< no point of it is farther from the middle [m]
@@ -145,9 +144,8 @@ inline bool have_few_edges(const EdgeList& a, const EdgeList& b) {
   return a.size() + b.size() <= kFewEdges;
 }
 
-/// The pairs of edges of two boundaries of few edges (have_few_edges) within `margin` of each other [m], in
-/// order. Returns a lower bound of the distance between the boundaries [m], of use where nothing is within
-/// the margin.
+/// The pairs of edges of two boundaries of few edges (have_few_edges) within `margin` of each other [m], in order.
+/// Returns a lower bound of the distance between the boundaries [m], of use where nothing is within the margin.
 double near_edges(const EdgeList& a, const EdgeList& b, const Pose& a_from_b, double margin, NearEdges& edges);
 
 /// The pairs of edges on the pieces of pairs of bounding circles, each once, in order.
@@ -221,12 +219,11 @@ struct ManifoldScratch {
   std::vector<OverlapPoint> loop_points;
 };
 
-/// The contact manifolds of two overlapping bodies, from the edges near each other (edges_of): one for each
-/// connected overlap. Where one stretch of each boundary makes it, the contact line joins the points where
-/// the boundaries cross and the normal stands on it; where several do (a body is pierced), line and normal
-/// follow from the gradient of the overlap's area, which is the same rule. Appends to `manifolds`. Returns
-/// how many overlaps were left out because their crossings did not pair up (rounding at a touching vertex;
-/// they pair up one step later).
+/// The contact manifolds of two overlapping bodies, from the edges near each other (edges_of): one for each connected
+/// overlap. Where one stretch of each boundary makes it, the contact line joins the points where the boundaries cross
+/// and the normal stands on it; where several do (a body is pierced), line and normal follow from the gradient of the
+/// overlap's area, which is the same rule. Appends to `manifolds`. Returns how many overlaps were left out because
+/// their crossings did not pair up (rounding at a touching vertex; they pair up one step later).
 int find_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b, const NearEdges& edges,
                    ManifoldScratch& scratch, std::vector<ContactManifold>& manifolds);
 

@@ -18,17 +18,15 @@ using Crossing = ManifoldScratch::Crossing;
 /// Some pairs of edges side by side, for a loop that the compiler turns into vector instructions. Plain
 /// arrays: it does not of those that check their indices.
 struct EdgeLanes {
-  // Four vector instructions of four doubles. Fewer leave their time to the loop, more to lanes that are not
-  // used.
+  // Four vector instructions of four doubles. Fewer leave their time to the loop, more to lanes that are not used.
   static constexpr std::size_t kMost = 16;
   double along_a[kMost], along_b[kMost];            // where their lines meet, as shares of the edges
   double starts_inside[kMost], is_crossing[kMost];  // 1 or 0
 };
 
-/// Brings b's edges into a's frame and finds which pairs cross. Which side of an edge along d a point is on
-/// is decided by the sign of its turn, left where it is positive. A zero is decided as if all of b were moved
-/// by (ε, ε²), ε → 0: the same tie-break on both boundaries makes crossings alternate between entering and
-/// leaving.
+/// Brings b's edges into a's frame and finds which pairs cross. Which side of an edge along d a point is on is decided
+/// by the sign of its turn, left where it is positive. A zero is decided as if all of b were moved by (ε, ε²), ε
+/// → 0: the same tie-break on both boundaries makes crossings alternate between entering and leaving.
 POLYNYA_AVX2_CLONE void find_crossing_lanes(const double* __restrict ends, std::size_t stride, std::size_t count,
                                             const Pose& a_from_b, EdgeLanes& __restrict l) {
   const Pose pose = a_from_b;
@@ -365,8 +363,7 @@ ContactManifold gradient_manifold(const Boundary& a, const Boundary& b, const Po
 
 // ---- overlaps of one stretch of each boundary
 
-/// What a chain of vertices adds to a manifold: area between chain and contact line, and how far it reaches
-/// off it.
+/// What a chain of vertices adds to a manifold: area between chain and contact line, and how far it reaches off it.
 struct ChainExtent {
   double area = 0;
   double depth = 0;
@@ -415,13 +412,11 @@ double off_at(const std::vector<Point>& profile, double along) {
   return off;
 }
 
-/// Greatest thickness of the overlap across the contact line: it is at a vertex of either side. The sides'
-/// greatest extents do not simply add: two faces shifted along each other reach farthest at opposite ends of
-/// the line.
+/// Greatest thickness of the overlap across the contact line: it is at a vertex of either side. The sides' greatest
+/// extents do not simply add: two faces shifted along each other reach farthest at opposite ends of the line.
 double thickness_of(const std::vector<Point>& a_side, const std::vector<Point>& b_side, double line) {
-  // Of the sides' corners. Beyond, the sum of both extents stands for the thickness, which is too large where
-  // faces are shifted along each other: bodies that lie deep in each other. More costs the product, in every
-  // step.
+  // Of the sides' corners. Beyond, the sum of both extents stands for the thickness, which is too large where faces are
+  // shifted along each other: bodies that lie deep in each other. More costs the product, in every step.
   constexpr std::size_t kMostProduct = 4096;
   double most = 0;
   double sum = 0;

@@ -59,8 +59,7 @@ using CutOutcome = tl::expected<CutResult, CutError>;
 /// A transaction: pieces outside and inside whose exact areas sum to the shape's, or an error and no change.
 CutOutcome cut_by_polygon(const Shape& shape, const Polygon& tool_in_body);
 
-/// The same with a tool of several polygons with holes, which may touch or overlap: what any of them covers
-/// is inside.
+/// The same with a tool of several polygons with holes, which may touch or overlap: what any of them covers is inside.
 CutOutcome cut_by_polygons(const Shape& shape, const std::vector<Polygon>& tools_in_body);
 
 /// Cuts a shape along an open polyline in its body frame (a crack). The polyline separates where it crosses

@@ -88,8 +88,7 @@ bool overlap_deeply(const Box& a, const Box& b) {
 /// Of the polygon about a disc of the gap: its corners reach 1/cos(15°), 4 % beyond it. More make floes'
 /// corners rounder and cuts slower.
 constexpr int kDiscSides = 12;
-/// What a gap takes less of is rounding [m²]. With 0 floes that are a gap apart already are cut again and
-/// again.
+/// What a gap takes less of is rounding [m²]. With 0 floes that are a gap apart already are cut again and again.
 constexpr double kLeastStrip = 1e-9;
 
 /// Cuts tools off one polygon.
@@ -173,8 +172,7 @@ std::vector<std::size_t> by_area(const std::vector<Polygon>& polygons) {
   return order;
 }
 
-/// Of an edge's length: a vertex that meets the edge's end meets it. Without it two corners may pass each
-/// other.
+/// Of an edge's length: a vertex that meets the edge's end meets it. Without it two corners may pass each other.
 constexpr double kSlack = 1e-9;
 /// After so much of the way a touch has become an overlap [m]. Larger, thin tips pass through and their touch
 /// is found; smaller, the overlap is less than kLeastShared (their ratio is a contact 1 µm wide).

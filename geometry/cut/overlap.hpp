@@ -24,8 +24,7 @@ struct Overlap {
 tl::expected<Overlap, CutError> overlap(const Shape& a, const Pose& world_from_a, const Shape& b,
                                         const Pose& world_from_b);
 
-/// The area of overlap() of two valid polygons [m²], found from the near part of the longer one and all of
-/// the other.
+/// The area of overlap() of two valid polygons [m²], found from the near part of the longer one and all of the other.
 tl::expected<double, CutError> shared_area(const Polygon& a, const Pose& world_from_a, const Polygon& b,
                                            const Pose& world_from_b);
 
@@ -41,8 +40,7 @@ Ring near_part(const Ring& ring, const Box& box);
 /// Overlaps thinner than this are taken for the rounding of shared edges [m]. Below some 1e-12 (of
 /// coordinates of kilometres) floes that share an edge overlap.
 inline constexpr double kTouchingDepth = 1e-9;
-/// Exactly found overlaps of less area than this likewise [m²]: a shared edge of a kilometre times
-/// kTouchingDepth.
+/// Exactly found overlaps of less area than this likewise [m²]: a shared edge of a kilometre times kTouchingDepth.
 inline constexpr double kTouchingArea = 1e-6;
 
 struct OverlappingPair {

@@ -38,10 +38,9 @@ struct Difference {
   SplitDouble halves;
 };
 
-// Shoelace sum about the first vertex, in twice the digits of a double: products and sums keep their errors,
-// which go to `low`. With R the product of the farthest |x| and |y| and V the largest partial sum, one edge
-// adds at most u(8R + V) to `low`, and what adding that up n times loses, with the products of two tails, is
-// below (n + 8)²u²(8R + V).
+// Shoelace sum about the first vertex, in twice the digits of a double: products and sums keep their errors, which go
+// to `low`. With R the product of the farthest |x| and |y| and V the largest partial sum, one edge adds at most u(8R +
+// V) to `low`, and what adding that up n times loses, with the products of two tails, is below (n + 8)²u²(8R + V).
 TwiceArea twice_area(const Ring& ring) {
   TwiceArea sum;
   if (ring.size() < 3) return sum;
@@ -175,8 +174,7 @@ double exact_balance(std::span<const Polygon* const> after, std::span<const Poly
 
 namespace {
 
-// Integrals over a region: of 1, of the position and of its square, each by a factor that Green's theorem
-// leaves.
+// Integrals over a region: of 1, of the position and of its square, each by a factor that Green's theorem leaves.
 struct Moments {
   Rational twice_area = 0;
   Rational six_first_x = 0;
@@ -199,8 +197,7 @@ void add(Moments& moments, const Ring& ring) {
   }
 }
 
-// Measures of a valid polygon computed in rationals and rounded once: for slivers, whose moments in doubles
-// are noise.
+// Measures of a valid polygon computed in rationals and rounded once: for slivers, whose moments in doubles are noise.
 Measures exact_measures(const Polygon& polygon) {
   Moments moments;
   add(moments, polygon.outer);

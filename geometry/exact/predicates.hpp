@@ -8,9 +8,8 @@
 
 namespace polynya::geometry {
 
-// Signs and meetings of points and segments of doubles, decided exactly: in doubles where an error bound
-// allows it [Shewchuk1997], else in error-free doubles, else in rationals. No result depends on which of them
-// decided.
+// Signs and meetings of points and segments of doubles, decided exactly: in doubles where an error bound allows it
+// [Shewchuk1997], else in error-free doubles, else in rationals. No result depends on which of them decided.
 //
 // REQUIRES, of all: coordinates are usable (is_usable), -ffp-contract=off, rounding to nearest. Where one is
 // not finite the result is any. Points may coincide; rings need not be valid.

@@ -123,8 +123,7 @@ Found find_misplaced_hole(const Polygon& polygon) {
   return {};
 }
 
-// Rings and the points they touch in make a graph; the interior is in one piece where that graph has no
-// cycle.
+// Rings and the points they touch in make a graph; the interior is in one piece where that graph has no cycle.
 Found find_disconnection(const Polygon& polygon, const std::vector<Edge>& edges, const std::vector<Touch>& touches) {
   std::set<std::tuple<double, double, int>> incidences;  // a point, and a ring that touches another there
   for (const Touch& touch : touches) {
@@ -137,8 +136,7 @@ Found find_disconnection(const Polygon& polygon, const std::vector<Edge>& edges,
     while (parent[n] != n) n = parent[n] = parent[parent[n]];
     return n;
   };
-  // All rings through one point hang on the first of them: joining two that hang together already closes a
-  // cycle.
+  // All rings through one point hang on the first of them: joining two that hang together already closes a cycle.
   std::optional<Point> before;
   int first = 0;
   for (const auto& [x, y, ring] : incidences) {

@@ -88,8 +88,7 @@ constexpr bool precedes(Point a, Point b) {
 constexpr Point midpoint(Point a, Point b) {
   return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
 }
-/// How far along the segment from a (0) to b (1) its point nearest to p is; 0 where the segment has no
-/// length.
+/// How far along the segment from a (0) to b (1) its point nearest to p is; 0 where the segment has no length.
 constexpr double nearest_part(Point a, Point b, Point p) {
   const Vector d = b - a;
   const double squared = squared_length(d);

@@ -55,9 +55,8 @@ io::Result<VtkExport> export_vtk(const io::Run& run, const io::FrameSelection& s
 /// From the scene's plane about a place to longitude and latitude [°]. Fails where PROJ cannot be loaded.
 io::Result<io::Project> degrees_about(const simulation::GeographicOrigin& origin);
 
-/// The layers of a run at a time as GeoJSON FeatureCollections: floes, fractures up to then, and for each
-/// ship its track and its hull; metres in the scene's plane unless a projection is given. Names of files with
-/// their text.
+/// The layers of a run at a time as GeoJSON FeatureCollections: floes, fractures up to then, and for each ship its
+/// track and its hull; metres in the scene's plane unless a projection is given. Names of files with their text.
 std::vector<std::pair<std::string, std::string>> geojson_layers(const io::Run& run, double time,
                                                                 const io::Project& project);
 

@@ -211,8 +211,7 @@ void add_peaks(ColumnWriter& columns, const io::Run& run, const std::vector<io::
 /// The stations of each ship's channel with ice on both sides, at frames that are spread evenly over the run
 /// and end with the last. What geometry refuses to measure is not shown.
 void add_channels(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames) {
-  // More make pages larger and take longer: some 80 bytes a station and a millisecond an instant among 500
-  // floes.
+  // More make pages larger and take longer: some 80 bytes a station and a millisecond an instant among 500 floes.
   constexpr std::size_t kMostInstants = 200;
   struct Row {
     int ship;

@@ -72,8 +72,7 @@ void for_each_stretch(const LocalCut& cut, const Loop& loop, OnNode on_node, OnR
   }
 }
 
-// Writes a loop's vertices, noting on the way the edges that are new; those of a chord once, on its forward
-// side.
+// Writes a loop's vertices, noting on the way the edges that are new; those of a chord once, on its forward side.
 Ring write_loop(LocalCut& cut, const Loop& loop) {
   struct Vertex {
     bool is_node = false;
@@ -148,8 +147,7 @@ Box swept_box(const Segment& s) {
   return grown(box_of(s), reach(s));
 }
 
-// Finds the shell of a hole by a vertex far from all changed edges: the rounded and the exact rings agree
-// there.
+// Finds the shell of a hole by a vertex far from all changed edges: the rounded and the exact rings agree there.
 class Placer {
  public:
   Placer(const LocalCut& cut, std::vector<PiecePlan>& plans) : plans_(plans), changed_(cut.changed) {
@@ -364,11 +362,10 @@ Rational twice_area_between(const exact::Point& a, const std::vector<exact::Poin
   return sum;
 }
 
-// Σ pieces − shape, in shoelace terms: every chain of the shape is in the pieces once, every chord once
-// in each direction, where its terms cancel; untouched rings are carried over. What is left is each split
-// edge against the sub-edges it became, and that is summed here in rationals: before rounding it must be
-// zero for every edge by itself. Returns twice the area that rounding the nodes adds; none where a sum is not
-// zero.
+// Σ pieces − shape, in shoelace terms: every chain of the shape is in the pieces once, every chord once in each
+// direction, where its terms cancel; untouched rings are carried over. What is left is each split edge against the
+// sub-edges it became, and that is summed here in rationals: before rounding it must be zero for every edge by itself.
+// Returns twice the area that rounding the nodes adds; none where a sum is not zero.
 std::optional<Rational> check_split_edges(const LocalCut& cut) {
   Rational rounding = 0;
   for (std::size_t begin = 0; begin < cut.nodes.size();) {

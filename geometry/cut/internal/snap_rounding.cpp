@@ -178,9 +178,8 @@ geometry::Ring welded(const geometry::Ring& ring) {
   return kept;
 }
 
-// The polygon without what rounding can leave in a ring and encloses nothing: equal neighbours and spikes,
-// edges folded back on the one before. Rings that enclose nothing at all are dropped; an outer one leaves an
-// empty ring.
+// The polygon without what rounding can leave in a ring and encloses nothing: equal neighbours and spikes, edges folded
+// back on the one before. Rings that enclose nothing at all are dropped; an outer one leaves an empty ring.
 geometry::Polygon welded(const geometry::Polygon& polygon) {
   geometry::Polygon result{welded(polygon.outer), {}};
   for (const geometry::Ring& hole : polygon.holes) {
