@@ -26,8 +26,7 @@ struct CutLedger {
   double area_slivers = 0;     ///< what was too narrow to survive rounding and is in no piece [m²]
   int slivers = 0;             ///< how many such
   double rounding_defect = 0;  ///< (pieces as returned + slivers) − (exact pieces), nearest double [m²]
-  bool exact_balance = false;  ///< Σ exact pieces − parent is exactly 0, checked in rationals
-  std::string exact_defect;    ///< that difference as a rational [m²]: "0", or the cut is refused
+  std::string exact_defect;    ///< Σ exact pieces − parent as a rational [m²]: "0", or the cut is refused
   double dangling_length = 0;  ///< of crack that runs in the ice and separates nothing [m]
   int snap_rounded = 0;        ///< exact pieces whose nearest doubles were not valid, rounded another way
 };

@@ -396,7 +396,6 @@ CutResult take_as_planned(std::vector<PiecePlan> plans, double area_before, cons
   CutResult result;
   CutLedger& ledger = result.ledger;
   ledger.area_before = area_before;
-  ledger.exact_balance = true;
   ledger.exact_defect = "0";  // checked edge by edge
   ledger.rounding_defect = exact::nearest_double(rounding / 2);
   for (PiecePlan& plan : plans) {
@@ -497,7 +496,6 @@ CutResult whole_shape_inside(const Polygon& shape) {
   CutResult result;
   result.pieces.push_back({Shape{shape, true}, Part::kInside});
   result.ledger.area_before = result.ledger.area_inside = area_of(shape);
-  result.ledger.exact_balance = true;
   result.ledger.exact_defect = "0";  // the one piece is the shape itself
   return result;
 }

@@ -351,7 +351,6 @@ CutOutcome rounded_pieces(const Rational& area_before, const std::vector<ExactPi
   }
   CutResult result = std::move(rounding).result();
   result.ledger.area_before = nearest_double(area_before);
-  result.ledger.exact_balance = true;
   result.ledger.exact_defect = defect.get_str();
   return result;
 }
