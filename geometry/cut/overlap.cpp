@@ -91,46 +91,41 @@ constexpr int kDiscSides = 12;
 /// What a gap takes less of is rounding [m²]. With 0 floes that are a gap apart already are cut again and again.
 constexpr double kLeastStrip = 1e-9;
 
-/// Cuts tools off one polygon.
-class Trimmer {
- public:
-  Trimmer(const Polygon& polygon, Trimmed& trimmed) : trimmed_(trimmed) { trimmed_.pieces = {polygon}; }
-
-  /// Whether it was cut.
-  bool cut_off(const Polygon& tool, double least_area) {
-    const Box box = bounding_box(tool.outer);
-    bool is_cut = false;
-    std::vector<Polygon> left;
-    for (Polygon& piece : trimmed_.pieces) {
-      if (trimmed_.error || !overlaps(bounding_box(piece.outer), box) || !cut_piece(piece, tool, least_area, left))
-        left.push_back(std::move(piece));
-      else
-        is_cut = true;
-    }
-    trimmed_.pieces = std::move(left);
-    if (trimmed_.error) trimmed_.pieces.clear();
-    return is_cut;
+/// Cuts a tool off a piece, where it takes more than that area; what is left is added to `left`. False where the piece
+/// stays as it is.
+bool cut_off_piece(const Polygon& piece, const Polygon& tool, double least_area, Trimmed& trimmed,
+                   std::vector<Polygon>& left) {
+  CutOutcome cut = cut_by_polygon({.polygon = piece, .known_valid = true}, tool);
+  if (!cut) {
+    if (cut.error().reason != CutFailure::kMisses) trimmed.error = std::move(cut.error());
+    return false;
   }
-
- private:
-  bool cut_piece(const Polygon& piece, const Polygon& tool, double least_area, std::vector<Polygon>& left) {
-    CutOutcome cut = cut_by_polygon({.polygon = piece, .known_valid = true}, tool);
-    if (!cut) {
-      if (cut.error().reason != CutFailure::kMisses) trimmed_.error = std::move(cut.error());
-      return false;
-    }
-    const CutLedger& ledger = cut->ledger;
-    if (ledger.area_inside + ledger.area_slivers <= least_area) return false;
-    trimmed_.area_trimmed += ledger.area_inside + ledger.area_slivers;
-    trimmed_.rounding_defect += ledger.rounding_defect;
-    for (Piece& part : cut->pieces) {
-      if (part.part == Part::kOutside) left.push_back(std::move(part.shape.polygon));
-    }
-    return true;
+  const CutLedger& ledger = cut->ledger;
+  if (ledger.area_inside + ledger.area_slivers <= least_area) return false;
+  trimmed.area_trimmed += ledger.area_inside + ledger.area_slivers;
+  trimmed.rounding_defect += ledger.rounding_defect;
+  for (Piece& part : cut->pieces) {
+    if (part.part == Part::kOutside) left.push_back(std::move(part.shape.polygon));
   }
+  return true;
+}
 
-  Trimmed& trimmed_;
-};
+/// Cuts a tool off what is left of a polygon. Whether it was cut.
+bool cut_off(const Polygon& tool, double least_area, Trimmed& trimmed) {
+  const Box box = bounding_box(tool.outer);
+  bool is_cut = false;
+  std::vector<Polygon> left;
+  for (Polygon& piece : trimmed.pieces) {
+    if (trimmed.error || !overlaps(bounding_box(piece.outer), box) ||
+        !cut_off_piece(piece, tool, least_area, trimmed, left))
+      left.push_back(std::move(piece));
+    else
+      is_cut = true;
+  }
+  trimmed.pieces = std::move(left);
+  if (trimmed.error) trimmed.pieces.clear();
+  return is_cut;
+}
 
 /// A polygon that contains every point nearer to the edge than the gap.
 Polygon around_edge(Point a, Point b, double gap) {
@@ -152,11 +147,11 @@ Box box_of(const std::vector<Polygon>& pieces) {
 }
 
 /// Cuts a strip of the gap along a ring off a polygon, where the two are near each other.
-bool cut_off_strip(const Ring& ring, double gap, Trimmer& trimmer, const Trimmed& trimmed) {
+bool cut_off_strip(const Ring& ring, double gap, Trimmed& trimmed) {
   bool is_cut = false;
   for_ring_edges(ring, [&](Point a, Point b) {
     if (trimmed.pieces.empty() || !overlaps(grown(box_around(a, b), gap), box_of(trimmed.pieces))) return;
-    is_cut = trimmer.cut_off(around_edge(a, b, gap), kLeastStrip) || is_cut;
+    is_cut = cut_off(around_edge(a, b, gap), kLeastStrip, trimmed) || is_cut;
   });
   return is_cut;
 }
@@ -322,15 +317,15 @@ std::vector<Trimmed> make_disjoint(const std::vector<Polygon>& polygons, double 
     larger[is_a_larger ? b : a].push_back(is_a_larger ? a : b);
   }
   for (const std::size_t i : order) {
-    Trimmer trimmer(polygons[i], result[i]);
+    result[i].pieces = {polygons[i]};
     std::sort(larger[i].begin(), larger[i].end());
     for (const std::size_t other : larger[i]) {
       bool is_cut = false;
       for (const Polygon& piece : result[other].pieces) {
-        is_cut = trimmer.cut_off(piece, kTouchingArea) || is_cut;
+        is_cut = cut_off(piece, kTouchingArea, result[i]) || is_cut;
         if (gap > 0) {
-          is_cut = cut_off_strip(piece.outer, gap, trimmer, result[i]) || is_cut;
-          for (const Ring& hole : piece.holes) is_cut = cut_off_strip(hole, gap, trimmer, result[i]) || is_cut;
+          is_cut = cut_off_strip(piece.outer, gap, result[i]) || is_cut;
+          for (const Ring& hole : piece.holes) is_cut = cut_off_strip(hole, gap, result[i]) || is_cut;
         }
       }
       if (is_cut) result[i].yields.push_back(other);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 #include "geometry/cut/internal/cut_graph.hpp"
@@ -147,53 +148,48 @@ Box swept_box(const Segment& s) {
   return grown(box_of(s), reach(s));
 }
 
-// Finds the shell of a hole by a vertex far from all changed edges: the rounded and the exact rings agree there.
-class Placer {
- public:
-  Placer(const LocalCut& cut, std::vector<PiecePlan>& plans) : plans_(plans), changed_(cut.changed) {
-    for (std::size_t i = 0; i < plans.size(); ++i) by_area_.push_back(i);
-    const auto area = [&](std::size_t i) { return plans[i].rings.front().area.area; };
-    std::ranges::sort(by_area_, {}, area);
-  }
+// Within reach of an edge of the shell whose ends were rounded? (An edge that ends in p itself is not the
+// shell's: p is off it.) The threshold is well above the errors of the product.
+bool is_doubtful(const LocalCut& cut, Point p) {
+  return std::ranges::any_of(cut.changed, [&](const Segment& s) {
+    if (p == s.from || p == s.to || !overlaps(swept_box(s), {p, p})) return false;
+    const Vector along = s.to - s.from;
+    return std::abs(cross(along, p - s.from)) <= 8 * reach(s) * (std::abs(along.x) + std::abs(along.y) + reach(s));
+  });
+}
 
-  bool place(PieceRing hole) {
-    for (const std::size_t i : by_area_) {
-      const std::optional<bool> inside = is_inside(hole.points, plans_[i].rings.front().points);
+// By a vertex of the hole far from all changed edges: the rounded and the exact rings agree there. None where that is
+// in doubt.
+std::optional<bool> is_inside(const LocalCut& cut, const Ring& hole, const Ring& shell) {
+  bool all_on_shell = true;
+  for (const Point p : hole) {
+    const int side = side_of_ring(shell, p);
+    all_on_shell = all_on_shell && side == 0;
+    if (side != 0 && !is_doubtful(cut, p)) return side > 0;
+  }
+  // A hole all of whose vertices are the shell's is that shell seen from the other side.
+  if (all_on_shell) return false;
+  return {};
+}
+
+// Gives each hole to the smallest piece around it; false where one finds none, or in doubt.
+bool place_holes(const LocalCut& cut, std::vector<PieceRing>& holes, std::vector<PiecePlan>& plans) {
+  std::vector<std::size_t> by_area(plans.size());
+  std::iota(by_area.begin(), by_area.end(), std::size_t{0});
+  std::ranges::sort(by_area, {}, [&](std::size_t i) { return plans[i].rings.front().area.area; });
+  for (PieceRing& hole : holes) {
+    bool is_placed = false;
+    for (std::size_t k = 0; k < by_area.size() && !is_placed; ++k) {
+      std::vector<PieceRing>& rings = plans[by_area[k]].rings;
+      const std::optional<bool> inside = is_inside(cut, hole.points, rings.front().points);
       if (!inside) return false;
-      if (!*inside) continue;
-      plans_[i].rings.push_back(std::move(hole));
-      return true;
+      is_placed = *inside;
+      if (is_placed) rings.push_back(std::move(hole));
     }
-    return false;
+    if (!is_placed) return false;
   }
-
- private:
-  std::optional<bool> is_inside(const Ring& hole, const Ring& shell) const {
-    bool all_on_shell = true;
-    for (const Point p : hole) {
-      const int side = side_of_ring(shell, p);
-      all_on_shell = all_on_shell && side == 0;
-      if (side != 0 && !is_doubtful(p)) return side > 0;
-    }
-    // A hole all of whose vertices are the shell's is that shell seen from the other side.
-    if (all_on_shell) return false;
-    return {};
-  }
-
-  // Within reach of an edge of the shell whose ends were rounded? (An edge that ends in p itself is not the
-  // shell's: p is off it.) The threshold is well above the errors of the product.
-  bool is_doubtful(Point p) const {
-    return std::any_of(changed_.begin(), changed_.end(), [&](const Segment& s) {
-      if (p == s.from || p == s.to || !overlaps(swept_box(s), {p, p})) return false;
-      const Vector along = s.to - s.from;
-      return std::abs(cross(along, p - s.from)) <= 8 * reach(s) * (std::abs(along.x) + std::abs(along.y) + reach(s));
-    });
-  }
-
-  std::vector<PiecePlan>& plans_;
-  std::vector<std::size_t> by_area_;
-  const std::vector<Segment>& changed_;
-};
+  return true;
+}
 
 // The loops of one walk: one outer ring and its touching holes, or holes only.
 bool plan_walk(LocalCut& cut, const Walk& walk, std::vector<PiecePlan>& plans, std::vector<PieceRing>& free_holes) {
@@ -234,10 +230,7 @@ std::optional<std::vector<PiecePlan>> plan_pieces(LocalCut& cut) {
       free_holes.emplace_back(cut.rings[r], Loop{}, r);
   }
   if (free_holes.empty()) return plans;
-  Placer placer(cut, plans);
-  for (PieceRing& hole : free_holes) {
-    if (!placer.place(std::move(hole))) return {};
-  }
+  if (!place_holes(cut, free_holes, plans)) return {};
   return plans;
 }
 
