@@ -169,15 +169,6 @@ int export_run(const ExportOptions& options) {
 
 // ---- polynya inspect
 
-enum class ShapeFormat { kWkt, kGeojson };
-
-std::string to_text(const analysis::ShapeView& view, ShapeFormat format) {
-  if (format == ShapeFormat::kGeojson) return to_geojson(view);
-  std::string text;
-  io::append_wkt(text, view.polygon);
-  return text + "\n";
-}
-
 constexpr auto kInspectExamples =
     "Examples:\n"
     "  polynya inspect runs/level-plate                        the floes at the end, a line each\n"
@@ -193,9 +184,9 @@ constexpr auto kInspectExamples =
 
 struct InspectOptions {
   std::string run;
-  std::optional<double> at;    ///< [s]; the end of the run if not given
-  std::optional<FloeId> floe;  ///< its shape
-  ShapeFormat format = ShapeFormat::kWkt;
+  std::optional<double> at;       ///< [s]; the end of the run if not given
+  std::optional<FloeId> floe;     ///< its shape
+  bool is_geojson = false;        ///< else WKT
   std::optional<FloeId> lineage;  ///< the fractures that led to it
   bool events = false;
   bool check = false;
@@ -225,9 +216,11 @@ int print_floe(const io::Run& run, const InspectOptions& options) {
     view.polygon = polygon_in_world(view.polygon, floe->birth.centroid_in_body, *motion);
     view.time_in_world = options.at;
   }
-  if (!view.time_in_world && options.format == ShapeFormat::kWkt)
+  std::string text;
+  io::append_wkt(text, view.polygon);
+  if (!view.time_in_world && !options.is_geojson)
     print_err("note: floe {} in its body frame [m]; --at T gives it where it was in the world at T\n", *options.floe);
-  write_out(to_text(view, options.format));
+  write_out(options.is_geojson ? to_geojson(view) : text + "\n");
   return kDone;
 }
 
@@ -486,8 +479,8 @@ Command add_inspect(CommandLine& app) {
                {.excludes = {"--floe", "--lineage", "--events"}});
   command.flag("--fsd", options->fsd, "The distribution of floe sizes",
                {.excludes = {"--floe", "--lineage", "--events", "--check"}});
-  command.choice<ShapeFormat>("--format", options->format, "Of --floe; wkt if not given",
-                              {{"wkt", ShapeFormat::kWkt}, {"geojson", ShapeFormat::kGeojson}}, {.needs = "--floe"});
+  command.choice<bool>("--format", options->is_geojson, "Of --floe; wkt if not given",
+                       {{"wkt", false}, {"geojson", true}}, {.needs = "--floe"});
   command.flag("--json", options->json, "Print the report as JSON; a shape: --format geojson",
                {.excludes = {"--floe"}});
   add_progress(command, options->progress);

@@ -7,6 +7,7 @@
 
 #include "geometry/exact/predicates.hpp"
 #include "geometry/shape/box_tree.hpp"
+#include "geometry/shape/segments.hpp"
 
 namespace polynya::geometry {
 namespace {

@@ -64,6 +64,22 @@ RingInFrame ring_in_frame(const Pose& world_from_a, const Polygon& b, const Pose
   return in_a;
 }
 
+// Whether `a` has an edge with all of `a` on its left and all of `b` on its right. Vertices of `a` may lie beyond it by
+// so much, those of `b` by so much [m]; a negative one keeps them off it.
+bool has_separating_edge(const Ring& a, const Ring& b, double most_of_a, double most_of_b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Point from = a[i];
+    const Vector edge = a[(i + 1) % a.size()] - from;
+    const double size = length(edge);
+    if (size == 0) continue;
+    const auto side = [&](Point p) { return cross(edge, p - from); };
+    if (std::ranges::all_of(b, [&](Point p) { return side(p) <= most_of_b * size; }) &&
+        std::ranges::all_of(a, [&](Point p) { return side(p) >= -most_of_a * size; }))
+      return true;
+  }
+  return false;
+}
+
 // Whether an edge of one leaves the other so far aside that rounding cannot have done it: they share nothing.
 bool are_apart(const Ring& a, const RingInFrame& b) {
   double size = 0;
@@ -247,20 +263,6 @@ tl::expected<double, CutError> shared_area(const Polygon& a, const Pose& world_f
   // The near part may cross itself, as overlap allows. Where it winds differently from the whole, b does not
   // wind at all.
   return overlap({.polygon = std::move(near)}, world_from_a, {.polygon = b}, world_from_b).map(&Overlap::area);
-}
-
-bool has_separating_edge(const Ring& a, const Ring& b, double most_of_a, double most_of_b) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const Point from = a[i];
-    const Vector edge = a[(i + 1) % a.size()] - from;
-    const double size = length(edge);
-    if (size == 0) continue;
-    const auto side = [&](Point p) { return cross(edge, p - from); };
-    if (std::ranges::all_of(b, [&](Point p) { return side(p) <= most_of_b * size; }) &&
-        std::ranges::all_of(a, [&](Point p) { return side(p) >= -most_of_a * size; }))
-      return true;
-  }
-  return false;
 }
 
 Ring near_part(const Ring& ring, const Box& box) {

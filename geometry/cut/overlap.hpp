@@ -28,10 +28,6 @@ tl::expected<Overlap, CutError> overlap(const Shape& a, const Pose& world_from_a
 tl::expected<double, CutError> shared_area(const Polygon& a, const Pose& world_from_a, const Polygon& b,
                                            const Pose& world_from_b);
 
-/// Whether `a` has an edge with all of `a` on its left and all of `b` on its right. Vertices of `a` may lie
-/// beyond it by so much, those of `b` by so much [m]; a negative one keeps them off it.
-bool has_separating_edge(const Ring& a, const Ring& b, double most_of_a, double most_of_b);
-
 /// The ring with vertices left out such that it winds around every point of the box as before. A run of
 /// vertices that all lie beyond one side of the box may be drawn straight without passing over it. Elsewhere
 /// the result may cross itself. Few vertices are left of a long ring beside a small box.

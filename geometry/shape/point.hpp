@@ -88,7 +88,8 @@ constexpr bool precedes(Point a, Point b) {
 constexpr Point midpoint(Point a, Point b) {
   return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
 }
-/// How far along the segment from a (0) to b (1) its point nearest to p is; 0 where the segment has no length.
+/// How far along the segment from a (0) to b (1) its point nearest to p is; 0 where the segment has no
+/// length.
 constexpr double nearest_part(Point a, Point b, Point p) {
   const Vector d = b - a;
   const double squared = squared_length(d);
@@ -99,30 +100,6 @@ constexpr Point nearest_on_segment(Point a, Point b, Point p) {
 }
 inline double distance_to_segment(Point p, Point a, Point b) {
   return distance(p, nearest_on_segment(a, b, p));
-}
-
-// Two segments in doubles, for what is decided within a margin. Where a sign decides, geometry/exact does.
-
-/// Whether each segment has its ends on either side of the other's line, or on it: they cross or touch. REQUIRES that
-/// they are not in one line, where it is true of any; boxes that overlap exclude those that are apart.
-constexpr bool are_across(Point a0, Point a1, Point b0, Point b1) {
-  const double b_sides = cross(a1 - a0, b0 - a0) * cross(a1 - a0, b1 - a0);
-  const double a_sides = cross(b1 - b0, a0 - b0) * cross(b1 - b0, a1 - b0);
-  return b_sides <= 0 && a_sides <= 0;
-}
-
-/// Whether they cross; of segments in one line never, of those that only touch it may be either.
-constexpr bool cross_each_other(Point a0, Point a1, Point b0, Point b1) {
-  const auto is_left = [](Point from, Point to, Point p) { return cross(to - from, p - from) > 0; };
-  return is_left(a0, a1, b0) != is_left(a0, a1, b1) && is_left(b0, b1, a0) != is_left(b0, b1, a1);
-}
-
-/// Square of the least distance of an end of one to the other: that of the segments, unless they cross [m²].
-constexpr double squared_distance_of_ends(Point a0, Point a1, Point b0, Point b1) {
-  const auto to_segment = [](Point p, Point from, Point to) {
-    return squared_length(nearest_on_segment(from, to, p) - p);
-  };
-  return std::min({to_segment(a0, b0, b1), to_segment(a1, b0, b1), to_segment(b0, a0, a1), to_segment(b1, a0, a1)});
 }
 
 /// An axis-aligned box [m].

@@ -10,7 +10,8 @@ namespace polynya::geometry {
 /// A closed boundary: its vertices in order [m], the first one not repeated at the end.
 using Ring = std::vector<Point>;
 
-/// A region with holes. In a valid polygon (validity.hpp) the outer ring runs counter-clockwise, holes clockwise.
+/// A region with holes. In a valid polygon (validity.hpp) the outer ring runs counter-clockwise, holes
+/// clockwise.
 struct Polygon {
   Ring outer;
   std::vector<Ring> holes;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/shape/point.hpp"
+#include "geometry/shape/segments.hpp"
 
 namespace polynya::simulation {
 namespace {

@@ -2,7 +2,6 @@
 #include <array>
 #include <iterator>
 #include <limits>
-#include <numeric>
 #include <ranges>
 #include <set>
 
@@ -25,7 +24,6 @@ namespace {
 /// The floes of a run that a page holds.
 class HeldFloes {
  public:
-  explicit HeldFloes(std::size_t count) : is_held_(count, true), ids_(count) { std::iota(ids_.begin(), ids_.end(), 0); }
   /// Those whose distance is 0.
   explicit HeldFloes(const std::vector<double>& distances) : is_held_(distances.size()) {
     for (std::size_t i = 0; i < distances.size(); ++i) {
@@ -410,8 +408,8 @@ std::string info_of(const io::Run& run, const PlayerData& data, const PlayerSele
 PlayerData player_data(const io::Run& run, const PlayerSelection& selection) {
   PlayerData data;
   std::vector<io::Frame> frames = thinned_frames(run, selection.frames);
-  const HeldFloes held =
-      selection.area ? HeldFloes(family_distances(run, *selection.area, frames)) : HeldFloes(run.floes.size());
+  const HeldFloes held(selection.area ? family_distances(run, *selection.area, frames)
+                                      : std::vector<double>(run.floes.size(), 0));
   data.floes = held.ids().size();
   add_floes(data.columns, run, held);
   data.floe_bytes = data.columns.bytes().size();
