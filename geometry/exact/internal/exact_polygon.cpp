@@ -14,9 +14,12 @@ namespace {
 template <typename Result, typename AnyPolygon, typename Convert>
 Result converted(const AnyPolygon& polygon, Convert convert) {
   Result result;
-  std::ranges::transform(polygon.outer, std::back_inserter(result.outer), convert);
-  for (const auto& hole : polygon.holes)
-    std::ranges::transform(hole, std::back_inserter(result.holes.emplace_back()), convert);
+  const auto add = [&](const auto& ring, auto& into) {
+    into.reserve(ring.size());
+    std::ranges::transform(ring, std::back_inserter(into), convert);
+  };
+  add(polygon.outer, result.outer);
+  for (const auto& hole : polygon.holes) add(hole, result.holes.emplace_back());
   return result;
 }
 
