@@ -10,11 +10,10 @@
 
 #include <fmt/format.h>
 
-#include "analysis/channel_parts.hpp"
-#include "analysis/floe_sizes.hpp"
-#include "geometry/cut/repair.hpp"
+#include "analysis/run_listing.hpp"
+#include "geometry/cut/cut.hpp"
 #include "geometry/exact/measures.hpp"
-#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/shape/outline.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
@@ -83,13 +82,12 @@ Polygon from_ice_to_ice(const ChannelStation& station, const Polygon& cell) {
 }
 
 /// How much of each floe that reaches into polygons lies in them, the largest floe first.
-tl::expected<std::vector<ChannelFloe>, std::string> floes_in(const std::vector<Polygon>& polygons,
-                                                             const std::vector<PlacedIce>& ice) {
+io::Result<std::vector<ChannelFloe>> floes_in(const std::vector<Polygon>& polygons, const std::vector<PlacedIce>& ice) {
   std::vector<ChannelFloe> floes;
   const std::vector<PlacedIce> boxed = with_boxes(polygons);
   for (const PlacedIce& floe : ice) {
     const auto parted = part(floe.polygon, near(boxed, floe.box));
-    if (!parted) return tl::unexpected(parted.error());
+    if (!parted) return io::fail(parted.error());
     if (parted->inside_area <= 0) continue;
     if (floes.empty() || floes.back().floe != floe.birth->floe)
       floes.push_back({floe.birth->floe, std::sqrt(floe.birth->area), floe.birth->area, 0});
@@ -100,15 +98,14 @@ tl::expected<std::vector<ChannelFloe>, std::string> floes_in(const std::vector<P
 }
 
 /// Measures the brash from ice to ice, in the cells of the stations and piece by piece.
-tl::expected<void, std::string> measure_brash(Channel& channel, const std::vector<Polygon>& cells,
-                                              const std::vector<PlacedIce>& brash) {
+io::Result<> measure_brash(Channel& channel, const std::vector<Polygon>& cells, const std::vector<PlacedIce>& brash) {
   std::vector<Polygon> stretches;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     ChannelStation& station = channel.stations[i];
     Polygon stretch = from_ice_to_ice(station, cells[i]);
     if (stretch.outer.size() < 3) continue;
     auto parted = part(stretch, near(brash, bounding_box(stretch.outer)));
-    if (!parted) return tl::unexpected(parted.error());
+    if (!parted) return io::fail(parted.error());
     channel.area += station.channel_area = geometry::measure(stretch).area;
     channel.brash_area += station.brash_area = parted->inside_area;
     for (Polygon& covered : parted->inside) channel.brash.push_back(std::move(covered));
@@ -133,7 +130,7 @@ class ChannelMeasure {
     behind_ = -box.low.x;
   }
 
-  tl::expected<Channel, std::string> measure() {
+  io::Result<Channel> measure() {
     find_track();
     return find_ice({})
         .and_then([&] { return find_band(); })
@@ -143,7 +140,7 @@ class ChannelMeasure {
         .map([&] { return std::move(channel_); });
   }
 
-  tl::expected<std::vector<ChannelStation>, std::string> measure_stations() {
+  io::Result<std::vector<ChannelStation>> measure_stations() {
     is_whole_ = false;
     find_track();
     const Box near_track = grown(geometry::bounding_box(channel_.track), channel_.reach + channel_.spacing);
@@ -153,7 +150,7 @@ class ChannelMeasure {
   }
 
  private:
-  using Done = tl::expected<void, std::string>;
+  using Done = io::Result<>;
 
   Point centre_at(double time) const {
     return carried_by_water(run_.scene.scene.water, ship_pose_at(run_, motions_, ship_, time).position, time, time_);
@@ -180,7 +177,7 @@ class ChannelMeasure {
 
   Done find_band() {
     auto band = union_of(swept_pieces(run_, motions_, ship_, time_, kTrackTolerance));
-    if (!band) return tl::unexpected(describe(band.error()));
+    if (!band) return io::fail(describe(band.error()));
     channel_.swept = std::move(*band);
     std::vector<PlacedIce> ice_at_start;
     for (const auto& floe : run_.scene.scene.floes) {
@@ -190,7 +187,7 @@ class ChannelMeasure {
       channel_.swept_area += geometry::measure(piece).area;
       const Polygon then = carried_by_water(run_.scene.scene.water, piece, time_, run_.start_time());
       const auto parted = part(then, near(ice_at_start, bounding_box(then.outer)));
-      if (!parted) return tl::unexpected(parted.error());
+      if (!parted) return io::fail(parted.error());
       channel_.swept_ice_at_start += parted->inside_area;
     }
     return floes_in(channel_.swept, ice_).map([&](std::vector<ChannelFloe>&& floes) {
@@ -198,8 +195,7 @@ class ChannelMeasure {
     });
   }
 
-  /// Neighbouring cells share the corners between them: each joint has the mean of the directions
-  /// beside it.
+  /// Neighbouring cells share the corners between them: each joint has the mean of the directions beside it.
   Done find_stations() {
     const double behind_ship = track_.back().along - behind_;
     const auto count = static_cast<std::size_t>(std::max(0.0, std::floor(behind_ship / channel_.spacing)));
@@ -238,12 +234,12 @@ class ChannelMeasure {
     // Floe by floe, which the local cut covers: ten times faster than all of them in one arrangement.
     for (const Polygon& ice : near(firm_ice_, bounding_box(cell.outer))) {
       const auto parted = part(cell, {ice});
-      if (!parted) return tl::unexpected(parted.error());
+      if (!parted) return io::fail(parted.error());
       for (const Polygon& piece : parted->inside) clear_up_to(piece, station);
     }
     if (is_whole_) {
       const auto beam = part(within_beam, near(ice_, bounding_box(within_beam.outer)));
-      if (!beam) return tl::unexpected(beam.error());
+      if (!beam) return io::fail(beam.error());
       station.ice_across_beam = beam->inside_area / geometry::measure(within_beam).area;
     }
     channel_.stations.push_back(station);
@@ -280,17 +276,17 @@ class ChannelMeasure {
         cells.push_back(cells_[i]);
     }
     const auto corridor = union_of(cells);
-    if (!corridor) return tl::unexpected(describe(corridor.error()));
+    if (!corridor) return io::fail(describe(corridor.error()));
     const auto& waterline = hull_of(run_.scene.scene, ship_).hull.waterline;
     for (const Polygon& piece : *corridor) {
       std::vector<Polygon> taken = near(firm_ice_, bounding_box(piece.outer));
       taken.push_back({transform(ship_pose_at(run_, motions_, ship_, time_), waterline), {}});
       const auto parted = part(piece, taken);
-      if (!parted) return tl::unexpected(parted.error());
+      if (!parted) return io::fail(parted.error());
       for (const Polygon& joined : parted->outside) {
         if (!has_track(joined)) continue;
         const auto water = part(joined, near(brash_, bounding_box(joined.outer)));
-        if (!water) return tl::unexpected(water.error());
+        if (!water) return io::fail(water.error());
         for (const Polygon& open : water->outside) {
           channel_.open_area += geometry::measure(open).area;
           channel_.open_water.push_back(open);
@@ -325,12 +321,12 @@ class ChannelMeasure {
 };
 
 /// With the time.
-tl::expected<ChannelOptions, std::string> checked_options(const io::Run& run, ChannelOptions options) {
-  if (options.ship >= hull_count(run.scene.scene)) return tl::unexpected(std::string("the run has no such ship"));
-  if (run.frames.empty()) return tl::unexpected(std::string("the run has no frames"));
+io::Result<ChannelOptions> checked_options(const io::Run& run, ChannelOptions options) {
+  if (options.ship >= hull_count(run.scene.scene)) return io::fail("the run has no such ship");
+  if (run.frames.empty()) return io::fail("the run has no frames");
   const double time = options.time.value_or(run.end_time());
   if (!(time >= run.start_time() && time <= run.end_time()))
-    return tl::unexpected(
+    return io::fail(
         fmt::format("there is no {:g} s: the run goes from {:g} to {:g} s", time, run.start_time(), run.end_time()));
   options.time = time;
   return options;
@@ -359,16 +355,15 @@ WidthSummary widths(const Channel& channel) {
   return summary;
 }
 
-tl::expected<Channel, std::string> measure_channel(const io::Run& run, const ChannelOptions& options) {
+io::Result<Channel> measure_channel(const io::Run& run, const ChannelOptions& options) {
   const auto checked = checked_options(run, options);
-  if (!checked) return tl::unexpected(checked.error());
+  if (!checked) return io::fail(checked.error());
   const io::MotionIndex motions(run);
   return ChannelMeasure(run, motions, *checked).measure();
 }
 
-tl::expected<std::vector<ChannelStation>, std::string> measure_stations(const io::Run& run,
-                                                                        const io::MotionIndex& motions,
-                                                                        const ChannelOptions& options) {
+io::Result<std::vector<ChannelStation>> measure_stations(const io::Run& run, const io::MotionIndex& motions,
+                                                         const ChannelOptions& options) {
   return checked_options(run, options).and_then([&](const ChannelOptions& checked) {
     return ChannelMeasure(run, motions, checked).measure_stations();
   });

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include <tl/expected.hpp>
-
 #include "geometry/shape/polygon.hpp"
 #include "io/run/run_reader.hpp"
+#include "simulation/world/journal.hpp"
 
 namespace polynya::analysis {
+
 /// The channel behind a ship at an instant of its run (docs/channel.md). The ship's track and the band its
 /// hull swept are carried with the water to that instant; floes are where the run has them.
 
@@ -64,8 +64,7 @@ struct Channel {
   std::vector<geometry::Polygon> open_water;  ///< joined to the track by water or brash, from the first to
                                               ///< the last bounded cell [m]
   double open_area = 0;                       ///< [m²]
-  // From ice to ice, in the bounded cells. Brash is ice that came up from under a hull, and what it broke
-  // into.
+  // From ice to ice, in the bounded cells. Brash is ice that came up from under a hull, and what it broke into.
   double area = 0;                        ///< of them together [m²]
   std::vector<geometry::Polygon> brash;   ///< in there [m]
   double brash_area = 0;                  ///< [m²]
@@ -90,13 +89,11 @@ struct BrashSizes {
 BrashSizes brash_sizes(const Channel& channel);
 
 /// Fails with words where the ship or the time is not in the run, or geometry refuses.
-tl::expected<Channel, std::string> measure_channel(const io::Run& run, const ChannelOptions& options);
+io::Result<Channel> measure_channel(const io::Run& run, const ChannelOptions& options);
 
-/// The stations of that channel alone, without the shares that ice and brash cover in them: for many
-/// instants.
-tl::expected<std::vector<ChannelStation>, std::string> measure_stations(const io::Run& run,
-                                                                        const io::MotionIndex& motions,
-                                                                        const ChannelOptions& options);
+/// The stations of that channel alone, without the shares that ice and brash cover in them: for many instants.
+io::Result<std::vector<ChannelStation>> measure_stations(const io::Run& run, const io::MotionIndex& motions,
+                                                         const ChannelOptions& options);
 
 /// A channel for people: stations, widths, what is left in the band, with units in the heads.
 std::string to_table(const Channel& channel);
@@ -106,5 +103,49 @@ std::string to_csv(const Channel& channel);
 std::string to_json_text(const Channel& channel);
 /// Open water, swept band, track and stations as a FeatureCollection in metres of the scene's plane.
 std::string to_geojson(const Channel& channel);
+
+// ---- what a channel is measured with: ice as valid polygons, and what moves with the water
+
+/// A valid polygon of ice at some instant, with its box.
+struct PlacedIce {
+  const simulation::BirthRecord* birth = nullptr;  ///< of the floe; null: of the scene
+  geometry::Polygon polygon;                       ///< in the world [m]
+  geometry::Box box;
+};
+
+/// Adds a floe's polygon in the world. A placed shape is rounded and may not be valid any more: it is then
+/// what its rings wind around, in as many polygons as that takes; none where they enclose nothing. Fails with
+/// words where a coordinate is not finite.
+io::Result<> add_ice(std::vector<PlacedIce>& ice, const simulation::BirthRecord* birth,
+                     geometry::Polygon polygon_in_world);
+
+/// The polygons whose boxes meet a box.
+std::vector<geometry::Polygon> near(const std::vector<PlacedIce>& ice, const geometry::Box& box);
+
+/// What of a polygon others cover and what not.
+struct Parted {
+  std::vector<geometry::Polygon> inside;
+  std::vector<geometry::Polygon> outside;
+  double inside_area = 0;  ///< [m²]
+};
+
+/// Exact but for one rounding of vertices. Fails with words where geometry refuses the cut.
+io::Result<Parted> part(const geometry::Polygon& polygon, const std::vector<geometry::Polygon>& by);
+
+/// A point that moves with the water (the scene's drift and shear), from one time to another [s]. The map is
+/// affine in the plane; the motion of floes does not enter.
+geometry::Point carried_by_water(const simulation::WaterSettings& water, geometry::Point point, double from, double to);
+geometry::Polygon carried_by_water(const simulation::WaterSettings& water, geometry::Polygon polygon, double from,
+                                   double to);
+
+/// The longest pieces of time from the run's start to `time` over which no corner of the hull, carried by the
+/// water to `time`, leaves the straight line between its ends by more than `tolerance` [m]: their ends [s].
+std::vector<double> straight_pieces(const io::Run& run, const io::MotionIndex& motions, std::size_t ship, double time,
+                                    double tolerance);
+
+/// The convex hulls of a ship's waterline at both ends of each straight piece, carried by the water to `time`: together
+/// they are what the hull swept, right to the tolerance. A waterline that is not convex is taken as its convex hull.
+std::vector<geometry::Polygon> swept_pieces(const io::Run& run, const io::MotionIndex& motions, std::size_t ship,
+                                            double time, double tolerance);
 
 }  // namespace polynya::analysis

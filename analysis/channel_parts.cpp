@@ -1,13 +1,11 @@
-#include "analysis/channel_parts.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "analysis/channel.hpp"
 #include "geometry/cut/cut.hpp"
-#include "geometry/cut/repair.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/outline.hpp"
 
@@ -18,8 +16,7 @@ using geometry::Polygon;
 using geometry::Ring;
 using geometry::Vector;
 
-tl::expected<void, std::string> add_ice(std::vector<PlacedIce>& ice, const simulation::BirthRecord* birth,
-                                        Polygon polygon_in_world) {
+io::Result<> add_ice(std::vector<PlacedIce>& ice, const simulation::BirthRecord* birth, Polygon polygon_in_world) {
   if (!find_defect(polygon_in_world)) {
     const geometry::Box box = bounding_box(polygon_in_world.outer);
     ice.push_back({birth, std::move(polygon_in_world), box});
@@ -28,8 +25,8 @@ tl::expected<void, std::string> add_ice(std::vector<PlacedIce>& ice, const simul
   const auto repaired = geometry::repair(rings_of(polygon_in_world), geometry::FillRule::kNonZero);
   if (!repaired && repaired.error().reason == geometry::CutFailure::kMisses) return {};
   if (!repaired)
-    return tl::unexpected(fmt::format("a placed floe is not a polygon: {}: {}", name_of(repaired.error().reason),
-                                      repaired.error().detail));
+    return io::fail(fmt::format("a placed floe is not a polygon: {}: {}", name_of(repaired.error().reason),
+                                repaired.error().detail));
   for (const geometry::Shape& shape : repaired->shapes)
     ice.push_back({birth, shape.polygon, bounding_box(shape.polygon.outer)});
   return {};
@@ -43,12 +40,11 @@ std::vector<Polygon> near(const std::vector<PlacedIce>& ice, const geometry::Box
   return found;
 }
 
-tl::expected<Parted, std::string> part(const Polygon& polygon, const std::vector<Polygon>& by) {
+io::Result<Parted> part(const Polygon& polygon, const std::vector<Polygon>& by) {
   if (by.empty()) return Parted{{}, {polygon}, 0};
   auto cut = geometry::cut_by_polygons({polygon}, by);
   if (!cut && cut.error().reason == geometry::CutFailure::kMisses) return Parted{{}, {polygon}, 0};
-  if (!cut)
-    return tl::unexpected(fmt::format("a cut was refused: {}: {}", name_of(cut.error().reason), cut.error().detail));
+  if (!cut) return io::fail(fmt::format("a cut was refused: {}: {}", name_of(cut.error().reason), cut.error().detail));
   Parted parted;
   parted.inside_area = cut->ledger.area_inside;
   for (geometry::Piece& piece : cut->pieces)

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -22,45 +22,29 @@ using fracture::BendingLoad;
 using fracture::FsiDatabaseModel;
 using geometry::kDegreesPerRadian;
 
-/// What a slice through the database varies.
-enum class SliceAxis : std::uint8_t {
-  kSpeed,         ///< v_n [m/s]
-  kOpeningAngle,  ///< 2α [rad], both edges at the same angle
-  kThickness,     ///< h [m]
+/// What a figure varies, from where to where, and how it is drawn.
+struct Figure {
+  const char* name;
+  const char* x_label;
+  void (*set)(BendingLoad& load, double abscissa);
+  double scale;  ///< from abscissae to what is shown of them
+  double low, high;
+  bool is_x_log, is_radius_log;
+  bool has_speeds;  ///< its curves are of other speeds, else of other wedges
 };
 
-BendingLoad with(BendingLoad load, SliceAxis axis, double value) {
-  switch (axis) {
-    case SliceAxis::kSpeed:
-      load.mean_approach_speed = value;
-      break;
-    case SliceAxis::kOpeningAngle:
-      load.front_half_angle = load.back_half_angle = 0.5 * value;
-      break;
-    case SliceAxis::kThickness:
-      load.ice.thickness = value;
-      break;
-  }
-  return load;
-}
-
-std::vector<SlicePoint> slice(const FsiDatabaseModel& model, const BendingLoad& load, SliceAxis axis,
+std::vector<SlicePoint> slice(const FsiDatabaseModel& model, BendingLoad load, const Figure& figure,
                               std::span<const double> abscissae) {
   std::vector<SlicePoint> points;
   for (const double value : abscissae) {
-    points.push_back(compare_models(model, with(load, axis, value)));
-    points.back().abscissa = value;
+    figure.set(load, value);
+    points.push_back(compare_models(model, load));
   }
   return points;
 }
 
 constexpr int kPoints = 161;
 constexpr double kWidestWedge = 170;  ///< towards 180 the crushed area grows without bound [deg]
-
-/// From a slice's abscissae to what is shown of them.
-double scale_of(SliceAxis axis) {
-  return axis == SliceAxis::kOpeningAngle ? kDegreesPerRadian : 1;
-}
 
 std::vector<double> evenly(double low, double high, bool is_log) {
   std::vector<double> values;
@@ -71,22 +55,15 @@ std::vector<double> evenly(double low, double high, bool is_log) {
   return values;
 }
 
-/// What a curve of a family is for: the load with one thing changed.
-struct Member {
-  std::string name;
-  BendingLoad load;
-};
-
-/// The load itself first, then its neighbours: other speeds where the wedge's angle varies, else other wedges.
-std::vector<Member> family(const BendingLoad& load, SliceAxis axis) {
-  const bool are_speeds = axis == SliceAxis::kOpeningAngle;
+/// What the curves of a figure are of, each with its name: the load itself first, then its neighbours.
+std::vector<std::pair<std::string, BendingLoad>> family(const BendingLoad& load, bool are_speeds) {
   const double own =
       are_speeds ? load.mean_approach_speed : (load.front_half_angle + load.back_half_angle) * kDegreesPerRadian;
   const auto name = [&](double value) { return fmt::format("{:g}{}", value, are_speeds ? " m/s" : "° wedge"); };
-  std::vector<Member> members{{name(own), load}};
+  std::vector<std::pair<std::string, BendingLoad>> members{{name(own), load}};
   for (const double value : are_speeds ? std::array{0.1, 1.0, 4.0} : std::array{45.0, 90.0, 135.0}) {
     if (std::abs(value - own) <= 1e-9) continue;
-    BendingLoad& other = members.emplace_back(Member{name(value), load}).load;
+    BendingLoad& other = members.emplace_back(name(value), load).second;
     if (are_speeds)
       other.mean_approach_speed = value;
     else
@@ -94,15 +71,6 @@ std::vector<Member> family(const BendingLoad& load, SliceAxis axis) {
   }
   return members;
 }
-
-/// What a figure varies, from where to where, and how it is drawn.
-struct Figure {
-  const char* name;
-  const char* x_label;
-  SliceAxis axis;
-  double low, high;
-  bool is_x_log, is_radius_log;
-};
 
 struct Curve {
   std::string name;
@@ -127,21 +95,20 @@ void write_curve(io::JsonWriter& json, const Curve& curve) {
 void write_figure(io::JsonWriter& json, const FsiDatabaseModel& model, const BendingLoad& load, const Figure& figure) {
   const std::vector<double> abscissae = evenly(figure.low, figure.high, figure.is_x_log);
   std::vector<double> shown = abscissae;
-  for (double& value : shown) value *= scale_of(figure.axis);
+  for (double& value : shown) value *= figure.scale;
   json.key("name").value(figure.name).key("x_label").value(figure.x_label);
   json.key("is_x_log").value(figure.is_x_log).key("is_radius_log").value(figure.is_radius_log);
   const auto of_database = [](const SlicePoint& p) -> const auto& {
     return p.database.capacity;
   };
-  const std::vector<Member> members = family(load, figure.axis);
+  const auto members = family(load, figure.has_speeds);
   std::vector<Curve> curves;
   curves.reserve(members.size() + 2);
-  for (const Member& member : members)
-    curves.push_back(
-        {"database, " + member.name, "database", slice(model, member.load, figure.axis, abscissae), of_database});
-  const std::vector<SlicePoint> own = slice(model, load, figure.axis, abscissae);
-  curves.push_back({"Nevel, " + members.front().name, "Nevel", own, &SlicePoint::nevel});
-  curves.push_back({"Kashtelyan, " + members.front().name, "Kashtelyan", own, &SlicePoint::kashtelyan});
+  for (const auto& [name, of_member] : members)
+    curves.push_back({"database, " + name, "database", slice(model, of_member, figure, abscissae), of_database});
+  const std::vector<SlicePoint> own = curves.front().slice;
+  curves.push_back({"Nevel, " + members.front().first, "Nevel", own, &SlicePoint::nevel});
+  curves.push_back({"Kashtelyan, " + members.front().first, "Kashtelyan", own, &SlicePoint::kashtelyan});
   json.key("x").list(shown).key("curves").object_lines(curves, [&](const Curve& curve) { write_curve(json, curve); });
 }
 
@@ -162,10 +129,15 @@ std::string database_slices(const FsiDatabaseModel& model, const std::string& ti
   const std::vector<double>& grid = model.database().grid().opening_angles_deg;
   const double widest = std::min(grid.back(), kWidestWedge);
   const double narrowest = std::min(grid.front(), 0.5 * widest);
-  const Figure figures[] = {{"speed", "normal approach speed, m/s", SliceAxis::kSpeed, 0.02, 8, true, false},
-                            {"wedge-angle", "opening angle 2α of the wedge, °", SliceAxis::kOpeningAngle,
-                             narrowest / kDegreesPerRadian, widest / kDegreesPerRadian, false, false},
-                            {"thickness", "ice thickness, m", SliceAxis::kThickness, 0.1, 3, true, true}};
+  const auto set_speed = [](BendingLoad& at, double speed) { at.mean_approach_speed = speed; };
+  const auto set_opening = [](BendingLoad& at, double angle) {
+    at.front_half_angle = at.back_half_angle = 0.5 * angle;
+  };
+  const auto set_thickness = [](BendingLoad& at, double thickness) { at.ice.thickness = thickness; };
+  const Figure figures[] = {{"speed", "normal approach speed, m/s", set_speed, 1, 0.02, 8, true, false, false},
+                            {"wedge-angle", "opening angle 2α of the wedge, °", set_opening, kDegreesPerRadian,
+                             narrowest / kDegreesPerRadian, widest / kDegreesPerRadian, false, false, true},
+                            {"thickness", "ice thickness, m", set_thickness, 1, 0.1, 3, true, true, false}};
   return io::json_object([&](io::JsonWriter& json) {
     json.key("title").value("Icebreaking database: " + title);
     json.key("caption").value("Around " + description +

@@ -8,7 +8,6 @@ namespace polynya::analysis {
 
 /// One load by the database and by the published forms it can be compared with.
 struct SlicePoint {
-  double abscissa = 0;
   fracture::BendingForecast database;
   fracture::BendingCapacity nevel;  ///< at the database's penetration
   fracture::BendingCapacity kashtelyan;

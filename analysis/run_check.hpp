@@ -96,13 +96,16 @@ struct RunCheck {
   }
 };
 
-/// Finds validity, areas, balances and shared areas exactly, for the doubles on record; areas are rounded
-/// once for the report. Measures overlaps at every frame, or at one instant only. Frames are right to 1 mm
-/// (frames.hpp). What bodies share at a frame is compared with what was crushed or tilted there (crushed.csv),
-/// and what was crushed with the work that it took, hulls and structures included; runs of versions that did not
-/// record it are measured only.
-/// `on_part` is called often, with how much is done (0..1).
+/// Finds validity, areas, balances and shared areas exactly, for the doubles on record; areas are rounded once for the
+/// report. Measures overlaps at every frame, or at one instant only. Frames are right to 1 mm (frames.hpp). What bodies
+/// share at a frame is compared with what was crushed or tilted there (crushed.csv), and what was crushed with the work
+/// that it took, hulls and structures included; runs of versions that did not record it are measured only. `on_part` is
+/// called often, with how much is done (0..1).
 RunCheck check_run(const io::Run& run, std::optional<double> only_at = {},
                    const std::function<void(double)>& on_part = {});
+
+/// What it found as `polynya inspect --check` prints it: for people, and as JSON (docs/inspect.md).
+std::string to_text(const RunCheck& check, const simulation::Scene& scene);
+std::string to_json_text(const RunCheck& check, const simulation::Scene& scene);
 
 }  // namespace polynya::analysis

@@ -1,28 +1,46 @@
 #include "analysis/run_listing.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
-#include "io/import/floe_properties.hpp"
-#include "io/run/event_records.hpp"
 #include "io/run/records.hpp"
+#include "io/run/event_records.hpp"
 #include "io/run/run_reader.hpp"
+#include "io/import/floe_properties.hpp"
 #include "io/text/json_writer.hpp"
+#include "io/text/problem.hpp"
 
 namespace polynya::analysis {
+
+std::vector<SizeClass> size_classes(const std::vector<SizedFloe>& floes) {
+  std::vector<SizeClass> classes;
+  if (floes.empty()) return classes;
+  const auto edge = [](int number) {  // …, 1, 2, 5, 10, 20, 50, …
+    static constexpr double kSteps[] = {1, 2, 5};
+    const int decade = static_cast<int>(std::floor(number / 3.0));
+    return kSteps[number - 3 * decade] * std::pow(10.0, decade);
+  };
+  int number = 3 * static_cast<int>(std::floor(std::log10(floes.front().size))) - 1;
+  while (edge(number + 1) <= floes.front().size) ++number;
+  for (std::size_t i = 0; i < floes.size(); ++number) {
+    SizeClass one{.from = edge(number), .below = edge(number + 1), .from_on = floes.size() - i};
+    for (; i < floes.size() && floes[i].size < one.below; ++i, ++one.count) one.area += floes[i].area;
+    classes.push_back(one);
+  }
+  return classes;
+}
+
 namespace {
 
+using io::counted;
 using io::id_or_none;
 using io::JsonWriter;
 using simulation::FloeId;
-
-std::string_view validity_of(const geometry::Polygon& polygon) {
-  const auto found = find_defect(polygon);
-  return found ? name_of(found->defect) : "yes";
-}
 
 /// What happened, where and what decided it, in a line.
 std::string described(const io::Run& run, const simulation::Event& event) {
@@ -50,6 +68,126 @@ std::vector<simulation::Event> in_order(std::vector<simulation::Event> events) {
   return events;
 }
 
+/// A floe alive at some time.
+struct FloeRow {
+  const simulation::BirthRecord& birth;
+  const fracture::Ice& ice;
+  double perimeter = 0;  ///< [m]
+  std::size_t vertices = 0;
+  std::size_t holes = 0;
+  std::optional<double> speed;  ///< [m/s]; none between two frames
+  std::string_view validity;    ///< "yes" or a defect's name
+};
+
+std::vector<FloeRow> floe_rows(const io::Run& run, double time) {
+  const io::MotionIndex motions(run);
+  std::vector<FloeRow> rows;
+  for (const io::RunFloe& floe : run.floes) {
+    const simulation::BirthRecord& birth = floe.birth;
+    if (!run.is_alive(birth.floe, time)) continue;
+    const auto polygon = run.shape(birth.floe);
+    const auto found = find_defect(*polygon);
+    FloeRow& row = rows.emplace_back(FloeRow{.birth = birth,
+                                             .ice = ice_of(run.scene.scene, birth.own_ice),
+                                             .perimeter = perimeter(*polygon),
+                                             .vertices = vertex_count(*polygon),
+                                             .holes = polygon->holes.size(),
+                                             .speed = {},
+                                             .validity = found ? name_of(found->defect) : "yes"});
+    if (const auto motion = motions.floe_at(birth.floe, time)) row.speed = length(motion->velocity);
+  }
+  return rows;
+}
+
+struct SizeDistribution {
+  std::size_t count = 0;
+  std::size_t without_size = 0;               ///< left out: their recorded area is not a positive number
+  double area = 0;                            ///< of all [m²]
+  double least = 0, median = 0, largest = 0;  ///< [m]
+  std::vector<SizeClass> classes;
+};
+
+SizeDistribution size_distribution(const io::Run& run, double time) {
+  std::vector<SizedFloe> floes;
+  SizeDistribution sizes;
+  for (const io::RunFloe& floe : run.floes) {
+    if (!run.is_alive(floe.birth.floe, time)) continue;
+    const double area = floe.birth.area;
+    if (std::isnormal(area) && area > 0)
+      floes.push_back({std::sqrt(area), area});
+    else
+      ++sizes.without_size;
+  }
+  std::ranges::sort(floes, {}, &SizedFloe::area);
+  sizes.count = floes.size();
+  if (floes.empty()) return sizes;
+  for (const SizedFloe& floe : floes) sizes.area += floe.area;
+  sizes.least = floes.front().size;
+  sizes.median = floes[floes.size() / 2].size;
+  sizes.largest = floes.back().size;
+  sizes.classes = size_classes(floes);
+  return sizes;
+}
+
+/// "-1.89 MN"
+std::string with_unit(double newtons) {
+  const double size = std::abs(newtons);
+  return size >= 1e6   ? fmt::format("{:.4g} MN", newtons / 1e6)
+         : size >= 1e3 ? fmt::format("{:.4g} kN", newtons / 1e3)
+                       : fmt::format("{:.4g} N", newtons);
+}
+
+std::string with_time(const io::Peak& peak) {
+  if (peak.value == 0) return "0 N";
+  return fmt::format("{} at {:.6g} s", with_unit(peak.value), peak.time);
+}
+
+/// What a peak of that column is of.
+std::string measure_of(const io::ForceColumn& column, const simulation::Scene& scene) {
+  if (column.curve == "paper") return "j/τ_c of the paper";
+  return column.over == io::Over::kMean ? fmt::format("mean over {:.6g} s", recording_interval(scene))
+                                        : fmt::format("single step of {:.6g} s", scene.time.step);
+}
+
+/// The largest loads on each ship and structure (docs/theory/forces.md): of ice, then of other ships
+/// and structures, the paper's last.
+std::string force_lines(const io::RunSummary& summary, const simulation::Scene& scene) {
+  std::string text;
+  const std::vector<const io::ForceColumn*> columns = io::peak_columns(scene);
+  for (const io::ShipPeaks& peaks : summary.peaks) {
+    bool is_free = true;
+    for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
+      const bool is_by_ice = columns[i]->plot == "Surge force of the ice";
+      if (!is_by_ice && columns[i]->plot != "Surge force of ships") continue;
+      const io::Peak& surge = peaks.of_column[i];
+      const io::Peak& sway = peaks.of_column[i + 1];
+      if (surge.value == 0 && sway.value == 0) continue;
+      is_free = false;
+      text += fmt::format("{:<12}{}: surge {}, sway {} (largest {})\n", is_by_ice ? "ice force" : "ship force",
+                          peaks.ship, with_time(surge), with_time(sway), measure_of(*columns[i], scene));
+    }
+    if (is_free) text += fmt::format("ice force   {}: none\n", peaks.ship);
+  }
+  return text;
+}
+
+std::string under_hull_lines(const simulation::Counts& counts, const simulation::AreaLedger& ledger) {
+  if (counts.went_under == 0) return "";
+  return fmt::format("under hull  {} went under, {} of them tilted floes; {} came up, {} stayed under the ice\n",
+                     counted(counts.went_under, "piece"), counts.tilted_under, counts.came_up, counts.stayed_under) +
+         fmt::format("            {:.6f} m2 are there at the end, {:.6f} m2 stayed under the ice\n",
+                     ledger.under_hull_area, ledger.under_ice_area);
+}
+
+/// "ticks of 0.05 s, steps of 0.025 to 0.4 s".
+std::string steps_of(const simulation::Counts& counts, double tick) {
+  const std::vector<io::StepsTaken> taken = io::steps_taken(counts);
+  std::string ticks = fmt::format("ticks of {:g} s", tick);
+  if (taken.empty() || (taken.front().level == 0 && taken.back().level == 0)) return ticks;
+  return fmt::format("{}, steps of {:g} to {:g} s", ticks, std::ldexp(tick, taken.front().level),
+                     std::ldexp(tick, taken.back().level));
+}
+
 }  // namespace
 
 std::string to_geojson(const ShapeView& view) {
@@ -66,30 +204,11 @@ std::string to_geojson(const ShapeView& view) {
   });
 }
 
-std::vector<FloeRow> floe_rows(const io::Run& run, double time) {
-  const io::MotionIndex motions(run);
-  std::vector<FloeRow> rows;
-  for (const io::RunFloe& floe : run.floes) {
-    const simulation::BirthRecord& birth = floe.birth;
-    if (!run.is_alive(birth.floe, time)) continue;
-    const auto polygon = run.shape(birth.floe);
-    FloeRow& row = rows.emplace_back(FloeRow{.birth = birth,
-                                             .ice = ice_of(run.scene.scene, birth.own_ice),
-                                             .perimeter = perimeter(*polygon),
-                                             .vertices = vertex_count(*polygon),
-                                             .holes = polygon->holes.size(),
-                                             .speed = {},
-                                             .validity = validity_of(*polygon)});
-    if (const auto motion = motions.floe_at(birth.floe, time)) row.speed = length(motion->velocity);
-  }
-  return rows;
-}
-
-std::string floe_table(const std::vector<FloeRow>& rows) {
+std::string floe_table(const io::Run& run, double time) {
   std::string text =
       fmt::format("{:>7} {:>7} {:>10} {:>14} {:>12} {:>8} {:>5} {:>12} {:>11} {:>9} {}\n", "floe", "parent", "born_s",
                   "area_m2", "perimeter_m", "vertices", "holes", "mass_kg", "thickness_m", "m_per_s", "valid");
-  for (const FloeRow& row : rows) {
+  for (const FloeRow& row : floe_rows(run, time)) {
     const simulation::BirthRecord& birth = row.birth;
     text += fmt::format("{:>7} {:>7} {:>10.6g} {:>14.6f} {:>12.4f} {:>8} {:>5} {:>12.6g} {:>11.6g} {:>9} {}\n",
                         birth.floe, birth.parent == simulation::kNoFloe ? "-" : std::to_string(birth.parent),
@@ -99,9 +218,9 @@ std::string floe_table(const std::vector<FloeRow>& rows) {
   return text;
 }
 
-std::string floes_json(const std::vector<FloeRow>& rows, double time) {
+std::string floes_json(const io::Run& run, double time) {
   return io::json_object([&](JsonWriter& json) {
-    json.key("t_s").value(time).key("floes").object_lines(rows, [&](const FloeRow& row) {
+    json.key("t_s").value(time).key("floes").object_lines(floe_rows(run, time), [&](const FloeRow& row) {
       json.key("floe_id").value(row.birth.floe).key("parent_id").value(id_or_none(row.birth.parent));
       json.key("born_s").value(row.birth.time).key("area_m2").value(row.birth.area);
       json.key("perimeter_m").value(row.perimeter).key("vertices").value(row.vertices);
@@ -163,6 +282,71 @@ std::string events_json(const io::Run& run) {
     }
     json.close(']');
   });
+}
+
+std::string size_table(const io::Run& run, double time) {
+  const SizeDistribution sizes = size_distribution(run, time);
+  std::string text = fmt::format("{}, {:.6f} m2 at {:.6g} s; size is the root of the area\n",
+                                 counted(sizes.count, "floe"), sizes.area, time);
+  if (sizes.without_size > 0)
+    text +=
+        fmt::format("left out: {} whose recorded area is not a positive number\n", counted(sizes.without_size, "floe"));
+  if (sizes.count == 0) return text;
+  text +=
+      fmt::format("size_m: least {:.6g}, median {:.6g}, largest {:.6g}\n", sizes.least, sizes.median, sizes.largest);
+  text += fmt::format("{:>10} {:>10} {:>8} {:>16} {:>8} {:>10}\n", "from_m", "below_m", "floes", "area_m2", "area_%",
+                      "from_on");
+  for (const SizeClass& one : sizes.classes)
+    text += fmt::format("{:>10g} {:>10g} {:>8} {:>16.6f} {:>8.3f} {:>10}\n", one.from, one.below, one.count, one.area,
+                        100 * one.area / sizes.area, one.from_on);
+  return text;
+}
+
+std::string sizes_json(const io::Run& run, double time) {
+  const SizeDistribution sizes = size_distribution(run, time);
+  return io::json_object([&](JsonWriter& json) {
+    json.key("t_s").value(time).key("floes").value(sizes.count).key("left_out").value(sizes.without_size);
+    json.key("area_m2").value(sizes.area).key("least_m").value(sizes.least).key("median_m").value(sizes.median);
+    json.key("largest_m").value(sizes.largest);
+    json.key("classes").object_lines(sizes.classes, [&](const SizeClass& one) {
+      json.key("from_m").value(one.from).key("below_m").value(one.below).key("floes").value(one.count);
+      json.key("area_m2").value(one.area).key("from_on").value(one.from_on);
+    });
+  });
+}
+
+std::string result_text(const io::RunSummary& summary, const simulation::Scene& scene) {
+  std::string text;
+  const auto add = [&text]<class... Values>(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
+  };
+  const auto& counts = summary.counts;
+  const auto& ledger = summary.ledger;
+  add("simulated   {:.6g} s in {:.3g} s, {:.3g} x real time; {}\n", summary.sim_time, summary.wall_time,
+      summary.real_time_factor(), steps_of(counts, scene.time.step));
+  add("fractures   {} broken by bending, {}, {}\n", counted(counts.bends, "cusp"), counted(counts.splits, "split"),
+      counted(counts.rejected_cuts, "rejected cut"));
+  if (counts.ground > 0)
+    add("ground      {} that contacts did not part, to brash\n", counted(counts.ground, "overlap"));
+  text += under_hull_lines(counts, ledger);
+  add("floes       {} -> {}\n", counts.floes_initial, counts.floes_final);
+  const double submerged = ledger.submerged_area + ledger.under_hull_area + ledger.under_ice_area;
+  add("ice         {:.6f} m2 = {:.6f} floes + {:.6f} submerged + {:.6f} brash (imbalance {:.1e}, rounding {:.1e} m2)\n",
+      ledger.initial_ice_area, ledger.floe_area, submerged, ledger.brash_area, ledger.imbalance,
+      ledger.rounding_defect);
+  const auto& masses = summary.masses;
+  add("            {:.6g} t = {:.6g} floes + {:.6g} submerged + {:.6g} brash (imbalance {:.1e} t)\n",
+      1e-3 * masses.initial_ice_mass, 1e-3 * masses.floe_mass,
+      1e-3 * (masses.submerged_mass + masses.under_hull_mass + masses.under_ice_mass), 1e-3 * masses.brash_mass,
+      1e-3 * masses.imbalance);
+  const simulation::EnergyFlows& energy = summary.audit.sums.energy;
+  const simulation::BoundaryFlows& boundaries = summary.audit.sums.boundaries;
+  add("energy      {:.4g} kJ in: {:.4g} drag, {:.4g} friction, {:.4g} crushing, {:.4g} collisions, {:.4g} in "
+      "motion (imbalance {:.1e} of it)\n",
+      (energy.thrust + energy.current + boundaries.wind + boundaries.walls + summary.audit.sums.initial_energy) / 1e3,
+      energy.drag / 1e3, energy.friction / 1e3, energy.crushing / 1e3, energy.restitution / 1e3,
+      summary.audit.kinetic_energy / 1e3, summary.audit.energy_imbalance / std::max(summary.audit.turnover, 1e-300));
+  return text + force_lines(summary, scene);
 }
 
 }  // namespace polynya::analysis

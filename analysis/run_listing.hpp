@@ -3,14 +3,15 @@
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "io/run/run_reader.hpp"
+#include "io/run/summary.hpp"
 
 namespace polynya::analysis {
 
-// What a run has, as `polynya inspect` lists it: for people, and as JSON (docs/inspect.md).
+// What a run has, as `polynya inspect` lists it: for people, and as JSON (docs/inspect.md); and what `polynya run`
+// prints.
 
 /// A floe's shape in its body frame, or in the world at a time.
 struct ShapeView {
@@ -22,20 +23,9 @@ struct ShapeView {
 /// A feature with the floe's properties.
 std::string to_geojson(const ShapeView& view);
 
-/// A floe alive at some time.
-struct FloeRow {
-  const simulation::BirthRecord& birth;
-  const fracture::Ice& ice;
-  double perimeter = 0;  ///< [m]
-  std::size_t vertices = 0;
-  std::size_t holes = 0;
-  std::optional<double> speed;  ///< [m/s]; none between two frames
-  std::string_view validity;    ///< "yes" or a defect's name
-};
-/// The floes at that time [s], in order of their numbers; they refer to the run.
-std::vector<FloeRow> floe_rows(const io::Run& run, double time);
-std::string floe_table(const std::vector<FloeRow>& rows);
-std::string floes_json(const std::vector<FloeRow>& rows, double time);
+/// The floes at that time [s], in order of their numbers.
+std::string floe_table(const io::Run& run, double time);
+std::string floes_json(const io::Run& run, double time);
 
 /// The trunk from the scene's floe down to this one: each fracture with what decided it, and the pieces beside. As
 /// JSON, of each the fracture that broke it, as in events.ndjson.
@@ -45,5 +35,28 @@ std::string lineage_json(const io::Run& run, simulation::FloeId floe);
 /// Every event of the run in a line, as time goes: of ice, of ships that meet, of moorings that break.
 std::string event_list(const io::Run& run);
 std::string events_json(const io::Run& run);
+
+/// Floes of sizes (√area, as the fracture criteria have it) from `from` to below `below`.
+struct SizeClass {
+  double from = 0, below = 0;  ///< [m]
+  std::size_t count = 0;
+  double area = 0;          ///< of those floes [m²]
+  std::size_t from_on = 0;  ///< how many are in it or in larger classes
+};
+
+struct SizedFloe {
+  double size = 0;  ///< [m]
+  double area = 0;  ///< what its class adds up [m²]
+};
+/// Classes of 1, 2, 5 × 10ⁿ m from the least floe's to the largest's; the floes ascend by size.
+std::vector<SizeClass> size_classes(const std::vector<SizedFloe>& floes);
+
+/// The sizes of the floes alive at a time [s].
+std::string size_table(const io::Run& run, double time);
+std::string sizes_json(const io::Run& run, double time);
+
+/// What `polynya run` prints at its end: how fast it was, what broke, the ledgers of area, mass and energy, and the
+/// largest loads of each ship and structure.
+std::string result_text(const io::RunSummary& summary, const simulation::Scene& scene);
 
 }  // namespace polynya::analysis

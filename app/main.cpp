@@ -6,7 +6,7 @@
 
 #include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
-#include "app/run/memory.hpp"
+#include "app/run/load_scene.hpp"
 #include "io/run/summary.hpp"
 
 namespace polynya::app {
@@ -54,16 +54,12 @@ int report_out_of_memory() {
   return kOutOfMemory;
 }
 
-int command_line(int count, char** words) {
-  const std::string commit = kCommit.empty() ? "" : fmt::format(" ({})", kCommit);
-  return run_command_line({kExamples, kCodes, fmt::format("polynya {}{}", io::version(), commit)}, add_commands, count,
-                          words);
-}
-
 /// What the standard library throws, as an exit code.
-int guarded_command_line(int count, char** words) {
+int command_line(int count, char** words) {
   try {
-    return command_line(count, words);
+    const std::string commit = kCommit.empty() ? "" : fmt::format(" ({})", kCommit);
+    return run_command_line({kExamples, kCodes, fmt::format("polynya {}{}", io::version(), commit)}, add_commands,
+                            count, words);
   } catch (const std::bad_alloc&) {
     return report_out_of_memory();
   } catch (const std::length_error&) {
@@ -79,5 +75,5 @@ int guarded_command_line(int count, char** words) {
 
 int main(int count, char** words) {
   polynya::app::open_streams();
-  return polynya::app::close_streams(polynya::app::guarded_command_line(count, words));
+  return polynya::app::close_streams(polynya::app::command_line(count, words));
 }

@@ -23,8 +23,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
 
 class ExamplesFirst : public CLI::Formatter {
  public:
-  /// In the order in which the groups' first options were added, but --help: what a command is for comes
-  /// first.
+  /// In the order in which the groups' first options were added, but --help: what a command is for comes first.
   std::string option_groups(const CLI::App* app) const {
     std::vector<std::string> groups;
     const auto options = app->get_options([](const CLI::Option* option) { return option->nonpositional(); });

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "app/command_line/progress.hpp"
+#include "app/command_line/console.hpp"
 #include "io/scene/scene_reader.hpp"
 
 // CLI11 takes seconds to compile wherever it is included: command_line.cpp alone does.
@@ -142,8 +142,7 @@ struct ProgramText {
   std::string version;
 };
 
-/// Parses the words and runs the command that they choose, or prints help, version or what is wrong with
-/// them.
+/// Parses the words and runs the command that they choose, or prints help, version or what is wrong with them.
 int run_command_line(const ProgramText& text, const std::function<Commands(CommandLine&)>& add_commands, int count,
                      const char* const* words);
 

@@ -1,13 +1,22 @@
 #include "app/command_line/console.hpp"
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <initializer_list>
+#include <system_error>
 
 #include <fcntl.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
+
+#include "io/text/output_file.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::app {
 namespace {
@@ -44,6 +53,58 @@ extern "C" void on_signal(int signal) {
   std::signal(signal, SIG_DFL);  // the second one is not ours any more
 }
 
+/// A bar needs a terminal that can rewrite its line.
+ProgressKind kind_for_stderr(ProgressKind kind) {
+  if (kind != ProgressKind::kAuto && kind != ProgressKind::kBar) return kind;
+  const char* terminal = std::getenv("TERM");
+  const bool is_dumb = terminal != nullptr && std::strcmp(terminal, "dumb") == 0;
+  return isatty(STDERR_FILENO) != 0 && !is_dumb ? ProgressKind::kBar : ProgressKind::kLines;
+}
+
+/// As many of the fields, two blanks apart, as fit into that many columns. A longer line would wrap, and a
+/// carriage return would not lead back to its start.
+std::string fitted(const std::string& fields, int columns) {
+  const auto room = static_cast<std::size_t>(std::max(columns, 0));
+  if (fields.size() <= room) return fields;
+  const std::size_t end = fields.rfind("  ", room);
+  return fields.substr(0, end == std::string::npos ? room : end);
+}
+
+/// A bar of that many columns, in eighths.
+std::string bar(double part, int width) {
+  static constexpr const char* kEighths[] = {"", "▏", "▎", "▍", "▌", "▋", "▊", "▉"};
+  const int eighths = static_cast<int>(std::clamp(part, 0.0, 1.0) * width * 8);
+  std::string text;
+  for (int i = 0; i < eighths / 8; ++i) text += "█";
+  text += kEighths[eighths % 8];
+  for (int i = (eighths + 7) / 8; i < width; ++i) text += "░";
+  return text;
+}
+
+tl::expected<std::string, std::string> read_all(std::FILE* stream, std::size_t longest) {
+  std::string text;
+  char block[1 << 16];
+  while (const std::size_t count = std::fread(block, 1, sizeof block, stream)) {
+    text.append(block, count);
+    if (text.size() > longest) return tl::unexpected(fmt::format("more than the {} bytes allowed", longest));
+  }
+  if (std::ferror(stream)) return tl::unexpected(std::string(std::strerror(errno)));
+  return text;
+}
+
+/// Whether it is a pipe that the shell made and writes to, as `<(command)` does. Opening any other one would
+/// wait for its writer, for ever where there is none.
+bool is_of_shell(const std::string& file) {
+  return file.starts_with("/dev/") || file.starts_with("/proc/");
+}
+
+bool is_open_as(const std::string& file, int descriptor) {
+  struct stat named {
+  }, opened{};
+  return ::stat(file.c_str(), &named) == 0 && ::fstat(descriptor, &opened) == 0 && named.st_dev == opened.st_dev &&
+         named.st_ino == opened.st_ino;
+}
+
 }  // namespace
 
 void open_streams() {
@@ -70,10 +131,6 @@ void write_err(std::string_view text) {
 ExitCode fail(ExitCode code, std::string_view message) {
   print_err("polynya: {}\n", message);
   return code;
-}
-
-ExitCode code_of(const Outcome<ExitCode>& outcome) {
-  return outcome ? *outcome : fail(outcome.error().code, outcome.error().words);
 }
 
 void print_lines(const std::vector<io::Problem>& problems) {
@@ -110,6 +167,142 @@ void watch_signals() {
 
 int stop_signal() {
   return asked;
+}
+
+ProgressOutput::ProgressOutput(ProgressKind kind)
+    : kind_(kind_for_stderr(kind)), start_(std::chrono::steady_clock::now()) {}
+
+double ProgressOutput::wall_time() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+double ProgressOutput::pause() const {
+  return kind_ == ProgressKind::kBar ? 0.1 : kind_ == ProgressKind::kLines ? 10 : 1;
+}
+
+void ProgressOutput::clear() const {
+  if (kind_ == ProgressKind::kBar) show_progress("\r\x1b[K");
+}
+
+bool ProgressOutput::is_due() {
+  if (kind_ == ProgressKind::kNone) return false;
+  const double now = wall_time();
+  if (now - last_shown_ < pause()) return false;
+  last_shown_ = now;
+  return true;
+}
+
+void ProgressOutput::show(const ProgressReport& report) const {
+  std::string line;
+  if (kind_ == ProgressKind::kJson) {
+    line = report.json + "\n";
+  } else if (kind_ == ProgressKind::kLines) {
+    line = report.words + "\n";
+  } else {
+    winsize size{};
+    const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    const int columns = (is_known ? size.ws_col : 80) - 1;  // the last one would wrap some terminals
+    const int room = columns - static_cast<int>(report.words.size()) - 1;
+    line = fmt::format("\r{}{}\x1b[K", room >= 8 && report.part >= 0 ? bar(report.part, std::min(room, 40)) + " " : "",
+                       fitted(report.words, columns));
+  }
+  show_progress(line);
+}
+
+void ProgressOutput::finish(const ProgressReport& report) const {
+  if (kind_ == ProgressKind::kBar || kind_ == ProgressKind::kJson) show(report);
+  if (kind_ == ProgressKind::kBar) show_progress("\n");
+}
+
+WorkProgress::WorkProgress(ProgressKind kind, std::string work) : output_(kind), work_(std::move(work)) {
+  if (output_.kind() == ProgressKind::kNone) return;
+  try {
+    thread_ = std::jthread([this](const std::stop_token& stop) { show_until(stop); });
+  } catch (const std::system_error&) {  // no thread: nothing is shown
+  }
+}
+
+WorkProgress::~WorkProgress() {
+  thread_.request_stop();
+}
+
+void WorkProgress::show_until(const std::stop_token& stop) {
+  constexpr double kFirst = 2;  // [s]
+  double pause = std::max(kFirst, output_.pause());
+  bool is_shown = false;
+  std::unique_lock lock(mutex_);
+  while (
+      !ended_.wait_for(lock, stop, std::chrono::duration<double>(pause), [&stop] { return stop.stop_requested(); })) {
+    output_.show(report());
+    is_shown = true;
+    pause = output_.pause();
+  }
+  if (is_shown) output_.clear();
+}
+
+ProgressReport WorkProgress::report() const {
+  const double part = part_, wall = output_.wall_time();
+  const std::string percent = part >= 0 ? fmt::format("{:3.0f} %  ", 100 * part) : "";
+  return {part, fmt::format("{}{}  {}", percent, work_, clock_time(wall)),
+          fmt::format(R"({{"work":"{}","part":{},"wall_time_s":{:.3f}}})", work_,
+                      part >= 0 ? fmt::format("{:.4g}", part) : "null", wall)};
+}
+
+std::string clock_time(double seconds) {
+  const auto whole = std::llround(seconds);
+  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+tl::expected<std::string, std::string> read_input(const std::string& file, std::size_t longest) {
+  if (file == "-") return read_all(stdin, longest);
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (is_fifo(status) && !is_of_shell(file))
+    return tl::unexpected(fmt::format("a named pipe; read it from stdin: - < {}", file));
+  if (!is_fifo(status) && !is_character_file(status)) return io::read_text_file(file, longest);
+  std::FILE* const stream = std::fopen(file.c_str(), "r");
+  if (!stream) return tl::unexpected(std::string(std::strerror(errno)));
+  auto text = read_all(stream, longest);
+  std::fclose(stream);
+  return text;
+}
+
+std::string input_name(const std::string& file) {
+  return file == "-" ? "stdin" : file;
+}
+
+io::Result<io::Run> read_run(const std::string& folder, ProgressKind progress) {
+  return with_progress(progress, "reading the run", [&] { return io::read_run(folder); });
+}
+
+bool is_stdout(const std::string& file) {
+  return file == "-" || is_open_as(file, STDOUT_FILENO);
+}
+
+io::Result<> write_output(const std::string& file, const std::string& text) {
+  // Replacing the file that a stream goes to would lose what else is written there.
+  if (is_stdout(file))
+    write_out(text);
+  else if (is_open_as(file, STDERR_FILENO))
+    write_err(text);
+  else
+    return io::write_named_file(file, text);
+  return {};
+}
+
+io::Result<> make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return io::fail(folder.string() + ": " + error.message());
+  return {};
+}
+
+io::Result<> write_product(const std::string& out, const std::string& run, std::string_view name,
+                           const std::string& text) {
+  if (out.empty()) return io::write_whole_file(std::filesystem::path(run) / name, text);
+  static_cast<void>(make_folder(out));  // writing reports what is wrong with it
+  return write_output((std::filesystem::path(out) / name).string(), text);
 }
 
 }  // namespace polynya::app

@@ -1,14 +1,23 @@
 #pragma once
 
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <thread>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <tl/expected.hpp>
 
+#include "io/run/run_reader.hpp"
 #include "io/text/problem.hpp"
+#include "io/text/source_text.hpp"
 
 namespace polynya::app {
 
@@ -26,21 +35,8 @@ enum ExitCode {
   kClosedPipe = 141,      ///< the reader of stdout or stderr went away, as a shell reports SIGPIPE
 };
 
-/// Why a command ends: its exit code, and the message, which is still to be printed.
-struct Failure {
-  ExitCode code;
-  std::string words;
-};
-template <class Value>
-using Outcome = tl::expected<Value, Failure>;
-
-inline tl::unexpected<Failure> failure(ExitCode code, std::string words) {
-  return tl::unexpected(Failure{code, std::move(words)});
-}
-
-// Every text of the program goes through here. A text that could not be written never ends in exit code 0;
-// fmt::print and std::cout are not used, since the one throws and the other forgets where stdout is a closed
-// pipe or a full disk.
+// Every text of the program goes through here. A text that could not be written never ends in exit code 0; fmt::print
+// and std::cout are not used, since the one throws and the other forgets where stdout is a closed pipe or a full disk.
 
 /// Opens what is closed of descriptors 0, 1 and 2, or the first files of a run would get them. Reading from
 /// stdin and writing to stdout and stderr fail then. Makes writing to a closed pipe, or past a file size
@@ -72,8 +68,12 @@ using io::counted;
 /// "polynya: " and the message on stderr; returns the code.
 ExitCode fail(ExitCode code, std::string_view message);
 
-/// The code that a command ends with; a failure's message goes to stderr.
-ExitCode code_of(const Outcome<ExitCode>& outcome);
+/// What a part of a command came to, or the code that the command ends with, whose message is on stderr by then.
+template <class Value>
+using Outcome = tl::expected<Value, ExitCode>;
+inline tl::unexpected<ExitCode> failure(ExitCode code, std::string_view message) {
+  return tl::unexpected(fail(code, message));
+}
 
 /// Shows how far some work is, on stderr. It may be lost.
 void show_progress(std::string_view text);
@@ -89,5 +89,106 @@ void watch_signals();
 
 /// The signal that asked to stop, or 0.
 int stop_signal();
+
+enum class ProgressKind {
+  kAuto,  ///< a bar on a terminal, else a line now and then
+  kBar,   ///< where stderr is a terminal, else kLines
+  kLines,
+  kJson,  ///< one object a second on stderr
+  kNone,
+};
+
+/// One report of how far some work is, in each of its forms.
+struct ProgressReport {
+  double part = 0;    ///< done, 0..1; negative where that is not known
+  std::string words;  ///< a line, or behind the bar: ASCII, fields two blanks apart, the important ones first
+  std::string json;   ///< one object, without its newline
+};
+
+/// Prints reports on stderr, at the pace of their kind.
+class ProgressOutput {
+ public:
+  explicit ProgressOutput(ProgressKind kind);
+
+  /// Whether it is time for a report; cheap to call often.
+  bool is_due();
+  void show(const ProgressReport& report) const;
+  /// Takes a bar away.
+  void clear() const;
+  double pause() const;  ///< between two reports [s]
+  ProgressKind kind() const { return kind_; }
+  /// The last report: completes a bar, or is one object more.
+  void finish(const ProgressReport& report) const;
+
+  double wall_time() const;  ///< since construction [s]
+
+ private:
+  ProgressKind kind_;
+  std::chrono::steady_clock::time_point start_;
+  double last_shown_ = 0;  ///< wall time [s]
+};
+
+/// Shows on stderr, from a thread of its own, that some work goes on: from its third second on (lines: from
+/// the tenth), with how much is done where that is known. A bar is cleared when the work ends, so that
+/// messages stand on lines of their own.
+class WorkProgress {
+ public:
+  /// `work` is what is done: "reading the run".
+  WorkProgress(ProgressKind kind, std::string work);
+  WorkProgress(const WorkProgress&) = delete;
+  WorkProgress& operator=(const WorkProgress&) = delete;
+  ~WorkProgress();
+
+  void set_part(double part) { part_ = part; }  ///< done, 0..1
+
+ private:
+  void show_until(const std::stop_token& stop);
+  ProgressReport report() const;
+
+  ProgressOutput output_;
+  std::string work_;
+  std::atomic<double> part_ = -1;
+  std::mutex mutex_;
+  std::condition_variable_any ended_;
+  std::jthread thread_;  ///< the last member: it uses the others
+};
+
+/// What `work` returns, with its progress shown while it goes on.
+template <class Work>
+auto with_progress(ProgressKind kind, std::string name, Work work) {
+  WorkProgress progress(kind, std::move(name));
+  if constexpr (std::is_invocable_v<Work, WorkProgress&>)
+    return work(progress);
+  else
+    return work();
+}
+
+/// "1:05", "2:03:04".
+std::string clock_time(double seconds);
+
+/// The whole of a file, or of stdin where its name is "-", or what is wrong with it in words. What is longer
+/// than `longest` bytes is refused, and a named pipe, but for those that the shell makes (`<(command)`).
+tl::expected<std::string, std::string> read_input(const std::string& file, std::size_t longest);
+
+/// What an input is called in messages: the file's name, or "stdin".
+std::string input_name(const std::string& file);
+
+/// A run's folder, with its progress on stderr (io/run/run_reader.hpp).
+io::Result<io::Run> read_run(const std::string& folder, ProgressKind progress);
+
+/// Whether the name means the program's own stdout: "-", "/dev/stdout", or the file that stdout goes to.
+bool is_stdout(const std::string& file);
+
+/// Writes to a name that a user gave: to a file, or into a pipe, a device or the program's own stdout or
+/// stderr, whose failures close_streams() reports.
+io::Result<> write_output(const std::string& file, const std::string& text);
+
+/// Makes a folder that a user named, with those above it.
+io::Result<> make_folder(const std::filesystem::path& folder);
+
+/// Writes what a command makes of a run: into the folder `out` that a user named, which is made where it is
+/// missing, or where that is empty into the run's, where links are not followed.
+io::Result<> write_product(const std::string& out, const std::string& run, std::string_view name,
+                           const std::string& text);
 
 }  // namespace polynya::app

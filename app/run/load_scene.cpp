@@ -1,10 +1,11 @@
 #include "app/run/load_scene.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
-#include "app/command_line/console.hpp"
-#include "app/command_line/files.hpp"
+#include "io/run/run_folder.hpp"
+#include "simulation/world/memory_estimate.hpp"
 
 namespace polynya::app {
 namespace {
@@ -23,8 +24,7 @@ std::string against(const LognormalSizes& law, const FieldStatistics& field) {
   const auto* fitted = field.fitted ? std::get_if<LognormalSizes>(&*field.fitted) : nullptr;
   if (!fitted) return against(EqualSizes{law.mean}, field);
   return fmt::format(
-      "log-normal sizes of {:g} m ± {:.3g} % asked for, {:.4g} m ± {:.3g} % likeliest; Kolmogorov-Smirnov "
-      "distance "
+      "log-normal sizes of {:g} m ± {:.3g} % asked for, {:.4g} m ± {:.3g} % likeliest; Kolmogorov-Smirnov distance "
       "{:.4f}",
       law.mean, 100 * law.spread, fitted->mean, 100 * fitted->spread, field.distance_to_law);
 }
@@ -32,10 +32,14 @@ std::string against(const LognormalSizes& law, const FieldStatistics& field) {
 std::string against(const PowerLawSizes& law, const FieldStatistics& field) {
   const auto* fitted = field.fitted ? std::get_if<PowerLawSizes>(&*field.fitted) : nullptr;
   return fmt::format(
-      "power law of exponent {:g} from {:g} to {:g} m asked for, exponent {:.4g} likeliest; "
-      "Kolmogorov-Smirnov "
+      "power law of exponent {:g} from {:g} to {:g} m asked for, exponent {:.4g} likeliest; Kolmogorov-Smirnov "
       "distance {:.4f}",
       law.exponent, law.least, law.largest, fitted ? fitted->exponent : 0, field.distance_to_law);
+}
+
+/// "2.15 GB"
+std::string amount_of_memory(double bytes) {
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.3g} GB", bytes / 1e9);
 }
 
 }  // namespace
@@ -45,20 +49,19 @@ void print_problems(const std::string& name, const std::vector<io::Problem>& pro
   print_err("polynya: {} in {}; nothing was written\n", counted(problems.size(), "problem"), name);
 }
 
-tl::expected<io::LoadedScene, ExitCode> load_scene(const std::string& file, const io::SceneOverrides& overrides,
-                                                   ProblemFormat format, ProgressKind progress) {
-  const bool is_json = format == ProblemFormat::kJson;
+Outcome<io::LoadedScene> load_scene(const std::string& file, const io::SceneOverrides& overrides, ProgressKind progress,
+                                    bool as_json) {
   const std::string name = input_name(file);
   auto text = with_progress(progress, "reading the scene", [&] { return read_input(file, io::kLongestScene); });
   if (!text) {
-    if (is_json) write_out(io::to_json_text({{.file = name, .sentence = text.error()}}));
-    return tl::unexpected(fail(kInputOutput, fmt::format("{}: {}", name, text.error())));
+    if (as_json) write_out(io::to_json_text({{.file = name, .sentence = text.error()}}));
+    return failure(kInputOutput, fmt::format("{}: {}", name, text.error()));
   }
   auto loaded = with_progress(progress, "making the scene", [&] {
     return io::read_scene(std::move(*text), name, std::filesystem::path(file).parent_path(), overrides);
   });
   if (loaded) return std::move(*loaded);
-  if (is_json)
+  if (as_json)
     write_out(io::to_json_text(loaded.error()));
   else
     print_problems(name, loaded.error());
@@ -76,12 +79,40 @@ void print_fields(const io::LoadedScene& scene) {
     const std::string law = std::visit([&](const auto& asked) { return against(asked, statistics); }, statistics.law);
     print_out("floes[{}]: {}\n", field.group, law);
     print_out(
-        "floes[{}]: sizes {:.4g} to {:.4g} m, length / width {:.3g} and {:.3g} corners on average, overlap "
-        "0, gaps "
+        "floes[{}]: sizes {:.4g} to {:.4g} m, length / width {:.3g} and {:.3g} corners on average, overlap 0, gaps "
         "of {:g} m and more\n",
         field.group, statistics.least_size, statistics.largest_size, statistics.mean_aspect, statistics.mean_corners,
         field.gap);
   }
+}
+
+bool may_fit(const simulation::Scene& scene, const std::string& name, const io::MemoryAvailable& available) {
+  const simulation::MemoryEstimate needed = simulation::estimate_memory(scene);
+  if (needed.at_start > available.bytes) {
+    print_err("polynya: {}: {} take at least {} of memory, and there are {} ({}); nothing was written; {}\n", name,
+              counted(scene.floes.size(), "floe"), amount_of_memory(needed.at_start), amount_of_memory(available.bytes),
+              available.source, kToNeedLessMemory);
+    return false;
+  }
+  if (needed.all_moving > available.bytes) {
+    print_err("note: {}: the run takes about {} of memory if all floes come to move and touch, and there are {} ({})\n",
+              name, amount_of_memory(needed.all_moving), amount_of_memory(available.bytes), available.source);
+  }
+  return true;
+}
+
+void print_folder_size(const simulation::Scene& scene, bool has_final_geojson) {
+  if (scene.floes.size() <= io::kMostFloesInFinal) return;
+  const io::FolderSize size = io::estimate_folder_size(scene);
+  print_err("note: {} begin floes.ndjson with about {}; final.geojson, about {}, {}\n",
+            counted(scene.floes.size(), "floe"), amount_of_memory(size.floes), amount_of_memory(size.final_geojson),
+            has_final_geojson ? "is written at the end" : "is written only with --final-geojson");
+}
+
+std::string out_of_memory() {
+  const io::MemoryAvailable available = io::memory_available();
+  if (!std::isfinite(available.bytes)) return "out of memory";
+  return fmt::format("out of memory: there are {} in all ({})", amount_of_memory(available.bytes), available.source);
 }
 
 }  // namespace polynya::app

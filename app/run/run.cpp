@@ -5,11 +5,10 @@
 #include <optional>
 #include <utility>
 
-#include "analysis/run_result.hpp"
+#include "analysis/run_listing.hpp"
 #include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/run/load_scene.hpp"
-#include "app/run/memory.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_loop.hpp"
 #include "io/run/run_reader.hpp"
@@ -64,30 +63,14 @@ void report_stop(const io::ActiveRun& run, const io::RunResult& result) {
 
 void report_dump(const std::string& folder, const io::Result<>& dump) {
   if (dump)
-    print_err(
-        "polynya: the state before the step that failed is in failure.bin: polynya resume {} "
-        "--from-failure\n",
-        folder);
+    print_err("polynya: the state before the step that failed is in failure.bin: polynya resume {} --from-failure\n",
+              folder);
   else
     print_err("polynya: the failure could not be dumped: {}\n", dump.error());
 }
 
-ExitCode exit_code_of(RunEnd end) {
-  switch (end) {
-    case RunEnd::kFinished:
-      return kDone;
-    case RunEnd::kStopped:
-      return kStopped;
-    case RunEnd::kNumericalFailure:
-      return kNumericalFailure;
-    case RunEnd::kFolderFailure:
-      return kInputOutput;
-  }
-  return kDone;
-}
-
 ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
-  { const simulation::Simulation freed = std::move(run.simulation); }  // makes room for the map
+  { const Simulation freed = std::move(run.simulation); }  // makes room for the map
   const fs::path& folder = run.writer.folder();
   const io::Result<std::string> picture = no_map || result.end == RunEnd::kFolderFailure ? "" : draw_map(folder);
   if (!picture) {
@@ -101,7 +84,10 @@ ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
     print_out("{}run folder  {}\n", analysis::result_text(result.summary, run.scene.scene), folder.string());
     if (!picture->empty()) print_out("picture     {}\n", (folder / *picture).string());
   }
-  return exit_code_of(result.end);
+  return result.end == RunEnd::kFinished           ? kDone
+         : result.end == RunEnd::kStopped          ? kStopped
+         : result.end == RunEnd::kNumericalFailure ? kNumericalFailure
+                                                   : kInputOutput;
 }
 
 void add_run_options(CommandLine& command, DriverOptions& options) {
@@ -176,42 +162,40 @@ struct RunOptions {
 
 /// A run before its first step. Whether it fits into memory is checked before anything is written.
 struct Start {
-  std::unique_ptr<io::LoadedScene> scene;
-  std::unique_ptr<simulation::Simulation> simulation;
+  io::LoadedScene scene;
+  Simulation simulation;
 };
 
-tl::expected<Start, ExitCode> start_of(const RunOptions& options) {
+Outcome<Start> start_of(const RunOptions& options) {
   try {
     auto loaded = load_scene(options.scene,
                              {.until = options.until,
                               .seed = options.seed,
                               .assignments = assignments_of(options.set),
                               .panel_length = options.panel},
-                             ProblemFormat::kText, options.driver.progress);
+                             options.driver.progress);
     if (!loaded) return tl::unexpected(loaded.error());
     print_lines(loaded->hints);
     print_fields(*loaded);
     if (!may_fit(loaded->scene, options.scene, io::memory_available())) return tl::unexpected(kOutOfMemory);
     print_folder_size(loaded->scene, options.driver.control.final_geojson);
-    Start start;
-    start.simulation = std::make_unique<simulation::Simulation>(loaded->scene);
-    start.scene = std::make_unique<io::LoadedScene>(std::move(*loaded));
-    return start;
+    Simulation simulation(loaded->scene);
+    return Start{*std::move(loaded), std::move(simulation)};
   } catch (const std::bad_alloc&) {
-    return tl::unexpected(fail(kOutOfMemory, fmt::format("{}: {}; nothing was written; {}", options.scene,
-                                                         out_of_memory(), kToNeedLessMemory)));
+    return failure(kOutOfMemory,
+                   fmt::format("{}: {}; nothing was written; {}", options.scene, out_of_memory(), kToNeedLessMemory));
   }
 }
 
 int run(const RunOptions& options) {
-  const auto start = start_of(options);
+  auto start = start_of(options);
   if (!start) return start.error();
-  const fs::path folder = options.out.empty() ? fs::path("runs") / start->scene->scene.name : fs::path(options.out);
+  const fs::path folder = options.out.empty() ? fs::path("runs") / start->scene.scene.name : fs::path(options.out);
   watch_signals();
   return within_memory(folder, [&]() -> int {
-    auto writer = io::RunWriter::create(folder, options.overwrite, *start->scene);
+    auto writer = io::RunWriter::create(folder, options.overwrite, start->scene);
     if (!writer) return fail(kInputOutput, writer.error());
-    return drive_run({*start->scene, std::move(*start->simulation), std::move(*writer)}, options.driver);
+    return drive_run({start->scene, std::move(start->simulation), std::move(*writer)}, options.driver);
   });
 }
 
@@ -257,8 +241,7 @@ std::string no_run_in(const fs::path& folder) {
   const std::string name = folder.string();
   if (io::is_marked_run_folder(folder))
     return fmt::format(
-        "{0}: no run to resume: polynya was killed before it had written {1}; start the run again: polynya "
-        "run "
+        "{0}: no run to resume: polynya was killed before it had written {1}; start the run again: polynya run "
         "SCENE --out {0} --overwrite",
         name, io::run_file::kScene);
   return fmt::format("{}: no run to resume: there is no {}", name, io::run_file::kScene);
@@ -317,8 +300,8 @@ int resume(const ResumeOptions& options) {
   if (const auto end = finished())
     return report_finished(folder, *end, options.driver.no_map);  // by another polynya meanwhile
   watch_signals();
-  const auto scene = load_scene(scene_file.string(), {.until = options.until, .seed = {}, .assignments = {}},
-                                ProblemFormat::kText, options.driver.progress);
+  const auto scene =
+      load_scene(scene_file.string(), {.until = options.until, .seed = {}, .assignments = {}}, options.driver.progress);
   if (!scene) return scene.error();
   return within_memory(folder, [&] { return resume_from_checkpoint(*scene, std::move(*lock), options); });
 }

@@ -2,13 +2,60 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
-#include "geometry/contact/contact_circles.hpp"
-#include "geometry/shape/pose.hpp"
+#include "geometry/shape/polygon.hpp"
 
 namespace polynya::geometry {
+
+/// All boundaries of a polygon as one flat list of edges, rings one after the other, the outer one first.
+/// Edge i runs from vertices[i] to vertices[next[i]], with the interior on its left.
+struct EdgeList {
+  std::vector<Point> vertices;
+  std::vector<std::uint32_t> next;
+  std::vector<std::uint32_t> ring;  ///< 0 for the outer ring, then the holes
+
+  std::size_t size() const { return vertices.size(); }
+  bool has_holes() const { return ring.back() > 0; }
+  Point from(std::uint32_t edge) const { return vertices[edge]; }
+  Point to(std::uint32_t edge) const { return vertices[next[edge]]; }
+};
+
+EdgeList edge_list(const Polygon& polygon);
+
+/// The edges that a piece of boundary lies on.
+struct PieceEdges {
+  std::uint32_t first_edge = 0;
+  std::uint32_t edges = 1;  ///< this many in all, the next ones of the same ring
+};
+
+/// A piece of boundary with one contact circle: a part of one long edge, or some short edges in a row.
+struct BoundaryPiece : PieceEdges {
+  Point middle;                   ///< half-way along it, on the boundary, in the body frame [m]
+  double reach = 0;               ///< no point of it is farther from the middle [m]
+  std::uint32_t middle_edge = 0;  ///< the edge that the middle is on
+};
+
+/// All boundaries of a polygon in pieces, in ring order, one per `radius` of boundary or less, but no more
+/// than `most` of them on one edge.
+std::vector<BoundaryPiece> boundary_pieces(const EdgeList& edges, double radius,
+                                           double most = std::numeric_limits<double>::infinity());
+
+/// A circle that touches the boundary from inside at the middle of its piece.
+struct ContactCircle {
+  Point centre;       ///< in the body frame [m]
+  double radius = 0;  ///< at most the setting's; smaller where the ice is too narrow for it [m]
+  double reach = 0;   ///< no point of its piece of boundary is farther from the centre [m]
+};
+
+/// The contact circles of the pieces of a polygon's boundaries, one each.
+/// [Sawamura2017] sets them along waterline and floe edges with a radius of 1.0 m.
+/// Deviation: a circle never leaves the ice. Near corners and in narrow places it shrinks until it touches
+/// the boundary twice, so the circles' union tends to the polygon as the radius tends to zero.
+std::vector<ContactCircle> sample_contact_circles(const EdgeList& edges, const std::vector<BoundaryPiece>& pieces,
+                                                  double radius);
 
 /// A circle that holds a piece of boundary.
 struct BoundingCircle {
@@ -30,12 +77,6 @@ struct CircleRule {
   double circle_radius = 1.0;  ///< of contact circles, and the most length of a piece [m]
   bool has_circles = false;    ///< contact circles, for find_circle_manifolds: bounding circles then share
                                ///< their centres; without, they stand on the boundary and are tighter
-};
-
-/// The edges that a piece of boundary lies on.
-struct PieceEdges {
-  std::uint32_t first_edge = 0;
-  std::uint32_t edges = 1;  ///< this many in all, the next ones of the same ring
 };
 
 /// What finds the parts of two boundaries that are near each other: pieces of one, their bounding circles and
@@ -103,9 +144,8 @@ inline bool have_few_edges(const EdgeList& a, const EdgeList& b) {
   return a.size() + b.size() <= kFewEdges;
 }
 
-/// The pairs of edges of two boundaries of few edges (have_few_edges) within `margin` of each other [m], in
-/// order. Returns a lower bound of the distance between the boundaries [m], of use where nothing is within
-/// the margin.
+/// The pairs of edges of two boundaries of few edges (have_few_edges) within `margin` of each other [m], in order.
+/// Returns a lower bound of the distance between the boundaries [m], of use where nothing is within the margin.
 double near_edges(const EdgeList& a, const EdgeList& b, const Pose& a_from_b, double margin, NearEdges& edges);
 
 /// The pairs of edges on the pieces of pairs of bounding circles, each once, in order.
@@ -179,12 +219,11 @@ struct ManifoldScratch {
   std::vector<OverlapPoint> loop_points;
 };
 
-/// The contact manifolds of two overlapping bodies, from the edges near each other (edges_of): one for each
-/// connected overlap. Where one stretch of each boundary makes it, the contact line joins the points where
-/// the boundaries cross and the normal stands on it; where several do (a body is pierced), line and normal
-/// follow from the gradient of the overlap's area, which is the same rule. Appends to `manifolds`. Returns
-/// how many overlaps were left out because their crossings did not pair up (rounding at a touching vertex;
-/// they pair up one step later).
+/// The contact manifolds of two overlapping bodies, from the edges near each other (edges_of): one for each connected
+/// overlap. Where one stretch of each boundary makes it, the contact line joins the points where the boundaries cross
+/// and the normal stands on it; where several do (a body is pierced), line and normal follow from the gradient of the
+/// overlap's area, which is the same rule. Appends to `manifolds`. Returns how many overlaps were left out because
+/// their crossings did not pair up (rounding at a touching vertex; they pair up one step later).
 int find_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b, const NearEdges& edges,
                    ManifoldScratch& scratch, std::vector<ContactManifold>& manifolds);
 

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "geometry/contact/boundary.hpp"
-#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/shape/avx2_clone.hpp"
 
 namespace polynya::geometry {
@@ -19,8 +19,7 @@ using Crossing = ManifoldScratch::Crossing;
 /// Some pairs of edges side by side, for a loop that the compiler turns into vector instructions. Plain
 /// arrays: it does not of those that check their indices.
 struct EdgeLanes {
-  // Four vector instructions of four doubles. Fewer leave their time to the loop, more to lanes that are not
-  // used.
+  // Four vector instructions of four doubles. Fewer leave their time to the loop, more to lanes that are not used.
   static constexpr std::size_t kMost = 16;
   double along_a[kMost], along_b[kMost];  // where their lines meet, as shares of the edges
   double starts_inside[kMost];            // 1 or 0
@@ -125,15 +124,6 @@ void find_crossings(const Pose& a_from_b, const NearEdges& edges, std::vector<Cr
                            lanes.starts_inside[i] == 0, 0});
     }
   }
-}
-
-/// Orders the scratch's crossings along a, and a copy of them along b.
-void order_crossings(const Boundary& a, const Boundary& b, ManifoldScratch& scratch) {
-  std::vector<Crossing>& by_a = scratch.crossings;
-  order_along(kOnA, a.edges.ring, by_a);
-  for (std::uint32_t i = 0; i < by_a.size(); ++i) by_a[i].place_on_a = i;
-  scratch.by_b = by_a;
-  order_along(kOnB, b.edges.ring, scratch.by_b);
 }
 
 /// The crossing that follows number i along its ring, in an order of crossings.
@@ -383,8 +373,7 @@ ContactManifold gradient_manifold(const Boundary& a, const Boundary& b, const Po
 
 // ---- overlaps of one stretch of each boundary
 
-/// What a chain of vertices adds to a manifold: area between chain and contact line, and how far it reaches
-/// off it.
+/// What a chain of vertices adds to a manifold: area between chain and contact line, and how far it reaches off it.
 struct ChainExtent {
   double area = 0;
   double depth = 0;
@@ -433,13 +422,11 @@ double off_at(const std::vector<Point>& profile, double along) {
   return off;
 }
 
-/// Greatest thickness of the overlap across the contact line: it is at a vertex of either side. The sides'
-/// greatest extents do not simply add: two faces shifted along each other reach farthest at opposite ends of
-/// the line.
+/// Greatest thickness of the overlap across the contact line: it is at a vertex of either side. The sides' greatest
+/// extents do not simply add: two faces shifted along each other reach farthest at opposite ends of the line.
 double thickness_of(const std::vector<Point>& a_side, const std::vector<Point>& b_side, double line) {
-  // Of the sides' corners. Beyond, the sum of both extents stands for the thickness, which is too large where
-  // faces are shifted along each other: bodies that lie deep in each other. More costs the product, in every
-  // step.
+  // Of the sides' corners. Beyond, the sum of both extents stands for the thickness, which is too large where faces are
+  // shifted along each other: bodies that lie deep in each other. More costs the product, in every step.
   constexpr std::size_t kMostProduct = 4096;
   double most = 0;
   double sum = 0;
@@ -503,7 +490,10 @@ bool add_manifold(const Boundary& a, const Boundary& b, const Pose& a_from_b, co
 /// The manifolds of boundaries that cross more than twice.
 int find_several(const Boundary& a, const Boundary& b, const Pose& a_from_b, ManifoldScratch& scratch,
                  std::vector<ContactManifold>& manifolds) {
-  order_crossings(a, b, scratch);
+  order_along(kOnA, a.edges.ring, scratch.crossings);
+  for (std::uint32_t i = 0; i < scratch.crossings.size(); ++i) scratch.crossings[i].place_on_a = i;
+  scratch.by_b = scratch.crossings;
+  order_along(kOnB, b.edges.ring, scratch.by_b);
   trace_loops(a, b, scratch);
   measure_loops(a, b, a_from_b, scratch);
   int left_out = 0;

@@ -26,8 +26,7 @@ struct CutLedger {
   double area_slivers = 0;     ///< what was too narrow to survive rounding and is in no piece [m²]
   int slivers = 0;             ///< how many such
   double rounding_defect = 0;  ///< (pieces as returned + slivers) − (exact pieces), nearest double [m²]
-  bool exact_balance = false;  ///< Σ exact pieces − parent is exactly 0, checked in rationals
-  std::string exact_defect;    ///< that difference as a rational [m²]: "0", or the cut is refused
+  std::string exact_defect;    ///< Σ exact pieces − parent as a rational [m²]: "0", or the cut is refused
   double dangling_length = 0;  ///< of crack that runs in the ice and separates nothing [m]
   int snap_rounded = 0;        ///< exact pieces whose nearest doubles were not valid, rounded another way
 };
@@ -59,8 +58,7 @@ using CutOutcome = tl::expected<CutResult, CutError>;
 /// A transaction: pieces outside and inside whose exact areas sum to the shape's, or an error and no change.
 CutOutcome cut_by_polygon(const Shape& shape, const Polygon& tool_in_body);
 
-/// The same with a tool of several polygons with holes, which may touch or overlap: what any of them covers
-/// is inside.
+/// The same with a tool of several polygons with holes, which may touch or overlap: what any of them covers is inside.
 CutOutcome cut_by_polygons(const Shape& shape, const std::vector<Polygon>& tools_in_body);
 
 /// Cuts a shape along an open polyline in its body frame (a crack). The polyline separates where it crosses
@@ -70,5 +68,39 @@ CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_b
 /// A regular polygon inscribed in a circle, with as many vertices as keep its sagitta within `sagitta` [m].
 /// Counter-clockwise. Throws nothing; radius and sagitta must be > 0.
 Ring disc_polygon(Point centre, double radius, double sagitta);
+
+// ---- repair
+
+/// Which points rings that cross themselves and each other enclose.
+enum class FillRule {
+  kEvenOdd,  ///< those from which a ray crosses the rings an odd number of times
+  kNonZero,  ///< those the rings wind around
+};
+
+struct Repaired {
+  std::vector<Shape> shapes;  ///< valid, disjoint; ordered by lowest vertex
+  double area_drawn = 0;      ///< Σ signed areas of the rings as given, as a magnitude [m²]
+  double area = 0;            ///< of all shapes [m²]
+  double area_changed = 0;    ///< repaired − drawn, from exact areas [m²]
+  CutLedger ledger;           ///< of rounding the crossings; its `area_before` is the exact repaired area
+};
+
+/// Makes valid polygons of rings that are not, exactly, on request only: nothing else in this room repairs.
+/// Repeated points are dropped and enclose nothing; rings of fewer than three points too. Fails where a
+/// coordinate is not finite (kInvalidShape) or where nothing is enclosed (kMisses).
+tl::expected<Repaired, CutError> repair(const std::vector<Ring>& rings, FillRule rule);
+
+/// The union of valid polygons, which may touch and overlap, exact but for one rounding of its vertices.
+tl::expected<std::vector<Polygon>, CutError> union_of(const std::vector<Polygon>& polygons);
+
+/// All rings of a polygon, the outer one first.
+std::vector<Ring> rings_of(const Polygon& polygon);
+
+/// The ring without points equal to the one before, a closing point included.
+Ring without_repeats(const Ring& ring);
+
+/// The polygon without repeated points, its outer ring counter-clockwise and its holes clockwise, as
+/// find_defect and the cuts expect. Nothing else changes.
+Polygon normalised(const Polygon& polygon);
 
 }  // namespace polynya::geometry

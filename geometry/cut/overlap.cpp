@@ -8,8 +8,8 @@
 
 #include "geometry/cut/internal/arrangement.hpp"
 #include "geometry/cut/internal/cut_paths.hpp"
-#include "geometry/exact/internal/predicates.hpp"
 #include "geometry/exact/measures.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/shape/box_tree.hpp"
 #include "geometry/shape/outline.hpp"
 
@@ -64,6 +64,22 @@ RingInFrame ring_in_frame(const Pose& world_from_a, const Polygon& b, const Pose
   return in_a;
 }
 
+// Whether `a` has an edge with all of `a` on its left and all of `b` on its right. Vertices of `a` may lie beyond it by
+// so much, those of `b` by so much [m]; a negative one keeps them off it.
+bool has_separating_edge(const Ring& a, const Ring& b, double most_of_a, double most_of_b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Point from = a[i];
+    const Vector edge = a[(i + 1) % a.size()] - from;
+    const double size = length(edge);
+    if (size == 0) continue;
+    const auto side = [&](Point p) { return cross(edge, p - from); };
+    if (std::ranges::all_of(b, [&](Point p) { return side(p) <= most_of_b * size; }) &&
+        std::ranges::all_of(a, [&](Point p) { return side(p) >= -most_of_a * size; }))
+      return true;
+  }
+  return false;
+}
+
 // Whether an edge of one leaves the other so far aside that rounding cannot have done it: they share nothing.
 bool are_apart(const Ring& a, const RingInFrame& b) {
   double size = 0;
@@ -85,60 +101,47 @@ bool overlap_deeply(const Box& a, const Box& b) {
          std::min(a.high.y, b.high.y) - std::max(a.low.y, b.low.y) > kTouchingDepth;
 }
 
-/// Shared area of two valid polygons [m²], found exactly.
-double area_in_common(const Polygon& a, const Polygon& b) {
-  const auto cut = cut_by_polygon({a}, b);
-  if (cut) return cut->ledger.area_inside;
-  return cut.error().reason == CutFailure::kMisses ? 0 : std::numeric_limits<double>::quiet_NaN();
-}
-
 /// Of the polygon about a disc of the gap: its corners reach 1/cos(15°), 4 % beyond it. More make floes'
 /// corners rounder and cuts slower.
 constexpr int kDiscSides = 12;
-/// What a gap takes less of is rounding [m²]. With 0 floes that are a gap apart already are cut again and
-/// again.
+/// What a gap takes less of is rounding [m²]. With 0 floes that are a gap apart already are cut again and again.
 constexpr double kLeastStrip = 1e-9;
 
-/// Cuts tools off one polygon.
-class Trimmer {
- public:
-  Trimmer(const Polygon& polygon, Trimmed& trimmed) : trimmed_(trimmed) { trimmed_.pieces = {polygon}; }
-
-  /// Whether it was cut.
-  bool cut_off(const Polygon& tool, double least_area) {
-    const Box box = bounding_box(tool.outer);
-    bool is_cut = false;
-    std::vector<Polygon> left;
-    for (Polygon& piece : trimmed_.pieces) {
-      if (trimmed_.error || !overlaps(bounding_box(piece.outer), box) || !cut_piece(piece, tool, least_area, left))
-        left.push_back(std::move(piece));
-      else
-        is_cut = true;
-    }
-    trimmed_.pieces = std::move(left);
-    if (trimmed_.error) trimmed_.pieces.clear();
-    return is_cut;
+/// Cuts a tool off a piece, where it takes more than that area; what is left is added to `left`. False where the piece
+/// stays as it is.
+bool cut_off_piece(const Polygon& piece, const Polygon& tool, double least_area, Trimmed& trimmed,
+                   std::vector<Polygon>& left) {
+  CutOutcome cut = cut_by_polygon({.polygon = piece, .known_valid = true}, tool);
+  if (!cut) {
+    if (cut.error().reason != CutFailure::kMisses) trimmed.error = std::move(cut.error());
+    return false;
   }
-
- private:
-  bool cut_piece(const Polygon& piece, const Polygon& tool, double least_area, std::vector<Polygon>& left) {
-    CutOutcome cut = cut_by_polygon({.polygon = piece, .known_valid = true}, tool);
-    if (!cut) {
-      if (cut.error().reason != CutFailure::kMisses) trimmed_.error = std::move(cut.error());
-      return false;
-    }
-    const CutLedger& ledger = cut->ledger;
-    if (ledger.area_inside + ledger.area_slivers <= least_area) return false;
-    trimmed_.area_trimmed += ledger.area_inside + ledger.area_slivers;
-    trimmed_.rounding_defect += ledger.rounding_defect;
-    for (Piece& part : cut->pieces) {
-      if (part.part == Part::kOutside) left.push_back(std::move(part.shape.polygon));
-    }
-    return true;
+  const CutLedger& ledger = cut->ledger;
+  if (ledger.area_inside + ledger.area_slivers <= least_area) return false;
+  trimmed.area_trimmed += ledger.area_inside + ledger.area_slivers;
+  trimmed.rounding_defect += ledger.rounding_defect;
+  for (Piece& part : cut->pieces) {
+    if (part.part == Part::kOutside) left.push_back(std::move(part.shape.polygon));
   }
+  return true;
+}
 
-  Trimmed& trimmed_;
-};
+/// Cuts a tool off what is left of a polygon. Whether it was cut.
+bool cut_off(const Polygon& tool, double least_area, Trimmed& trimmed) {
+  const Box box = bounding_box(tool.outer);
+  bool is_cut = false;
+  std::vector<Polygon> left;
+  for (Polygon& piece : trimmed.pieces) {
+    if (trimmed.error || !overlaps(bounding_box(piece.outer), box) ||
+        !cut_off_piece(piece, tool, least_area, trimmed, left))
+      left.push_back(std::move(piece));
+    else
+      is_cut = true;
+  }
+  trimmed.pieces = std::move(left);
+  if (trimmed.error) trimmed.pieces.clear();
+  return is_cut;
+}
 
 /// A polygon that contains every point nearer to the edge than the gap.
 Polygon around_edge(Point a, Point b, double gap) {
@@ -160,11 +163,11 @@ Box box_of(const std::vector<Polygon>& pieces) {
 }
 
 /// Cuts a strip of the gap along a ring off a polygon, where the two are near each other.
-bool cut_off_strip(const Ring& ring, double gap, Trimmer& trimmer, const Trimmed& trimmed) {
+bool cut_off_strip(const Ring& ring, double gap, Trimmed& trimmed) {
   bool is_cut = false;
   for_ring_edges(ring, [&](Point a, Point b) {
     if (trimmed.pieces.empty() || !overlaps(grown(box_around(a, b), gap), box_of(trimmed.pieces))) return;
-    is_cut = trimmer.cut_off(around_edge(a, b, gap), kLeastStrip) || is_cut;
+    is_cut = cut_off(around_edge(a, b, gap), kLeastStrip, trimmed) || is_cut;
   });
   return is_cut;
 }
@@ -178,6 +181,53 @@ std::vector<std::size_t> by_area(const std::vector<Polygon>& polygons) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return areas[i] > areas[j]; });
   return order;
+}
+
+/// Of an edge's length: a vertex that meets the edge's end meets it. Without it two corners may pass each other.
+constexpr double kSlack = 1e-9;
+/// After so much of the way a touch has become an overlap [m]. Larger, thin tips pass through and their touch
+/// is found; smaller, the overlap is less than kLeastShared (their ratio is a contact 1 µm wide).
+constexpr double kFurtherOn = 1e-3;
+/// Less is the rounding of outlines that slide along each other [m²]: with 0 these touch at once.
+constexpr double kLeastShared = 1e-9;
+
+Vector outward_of(const Ring& ring, std::size_t edge) {
+  const Vector along = ring[(edge + 1) % ring.size()] - ring[edge];
+  return -perpendicular(along) / length(along);
+}
+
+/// When a vertex moving at `velocity` meets an edge of a counter-clockwise ring from outside, if it does [s].
+std::optional<double> entry_time(Point vertex, Vector velocity, const Ring& ring, std::size_t edge) {
+  const Point start = ring[edge];
+  const Vector outward = outward_of(ring, edge);
+  const double speed_in = -dot(velocity, outward);
+  if (!(speed_in > 0)) return {};
+  const double time = dot(vertex - start, outward) / speed_in;
+  const double along = dot(vertex + time * velocity - start, perpendicular(outward));
+  const double size = distance(start, ring[(edge + 1) % ring.size()]);
+  if (along < -kSlack * size || along > (1 + kSlack) * size) return {};
+  return time;
+}
+
+/// Every vertex of one ring on every edge of the other.
+std::vector<FirstContact> meetings(const Ring& a, const Ring& b, Vector velocity, double from, double until) {
+  std::vector<FirstContact> found;
+  const auto collect = [&](const Ring& moving, const Ring& resting, Vector relative, bool is_b_resting) {
+    for (std::size_t i = 0; i < resting.size(); ++i) {
+      for (const Point vertex : moving) {
+        const auto time = entry_time(vertex, relative, resting, i);
+        if (!time || *time < from || *time > until) continue;
+        if (is_b_resting)
+          found.push_back({*time, vertex, -outward_of(resting, i)});
+        else
+          found.push_back({*time, vertex + *time * relative, outward_of(resting, i)});
+      }
+    }
+  };
+  collect(b, a, velocity, false);
+  collect(a, b, -velocity, true);
+  std::ranges::stable_sort(found, {}, &FirstContact::time);
+  return found;
 }
 
 }  // namespace
@@ -215,20 +265,6 @@ tl::expected<double, CutError> shared_area(const Polygon& a, const Pose& world_f
   return overlap({.polygon = std::move(near)}, world_from_a, {.polygon = b}, world_from_b).map(&Overlap::area);
 }
 
-bool has_separating_edge(const Ring& a, const Ring& b, double most_of_a, double most_of_b) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const Point from = a[i];
-    const Vector edge = a[(i + 1) % a.size()] - from;
-    const double size = length(edge);
-    if (size == 0) continue;
-    const auto side = [&](Point p) { return cross(edge, p - from); };
-    if (std::ranges::all_of(b, [&](Point p) { return side(p) <= most_of_b * size; }) &&
-        std::ranges::all_of(a, [&](Point p) { return side(p) >= -most_of_a * size; }))
-      return true;
-  }
-  return false;
-}
-
 Ring near_part(const Ring& ring, const Box& box) {
   if (ring.empty()) return {};
   Ring kept{ring.front()};
@@ -255,9 +291,7 @@ Ring near_part(const Ring& ring, const Box& box) {
 std::vector<OverlappingPair> find_overlapping_pairs(const std::vector<Polygon>& polygons, std::size_t most) {
   std::vector<OverlappingPair> found;
   if (polygons.empty()) return found;
-  std::vector<Box> boxes;
-  boxes.reserve(polygons.size());
-  for (const Polygon& polygon : polygons) boxes.push_back(bounding_box(polygon.outer));
+  const std::vector<Box> boxes = boxes_of(polygons, [](const Polygon& p) { return bounding_box(p.outer); });
   for (const auto& [i, j] : pairs_of_boxes(boxes)) {
     if (found.size() >= most) break;
     const Polygon& p = polygons[i];
@@ -265,7 +299,9 @@ std::vector<OverlappingPair> find_overlapping_pairs(const std::vector<Polygon>& 
     if (!overlap_deeply(boxes[i], boxes[j]) || has_separating_edge(p.outer, q.outer, kTouchingDepth, kTouchingDepth) ||
         has_separating_edge(q.outer, p.outer, kTouchingDepth, kTouchingDepth))
       continue;
-    const double area = area_in_common(p, q);
+    const auto cut = cut_by_polygon({p}, q);
+    if (!cut && cut.error().reason == CutFailure::kMisses) continue;
+    const double area = cut ? cut->ledger.area_inside : std::numeric_limits<double>::quiet_NaN();
     if (!(area <= kTouchingArea)) found.push_back({i, j, area});
   }
   return found;
@@ -273,33 +309,41 @@ std::vector<OverlappingPair> find_overlapping_pairs(const std::vector<Polygon>& 
 
 std::vector<Trimmed> make_disjoint(const std::vector<Polygon>& polygons, double gap) {
   std::vector<Trimmed> result(polygons.size());
-  std::vector<Box> boxes;
-  boxes.reserve(polygons.size());
-  for (const Polygon& polygon : polygons) boxes.push_back(grown(bounding_box(polygon.outer), 0.6 * gap));
+  const auto grown_box = [gap](const Polygon& polygon) { return grown(bounding_box(polygon.outer), 0.6 * gap); };
   const std::vector<std::size_t> order = by_area(polygons);
   std::vector<std::size_t> rank(polygons.size());
   for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = i;
   std::vector<std::vector<std::size_t>> larger(polygons.size());  // those whose boxes meet, by polygon
-  for (const auto& [a, b] : pairs_of_boxes(boxes)) {
+  for (const auto& [a, b] : pairs_of_boxes(boxes_of(polygons, grown_box))) {
     const bool is_a_larger = rank[a] < rank[b];
     larger[is_a_larger ? b : a].push_back(is_a_larger ? a : b);
   }
   for (const std::size_t i : order) {
-    Trimmer trimmer(polygons[i], result[i]);
+    result[i].pieces = {polygons[i]};
     std::sort(larger[i].begin(), larger[i].end());
     for (const std::size_t other : larger[i]) {
       bool is_cut = false;
       for (const Polygon& piece : result[other].pieces) {
-        is_cut = trimmer.cut_off(piece, kTouchingArea) || is_cut;
+        is_cut = cut_off(piece, kTouchingArea, result[i]) || is_cut;
         if (gap > 0) {
-          is_cut = cut_off_strip(piece.outer, gap, trimmer, result[i]) || is_cut;
-          for (const Ring& hole : piece.holes) is_cut = cut_off_strip(hole, gap, trimmer, result[i]) || is_cut;
+          is_cut = cut_off_strip(piece.outer, gap, result[i]) || is_cut;
+          for (const Ring& hole : piece.holes) is_cut = cut_off_strip(hole, gap, result[i]) || is_cut;
         }
       }
       if (is_cut) result[i].yields.push_back(other);
     }
   }
   return result;
+}
+
+std::optional<FirstContact> first_contact(const Ring& a, const Ring& b, Vector velocity, double from, double until) {
+  if (velocity == Vector{}) return {};
+  for (const FirstContact& touch : meetings(a, b, velocity, from, until)) {
+    const double later = touch.time + kFurtherOn / length(velocity);
+    const auto shared = overlap({{a, {}}}, {}, {{b, {}}}, {Point{} + later * velocity, {}});
+    if (!shared || shared->area > kLeastShared) return touch;
+  }
+  return {};
 }
 
 }  // namespace polynya::geometry

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/cut/cut.hpp"
+#include "geometry/shape/polygon.hpp"
 #include "geometry/shape/pose.hpp"
 
 namespace polynya::geometry {
@@ -23,14 +24,9 @@ struct Overlap {
 tl::expected<Overlap, CutError> overlap(const Shape& a, const Pose& world_from_a, const Shape& b,
                                         const Pose& world_from_b);
 
-/// The area of overlap() of two valid polygons [m²], found from the near part of the longer one and all of
-/// the other.
+/// The area of overlap() of two valid polygons [m²], found from the near part of the longer one and all of the other.
 tl::expected<double, CutError> shared_area(const Polygon& a, const Pose& world_from_a, const Polygon& b,
                                            const Pose& world_from_b);
-
-/// Whether `a` has an edge with all of `a` on its left and all of `b` on its right. Vertices of `a` may lie
-/// beyond it by so much, those of `b` by so much [m]; a negative one keeps them off it.
-bool has_separating_edge(const Ring& a, const Ring& b, double most_of_a, double most_of_b);
 
 /// The ring with vertices left out such that it winds around every point of the box as before. A run of
 /// vertices that all lie beyond one side of the box may be drawn straight without passing over it. Elsewhere
@@ -40,8 +36,7 @@ Ring near_part(const Ring& ring, const Box& box);
 /// Overlaps thinner than this are taken for the rounding of shared edges [m]. Below some 1e-12 (of
 /// coordinates of kilometres) floes that share an edge overlap.
 inline constexpr double kTouchingDepth = 1e-9;
-/// Exactly found overlaps of less area than this likewise [m²]: a shared edge of a kilometre times
-/// kTouchingDepth.
+/// Exactly found overlaps of less area than this likewise [m²]: a shared edge of a kilometre times kTouchingDepth.
 inline constexpr double kTouchingArea = 1e-6;
 
 struct OverlappingPair {
@@ -69,5 +64,17 @@ struct Trimmed {
 /// corners [m]. Shared areas of at most kTouchingArea are the rounding of shared
 /// edges and stay. All polygons must be valid. Each is cut exactly, by one of the others after the other;
 std::vector<Trimmed> make_disjoint(const std::vector<Polygon>& polygons, double gap);
+
+/// Where and when two outlines that move in straight lines without turning first meet.
+struct FirstContact {
+  double time = 0;  ///< from now on [s]
+  Point point;      ///< where that point of a is now [m]
+  Vector normal;    ///< unit, from a into b
+};
+
+/// The first contact of `a` and `b` at a time in [from, until] [s], b moving at `velocity` relative to a
+/// [m/s]; both are counter-clockwise and in one frame. A time before 0 lies in the past. Outlines that only
+/// slide along each other have none.
+std::optional<FirstContact> first_contact(const Ring& a, const Ring& b, Vector velocity, double from, double until);
 
 }  // namespace polynya::geometry

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
-#include "geometry/exact/internal/areas.hpp"
-#include "geometry/exact/internal/error_free.hpp"
 #include "geometry/exact/internal/exact_polygon.hpp"
 
 namespace polynya::geometry {
@@ -39,10 +38,9 @@ struct Difference {
   SplitDouble halves;
 };
 
-// Shoelace sum about the first vertex, in twice the digits of a double: products and sums keep their errors,
-// which go to `low`. With R the product of the farthest |x| and |y| and V the largest partial sum, one edge
-// adds at most u(8R + V) to `low`, and what adding that up n times loses, with the products of two tails, is
-// below (n + 8)²u²(8R + V).
+// Shoelace sum about the first vertex, in twice the digits of a double: products and sums keep their errors, which go
+// to `low`. With R the product of the farthest |x| and |y| and V the largest partial sum, one edge adds at most u(8R +
+// V) to `low`, and what adding that up n times loses, with the products of two tails, is below (n + 8)²u²(8R + V).
 TwiceArea twice_area(const Ring& ring) {
   TwiceArea sum;
   if (ring.size() < 3) return sum;
@@ -77,11 +75,11 @@ TwiceArea twice_area(const Ring& ring) {
 }
 
 // Half of it as the nearest double, where the doubt leaves no other.
-bool is_nearest(const TwiceArea& twice, double& area) {
+std::optional<double> nearest_half(const TwiceArea& twice) {
   const TwoDoubles sum = two_sum(twice.value, twice.low);
   const double gap = std::abs(sum.high) - std::nextafter(std::abs(sum.high), 0);  // to the closer neighbour
-  area = sum.high / 2;
-  return std::abs(sum.low) + twice.doubt < gap / 2;
+  if (std::abs(sum.low) + twice.doubt < gap / 2) return sum.high / 2;
+  return {};
 }
 
 bool is_finite(const Polygon& polygon) {
@@ -92,16 +90,16 @@ bool is_finite(const Polygon& polygon) {
 
 }  // namespace
 
-double nearest_area(const Ring& ring) {
-  double area = 0;
-  return is_nearest(twice_area(ring), area) ? area : exact_area({ring, {}});
+double signed_area(const Ring& ring) {
+  const auto nearest = nearest_half(twice_area(ring));
+  return nearest ? *nearest : exact_area({ring, {}});
 }
 
 double nearest_area(const Polygon& polygon) {
   TwiceArea sum = twice_area(polygon.outer);
   for (const Ring& hole : polygon.holes) sum += twice_area(hole);
-  double area = 0;
-  return is_nearest(sum, area) ? area : exact_area(polygon);
+  const auto nearest = nearest_half(sum);
+  return nearest ? *nearest : exact_area(polygon);
 }
 
 RingArea ring_area(const Ring& ring) {
@@ -176,8 +174,7 @@ double exact_balance(std::span<const Polygon* const> after, std::span<const Poly
 
 namespace {
 
-// Integrals over a region: of 1, of the position and of its square, each by a factor that Green's theorem
-// leaves.
+// Integrals over a region: of 1, of the position and of its square, each by a factor that Green's theorem leaves.
 struct Moments {
   Rational twice_area = 0;
   Rational six_first_x = 0;
@@ -200,8 +197,7 @@ void add(Moments& moments, const Ring& ring) {
   }
 }
 
-// Measures of a valid polygon computed in rationals and rounded once: for slivers, whose moments in doubles
-// are noise.
+// Measures of a valid polygon computed in rationals and rounded once: for slivers, whose moments in doubles are noise.
 Measures exact_measures(const Polygon& polygon) {
   Moments moments;
   add(moments, polygon.outer);
@@ -259,10 +255,6 @@ double ring_area_in_band(const Ring& ring, double half_width) {
 }
 
 }  // namespace
-
-double signed_area(const Ring& ring) {
-  return nearest_area(ring);
-}
 
 Measures measure(const Polygon& polygon) {
   if (polygon.outer.size() < 3) return {};

@@ -16,8 +16,8 @@ struct Measures {
 /// Measures of a polygon with holes (outer ring counter-clockwise, holes clockwise).
 Measures measure(const Polygon& polygon);
 
-/// Signed area of a ring, positive where it runs counter-clockwise: the nearest double of the exact area
-/// [m²].
+/// Signed area of a ring, positive where it runs counter-clockwise: the nearest double of the exact area [m²]. NaN
+/// where a coordinate is not finite.
 double signed_area(const Ring& ring);
 
 /// Length of all boundaries, holes included [m].

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <numeric>
+#include <set>
 #include <tuple>
+#include <utility>
 
-#include "geometry/exact/internal/predicates.hpp"
-#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/shape/box_tree.hpp"
 
 namespace polynya::geometry {
@@ -113,10 +114,7 @@ Found find_misplaced_hole(const Polygon& polygon) {
   for (const Ring& hole : polygon.holes) {
     if (side_of(hole, polygon.outer) < 0) return DefectAt{Defect::kHoleOutside, hole};
   }
-  std::vector<Box> boxes;
-  boxes.reserve(polygon.holes.size());
-  for (const Ring& hole : polygon.holes) boxes.push_back(bounding_box(hole));
-  for (const auto& [i, j] : pairs_of_boxes(boxes)) {
+  for (const auto& [i, j] : pairs_of_boxes(boxes_of(polygon.holes, bounding_box))) {
     const Ring& one = polygon.holes[i];
     const Ring& other = polygon.holes[j];
     if (side_of(one, other) > 0 || side_of(other, one) > 0)
@@ -125,37 +123,30 @@ Found find_misplaced_hole(const Polygon& polygon) {
   return {};
 }
 
-// Rings and the points they touch in make a graph; the interior is in one piece where that graph has no
-// cycle.
+// Rings and the points they touch in make a graph; the interior is in one piece where that graph has no cycle.
 Found find_disconnection(const Polygon& polygon, const std::vector<Edge>& edges, const std::vector<Touch>& touches) {
-  struct Incidence {
-    Point at;
-    int ring;
-  };
-  std::vector<Incidence> incidences;
+  std::set<std::tuple<double, double, int>> incidences;  // a point, and a ring that touches another there
   for (const Touch& touch : touches) {
-    incidences.push_back({touch.at, edges[touch.edge_i].ring});
-    incidences.push_back({touch.at, edges[touch.edge_j].ring});
+    for (const std::size_t edge : {touch.edge_i, touch.edge_j})
+      incidences.emplace(touch.at.x, touch.at.y, edges[edge].ring);
   }
-  const auto key = [](const Incidence& i) { return std::tuple(i.at.x, i.at.y, i.ring); };
-  std::sort(incidences.begin(), incidences.end(), [&](auto& a, auto& b) { return key(a) < key(b); });
-  incidences.erase(
-      std::unique(incidences.begin(), incidences.end(), [&](auto& a, auto& b) { return key(a) == key(b); }),
-      incidences.end());
   std::vector<int> parent(polygon.holes.size() + 1);
   std::iota(parent.begin(), parent.end(), 0);
   const auto root_of = [&parent](int n) {
     while (parent[n] != n) n = parent[n] = parent[parent[n]];
     return n;
   };
-  // All rings through one point hang on the first of them: joining two that hang together already closes a
-  // cycle.
-  for (std::size_t i = 0, first = 0; i < incidences.size(); ++i) {
-    if (incidences[i].at != incidences[first].at) first = i;
-    if (i == first) continue;
-    const int one = root_of(incidences[first].ring);
-    const int other = root_of(incidences[i].ring);
-    if (one == other) return DefectAt{Defect::kDisconnected, {incidences[i].at}};
+  // All rings through one point hang on the first of them: joining two that hang together already closes a cycle.
+  std::optional<Point> before;
+  int first = 0;
+  for (const auto& [x, y, ring] : incidences) {
+    const Point at{x, y};
+    if (std::exchange(before, at) != at) {
+      first = ring;
+      continue;
+    }
+    const int one = root_of(first), other = root_of(ring);
+    if (one == other) return DefectAt{Defect::kDisconnected, {at}};
     parent[one] = other;
   }
   return {};

@@ -23,6 +23,15 @@ inline Box box_of(const Edge& e) {
   return box_around(e.a, e.b);
 }
 
+/// The boxes of things, in their order.
+template <class Items, class BoxOf>
+std::vector<Box> boxes_of(const Items& items, BoxOf box_of_item) {
+  std::vector<Box> boxes;
+  boxes.reserve(items.size());
+  for (const auto& item : items) boxes.push_back(box_of_item(item));
+  return boxes;
+}
+
 /// The search for edges and other things in a row in one frame: boxes over runs of them, halved down to a few.
 /// They are not sorted: edges that follow each other along a ring lie near each other. Boxes that touch meet.
 /// (Bodies and places are searched in grids: dynamics/hash_grid.hpp, power_diagram.cpp; boundaries in two
@@ -31,7 +40,8 @@ class BoxTree {
  public:
   explicit BoxTree(std::vector<Box> boxes);
   template <class Item>
-  explicit BoxTree(const std::vector<Item>& items) : BoxTree(boxes_of(items)) {}
+  explicit BoxTree(const std::vector<Item>& items)
+      : BoxTree(boxes_of(items, [](const Item& item) { return box_of(item); })) {}
 
   /// Calls visit(i, j), i < j, for every pair of boxes that meet, until it returns false.
   template <typename Visit>
@@ -54,13 +64,6 @@ class BoxTree {
   /// Boxes of a leaf. More make pairs cost their square, fewer make more nodes; 3 to 8 take the same time.
   static constexpr std::uint32_t kLeaf = 4;
 
-  template <class Item>
-  static std::vector<Box> boxes_of(const std::vector<Item>& items) {
-    std::vector<Box> boxes;
-    boxes.reserve(items.size());
-    for (const Item& item : items) boxes.push_back(box_of(item));
-    return boxes;
-  }
   std::uint32_t build(std::uint32_t first, std::uint32_t last);
 
   template <typename Visit>

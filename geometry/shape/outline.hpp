@@ -10,8 +10,7 @@ namespace polynya::geometry {
 
 // What CGAL makes of outlines.
 
-/// The convex hull of points, counter-clockwise from the lowest one, without points on its edges. Exact, by
-/// CGAL.
+/// The convex hull of points, counter-clockwise from the lowest one, without points on its edges. Exact, by CGAL.
 Ring convex_hull(const std::vector<Point>& points);
 
 /// A valid polygon with vertices left out: each one given lies within `tolerance` [m] of the boundary that is

@@ -31,8 +31,7 @@ struct PowerCell {
                                              ///< kNoSite at the region's boundary
 };
 
-/// For each site, sites that are probably its neighbours: those of site i stand from first[i] to first[i +
-/// 1].
+/// For each site, sites that are probably its neighbours: those of site i stand from first[i] to first[i + 1].
 struct NeighbourGuess {
   std::vector<std::size_t> first;  ///< and the end; or empty for no guess
   std::vector<std::uint32_t> sites;

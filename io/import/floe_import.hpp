@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/cut/repair.hpp"
+#include "geometry/cut/cut.hpp"
 #include "io/import/plane.hpp"
 #include "io/text/floe_text.hpp"
 

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/cut/repair.hpp"
+#include "geometry/cut/cut.hpp"
 #include "geometry/shape/angle.hpp"
 #include "io/import/floe_properties.hpp"
 #include "io/run/run_folder.hpp"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/contact/first_contact.hpp"
+#include "geometry/cut/overlap.hpp"
 #include "io/scene/scene_check.hpp"
 #include "simulation/world/levels.hpp"
 #include "simulation/world/population.hpp"

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "geometry/cut/cut.hpp"
-#include "geometry/cut/repair.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "io/text/floe_text.hpp"

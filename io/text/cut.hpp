@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "geometry/cut/cut.hpp"
-#include "geometry/cut/repair.hpp"
 #include "geometry/shape/polygon.hpp"
 #include "io/text/floe_text.hpp"
 #include "io/text/source_text.hpp"

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "geometry/exact/measures.hpp"
-#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/shape/power_diagram.hpp"
 #include "simulation/field/convex.hpp"
 #include "simulation/field/portable_math.hpp"

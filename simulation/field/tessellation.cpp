@@ -8,7 +8,7 @@
 
 #include "geometry/cut/cut.hpp"
 #include "geometry/exact/measures.hpp"
-#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/shape/power_diagram.hpp"
 #include "simulation/field/convex.hpp"
 

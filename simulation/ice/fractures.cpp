@@ -2,7 +2,7 @@
 #include <span>
 
 #include "geometry/cut/cut.hpp"
-#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "simulation/ice/pieces.hpp"
 #include "simulation/ice/turning.hpp"
 #include "simulation/ship/hull_contact_load.hpp"

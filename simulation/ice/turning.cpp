@@ -4,7 +4,7 @@
 
 #include "fracture/beam.hpp"
 #include "fracture/turning_cusp.hpp"
-#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/exact/predicates.hpp"
 
 namespace polynya::simulation {
 namespace {

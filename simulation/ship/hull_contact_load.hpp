@@ -5,7 +5,7 @@
 #include "dynamics/contact/contact.hpp"
 #include "fracture/bending/bending_model.hpp"
 #include "fracture/crushing.hpp"
-#include "geometry/contact/wedge.hpp"
+#include "geometry/contact/crack_path.hpp"
 #include "simulation/world/population.hpp"
 #include "simulation/world/setup.hpp"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "geometry/contact/first_contact.hpp"
+#include "geometry/cut/overlap.hpp"
 #include "simulation/world/step.hpp"
 
 namespace polynya::simulation {

@@ -5,7 +5,6 @@
 
 #include "../io/expect_text.hpp"
 
-#include "analysis/channel_parts.hpp"
 #include "geometry/exact/measures.hpp"
 
 namespace polynya::tests {

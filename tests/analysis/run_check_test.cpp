@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/cut/cut.hpp"
 #include "geometry/cut/overlap.hpp"
-#include "geometry/cut/repair.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/outline.hpp"

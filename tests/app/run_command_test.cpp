@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "app/run/memory.hpp"
+#include "app/run/load_scene.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/json_parser.hpp"

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "io/run/motion_index.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/json_parser.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "geometry/contact/boundary.hpp"
 #include "geometry/cut/overlap.hpp"
-#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "tests/dynamics/scenery.hpp"
 
 namespace polynya::geometry {

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "geometry/cut/cut.hpp"
 #include "geometry/cut/internal/cut_paths.hpp"
-#include "geometry/cut/repair.hpp"
 #include "geometry/exact/validity.hpp"
 #include "tests/geometry/dice.hpp"
 #include "tests/geometry/trials.hpp"

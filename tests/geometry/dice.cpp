@@ -6,8 +6,7 @@
 #include <numbers>
 
 #include "geometry/cut/cut.hpp"
-#include "geometry/cut/repair.hpp"
-#include "geometry/exact/internal/predicates.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/pose.hpp"
 

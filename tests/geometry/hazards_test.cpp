@@ -9,10 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/cut/cut.hpp"
 #include "geometry/cut/internal/cut_paths.hpp"
-#include "geometry/cut/repair.hpp"
-#include "geometry/exact/internal/predicates.hpp"
 #include "geometry/exact/measures.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/pose.hpp"
 #include "tests/dynamics/scenery.hpp"

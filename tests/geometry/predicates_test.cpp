@@ -1,7 +1,7 @@
-// What is exact: the laws that geometry/exact/internal/predicates.hpp numbers, and the test of a point in a
+// What is exact: the laws that geometry/exact/predicates.hpp numbers, and the test of a point in a
 // ring, for points of a coarse lattice, where nearly all is degenerate, and for points a rounding away from
 // it; validity; areas and moments.
-#include "geometry/exact/internal/predicates.hpp"
+#include "geometry/exact/predicates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,6 @@
 #include "geometry/cut/cut.hpp"
 #include "geometry/exact/internal/exact_polygon.hpp"
 #include "geometry/exact/measures.hpp"
-#include "geometry/exact/point_in_ring.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/box_tree.hpp"
 #include "tests/shapes.hpp"

@@ -1,6 +1,4 @@
 // Repair, overlap, cuts by many polygons, and the rounding of exact polygons.
-#include "geometry/cut/repair.hpp"
-
 #include <cmath>
 #include <fstream>
 #include <random>
@@ -8,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/cut/cut.hpp"
 #include "geometry/cut/internal/arrangement.hpp"
 #include "geometry/cut/internal/snap_rounding.hpp"
 #include "geometry/cut/overlap.hpp"

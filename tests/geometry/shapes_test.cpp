@@ -7,10 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "geometry/contact/boundary.hpp"
-#include "geometry/contact/first_contact.hpp"
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/measures.hpp"
-#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/outline.hpp"
 #include "geometry/shape/power_diagram.hpp"

@@ -5,7 +5,7 @@
 #include <geos_c.h>
 #include <gtest/gtest.h>
 
-#include "geometry/cut/repair.hpp"
+#include "geometry/cut/cut.hpp"
 #include "geometry/exact/validity.hpp"
 #include "tests/geometry/dice.hpp"
 #include "tests/geometry/trials.hpp"

@@ -6,7 +6,7 @@
 
 #include "geometry/exact/measures.hpp"
 #include "io/run/records.hpp"
-#include "io/scene/floe_ice.hpp"
+#include "io/import/floe_properties.hpp"
 #include "io/scene/scene_input.hpp"
 #include "simulation/simulation.hpp"
 

@@ -8,7 +8,7 @@
 #include "expect_text.hpp"
 #include <fmt/format.h>
 
-#include "geometry/cut/repair.hpp"
+#include "geometry/cut/cut.hpp"
 #include "io/text/cut.hpp"
 
 namespace polynya::io {

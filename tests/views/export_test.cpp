@@ -11,12 +11,11 @@
 
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/outline.hpp"
-#include "io/run/motion_index.hpp"
+#include "io/run/run_reader.hpp"
 #include "io/run/run_loop.hpp"
-#include "io/text/encoding.hpp"
+#include "io/text/json_writer.hpp"
 #include "io/text/json_parser.hpp"
-#include "views/export/scene_export.hpp"
-#include "views/export/vtk_export.hpp"
+#include "views/export/export.hpp"
 
 namespace polynya::tests {
 namespace {
@@ -85,7 +84,7 @@ TEST(VtkFile, HoldsPointsCellsAndColumnsAsItsHeaderSays) {
   EXPECT_EQ(value_at(text, "Points", 7), -3.5);
   EXPECT_EQ(value_at(text, "mass_kg", 1), 8.25);
   EXPECT_EQ(value_at(text, "velocity_m_per_s", 4), 4);
-  EXPECT_LACKS(views::to_pvd(views::VtkTimeline{{{0.5, 1, "a&b.vtp"}}}), "a&b");
+  EXPECT_LACKS(views::to_pvd({{0.5, 1, "a&b.vtp"}}), "a&b");
 }
 
 // ---- a run's end, or one of its frames, as the start of another

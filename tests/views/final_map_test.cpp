@@ -9,8 +9,7 @@
 #include "../io/scene_text.hpp"
 #include "../io/temporary_folder.hpp"
 
-#include "views/export/geojson_export.hpp"
-#include "views/export/vtk_export.hpp"
+#include "views/export/export.hpp"
 
 namespace polynya::views {
 namespace {

@@ -1,23 +1,19 @@
-#include "views/export/geojson_export.hpp"
-
 #include <memory>
 
+#include "analysis/channel.hpp"
 #include "geometry/shape/angle.hpp"
 #include "io/import/floe_properties.hpp"
 #include "io/import/plane.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
+#include "views/export/export.hpp"
 
 namespace polynya::views {
 namespace {
 
 using io::GeojsonLayer;
 using io::Project;
-
-std::optional<double> speed_of(const io::PlacedFloe& floe) {
-  return floe.motion ? std::optional(length(floe.motion->velocity)) : std::nullopt;
-}
 
 std::string floes_layer(const io::Run& run, const std::vector<io::PlacedFloe>& floes, double time,
                         const Project& project) {
@@ -30,7 +26,8 @@ std::string floes_layer(const io::Run& run, const std::vector<io::PlacedFloe>& f
     json.key("born_s").value(birth.time).key("generation").value(birth.generation);
     json.key("area_m2").value(birth.area).key("mass_kg").value(birth.mass).key("t_s").value(time);
     io::append_ice(json, ice_of(run.scene.scene, birth.own_ice));
-    json.key("speed_m_per_s").value(speed_of(floe)).key("came_up").value(of_run.came_up);
+    json.key("speed_m_per_s").value(floe.motion ? std::optional(length(floe.motion->velocity)) : std::nullopt);
+    json.key("came_up").value(of_run.came_up);
     if (run.is_under(birth.floe, time)) json.key("went_under_s").value(of_run.went_under);
     layer.end_with(transform(floe.world_from_body, *floe.polygon_in_body));
   }

@@ -1,5 +1,3 @@
-#include "views/export/scene_export.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +11,7 @@
 #include "io/text/json_writer.hpp"
 #include "io/text/source_text.hpp"
 #include "simulation/world/setup.hpp"
+#include "views/export/export.hpp"
 
 namespace polynya::views {
 namespace {

@@ -1,5 +1,3 @@
-#include "views/export/vtk_export.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -16,6 +14,7 @@
 #include "io/text/json_writer.hpp"
 #include "io/text/output_file.hpp"
 #include "simulation/state/archive.hpp"
+#include "views/export/export.hpp"
 
 namespace polynya::views {
 namespace {
@@ -68,8 +67,7 @@ std::string to_vtp(const VtkPolyData& data) {
   std::vector<double> coordinates;
   for (const geometry::Point p : data.points) coordinates.insert(coordinates.end(), {p.x, p.y, 0.0});
   std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\" "
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\">\n<PolyData>\n";
   text += fmt::format(
       "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{}"
@@ -86,13 +84,13 @@ std::string to_vtp(const VtkPolyData& data) {
   return text + "</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
-std::string to_pvd(const VtkTimeline& timeline) {
+std::string to_pvd(const std::vector<VtkFile>& files) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
       "byte_order=\"LittleEndian\">\n<Collection>\n";
-  for (const VtkTimeline::Entry& entry : timeline.entries)
-    text += fmt::format("<DataSet timestep=\"{}\" part=\"{}\" file=\"{}\"/>\n", number(entry.time), entry.part,
-                        io::escaped(entry.file));
+  for (const VtkFile& file : files)
+    text += fmt::format("<DataSet timestep=\"{}\" part=\"{}\" file=\"{}\"/>\n", number(file.time), file.part,
+                        io::escaped(file.name));
   return text + "</Collection>\n</VTKFile>\n";
 }
 
@@ -118,8 +116,7 @@ class IceExport {
 
   /// What floats, or what is under hulls.
   VtkPolyData at(double time, bool is_under_hulls) {
-    VtkPolyData data;
-    data.time = time;
+    VtkPolyData data(time);
     const std::vector<io::PlacedFloe> floes =
         is_under_hulls ? floes_under_hulls_at(run_, motions_, time) : floes_at(run_, motions_, time);
     std::erase_if(triangles_,
@@ -193,8 +190,7 @@ class IceExport {
 
 /// Each ship's waterline as a polygon, with its motion at the time.
 VtkPolyData ships_at(const io::Run& run, const io::MotionIndex& motions, double time) {
-  VtkPolyData data;
-  data.time = time;
+  VtkPolyData data(time);
   data.cell_data = {{"ship", {}, 1, true}, {"velocity_m_per_s", {}, 3, false}, {"heading_deg", {}, 1, false}};
   for (std::size_t ship = 0; ship < hull_count(run.scene.scene); ++ship) {
     const auto& waterline = hull_of(run.scene.scene, ship).hull.waterline;
@@ -222,8 +218,7 @@ int number_of(const simulation::Event& fracture) {
 /// The ice loads of the interval that ends at the time, a vertex a ship at its centre; and the fractures
 /// since the frame before, a vertex each where it happened.
 VtkPolyData loads_at(const io::Run& run, double after, double time) {
-  VtkPolyData data;
-  data.time = time;
+  VtkPolyData data(time);
   data.cell_data = {{"kind", {}, 1, true},           {"ship", {}, 1, true},     {"floe_id", {}, 1, true},
                     {"t_s", {}, 1, false},           {"force_N", {}, 3, false}, {"yaw_moment_Nm", {}, 1, false},
                     {"j_over_tau_c_N", {}, 3, false}};
@@ -259,8 +254,7 @@ VtkPolyData loads_at(const io::Run& run, double after, double time) {
 
 /// The contacts recorded at a frame, a vertex each. Their columns are of points: glyphs stand on points.
 VtkPolyData contacts_at(const io::Run& run, double time) {
-  VtkPolyData data;
-  data.time = time;
+  VtkPolyData data(time);
   data.point_data = {{"ship", {}, 1, true},       {"floe_id", {}, 1, true},  {"by_ship", {}, 1, true},
                      {"by_floe_id", {}, 1, true}, {"force_N", {}, 3, false}, {"depth_m", {}, 1, false},
                      {"is_crushing", {}, 1, true}};
@@ -277,11 +271,11 @@ VtkPolyData contacts_at(const io::Run& run, double time) {
 
 }  // namespace
 
-tl::expected<VtkExport, std::string> export_vtk(const io::Run& run, const io::FrameSelection& selection,
-                                                const std::filesystem::path& folder) {
+io::Result<VtkExport> export_vtk(const io::Run& run, const io::FrameSelection& selection,
+                                 const std::filesystem::path& folder) {
   IceExport ice(run);
   const io::MotionIndex motions(run);
-  VtkTimeline timeline;
+  std::vector<VtkFile> files;
   double before = -std::numeric_limits<double>::infinity();
   std::size_t number = 0;
   for (const io::Frame& frame : thinned_frames(run, selection)) {
@@ -296,12 +290,12 @@ tl::expected<VtkExport, std::string> export_vtk(const io::Run& run, const io::Fr
       const std::string file = fmt::format("{}-{:05}.vtp", name, number);
       if (const auto written = io::write_named_file(folder / file, to_vtp(data)); !written)
         return io::fail(written.error());
-      timeline.entries.push_back({frame.time, part++, file});
+      files.push_back({frame.time, part++, file});
     }
     before = frame.time;
     ++number;
   }
-  if (const auto written = io::write_named_file(folder / "run.pvd", to_pvd(timeline)); !written)
+  if (const auto written = io::write_named_file(folder / "run.pvd", to_pvd(files)); !written)
     return io::fail(written.error());
   return VtkExport{number, {ice.without_triangles().begin(), ice.without_triangles().end()}};
 }

@@ -62,13 +62,12 @@ function evenly(poses, spacing, carry, time) {
 
 /** What hulls swept: their outlines painted over each other along their tracks, carried with the water. */
 function drawSweptBand(context, view, run, motions, time, colours) {
-  context.fillStyle = colours.swept;
   run.info.ships.forEach(({ waterline_m: waterline }, index) => {
     const spacing = hullBox(waterline).length / 8;
     for (const pose of evenly(posesUpTo(run, motions, index, time), spacing, run.carry, time)) {
       const place = placedBy(pose);
       traceLine(context, waterline.map((corner) => view.toScreen(...run.carry(...place(...corner), pose[3], time))));
-      context.fill();
+      fillWith(context, colours.swept);
     }
   });
 }
@@ -98,7 +97,6 @@ function widthWords(stations) {
 
 /** Of each station the rectangle from ice to ice. */
 function drawStations(context, view, stations, colours) {
-  context.fillStyle = colours.channel;
   context.beginPath();
   for (const { x, y, fx, fy, length, port, starboard } of stations) {
     if (!view.shows(x, y, length + port + starboard)) continue;
@@ -106,5 +104,5 @@ function drawStations(context, view, stations, colours) {
     [[-0.5, port], [-0.5, -starboard], [0.5, -starboard], [0.5, port]].forEach(([part, v], k) =>
       context[k > 0 ? "lineTo" : "moveTo"](...view.toScreen(...place(part * length, v))));
   }
-  context.fill();
+  fillWith(context, colours.channel);
 }

@@ -32,13 +32,23 @@ function moveSince(run, motions, places, frame, ship, floe, time) {
   return (x, y) => move(x - x0, y - y0);
 }
 
+/** Fills the path. */
+function fillWith(context, colour) {
+  context.fillStyle = colour;
+  context.fill();
+}
+
+/** Strokes the path. */
+function strokeWith(context, colour, width) {
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.stroke();
+}
+
 /** Strokes a path twice, so that it stands out from ice and water [px]. */
 function strokeTwice(context, under, over, width, rim = 2.4) {
-  for (const [wide, colour] of [[width + rim, under], [width, over]]) {
-    context.lineWidth = wide;
-    context.strokeStyle = colour;
-    context.stroke();
-  }
+  strokeWith(context, under, width + rim);
+  strokeWith(context, over, width);
 }
 
 /** Words on the map, on a rim. */
@@ -80,15 +90,12 @@ function drawContactForces(context, view, run, motions, places, time, colours, p
     }
     strokeTwice(context, colours.panel, colour, 2, 2);
   }
-  return "";
 }
 
 // What is drawn over the ice besides ships: velocities, lineage, marks, scale bar.
 
 /** Arrows along the floes' and ships' velocities, `perSpeed` pixels for 1 m/s. */
 function drawVelocities(context, view, run, places, motions, colours, perSpeed) {
-  context.strokeStyle = colours.ink;
-  context.lineWidth = 1.2;
   const arrow = (x, y, vx, vy) => {
     const length = Math.hypot(vx, vy) * perSpeed;
     if (length >= 3) traceArrow(context, ...view.toScreen(x, y), vx, vy, length);
@@ -96,15 +103,13 @@ function drawVelocities(context, view, run, places, motions, colours, perSpeed) 
   context.beginPath();
   for (const id of largestPerCell(view, run.floes, places))
     arrow(places.x[id], places.y[id], places.vx[id], places.vy[id]);
-  context.stroke();
-  context.strokeStyle = colours["hull-edge"];
-  context.lineWidth = 2;
+  strokeWith(context, colours.ink, 1.2);
   context.beginPath();
   run.info.ships.forEach((_, ship) => {
     const pose = motions.ship(ship);
     if (pose) arrow(pose[0], pose[1], pose[3], pose[4]);
   });
-  context.stroke();
+  strokeWith(context, colours["hull-edge"], 2);
 }
 
 const arrowCell = 24; // [px]
@@ -159,15 +164,12 @@ const markCorners = { split: [[0, -1.3], [1.3, 1], [-1.3, 1]], bend: [],
 
 function drawEventMark(context, x, y, kind, size, colours) {
   const corners = markCorners[kind] ?? markCorners.other;
-  context.fillStyle = colours[kind] ?? colours["under-hull"];
-  context.strokeStyle = "#ffffff";
-  context.lineWidth = 1;
   context.beginPath();
   corners.forEach(([dx, dy]) => context.lineTo(x + size * dx, y + size * dy));
   if (corners.length === 0) context.arc(x, y, size, 0, 2 * Math.PI);
   context.closePath();
-  context.fill();
-  context.stroke();
+  fillWith(context, colours[kind] ?? colours["under-hull"]);
+  strokeWith(context, "#ffffff", 1);
 }
 
 function drawFractures(context, view, run, time, colours) {
@@ -180,11 +182,9 @@ function drawFractures(context, view, run, time, colours) {
 
 function drawChosenEvent(context, view, event, colours) {
   const [x, y] = view.toScreen(...event.point_m);
-  context.strokeStyle = colours.highlight;
-  context.lineWidth = 2;
   context.beginPath();
   context.arc(x, y, 13, 0, 2 * Math.PI);
-  context.stroke();
+  strokeWith(context, colours.highlight, 2);
   drawEventMark(context, x, y, event.kind, 5, colours);
 }
 
@@ -196,11 +196,8 @@ function drawScaleBar(context, view, colours) {
   context.fillStyle = colours.panel;
   context.fillRect(x - 8, y - 22, pixels + 16, 30);
   context.globalAlpha = 1;
-  context.strokeStyle = colours.ink;
-  context.lineWidth = 2;
-  context.beginPath();
-  for (const [dx, dy] of [[0, -5], [0, 0], [pixels, 0], [pixels, -5]]) context.lineTo(x + dx, y + dy);
-  context.stroke();
+  traceLine(context, [[x, y - 5], [x, y], [x + pixels, y], [x + pixels, y - 5]]);
+  strokeWith(context, colours.ink, 2);
   const words = length >= 1000 ? `${length / 1000} km` : `${Number(length.toPrecision(3))} m`;
   drawWords(context, words, x + pixels / 2, y - 8, colours.ink, colours.panel);
 }
@@ -225,12 +222,9 @@ function traceLine(context, points) {
 function drawDeck(context, waterline, { aft, length, beam, middle }, pixel, colours) {
   const shrunk = ([x, y]) => [x + 0.14 * beam * (0.5 - (x - aft) / length), middle + 0.86 * (y - middle)];
   traceLine(context, waterline.map(shrunk));
-  context.fillStyle = colours.deck;
-  context.fill();
+  fillWith(context, colours.deck);
   traceLine(context, [[aft + 0.45 * length, middle], [aft + length - 0.07 * beam, middle]]);
-  context.strokeStyle = colours["hull-edge"];
-  context.lineWidth = 0.8 * pixel;
-  context.stroke();
+  strokeWith(context, colours["hull-edge"], 0.8 * pixel);
   context.fillStyle = colours["deck-house"];
   for (const [from, along, across] of [[0.2, 0.2, 0.58], [0.4, 0.045, 0.84]])
     context.fillRect(aft + from * length, middle - 0.5 * across * beam, along * length, across * beam);
@@ -261,11 +255,8 @@ function drawShip(context, view, ship, pose, colours) {
     context.lineJoin = context.lineCap = "round";
     traceLine(context, ship.waterline_m);
     context.closePath();
-    context.fillStyle = colours.hull;
-    context.fill();
-    context.strokeStyle = colours["hull-edge"];
-    context.lineWidth = 1.5 * pixel;
-    context.stroke();
+    fillWith(context, colours.hull);
+    strokeWith(context, colours["hull-edge"], 1.5 * pixel);
     if (ship.is_fixed) return;
     if (box.beam > deckBeam * pixel) drawDeck(context, ship.waterline_m, box, pixel, colours);
     drawHeading(context, box, pixel, colours);
@@ -275,10 +266,8 @@ function drawShip(context, view, ship, pose, colours) {
 /** Strokes a path through points of the world in dashes [px]. */
 function drawDashed(context, view, points, colour, width, dash) {
   traceLine(context, points.map((point) => view.toScreen(...point)));
-  context.strokeStyle = colour;
-  context.lineWidth = width;
   context.setLineDash(dash);
-  context.stroke();
+  strokeWith(context, colour, width);
   context.setLineDash([]);
 }
 

@@ -57,17 +57,14 @@ function drawLoadLine(context, view, loadLine, motions, time, isMean) {
     inShipFrame(context, view, pose, (pixel) => {
       traceLine(context, ring);
       context.closePath();
-      context.lineWidth = 5 * pixel;
       panels.forEach(({ largest, sum, count }, k) => { // a dash as long as the panel, where it is
         if (count === 0) return;
         const [from, to] = [k - side, k - side + 1].map((n) =>
           Math.max(-length / 2, Math.min(length / 2, n * loadPanel)));
         context.setLineDash([to - from, length - (to - from)]);
         context.lineDashOffset = -(stem + from);
-        context.strokeStyle = loadColour((isMean ? sum / count : largest) / loadLine.most);
-        context.stroke();
+        strokeWith(context, loadColour((isMean ? sum / count : largest) / loadLine.most), 5 * pixel);
       });
     });
   });
-  return "";
 }

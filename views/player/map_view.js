@@ -7,11 +7,7 @@ function makeMapView(stage, canvases) {
     const box = stage.getBoundingClientRect();
     view.width = Math.max(1, box.width);
     view.height = Math.max(1, box.height);
-    view.ratio = Math.min(window.devicePixelRatio || 1, 2);
-    for (const canvas of canvases) {
-      canvas.width = Math.round(view.width * view.ratio);
-      canvas.height = Math.round(view.height * view.ratio);
-    }
+    for (const canvas of canvases) view.ratio = sizeCanvas(canvas, view.width, view.height);
   };
   view.toScreen = (x, y) => [(x - view.x) * view.scale + view.width / 2, (view.y - y) * view.scale + view.height / 2];
   view.toWorld = (px, py) => [(px - view.width / 2) / view.scale + view.x,

@@ -34,38 +34,33 @@ const momentWords = {
     if (text === "" || !Number.isFinite(time)) return "no time";
     actions.play(false);
     actions.goTo(time);
-    return time < axis[0] || time > axis[1] ? `the run goes from ${axis[0]} to ${axis[1]} s` : "";
+    return time < axis[0] || time > axis[1] ? `the run goes from ${axis[0]} to ${axis[1]} s` : undefined;
   },
   floe({ actions, run }, text) {
     if (!/^\d+$/.test(text) || Number(text) >= run.floes.count) return `floes go from 0 to ${run.floes.count - 1}`;
     actions.select(Number(text));
-    return "";
   },
   by({ actions, colourings }, text) {
     if (!Object.hasOwn(colourings, text)) return `colours are by ${Object.keys(colourings).join(", ")}`;
     actions.colourBy(text);
-    return "";
   },
   sizes({ actions }, text) {
     const [from, below] = text.split("-").map((end) => (end === "" ? Infinity : Number(end)));
     if (!(from >= 0 && below > from)) return "two sizes in metres, the smaller one first";
     actions.chooseSizes({ from, below });
-    return "";
   },
   plot({ actions, plot }, text) {
     if (!Object.hasOwn(plot.quantities, text)) return "no such quantity in this run";
     actions.plotQuantity(text);
-    return "";
   },
   follow({ actions, run }, text) {
     const ship = run.info.ships.findIndex(({ name }) => name === text);
-    if (ship >= 0) actions.setFollow(ship);
-    return ship < 0 ? "no such ship" : "";
+    if (ship < 0) return "no such ship";
+    actions.setFollow(ship);
   },
   width(player, text) {
     if (!(Number(text) > 0)) return "no width";
     showWidth(player, Number(text));
-    return "";
   },
   map(player, text) {
     const [x, y, width] = text.split(",").map(Number);
@@ -73,7 +68,6 @@ const momentWords = {
     player.actions.setFollow(-1);
     Object.assign(player.view, { x, y });
     showWidth(player, width);
-    return "";
   },
 };
 
@@ -114,12 +108,6 @@ function watchMoment({ words, goTo, isPlaying }) {
       history.replaceState(null, "", now);
     }, 300);
   };
-}
-
-/** The link of a page of one run. */
-function keepMoment(player) {
-  player.keepLink = watchMoment({ words: () => momentOf(player), goTo: (link) => goToMoment(player, link),
-    isPlaying: () => player.state.isPlaying });
 }
 
 /** Puts a text into the clipboard, where the browser lets it, and says so, or what else to do. */

@@ -42,11 +42,17 @@ function sixDigits(value) {
 
 const shortNumber = (value) => String(Number(value.toPrecision(3)));
 
-/** Gives a canvas a size [px] and clears it; its context has these pixels. */
-function clearedCanvas(canvas, width, height) {
+/** Gives a canvas a size [px] and clears it. Returns how many of its own pixels one is. */
+function sizeCanvas(canvas, width, height) {
   const ratio = Math.min(window.devicePixelRatio || 1, 2);
   canvas.width = Math.round(width * ratio);
   canvas.height = Math.round(height * ratio);
+  return ratio;
+}
+
+/** The same; its context has these pixels. */
+function clearedCanvas(canvas, width, height) {
+  const ratio = sizeCanvas(canvas, width, height);
   const context = canvas.getContext("2d");
   context.scale(ratio, ratio);
   return context;

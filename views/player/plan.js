@@ -4,18 +4,15 @@
 const currentCell = 110; // [px], of the grid of arrows
 const longestArrow = 40; // [px], of the fastest current on the screen
 
-/** The current over ground at a place [m/s]. */
-function currentAt(run, x, y) {
-  const [toX, toY] = run.carry(x, y, 0, 1);
-  return [toX - x, toY - y];
-}
-
-/** Arrows of the current across the map. Returns the fastest [m/s]. */
+/** Arrows of the current over ground across the map. Returns the fastest [m/s]. */
 function drawCurrent(context, view, run, colours) {
   const arrows = [];
   for (let px = currentCell / 2; px < view.width; px += currentCell) {
-    for (let py = currentCell / 2; py < view.height; py += currentCell)
-      arrows.push([px, py, ...currentAt(run, ...view.toWorld(px, py))]);
+    for (let py = currentCell / 2; py < view.height; py += currentCell) {
+      const [x, y] = view.toWorld(px, py);
+      const [toX, toY] = run.carry(x, y, 0, 1); // in a second
+      arrows.push([px, py, toX - x, toY - y]);
+    }
   }
   const fastest = Math.max(0, ...arrows.map(([, , vx, vy]) => Math.hypot(vx, vy)));
   if (fastest === 0) return 0;
@@ -52,8 +49,7 @@ function drawRoute(context, view, { points_m: points, speeds_m_per_s: speeds }, 
     const [x, y] = view.toScreen(...point);
     context.beginPath();
     context.arc(x, y, 4.5, 0, 2 * Math.PI);
-    context.fillStyle = highlight;
-    context.fill();
+    fillWith(context, highlight);
     const [side, align] = x > view.width - 80 ? [-8, "right"] : [8, "left"];
     drawWords(context, `${k + 1}: ${shortNumber(speeds[k])} m/s`, x + side, y - 6, ink, panel, align);
   });
@@ -63,11 +59,8 @@ function drawProblem(context, view, problem, number, colours) {
   const [x, y] = view.toScreen(...problem.point_m);
   traceLine(context, [[x, y - 32], [x + 11, y - 13], [x - 11, y - 13]]);
   context.closePath();
-  context.fillStyle = problem.severity === "hint" ? colours.accent : colours.split;
-  context.fill();
-  context.strokeStyle = colours.panel;
-  context.lineWidth = 1.5;
-  context.stroke();
+  fillWith(context, problem.severity === "hint" ? colours.accent : colours.split);
+  strokeWith(context, colours.panel, 1.5);
   drawWords(context, String(number), x, y - 15, colours.ink, colours.panel);
 }
 

@@ -197,7 +197,8 @@ function startPlayer() {
   player.refreshTheme();
   player.actions.select(-1);
   showEventCard(byId("event-card"), run, null);
-  if (!player.isOneOfTwo) keepMoment(player);
+  if (!player.isOneOfTwo) player.keepLink = watchMoment({ words: () => momentOf(player),
+    goTo: (link) => goToMoment(player, link), isPlaying: () => player.state.isPlaying });
   startDrawing(player, canvases);
   return player;
 }

@@ -1,10 +1,8 @@
-#include "views/player/player_data.hpp"
-
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <limits>
-#include <numeric>
+#include <ranges>
 #include <set>
 
 #include "analysis/channel.hpp"
@@ -13,34 +11,18 @@
 #include "io/run/summary.hpp"
 #include "io/text/json_writer.hpp"
 #include "simulation/ship/pattern.hpp"
+#include "views/player/player_page.hpp"
 
 namespace polynya::views {
 
 using geometry::Box;
 using geometry::Point;
 
-void ColumnWriter::add_raw(const std::string& name, const char* type, const void* data, std::size_t count,
-                           std::size_t size) {
-  bytes_.resize((bytes_.size() + 7) / 8 * 8);
-  table_.push_back({name, type, bytes_.size(), count});
-  bytes_.append(static_cast<const char*>(data), count * size);
-}
-void ColumnWriter::add(const std::string& name, const std::vector<double>& values) {
-  add_raw(name, "f64", values.data(), values.size(), sizeof(double));
-}
-void ColumnWriter::add(const std::string& name, const std::vector<std::int32_t>& values) {
-  add_raw(name, "i32", values.data(), values.size(), sizeof(std::int32_t));
-}
-void ColumnWriter::add(const std::string& name, std::string_view bytes) {
-  add_raw(name, "u8", bytes.data(), bytes.size(), 1);
-}
-
 namespace {
 
 /// The floes of a run that a page holds.
 class HeldFloes {
  public:
-  explicit HeldFloes(std::size_t count) : is_held_(count, true), ids_(count) { std::iota(ids_.begin(), ids_.end(), 0); }
   /// Those whose distance is 0.
   explicit HeldFloes(const std::vector<double>& distances) : is_held_(distances.size()) {
     for (std::size_t i = 0; i < distances.size(); ++i) {
@@ -148,10 +130,43 @@ double gap(const Box& box, const Box& other) {
   return std::max({0.0, across, up});
 }
 
-void add_frames(ColumnWriter& columns, const std::vector<io::Frame>& frames) {
-  std::string bytes = io::FrameEncoder::header();
-  for (const io::Frame& frame : frames) bytes += frame_bytes(frame.time, frame.ships, frame.floes);
-  columns.add("frames", bytes);
+/// Of each floe of a run how far a box has to grow on all sides for the floe, or one of its family (all that broke from
+/// one floe of the scene), to come within it at one of these frames [m]; 0 where one does as it is. By the floes'
+/// circles and the boxes of their ways from record to record.
+std::vector<double> family_distances(const io::Run& run, const Box& box, const std::vector<io::Frame>& frames) {
+  std::vector<std::size_t> oldest(run.floes.size());
+  std::vector<double> reach(run.floes.size());
+  for (std::size_t i = 0; i < run.floes.size(); ++i) {
+    const simulation::BirthRecord& birth = run.floes[i].birth;
+    oldest[i] = birth.parent >= 0 ? oldest[static_cast<std::size_t>(birth.parent)] : i;
+    for (const Point p : run.shape(birth.floe)->outer)
+      reach[i] = std::max(reach[i], distance(p, birth.centroid_in_body));
+  }
+  std::vector<double> least(run.floes.size(), std::numeric_limits<double>::infinity());  // by oldest floe
+  std::vector<std::optional<io::RecordedMotion>> last(run.floes.size());
+  /// From its last record on at its velocity up to a time.
+  const auto follow = [&](std::size_t floe, double time) {
+    const Point from = last[floe]->motion.position;
+    const Point to = carried_on(last[floe]->motion, time - last[floe]->time).position;
+    double& distance = least[oldest[floe]];
+    distance = std::min(distance, gap(box, geometry::grown(geometry::box_around(from, to), reach[floe])));
+  };
+  double before = 0;  // of the frame before [s]
+  for (const io::Frame& frame : frames) {
+    for (const auto& [id, motion] : frame.floes) {
+      const auto floe = static_cast<std::size_t>(id);
+      if (last[floe]) follow(floe, before);
+      last[floe] = io::RecordedMotion{frame.time, motion};
+      follow(floe, frame.time);
+    }
+    before = frame.time;
+  }
+  for (std::size_t i = 0; i < last.size(); ++i) {
+    if (last[i]) follow(i, std::min(before, run.floes[i].died));
+  }
+  std::vector<double> distances(run.floes.size());
+  for (std::size_t i = 0; i < distances.size(); ++i) distances[i] = least[oldest[i]];
+  return distances;
 }
 
 void add_contacts(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames,
@@ -193,8 +208,7 @@ void add_peaks(ColumnWriter& columns, const io::Run& run, const std::vector<io::
 /// The stations of each ship's channel with ice on both sides, at frames that are spread evenly over the run
 /// and end with the last. What geometry refuses to measure is not shown.
 void add_channels(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames) {
-  // More make pages larger and take longer: some 80 bytes a station and a millisecond an instant among 500
-  // floes.
+  // More make pages larger and take longer: some 80 bytes a station and a millisecond an instant among 500 floes.
   constexpr std::size_t kMostInstants = 200;
   struct Row {
     int ship;
@@ -302,13 +316,10 @@ void write_events(io::JsonWriter& json, const io::Run& run, const HeldFloes& hel
 }
 
 void write_ships(io::JsonWriter& json, const simulation::Scene& scene) {
-  json.key("ships").open('[');
-  for (std::size_t i = 0; i < hull_count(scene); ++i) {
-    json.open('{').key("name").value(hull_of(scene, i).name);
-    json.key("waterline_m").value(hull_of(scene, i).hull.waterline);
-    json.key("is_fixed").value(is_grounded(kind_of_hull(scene, i))).close('}');
-  }
-  json.close(']');
+  json.key("ships").objects(std::views::iota(std::size_t{0}, hull_count(scene)), [&](std::size_t hull) {
+    json.key("name").value(hull_of(scene, hull).name).key("waterline_m").value(hull_of(scene, hull).hull.waterline);
+    json.key("is_fixed").value(is_grounded(kind_of_hull(scene, hull)));
+  });
 }
 
 /// The drift of the water over time: t, x and y of its path, and the free drift of ice.
@@ -333,14 +344,6 @@ void write_patterns(io::JsonWriter& json, const simulation::Scene& scene) {
     json.open('{').key("body").value(pilot->body_index).key("line_m").value(line_of(*pilot).corners).close('}');
   }
   json.close(']');
-}
-
-void write_water(io::JsonWriter& json, const simulation::Scene& scene) {
-  const simulation::ShearSettings& shear = scene.water.shear;
-  json.key("water").open('{').key("shear_per_s").value(shear.rate).key("shear_origin_m").value(shear.origin);
-  json.key("shear_direction_rad").value(shear.direction);
-  write_drift(json, scene);
-  json.close('}');
 }
 
 void write_summary(io::JsonWriter& json, const io::Run& run) {
@@ -383,7 +386,11 @@ std::string info_of(const io::Run& run, const PlayerData& data, const PlayerSele
   write_levels(json, run);
   write_ships(json, scene);
   write_events(json, run, held);
-  write_water(json, scene);
+  const simulation::ShearSettings& shear = scene.water.shear;
+  json.key("water").open('{').key("shear_per_s").value(shear.rate).key("shear_origin_m").value(shear.origin);
+  json.key("shear_direction_rad").value(shear.direction);
+  write_drift(json, scene);
+  json.close('}');
   write_patterns(json, scene);
   write_force_columns(json, scene);
   write_force_causes(json, scene);
@@ -397,55 +404,22 @@ std::string info_of(const io::Run& run, const PlayerData& data, const PlayerSele
 
 }  // namespace
 
-std::vector<double> family_distances(const io::Run& run, const Box& box, const std::vector<io::Frame>& frames) {
-  std::vector<std::size_t> oldest(run.floes.size());
-  std::vector<double> reach(run.floes.size());
-  for (std::size_t i = 0; i < run.floes.size(); ++i) {
-    const simulation::BirthRecord& birth = run.floes[i].birth;
-    oldest[i] = birth.parent >= 0 ? oldest[static_cast<std::size_t>(birth.parent)] : i;
-    for (const Point p : run.shape(birth.floe)->outer)
-      reach[i] = std::max(reach[i], distance(p, birth.centroid_in_body));
-  }
-  std::vector<double> least(run.floes.size(), std::numeric_limits<double>::infinity());  // by oldest floe
-  std::vector<std::optional<io::RecordedMotion>> last(run.floes.size());
-  /// From its last record on at its velocity up to a time.
-  const auto follow = [&](std::size_t floe, double time) {
-    const Point from = last[floe]->motion.position;
-    const Point to = carried_on(last[floe]->motion, time - last[floe]->time).position;
-    double& distance = least[oldest[floe]];
-    distance = std::min(distance, gap(box, geometry::grown(geometry::box_around(from, to), reach[floe])));
-  };
-  double before = 0;  // of the frame before [s]
-  for (const io::Frame& frame : frames) {
-    for (const auto& [id, motion] : frame.floes) {
-      const auto floe = static_cast<std::size_t>(id);
-      if (last[floe]) follow(floe, before);
-      last[floe] = io::RecordedMotion{frame.time, motion};
-      follow(floe, frame.time);
-    }
-    before = frame.time;
-  }
-  for (std::size_t i = 0; i < last.size(); ++i) {
-    if (last[i]) follow(i, std::min(before, run.floes[i].died));
-  }
-  std::vector<double> distances(run.floes.size());
-  for (std::size_t i = 0; i < distances.size(); ++i) distances[i] = least[oldest[i]];
-  return distances;
-}
-
 PlayerData player_data(const io::Run& run, const PlayerSelection& selection) {
   PlayerData data;
   std::vector<io::Frame> frames = thinned_frames(run, selection.frames);
-  const HeldFloes held =
-      selection.area ? HeldFloes(family_distances(run, *selection.area, frames)) : HeldFloes(run.floes.size());
+  const HeldFloes held(selection.area ? family_distances(run, *selection.area, frames)
+                                      : std::vector<double>(run.floes.size(), 0));
   data.floes = held.ids().size();
   add_floes(data.columns, run, held);
   data.floe_bytes = data.columns.bytes().size();
   data.frames = frames.size();
   if (!frames.empty()) data.start = frames.front().time, data.end = frames.back().time;
-  for (io::Frame& frame : frames)
+  std::string bytes = io::FrameEncoder::header();
+  for (io::Frame& frame : frames) {
     std::erase_if(frame.floes, [&](const io::FloeMotion& record) { return !held.has(record.floe); });
-  add_frames(data.columns, frames);
+    bytes += frame_bytes(frame.time, frame.ships, frame.floes);
+  }
+  data.columns.add("frames", bytes);
   data.frame_bytes = data.columns.bytes().size() - data.floe_bytes;
   add_forces(data.columns, run, selection.frames);
   add_contacts(data.columns, run, frames, held);

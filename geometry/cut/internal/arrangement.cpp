@@ -57,10 +57,6 @@ std::unique_ptr<const Arrangement> arrange(const std::vector<SourceSegment>& seg
   return arrangement;
 }
 
-bool runs_rightward(const SourceSegment& s) {
-  return s.from.x < s.to.x || (s.from.x == s.to.x && s.from.y < s.to.y);
-}
-
 // Faces, their windings and classes, and the regions they join into.
 class Tracer {
  public:
@@ -122,8 +118,9 @@ class Tracer {
     Winding step;
     const bool rightward = e->direction() == CGAL::ARR_LEFT_TO_RIGHT;
     for (const std::size_t s : e->curve().data()) {
-      const int sign = runs_rightward(segments_[s]) == rightward ? 1 : -1;
-      (segments_[s].source == 0 ? step.shape : step.tool) += sign;
+      const auto& [from, to, source] = segments_[s];
+      const bool runs_rightward = from.x < to.x || (from.x == to.x && from.y < to.y);
+      (source == 0 ? step.shape : step.tool) += runs_rightward == rightward ? 1 : -1;
     }
     return step;
   }

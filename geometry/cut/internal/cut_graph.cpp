@@ -14,8 +14,7 @@ namespace polynya::geometry {
 
 namespace {
 
-// Which of the box's four sides a point is beyond. Two points beyond one side have nothing of the box between
-// them.
+// Which of the box's four sides a point is beyond. Two points beyond one side have nothing of the box between them.
 #ifdef __SSE2__
 class Sides {
  public:
@@ -233,8 +232,7 @@ bool same_direction(const Ray& u, const Ray& v) {
   return cross_sign(u, v) == 0 && dot_sign(u.tail, u.head, v.tail, v.head) > 0;
 }
 
-// Vertices strictly after `from` and strictly before `to`; `wraps` where the run passes the ring's first
-// vertex.
+// Vertices strictly after `from` and strictly before `to`; `wraps` where the run passes the ring's first vertex.
 Run run_between(const Place& from, const Place& to, bool wraps, int size) {
   const int first = from.edge + 1;
   const int last = to.at_vertex ? to.edge - 1 : to.edge;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "geometry/cut/internal/cut_paths.hpp"
-#include "geometry/exact/internal/predicates.hpp"
+#include "geometry/exact/predicates.hpp"
 
 namespace polynya::geometry {
 
@@ -41,8 +41,6 @@ struct Rings {
     const int n = static_cast<int>(points.size());
     return points[static_cast<std::size_t>(i < 0 ? i + n : (i >= n ? i - n : i))];
   }
-  exact::Point exact_point(int ring, int i) const { return exact::exactly(point(ring, i)); }
-  const Polygon& polygon() const { return polygon_; }
 
  private:
   const Polygon& polygon_;
@@ -57,9 +55,8 @@ struct EdgeId {
 /// The shape's edges whose boxes overlap the box: a straight scan over all vertices.
 std::vector<EdgeId> edges_near(const Rings& rings, const Box& box);
 
-/// All points in which the tool meets the shape, each once, in order along the shape; none where some point
-/// is met twice by the shape or by the tool (rings that touch each other there): the local cut does not cover
-/// that.
+/// All points in which the tool meets the shape, each once, in order along the shape; none where some point is met
+/// twice by the shape or by the tool (rings that touch each other there): the local cut does not cover that.
 std::optional<std::vector<Node>> find_nodes(const Rings& rings, const Tool& tool, const std::vector<EdgeId>& near);
 
 /// The exact point of a node.
@@ -104,8 +101,7 @@ struct CutGraph {
   bool ends_inside = false;    ///< and leaves its last one into it
 };
 
-/// Which stretches of the tool are chords, and which faces they and the shape's chains bound. Marks active
-/// nodes.
+/// Which stretches of the tool are chords, and which faces they and the shape's chains bound. Marks active nodes.
 CutGraph trace_faces(const Rings& rings, const Tool& tool, std::vector<Node>& nodes);
 
 }  // namespace polynya::geometry

@@ -2,12 +2,13 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 #include "geometry/cut/internal/cut_graph.hpp"
 #include "geometry/cut/internal/snap_rounding.hpp"
-#include "geometry/exact/internal/areas.hpp"
-#include "geometry/exact/point_in_ring.hpp"
+#include "geometry/exact/internal/exact_polygon.hpp"
+#include "geometry/exact/predicates.hpp"
 #include "geometry/shape/box_tree.hpp"
 
 namespace polynya::geometry {
@@ -72,8 +73,7 @@ void for_each_stretch(const LocalCut& cut, const Loop& loop, OnNode on_node, OnR
   }
 }
 
-// Writes a loop's vertices, noting on the way the edges that are new; those of a chord once, on its forward
-// side.
+// Writes a loop's vertices, noting on the way the edges that are new; those of a chord once, on its forward side.
 Ring write_loop(LocalCut& cut, const Loop& loop) {
   struct Vertex {
     bool is_node = false;
@@ -148,54 +148,48 @@ Box swept_box(const Segment& s) {
   return grown(box_of(s), reach(s));
 }
 
-// Finds the shell of a hole by a vertex far from all changed edges: the rounded and the exact rings agree
-// there.
-class Placer {
- public:
-  Placer(const LocalCut& cut, std::vector<PiecePlan>& plans) : plans_(plans), changed_(cut.changed) {
-    for (std::size_t i = 0; i < plans.size(); ++i) by_area_.push_back(i);
-    const auto area = [&](std::size_t i) { return plans[i].rings.front().area.area; };
-    std::ranges::sort(by_area_, {}, area);
-  }
+// Within reach of an edge of the shell whose ends were rounded? (An edge that ends in p itself is not the
+// shell's: p is off it.) The threshold is well above the errors of the product.
+bool is_doubtful(const LocalCut& cut, Point p) {
+  return std::ranges::any_of(cut.changed, [&](const Segment& s) {
+    if (p == s.from || p == s.to || !overlaps(swept_box(s), {p, p})) return false;
+    const Vector along = s.to - s.from;
+    return std::abs(cross(along, p - s.from)) <= 8 * reach(s) * (std::abs(along.x) + std::abs(along.y) + reach(s));
+  });
+}
 
-  bool place(PieceRing hole) {
-    for (const std::size_t i : by_area_) {
-      const std::optional<bool> inside = is_inside(hole.points, plans_[i].rings.front().points);
+// By a vertex of the hole far from all changed edges: the rounded and the exact rings agree there. None where that is
+// in doubt.
+std::optional<bool> is_inside(const LocalCut& cut, const Ring& hole, const Ring& shell) {
+  bool all_on_shell = true;
+  for (const Point p : hole) {
+    const int side = side_of_ring(shell, p);
+    all_on_shell = all_on_shell && side == 0;
+    if (side != 0 && !is_doubtful(cut, p)) return side > 0;
+  }
+  // A hole all of whose vertices are the shell's is that shell seen from the other side.
+  if (all_on_shell) return false;
+  return {};
+}
+
+// Gives each hole to the smallest piece around it; false where one finds none, or in doubt.
+bool place_holes(const LocalCut& cut, std::vector<PieceRing>& holes, std::vector<PiecePlan>& plans) {
+  std::vector<std::size_t> by_area(plans.size());
+  std::iota(by_area.begin(), by_area.end(), std::size_t{0});
+  std::ranges::sort(by_area, {}, [&](std::size_t i) { return plans[i].rings.front().area.area; });
+  for (PieceRing& hole : holes) {
+    bool is_placed = false;
+    for (std::size_t k = 0; k < by_area.size() && !is_placed; ++k) {
+      std::vector<PieceRing>& rings = plans[by_area[k]].rings;
+      const std::optional<bool> inside = is_inside(cut, hole.points, rings.front().points);
       if (!inside) return false;
-      if (!*inside) continue;
-      plans_[i].rings.push_back(std::move(hole));
-      return true;
+      is_placed = *inside;
+      if (is_placed) rings.push_back(std::move(hole));
     }
-    return false;
+    if (!is_placed) return false;
   }
-
- private:
-  std::optional<bool> is_inside(const Ring& hole, const Ring& shell) const {
-    bool all_on_shell = true;
-    for (const Point p : hole) {
-      const int side = side_of_ring(shell, p);
-      all_on_shell = all_on_shell && side == 0;
-      if (side != 0 && !is_doubtful(p)) return side > 0;
-    }
-    // A hole all of whose vertices are the shell's is that shell seen from the other side.
-    if (all_on_shell) return false;
-    return {};
-  }
-
-  // Within reach of an edge of the shell whose ends were rounded? (An edge that ends in p itself is not the
-  // shell's: p is off it.) The threshold is well above the errors of the product.
-  bool is_doubtful(Point p) const {
-    return std::any_of(changed_.begin(), changed_.end(), [&](const Segment& s) {
-      if (p == s.from || p == s.to || !overlaps(swept_box(s), {p, p})) return false;
-      const Vector along = s.to - s.from;
-      return std::abs(cross(along, p - s.from)) <= 8 * reach(s) * (std::abs(along.x) + std::abs(along.y) + reach(s));
-    });
-  }
-
-  std::vector<PiecePlan>& plans_;
-  std::vector<std::size_t> by_area_;
-  const std::vector<Segment>& changed_;
-};
+  return true;
+}
 
 // The loops of one walk: one outer ring and its touching holes, or holes only.
 bool plan_walk(LocalCut& cut, const Walk& walk, std::vector<PiecePlan>& plans, std::vector<PieceRing>& free_holes) {
@@ -236,10 +230,7 @@ std::optional<std::vector<PiecePlan>> plan_pieces(LocalCut& cut) {
       free_holes.emplace_back(cut.rings[r], Loop{}, r);
   }
   if (free_holes.empty()) return plans;
-  Placer placer(cut, plans);
-  for (PieceRing& hole : free_holes) {
-    if (!placer.place(std::move(hole))) return {};
-  }
+  if (!place_holes(cut, free_holes, plans)) return {};
   return plans;
 }
 
@@ -280,12 +271,14 @@ bool are_apart(const Segment& s, const Segment& t) {
   return meeting.kind == Meeting::kTouch && end != End::kNone && end == end_at(t, meeting.at);
 }
 
-std::vector<Point> rounded_nodes(const std::vector<Node>& nodes) {
+// No two rounded nodes in one point?
+bool are_rounded_apart(const std::vector<Node>& nodes) {
   std::vector<Point> points;
   for (const Node& node : nodes) {
     if (node.is_active && node.is_rounded) points.push_back(node.at);
   }
-  return points;
+  std::ranges::sort(points, precedes);
+  return std::ranges::adjacent_find(points) == points.end();
 }
 
 // The nodes come in order along the shape.
@@ -298,12 +291,6 @@ bool is_split(const LocalCut& cut, EdgeId e) {
     if (node->is_active) return true;
   }
   return false;
-}
-
-// No point twice?
-bool are_distinct(std::vector<Point> points) {
-  std::sort(points.begin(), points.end(), precedes);
-  return std::adjacent_find(points.begin(), points.end()) == points.end();
 }
 
 // Has every edge a length, and do they meet in shared ends only?
@@ -326,7 +313,7 @@ bool are_clear_of(const std::vector<Segment>& changed, const std::vector<Segment
 // exact subdivision, where edges meet in nodes only. So only these are checked, against all edges near them.
 bool changed_edges_are_apart(const LocalCut& cut, const Box& tool_box, const std::vector<EdgeId>& near_tool) {
   if (cut.changed.empty()) return true;
-  if (!are_distinct(rounded_nodes(cut.nodes)) || !are_apart(cut.changed)) return false;
+  if (!are_rounded_apart(cut.nodes) || !are_apart(cut.changed)) return false;
   if (!are_clear_of(cut.changed, cut.placed)) return false;
   Ring ends;
   for (const Segment& s : cut.changed) {
@@ -368,11 +355,10 @@ Rational twice_area_between(const exact::Point& a, const std::vector<exact::Poin
   return sum;
 }
 
-// Σ pieces − shape, in shoelace terms: every chain of the shape is in the pieces once, every chord once
-// in each direction, where its terms cancel; untouched rings are carried over. What is left is each split
-// edge against the sub-edges it became, and that is summed here in rationals: before rounding it must be
-// zero for every edge by itself. Returns twice the area that rounding the nodes adds; none where a sum is not
-// zero.
+// Σ pieces − shape, in shoelace terms: every chain of the shape is in the pieces once, every chord once in each
+// direction, where its terms cancel; untouched rings are carried over. What is left is each split edge against the
+// sub-edges it became, and that is summed here in rationals: before rounding it must be zero for every edge by itself.
+// Returns twice the area that rounding the nodes adds; none where a sum is not zero.
 std::optional<Rational> check_split_edges(const LocalCut& cut) {
   Rational rounding = 0;
   for (std::size_t begin = 0; begin < cut.nodes.size();) {
@@ -403,7 +389,6 @@ CutResult take_as_planned(std::vector<PiecePlan> plans, double area_before, cons
   CutResult result;
   CutLedger& ledger = result.ledger;
   ledger.area_before = area_before;
-  ledger.exact_balance = true;
   ledger.exact_defect = "0";  // checked edge by edge
   ledger.rounding_defect = exact::nearest_double(rounding / 2);
   for (PiecePlan& plan : plans) {
@@ -504,7 +489,6 @@ CutResult whole_shape_inside(const Polygon& shape) {
   CutResult result;
   result.pieces.push_back({Shape{shape, true}, Part::kInside});
   result.ledger.area_before = result.ledger.area_inside = area_of(shape);
-  result.ledger.exact_balance = true;
   result.ledger.exact_defect = "0";  // the one piece is the shape itself
   return result;
 }
@@ -522,12 +506,6 @@ bool is_cleanly_rounded(const LocalCut& cut, const std::vector<PiecePlan>& plans
   return true;
 }
 
-// Does the cut join no rings, or none that could pinch? A chord between two rings makes one boundary of both,
-// and where they touched already that boundary touches itself, away from all nodes.
-bool joins_no_touching_rings(const LocalCut& cut, const Polygon& shape) {
-  return cut.graph.rings_met <= 1 || !has_touching_rings(shape);
-}
-
 }  // namespace
 
 std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
@@ -538,7 +516,9 @@ std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
   if (!nodes) return {};
   LocalCut cut{rings, tool, std::move(*nodes), {}, {}, {}};
   cut.graph = trace_faces(rings, tool, cut.nodes);
-  if (!cut.graph.is_consistent || !joins_no_touching_rings(cut, shape)) return {};
+  // A chord between two rings makes one boundary of both, and where they touched already that boundary touches itself,
+  // away from all nodes.
+  if (!cut.graph.is_consistent || (cut.graph.rings_met > 1 && has_touching_rings(shape))) return {};
   if (cut.graph.walks.empty()) {
     switch (relate_apart(cut, shape)) {
       case Apart::kUncovered:

@@ -9,7 +9,7 @@
 
 #include "geometry/cut/internal/arrangement.hpp"
 #include "geometry/cut/internal/cut_paths.hpp"
-#include "geometry/exact/internal/areas.hpp"
+#include "geometry/exact/internal/exact_polygon.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/box_tree.hpp"
 
@@ -178,22 +178,14 @@ geometry::Ring welded(const geometry::Ring& ring) {
   return kept;
 }
 
-// The polygon without what rounding can leave in a ring and encloses nothing: equal neighbours and spikes,
-// edges folded back on the one before. Rings that enclose nothing at all are dropped; an outer one leaves an
-// empty ring.
+// The polygon without what rounding can leave in a ring and encloses nothing: equal neighbours and spikes, edges folded
+// back on the one before. Rings that enclose nothing at all are dropped; an outer one leaves an empty ring.
 geometry::Polygon welded(const geometry::Polygon& polygon) {
   geometry::Polygon result{welded(polygon.outer), {}};
   for (const geometry::Ring& hole : polygon.holes) {
     if (geometry::Ring kept = welded(hole); !kept.empty()) result.holes.push_back(std::move(kept));
   }
   return result;
-}
-
-std::vector<Region> enclosed_regions(const geometry::Polygon& rings) {
-  std::vector<SourceSegment> segments;
-  append_segments(segments, exactly(rings), 0);
-  const auto inside = [](Winding w) { return w.shape > 0 ? 0 : -1; };
-  return overlay(segments, inside, Seams::kDissolve).regions;
 }
 
 }  // namespace
@@ -231,8 +223,11 @@ double Lattice::width(double size) const {
 std::optional<std::vector<geometry::Polygon>> snapped(const Polygon& polygon, const Lattice& lattice) {
   const geometry::Polygon rings = welded(Snapping(polygon, lattice).polygon());
   if (!rings.outer.empty() && !find_defect(rings)) return std::vector{rings};
+  std::vector<SourceSegment> segments;
+  append_segments(segments, exactly(rings), 0);
+  const auto inside = [](Winding w) { return w.shape > 0 ? 0 : -1; };
   std::vector<geometry::Polygon> parts;
-  for (const Region& region : enclosed_regions(rings)) {
+  for (const Region& region : overlay(segments, inside, Seams::kDissolve).regions) {
     geometry::Polygon part = welded(rounded(region.polygon));
     if (part.outer.empty()) continue;
     if (find_defect(part)) return {};
@@ -356,7 +351,6 @@ CutOutcome rounded_pieces(const Rational& area_before, const std::vector<ExactPi
   }
   CutResult result = std::move(rounding).result();
   result.ledger.area_before = nearest_double(area_before);
-  result.ledger.exact_balance = true;
   result.ledger.exact_defect = defect.get_str();
   return result;
 }

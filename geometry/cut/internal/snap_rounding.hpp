@@ -16,14 +16,12 @@ struct Cell {
   bool has_high = true;
 };
 
-/// Doubles to which coordinates are rounded: all of them, or evenly spaced ones. Cells are disjoint and cover
-/// the line.
+/// Doubles to which coordinates are rounded: all of them, or evenly spaced ones. Cells are disjoint and cover the line.
 class Lattice {
  public:
   /// All doubles: the nearest, ties to even. Steps shrink towards zero.
   static Lattice of_doubles() { return Lattice(true, 0); }
-  /// Multiples of the step between doubles at the farthest coordinate of the polygon, all of which are
-  /// doubles.
+  /// Multiples of the step between doubles at the farthest coordinate of the polygon, all of which are doubles.
   static Lattice spanning(const Polygon& polygon);
 
   double nearest(const Rational& value) const;

@@ -10,19 +10,24 @@
 namespace polynya::geometry::exact {
 namespace {
 
-template <typename AnyRing, typename Convert>
-auto convert_ring(const AnyRing& ring, Convert convert) {
-  std::vector<decltype(convert(ring.front()))> result;
-  result.reserve(ring.size());
-  std::transform(ring.begin(), ring.end(), std::back_inserter(result), convert);
+/// A polygon with every vertex converted.
+template <typename Result, typename AnyPolygon, typename Convert>
+Result converted(const AnyPolygon& polygon, Convert convert) {
+  Result result;
+  const auto add = [&](const auto& ring, auto& into) {
+    into.reserve(ring.size());
+    std::ranges::transform(ring, std::back_inserter(into), convert);
+  };
+  add(polygon.outer, result.outer);
+  for (const auto& hole : polygon.holes) add(hole, result.holes.emplace_back());
   return result;
 }
 
-template <typename Result, typename AnyPolygon, typename Convert>
-Result convert_polygon(const AnyPolygon& polygon, Convert convert) {
-  Result result{convert(polygon.outer), {}};
-  for (const auto& hole : polygon.holes) result.holes.push_back(convert(hole));
-  return result;
+template <typename AnyPolygon>
+Rational sum_of_areas(const AnyPolygon& polygon) {
+  Rational sum = area(polygon.outer);
+  for (const auto& hole : polygon.holes) sum += area(hole);
+  return sum;
 }
 
 // A pairwise sum: the terms that meet are of like size, so the numbers stay short.
@@ -51,16 +56,13 @@ double nearest_double(const Rational& value) {
 }
 
 Ring exactly(const geometry::Ring& ring) {
-  return convert_ring(ring, [](geometry::Point p) { return exactly(p); });
+  return exactly(geometry::Polygon{ring, {}}).outer;
 }
 Polygon exactly(const geometry::Polygon& polygon) {
-  return convert_polygon<Polygon>(polygon, [](const geometry::Ring& ring) { return exactly(ring); });
-}
-geometry::Ring rounded(const Ring& ring) {
-  return convert_ring(ring, [](const Point& p) { return rounded(p); });
+  return converted<Polygon>(polygon, [](geometry::Point p) { return exactly(p); });
 }
 geometry::Polygon rounded(const Polygon& polygon) {
-  return convert_polygon<geometry::Polygon>(polygon, [](const Ring& ring) { return rounded(ring); });
+  return converted<geometry::Polygon>(polygon, [](const Point& p) { return rounded(p); });
 }
 
 Rational area(const Ring& ring) {
@@ -68,9 +70,7 @@ Rational area(const Ring& ring) {
   return shoelace_sum(ring, 0, ring.size()) / 2;
 }
 Rational area(const Polygon& polygon) {
-  Rational sum = area(polygon.outer);
-  for (const Ring& hole : polygon.holes) sum += area(hole);
-  return sum;
+  return sum_of_areas(polygon);
 }
 // Doubles are whole multiples of one power of two: integers are enough, and an order of magnitude faster.
 Rational area(const geometry::Ring& ring) {
@@ -107,9 +107,7 @@ Rational area(const geometry::Ring& ring) {
   return shift < 0 ? Rational(sum >> static_cast<unsigned>(-shift)) : Rational(sum << static_cast<unsigned>(shift));
 }
 Rational area(const geometry::Polygon& polygon) {
-  Rational sum = area(polygon.outer);
-  for (const geometry::Ring& hole : polygon.holes) sum += area(hole);
-  return sum;
+  return sum_of_areas(polygon);
 }
 
 }  // namespace polynya::geometry::exact

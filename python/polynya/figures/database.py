@@ -46,7 +46,7 @@ def draw(figure, title, caption):
 
 
 def main():
-    """Draws the figures beside the file of slices that app/database/database_show.cpp wrote and names."""
+    """Draws the figures beside the file of slices that app/database/database.cpp wrote and names."""
     from .page import save
 
     slices = sys.argv[1]
