@@ -8,10 +8,10 @@
 
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
-#include "io/run/records.hpp"
-#include "io/run/event_records.hpp"
-#include "io/run/run_reader.hpp"
 #include "io/import/floe_properties.hpp"
+#include "io/run/event_records.hpp"
+#include "io/run/records.hpp"
+#include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/problem.hpp"
 

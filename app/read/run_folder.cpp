@@ -16,10 +16,10 @@
 #include "analysis/run_listing.hpp"
 #include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
-#include "io/run/run_reader.hpp"
 #include "io/import/floe_properties.hpp"
-#include "io/text/output_file.hpp"
+#include "io/run/run_reader.hpp"
 #include "io/text/floe_text.hpp"
+#include "io/text/output_file.hpp"
 #include "views/export/export.hpp"
 #include "views/player/player_page.hpp"
 

@@ -5,8 +5,8 @@
 #include "temporary_folder.hpp"
 
 #include "geometry/exact/measures.hpp"
-#include "io/run/records.hpp"
 #include "io/import/floe_properties.hpp"
+#include "io/run/records.hpp"
 #include "io/scene/scene_input.hpp"
 #include "simulation/simulation.hpp"
 

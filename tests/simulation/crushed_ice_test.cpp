@@ -1,12 +1,14 @@
 // Hulls in fast ice, where nothing gives way: fast ice that drifts, or a ship that keeps its speed.
-#include "simulation/ice/prescribed.hpp"
 #include <cmath>
 #include <numbers>
+
 #include <gtest/gtest.h>
+
+#include "geometry/cut/overlap.hpp"
+#include "simulation/ice/prescribed.hpp"
 #include "simulation/world/step.hpp"
 #include "simulation/world/world.hpp"
 #include "tests/simulation/scenes.hpp"
-#include "geometry/cut/overlap.hpp"
 
 namespace polynya::simulation {
 namespace {

@@ -1,4 +1,6 @@
 // What is exported: triangles that cover a polygon, VTK's layout, scenes that continue a run.
+#include "views/export/export.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -11,11 +13,10 @@
 
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/outline.hpp"
-#include "io/run/run_reader.hpp"
 #include "io/run/run_loop.hpp"
-#include "io/text/json_writer.hpp"
+#include "io/run/run_reader.hpp"
 #include "io/text/json_parser.hpp"
-#include "views/export/export.hpp"
+#include "io/text/json_writer.hpp"
 
 namespace polynya::tests {
 namespace {
