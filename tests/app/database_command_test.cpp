@@ -25,10 +25,10 @@ class Database : public testing::Test {
 };
 
 /// The number at that key of the answer's JSON, NaN for null.
-double number(const std::string& json, const std::string& key) {
-  const std::size_t place = json.find('"' + key + "\": ");
+double number(const std::string& as_json, const std::string& key) {
+  const std::size_t place = as_json.find('"' + key + "\": ");
   EXPECT_NE(place, std::string::npos) << key;
-  const std::string value = json.substr(place + key.size() + 4, 40);
+  const std::string value = as_json.substr(place + key.size() + 4, 40);
   return value.starts_with("null") ? std::nan("") : std::stod(value);
 }
 
@@ -120,9 +120,9 @@ TEST_F(Database, QueryIsTheModelOfTheSimulation) {
 TEST_F(Database, QueryNamesWhatIsOutside) {
   struct Row {
     Words words;
-    std::string json, note;
+    std::string as_json, note;
   };
-  for (const auto& [words, json, note] :
+  for (const auto& [words, as_json, note] :
        {Row{"--wedge-angle 10 --hull-angle 60", R"([    "opening angle"  ])",
             "opening angle 10, the table's 20 to 180;"},
         Row{"--wedge-angle 90 --hull-angle 60 --poisson-ratio 0.25", R"([    "Poisson ratio"  ])",
@@ -135,7 +135,7 @@ TEST_F(Database, QueryNamesWhatIsOutside) {
     const Outcome outcome = expect_code(0, database(Words("query --json --thickness 0.5 --speed 1") + words));
     std::string one_line = outcome.out;
     std::erase(one_line, '\n');
-    EXPECT_HAS(one_line, R"("outside": )" + json, R"("in_range": false)");
+    EXPECT_HAS(one_line, R"("outside": )" + as_json, R"("in_range": false)");
     EXPECT_HAS(outcome.err, "note: outside the database: " + note);
   }
 }
@@ -187,8 +187,8 @@ TEST_F(Database, ShowPrintsTheShippedParametersAndWritesTheNumbersOfItsThreePict
   for (const double value : fracture::default_grid().froude_numbers) EXPECT_HAS(shipped, fmt::format(" {:g}", value));
   const Outcome drawn = database("show --svg one/plots");  // 5 where matplotlib is missing
   EXPECT_HAS(drawn.out, "numbers         one/plots/slices.json\n") << drawn.err;
-  const auto json = io::parse_json(read_file(folder / "one/plots/slices.json"));
-  const io::JsonValue* figures = json.root.find("figures");
+  const auto as_json = io::parse_json(read_file(folder / "one/plots/slices.json"));
+  const io::JsonValue* figures = as_json.root.find("figures");
   ASSERT_EQ(figures->items().size(), 3U);
   for (const io::JsonValue& figure : figures->items()) {
     const std::size_t points = figure.find("x")->items().size();

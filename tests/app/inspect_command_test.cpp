@@ -1,7 +1,7 @@
 #include "program.hpp"
 #include <gtest/gtest.h>
 
-#include "geometry/cut/arrangement.hpp"
+#include "geometry/cut/cut.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/floe_text.hpp"
 #include "io/text/json_parser.hpp"
