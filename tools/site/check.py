@@ -59,7 +59,7 @@ def problems_of_links(pages):
 
 def problems_of_equations(folder, pages):
     equations = [[path.name, tex, display] for path, page in pages.items() for tex, display in page.equations]
-    if not shutil.which("node"):
+    if not equations or not shutil.which("node"):
         return []
     run = subprocess.run(["node", "-e", EQUATIONS, folder / "_static/katex/katex.min.js"],
                          input=json.dumps(equations), capture_output=True, text=True, check=True)
