@@ -97,8 +97,7 @@ def main():
     tests = level_tests.read_tests(arguments.tests)
     chosen = list(ANGLES) if arguments.angles == "both" else [arguments.angles]
     shares = [1.0] if arguments.speeds == 1 else np.linspace(0.97, 1.03, arguments.speeds)
-    scenes = {(angles, test.name, number): scene(test, ANGLES[angles], float(share), slant_of(number),
-                                                     settings)
+    scenes = {(angles, test.name, number): scene(test, ANGLES[angles], float(share), slant_of(number), settings)
               for angles in chosen for test in tests for number, share in enumerate(shares)}
     results = run_all(arguments, run, scenes)
     for angles in chosen:

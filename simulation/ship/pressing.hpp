@@ -43,7 +43,8 @@ geometry::Vector force_on(const dynamics::Contact& contact, BodyIndex floe, doub
 
 /// No less than what the contacts of two bodies can open a crack with in either, found without the faces of
 /// corners [N]. A force F on faces whose own forces enclose an angle δ splits in two of a sum ≤ F / cos(δ/2); at
-/// a corner of γ, or 90° where it is more, δ ≤ 180° − γ + 2 atan μ. No bound where γ is little more than 2 atan μ.
+/// a corner of γ, or 90° where it is more, δ ≤ 180° − γ + 2 atan μ. No bound where γ is little
+/// more than 2 atan μ.
 double opening_bound(const Setup& setup, std::span<const dynamics::Contact> contacts);
 
 /// Enters the contacts of a floe with one other body, and their pushes.

@@ -180,7 +180,8 @@ TEST(TurningCusp, WeighsAThirdOfItsIceAndHalfOfAPlatesWaterWhereItIsWide) {
   const double width = 2e4;
   const double area = depth * width;
   const double mass = edge_mass(ice, water, {area, depth, width * depth * depth * depth / 3});
-  // A plate of width 2a about its edge, in two dimensions: π ρ a⁴/8 about its middle, π ρ a⁴ of its middle's way.
+  // A plate of width 2a about its edge, in two dimensions:
+  // π ρ a⁴/8 about its middle, π ρ a⁴ of its middle's way.
   const double a = depth / 2;
   const double plate = 9. / 8 * std::numbers::pi * water.density * a * a * a * a;
   EXPECT_NEAR(mass / width, 900 * 0.5 * depth / 3 + plate / 2 / (depth * depth), 1e-4 * mass / width);

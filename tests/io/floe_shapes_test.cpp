@@ -301,16 +301,16 @@ TEST(Frames, TellEveryMotionWithinTheTolerances) {
     bytes += encoded(encoder, 0.5 * k, ships, floes);
   }
   const auto frames = tests::checked(decode_frames(bytes));
-  std::vector<std::pair<double, Motion>> told(2 * kFloes);
+  std::vector<std::pair<double, Motion>> stated(2 * kFloes);
   std::size_t records = 0;
   for (std::size_t k = 0; k < frames->size(); ++k) {
     const Frame& frame = (*frames)[k];
     ASSERT_EQ(frame.ships.size(), 1U);
     EXPECT_EQ(frame.ships[0].velocity.y, 5);
-    for (const FloeMotion& floe : frame.floes) told[static_cast<std::size_t>(floe.floe)] = {frame.time, floe.motion};
+    for (const FloeMotion& floe : frame.floes) stated[static_cast<std::size_t>(floe.floe)] = {frame.time, floe.motion};
     records += frame.floes.size();
     for (const FloeMotion& floe : truth[k]) {
-      const auto& [time, motion] = told[static_cast<std::size_t>(floe.floe)];
+      const auto& [time, motion] = stated[static_cast<std::size_t>(floe.floe)];
       const Motion carried = carried_on(motion, frame.time - time);
       EXPECT_LE(std::abs(carried.position.x - floe.motion.position.x), kFramePositionTolerance);
       EXPECT_LE(std::abs(carried.angle - floe.motion.angle), kFrameAngleTolerance);

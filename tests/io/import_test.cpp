@@ -100,8 +100,8 @@ TEST(Crs, IsKnownByItsNames) {
   for (const char* nothing : {"EPSG:1", "metres of the ice tank", ""}) EXPECT_FALSE(find_crs(nothing));
 }
 
-/// A thousandth of a degree by the radii of curvature: a (1 − e²)/(1 − e² sin²φ)^1.5 north, a cos φ/√(1 − e² sin²φ)
-/// east.
+/// A thousandth of a degree by the radii of curvature:
+/// a (1 − e²)/(1 − e² sin²φ)^1.5 north, a cos φ/√(1 − e² sin²φ) east.
 TEST(Plane, DegreesComeToMetresAboutTheOrigin) {
   for (const auto& [latitude, east, north] :
        {std::tuple{78.2, 22.8378, 111.6468}, {0.0, 111.3195, 110.5743}, {-60.0, 55.8000, 111.4123}}) {

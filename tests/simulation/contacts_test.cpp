@@ -313,8 +313,8 @@ TEST(Waterline, ArcsAreFromTheStemToPort) {
   }
 }
 
-/// Limit momentum of a straight edge on a cylinder of radius a: δ = (3 E_k / (4 p h √(2a)))^⅔, F = 2 p h √(2aδ), by
-/// which a width of 2 √(2aδ) and the pressure p; at port, a quarter of the circle from the stem.
+/// Limit momentum of a straight edge on a cylinder of radius a: δ = (3 E_k / (4 p h √(2a)))^⅔,
+/// F = 2 p h √(2aδ), by which a width of 2 √(2aδ) and the pressure p; at port, a quarter of the circle from the stem.
 TEST(LoadPeaks, OfAnEdgeOnACylinderAreThoseOfTheClosedForm) {
   for (const double step : {1e-3, 5e-3}) {
     for (const double circle_radius : {0.5, 1.0, 2.0}) {
