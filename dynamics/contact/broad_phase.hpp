@@ -194,8 +194,8 @@ class BroadPhase {
   std::vector<ActivePair> recent_;  // the same; merged into active_ when there are many
   std::vector<ActivePair> new_;     // not sorted yet
   std::size_t dropped_ = 0;         // of all three
-  std::vector<std::vector<std::uint32_t>>
-      of_level_;             // places in active_, ascending; also of levels that pairs had before
+  // By level, the places of its pairs in active_, ascending; also of levels that pairs had before.
+  std::vector<std::vector<std::uint32_t>> of_level_;
   bool has_levels_ = false;  // they hold
   std::vector<std::uint32_t>& places_of(int level);
   int level_ = kEveryLevel;  // of find_contacts
