@@ -24,11 +24,14 @@ constexpr std::array<double, 21> kDrop = {0,       0.16033, 0.30268, 0.42768, 0.
                                           0.77576, 0.83124, 0.87678, 0.91365, 0.94305, 0.96609, 0.98377,
                                           0.99699, 1.00656, 1.01316, 1.01740, 1.01978, 1.02073, 1.02061};
 
-/// The rims of sections, by elements of 107 edges of runs (docs/theory/bow.md): what they have of the mean bending
-/// stress under V at l = 15 h and an opening of 2 rad, how that grows with either, and what they have of the mean
-/// stress by the thrust's lever, most of which does not reach them, and by the thrust itself.
-constexpr double kRimOfForce = 0.95, kGrowthWithLength = 0.185, kGrowthWithOpening = -0.146;
-constexpr double kRimOfLever = 0.36, kRimOfThrust = 1.34;
+/// The rims of cracked sections, by elements of edges of runs (docs/theory/bow.md): what they have of the mean bending
+/// stress under V, at 15 h, 2 rad, e h, with the middle of all sections on the hull's normal; how that grows with
+/// length, opening, the middle's direction squared, its change over kTurnReach circles, and (ln r/h − 1)²; and what
+/// they have of the mean stress by the thrust's lever, most of which does not reach them, and by the thrust itself.
+constexpr double kRimOfForce = 0.91, kGrowthWithLength = 0.185, kGrowthWithOpening = -0.035;
+constexpr double kGrowthWithDirection = 0.436, kGrowthWithTurn = 0.244, kGrowthWithDistance = -0.071;
+constexpr double kRimOfLever = 0.43, kRimOfThrust = 1.23;
+constexpr std::size_t kTurnReach = 2;
 constexpr double kWeibull = 6;  ///< m of ice whose strength scatters by .2
 
 double interpolated(const std::array<double, 21>& table, double at) {
@@ -76,7 +79,9 @@ double expected_place(const SectionStresses& stresses) {
 double widest_near(const EdgeOpenings& openings) {
   constexpr double kReach = 0.5;  // of l
   double widest = 0;
-  for (std::size_t i = 0; i < kSectionCount && kSectionRadii[i] <= kReach; ++i) widest = std::max(widest, openings[i]);
+  for (std::size_t i = 0; i < kSectionCount && kSectionRadii[i] <= kReach; ++i) {
+    widest = std::max(widest, openings.opening(i));
+  }
   return widest;
 }
 
@@ -91,7 +96,7 @@ double crack_share(double widest) {
 /// many until the third cracks. By elements of edges wider than 150°; the thrust, which closes sections, does not
 /// matter.
 double held_until_next_cracks(double widest) {
-  constexpr double kSecondCracks = 0.6;
+  constexpr double kSecondCracks = 0.585;
   return kSecondCracks * (1 + std::max(0.0, widest - 180 * geometry::kRadiansPerDegree));
 }
 
@@ -104,9 +109,21 @@ SectionStresses stresses_of_whole(const EdgeOpenings& openings, const EdgePush& 
     const double moment =
         push.effective_length * moment_of_force(place) - (push.distance + push.thrust * push.lever) * held;
     const double growth = 6 * push.thrust * sinking * interpolated(kDrop, place) * std::max(0.0, held);
-    stresses[i] = 1 / bearing(6 * moment - push.thrust, growth, hold_of_whole(openings[i]) * openings[i] * r);
+    stresses[i] =
+        1 / bearing(6 * moment - push.thrust, growth, hold_of_whole(openings.opening(i)) * openings.opening(i) * r);
   }
   return stresses;
+}
+
+/// What the rims of section i have of the mean bending stress under V; held beyond what the elements had.
+double rim_of_force(const EdgeOpenings& openings, double length, std::size_t i) {
+  constexpr double kWidest = 180 * geometry::kRadiansPerDegree, kMostAside = 0.5, kMostTurn = 1, kFarthest = 2;
+  const double aside = std::min(std::abs(openings.middle(i)), kMostAside);
+  const double turn = openings.middle(std::min(i + kTurnReach, kSectionCount - 1)) - openings.middle(i);
+  const double distance = std::clamp(std::log(kSectionRadii[i] * length) - 1, -kFarthest, kFarthest);
+  return kRimOfForce + kGrowthWithLength * (std::clamp(length, 10.0, 21.2) / 15 - 1) +
+         kGrowthWithOpening * (std::min(openings.opening(i), kWidest) - 2) + kGrowthWithDirection * aside * aside +
+         kGrowthWithTurn * std::min(std::abs(turn), kMostTurn) + kGrowthWithDistance * distance * distance;
 }
 
 /// A section nearer to the crushed facet than kGap h is part of how the load gets into the ice; what lies farther of
@@ -115,20 +132,17 @@ SectionStresses stresses_of_rims(const EdgeOpenings& openings, const EdgePush& p
   constexpr double kGap = 1;
   const double least = push.facet + kGap;
   const double half_step = std::sqrt(kSectionStep);
-  constexpr double kWidest = 180 * geometry::kRadiansPerDegree;
-  const double at_mean_opening = kRimOfForce + kGrowthWithLength * (std::clamp(push.length, 10.0, 21.0) / 15 - 1);
   SectionStresses stresses{};
   for (std::size_t i = 0; i < kSectionCount; ++i) {
     const double r = kSectionRadii[i] * push.length;
     if (r * half_step <= least) continue;
     const double place = r / push.effective_length;
     const double held = moment_of_moment(place);
-    const double opening = std::min(openings[i], kWidest);
-    const double of_force = at_mean_opening + kGrowthWithOpening * (opening - 2);
-    const double force = of_force * (push.effective_length * moment_of_force(place) - push.distance * held);
+    const double force = rim_of_force(openings, push.length, i) *
+                         (push.effective_length * moment_of_force(place) - push.distance * held);
     const double lever = kRimOfLever * push.thrust * push.lever * held;
     const double growth = 6 * kRimOfLever * push.thrust * sinking * interpolated(kDrop, place) * std::max(0.0, held);
-    const double bears = bearing(6 * (force - lever) - kRimOfThrust * push.thrust, growth, openings[i] * r);
+    const double bears = bearing(6 * (force - lever) - kRimOfThrust * push.thrust, growth, openings.opening(i) * r);
     const double share = std::min(1.0, std::log(r * half_step / least) / std::log(kSectionStep));
     stresses[i] = std::pow(share, 1 / kWeibull) / bears;
   }

@@ -16,9 +16,16 @@ inline constexpr std::array<double, kSectionCount> kSectionRadii = [] {
   return radii;
 }();
 
-/// The true outline of an edge of ice: the angle that the ice takes on each circle, between the places where
-/// its boundary first leaves it [rad]. The section there is r times that wide.
-using EdgeOpenings = std::array<double, kSectionCount>;
+/// The true outline of an edge of ice: on each circle the angles from the hull's inward normal to the places where the
+/// ice's boundary first leaves it [rad].
+struct EdgeOpenings {
+  std::array<double, kSectionCount> front{}, back{};
+
+  /// The angle that the ice takes: the section is r times that wide.
+  double opening(std::size_t i) const { return front[i] + back[i]; }
+  /// The direction of the section's middle from the normal, towards the front.
+  double middle(std::size_t i) const { return 0.5 * (front[i] - back[i]); }
+};
 
 /// A hull's push on an edge. Lengths in the thickness h.
 struct EdgePush {

@@ -64,8 +64,11 @@ fracture::EdgeOpenings openings_at(const Setup& setup, const dynamics::Bodies& b
   std::array<geometry::WedgeAngles, fracture::kSectionCount> wedges;
   geometry::wedge_angles(bodies.boundary[c.b]->edges, c.tip_edge_of_b, tip, inward, radii, wedges);
   fracture::EdgeOpenings openings{};
-  for (std::size_t i = 0; i < openings.size(); ++i)
-    openings[i] = std::max(wedges[i].front + wedges[i].back, 2 * fracture::kSmallestHalfAngle);
+  for (std::size_t i = 0; i < wedges.size(); ++i) {
+    const double narrow = std::max(0.0, fracture::kSmallestHalfAngle - 0.5 * (wedges[i].front + wedges[i].back));
+    openings.front[i] = wedges[i].front + narrow;
+    openings.back[i] = wedges[i].back + narrow;
+  }
   return openings;
 }
 
