@@ -125,8 +125,8 @@ def openings(edge, radii):
 
 
 def by_elements(edge, ratio, finest):
-    """V_b, R of the whole edge and, where the bottom cracks first, of the edge with a crack along the line to that
-    place."""
+    """V_b, R of the whole edge and, where the bottom cracks first, of the edge with a crack along its bisector, which
+    bears no more where its halves crack first."""
     thrusts = (edge["thrust"], 0.0)
     arguments = (np.array(edge["ring"]), edge["normal"], edge["depth"], edge["slope"], edge["l"], ratio, finest)
     whole, bare = bow_solid.breaking(bow_solid.Solid(*arguments), thrusts)
@@ -134,9 +134,9 @@ def by_elements(edge, ratio, finest):
     if whole["bottom"] < whole["V"]:
         r = 0.3 * edge["l"]
         forward = chord(np.array(edge["ring"]), 1, r)
-        middle = math.atan2(forward[1], forward[0]) + 0.5 * openings(edge, [r])[0]
-        result["cracked"] = bow_solid.breaking(bow_solid.Solid(*arguments, cracks=[(middle, 2 * edge["l"])]),
-                                               thrusts)[0]
+        start, opening = math.atan2(forward[1], forward[0]), openings(edge, [r])[0]
+        solid = bow_solid.Solid(*arguments, cracks=[(start + 0.5 * opening, 2 * edge["l"])])
+        result["cracked"] = bow_solid.breaking(solid, thrusts[:1], (start + 0.25 * opening, start + 0.75 * opening))[0]
     return result
 
 
@@ -147,23 +147,40 @@ def hold_of_whole(opening):
 RADII_OF_LAW = 0.08 * 1.25 ** np.arange(12)  # [l]
 
 
+def sides(edge, radii):
+    """On circles about the tip the angles from the hull's normal to the first exits of the outline, of both sides
+    [rad]."""
+    ring, (nx, ny) = np.array(edge["ring"]), edge["normal"]
+    ends = np.array([[chord(ring, step, r) for r in radii] for step in (1, -1)])
+    return abs(np.arctan2(nx * ends[..., 1] - ny * ends[..., 0], ends @ (nx, ny)))
+
+
+def rim_of_force(front, back, r, l):
+    """What the rims of cracked sections have of the mean bending stress under V."""
+    middle = 0.5 * (front - back)
+    turn = np.minimum(abs(np.r_[middle[2:], middle[-1], middle[-1]] - middle), 1)
+    return (0.91 + 0.185 * (np.clip(l, 10, 21.2) / 15 - 1) - 0.035 * (np.minimum(front + back, math.pi) - 2)
+            + 0.436 * np.minimum(middle ** 2, 0.25) + 0.244 * turn - 0.071 * np.clip(np.log(r) - 1, -2, 2) ** 2)
+
+
 def by_sections(edge, share=None, load_place=2 / 3):
     """V_b, R and the expected R of the law; `share` of the crack as the outline has it, or as given; the load's place
     between the first touch and the far end of the facet."""
     l, thrust = edge["l"], edge["thrust"]
     r = RADII_OF_LAW * l
-    opening = openings(edge, r)
+    front, back = sides(edge, r)
+    opening = front + back
     lever, hold = (np.interp(r / l, RADII, column) for column in (LEVER, HOLD))
     distance, up = load_place * edge["depth"], max(0, 0.5 - edge["depth"] / (3 * edge["slope"]))
     moment, couple = l * lever - distance * hold, thrust * up * hold
-    if share is None:
-        share = np.clip((math.degrees(opening[r <= 0.5 * l].max()) - 90) / 15, 0, 1)
-    whole = np.maximum(0, 6 * (moment - couple) - thrust) / (opening * r) / hold_of_whole(opening)
-    of_force = 0.95 + 0.185 * (np.clip(l, 10, 21) / 15 - 1) - 0.146 * (np.minimum(opening, math.pi) - 2)
-    counts = np.clip(np.log(r * 1.25 ** 0.5 / (edge["depth"] + 1)) / math.log(1.25), 0, 1)
-    rims = np.maximum(0, 6 * (of_force * moment - 0.36 * couple) - 1.34 * thrust) / (opening * r) * counts ** (1 / 6)
     widest = opening[r <= 0.5 * l].max()
-    next_cracks = 0.6 * (1 + max(0, widest - math.pi))
+    if share is None:
+        share = np.clip((math.degrees(widest) - 90) / 15, 0, 1)
+    whole = np.maximum(0, 6 * (moment - couple) - thrust) / (opening * r) / hold_of_whole(opening)
+    counts = np.clip(np.log(r * 1.25 ** 0.5 / (edge["depth"] + 1)) / math.log(1.25), 0, 1)
+    rims = (np.maximum(0, 6 * (rim_of_force(front, back, r, l) * moment - 0.43 * couple) - 1.23 * thrust)
+            / (opening * r) * counts ** (1 / 6))
+    next_cracks = 0.585 * (1 + max(0, widest - math.pi))
     stress = share * rims + (1 - share) * whole
     weight = rims ** 6
     place = share * (weight @ np.arange(12)) / max(weight.sum(), 1e-30) + (1 - share) * np.argmax(whole)
@@ -248,8 +265,8 @@ def main():
     edges.add_argument("runs", nargs="+")
     edges.add_argument("--cusps", type=int, default=25)
     edges.add_argument("--out", default="/tmp/bow-edges.json")
-    edges.add_argument("--ratio", type=float, default=0.18)
-    edges.add_argument("--finest", type=float, default=0.2)
+    edges.add_argument("--ratio", type=float, default=0.16)
+    edges.add_argument("--finest", type=float, default=0.17)
     edges.set_defaults(function=study_edges)
     table = studies.add_parser("table")
     table.add_argument("files", nargs="+")

@@ -367,16 +367,19 @@ def chord(outline, step, length):
         a = b
 
 
-def breaking(solid, thrusts):
-    """For each H/V: V_b [σ_f h²], by the top's greatest principal stress farther than GAP from the facet, its distance
-    from the tip [h], the expected one, and V by the bottom's greatest tension."""
+def breaking(solid, thrusts, directions=()):
+    """For each H/V: V_b [σ_f h²], by the top's greatest principal stress in its plane (of the rest, which is none on a
+    free surface, the elements have only errors) farther than GAP from the facet, or where the bottom cracks along one
+    of the directions; the distance from the tip [h] of that stress, the expected one, and V by the bottom's greatest
+    tension."""
     results, p = [], solid.plan[:solid.corner_count]
     r, s = np.hypot(*p.T), p @ solid.normal
     for top, bottom, u in solid.solve(thrusts):
-        most, below = np.linalg.eigvalsh(top)[:, 2], np.linalg.eigvalsh(bottom)[:, 2]
+        most, below = np.linalg.eigvalsh(top[:, :2, :2])[:, 1], np.linalg.eigvalsh(bottom)[:, 2]
         ahead = (s > solid.depth + 0.03) & (r > solid.depth + GAP) & (r < 2 * solid.l)
         stress, place = peak_along(r[ahead], most[ahead], solid.depth + GAP, 2 * solid.l)
-        results.append({"V": 1 / stress, "R": place, "expected": expected_place(solid, solid.outline, top),
+        held = next_crack(solid, bottom, directions) if directions else math.inf
+        results.append({"V": min(1 / stress, held), "R": place, "expected": expected_place(solid, solid.outline, top),
                         "bottom": 1 / below[r > solid.depth + 0.3].max(),
                         "w": -u[(solid.levels - 1) * solid.count:][np.argmin(r), 2]})
     return results
