@@ -61,9 +61,9 @@ double hold_of_whole(double opening);
 ///   A = .91 + .185 (l/15h − 1) − .035 (θ − 2) + .436 φ² + .244 |Δφ| − .071 (ln r/h − 1)²,
 /// φ the direction of the section's middle, Δφ its change to 1.56 r, and R is where ice breaks on an average whose
 /// sections' strengths scatter by .2: that stress is flat along r, so that its maximum is nowhere in particular. It
-/// does not bear more than .585 (1 + ⟨θ − π⟩), θ the widest within .5 l: there the next radial cracks open. V within 12
-/// % and R within 25 % of elements of 120 other edges, 90th percentiles; range l/h 10 to 21, η 1.3 to 3.9; at the stem
-/// V within 22 %, R half as large again.
+/// does not bear more than .585 (1 + ⟨θ − π⟩), θ the widest within .5 l: there the next radial cracks open. V within
+/// 12 % and R within 25 % of elements of 120 other edges, 90th percentiles; range l/h 10 to 21, η 1.3 to 3.9; at the
+/// stem V within 22 %, R half as large again.
 SectionBreak weakest_section(const EdgeOpenings& openings, const EdgePush& push);
 
 }  // namespace polynya::fracture
