@@ -100,7 +100,7 @@ class ContactSolver {
   void extrapolate(ContactRange range, const Search& search);
   void give_memories(const std::vector<Contact>& contacts);
   double missed_speed(const Island& island, const CrushLaw& law) const;
-  void solve_jam(const Island& island, double tolerance, double residual);
+  void solve_jam(const Island& island, const SolverSettings& settings, double residual);
   template <class Law>
   void finish(const Island& island, const Law& law, int threads);
   template <class Law>
