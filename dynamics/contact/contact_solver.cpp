@@ -305,12 +305,12 @@ SolverResult ContactSolver::solve(Bodies& bodies, std::vector<Contact>& contacts
   const auto solve_by = [&](const auto& law) {
     fill(bodies, contacts, law, settings.threads);
     if constexpr (std::decay_t<decltype(law)>::kHasJams) give_memories(contacts);
-    for_chunks(contacts.size(), kContactsPerChunk, settings.threads,
-               [&](std::size_t, std::size_t begin, std::size_t end) {
-                 auto island = std::ranges::lower_bound(islands, begin, {}, &Island::first);
-                 for (; island != islands.end() && island->first < end; ++island)
-                   residuals_[static_cast<std::size_t>(island - islands.begin())] = solve_island(*island, law, settings);
-               });
+    const auto solve_some = [&](std::size_t, std::size_t begin, std::size_t end) {  // those that begin there
+      auto island = std::ranges::lower_bound(islands, begin, {}, &Island::first);
+      for (; island != islands.end() && island->first < end; ++island)
+        residuals_[static_cast<std::size_t>(island - islands.begin())] = solve_island(*island, law, settings);
+    };
+    for_chunks(contacts.size(), kContactsPerChunk, settings.threads, solve_some);
     write_back(bodies, contacts, law, settings.threads);
   };
   std::visit(solve_by, any_law);

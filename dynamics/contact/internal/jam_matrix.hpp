@@ -54,8 +54,7 @@ class JamMatrix {
 
   /// `mass`: of the bodies, the same since they were taken, as the rows. Returns whether it succeeded; it fails where
   /// masses and slopes differ by more than doubles bear.
-  bool factorize(const JamVector& mass, std::span<const JamRows> rows, std::span<const JamLoad> loads,
-                 int threads = 1);
+  bool factorize(const JamVector& mass, std::span<const JamRows> rows, std::span<const JamLoad> loads, int threads = 1);
   /// Solves in place; an element beyond those of the bodies stays.
   void solve(JamVector& x, int threads = 1) const;
 
@@ -130,11 +129,11 @@ class JamMatrix {
   std::vector<int> contacts_;
   std::vector<Places> places_;
   std::vector<OfContact> of_contact_;
-  std::vector<int> by_branch_;            ///< places, branch by branch and then the trunk's, each ascending
+  std::vector<int> by_branch_;                ///< places, branch by branch and then the trunk's, each ascending
   std::vector<std::size_t> first_of_branch_;  ///< in these; one more at the end, of the trunk
-  mutable JamVector ordered_;             ///< by place
-  std::vector<Slopes> slopes_;            ///< of the last factorization
-  std::vector<std::uint8_t> is_changed_;  ///< of each body, by place: its row since the last factorization
+  mutable JamVector ordered_;                 ///< by place
+  std::vector<Slopes> slopes_;                ///< of the last factorization
+  std::vector<std::uint8_t> is_changed_;      ///< of each body, by place: its row since the last factorization
 };
 
 }  // namespace polynya::dynamics
