@@ -235,13 +235,14 @@ void BroadPhase::update(const Bodies& bodies, const std::vector<BodyIndex>& awak
   const std::size_t chunks = chunk_count(moved_.size(), kMovedPerChunk);
   if (moved_some_.size() < chunks) moved_some_.resize(chunks);
   for_chunks(moved_.size(), kMovedPerChunk, threads, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    auto& [parted, met] = moved_some_[chunk];
-    parted.clear(), met.clear();
+    Moved& moved = moved_some_[chunk];
+    moved.parted.clear();
+    moved.met.clear();
     for (const BodyIndex body : std::span(moved_).subspan(begin, end - begin)) {
       for (const std::uint32_t pair : entries_[body].pairs)
-        if (!overlaps(entries_[pairs_[pair].a].box, entries_[pairs_[pair].b].box)) parted.push_back(pair);
+        if (!overlaps(entries_[pairs_[pair].a].box, entries_[pairs_[pair].b].box)) moved.parted.push_back(pair);
       for_new_partners(bodies, body, [&](BodyIndex other) {
-        if (!are_pair(body, other)) met.push_back({std::min(body, other), std::max(body, other)});
+        if (!are_pair(body, other)) moved.met.push_back({std::min(body, other), std::max(body, other)});
       });
     }
   });
