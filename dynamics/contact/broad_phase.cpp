@@ -125,12 +125,12 @@ bool BroadPhase::are_pair(BodyIndex a, BodyIndex b) const {
 }
 
 void BroadPhase::add_pairs_of(const Bodies& bodies, BodyIndex body) {
-  for_new_partners(bodies, body, [&](BodyIndex other) {
-    if (!are_pair(body, other)) add_pair(bodies, std::min(body, other), std::max(body, other));
-  });
+  for_new_partners(bodies, body,
+                   [&](BodyIndex other) { add_pair(bodies, std::min(body, other), std::max(body, other)); });
 }
 
-/// Calls use(other) for each body that meets this one's box and may press it; of those in several cells more than once.
+/// Calls use(other) for each body that meets this one's box and may press it, of which there is no pair yet: more than
+/// once for those in several cells, unless `use` adds the pair.
 template <class Use>
 void BroadPhase::for_new_partners(const Bodies& bodies, BodyIndex body, Use use) const {
   const Box box = entries_[body].box;
@@ -138,7 +138,7 @@ void BroadPhase::for_new_partners(const Bodies& bodies, BodyIndex body, Use use)
     if (other == body) return;
     if (rule_.is_culling && !overlaps(box, entries_[other].box)) return;
     if (!can_press(bodies, body, other, rule_.presses_prescribed)) return;
-    use(other);
+    if (!are_pair(body, other)) use(other);
   };
   if (rule_.is_culling && is_held(bodies, body)) {
     for (const BodyIndex other : movers_) consider(other);
@@ -242,7 +242,7 @@ void BroadPhase::update(const Bodies& bodies, const std::vector<BodyIndex>& awak
       for (const std::uint32_t pair : entries_[body].pairs)
         if (!overlaps(entries_[pairs_[pair].a].box, entries_[pairs_[pair].b].box)) moved.parted.push_back(pair);
       for_new_partners(bodies, body, [&](BodyIndex other) {
-        if (!are_pair(body, other)) moved.met.push_back({std::min(body, other), std::max(body, other)});
+        moved.met.push_back({std::min(body, other), std::max(body, other)});
       });
     }
   });

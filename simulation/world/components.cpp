@@ -302,7 +302,8 @@ void Assignment::see(BodyIndex a, BodyIndex b, const dynamics::Pair* pair) {
   if (const auto meeting = meeting_of(of_a, of_b, pair)) enter(*meeting);
 }
 
-/// Those between bodies awake side by side; what they come to, in the pairs' order: bounds are the same then.
+/// Those between bodies awake side by side; what they come to is entered chunk by chunk, the same by any number of
+/// threads.
 void Assignment::see_pairs() {
   const std::span<const dynamics::Pair> pairs = population_.pairs.pairs();
   seen_.resize(dynamics::chunk_count(pairs.size(), kPerChunk));

@@ -249,13 +249,12 @@ void JamMatrix::find_branches() {
     branch_of[i] = branches - 1;
   }
   first_of_branch_.assign(static_cast<std::size_t>(branches) + 1, 0);
-  const auto count_of = [&](int branch) { return branch < 0 ? branches : branch; };
   for (const int branch : branch_of)
-    if (count_of(branch) < branches) ++first_of_branch_[count_of(branch) + 1];
+    if (branch >= 0) ++first_of_branch_[branch + 1];
   for (int k = 0; k < branches; ++k) first_of_branch_[k + 1] += first_of_branch_[k];
   std::vector<std::size_t> next = first_of_branch_;
   by_branch_.resize(place_of_.size());
-  for (int i = 0; i < bodies; ++i) by_branch_[next[count_of(branch_of[i])]++] = i;
+  for (int i = 0; i < bodies; ++i) by_branch_[next[branch_of[i] < 0 ? branches : branch_of[i]]++] = i;
 }
 
 /// Calls work(branch, places) for each branch, side by side.
