@@ -38,9 +38,9 @@ inline void join() {}  ///< after the loop
 
 }  // namespace fork_join
 
-// What one thread takes at a time of a step's contacts and islands: fewer are not worth another thread.
+/// What one thread takes at a time of a step's contacts, with the islands that begin among them: fewer are not worth
+/// another thread.
 inline constexpr std::size_t kContactsPerChunk = 128;
-inline constexpr std::size_t kIslandsPerChunk = 16;  ///< most have one or two contacts
 
 inline std::size_t chunk_count(std::size_t count, std::size_t chunk) {
   return (count + chunk - 1) / chunk;

@@ -15,6 +15,8 @@ using geometry::Pose;
 /// Boxes are grown by this much, and computed again after that much travel [m]. It decides only how often
 /// pairs are sought (smaller: more often) against how many are kept (greater: more).
 constexpr double kBoxMargin = 2.0;
+/// Bodies that leave their boxes, for one thread at a time.
+constexpr std::size_t kMovedPerChunk = 64;
 
 /// Fragments' vertices are rounded by far less than that [m]. Smaller than the rounding, fragments that touch
 /// may be taken for apart.
@@ -53,13 +55,13 @@ void BroadPhase::add(const Bodies& bodies, BodyIndex body) {
     entries_.resize(static_cast<std::size_t>(body) + 1);
     travel_limits_.resize(static_cast<std::size_t>(body) + 1);
   }
-  place(bodies, body);
+  place(bodies, body, box_in_water(bodies, body));
 }
 
-void BroadPhase::place(const Bodies& bodies, BodyIndex body) {
+void BroadPhase::place(const Bodies& bodies, BodyIndex body, const Box& box) {
   Entry& entry = entries_[body];
   if (entry.is_in) grid_.remove(body, entry.box);
-  entry.box = geometry::grown(box_in_water(bodies, body), kBoxMargin);
+  entry.box = geometry::grown(box, kBoxMargin);
   travel_limits_[body] = bodies.travel[body] + kBoxMargin;
   grid_.insert(body, entry.box);
   entry.is_in = true;
@@ -115,20 +117,28 @@ void BroadPhase::sleep(const Bodies& bodies, BodyIndex body) {
   }
 }
 
+bool BroadPhase::are_pair(BodyIndex a, BodyIndex b) const {
+  const auto& smaller = entries_[a].pairs.size() < entries_[b].pairs.size() ? entries_[a].pairs : entries_[b].pairs;
+  return std::ranges::any_of(smaller, [&](std::uint32_t pair) {
+    return pairs_[pair].a == std::min(a, b) && pairs_[pair].b == std::max(a, b);
+  });
+}
+
 void BroadPhase::add_pairs_of(const Bodies& bodies, BodyIndex body) {
+  for_new_partners(bodies, body,
+                   [&](BodyIndex other) { add_pair(bodies, std::min(body, other), std::max(body, other)); });
+}
+
+/// Calls use(other) for each body that meets this one's box and may press it, of which there is no pair yet: more than
+/// once for those in several cells, unless `use` adds the pair.
+template <class Use>
+void BroadPhase::for_new_partners(const Bodies& bodies, BodyIndex body, Use use) const {
   const Box box = entries_[body].box;
   const auto consider = [&](BodyIndex other) {
     if (other == body) return;
     if (rule_.is_culling && !overlaps(box, entries_[other].box)) return;
     if (!can_press(bodies, body, other, rule_.presses_prescribed)) return;
-    const auto& smaller =
-        entries_[body].pairs.size() < entries_[other].pairs.size() ? entries_[body].pairs : entries_[other].pairs;
-    const BodyIndex a = std::min(body, other);
-    const BodyIndex b = std::max(body, other);
-    for (const std::uint32_t pair : smaller) {
-      if (pairs_[pair].a == a && pairs_[pair].b == b) return;
-    }
-    add_pair(bodies, a, b);
+    if (!are_pair(body, other)) use(other);
   };
   if (rule_.is_culling && is_held(bodies, body)) {
     for (const BodyIndex other : movers_) consider(other);
@@ -211,16 +221,38 @@ void BroadPhase::merge_new() {
   }
 }
 
-void BroadPhase::update(const Bodies& bodies, const std::vector<BodyIndex>& awake, double ahead) {
+void BroadPhase::update(const Bodies& bodies, const std::vector<BodyIndex>& awake, double ahead, int threads) {
+  moved_.clear();
   for (const BodyIndex body : awake) {
     if (!rule_.is_culling) break;  // every pair is there already
-    if (bodies.travel[body] + ahead * bodies.rim_speed[body] <= travel_limits_[body]) continue;
-    place(bodies, body);
-    own_pairs_ = entries_[body].pairs;
-    for (const std::uint32_t pair : own_pairs_) {
-      if (!overlaps(entries_[pairs_[pair].a].box, entries_[pairs_[pair].b].box)) drop_pair(pair);
+    if (bodies.travel[body] + ahead * bodies.rim_speed[body] > travel_limits_[body]) moved_.push_back(body);
+  }
+  boxes_.resize(moved_.size());
+  for_chunks(moved_.size(), kMovedPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) boxes_[i] = box_in_water(bodies, moved_[i]);
+  });
+  for (std::size_t i = 0; i < moved_.size(); ++i) place(bodies, moved_[i], boxes_[i]);
+  const std::size_t chunks = chunk_count(moved_.size(), kMovedPerChunk);
+  if (moved_some_.size() < chunks) moved_some_.resize(chunks);
+  for_chunks(moved_.size(), kMovedPerChunk, threads, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    Moved& moved = moved_some_[chunk];
+    moved.parted.clear();
+    moved.met.clear();
+    for (const BodyIndex body : std::span(moved_).subspan(begin, end - begin)) {
+      for (const std::uint32_t pair : entries_[body].pairs)
+        if (!overlaps(entries_[pairs_[pair].a].box, entries_[pairs_[pair].b].box)) moved.parted.push_back(pair);
+      for_new_partners(bodies, body, [&](BodyIndex other) {
+        moved.met.push_back({std::min(body, other), std::max(body, other)});
+      });
     }
-    add_pairs_of(bodies, body);
+  });
+  for (const Moved& some : std::span(moved_some_).first(chunks)) {
+    for (const std::uint32_t pair : some.parted)
+      if (!pairs_[pair].is_dropped) drop_pair(pair);
+  }
+  for (const Moved& some : std::span(moved_some_).first(chunks)) {
+    for (const auto& [a, b] : some.met)
+      if (!are_pair(a, b)) add_pair(bodies, a, b);
   }
   if (!new_.empty() || dropped_ > 0) merge_new();
 }

@@ -73,7 +73,7 @@ class BroadPhase {
 
   /// Updates boxes and pairs of those bodies that have travelled out of their grown boxes, or will have by their
   /// rim speed in a time [s].
-  void update(const Bodies& bodies, const std::vector<BodyIndex>& awake, double ahead = 0);
+  void update(const Bodies& bodies, const std::vector<BodyIndex>& awake, double ahead = 0, int threads = 1);
 
   /// All contacts of the present positions, ordered by (a, b, place), the same on any number of threads.
   /// Contact records are kept over the steps. Of bodies that take different steps: of the pairs that take theirs
@@ -116,12 +116,8 @@ class BroadPhase {
     }
   }
 
-  /// Calls use(pair) for each pair, in no order.
-  template <class Use>
-  void for_pairs(Use use) const {
-    for (const Pair& pair : pairs_)
-      if (!pair.is_dropped) use(pair);
-  }
+  /// The pairs, in no order, and what is_dropped among them: those are none.
+  std::span<const Pair> pairs() const { return pairs_; }
 
   /// Calls use(a, b, area, booked) for each pair, in no order: the overlap of its bodies that has pressed [m²],
   /// and what became of it.
@@ -162,11 +158,14 @@ class BroadPhase {
     std::uint32_t slot;
     friend bool operator<(const ActivePair& p, const ActivePair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; }
   };
-  void place(const Bodies& bodies, BodyIndex body);
+  void place(const Bodies& bodies, BodyIndex body, const geometry::Box& box);
   bool may_move(const Bodies& bodies, BodyIndex body) const;
   void enter_mover(const Bodies& bodies, BodyIndex body);
   void leave_movers(BodyIndex body);
   void add_pairs_of(const Bodies& bodies, BodyIndex body);
+  template <class Use>
+  void for_new_partners(const Bodies& bodies, BodyIndex body, Use use) const;
+  bool are_pair(BodyIndex a, BodyIndex b) const;
   void add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b);
   void keep_cover(const Bodies& bodies, BodyIndex body);
   template <class Wanted>
@@ -213,6 +212,13 @@ class BroadPhase {
   };
   std::vector<Share> shares_;
   std::vector<std::uint32_t> own_pairs_;  // of a body, while some of them are dropped
+  struct Moved {                          // out of their boxes, of some bodies
+    std::vector<std::uint32_t> parted;    // pairs, some twice
+    std::vector<std::array<BodyIndex, 2>> met;
+  };
+  std::vector<BodyIndex> moved_;
+  std::vector<geometry::Box> boxes_;  // of these
+  std::vector<Moved> moved_some_;
 };
 
 }  // namespace polynya::dynamics

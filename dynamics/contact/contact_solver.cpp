@@ -109,7 +109,7 @@ double ContactSolver::sweep(const Island& island, const Law& law, const SolverSe
     if (residual <= settings.tolerance || round + 1 >= settings.max_iterations) break;
     if (Law::kHasJams && round % to_jam == to_jam - 1) {
       if constexpr (Law::kHasJams) {
-        solve_jam(island, settings.tolerance, residual);
+        solve_jam(island, settings, residual);
         // A sweep would add up what single contacts miss: its residual is of the way that it goes.
         const double missed = missed_speed(island, law);
         if (missed <= settings.tolerance) return missed;
@@ -162,7 +162,7 @@ double ContactSolver::missed_speed(const Island& island, const CrushLaw& law) co
   return largest;
 }
 
-void ContactSolver::solve_jam(const Island& island, double tolerance, double residual) {
+void ContactSolver::solve_jam(const Island& island, const SolverSettings& settings, double residual) {
   const auto& states = std::get<States<CrushLaw>>(states_);
   const std::span constraints = std::span(constraints_).subspan(island.first, island.count);
   std::vector<EndLaws> laws(constraints.size());
@@ -174,7 +174,8 @@ void ContactSolver::solve_jam(const Island& island, double tolerance, double res
   const std::int32_t kept = memory_of_island_[static_cast<std::size_t>(&island - islands_.islands().data())];
   std::optional<JamMemory> own;
   JamMemory& memory = kept < 0 ? own.emplace() : jam_memories_[static_cast<std::size_t>(kept)].memory;
-  dynamics::solve_jam(constraints, laws, solver_bodies_, kSlipShare * tolerance, residual, memory);
+  dynamics::solve_jam(constraints, laws, solver_bodies_, kSlipShare * settings.tolerance, residual, memory,
+                      settings.threads);
 }
 
 /// Large islands find the memory that they had in the step before: by their first contact.
@@ -304,13 +305,12 @@ SolverResult ContactSolver::solve(Bodies& bodies, std::vector<Contact>& contacts
   const auto solve_by = [&](const auto& law) {
     fill(bodies, contacts, law, settings.threads);
     if constexpr (std::decay_t<decltype(law)>::kHasJams) give_memories(contacts);
-    for (std::size_t k = 0; k < islands.size(); ++k)
-      if (islands[k].is_divided()) residuals_[k] = solve_island(islands[k], law, settings);
-    for_chunks(islands.size(), kIslandsPerChunk, settings.threads,
-               [&](std::size_t, std::size_t begin, std::size_t end) {
-                 for (std::size_t k = begin; k < end; ++k)
-                   if (!islands[k].is_divided()) residuals_[k] = solve_island(islands[k], law, settings);
-               });
+    const auto solve_some = [&](std::size_t, std::size_t begin, std::size_t end) {  // those that begin there
+      auto island = std::ranges::lower_bound(islands, begin, {}, &Island::first);
+      for (; island != islands.end() && island->first < end; ++island)
+        residuals_[static_cast<std::size_t>(island - islands.begin())] = solve_island(*island, law, settings);
+    };
+    for_chunks(contacts.size(), kContactsPerChunk, settings.threads, solve_some);
     write_back(bodies, contacts, law, settings.threads);
   };
   std::visit(solve_by, any_law);

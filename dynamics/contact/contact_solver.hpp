@@ -45,7 +45,7 @@ struct SolverResult {
 /// largest change of a speed at a contact, max(|Δλ_e| K_ee, |Δλ_t| K_t); an island is solved where it is
 /// within the tolerance. After the first sweeps, each is extrapolated along the search direction of the
 /// nonsmooth nonlinear conjugate gradients of [Silcowitz2010]; jams of crushing ice are solved by Newton's
-/// method (jam_solver.hpp). A large island is swept by halves, side by side, then between them.
+/// method (jam_solver.hpp). Islands are solved side by side, and a large one is swept by halves, then between them.
 ///
 /// A response law L is a value with L::State for what it keeps of a contact within a step, and the functions
 /// that crush_law.hpp and restitution_law.hpp declare: substeps_of, state_of, begin_substep (bounds of λ),
@@ -100,7 +100,7 @@ class ContactSolver {
   void extrapolate(ContactRange range, const Search& search);
   void give_memories(const std::vector<Contact>& contacts);
   double missed_speed(const Island& island, const CrushLaw& law) const;
-  void solve_jam(const Island& island, double tolerance, double residual);
+  void solve_jam(const Island& island, const SolverSettings& settings, double residual);
   template <class Law>
   void finish(const Island& island, const Law& law, int threads);
   template <class Law>

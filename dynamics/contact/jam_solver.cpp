@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "dynamics/chunks.hpp"
 #include "dynamics/contact/internal/jam_matrix.hpp"
 
 namespace polynya::dynamics {
@@ -28,6 +29,9 @@ constexpr double kStickStart = 1.4, kStickRange = 2;
 /// Impulse per speed of rigid ends, in masses. Smaller: steel sinks into steel at a visible speed; far
 /// greater: the masses are lost to rounding beside it, and the matrix is singular.
 constexpr double kRigid = 1e6;
+
+/// Contacts for one thread at a time: in each of Newton's steps all are gone through, some 10 µs of them.
+constexpr std::size_t kPerChunk = 48;
 
 JamRows rows_of(const ContactConstraint& c, int a, int b) {
   const geometry::Vector n = c.normal;
@@ -72,6 +76,7 @@ struct JamMemory::Parts {
   };
   JamMatrix matrix;
   std::vector<Change> changes;
+  std::vector<std::vector<Change>> changes_of_chunk;
   std::vector<double> normal;                             ///< impulse of a contact by itself [N s]
   std::vector<std::array<double, 3>> impulses_before;     ///< of the constraints
   std::vector<SolverBody> bodies_before, bodies_without;  ///< those free to move; without any impulses
@@ -99,12 +104,13 @@ using Speeds = JamMemory::Parts::Speeds;
 class Jam {
  public:
   Jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws, std::span<SolverBody> bodies,
-      double slip_speed, double residual, JamMemory::Parts& memory)
+      double slip_speed, double residual, JamMemory::Parts& memory, int threads)
       : constraints_(constraints),
         laws_(laws),
         bodies_(bodies),
         slip_speed_(slip_speed),
         residual_(residual),
+        threads_(threads),
         memory_(memory) {
     number_unknowns();
     take(velocity_);
@@ -139,9 +145,9 @@ class Jam {
     for (int step = 0; step < kMostSteps; ++step) {
       const Choice choice = update_active_sets(step);
       if (step > 0 && choice.are_sets_found && choice.are_bounds_found && enter() < slip_speed_) return true;
-      if (!matrix.factorize(mass_, rows_, loads_)) break;
+      if (!matrix.factorize(mass_, rows_, loads_, threads_)) break;
       find_imbalance();
-      matrix.solve(memory_.direction);
+      matrix.solve(memory_.direction, threads_);
       advance();
     }
     if (enter() >= residual_) restore();
@@ -188,7 +194,7 @@ class Jam {
   Choice update_active_sets(int step) {
     Choice choice;
     share_that_follows_ = step < kWholeBoundSteps ? 1 : 0.5;
-    if (step == 0) find_all_changes();
+    if (step == 0) find_changes([](std::size_t, std::size_t) {});
     double most = 0;
     for (const Change& change : changes_) most = std::max({most, change.by[0], change.by[1], change.by[2]});
     for (const Change& change : changes_) {
@@ -218,11 +224,22 @@ class Jam {
     }
     return choice;
   }
-  void find_all_changes() {
+  /// After prepare(begin, end) of some contacts their changes are found, side by side; in the contacts' order.
+  template <class Prepare>
+  void find_changes(Prepare prepare) {
+    auto& of_chunk = memory_.changes_of_chunk;
+    const std::size_t chunks = chunk_count(rows_.size(), kPerChunk);
+    if (of_chunk.size() < chunks) of_chunk.resize(chunks);
+    for_chunks(rows_.size(), kPerChunk, threads_, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+      of_chunk[chunk].clear();
+      prepare(begin, end);
+      for (std::size_t k = begin; k < end; ++k) find_change(k, of_chunk[chunk]);
+    });
     changes_.clear();
-    for (std::size_t k = 0; k < rows_.size(); ++k) find_change(k);
+    for (const auto& some : std::span(of_chunk).first(chunks))
+      changes_.insert(changes_.end(), some.begin(), some.end());
   }
-  void find_change(std::size_t k) {
+  void find_change(std::size_t k, std::vector<Change>& changes) {
     const ContactConstraint& c = constraints_[k];
     const std::array<double, 2> beyond{beyond_branch(k, 0), beyond_branch(k, 1)};
     ActiveSet set = active_sets_[k];
@@ -234,10 +251,10 @@ class Jam {
     if (set == active_sets_[k]) return;
     const auto by = [&](auto from, auto to, double beyond_it) { return from != to ? beyond_it : 0; };
     const ActiveSet& now = active_sets_[k];
-    changes_.push_back({k,
-                        set,
-                        {by(now.ends.of[0], set.ends.of[0], beyond[0]), by(now.ends.of[1], set.ends.of[1], beyond[1]),
-                         by(now.slip, set.slip, std::abs(std::abs(slipping) - most))}});
+    changes.push_back({k,
+                       set,
+                       {by(now.ends.of[0], set.ends.of[0], beyond[0]), by(now.ends.of[1], set.ends.of[1], beyond[1]),
+                        by(now.slip, set.slip, std::abs(std::abs(slipping) - most))}});
   }
   /// By how much an end's impulse, on the line of its branch, is beyond where the branch is the nearest [m/s].
   double beyond_branch(std::size_t k, std::size_t end) const {
@@ -312,16 +329,16 @@ class Jam {
     for (std::size_t i = 0; i < velocity_.size(); ++i) {
       for (std::size_t j = 0; j < 4; ++j) velocity_[i][j] += memory_.direction[i][j];
     }
-    add_speeds(rows_, memory_.direction, speeds_);
-    changes_.clear();
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      find_load(k);
-      if (active_sets_[k].slip != 0) {  // by impulses within their laws: others would turn the slip round
+    find_changes([&](std::size_t begin, std::size_t end) {
+      const std::size_t count = end - begin;
+      add_speeds(std::span(rows_).subspan(begin, count), memory_.direction, std::span(speeds_).subspan(begin, count));
+      for (std::size_t k = begin; k < end; ++k) {
+        find_load(k);
+        if (active_sets_[k].slip == 0) continue;  // by impulses within their laws: others would turn the slip round
         slip_bound_[k] = constraints_[k].friction * normal_within_law(k);
         loads_[k].impulse[2] = active_sets_[k].slip * slip_bound_[k];
       }
-      find_change(k);
-    }
+    });
   }
   double normal_within_law(std::size_t k) const {
     double normal = 0;
@@ -380,7 +397,8 @@ class Jam {
   std::span<const EndLaws> laws_;
   std::span<SolverBody> bodies_;
   double slip_speed_;
-  double residual_;                ///< of the sweeps before [m/s]
+  double residual_;  ///< of the sweeps before [m/s]
+  int threads_;
   double share_that_follows_ = 1;  ///< of the bound of what slips
   JamMemory::Parts& memory_;
   std::vector<std::array<double, 3>>& impulses_before_ = memory_.impulses_before;
@@ -415,8 +433,8 @@ CrushResponse rigid_law(double inverse_mass) {
 }
 
 bool solve_jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws, std::span<SolverBody> bodies,
-               double slip_speed, double residual, JamMemory& memory) {
-  return Jam(constraints, laws, bodies, slip_speed, residual, memory.parts()).solve();
+               double slip_speed, double residual, JamMemory& memory, int threads) {
+  return Jam(constraints, laws, bodies, slip_speed, residual, memory.parts(), threads).solve();
 }
 
 }  // namespace polynya::dynamics

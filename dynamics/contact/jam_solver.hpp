@@ -46,9 +46,9 @@ class JamMemory {
 /// Enters the impulses into the constraints and the velocities into the bodies and returns true where no
 /// contact would leave its branches. Else returns false; what it came to is entered where that misses its speeds by
 /// less than `residual`, that of the start [m/s], and sweeps go on from there; or both stay as they were. Bodies of
-/// prescribed motion are never changed.
+/// prescribed motion are never changed. The same by any number of threads.
 bool solve_jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws, std::span<SolverBody> bodies,
-               double slip_speed, double residual, JamMemory& memory);
+               double slip_speed, double residual, JamMemory& memory, int threads = 1);
 inline bool solve_jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws,
                       std::span<SolverBody> bodies, double slip_speed) {
   JamMemory memory;

@@ -21,17 +21,15 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 namespace PS = CGAL::Polyline_simplification_2;
-/// Constraints do not cross: rings are valid.
-template <class VertexBase, class FaceBase>
-using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel,
-    CGAL::Triangulation_data_structure_2<VertexBase, CGAL::Constrained_triangulation_face_base_2<Kernel, FaceBase>>,
-    CGAL::No_constraint_intersection_requiring_constructions_tag>;
-using Plus = CGAL::Constrained_triangulation_plus_2<
-    Delaunay<PS::Vertex_base_2<Kernel>, CGAL::Triangulation_face_base_2<Kernel>>>;
-/// A vertex has its number, a face how many rings lie around it.
-using Triangulation = Delaunay<CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>,
-                               CGAL::Triangulation_face_base_with_info_2<int, Kernel>>;
+/// Constraints do not cross: rings are valid. A vertex has its number, a face how many rings lie around it; what only
+/// simplification needs a vertex has too, so that one triangulation is compiled.
+using VertexBase = PS::Vertex_base_2<Kernel, CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>>;
+using FaceBase =
+    CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Triangulation_face_base_with_info_2<int, Kernel>>;
+using Triangulation =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+                                               CGAL::No_constraint_intersection_requiring_constructions_tag>;
+using Plus = CGAL::Constrained_triangulation_plus_2<Triangulation>;
 
 Plus::Constraint_id insert(Plus& plus, const Ring& ring) {
   std::vector<Kernel::Point_2> points;

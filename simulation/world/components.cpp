@@ -5,8 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
+#include <utility>
 
+#include "dynamics/chunks.hpp"
 #include "simulation/world/levels.hpp"
 
 namespace polynya::simulation {
@@ -46,6 +49,8 @@ constexpr std::size_t kFewCorners = 64;
 constexpr double kLeastShare = 0.25;
 /// Ticks after which it is tried again, where too few would.
 constexpr std::int64_t kWait = 16;
+/// Bodies, and pairs, for one thread at a time.
+constexpr std::size_t kPerChunk = 512;
 
 /// A bound of the speed at which any two points of two bodies that touch part or close [m/s].
 double relative_speed(const Components::Node& a, const Components::Node& b) {
@@ -88,13 +93,15 @@ class Apart {
 
 class Assignment {
  public:
-  Assignment(const Setup& setup, const Clock& clock, std::int64_t ticks, Population& population, Components& components)
+  Assignment(const Setup& setup, const Clock& clock, std::int64_t ticks, int threads, Population& population,
+             Components& components)
       : setup_(setup),
         population_(population),
         bodies_(population.bodies),
         components_(components),
         nodes_(components.nodes),
         ticks_(ticks),
+        threads_(threads),
         tick_(clock.tick),
         least_(parts_of_tick(setup, clock, population) > 1 ? 1 : 2) {}
 
@@ -111,11 +118,23 @@ class Assignment {
   }
   void find_heavy();
   void clear();
+  Node new_node(BodyIndex i) const;
+  void place_corners(Node& node);
   std::int32_t node(BodyIndex i);
+  void add_nodes_of_awake();
   std::span<const Point> corners(const Node& node) const;
   bool may_touch(std::int32_t a, std::int32_t b, double speed) const;
   void shorten(std::int32_t i, double way, double speed);
+  /// Two bodies that may touch in the block.
+  struct Meeting {
+    std::int32_t a = 0, b = 0;  ///< nodes
+    double speed = 0;           ///< [m/s]
+    double longest = 0;         ///< of Touch
+  };
+  std::optional<Meeting> meeting_of(std::int32_t a, std::int32_t b, const dynamics::Pair* pair) const;
+  void enter(const Meeting& meeting);
   void see(BodyIndex a, BodyIndex b, const dynamics::Pair* pair);
+  void see_pairs();
   int level_of(double time) const;
   void find_partners();
   void follow_partners();
@@ -130,10 +149,16 @@ class Assignment {
   Components& components_;
   std::vector<Node>& nodes_;
   std::int64_t ticks_;
+  int threads_;
   double tick_;
   int least_;           ///< level above 0: one tick is a longer step only where a tick has parts
   double heavy_ = 0;    ///< [kg]
   double fastest_ = 0;  ///< of any body's rim [m/s]
+  struct SeenPairs {
+    std::vector<Meeting> meetings;
+    std::vector<const dynamics::Pair*> others;  ///< of a body that has no node yet
+  };
+  std::vector<SeenPairs> seen_;  ///< by chunks of the pairs
 };
 
 /// How many ticks may pass before any body comes too far.
@@ -157,16 +182,13 @@ void Assignment::clear() {
   for (const Node& node : nodes_) components_.node_of[node.body] = -1;
   components_.node_of.resize(static_cast<std::size_t>(bodies_.size()), -1);
   nodes_.clear();
-  components_.corners.clear();
   components_.touching.clear();
   population_.moving_along.clear();
   for (auto& list : components_.of_level) list.clear();
 }
 
-std::int32_t Assignment::node(BodyIndex i) {
-  std::int32_t& place = components_.node_of[i];
-  if (place >= 0) return place;
-  place = static_cast<std::int32_t>(nodes_.size());
+/// Without the places of its corners.
+Components::Node Assignment::new_node(BodyIndex i) const {
   Node node;
   node.body = i;
   node.is_fixed = population_.is_hull(i) || is_heavy(i);
@@ -174,22 +196,52 @@ std::int32_t Assignment::node(BodyIndex i) {
   node.angular_velocity = bodies_.angular_velocity[i];
   node.turning = std::abs(node.angular_velocity) * bodies_.bounding_radius[i];
   node.longest = time();
-  node.first = components_.corners.size();
-  const auto& vertices = bodies_.boundary[i]->edges.vertices;
-  const bool is_exact = population_.is_hull(i) || vertices.size() <= kFewCorners;
-  if (is_exact) {
-    const geometry::Pose pose = water_from_body(bodies_, i);
-    node.count = vertices.size();
-    node.box = {transform(pose, vertices.front()), transform(pose, vertices.front())};
-    for (const Point p : vertices) {
-      components_.corners.push_back(transform(pose, p));
-      extend(node.box, components_.corners.back());
-    }
-  } else {
+  const std::size_t corners = bodies_.boundary[i]->edges.vertices.size();
+  if (population_.is_hull(i) || corners <= kFewCorners) node.count = corners;
+  return node;
+}
+
+void Assignment::place_corners(Node& node) {
+  const BodyIndex i = node.body;
+  if (node.count == 0) {
     node.box = geometry::grown({bodies_.position[i], bodies_.position[i]}, bodies_.bounding_radius[i]);
+    return;
   }
-  nodes_.push_back(node);
+  const geometry::Pose pose = water_from_body(bodies_, i);
+  const auto& vertices = bodies_.boundary[i]->edges.vertices;
+  node.box = {transform(pose, vertices.front()), transform(pose, vertices.front())};
+  for (std::size_t k = 0; k < node.count; ++k) {
+    const Point corner = components_.corners[node.first + k] = transform(pose, vertices[k]);
+    extend(node.box, corner);
+  }
+}
+
+std::int32_t Assignment::node(BodyIndex i) {
+  std::int32_t& place = components_.node_of[i];
+  if (place >= 0) return place;
+  place = static_cast<std::int32_t>(nodes_.size());
+  Node& node = nodes_.emplace_back(new_node(i));
+  node.first = components_.corners.size();
+  components_.corners.resize(node.first + node.count);
+  place_corners(node);
   return place;
+}
+
+void Assignment::add_nodes_of_awake() {
+  const std::vector<BodyIndex>& awake = population_.awake;
+  nodes_.resize(awake.size());
+  dynamics::for_chunks(awake.size(), kPerChunk, threads_, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      components_.node_of[awake[k]] = static_cast<std::int32_t>(k);
+      nodes_[k] = new_node(awake[k]);
+    }
+  });
+  std::size_t corners = 0;
+  for (Node& node : nodes_) node.first = std::exchange(corners, corners + node.count);
+  components_.corners.resize(corners);
+  dynamics::for_chunks(awake.size(), kPerChunk, threads_, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) place_corners(nodes_[k]);
+  });
 }
 
 std::span<const Point> Assignment::corners(const Node& node) const {
@@ -218,26 +270,58 @@ double force_of(std::span<const dynamics::PersistentContact> records) {
   return force;
 }
 
-/// Two bodies, and what the contact search keeps of them where they are a pair.
-void Assignment::see(BodyIndex a, BodyIndex b, const dynamics::Pair* pair) {
-  if (is_fixed(a) && is_fixed(b)) return;
-  const std::int32_t of_a = node(a);
-  const std::int32_t of_b = node(b);
-  const double speed = relative_speed(nodes_[of_a], nodes_[of_b]);
-  if (!may_touch(of_a, of_b, speed)) return;
+/// Of two bodies, and what the contact search keeps of them where they are a pair.
+std::optional<Assignment::Meeting> Assignment::meeting_of(std::int32_t a, std::int32_t b,
+                                                          const dynamics::Pair* pair) const {
+  const double speed = relative_speed(nodes_[a], nodes_[b]);
+  if (!may_touch(a, b, speed)) return std::nullopt;
+  const double force = pair != nullptr ? force_of(pair->records()) : 0;
+  const double mass = std::min(bodies_.mass[nodes_[a].body], bodies_.mass[nodes_[b].body]);
+  return Meeting{a, b, speed, force > 0 ? kPressedSpeed * mass / force : time()};
+}
+
+void Assignment::enter(const Meeting& meeting) {
+  const BodyIndex a = nodes_[meeting.a].body, b = nodes_[meeting.b].body;
   const auto goes_by_tick_beside = [&](BodyIndex other, BodyIndex i) {
     return population_.is_hull(other) ||
            (is_heavy(other) && !is_held(bodies_, other) && bodies_.mass[other] < kHeavier * bodies_.mass[i]);
   };
-  if (goes_by_tick_beside(a, b)) return shorten(of_b, 0, 1);
-  if (goes_by_tick_beside(b, a)) return shorten(of_a, 0, 1);
+  if (goes_by_tick_beside(a, b)) return shorten(meeting.b, 0, 1);
+  if (goes_by_tick_beside(b, a)) return shorten(meeting.a, 0, 1);
   const double way = most_way_of_floes(setup_.scene.contact, std::min(bodies_.thickness[a], bodies_.thickness[b]));
-  for (const std::int32_t i : {of_a, of_b})
-    if (!nodes_[i].is_fixed) shorten(i, way, speed);
+  for (const std::int32_t i : {meeting.a, meeting.b})
+    if (!nodes_[i].is_fixed) shorten(i, way, meeting.speed);
   if (is_fixed(a) || is_fixed(b) || bodies_.is_awake[a] == 0 || bodies_.is_awake[b] == 0) return;
-  const double force = pair != nullptr ? force_of(pair->records()) : 0;
-  const double mass = std::min(bodies_.mass[a], bodies_.mass[b]);
-  components_.touching.push_back({of_a, of_b, force > 0 ? kPressedSpeed * mass / force : time()});
+  components_.touching.push_back({meeting.a, meeting.b, meeting.longest});
+}
+
+void Assignment::see(BodyIndex a, BodyIndex b, const dynamics::Pair* pair) {
+  if (is_fixed(a) && is_fixed(b)) return;
+  const std::int32_t of_a = node(a);
+  const std::int32_t of_b = node(b);
+  if (const auto meeting = meeting_of(of_a, of_b, pair)) enter(*meeting);
+}
+
+/// Those between bodies awake side by side; what they come to is entered chunk by chunk, the same by any number of
+/// threads.
+void Assignment::see_pairs() {
+  const std::span<const dynamics::Pair> pairs = population_.pairs.pairs();
+  seen_.resize(dynamics::chunk_count(pairs.size(), kPerChunk));
+  dynamics::for_chunks(pairs.size(), kPerChunk, threads_, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    SeenPairs& seen = seen_[chunk];
+    for (const dynamics::Pair& pair : pairs.subspan(begin, end - begin)) {
+      if (pair.is_dropped || (is_fixed(pair.a) && is_fixed(pair.b))) continue;
+      const std::int32_t a = components_.node_of[pair.a], b = components_.node_of[pair.b];
+      if (a < 0 || b < 0)
+        seen.others.push_back(&pair);
+      else if (const auto meeting = meeting_of(a, b, &pair))
+        seen.meetings.push_back(*meeting);
+    }
+  });
+  for (const SeenPairs& seen : seen_) {
+    for (const Meeting& meeting : seen.meetings) enter(meeting);
+    for (const dynamics::Pair* pair : seen.others) see(pair->a, pair->b, pair);
+  }
 }
 
 /// What comes farther in the block than the contact search has pairs of.
@@ -327,11 +411,11 @@ std::int64_t Assignment::sort() {
   for (const BodyIndex i : population_.awake) fastest_ = std::max(fastest_, rim_speed_of(bodies_, i));
   ticks_ = std::min(ticks_, ticks_within_reach());
   if (ticks_ < 2) return 1;
-  population_.pairs.update(bodies_, population_.awake, kAhead * static_cast<double>(ticks_) * tick_);
+  population_.pairs.update(bodies_, population_.awake, kAhead * static_cast<double>(ticks_) * tick_, threads_);
   clear();
   find_heavy();
-  for (const BodyIndex i : population_.awake) node(i);
-  population_.pairs.for_pairs([this](const dynamics::Pair& pair) { see(pair.a, pair.b, &pair); });
+  add_nodes_of_awake();
+  see_pairs();
   for (const BodyIndex i : population_.awake) see_farther(i);
   for (Node& node : nodes_) node.level = node.is_fixed ? 0 : level_of(node.longest);
   follow_partners();
@@ -351,13 +435,13 @@ std::int64_t ticks_to_common(const Setup& setup, const Clock& clock) {
 
 }  // namespace
 
-std::int64_t begin_block(const Setup& setup, Clock& clock, std::int64_t most, Population& population,
+std::int64_t begin_block(const Setup& setup, Clock& clock, std::int64_t most, int threads, Population& population,
                          Components& components) {
   if (setup.levels == 0 || clock.steps < clock.next_levels) return 1;
   if (clock.changing) return 1;  // the water frame's velocity changes with the tick, for all bodies at once
   const std::int64_t ticks = std::min({most, longest_block(setup), ticks_to_common(setup, clock)});
   if (ticks < 2) return 1;
-  const std::int64_t block = Assignment(setup, clock, ticks, population, components).sort();
+  const std::int64_t block = Assignment(setup, clock, ticks, threads, population, components).sort();
   if (block == 1) {
     clock.next_levels = clock.steps + kWait;
     end_block(population);

@@ -65,7 +65,7 @@ inline std::int64_t longest_block(const Setup& setup) {
 
 /// Sorts the bodies by the steps that they take, from a tick to which all have come. Returns the number of ticks
 /// for which that holds, at most so many; 1 where all take the next tick together.
-std::int64_t begin_block(const Setup& setup, Clock& clock, std::int64_t most, Population& population,
+std::int64_t begin_block(const Setup& setup, Clock& clock, std::int64_t most, int threads, Population& population,
                          Components& components);
 
 /// Whether a body was there and awake, or near one that is, when the block began.

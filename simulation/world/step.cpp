@@ -425,7 +425,8 @@ class Block {
 void step(World& world, std::int64_t most_ticks) {
   world.step.longer_contacts.clear();
   world.step.longer_steps.clear();
-  const std::int64_t ticks = begin_block(world.setup, world.clock, most_ticks, world.population, world.components);
+  const std::int64_t ticks =
+      begin_block(world.setup, world.clock, most_ticks, world.threads, world.population, world.components);
   if (ticks == 1)
     run_tick(world, RunsIn::kTogether);
   else

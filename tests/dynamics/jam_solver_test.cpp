@@ -377,7 +377,7 @@ Eigen::MatrixXd dense(const Problem& problem) {
 TEST(JamMatrix, SolvesWhatADenseMatrixSolves) {
   Random random(kSeed);
   for (const double friction : {0.0, 0.3}) {
-    for (const int bodies : {1, 2, 7, 40}) {
+    for (const int bodies : {1, 2, 7, 40, 120}) {
       Problem problem = problem_of(random, bodies, friction);
       JamMatrix matrix(bodies, problem.rows);
       for (int time = 0; time < 2; ++time) {  // the second with other slopes in the same places
@@ -421,6 +421,18 @@ TEST(JamMatrix, TakesOtherJams) {
     const JamVector right = right_side(bodies);
     const Eigen::VectorXd expected = dense(problem).partialPivLu().solve(flat(right));
     EXPECT_LT((solution_of(matrix, right) - expected).norm(), 1e-8 * expected.norm()) << bodies;
+  }
+}
+
+TEST(JamMatrix, IsTheSameOnAnyNumberOfThreads) {
+  Random random(kSeed);
+  const Problem problem = problem_of(random, 300, 0.3);
+  std::vector<JamVector> found;
+  for (const int threads : {1, 2, 3, 8}) {
+    JamMatrix matrix(300, problem.rows);
+    ASSERT_TRUE(matrix.factorize(problem.mass, problem.rows, problem.loads, threads));
+    matrix.solve(found.emplace_back(right_side(300)), threads);
+    EXPECT_EQ(found.back(), found.front()) << threads;
   }
 }
 

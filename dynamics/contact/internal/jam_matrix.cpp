@@ -7,8 +7,16 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 
+#include "dynamics/chunks.hpp"
+
 namespace polynya::dynamics {
 namespace {
+
+/// Branches of the elimination tree have at most one in so many of its work, and at least one in twice as many. Fewer:
+/// the longest one has others wait; more: the trunk, which one thread works on, grows.
+constexpr double kBranches = 8;
+/// Bodies of a matrix that has branches. Fewer: to hand them over takes as long as working on them.
+constexpr int kLeastBranched = 96;
 
 /// Of what clones for AVX2 call: else it is compiled for other processors.
 #define POLYNYA_IN_CLONE [[gnu::always_inline]] inline
@@ -210,6 +218,55 @@ void JamMatrix::find_pairs(std::span<const JamRows> rows) {
   is_filled_.assign(later_.size(), 0);
   pairs_.assign(later_.size(), {});
   find_targets();
+  find_branches();
+}
+
+/// Branches are subtrees of the elimination tree, in which the parent of a body is the first later one of its pairs.
+void JamMatrix::find_branches() {
+  constexpr double kOwnWork = 4;  // of a row, in products of blocks
+  const int bodies = static_cast<int>(place_of_.size());
+  std::vector<double> work(place_of_.size(), kOwnWork);  // of subtrees
+  const auto parent = [&](int i) { return first_[i] < first_[i + 1] ? later_[first_[i]] : -1; };
+  for (int i = 0; i < bodies; ++i) {
+    for (int e = first_earlier_[i]; e < first_earlier_[i + 1]; ++e)
+      work[i] += first_[earlier_[e].body + 1] - earlier_[e].pair;
+    if (parent(i) >= 0) work[parent(i)] += work[i];
+  }
+  double all = 0;
+  for (int i = 0; i < bodies; ++i) all += parent(i) < 0 ? work[i] : 0;
+  const double most = bodies < kLeastBranched ? 0 : all / kBranches;  // above it is the trunk
+  std::vector<int> branch_of(place_of_.size(), -1);                   // -1: the trunk
+  int branches = 0;
+  double of_branch = 0;
+  for (int i = bodies; i-- > 0;) {
+    if (work[i] > most) continue;
+    if (parent(i) >= 0 && work[parent(i)] <= most) {
+      branch_of[i] = branch_of[parent(i)];
+      continue;
+    }
+    if (branches == 0 || of_branch + work[i] > most) ++branches, of_branch = 0;
+    of_branch += work[i];
+    branch_of[i] = branches - 1;
+  }
+  first_of_branch_.assign(static_cast<std::size_t>(branches) + 1, 0);
+  for (const int branch : branch_of)
+    if (branch >= 0) ++first_of_branch_[branch + 1];
+  for (int k = 0; k < branches; ++k) first_of_branch_[k + 1] += first_of_branch_[k];
+  std::vector<std::size_t> next = first_of_branch_;
+  by_branch_.resize(place_of_.size());
+  for (int i = 0; i < bodies; ++i) by_branch_[next[branch_of[i] < 0 ? branches : branch_of[i]]++] = i;
+}
+
+/// Calls work(branch, places) for each branch, side by side.
+template <class Work>
+void JamMatrix::for_branches(int threads, Work work) const {
+  for_chunks(first_of_branch_.size() - 1, 1, threads, [&](std::size_t k, std::size_t, std::size_t) {
+    work(k, std::span(by_branch_).subspan(first_of_branch_[k], first_of_branch_[k + 1] - first_of_branch_[k]));
+  });
+}
+
+std::span<const int> JamMatrix::trunk() const {
+  return std::span(by_branch_).subspan(first_of_branch_.back());
 }
 
 void JamMatrix::find_targets() {
@@ -327,29 +384,44 @@ bool JamMatrix::factorize_row(int body) {
   return true;
 }
 
-bool JamMatrix::factorize(const JamVector& mass, std::span<const JamRows> rows, std::span<const JamLoad> loads) {
-  mark_changed(rows, loads);
-  for (int i = 0; i < static_cast<int>(own_.size()); ++i) {
-    if (is_changed_[i] == 0) continue;
+bool JamMatrix::factorize_rows(std::span<const int> places, const JamVector& mass) {
+  return std::ranges::all_of(places, [&](int i) {
+    if (is_changed_[i] == 0) return true;
     add_up(i, mass[body_at_[i]].data());
     take_earlier(i);
-    if (!factorize_row(i)) return false;
-    is_changed_[i] = 0;
+    return factorize_row(i);
+  });
+}
+
+bool JamMatrix::factorize(const JamVector& mass, std::span<const JamRows> rows, std::span<const JamLoad> loads,
+                          int threads) {
+  mark_changed(rows, loads);
+  for (std::size_t i = 0; i < own_.size(); ++i) {
     // The next one that it fills has the others that it fills among its own.
-    if (first_[i] < first_[i + 1]) is_changed_[later_[first_[i]]] = 1;
+    if (is_changed_[i] != 0 && first_[i] < first_[i + 1]) is_changed_[later_[first_[i]]] = 1;
   }
+  std::vector<std::uint8_t> is_regular(first_of_branch_.size(), 1);
+  for_branches(threads, [&](std::size_t k, std::span<const int> places) {
+    is_regular[k] = factorize_rows(places, mass) ? 1 : 0;
+  });
+  if (std::ranges::count(is_regular, 0) > 0 || !factorize_rows(trunk(), mass)) return false;
+  is_changed_.assign(is_changed_.size(), 0);
   return true;
 }
 
-void JamMatrix::solve_ordered(JamVector& x) const {
-  const int bodies = static_cast<int>(own_.size());
-  for (int i = 0; i < bodies; ++i) {
-    solve_lower(own_[i].block.at, own_[i].row, x[i]);
-    for (int p = first_[i]; p < first_[i + 1]; ++p) {
-      if (is_filled_[p] != 0) subtract_transposed(x[later_[p]], pairs_[p].lower.at, x[i]);
+void JamMatrix::solve_lower_rows(std::span<const int> places, JamVector& x) const {
+  for (const int i : places) {
+    for (int e = first_earlier_[i]; e < first_earlier_[i + 1]; ++e) {
+      const auto [body, pair] = earlier_[e];
+      if (is_filled_[pair] != 0) subtract_transposed(x[i], pairs_[pair].lower.at, x[body]);
     }
+    solve_lower(own_[i].block.at, own_[i].row, x[i]);
   }
-  for (int i = bodies; i-- > 0;) {
+}
+
+void JamMatrix::solve_upper_rows(std::span<const int> places, JamVector& x) const {
+  for (std::size_t k = places.size(); k-- > 0;) {
+    const int i = places[k];
     for (int p = first_[i]; p < first_[i + 1]; ++p) {
       if (is_filled_[p] != 0) subtract(x[i], pairs_[p].upper.at, x[later_[p]]);
     }
@@ -357,10 +429,13 @@ void JamMatrix::solve_ordered(JamVector& x) const {
   }
 }
 
-void JamMatrix::solve(JamVector& x) const {
+void JamMatrix::solve(JamVector& x, int threads) const {
   ordered_.resize(own_.size());
   for (std::size_t i = 0; i < own_.size(); ++i) ordered_[place_of_[i]] = x[i];
-  solve_ordered(ordered_);
+  for_branches(threads, [&](std::size_t, std::span<const int> places) { solve_lower_rows(places, ordered_); });
+  solve_lower_rows(trunk(), ordered_);
+  solve_upper_rows(trunk(), ordered_);
+  for_branches(threads, [&](std::size_t, std::span<const int> places) { solve_upper_rows(places, ordered_); });
   for (std::size_t i = 0; i < own_.size(); ++i) x[i] = ordered_[place_of_[i]];
 }
 

@@ -40,6 +40,9 @@ POLYNYA_AVX2_CLONE void subtract_impulses(std::span<const JamRows> rows, std::sp
 /// body, with pivots sought within them: the row of body i holds the blocks with those eliminated after it.
 /// A step of Newton's method changes few slopes: bodies none of whose contacts, and none of those eliminated before
 /// them that they are filled by, have other slopes than at the last factorization keep their rows.
+/// A row takes from those of earlier bodies that fill it, which are below it in the elimination tree: branches of the
+/// tree are worked on side by side, then what is left, the trunk. Each row takes them in their order, by any number of
+/// threads.
 class JamMatrix {
  public:
   JamMatrix() = default;
@@ -51,9 +54,9 @@ class JamMatrix {
 
   /// `mass`: of the bodies, the same since they were taken, as the rows. Returns whether it succeeded; it fails where
   /// masses and slopes differ by more than doubles bear.
-  bool factorize(const JamVector& mass, std::span<const JamRows> rows, std::span<const JamLoad> loads);
+  bool factorize(const JamVector& mass, std::span<const JamRows> rows, std::span<const JamLoad> loads, int threads = 1);
   /// Solves in place; an element beyond those of the bodies stays.
-  void solve(JamVector& x) const;
+  void solve(JamVector& x, int threads = 1) const;
 
  private:
   /// Each row has a fourth lane, 0, that makes it as long as a register.
@@ -94,6 +97,10 @@ class JamMatrix {
   void find_pairs(std::span<const JamRows> rows);
   void find_targets();
   void find_contacts();
+  void find_branches();
+  template <class Work>
+  void for_branches(int threads, Work work) const;
+  std::span<const int> trunk() const;
   int pair_of(int earlier, int later) const;
   void mark_changed(std::span<const JamRows> rows, std::span<const JamLoad> loads);
   POLYNYA_AVX2_CLONE static void find_blocks(const Places& place, const JamRows& rows, const JamLoad& load,
@@ -101,7 +108,9 @@ class JamMatrix {
   POLYNYA_AVX2_CLONE void add_up(int body, const double* mass);
   POLYNYA_AVX2_CLONE void take_earlier(int body);
   POLYNYA_AVX2_CLONE bool factorize_row(int body);
-  POLYNYA_AVX2_CLONE void solve_ordered(JamVector& x) const;
+  bool factorize_rows(std::span<const int> places, const JamVector& mass);
+  POLYNYA_AVX2_CLONE void solve_lower_rows(std::span<const int> places, JamVector& x) const;
+  POLYNYA_AVX2_CLONE void solve_upper_rows(std::span<const int> places, JamVector& x) const;
 
   std::vector<std::array<int, 2>> between_;  ///< the bodies of each contact
   std::vector<int> place_of_;                ///< of each body in the order of elimination
@@ -120,9 +129,11 @@ class JamMatrix {
   std::vector<int> contacts_;
   std::vector<Places> places_;
   std::vector<OfContact> of_contact_;
-  mutable JamVector ordered_;             ///< by place
-  std::vector<Slopes> slopes_;            ///< of the last factorization
-  std::vector<std::uint8_t> is_changed_;  ///< of each body, by place: its row since the last factorization
+  std::vector<int> by_branch_;                ///< places, branch by branch and then the trunk's, each ascending
+  std::vector<std::size_t> first_of_branch_;  ///< in these; one more at the end, of the trunk
+  mutable JamVector ordered_;                 ///< by place
+  std::vector<Slopes> slopes_;                ///< of the last factorization
+  std::vector<std::uint8_t> is_changed_;      ///< of each body, by place: its row since the last factorization
 };
 
 }  // namespace polynya::dynamics
