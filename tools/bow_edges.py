@@ -155,12 +155,11 @@ def sides(edge, radii):
     return abs(np.arctan2(nx * ends[..., 1] - ny * ends[..., 0], ends @ (nx, ny)))
 
 
-def rim_of_force(front, back, r, l):
+def rim_of_force(front, back, l):
     """What the rims of cracked sections have of the mean bending stress under V."""
     middle = 0.5 * (front - back)
     turn = np.minimum(abs(np.r_[middle[2:], middle[-1], middle[-1]] - middle), 1)
-    return (0.91 + 0.185 * (np.clip(l, 10, 21.2) / 15 - 1) - 0.035 * (np.minimum(front + back, math.pi) - 2)
-            + 0.436 * np.minimum(middle ** 2, 0.25) + 0.244 * turn - 0.071 * np.clip(np.log(r) - 1, -2, 2) ** 2)
+    return 0.87 + 0.18 * (np.clip(l, 10, 21.2) / 15 - 1) - 0.04 * (np.minimum(front + back, math.pi) - 2) + 0.19 * turn
 
 
 def by_sections(edge, share=None, load_place=2 / 3):
@@ -178,7 +177,7 @@ def by_sections(edge, share=None, load_place=2 / 3):
         share = np.clip((math.degrees(widest) - 90) / 15, 0, 1)
     whole = np.maximum(0, 6 * (moment - couple) - thrust) / (opening * r) / hold_of_whole(opening)
     counts = np.clip(np.log(r * 1.25 ** 0.5 / (edge["depth"] + 1)) / math.log(1.25), 0, 1)
-    rims = (np.maximum(0, 6 * (rim_of_force(front, back, r, l) * moment - 0.43 * couple) - 1.23 * thrust)
+    rims = (np.maximum(0, 6 * (rim_of_force(front, back, l) * moment - 0.31 * couple) - 0.93 * thrust)
             / (opening * r) * counts ** (1 / 6))
     next_cracks = 0.585 * (1 + max(0, widest - math.pi))
     stress = share * rims + (1 - share) * whole

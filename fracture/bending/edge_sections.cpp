@@ -25,12 +25,11 @@ constexpr std::array<double, 21> kDrop = {0,       0.16033, 0.30268, 0.42768, 0.
                                           0.99699, 1.00656, 1.01316, 1.01740, 1.01978, 1.02073, 1.02061};
 
 /// The rims of cracked sections, by elements of edges of runs (docs/theory/bow.md): what they have of the mean bending
-/// stress under V, at 15 h, 2 rad, e h, with the middle of all sections on the hull's normal; how that grows with
-/// length, opening, the middle's direction squared, its change over kTurnReach circles, and (ln r/h − 1)²; and what
-/// they have of the mean stress by the thrust's lever, most of which does not reach them, and by the thrust itself.
-constexpr double kRimOfForce = 0.91, kGrowthWithLength = 0.185, kGrowthWithOpening = -0.035;
-constexpr double kGrowthWithDirection = 0.436, kGrowthWithTurn = 0.244, kGrowthWithDistance = -0.071;
-constexpr double kRimOfLever = 0.43, kRimOfThrust = 1.23;
+/// stress under V, at 15 h and 2 rad, where the next sections have one direction; how that grows with length, opening,
+/// and the change of the middle's direction over kTurnReach circles; and what they have of the mean stress by the
+/// thrust's lever, most of which does not reach them, and by the thrust itself.
+constexpr double kRimOfForce = 0.87, kGrowthWithLength = 0.18, kGrowthWithOpening = -0.04, kGrowthWithTurn = 0.19;
+constexpr double kRimOfLever = 0.31, kRimOfThrust = 0.93;
 constexpr std::size_t kTurnReach = 2;
 constexpr double kWeibull = 6;  ///< m of ice whose strength scatters by .2
 
@@ -117,13 +116,11 @@ SectionStresses stresses_of_whole(const EdgeOpenings& openings, const EdgePush& 
 
 /// What the rims of section i have of the mean bending stress under V; held beyond what the elements had.
 double rim_of_force(const EdgeOpenings& openings, double length, std::size_t i) {
-  constexpr double kWidest = 180 * geometry::kRadiansPerDegree, kMostAside = 0.5, kMostTurn = 1, kFarthest = 2;
-  const double aside = std::min(std::abs(openings.middle(i)), kMostAside);
+  constexpr double kWidest = 180 * geometry::kRadiansPerDegree, kMostTurn = 1;
   const double turn = openings.middle(std::min(i + kTurnReach, kSectionCount - 1)) - openings.middle(i);
-  const double distance = std::clamp(std::log(kSectionRadii[i] * length) - 1, -kFarthest, kFarthest);
   return kRimOfForce + kGrowthWithLength * (std::clamp(length, 10.0, 21.2) / 15 - 1) +
-         kGrowthWithOpening * (std::min(openings.opening(i), kWidest) - 2) + kGrowthWithDirection * aside * aside +
-         kGrowthWithTurn * std::min(std::abs(turn), kMostTurn) + kGrowthWithDistance * distance * distance;
+         kGrowthWithOpening * (std::min(openings.opening(i), kWidest) - 2) +
+         kGrowthWithTurn * std::min(std::abs(turn), kMostTurn);
 }
 
 /// A section nearer to the crushed facet than kGap h is part of how the load gets into the ice; what lies farther of

@@ -57,12 +57,12 @@ double hold_of_whole(double opening);
 /// by bending under V, by the thrust's lever, which lifts, and by the thrust itself, which closes. Where that
 /// is most, a cusp breaks off: at the narrowest section that is far enough from the load. Where a radial crack has
 /// opened below, the rims of the sections have most:
-///   σ h² / V = {6 [A (λ m_V − x̄ m_M) − .43 η e m_M] − 1.23 η} h / w,
-///   A = .91 + .185 (l/15h − 1) − .035 (θ − 2) + .436 φ² + .244 |Δφ| − .071 (ln r/h − 1)²,
-/// φ the direction of the section's middle, Δφ its change to 1.56 r, and R is where ice breaks on an average whose
+///   σ h² / V = {6 [A (λ m_V − x̄ m_M) − .31 η e m_M] − .93 η} h / w,
+///   A = .87 + .18 (l/15h − 1) − .04 (θ − 2) + .19 |Δφ|,
+/// Δφ how much the direction of the section's middle changes to 1.56 r, and R is where ice breaks on an average whose
 /// sections' strengths scatter by .2: that stress is flat along r, so that its maximum is nowhere in particular. It
 /// does not bear more than .585 (1 + ⟨θ − π⟩), θ the widest within .5 l: there the next radial cracks open. V within
-/// 12 % and R within 25 % of elements of 120 other edges, 90th percentiles; range l/h 10 to 21, η 1.3 to 3.9; at the
+/// 12 % and R within 24 % of elements of 120 other edges, 90th percentiles; range l/h 10 to 21, η 1.3 to 3.9; at the
 /// stem V within 22 %, R half as large again.
 SectionBreak weakest_section(const EdgeOpenings& openings, const EdgePush& push);
 
