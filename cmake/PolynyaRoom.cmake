@@ -59,7 +59,7 @@ function(polynya_room name)
     target_compile_options(${target} PRIVATE ${POLYNYA_COLD_OPTIONS})
   endif()
   target_precompile_headers(${target} REUSE_FROM polynya_precompiled)
-  target_compile_definitions(${target} PRIVATE $<BUILD_INTERFACE:$<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>>)
+  target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
   set_property(GLOBAL APPEND PROPERTY POLYNYA_ROOMS ${target})
   install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION include/polynya/${name}
     FILES_MATCHING PATTERN "*.hpp" PATTERN "internal" EXCLUDE)

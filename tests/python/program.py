@@ -62,8 +62,8 @@ def become_command(words, streams, cwd, env, timeout):
 
 
 def ended(*words, cwd=None, env=None, timeout=600):
-    """What a command gave, whatever its exit code. One that is written in Python is run by a copy of this process, which
-    has numpy and matplotlib imported already; test_commands.py has them started by the program."""
+    """What a command gave, whatever its exit code. One that is written in Python is run by a copy of this process,
+    which has numpy and matplotlib imported already; `started` has the program start it."""
     words = list(map(str, words))
     if words[0] not in OF_PYTHON:
         return started(*words, cwd=cwd, env=env, timeout=timeout)
