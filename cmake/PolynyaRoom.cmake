@@ -9,15 +9,6 @@ target_compile_features(polynya_options INTERFACE cxx_std_20)
 # No contraction: the same source gives the same bytes whether or not the machine has fused multiply-add.
 target_compile_options(polynya_options INTERFACE -ffp-contract=off)
 
-# For code that every step runs. Neither changes a result: square roots set no errno, and both sides of a choice may be
-# computed before it. GCC clears and copies small objects by string instructions, whose start-up costs a contact 10 %.
-set(POLYNYA_HOT_OPTIONS -fno-math-errno -fno-trapping-math)
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
-  list(APPEND POLYNYA_HOT_OPTIONS
-    -mmemset-strategy=unrolled_loop:512:noalign,libcall:-1:noalign
-    -mmemcpy-strategy=unrolled_loop:512:noalign,libcall:-1:noalign)
-endif()
-
 add_library(polynya_warnings INTERFACE)
 target_compile_options(polynya_warnings INTERFACE -Wall -Wextra -Wconversion -Wshadow -Wno-sign-conversion)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
@@ -27,15 +18,26 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # The compiler collects its garbage from half a gigabyte on, not from 128 MB: a fourteenth of its time.
     "SHELL:--param ggc-min-heapsize=524288")
 endif()
+# For code that every step runs, and everywhere, because precompiled headers are of one set of options. None changes a
+# result: square roots set no errno, and both sides of a choice may be computed before it. GCC clears and copies small
+# objects by string instructions, whose start-up costs a contact 10 %.
+target_compile_options(polynya_warnings INTERFACE -fno-math-errno -fno-trapping-math)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+  target_compile_options(polynya_warnings INTERFACE
+    -mmemset-strategy=unrolled_loop:512:noalign,libcall:-1:noalign
+    -mmemcpy-strategy=unrolled_loop:512:noalign,libcall:-1:noalign)
+endif()
 
-# Headers of the standard library, and with fmt::fmt those of fmt too, are compiled once instead of in every source: a
-# third of the time. Sources include what they use all the same (`./test -L odr` compiles each without this). A source
-# with options of its own has to leave it out: SKIP_PRECOMPILE_HEADERS.
-set(POLYNYA_STANDARD_HEADERS <algorithm> <array> <charconv> <cmath> <cstdint> <filesystem> <fstream> <functional>
-  <limits>
-  <map> <memory> <numbers> <numeric> <optional> <ranges> <set> <span> <sstream> <string> <string_view> <system_error>
-  <unordered_map> <utility> <variant> <vector>)
-set(POLYNYA_TEXT_HEADERS ${POLYNYA_STANDARD_HEADERS} <fmt/format.h> <fmt/ranges.h> <tl/expected.hpp>)
+# Headers of the standard library and of fmt are compiled once for all rooms instead of in every source: a third of the
+# time. Sources include what they use all the same (`./test -L odr` compiles each without this).
+set(POLYNYA_HEADERS <algorithm> <array> <charconv> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map>
+  <memory> <numbers> <numeric> <optional> <ranges> <set> <span> <sstream> <string> <string_view> <system_error>
+  <unordered_map> <utility> <variant> <vector> <fmt/format.h> <fmt/ranges.h> <tl/expected.hpp>)
+file(CONFIGURE OUTPUT precompiled.cpp CONTENT "// Has the precompiled headers of all rooms.\n")
+add_library(polynya_precompiled OBJECT ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp)
+target_link_libraries(polynya_precompiled PRIVATE polynya_options polynya_warnings fmt::fmt tl::expected)
+set_target_properties(polynya_precompiled PROPERTIES POSITION_INDEPENDENT_CODE ON)
+target_precompile_headers(polynya_precompiled PRIVATE ${POLYNYA_HEADERS})
 
 set(POLYNYA_COLD_OPTIONS $<$<CONFIG:Release,Dev>:-O1>)
 
@@ -56,13 +58,8 @@ function(polynya_room name)
   if(ROOM_COLD)
     target_compile_options(${target} PRIVATE ${POLYNYA_COLD_OPTIONS})
   endif()
-  if("fmt::fmt" IN_LIST ROOM_PRIVATE AND TARGET polynya_simulation AND NOT name STREQUAL "simulation")
-    target_precompile_headers(${target} REUSE_FROM polynya_simulation)
-  elseif("fmt::fmt" IN_LIST ROOM_PRIVATE)
-    target_precompile_headers(${target} PRIVATE ${POLYNYA_TEXT_HEADERS})
-  elseif(NOT "CGAL::CGAL" IN_LIST ROOM_PRIVATE)  # its -frounding-math differs from source to source
-    target_precompile_headers(${target} PRIVATE ${POLYNYA_STANDARD_HEADERS})
-  endif()
+  target_precompile_headers(${target} REUSE_FROM polynya_precompiled)
+  target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
   set_property(GLOBAL APPEND PROPERTY POLYNYA_ROOMS ${target})
   install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION include/polynya/${name}
     FILES_MATCHING PATTERN "*.hpp" PATTERN "internal" EXCLUDE)

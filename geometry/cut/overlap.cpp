@@ -184,7 +184,7 @@ std::vector<std::size_t> by_area(const std::vector<Polygon>& polygons) {
 }
 
 /// Of an edge's length: a vertex that meets the edge's end meets it. Without it two corners may pass each other.
-constexpr double kSlack = 1e-9;
+constexpr double kEndSlack = 1e-9;
 /// After so much of the way a touch has become an overlap [m]. Larger, thin tips pass through and their touch
 /// is found; smaller, the overlap is less than kLeastShared (their ratio is a contact 1 µm wide).
 constexpr double kFurtherOn = 1e-3;
@@ -205,7 +205,7 @@ std::optional<double> entry_time(Point vertex, Vector velocity, const Ring& ring
   const double time = dot(vertex - start, outward) / speed_in;
   const double along = dot(vertex + time * velocity - start, perpendicular(outward));
   const double size = distance(start, ring[(edge + 1) % ring.size()]);
-  if (along < -kSlack * size || along > (1 + kSlack) * size) return {};
+  if (along < -kEndSlack * size || along > (1 + kEndSlack) * size) return {};
   return time;
 }
 

@@ -37,9 +37,9 @@ TEST(Threads, RunEachChunkOfManyLoopsOnce) {
 }
 
 /// Floes that overlap a little, in columns and rows, between two walls that close.
-struct Pack {
+struct ClosingPack {
   Bodies bodies;
-  explicit Pack(int columns, int rows) {
+  explicit ClosingPack(int columns, int rows) {
     Random random(kSeed);
     add_held(bodies, rectangle(10, 10.0 * rows), {-4.9, 5.0 * rows}, {0.3, 0});
     add_held(bodies, rectangle(10, 10.0 * rows), {10.0 * columns + 4.9, 5.0 * rows}, {-0.3, 0});
@@ -50,7 +50,7 @@ struct Pack {
 };
 
 TEST(Threads, HalvesOfALargeIslandShareNoBodyThatMoves) {
-  Pack pack(12, 14);
+  ClosingPack pack(12, 14);
   ContactFinder finder(pack.bodies);
   const std::vector<Contact>& contacts = finder.contacts(pack.bodies, 0.05);
   ContactIslands islands;
@@ -73,7 +73,7 @@ TEST(Threads, HalvesOfALargeIslandShareNoBodyThatMoves) {
 TEST(Threads, LargeIslandsHaveTheSameImpulsesOnAnyNumberOfThem) {
   std::vector<std::vector<double>> impulses;
   for (const int threads : {1, 2, 3, 8}) {
-    Pack pack(12, 14);
+    ClosingPack pack(12, 14);
     ContactFinder finder(pack.bodies);
     std::vector<Contact>& contacts = finder.contacts(pack.bodies, 0.05);
     for (Contact& c : contacts) c.friction = 0.1, c.crushing_force = 1e5, c.crushing_stiffness = 1e6;

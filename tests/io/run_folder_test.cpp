@@ -122,18 +122,18 @@ int owners_of(const fs::path& folder, int processes) {
     char byte = 0;
     close(start[1]);
     close(end[1]);
-    static_cast<void>(!read(start[0], &byte, 1));  // until the parent closes its end
+    static_cast<void>(!::read(start[0], &byte, 1));  // until the parent closes its end
     const auto lock = claim_run_folder(folder, true);
     byte = lock.has_value() ? 1 : 0;
-    static_cast<void>(!write(result[1], &byte, 1));
-    static_cast<void>(!read(end[0], &byte, 1));
+    static_cast<void>(!::write(result[1], &byte, 1));
+    static_cast<void>(!::read(end[0], &byte, 1));
     _exit(0);
   }
   close(start[1]);
   int owners = 0;
   for (int i = 0; i < processes; ++i) {
     char byte = 0;
-    EXPECT_EQ(read(result[0], &byte, 1), 1);
+    EXPECT_EQ(::read(result[0], &byte, 1), 1);
     owners += byte;
   }
   close(end[1]);

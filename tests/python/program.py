@@ -4,7 +4,13 @@ import json
 import os
 import pathlib
 import re
+import signal
 import subprocess
+import sys
+import tempfile
+import traceback
+
+from polynya import command
 
 PROGRAM = os.environ["POLYNYA_PROGRAM"]
 SCENES = pathlib.Path(os.environ["POLYNYA_SCENES"])
@@ -25,9 +31,52 @@ TUG = {**BREAKER, "hull": {"length_m": 30, "beam_m": 12, "entrance_angle_deg": 3
        "mass_kg": 2e6, "moment_of_inertia_kg_m2": 2e8, "position_m": [-16, 1]}
 
 
-def ended(*words, **more):
-    """What a command gave, whatever its exit code."""
+OF_PYTHON = {"calibrate", "figures", "loads", "management", "movie", "performance", "study"}
+
+
+def started(*words, **more):
+    """What a command gave, whatever its exit code: the program, and of it a Python, in new processes."""
     return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, check=False, **more)
+
+
+def become_command(words, streams, cwd, env, timeout):
+    """The rest of a forked process, as the program starts polynya.command; `timeout` is an alarm's [s]."""
+    code = command.DEFECT
+    try:
+        for number, stream in enumerate(streams, start=1):
+            os.dup2(stream.fileno(), number)
+        sys.stderr = open(2, "w", buffering=1, closefd=False)
+        if env is not None:
+            os.environ.clear()
+            os.environ.update(env)
+        os.chdir(cwd or ".")
+        tempfile.tempdir = None
+        signal.signal(signal.SIGALRM, signal.SIG_DFL)
+        signal.alarm(timeout)
+        sys.argv = ["polynya", *words]
+        code = command.main()
+    except BaseException:
+        traceback.print_exc()
+    finally:
+        os._exit(code)
+
+
+def ended(*words, cwd=None, env=None, timeout=600):
+    """What a command gave, whatever its exit code. One that is written in Python is run by a copy of this process,
+    which has numpy and matplotlib imported already; `started` has the program start it."""
+    words = list(map(str, words))
+    if words[0] not in OF_PYTHON:
+        return started(*words, cwd=cwd, env=env, timeout=timeout)
+    with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as err:
+        child = os.fork()
+        if child == 0:
+            become_command(words, (out, err), cwd, env, timeout)
+        _, status = os.waitpid(child, 0)
+        written = []
+        for stream in (out, err):
+            stream.seek(0)
+            written.append(stream.read())
+    return subprocess.CompletedProcess(words, os.waitstatus_to_exitcode(status), *written)
 
 
 def succeeded(*words, **more):

@@ -1,11 +1,10 @@
 """`polynya study` for the tests, and small studies."""
 import json
-import subprocess
 import sys
 
 import pytest
 
-from program import rows
+from program import ended, rows
 
 SCENE = """// a ship and a plate
 {"time": {"until_s": 8, "step_s": 0.01}, "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27},
@@ -15,10 +14,9 @@ SCENE = """// a ship and a plate
 OF_PYTHON = [sys.executable, "-m", "polynya.study"]
 
 
-def study(*words, code=0):
+def study(*words, code=0, by=ended):
     """What it prints, where it ends with that code."""
-    command = [sys.executable, "-m", "polynya.command", "study", *map(str, words)]
-    ran = subprocess.run(command, capture_output=True, text=True, check=False)
+    ran = by("study", *words)
     assert ran.returncode == code, ran.stdout + ran.stderr
     return ran.stdout + ran.stderr
 

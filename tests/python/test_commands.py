@@ -9,7 +9,7 @@ import sys
 
 import pytest
 
-from program import PROGRAM, ended
+from program import PROGRAM, started
 from polynya import command
 from polynya.errors import FolderError, InputError
 
@@ -115,7 +115,7 @@ def test_wrong_words_are_answered_as_by_the_commands_in_c():
         ("study run x --job 2", "; did you mean --jobs?\npolynya study run --help explains its options\n"),
         ("performance araon --friction -1", "performance: --friction: found -1, allowed: a number ≥ 0, ≤ 2\n"),
     ):
-        done = ended(*words.split())
+        done = started(*words.split())
         assert (done.returncode, done.stdout, message in done.stderr) == (2, "", True), done.stderr
 
 

@@ -1,5 +1,6 @@
 """Figures for print: what they show is what the files have, words have their sizes and none is clipped or covers
 another."""
+import functools
 import itertools
 import json
 import os
@@ -13,7 +14,7 @@ import numpy
 import pytest
 
 import polynya
-from program import PROGRAM, TUG, ended, run_of, succeeded
+from program import PROGRAM, TUG, ended, run_of, started, succeeded
 from polynya import scenery
 from polynya.figures import database, energy, loads, maps, motion, page, sizes
 from polynya.figures.subjects import labelled
@@ -43,6 +44,12 @@ def home(tmp_path_factory):
 @pytest.fixture(scope="module")
 def runs(home):
     return {name: polynya.Run(home / name, pandas=False, shapely=False) for name in SCENES}
+
+
+@pytest.fixture(scope="module")
+def drawn(runs):
+    """A figure of some runs on the page by default, which no test changes: each is drawn once."""
+    return functools.cache(lambda kind, *names, **more: DRAW[kind]([runs[name] for name in names], **more))
 
 
 def words_drawn(figure):
@@ -90,12 +97,12 @@ def panel_titles(figure):
     return [plain(axes.get_title(loc="left")) for axes in figure.axes]
 
 
-def test_panels_have_letters_where_there_are_several(runs):
-    assert panel_titles(loads.draw([runs["three"]])) == [
+def test_panels_have_letters_where_there_are_several(drawn):
+    assert panel_titles(drawn("loads", "three", choice="max")) == [
         "(a) three, north", "(b) three, south", "(c) three, pile", *(f"({letter})" for letter in "defghi")]
-    assert [title[:4] for title in panel_titles(maps.draw([runs["alone"]]))] == ["(a) ", "(b) ", "(c) ", "(d) "]
-    assert not panel_titles(maps.draw([runs["alone"]], at=[4]))[0].startswith("(")
-    figure = loads.draw([runs["three"], runs["alone"]])  # ships of several runs stand in rows
+    assert [title[:4] for title in panel_titles(drawn("floes", "alone"))] == ["(a) ", "(b) ", "(c) ", "(d) "]
+    assert not panel_titles(drawn("floes", "alone", at=(0,)))[0].startswith("(")
+    figure = drawn("loads", "three", "alone")  # ships of several runs stand in rows
     assert len(figure.axes) == 12 and [title for title in panel_titles(figure) if len(title) > 4] == [
         "(a) three, north", "(b) three, south", "(g) three, pile", "(h) alone"]
     assert page.letters(25) + page.letters(26) + page.letters(27) == "zaaab"
@@ -112,9 +119,9 @@ def stairs_of(axes):
 
 @pytest.mark.parametrize("choice, middles", [("true", ["_max", ""]), ("mean", [""]),
                                              ("max", ["_max"]), ("j-over-tau-c", ["_j_over_tau_c"])])
-def test_loads_are_those_of_the_file_to_the_peak(runs, choice, middles):
+def test_loads_are_those_of_the_file_to_the_peak(runs, drawn, choice, middles):
     run = runs["alone"]
-    figure = loads.draw([run], choice=choice)
+    figure = drawn("loads", "alone", choice=choice)
     forces = [run.forces[f"{component}{middle}_{unit}"] for component, unit in loads.COMPONENTS for middle in middles]
     factors = {"N": 1, "kN": 1e3, "MN": 1e6, "GN": 1e9}
     shown = [value for axes in figure.axes for value in stairs_of(axes)]
@@ -129,9 +136,9 @@ def test_loads_are_those_of_the_file_to_the_peak(runs, choice, middles):
         assert bends in [len(collection.get_segments()) for collection in axes.collections]
 
 
-def test_every_ship_and_structure_has_its_own_loads_in_one_scale(runs):
+def test_every_ship_and_structure_has_its_own_loads_in_one_scale(runs, drawn):
     run = runs["three"]
-    figure = loads.draw([run], choice="max")
+    figure = drawn("loads", "three", choice="max")
     for i, ship in enumerate(run.ship_names):
         column = run.forces["surge_max_N"][run.forces["ship"] == ship]
         unit = {"k": 1e3, "M": 1e6}[figure.axes[0].get_ylabel()[7]]
@@ -159,11 +166,12 @@ def test_an_envelope_loses_no_peak():
 
 def test_a_window_of_time_ends_the_scale_and_what_is_drawn(runs):
     run = labelled(runs["alone"], None, 3, 8)
-    for axes in (*loads.draw([run]).axes, *motion.draw([run]).axes):
+    figure = loads.draw([run], choice="max")
+    for axes in (*figure.axes, *motion.draw([run]).axes):
         assert axes.get_xlim() == (3, 8)
     forces = runs["alone"].forces
     within = forces["surge_max_N"][(forces["t_s"] >= 3) & (forces["t_s"] <= 8)]
-    least = stairs_of(loads.draw([run], choice="max").axes[0])[0][1] * 1e3
+    least = stairs_of(figure.axes[0])[0][1] * 1e3
     assert least == pytest.approx(within.min(), rel=1e-9) or within.min() < -1e6
     assert [title[4:8].split()[0] for title in panel_titles(maps.draw([run]))] == ["3", "4.66", "6.33", "8"]
 
@@ -211,7 +219,7 @@ def rings_of(axes, colour):
                if patch.get_facecolor()[:3] == wanted)
 
 
-def test_a_map_shows_the_floes_of_its_time_and_what_went_under(runs):
+def test_a_map_shows_the_floes_of_its_time_and_what_went_under(runs, drawn):
     run = runs["alone"]
     figure = maps.draw([run], at=[0, 8])
     before, after = figure.axes
@@ -226,12 +234,12 @@ def test_a_map_shows_the_floes_of_its_time_and_what_went_under(runs):
                      panel_titles(figure)[1]) or cusps == 1
     keys = [text.get_text() for text in figure.legends[0].get_texts()]
     assert "ice under the hull or waiting behind it" in keys and "floe as in the scene" in keys
-    legend = maps.draw([run], at=[0]).legends[0]
+    legend = drawn("floes", "alone", at=(0,)).legends[0]
     assert "ice under the hull or waiting behind it" not in [text.get_text() for text in legend.get_texts()]
 
 
-def test_a_window_shows_its_part_of_the_world(runs):
-    whole = maps.draw([runs["alone"]], at=[0])
+def test_a_window_shows_its_part_of_the_world(runs, drawn):
+    whole = drawn("floes", "alone", at=(0,))
     part = maps.draw([runs["alone"]], at=[0], window=(41, -3, 61, 7))
     assert (part.axes[0].get_xlim(), part.axes[0].get_ylim()) == ((41, 61), (-3, 7))
     assert rings_of(whole.axes[0], scenery.ICE) == 2 and rings_of(part.axes[0], scenery.ICE) == 1
@@ -266,7 +274,7 @@ def test_the_command_writes_every_format_and_the_same_bytes_again(home):
     names = [f"figure-{name}.{suffix}" for name in ("loads", "energy") for suffix in ("svg", "png", "pdf")]
     assert done.stdout.split() == [f"one/{name}" for name in names]
     assert sorted(os.listdir(home / "one")) == sorted(names)
-    assert figures(home, "alone", "--out", "two", "--only", "energy").returncode == 0
+    assert started("figures", "alone", "--out", "two", "--only", "energy", cwd=home).returncode == 0
     for name in names:
         data = (home / "one" / name).read_bytes()
         assert data[:4] == {"svg": b"<?xm", "png": b"\x89PNG", "pdf": b"%PDF"}[name[-3:]]

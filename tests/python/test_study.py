@@ -12,7 +12,7 @@ import time
 
 import pytest
 
-from program import rows
+from program import rows, started
 from study_command import OF_PYTHON, files_of, folder, planned, study, table, write_study
 
 
@@ -33,7 +33,7 @@ def test_any_number_of_jobs_gives_the_same_cases_and_a_finished_one_costs_nothin
     assert (folder / "two/cases/000004/case.json").stat().st_mtime_ns == before
 
 
-LONG = {"time.until_s": 150, "time.step_s": 0.001, "record.frames_interval_s": 20}  # a second or more
+LONG = {"time.until_s": 60, "time.step_s": 0.001, "record.frames_interval_s": 20}  # half a second or more
 
 
 def wait_for(is_there, seconds=30):
@@ -156,7 +156,7 @@ def test_a_case_writes_nothing_outside_its_folder(folder):
 
 
 def test_jobs_stop_with_checkpoints_and_go_on(folder):
-    cases = planned(folder, set=LONG | {"time.step_s": 0.0005}, repetitions=3) / "cases"
+    cases = planned(folder, set=LONG, repetitions=3) / "cases"
     run = cases / "000000/run"
     running = subprocess.Popen([*OF_PYTHON, "run", "studies/s", "--jobs", "2"], stderr=subprocess.PIPE)
     wait_for(lambda: running.poll() is not None or has_rows(run))
@@ -328,9 +328,9 @@ def test_a_report_without_numpy_names_what_to_install(folder, monkeypatch):
     planned(folder)
     (folder / "numpy.py").write_text("raise ModuleNotFoundError(name='numpy')")
     monkeypatch.setenv("PYTHONPATH", f"{folder}:{os.environ['PYTHONPATH']}")
-    words = study("report", "studies/s", code=5)
+    words = study("report", "studies/s", code=5, by=started)
     assert words.startswith("polynya study: ") and "has no numpy: " in words and "./setup.sh python" in words
-    study("gather", "studies/s", code=75)  # does without
+    study("gather", "studies/s", code=75, by=started)  # does without
 
 
 def test_a_folder_without_a_plan_and_a_study_not_planned_are_named(folder):

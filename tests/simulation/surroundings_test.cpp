@@ -276,7 +276,7 @@ TEST(Wall, GoesOnFromASavedStateAsItWould) {
 /// parallel to the hull: R = q [B + 2 μ (L_bow + L_par)].
 TEST(LinePressure, OnAShipsBowAndSidesIsThatOfTheClosedForm) {
   constexpr double kLoad = 5e4;
-  constexpr double kWay = 10;  // from hull to wall
+  constexpr double kGap = 10;  // from hull to wall
   const Ship ship = steep_icebreaker({60, 0}, ConstantSpeed{0.005}, 0.005);
   const geometry::Ring& hull = ship.hull.waterline;
   Build scene = Build().unbreakable().step(0.01).ship(ship);
@@ -284,8 +284,8 @@ TEST(LinePressure, OnAShipsBowAndSidesIsThatOfTheClosedForm) {
   for (const auto& [i, k] : {std::pair{0, 1}, {1, 2}, {3, 4}, {4, 0}}) {
     const Vector out = -perpendicular(hull[k] - hull[i]) / distance(hull[i], hull[k]);
     const auto beside = [&](Point p, double off) { return p + off * out; };
-    scene.floe({{beside(hull[i], 0.001), beside(hull[i], kWay), beside(hull[k], kWay), beside(hull[k], 0.001)}, {}});
-    scene.wall(beside(hull[i], kWay + 0.001), beside(hull[k], kWay + 0.001), pressing(kLoad));
+    scene.floe({{beside(hull[i], 0.001), beside(hull[i], kGap), beside(hull[k], kGap), beside(hull[k], 0.001)}, {}});
+    scene.wall(beside(hull[i], kGap + 0.001), beside(hull[k], kGap + 0.001), pressing(kLoad));
   }
   const Trial done = run(scene, 60);
   EXPECT_NEAR(mean_surge(done.story, 0, 30) / -(kLoad * (24 + 2 * scene.ice.friction * 120)), 1, 0.03);

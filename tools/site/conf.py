@@ -1,11 +1,15 @@
 """Sphinx's settings of the site that tools/site/build.py builds: Debian's packages alone, nothing from a network."""
+import gc
 import os
 import sys
 
 from docutils import nodes
 from pygments.lexers.javascript import JavascriptLexer
+from sphinx import addnodes
+from sphinx.environment.adapters.toctree import TocTree
 from sphinx.util.math import get_node_equation_number
 
+gc.set_threshold(100_000, 20, 20)  # trees of nodes are many small objects, of which little is garbage
 sys.path.insert(0, os.environ["POLYNYA_PYTHON"])
 
 project = "Polynya"
@@ -48,6 +52,35 @@ def visit_block(self, node):
     raise nodes.SkipNode
 
 
+def titles_alone(tocs):
+    """Tables of contents without the headings within pages, as the theme's tree in each page has them."""
+    short = {}
+    for page, toc in tocs.items():
+        short[page] = toc.deepcopy()
+        for top in short[page]:
+            if len(top) > 1:
+                trees = list(top.findall(addnodes.toctree))
+                top[1:] = [type(top[1])("", *trees)] if trees else []
+    return short
+
+
+def tree_of_titles(resolve):
+    """get_toctree_for, which copies for each page the headings of all and then drops them: a third of Sphinx's time."""
+    def resolved(self, docname, builder, collapse, **options):
+        if not options.get("titles_only"):
+            return resolve(self, docname, builder, collapse, **options)
+        whole = self.env.tocs
+        if not hasattr(builder, "tocs_of_titles"):
+            builder.tocs_of_titles = titles_alone(whole)
+        self.env.tocs = builder.tocs_of_titles
+        try:
+            return resolve(self, docname, builder, collapse, **options)
+        finally:
+            self.env.tocs = whole
+    return resolved
+
+
 def setup(app):
+    TocTree.get_toctree_for = tree_of_titles(TocTree.get_toctree_for)
     app.add_lexer("jsonc", JavascriptLexer)
     app.add_html_math_renderer("katex", (visit_inline, None), (visit_block, None))

@@ -277,7 +277,7 @@ bool are_rounded_apart(const std::vector<Node>& nodes) {
   for (const Node& node : nodes) {
     if (node.is_active && node.is_rounded) points.push_back(node.at);
   }
-  std::ranges::sort(points, precedes);
+  std::ranges::sort(points, geometry::precedes);
   return std::ranges::adjacent_find(points) == points.end();
 }
 

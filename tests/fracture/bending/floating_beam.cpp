@@ -13,19 +13,19 @@
 namespace polynya::fracture {
 namespace {
 
-constexpr double kLength = 12;  // in l: the tail has decayed by e^{-12/√2} ≈ 2e-4 of the tip's motion
+constexpr double kBeamLength = 12;  // in l: the tail has decayed by e^{-12/√2} ≈ 2e-4 of the tip's motion
 
 /// A fine uniform mesh under the patch, then elements that grow geometrically from the same size.
 std::vector<double> graded_nodes(double patch_length, int elements) {
   const int under_patch = patch_length > 0 ? elements / 4 : 0;
-  const double first = patch_length > 0 ? patch_length / under_patch : kLength / (20.0 * elements);
+  const double first = patch_length > 0 ? patch_length / under_patch : kBeamLength / (20.0 * elements);
   const int beyond = elements - under_patch;
   double lower = 1e-9,
          upper = 5;  // growth per element by bisection: first · (e^{gn} − 1) / (e^g − 1) = length
   for (int i = 0; i < 100; ++i) {
     const double growth = 0.5 * (lower + upper);
     const double reach = first * std::expm1(growth * beyond) / std::expm1(growth);
-    (reach < kLength - patch_length ? lower : upper) = growth;
+    (reach < kBeamLength - patch_length ? lower : upper) = growth;
   }
   std::vector<double> nodes;
   for (int i = 0; i <= under_patch; ++i) nodes.push_back(first * i);
