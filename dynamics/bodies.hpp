@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "geometry/contact/boundary.hpp"
@@ -24,15 +25,13 @@ inline bool is_grounded(BodyKind kind) {
   return kind == BodyKind::kStructure || kind == BodyKind::kWall;
 }
 
-/// The drag of a shape, without speed and, by DragArea::kEdge, thickness. Made once per shape
+/// The drag of a shape, without speed, width and, by DragArea::kEdge, thickness. Made once per shape
 /// (water_drag.hpp). By kPlan, all widths are the area [m²] and K is ∫ r³ dA [m⁵].
 struct DragShape {
   static constexpr int kDirections = 128;
-  double rotational = 0;       ///< K = mean over directions of ∫|s|³ ds across the body [m⁴]
-  double skin_rotational = 0;  ///< ∫ r³ dA; 0 where no skin drag acts [m⁵]
-  double same_width = 0;       ///< across all directions; of kPlan, and of what water does not move [m]
-  std::vector<double> width;   ///< across drag_direction(k) [m]; last = first; empty: not kept
-  bool is_same = false;        ///< same_width holds
+  double rotational = 0;             ///< K = mean over directions of ∫|s|³ ds across the body [m⁴]
+  double skin_rotational = 0;        ///< ∫ r³ dA; 0 where no skin drag acts [m⁵]
+  std::optional<double> same_width;  ///< across all directions; of kPlan, and of what water does not move [m]
 };
 
 /// The part of a body's drag shape that it needed last: in steady motion it needs the same again.
@@ -114,6 +113,16 @@ inline geometry::Pose a_from_b(const Bodies& bodies, BodyIndex a, BodyIndex b, c
   const geometry::Vector centroid_of_b = bodies.centroid[b] - geometry::Point{};
   return {centre_a_from_b.position + centroid_of_a - rotate(centre_a_from_b.rotation, centroid_of_b),
           centre_a_from_b.rotation};
+}
+
+/// Placement of b's frame in a's, from those of both in the water.
+inline geometry::Pose a_from_b(const Bodies& bodies, BodyIndex a, BodyIndex b) {
+  return geometry::relative_pose(water_from_body(bodies, a), water_from_body(bodies, b));
+}
+
+/// Whether the motion of both is prescribed, as of a hull in fast ice: no contact changes it.
+inline bool are_prescribed(const Bodies& bodies, BodyIndex a, BodyIndex b) {
+  return bodies.inverse_mass[a] == 0 && bodies.inverse_mass[b] == 0;
 }
 
 /// Whether it is ice of prescribed motion that stands in the water: nothing moves it.
