@@ -103,29 +103,12 @@ Audit Simulation::audit() const {
   return simulation::audit(world_->accounts.audit, kinetic_energy(bodies), momentum(bodies));
 }
 
-AreaLedger Simulation::area_ledger() const {
-  const Population& population = world_->population;
-  AreaLedger ledger = world_->accounts.ledger;
-  for (FloeId id = 0; id < population.floe_count(); ++id) {
-    if (!population.is_alive(id)) continue;
-    (population.floes[id].is_under ? ledger.under_hull_area : ledger.floe_area) += population.floes[id].area;
-  }
-  ledger.imbalance = ledger.floe_area + ledger.under_hull_area + ledger.under_ice_area + ledger.submerged_area +
-                     ledger.brash_area - ledger.rounding_defect - ledger.initial_ice_area;
-  return ledger;
+IceLedger Simulation::area_ledger() const {
+  return simulation::area_ledger(*world_);
 }
 
-MassLedger Simulation::mass_ledger() const {
-  const Population& population = world_->population;
-  MassLedger ledger = world_->accounts.masses;
-  for (FloeId id = 0; id < population.floe_count(); ++id) {
-    if (!population.is_alive(id)) continue;
-    (population.floes[id].is_under ? ledger.under_hull_mass : ledger.floe_mass) +=
-        population.bodies.mass[population.body_of(id)];
-  }
-  ledger.imbalance = ledger.floe_mass + ledger.under_hull_mass + ledger.under_ice_mass + ledger.submerged_mass +
-                     ledger.brash_mass - ledger.rounding_mass - ledger.initial_ice_mass;
-  return ledger;
+IceLedger Simulation::mass_ledger() const {
+  return simulation::mass_ledger(*world_);
 }
 
 Counts Simulation::counts() const {

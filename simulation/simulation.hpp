@@ -94,8 +94,8 @@ class Simulation {
   std::int64_t steps() const;
   const Scene& scene() const;  ///< without its floes: the simulation has taken them
   Journal& journal();
-  AreaLedger area_ledger() const;
-  MassLedger mass_ledger() const;
+  IceLedger area_ledger() const;
+  IceLedger mass_ledger() const;
   Audit audit() const;  ///< of energy and momentum
   Counts counts() const;
   std::vector<FloeState> floe_states() const;  ///< of floes that float and have not broken, in id order

@@ -1,10 +1,9 @@
 #include "simulation/ice/pieces.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "geometry/exact/measures.hpp"
-#include "simulation/ice/going_under.hpp"
+#include "simulation/ice/under_hull.hpp"
 #include "simulation/world/limits.hpp"
 
 namespace polynya::simulation {
@@ -61,17 +60,11 @@ void enter_removed(const NewFloe& piece, const geometry::Measures& measures, dou
   audit.impulses += length(carried);
 }
 
-/// Enters what the cut left out beside its pieces into the event, and the event's areas into the accounts.
-void enter_areas(IceEvent& event, const geometry::CutLedger& cut, double mass_per_area, Accounts& accounts) {
-  event.brash_area += cut.area_slivers;
-  event.rounding_defect = cut.rounding_defect;
-  accounts.counts.snap_rounded += cut.snap_rounded;
-  accounts.ledger.submerged_area += event.submerged_area;
-  accounts.ledger.brash_area += event.brash_area;
-  accounts.ledger.rounding_defect += event.rounding_defect;
-  accounts.masses.submerged_mass += mass_per_area * event.submerged_area;
-  accounts.masses.brash_mass += mass_per_area * event.brash_area;
-  accounts.masses.rounding_mass += mass_per_area * event.rounding_defect;
+/// Enters an event's areas, times what the ledger counts of each [1, kg/m²].
+void enter_areas(const IceEvent& event, double per_area, IceLedger& ledger) {
+  ledger.submerged += per_area * event.submerged_area;
+  ledger.brash += per_area * event.brash_area;
+  ledger.rounding += per_area * event.rounding_defect;
 }
 
 }  // namespace
@@ -120,7 +113,11 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
     population.pairs.pass_contact_memory(population.bodies, population.body_of(id), memory);
     accounts.counts.floated_cusps += is_inside ? 1 : 0;
   }
-  enter_areas(event, cut.ledger, own_mass_per_area, accounts);
+  event.brash_area += cut.ledger.area_slivers;
+  event.rounding_defect = cut.ledger.rounding_defect;
+  accounts.counts.snap_rounded += cut.ledger.snap_rounded;
+  enter_areas(event, 1, accounts.areas);
+  enter_areas(event, own_mass_per_area, accounts.masses);
   ++(accounts.counts.*breakage.count);
   journal.events.push_back(std::move(breakage.event));
   for (Event& submersion : submersions) journal.events.push_back(std::move(submersion));

@@ -352,9 +352,9 @@ class StateLoader {
       bytes_.require(is_there && is_in_contact_world(pair.a) && is_in_contact_world(pair.b), "a pair of no two bodies");
       if (!bytes_.is_well()) return;
       bytes_.require(bodies.is_awake[pair.a] || bodies.is_awake[pair.b], "a pair of two asleep");
-      const bool is_held = bodies.inverse_mass[pair.a] == 0 && bodies.inverse_mass[pair.b] == 0;
-      bytes_.require(!is_held || (population_.is_hull(pair.a) && !population_.is_hull(pair.b)),
-                     "a pair of two of prescribed motion");
+      bytes_.require(
+          !are_prescribed(bodies, pair.a, pair.b) || (population_.is_hull(pair.a) && !population_.is_hull(pair.b)),
+          "a pair of two of prescribed motion");
       bytes_.require(!is_grounded(bodies.kind[pair.a]) || !is_grounded(bodies.kind[pair.b]), "a pair of two walls");
       const bool is_next = i == 0 || std::pair(pairs[i - 1].a, pairs[i - 1].b) < std::pair(pair.a, pair.b);
       bytes_.require(is_next, "pairs out of their order");

@@ -85,13 +85,8 @@ void fields(auto& archive, Is<PatternMemory> auto& m) {
 void fields(auto& archive, Is<Helm> auto& h) {
   archive(h.lever, h.steering_angle, h.is_adrift, h.adrift_since, h.ice_force, h.memory);
 }
-void fields(auto& archive, Is<AreaLedger> auto& l) {
-  archive(l.initial_ice_area, l.under_ice_area, l.submerged_area, l.brash_area,
-          l.rounding_defect);  // the rest is derived
-}
-/// In checkpoints alone: it follows from the areas where all ice is alike.
-void fields(auto& archive, Is<MassLedger> auto& l) {
-  archive(l.initial_ice_mass, l.under_ice_mass, l.submerged_mass, l.brash_mass, l.rounding_mass);
+void fields(auto& archive, Is<IceLedger> auto& l) {
+  archive(l.initial, l.under_ice, l.submerged, l.brash, l.rounding);  // the rest is derived
 }
 void fields(auto& archive, Is<Counts> auto& c) {
   archive(c.floes_initial, c.bends, c.splits, c.ground, c.tilted_under, c.went_under, c.came_up, c.stayed_under,
@@ -157,7 +152,7 @@ void fields(auto& archive, Is<PanelLoads> auto& p) {
 
 /// Not its peaks and panels: they decide nothing of the run (state.cpp).
 void fields(auto& archive, Is<Accounts> auto& a) {
-  archive(a.ledger, a.audit, a.counts, a.loads, a.hull_contacts, a.refused_grinds);
+  archive(a.areas, a.audit, a.counts, a.loads, a.hull_contacts, a.refused_grinds);
 }
 
 /// Where a body is and how it moves, and how far it has travelled, which bounds its neighbours' caches.
@@ -176,7 +171,8 @@ void hull_fields(auto& archive, Is<World> auto& world, std::int32_t hull) {
   if (is_sailing(world.setup, hull)) archive(world.population.helms[hull], world.accounts.sailing[hull]);
   if (manages_ice(world.setup, hull)) archive(world.population.helms[hull].memory.pattern);
 }
-/// What checkpoints alone have after the contacts, before peaks and panels.
+/// What checkpoints alone have after the contacts, before peaks and panels: masses follow from the areas where all ice
+/// is alike.
 void tail_fields(auto& archive, Is<World> auto& world) {
   auto& counts = world.accounts.counts;
   archive(world.accounts.masses, counts.unresolved_splits, counts.steps_at_level, counts.crowded_ticks,

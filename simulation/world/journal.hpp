@@ -113,29 +113,18 @@ struct PeakCounts {
   double largest_beyond = 0;  ///< of those [N]
 };
 
-/// Where all the ice went [m²]. initial = floes + under hulls + under ice + submerged + brash − rounding, up
-/// to `imbalance`.
-struct AreaLedger {
-  double initial_ice_area = 0;
-  double floe_area = 0;
-  double under_hull_area = 0;  ///< of submerged pieces, also of those that wait for room
-  double under_ice_area = 0;   ///< of those that found none
-  double submerged_area = 0;   ///< gone by cusp_fate submerge
-  double brash_area = 0;
-  double rounding_defect = 0;  ///< what rounding added (+) or took (−)
-  double imbalance = 0;        ///< the sum of all places − rounding − initial
-};
+/// Where all the ice went, by area [m²] or by mass [kg], each floe with its own density and thickness.
+struct IceLedger {
+  double initial = 0;
+  double floes = 0;
+  double under_hulls = 0;  ///< submerged pieces, also those that wait for room
+  double under_ice = 0;    ///< those that found none
+  double submerged = 0;    ///< gone by cusp_fate submerge
+  double brash = 0;
+  double rounding = 0;  ///< what rounding added (+) or took (−)
 
-/// The same by mass [kg], each floe with its own density and thickness.
-struct MassLedger {
-  double initial_ice_mass = 0;
-  double floe_mass = 0;
-  double under_hull_mass = 0;
-  double under_ice_mass = 0;
-  double submerged_mass = 0;
-  double brash_mass = 0;
-  double rounding_mass = 0;
-  double imbalance = 0;
+  /// The sum of all places − rounding − initial.
+  double imbalance() const { return floes + under_hulls + under_ice + submerged + brash - rounding - initial; }
 };
 
 /// A tick is taken in at most 2^kMostLevels parts; steps of several ticks take at most so many, or all of a block of

@@ -1,6 +1,6 @@
 #include <utility>
 
-#include "simulation/ice/going_under.hpp"
+#include "simulation/ice/under_hull.hpp"
 #include "simulation/world/step.hpp"
 
 namespace polynya::simulation {
@@ -37,13 +37,34 @@ World::World(Scene scene, Shortcuts shortcuts, Start start)
   const std::vector<SubmergedPiece> under = pieces_under(setup.scene.floes);
   add_scene(setup, std::exchange(setup.scene.floes, {}), clock, population, journal);
   for (FloeId id = 0; id < population.floe_count(); ++id) {
-    accounts.ledger.initial_ice_area += population.floes[id].area;
-    accounts.masses.initial_ice_mass += population.bodies.mass[population.body_of(id)];
+    accounts.areas.initial += population.floes[id].area;
+    accounts.masses.initial += population.bodies.mass[population.body_of(id)];
   }
   accounts.counts.floes_initial = population.floe_count();
   take_helms(setup, clock, population);
   open_accounts(population.bodies, accounts.audit);
   for (const SubmergedPiece& piece : under) put_under(piece, *this);
+}
+
+namespace {
+
+/// Of what there is at the moment: amount_of(id) of each floe.
+template <class AmountOf>
+IceLedger ledger_of(IceLedger gone, const Population& population, AmountOf amount_of) {
+  for (FloeId id = 0; id < population.floe_count(); ++id)
+    if (population.is_alive(id)) (population.floes[id].is_under ? gone.under_hulls : gone.floes) += amount_of(id);
+  return gone;
+}
+
+}  // namespace
+
+IceLedger area_ledger(const World& world) {
+  return ledger_of(world.accounts.areas, world.population, [&](FloeId id) { return world.population.floes[id].area; });
+}
+
+IceLedger mass_ledger(const World& world) {
+  return ledger_of(world.accounts.masses, world.population,
+                   [&](FloeId id) { return world.population.bodies.mass[world.population.body_of(id)]; });
 }
 
 }  // namespace polynya::simulation
