@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dynamics/contact/contact.hpp"
-#include "fracture/opening.hpp"
+#include "fracture/splitting.hpp"
 #include "simulation/world/population.hpp"
 
 namespace polynya::simulation {
