@@ -68,7 +68,7 @@ std::vector<Carving> due_carvings(const Setup& setup, const Population& populati
   for (std::size_t i = 0; i < step.contacts.size(); ++i) {
     const Contact& c = step.contacts[i];
     if (!population.is_hull(c.a)) break;
-    if (population.is_hull(c.b) || !is_prescribed(bodies, c)) continue;
+    if (population.is_hull(c.b) || !are_prescribed(bodies, c.a, c.b)) continue;
     if (c.total_normal_impulse() <= 0 || c.approach_speed <= 0 || !bodies.is_alive[c.b]) continue;
     const double facet = ice_of_body(setup, population, c.b).thickness * tangent_of(step, i);
     const double least = std::min(kFarthest, kShareOfRadius * bodies.bounding_radius[c.a]);
@@ -119,7 +119,7 @@ double most_that_ice_bears(const Setup& setup, const Population& population, con
 
 void press_prescribed(const Setup& setup, const Population& population, HullContactLoad& load) {
   const Contact& c = load.contact;
-  if (!is_prescribed(population.bodies, c)) return;
+  if (!are_prescribed(population.bodies, c.a, c.b)) return;
   const double line = load.ice.thickness * c.width / std::cos(load.hull_angle);
   fracture::CrushedArea crushed{line, 0};
   const bool is_crescent = c.depth * c.width > kCrescent * c.area;
@@ -139,7 +139,7 @@ void press_prescribed(const Setup& setup, const Population& population, HullCont
 }
 
 void close_prescribed_gap(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c) {
-  if (!is_prescribed(bodies, c) || c.approach_speed <= 0) return;
+  if (!are_prescribed(bodies, c.a, c.b) || c.approach_speed <= 0) return;
   const double half_a_step = 0.5 * c.width * c.approach_speed * setup.step;  // of area
   if (c.area + half_a_step >= c.record->loaded_area) c.record->loaded_depth = std::min(c.record->loaded_depth, c.depth);
 }

@@ -1,7 +1,6 @@
 #include "fracture/splitting.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <optional>
 #include <span>

@@ -16,7 +16,7 @@ using geometry::Vector;
 /// Enters what bodies of prescribed motion did through their contact.
 void enter_prescribed_work(const dynamics::Bodies& bodies, const dynamics::Contact& c, AuditSums& audit) {
   audit.energy.thrust += c.prescribed_work;
-  if (bodies.inverse_mass[c.a] == 0 && bodies.inverse_mass[c.b] == 0) return;  // nothing is free to move
+  if (are_prescribed(bodies, c.a, c.b)) return;
   const Vector on_free = bodies.inverse_mass[c.a] == 0 ? c.impulse_on_b() : -c.impulse_on_b();
   audit.momentum.held += on_free;
   audit.impulses += length(on_free);
