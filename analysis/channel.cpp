@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <iterator>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -15,7 +13,6 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/predicates.hpp"
 #include "geometry/shape/outline.hpp"
-#include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
 
 namespace polynya::analysis {

@@ -1,7 +1,6 @@
 #include "io/run/run_loop.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>

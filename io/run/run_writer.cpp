@@ -1,7 +1,6 @@
 #include "io/run/run_writer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <unordered_map>
 
@@ -11,7 +10,6 @@
 #include "geometry/shape/pose.hpp"
 #include "io/run/checkpoint.hpp"
 #include "io/run/event_records.hpp"
-#include "io/run/records.hpp"
 #include "io/text/json_writer.hpp"
 
 namespace polynya::io {
