@@ -7,7 +7,6 @@
 
 #include "dynamics/thread_limit.hpp"
 #include "simulation/state/state.hpp"
-#include "simulation/state/validate_world.hpp"
 #include "simulation/world/step.hpp"
 
 namespace polynya::simulation {
@@ -150,27 +149,17 @@ FloeState state_of(const World& world, Vector drift, FloeId id) {
 
 }  // namespace
 
-void Simulation::for_each_floe(const std::function<void(const FloeState&)>& use) const {
+void Simulation::for_each_floe(Living which, const std::function<void(const FloeState&)>& use) const {
+  const Population& population = world_->population;
   const Vector drift = world_->clock.drift();
-  for (FloeId id = 0; id < world_->population.floe_count(); ++id)
-    if (world_->population.is_floating(id)) use(state_of(*world_, drift, id));
+  for (FloeId id = 0; id < population.floe_count(); ++id)
+    if (which == Living::kFloating ? population.is_floating(id) : population.is_alive(id))
+      use(state_of(*world_, drift, id));
 }
 
-void Simulation::for_each_living(const std::function<void(const FloeState&)>& use) const {
-  const Vector drift = world_->clock.drift();
-  for (FloeId id = 0; id < world_->population.floe_count(); ++id)
-    if (world_->population.is_alive(id)) use(state_of(*world_, drift, id));
-}
-
-std::vector<FloeState> Simulation::floe_states() const {
+std::vector<FloeState> Simulation::floe_states(Living which) const {
   std::vector<FloeState> states;
-  for_each_floe([&](const FloeState& state) { states.push_back(state); });
-  return states;
-}
-
-std::vector<FloeState> Simulation::all_states() const {
-  std::vector<FloeState> states;
-  for_each_living([&](const FloeState& state) { states.push_back(state); });
+  for_each_floe(which, [&](const FloeState& state) { states.push_back(state); });
   return states;
 }
 

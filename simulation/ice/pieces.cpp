@@ -60,11 +60,18 @@ void enter_removed(const NewFloe& piece, const geometry::Measures& measures, dou
   audit.impulses += length(carried);
 }
 
-/// Enters an event's areas, times what the ledger counts of each [1, kg/m²].
-void enter_areas(const IceEvent& event, double per_area, IceLedger& ledger) {
-  ledger.submerged += per_area * event.submerged_area;
-  ledger.brash += per_area * event.brash_area;
-  ledger.rounding += per_area * event.rounding_defect;
+/// Enters what the cut left out beside its pieces into the event, and the event's areas into the accounts.
+void enter_areas(IceEvent& event, const geometry::CutLedger& cut, double mass_per_area, Accounts& accounts) {
+  event.brash_area += cut.area_slivers;
+  event.rounding_defect = cut.rounding_defect;
+  accounts.counts.snap_rounded += cut.snap_rounded;
+  const auto enter = [&](double per_area, IceLedger& ledger) {
+    ledger.submerged += per_area * event.submerged_area;
+    ledger.brash += per_area * event.brash_area;
+    ledger.rounding += per_area * event.rounding_defect;
+  };
+  enter(1, accounts.areas);
+  enter(mass_per_area, accounts.masses);
 }
 
 }  // namespace
@@ -113,25 +120,17 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
     population.pairs.pass_contact_memory(population.bodies, population.body_of(id), memory);
     accounts.counts.floated_cusps += is_inside ? 1 : 0;
   }
-  event.brash_area += cut.ledger.area_slivers;
-  event.rounding_defect = cut.ledger.rounding_defect;
-  accounts.counts.snap_rounded += cut.ledger.snap_rounded;
-  enter_areas(event, 1, accounts.areas);
-  enter_areas(event, own_mass_per_area, accounts.masses);
+  enter_areas(event, cut.ledger, own_mass_per_area, accounts);
   ++(accounts.counts.*breakage.count);
   journal.events.push_back(std::move(breakage.event));
   for (Event& submersion : submersions) journal.events.push_back(std::move(submersion));
-}
-
-std::string reason_of(const geometry::CutError& error) {
-  return std::string(name_of(error.reason)) + ": " + error.detail;
 }
 
 RejectedCut rejected_grind(const GrindCriterion& criterion, const geometry::Polygon& floe, geometry::Ring tool,
                            const geometry::CutError& error, Accounts& accounts) {
   RejectedCut rejected;
   rejected.criterion = criterion;
-  rejected.reason = reason_of(error);
+  rejected.reason = to_string(error);
   rejected.input = {++accounts.counts.rejected_cuts, floe, std::move(tool), {}};
   return rejected;
 }

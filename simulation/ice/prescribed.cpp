@@ -105,16 +105,11 @@ double share_of_friction(const Contact& c, bool is_crescent) {
 
 double most_that_ice_bears(const Setup& setup, const Population& population, const Contact& c, double slope_tangent) {
   const dynamics::Bodies& bodies = population.bodies;
-  const fracture::Ice& ice = ice_of_body(setup, population, c.b);
-  double strength = ice.compressive_strength;
-  double thickness = ice.thickness;
-  if (!population.is_hull(c.a)) {
-    const fracture::Ice& of_a = ice_of_body(setup, population, c.a);
-    strength = std::min(strength, of_a.compressive_strength);
-    thickness = std::min(thickness, of_a.thickness);
-  }
+  const fracture::Ice& of_b = ice_of_body(setup, population, c.b);
+  const fracture::Ice ice =
+      population.is_hull(c.a) ? of_b : fracture::crushed_between(ice_of_body(setup, population, c.a), of_b);
   const double across = 2 * std::min(bodies.bounding_radius[c.a], bodies.bounding_radius[c.b]);
-  return strength * (thickness * across) * (1 + ice.friction * slope_tangent);
+  return ice.compressive_strength * (ice.thickness * across) * (1 + ice.friction * slope_tangent);
 }
 
 void press_prescribed(const Setup& setup, const Population& population, HullContactLoad& load) {

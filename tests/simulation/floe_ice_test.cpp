@@ -112,7 +112,7 @@ TEST(FloeIce, PiecesInheritIt) {
   const Simulation simulation =
       run(ship_in_ice(2).floe(rectangle(0, -40, 40, 40)).floe(rectangle(40.1, -40, 80, 40)).of(own), 35).simulation;
   std::size_t of_second = 0;
-  for (const FloeState& state : simulation.all_states()) {
+  for (const FloeState& state : simulation.floe_states(Living::kAll)) {
     const bool is_second = state.ice == &simulation.scene().own_ice[0];
     of_second += is_second ? 1 : 0;
     EXPECT_NEAR(state.mass / state.area, is_second ? 0.3 * 850 : 0.5 * 900, 1e-9);
