@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "dynamics/planar.hpp"
 #include "geometry/contact/boundary.hpp"
 #include "geometry/shape/pose.hpp"
 
@@ -134,6 +135,12 @@ inline bool is_held(const Bodies& bodies, BodyIndex i) {
 /// Velocity of a point of the body at `arm` from its centre of mass, v + ω × r [m/s].
 inline geometry::Vector velocity_at(const Bodies& bodies, BodyIndex i, geometry::Vector arm) {
   return bodies.velocity[i] + cross(bodies.angular_velocity[i], arm);
+}
+
+/// A force or an impulse at a point of the water frame, as it acts on a body in its own axes.
+inline Planar planar_of(const Bodies& bodies, BodyIndex i, geometry::Point at, geometry::Vector impulse) {
+  const geometry::Vector in_body = rotate_back(bodies.rotation[i], impulse);
+  return {in_body.x, in_body.y, cross(at - bodies.position[i], impulse)};
 }
 
 /// Gives a body an impulse in the water frame [N s] and one that turns it about its centre [N m s]. The work that

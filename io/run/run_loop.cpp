@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "simulation/state/validate_world.hpp"
+#include "simulation/state/state.hpp"
 #include "simulation/world/world.hpp"
 
 namespace polynya::io {

@@ -114,20 +114,6 @@ void add_piece(const Setup& setup, const dynamics::SubmersionPath& path, const P
   pull.moment += work * distance_to_port(setup, population.bodies, piece, population.body_of(piece.floe));
 }
 
-/// Adds submerged pieces in their order, those that follow one another under one ship to a sum of their own:
-/// it stays in registers.
-void add_tiles(const Setup& setup, const Population& population, std::vector<Pull>& pulls) {
-  auto piece = population.submerged.begin();
-  while (piece != population.submerged.end()) {
-    const int ship = piece->ship;
-    const dynamics::SubmersionPath path = setup.underwater[ship].path;
-    Pull pull = pulls[ship];
-    for (; piece != population.submerged.end() && piece->ship == ship; ++piece)
-      add_piece(setup, path, population, *piece, pull);
-    pulls[ship] = pull;
-  }
-}
-
 /// Brakes the ship, which it never reverses, and turns it. Enters both.
 void apply(const Setup& setup, BodyIndex ship, const Pull& pull, dynamics::Bodies& bodies, SubmergedLoads& loads,
            AuditSums& audit) {
@@ -163,7 +149,8 @@ void pull_of_submerged_ice(const Setup& setup, Population& population, std::vect
   std::vector<Pull> pulls(setup.scene.ships.size());
   const auto ships = static_cast<BodyIndex>(pulls.size());
   for (BodyIndex ship = 0; ship < ships; ++ship) pulls[ship].speed = speed_ahead(setup, bodies, ship);
-  add_tiles(setup, population, pulls);
+  for (const SubmergedPiece& piece : population.submerged)
+    add_piece(setup, setup.underwater[piece.ship].path, population, piece, pulls[piece.ship]);
   for (BodyIndex ship = 0; ship < ships; ++ship) {
     apply(setup, ship, pulls[ship], bodies, loads[ship].submerged, audit);
     pulls[ship].speed = speed_ahead(setup, bodies, ship);
@@ -270,18 +257,17 @@ class Resurfacing {
         accounts_(accounts),
         journal_(journal) {}
 
-  /// Returns whether it is submerged no more.
-  bool ends(SubmergedPiece& submerged) {
+  void go_on(SubmergedPiece& submerged) {
     const bool is_ahead = submerged.path < 0;  // the ship backed off it
-    if (submerged.path < setup_.underwater[submerged.ship].path.sliding && !is_ahead) return false;
-    if (clock_.time() < submerged.next_try) return false;
+    if (submerged.path < setup_.underwater[submerged.ship].path.sliding && !is_ahead) return;
+    if (clock_.time() < submerged.next_try) return;
     if (!settings_.is_enabled && !is_ahead) return stay_under(submerged);
     submerged.next_try = clock_.time() + settings_.retry;
-    return try_to_come_up(submerged);
+    try_to_come_up(submerged);
   }
 
  private:
-  bool stay_under(const SubmergedPiece& submerged) {
+  void stay_under(const SubmergedPiece& submerged) {
     StayUnder stays;
     stays.under_ice_area = population_.floes[submerged.floe].area;
     Event event = event_of(setup_, clock_, population_, submerged, stays);
@@ -290,16 +276,15 @@ class Resurfacing {
     ++accounts_.counts.stayed_under;
     retire_floe(submerged.floe, population_, journal_);
     journal_.events.push_back(std::move(event));
-    return true;
   }
 
-  bool try_to_come_up(SubmergedPiece& submerged) {
+  void try_to_come_up(SubmergedPiece& submerged) {
     const BodyIndex body = population_.body_of(submerged.floe);
     const Floe& floe = population_.floes[submerged.floe];
     const geometry::Polygon polygon = shrunk(floe.shape.polygon, population_.bodies.centroid[body], settings_.rim_loss);
     const geometry::Boundary boundary = geometry::make_outline(polygon);
     const Pose in_place = dynamics::water_from_body(population_.bodies, body);
-    if (is_under_hull(population_, boundary, in_place)) return false;  // not behind it yet
+    if (is_under_hull(population_, boundary, in_place)) return;  // not behind it yet
     Random random(setup_.scene.seed ^ (static_cast<std::uint64_t>(submerged.floe) << 32U) ^
                   static_cast<std::uint64_t>(clock_.steps));
     for (int i = 0; i < kPlaces; ++i) {
@@ -308,12 +293,10 @@ class Resurfacing {
       if (!has_room(population_, boundary, place.water_from_body)) continue;
       const Point centre = transform(place.water_from_body, population_.bodies.centroid[body]);
       if (share > 0 && is_over_another(population_, submerged, boundary, place.water_from_body, centre)) continue;
-      come_up(submerged, polygon, place);
-      return true;
+      return come_up(submerged, polygon, place);
     }
     if (submerged.waited >= settings_.give_up) return stay_under(submerged);
     submerged.waited += settings_.retry;
-    return false;
   }
 
   void come_up(const SubmergedPiece& submerged, const geometry::Polygon& polygon, const Place& place) {
@@ -374,17 +357,9 @@ class Resurfacing {
 void come_up(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts, Journal& journal) {
   if (population.submerged.empty()) return;
   Resurfacing resurfacing(setup, clock, population, accounts, journal);
-  std::vector<FloeId> ended;  // in the order of the submerged pieces
-  for (SubmergedPiece& submerged : population.submerged) {
-    if (resurfacing.ends(submerged)) ended.push_back(submerged.floe);
-  }
-  if (ended.empty()) return;
-  auto next = ended.begin();
-  std::erase_if(population.submerged, [&](const SubmergedPiece& submerged) {
-    const bool has_ended = next != ended.end() && *next == submerged.floe;
-    if (has_ended) ++next;
-    return has_ended;
-  });
+  for (SubmergedPiece& submerged : population.submerged) resurfacing.go_on(submerged);
+  std::erase_if(population.submerged,
+                [&](const SubmergedPiece& submerged) { return !population.floes[submerged.floe].is_under; });
 }
 
 }  // namespace polynya::simulation

@@ -11,7 +11,6 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "simulation/state/state_fields.hpp"
-#include "simulation/state/validate_world.hpp"
 #include "simulation/world/limits.hpp"
 
 namespace polynya::simulation {

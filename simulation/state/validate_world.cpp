@@ -1,5 +1,3 @@
-#include "simulation/state/validate_world.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "geometry/exact/measures.hpp"
+#include "simulation/state/state.hpp"
 
 namespace polynya::simulation {
 namespace {

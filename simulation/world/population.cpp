@@ -64,7 +64,7 @@ Population::Population(const Setup& setup)
       has_skin_drag(setup.scene.water.skin_drag_coefficient > 0),
       pairs(contact_rule(setup), grid_cell(setup.scene)) {}
 
-void add_scene(const Setup& setup, std::vector<FloeSpec> floes, const Clock& clock, Population& population,
+void add_scene(const Setup& setup, std::vector<FloeSpec>& floes, const Clock& clock, Population& population,
                Journal& journal) {
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull) {
     add_body(population.bodies, new_body_of(setup.scene, hull));

@@ -114,8 +114,8 @@ struct NewFloe {
   bool is_fast = false;         ///< its motion is prescribed
 };
 
-/// Adds the scene's hulls, and its floes, asleep and awake.
-void add_scene(const Setup& setup, std::vector<FloeSpec> floes, const Clock& clock, Population& population,
+/// Adds the scene's hulls, and its floes, asleep and awake; takes their polygons.
+void add_scene(const Setup& setup, std::vector<FloeSpec>& floes, const Clock& clock, Population& population,
                Journal& journal);
 
 /// Adds a floe of these measures, at rest or moving as a part of a rigid body whose frame is the floe's;

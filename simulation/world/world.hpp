@@ -8,7 +8,7 @@
 #include "dynamics/contact/contact_solver.hpp"
 #include "fracture/decision.hpp"
 #include "geometry/contact/crack_path.hpp"
-#include "simulation/ice/beam_shape.hpp"
+#include "simulation/ice/beams.hpp"
 #include "simulation/ship/load_peaks.hpp"
 #include "simulation/ship/panels.hpp"
 #include "simulation/world/components.hpp"
