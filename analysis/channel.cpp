@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <iterator>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -15,7 +13,6 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/predicates.hpp"
 #include "geometry/shape/outline.hpp"
-#include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
 
 namespace polynya::analysis {
@@ -27,10 +24,6 @@ using geometry::Polygon;
 using geometry::Ring;
 using geometry::Vector;
 using io::GeojsonLayer;
-
-std::string describe(const geometry::CutError& error) {
-  return fmt::format("{}: {}", name_of(error.reason), error.detail);
-}
 
 /// Of the track and of the hull's corners [m]. Larger, and widths are off by as much; smaller, and bands have
 /// more pieces, whose union takes longer.
@@ -177,7 +170,7 @@ class ChannelMeasure {
 
   Done find_band() {
     auto band = union_of(swept_pieces(run_, motions_, ship_, time_, kTrackTolerance));
-    if (!band) return io::fail(describe(band.error()));
+    if (!band) return io::fail(to_string(band.error()));
     channel_.swept = std::move(*band);
     std::vector<PlacedIce> ice_at_start;
     for (const auto& floe : run_.scene.scene.floes) {
@@ -276,7 +269,7 @@ class ChannelMeasure {
         cells.push_back(cells_[i]);
     }
     const auto corridor = union_of(cells);
-    if (!corridor) return io::fail(describe(corridor.error()));
+    if (!corridor) return io::fail(to_string(corridor.error()));
     const auto& waterline = hull_of(run_.scene.scene, ship_).hull.waterline;
     for (const Polygon& piece : *corridor) {
       std::vector<Polygon> taken = near(firm_ice_, bounding_box(piece.outer));

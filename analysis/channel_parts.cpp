@@ -2,8 +2,6 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "analysis/channel.hpp"
 #include "geometry/cut/cut.hpp"
 #include "geometry/exact/validity.hpp"
@@ -24,9 +22,7 @@ io::Result<> add_ice(std::vector<PlacedIce>& ice, const simulation::BirthRecord*
   }
   const auto repaired = geometry::repair(rings_of(polygon_in_world), geometry::FillRule::kNonZero);
   if (!repaired && repaired.error().reason == geometry::CutFailure::kMisses) return {};
-  if (!repaired)
-    return io::fail(fmt::format("a placed floe is not a polygon: {}: {}", name_of(repaired.error().reason),
-                                repaired.error().detail));
+  if (!repaired) return io::fail("a placed floe is not a polygon: " + to_string(repaired.error()));
   for (const geometry::Shape& shape : repaired->shapes)
     ice.push_back({birth, shape.polygon, bounding_box(shape.polygon.outer)});
   return {};
@@ -44,7 +40,7 @@ io::Result<Parted> part(const Polygon& polygon, const std::vector<Polygon>& by) 
   if (by.empty()) return Parted{{}, {polygon}, 0};
   auto cut = geometry::cut_by_polygons({polygon}, by);
   if (!cut && cut.error().reason == geometry::CutFailure::kMisses) return Parted{{}, {polygon}, 0};
-  if (!cut) return io::fail(fmt::format("a cut was refused: {}: {}", name_of(cut.error().reason), cut.error().detail));
+  if (!cut) return io::fail("a cut was refused: " + to_string(cut.error()));
   Parted parted;
   parted.inside_area = cut->ledger.area_inside;
   for (geometry::Piece& piece : cut->pieces)

@@ -16,7 +16,6 @@
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/box_tree.hpp"
 #include "io/run/records.hpp"
-#include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/problem.hpp"
 

@@ -11,7 +11,6 @@
 #include "io/import/floe_properties.hpp"
 #include "io/run/event_records.hpp"
 #include "io/run/records.hpp"
-#include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/problem.hpp"
 
@@ -171,12 +170,12 @@ std::string force_lines(const io::RunSummary& summary, const simulation::Scene& 
   return text;
 }
 
-std::string under_hull_lines(const simulation::Counts& counts, const simulation::AreaLedger& ledger) {
+std::string under_hull_lines(const simulation::Counts& counts, const simulation::IceLedger& areas) {
   if (counts.went_under == 0) return "";
   return fmt::format("under hull  {} went under, {} of them tilted floes; {} came up, {} stayed under the ice\n",
                      counted(counts.went_under, "piece"), counts.tilted_under, counts.came_up, counts.stayed_under) +
-         fmt::format("            {:.6f} m2 are there at the end, {:.6f} m2 stayed under the ice\n",
-                     ledger.under_hull_area, ledger.under_ice_area);
+         fmt::format("            {:.6f} m2 are there at the end, {:.6f} m2 stayed under the ice\n", areas.under_hulls,
+                     areas.under_ice);
 }
 
 /// "ticks of 0.05 s, steps of 0.025 to 0.4 s".
@@ -321,24 +320,22 @@ std::string result_text(const io::RunSummary& summary, const simulation::Scene& 
     fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
   };
   const auto& counts = summary.counts;
-  const auto& ledger = summary.ledger;
+  const auto& areas = summary.areas;
   add("simulated   {:.6g} s in {:.3g} s, {:.3g} x real time; {}\n", summary.sim_time, summary.wall_time,
       summary.real_time_factor(), steps_of(counts, scene.time.step));
   add("fractures   {} broken by bending, {}, {}\n", counted(counts.bends, "cusp"), counted(counts.splits, "split"),
       counted(counts.rejected_cuts, "rejected cut"));
   if (counts.ground > 0)
     add("ground      {} that contacts did not part, to brash\n", counted(counts.ground, "overlap"));
-  text += under_hull_lines(counts, ledger);
+  text += under_hull_lines(counts, areas);
   add("floes       {} -> {}\n", counts.floes_initial, counts.floes_final);
-  const double submerged = ledger.submerged_area + ledger.under_hull_area + ledger.under_ice_area;
+  const double submerged = areas.submerged + areas.under_hulls + areas.under_ice;
   add("ice         {:.6f} m2 = {:.6f} floes + {:.6f} submerged + {:.6f} brash (imbalance {:.1e}, rounding {:.1e} m2)\n",
-      ledger.initial_ice_area, ledger.floe_area, submerged, ledger.brash_area, ledger.imbalance,
-      ledger.rounding_defect);
+      areas.initial, areas.floes, submerged, areas.brash, areas.imbalance(), areas.rounding);
   const auto& masses = summary.masses;
   add("            {:.6g} t = {:.6g} floes + {:.6g} submerged + {:.6g} brash (imbalance {:.1e} t)\n",
-      1e-3 * masses.initial_ice_mass, 1e-3 * masses.floe_mass,
-      1e-3 * (masses.submerged_mass + masses.under_hull_mass + masses.under_ice_mass), 1e-3 * masses.brash_mass,
-      1e-3 * masses.imbalance);
+      1e-3 * masses.initial, 1e-3 * masses.floes, 1e-3 * (masses.submerged + masses.under_hulls + masses.under_ice),
+      1e-3 * masses.brash, 1e-3 * masses.imbalance());
   const simulation::EnergyFlows& energy = summary.audit.sums.energy;
   const simulation::BoundaryFlows& boundaries = summary.audit.sums.boundaries;
   add("energy      {:.4g} kJ in: {:.4g} drag, {:.4g} friction, {:.4g} crushing, {:.4g} collisions, {:.4g} in "

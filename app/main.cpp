@@ -2,7 +2,6 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
-#include <vector>
 
 #include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"

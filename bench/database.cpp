@@ -1,5 +1,7 @@
 // The icebreaking database: one question, one direct solution, the whole table.
 //   polynya_bench_database [--benchmark_filter=REGEX]
+#include "fracture/bending/database.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -8,7 +10,6 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/wedge_studies.hpp"
-#include "fracture/bending/database_text.hpp"
 #include "fracture/bending/fsi_database_model.hpp"
 #include "fracture/crushing.hpp"
 

@@ -65,7 +65,10 @@ PeerScene peer_scene(const simulation::Simulation& simulation) {
     PeerBody body = body_at(world, i, world.population.floes[id].shape.polygon.outer);
     body.drag = 0.5 * world.setup.scene.water.drag_coefficient * world.setup.scene.water.water.density *
                 world.population.bodies.thickness[i];
-    body.shape = std::make_shared<dynamics::DragShape>(dynamics::make_drag_shape({body.outline, {}}, {}));
+    body.rotational = dynamics::make_drag_shape({body.outline, {}}, {}).rotational;
+    for (int k = 0; k < dynamics::DragShape::kDirections; ++k)
+      body.widths.push_back(dynamics::widths_of_outline(body.outline, {}, k)[0]);
+    body.widths.push_back(body.widths.front());
     scene.bodies.push_back(std::move(body));
   }
   return scene;
@@ -83,18 +86,20 @@ std::vector<geometry::Ring> convex_pieces(const geometry::Ring& ring, std::size_
 }
 
 Vector drag_acceleration(const PeerBody& body, const dynamics::ShearCurrent& current, Point p, Vector v, Rotation r) {
-  if (body.shape == nullptr) return {};
+  if (body.drag == 0) return {};
   const Vector u = current.is_still() ? v : v - current.velocity_at(p);
   const double speed = length(u);
   if (speed == 0) return {};
-  const double width = dynamics::width_across(*body.shape, rotate_back(r, u));
+  const double place = dynamics::drag_place(rotate_back(r, u));
+  const int k = std::min(static_cast<int>(place), dynamics::DragShape::kDirections - 1);
+  const double width = body.widths[k] + (place - k) * (body.widths[k + 1] - body.widths[k]);
   return (-body.drag * width * speed / body.mass) * u;
 }
 
 double drag_spin(const PeerBody& body, const dynamics::ShearCurrent& current, double angular_velocity) {
-  if (body.shape == nullptr) return 0;
+  if (body.drag == 0) return 0;
   const double omega = angular_velocity - current.angular_velocity();
-  return -body.drag * body.shape->rotational * std::abs(omega) * omega / body.moment;
+  return -body.drag * body.rotational * std::abs(omega) * omega / body.moment;
 }
 
 }  // namespace polynya::bench

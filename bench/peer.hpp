@@ -22,7 +22,8 @@ struct PeerBody {
   bool is_prescribed = false;  ///< its velocity does not answer to impulses
   double thrust = 0;           ///< along its x axis [N]
   double drag = 0;             ///< ½ C_D ρ_w h [kg/m³]; 0: the water does not hold it back
-  std::shared_ptr<const dynamics::DragShape> shape;
+  double rotational = 0;       ///< K of its drag shape [m⁴]
+  std::vector<double> widths;  ///< across drag_direction(k), and the first again [m]
 };
 
 struct PeerScene {

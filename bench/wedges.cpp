@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench/wedge_studies.hpp"
-#include "fracture/bending/database_text.hpp"
+#include "fracture/bending/database.hpp"
 #include "fracture/crushing.hpp"
 #include "geometry/shape/angle.hpp"
 

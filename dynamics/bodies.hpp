@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "dynamics/planar.hpp"
 #include "geometry/contact/boundary.hpp"
 #include "geometry/shape/pose.hpp"
 
@@ -24,15 +26,13 @@ inline bool is_grounded(BodyKind kind) {
   return kind == BodyKind::kStructure || kind == BodyKind::kWall;
 }
 
-/// The drag of a shape, without speed and, by DragArea::kEdge, thickness. Made once per shape
+/// The drag of a shape, without speed, width and, by DragArea::kEdge, thickness. Made once per shape
 /// (water_drag.hpp). By kPlan, all widths are the area [m²] and K is ∫ r³ dA [m⁵].
 struct DragShape {
   static constexpr int kDirections = 128;
-  double rotational = 0;       ///< K = mean over directions of ∫|s|³ ds across the body [m⁴]
-  double skin_rotational = 0;  ///< ∫ r³ dA; 0 where no skin drag acts [m⁵]
-  double same_width = 0;       ///< across all directions; of kPlan, and of what water does not move [m]
-  std::vector<double> width;   ///< across drag_direction(k) [m]; last = first; empty: not kept
-  bool is_same = false;        ///< same_width holds
+  double rotational = 0;             ///< K = mean over directions of ∫|s|³ ds across the body [m⁴]
+  double skin_rotational = 0;        ///< ∫ r³ dA; 0 where no skin drag acts [m⁵]
+  std::optional<double> same_width;  ///< across all directions; of kPlan, and of what water does not move [m]
 };
 
 /// The part of a body's drag shape that it needed last: in steady motion it needs the same again.
@@ -116,6 +116,16 @@ inline geometry::Pose a_from_b(const Bodies& bodies, BodyIndex a, BodyIndex b, c
           centre_a_from_b.rotation};
 }
 
+/// Placement of b's frame in a's, from those of both in the water.
+inline geometry::Pose a_from_b(const Bodies& bodies, BodyIndex a, BodyIndex b) {
+  return geometry::relative_pose(water_from_body(bodies, a), water_from_body(bodies, b));
+}
+
+/// Whether the motion of both is prescribed, as of a hull in fast ice: no contact changes it.
+inline bool are_prescribed(const Bodies& bodies, BodyIndex a, BodyIndex b) {
+  return bodies.inverse_mass[a] == 0 && bodies.inverse_mass[b] == 0;
+}
+
 /// Whether it is ice of prescribed motion that stands in the water: nothing moves it.
 inline bool is_held(const Bodies& bodies, BodyIndex i) {
   return bodies.kind[i] == BodyKind::kFloe && bodies.inverse_mass[i] == 0 && bodies.velocity[i] == geometry::Vector{} &&
@@ -125,6 +135,12 @@ inline bool is_held(const Bodies& bodies, BodyIndex i) {
 /// Velocity of a point of the body at `arm` from its centre of mass, v + ω × r [m/s].
 inline geometry::Vector velocity_at(const Bodies& bodies, BodyIndex i, geometry::Vector arm) {
   return bodies.velocity[i] + cross(bodies.angular_velocity[i], arm);
+}
+
+/// A force or an impulse at a point of the water frame, as it acts on a body in its own axes.
+inline Planar planar_of(const Bodies& bodies, BodyIndex i, geometry::Point at, geometry::Vector impulse) {
+  const geometry::Vector in_body = rotate_back(bodies.rotation[i], impulse);
+  return {in_body.x, in_body.y, cross(at - bodies.position[i], impulse)};
 }
 
 /// Gives a body an impulse in the water frame [N s] and one that turns it about its centre [N m s]. The work that

@@ -8,7 +8,6 @@ namespace polynya::dynamics {
 /// Makes parallel loops use a number of threads, also where there are fewer cores, for as long as it lives.
 class ThreadLimit {
  public:
-  /// Makes the threads. Throws std::bad_alloc where there is no room for them.
   explicit ThreadLimit(int threads);
   ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;

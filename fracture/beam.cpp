@@ -1,6 +1,5 @@
 #include "fracture/beam.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -1,7 +1,5 @@
 #include "fracture/crushing.hpp"
 
-#include <algorithm>
-
 namespace polynya::fracture {
 namespace {
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 namespace polynya::fracture {
 
 /// Ice as the fracture laws need it. Defaults are the paper's ice [Sawamura2017]; the paper gives no ν.

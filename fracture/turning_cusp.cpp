@@ -1,5 +1,6 @@
 #include "fracture/turning_cusp.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -12,6 +13,239 @@ double edge_mass(const Ice& ice, const Water& water, const TurningCusp& cusp) {
   constexpr double kPlate = 9 * std::numbers::pi / 256;
   return ice.density * ice.thickness * cusp.second_moment / (cusp.depth * cusp.depth) +
          kPlate * water.density * cusp.area * cusp.depth * finite;
+}
+
+namespace {
+
+constexpr double kDischarge = 0.6;  ///< C_d of sharp-edged openings (recall)
+constexpr int kHalvings = 14;       ///< to find the pool's surface: within 1e-4 of its depth
+constexpr int kStepsOfATurn = 40;
+constexpr double kLeastLever = 0.1;  ///< of the cusp's depth, where it jams between sheet and hull
+
+/// The part of an edge within a strip of the deck, a share of the edge.
+struct Within {
+  double from = 0, to = 0;
+};
+
+Within within(double r0, double r1, double low, double high) {
+  if (r0 == r1) return r0 >= low && r0 < high ? Within{0, 1} : Within{};
+  const double a = std::clamp((low - r0) / (r1 - r0), 0.0, 1.0);
+  const double b = std::clamp((high - r0) / (r1 - r0), 0.0, 1.0);
+  return {std::min(a, b), std::max(a, b)};
+}
+
+void add_edge(Deck& deck, double farthest, geometry::Point from, geometry::Point to, const DeckEdge& edge) {
+  const double strip = deck.depth / Deck::kStrips;
+  const double r0 = farthest - from.x;
+  const double r1 = farthest - to.x;
+  const int first = std::clamp(static_cast<int>(std::min(r0, r1) / strip), 0, Deck::kStrips - 1);
+  const int last = std::clamp(static_cast<int>(std::max(r0, r1) / strip), 0, Deck::kStrips - 1);
+  for (int k = first; k <= last; ++k) {
+    const double high = k + 1 == Deck::kStrips ? 2 * deck.depth : (k + 1) * strip;
+    const auto [a, b] = within(r0, r1, k * strip, high);
+    DeckStrip& s = deck.strips[static_cast<std::size_t>(k)];
+    const double middle = from.y + 0.5 * (a + b) * (to.y - from.y);
+    const double length = (b - a) * distance(from, to);
+    s.width += middle * (b - a) * (r1 - r0) / strip;
+    if (edge.beside == Beside::kWater) s.water += length;
+    if (edge.beside == Beside::kSheet) {
+      s.sheet += length;
+      s.sheet_across += (b - a) * std::abs(to.y - from.y);
+    }
+    if (edge.beside != Beside::kOlderCusp || length <= 0) continue;
+    DeckSide& side = s.sides[to.x < from.x ? 0 : 1];
+    const double share = length / (side.length + length);
+    side.facing += (b - a) * (from.y - to.y);
+    side.length += length;
+    side.axis += share * (farthest - edge.older_far - side.axis);
+    side.depth += share * (edge.older_depth - side.depth);
+  }
+}
+
+/// A plate of ice that a plane hull has pressed down about the lower corner of its far edge: in the plane of the hull's
+/// normal, x from that edge towards the hull, z down from the sheet's upper side.
+class Plate {
+ public:
+  /// The hull's waterline is at x.
+  Plate(double depth, double thickness, double hull_angle, double waterline) : thickness_(thickness) {
+    const double beta = std::atan2(thickness, depth);
+    const double sine = std::sin(hull_angle);
+    const double cosine = std::cos(hull_angle);
+    const double along = thickness * (1 - sine) / cosine;  // the waterline when the plate lies along the hull
+    const double at = std::clamp(waterline, along, std::max(along, depth));  // a short one snaps over
+    const double turned =
+        std::acos(std::clamp((at * cosine + thickness * sine) / std::hypot(depth, thickness), -1.0, 1.0));
+    tilt_ = std::clamp(turned + beta - hull_angle, 0.0, 0.5 * std::numbers::pi - hull_angle);
+    if (waterline >= depth) tilt_ = 0;
+    cosine_ = std::cos(tilt_);
+    sine_ = std::sin(tilt_);
+    sunk_ = std::max(0.0, along - waterline) * cosine / sine;
+  }
+
+  double cosine() const { return cosine_; }
+  double sine() const { return sine_; }
+  /// Of the plate's upper side, that far from its far edge.
+  double x(double r) const { return r * cosine_ + thickness_ * sine_; }
+  double z(double r) const { return r * sine_ + thickness_ * (1 - cosine_) + sunk_; }
+
+ private:
+  double thickness_ = 0, tilt_ = 0, cosine_ = 1, sine_ = 0;
+  double sunk_ = 0;  ///< that it has slid down along the hull [m]
+};
+
+/// What stands open between a side of a turning plate at r and the plate of an older cusp [m²].
+double open_area(const DeckSide& side, double r, const Plate& plate, const Plate& older, double thickness) {
+  // From the side's upper corner to both corners of the older cusp's face, along the deck and across it.
+  const double x = side.axis + older.x(r - side.axis) - plate.x(r);
+  const double z = older.z(r - side.axis) - plate.z(r);
+  const auto along =
+      std::minmax({x * plate.cosine() + z * plate.sine(),
+                   (x - thickness * older.sine()) * plate.cosine() + (z + thickness * older.cosine()) * plate.sine()});
+  const auto across =
+      std::minmax({z * plate.cosine() - x * plate.sine(),
+                   (z + thickness * older.cosine()) * plate.cosine() - (x - thickness * older.sine()) * plate.sine()});
+  const double apart = side.facing > 0 ? along.first : -along.second;
+  const double below = std::max(across.first - thickness, -across.second);
+  return std::max({0.0, apart * std::abs(side.facing), below * side.length});
+}
+
+/// A deck at an instant of its turn.
+class Turn {
+ public:
+  Turn(const Deck& deck, double way)
+      : deck_(deck), waterline_(deck.depth - way), plate_(deck.depth, deck.thickness, deck.hull_angle, waterline_) {
+    for (int k = 0; k < Deck::kStrips; ++k) {
+      const double r = at(k);
+      depth_[k] = std::max(0.0, plate_.z(r) - deck.freeboard);
+      hull_[k] = std::max(0.0, (plate_.x(r) - waterline_) / std::tan(deck.hull_angle) - deck.freeboard);
+    }
+  }
+
+  double deepest() const { return depth_[Deck::kStrips - 1]; }
+
+  /// Of a pool whose surface is that far below the water level [m³].
+  double pool_below(double surface) const {
+    double volume = 0;
+    for (int k = 0; k < Deck::kStrips; ++k) volume += width(k) * std::max(0.0, depth_[k] - std::max(surface, hull_[k]));
+    return plate_.cosine() * strip() * volume;
+  }
+
+  /// How far below the water level a pool's surface is [m].
+  double surface_of(double pool) const {
+    if (pool >= pool_below(0)) return 0;
+    double low = 0;
+    double high = deepest();
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      (pool_below(middle) > pool ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+  }
+
+  /// Into a pool with that surface [m³/s].
+  double inflow(double surface) const {
+    double flow = 0;
+    if (surface <= 0) return flow;
+    for (int k = 0; k < Deck::kStrips; ++k) {
+      const double z = depth_[k];
+      if (z <= 0) continue;
+      flow += kDischarge * open_at(k) * std::sqrt(2 * kGravity * std::min(surface, z));
+      flow += deck_.strips[k].water * over_crest(z, std::max(0.0, z - surface));
+    }
+    return flow;
+  }
+
+  /// Of the pressure that is missing on the deck, M [N m].
+  double moment(double surface, double density) const {
+    double sum = 0;
+    for (int k = 0; k < Deck::kStrips; ++k) sum += std::min(depth_[k], surface) * at(k) * width(k);
+    return density * kGravity * strip() * sum;
+  }
+
+  /// Of the pressure that is missing on the hull's face, along its normal [N].
+  double ahead(double surface, double density) const {
+    double sum = 0;
+    for (int k = 0; k < Deck::kStrips; ++k) sum += std::min(hull_[k], surface) * width(k);
+    return density * kGravity * strip() * plate_.cosine() / std::tan(deck_.hull_angle) * sum;
+  }
+
+  /// Of the force down on the near edge, with that thrust per force, about the axis [m].
+  double lever(double thrust) const {
+    const double h = deck_.thickness;
+    const double up = deck_.depth * plate_.sine() - h * plate_.cosine();
+    return std::max(plate_.x(deck_.depth) + thrust * up, kLeastLever * deck_.depth);
+  }
+
+ private:
+  /// What stands open towards ice [m²].
+  double open_at(int k) const {
+    double open = beside_sheet(k);
+    for (const DeckSide& side : deck_.strips[k].sides) {
+      if (side.length <= 0) continue;
+      const Plate older(side.depth, deck_.thickness, deck_.hull_angle, waterline_ - side.axis);
+      open += open_area(side, at(k), plate_, older, deck_.thickness);
+    }
+    return open;
+  }
+  /// What stands open between the strip's far edge and the sheet's lower corner [m²].
+  double beside_sheet(int k) const {
+    const double r = at(k);
+    const double h = deck_.thickness;
+    const DeckStrip& s = deck_.strips[k];
+    if (r * plate_.sine() < h) return r * (1 - plate_.cosine()) * s.sheet_across;
+    return std::hypot((plate_.x(r) - r) * s.sheet_across, (plate_.z(r) - h) * s.sheet);
+  }
+  /// Over a metre of a broad crest under that head, with water that high behind it (Villemonte; recall) [m²/s].
+  static double over_crest(double head, double behind) {
+    const double critical = std::pow(2. / 3, 1.5) * std::sqrt(kGravity) * std::pow(head, 1.5);
+    return critical * std::pow(std::max(0.0, 1 - std::pow(behind / head, 1.5)), 0.385);
+  }
+  double strip() const { return deck_.depth / Deck::kStrips; }
+  double at(int k) const { return (k + 0.5) * strip(); }
+  double width(int k) const { return deck_.strips[k].width; }
+
+  const Deck& deck_;
+  double waterline_ = 0;  ///< x_w, of the hull at the sheet's upper side [m]
+  Plate plate_;
+  std::array<double, Deck::kStrips> depth_{};  ///< of the deck below the water level [m]
+  std::array<double, Deck::kStrips> hull_{};   ///< of the hull above it, below the water level [m]
+};
+
+}  // namespace
+
+double way_to_lie_along(const Deck& deck) {
+  return deck.depth - deck.thickness * (1 - std::sin(deck.hull_angle)) / std::cos(deck.hull_angle);
+}
+
+Deck deck_of(const Ice& ice, const Water& water, double hull_angle, std::span<const geometry::Point> outline,
+             std::span<const DeckEdge> edges) {
+  Deck deck;
+  const auto [near, far] = std::ranges::minmax(outline, {}, &geometry::Point::x);
+  deck.depth = far.x - near.x;
+  deck.thickness = ice.thickness;
+  deck.freeboard = std::max(0.0, 1 - ice.density / water.density) * ice.thickness;
+  deck.hull_angle = hull_angle;
+  if (!(deck.depth > 0)) return deck;
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    add_edge(deck, far.x, outline[i], outline[i + 1 < outline.size() ? i + 1 : 0], edges[i]);
+  for (DeckStrip& s : deck.strips) s.width = std::max(0.0, s.width);
+  return deck;
+}
+
+DeckForces turn_deck(const Deck& deck, const Water& water, double thrust, double way, double dt, DeckState& state) {
+  const double end = way_to_lie_along(deck);
+  const int steps = std::clamp(static_cast<int>(std::ceil(kStepsOfATurn * way / deck.depth)), 1, kStepsOfATurn);
+  DeckForces sum;
+  for (int i = 0; i < steps; ++i) {
+    state.way = std::min(end, state.way + way / steps);
+    const Turn turn(deck, state.way);
+    const double surface = turn.surface_of(state.pool);
+    sum.down += turn.moment(surface, water.density) / turn.lever(thrust) / steps;
+    sum.ahead += turn.ahead(surface, water.density) / steps;
+    // What no longer has room leaves.
+    state.pool = std::min(turn.pool_below(0), state.pool + turn.inflow(surface) * dt / steps);
+  }
+  return sum;
 }
 
 }  // namespace polynya::fracture

@@ -7,7 +7,6 @@
 
 #include "dynamics/thread_limit.hpp"
 #include "simulation/state/state.hpp"
-#include "simulation/state/validate_world.hpp"
 #include "simulation/world/step.hpp"
 
 namespace polynya::simulation {
@@ -103,29 +102,12 @@ Audit Simulation::audit() const {
   return simulation::audit(world_->accounts.audit, kinetic_energy(bodies), momentum(bodies));
 }
 
-AreaLedger Simulation::area_ledger() const {
-  const Population& population = world_->population;
-  AreaLedger ledger = world_->accounts.ledger;
-  for (FloeId id = 0; id < population.floe_count(); ++id) {
-    if (!population.is_alive(id)) continue;
-    (population.floes[id].is_under ? ledger.under_hull_area : ledger.floe_area) += population.floes[id].area;
-  }
-  ledger.imbalance = ledger.floe_area + ledger.under_hull_area + ledger.under_ice_area + ledger.submerged_area +
-                     ledger.brash_area - ledger.rounding_defect - ledger.initial_ice_area;
-  return ledger;
+IceLedger Simulation::area_ledger() const {
+  return simulation::area_ledger(*world_);
 }
 
-MassLedger Simulation::mass_ledger() const {
-  const Population& population = world_->population;
-  MassLedger ledger = world_->accounts.masses;
-  for (FloeId id = 0; id < population.floe_count(); ++id) {
-    if (!population.is_alive(id)) continue;
-    (population.floes[id].is_under ? ledger.under_hull_mass : ledger.floe_mass) +=
-        population.bodies.mass[population.body_of(id)];
-  }
-  ledger.imbalance = ledger.floe_mass + ledger.under_hull_mass + ledger.under_ice_mass + ledger.submerged_mass +
-                     ledger.brash_mass - ledger.rounding_mass - ledger.initial_ice_mass;
-  return ledger;
+IceLedger Simulation::mass_ledger() const {
+  return simulation::mass_ledger(*world_);
 }
 
 Counts Simulation::counts() const {
@@ -167,27 +149,17 @@ FloeState state_of(const World& world, Vector drift, FloeId id) {
 
 }  // namespace
 
-void Simulation::for_each_floe(const std::function<void(const FloeState&)>& use) const {
+void Simulation::for_each_floe(Living which, const std::function<void(const FloeState&)>& use) const {
+  const Population& population = world_->population;
   const Vector drift = world_->clock.drift();
-  for (FloeId id = 0; id < world_->population.floe_count(); ++id)
-    if (world_->population.is_floating(id)) use(state_of(*world_, drift, id));
+  for (FloeId id = 0; id < population.floe_count(); ++id)
+    if (which == Living::kFloating ? population.is_floating(id) : population.is_alive(id))
+      use(state_of(*world_, drift, id));
 }
 
-void Simulation::for_each_living(const std::function<void(const FloeState&)>& use) const {
-  const Vector drift = world_->clock.drift();
-  for (FloeId id = 0; id < world_->population.floe_count(); ++id)
-    if (world_->population.is_alive(id)) use(state_of(*world_, drift, id));
-}
-
-std::vector<FloeState> Simulation::floe_states() const {
+std::vector<FloeState> Simulation::floe_states(Living which) const {
   std::vector<FloeState> states;
-  for_each_floe([&](const FloeState& state) { states.push_back(state); });
-  return states;
-}
-
-std::vector<FloeState> Simulation::all_states() const {
-  std::vector<FloeState> states;
-  for_each_living([&](const FloeState& state) { states.push_back(state); });
+  for_each_floe(which, [&](const FloeState& state) { states.push_back(state); });
   return states;
 }
 

@@ -10,7 +10,6 @@
 
 #include "geometry/shape/pose.hpp"
 #include "simulation/ship/pilot.hpp"
-#include "simulation/world/contact_state.hpp"
 #include "simulation/world/energy.hpp"
 #include "simulation/world/journal.hpp"
 #include "simulation/world/scene.hpp"
@@ -40,6 +39,12 @@ struct FloeState {
   double under_path = 0;                               ///< then how far that ship has come over it [m]
   const fracture::Ice* ice = nullptr;                  ///< valid as long as the simulation
   const geometry::Polygon* polygon_in_body = nullptr;  ///< valid as long as the floe
+};
+
+/// Which of the floes that have not broken.
+enum class Living {
+  kFloating,
+  kAll,  ///< also those under hulls
 };
 
 struct HullState {
@@ -94,16 +99,13 @@ class Simulation {
   std::int64_t steps() const;
   const Scene& scene() const;  ///< without its floes: the simulation has taken them
   Journal& journal();
-  AreaLedger area_ledger() const;
-  MassLedger mass_ledger() const;
+  IceLedger area_ledger() const;
+  IceLedger mass_ledger() const;
   Audit audit() const;  ///< of energy and momentum
   Counts counts() const;
-  std::vector<FloeState> floe_states() const;  ///< of floes that float and have not broken, in id order
-  std::vector<FloeState> all_states() const;   ///< of these and those under hulls, in id order
+  std::vector<FloeState> floe_states(Living which = Living::kFloating) const;  ///< in id order
   /// Calls use(state) for each of floe_states(), one at a time: all of a million floes' take 140 MB.
-  void for_each_floe(const std::function<void(const FloeState&)>& use) const;
-  /// The same for each of all_states().
-  void for_each_living(const std::function<void(const FloeState&)>& use) const;
+  void for_each_floe(Living which, const std::function<void(const FloeState&)>& use) const;
   std::vector<HullState> ship_states() const;
   /// Those contacts of the last step that the scene has recorded, ships' first, in the order of their
   /// bodies. None before the first step and right after a resume.

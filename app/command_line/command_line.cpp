@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <optional>
 #include <sstream>
 #include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/ranges.h>
 
-#include "app/command_line/console.hpp"
 #include "io/text/problem.hpp"
 
 namespace polynya::app {

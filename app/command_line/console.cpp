@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <initializer_list>
 #include <system_error>
 
 #include <fcntl.h>
@@ -16,7 +15,6 @@
 #include <unistd.h>
 
 #include "io/text/output_file.hpp"
-#include "io/text/source_text.hpp"
 
 namespace polynya::app {
 namespace {

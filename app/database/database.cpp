@@ -16,7 +16,6 @@
 #include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "fracture/bending/bending_model.hpp"
-#include "fracture/bending/database_text.hpp"
 #include "fracture/bending/fsi_database_model.hpp"
 #include "fracture/crushing.hpp"
 #include "fracture/materials.hpp"

@@ -1,6 +1,5 @@
 #include "io/run/run_folder.hpp"
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>

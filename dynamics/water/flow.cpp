@@ -1,6 +1,5 @@
 #include "dynamics/water/flow.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

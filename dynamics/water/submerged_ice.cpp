@@ -1,6 +1,5 @@
 #include "dynamics/water/submerged_ice.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace polynya::dynamics {

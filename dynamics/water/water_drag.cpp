@@ -1,7 +1,6 @@
 #include "dynamics/water/water_drag.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include <boost/container/small_vector.hpp>
@@ -22,19 +21,9 @@ namespace {
 constexpr int kDirections = DragShape::kDirections;
 constexpr int kAround = 2 * kDirections;  // the directions of a whole turn; k + kDirections is opposite to k
 
-/// Where a direction (of any length > 0) is among those of half a turn, from [0, kDirections]. The
-/// inverse of drag_direction.
-inline double place_along(Vector d) {
-  const bool is_behind = d.y < 0;
-  const double x = is_behind ? -d.x : d.x;
-  const double y = is_behind ? -d.y : d.y;
-  const double from_axis = y / (std::abs(x) + y);
-  return (x >= 0 ? from_axis : 2 - from_axis) * (0.5 * kDirections);
-}
-
-/// The same of a whole turn, from [0, kAround).
+/// drag_place() among the directions of a whole turn, from [0, kAround).
 double place_around(Vector d) {
-  return d.y >= 0 ? place_along(d) : kAround - place_along({d.x, -d.y});
+  return d.y >= 0 ? drag_place(d) : kAround - drag_place({d.x, -d.y});
 }
 
 struct UnitAcross {
@@ -104,14 +93,11 @@ DragShape edge_shape(const geometry::Polygon& polygon, Point centroid) {
   const std::array<UnitAcross, kDirections>& units = units_across();
   const std::array<double, kAround> reach = reaches(polygon.outer, centroid, units);
   DragShape shape;
-  shape.width.resize(kDirections + 1);
   for (int k = 0; k < kDirections; ++k) {
     const double high = reach[k];
     const double low = reach[k + kDirections];
-    shape.width[k] = high + low;
     shape.rotational += (low * low * low * low + high * high * high * high) / 4 * units[k].share;
   }
-  shape.width[kDirections] = shape.width[0];
   return shape;
 }
 
@@ -152,7 +138,6 @@ DragShape plan_shape(const geometry::Polygon& polygon, Point centroid) {
   shape.rotational = third_moment(polygon, centroid);
   for (const geometry::Ring& hole : polygon.holes) area += geometry::signed_area(hole);
   shape.same_width = area;
-  shape.is_same = true;
   return shape;
 }
 
@@ -161,14 +146,6 @@ DragShape plan_shape(const geometry::Polygon& polygon, Point centroid) {
 DragShape make_drag_shape(const geometry::Polygon& polygon, Point centroid, DragArea area, bool has_skin) {
   DragShape shape = area == DragArea::kPlan ? plan_shape(polygon, centroid) : edge_shape(polygon, centroid);
   if (has_skin) shape.skin_rotational = area == DragArea::kPlan ? shape.rotational : third_moment(polygon, centroid);
-  return shape;
-}
-
-DragShape make_small_drag_shape(const geometry::Polygon& polygon, Point centroid, DragArea area, bool has_skin) {
-  // Up to here widths_of_outline() costs less than the table takes of memory: 1 kB a floe. No result changes.
-  constexpr std::size_t kFewCorners = 32;
-  DragShape shape = make_drag_shape(polygon, centroid, area, has_skin);
-  if (polygon.outer.size() <= kFewCorners && polygon.holes.empty()) shape.width = std::vector<double>();
   return shape;
 }
 
@@ -194,13 +171,6 @@ Vector drag_direction(int k) {
 
 // ---- what the water does to bodies
 
-double width_across(const DragShape& shape, Vector direction_in_body) {
-  if (shape.is_same) return shape.same_width;
-  const double at = place_along(direction_in_body);
-  const int k = std::min(static_cast<int>(at), DragShape::kDirections - 1);
-  return shape.width[k] + (at - k) * (shape.width[k + 1] - shape.width[k]);
-}
-
 namespace {
 
 /// Some bodies side by side, for loops that the compiler turns into vector instructions. Plain arrays: it
@@ -224,7 +194,7 @@ POLYNYA_AVX2_CLONE void find_places(Lanes& l, std::size_t count) {
     l.speed[i] = std::sqrt(l.ux[i] * l.ux[i] + l.uy[i] * l.uy[i]);
     const double x = l.cosine[i] * l.ux[i] + l.sine[i] * l.uy[i];
     const double y = -l.sine[i] * l.ux[i] + l.cosine[i] * l.uy[i];
-    const double place = place_along({x, y});
+    const double place = drag_place({x, y});
     l.place[i] = l.speed[i] > 0 ? place : 0;
   }
 }
@@ -278,10 +248,9 @@ struct Columns {
 /// The widths across the k-th direction and the next.
 DragSpan span_at(const Columns& bodies, BodyIndex i, int k) {
   const DragShape& shape = *bodies.drag[i];
-  if (shape.is_same) return {shape.same_width, shape.same_width, shape.rotational, k};
-  if (!shape.width.empty()) return {shape.width[k], shape.width[k + 1], shape.rotational, k};
-  const auto width = widths_of_outline(bodies.boundary[i]->edges.vertices, bodies.centroid[i], k);
-  return {width[0], width[1], shape.rotational, k};
+  if (shape.same_width) return {*shape.same_width, *shape.same_width, shape.rotational, k};
+  const auto [width, next_width] = widths_of_outline(bodies.boundary[i]->edges.outer_corners(), bodies.centroid[i], k);
+  return {width, next_width, shape.rotational, k};
 }
 
 /// The width across a place between two known directions.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -15,28 +16,28 @@ enum class DragArea {
   kPlan,  ///< the floe's area in plan
 };
 
-/// By edge: width of a shape across each direction [m] and its rotational drag integral [m⁴], about
-/// `centroid` in its frame. By plan: the area in place of the widths [m²], and ∫ r³ dA, exact for the polygon
-/// [m⁵]. `has_skin`: with ∫ r³ dA for the skin drag too.
+/// By edge: the rotational drag integral of a shape about `centroid` in its frame [m⁴]. By plan: the area in place of
+/// its widths [m²], and ∫ r³ dA, exact for the polygon [m⁵]. `has_skin`: with ∫ r³ dA for the skin drag too.
 DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point centroid, DragArea area = DragArea::kEdge,
                           bool has_skin = false);
 
-/// The same, its widths not kept where widths_of_outline() finds them as fast: those of one floe are 1 KB.
-DragShape make_small_drag_shape(const geometry::Polygon& polygon, geometry::Point centroid,
-                                DragArea area = DragArea::kEdge, bool has_skin = false);
-
-/// The widths of an outline of these corners across drag_direction(k) and the next [m], 0 ≤ k < 128: to the
-/// bit those of make_drag_shape().
-std::array<double, 2> widths_of_outline(std::span<const geometry::Point> corners, geometry::Point centroid, int k);
-
-/// The k-th of the 128 directions over half a turn at which widths are known: evenly around a diamond, since
-/// that needs no arctangent to find a direction's place among them. Not of unit length.
+/// The k-th of the 128 directions over half a turn at which widths are found, and interpolated between them: evenly
+/// around a diamond, since that needs no arctangent to find a direction's place among them. Not of unit length.
+/// Widths are so within 2e-4 for a square, and within aspect/64 of the width of a slender piece where its kink falls
+/// between two.
 geometry::Vector drag_direction(int k);
 
-/// Width across a direction in the body frame (of any length > 0), interpolated between the known ones [m]:
-/// within 2e-4 for a square, and within aspect/64 of the width of a slender piece where its kink falls
-/// between two.
-double width_across(const DragShape& shape, geometry::Vector direction_in_body);
+/// Where a direction (of any length > 0) is among them, from [0, 128]: the inverse of drag_direction().
+inline double drag_place(geometry::Vector d) {
+  const bool is_behind = d.y < 0;
+  const double x = is_behind ? -d.x : d.x;
+  const double y = is_behind ? -d.y : d.y;
+  const double from_axis = y / (std::abs(x) + y);
+  return (x >= 0 ? from_axis : 2 - from_axis) * (0.5 * DragShape::kDirections);
+}
+
+/// The widths of an outline of these corners across drag_direction(k) and the next [m], 0 ≤ k < 128.
+std::array<double, 2> widths_of_outline(std::span<const geometry::Point> corners, geometry::Point centroid, int k);
 
 /// A current that grows linearly across its direction, in the water frame (which drifts with the uniform
 /// part).

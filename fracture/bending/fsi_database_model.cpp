@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "fracture/bending/database_text.hpp"
+#include "fracture/bending/database.hpp"
 #include "fracture/bending/edge_deflection.hpp"
 #include "fracture/bending/sinking_edge.hpp"
 #include "fracture/characteristic_length.hpp"

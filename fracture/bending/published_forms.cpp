@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
 

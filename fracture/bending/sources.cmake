@@ -8,7 +8,6 @@ configure_file(${CMAKE_CURRENT_SOURCE_DIR}/bending/default_database_text.cpp.in
 set(POLYNYA_BENDING_SOURCES
   ${CMAKE_CURRENT_BINARY_DIR}/default_database_text.cpp
   bending/database.cpp
-  bending/database_text.cpp
   bending/edge_deflection.cpp
   bending/edge_sections.cpp
   bending/fsi_database_model.cpp

@@ -1,9 +1,7 @@
 #include "geometry/contact/boundary.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "geometry/exact/predicates.hpp"
 #include "geometry/shape/box_tree.hpp"

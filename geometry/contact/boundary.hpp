@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "geometry/shape/polygon.hpp"
@@ -19,6 +20,9 @@ struct EdgeList {
 
   std::size_t size() const { return vertices.size(); }
   bool has_holes() const { return ring.back() > 0; }
+  std::span<const Point> outer_corners() const {
+    return std::span(vertices).first(static_cast<std::size_t>(std::ranges::upper_bound(ring, 0U) - ring.begin()));
+  }
   Point from(std::uint32_t edge) const { return vertices[edge]; }
   Point to(std::uint32_t edge) const { return vertices[next[edge]]; }
 };

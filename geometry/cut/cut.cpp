@@ -142,6 +142,10 @@ std::string_view name_of(CutFailure reason) {
   return kNames[static_cast<std::size_t>(reason)];
 }
 
+std::string to_string(const CutError& error) {
+  return std::string(name_of(error.reason)) + ": " + error.detail;
+}
+
 CutOutcome cut_by_polygon(const Shape& shape, const Polygon& tool_in_body) {
   if (!tool_in_body.holes.empty()) return cut_by_polygons(shape, {tool_in_body});
   if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, found->defect);

@@ -51,6 +51,7 @@ struct CutError {
   std::string detail;          ///< for people
   double dangling_length = 0;  ///< where a crack does not separate: how much of it runs in the ice [m]
 };
+std::string to_string(const CutError& error);  ///< "reason: detail"
 
 using CutOutcome = tl::expected<CutResult, CutError>;
 

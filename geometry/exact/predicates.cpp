@@ -1,6 +1,5 @@
 #include "geometry/exact/predicates.hpp"
 
-#include <cmath>
 #include <limits>
 
 #include "geometry/exact/internal/exact_polygon.hpp"

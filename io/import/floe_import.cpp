@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <map>
 #include <set>
-#include <span>
 #include <system_error>
 
 #include <fmt/format.h>

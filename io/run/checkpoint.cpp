@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "io/text/output_file.hpp"
-#include "io/text/source_text.hpp"
 #include "simulation/state/archive.hpp"
 #include "simulation/state/state_fields.hpp"
 

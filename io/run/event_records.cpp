@@ -6,7 +6,6 @@
 
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
-#include "io/text/json_writer.hpp"
 #include "io/text/output_file.hpp"
 #include "io/text/problem.hpp"
 #include "io/text/shape_parts.hpp"

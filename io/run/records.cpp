@@ -1,11 +1,8 @@
 #include "io/run/records.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,8 +11,6 @@
 #include "geometry/shape/angle.hpp"
 #include "io/import/floe_properties.hpp"
 #include "io/run/run_folder.hpp"
-#include "io/text/json_parser.hpp"
-#include "io/text/json_writer.hpp"
 #include "io/text/shape_parts.hpp"
 
 namespace polynya::io {

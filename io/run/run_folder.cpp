@@ -16,8 +16,6 @@
 #include "io/run/summary.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
-#include "io/text/output_file.hpp"
-#include "io/text/source_text.hpp"
 
 namespace polynya::io {
 namespace {

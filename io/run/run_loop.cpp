@@ -1,12 +1,11 @@
 #include "io/run/run_loop.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "simulation/state/validate_world.hpp"
+#include "simulation/state/state.hpp"
 #include "simulation/world/world.hpp"
 
 namespace polynya::io {

@@ -10,8 +10,6 @@
 #include "io/run/event_records.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
-#include "io/text/json_parser.hpp"
-#include "io/text/source_text.hpp"
 
 namespace polynya::io {
 

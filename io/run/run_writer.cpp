@@ -1,7 +1,6 @@
 #include "io/run/run_writer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <unordered_map>
 
@@ -11,7 +10,6 @@
 #include "geometry/shape/pose.hpp"
 #include "io/run/checkpoint.hpp"
 #include "io/run/event_records.hpp"
-#include "io/run/records.hpp"
 #include "io/text/json_writer.hpp"
 
 namespace polynya::io {
@@ -30,7 +28,7 @@ Motion motion_of(const simulation::FloeState& floe, geometry::Point centroid_in_
 void write_floes(const simulation::Simulation& simulation, const WritePart& write) {
   constexpr std::size_t kPart = std::size_t{256} << 10;  // [bytes]
   GeojsonLayer layer(simulation.time());
-  simulation.for_each_floe([&](const simulation::FloeState& floe) {
+  simulation.for_each_floe(simulation::Living::kFloating, [&](const simulation::FloeState& floe) {
     append_floe(layer, floe);
     if (layer.size() > kPart) write(layer.take());
   });
@@ -128,7 +126,7 @@ Result<RunWriter> RunWriter::resume(RunLock lock, const LoadedScene& scene, cons
   writer.frames_ = FrameEncoder(progress.recorded);
   writer.peaks_ = progress.peaks;
   writer.has_begun_ = true;
-  simulation.for_each_living([&](const simulation::FloeState& floe) {
+  simulation.for_each_floe(simulation::Living::kAll, [&](const simulation::FloeState& floe) {
     writer.add_floe(floe.floe, floe.parent, geometry::measure(*floe.polygon_in_body).centroid);
   });
   return writer;
@@ -196,7 +194,7 @@ void RunWriter::frame(const simulation::Simulation& simulation) {
   }
   has_begun_ = true;
   frames_.begin(simulation.time(), ships);
-  simulation.for_each_living([&](const simulation::FloeState& floe) {
+  simulation.for_each_floe(simulation::Living::kAll, [&](const simulation::FloeState& floe) {
     frames_.add({floe.floe, motion_of(floe, centroids_in_body_[static_cast<std::size_t>(floe.floe)])});
   });
   file(kFrames).append(frames_.end());

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -31,18 +30,18 @@ void append(JsonWriter& json, const ShipPeaks& peaks, const std::vector<const Fo
   }
 }
 
-void append(JsonWriter& json, const simulation::AreaLedger& ledger, const simulation::MassLedger& masses) {
+void append_places(JsonWriter& json, const simulation::IceLedger& ledger, const std::string& amount) {
+  json.key("initial_ice_" + amount).value(ledger.initial).key("floe_" + amount).value(ledger.floes);
+  json.key("under_hull_" + amount).value(ledger.under_hulls).key("under_ice_" + amount).value(ledger.under_ice);
+  json.key("submerged_" + amount).value(ledger.submerged).key("brash_" + amount).value(ledger.brash);
+}
+
+void append(JsonWriter& json, const simulation::IceLedger& areas, const simulation::IceLedger& masses) {
   json.key("ledger").open('{');
-  json.key("initial_ice_area_m2").value(ledger.initial_ice_area).key("floe_area_m2").value(ledger.floe_area);
-  json.key("under_hull_area_m2").value(ledger.under_hull_area);
-  json.key("under_ice_area_m2").value(ledger.under_ice_area);
-  json.key("submerged_area_m2").value(ledger.submerged_area).key("brash_area_m2").value(ledger.brash_area);
-  json.key("rounding_defect_m2").value(ledger.rounding_defect).key("imbalance_m2").value(ledger.imbalance);
-  json.key("initial_ice_mass_kg").value(masses.initial_ice_mass).key("floe_mass_kg").value(masses.floe_mass);
-  json.key("under_hull_mass_kg").value(masses.under_hull_mass);
-  json.key("under_ice_mass_kg").value(masses.under_ice_mass);
-  json.key("submerged_mass_kg").value(masses.submerged_mass).key("brash_mass_kg").value(masses.brash_mass);
-  json.key("rounding_mass_kg").value(masses.rounding_mass).key("imbalance_kg").value(masses.imbalance);
+  append_places(json, areas, "area_m2");
+  json.key("rounding_defect_m2").value(areas.rounding).key("imbalance_m2").value(areas.imbalance());
+  append_places(json, masses, "mass_kg");
+  json.key("rounding_mass_kg").value(masses.rounding).key("imbalance_kg").value(masses.imbalance());
   json.close('}');
 }
 
@@ -235,7 +234,7 @@ RunSummary summarise(const Simulation& simulation, const RunWriter& writer, cons
   summary.steps = summary.counts.steps;
   summary.sim_time = simulation.time();
   summary.wall_time = wall_time;
-  summary.ledger = simulation.area_ledger();
+  summary.areas = simulation.area_ledger();
   summary.masses = simulation.mass_ledger();
   summary.audit = simulation.audit();
   summary.peaks = writer.peaks();
@@ -279,7 +278,7 @@ std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
     json.key("forces_interval_s").value(recording_interval(scene.scene));
     const std::vector<const ForceColumn*> columns = peak_columns(scene.scene);
     json.key("peaks").objects(summary.peaks, [&](const ShipPeaks& peaks) { append(json, peaks, columns); });
-    append(json, summary.ledger, summary.masses);
+    append(json, summary.areas, summary.masses);
     append_ice_of_floes(json, scene.scene);
     append(json, summary.audit, has_wind_or_walls(scene.scene));
     append(json, summary.counts);

@@ -45,8 +45,8 @@ struct RunSummary {
   std::int64_t steps = 0;
   double sim_time = 0;   ///< [s]
   double wall_time = 0;  ///< [s]
-  simulation::AreaLedger ledger;
-  simulation::MassLedger masses;
+  simulation::IceLedger areas;
+  simulation::IceLedger masses;
   simulation::Audit audit;
   simulation::Counts counts;
   std::vector<ShipPeaks> peaks;

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
 #include <initializer_list>
-#include <memory>
 #include <type_traits>
 #include <utility>
 #include <variant>

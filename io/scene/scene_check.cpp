@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/measures.hpp"
-#include "geometry/exact/validity.hpp"
 #include "geometry/shape/pose.hpp"
 #include "simulation/world/limits.hpp"
 #include "simulation/world/setup.hpp"

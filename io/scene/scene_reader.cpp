@@ -6,11 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "io/import/floe_import.hpp"
 #include "io/scene/floe_list_reader.hpp"
 #include "io/scene/scene_check.hpp"
 #include "io/scene/ship_presets.hpp"
-#include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 #include "simulation/world/levels.hpp"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "io/scene/scene_input.hpp"
-#include "io/text/json_parser.hpp"
 
 namespace polynya::io {
 namespace {

@@ -9,10 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "geometry/cut/cut.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
-#include "io/text/floe_text.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/problem.hpp"

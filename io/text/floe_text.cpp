@@ -12,9 +12,7 @@
 #include <fmt/format.h>
 
 #include "geometry/exact/measures.hpp"
-#include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
-#include "io/text/source_text.hpp"
 
 namespace polynya::io {
 namespace {

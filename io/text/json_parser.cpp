@@ -8,8 +8,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "io/text/source_text.hpp"
-
 namespace polynya::io {
 namespace {
 

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "io/text/json_writer.hpp"
 

@@ -1,6 +1,5 @@
 #include "io/text/source_text.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>

@@ -82,7 +82,7 @@ Floes floes_of(const Simulation& python) {
   using Three = std::array<double, 3>;
   const simulation::Simulation& simulation = python.between_steps();
   const simulation::Population& population = simulation.world().population;
-  const std::vector<State> states = simulation.all_states();
+  const std::vector<State> states = simulation.floe_states(simulation::Living::kAll);
   PolygonTable in_body, in_world;
   for (const State& state : states) {
     in_body.add(*state.polygon_in_body, {});

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "simulation/field/convex.hpp"
-#include "simulation/field/portable_math.hpp"
 
 namespace polynya::simulation {
 namespace {

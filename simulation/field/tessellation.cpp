@@ -1,9 +1,7 @@
 #include "simulation/field/tessellation.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <numeric>
 #include <span>
 
 #include "geometry/cut/cut.hpp"

@@ -32,10 +32,6 @@ struct OnBeam {
   double down = 0;  ///< that the hull presses it down with [N]
 };
 
-double normal_force_of(const Contact& c, double dt) {
-  return c.is_broken ? c.breaking_force : c.steady_share / dt * c.total_normal_impulse();
-}
-
 bool may_break(const Setup& setup, const Population& population, BodyIndex body) {
   const dynamics::Bodies& bodies = population.bodies;
   if (population.is_hull(body) || bodies.inverse_mass[body] == 0) return false;
@@ -150,25 +146,13 @@ void consider(const fracture::Ice& ice, const BeamShape& beam, std::span<const f
 
 PendingFracture break_of(const Setup& setup, const Population& population, const Contact& c, BodyIndex floe,
                          const LoadedSection& section) {
-  const BodyIndex by = other_of(c, floe);
   const geometry::Pose water_from_body = dynamics::water_from_body(population.bodies, floe);
-  PendingFracture split;
-  split.failure = fracture::Failure::kSplit;
-  split.record = c.record;
-  split.ship = population.hull_or_none(by);
-  split.by_floe = population.floe_or_none(by);
-  split.floe = population.floe_of(floe);
+  PendingFracture split = split_by(setup, population, c, floe);
   split.point_in_water = transform(water_from_body, section.pulls_at_end ? section.path.end : section.path.start);
-  split.normal = into_floe(c, floe);
-  split.penetration = c.depth;
   split.crack_in_body = section.path;
-  fracture::FailureCriteria& criteria = split.criteria;
-  criteria.floe_size = floe_size(population, floe);
-  criteria.breakable_size = limits_of_body(setup, population, floe).breakable_size;
-  criteria.contact_force = length(force_on(c, floe, setup.step));
-  criteria.crack_length = section.path.length_in_ice;
-  criteria.section_stress = section.stress;
-  criteria.flexural_strength = ice_of_body(setup, population, floe).flexural_strength;
+  split.criteria.crack_length = section.path.length_in_ice;
+  split.criteria.section_stress = section.stress;
+  split.criteria.flexural_strength = ice_of_body(setup, population, floe).flexural_strength;
   return split;
 }
 

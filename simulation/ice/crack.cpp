@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "fracture/characteristic_length.hpp"
-#include "geometry/contact/crack_path.hpp"
 
 namespace polynya::simulation {
 namespace {

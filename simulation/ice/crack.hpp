@@ -1,7 +1,6 @@
 #pragma once
 
 #include "fracture/decision.hpp"
-#include "fracture/materials.hpp"
 #include "geometry/contact/crack_path.hpp"
 #include "simulation/world/population.hpp"
 #include "simulation/world/setup.hpp"

@@ -3,10 +3,10 @@
 
 #include "dynamics/chunks.hpp"
 #include "fracture/splitting.hpp"
-#include "simulation/ice/breaking.hpp"
 #include "simulation/ice/crack.hpp"
 #include "simulation/ice/prescribed.hpp"
 #include "simulation/ship/hull_contact_load.hpp"
+#include "simulation/ship/pressing.hpp"
 #include "simulation/world/step.hpp"
 
 namespace polynya::simulation {
@@ -15,29 +15,23 @@ namespace {
 using dynamics::Contact;
 using geometry::Vector;
 
-struct CrushingForce {
-  double force = 0;      ///< [N]
-  double stiffness = 0;  ///< dF/dξ [N/m]
-};
-
-/// F_n at the deepest overlap that pressed, for the law of crushing ice.
-CrushingForce deepest_crushing_force(const fracture::Ice& ice, const Contact& c, double hull_angle) {
-  const fracture::CrushedArea crushed = fracture::crushed_overlap_at(
-      {c.width, c.depth, c.area}, std::max(c.depth, c.record->loaded_depth), ice.thickness, hull_angle);
-  return {fracture::crushing_force(ice, crushed.area), fracture::crushing_force(ice, crushed.slope)};
+/// Whether a floe was born by what broke at the end of the step before.
+bool is_just_born(const Population& population, const Clock& clock, BodyIndex body) {
+  return !population.is_hull(body) && population.floes[population.floe_of(body)].born == clock.time();
 }
 
-/// Enters what the law of crushing ice takes of a contact. One that is found for the first time has pressed
-/// while its bodies came to overlap so far: with F ∝ ξ^n, n = k ξ / F, it has given F ξ / ((1 + n) v). But
-/// for pieces of floes that broke just now, whose contacts were there before.
-template <class IsJustBorn>
-void set_crushing(Contact& c, CrushingForce crushing, double dt, IsJustBorn is_just_born) {
-  c.crushing_force = crushing.force;
-  c.crushing_stiffness = crushing.stiffness;
-  const bool is_new = c.record->loaded_depth == 0 && c.record->age <= dt;
-  if (!is_new || crushing.force <= 0 || c.approach_speed <= 0 || is_just_born()) return;
-  const double exponent = crushing.stiffness * c.depth / crushing.force;
-  c.missed_impulse = std::min(dt, c.depth / c.approach_speed) * crushing.force / (1 + exponent);
+/// Enters what the law of crushing ice takes of a contact: force [N] and stiffness dF/dξ [N/m]. One that is found for
+/// the first time has pressed while its bodies came to overlap so far: with F ∝ ξ^n, n = k ξ / F, it has given
+/// F ξ / ((1 + n) v). But for pieces of floes that broke just now, whose contacts were there before.
+void set_crushing(const Setup& setup, const Clock& clock, const Population& population, double force, double stiffness,
+                  Contact& c) {
+  c.crushing_force = force;
+  c.crushing_stiffness = stiffness;
+  const bool is_new = c.record->loaded_depth == 0 && c.record->age <= setup.step;
+  if (!is_new || force <= 0 || c.approach_speed <= 0) return;
+  if (is_just_born(population, clock, c.a) || is_just_born(population, clock, c.b)) return;
+  const double exponent = stiffness * c.depth / force;
+  c.missed_impulse = std::min(setup.step, c.depth / c.approach_speed) * force / (1 + exponent);
 }
 
 /// By the paper's rule: the crack that would start at the contact, along the hull's normal through all ice
@@ -120,46 +114,34 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
   return pending;
 }
 
-/// Adds j/τ_c of a ship's contact with ice.
-void add_collision(const Setup& setup, const dynamics::Bodies& bodies, const HullContactLoad& load, HullLoads& loads) {
-  const Contact& c = load.contact;
-  const Vector force = -(load.impulse / setup.scene.contact.contact_time) * c.normal;
-  const Vector in_ship = rotate_back(bodies.rotation[c.a], force);
-  loads.collision += {in_ship.x, in_ship.y, cross(c.middle() - bodies.position[c.a], force)};
-}
-
-/// Whether a floe was born by what broke at the end of the step before.
-bool is_just_born(const Population& population, const Clock& clock, BodyIndex body) {
-  return !population.is_hull(body) && population.floes[population.floe_of(body)].born == clock.time();
-}
-
-/// Of floe against floe: vertical walls.
+/// Of floe against floe: vertical walls. By the law of crushing ice F_n at the deepest overlap that pressed.
 void decide_between_floes(const Setup& setup, const Clock& clock, const Population& population, Contact& c) {
-  const double dt = setup.step;
   const fracture::Ice ice =
       fracture::crushed_between(ice_of_body(setup, population, c.a), ice_of_body(setup, population, c.b));
-  if (is_crush_law(setup))
-    set_crushing(c, deepest_crushing_force(ice, c, 0), dt,
-                 [&] { return is_just_born(population, clock, c.a) || is_just_born(population, clock, c.b); });
-  else
+  if (!is_crush_law(setup)) {
     c.crushing_force = crushing_force(ice, c, 0);
+    return;
+  }
+  const fracture::CrushedArea crushed = fracture::crushed_overlap_at(
+      {c.width, c.depth, c.area}, std::max(c.depth, c.record->loaded_depth), ice.thickness, 0);
+  set_crushing(setup, clock, population, fracture::crushing_force(ice, crushed.area),
+               fracture::crushing_force(ice, crushed.slope), c);
 }
 
 /// Of a ship with ice: also whether the ice breaks.
 void decide_at_ship(const Setup& setup, const Clock& clock, const Population& population, Contact& c, StepData& step,
                     Counts& counts) {
   const dynamics::Bodies& bodies = population.bodies;
-  const double dt = setup.step;
   HullContactLoad load = load_of(setup, population, c);
   if (is_crush_law(setup)) {
     press_prescribed(setup, population, load);
     close_prescribed_gap(setup, bodies, c);
   }
-  add_collision(setup, bodies, load, step.loads[c.a]);
+  const double collision_force = load.impulse / setup.scene.contact.contact_time;  // j/τ_c
+  step.loads[c.a].collision += planar_of(bodies, c.a, c.middle(), -collision_force * c.normal);
   const double horizontal = load.shares.horizontal;
   if (is_crush_law(setup))
-    set_crushing(c, {horizontal * load.normal_force, horizontal * load.stiffness}, dt,
-                 [&] { return is_just_born(population, clock, c.b); });
+    set_crushing(setup, clock, population, horizontal * load.normal_force, horizontal * load.stiffness, c);
   else
     c.crushing_force = horizontal * load.normal_force;
   c.friction = load.shares.tangential / horizontal;

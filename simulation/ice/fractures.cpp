@@ -63,7 +63,7 @@ void reject(const Setup& setup, const Clock& clock, const PendingFracture& pendi
             const geometry::CutError& error, Counts& counts, Journal& journal) {
   Event event = event_of<RejectedCut>(clock, pending);
   auto& rejected = std::get<RejectedCut>(event.what);
-  rejected.reason = reason_of(error);
+  rejected.reason = to_string(error);
   rejected.input = {++counts.rejected_cuts, shape.polygon, {}, {}};
   if (pending.failure == fracture::Failure::kBend) rejected.input.cusp_in_body = cusp_of(setup, pending);
   rejected.input.crack_in_body = pending.crack_in_body.points();

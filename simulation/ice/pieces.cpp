@@ -1,10 +1,9 @@
 #include "simulation/ice/pieces.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "geometry/exact/measures.hpp"
-#include "simulation/ice/going_under.hpp"
+#include "simulation/ice/under_hull.hpp"
 #include "simulation/world/limits.hpp"
 
 namespace polynya::simulation {
@@ -66,12 +65,13 @@ void enter_areas(IceEvent& event, const geometry::CutLedger& cut, double mass_pe
   event.brash_area += cut.area_slivers;
   event.rounding_defect = cut.rounding_defect;
   accounts.counts.snap_rounded += cut.snap_rounded;
-  accounts.ledger.submerged_area += event.submerged_area;
-  accounts.ledger.brash_area += event.brash_area;
-  accounts.ledger.rounding_defect += event.rounding_defect;
-  accounts.masses.submerged_mass += mass_per_area * event.submerged_area;
-  accounts.masses.brash_mass += mass_per_area * event.brash_area;
-  accounts.masses.rounding_mass += mass_per_area * event.rounding_defect;
+  const auto enter = [&](double per_area, IceLedger& ledger) {
+    ledger.submerged += per_area * event.submerged_area;
+    ledger.brash += per_area * event.brash_area;
+    ledger.rounding += per_area * event.rounding_defect;
+  };
+  enter(1, accounts.areas);
+  enter(mass_per_area, accounts.masses);
 }
 
 }  // namespace
@@ -126,15 +126,11 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
   for (Event& submersion : submersions) journal.events.push_back(std::move(submersion));
 }
 
-std::string reason_of(const geometry::CutError& error) {
-  return std::string(name_of(error.reason)) + ": " + error.detail;
-}
-
 RejectedCut rejected_grind(const GrindCriterion& criterion, const geometry::Polygon& floe, geometry::Ring tool,
                            const geometry::CutError& error, Accounts& accounts) {
   RejectedCut rejected;
   rejected.criterion = criterion;
-  rejected.reason = reason_of(error);
+  rejected.reason = to_string(error);
   rejected.input = {++accounts.counts.rejected_cuts, floe, std::move(tool), {}};
   return rejected;
 }

@@ -21,9 +21,6 @@ struct Breakage {
 void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage, const geometry::CutResult& cut,
                        Population& population, Accounts& accounts, Journal& journal);
 
-/// What a `rejected_cut` states of a cut that geometry refused.
-std::string reason_of(const geometry::CutError& error);
-
 /// A cut of ground ice that geometry refused: counted, with its input.
 RejectedCut rejected_grind(const GrindCriterion& criterion, const geometry::Polygon& floe, geometry::Ring tool,
                            const geometry::CutError& error, Accounts& accounts);

@@ -68,7 +68,7 @@ std::vector<Carving> due_carvings(const Setup& setup, const Population& populati
   for (std::size_t i = 0; i < step.contacts.size(); ++i) {
     const Contact& c = step.contacts[i];
     if (!population.is_hull(c.a)) break;
-    if (population.is_hull(c.b) || !is_prescribed(bodies, c)) continue;
+    if (population.is_hull(c.b) || !are_prescribed(bodies, c.a, c.b)) continue;
     if (c.total_normal_impulse() <= 0 || c.approach_speed <= 0 || !bodies.is_alive[c.b]) continue;
     const double facet = ice_of_body(setup, population, c.b).thickness * tangent_of(step, i);
     const double least = std::min(kFarthest, kShareOfRadius * bodies.bounding_radius[c.a]);
@@ -105,21 +105,16 @@ double share_of_friction(const Contact& c, bool is_crescent) {
 
 double most_that_ice_bears(const Setup& setup, const Population& population, const Contact& c, double slope_tangent) {
   const dynamics::Bodies& bodies = population.bodies;
-  const fracture::Ice& ice = ice_of_body(setup, population, c.b);
-  double strength = ice.compressive_strength;
-  double thickness = ice.thickness;
-  if (!population.is_hull(c.a)) {
-    const fracture::Ice& of_a = ice_of_body(setup, population, c.a);
-    strength = std::min(strength, of_a.compressive_strength);
-    thickness = std::min(thickness, of_a.thickness);
-  }
+  const fracture::Ice& of_b = ice_of_body(setup, population, c.b);
+  const fracture::Ice ice =
+      population.is_hull(c.a) ? of_b : fracture::crushed_between(ice_of_body(setup, population, c.a), of_b);
   const double across = 2 * std::min(bodies.bounding_radius[c.a], bodies.bounding_radius[c.b]);
-  return strength * (thickness * across) * (1 + ice.friction * slope_tangent);
+  return ice.compressive_strength * (ice.thickness * across) * (1 + ice.friction * slope_tangent);
 }
 
 void press_prescribed(const Setup& setup, const Population& population, HullContactLoad& load) {
   const Contact& c = load.contact;
-  if (!is_prescribed(population.bodies, c)) return;
+  if (!are_prescribed(population.bodies, c.a, c.b)) return;
   const double line = load.ice.thickness * c.width / std::cos(load.hull_angle);
   fracture::CrushedArea crushed{line, 0};
   const bool is_crescent = c.depth * c.width > kCrescent * c.area;
@@ -139,7 +134,7 @@ void press_prescribed(const Setup& setup, const Population& population, HullCont
 }
 
 void close_prescribed_gap(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c) {
-  if (!is_prescribed(bodies, c) || c.approach_speed <= 0) return;
+  if (!are_prescribed(bodies, c.a, c.b) || c.approach_speed <= 0) return;
   const double half_a_step = 0.5 * c.width * c.approach_speed * setup.step;  // of area
   if (c.area + half_a_step >= c.record->loaded_area) c.record->loaded_depth = std::min(c.record->loaded_depth, c.depth);
 }

@@ -4,11 +4,6 @@
 
 namespace polynya::simulation {
 
-/// Whether nothing moves the two bodies of a contact: a hull in fast ice.
-inline bool is_prescribed(const dynamics::Bodies& bodies, const dynamics::Contact& c) {
-  return bodies.inverse_mass[c.a] == 0 && bodies.inverse_mass[c.b] == 0;
-}
-
 /// The most that ice can bear along a contact line as long as the smaller of its two bodies is wide,
 /// σ_c h 2R (1 + μ tan θ_s) [N].
 double most_that_ice_bears(const Setup& setup, const Population& population, const dynamics::Contact& c,

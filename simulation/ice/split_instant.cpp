@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "simulation/ice/beams.hpp"
-#include "simulation/ice/breaking.hpp"
 #include "simulation/ship/pressing.hpp"
 
 namespace polynya::simulation {
@@ -64,10 +63,6 @@ struct MetSplit {
   double low = 0;     ///< too little
   double enough = 1;  ///< more than it takes
 };
-
-double normal_force(const Contact& c, double dt) {
-  return c.is_broken ? c.breaking_force : c.steady_share / dt * c.total_normal_impulse();
-}
 
 /// The contacts of a solved step that splits stop.
 class Instants {
@@ -143,7 +138,7 @@ class Instants {
     const Contact& at = contact_of(met.split);
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       Contact& c = contacts_[i];
-      const double force = normal_force(c, dt_);
+      const double force = normal_force_of(c, dt_);
       if (c.a != at.a || c.b != at.b || !(force > 0)) continue;
       met.stopped.push_back({i, force, c.breaking_force, c.missed_impulse});
     }
@@ -175,7 +170,7 @@ class Instants {
     double before = 0, now = 0;
     for (const Stopped& stopped : met.stopped) {
       before += stopped.force;
-      now += std::min(normal_force(contacts_[stopped.contact], dt_), contacts_[stopped.contact].breaking_force);
+      now += std::min(normal_force_of(contacts_[stopped.contact], dt_), contacts_[stopped.contact].breaking_force);
     }
     return now / before;
   }

@@ -1,7 +1,6 @@
 #include "fracture/splitting.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -171,6 +170,16 @@ std::optional<CrackCandidate> crack_candidate(const Setup& setup, const Populati
 constexpr int kDirectionsASide = 5;
 constexpr double kBetweenDirections = std::numbers::pi / 12;  // [rad]
 
+/// Enters what was measured of a crack.
+void enter_crack(const fracture::FailureCriteria& crack, fracture::FailureCriteria& criteria) {
+  criteria.crack_length = crack.crack_length;
+  criteria.crack_width = crack.crack_width;
+  std::ranges::copy(crack.flank_forces, criteria.flank_forces);
+  criteria.opening_force = crack.opening_force;
+  criteria.opening_capacity = crack.opening_capacity;
+  criteria.fracture_toughness = crack.fracture_toughness;
+}
+
 /// The crack that is nearest to running.
 std::optional<CrackCandidate> first_to_run(const Setup& setup, const Population& population, BodyIndex floe,
                                            const PressedFloe& pressed, double least_share) {
@@ -193,29 +202,16 @@ std::optional<CrackCandidate> first_to_run(const Setup& setup, const Population&
 std::optional<PendingFracture> split_of(const Setup& setup, const Population& population,
                                         std::span<const Contact> contacts, BodyIndex floe, PressedFloe& pressed) {
   const IceLimits& limits = limits_of_body(setup, population, floe);
-  const double size = floe_size(population, floe);
-  if (size < limits.breakable_size) return std::nullopt;
+  if (floe_size(population, floe) < limits.breakable_size) return std::nullopt;
   press(setup, population.bodies, contacts, floe, pressed);
   if (pressed.most < limits.least_splitting_force) return std::nullopt;
   find_mouths(floe, pressed);
   const auto crack = first_to_run(setup, population, floe, pressed, 1);
   if (!crack) return std::nullopt;
-  const Contact& c = *crack->mouth.contact;
-  const BodyIndex by = other_of(c, floe);
-  PendingFracture split;
-  split.failure = fracture::Failure::kSplit;
-  split.criteria = crack->criteria;
-  split.record = c.record;
-  split.ship = population.hull_or_none(by);
-  split.by_floe = population.floe_or_none(by);
-  split.floe = population.floe_of(floe);
+  PendingFracture split = split_by(setup, population, *crack->mouth.contact, floe);
   split.point_in_water = crack->begins_at;
-  split.normal = into_floe(c, floe);
-  split.penetration = c.depth;
   split.crack_in_body = crack->path_in_body;
-  split.criteria.floe_size = size;
-  split.criteria.breakable_size = limits.breakable_size;
-  split.criteria.contact_force = length(force_on(c, floe, setup.step));
+  enter_crack(crack->criteria, split.criteria);
   return split;
 }
 
@@ -244,11 +240,7 @@ void enter_true_forces(const Setup& setup, const Population& population, const s
     find_mouths(c->b, pressed);
     const auto crack = first_to_run(setup, population, c->b, pressed, 0);
     if (!crack) return;
-    criteria.crack_length = crack->criteria.crack_length;
-    criteria.crack_width = crack->criteria.crack_width;
-    std::ranges::copy(crack->criteria.flank_forces, criteria.flank_forces);
-    criteria.opening_force = crack->criteria.opening_force;
-    criteria.opening_capacity = crack->criteria.opening_capacity;
+    enter_crack(crack->criteria, criteria);
   } else if (criteria.crack_length > 0) {
     if (pending.failure == fracture::Failure::kBend)  // only now: most bends that are pending do not come about
       measure_crack_and_sides(setup, population, c->b, pending.crack_in_body, criteria);

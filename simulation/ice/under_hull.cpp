@@ -1,11 +1,85 @@
-#include <algorithm>
+#include "simulation/ice/under_hull.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/contact/boundary.hpp"
+#include "geometry/exact/measures.hpp"
+#include "geometry/exact/validity.hpp"
+#include "simulation/field/portable_math.hpp"
+#include "simulation/world/limits.hpp"
 #include "simulation/world/step.hpp"
 
 namespace polynya::simulation {
+
+// ---- ice goes under
+
 namespace {
 
+using geometry::Point;
+using geometry::Pose;
 using geometry::Vector;
+
+/// δρ g h times the area that the hull's beam passes over [N].
+double weight_under(const Setup& setup, const Population& population, FloeId floe, int ship) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const BodyIndex body = population.body_of(floe);
+  const Pose ship_from_floe = dynamics::a_from_b(bodies, ship, body);
+  const double under_beam = geometry::area_in_band(transform(ship_from_floe, population.floes[floe].shape.polygon),
+                                                   0.5 * setup.underwater[ship].form.beam);
+  const fracture::Ice& ice = ice_of_floe(setup, population, floe);
+  const double lighter = setup.scene.water.water.density - ice.density;
+  return lighter * fracture::kGravity * ice.thickness * std::max(0.0, under_beam);
+}
+
+}  // namespace
+
+Event submersion_event(const Clock& clock, const Population& population, FloeId floe, int ship) {
+  Submerge submerge;
+  submerge.under_hull_area = population.floes[floe].area;
+  submerge.floe = floe;
+  const geometry::Point place = population.bodies.position[population.body_of(floe)] + clock.drift();
+  return {clock.time(), ship, place, submerge};
+}
+
+void go_under(const Setup& setup, const Clock& clock, FloeId floe, int ship, Population& population,
+              Accounts& accounts) {
+  const BodyIndex body = population.body_of(floe);
+  leave_contacts(floe, population);
+  stop(population.bodies, body, accounts.audit.energy.submersion, accounts.audit);
+  population.bodies.rim_speed[body] = 0;
+  population.bodies.drag[body].reset();
+  population.floes[floe].is_under = true;
+  population.submerged.push_back({.floe = floe,
+                                  .ship = ship,
+                                  .path = 0,
+                                  .weight = weight_under(setup, population, floe, ship),
+                                  .next_try = clock.time(),
+                                  .waited = 0,
+                                  .area = population.floes[floe].area});
+  ++accounts.counts.went_under;
+}
+
+void apply_submersions(const Setup& setup, const Clock& clock, const std::vector<PendingSubmersion>& pending,
+                       Population& population, Accounts& accounts, Journal& journal) {
+  for (const PendingSubmersion& floe : pending) {
+    if (!population.is_floating(floe.floe)) continue;  // it broke in this step, or another ship has it
+    Event event = submersion_event(clock, population, floe.floe, floe.ship);
+    event.point_in_world = floe.point_in_water + clock.drift();
+    auto& submerge = std::get<Submerge>(event.what);
+    submerge.normal_in_world = floe.normal;
+    submerge.penetration = floe.penetration;
+    submerge.criterion = floe.criterion;
+    go_under(setup, clock, floe.floe, floe.ship, population, accounts);
+    ++accounts.counts.tilted_under;
+    journal.events.push_back(std::move(event));
+  }
+}
+
+// ---- it brakes the ship while it is there
+
+namespace {
 
 /// What the ice under a hull takes from its ship in a step.
 struct Pull {
@@ -38,20 +112,6 @@ void add_piece(const Setup& setup, const dynamics::SubmersionPath& path, const P
   if (work == 0) return;
   pull.work += work;
   pull.moment += work * distance_to_port(setup, population.bodies, piece, population.body_of(piece.floe));
-}
-
-/// Adds submerged pieces in their order, those that follow one another under one ship to a sum of their own:
-/// it stays in registers.
-void add_tiles(const Setup& setup, const Population& population, std::vector<Pull>& pulls) {
-  auto piece = population.submerged.begin();
-  while (piece != population.submerged.end()) {
-    const int ship = piece->ship;
-    const dynamics::SubmersionPath path = setup.underwater[ship].path;
-    Pull pull = pulls[ship];
-    for (; piece != population.submerged.end() && piece->ship == ship; ++piece)
-      add_piece(setup, path, population, *piece, pull);
-    pulls[ship] = pull;
-  }
 }
 
 /// Brakes the ship, which it never reverses, and turns it. Enters both.
@@ -89,7 +149,8 @@ void pull_of_submerged_ice(const Setup& setup, Population& population, std::vect
   std::vector<Pull> pulls(setup.scene.ships.size());
   const auto ships = static_cast<BodyIndex>(pulls.size());
   for (BodyIndex ship = 0; ship < ships; ++ship) pulls[ship].speed = speed_ahead(setup, bodies, ship);
-  add_tiles(setup, population, pulls);
+  for (const SubmergedPiece& piece : population.submerged)
+    add_piece(setup, setup.underwater[piece.ship].path, population, piece, pulls[piece.ship]);
   for (BodyIndex ship = 0; ship < ships; ++ship) {
     apply(setup, ship, pulls[ship], bodies, loads[ship].submerged, audit);
     pulls[ship].speed = speed_ahead(setup, bodies, ship);
@@ -102,6 +163,203 @@ void pull_of_submerged_ice(const Setup& setup, Population& population, std::vect
     move_body(bodies, body, dt * setup.current.velocity_at(bodies.position[body]),
               dt * setup.current.angular_velocity());
   }
+}
+
+// ---- it comes up
+
+namespace {
+
+constexpr int kPlaces = 8;  ///< tried at a time, each scattered less; the last one is where it went under
+
+/// Where a piece may come up.
+struct Place {
+  Pose water_from_body;
+  double angle = 0;  ///< [rad]
+};
+
+/// A polygon without its rim, about a point.
+geometry::Polygon shrunk(geometry::Polygon polygon, Point about, double rim_loss) {
+  const double scale = std::sqrt(1 - rim_loss);
+  const auto shrink = [&](geometry::Ring& ring) {
+    for (Point& p : ring) p = about + scale * (p - about);
+  };
+  shrink(polygon.outer);
+  for (geometry::Ring& hole : polygon.holes) shrink(hole);
+  return polygon;
+}
+
+/// The piece's place in the water, scattered at random.
+Place scattered(const dynamics::Bodies& bodies, BodyIndex body, double size, double scatter, Random& random) {
+  const Vector shift = scatter * size * Vector{random.normal(), random.normal()};
+  const double turn = scatter * std::numbers::pi * random.normal();
+  if (scatter == 0) return {dynamics::water_from_body(bodies, body), bodies.angle[body]};
+  const double angle = bodies.angle[body] + turn;
+  const geometry::Rotation rotation = geometry::Rotation::by(angle);
+  const Point centre = bodies.position[body] + shift;
+  return {{centre - rotate(rotation, bodies.centroid[body] - Point{}), rotation}, angle};
+}
+
+bool is_clear_of(const Population& population, BodyIndex other, const geometry::Boundary& piece,
+                 const Pose& water_from_piece) {
+  const Pose water_from_other = dynamics::water_from_body(population.bodies, other);
+  return is_clear(*population.bodies.boundary[other], piece, relative_pose(water_from_other, water_from_piece));
+}
+
+bool is_under_hull(const Population& population, const geometry::Boundary& piece, const Pose& water_from_piece) {
+  for (BodyIndex hull = 0; hull < population.hull_count; ++hull)
+    if (!is_clear_of(population, hull, piece, water_from_piece)) return true;
+  return false;
+}
+
+/// Whether no body is where a piece would come up.
+bool has_room(const Population& population, const geometry::Boundary& piece, const Pose& water_from_piece) {
+  geometry::Ring ring;
+  for (const Point p : piece.edges.vertices) ring.push_back(transform(water_from_piece, p));
+  bool has_room = true;
+  population.pairs.for_bodies_near(bounding_box(ring), [&](BodyIndex other) {
+    has_room = has_room && is_clear_of(population, other, piece, water_from_piece);
+  });
+  return has_room;
+}
+
+/// Whether a piece would come up where another is that has not come up yet: that one keeps its room.
+bool is_over_another(const Population& population, const SubmergedPiece& submerged, const geometry::Boundary& piece,
+                     const Pose& water_from_piece, Point centre) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const double radius = bodies.bounding_radius[population.body_of(submerged.floe)];
+  return std::ranges::any_of(population.submerged, [&](const SubmergedPiece& other) {
+    const BodyIndex body = population.body_of(other.floe);
+    if (other.floe == submerged.floe || !population.floes[other.floe].is_under) return false;
+    if (distance(bodies.position[body], centre) > radius + bodies.bounding_radius[body]) return false;
+    return !is_clear_of(population, body, piece, water_from_piece);
+  });
+}
+
+/// A kind of event with what decided it.
+template <class Kind>
+Event event_of(const Setup& setup, const Clock& clock, const Population& population, const SubmergedPiece& submerged,
+               Kind kind) {
+  kind.floe = submerged.floe;
+  kind.criterion = {submerged.path, setup.underwater[submerged.ship].path.sliding, submerged.waited,
+                    setup.scene.fracture.resurface.give_up};
+  const BodyIndex body = population.body_of(submerged.floe);
+  return {clock.time(), submerged.ship, population.bodies.position[body] + clock.drift(), std::move(kind)};
+}
+
+/// One submerged piece's attempts to come up.
+class Resurfacing {
+ public:
+  Resurfacing(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts, Journal& journal)
+      : setup_(setup),
+        settings_(setup.scene.fracture.resurface),
+        clock_(clock),
+        population_(population),
+        accounts_(accounts),
+        journal_(journal) {}
+
+  void go_on(SubmergedPiece& submerged) {
+    const bool is_ahead = submerged.path < 0;  // the ship backed off it
+    if (submerged.path < setup_.underwater[submerged.ship].path.sliding && !is_ahead) return;
+    if (clock_.time() < submerged.next_try) return;
+    if (!settings_.is_enabled && !is_ahead) return stay_under(submerged);
+    submerged.next_try = clock_.time() + settings_.retry;
+    try_to_come_up(submerged);
+  }
+
+ private:
+  void stay_under(const SubmergedPiece& submerged) {
+    StayUnder stays;
+    stays.under_ice_area = population_.floes[submerged.floe].area;
+    Event event = event_of(setup_, clock_, population_, submerged, stays);
+    accounts_.areas.under_ice += stays.under_ice_area;
+    accounts_.masses.under_ice += population_.bodies.mass[population_.body_of(submerged.floe)];
+    ++accounts_.counts.stayed_under;
+    retire_floe(submerged.floe, population_, journal_);
+    journal_.events.push_back(std::move(event));
+  }
+
+  void try_to_come_up(SubmergedPiece& submerged) {
+    const BodyIndex body = population_.body_of(submerged.floe);
+    const Floe& floe = population_.floes[submerged.floe];
+    const geometry::Polygon polygon = shrunk(floe.shape.polygon, population_.bodies.centroid[body], settings_.rim_loss);
+    const geometry::Boundary boundary = geometry::make_outline(polygon);
+    const Pose in_place = dynamics::water_from_body(population_.bodies, body);
+    if (is_under_hull(population_, boundary, in_place)) return;  // not behind it yet
+    Random random(setup_.scene.seed ^ (static_cast<std::uint64_t>(submerged.floe) << 32U) ^
+                  static_cast<std::uint64_t>(clock_.steps));
+    for (int i = 0; i < kPlaces; ++i) {
+      const double share = 1 - static_cast<double>(i) / (kPlaces - 1);
+      const Place place = scattered(population_.bodies, body, std::sqrt(floe.area), share * settings_.scatter, random);
+      if (!has_room(population_, boundary, place.water_from_body)) continue;
+      const Point centre = transform(place.water_from_body, population_.bodies.centroid[body]);
+      if (share > 0 && is_over_another(population_, submerged, boundary, place.water_from_body, centre)) continue;
+      return come_up(submerged, polygon, place);
+    }
+    if (submerged.waited >= settings_.give_up) return stay_under(submerged);
+    submerged.waited += settings_.retry;
+  }
+
+  void come_up(const SubmergedPiece& submerged, const geometry::Polygon& polygon, const Place& place) {
+    Resurface up;
+    const geometry::Measures measures = geometry::measure(polygon);
+    const double area_before = population_.floes[submerged.floe].area;
+    const bool is_floe = can_be_floe(measures) && measures.area >= setup_.scene.fracture.smallest_floe_area &&
+                         !geometry::find_defect(polygon);
+    up.brash_area = is_floe ? area_before - measures.area : area_before;
+    if (is_floe) up.children.push_back(add_piece(submerged, polygon, measures, place));
+    accounts_.counts.brash_pieces += is_floe ? 0 : 1;
+    accounts_.areas.brash += up.brash_area;
+    accounts_.masses.brash += mass_per_area(ice_of_floe(setup_, population_, submerged.floe)) * up.brash_area;
+    Event event = event_of(setup_, clock_, population_, submerged, std::move(up));
+    ++accounts_.counts.came_up;
+    retire_floe(submerged.floe, population_, journal_);
+    journal_.events.push_back(std::move(event));
+  }
+
+  /// Adds the floe, going with the water.
+  FloeId add_piece(const SubmergedPiece& submerged, const geometry::Polygon& polygon,
+                   const geometry::Measures& measures, const Place& place) {
+    NewFloe piece;
+    piece.shape = {polygon, true};
+    piece.own_ice = population_.floes[submerged.floe].own_ice;
+    piece.parent = submerged.floe;
+    piece.generation = population_.floes[submerged.floe].generation + 1;
+    piece.water_from_body = place.water_from_body;
+    piece.angle = place.angle;
+    if (!setup_.current.is_still()) {
+      const Point centre = transform(place.water_from_body, measures.centroid);
+      piece.angular_velocity = setup_.current.angular_velocity();
+      piece.velocity =
+          setup_.current.velocity_at(centre) - cross(piece.angular_velocity, centre - place.water_from_body.position);
+    }
+    const FloeId id = add_floe(setup_, clock_, piece, measures, population_, journal_);
+    wake_and_enter(population_.body_of(id));
+    return id;
+  }
+
+  /// Awake, it is paired with the bodies around it. A sheared current carries it along.
+  void wake_and_enter(BodyIndex body) {
+    wake(body, population_);
+    AuditSums& audit = accounts_.audit;
+    enter_motion(population_.bodies, body, audit.energy.current, audit.momentum.water, audit);
+  }
+
+  const Setup& setup_;
+  const ResurfaceSettings& settings_;
+  const Clock& clock_;
+  Population& population_;
+  Accounts& accounts_;
+  Journal& journal_;
+};
+
+}  // namespace
+
+void come_up(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts, Journal& journal) {
+  if (population.submerged.empty()) return;
+  Resurfacing resurfacing(setup, clock, population, accounts, journal);
+  for (SubmergedPiece& submerged : population.submerged) resurfacing.go_on(submerged);
+  std::erase_if(population.submerged,
+                [&](const SubmergedPiece& submerged) { return !population.floes[submerged.floe].is_under; });
 }
 
 }  // namespace polynya::simulation

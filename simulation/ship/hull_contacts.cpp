@@ -53,7 +53,7 @@ void record_hull_contacts(const Setup& setup, const Clock& clock, const Populati
   }
   for (BodyIndex ship = 0; ship < population.hull_count; ++ship) {
     for (BodyIndex other = ship + 1; other < population.hull_count; ++other) {
-      if (bodies.inverse_mass[ship] != 0 || bodies.inverse_mass[other] != 0) continue;
+      if (!are_prescribed(bodies, ship, other)) continue;
       if (is_grounded(bodies.kind[ship]) && is_grounded(bodies.kind[other])) continue;  // they do not meet
       if (is_known(known_contacts, ship, other)) continue;
       if (const auto contact = prescribed_contact(setup, clock, bodies, ship, other)) enter(*contact);

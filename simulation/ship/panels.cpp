@@ -20,9 +20,7 @@ struct PanelGrid {
   int half_columns() const { return static_cast<int>(std::ceil(waterline.length / 2 / settings.length - 1e-9)); }
   std::size_t row_count() const { return static_cast<std::size_t>(settings.rows) + 1; }
   std::size_t size() const { return std::size_t{2} * static_cast<std::size_t>(half_columns()) * row_count(); }
-  std::size_t first_of(int column) const {
-    return static_cast<std::size_t>(column + half_columns()) * row_count();
-  }
+  std::size_t first_of(int column) const { return static_cast<std::size_t>(column + half_columns()) * row_count(); }
   /// The last ones are cut off where the two sides meet [m].
   double length_of(int column) const {
     const double from = settings.length * (column < 0 ? -column - 1 : column);
@@ -68,12 +66,6 @@ void for_rows_of(const PanelGrid& grid, double bottom, double top, Use use) {
   if (inside < 1 - 1e-12) use(grid.settings.rows, 1 - inside);
 }
 
-/// What an impulse at a point does to a hull, in its frame.
-Planar on_hull(const dynamics::Bodies& bodies, BodyIndex hull, Point at, geometry::Vector impulse) {
-  const geometry::Vector in_hull = rotate_back(bodies.rotation[hull], impulse);
-  return {in_hull.x, in_hull.y, cross(at - bodies.position[hull], impulse)};
-}
-
 void add_contact(const PanelGrid& grid, const dynamics::Bodies& bodies, const Contact& c, double bottom, double top,
                  HullPanels& panels, std::vector<PanelLoads*>& touched) {
   const geometry::Pose pose = dynamics::water_from_body(bodies, c.a);
@@ -84,11 +76,11 @@ void add_contact(const PanelGrid& grid, const dynamics::Bodies& bodies, const Co
   if ((arc[0] > arc[1]) != (std::abs(arc[0] - arc[1]) > full / 2)) std::swap(end[0], end[1]);
   const double from = arc[end[0]], to = from + std::remainder(arc[end[1]] - from, full);
   const double middle = 0.5 * (from + to);
-  const Planar slip = on_hull(bodies, c.a, c.middle(), -c.slip_impulse * perpendicular(c.normal));
+  const Planar slip = planar_of(bodies, c.a, c.middle(), -c.slip_impulse * perpendicular(c.normal));
   for (int half = 0; half < 2; ++half) {
     const double normal = c.normal_impulse[end[half]];
     if (normal == 0) continue;
-    const Planar load = on_hull(bodies, c.a, c.ends[end[half]], -normal * c.normal) +
+    const Planar load = planar_of(bodies, c.a, c.ends[end[half]], -normal * c.normal) +
                         normal / c.total_normal_impulse() * slip;  // friction is where the ice presses
     for_columns(grid, half == 0 ? from : middle, half == 0 ? middle : to, [&](int column, double along) {
       for_rows_of(grid, bottom, top, [&](int row, double up) {
@@ -99,15 +91,6 @@ void add_contact(const PanelGrid& grid, const dynamics::Bodies& bodies, const Co
         panel.step += along * up * c.steady_share * normal;
       });
     });
-  }
-}
-
-/// Calls use(grid, panels) for each hull that has them.
-template <class Use>
-void for_panels(const Setup& setup, std::vector<HullPanels>& panels, Use use) {
-  for (std::size_t hull = 0; hull < panels.size(); ++hull) {
-    if (!panels[hull].empty())
-      use(hull, PanelGrid{*hull_of(setup.scene, hull).panels, setup.waterlines[hull]}, panels[hull]);
   }
 }
 
@@ -144,10 +127,12 @@ void load_panels(const Setup& setup, const Population& population, const StepDat
 
 void sample_panels(const Setup& setup, const Clock& clock, std::vector<HullPanels>& panels, Journal& journal) {
   const double interval = static_cast<double>(setup.steps_per_sample) * setup.scene.time.step;
-  for_panels(setup, panels, [&](std::size_t hull, const PanelGrid& grid, HullPanels& of_hull) {
+  for (std::size_t hull = 0; hull < panels.size(); ++hull) {
+    if (panels[hull].empty()) continue;
+    const PanelGrid grid{*hull_of(setup.scene, hull).panels, setup.waterlines[hull]};
     for (int column = -grid.half_columns(); column < grid.half_columns(); ++column) {
       for (int row = 0; row <= grid.settings.rows; ++row) {
-        PanelLoads& panel = of_hull[grid.first_of(column) + static_cast<std::size_t>(row)];
+        PanelLoads& panel = panels[hull][grid.first_of(column) + static_cast<std::size_t>(row)];
         if (panel.normal == 0) continue;
         const bool is_outside = row == grid.settings.rows;
         const double area = is_outside ? 0 : grid.length_of(column) * grid.row_height();
@@ -163,7 +148,7 @@ void sample_panels(const Setup& setup, const Clock& clock, std::vector<HullPanel
         panel = {};
       }
     }
-  });
+  }
 }
 
 }  // namespace polynya::simulation

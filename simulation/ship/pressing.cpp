@@ -7,6 +7,8 @@
 #include <numbers>
 #include <optional>
 
+#include "simulation/ship/hull_contact_load.hpp"
+
 namespace polynya::simulation {
 
 using dynamics::Contact;
@@ -77,7 +79,7 @@ double opening_bound(const Setup& setup, std::span<const Contact> contacts) {
   double half_sine = 0.5 * std::numbers::sqrt2, half_cosine = half_sine;  // of half of the sharpest corner
   for (const Contact& c : contacts) {
     const double slip = c.friction * c.friction;
-    const double normal = c.is_broken ? c.breaking_force : c.steady_share / setup.step * c.total_normal_impulse();
+    const double normal = normal_force_of(c, setup.step);
     if (!(normal > 0)) continue;
     sum += normal * std::sqrt(1 + slip);
     for (const Point tip : {c.tip_of_a, c.tip_of_b}) {
@@ -110,6 +112,22 @@ void press(const Setup& setup, const dynamics::Bodies& bodies, std::span<const C
   }
   pressed.most = 0;
   for (const Push& push : pressed.pushes) pressed.most += 0.5 * length(push.force);
+}
+
+PendingFracture split_by(const Setup& setup, const Population& population, const Contact& c, BodyIndex floe) {
+  const BodyIndex by = other_of(c, floe);
+  PendingFracture split;
+  split.failure = fracture::Failure::kSplit;
+  split.record = c.record;
+  split.ship = population.hull_or_none(by);
+  split.by_floe = population.floe_or_none(by);
+  split.floe = population.floe_of(floe);
+  split.normal = into_floe(c, floe);
+  split.penetration = c.depth;
+  split.criteria.floe_size = floe_size(population, floe);
+  split.criteria.breakable_size = limits_of_body(setup, population, floe).breakable_size;
+  split.criteria.contact_force = length(force_on(c, floe, setup.step));
+  return split;
 }
 
 void find_mouths(BodyIndex floe, PressedFloe& pressed) {

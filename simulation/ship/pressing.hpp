@@ -1,11 +1,12 @@
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <vector>
 
 #include "dynamics/contact/contact.hpp"
-#include "fracture/opening.hpp"
-#include "simulation/world/population.hpp"
+#include "fracture/splitting.hpp"
+#include "simulation/world/world.hpp"
 
 namespace polynya::simulation {
 
@@ -38,6 +39,22 @@ inline geometry::Vector into_floe(const dynamics::Contact& c, BodyIndex floe) {
   return floe == c.b ? c.normal : -c.normal;
 }
 
+/// The normal force of a contact in the step; where its ice broke within the step, that at which it did [N].
+inline double normal_force_of(const dynamics::Contact& c, double dt) {
+  return c.is_broken ? c.breaking_force : c.steady_share / dt * c.total_normal_impulse();
+}
+
+/// The force at which a contact's ice breaks, no more than was entered before [N]. One that is found deeper
+/// than that broke on the way, at the share (F_b/F)^(1/n) of its depth, with F ∝ ξ^n.
+inline void break_at(dynamics::Contact& c, double force) {
+  const double most = std::fmin(c.crushing_force, c.breaking_force);
+  if (force < c.breaking_force) c.breaking_force = force;
+  if (c.missed_impulse == 0 || most <= force) return;
+  const double exponent = c.crushing_stiffness * c.depth / c.crushing_force;
+  const double share_of_force = force / most;
+  c.missed_impulse *= share_of_force * (exponent > 0 ? std::pow(share_of_force, 1 / exponent) : 1);
+}
+
 /// The force of a contact in the step; where its ice broke within the step, that at which it did [N].
 geometry::Vector force_on(const dynamics::Contact& contact, BodyIndex floe, double dt);
 
@@ -50,6 +67,10 @@ double opening_bound(const Setup& setup, std::span<const dynamics::Contact> cont
 /// Enters the contacts of a floe with one other body, and their pushes.
 void press(const Setup& setup, const dynamics::Bodies& bodies, std::span<const dynamics::Contact> contacts,
            BodyIndex floe, PressedFloe& pressed);
+
+/// The split of a floe by the force of a contact, without where and how it splits.
+PendingFracture split_by(const Setup& setup, const Population& population, const dynamics::Contact& contact,
+                         BodyIndex floe);
 
 /// Enters where the pushes may start a crack: at a corner's tip, and between each contact and the next.
 void find_mouths(BodyIndex floe, PressedFloe& pressed);

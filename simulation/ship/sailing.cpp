@@ -1,7 +1,6 @@
 #include "simulation/ship/sailing.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "simulation/world/step.hpp"
 

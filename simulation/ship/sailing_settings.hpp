@@ -2,7 +2,6 @@
 
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>

@@ -11,7 +11,6 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "simulation/state/state_fields.hpp"
-#include "simulation/state/validate_world.hpp"
 #include "simulation/world/limits.hpp"
 
 namespace polynya::simulation {
@@ -19,11 +18,6 @@ namespace polynya::simulation {
 // ---- saved and hashed
 
 namespace {
-
-BodyMotion motion_of(const dynamics::Bodies& bodies, BodyIndex i) {
-  return {bodies.position[i],         bodies.angle[i],  bodies.rotation[i],  bodies.velocity[i],
-          bodies.angular_velocity[i], bodies.travel[i], bodies.rim_speed[i], bodies.is_awake[i] != 0};
-}
 
 Standing standing_of(const Population& population, FloeId id) {
   if (population.is_fast(id)) return Standing::kFast;  // also when it has broken: its pieces follow it
@@ -46,16 +40,15 @@ void write(Archive& archive, const World& world, const std::vector<dynamics::Pai
   head_fields(archive, world);
   archive(std::uint64_t{population.floes.size()});
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull) {
-    archive(motion_of(population.bodies, hull));
+    motion_fields(archive, population.bodies, hull);
     hull_fields(archive, world, hull);
   }
   for (FloeId id = 0; id < population.floe_count(); ++id) {
     const Floe& floe = population.floes[id];
-    archive(FloeHead{floe.parent, floe.born, floe.generation, floe.area, population.is_alive(id),
-                     standing_of(population, id)});
+    archive(floe, population.is_alive(id), standing_of(population, id));
     if (!population.is_alive(id)) continue;
     if (floe.parent != kNoFloe) archive(floe.shape.polygon);  // else the scene's
-    archive(motion_of(population.bodies, population.body_of(id)));
+    motion_fields(archive, population.bodies, population.body_of(id));
   }
   archive(population.tilted, population.submerged);
   if (has_flooding_decks(world.setup)) archive(population.decks);
@@ -93,16 +86,6 @@ constexpr double kFarthest = 1e9;               ///< from the origin that a body
 constexpr double kFastest = 8 * kRunawaySpeed;  ///< pieces of a fracture may turn faster for one step [m/s]
 constexpr double kLongestCusp = 1e4;            ///< [m]
 constexpr double kOutside = 1e-3;  ///< rounded vertices may stand outside the scene's ice by less than that [m]
-
-void set_motion(dynamics::Bodies& bodies, BodyIndex i, const BodyMotion& motion) {
-  bodies.position[i] = motion.position;
-  bodies.angle[i] = motion.angle;
-  bodies.rotation[i] = motion.rotation;
-  bodies.velocity[i] = motion.velocity;
-  bodies.angular_velocity[i] = motion.angular_velocity;
-  bodies.travel[i] = motion.travel;
-  bodies.rim_speed[i] = motion.rim_speed;
-}
 
 /// Where the ice of a scene was at the start: its floes' frames, in which their pieces stay.
 geometry::Box ice_box(const Scene& scene) {
@@ -171,86 +154,78 @@ class StateLoader {
     bytes_.require(steps >= 0 && steps <= kMostSteps, "a number of steps that cannot be");
   }
 
-  BodyMotion load_motion(double radius) {
-    BodyMotion motion;
-    bytes_(motion);
+  /// Of a body that has been added, and puts it into the contact world.
+  void load_motion(BodyIndex i, bool is_under = false) {
+    dynamics::Bodies& bodies = population_.bodies;
+    motion_fields(bytes_, bodies, i);
     const auto is_within = [](double x, double y, double most) { return std::max(std::abs(x), std::abs(y)) <= most; };
-    const geometry::Rotation r = motion.rotation;
-    bytes_.require(is_within(motion.position.x, motion.position.y, kFarthest), "a body beyond the world");
-    bytes_.require(is_within(motion.velocity.x, motion.velocity.y, kFastest), "a body faster than any");
-    bytes_.require(std::abs(motion.angular_velocity) * radius <= kFastest, "a body that spins faster than any");
+    const geometry::Rotation r = bodies.rotation[i];
+    bytes_.require(is_within(bodies.position[i].x, bodies.position[i].y, kFarthest), "a body beyond the world");
+    bytes_.require(is_within(bodies.velocity[i].x, bodies.velocity[i].y, kFastest), "a body faster than any");
+    bytes_.require(std::abs(bodies.angular_velocity[i]) * bodies.bounding_radius[i] <= kFastest,
+                   "a body that spins faster than any");
     bytes_.require(std::abs(r.cosine * r.cosine + r.sine * r.sine - 1) < 1e-6, "a rotation that is none");
-    bytes_.require(motion.travel >= 0, "a negative travel");
-    return motion;
-  }
-
-  void place(BodyIndex body, const BodyMotion& motion, bool is_under = false) {
+    bytes_.require(bodies.travel[i] >= 0, "a negative travel");
+    bytes_.require(bodies.is_awake[i] <= 1, "a truth value that is neither");
+    bytes_.require(!is_under || bodies.is_awake[i] == 0, "ice under a hull that is awake");
     if (!bytes_.is_well()) return;
-    bytes_.require(!is_under || !motion.is_awake, "ice under a hull that is awake");
-    set_motion(population_.bodies, body, motion);
-    population_.pairs.add(population_.bodies, body);
-    if (is_under) population_.pairs.remove(body);
-    if (!motion.is_awake) return;
-    population_.bodies.is_awake[body] = 1;
-    population_.awake.push_back(body);
-    add_drag(body, population_);
+    population_.pairs.add(bodies, i);
+    if (is_under) population_.pairs.remove(i);
+    if (bodies.is_awake[i] == 0) return;
+    population_.awake.push_back(i);
+    add_drag(i, population_);
   }
 
   void load_hull(BodyIndex hull) {
     add_body(population_.bodies, new_body_of(scene_, hull));
-    const BodyMotion motion = load_motion(population_.bodies.bounding_radius[hull]);
-    bytes_.require(motion.is_awake, "a ship asleep");
-    place(hull, motion);
+    load_motion(hull);
+    bytes_.require(population_.bodies.is_awake[hull] != 0, "a ship asleep");
     hull_fields(bytes_, world_, hull);
   }
 
-  FloeHead load_head(FloeId id) {
-    FloeHead head;
-    bytes_(head);
+  void check_origin(FloeId id, const Floe& floe, bool is_alive, Standing standing) {
     const bool is_of_scene = id < static_cast<FloeId>(scene_.floes.size());
-    bytes_.require(head.parent >= kNoFloe && head.parent < id, "a floe older than its parent");
-    bytes_.require((head.parent == kNoFloe) == is_of_scene, "a floe without a parent");
-    if (!bytes_.is_well()) return head;
-    const int generation = is_of_scene ? 0 : population_.floes[head.parent].generation + 1;
-    bytes_.require(head.generation == generation, "a generation that does not follow the parent's");
-    bytes_.require(is_of_scene || !population_.is_alive(head.parent), "a parent that has not broken");
-    bytes_.require(head.standing <= Standing::kFast, "a standing that there is not");
-    bytes_.require(head.is_alive || head.standing != Standing::kUnderHull, "a broken floe under a hull");
-    const bool is_fast = head.standing == Standing::kFast;
-    const bool can_be_fast = is_of_scene ? scene_.floes[id].is_fast : population_.is_fast(head.parent);
+    bytes_.require(floe.parent >= kNoFloe && floe.parent < id, "a floe older than its parent");
+    bytes_.require((floe.parent == kNoFloe) == is_of_scene, "a floe without a parent");
+    if (!bytes_.is_well()) return;
+    const int generation = is_of_scene ? 0 : population_.floes[floe.parent].generation + 1;
+    bytes_.require(floe.generation == generation, "a generation that does not follow the parent's");
+    bytes_.require(is_of_scene || !population_.is_alive(floe.parent), "a parent that has not broken");
+    bytes_.require(standing <= Standing::kFast, "a standing that there is not");
+    bytes_.require(is_alive || standing != Standing::kUnderHull, "a broken floe under a hull");
+    const bool is_fast = standing == Standing::kFast;
+    const bool can_be_fast = is_of_scene ? scene_.floes[id].is_fast : population_.is_fast(floe.parent);
     bytes_.require(!is_fast || can_be_fast, "a fast floe of a free one");
     bytes_.require(is_fast || !is_of_scene || !can_be_fast, "a free floe where the scene has a fast one");
-    return head;
   }
 
   void load_floe(FloeId id) {
-    const FloeHead head = load_head(id);
+    Floe floe;
+    bool is_alive = false;
+    Standing standing = Standing::kFree;
+    bytes_(floe, is_alive, standing);
+    check_origin(id, floe, is_alive, standing);
     if (!bytes_.is_well()) return;
-    const bool is_under = head.standing == Standing::kUnderHull;
-    Floe floe{.parent = head.parent,
-              .born = head.born,
-              .generation = head.generation,
-              .own_ice = head.parent == kNoFloe ? scene_.floes[id].own_ice : population_.floes[head.parent].own_ice,
-              .area = head.area,
-              .shape = {},
-              .is_under = is_under};
-    if (head.is_alive && head.parent == kNoFloe) floe.shape.polygon = scene_.floes[id].polygon_in_world;
-    if (head.is_alive && head.parent != kNoFloe) floe.shape = load_shape();
+    const FloeSpec* spec = floe.parent == kNoFloe ? &scene_.floes[id] : nullptr;
+    floe.own_ice = spec ? spec->own_ice : population_.floes[floe.parent].own_ice;
+    floe.is_under = standing == Standing::kUnderHull;
+    if (is_alive) floe.shape = spec ? geometry::Shape{spec->polygon_in_world} : load_shape();
     if (!bytes_.is_well()) return;
     const fracture::Ice& ice = ice_of(scene_, floe.own_ice);
+    const bool is_fast = standing == Standing::kFast;
     dynamics::NewBody body;
-    if (head.is_alive) {
-      body =
-          new_body_of(floe.shape.polygon, geometry::measure(floe.shape.polygon), ice, head.standing == Standing::kFast);
+    if (is_alive) {
+      body = new_body_of(floe.shape.polygon, geometry::measure(floe.shape.polygon), ice, is_fast);
     } else {  // its index stays
       body.mass = body.moment = 1;
-      body.is_prescribed = head.standing == Standing::kFast;
+      body.is_prescribed = is_fast;
       body.thickness = ice.thickness;
       body.boundary = std::make_shared<geometry::Boundary>();
     }
     const BodyIndex index = add_body(population_.bodies, body);
+    const bool is_under = floe.is_under;
     population_.floes.push_back(std::move(floe));
-    if (head.is_alive) return place(index, load_motion(population_.bodies.bounding_radius[index]), is_under);
+    if (is_alive) return load_motion(index, is_under);
     population_.bodies.is_alive[index] = 0;
     population_.bodies.boundary[index].reset();
   }
@@ -376,9 +351,9 @@ class StateLoader {
       bytes_.require(is_there && is_in_contact_world(pair.a) && is_in_contact_world(pair.b), "a pair of no two bodies");
       if (!bytes_.is_well()) return;
       bytes_.require(bodies.is_awake[pair.a] || bodies.is_awake[pair.b], "a pair of two asleep");
-      const bool is_held = bodies.inverse_mass[pair.a] == 0 && bodies.inverse_mass[pair.b] == 0;
-      bytes_.require(!is_held || (population_.is_hull(pair.a) && !population_.is_hull(pair.b)),
-                     "a pair of two of prescribed motion");
+      bytes_.require(
+          !are_prescribed(bodies, pair.a, pair.b) || (population_.is_hull(pair.a) && !population_.is_hull(pair.b)),
+          "a pair of two of prescribed motion");
       bytes_.require(!is_grounded(bodies.kind[pair.a]) || !is_grounded(bodies.kind[pair.b]), "a pair of two walls");
       const bool is_next = i == 0 || std::pair(pairs[i - 1].a, pairs[i - 1].b) < std::pair(pair.a, pair.b);
       bytes_.require(is_next, "pairs out of their order");

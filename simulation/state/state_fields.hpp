@@ -10,18 +10,6 @@ namespace polynya::simulation {
 // What a run's state is made of, member by member. A member that is added here is kept, read back and hashed;
 // raise kCheckpointVersion (io/run/checkpoint.hpp) with it.
 
-/// Where a body is and how it moves, and how far it has travelled, which bounds its neighbours' caches.
-struct BodyMotion {
-  geometry::Point position;
-  double angle = 0;
-  geometry::Rotation rotation;
-  geometry::Vector velocity;
-  double angular_velocity = 0;
-  double travel = 0;
-  double rim_speed = 0;
-  bool is_awake = false;
-};
-
 /// What holds a floe, if anything.
 enum class Standing : std::uint8_t { kFree, kUnderHull, kFast };
 
@@ -33,16 +21,6 @@ inline bool is_sailing(const Setup& setup, std::int32_t body) {
 inline bool manages_ice(const Setup& setup, std::int32_t body) {
   return is_sailing(setup, body) && std::holds_alternative<ManagingPilot>(setup.scene.ships[body].pilot);
 }
-
-/// A floe without its shape.
-struct FloeHead {
-  FloeId parent = kNoFloe;
-  double born = 0;
-  std::int32_t generation = 0;
-  double area = 0;
-  bool is_alive = false;
-  Standing standing = Standing::kFree;
-};
 
 void fields(auto& archive, Is<geometry::Point> auto& p) {
   archive(p.x, p.y);
@@ -56,11 +34,9 @@ void fields(auto& archive, Is<geometry::Rotation> auto& r) {
 void fields(auto& archive, Is<geometry::Polygon> auto& p) {
   archive(p.outer, p.holes);
 }
-void fields(auto& archive, Is<BodyMotion> auto& m) {
-  archive(m.position, m.angle, m.rotation, m.velocity, m.angular_velocity, m.travel, m.rim_speed, m.is_awake);
-}
-void fields(auto& archive, Is<FloeHead> auto& f) {
-  archive(f.parent, f.born, f.generation, f.area, f.is_alive, f.standing);
+/// Without its shape.
+void fields(auto& archive, Is<Floe> auto& f) {
+  archive(f.parent, f.born, f.generation, f.area);
 }
 void fields(auto& archive, Is<TiltedFloe> auto& t) {
   archive(t.floe, t.ship, t.edge.deflection, t.edge.rate);
@@ -109,13 +85,8 @@ void fields(auto& archive, Is<PatternMemory> auto& m) {
 void fields(auto& archive, Is<Helm> auto& h) {
   archive(h.lever, h.steering_angle, h.is_adrift, h.adrift_since, h.ice_force, h.memory);
 }
-void fields(auto& archive, Is<AreaLedger> auto& l) {
-  archive(l.initial_ice_area, l.under_ice_area, l.submerged_area, l.brash_area,
-          l.rounding_defect);  // the rest is derived
-}
-/// In checkpoints alone: it follows from the areas where all ice is alike.
-void fields(auto& archive, Is<MassLedger> auto& l) {
-  archive(l.initial_ice_mass, l.under_ice_mass, l.submerged_mass, l.brash_mass, l.rounding_mass);
+void fields(auto& archive, Is<IceLedger> auto& l) {
+  archive(l.initial, l.under_ice, l.submerged, l.brash, l.rounding);  // the rest is derived
 }
 void fields(auto& archive, Is<Counts> auto& c) {
   archive(c.floes_initial, c.bends, c.splits, c.ground, c.tilted_under, c.went_under, c.came_up, c.stayed_under,
@@ -181,9 +152,14 @@ void fields(auto& archive, Is<PanelLoads> auto& p) {
 
 /// Not its peaks and panels: they decide nothing of the run (state.cpp).
 void fields(auto& archive, Is<Accounts> auto& a) {
-  archive(a.ledger, a.audit, a.counts, a.loads, a.hull_contacts, a.refused_grinds);
+  archive(a.areas, a.audit, a.counts, a.loads, a.hull_contacts, a.refused_grinds);
 }
 
+/// Where a body is and how it moves, and how far it has travelled, which bounds its neighbours' caches.
+void motion_fields(auto& archive, Is<dynamics::Bodies> auto& b, BodyIndex i) {
+  archive(b.position[i], b.angle[i], b.rotation[i], b.velocity[i], b.angular_velocity[i], b.travel[i], b.rim_speed[i],
+          b.is_awake[i]);
+}
 /// What a state begins with.
 void head_fields(auto& archive, Is<World> auto& world) {
   archive(world.clock.steps, world.accounts);
@@ -195,7 +171,8 @@ void hull_fields(auto& archive, Is<World> auto& world, std::int32_t hull) {
   if (is_sailing(world.setup, hull)) archive(world.population.helms[hull], world.accounts.sailing[hull]);
   if (manages_ice(world.setup, hull)) archive(world.population.helms[hull].memory.pattern);
 }
-/// What checkpoints alone have after the contacts, before peaks and panels.
+/// What checkpoints alone have after the contacts, before peaks and panels: masses follow from the areas where all ice
+/// is alike.
 void tail_fields(auto& archive, Is<World> auto& world) {
   auto& counts = world.accounts.counts;
   archive(world.accounts.masses, counts.unresolved_splits, counts.steps_at_level, counts.crowded_ticks,

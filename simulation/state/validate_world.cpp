@@ -1,5 +1,3 @@
-#include "simulation/state/validate_world.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "geometry/exact/measures.hpp"
+#include "simulation/state/state.hpp"
 
 namespace polynya::simulation {
 namespace {
@@ -113,31 +112,24 @@ Defect check_pairs(const Population& population) {
 
 Defect check_sums(const World& world) {
   const Population& population = world.population;
-  double area = 0;
-  double mass = 0;
   std::int64_t broken = 0;
+  std::size_t under = 0;
   for (FloeId id = 0; id < population.floe_count(); ++id) {
-    if (population.is_floating(id)) area += population.floes[id].area;
-    if (population.is_alive(id)) mass += population.bodies.mass[population.body_of(id)];
     broken += population.is_alive(id) ? 0 : 1;
+    under += population.floes[id].is_under ? 1 : 0;
   }
+  if (under != population.submerged.size())
+    return fmt::format("{} floes are under hulls, {} are listed", under, population.submerged.size());
   for (const SubmergedPiece& submerged : population.submerged) {
     if (!population.is_alive(submerged.floe) || !population.floes[submerged.floe].is_under)
       return fmt::format("floe {} is submerged and not under a hull", submerged.floe);
-    area += population.floes[submerged.floe].area;
   }
   for (const TiltedFloe& tilted : population.tilted) {
     if (!population.is_floating(tilted.floe)) return fmt::format("floe {} is tilted and does not float", tilted.floe);
   }
-  const AreaLedger& ledger = world.accounts.ledger;
-  const double lost = area + ledger.under_ice_area + ledger.submerged_area + ledger.brash_area -
-                      ledger.rounding_defect - ledger.initial_ice_area;
-  if (!(std::abs(lost) <= kAreaTolerance * ledger.initial_ice_area)) return fmt::format("{} m² of ice too much", lost);
-  const MassLedger& masses = world.accounts.masses;
-  const double lost_mass = mass + masses.under_ice_mass + masses.submerged_mass + masses.brash_mass -
-                           masses.rounding_mass - masses.initial_ice_mass;
-  if (!(std::abs(lost_mass) <= kAreaTolerance * masses.initial_ice_mass))
-    return fmt::format("{} kg of ice too much", lost_mass);
+  for (const auto& [ledger, unit] : {std::pair(area_ledger(world), "m²"), std::pair(mass_ledger(world), "kg")})
+    if (!(std::abs(ledger.imbalance()) <= kAreaTolerance * ledger.initial))
+      return fmt::format("{} {} of ice too much", ledger.imbalance(), unit);
   const Counts& counts = world.accounts.counts;
   const std::int64_t fractures = counts.bends + counts.splits + counts.ground + counts.came_up + counts.stayed_under;
   if (broken != fractures) return fmt::format("{} floes broke in {} fractures", broken, fractures);

@@ -7,7 +7,6 @@
 #include <numeric>
 #include <optional>
 #include <span>
-#include <utility>
 
 #include "dynamics/chunks.hpp"
 #include "simulation/world/levels.hpp"

@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "dynamics/planar.hpp"
-#include "simulation/world/contact_state.hpp"
 #include "simulation/world/event.hpp"
 
 namespace polynya::simulation {
@@ -67,6 +67,39 @@ struct HullSample {
   friend bool operator==(const HullSample&, const HullSample&) = default;
 };
 
+/// What ended a peak of a contact's force: its ice bent or split, it tilted under the hull, or none of these: the two
+/// slid or moved apart.
+enum class PeakEnd : std::uint8_t { kNone, kBend, kSplit, kSlip, kTilt };
+
+/// Two bodies that touch, in one step.
+struct ContactState {
+  static constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+  struct Body {  ///< a ship or a floe
+    int ship = -1;
+    FloeId floe = kNoFloe;
+    friend bool operator==(Body, Body) = default;
+  };
+  Body on;
+  Body by;
+  geometry::Point point_in_world;     ///< that the force acts at, where it was when the step began [m]
+  geometry::Vector force;             ///< by `by` on `on`, over ground, mean of the step: impulse / time [N]
+  double depth = 0;                   ///< of the overlap along the normal [m]
+  bool is_crushing = false;           ///< it presses with all that crushing ice carries
+  double arc = kNowhere;              ///< of that point on the waterline of `on`, from its stem, to port [m]
+  double station = kNowhere;          ///< the same along its length, from the stem aft [m]
+  double width = 0;                   ///< of the contact line [m]
+  double height = 0;                  ///< of ice against the hull [m]; 0 of steel
+  double pressure = 0;                ///< nominal: normal force by width and height [Pa]; 0 of steel
+  double thickness = 0;               ///< of the ice, of two floes the thinner [m]; 0 of steel
+  PeakEnd ended_by = PeakEnd::kNone;  ///< of a peak; in the contacts of a frame none
+};
+
+/// The largest force of a contact between two times at which it was below half of it.
+struct LoadPeak {
+  double time = 0;  ///< [s]
+  ContactState state;
+};
+
 /// One recorded row of a panel of a hull that ice pressed in the interval, in the hull's frame.
 struct PanelSample {
   double time = 0;  ///< end of the interval [s]
@@ -113,29 +146,18 @@ struct PeakCounts {
   double largest_beyond = 0;  ///< of those [N]
 };
 
-/// Where all the ice went [m²]. initial = floes + under hulls + under ice + submerged + brash − rounding, up
-/// to `imbalance`.
-struct AreaLedger {
-  double initial_ice_area = 0;
-  double floe_area = 0;
-  double under_hull_area = 0;  ///< of submerged pieces, also of those that wait for room
-  double under_ice_area = 0;   ///< of those that found none
-  double submerged_area = 0;   ///< gone by cusp_fate submerge
-  double brash_area = 0;
-  double rounding_defect = 0;  ///< what rounding added (+) or took (−)
-  double imbalance = 0;        ///< the sum of all places − rounding − initial
-};
+/// Where all the ice went, by area [m²] or by mass [kg], each floe with its own density and thickness.
+struct IceLedger {
+  double initial = 0;
+  double floes = 0;
+  double under_hulls = 0;  ///< submerged pieces, also those that wait for room
+  double under_ice = 0;    ///< those that found none
+  double submerged = 0;    ///< gone by cusp_fate submerge
+  double brash = 0;
+  double rounding = 0;  ///< what rounding added (+) or took (−)
 
-/// The same by mass [kg], each floe with its own density and thickness.
-struct MassLedger {
-  double initial_ice_mass = 0;
-  double floe_mass = 0;
-  double under_hull_mass = 0;
-  double under_ice_mass = 0;
-  double submerged_mass = 0;
-  double brash_mass = 0;
-  double rounding_mass = 0;
-  double imbalance = 0;
+  /// The sum of all places − rounding − initial.
+  double imbalance() const { return floes + under_hulls + under_ice + submerged + brash - rounding - initial; }
 };
 
 /// A tick is taken in at most 2^kMostLevels parts; steps of several ticks take at most so many, or all of a block of

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/contact/boundary.hpp"
+#include "geometry/exact/measures.hpp"
 #include "simulation/world/world.hpp"
 
 namespace polynya::simulation {
@@ -27,12 +28,6 @@ double vertices_of(const Polygon& polygon) {
 double heap_of(const Polygon& polygon) {
   return block(sizeof(geometry::Point) * vertices_of(polygon)) +
          block(sizeof(Ring) * static_cast<double>(polygon.holes.size()));
-}
-
-double length_of(const Ring& ring) {
-  double sum = 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) sum += distance(ring[i], ring[(i + 1) % ring.size()]);
-  return sum;
 }
 
 /// A body's share of the columns of dynamics::Bodies.
@@ -69,9 +64,7 @@ class KeptCovers {
 
   void add(const Polygon& polygon) {
     if (!has_circles_ && vertices_of(polygon) <= geometry::kFewEdges / 2.0) return;
-    double length = length_of(polygon.outer);
-    for (const Ring& hole : polygon.holes) length += length_of(hole);
-    const double pieces = std::max(1.0, length / radius_);
+    const double pieces = std::max(1.0, geometry::perimeter(polygon) / radius_);
     (pieces > dynamics::kManyPieces || has_circles_ ? always_ : others_) += pieces;
   }
 

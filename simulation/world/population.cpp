@@ -64,7 +64,7 @@ Population::Population(const Setup& setup)
       has_skin_drag(setup.scene.water.skin_drag_coefficient > 0),
       pairs(contact_rule(setup), grid_cell(setup.scene)) {}
 
-void add_scene(const Setup& setup, std::vector<FloeSpec> floes, const Clock& clock, Population& population,
+void add_scene(const Setup& setup, std::vector<FloeSpec>& floes, const Clock& clock, Population& population,
                Journal& journal) {
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull) {
     add_body(population.bodies, new_body_of(setup.scene, hull));
@@ -167,14 +167,13 @@ void wake(BodyIndex body, Population& population) {
 void add_drag(BodyIndex body, Population& population) {
   if (population.is_hull(body) || population.bodies.drag[body] != nullptr) return;
   if (population.bodies.inverse_mass[body] == 0) {  // water does not move fast ice
-    static const auto none =
-        std::make_shared<const dynamics::DragShape>(dynamics::DragShape{.width = {}, .is_same = true});
+    static const auto none = std::make_shared<const dynamics::DragShape>(dynamics::DragShape{.same_width = 0});
     population.bodies.drag[body] = none;
     return;
   }
-  population.bodies.drag[body] = std::make_shared<dynamics::DragShape>(dynamics::make_small_drag_shape(
-      population.floes[population.floe_of(body)].shape.polygon, population.bodies.centroid[body], population.drag_area,
-      population.has_skin_drag));
+  population.bodies.drag[body] = std::make_shared<dynamics::DragShape>(
+      dynamics::make_drag_shape(population.floes[population.floe_of(body)].shape.polygon,
+                                population.bodies.centroid[body], population.drag_area, population.has_skin_drag));
 }
 
 bool stays_at_rest(BodyIndex body, const Setup& setup, const dynamics::Bodies& bodies) {

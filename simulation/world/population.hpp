@@ -4,8 +4,8 @@
 
 #include "dynamics/contact/broad_phase.hpp"
 #include "dynamics/water/water_drag.hpp"
-#include "fracture/flooding_deck.hpp"
 #include "fracture/tilting.hpp"
+#include "fracture/turning_cusp.hpp"
 #include "geometry/cut/cut.hpp"
 #include "geometry/exact/measures.hpp"
 #include "simulation/ship/pilot.hpp"
@@ -114,8 +114,8 @@ struct NewFloe {
   bool is_fast = false;         ///< its motion is prescribed
 };
 
-/// Adds the scene's hulls, and its floes, asleep and awake.
-void add_scene(const Setup& setup, std::vector<FloeSpec> floes, const Clock& clock, Population& population,
+/// Adds the scene's hulls, and its floes, asleep and awake; takes their polygons.
+void add_scene(const Setup& setup, std::vector<FloeSpec>& floes, const Clock& clock, Population& population,
                Journal& journal);
 
 /// Adds a floe of these measures, at rest or moving as a part of a rigid body whose frame is the floe's;
@@ -134,7 +134,7 @@ void wake(BodyIndex body, Population& population);
 void insert_into(std::vector<BodyIndex>& ascending, BodyIndex body);
 void erase_from(std::vector<BodyIndex>& ascending, BodyIndex body);
 
-/// Makes the drag table of a floe that is about to move.
+/// Makes the drag shape of a floe that is about to move.
 void add_drag(BodyIndex body, Population& population);
 
 /// Whether a body at rest in the water frame stays at rest as far as water and wind go: a sheared current or

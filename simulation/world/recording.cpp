@@ -21,12 +21,10 @@ Planar over(Planar impulse, double time) {
 /// Adds what a contact's impulses did to one of its two bodies, a hull.
 void add_contact(const Population& population, const dynamics::Contact& c, BodyIndex ship, double sign,
                  HullLoads& hull_loads) {
-  const dynamics::Bodies& bodies = population.bodies;
   const bool is_with_ship = population.is_hull(ship == c.a ? c.b : c.a);
   ContactLoads& loads = is_with_ship ? hull_loads.hulls : hull_loads.ice;
   const auto add = [&](geometry::Point at, Vector impulse, bool is_slip) {
-    const Vector in_ship = rotate_back(bodies.rotation[ship], impulse);
-    const Planar on_ship{in_ship.x, in_ship.y, cross(at - bodies.position[ship], impulse)};
+    const Planar on_ship = planar_of(population.bodies, ship, at, impulse);
     loads.impulse += on_ship;
     loads.steady_impulse += c.steady_share * on_ship;
     if (is_slip) loads.friction += on_ship;

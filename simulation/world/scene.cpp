@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace polynya::simulation {
 geometry::Ring wedge_bow_waterline(double length, double beam, double entrance_angle) {

@@ -16,7 +16,7 @@ using geometry::Vector;
 /// Enters what bodies of prescribed motion did through their contact.
 void enter_prescribed_work(const dynamics::Bodies& bodies, const dynamics::Contact& c, AuditSums& audit) {
   audit.energy.thrust += c.prescribed_work;
-  if (bodies.inverse_mass[c.a] == 0 && bodies.inverse_mass[c.b] == 0) return;  // nothing is free to move
+  if (are_prescribed(bodies, c.a, c.b)) return;
   const Vector on_free = bodies.inverse_mass[c.a] == 0 ? c.impulse_on_b() : -c.impulse_on_b();
   audit.momentum.held += on_free;
   audit.impulses += length(on_free);
@@ -138,6 +138,11 @@ std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clo
 
 namespace {
 
+/// Keeps the first reason why a run cannot continue.
+void fail(std::optional<std::string> failure, World& world) {
+  if (failure && !world.failure) world.failure = std::move(failure);
+}
+
 bool is_time_to_rest(const Setup& setup, const Clock& clock) {
   return setup.shortcuts.sleeps && clock.is_at_tick() && clock.steps % setup.steps_per_rest == 0;
 }
@@ -187,11 +192,7 @@ const std::array<Stage, 34> kStages = {{
     {"hold walls", RunsIn::kTicks, [](World& w) { hold_walls(w.setup, w.clock, w.population, w.accounts.audit); }},
     {"drop unbroken", RunsIn::kAllSteps, [](World& w) { drop_unbroken(w.setup, w.step); }},
     {"enter splits", RunsIn::kAllSteps, [](World& w) { enter_splits(w.setup, w.population, w.step); }},
-    {"overload", RunsIn::kAllSteps,
-     [](World& w) {
-       auto failure = overload_of(w.setup, w.clock, w.population, w.step);
-       if (failure && !w.failure) w.failure = std::move(failure);
-     }},
+    {"overload", RunsIn::kAllSteps, [](World& w) { fail(overload_of(w.setup, w.clock, w.population, w.step), w); }},
     {"tilt floes", RunsIn::kTicks, [](World& w) { tilt_floes(w.setup, w.population, w.step); }},
     {"book overlaps", RunsIn::kAllSteps, [](World& w) { book_overlaps(w.setup, w.population, w.step); }},
     {"tally loads", RunsIn::kTicks, [](World& w) { tally_loads(w.population, w.step.contacts, w.step.loads); }},
@@ -210,10 +211,7 @@ const std::array<Stage, 34> kStages = {{
      }},
     {"sail", RunsIn::kTicks, [](World& w) { sail(w.setup, w.clock, w.step, w.population, w.accounts); }},
     {"integrate", RunsIn::kTicks,
-     [](World& w) {
-       auto failure = integrate_motion(w.setup, w.clock, w.threads, w.step.contacts, w.population);
-       if (failure && !w.failure) w.failure = std::move(failure);
-     }},
+     [](World& w) { fail(integrate_motion(w.setup, w.clock, w.threads, w.step.contacts, w.population), w); }},
     {"advance the clock", RunsIn::kTicks, [](World& w) { advance(w.clock); }},
     {"apply fractures", RunsIn::kAllSteps,
      [](World& w) { apply_fractures(w.setup, w.clock, w.step, w.population, w.accounts, w.journal); }},
@@ -380,9 +378,8 @@ class Block {
     moved_ = population.due_some;
     std::erase_if(moved_, [&](BodyIndex i) { return moves_along(world_.components, i); });
     moved_.swap(population.due_some);
-    auto failure = integrate_motion(world_.setup, world_.clock, world_.threads, world_.step.contacts, population);
+    fail(integrate_motion(world_.setup, world_.clock, world_.threads, world_.step.contacts, population), world_);
     moved_.swap(population.due_some);
-    if (failure && !world_.failure) world_.failure = std::move(failure);
   }
 
   bool lags(int tick) {

@@ -1,25 +1,17 @@
 #include <utility>
 
-#include "simulation/ice/going_under.hpp"
+#include "simulation/ice/under_hull.hpp"
 #include "simulation/world/step.hpp"
 
 namespace polynya::simulation {
 
 namespace {
 
-/// The floes that are under hulls at the start, without what follows of their places.
-std::vector<SubmergedPiece> pieces_under(const std::vector<FloeSpec>& floes) {
-  std::vector<SubmergedPiece> pieces;
-  for (std::size_t i = 0; i < floes.size(); ++i)
-    if (floes[i].under_ship >= 0)
-      pieces.push_back({.floe = static_cast<FloeId>(i), .ship = floes[i].under_ship, .path = floes[i].under_path});
-  return pieces;
-}
-
-void put_under(const SubmergedPiece& piece, World& world) {
-  world.journal.events.push_back(submersion_event(world.clock, world.population, piece.floe, piece.ship));
-  go_under(world.setup, world.clock, piece.floe, piece.ship, world.population, world.accounts);
-  world.population.submerged.back().path = piece.path;
+/// Of a floe of the scene that is under a hull at the start.
+void put_under(FloeId floe, const FloeSpec& spec, World& world) {
+  world.journal.events.push_back(submersion_event(world.clock, world.population, floe, spec.under_ship));
+  go_under(world.setup, world.clock, floe, spec.under_ship, world.population, world.accounts);
+  world.population.submerged.back().path = spec.under_path;
 }
 
 }  // namespace
@@ -34,16 +26,38 @@ World::World(Scene scene, Shortcuts shortcuts, Start start)
   accounts.sailing.resize(setup.scene.ships.size());
   population.helms.resize(setup.scene.ships.size());
   if (start == Start::kEmpty) return;
-  const std::vector<SubmergedPiece> under = pieces_under(setup.scene.floes);
-  add_scene(setup, std::exchange(setup.scene.floes, {}), clock, population, journal);
+  std::vector<FloeSpec> floes = std::exchange(setup.scene.floes, {});
+  add_scene(setup, floes, clock, population, journal);
   for (FloeId id = 0; id < population.floe_count(); ++id) {
-    accounts.ledger.initial_ice_area += population.floes[id].area;
-    accounts.masses.initial_ice_mass += population.bodies.mass[population.body_of(id)];
+    accounts.areas.initial += population.floes[id].area;
+    accounts.masses.initial += population.bodies.mass[population.body_of(id)];
   }
   accounts.counts.floes_initial = population.floe_count();
   take_helms(setup, clock, population);
   open_accounts(population.bodies, accounts.audit);
-  for (const SubmergedPiece& piece : under) put_under(piece, *this);
+  for (std::size_t i = 0; i < floes.size(); ++i)
+    if (floes[i].under_ship >= 0) put_under(static_cast<FloeId>(i), floes[i], *this);
+}
+
+namespace {
+
+/// Of what there is at the moment: amount_of(id) of each floe.
+template <class AmountOf>
+IceLedger ledger_of(IceLedger gone, const Population& population, AmountOf amount_of) {
+  for (FloeId id = 0; id < population.floe_count(); ++id)
+    if (population.is_alive(id)) (population.floes[id].is_under ? gone.under_hulls : gone.floes) += amount_of(id);
+  return gone;
+}
+
+}  // namespace
+
+IceLedger area_ledger(const World& world) {
+  return ledger_of(world.accounts.areas, world.population, [&](FloeId id) { return world.population.floes[id].area; });
+}
+
+IceLedger mass_ledger(const World& world) {
+  return ledger_of(world.accounts.masses, world.population,
+                   [&](FloeId id) { return world.population.bodies.mass[world.population.body_of(id)]; });
 }
 
 }  // namespace polynya::simulation

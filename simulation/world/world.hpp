@@ -8,7 +8,7 @@
 #include "dynamics/contact/contact_solver.hpp"
 #include "fracture/decision.hpp"
 #include "geometry/contact/crack_path.hpp"
-#include "simulation/ice/beam_shape.hpp"
+#include "simulation/ice/beams.hpp"
 #include "simulation/ship/load_peaks.hpp"
 #include "simulation/ship/panels.hpp"
 #include "simulation/world/components.hpp"
@@ -134,8 +134,8 @@ struct StepData {
 
 /// What has happened so far, in sums.
 struct Accounts {
-  AreaLedger ledger;  ///< initial, submerged, brash, rounding; the rest is derived
-  MassLedger masses;  ///< likewise
+  IceLedger areas;   ///< without what there is at the moment: floes and what is under hulls
+  IceLedger masses;  ///< likewise
   AuditSums audit;
   Counts counts;
   std::vector<HullLoads> loads;       ///< per hull, since the last sample
@@ -167,5 +167,9 @@ struct World {
   std::vector<ExternalPilot> pilots;   ///< per ship, those that take the place of the scene's; or fewer
   std::optional<std::string> failure;  ///< why the run cannot continue
 };
+
+/// Where all the ice of a world is at the moment and went.
+IceLedger area_ledger(const World& world);
+IceLedger mass_ledger(const World& world);
 
 }  // namespace polynya::simulation

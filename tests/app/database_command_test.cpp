@@ -7,7 +7,7 @@
 #include "program.hpp"
 #include <fmt/format.h>
 
-#include "fracture/bending/database_text.hpp"
+#include "fracture/bending/database.hpp"
 #include "fracture/bending/fsi_database_model.hpp"
 #include "fracture/crushing.hpp"
 #include "io/text/json_parser.hpp"

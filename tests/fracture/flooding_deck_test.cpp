@@ -1,5 +1,5 @@
 // Water on the deck of a cusp that a hull presses down.
-#include "fracture/flooding_deck.hpp"
+#include "fracture/turning_cusp.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "fracture/turning_cusp.hpp"
 
 namespace polynya::fracture {
 namespace {

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "fracture/opening.hpp"
 #include "tests/shapes.hpp"
 
 namespace polynya::fracture {

@@ -10,7 +10,7 @@
 
 #include "io/run/checkpoint.hpp"
 #include "simulation/simulation.hpp"
-#include "simulation/state/validate_world.hpp"
+#include "simulation/state/state.hpp"
 
 namespace {
 

@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "fracture/bending/database.hpp"
-#include "fracture/bending/database_text.hpp"
 
 namespace {
 

@@ -82,7 +82,7 @@ Recorded write_run(const LoadedScene& scene, const std::filesystem::path& folder
   summary.finished = true;
   summary.steps = 800;
   summary.sim_time = simulation.time();
-  summary.ledger = simulation.area_ledger();
+  summary.areas = simulation.area_ledger();
   summary.counts = simulation.counts();
   summary.peaks = writer->peaks();
   summary.warnings = {"a \"warning\""};

@@ -138,15 +138,15 @@ TEST(Fracture, EveryFloeHasItsParentAndTheEventThatMadeItAndTheAreasBalanceAtEve
   for (const Laws laws : kBothLaws) {
     for (const CuspFate fate : {CuspFate::kSubmerge, CuspFate::kFloat}) {
       Trial done{Simulation(breaking_scene(laws, fate)), {}};
-      EXPECT_NEAR(done.simulation.area_ledger().initial_ice_area, 69.5 * 90 + 48 * 100, 1e-9);
+      EXPECT_NEAR(done.simulation.area_ledger().initial, 69.5 * 90 + 48 * 100, 1e-9);
       while (done.simulation.time() < 15) {
         listen(done.simulation, done.story);
         done.simulation.step();
-        const AreaLedger ledger = done.simulation.area_ledger();
-        ASSERT_NEAR(ledger.imbalance / ledger.initial_ice_area, 0, 1e-9) << done.simulation.time();
+        const IceLedger ledger = done.simulation.area_ledger();
+        ASSERT_NEAR(ledger.imbalance() / ledger.initial, 0, 1e-9) << done.simulation.time();
       }
       listen(done.simulation, done.story);
-      EXPECT_EQ(done.simulation.area_ledger().submerged_area > 1, fate == CuspFate::kSubmerge);
+      EXPECT_EQ(done.simulation.area_ledger().submerged > 1, fate == CuspFate::kSubmerge);
       EXPECT_EQ(done.simulation.counts().floated_cusps > 0, fate == CuspFate::kFloat);
       EXPECT_TRUE(done.story.rejected_cuts().empty());
       EXPECT_GT(done.story.events.size(), 2u);

@@ -216,7 +216,7 @@ TEST(Grind, APlankThroughAStripBecomesTwoAndTheOverlapBrash) {
   EXPECT_LT(std::get<Grind>(event.what).criterion.width, 1e-9);
   EXPECT_NEAR(std::get<Grind>(event.what).criterion.least_width, 0.25 * 8 / 4, 1e-9);
   EXPECT_EQ(simulation.counts().ground, 1);
-  EXPECT_NEAR(simulation.area_ledger().brash_area, 8, 1e-9);
+  EXPECT_NEAR(simulation.area_ledger().brash, 8, 1e-9);
   EXPECT_GT(simulation.audit().sums.energy.grinding, 0);
   expect_closed(simulation);
 }

@@ -62,7 +62,7 @@ TEST(Prescribed, ACylinderCrushesTheChannelThatItLeaves) {
     const Trial done = over_the_way(drifting_onto(cylinder_waterline(kRadius), -kRadius, drift), drift.speed, load);
     const Audit audit = done.simulation.audit();
     EXPECT_NEAR(audit.sums.energy.crushing / (kLineLoad * area), 1, 0.02) << drift.speed << ' ' << drift.step;
-    EXPECT_NEAR(done.simulation.area_ledger().brash_area / area, 1, 0.02) << "the channel is open";
+    EXPECT_NEAR(done.simulation.area_ledger().brash / area, 1, 0.02) << "the channel is open";
     EXPECT_NEAR(-mean(done.story, &HullSample::from_ice, 0, 10 / drift.speed) / -load, 1, 0.02);
     EXPECT_EQ(done.simulation.floe_states().size(), 1u);
   }
@@ -75,7 +75,7 @@ TEST(Prescribed, AFlatFaceCrushesAChannelOfItsWidth) {
         over_the_way(drifting_onto(rectangle(-6, -5, 6, 5).outer, -6, drift), drift.speed, kLineLoad * 10);
     EXPECT_NEAR(done.simulation.audit().sums.energy.crushing / (kLineLoad * 10 * kWay), 1, 0.02)
         << drift.speed << ' ' << drift.step;
-    EXPECT_NEAR(done.simulation.area_ledger().brash_area / (10 * kWay), 1, 0.02);
+    EXPECT_NEAR(done.simulation.area_ledger().brash / (10 * kWay), 1, 0.02);
   }
 }
 
@@ -191,7 +191,7 @@ TEST(Shed, WhatAContactCrushedIsCutOffWhereItPressedMost) {
   EXPECT_EQ(criterion.least_width, 0);
   EXPECT_GE(criterion.overlap_area, criterion.least_area);
   EXPECT_NEAR(criterion.overlap_area, most_pressed, 0.02 * most_pressed);
-  const double brash = simulation.area_ledger().brash_area;
+  const double brash = simulation.area_ledger().brash;
   EXPECT_NEAR(brash, criterion.overlap_area, 1e-9);
   const auto floes = simulation.floe_states();
   ASSERT_EQ(floes.size(), 1U);

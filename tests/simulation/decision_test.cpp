@@ -112,7 +112,7 @@ TEST(Decision, ARejectedCutIsRecordedCountedAndLeavesTheFloe) {
         << std::get<RejectedCut>(event.what).reason;
   EXPECT_EQ(counts.bends + counts.splits, 0);
   EXPECT_EQ(counts.floes_final, 1);
-  EXPECT_NEAR(simulation.area_ledger().imbalance, 0, 1e-9);
+  EXPECT_NEAR(simulation.area_ledger().imbalance(), 0, 1e-9);
 }
 
 // ---- when a corner breaks, against the solution of that one push

@@ -112,7 +112,7 @@ TEST(FloeIce, PiecesInheritIt) {
   const Simulation simulation =
       run(ship_in_ice(2).floe(rectangle(0, -40, 40, 40)).floe(rectangle(40.1, -40, 80, 40)).of(own), 35).simulation;
   std::size_t of_second = 0;
-  for (const FloeState& state : simulation.all_states()) {
+  for (const FloeState& state : simulation.floe_states(Living::kAll)) {
     const bool is_second = state.ice == &simulation.scene().own_ice[0];
     of_second += is_second ? 1 : 0;
     EXPECT_NEAR(state.mass / state.area, is_second ? 0.3 * 850 : 0.5 * 900, 1e-9);
@@ -135,13 +135,13 @@ TEST(FloeIce, TheLedgerInKilogramsBalancesWhereIceGoesUnderAndComesUp) {
           .of({.thickness = 0.3 + 0.02 * (i % 7), .density = 860.0 + 10 * (i % 5)});
     }
     const Simulation simulation = run(scene, 38).simulation;
-    const MassLedger masses = simulation.mass_ledger();
-    const AreaLedger areas = simulation.area_ledger();
+    const IceLedger masses = simulation.mass_ledger();
+    const IceLedger areas = simulation.area_ledger();
     EXPECT_GT(simulation.counts().went_under, 0);
-    EXPECT_GT(comes_up ? masses.brash_mass : masses.under_ice_mass, 0);
+    EXPECT_GT(comes_up ? masses.brash : masses.under_ice, 0);
     EXPECT_EQ(simulation.counts().came_up > 0, comes_up);
-    const double of_area = (masses.brash_mass + masses.under_ice_mass + masses.under_hull_mass) /
-                           (areas.brash_area + areas.under_ice_area + areas.under_hull_area);
+    const double of_area =
+        (masses.brash + masses.under_ice + masses.under_hulls) / (areas.brash + areas.under_ice + areas.under_hulls);
     EXPECT_GT(of_area, 0.3 * 860);
     EXPECT_LT(of_area, 0.42 * 900);
     expect_closed(simulation);
@@ -246,7 +246,7 @@ TEST(BendingScatter, EachEventStatesTheStrengthItBrokeAt) {
 TEST(BendingScatter, TheSeedMeansSomethingInLevelIceAndThreadsAndResumeDoNot) {
   const Simulation one = expect_resumes(scattering(5), 7, 15, 2).simulation;
   EXPECT_GT(one.counts().bends, 20);
-  EXPECT_EQ(one.mass_ledger().brash_mass, run(scattering(5), 15).simulation.mass_ledger().brash_mass);
+  EXPECT_EQ(one.mass_ledger().brash, run(scattering(5), 15).simulation.mass_ledger().brash);
   EXPECT_NE(one.state_hash(), run(scattering(6), 15).simulation.state_hash());
 }
 

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "simulation/state/state.hpp"
-#include "simulation/state/validate_world.hpp"
 #include "tests/simulation/scenes.hpp"
 
 namespace polynya::simulation::scenes {

@@ -172,10 +172,10 @@ void expect_closed(const Simulation& simulation) {
   EXPECT_LE(std::abs(audit.energy_imbalance), kClosed * audit.turnover);
   EXPECT_LE(length(audit.momentum_imbalance), kClosed * audit.momentum_turnover);
   EXPECT_TRUE(audit.is_closed());
-  const AreaLedger areas = simulation.area_ledger();
-  EXPECT_LE(std::abs(areas.imbalance), 1e-9 * areas.initial_ice_area);
-  const MassLedger masses = simulation.mass_ledger();
-  EXPECT_LE(std::abs(masses.imbalance), 1e-9 * masses.initial_ice_mass);
+  const IceLedger areas = simulation.area_ledger();
+  EXPECT_LE(std::abs(areas.imbalance()), 1e-9 * areas.initial);
+  const IceLedger masses = simulation.mass_ledger();
+  EXPECT_LE(std::abs(masses.imbalance()), 1e-9 * masses.initial);
 }
 
 Simulation resumed(const Scene& scene, const Simulation& simulation) {

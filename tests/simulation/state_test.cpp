@@ -59,7 +59,7 @@ TEST(State, AResumedRunContinuesBitByBitFromAnyStep) {
       expect_same_bits(whole, one);
       EXPECT_EQ(one.counts().bends, whole.counts().bends);
       EXPECT_EQ(one.counts().crush_contacts, whole.counts().crush_contacts);
-      EXPECT_EQ(one.area_ledger().imbalance, whole.area_ledger().imbalance);
+      EXPECT_EQ(one.area_ledger().imbalance(), whole.area_ledger().imbalance());
     }
     EXPECT_GT(whole.counts().bends, 20) << "the trial should have broken something";
     EXPECT_LE(std::ssize(whole.world().population.awake), whole.counts().floes_final) << "and some should sleep";

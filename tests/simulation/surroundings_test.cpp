@@ -371,7 +371,7 @@ TEST(Cusp, WhoseFirstTouchHasBrokenOffIsCentredAtTheIceNearestToTheContact) {
   EXPECT_EQ(world.accounts.counts.bends, 1);
   EXPECT_EQ(world.accounts.counts.rejected_cuts, 0);
   EXPECT_FALSE(record.was_refused);
-  EXPECT_NEAR(world.accounts.ledger.submerged_area, std::numbers::pi * 2, 0.1) << "half a disc about (0, 5)";
+  EXPECT_NEAR(world.accounts.areas.submerged, std::numbers::pi * 2, 0.1) << "half a disc about (0, 5)";
 }
 
 TEST(FastIce, IsSavedWithItsPieces) {

@@ -125,7 +125,7 @@ TEST(UnderHull, APieceComesUpBehindTheShipAsItsOwnChildWithoutItsRim) {
   EXPECT_EQ(born->generation, 1);
   EXPECT_NEAR(born->area, 0.95 * 16, 1e-9);
   EXPECT_EQ(simulation.counts().came_up, 1);
-  EXPECT_EQ(simulation.area_ledger().under_hull_area, 0);
+  EXPECT_EQ(simulation.area_ledger().under_hulls, 0);
   expect_closed(simulation);
 }
 
@@ -158,7 +158,7 @@ TEST(UnderHull, APieceWithoutRoomWaitsAndThenStaysUnderTheIce) {
   ASSERT_EQ(stays.size(), 1U);
   EXPECT_GE(std::get<StayUnder>(stays[0].what).criterion.waited, 10);
   EXPECT_NEAR(std::get<StayUnder>(stays[0].what).under_ice_area, 16, 1e-9);
-  EXPECT_NEAR(simulation.area_ledger().under_ice_area, 16, 1e-9);
+  EXPECT_NEAR(simulation.area_ledger().under_ice, 16, 1e-9);
   EXPECT_EQ(simulation.counts().stayed_under, 1);
   expect_closed(simulation);
 }

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/shape/polygon.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
 

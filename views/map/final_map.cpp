@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "io/run/run_folder.hpp"
-#include "io/run/run_reader.hpp"
 #include "io/text/child_process.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/output_file.hpp"

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
 #include <filesystem>
 
 #include "io/run/run_loop.hpp"
-#include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
-#include "io/text/problem.hpp"
 
 namespace polynya::views {
 namespace {

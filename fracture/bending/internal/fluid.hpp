@@ -4,8 +4,6 @@
 
 #include <Eigen/Dense>
 
-#include "fracture/bending/solver_settings.hpp"
-
 namespace polynya::fracture {
 
 /// Flat fluid panels between rings and rays of the plane z = 0, for 0 ≤ θ; each stands for itself and its

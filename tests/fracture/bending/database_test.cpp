@@ -1,5 +1,7 @@
 // The icebreaking database: its text, its accuracy, its trends, what it refuses and where it reports it is
 // outside.
+#include "fracture/bending/database.hpp"
+
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -9,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include "bench/wedge_studies.hpp"
-#include "fracture/bending/database_text.hpp"
 #include "fracture/bending/fsi_database_model.hpp"
 
 namespace polynya::fracture {

@@ -1,7 +1,4 @@
-#include "fracture/opening.hpp"
-
-#include <algorithm>
-#include <cmath>
+#include "fracture/splitting.hpp"
 
 namespace polynya::fracture {
 

@@ -1,0 +1,364 @@
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "fracture/crushing.hpp"
+#include "geometry/exact/measures.hpp"
+#include "simulation/ice/pieces.hpp"
+#include "simulation/world/limits.hpp"
+#include "simulation/world/step.hpp"
+
+namespace polynya::simulation {
+
+// ---- what two bodies share is cut off
+
+namespace {
+
+using dynamics::BlindOverlap;
+using dynamics::Contact;
+
+/// Which overlaps are cut off.
+enum class CutWhen {
+  kAlways,
+  kParts,  ///< where two floes or more are left
+};
+
+/// What a floe loses to another body that is in it.
+struct OverlapCut {
+  BodyIndex a = 0;  ///< the pair
+  BodyIndex b = 0;
+  std::vector<geometry::Pose> a_from_b;  ///< of the two bodies' frames, where what they share is cut off
+  geometry::Point middle;                ///< of the overlap, in the water frame [m]
+  GrindCriterion criterion;              ///< the exact area is entered into it
+  CutWhen when = CutWhen::kAlways;
+};
+
+/// What a floe's edge bears per metre before it crushes, σ_c h [N/m].
+double crushing_line_load(const fracture::Ice& ice) {
+  return ice.compressive_strength * ice.thickness;
+}
+
+geometry::Polygon outline_of(const Population& population, const Setup& setup, BodyIndex body) {
+  if (population.is_hull(body)) return {hull_of(setup.scene, body).hull.waterline, {}};
+  return population.floes[population.floe_of(body)].shape.polygon;
+}
+
+/// A kind of event with what all that happens to overlaps has.
+template <class Kind>
+Event event_of(const Population& population, const Clock& clock, const OverlapCut& overlap, BodyIndex ground,
+               Kind kind) {
+  const BodyIndex by = ground == overlap.a ? overlap.b : overlap.a;
+  kind.floe = population.floe_of(ground);
+  kind.by_floe = population.floe_or_none(by);
+  return {clock.time(), population.hull_or_none(by), overlap.middle + clock.drift(), std::move(kind)};
+}
+
+/// Whether a cut leaves two floes or more, slivers and what would be brash aside.
+bool is_parted(const Setup& setup, const geometry::CutResult& cut) {
+  int floes = 0;
+  for (const geometry::Piece& piece : cut.pieces) {
+    const geometry::Measures measures = geometry::measure(piece.shape.polygon);
+    floes += piece.part == geometry::Part::kOutside && can_be_floe(measures) &&
+             measures.area >= setup.scene.fracture.smallest_floe_area;
+  }
+  return floes > 1;
+}
+
+double smaller_area(const Population& population, BodyIndex a, BodyIndex b) {
+  return std::min(population.bodies.area[a], population.bodies.area[b]);
+}
+
+/// Whether both bodies can still be cut: they are in the world, and geometry has not refused it.
+bool can_cut(const Population& population, const Accounts& accounts, BodyIndex a, BodyIndex b) {
+  const dynamics::Bodies& bodies = population.bodies;
+  if (!bodies.is_alive[a] || !bodies.is_alive[b]) return false;  // broken in this step
+  if (!population.is_hull(a) && !population.is_floating(population.floe_of(a))) return false;
+  if (population.is_hull(b) || !population.is_floating(population.floe_of(b))) return false;
+  return !is_refused(accounts, a, b);
+}
+
+/// Which of two bodies loses ice: the floe in a hull; of two floes the weaker, or the smaller.
+BodyIndex ground_of(const Setup& setup, const Population& population, BodyIndex a, BodyIndex b) {
+  if (population.is_hull(a)) return b;
+  const double stronger =
+      crushing_line_load(ice_of_body(setup, population, a)) - crushing_line_load(ice_of_body(setup, population, b));
+  if (stronger != 0) return stronger > 0 ? b : a;
+  return population.bodies.area[a] < population.bodies.area[b] ? a : b;
+}
+
+/// Cuts what the two share from the floe that is ground, by the other's outline, and makes it brash: event
+/// `grind`. Nothing where that is less than the criterion's least area, or leaves no two floes that it is to
+/// leave: returns whether it was cut.
+bool cut_overlap(const Setup& setup, const Clock& clock, const OverlapCut& overlap, Population& population,
+                 Accounts& accounts, Journal& journal) {
+  const BodyIndex ground = ground_of(setup, population, overlap.a, overlap.b);
+  const BodyIndex by = ground == overlap.a ? overlap.b : overlap.a;
+  const geometry::Polygon outline = outline_of(population, setup, by);
+  std::vector<geometry::Polygon> tools;
+  for (const geometry::Pose& a_from_b : overlap.a_from_b)
+    tools.push_back(transform(ground == overlap.a ? a_from_b : geometry::inverse(a_from_b), outline));
+  const geometry::Shape& shape = population.floes[population.floe_of(ground)].shape;
+  const geometry::CutOutcome outcome =
+      tools.size() == 1 ? cut_by_polygon(shape, tools.front()) : cut_by_polygons(shape, tools);
+  GrindCriterion criterion = overlap.criterion;
+  if (outcome) {
+    criterion.overlap_area = outcome->ledger.area_inside;
+    if (criterion.overlap_area < criterion.least_area) return false;
+    if (overlap.when == CutWhen::kParts && !is_parted(setup, *outcome)) return false;
+    Event event = event_of(population, clock, overlap, ground, Grind{{}, criterion});
+    replace_by_pieces(setup, clock, {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
+                      *outcome, population, accounts, journal);
+    return true;
+  }
+  if (outcome.error().reason != geometry::CutFailure::kMisses) {  // else they have parted
+    RejectedCut rejected = rejected_grind(criterion, shape.polygon, tools.front().outer, outcome.error(), accounts);
+    journal.events.push_back(event_of(population, clock, overlap, ground, std::move(rejected)));
+    accounts.refused_grinds.emplace_back(overlap.a, overlap.b);
+  }
+  return false;
+}
+
+}  // namespace
+
+// ---- what contacts pressed is booked
+
+namespace {
+
+/// Books what an overlap has grown in the step: crushed as far as the ice edge stood still, else tilted. The work
+/// of the normal force alone: friction along an inclined hull has the share μ tan θ_s of it.
+void book(double thickness, double friction, const HullSlope& hull, const Contact& c) {
+  dynamics::Booked& booked = c.record->booked;
+  const double loaded = c.record->loaded_area;
+  if (loaded < booked.loaded) booked = loaded / booked.loaded * booked;
+  const double grown = loaded - booked.loaded;
+  const double crushed = hull.crushed_share * grown;
+  const fracture::Overlap overlap{c.width, c.depth, c.area};
+  const double angle = hull.tangent == 0 ? 0 : std::atan(hull.tangent);
+  const auto volume_of = [&](double area) { return fracture::crushed_volume(overlap, area, thickness, angle); };
+  if (crushed > 0) booked.volume += volume_of(booked.crushed + crushed) - volume_of(booked.crushed);
+  booked.crushed += crushed;
+  booked.tilted += grown - crushed;
+  booked.work -= hull.crushed_share * c.normal_work / (1 + friction * hull.tangent);
+  booked.loaded = loaded;
+}
+
+}  // namespace
+
+void book_overlaps(const Setup& setup, const Population& population, const StepData& step) {
+  if (!is_crush_law(setup)) return;
+  const std::vector<double>& thickness = population.bodies.thickness;
+  const double friction = setup.scene.ice.friction;
+  for (std::size_t i = 0; i < step.contacts.size(); ++i) {
+    const Contact& c = step.contacts[i];
+    if (c.total_normal_impulse() == 0 || c.is_rigid()) continue;
+    const bool is_at_hull = i < step.slopes.size();
+    book(is_at_hull ? thickness[c.b] : std::min(thickness[c.a], thickness[c.b]), friction,
+         is_at_hull ? step.slopes[i] : HullSlope{}, c);
+  }
+}
+
+// ---- blind overlaps are ground
+
+namespace {
+
+/// Blind overlaps smaller than this share of the smaller body are left: what contacts part soon.
+constexpr double kLeastBlindShare = 0.005;
+
+/// Both sides of what decides.
+GrindCriterion criterion_of(const Population& population, const BlindOverlap& overlap) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const double smaller = smaller_area(population, overlap.a, overlap.b);
+  GrindCriterion criterion{overlap.area, kLeastBlindShare * smaller, overlap.width, overlap.least_width};
+  if (overlap.is_inside) {
+    const double radius =
+        bodies.bounding_radius[bodies.area[overlap.a] < bodies.area[overlap.b] ? overlap.a : overlap.b];
+    criterion.overlap_area = smaller;
+    criterion.least_width = geometry::kBlindShare * smaller / (2 * radius);
+  }
+  return criterion;
+}
+
+}  // namespace
+
+void grind_blind_overlaps(const Setup& setup, const Clock& clock, const std::vector<BlindOverlap>& overlaps,
+                          Population& population, Accounts& accounts, Journal& journal) {
+  for (const BlindOverlap& overlap : overlaps) {
+    if (!can_cut(population, accounts, overlap.a, overlap.b)) continue;
+    const GrindCriterion criterion = criterion_of(population, overlap);
+    if (criterion.overlap_area < criterion.least_area) continue;
+    const geometry::Pose pose = dynamics::a_from_b(population.bodies, overlap.a, overlap.b);
+    cut_overlap(setup, clock, {overlap.a, overlap.b, {pose}, overlap.middle, criterion}, population, accounts, journal);
+  }
+}
+
+// ---- floes that hulls have come through are cut
+
+namespace {
+
+/// How often floes that hulls pierce are examined [s]. Rarer, a floe stays one in which a hull has come through;
+/// more often, large plates that are pierced and hold together elsewhere cost a cut at each time.
+constexpr double kInterval = 0.25;
+
+bool is_due(const Setup& setup, const Clock& clock) {
+  const auto period = static_cast<std::int64_t>(std::max(1.0, std::floor(kInterval / setup.scene.time.step)));
+  return clock.is_at_tick() && clock.steps % period == 0;
+}
+
+/// Whether a hull may have come through a floe: a hull that has not carves an overlap of one stretch of each
+/// boundary. Where nothing moves the two, carve_channels() cuts.
+bool may_part(const Population& population, const Contact& c) {
+  return !population.is_hull(c.b) && !are_prescribed(population.bodies, c.a, c.b) && c.record->is_pierced;
+}
+
+}  // namespace
+
+void cut_through_floes(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+                       Accounts& accounts, Journal& journal) {
+  if (!is_crush_law(setup) || !is_due(setup, clock)) return;
+  for (std::size_t i = 0; i < step.slopes.size(); ++i) {
+    const Contact& c = step.contacts[i];
+    if (!can_cut(population, accounts, c.a, c.b) || !may_part(population, c)) continue;
+    const geometry::Pose pose = dynamics::a_from_b(population.bodies, c.a, c.b);
+    cut_overlap(setup, clock, {c.a, c.b, {pose}, c.middle(), {c.area, 0}, CutWhen::kParts}, population, accounts,
+                journal);
+  }
+}
+
+// ---- crushed ice is shed
+
+namespace {
+
+/// What a contact crushed is cut off from this share of the smaller body on; when it has parted also from h²
+/// on. Smaller, floes become new ones at every touch; greater, bodies share more than 1 % of the smaller when
+/// they part: half a per cent may not have pressed (contact_tracker.cpp).
+constexpr double kLeastCrushedShare = 0.005;
+
+/// From which area on what a contact crushed that has parted is cut off [m²].
+double least_parted(const Setup& setup, const Population& population, BodyIndex a, BodyIndex b) {
+  const double h = ice_of_body(setup, population, ground_of(setup, population, a, b)).thickness;
+  return std::min(kLeastCrushedShare * smaller_area(population, a, b), h * h);
+}
+
+/// All contacts of a pair.
+struct Touching {
+  std::span<const Contact> contacts;
+  std::span<const HullSlope> slopes;  ///< none of two floes
+
+  bool is_pressing() const {
+    return std::ranges::any_of(contacts, [](const Contact& c) { return c.total_normal_impulse() > 0; });
+  }
+  /// Against vertical walls the force depends on the contact's width alone. A hull that leans crushes a
+  /// wedge: a new edge would take it from the start.
+  bool is_vertical() const {
+    return std::ranges::all_of(slopes, [](const HullSlope& slope) { return slope.tangent == 0; });
+  }
+  double crushed_area() const {  ///< of the overlap now [m²]
+    double area = 0;
+    for (const Contact& c : contacts) area += c.record->crushed.area > 0 ? std::min(c.area, c.record->loaded_area) : 0;
+    return area;
+  }
+  const Contact& largest() const {
+    return *std::ranges::max_element(contacts, {}, [](const Contact& c) { return c.record->crushed.area; });
+  }
+};
+
+/// Calls use(touching) for each pair that touched in the step.
+template <class Use>
+void for_touching(const StepData& step, Use use) {
+  const std::span<const Contact> all(step.contacts);
+  for (std::size_t first = 0; first < all.size();) {
+    std::size_t end = first + 1;
+    while (end < all.size() && all[end].a == all[first].a && all[end].b == all[first].b) ++end;
+    const bool has_slopes = first < step.slopes.size();
+    use(Touching{all.subspan(first, end - first),
+                 has_slopes ? std::span(step.slopes).subspan(first, end - first) : std::span<const HullSlope>()});
+    first = end;
+  }
+}
+
+/// Where what a pair crushed is cut off: where the most of it pressed, and where they are, unless they press:
+/// then what they come to share in the step goes on being their contact.
+std::vector<geometry::Pose> poses_of(const dynamics::Bodies& bodies, const Touching& touching) {
+  const Contact& c = touching.largest();
+  std::vector<geometry::Pose> poses{c.record->crushed.a_from_b};
+  if (!touching.is_pressing()) poses.push_back(dynamics::a_from_b(bodies, c.a, c.b));
+  return poses;
+}
+
+/// Whether that is most of a floe: a hull that takes no ice, as a cone, has come over it and crushed it.
+bool is_most(const Population& population, const Contact& c, double area) {
+  return area > 0.5 * population.bodies.area[c.b];
+}
+
+bool is_tilted(const Population& population, BodyIndex ship, BodyIndex floe) {
+  return std::ranges::any_of(population.tilted, [&](const TiltedFloe& tilted) {
+    return tilted.ship == ship && population.body_of(tilted.floe) == floe;
+  });
+}
+
+/// A body, or what it broke into in this step: its pieces have its frame.
+std::vector<BodyIndex> left_of(const Population& population, const Clock& clock, BodyIndex body) {
+  if (population.bodies.is_alive[body]) return {body};
+  const FloeId first = population.floe_of(body);
+  std::vector<BodyIndex> left;
+  for (FloeId id = population.floe_count() - 1; id > first && population.floes[id].born == clock.time(); --id) {
+    FloeId ancestor = population.floes[id].parent;
+    while (ancestor > first) ancestor = population.floes[ancestor].parent;
+    if (ancestor == first && population.is_alive(id)) left.push_back(population.body_of(id));
+  }
+  std::ranges::sort(left);
+  return left;
+}
+
+/// Cuts off what a contact crushed that has parted.
+void shed_parted(const Setup& setup, const Clock& clock, const dynamics::PartedContact& parted, Population& population,
+                 Accounts& accounts, Journal& journal) {
+  for (const BodyIndex a : left_of(population, clock, parted.a)) {
+    for (const BodyIndex b : left_of(population, clock, parted.b)) {
+      const bool is_in_order = a < b;  // pieces have numbers of their own
+      const BodyIndex low = is_in_order ? a : b;
+      const BodyIndex high = is_in_order ? b : a;
+      // Of prescribed bodies carve_channels() takes what they crush.
+      if (are_prescribed(population.bodies, low, high) || !can_cut(population, accounts, low, high)) continue;
+      const double least = least_parted(setup, population, low, high);
+      if (parted.crushed.area < least) continue;
+      const geometry::Pose pose = parted.crushed.a_from_b;
+      cut_overlap(
+          setup, clock,
+          {low, high, {is_in_order ? pose : geometry::inverse(pose)}, parted.middle, {parted.crushed.area, least}},
+          population, accounts, journal);
+    }
+  }
+}
+
+/// Cuts off what contacts crushed that last, where it is much.
+void shed_touching(const Setup& setup, const Clock& clock, const Touching& touching, Population& population,
+                   Accounts& accounts, Journal& journal) {
+  const Contact& c = touching.contacts.front();
+  if (are_prescribed(population.bodies, c.a, c.b) || !can_cut(population, accounts, c.a, c.b)) return;
+  const double crushed = touching.crushed_area();  // records of bodies that broke may be gone
+  if (crushed == 0) return;
+  const double least = kLeastCrushedShare * smaller_area(population, c.a, c.b);
+  if (crushed < least || (touching.is_pressing() && !touching.is_vertical() && !is_most(population, c, crushed)))
+    return;
+  if (population.is_hull(c.a) && is_tilted(population, c.a, c.b)) return;
+  const OverlapCut cut{c.a, c.b, poses_of(population.bodies, touching), touching.largest().middle(), {crushed, least}};
+  std::vector<dynamics::CrushedIce> kept;  // the pieces inherit none of it
+  for (const Contact& contact : touching.contacts) kept.push_back(std::exchange(contact.record->crushed, {}));
+  if (cut_overlap(setup, clock, cut, population, accounts, journal)) return;
+  for (std::size_t i = 0; i < kept.size(); ++i) touching.contacts[i].record->crushed = kept[i];
+}
+
+}  // namespace
+
+void shed_crushed_ice(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+                      Accounts& accounts, Journal& journal) {
+  if (!is_crush_law(setup)) return;
+  for (const dynamics::PartedContact& parted : step.parted)
+    shed_parted(setup, clock, parted, population, accounts, journal);
+  for_touching(step,
+               [&](const Touching& touching) { shed_touching(setup, clock, touching, population, accounts, journal); });
+}
+
+}  // namespace polynya::simulation
