@@ -159,7 +159,7 @@ TEST(Splits, AreTheSameOnAnyNumberOfThreads) {
   for (const int threads : {1, 2}) {
     auto loaded = io::read_scene_file(kScenes / "besiege-pressure.json");
     ASSERT_TRUE(loaded.has_value());
-    loaded->scene.time.until = 5.5;
+    loaded->scene.time.until = 7;
     simulation::Simulation simulation(std::move(loaded->scene));
     simulation.set_threads(threads);
     EXPECT_GT(shares_of(simulation).splits, 2);
