@@ -74,9 +74,9 @@ TEST_F(InspectCommand, EventsAreALineEachInOrderOfTime) {
     before = time;
     EXPECT_HAS(all[i], "(floe " + std::to_string(run->events[i].ice()->floe) + ")");
   }
-  const io::JsonDocument json = io::parse_json(inspect("--events --json").out);
-  ASSERT_EQ(json.root.find("events")->items().size(), run->events.size());
-  EXPECT_EQ(json.root.find("events")->items()[0].find("t_s")->number(), run->events[0].time);
+  const io::JsonDocument printed = io::parse_json(inspect("--events --json").out);
+  ASSERT_EQ(printed.root.find("events")->items().size(), run->events.size());
+  EXPECT_EQ(printed.root.find("events")->items()[0].find("t_s")->number(), run->events[0].time);
 }
 
 TEST_F(InspectCommand, TheLineageLeadsFromTheSceneToTheFloe) {
@@ -106,14 +106,14 @@ TEST_F(InspectCommand, ASoundRunPassesTheCheck) {
 }
 
 TEST_F(InspectCommand, ReportsAreJsonOnRequest) {
-  const auto json = [](Words words) {
+  const auto report = [](Words words) {
     words.emplace_back("--json");
     const Outcome outcome = expect_code(0, inspect(words));
     io::JsonDocument document = io::parse_json(outcome.out);
     EXPECT_TRUE(document.faults.empty()) << outcome.out;
     return std::move(document.root);
   };
-  const io::JsonValue table = json({});
+  const io::JsonValue table = report({});
   ASSERT_EQ(table.find("floes")->items().size(), living_at(run->end_time()));
   double area = 0;
   for (const io::JsonValue& floe : table.find("floes")->items()) {
@@ -121,7 +121,7 @@ TEST_F(InspectCommand, ReportsAreJsonOnRequest) {
     EXPECT_EQ(floe.find("valid")->text(), "yes");
     EXPECT_GT(floe.find("perimeter_m")->number(), 0);
   }
-  const io::JsonValue sizes = json({"--fsd"});
+  const io::JsonValue sizes = report({"--fsd"});
   EXPECT_NEAR(sizes.find("area_m2")->number(), area, 1e-9 * area);
   double of_classes = 0, floes = 0;
   for (const io::JsonValue& one : sizes.find("classes")->items()) {
@@ -132,12 +132,12 @@ TEST_F(InspectCommand, ReportsAreJsonOnRequest) {
   EXPECT_EQ(floes, static_cast<double>(living_at(run->end_time())));
   EXPECT_BEGINS(inspect("--fsd").out, io::counted(living_at(run->end_time()), "floe") + ", ");
   const simulation::FloeId last = run->floes.back().birth.floe;
-  const io::JsonValue lineage = json({"--lineage", std::to_string(last)});
+  const io::JsonValue lineage = report({"--lineage", std::to_string(last)});
   const auto& trunk = lineage.find("lineage")->items();
   ASSERT_EQ(trunk.size(), run->lineage(last).size());
   EXPECT_EQ(trunk.front().find("broken_by")->find("kind")->text(), "bend");
   EXPECT_TRUE(trunk.back().find("broken_by")->is_null());
-  const io::JsonValue check = json({"--check"});
+  const io::JsonValue check = report({"--check"});
   EXPECT_TRUE(check.find("is_sound")->boolean());
   EXPECT_EQ(check.find("shapes")->number(), static_cast<double>(run->floes.size()));
 }
