@@ -66,8 +66,8 @@ struct Deck {
   std::array<DeckStrip, kStrips> strips;
 };
 
-/// Of the hull along its normal until the cusp lies along it, R − h(1 − sin θ_s)/cos θ_s; not more than 0 where a cusp
-/// is too short to turn [m].
+/// Of the hull along its normal until the cusp lies along it, R − h(1 − sin θ_s)/cos θ_s; not more than 0 where
+/// a cusp is too short to turn [m].
 double way_to_lie_along(const Deck& deck);
 
 /// The deck of a cusp by its outline, counter-clockwise in a frame whose x axis is the hull's normal, with the edge

@@ -368,10 +368,10 @@ def chord(outline, step, length):
 
 
 def breaking(solid, thrusts, directions=()):
-    """For each H/V: V_b [σ_f h²], by the top's greatest principal stress in its plane (of the rest, which is none on a
-    free surface, the elements have only errors) farther than GAP from the facet, or where the bottom cracks along one
-    of the directions; the distance from the tip [h] of that stress, the expected one, and V by the bottom's greatest
-    tension."""
+    """For each H/V: V_b [σ_f h²], by the top's greatest principal stress in its plane (of the rest, which is none on
+    a free surface, the elements have only errors) farther than GAP from the facet, or where the bottom cracks along
+    one of the directions; the distance from the tip [h] of that stress, the expected one, and V by the bottom's
+    greatest tension."""
     results, p = [], solid.plan[:solid.corner_count]
     r, s = np.hypot(*p.T), p @ solid.normal
     for top, bottom, u in solid.solve(thrusts):

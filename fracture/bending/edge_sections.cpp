@@ -74,12 +74,22 @@ double expected_place(const SectionStresses& stresses) {
   return sum > 0 ? moment / sum : greatest_of(stresses).place;
 }
 
+/// The angle that the ice takes on a circle: the section is r times that wide.
+double opening_of(const geometry::WedgeAngles& wedge) {
+  return wedge.front + wedge.back;
+}
+
+/// The direction of a section's middle from the normal, towards the front.
+double middle_of(const geometry::WedgeAngles& wedge) {
+  return 0.5 * (wedge.front - wedge.back);
+}
+
 /// The widest opening where the bottom fibre is pulled across.
 double widest_near(const EdgeOpenings& openings) {
   constexpr double kReach = 0.5;  // of l
   double widest = 0;
   for (std::size_t i = 0; i < kSectionCount && kSectionRadii[i] <= kReach; ++i) {
-    widest = std::max(widest, openings.opening(i));
+    widest = std::max(widest, opening_of(openings[i]));
   }
   return widest;
 }
@@ -108,8 +118,8 @@ SectionStresses stresses_of_whole(const EdgeOpenings& openings, const EdgePush& 
     const double moment =
         push.effective_length * moment_of_force(place) - (push.distance + push.thrust * push.lever) * held;
     const double growth = 6 * push.thrust * sinking * interpolated(kDrop, place) * std::max(0.0, held);
-    stresses[i] =
-        1 / bearing(6 * moment - push.thrust, growth, hold_of_whole(openings.opening(i)) * openings.opening(i) * r);
+    stresses[i] = 1 / bearing(6 * moment - push.thrust, growth,
+                              hold_of_whole(opening_of(openings[i])) * opening_of(openings[i]) * r);
   }
   return stresses;
 }
@@ -117,9 +127,9 @@ SectionStresses stresses_of_whole(const EdgeOpenings& openings, const EdgePush& 
 /// What the rims of section i have of the mean bending stress under V; held beyond what the elements had.
 double rim_of_force(const EdgeOpenings& openings, double length, std::size_t i) {
   constexpr double kWidest = 180 * geometry::kRadiansPerDegree, kMostTurn = 1;
-  const double turn = openings.middle(std::min(i + kTurnReach, kSectionCount - 1)) - openings.middle(i);
+  const double turn = middle_of(openings[std::min(i + kTurnReach, kSectionCount - 1)]) - middle_of(openings[i]);
   return kRimOfForce + kGrowthWithLength * (std::clamp(length, 10.0, 21.2) / 15 - 1) +
-         kGrowthWithOpening * (std::min(openings.opening(i), kWidest) - 2) +
+         kGrowthWithOpening * (std::min(opening_of(openings[i]), kWidest) - 2) +
          kGrowthWithTurn * std::min(std::abs(turn), kMostTurn);
 }
 
@@ -139,7 +149,7 @@ SectionStresses stresses_of_rims(const EdgeOpenings& openings, const EdgePush& p
                          (push.effective_length * moment_of_force(place) - push.distance * held);
     const double lever = kRimOfLever * push.thrust * push.lever * held;
     const double growth = 6 * kRimOfLever * push.thrust * sinking * interpolated(kDrop, place) * std::max(0.0, held);
-    const double bears = bearing(6 * (force - lever) - kRimOfThrust * push.thrust, growth, openings.opening(i) * r);
+    const double bears = bearing(6 * (force - lever) - kRimOfThrust * push.thrust, growth, opening_of(openings[i]) * r);
     const double share = std::min(1.0, std::log(r * half_step / least) / std::log(kSectionStep));
     stresses[i] = std::pow(share, 1 / kWeibull) / bears;
   }

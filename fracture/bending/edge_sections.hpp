@@ -3,6 +3,8 @@
 #include <array>
 #include <cstddef>
 
+#include "geometry/contact/crack_path.hpp"
+
 namespace polynya::fracture {
 
 /// Where the ice beside a contact is measured: on circles about the first touch, evenly spaced in ln r.
@@ -18,14 +20,7 @@ inline constexpr std::array<double, kSectionCount> kSectionRadii = [] {
 
 /// The true outline of an edge of ice: on each circle the angles from the hull's inward normal to the places where the
 /// ice's boundary first leaves it [rad].
-struct EdgeOpenings {
-  std::array<double, kSectionCount> front{}, back{};
-
-  /// The angle that the ice takes: the section is r times that wide.
-  double opening(std::size_t i) const { return front[i] + back[i]; }
-  /// The direction of the section's middle from the normal, towards the front.
-  double middle(std::size_t i) const { return 0.5 * (front[i] - back[i]); }
-};
+using EdgeOpenings = std::array<geometry::WedgeAngles, kSectionCount>;
 
 /// A hull's push on an edge. Lengths in the thickness h.
 struct EdgePush {
@@ -61,9 +56,9 @@ double hold_of_whole(double opening);
 ///   A = .87 + .18 (l/15h − 1) − .04 (θ − 2) + .19 |Δφ|,
 /// Δφ how much the direction of the section's middle changes to 1.56 r, and R is where ice breaks on an average whose
 /// sections' strengths scatter by .2: that stress is flat along r, so that its maximum is nowhere in particular. It
-/// does not bear more than .585 (1 + ⟨θ − π⟩), θ the widest within .5 l: there the next radial cracks open. V within
-/// 12 % and R within 24 % of elements of 120 other edges, 90th percentiles; range l/h 10 to 21, η 1.3 to 3.9; at the
-/// stem V within 22 %, R half as large again.
+/// does not bear more than .585 (1 + ⟨θ − π⟩), θ the widest within .5 l: there the next radial cracks open.
+/// V within 12 % and R within 24 % of elements of 120 other edges, 90th percentiles; range l/h 10 to 21, η 1.3 to 3.9;
+/// at the stem V within 22 %, R half as large again.
 SectionBreak weakest_section(const EdgeOpenings& openings, const EdgePush& push);
 
 }  // namespace polynya::fracture

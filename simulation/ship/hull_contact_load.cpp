@@ -61,13 +61,12 @@ fracture::EdgeOpenings openings_at(const Setup& setup, const dynamics::Bodies& b
   const double l = fracture::characteristic_length(load.ice, setup.scene.water.water);
   std::array<double, fracture::kSectionCount> radii = fracture::kSectionRadii;
   for (double& radius : radii) radius *= l;
-  std::array<geometry::WedgeAngles, fracture::kSectionCount> wedges;
-  geometry::wedge_angles(bodies.boundary[c.b]->edges, c.tip_edge_of_b, tip, inward, radii, wedges);
-  fracture::EdgeOpenings openings{};
-  for (std::size_t i = 0; i < wedges.size(); ++i) {
-    const double narrow = std::max(0.0, fracture::kSmallestHalfAngle - 0.5 * (wedges[i].front + wedges[i].back));
-    openings.front[i] = wedges[i].front + narrow;
-    openings.back[i] = wedges[i].back + narrow;
+  fracture::EdgeOpenings openings;
+  geometry::wedge_angles(bodies.boundary[c.b]->edges, c.tip_edge_of_b, tip, inward, radii, openings);
+  for (auto& [front, back] : openings) {
+    const double narrow = std::max(0.0, fracture::kSmallestHalfAngle - 0.5 * (front + back));
+    front += narrow;
+    back += narrow;
   }
   return openings;
 }

@@ -21,9 +21,8 @@ using shapes::kDegree;
 using Degrees = std::array<double, kSectionCount>;
 
 EdgeOpenings edge_of(const Degrees& front, const Degrees& back) {
-  EdgeOpenings openings{front, back};
-  for (auto* side : {&openings.front, &openings.back})
-    for (double& angle : *side) angle *= kDegree;
+  EdgeOpenings openings;
+  for (std::size_t i = 0; i < kSectionCount; ++i) openings[i] = {front[i] * kDegree, back[i] * kDegree};
   return openings;
 }
 
@@ -88,7 +87,7 @@ TEST(EdgeSections, BreakAtTheNeck) {
   const EdgePush push{l, l, 0.2, 1.5, 0.4};
   const SectionBreak wedge = weakest_section(openings, push);
   for (std::size_t i = 0; i < kSectionCount; ++i)  // a promontory: the same tip on a wide edge
-    if (kSectionRadii[i] > 0.25) openings.front[i] = openings.back[i] = 85 * kDegree;
+    if (kSectionRadii[i] > 0.25) openings[i] = {85 * kDegree, 85 * kDegree};
   const SectionBreak neck = weakest_section(openings, push);
   EXPECT_LT(neck.distance, 0.25 * 1.25 * l);
   EXPECT_LT(neck.distance, 0.8 * wedge.distance);
@@ -187,18 +186,18 @@ const CrackedEdge kCrackedEdges[] = {{{19.48, 19.48, 0.164, 1.593, 0.396, 0.246}
                                       {28, 30, 32, 34, 38, 42, 47, 55, 65, 79, 70, 70},
                                       {0.587, 4.2}}};
 
-/// 90th percentiles of the error over the 120 edges of those runs are within 15 and 25 %: of ten, one may be outside.
+/// 90th percentiles of the error over the 120 edges of those runs are within 15 and 25 %: here all V_b are, and of ten
+/// R̄ one may be outside.
 TEST(EdgeSections, OfCrackedEdgesAreTheElements) {
-  int off_force = 0, off_place = 0;
+  int off_place = 0;
   for (const CrackedEdge& edge : kCrackedEdges) {
     const SectionBreak found = weakest_section(edge_of(edge.front, edge.back), edge.push);
-    off_force += std::abs(found.force / edge.by_elements.force - 1) > 0.15;
+    EXPECT_NEAR(found.force / edge.by_elements.force, 1, 0.15) << edge.push.length << " " << edge.push.distance;
     off_place += std::abs(found.distance / edge.by_elements.distance - 1) > 0.25;
     const SectionBreak mirrored = weakest_section(edge_of(edge.back, edge.front), edge.push);
     EXPECT_EQ(mirrored.force, found.force);
     EXPECT_EQ(mirrored.distance, found.distance);
   }
-  EXPECT_LE(off_force, 1);
   EXPECT_LE(off_place, 1);
 }
 
@@ -208,7 +207,7 @@ TEST(EdgeSections, ChangeLittleWithTheOutline) {
   constexpr double kStep = 0.01;  // of a degree
   const auto at = [&](double aside) {
     EdgeOpenings edge = wedge_of(130);
-    for (std::size_t i = 4; i < kSectionCount; ++i) edge.front[i] += aside * kDegree;
+    for (std::size_t i = 4; i < kSectionCount; ++i) edge[i].front += aside * kDegree;
     return weakest_section(edge, push);
   };
   for (double aside = -50; aside < 70; aside += 0.5) {
@@ -240,7 +239,7 @@ TEST(EdgeSections, BreakWhenTheirPartsCrack) {
         Row{{10.72, 10.72, 0.3, 0.646, 0.327, 0.9},
             {189, 194, 198, 203, 210, 218, 228, 242, 260, 287, 302, 289},
             1.22}}) {
-    EXPECT_NEAR(weakest_section(symmetric_edge(degrees), push).force / force, 1, 0.17)
+    EXPECT_NEAR(weakest_section(symmetric_edge(degrees), push).force / force, 1, 0.15)
         << push.length << " " << push.thrust;
   }
 }
