@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "fracture/materials.hpp"
 
 namespace polynya::fracture {

@@ -1,5 +1,8 @@
 #include "fracture/crushing.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace polynya::fracture {
 namespace {
 

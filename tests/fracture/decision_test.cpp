@@ -1,6 +1,7 @@
 // docs/theory/decision.md as a truth table; and the lengths and loads that decide, by hand.
 #include "fracture/decision.hpp"
 
+#include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>

@@ -168,7 +168,7 @@ TEST(FloeShapes, ABiteOutOfALongBoundaryIsAFewEntries) {
   for (const int turn : {0, 1, 500, 999}) {
     Ring bitten(ring.begin() + 10, ring.end());
     bitten.push_back({900, 10});
-    std::ranges::rotate(bitten, bitten.begin() + turn % static_cast<int>(bitten.size()));
+    std::rotate(bitten.begin(), bitten.begin() + turn % static_cast<int>(bitten.size()), bitten.end());
     const ShapeParts shape = parts_of({bitten, {}}, {ring, {}});
     EXPECT_EQ(shape.vertices.size(), 1U);
     EXPECT_LE(shape.parts.size(), 3U);

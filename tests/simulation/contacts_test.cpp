@@ -1,5 +1,6 @@
 // Contacts as they are recorded: with ice they explain the loads on ships and the motion of floes, with other
 // ships they are kept apart; and overlaps that no contact takes away are ground to brash.
+#include <algorithm>
 #include <map>
 #include <numbers>
 #include <span>
@@ -309,7 +310,7 @@ TEST(Waterline, ArcsAreFromTheStemToPort) {
     EXPECT_NEAR(arc_at(line, {10, 1}), 0, 1e-12);
     EXPECT_NEAR(arc_at(line, {11, 6}), 5, 1e-12);
     EXPECT_NEAR(arc_at(line, {0, -4}), -15, 1e-12);
-    std::ranges::rotate(box, box.begin() + 1);
+    std::rotate(box.begin(), box.begin() + 1, box.end());
   }
 }
 

@@ -282,7 +282,7 @@ TEST(Managing, GoesToTheLargestFloeThatWillPassAndOnToTheNext) {
     simulation.step();
     if (targets.empty() || targets.back() != target()) targets.push_back(target());
   }
-  targets.erase(std::ranges::remove(targets, kNoFloe).begin(), targets.end());
+  std::erase(targets, kNoFloe);
   // What is left of the first is a floe of its own, and larger than the next.
   ASSERT_GE(targets.size(), 2U);
   EXPECT_EQ(targets[0], 1);

@@ -2,7 +2,6 @@
 #include <array>
 #include <iterator>
 #include <limits>
-#include <ranges>
 #include <set>
 
 #include "analysis/channel.hpp"
@@ -316,10 +315,14 @@ void write_events(io::JsonWriter& json, const io::Run& run, const HeldFloes& hel
 }
 
 void write_ships(io::JsonWriter& json, const simulation::Scene& scene) {
-  json.key("ships").objects(std::views::iota(std::size_t{0}, hull_count(scene)), [&](std::size_t hull) {
-    json.key("name").value(hull_of(scene, hull).name).key("waterline_m").value(hull_of(scene, hull).hull.waterline);
-    json.key("is_fixed").value(is_grounded(kind_of_hull(scene, hull)));
-  });
+  json.key("ships").open('[');
+  for (std::size_t hull = 0; hull < hull_count(scene); ++hull) {
+    json.object([&] {
+      json.key("name").value(hull_of(scene, hull).name).key("waterline_m").value(hull_of(scene, hull).hull.waterline);
+      json.key("is_fixed").value(is_grounded(kind_of_hull(scene, hull)));
+    });
+  }
+  json.close(']');
 }
 
 /// The drift of the water over time: t, x and y of its path, and the free drift of ice.
