@@ -1,8 +1,8 @@
 // Whole runs side by side with Box2D 2.4.1, Chipmunk 7.0.3 and, where its sources are, Box2D 3.2 stepping the
 // same bodies without any fracture. One process, one engine after another.
 //   polynya_bench_voyages [--quick] [--csv FILE] [--only CASE] [--peer-seconds S] [--lateral METRES]
-// Ours steps by levels (simulation/world/levels.hpp), and by one step for all; the peers take that one step too, and
-// Box2D 3.2 beside it the longest one with which its bodies come to the same places.
+// Ours steps by levels (simulation/world/levels.hpp), by ticks 2, 4 and 8 times as long, and by one step for all; the
+// peers take that one step too, and Box2D 3.2 beside it the longest one with which its bodies come to the same places.
 // Prints the table of docs/performance.md (Markdown). bench/performance.sh puts it there.
 #include <algorithm>
 #include <cstdio>
@@ -10,6 +10,8 @@
 #include <numbers>
 #include <optional>
 #include <string>
+
+#include <fmt/format.h>
 
 #include "bench/voyage_run.hpp"
 #include "simulation/world/levels.hpp"
@@ -81,6 +83,14 @@ void by_levels(simulation::Scene& scene) {
 /// The same bodies by the paper's law of contact, which has no levels, at the scene's own step.
 void by_impulses(simulation::Scene& scene) {
   scene.contact.law = simulation::ContactLaw::kImpulse;
+}
+
+/// An edit, and then ticks so many times as long.
+Edit in_longer_ticks(const Edit& edit, int times) {
+  return [edit, times](simulation::Scene& scene) {
+    edit(scene);
+    scene.time.step *= times;
+  };
 }
 
 /// An edit, and then one step for all: the scene's own, or the longest that it may have.
@@ -223,12 +233,17 @@ void run_case(const Case& at, const std::vector<Case>& all, const Options& optio
   const auto yardstick = std::find_if(all.begin(), all.end(), [&](const Case& c) { return c.name == at.compared_to; });
   if (yardstick != all.end()) compared.runs.emplace_back(ours(*yardstick, yardstick->edit));
   const bool has_levels = at.has_peers && load(at.scene, at.edit).contact.law == simulation::ContactLaw::kCrush;
-  if (has_levels)
-    compared.runs.emplace_back([&] {
-      RunCost cost = ours(at, in_one_step(at.edit, at.scene_step))();
-      cost.engine += ", one step for all";
+  const auto add_ours = [&](const Edit& edit, const std::string& how) {
+    compared.runs.emplace_back([run = ours(at, edit), how] {
+      RunCost cost = run();
+      cost.engine += how;
       return cost;
     });
+  };
+  if (has_levels) {
+    for (const int times : {2, 4, 8}) add_ours(in_longer_ticks(at.edit, times), fmt::format(", tick x {}", times));
+    add_ours(in_one_step(at.edit, at.scene_step), ", one step for all");
+  }
   const simulation::Scene scene = load(at.scene, in_one_step(at.edit, at.scene_step));
   if (at.has_peers) add_peers(scene, {options.peer_seconds, at.until}, compared);
   const std::vector<RunCost> costs = alternate(at.repeats, compared.runs);
