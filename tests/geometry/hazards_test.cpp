@@ -28,45 +28,6 @@ using trials::is_sound;
 
 const Ring kSquareOfSix{{0, 0}, {6, 0}, {6, 6}, {0, 6}};
 
-// 6250 second cuts on degenerate first results made 33 wrong areas and 5 crashes where invalid roundings were
-// trusted.
-void cut_degenerate_floes_again(const Pose& pose, unsigned seed, int first_cuts) {
-  std::mt19937 random(seed);
-  const auto coordinate = [&] { return static_cast<double>(static_cast<int>(random() % 9) - 1); };
-  const auto knife = [&] {
-    Ring ring;
-    const int corners = 3 + static_cast<int>(random() % 3);
-    for (int i = 0; i < corners; ++i) ring.push_back({coordinate(), coordinate()});
-    return transform(pose, ring);
-  };
-  int cuts = 0;
-  for (int i = 0; i < first_cuts && !testing::Test::HasFailure(); ++i) {
-    std::vector<Shape> generation{Shape{{transform(pose, kSquareOfSix), {}}}};
-    for (int depth = 0; depth < 3; ++depth) {
-      std::vector<Shape> next;
-      for (const Shape& shape : generation) {
-        trials::Knife by{random() % 2 == 0, knife()};
-        if (by.is_ring) by.points = normalised({by.points, {}}).outer;
-        const CutOutcome outcome = trials::cut(shape, by);
-        ASSERT_TRUE(is_sound(shape, outcome)) << trials::to_code(shape.polygon) << trials::to_code(by);
-        if (!outcome) {
-          next.push_back(shape);
-          continue;
-        }
-        ++cuts;
-        for (const Piece& piece : outcome->pieces) next.push_back(piece.shape);
-      }
-      generation = std::move(next);
-    }
-  }
-  EXPECT_GT(cuts, 2 * first_cuts);
-}
-
-TEST(Hazards, DegenerateCutsOnAGridAndMovedRigidlyInDoubles) {
-  cut_degenerate_floes_again({}, 21, 250);
-  cut_degenerate_floes_again({{11.3, -4.7}, Rotation::by(0.61)}, 22, 250);
-}
-
 // Polygon_set_2(ring) builds the complement of a ring pinched at its leftmost vertex.
 TEST(Hazards, PinchAtTheLeftmostVertex) {
   const Ring pinched{{0, 3}, {6, 0}, {6, 6}, {0, 3}, {4, 4}, {4, 2}};
