@@ -1,5 +1,7 @@
 #include "tests/simulation/scenes.hpp"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 namespace polynya::simulation::scenes {
@@ -36,8 +38,32 @@ Ship barge(geometry::Point middle_of_bow, const Propulsion& propulsion, double s
   return ship;
 }
 
+Ship with_draught(Ship ship) {
+  ship.hull.draught = 6;
+  return ship;
+}
+
+Ship in_water(Ship ship) {
+  ship.water.acts = true;
+  ship.water.block_coefficient = 0.579;
+  return with_draught(ship);
+}
+
 void set_hull_angle(PlacedHull& ship, double angle) {
   ship.hull.angles_from_vertical.assign(ship.hull.waterline.size(), angle);
+}
+
+MooringSettings moored(geometry::Point at, const dynamics::Planar& stiffness, const dynamics::Planar& damping,
+                       double break_load, double heading) {
+  return {.position_in_world = at,
+          .heading = heading,
+          .surge_stiffness = stiffness.surge,
+          .sway_stiffness = stiffness.sway,
+          .yaw_stiffness = stiffness.yaw,
+          .surge_damping = damping.surge,
+          .sway_damping = damping.sway,
+          .yaw_damping = damping.yaw,
+          .break_load = break_load};
 }
 
 WallMotion pressing(double line_load) {
@@ -71,6 +97,12 @@ Build& Build::wall(geometry::Point from, geometry::Point to, const WallMotion& m
   walls.back().velocity = motion.velocity;
   walls.back().pressure = motion.pressure;
   return *this;
+}
+
+Build& Build::under_hulls(bool come_up) {
+  fracture.going_under.is_enabled = true;
+  fracture.resurface.is_enabled = come_up;
+  return cusps(CuspFate::kUnderHull);
 }
 
 Build& Build::grid(geometry::Point low, int columns, int rows, double side, double pitch) {
@@ -119,6 +151,16 @@ Trial run(const Scene& scene, double until, Shortcuts shortcuts) {
   return run;
 }
 
+Trial run(const Scene& scene, double until, const std::function<void(const Simulation&)>& after_step) {
+  Trial run{Simulation(scene), {}};
+  while (run.simulation.time() < until - 1e-9 && !run.simulation.numerical_failure()) {
+    run.simulation.step();
+    listen(run.simulation, run.story);
+    after_step(run.simulation);
+  }
+  return run;
+}
+
 Trial run_to_first_event(const Scene& scene, double until) {
   Trial run{Simulation(scene), {}};
   while (run.story.events.empty() && run.simulation.time() < until - 1e-9) {
@@ -136,13 +178,14 @@ void skip(Simulation& simulation, int steps) {
 }
 
 Event first_bend(const Scene& scene, double until) {
-  Trial run{Simulation(scene), {}};
-  while (run.story.bends().empty() && run.simulation.time() < until) {
-    run.simulation.step();
-    run.story = {};
-    listen(run.simulation, run.story);
+  Simulation simulation(scene);
+  std::vector<Event> found;
+  while (found.empty() && simulation.time() < until) {
+    Story story;
+    simulation.step();
+    listen(simulation, story);
+    found = story.bends();
   }
-  const std::vector<Event> found = run.story.bends();
   EXPECT_FALSE(found.empty()) << "nothing bent";
   return found.empty() ? Event{} : found.front();
 }
@@ -164,6 +207,20 @@ double largest(const Story& story, dynamics::Planar HullSample::*load, int ship)
   for (const HullSample& sample : story.samples)
     if (sample.ship == ship) most = std::max(most, std::abs((sample.*load).surge));
   return most;
+}
+
+double largest_contact_force(const Simulation& simulation) {
+  double most = 0;
+  for (const dynamics::Contact& c : simulation.world().step.contacts)
+    most = std::max(most, c.steady_share * c.total_normal_impulse() / simulation.scene().time.step);
+  return most;
+}
+
+double least_child(const Story& story, const Event& event) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Birth& birth : story.births)
+    if (std::ranges::count(event.ice()->children, birth.floe) > 0) least = std::min(least, birth.area);
+  return least;
 }
 
 void expect_closed(const Simulation& simulation) {
