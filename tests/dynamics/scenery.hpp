@@ -17,6 +17,7 @@
 
 namespace polynya::scenery {
 
+using shapes::rectangle;
 using tests::only;
 
 /// Random numbers that are the same on every machine (splitmix64).
@@ -37,11 +38,6 @@ class Random {
   std::uint64_t state_;
 };
 inline constexpr std::uint64_t kSeed = 20170611;  ///< where a test has none of its own
-
-inline geometry::Polygon rectangle(double width, double height, geometry::Point centre = {}) {
-  const double x = 0.5 * width, y = 0.5 * height;
-  return shapes::rectangle(centre.x - x, centre.y - y, centre.x + x, centre.y + y);
-}
 
 /// At a distance from the origin, turned.
 inline geometry::Pose random_pose(Random& random, double least, double most) {

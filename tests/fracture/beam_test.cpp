@@ -11,13 +11,11 @@
 namespace polynya::fracture {
 namespace {
 
+using shapes::rectangle;
+
 constexpr double kLength = 24;  // [m]
 constexpr double kWidth = 3;    // [m]
 constexpr double kForce = 1e5;  // [N]
-
-geometry::Polygon rectangle(double length, double width) {
-  return shapes::rectangle(-length / 2, -width / 2, length / 2, width / 2);
-}
 
 SectionLoad load_at(double x, const std::vector<BeamLoad>& loads) {
   const geometry::Polygon beam = rectangle(kLength, kWidth);

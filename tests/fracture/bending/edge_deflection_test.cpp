@@ -53,7 +53,7 @@ TEST(TipCompliance, IsThatOfTheModesAlsoBetweenItsPointsAndForOtherMassRatios) {
 TEST(TipCompliance, AtRestIsTheHalfPlanesAndTheNarrowBeams) {
   EXPECT_NEAR(tip_compliance(std::numbers::pi, 1e6), 0.46198, 0.005);
   // The beam's l has no 1 − ν²; its width grows with 2 tan α.
-  const BeamResponse beam = solve_floating_beam(BeamShape::kWedge, 0.02, 100);
+  const BeamResponse beam = solve_floating_beam(BeamShape::kWedge, {.patch = 0.02});
   const double narrow = beam.tip_deflection / (2 * std::tan(10 * kDegree) * std::sqrt(1 - 0.3 * 0.3));
   EXPECT_NEAR(tip_compliance(20 * kDegree, 1e6) / narrow, 1, 0.02);
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include "fracture/bending/fsi_database_model.hpp"
@@ -37,42 +36,21 @@ EdgeOpenings wedge_of(double degrees) {
   return symmetric_edge(openings);
 }
 
-/// Moments of the narrow wedge by finite differences of w and M = ρ w'', M'' = −ρ w, from ρ = 0 to 6 where both are
-/// taken as 0; at the tip M and M' are given. Column 0: by a unit force, 1: by a unit moment.
-Eigen::MatrixXd moments_of_beam(int intervals) {
-  const double d = 6.0 / intervals;
-  const int n = intervals + 1;
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n), b = Eigen::MatrixXd::Zero(2 * n, 2);
-  for (int i = 1; i < intervals; ++i) {
-    const double rho = i * d;
-    for (const auto& [j, c] : {std::pair{i - 1, 1.0}, {i, -2.0}, {i + 1, 1.0}}) {
-      a(i, j) = c * rho / (d * d);
-      a(n + i, n + j) = c / (d * d);
-    }
-    a(i, n + i) = -1;
-    a(n + i, i) = rho;
-  }
-  a(n, n) = 1;
-  b(n, 1) = 1;
-  a(0, n + 1) = 1 / d;
-  a(0, n) = -1 / d;
-  b(0, 0) = 1;
-  a(intervals, intervals) = a(2 * n - 1, 2 * n - 1) = 1;
-  return a.partialPivLu().solve(b).bottomRows(n);
-}
-
+/// That ends at 6 λ.
 TEST(EdgeSections, MomentsAreThoseOfTheNarrowWedge) {
-  const Eigen::MatrixXd moments = moments_of_beam(600);
-  for (int i = 0; i <= 400; ++i) {  // up to 4 λ, between the table's points too
-    EXPECT_NEAR(moment_of_force(0.01 * i), moments(i, 0), 5e-3) << i;
-    EXPECT_NEAR(moment_of_moment(0.01 * i), moments(i, 1), 5e-3) << i;
+  const std::vector<double> by_force = solve_floating_beam(BeamShape::kWedge, {.force = 1}, 6).moments;
+  const std::vector<double> by_moment = solve_floating_beam(BeamShape::kWedge, {.moment = 1}, 6).moments;
+  for (std::size_t i = 0; i <= 4000; i += 10) {  // up to 4 λ, between the table's points too
+    const auto rho = static_cast<double>(i) * kBeamStep;
+    EXPECT_NEAR(moment_of_force(rho), by_force[i], 5e-3) << rho;
+    EXPECT_NEAR(moment_of_moment(rho), by_moment[i], 5e-3) << rho;
   }
 }
 
 /// A narrow wedge under pressure on its tip, whose resultant lies at two thirds of the patch.
 TEST(EdgeSections, OfANarrowWedgeAreTheFloatingBeams) {
   for (const double patch : {0.05, 0.1, 0.2, 0.3}) {
-    const BeamResponse beam = solve_floating_beam(BeamShape::kWedge, patch, 100);
+    const BeamResponse beam = solve_floating_beam(BeamShape::kWedge, {.patch = patch});
     const double l = 15;
     const SectionBreak found = weakest_section(wedge_of(30), {l, l, 2 * patch * l / 3, 0, 0});
     EXPECT_NEAR(found.force / (30 * kDegree / 6 / beam.peak_curvature), 1, 0.02) << patch;

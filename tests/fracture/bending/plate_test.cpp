@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include <boost/math/tools/minima.hpp>
 #include <gtest/gtest.h>
 
 #include "fracture/bending/internal/fluid.hpp"
@@ -170,7 +171,7 @@ TEST(Plate, PatchInsideTheInnerRadius) {
 TEST(Plate, NarrowWedgeIsTheBeam) {
   SolverSettings settings;
   settings.poisson_ratio = 0;
-  const double beam = solve_floating_beam(BeamShape::kWedge, 0.1, 100).peak_curvature;
+  const double beam = solve_floating_beam(BeamShape::kWedge, {.patch = 0.1}).peak_curvature;
   const double last = expect_falls({80.0, 40.0, 20.0}, 0.3, [&](double opening) {
     const double half_angle = opening * kPi / 360;
     const double plate = top_stress_peak(rest(half_angle, 0.1, settings), settings).value;
@@ -260,7 +261,7 @@ TEST(Water, SmallDiscHeaves) {
   EXPECT_LT(last, 0.03);
 }
 
-/// Wave number k of the J0(kr) that fits samples of a mode best, by a scan and a golden section.
+/// Wave number k of the J0(kr) that fits samples of a mode best, by a scan and Brent's method.
 double fitted_wave_number(const std::vector<double>& radii, const Eigen::VectorXd& values, double least, double most) {
   const auto misfit = [&](double k) {
     double vj = 0, jj = 0, vv = 0;
@@ -275,12 +276,8 @@ double fitted_wave_number(const std::vector<double>& radii, const Eigen::VectorX
   double best = least;
   for (double k = least; k < most; k *= 1.01)
     if (misfit(k) < misfit(best)) best = k;
-  double low = best / 1.01, high = best * 1.01;
-  for (int i = 0; i < 60; ++i) {
-    const double a = low + 0.382 * (high - low), b = low + 0.618 * (high - low);
-    (misfit(a) < misfit(b) ? high : low) = misfit(a) < misfit(b) ? b : a;
-  }
-  return misfit(best) < 0.02 ? 0.5 * (low + high) : 0;
+  const auto [k, miss] = boost::math::tools::brent_find_minima(misfit, best / 1.01, best * 1.01, 30);
+  return miss < 0.02 ? k : 0;
 }
 
 /// Worst relative error of ω² against ω² = (k⁵ + k) / (1 + m̂ k) over the axisymmetric modes of a large disc
@@ -335,7 +332,7 @@ TEST(Water, AddedMassIsSymmetricAndPositive) {
 // Semi-infinite beam under an end load: w0 = √2 P / k l, M_max = √2 e^{−π/4} sin(π/4) P l at x = π/4 · √2 l
 // [Hetenyi1946].
 TEST(FloatingBeam, EndLoadIsTheClosedForm) {
-  const BeamResponse beam = solve_floating_beam(BeamShape::kUniform, 0, 200);
+  const BeamResponse beam = solve_floating_beam(BeamShape::kUniform, {.force = 1});
   EXPECT_NEAR(beam.tip_deflection, std::numbers::sqrt2, 1e-5);
   EXPECT_NEAR(beam.peak_curvature, std::exp(-std::numbers::pi / 4), 2e-5);  // √2 · sin(π/4) = 1
   EXPECT_NEAR(beam.peak_distance, std::numbers::pi / 4 * std::numbers::sqrt2, 3e-4);
@@ -346,7 +343,7 @@ TEST(FloatingBeam, EndLoadIsTheClosedForm) {
 TEST(NarrowWedge, AgreesWithThePrototype) {
   for (const auto& [patch, force, radius] :
        {std::tuple{.1, 1.2527, .512}, {.2, 1.449, .679}, {.5, 2.101, 1.036}, {1., 3.700, 1.541}}) {
-    const BeamResponse wedge = solve_floating_beam(BeamShape::kWedge, patch, 100);
+    const BeamResponse wedge = solve_floating_beam(BeamShape::kWedge, {.patch = patch});
     EXPECT_NEAR(1 / wedge.peak_curvature / force, 1, 2.5e-3) << patch;
     EXPECT_NEAR(wedge.peak_distance, radius, 1.1e-3) << patch;
   }
@@ -359,7 +356,7 @@ TEST(Nevel, ForceFormIsTheNarrowWedge) {
   const double scale = 2 * std::tan(opening / 2) * ice.flexural_strength * ice.thickness * ice.thickness / 6;
   for (const auto& [a, expected, tolerance] :
        {std::tuple(0.05, 1.0, 0.02), {0.1, 1.0, 0.02}, {0.2, 1.0, 0.02}, {1.0, 0.96, 0.005}}) {
-    const double solved = 1 / solve_floating_beam(BeamShape::kWedge, a, 100).peak_curvature;
+    const double solved = 1 / solve_floating_beam(BeamShape::kWedge, {.patch = a}).peak_curvature;
     EXPECT_NEAR(nevel_force(opening, a, ice) / scale / solved, expected, tolerance) << a;
   }
   EXPECT_NEAR(nevel_force(opening, 1, ice) / scale, 3.55, 1e-12);
@@ -368,14 +365,14 @@ TEST(Nevel, ForceFormIsTheNarrowWedge) {
 TEST(Nevel, RadiusTableIsTheBeamSolution) {
   for (const double root : {0.3, 0.43, 0.58, 0.75, 0.92, 1.14, 1.37, 1.5}) {
     const double a = root * root * root;
-    const double solved = solve_floating_beam(BeamShape::kWedge, a, 100).peak_distance;
+    const double solved = solve_floating_beam(BeamShape::kWedge, {.patch = a}).peak_distance;
     EXPECT_NEAR(nevel_cusp_radius_over_l(a) / solved, 1, 1e-3) << a;
   }
 }
 
 // A short load: beyond the patch w'' = P (1 − 2a/3x) − w(0) x²/6, greatest at x³ = 2a / w(0).
 TEST(Nevel, RadiusHasTheShortLoadLimit) {
-  const double tip = solve_floating_beam(BeamShape::kWedge, 0.01, 60).tip_deflection;
+  const double tip = solve_floating_beam(BeamShape::kWedge, {.patch = 0.01}).tip_deflection;
   EXPECT_NEAR(nevel_cusp_radius_over_l(1e-9) / 1e-3, std::cbrt(2 / tip), 3e-3);
   EXPECT_EQ(nevel_cusp_radius_over_l(0), 0);
 }
