@@ -158,26 +158,15 @@ double Dice::between(double low, double high) {
 }
 
 Polygon roll_floe(Dice& dice) {
-  static constexpr Polygon (*kKinds[])(Dice&) = {[](Dice& d) {
-                                                   return Polygon{box_ring(1 + d.below(10), 1 + d.below(10)), {}};
-                                                 },
-                                                 [](Dice& d) {
-                                                   return Polygon{box_ring(10, std::pow(10.0, -d.below(16))), {}};
-                                                 },
-                                                 [](Dice& d) {
-                                                   return Polygon{comb(d), {}};
-                                                 },
-                                                 [](Dice& d) {
-                                                   return Polygon{spiral(d), {}};
-                                                 },
-                                                 [](Dice& d) {
-                                                   return Polygon{star(d), {}};
-                                                 },
-                                                 [](Dice& d) {
-                                                   return Polygon{on_grid(d), {}};
-                                                 },
-                                                 with_holes};
-  const Polygon polygon = kKinds[dice.below(7)](dice);
+  const int kind = dice.below(7);
+  Polygon polygon;
+  if (kind == 0) polygon.outer = box_ring(1 + dice.below(10), 1 + dice.below(10));
+  if (kind == 1) polygon.outer = box_ring(10, std::pow(10.0, -dice.below(16)));
+  if (kind == 2) polygon.outer = comb(dice);
+  if (kind == 3) polygon.outer = spiral(dice);
+  if (kind == 4) polygon.outer = star(dice);
+  if (kind == 5) polygon.outer = on_grid(dice);
+  if (kind == 6) polygon = with_holes(dice);
   return normalised(moved(dice, polygon));
 }
 
