@@ -155,10 +155,11 @@ TEST(CrushLaw, ASqueezeAlongTheMidbodyHasOneAnswer) {
   }
 }
 
-/// Mean load on the reference ship at 1 m/s through 100 m of level ice, over ten places to begin at [N].
+/// Mean load on the reference ship at 1 m/s through 100 m of level ice, over four places to begin at, of which each is
+/// within a tenth of it [N].
 double mean_load_in_level_ice(double step, int substeps) {
   double sum = 0;
-  for (const double offset : {0.0, 0.3, 0.7, 1.1, 1.6, 2.1, 2.7, 3.2, 3.9, 4.4}) {
+  for (const double offset : {0.0, 1.1, 2.7, 4.4}) {
     Scene scene = Build()
                       .step(step)
                       .without_splits()
@@ -167,7 +168,7 @@ double mean_load_in_level_ice(double step, int substeps) {
     scene.contact.substeps = substeps;
     sum -= mean(run(scene, 120).story, &HullSample::from_ice, 0, 20.05);  // the bow breaks its way in first
   }
-  return sum / 10;
+  return sum / 4;
 }
 
 TEST(CrushLaw, TheLoadInLevelIceIsNotTheSteps) {

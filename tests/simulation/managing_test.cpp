@@ -101,7 +101,7 @@ TEST(Pattern, ALapGoesRoundOnceAndPlacesAreInOrder) {
 /// pattern's width, as it drifts past, that the band of laps of a period covers.
 double swept_share(const PatternLine& line, double drift, double speed, double band) {
   const double period = line.lap() / speed;
-  constexpr int kPlaces = 1000, kCells = 40;
+  constexpr int kPlaces = 500, kCells = 30;
   // The whole pattern passes over the ice that is looked at.
   const geometry::Box box = bounding_box(line.corners);
   const int laps = 6 + static_cast<int>((box.high.x - box.low.x) / (drift * period));

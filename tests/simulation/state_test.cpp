@@ -111,7 +111,7 @@ TEST(State, TheHashIsTheSameOnAnyNumberOfThreads) {
   for (const int threads : {1, 2, 8}) {
     Simulation simulation(scene);
     simulation.set_threads(threads);
-    while (simulation.time() < 12) skip(simulation);
+    while (simulation.time() < 8) skip(simulation);
     EXPECT_GT(simulation.world().step.contacts.size(), 600U) << "too few to share out";
     EXPECT_GT(simulation.counts().peak_awake, 2048);
     EXPECT_GT(simulation.counts().bends, 0);
