@@ -59,23 +59,6 @@ TEST(Splitting, APlateOfTwentyKilometresSplitsWhenTheForceHasGrownToWhatItTakes)
   EXPECT_EQ(c.fracture_toughness, scene.ice.fracture_toughness);
 }
 
-/// And a vertical hull never bends ice.
-TEST(Splitting, ByTrueForcesUnlessAnotherRuleIsChosenAndNeverByNone) {
-  EXPECT_EQ(Scene{}.fracture.splitting, fracture::SplittingModel::kLefm);
-  for (const auto model :
-       {fracture::SplittingModel::kLefm, fracture::SplittingModel::kMichel, fracture::SplittingModel::kNone}) {
-    const Counts counts = run(Build()
-                                  .ship(steep_icebreaker({0, 0}, ConstantSpeed{4}, 4))
-                                  .floe(rectangle(0.05, -15, 30.05, 15))
-                                  .splitting(model),
-                              3)
-                              .simulation.counts();
-    EXPECT_EQ(counts.splits > 0, model != fracture::SplittingModel::kNone);
-    EXPECT_GT(counts.crush_contacts, 0);
-    EXPECT_EQ(counts.bends, 0);
-  }
-}
-
 TEST(Splitting, AFlatPushClosesTheMouthHoweverHard) {
   const Scene scene = Build().ship(barge({0, 0}, ConstantSpeed{1})).floe(kFloeOfTwenty);
   EXPECT_GT(largest_before_split(scene, 3), 3 * fracture::lefm_splitting_force(scene.ice, 20, 20));

@@ -135,13 +135,6 @@ TEST(RadialCracks, LeavePartsThatBearTheirShares) {
   }
 }
 
-/// Static wedges under small loads, σ_f h²: 2 × .208, 2 × .3545.
-TEST(RadialCracks, HalveWhatTheStaticWedgesHave) {
-  const double scale = 0.8e6 * 0.25;
-  EXPECT_NEAR(kSplit.capacity(slow_load(120, 3e-4)).vertical_force / scale, 0.416, 0.015);
-  EXPECT_NEAR(kSplit.capacity(slow_load(180, 3e-4)).vertical_force / scale, 0.709, 0.02);
-}
-
 TEST(RadialCracks, WeakenWithoutAJump) {
   double last = kSplit.capacity(slow_load(79.9)).vertical_force;
   for (double angle = 80; angle < 180; angle += 0.1) {
