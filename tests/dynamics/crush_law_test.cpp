@@ -1,6 +1,7 @@
 // The law of crushing ice, at one contact and where many press on each other.
 #include "dynamics/contact/crush_law.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

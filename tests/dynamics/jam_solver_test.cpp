@@ -157,18 +157,36 @@ TEST(JamSolver, SolvesJamsWithFrictionOfANarrowKink) {
 
 /// Brash between floes, half of the bodies up to a hundred times lighter, from a start far away. Where all
 /// contacts leave their branches at once, each end by itself, those of light bodies do so in turns for ever:
-/// 6 of these 40 are solved.
-TEST(JamSolver, SolvesJamsOfFloesAndBrash) {
+/// 6 of these 40 are solved. Where it does not come to the solution, all is as before to the bit, or what it came to,
+/// if that is better, of which velocities and impulses fit each other.
+TEST(JamSolver, SolvesJamsOfFloesAndBrashOrKeepsWhatItCameToWhereThatIsBetter) {
   Random random(kSeed);
   int solved = 0;
   for (int trial = 0; trial < 40; ++trial) {
     Pack pack = pack_of(random, 8, 8, 0.2);
     lighten(pack, random, 2, true);
-    if (!solve(pack, kNarrow)) continue;
-    ++solved;
-    EXPECT_LT(largest_miss(pack), kNarrow);
+    Pack found = pack, came_to = pack;
+    if (solve(found, kNarrow)) {
+      ++solved;
+      EXPECT_LT(largest_miss(found), kNarrow);
+      continue;
+    }
+    JamMemory memory;
+    constexpr double kAny = std::numeric_limits<double>::max();
+    EXPECT_FALSE(solve_jam(came_to.constraints, came_to.laws, came_to.solver_bodies, kNarrow, kAny, memory));
+    double carried = 0;
+    for (ContactConstraint& c : came_to.constraints) {
+      carried += c.normal_impulse[0] + c.normal_impulse[1];
+      apply_impulses(c, -c.normal_impulse[0], -c.normal_impulse[1], -c.slip_impulse, came_to.solver_bodies);
+    }
+    EXPECT_GT(carried, 0);
+    for (std::size_t i = 0; i < pack.solver_bodies.size(); ++i) {
+      EXPECT_EQ(found.solver_bodies[i].velocity.x, pack.solver_bodies[i].velocity.x);
+      EXPECT_NEAR(came_to.solver_bodies[i].velocity.x, pack.solver_bodies[i].velocity.x, 1e-8);
+    }
   }
   EXPECT_GE(solved, 24);
+  EXPECT_LT(solved, 40);
 }
 
 /// Impulses that are there before are no part of the problem: the answer is the same.
@@ -183,34 +201,6 @@ TEST(JamSolver, StartsFromAnyImpulses) {
   ASSERT_TRUE(solve(pack, kSlipSpeed));
   for (std::size_t i = 0; i < pack.solver_bodies.size(); ++i)
     EXPECT_LT(length(pack.solver_bodies[i].velocity - from_nothing.solver_bodies[i].velocity), 1e-9);
-}
-
-/// Where it does not come to the solution: all is as before to the bit, or what it came to, if that is better, of
-/// which velocities and impulses fit each other.
-TEST(JamSolver, KeepsWhatItCameToWhereThatIsBetter) {
-  Random random(kSeed);
-  int unsolved = 0;
-  for (int trial = 0; trial < 40; ++trial) {
-    Pack pack = pack_of(random, 8, 8, 0.2);
-    lighten(pack, random, 2);
-    Pack as_before = pack, came_to = pack;
-    JamMemory memory;
-    if (solve(as_before, kNarrow)) continue;
-    ++unsolved;
-    constexpr double kAny = std::numeric_limits<double>::max();
-    EXPECT_FALSE(solve_jam(came_to.constraints, came_to.laws, came_to.solver_bodies, kNarrow, kAny, memory));
-    double carried = 0;
-    for (ContactConstraint& c : came_to.constraints) {
-      carried += c.normal_impulse[0] + c.normal_impulse[1];
-      apply_impulses(c, -c.normal_impulse[0], -c.normal_impulse[1], -c.slip_impulse, came_to.solver_bodies);
-    }
-    EXPECT_GT(carried, 0);
-    for (std::size_t i = 0; i < pack.solver_bodies.size(); ++i) {
-      EXPECT_EQ(as_before.solver_bodies[i].velocity.x, pack.solver_bodies[i].velocity.x);
-      EXPECT_NEAR(came_to.solver_bodies[i].velocity.x, pack.solver_bodies[i].velocity.x, 1e-8);
-    }
-  }
-  EXPECT_GT(unsolved, 0);
 }
 
 /// What memory keeps of other jams, between other bodies or the same, changes no bit.

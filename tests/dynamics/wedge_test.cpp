@@ -1,6 +1,8 @@
 // The wedge of ice at a contact, and the straight crack through a floe.
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include <gtest/gtest.h>
 

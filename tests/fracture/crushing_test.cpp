@@ -4,7 +4,7 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "geometry/cut/cut.hpp"
 #include "geometry/exact/predicates.hpp"

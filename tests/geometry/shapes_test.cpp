@@ -3,6 +3,7 @@
 #include "tests/shapes.hpp"
 
 #include <cmath>
+#include <tuple>
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <sstream>
 #include <tuple>
+#include <utility>
 
 #include "geometry/cut/internal/arrangement.hpp"
 #include "geometry/cut/internal/cut_paths.hpp"
@@ -19,7 +20,7 @@ using Corners = std::vector<std::pair<double, double>>;
 Corners canonical(const Ring& ring) {
   Corners corners;
   for (const Point p : ring) corners.emplace_back(p.x, p.y);
-  std::ranges::rotate(corners, std::ranges::min_element(corners));
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
   return corners;
 }
 

@@ -1,7 +1,6 @@
 // No body passes through another: at the end of a run no two share more ice than what was crushed there, and
 // 1 % of the smaller floe's area.
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -217,11 +216,7 @@ Passed measure(const Simulation& run) {
 }
 
 Simulation run(const Scene& scene, double until) {
-  Simulation simulation(scene);
-  while (simulation.time() < until - 1e-9 && !simulation.numerical_failure()) {
-    simulation.step();
-    simulation.journal().clear();
-  }
+  Simulation simulation = simulation::scenes::run(scene, until).simulation;
   EXPECT_FALSE(simulation.numerical_failure().has_value());
   EXPECT_TRUE(simulation.audit().is_closed());
   return simulation;

@@ -1,6 +1,7 @@
 // What a fracture keeps, by both laws: mass, momentum, angular momentum, area; who came from whom; and that
 // energy and momentum at the end are those of the accounts.
 #include <map>
+#include <utility>
 
 #include <gtest/gtest.h>
 

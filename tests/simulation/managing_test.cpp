@@ -1,6 +1,7 @@
 // Ships that manage ice: where their patterns lead, that they follow them, and a drift that changes.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 #include "tests/simulation/scenes.hpp"
 
+#include <functional>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -151,23 +152,25 @@ Trial run(const Scene& scene, double until, Shortcuts shortcuts) {
   return run;
 }
 
-Trial run(const Scene& scene, double until, const std::function<void(const Simulation&)>& after_step) {
-  Trial run{Simulation(scene), {}};
-  while (run.simulation.time() < until - 1e-9 && !run.simulation.numerical_failure()) {
-    run.simulation.step();
-    listen(run.simulation, run.story);
-    after_step(run.simulation);
+Trial run_until(const Scene& scene, double until, const std::function<bool(const Trial&)>& is_enough) {
+  Trial trial{Simulation(scene), {}};
+  while (trial.simulation.time() < until - 1e-9 && !trial.simulation.numerical_failure()) {
+    trial.simulation.step();
+    listen(trial.simulation, trial.story);
+    if (is_enough(trial)) break;
   }
-  return run;
+  return trial;
+}
+
+Trial run(const Scene& scene, double until, const std::function<void(const Simulation&)>& after_step) {
+  return run_until(scene, until, [&](const Trial& trial) {
+    after_step(trial.simulation);
+    return false;
+  });
 }
 
 Trial run_to_first_event(const Scene& scene, double until) {
-  Trial run{Simulation(scene), {}};
-  while (run.story.events.empty() && run.simulation.time() < until - 1e-9) {
-    run.simulation.step();
-    listen(run.simulation, run.story);
-  }
-  return run;
+  return run_until(scene, until, [](const Trial& trial) { return !trial.story.events.empty(); });
 }
 
 void skip(Simulation& simulation, int steps) {
@@ -178,16 +181,10 @@ void skip(Simulation& simulation, int steps) {
 }
 
 Event first_bend(const Scene& scene, double until) {
-  Simulation simulation(scene);
-  std::vector<Event> found;
-  while (found.empty() && simulation.time() < until) {
-    Story story;
-    simulation.step();
-    listen(simulation, story);
-    found = story.bends();
-  }
-  EXPECT_FALSE(found.empty()) << "nothing bent";
-  return found.empty() ? Event{} : found.front();
+  const auto has_bent = [](const Trial& trial) { return !trial.story.bends().empty(); };
+  const std::vector<Event> bends = run_until(scene, until, has_bent).story.bends();
+  EXPECT_FALSE(bends.empty()) << "nothing bent";
+  return bends.empty() ? Event{} : bends.front();
 }
 
 double mean(const Story& story, dynamics::Planar HullSample::*load, int ship, double from,

@@ -162,6 +162,9 @@ Trial run(const Scene& scene, double until, Shortcuts shortcuts = {});
 /// The same; calls a function after each step.
 Trial run(const Scene& scene, double until, const std::function<void(const Simulation&)>& after_step);
 
+/// Steps until something holds after a step, or to a time.
+Trial run_until(const Scene& scene, double until, const std::function<bool(const Trial&)>& is_enough);
+
 /// Steps to the first event, or to a time.
 Trial run_to_first_event(const Scene& scene, double until);
 

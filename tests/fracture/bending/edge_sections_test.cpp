@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cmath>
+#include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
 
