@@ -15,6 +15,11 @@ inline geometry::Polygon rectangle(double x0, double y0, double x1, double y1) {
   return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, {}};
 }
 
+inline geometry::Polygon rectangle(double width, double height, geometry::Point centre = {}) {
+  const double x = 0.5 * width, y = 0.5 * height;
+  return rectangle(centre.x - x, centre.y - y, centre.x + x, centre.y + y);
+}
+
 inline geometry::Polygon square(geometry::Point low, double side) {
   return rectangle(low.x, low.y, low.x + side, low.y + side);
 }

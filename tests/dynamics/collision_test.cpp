@@ -37,7 +37,7 @@ Trial random_trial(Random& random) {
     const double angle = random.angle();
     const Point middle{random.between(-20, 20), random.between(-20, 20)};
     trial.contacts = {contact_at(0, 1, middle, {std::cos(angle), std::sin(angle)})};
-    if (parting_speed(trial.bodies, trial.contacts[0], middle) < -1e-3) return trial;
+    if (parting_speed(trial.bodies, trial.contacts[0]) < -1e-3) return trial;
   }
 }
 
@@ -57,7 +57,7 @@ Trial random_plates(Random& random, double width, double friction) {
       add_body(trial.bodies, body);
     }
     trial.contacts = {contact_at(0, 1, {0, 0}, {std::cos(angle), std::sin(angle)}, width, friction)};
-    if (parting_speed(trial.bodies, trial.contacts[0], {0, 0}) < -1e-3) return trial;
+    if (parting_speed(trial.bodies, trial.contacts[0]) < -1e-3) return trial;
   }
 }
 
@@ -92,13 +92,13 @@ TEST(RandomContacts, RestitutionIsExactAndMomentumKept) {
     Trial t = random_trial(random);
     Contact& c = t.contacts[0];
     const RestitutionLaw law{.restitution = random.between(0, 1)};
-    const double before = parting_speed(t.bodies, c, c.middle());
+    const double before = parting_speed(t.bodies, c);
     const Conserved conserved(t.bodies);
     const double mass = effective_mass(mobility(t, 0, 0), mobility(t, 1, 1), c.normal);
     const double predicted = collision_impulse(-before, law.restitution, mass);
     ASSERT_TRUE(ContactSolver().solve(t.bodies, t.contacts, law, {}).is_converged());
     EXPECT_NEAR(c.total_normal_impulse() / predicted, 1, 1e-9) << "trial " << i;
-    EXPECT_NEAR(parting_speed(t.bodies, c, c.middle()) / before, -law.restitution, 1e-10);
+    EXPECT_NEAR(parting_speed(t.bodies, c) / before, -law.restitution, 1e-10);
     conserved.check(t.bodies, 1e-13);
   }
 }
@@ -111,7 +111,7 @@ TEST(RandomContacts, TheEq5AsPrintedGainsEnergyWhereOursDoesNot) {
     Trial t = random_trial(random);
     const Contact& c = t.contacts[0];
     const double crossed = effective_mass(mobility(t, 0, 1), mobility(t, 1, 0), c.normal);
-    const double j = collision_impulse(-parting_speed(t.bodies, c, c.middle()), 0.1, crossed);
+    const double j = collision_impulse(-parting_speed(t.bodies, c), 0.1, crossed);
     const double energy = kinetic_energy(t.bodies);
     for (const BodyIndex b : {0, 1}) {
       const Mobility own = mobility(t, b, b);
@@ -124,38 +124,29 @@ TEST(RandomContacts, TheEq5AsPrintedGainsEnergyWhereOursDoesNot) {
   EXPECT_GT(gains, 400) << "of 2000";
 }
 
-TEST(RandomContacts, WithFrictionMomentumIsKeptTheConeHoldsAndNoEnergyIsGained) {
+/// Momentum is kept, no energy gained; friction stops the slip, or is at its cone against it.
+TEST(RandomContacts, WithFrictionKeepToItsCone) {
   Random random(kSeed);
+  int sticking = 0, slipping = 0;
   for (int i = 0; i < kTrials && !HasFailure(); ++i) {
+    const bool is_plastic_point = i % 4 == 0;  // which converges, so that its slip is known
     Trial t = random_plates(random, i % 2 == 0 ? 0 : random.between(0, 5), random.between(0, 1));
     const Conserved conserved(t.bodies);
-    ContactSolver().solve(t.bodies, t.contacts, RestitutionLaw{.restitution = random.between(0, 1)}, {200});
+    const RestitutionLaw law{.restitution = is_plastic_point ? 0 : random.between(0, 1)};
+    const SolverSettings settings = is_plastic_point ? SolverSettings{500, 1e-11} : SolverSettings{200};
+    const SolverResult result = ContactSolver().solve(t.bodies, t.contacts, law, settings);
     const Contact& c = t.contacts[0];
-    for (const double impulse : c.normal_impulse) EXPECT_GE(impulse, 0);
-    EXPECT_LT(std::abs(c.slip_impulse) - c.friction * c.total_normal_impulse(), 1e-6);
-    conserved.check(t.bodies, 1e-12);
-  }
-}
-
-TEST(RandomContacts, FrictionStopsSlipOrIsAtItsConeAgainstIt) {
-  Random random(kSeed);
-  int sticking = 0;
-  int slipping = 0;
-  for (int i = 0; i < 5000; ++i) {
-    Trial t = random_plates(random, 0, random.between(0, 1));
-    const RestitutionLaw law{.restitution = 0};
-    ASSERT_TRUE(ContactSolver().solve(t.bodies, t.contacts, law, {500, 1e-11}).is_converged());
-    const Contact& c = t.contacts[0];
-    const double slip = slip_speed(t.bodies, c);
     const double most = c.friction * c.total_normal_impulse();
-    if (std::abs(slip) < 1e-8) {
-      ++sticking;
-      EXPECT_LE(std::abs(c.slip_impulse), most * (1 + 1e-9) + 1e-9);
-    } else {
-      ++slipping;
-      EXPECT_NEAR(std::abs(c.slip_impulse) / most, 1, 1e-6) << i;
-      EXPECT_LT(c.slip_impulse * slip, 0) << i;
-    }
+    for (const double impulse : c.normal_impulse) EXPECT_GE(impulse, 0);
+    EXPECT_LT(std::abs(c.slip_impulse) - most, 1e-6);
+    conserved.check(t.bodies, 1e-12);
+    if (!is_plastic_point) continue;
+    ASSERT_TRUE(result.is_converged());
+    const double slip = slip_speed(t.bodies, c);
+    ++(std::abs(slip) < 1e-8 ? sticking : slipping);
+    if (std::abs(slip) < 1e-8) continue;
+    EXPECT_NEAR(std::abs(c.slip_impulse) / most, 1, 1e-6) << i;
+    EXPECT_LT(c.slip_impulse * slip, 0) << i;
   }
   EXPECT_GT(sticking, 500);
   EXPECT_GT(slipping, 500);
@@ -294,7 +285,7 @@ TEST(CrushLimit, ALimitedCollisionEndsAsEq5SaysOverManySteps) {
         PersistentContact record;
         Contact contact = contact_at(0, 1, {0, 0}, {1, 0});
         contact.record = &record;
-        const double before = parting_speed(bodies, contact, {0, 0});
+        const double before = parting_speed(bodies, contact);
         const double mass =
             1 / (bodies.inverse_mass[0] + bodies.inverse_mass[1] + offset * offset * bodies.inverse_moment[1]);
         contact.crushing_force = mass / steps_of_compression;
@@ -305,7 +296,7 @@ TEST(CrushLimit, ALimitedCollisionEndsAsEq5SaysOverManySteps) {
           total += contacts[0].total_normal_impulse();
           ASSERT_LE(kinetic_energy(bodies), energy * (1 + 1e-12));
         }
-        EXPECT_NEAR(parting_speed(bodies, contact, {0, 0}), -restitution * before, 1e-10)
+        EXPECT_NEAR(parting_speed(bodies, contact), -restitution * before, 1e-10)
             << "offset " << offset << ", " << steps_of_compression;
         EXPECT_NEAR(total / ((1 + restitution) * mass), 1, 1e-10);
         EXPECT_NEAR(record.restitution.owed_impulse / mass, 0, 1e-10);
@@ -315,9 +306,15 @@ TEST(CrushLimit, ALimitedCollisionEndsAsEq5SaysOverManySteps) {
   }
 }
 
+/// At rest, face to face.
+Bodies overlapping(double depth, double offset) {
+  Bodies bodies = two_floes(0, offset);
+  bodies.position[1].x -= depth;
+  return bodies;
+}
+
 TEST(Separation, GivesNoSpeedMovesNoCentreOfMassAndDecaysAsItSays) {
-  Bodies bodies = two_floes(0, 0);
-  bodies.position[1].x -= 0.2;  // an overlap of 0.2 m, face to face
+  Bodies bodies = overlapping(0.2, 0);
   ContactFinder finder(bodies);
   SeparationSettings settings;
   settings.time = 0.5;
@@ -328,8 +325,7 @@ TEST(Separation, GivesNoSpeedMovesNoCentreOfMassAndDecaysAsItSays) {
   for (int step = 0; step < 300; ++step) {
     std::vector<Contact>& contacts = finder.contacts(bodies, dt);
     if (contacts.empty()) break;
-    ASSERT_EQ(contacts.size(), 1u);
-    depth = contacts[0].depth;
+    depth = only(contacts).depth;
     const double predicted = (0.2 - settings.slop) * std::pow(1 - dt / settings.time, step) + settings.slop;
     ASSERT_NEAR(depth, predicted, 1e-9) << step;
     separate(bodies, contacts, settings, dt);
@@ -341,8 +337,7 @@ TEST(Separation, GivesNoSpeedMovesNoCentreOfMassAndDecaysAsItSays) {
 }
 
 TEST(Separation, LeavesWhatCrushingMadeAndNeverMovesABodyOfPrescribedMotion) {
-  Bodies bodies = two_floes(0, 0);
-  bodies.position[1].x -= 0.2;
+  const Bodies bodies = overlapping(0.2, 0);
   PersistentContact record;
   std::vector<Contact> contacts{contact_at(0, 1, {-0.1, 0}, {1, 0}, 10)};
   contacts[0].depth = 0.2;
@@ -365,8 +360,7 @@ TEST(Separation, LeavesWhatCrushingMadeAndNeverMovesABodyOfPrescribedMotion) {
 
 TEST(Separation, CountsInWhatABodyHasTravelled) {
   // `travel` bounds every point's displacement: what the pair finder culls by.
-  Bodies bodies = two_floes(0, 3);
-  bodies.position[1].x -= 0.3;
+  Bodies bodies = overlapping(0.3, 3);
   std::vector<Contact> contacts{contact_at(0, 1, {-0.1, 4}, {1, 0}, 2)};
   contacts[0].depth = 0.3;
   const Bodies before = bodies;
@@ -387,8 +381,7 @@ TEST(Tracker, EndsWhatWasCrushedWhereEdgesMeetWithoutAnOverlap) {
   std::vector<PartedContact> parted;
   ContactTracker(0, 1, records, scratch, parted, 1, 0.01).update({}, {}, bodies);
   EXPECT_TRUE(records.empty());
-  ASSERT_EQ(parted.size(), 1U);
-  EXPECT_EQ(std::pair(parted[0].a, parted[0].b), std::pair(BodyIndex{0}, BodyIndex{1}));
+  EXPECT_EQ(std::pair(only(parted).a, parted[0].b), std::pair(BodyIndex{0}, BodyIndex{1}));
   EXPECT_EQ(parted[0].crushed.area, 0.2);
 }
 

@@ -12,9 +12,13 @@
 #include "dynamics/contact/contact_solver.hpp"
 #include "dynamics/water/water_drag.hpp"
 #include "geometry/exact/measures.hpp"
+#include "tests/only.hpp"
 #include "tests/shapes.hpp"
 
 namespace polynya::scenery {
+
+using shapes::rectangle;
+using tests::only;
 
 /// Random numbers that are the same on every machine (splitmix64).
 class Random {
@@ -34,11 +38,6 @@ class Random {
   std::uint64_t state_;
 };
 inline constexpr std::uint64_t kSeed = 20170611;  ///< where a test has none of its own
-
-inline geometry::Polygon rectangle(double width, double height, geometry::Point centre = {}) {
-  const double x = 0.5 * width, y = 0.5 * height;
-  return shapes::rectangle(centre.x - x, centre.y - y, centre.x + x, centre.y + y);
-}
 
 /// At a distance from the origin, turned.
 inline geometry::Pose random_pose(Random& random, double least, double most) {
@@ -77,8 +76,9 @@ inline dynamics::NewBody floe_body(const geometry::Polygon& polygon, geometry::P
 
 inline dynamics::BodyIndex add_floe(dynamics::Bodies& bodies, const geometry::Polygon& polygon,
                                     geometry::Point position, geometry::Vector velocity = {},
-                                    double angular_velocity = 0, double angle = 0) {
-  dynamics::NewBody body = floe_body(polygon, position, angle);
+                                    double angular_velocity = 0, bool is_prescribed = false) {
+  dynamics::NewBody body = floe_body(polygon, position);
+  body.is_prescribed = is_prescribed;
   body.velocity = velocity;
   body.angular_velocity = angular_velocity;
   return add_body(bodies, body);
@@ -88,11 +88,7 @@ inline dynamics::BodyIndex add_floe(dynamics::Bodies& bodies, const geometry::Po
 inline dynamics::BodyIndex add_held(dynamics::Bodies& bodies, const geometry::Polygon& polygon,
                                     geometry::Point position, geometry::Vector velocity = {},
                                     double angular_velocity = 0) {
-  dynamics::NewBody body = floe_body(polygon, position);
-  body.is_prescribed = true;
-  body.velocity = velocity;
-  body.angular_velocity = angular_velocity;
-  return add_body(bodies, body);
+  return add_floe(bodies, polygon, position, velocity, angular_velocity, true);
 }
 
 inline double kinetic_energy(const dynamics::Bodies& bodies) {
@@ -163,17 +159,20 @@ inline dynamics::Contact contact_at(dynamics::BodyIndex a, dynamics::BodyIndex b
   return contact;
 }
 
-/// Speed at which the two bodies of a contact part at a point of it; negative when approaching [m/s].
-inline double parting_speed(const dynamics::Bodies& bodies, const dynamics::Contact& c, geometry::Point at) {
-  return dot(velocity_at(bodies, c.b, at - bodies.position[c.b]) - velocity_at(bodies, c.a, at - bodies.position[c.a]),
-             c.normal);
+/// Of b as a sees it, in the middle of their contact.
+inline geometry::Vector relative_velocity(const dynamics::Bodies& bodies, const dynamics::Contact& c) {
+  const auto velocity = [&](dynamics::BodyIndex i) { return velocity_at(bodies, i, c.middle() - bodies.position[i]); };
+  return velocity(c.b) - velocity(c.a);
+}
+
+/// Speed at which the two bodies of a contact part; negative when approaching [m/s].
+inline double parting_speed(const dynamics::Bodies& bodies, const dynamics::Contact& c) {
+  return dot(relative_velocity(bodies, c), c.normal);
 }
 
 /// Speed of b along a contact's line, as a sees it [m/s].
 inline double slip_speed(const dynamics::Bodies& bodies, const dynamics::Contact& c) {
-  const geometry::Point at = c.middle();
-  return dot(velocity_at(bodies, c.b, at - bodies.position[c.b]) - velocity_at(bodies, c.a, at - bodies.position[c.a]),
-             perpendicular(c.normal));
+  return dot(relative_velocity(bodies, c), perpendicular(c.normal));
 }
 
 }  // namespace polynya::scenery

@@ -6,17 +6,16 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/shapes.hpp"
+
 namespace polynya::fracture {
 namespace {
+
+using shapes::rectangle;
 
 constexpr double kLength = 24;  // [m]
 constexpr double kWidth = 3;    // [m]
 constexpr double kForce = 1e5;  // [N]
-
-geometry::Polygon rectangle(double length, double width) {
-  const double x = length / 2, y = width / 2;
-  return {{{-x, -y}, {x, -y}, {x, y}, {-x, y}}, {}};
-}
 
 SectionLoad load_at(double x, const std::vector<BeamLoad>& loads) {
   const geometry::Polygon beam = rectangle(kLength, kWidth);
@@ -44,7 +43,7 @@ TEST(Beam, MomentsOfARegionAreThoseOfItsIntegrals) {
   EXPECT_NEAR(low.area, 4 + 2, 1e-12);
   EXPECT_NEAR(low.x, 4 * 0.5 + 2 * 1.5, 1e-12);
   EXPECT_NEAR(low.y, -6 * 2, 1e-12);
-  const geometry::Polygon holed{rectangle(4, 4).outer, {{{-1, -1}, {-1, 1}, {1, 1}, {1, -1}}}};
+  const geometry::Polygon holed{rectangle(4, 4).outer, {shapes::reversed(rectangle(2, 2).outer)}};
   EXPECT_NEAR(moments_up_to(holed, {}, 0).area, 6, 1e-12);
   EXPECT_NEAR(moments_of(holed, {}).xx, (256.0 - 16) / 12, 1e-12);
 }

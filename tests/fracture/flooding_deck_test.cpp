@@ -1,12 +1,11 @@
 // Water on the deck of a cusp that a hull presses down.
-#include "fracture/turning_cusp.hpp"
-
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "fracture/turning_cusp.hpp"
 
 namespace polynya::fracture {
 namespace {
@@ -27,6 +26,12 @@ Deck rectangle(Beside sides, double older_far = kCuspDepth) {
   return deck_of(ice, kSea, kHullAngle, outline, std::vector{side, DeckEdge{}, side, side});
 }
 
+/// With nothing of the sheet beside its strips from one on.
+Deck apart_from_sheet(Deck deck, std::size_t first = 0) {
+  for (std::size_t i = first; i < deck.strips.size(); ++i) deck.strips[i].sheet = deck.strips[i].sheet_across = 0;
+  return deck;
+}
+
 /// What the hull's force on the edge and the water that is missing before it do over a whole turn that takes that long,
 /// without friction [J].
 struct Work {
@@ -34,14 +39,13 @@ struct Work {
   double sum() const { return down - ahead; }
 };
 
-Work work(const Deck& deck, double duration, DeckState* end = nullptr) {
-  constexpr int kSteps = 2000;
-  const double way = way_to_lie_along(deck) / kSteps;
+Work work(const Deck& deck, double duration, DeckState* end = nullptr, int steps = 2000) {
+  const double way = way_to_lie_along(deck) / steps;
   const double thrust = 1 / std::tan(deck.hull_angle);
   DeckState state;
   Work sum;
-  for (int i = 0; i < kSteps; ++i) {
-    const DeckForces forces = turn_deck(deck, kSea, thrust, way, duration / kSteps, state);
+  for (int i = 0; i < steps; ++i) {
+    const DeckForces forces = turn_deck(deck, kSea, thrust, way, duration / steps, state);
     sum.down += thrust * way * forces.down;
     sum.ahead += way * forces.ahead;
   }
@@ -75,8 +79,7 @@ TEST(FloodingDeck, HasTheOutlinesStrips) {
 }
 
 TEST(FloodingDeck, DryGivesBackWhatItTook) {
-  Deck deck = rectangle(Beside::kSheet);
-  for (DeckStrip& s : deck.strips) s.sheet = s.sheet_across = 0;
+  Deck deck = apart_from_sheet(rectangle(Beside::kSheet));
   deck.freeboard = 0;
   // ρ_w g b [R³/3 (1 − cos ψ) + h R²/2 (ψ − sin ψ)] over the turn to π/2 − θ_s.
   const double turn = std::numbers::pi / 2 - kHullAngle;
@@ -102,22 +105,17 @@ TEST(FloodingDeck, LiesAlongTheHullAtTheEndOfItsWay) {
 
 constexpr double kHasTurned = kCuspDepth - 3;  ///< where an older cusp ends that the hull has pressed farther down
 
+/// What falls into the pool is lost: nothing where no water comes in, nothing where it comes in from no height.
 TEST(FloodingDeck, FloodsThroughWhatOpensTheSoonerTheSlowerTheHull) {
   const Deck deck = rectangle(Beside::kOlderCusp, kHasTurned);
-  const double dry = work(deck, 1e-3).down;
-  EXPECT_LT(work(deck, 4).down, 0.9 * dry);
-  EXPECT_LT(work(deck, 40).down, 0.5 * work(deck, 4).down);
-  EXPECT_LT(work(deck, 4000).down, 0.02 * dry);
-  EXPECT_LT(work(rectangle(Beside::kSheet), 4000).down, 0.05 * dry);
-}
-
-/// Nothing where no water comes in, nothing where it comes in from no height.
-TEST(FloodingDeck, LosesWhatFallsIntoThePool) {
-  const Deck deck = rectangle(Beside::kOlderCusp, kHasTurned);
-  const double dry = work(deck, 1e-3).down;
-  EXPECT_NEAR(work(deck, 1e-3).sum() / dry, 0, 0.01);
-  EXPECT_GT(work(deck, 4).sum(), 0.05 * dry);
-  EXPECT_LT(work(deck, 4000).sum(), 0.02 * dry);
+  const Work dry = work(deck, 1e-3), fast = work(deck, 4), slow = work(deck, 4000);
+  EXPECT_LT(fast.down, 0.9 * dry.down);
+  EXPECT_LT(work(deck, 40).down, 0.5 * fast.down);
+  EXPECT_LT(slow.down, 0.02 * dry.down);
+  EXPECT_LT(work(rectangle(Beside::kSheet), 4000).down, 0.05 * dry.down);
+  EXPECT_NEAR(dry.sum() / dry.down, 0, 0.01);
+  EXPECT_GT(fast.sum(), 0.05 * dry.down);
+  EXPECT_LT(slow.sum(), 0.02 * dry.down);
 }
 
 TEST(FloodingDeck, StaysDryWhereNothingHasOpened) {
@@ -126,16 +124,11 @@ TEST(FloodingDeck, StaysDryWhereNothingHasOpened) {
     turn_deck(deck, kSea, 1, way, 10, state);
     return state.pool;
   };
-  Deck sheet = rectangle(Beside::kSheet);
-  sheet.strips.back().sheet = sheet.strips.back().sheet_across = 0;
+  const Deck sheet = apart_from_sheet(rectangle(Beside::kSheet), Deck::kStrips - 1);
   EXPECT_LT(pool(sheet, 0.2), pool(sheet, 1)) << "the far edge opens as it goes down";
-  // Another that turns with it, from the same axis, stays beside it.
-  Deck together = rectangle(Beside::kOlderCusp);
-  for (DeckStrip& s : together.strips) s.sheet = s.sheet_across = 0;
-  EXPECT_EQ(pool(together, 1), 0);
-  Deck ahead = rectangle(Beside::kOlderCusp, kHasTurned);  // it has turned farther
-  for (DeckStrip& s : ahead.strips) s.sheet = s.sheet_across = 0;
-  EXPECT_GT(pool(ahead, 1), 0);
+  EXPECT_EQ(pool(apart_from_sheet(rectangle(Beside::kOlderCusp)), 1), 0)
+      << "another that turns with it stays beside it";
+  EXPECT_GT(pool(apart_from_sheet(rectangle(Beside::kOlderCusp, kHasTurned)), 1), 0) << "it has turned farther";
 }
 
 TEST(FloodingDeck, LiesBesideAnOlderCuspTooShortToTurn) {
@@ -157,15 +150,7 @@ TEST(FloodingDeck, HoldsNoMoreThanThereIsRoomBetweenDeckAndHull) {
 
 TEST(FloodingDeck, DoesNotDependOnTheStepOfItsHull) {
   const Deck deck = rectangle(Beside::kOlderCusp, kHasTurned);
-  const double thrust = 1 / std::tan(kHullAngle);
-  const double end = way_to_lie_along(deck);
-  DeckState state;
-  double coarse = 0;
-  for (int i = 0; i < 20; ++i) {
-    const DeckForces forces = turn_deck(deck, kSea, thrust, end / 20, 0.2, state);
-    coarse += end / 20 * (thrust * forces.down - forces.ahead);
-  }
-  EXPECT_NEAR(coarse / work(deck, 4).sum(), 1, 0.1);
+  EXPECT_NEAR(work(deck, 4, nullptr, 20).sum() / work(deck, 4).sum(), 1, 0.1);
 }
 
 // ---- the mass at the edge of a cusp that turns as it breaks off

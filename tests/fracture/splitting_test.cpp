@@ -116,16 +116,14 @@ TEST(Opening, AWedgeThatBearsOnOneFaceIsNotTwoPushes) {
 }
 
 TEST(Opening, IsThatOfTheWeakerSideAndNoneWhereASideIsPushedAgainstTheOther) {
-  const std::vector<Push> apart{{{0, 1}, {5, 30}}, {{-4, -2}, {5, -20}}};
-  EXPECT_NEAR(opening_of(apart, {}, {1, 0}).left, 30, 1e-12);
-  EXPECT_NEAR(opening_of(apart, {}, {1, 0}).right, 20, 1e-12);
-  EXPECT_NEAR(opening_of(apart, {}, {1, 0}).force(), 20, 1e-12);
-  const std::vector<Push> together{{{0, 1}, {5, -30}}, {{0, -2}, {5, 20}}};
-  EXPECT_EQ(opening_of(together, {}, {1, 0}).force(), 0);
-  const std::vector<Push> one_sided{{{0, 1}, {5, 30}}, {{0, 2}, {5, 20}}};
-  EXPECT_EQ(opening_of(one_sided, {}, {1, 0}).force(), 0);
-  const std::vector<Push> flat{{{-1, 1}, {50, 0}}, {{-1, -1}, {50, 0}}};
-  EXPECT_EQ(opening_of(flat, {}, {1, 0}).force(), 0) << "a flat push";
+  const auto opening = [](const std::vector<Push>& pushes) { return opening_of(pushes, {}, {1, 0}); };
+  const Opening apart = opening({{{0, 1}, {5, 30}}, {{-4, -2}, {5, -20}}});
+  EXPECT_NEAR(apart.left, 30, 1e-12);
+  EXPECT_NEAR(apart.right, 20, 1e-12);
+  EXPECT_NEAR(apart.force(), 20, 1e-12);
+  EXPECT_EQ(opening({{{0, 1}, {5, -30}}, {{0, -2}, {5, 20}}}).force(), 0) << "together";
+  EXPECT_EQ(opening({{{0, 1}, {5, 30}}, {{0, 2}, {5, 20}}}).force(), 0) << "on one side";
+  EXPECT_EQ(opening({{{-1, 1}, {50, 0}}, {{-1, -1}, {50, 0}}}).force(), 0) << "a flat push";
 }
 
 TEST(Opening, ASternsFaceThatLeavesTheIceDoesNotPress) {

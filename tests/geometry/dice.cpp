@@ -4,17 +4,19 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "geometry/cut/cut.hpp"
 #include "geometry/exact/predicates.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/pose.hpp"
+#include "tests/shapes.hpp"
 
 namespace polynya::geometry::trials {
 namespace {
 
-Ring box_ring(double x0, double y0, double x1, double y1) {
-  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+Ring box_ring(double width, double height) {
+  return shapes::rectangle(0, 0, width, height).outer;
 }
 
 Ring comb(Dice& dice) {
@@ -56,56 +58,38 @@ Ring on_grid(Dice& dice) {
 }
 
 Polygon with_holes(Dice& dice) {
-  Polygon polygon{box_ring(0, 0, 8, 8), {}};
-  switch (dice.below(5)) {
-    case 0:
-      polygon.holes = {{{0, 0}, {3, 6}, {6, 3}}};
-      break;
-    case 1:
-      polygon.holes = {{{0, 4}, {2, 5}, {2, 3}}};
-      break;
-    case 2:
-      polygon.holes = {{{2, 2}, {2, 4}, {4, 4}, {4, 2}}, {{4, 4}, {4, 6}, {6, 6}, {6, 4}}};
-      break;
-    case 3:
-      polygon.holes = {{{0, 4}, {2, 5}, {3, 4}, {2, 3}}, {{3, 4}, {5, 6}, {5, 3}}};
-      break;
-    default:
-      polygon.holes = {{{2, 2}, {2, 6}, {6, 6}, {6, 2}}};
-      break;
-  }
-  return polygon;
+  static const std::vector<Ring> kHoles[] = {
+      {{{0, 0}, {3, 6}, {6, 3}}},
+      {{{0, 4}, {2, 5}, {2, 3}}},
+      {{{2, 2}, {2, 4}, {4, 4}, {4, 2}}, {{4, 4}, {4, 6}, {6, 6}, {6, 4}}},
+      {{{0, 4}, {2, 5}, {3, 4}, {2, 3}}, {{3, 4}, {5, 6}, {5, 3}}},
+      {{{2, 2}, {2, 6}, {6, 6}, {6, 2}}},
+  };
+  return {box_ring(8, 8), kHoles[dice.below(5)]};
 }
 
 // Moves a polygon off the grid in doubles: turned, far away, tiny or huge.
-Polygon moved(Dice& dice, const Polygon& polygon) {
+Polygon moved(Dice& dice, Polygon polygon) {
   const Pose turned{{0, 0}, Rotation::by(0.1 + 0.37 * dice.below(8))};
   const int kind = dice.below(6);
   const double scale = kind == 1 ? 1e-6 : (kind == 2 ? 1e6 : 1);
   const Vector offset = kind == 3 ? Vector{1e6, -3e6} : Vector{0, 0};
   const bool is_turned = dice.below(2) == 1;
-  const auto move = [&](Ring ring) {
+  const auto move = [&](Ring& ring) {
     for (Point& p : ring) {
       if (is_turned) p = transform(turned, p);
       p = Point{p.x * scale, p.y * scale} + offset;
     }
-    return ring;
   };
-  Polygon result{move(polygon.outer), {}};
-  for (const Ring& hole : polygon.holes) result.holes.push_back(move(hole));
-  return result;
+  move(polygon.outer);
+  for (Ring& hole : polygon.holes) move(hole);
+  return polygon;
 }
 
 double nudged(Dice& dice, double value) {
   const double far = std::numeric_limits<double>::infinity();
-  switch (dice.below(8)) {
-    case 0:
-      return std::nextafter(value, far);
-    case 1:
-      return std::nextafter(value, -far);
-    default:
-      return value;
-  }
+  const int which = dice.below(8);
+  return which > 1 ? value : std::nextafter(value, which == 0 ? far : -far);
 }
 Point nudged(Dice& dice, Point p) {
   return {nudged(dice, p.x), nudged(dice, p.y)};
@@ -130,17 +114,15 @@ EdgeOf an_edge(Dice& dice, const Polygon& floe) {
 Point a_place(Dice& dice, const Polygon& floe) {
   const Box box = bounding_box(floe.outer);
   const Vector size = box.high - box.low;
-  switch (dice.below(5)) {
+  const int kind = dice.below(5);
+  const EdgeOf e = kind == 1 || kind == 2 ? an_edge(dice, floe) : EdgeOf{};
+  switch (kind) {
     case 0:
       return nudged(dice, a_vertex(dice, floe));
-    case 1: {
-      const EdgeOf e = an_edge(dice, floe);
+    case 1:
       return nudged(dice, midpoint(e.a, e.b));
-    }
-    case 2: {
-      const EdgeOf e = an_edge(dice, floe);
+    case 2:
       return nudged(dice, e.a + dice.between(-0.5, 1.5) * (e.b - e.a));
-    }
     case 3:
       return {box.low.x + size.x * (dice.below(9) - 1) / 6, box.low.y + size.y * (dice.below(9) - 1) / 6};
     default:
@@ -177,30 +159,15 @@ double Dice::between(double low, double high) {
 }
 
 Polygon roll_floe(Dice& dice) {
+  const int kind = dice.below(7);
   Polygon polygon;
-  switch (dice.below(7)) {
-    case 0:
-      polygon.outer = box_ring(0, 0, 1 + dice.below(10), 1 + dice.below(10));
-      break;
-    case 1:
-      polygon.outer = box_ring(0, 0, 10, std::pow(10.0, -dice.below(16)));
-      break;
-    case 2:
-      polygon.outer = comb(dice);
-      break;
-    case 3:
-      polygon.outer = spiral(dice);
-      break;
-    case 4:
-      polygon.outer = star(dice);
-      break;
-    case 5:
-      polygon.outer = on_grid(dice);
-      break;
-    default:
-      polygon = with_holes(dice);
-      break;
-  }
+  if (kind == 0) polygon.outer = box_ring(1 + dice.below(10), 1 + dice.below(10));
+  if (kind == 1) polygon.outer = box_ring(10, std::pow(10.0, -dice.below(16)));
+  if (kind == 2) polygon.outer = comb(dice);
+  if (kind == 3) polygon.outer = spiral(dice);
+  if (kind == 4) polygon.outer = star(dice);
+  if (kind == 5) polygon.outer = on_grid(dice);
+  if (kind == 6) polygon = with_holes(dice);
   return normalised(moved(dice, polygon));
 }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -16,34 +15,26 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/box_tree.hpp"
+#include "tests/dynamics/scenery.hpp"
 #include "tests/shapes.hpp"
 
 namespace polynya::geometry {
 namespace {
 
-using shapes::reversed;
+using scenery::Random;
 
-/// The same numbers with every library.
-struct Dice {
-  explicit Dice(unsigned seed) : engine(seed) {}
-  int whole(int least, int most) {
-    return least + static_cast<int>(engine() % static_cast<unsigned>(most - least + 1));
-  }
-  std::mt19937 engine;
-};
-
-Point any_point(Dice& dice) {
+Point any_point(Random& random) {
   const auto coordinate = [&] {
-    const double x = 0.1 * dice.whole(-4, 4);
-    return dice.whole(0, 3) > 0 ? x : std::nextafter(x, dice.whole(0, 1) > 0 ? 1.0 : -1.0);
+    const double x = 0.1 * (random.below(9) - 4);
+    return random.below(4) > 0 ? x : std::nextafter(x, random.below(2) > 0 ? 1.0 : -1.0);
   };
   return {coordinate(), coordinate()};
 }
 
 TEST(Predicates, SignsAreThoseOfTheirLaws) {
-  Dice dice(1);
+  Random random(1);
   for (int trial = 0; trial < 20000; ++trial) {
-    const Point a = any_point(dice), b = any_point(dice), c = any_point(dice), d = any_point(dice);
+    const Point a = any_point(random), b = any_point(random), c = any_point(random), d = any_point(random);
     const int turn = cross_sign(a, b, c, d);
     ASSERT_EQ(cross_sign(c, d, a, b), -turn) << "law 1";
     ASSERT_EQ(cross_sign(b, a, c, d), -turn) << "law 1";
@@ -58,9 +49,9 @@ TEST(Predicates, SignsAreThoseOfTheirLaws) {
 }
 
 TEST(Predicates, MeetingsDoNotDependOnTheOrderOfEnds) {
-  Dice dice(2);
+  Random random(2);
   for (int trial = 0; trial < 20000; ++trial) {
-    const Point a = any_point(dice), b = any_point(dice), c = any_point(dice), d = any_point(dice);
+    const Point a = any_point(random), b = any_point(random), c = any_point(random), d = any_point(random);
     if (a == b || c == d) continue;
     const SegmentMeeting meeting = meet(a, b, c, d);
     for (const SegmentMeeting& other : {meet(c, d, a, b), meet(b, a, c, d), meet(a, b, d, c)})
@@ -72,11 +63,11 @@ TEST(Predicates, MeetingsDoNotDependOnTheOrderOfEnds) {
 }
 
 TEST(Predicates, DirectionsAreInAWeakOrder) {
-  Dice dice(3);
+  Random random(3);
   for (int trial = 0; trial < 20000; ++trial) {
     Ray rays[4];
     for (Ray& ray : rays) {
-      while (ray.tail == ray.head) ray = {any_point(dice), any_point(dice)};
+      while (ray.tail == ray.head) ray = {any_point(random), any_point(random)};
     }
     const auto& [from, a, b, c] = rays;
     ASSERT_FALSE(met_before(from, a, b) && met_before(from, b, a)) << "law 8";
@@ -88,11 +79,11 @@ TEST(Predicates, DirectionsAreInAWeakOrder) {
 
 /// Off the boundary, the parity of crossings is the side; and a ring turned or reversed has the same sides.
 TEST(Predicates, APointIsInARingWhereItsRayCrossesItOnceMore) {
-  Dice dice(4);
+  Random random(4);
   for (int trial = 0; trial < 20000; ++trial) {
     Ring ring;
-    for (int i = 0; i < 5; ++i) ring.push_back(any_point(dice));
-    const Point p = any_point(dice);
+    for (int i = 0; i < 5; ++i) ring.push_back(any_point(random));
+    const Point p = any_point(random);
     bool is_odd = false;
     for (std::size_t i = 0; i < ring.size(); ++i) is_odd ^= crosses_ray(ring[i], ring[(i + 1) % ring.size()], p);
     const int side = side_of_ring(ring, p);
@@ -108,10 +99,10 @@ TEST(Predicates, APointIsInARingWhereItsRayCrossesItOnceMore) {
 
 /// Both orders of a tree find what comparing all finds.
 TEST(BoxTree, FindsAllPairsAndAllNearABox) {
-  Dice dice(5);
+  Random random(5);
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<Box> boxes;
-    for (int i = dice.whole(0, 60); i > 0; --i) boxes.push_back(box_around(any_point(dice), any_point(dice)));
+    for (int i = random.below(61); i > 0; --i) boxes.push_back(box_around(any_point(random), any_point(random)));
     using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
     Pairs wanted;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -120,7 +111,7 @@ TEST(BoxTree, FindsAllPairsAndAllNearABox) {
       }
     }
     ASSERT_EQ(pairs_of_boxes(boxes), wanted);
-    const Box box = box_around(any_point(dice), any_point(dice));
+    const Box box = box_around(any_point(random), any_point(random));
     std::vector<std::size_t> near_wanted;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       if (overlaps(boxes[i], box)) near_wanted.push_back(i);
@@ -235,13 +226,11 @@ TEST(Validity, IsNearLinear) {
 
 // ---- measures
 
-Ring rectangle(Point low, double width, double height) {
-  return shapes::rectangle(low.x, low.y, low.x + width, low.y + height).outer;
-}
+/// 6 × 4 m with a hole of 2 × 2 m.
+const Polygon kHoled{shapes::rectangle(0, 0, 6, 4).outer, {hole_square({1, 1}, 2)}};
 
 TEST(Measures, RectangleWithHoleHasItsClosedForms) {
-  const Polygon polygon{rectangle({0, 0}, 6, 4), {reversed(rectangle({1, 1}, 2, 2))}};
-  const Measures m = measure(polygon);
+  const Measures m = measure(kHoled);
   // A = 24 − 4; x_c = (24·3 − 4·2)/20; y_c = (24·2 − 4·2)/20; J_o = Σ A(w² + h²)/12 + A d².
   EXPECT_DOUBLE_EQ(m.area, 20);
   EXPECT_DOUBLE_EQ(m.centroid.x, 3.2);
@@ -249,19 +238,18 @@ TEST(Measures, RectangleWithHoleHasItsClosedForms) {
   const double outer = 24 * (36 + 16) / 12.0 + 24 * (0.2 * 0.2);
   const double hole = 4 * (4 + 4) / 12.0 + 4 * (1.2 * 1.2);
   EXPECT_NEAR(m.second_moment, outer - hole, 1e-12);
-  EXPECT_DOUBLE_EQ(perimeter(polygon), 28);
+  EXPECT_DOUBLE_EQ(perimeter(kHoled), 28);
 }
 
 TEST(Measures, ContainsCountsTheBoundaryAndLeavesHolesOut) {
-  const Polygon polygon{rectangle({0, 0}, 6, 4), {reversed(rectangle({1, 1}, 2, 2))}};
-  EXPECT_TRUE(contains(polygon, {0.5, 0.5}));
-  EXPECT_FALSE(contains(polygon, {2, 2}));
-  EXPECT_FALSE(contains(polygon, {7, 2}));
+  EXPECT_TRUE(contains(kHoled, {0.5, 0.5}));
+  EXPECT_FALSE(contains(kHoled, {2, 2}));
+  EXPECT_FALSE(contains(kHoled, {7, 2}));
   for (const Point p : {Point{0, 0}, Point{6, 2}, Point{3, 4}, Point{1, 1}, Point{2, 3}, Point{6, 4}}) {
-    EXPECT_TRUE(contains(polygon, p)) << p.x << ' ' << p.y;
+    EXPECT_TRUE(contains(kHoled, p)) << p.x << ' ' << p.y;
   }
   for (const Point p : {Point{-1, 0}, Point{7, 4}, Point{-1, 4}, Point{7, 0}}) {
-    EXPECT_FALSE(contains(polygon, p)) << p.x << ' ' << p.y;
+    EXPECT_FALSE(contains(kHoled, p)) << p.x << ' ' << p.y;
   }
 }
 
@@ -340,8 +328,8 @@ TEST(Measures, HolesAreTakenOffBeforeTheAreaIsRounded) {
   // The hole leaves a frame of some steps between doubles, which the difference of two rounded areas loses.
   const double wide = 1e4;
   const double step = std::nextafter(wide, 2e4) - wide;
-  const Polygon frame{rectangle({0, 0}, wide, wide),
-                      {reversed(rectangle({step, step}, wide - 2 * step, wide - 3 * step))}};
+  const Polygon frame{shapes::square({}, wide).outer,
+                      {shapes::reversed(shapes::rectangle(step, step, wide - step, wide - 2 * step).outer)}};
   const double exactly = exact::nearest_double(exact::area(exact::exactly(frame)));
   EXPECT_GT(exactly, 0);
   EXPECT_EQ(measure(frame).area, exactly);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <sstream>
 #include <tuple>
+#include <utility>
 
 #include "geometry/cut/internal/arrangement.hpp"
 #include "geometry/cut/internal/cut_paths.hpp"
@@ -13,33 +14,32 @@
 namespace polynya::geometry::trials {
 namespace {
 
-bool precedes(const exact::Point& a, const exact::Point& b) {
-  return a.x != b.x ? a.x < b.x : a.y < b.y;
+using Corners = std::vector<std::pair<double, double>>;
+
+// A ring from its lowest vertex on.
+Corners canonical(const Ring& ring) {
+  Corners corners;
+  for (const Point p : ring) corners.emplace_back(p.x, p.y);
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  return corners;
 }
 
-bool ring_precedes(const exact::Ring& a, const exact::Ring& b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), precedes);
-}
-
-exact::Ring canonical(exact::Ring ring) {
-  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end(), precedes), ring.end());
-  return ring;
-}
-
-// The outer ring, then the holes in order, each from its lowest vertex on.
-std::vector<exact::Ring> canonical(const Shape& shape) {
-  const exact::Polygon polygon = exact::exactly(shape.polygon);
-  std::vector<exact::Ring> rings;
-  for (const exact::Ring& hole : polygon.holes) rings.push_back(canonical(hole));
-  std::sort(rings.begin(), rings.end(), ring_precedes);
-  rings.insert(rings.begin(), canonical(polygon.outer));
-  return rings;
+// What it is part of, its outer ring, then its holes in order.
+std::tuple<Part, Corners, std::vector<Corners>> canonical(const Piece& piece) {
+  std::vector<Corners> holes;
+  for (const Ring& hole : piece.shape.polygon.holes) holes.push_back(canonical(hole));
+  std::ranges::sort(holes);
+  return {piece.part, canonical(piece.shape.polygon.outer), holes};
 }
 
 // By how much a nearest double may be off.
 exact::Rational half_step(double value) {
   const double far = std::numeric_limits<double>::infinity();
   return (exact::Rational(std::nextafter(std::abs(value), far)) - exact::Rational(std::abs(value))) / 2;
+}
+
+double dangling_of(const CutOutcome& outcome) {
+  return outcome ? outcome->ledger.dangling_length : outcome.error().dangling_length;
 }
 
 }  // namespace
@@ -81,12 +81,6 @@ testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome)
   return testing::AssertionSuccess();
 }
 
-namespace {
-double dangling_of(const CutOutcome& outcome) {
-  return outcome ? outcome->ledger.dangling_length : outcome.error().dangling_length;
-}
-}  // namespace
-
 testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& other) {
   const double dangling = dangling_of(one);
   if (std::abs(dangling - dangling_of(other)) > 1e-12 * dangling + 1e-9) {
@@ -100,14 +94,9 @@ testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& othe
     return testing::AssertionFailure() << name_of(one.error().reason) << " and " << name_of(other.error().reason);
   }
   const auto listed = [](const CutOutcome& outcome) {
-    std::vector<std::tuple<Part, std::vector<exact::Ring>>> pieces;
-    for (const Piece& piece : outcome->pieces) {
-      pieces.emplace_back(piece.part, canonical(piece.shape));
-    }
-    std::sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) {
-      if (std::get<0>(a) != std::get<0>(b)) return std::get<0>(a) < std::get<0>(b);
-      return ring_precedes(std::get<1>(a).front(), std::get<1>(b).front());
-    });
+    std::vector<decltype(canonical(Piece{}))> pieces;
+    for (const Piece& piece : outcome->pieces) pieces.push_back(canonical(piece));
+    std::ranges::sort(pieces);
     return pieces;
   };
   if (listed(one) == listed(other)) {

@@ -1,6 +1,7 @@
 // What a fracture keeps, by both laws: mass, momentum, angular momentum, area; who came from whom; and that
 // energy and momentum at the end are those of the accounts.
 #include <map>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -15,31 +16,22 @@ using namespace scenes;
 using geometry::Vector;
 
 /// A moving, turning plate broken by a free ship, by bending and by splitting.
-Scene breaking_scene(Laws laws, CuspFate fate) {
-  Scene scene = Build(laws)
+Build breaking_scene(Laws laws, CuspFate fate) {
+  Build scene = Build(laws)
                     .without_drag()
+                    .cusps(fate)
                     .ship(icebreaker({0, 3}, ConstantThrust{0}, 2))
                     .floe(rectangle(0.5, -40, 70, 50), {-0.2, 0.05}, 1e-3)
                     .floe(rectangle(72, -40, 120, 60));
-  scene.fracture.cusp_fate = fate;
   scene.contact.separation_time = 1e15;  // moves bodies without their momentum
   return scene;
 }
 
-/// Laws of contact and of splitting, each with each.
-std::vector<Scene> breaking_scenes(CuspFate fate) {
-  std::vector<Scene> scenes;
-  for (const Laws laws : kBothLaws) {
-    for (const auto splitting : {fracture::SplittingModel::kMichel, fracture::SplittingModel::kLefm}) {
-      scenes.push_back(breaking_scene(laws, fate));
-      scenes.back().fracture.splitting = splitting;
-    }
-  }
-  return scenes;
-}
-
 TEST(Fracture, KeepsMassMomentumAndAngularMomentumWhereNothingIsRemoved) {
-  for (Scene& scene : breaking_scenes(CuspFate::kFloat)) {
+  using enum fracture::SplittingModel;
+  for (const auto& [laws, splitting] :
+       {std::pair{Laws::kDefault, kLefm}, {Laws::kDefault, kMichel}, {Laws::kPaper, kLefm}, {Laws::kPaper, kMichel}}) {
+    Build scene = breaking_scene(laws, CuspFate::kFloat).splitting(splitting);
     scene.fracture.smallest_floe_area = 0;
     Simulation simulation(scene);
     const auto living = [&] {
@@ -68,6 +60,7 @@ TEST(Fracture, PiecesMoveOnAsThePartsOfOneBody) {
   for (const Laws laws : kBothLaws) {
     Simulation simulation(breaking_scene(laws, CuspFate::kSubmerge));
     const Population& population = simulation.world().population;
+    const auto centre = [&](FloeId floe) { return population.bodies.position[population.body_of(floe)]; };
     int checked = 0;
     for (int step = 0; step < 3000; ++step) {
       simulation.step();
@@ -78,8 +71,7 @@ TEST(Fracture, PiecesMoveOnAsThePartsOfOneBody) {
           const FloeId eldest = event.ice()->children.front();
           if (!states.contains(child) || !states.contains(eldest)) continue;  // broke again at once
           const FloeState &first = states[eldest], &state = states[child];
-          const Vector arm = population.bodies.position[population.body_of(child)] -
-                             population.bodies.position[population.body_of(eldest)];
+          const Vector arm = centre(child) - centre(eldest);
           EXPECT_EQ(state.angular_velocity, first.angular_velocity);
           EXPECT_EQ(state.angle, first.angle);
           EXPECT_NEAR(length(state.velocity - first.velocity - cross(first.angular_velocity, arm)), 0, 1e-13);
@@ -170,7 +162,7 @@ Audit closed_audit(const Scene& scene, double until) {
 
 TEST(EnergyAudit, ClosesWhereAShipUnderThrustBreaksIceAndCuspsLeaveOrFloat) {
   for (const Laws laws : kBothLaws) {
-    Scene scene = busy_scene(laws).ship(icebreaker({0, 3}, ConstantThrust{2e5}, 2));
+    Build scene = busy_scene(laws).ship(icebreaker({0, 3}, ConstantThrust{2e5}, 2));
     const auto e = closed_audit(scene, 40).sums.energy;
     EXPECT_GT(e.thrust, 0);
     EXPECT_GT(e.drag, 0);
@@ -178,9 +170,7 @@ TEST(EnergyAudit, ClosesWhereAShipUnderThrustBreaksIceAndCuspsLeaveOrFloat) {
     EXPECT_GT(e.crushing, 0);
     EXPECT_GT(e.bending, 0) << "cusps leave with their motion";
     EXPECT_EQ(e.current, 0);
-    scene.fracture.cusp_fate = CuspFate::kFloat;
-    scene.fracture.splitting = fracture::SplittingModel::kLefm;
-    closed_audit(scene, 20);
+    closed_audit(scene.cusps(CuspFate::kFloat).splitting(fracture::SplittingModel::kLefm), 20);
   }
 }
 

@@ -17,9 +17,8 @@ using namespace scenes;
 using geometry::Vector;
 
 Scene pack(RecordedContacts contacts) {
-  Scene scene = ship_in_pack().without_drag();
+  Scene scene = ship_in_pack().without_drag().recorded_each_step();
   scene.record.contacts = contacts;
-  scene.record.forces_interval = scene.time.step;
   return scene;
 }
 
@@ -126,15 +125,14 @@ TEST(ShipContacts, AreNoIceLoadAndEndAsEq5Says) {
   EXPECT_NEAR(simulation.ship_states()[0].velocity.x, -0.05, 1e-6);
   EXPECT_NEAR(simulation.ship_states()[1].velocity.x, 0.05, 1e-6);
   EXPECT_NEAR(surge, 1e7 * (simulation.ship_states()[0].velocity.x - 0.5), 1e-3);
-  const std::vector<Event> met = story.of_kind<HullContact>();
-  ASSERT_EQ(met.size(), 1U);
-  const auto& contact = std::get<HullContact>(met[0].what);
-  EXPECT_NEAR(met[0].time, 0.55, 2 * scene.time.step + 1e-9);
-  EXPECT_EQ(met[0].ship, 0);
+  const Event met = only(story.of_kind<HullContact>());
+  const auto& contact = std::get<HullContact>(met.what);
+  EXPECT_NEAR(met.time, 0.55, 2 * scene.time.step + 1e-9);
+  EXPECT_EQ(met.ship, 0);
   EXPECT_EQ(contact.other, 1);
   EXPECT_NEAR(contact.closing_speed, 1, 1e-6);
   EXPECT_NEAR(contact.relative_speed, 1, 1e-6);
-  EXPECT_NEAR(met[0].point_in_world.x, 0.275, 0.01);
+  EXPECT_NEAR(met.point_in_world.x, 0.275, 0.01);
   EXPECT_FALSE(contact.is_prescribed);
 }
 
@@ -146,21 +144,18 @@ TEST(ShipContacts, WithIceBetweenTheTwoLoadsAddUpToTheMotion) {
                                              .pile({25, 3}, 5)
                                              .floe(rectangle(1, -8, 9, -2)),
                                          40);
-    Vector by_ice, by_pile;
-    double turned_by_ice = 0, turned_by_pile = 0;
+    dynamics::Planar by_ice, by_pile;
     for (const HullSample& sample : story.samples) {
       if (sample.ship != 0) continue;
-      by_ice += 0.1 * Vector{sample.from_ice.surge, sample.from_ice.sway};
-      by_pile += 0.1 * Vector{sample.from_ships.surge, sample.from_ships.sway};
-      turned_by_ice += 0.1 * sample.from_ice.yaw;
-      turned_by_pile += 0.1 * sample.from_ships.yaw;
+      by_ice += 0.1 * sample.from_ice;
+      by_pile += 0.1 * sample.from_ships;
     }
     const HullState end = simulation.ship_states()[0];
-    EXPECT_LT(by_ice.x, -1e4);
-    EXPECT_LT(by_pile.x, -1e6);
-    EXPECT_NEAR((turned_by_ice + turned_by_pile) / (5e9 * end.angular_velocity), 1, 1e-9);
+    EXPECT_LT(by_ice.surge, -1e4);
+    EXPECT_LT(by_pile.surge, -1e6);
+    EXPECT_NEAR((by_ice.yaw + by_pile.yaw) / (5e9 * end.angular_velocity), 1, 1e-9);
     // The heading turns by less than a degree while the pile is touched: m Δv along it, to that.
-    EXPECT_NEAR((by_ice.x + by_pile.x) / (1e7 * (end.velocity.x - 1)), 1, 1e-2);
+    EXPECT_NEAR((by_ice.surge + by_pile.surge) / (1e7 * (end.velocity.x - 1)), 1, 1e-2);
   }
 }
 
@@ -170,16 +165,16 @@ TEST(ShipContacts, OfPrescribedMotionsAreRecorded) {
     for (const double off : {-18.0, -16.9, -12.0, -3.7, 0.0, 5.0, 12.0, 16.9, 17.1, 30.0}) {
       const Story story =
           run(Build().step(step).ship(barge({0, 0}, ConstantSpeed{2})).pile({25, off}, 5).pile({-150, 0}, 5), 30).story;
-      const std::vector<Event> met = story.of_kind<HullContact>();
+      SCOPED_TRACE(testing::Message() << off << " in steps of " << step);
       if (std::abs(off) > 17) {
-        EXPECT_TRUE(met.empty()) << off;
+        EXPECT_TRUE(story.of_kind<HullContact>().empty());
         continue;
       }
-      ASSERT_EQ(met.size(), 1U) << off << " in steps of " << step;
-      const auto& contact = std::get<HullContact>(met[0].what);
+      const Event met = only(story.of_kind<HullContact>());
+      const auto& contact = std::get<HullContact>(met.what);
       // The side of the bow that meets the pile is 20 m from it at most, 25 m where it meets the very edge.
-      EXPECT_GE(met[0].time, 10 - 1e-9);
-      EXPECT_LE(met[0].time, (std::abs(off) < 11 ? 10 : 12.5) + 2 * step);
+      EXPECT_GE(met.time, 10 - 1e-9);
+      EXPECT_LE(met.time, (std::abs(off) < 11 ? 10 : 12.5) + 2 * step);
       EXPECT_EQ(contact.relative_speed, 2);
       EXPECT_GT(contact.closing_speed, 0);
       EXPECT_TRUE(contact.is_prescribed);
@@ -206,16 +201,15 @@ Trial after_one_step(const Scene& scene) {
 TEST(Grind, APlankThroughAStripBecomesTwoAndTheOverlapBrash) {
   const auto [simulation, story] =
       after_one_step(Build().structure(rectangle(-30, -1, 30, 1).outer).floe(rectangle(-2, -10, 2, 8), {0, 0.3}));
-  ASSERT_EQ(story.events.size(), 1U);
-  ASSERT_EQ(story.grinds().size(), 1U);
-  const auto event = story.grinds()[0];
+  const Event event = only(story.events);
+  const auto& grind = std::get<Grind>(event.what);
   EXPECT_EQ(event.ship, 0);
-  EXPECT_EQ(event.ice()->by_floe, kNoFloe);
-  EXPECT_EQ(event.ice()->children.size(), 2U);
-  EXPECT_NEAR(event.ice()->brash_area, 8, 1e-9);
-  EXPECT_NEAR(std::get<Grind>(event.what).criterion.overlap_area, 8, 1e-9);
-  EXPECT_LT(std::get<Grind>(event.what).criterion.width, 1e-9);
-  EXPECT_NEAR(std::get<Grind>(event.what).criterion.least_width, 0.25 * 8 / 4, 1e-9);
+  EXPECT_EQ(grind.by_floe, kNoFloe);
+  EXPECT_EQ(grind.children.size(), 2U);
+  EXPECT_NEAR(grind.brash_area, 8, 1e-9);
+  EXPECT_NEAR(grind.criterion.overlap_area, 8, 1e-9);
+  EXPECT_LT(grind.criterion.width, 1e-9);
+  EXPECT_NEAR(grind.criterion.least_width, 0.25 * 8 / 4, 1e-9);
   EXPECT_EQ(simulation.counts().ground, 1);
   EXPECT_NEAR(simulation.area_ledger().brash, 8, 1e-9);
   EXPECT_GT(simulation.audit().sums.energy.grinding, 0);
@@ -225,24 +219,22 @@ TEST(Grind, APlankThroughAStripBecomesTwoAndTheOverlapBrash) {
 TEST(Grind, AFloeAllInsideAHullIsBrashAndAPileAllInsideAFloeLeavesItsHole) {
   const auto [inside, story_inside] =
       after_one_step(Build().structure(rectangle(-30, -10, 30, 10).outer).floe(rectangle(3, -2, 6, 2)));
-  ASSERT_EQ(story_inside.grinds().size(), 1U);
-  EXPECT_TRUE(story_inside.grinds()[0].ice()->children.empty());
-  EXPECT_EQ(story_inside.grinds()[0].ice()->brash_area, 12);
+  const auto ground = std::get<Grind>(only(story_inside.grinds()).what);
+  EXPECT_TRUE(ground.children.empty());
+  EXPECT_EQ(ground.brash_area, 12);
   EXPECT_TRUE(inside.floe_states().empty());
 
   const auto [around, story_around] =
       after_one_step(Build().structure(rectangle(-1, -1, 1, 1).outer).floe(rectangle(-40, -40, 40, 40)));
-  ASSERT_EQ(story_around.grinds().size(), 1U);
-  ASSERT_EQ(around.floe_states().size(), 1U);
-  EXPECT_EQ(around.floe_states()[0].polygon_in_body->holes.size(), 1U);
-  EXPECT_EQ(story_around.grinds()[0].ice()->brash_area, 4);
-  EXPECT_EQ(std::get<Grind>(story_around.grinds()[0].what).criterion.overlap_area, 4) << "the smaller of the two";
+  const auto hole = std::get<Grind>(only(story_around.grinds()).what);
+  EXPECT_EQ(only(around.floe_states()).polygon_in_body->holes.size(), 1U);
+  EXPECT_EQ(hole.brash_area, 4);
+  EXPECT_EQ(hole.criterion.overlap_area, 4) << "the smaller of the two";
 }
 
 TEST(Grind, OfTwoFloesTheSmallerIsGround) {
   const Trial done = after_one_step(Build().floe(rectangle(-20, -1, 20, 1), {0.1, 0}).floe(rectangle(-1, -12, 1, 12)));
-  ASSERT_EQ(done.story.grinds().size(), 1U);
-  const auto event = done.story.grinds()[0];
+  const Event event = only(done.story.grinds());
   EXPECT_EQ(event.ice()->floe, 1);
   EXPECT_EQ(event.ice()->by_floe, 0);
   EXPECT_EQ(event.ship, -1);
@@ -294,6 +286,10 @@ void expect_same(const LoadPeak& a, const LoadPeak& b) {
   EXPECT_TRUE(members(a) == members(b)) << a.time;
 }
 
+double force_of(const LoadPeak& peak) {
+  return peak.state.pressure * peak.state.width * peak.state.height;
+}
+
 TEST(Waterline, ArcsAreFromTheStemToPort) {
   const Waterline wedge = waterline_of(wedge_bow_waterline(60, 14, 30 * kDegree));
   const double flank = 7 / std::sin(30 * kDegree);
@@ -324,14 +320,13 @@ TEST(LoadPeaks, OfAnEdgeOnACylinderAreThoseOfTheClosedForm) {
                         .without_drag()
                         .step(step)
                         .structure(shapes::regular(2048, 10).outer)
-                        .floe(rectangle(-20, 10.001, 20, 50.001), {0, -0.5});
+                        .floe(rectangle(-20, 10.001, 20, 50.001), {0, -0.5})
+                        .recorded_each_step();
       scene.contact.circle_radius = circle_radius;
       scene.structures[0].panels = PanelSettings{.length = 1, .bottom = -1, .top = 1};
-      scene.record.forces_interval = step;
       scene.record.peak_response = 0;
       const Trial done = run(scene, 0.5);
-      ASSERT_EQ(done.story.peaks.size(), 1);
-      const ContactState& peak = done.story.peaks[0].state;
+      const ContactState peak = only(done.story.peaks).state;
       const double error = step > 2e-3 ? 0.03 : 0.01;  // F is that of the deepest overlap at a step's begin
       EXPECT_NEAR(length(peak.force) / 2.766e6, 1, error) << step << " " << circle_radius;
       EXPECT_NEAR(peak.width / (2 * std::sqrt(2 * 10 * 0.0488)), 1, error);
@@ -373,33 +368,29 @@ std::vector<std::size_t> peaks_of(const std::vector<double>& force) {
 /// constant τ that is between the contact and its record, dF/dt = (force - F)/τ.
 TEST(LoadPeaks, AreThoseBetweenTwoTimesBelowHalf) {
   for (const double time_constant : {0.0, 0.05}) {
-    Scene scene = Build().unbreakable().without_drag().step(0.01).pile({0, 0}, 3);
-    for (int i = 0; i < 6; ++i) scene.floes.push_back(floe(rectangle(4 + 12 * i, -5, 14 + 12 * i, 5), {-0.5, 0}));
+    Build scene = Build().unbreakable().without_drag().step(0.01).pile({0, 0}, 3);
+    for (int i = 0; i < 6; ++i) scene.floe(rectangle(4 + 12 * i, -5, 14 + 12 * i, 5), {-0.5, 0});
     scene.record.least_peak = 0;
     scene.record.peak_response = time_constant;
-    Simulation simulation(scene);
-    std::vector<double> force;
-    std::vector<double> times;
-    Story story;
+    std::vector<double> force, times;
     double gauge = 0;
-    while (simulation.time() < 30) {
-      simulation.step();
-      listen(simulation, story);
-      const auto contacts = simulation.contact_states();
-      ASSERT_LE(contacts.size(), 1);
-      const double now = contacts.empty() ? 0 : contacts[0].pressure * contacts[0].width * contacts[0].height;
-      gauge = contacts.empty() || time_constant == 0 ? now : now + (gauge - now) * std::exp(-0.01 / time_constant);
-      force.push_back(gauge);
-      times.push_back(simulation.time());
-    }
+    const Story story =
+        run(scene, 30, [&](const Simulation& simulation) {
+          const auto contacts = simulation.contact_states();
+          EXPECT_LE(contacts.size(), 1);
+          const double now = contacts.empty() ? 0 : contacts[0].pressure * contacts[0].width * contacts[0].height;
+          gauge = contacts.empty() || time_constant == 0 ? now : now + (gauge - now) * std::exp(-0.01 / time_constant);
+          force.push_back(gauge);
+          times.push_back(simulation.time());
+        }).story;
     const std::vector<std::size_t> expected = peaks_of(force);
     ASSERT_GT(expected.size(), 3);
     ASSERT_EQ(story.peaks.size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
-      const ContactState& peak = story.peaks[i].state;
-      EXPECT_EQ(story.peaks[i].time, times[expected[i]]);
-      EXPECT_NEAR(length(peak.force), force[expected[i]], 1e-6 * force[expected[i]]);
-      EXPECT_NEAR(peak.pressure * peak.width * peak.height, force[expected[i]], 1e-9 * force[expected[i]]);
+      const LoadPeak& peak = story.peaks[i];
+      EXPECT_EQ(peak.time, times[expected[i]]);
+      EXPECT_NEAR(length(peak.state.force), force[expected[i]], 1e-6 * force[expected[i]]);
+      EXPECT_NEAR(force_of(peak), force[expected[i]], 1e-9 * force[expected[i]]);
     }
   }
 }
@@ -426,8 +417,7 @@ TEST(LoadPeaks, BelowTheScenesLeastAreCounted) {
   scene.record.least_peak = 1e5;
   const Trial large = run(scene, 15);
   std::vector<LoadPeak> expected = all.story.peaks;
-  const auto force = [](const LoadPeak& p) { return p.state.pressure * p.state.width * p.state.height; };
-  std::erase_if(expected, [&](const LoadPeak& peak) { return force(peak) < 1e5; });
+  std::erase_if(expected, [](const LoadPeak& peak) { return force_of(peak) < 1e5; });
   ASSERT_EQ(large.story.peaks.size(), expected.size());
   ASSERT_GT(expected.size(), 3);
   ASSERT_LT(expected.size(), all.story.peaks.size());

@@ -45,34 +45,29 @@ Stop stop_of(const Scene& scene, double gap) {
   while (simulation.floe_states()[0].velocity.x < -1e-2 && simulation.time() < 2) {
     simulation.step();
     for (const ContactState& state : simulation.contact_states()) EXPECT_EQ(state.is_crushing, length(state.force) > 0);
-    for (const dynamics::Contact& c : simulation.world().step.contacts)
-      stop.peak_force = std::max(stop.peak_force, c.steady_share * c.total_normal_impulse() / scene.time.step);
+    stop.peak_force = std::max(stop.peak_force, largest_contact_force(simulation));
   }
   stop.depth = start - simulation.floe_states()[0].world_from_body.position.x - gap;
   stop.time = simulation.time() - gap;  // at 1 m/s
   return stop;
 }
 
-/// A right corner: F = σ_c h dS/dξ = 2 σ_c h ξ, S = ξ², so it stops as half a swing of a spring:
-/// depth v √(m/2σ_c h), time π/2 √(m/2σ_c h), peak v √(2σ_c h m).
-TEST(CrushLaw, ACornerStopsAsTheClosedFormSays) {
-  for (const double gap : {0.0001, 0.0021, 0.0034}) {
-    const Stop stop = stop_of(floe_against_wall(square_on_its_corner(gap), 0.005), gap);
-    const double k = 2 * 2.8e6 * 0.5;
-    EXPECT_NEAR(stop.depth / std::sqrt(stop.mass / k), 1, 0.02) << gap;
-    EXPECT_NEAR(stop.time / (0.5 * std::numbers::pi * std::sqrt(stop.mass / k)), 1, 0.03) << gap;
-    EXPECT_NEAR(stop.peak_force / std::sqrt(stop.mass * k), 1, 0.02) << gap;
-  }
-}
+/// 2 σ_c h: of a right corner [N/m], and of a face of 2 m its force [N].
+constexpr double kStiffness = 2 * 2.8e6 * 0.5;
 
-/// A face of 2 m presses with a constant force of σ_c h · 2 m.
-TEST(CrushLaw, AFlatFaceStopsUnderAConstantForce) {
+/// A right corner: F = σ_c h dS/dξ = 2 σ_c h ξ, S = ξ², so it stops as half a swing of a spring:
+/// depth v √(m/2σ_c h), time π/2 √(m/2σ_c h), peak v √(2σ_c h m). A face of 2 m presses with a constant force.
+TEST(CrushLaw, ACornerAndAFlatFaceStopAsTheirClosedFormsSay) {
   for (const double gap : {0.0001, 0.0021, 0.0034}) {
-    const Stop stop = stop_of(floe_against_wall(with_flat_nose(gap), 0.005), gap);
-    const double force = 2.8e6 * 0.5 * 2;
-    EXPECT_NEAR(stop.peak_force / force, 1, 0.02) << gap;
-    EXPECT_NEAR(stop.depth / (0.5 * stop.mass / force), 1, 0.15) << gap << ": seven steps in all";
-    EXPECT_NEAR(stop.time / (stop.mass / force), 1, 0.15) << gap;
+    const Stop corner = stop_of(floe_against_wall(square_on_its_corner(gap), 0.005), gap);
+    const double swing = std::sqrt(corner.mass / kStiffness);
+    EXPECT_NEAR(corner.depth / swing, 1, 0.02) << gap;
+    EXPECT_NEAR(corner.time / (0.5 * std::numbers::pi * swing), 1, 0.03) << gap;
+    EXPECT_NEAR(corner.peak_force / (kStiffness * swing), 1, 0.02) << gap;
+    const Stop face = stop_of(floe_against_wall(with_flat_nose(gap), 0.005), gap);
+    EXPECT_NEAR(face.peak_force / kStiffness, 1, 0.02) << gap;
+    EXPECT_NEAR(face.depth / (0.5 * face.mass / kStiffness), 1, 0.15) << gap << ": seven steps in all";
+    EXPECT_NEAR(face.time / (face.mass / kStiffness), 1, 0.15) << gap;
   }
 }
 
@@ -82,7 +77,7 @@ TEST(CrushLaw, TheErrorOfACornersStopHalvesWithTheStep) {
     for (int i = 0; i < 8; ++i) {
       const double gap = 1e-4 + step * i / 8;
       const Stop stop = stop_of(floe_against_wall(square_on_its_corner(gap), step), gap);
-      sum += std::abs(stop.peak_force / std::sqrt(stop.mass * 2 * 2.8e6 * 0.5) - 1);
+      sum += std::abs(stop.peak_force / std::sqrt(stop.mass * kStiffness) - 1);
     }
     return sum / 8;
   };
@@ -160,17 +155,20 @@ TEST(CrushLaw, ASqueezeAlongTheMidbodyHasOneAnswer) {
   }
 }
 
-/// Mean load on the reference ship at 1 m/s through 100 m of level ice, over ten places to begin at [N].
+/// Mean load on the reference ship at 1 m/s through 100 m of level ice, over four places to begin at, of which each is
+/// within a tenth of it [N].
 double mean_load_in_level_ice(double step, int substeps) {
   double sum = 0;
-  for (const double offset : {0.0, 0.3, 0.7, 1.1, 1.6, 2.1, 2.7, 3.2, 3.9, 4.4}) {
-    Scene scene =
-        Build().step(step).ship(icebreaker({-1, offset}, ConstantSpeed{1})).floe(rectangle(0, -100, 300, 100));
+  for (const double offset : {0.0, 1.1, 2.7, 4.4}) {
+    Scene scene = Build()
+                      .step(step)
+                      .without_splits()
+                      .ship(icebreaker({-1, offset}, ConstantSpeed{1}))
+                      .floe(rectangle(0, -100, 300, 100));
     scene.contact.substeps = substeps;
-    scene.fracture.splitting = fracture::SplittingModel::kNone;           // it stands for ice without end
     sum -= mean(run(scene, 120).story, &HullSample::from_ice, 0, 20.05);  // the bow breaks its way in first
   }
-  return sum / 10;
+  return sum / 4;
 }
 
 TEST(CrushLaw, TheLoadInLevelIceIsNotTheSteps) {
@@ -186,17 +184,17 @@ TEST(CrushLaw, TheLoadInLevelIceIsNotTheSteps) {
 constexpr double kApproachSpeed = 0.5;
 
 /// A floe's corner runs into a fixed ship, along the normal of its flat bow.
-Scene corner_into_bow(double hull_angle, double speed, double density, double step, double restitution = 0) {
+Scene corner_into_bow(double hull_angle, double speed, double density, double step) {
   Ship bow = barge({0, 0}, ConstantSpeed{0}, 0);
   set_hull_angle(bow, hull_angle);
   Scene scene = Build(Laws::kPaper)
                     .unbreakable()
                     .without_drag()
                     .step(step)
+                    .restitution(0)
                     .ship(bow)
                     .floe(diamond({0.01 * speed, 0}, 7), {-speed, 0});
   scene.ice.density = density;
-  scene.contact.restitution = restitution;
   return scene;
 }
 
@@ -223,13 +221,12 @@ TEST(CrushingCollision, TakesMassToTheThirdOverSpeedToTheThirdAtAnInclinedHull) 
 
 /// Two floes that meet corner to corner, a little off their centres, after `gap` [m].
 Scene corner_to_corner(double step, double restitution, double gap) {
-  Scene scene = Build(Laws::kPaper)
-                    .without_drag()
-                    .step(step)
-                    .floe(diamond({-14 - gap, 0.05}, 7))
-                    .floe(diamond({0, 0}, 10), {-1, 0.1});
-  scene.contact.restitution = restitution;
-  return scene;
+  return Build(Laws::kPaper)
+      .without_drag()
+      .step(step)
+      .restitution(restitution)
+      .floe(diamond({-14 - gap, 0.05}, 7))
+      .floe(diamond({0, 0}, 10), {-1, 0.1});
 }
 
 std::vector<double> final_velocities(const Scene& scene) {

@@ -14,13 +14,7 @@
 namespace polynya::simulation::scenes {
 namespace {
 
-/// The scene's ice but for what the change makes of it.
-template <class Change>
-fracture::Ice changed(Change change) {
-  fracture::Ice ice;
-  change(ice);
-  return ice;
-}
+const fracture::Ice kIce;
 
 /// A ship at constant speed, before ice that Kashtelyan's formula breaks.
 Build ship_in_ice(double speed = 1) {
@@ -31,26 +25,22 @@ Build ship_in_ice(double speed = 1) {
 
 /// The same, and ice that goes under it, by the database.
 Build ship_over_ice(double speed, bool comes_up = true) {
-  Build scene = ship_in_ice(speed);
-  scene.fracture.bending = BendingModelKind::kFsiDatabase;
-  scene.fracture.cusp_fate = CuspFate::kUnderHull;
-  scene.fracture.going_under.is_enabled = true;
-  scene.fracture.resurface.is_enabled = comes_up;
-  scene.ships[0].hull.draught = 6;
-  return scene;
+  return Build()
+      .step(0.01)
+      .ship(with_draught(icebreaker({-0.5, 0}, ConstantSpeed{speed}, speed)))
+      .under_hulls(comes_up);
 }
 
 const geometry::Polygon kPlate = rectangle(0, -60, 120, 60);
 
 TEST(FloeIce, BreaksAtTheLoadOfItsOwnStrengthAndThickness) {
   const double as_scene = first_bend(ship_in_ice().floe(kPlate)).criteria().bending_capacity;
-  const fracture::Ice strong = changed([](fracture::Ice& ice) { ice.flexural_strength *= 2; });
+  const fracture::Ice strong{.flexural_strength = 2 * kIce.flexural_strength};
   const auto bend = first_bend(ship_in_ice().floe(kPlate).of(strong));
   EXPECT_NEAR(bend.criteria().bending_capacity / as_scene, 2, 1e-9);
   EXPECT_GE(bend.criteria().vertical_force, bend.criteria().bending_capacity);
   EXPECT_EQ(bend.criteria().flexural_strength, strong.flexural_strength);
-  const fracture::Ice thick = changed([](fracture::Ice& ice) { ice.thickness *= 1.5; });
-  const auto bend_of_thick = first_bend(ship_in_ice().floe(kPlate).of(thick));
+  const auto bend_of_thick = first_bend(ship_in_ice().floe(kPlate).of({.thickness = 1.5 * kIce.thickness}));
   EXPECT_NEAR(bend_of_thick.criteria().bending_capacity / as_scene, 2.25, 1e-9) << "P goes with h²";
 }
 
@@ -94,14 +84,10 @@ TEST(FloeIce, IsWhatTheSceneWouldHaveByAllThatUsesIt) {
 }
 
 TEST(FloeIce, SplitsByItsOwnTensileStrengthAndToughness) {
-  const fracture::Ice weak = changed([](fracture::Ice& ice) {
-    ice.tensile_strength *= 0.01;
-    ice.fracture_toughness *= 0.2;
-  });
+  const fracture::Ice weak{.tensile_strength = 0.01 * kIce.tensile_strength,
+                           .fracture_toughness = 0.2 * kIce.fracture_toughness};
   for (const auto model : {fracture::SplittingModel::kMichel, fracture::SplittingModel::kLefm}) {
-    Build scene = ship_in_ice(2).floe(rectangle(0, -30, 60, 30));
-    scene.fracture.splitting = model;
-    const Story story = expect_same(scene, weak, 10).story;
+    const Story story = expect_same(ship_in_ice(2).floe(rectangle(0, -30, 60, 30)).splitting(model), weak, 10).story;
     EXPECT_FALSE(story.splits().empty());
     for (const auto& event : story.splits()) EXPECT_EQ(event.criteria().fracture_toughness, weak.fracture_toughness);
   }
@@ -206,10 +192,8 @@ TEST(BendingScatter, DrawsFloesOneByOne) {
 }
 
 Scene scattering(std::uint64_t seed) {
-  Scene scene = ship_in_ice(2).floe(kPlate);
-  scene.fracture.bending = BendingModelKind::kFsiDatabase;
+  Scene scene = Build().step(0.01).without_splits().ship(icebreaker({-0.5, 0}, ConstantSpeed{2}, 2)).floe(kPlate);
   scene.fracture.bending_scatter = 0.2;
-  scene.fracture.splitting = fracture::SplittingModel::kNone;
   scene.seed = seed;
   return scene;
 }
@@ -226,7 +210,7 @@ TEST(BendingScatter, EachEventStatesTheStrengthItBrokeAt) {
       simulation.step();
       for (const Event& event : simulation.journal().events) {
         if (!event.is<Bend>()) continue;
-        factors.push_back(event.criteria().flexural_strength / fracture::Ice{}.flexural_strength);
+        factors.push_back(event.criteria().flexural_strength / kIce.flexural_strength);
         EXPECT_TRUE(std::ranges::any_of(simulation.world().step.fractures, [&](const PendingFracture& pending) {
           const double drawn = strength_factor(seed, pending.first_touch_in_body, kSpread);
           return pending.floe == event.ice()->floe && std::abs(drawn / factors.back() - 1) < 1e-12;

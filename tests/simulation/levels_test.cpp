@@ -12,18 +12,19 @@ namespace polynya::simulation::scenes {
 namespace {
 
 /// A ship of 40 m by 8 m in fast ice of that thickness, 20 m of it.
-Scene in_level_ice(double thickness, double speed, double step) {
-  Build scene;
+Build in_level_ice(double thickness, double speed, double step) {
   Ship ship = icebreaker({0, 0}, ConstantSpeed{speed}, speed);
   ship.hull.waterline = wedge_bow_waterline(40, 8, 25 * kDegree);
   ship.hull.draught = 3;
   ship.position_in_world = {-20.5, 0};
-  scene.step(step).ship(ship).floe(fast(rectangle(0, -12, 30, 12)));
-  scene.ice.thickness = thickness;
-  scene.fracture.splitting = fracture::SplittingModel::kNone;
-  scene.fracture.cusp_fate = CuspFate::kUnderHull;
-  scene.record.forces_interval = step;
-  return scene;
+  return Build()
+      .step(step)
+      .thickness(thickness)
+      .without_splits()
+      .cusps(CuspFate::kUnderHull)
+      .recorded_each_step()
+      .ship(ship)
+      .floe(fast(rectangle(0, -12, 30, 12)));
 }
 
 /// Over 10 m of ice, once the bow is in it [N].
@@ -34,14 +35,12 @@ double mean_surge(const Scene& scene) {
   return -mean(trial.story, &HullSample::from_ice, 0, 10.5 / speed);
 }
 
-Scene with_one_step(Scene scene, double step) {
-  scene.time.levels = 0;
-  scene.time.step = scene.record.forces_interval = step;
-  return scene;
+Scene with_one_step(const Build& scene, double step) {
+  return Build(scene).step(step).one_step_for_all().recorded_each_step();
 }
 
 TEST(Levels, NoLoadFallsWhereAHullGoesFasterThanATickBreaksIce) {
-  const Scene scene = in_level_ice(0.1, 8, 0.005);
+  const Build scene = in_level_ice(0.1, 8, 0.005);
   const double fine = mean_surge(with_one_step(scene, 0.005 / 64));
   EXPECT_NEAR(mean_surge(scene), fine, 0.05 * fine);
   EXPECT_LT(mean_surge(with_one_step(scene, 0.005)), 0.9 * fine);  // the hull passes through
@@ -77,8 +76,7 @@ TEST(Levels, ARunStopsWithinItsTicksAndGoesOnToTheSameState) {
 /// By hand from docs/theory/steps.md.
 TEST(Levels, ATickIsChosenBySpeedThicknessAndWhatIsRecorded) {
   const auto tick = [](double thickness, double speed, auto change) {
-    Scene scene = in_level_ice(thickness, speed, 0.005);
-    scene.record.forces_interval = 0.1;
+    Scene scene = in_level_ice(thickness, speed, 0.005).recorded_every(0.1);
     change(scene);
     return default_tick(scene);
   };
@@ -99,13 +97,9 @@ TEST(Levels, ATickIsChosenBySpeedThicknessAndWhatIsRecorded) {
 }
 
 TEST(Levels, AFewThinFloesDoNotChooseTheTick) {
-  Scene scene = in_level_ice(0.5, 8, 0.005);
-  scene.record.forces_interval = 0.1;
+  Build scene = in_level_ice(0.5, 8, 0.005).recorded_every(0.1);
   const double tick = default_tick(scene);
-  scene.own_ice.assign(1, scene.ice);
-  scene.own_ice.front().thickness = 0.05;
-  scene.floes.push_back(FloeSpec{rectangle(100, 0, 105, 5), {}, 0});  // 25 m² of 745
-  scene.floes.back().own_ice = 0;
+  scene.floe(rectangle(100, 0, 105, 5)).of({.thickness = 0.05});  // 25 m² of 745
   EXPECT_EQ(default_tick(scene), tick);
   scene.floes.back().polygon_in_world = rectangle(100, 0, 105, 100);
   EXPECT_LT(default_tick(scene), tick);
@@ -131,11 +125,6 @@ void go_to(Simulation& simulation, std::int64_t tick) {
   }
 }
 
-Scene with_levels(Scene scene, int levels) {
-  scene.time.levels = levels;
-  return scene;
-}
-
 /// Ticks that were taken in steps of several, at least: steps of a whole block count as 32.
 std::int64_t ticks_in_longer(const Simulation& simulation) {
   const auto& steps = simulation.counts().steps_at_level;
@@ -145,14 +134,14 @@ std::int64_t ticks_in_longer(const Simulation& simulation) {
 }
 
 /// A ship into loose floes, and far from it floes that drift together and touch.
-Scene voyage_and_drift() {
-  Build scene;
-  scene.step(0.02).ship(icebreaker({0, 0}, ConstantSpeed{2}, 2));
-  scene.grid({2, -63}, 4, 6, 20, 21);
-  scene.floe(rectangle(0, 100, 8, 108), {0.1, 0}).floe(rectangle(9, 101, 17, 109), {-0.05, 0.02}, 0.002);
-  scene.floe(rectangle(8, 110, 20, 118), {0, -0.1});
-  scene.ice.thickness = 0.5;
-  return scene;
+Build voyage_and_drift() {
+  return Build()
+      .step(0.02)
+      .ship(icebreaker({0, 0}, ConstantSpeed{2}, 2))
+      .grid({2, -63}, 4, 6, 20, 21)
+      .floe(rectangle(0, 100, 8, 108), {0.1, 0})
+      .floe(rectangle(9, 101, 17, 109), {-0.05, 0.02}, 0.002)
+      .floe(rectangle(8, 110, 20, 118), {0, -0.1});
 }
 
 TEST(Components, AreTheSameOnThreadsAndAfterAKill) {
@@ -177,7 +166,7 @@ TEST(Components, AreTheSameOnThreadsAndAfterAKill) {
 }
 
 TEST(Components, HaveOneStepForAllAtNoLevel) {
-  const Scene scene = with_levels(voyage_and_drift(), 0);
+  const Scene scene = voyage_and_drift().one_step_for_all();
   Simulation ticks(scene);
   skip(ticks, 400);
   Simulation asked(scene);
@@ -186,58 +175,66 @@ TEST(Components, HaveOneStepForAllAtNoLevel) {
   EXPECT_EQ(ticks_in_longer(asked), 0);
 }
 
-TEST(Components, OfSlowFloesEndWhereOneStepForAllHasThem) {
-  Build scene;
-  scene.step(0.005);
-  scene.floe(rectangle(0, 0, 10, 10), {0.2, 0.01}).floe(rectangle(10.3, 1, 20, 12), {-0.1, 0}, 0.004);
-  scene.floe(rectangle(20.5, -3, 30, 9), {-0.05, 0});
-  Simulation fine(with_levels(scene, 0));
-  Simulation coarse(scene);
-  go_to(fine, 4000);
-  go_to(coarse, 4000);
-  EXPECT_GT(ticks_in_longer(coarse), 1500);
-  EXPECT_LT(coarse.counts().body_steps, fine.counts().body_steps / 5);
-  EXPECT_LT(coarse.counts().energy_created, 1e-6);
-  expect_closed(coarse);
-  const auto a = coarse.floe_states(), b = fine.floe_states();
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    EXPECT_NEAR(distance(a[i].world_from_body.position, b[i].world_from_body.position), 0, 0.05);  // of 4 m
-    EXPECT_NEAR(a[i].angle, b[i].angle, 0.005);
-    EXPECT_NEAR(length(a[i].velocity - b[i].velocity), 0, 0.004);
+/// A scene by the steps that its bodies need, and in one step for all.
+struct CoarseAndFine {
+  explicit CoarseAndFine(const Build& scene) : coarse(scene), fine(Build(scene).one_step_for_all()) {}
+  void go_to(std::int64_t tick) {
+    for (Simulation* simulation : {&coarse, &fine}) scenes::go_to(*simulation, tick);
   }
+  /// How far the floes of the one are from those of the other, in place [m], angle and velocity [m/s].
+  void expect_near(double place, double angle, double velocity) const {
+    const auto a = coarse.floe_states(), b = fine.floe_states();
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      SCOPED_TRACE(testing::Message() << "floe " << i << " at " << fine.time());
+      EXPECT_LT(distance(a[i].world_from_body.position, b[i].world_from_body.position), place);
+      EXPECT_NEAR(a[i].angle, b[i].angle, angle);
+      EXPECT_LT(length(a[i].velocity - b[i].velocity), velocity);
+    }
+  }
+
+  Simulation coarse, fine;
+};
+
+TEST(Components, OfSlowFloesEndWhereOneStepForAllHasThem) {
+  CoarseAndFine both(Build()
+                         .step(0.005)
+                         .floe(rectangle(0, 0, 10, 10), {0.2, 0.01})
+                         .floe(rectangle(10.3, 1, 20, 12), {-0.1, 0}, 0.004)
+                         .floe(rectangle(20.5, -3, 30, 9), {-0.05, 0}));
+  both.go_to(4000);
+  EXPECT_GT(ticks_in_longer(both.coarse), 1500);
+  EXPECT_LT(both.coarse.counts().body_steps, both.fine.counts().body_steps / 5);
+  EXPECT_LT(both.coarse.counts().energy_created, 1e-6);
+  expect_closed(both.coarse);
+  both.expect_near(0.05, 0.005, 0.004);  // of 4 m
 }
 
 TEST(Components, GoByTheTickWhereAFastBodyComesNear) {
-  Build scene;
-  scene.step(0.02).without_drag();
-  scene.floe(rectangle(0, 0, 10, 10), {0.01, 0}).floe(rectangle(30, 2, 34, 6), {-2.5, 0});
-  scene.ice.thickness = 0.5;
-  Simulation fine(with_levels(scene, 0));
-  Simulation coarse(scene);
-  double deepest_fine = 0;
-  double deepest = 0;
-  bool was_coarse = false;
+  CoarseAndFine both(Build()
+                         .step(0.02)
+                         .without_drag()
+                         .floe(rectangle(0, 0, 10, 10), {0.01, 0})
+                         .floe(rectangle(30, 2, 34, 6), {-2.5, 0}));
+  double deepest_fine = 0, deepest = 0;
   for (std::int64_t tick = 20; tick <= 600; tick += 20) {
-    go_to(fine, tick);
-    go_to(coarse, tick);
-    for (const auto& overlap : fine.crushed_overlaps()) deepest_fine = std::max(deepest_fine, overlap.area);
-    for (const auto& overlap : coarse.crushed_overlaps()) deepest = std::max(deepest, overlap.area);
-    was_coarse = was_coarse || ticks_in_longer(coarse) > 0;
+    both.go_to(tick);
+    for (const auto& overlap : both.fine.crushed_overlaps()) deepest_fine = std::max(deepest_fine, overlap.area);
+    for (const auto& overlap : both.coarse.crushed_overlaps()) deepest = std::max(deepest, overlap.area);
   }
-  EXPECT_TRUE(was_coarse);
+  EXPECT_GT(ticks_in_longer(both.coarse), 0);
   EXPECT_GT(deepest_fine, 0);
   EXPECT_NEAR(deepest, deepest_fine, 0.1 * deepest_fine);
-  const auto a = fine.floe_states();
-  const auto b = coarse.floe_states();
-  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(length(a[i].velocity - b[i].velocity), 0, 0.02);
+  both.expect_near(1, 0.1, 0.02);
 }
 
 TEST(Components, LeaveWhatAShipTouchesToTheTick) {
-  Build scene;
-  scene.step(0.02).ship(barge({0, 0}, ConstantSpeed{0.05}, 0.05));
-  scene.floe(rectangle(0.001, -5, 10, 5)).floe(rectangle(10.001, -5, 20, 5)).floe(rectangle(100, 0, 110, 10), {0.1, 0});
-  Simulation simulation(scene);
+  Simulation simulation(Build()
+                            .step(0.02)
+                            .ship(barge({0, 0}, ConstantSpeed{0.05}, 0.05))
+                            .floe(rectangle(0.001, -5, 10, 5))
+                            .floe(rectangle(10.001, -5, 20, 5))
+                            .floe(rectangle(100, 0, 110, 10), {0.1, 0}));
   go_to(simulation, 500);
   const auto& components = simulation.world().components;
   EXPECT_EQ(components.of_level[0], (std::vector<BodyIndex>{0, 1, 2}));  // and what that touches
@@ -246,11 +243,8 @@ TEST(Components, LeaveWhatAShipTouchesToTheTick) {
 }
 
 /// A slow ship that pushes a row of floes, all near each other.
-Scene pushed_row(int floes) {
-  Build scene;
-  scene.step(0.02).ship(barge({0, 0}, ConstantSpeed{0.05}, 0.05));
-  for (int i = 0; i < floes; ++i) scene.floe(rectangle(0.2 + 10.004 * i, -5, 10.2 + 10.004 * i, 5));
-  return scene;
+Build pushed_row(int floes) {
+  return Build().step(0.02).ship(barge({0, 0}, ConstantSpeed{0.05}, 0.05)).grid({0.2, -5}, floes, 1, 10, 10.004);
 }
 
 TEST(Components, OfARowHaveLongerStepsFartherFromTheShip) {
@@ -269,22 +263,16 @@ TEST(Components, OfARowHaveLongerStepsFartherFromTheShip) {
 }
 
 TEST(Components, OfARowMoveAsInOneStepForAll) {
-  Simulation fine(with_levels(pushed_row(14), 0));
-  Simulation coarse(pushed_row(14));
+  CoarseAndFine both(pushed_row(14));
   for (const std::int64_t tick : {500, 2000, 4000}) {
-    go_to(fine, tick);
-    go_to(coarse, tick);
-    const auto a = coarse.floe_states(), b = fine.floe_states();
-    for (std::size_t i = 0; i < b.size(); ++i) {
-      EXPECT_NEAR(distance(a[i].world_from_body.position, b[i].world_from_body.position), 0, 0.1) << tick;  // of 4 m
-      EXPECT_NEAR(length(a[i].velocity - b[i].velocity), 0, 0.003) << tick << ' ' << i;
-    }
+    both.go_to(tick);
+    both.expect_near(0.1, 1e-3, 0.003);  // of 4 m
   }
-  EXPECT_LT(coarse.counts().body_steps, 0.9 * static_cast<double>(fine.counts().body_steps));
-  const double crushed = fine.audit().sums.energy.crushing;
-  EXPECT_LT(coarse.counts().energy_created, 1e-4 * crushed);
-  EXPECT_NEAR(coarse.audit().sums.energy.crushing, crushed, 0.01 * crushed);
-  expect_closed(coarse);
+  EXPECT_LT(both.coarse.counts().body_steps, 0.9 * static_cast<double>(both.fine.counts().body_steps));
+  const double crushed = both.fine.audit().sums.energy.crushing;
+  EXPECT_LT(both.coarse.counts().energy_created, 1e-4 * crushed);
+  EXPECT_NEAR(both.coarse.audit().sums.energy.crushing, crushed, 0.01 * crushed);
+  expect_closed(both.coarse);
 }
 
 TEST(Components, AreAllAtOneTickWhereFramesAreDue) {

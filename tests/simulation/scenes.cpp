@@ -1,5 +1,8 @@
 #include "tests/simulation/scenes.hpp"
 
+#include <functional>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 namespace polynya::simulation::scenes {
@@ -36,8 +39,32 @@ Ship barge(geometry::Point middle_of_bow, const Propulsion& propulsion, double s
   return ship;
 }
 
+Ship with_draught(Ship ship) {
+  ship.hull.draught = 6;
+  return ship;
+}
+
+Ship in_water(Ship ship) {
+  ship.water.acts = true;
+  ship.water.block_coefficient = 0.579;
+  return with_draught(ship);
+}
+
 void set_hull_angle(PlacedHull& ship, double angle) {
   ship.hull.angles_from_vertical.assign(ship.hull.waterline.size(), angle);
+}
+
+MooringSettings moored(geometry::Point at, const dynamics::Planar& stiffness, const dynamics::Planar& damping,
+                       double break_load, double heading) {
+  return {.position_in_world = at,
+          .heading = heading,
+          .surge_stiffness = stiffness.surge,
+          .sway_stiffness = stiffness.sway,
+          .yaw_stiffness = stiffness.yaw,
+          .surge_damping = damping.surge,
+          .sway_damping = damping.sway,
+          .yaw_damping = damping.yaw,
+          .break_load = break_load};
 }
 
 WallMotion pressing(double line_load) {
@@ -71,6 +98,12 @@ Build& Build::wall(geometry::Point from, geometry::Point to, const WallMotion& m
   walls.back().velocity = motion.velocity;
   walls.back().pressure = motion.pressure;
   return *this;
+}
+
+Build& Build::under_hulls(bool come_up) {
+  fracture.going_under.is_enabled = true;
+  fracture.resurface.is_enabled = come_up;
+  return cusps(CuspFate::kUnderHull);
 }
 
 Build& Build::grid(geometry::Point low, int columns, int rows, double side, double pitch) {
@@ -119,13 +152,25 @@ Trial run(const Scene& scene, double until, Shortcuts shortcuts) {
   return run;
 }
 
-Trial run_to_first_event(const Scene& scene, double until) {
-  Trial run{Simulation(scene), {}};
-  while (run.story.events.empty() && run.simulation.time() < until - 1e-9) {
-    run.simulation.step();
-    listen(run.simulation, run.story);
+Trial run_until(const Scene& scene, double until, const std::function<bool(const Trial&)>& is_enough) {
+  Trial trial{Simulation(scene), {}};
+  while (trial.simulation.time() < until - 1e-9 && !trial.simulation.numerical_failure()) {
+    trial.simulation.step();
+    listen(trial.simulation, trial.story);
+    if (is_enough(trial)) break;
   }
-  return run;
+  return trial;
+}
+
+Trial run(const Scene& scene, double until, const std::function<void(const Simulation&)>& after_step) {
+  return run_until(scene, until, [&](const Trial& trial) {
+    after_step(trial.simulation);
+    return false;
+  });
+}
+
+Trial run_to_first_event(const Scene& scene, double until) {
+  return run_until(scene, until, [](const Trial& trial) { return !trial.story.events.empty(); });
 }
 
 void skip(Simulation& simulation, int steps) {
@@ -136,15 +181,10 @@ void skip(Simulation& simulation, int steps) {
 }
 
 Event first_bend(const Scene& scene, double until) {
-  Trial run{Simulation(scene), {}};
-  while (run.story.bends().empty() && run.simulation.time() < until) {
-    run.simulation.step();
-    run.story = {};
-    listen(run.simulation, run.story);
-  }
-  const std::vector<Event> found = run.story.bends();
-  EXPECT_FALSE(found.empty()) << "nothing bent";
-  return found.empty() ? Event{} : found.front();
+  const auto has_bent = [](const Trial& trial) { return !trial.story.bends().empty(); };
+  const std::vector<Event> bends = run_until(scene, until, has_bent).story.bends();
+  EXPECT_FALSE(bends.empty()) << "nothing bent";
+  return bends.empty() ? Event{} : bends.front();
 }
 
 double mean(const Story& story, dynamics::Planar HullSample::*load, int ship, double from,
@@ -164,6 +204,20 @@ double largest(const Story& story, dynamics::Planar HullSample::*load, int ship)
   for (const HullSample& sample : story.samples)
     if (sample.ship == ship) most = std::max(most, std::abs((sample.*load).surge));
   return most;
+}
+
+double largest_contact_force(const Simulation& simulation) {
+  double most = 0;
+  for (const dynamics::Contact& c : simulation.world().step.contacts)
+    most = std::max(most, c.steady_share * c.total_normal_impulse() / simulation.scene().time.step);
+  return most;
+}
+
+double least_child(const Story& story, const Event& event) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Birth& birth : story.births)
+    if (std::ranges::count(event.ice()->children, birth.floe) > 0) least = std::min(least, birth.area);
+  return least;
 }
 
 void expect_closed(const Simulation& simulation) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <type_traits>
@@ -8,12 +9,14 @@
 
 #include "simulation/simulation.hpp"
 #include "simulation/world/world.hpp"
+#include "tests/only.hpp"
 #include "tests/shapes.hpp"
 
 namespace polynya::simulation::scenes {
 
 using shapes::kDegree;
 using shapes::rectangle;
+using tests::only;
 
 enum class Laws {
   kDefault,  ///< contacts crush, wedges are split by radial cracks, cracks by LEFM
@@ -38,8 +41,20 @@ Ship steep_icebreaker(geometry::Point stem, const Propulsion& propulsion, double
 /// A box-shaped ship with vertical walls: it can only crush.
 Ship barge(geometry::Point middle_of_bow, const Propulsion& propulsion, double speed = 1);
 
+/// Gives a ship 6 m of draught, so that ice goes under her.
+Ship with_draught(Ship ship);
+
+/// And lets the water act on her.
+Ship in_water(Ship ship);
+
+inline constexpr Engine kEngine{.bollard_pull = 1e6, .open_water_speed = 8, .power = 12e6, .propeller_area = 25};
+
 /// Gives a whole hull one angle from the vertical [rad].
 void set_hull_angle(PlacedHull& ship, double angle);
+
+/// Springs [N/m, N m/rad] and dampers [N s/m, N m s/rad] along, across and about a ship whose place is `at`.
+MooringSettings moored(geometry::Point at, const dynamics::Planar& stiffness, const dynamics::Planar& damping = {},
+                       double break_load = 0, double heading = 0);
 
 /// How a wall moves; one that stands by default.
 struct WallMotion {
@@ -74,6 +89,19 @@ class Build : public Scene {
   /// Nothing but contacts changes a velocity.
   Build& without_drag() { return set(water.drag_coefficient, 0); }
   Build& unbreakable() { return set(fracture.breakable_size_factor, 1e9); }
+  Build& thickness(double metres) { return set(ice.thickness, metres); }
+  Build& splitting(fracture::SplittingModel model) { return set(fracture.splitting, model); }
+  /// For ice without end.
+  Build& without_splits() { return splitting(fracture::SplittingModel::kNone); }
+  Build& cusps(CuspFate fate) { return set(fracture.cusp_fate, fate); }
+  /// Cusps and floes go under hulls and, where they are to, come up behind them.
+  Build& under_hulls(bool come_up = true);
+  /// Steps of one length for all.
+  Build& one_step_for_all() { return set(time.levels, 0); }
+  Build& restitution(double share) { return set(contact.restitution, share); }
+  /// Forces are recorded so often, by default in each step [s].
+  Build& recorded_every(double interval) { return set(record.forces_interval, interval); }
+  Build& recorded_each_step() { return recorded_every(time.step); }
   Build& drift(geometry::Vector velocity) { return set(water.drift, velocity); }
   Build& shear(double rate, double direction = 0, geometry::Point through = {}) {
     return set(water.shear, {rate, direction, through});
@@ -131,6 +159,12 @@ void listen(Simulation& simulation, Story& story);
 Story run(Simulation& simulation, double until);
 Trial run(const Scene& scene, double until, Shortcuts shortcuts = {});
 
+/// The same; calls a function after each step.
+Trial run(const Scene& scene, double until, const std::function<void(const Simulation&)>& after_step);
+
+/// Steps until something holds after a step, or to a time.
+Trial run_until(const Scene& scene, double until, const std::function<bool(const Trial&)>& is_enough);
+
 /// Steps to the first event, or to a time.
 Trial run_to_first_event(const Scene& scene, double until);
 
@@ -145,6 +179,12 @@ double mean(const Story& story, dynamics::Planar HullSample::*load, int ship = 0
             double dynamics::Planar::*direction = &dynamics::Planar::surge);
 /// Of its surge, by magnitude.
 double largest(const Story& story, dynamics::Planar HullSample::*load, int ship = 0);
+
+/// Of all contacts in the last step [N].
+double largest_contact_force(const Simulation& simulation);
+
+/// The least area of those that an event made [m²].
+double least_child(const Story& story, const Event& event);
 
 /// All accounts close: areas, masses, energy and momentum.
 void expect_closed(const Simulation& simulation);

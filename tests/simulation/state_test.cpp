@@ -111,7 +111,7 @@ TEST(State, TheHashIsTheSameOnAnyNumberOfThreads) {
   for (const int threads : {1, 2, 8}) {
     Simulation simulation(scene);
     simulation.set_threads(threads);
-    while (simulation.time() < 12) skip(simulation);
+    while (simulation.time() < 8) skip(simulation);
     EXPECT_GT(simulation.world().step.contacts.size(), 600U) << "too few to share out";
     EXPECT_GT(simulation.counts().peak_awake, 2048);
     EXPECT_GT(simulation.counts().bends, 0);
@@ -121,35 +121,19 @@ TEST(State, TheHashIsTheSameOnAnyNumberOfThreads) {
   EXPECT_EQ(hashes[2], hashes[0]);
 }
 
-/// Everything a run recorded and where it ended, bit by bit.
-std::vector<std::uint64_t> record_of(const Trial& run) {
-  std::vector<std::uint64_t> record;
-  const auto add = [&](std::initializer_list<double> numbers) {
-    for (const double number : numbers) record.push_back(std::bit_cast<std::uint64_t>(number));
+/// The same records and the same end, bit by bit.
+void expect_same_course(const Trial& one, const Trial& other) {
+  EXPECT_EQ(one.simulation.state_hash(), other.simulation.state_hash());
+  EXPECT_TRUE(one.story.samples == other.story.samples);
+  EXPECT_TRUE(one.story.deaths == other.story.deaths);
+  const auto of_birth = [](const Birth& b) { return std::tuple(b.floe, b.time, b.area, b.polygon_in_body); };
+  EXPECT_TRUE(std::ranges::equal(one.story.births, other.story.births, {}, of_birth, of_birth));
+  const auto of_event = [](const Event& e) {
+    const fracture::FailureCriteria c = e.criteria();
+    return std::tuple(e.time, e.what.index(), e.ice()->floe, e.point_in_world, e.ice()->penetration, c.collision_force,
+                      c.vertical_force, c.bending_capacity);
   };
-  for (const HullSample& s : run.story.samples) {
-    add({s.time, 1.0 * s.ship, s.from_ice.surge, s.from_ice.sway, s.from_ice.yaw, s.collision.surge, s.collision.sway,
-         s.collision.yaw, s.from_ice_largest.surge, s.from_ice_largest.sway, s.from_ice_largest.yaw, s.heading,
-         s.yaw_rate, s.thrust, 1.0 * s.contacts, s.position_in_world.x, s.position_in_world.y, s.velocity_in_world.x,
-         s.velocity_in_world.y});
-  }
-  for (const Event& e : run.story.events) {
-    const auto* bend = std::get_if<Bend>(&e.what);
-    add({e.time, static_cast<double>(e.what.index()), static_cast<double>(e.ice()->floe), bend ? bend->cusp_radius : 0,
-         e.ice()->penetration, e.ice()->submerged_area, e.ice()->brash_area, e.criteria().collision_force,
-         e.criteria().vertical_force, e.criteria().bending_capacity, e.point_in_world.x, e.point_in_world.y,
-         e.ice()->normal_in_world.x, e.ice()->normal_in_world.y});
-  }
-  for (const Birth& b : run.story.births) {
-    add({b.area});
-    for (const geometry::Point p : b.polygon_in_body.outer) add({p.x, p.y});
-  }
-  for (const FloeState& state : run.simulation.floe_states()) {
-    const geometry::Point p = state.world_from_body.position;
-    add({static_cast<double>(state.floe), p.x, p.y, state.velocity.x, state.velocity.y, state.angle,
-         state.angular_velocity});
-  }
-  return record;
+  EXPECT_TRUE(std::ranges::equal(one.story.events, other.story.events, {}, of_event, of_event));
 }
 
 void add_field(Build& scene, const geometry::Polygon& region, double concentration, double size,
@@ -189,17 +173,14 @@ TEST(Shortcuts, CullingChangesNoByte) {
     const Counts counts = with.simulation.counts();
     EXPECT_GT(counts.peak_contacts, 10);
     EXPECT_GT(counts.bends, bends) << "ice did break";
-    EXPECT_GT(record_of(with).size(), 5000u);
-    EXPECT_EQ(record_of(with), record_of(without));
-    EXPECT_EQ(counts.crush_contacts, without.simulation.counts().crush_contacts);
-    EXPECT_EQ(counts.bends, without.simulation.counts().bends);
+    EXPECT_GT(with.story.samples.size(), 200u);
+    expect_same_course(with, without);
   }
 }
 
 TEST(Shortcuts, WhereNothingComesToRestSleepChangesNoByte) {
   // In the shear no floe ever may sleep.
-  EXPECT_EQ(record_of(run(pile_in_shear(), 30)),
-            record_of(run(pile_in_shear(), 30, {.culls = false, .sleeps = false})));
+  expect_same_course(run(pile_in_shear(), 30), run(pile_in_shear(), 30, {.culls = false, .sleeps = false}));
 }
 
 TEST(Shortcuts, FloesComeToRestOnceASecondWhereIceCrushesAndInEachStepOfTheImpulseLaw) {

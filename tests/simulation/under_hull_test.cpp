@@ -15,26 +15,14 @@ namespace {
 
 using namespace scenes;
 
-Ship with_draught(Ship ship) {
-  ship.hull.draught = 6;
-  return ship;
-}
-
 /// The reference ship at constant speed, through ice that goes under it.
-Build under(double speed = 1, geometry::Point stem = {-0.5, 0}) {
-  Build scene = Build().ship(with_draught(icebreaker(stem, ConstantSpeed{speed}, speed)));
-  scene.fracture.cusp_fate = CuspFate::kUnderHull;
-  scene.fracture.going_under.is_enabled = true;
-  scene.fracture.resurface.is_enabled = true;
-  return scene;
+Build under(double speed = 1) {
+  return Build().ship(with_draught(icebreaker({-0.5, 0}, ConstantSpeed{speed}, speed))).under_hulls();
 }
 
 /// A floe that lies on a plate too large to move, ahead of the stem; nothing breaks.
 Build pinned(const geometry::Polygon& floe, const geometry::Polygon& plate) {
-  Build scene = under().floe(floe).floe(plate);
-  scene.ice.thickness = 1;
-  scene.fracture.breakable_size_factor = 100;
-  return scene;
+  return under().thickness(1).unbreakable().floe(floe).floe(plate);
 }
 
 Build pinned_floe() {
@@ -50,14 +38,13 @@ Build one_tile(double y) {
 
 TEST(UnderHull, AFloeBetweenAnInclinedHullAndAPlateTiltsAndGoesUnder) {
   const auto [simulation, story] = run(pinned_floe(), 20);
-  const auto under = story.submerged();
-  ASSERT_FALSE(under.empty());
-  EXPECT_EQ(under[0].ice()->floe, 0);
-  EXPECT_GE(std::get<Submerge>(under[0].what).criterion.deflection,
-            std::get<Submerge>(under[0].what).criterion.least_deflection);
-  EXPECT_NEAR(std::get<Submerge>(under[0].what).criterion.least_deflection, 0.9, 1e-12);
-  EXPECT_NEAR(std::get<Submerge>(under[0].what).under_hull_area, 144, 1e-9);
-  EXPECT_EQ(simulation.counts().tilted_under, std::ssize(under));
+  ASSERT_FALSE(story.submerged().empty());
+  const auto first = std::get<Submerge>(story.submerged()[0].what);
+  EXPECT_EQ(first.floe, 0);
+  EXPECT_GE(first.criterion.deflection, first.criterion.least_deflection);
+  EXPECT_NEAR(first.criterion.least_deflection, 0.9, 1e-12);
+  EXPECT_NEAR(first.under_hull_area, 144, 1e-9);
+  EXPECT_EQ(simulation.counts().tilted_under, std::ssize(story.submerged()));
   expect_closed(simulation);
 }
 
@@ -76,16 +63,6 @@ TEST(UnderHull, TiltingLimitsTheForceOfAFloeThatCannotGetAway) {
   const double tilting = largest(run(scene, 12).story, &HullSample::from_ice);
   scene.fracture.going_under.is_enabled = false;
   EXPECT_GT(largest(run(scene, 12).story, &HullSample::from_ice), 5 * tilting);
-}
-
-TEST(UnderHull, APieceTakesItsWeightTimesTheWayUpAndAlongTheHull) {
-  const auto [simulation, story] = run(one_tile(0), 100);
-  ASSERT_EQ(story.submerged().size(), 1U);
-  double work = 0;
-  for (const HullSample& sample : story.samples) work -= sample.from_submerged.surge * 0.1;  // at 1 m/s
-  const double weight = 100 * 9.81 * 16;
-  const dynamics::SubmersionPath& path = simulation.world().setup.underwater[0].path;
-  EXPECT_NEAR(work, weight * (path.rise + 0.2 * path.sliding), 1e-9 * work);
 }
 
 TEST(UnderHull, IceOffTheCentreLineTurnsTheShipTowardsIt) {
@@ -111,19 +88,23 @@ TEST(UnderHull, IceStopsAShipButNeverReversesIt) {
   }
 }
 
-TEST(UnderHull, APieceComesUpBehindTheShipAsItsOwnChildWithoutItsRim) {
+TEST(UnderHull, APieceTakesItsWeightTimesTheWayUpAndAlongTheHullAndComesUpBehindTheShipWithoutItsRim) {
   const auto [simulation, story] = run(one_tile(0), 140);
-  const auto up = story.resurfaced();
-  ASSERT_EQ(up.size(), 1U);
-  EXPECT_EQ(up[0].ice()->floe, 0);
-  ASSERT_EQ(up[0].ice()->children.size(), 1U);
-  EXPECT_GE(std::get<Resurface>(up[0].what).criterion.path, std::get<Resurface>(up[0].what).criterion.least_path);
-  EXPECT_NEAR(up[0].ice()->brash_area, 0.05 * 16, 1e-9);
-  const auto born = std::ranges::find(story.births, up[0].ice()->children[0], &BirthRecord::floe);
-  ASSERT_NE(born, story.births.end());
-  EXPECT_EQ(born->parent, 0);
-  EXPECT_EQ(born->generation, 1);
-  EXPECT_NEAR(born->area, 0.95 * 16, 1e-9);
+  EXPECT_EQ(story.submerged().size(), 1U);
+  double work = 0;
+  for (const HullSample& sample : story.samples) work -= sample.from_submerged.surge * 0.1;  // at 1 m/s
+  const double weight = 100 * 9.81 * 16;
+  const dynamics::SubmersionPath& path = simulation.world().setup.underwater[0].path;
+  EXPECT_NEAR(work, weight * (path.rise + 0.2 * path.sliding), 1e-9 * work);
+  const auto up = std::get<Resurface>(only(story.resurfaced()).what);
+  EXPECT_EQ(up.floe, 0);
+  EXPECT_GE(up.criterion.path, up.criterion.least_path);
+  EXPECT_NEAR(up.brash_area, 0.05 * 16, 1e-9);
+  const Birth& born = story.births.back();
+  EXPECT_EQ(born.floe, only(up.children));
+  EXPECT_EQ(born.parent, 0);
+  EXPECT_EQ(born.generation, 1);
+  EXPECT_NEAR(born.area, 0.95 * 16, 1e-9);
   EXPECT_EQ(simulation.counts().came_up, 1);
   EXPECT_EQ(simulation.area_ledger().under_hulls, 0);
   expect_closed(simulation);
@@ -134,17 +115,16 @@ TEST(UnderHull, WithoutScatterItComesUpInItsPlaceWhichGoesWithACurrent) {
     Scene scene = one_tile(0).shear(shear, 0.5 * std::numbers::pi);
     scene.fracture.resurface.scatter = 0;
     const auto [simulation, story] = run(scene, 160);
-    const auto up = story.resurfaced();
-    ASSERT_EQ(up.size(), 1U);
+    const Event up = only(story.resurfaced());
     expect_closed(simulation);
     if (shear > 0) {
-      EXPECT_GT(std::abs(up[0].point_in_world.y - story.submerged()[0].point_in_world.y), 0.05);
+      EXPECT_GT(std::abs(up.point_in_world.y - story.submerged()[0].point_in_world.y), 0.05);
       continue;
     }
     const std::vector<FloeState> floes = simulation.floe_states();
-    const auto state = std::ranges::find(floes, up[0].ice()->children[0], &FloeState::floe);
+    const auto state = std::ranges::find(floes, up.ice()->children[0], &FloeState::floe);
     ASSERT_NE(state, floes.end());
-    EXPECT_LT(distance(transform(state->world_from_body, {2, 0}), up[0].point_in_world), 1e-9);
+    EXPECT_LT(distance(transform(state->world_from_body, {2, 0}), up.point_in_world), 1e-9);
   }
 }
 
@@ -154,10 +134,9 @@ TEST(UnderHull, APieceWithoutRoomWaitsAndThenStaysUnderTheIce) {
   scene.fracture.resurface.give_up = 10;
   scene.fracture.resurface.scatter = 0;
   const auto [simulation, story] = run(scene, 220);
-  const auto stays = story.stayed_under();
-  ASSERT_EQ(stays.size(), 1U);
-  EXPECT_GE(std::get<StayUnder>(stays[0].what).criterion.waited, 10);
-  EXPECT_NEAR(std::get<StayUnder>(stays[0].what).under_ice_area, 16, 1e-9);
+  const auto stays = std::get<StayUnder>(only(story.stayed_under()).what);
+  EXPECT_GE(stays.criterion.waited, 10);
+  EXPECT_NEAR(stays.under_ice_area, 16, 1e-9);
   EXPECT_NEAR(simulation.area_ledger().under_ice, 16, 1e-9);
   EXPECT_EQ(simulation.counts().stayed_under, 1);
   expect_closed(simulation);
@@ -174,9 +153,8 @@ TEST(UnderHull, AShipThatStopsKeepsItsIceAndOneThatBacksGivesItBack) {
   ASSERT_EQ(population.submerged.size(), 1U);
   const double path = population.submerged[0].path;
   population.bodies.velocity[0] = {-1, 0};
-  const auto up = run(simulation, 60 + path + 30).resurfaced();
-  ASSERT_EQ(up.size(), 1U);
-  EXPECT_LT(std::get<Resurface>(up[0].what).criterion.path, 0);
+  const Event up = only(run(simulation, 60 + path + 30).resurfaced());
+  EXPECT_LT(std::get<Resurface>(up.what).criterion.path, 0);
 }
 
 TEST(UnderHull, AChannelFillsWithBrashAndAResumedRunGoesOnBitByBit) {
@@ -193,12 +171,13 @@ TEST(UnderHull, AChannelFillsWithBrashAndAResumedRunGoesOnBitByBit) {
 
 /// The reference ship in a wide plate of a metre, by constant speed or thrust.
 Build in_thick_ice(const Propulsion& propulsion, double speed, bool floods_decks) {
-  Build scene = Build().step(0.01).ship(with_draught(icebreaker({-0.5, 0}, propulsion, speed)));
-  scene.floe(rectangle(0, -150, 400, 150));
-  scene.floes.back().is_fast = true;
-  scene.ice.thickness = 1;
-  scene.fracture.cusp_fate = CuspFate::kUnderHull;
-  scene.fracture.splitting = fracture::SplittingModel::kNone;
+  Build scene = Build()
+                    .step(0.01)
+                    .thickness(1)
+                    .without_splits()
+                    .cusps(CuspFate::kUnderHull)
+                    .ship(with_draught(icebreaker({-0.5, 0}, propulsion, speed)))
+                    .floe(fast(rectangle(0, -150, 400, 150)));
   scene.fracture.floods_decks = floods_decks;
   return scene;
 }
@@ -240,8 +219,7 @@ Build thick_ice(double stem_angle, double speed) {
   Ship ship = icebreaker({0, 0}, ConstantSpeed{speed}, speed);
   ship.hull.draught = 5.5;
   ship.hull.stem_angle = stem_angle;
-  Build scene = Build().step(0.005).unbreakable().ship(ship);
-  scene.ice.thickness = 1.6;
+  Build scene = Build().step(0.005).unbreakable().thickness(1.6).ship(ship);
   scene.fracture.going_under.is_enabled = true;
   return scene;
 }
@@ -309,8 +287,7 @@ TEST(Tilted, TheOverlapOfAFloeThatTiltsIsNotBookedAsCrushed) {
     simulation.step();
     listen(simulation, story);
   }
-  ASSERT_EQ(story.submerged().size(), 1U);
-  EXPECT_EQ(story.submerged()[0].ice()->floe, 0);
+  EXPECT_EQ(only(story.submerged()).ice()->floe, 0);
   const double if_crushed = ice.compressive_strength * ice.thickness * (last.area + last.tilted);
   EXPECT_GT(last.tilted, 2 * last.area);
   EXPECT_GT(if_crushed, 10 * last.work);
@@ -320,10 +297,10 @@ TEST(Tilted, TheOverlapOfAFloeThatTiltsIsNotBookedAsCrushed) {
 /// Each with its wedge: what an inclined hull crushes is less than the overlap's area times the thickness.
 TEST(Tilted, CrushedIceIsWhatTheWorkCrushes) {
   for (const double angle : {0.0, 20 * kDegree, 50 * kDegree}) {
-    Build scene = Build().without_drag().unbreakable().pile({0, 0}, 10, angle);
-    scene.floe(rectangle(10.001, -40, 50, 40), {-1, 0});
-    Simulation simulation(scene);
-    run(simulation, 0.8);
+    const Simulation simulation =
+        run(Build().without_drag().unbreakable().pile({0, 0}, 10, angle).floe(rectangle(10.001, -40, 50, 40), {-1, 0}),
+            0.8)
+            .simulation;
     const CrushedOverlap overlap = overlap_with(simulation, 0);
     const double all = simulation.scene().ice.thickness * overlap.area;
     EXPECT_GT(overlap.area, 0.5) << angle;
@@ -338,37 +315,25 @@ TEST(Tilted, CrushedIceIsWhatTheWorkCrushes) {
 
 TEST(Tilted, NoFloeFloatsOfWhichAHullCoversMost) {
   for (const double stem_angle : {16 * kDegree, 24.5 * kDegree, 43 * kDegree}) {
-    Simulation simulation(floes_before_the_stem(stem_angle));
-    Story story;
-    while (simulation.time() < 10) {
-      simulation.step();
-      listen(simulation, story);
-      EXPECT_LT(most_covered(simulation), 0.52) << "a contact is found a step late; at " << simulation.time();
-    }
-    EXPECT_GE(story.submerged().size(), 1U);
+    const auto [simulation, story] = run(floes_before_the_stem(stem_angle), 10, [](const Simulation& s) {
+      EXPECT_LT(most_covered(s), 0.52) << "a contact is found a step late; at " << s.time();
+    });
+    ASSERT_FALSE(story.submerged().empty());
     expect_closed(simulation);
+    if (stem_angle > 16 * kDegree) continue;
+    const TiltCriterion criterion = std::get<Submerge>(story.submerged()[0].what).criterion;
+    EXPECT_LT(criterion.deflection, criterion.least_deflection) << "it goes under before its edge is deep";
+    EXPECT_NEAR(criterion.covered_share, 0.5, 0.02);
   }
-}
-
-TEST(Tilted, AFloeThatAHullCoversGoesUnderBeforeItsEdgeIsDeep) {
-  const Story story = run(floes_before_the_stem(16 * kDegree), 10).story;
-  ASSERT_FALSE(story.submerged().empty());
-  const TiltCriterion criterion = std::get<Submerge>(story.submerged()[0].what).criterion;
-  EXPECT_LT(criterion.deflection, criterion.least_deflection);
-  EXPECT_NEAR(criterion.covered_share, 0.5, 0.02);
 }
 
 TEST(Tilted, NoFloeStaysOneThatAHullHasCutInTwo) {
-  Simulation simulation(floe_across_the_stem());
-  Story story;
   double in_two_since = 0;
-  while (simulation.time() < 15) {
-    simulation.step();
-    listen(simulation, story);
-    if (most_parts(simulation) < 2) in_two_since = simulation.time();
-    EXPECT_LE(simulation.time() - in_two_since, 0.3);
-  }
-  expect_closed(simulation);
+  const Trial done = run(floe_across_the_stem(), 15, [&](const Simulation& s) {
+    if (most_parts(s) < 2) in_two_since = s.time();
+    EXPECT_LE(s.time() - in_two_since, 0.3);
+  });
+  expect_closed(done.simulation);
 }
 
 TEST(Tilted, IsBookedAlikeWhereARunIsResumed) {

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -32,32 +34,28 @@ double compliance_of(const WedgeModes& modes, double duration) {
   return compliance;
 }
 
-TEST(TipCompliance, IsThatOfTheModes) {
-  for (const double angle : {20.0, 40.0, 90.0, 180.0}) {
-    const WedgeModes modes = wedge_modes(0.5 * angle * kDegree, 0.05, {});
-    for (const double duration : {0.02, 0.04, 0.08, 0.15, 0.25, 0.4, 0.6, 0.9, 1.3, 1.8, 2.4, 3.2, 4.2, 6.0, 1e3})
-      EXPECT_NEAR(tip_compliance(angle * kDegree, duration) / compliance_of(modes, duration), 1, 1e-3)
-          << angle << " " << duration;
-  }
+void expect_compliance(double angle, double mass_ratio, const std::vector<double>& durations, auto tolerance_at) {
+  const WedgeModes modes = wedge_modes(0.5 * angle * kDegree, mass_ratio, {});
+  for (const double duration : durations)
+    EXPECT_NEAR(tip_compliance(angle * kDegree, duration) / compliance_of(modes, duration), 1, tolerance_at(duration))
+        << angle << " " << mass_ratio << " " << duration;
 }
 
-TEST(TipCompliance, BetweenItsPointsAndForOtherMassRatios) {
-  for (const double angle : {25.0, 75.0, 105.0, 165.0}) {
-    for (const double mass_ratio : {0.02, 0.05, 0.1}) {
-      const WedgeModes modes = wedge_modes(0.5 * angle * kDegree, mass_ratio, {});
-      for (const double duration : {0.1, 0.3, 1.1, 2.8, 9.0}) {
-        const double tolerance = mass_ratio == 0.05 ? 0.02 : duration < 1 ? 0.25 : 0.12;
-        EXPECT_NEAR(tip_compliance(angle * kDegree, duration) / compliance_of(modes, duration), 1, tolerance)
-            << angle << " " << mass_ratio << " " << duration;
-      }
-    }
-  }
+TEST(TipCompliance, IsThatOfTheModesAlsoBetweenItsPointsAndForOtherMassRatios) {
+  for (const double angle : {20.0, 40.0, 90.0, 180.0})
+    expect_compliance(angle, 0.05, {0.02, 0.04, 0.08, 0.15, 0.25, 0.4, 0.6, 0.9, 1.3, 1.8, 2.4, 3.2, 4.2, 6.0, 1e3},
+                      [](double) { return 1e-3; });
+  for (const double angle : {25.0, 75.0, 105.0, 165.0})
+    for (const double mass_ratio : {0.02, 0.05, 0.1})
+      expect_compliance(angle, mass_ratio, {0.1, 0.3, 1.1, 2.8, 9.0}, [&](double duration) {
+        return mass_ratio == 0.05 ? 0.02 : duration < 1 ? 0.25 : 0.12;
+      });
 }
 
 TEST(TipCompliance, AtRestIsTheHalfPlanesAndTheNarrowBeams) {
   EXPECT_NEAR(tip_compliance(std::numbers::pi, 1e6), 0.46198, 0.005);
   // The beam's l has no 1 − ν²; its width grows with 2 tan α.
-  const BeamResponse beam = solve_floating_beam(BeamShape::kWedge, 0.02, 100);
+  const BeamResponse beam = solve_floating_beam(BeamShape::kWedge, {.patch = 0.02});
   const double narrow = beam.tip_deflection / (2 * std::tan(10 * kDegree) * std::sqrt(1 - 0.3 * 0.3));
   EXPECT_NEAR(tip_compliance(20 * kDegree, 1e6) / narrow, 1, 0.02);
 }
@@ -121,18 +119,15 @@ const FsiDatabaseModel kWhole(RadialCracks::kIgnored), kSplit(RadialCracks::kSpl
 
 TEST(RadialCracks, LeaveNarrowWedgesAsTheyAre) {
   for (double angle = 20; angle <= 90; angle += 5) {
-    EXPECT_EQ(kSplit.capacity(slow_load(angle)).vertical_force, kWhole.capacity(slow_load(angle)).vertical_force);
-    EXPECT_EQ(kSplit.capacity(slow_load(angle)).cusp_radius, kWhole.capacity(slow_load(angle)).cusp_radius);
+    const BendingCapacity split = kSplit.capacity(slow_load(angle)), whole = kWhole.capacity(slow_load(angle));
+    EXPECT_EQ(split.vertical_force, whole.vertical_force);
+    EXPECT_EQ(split.cusp_radius, whole.cusp_radius);
   }
 }
 
 /// The parts of 120° and 180° do not crack again; those of a notch of 220° do.
 TEST(RadialCracks, LeavePartsThatBearTheirShares) {
-  struct Row {
-    double angle;
-    int parts;
-  };
-  for (const auto& [angle, parts] : {Row{120, 2}, {180, 2}, {220, 4}, {240, 4}}) {
+  for (const auto& [angle, parts] : {std::pair{120., 2}, {180., 2}, {220., 4}, {240., 4}}) {
     const BendingCapacity split = kSplit.capacity(slow_load(angle));
     const BendingCapacity part = kWhole.capacity(slow_load(angle / parts, 1e-3 * parts));
     EXPECT_NEAR(split.vertical_force / (parts * part.vertical_force), 1, 1e-9) << angle;
@@ -142,21 +137,12 @@ TEST(RadialCracks, LeavePartsThatBearTheirShares) {
   }
 }
 
-/// Static wedges under small loads, σ_f h²: 2 × .208, 2 × .3545.
-TEST(RadialCracks, HalveWhatTheStaticWedgesHave) {
-  const double scale = 0.8e6 * 0.25;
-  EXPECT_NEAR(kSplit.capacity(slow_load(120, 3e-4)).vertical_force / scale, 0.416, 0.015);
-  EXPECT_NEAR(kSplit.capacity(slow_load(180, 3e-4)).vertical_force / scale, 0.709, 0.02);
-}
-
 TEST(RadialCracks, WeakenWithoutAJump) {
-  double last = 0;
+  double last = kSplit.capacity(slow_load(79.9)).vertical_force;
   for (double angle = 80; angle < 180; angle += 0.1) {
     const double split = kSplit.capacity(slow_load(angle)).vertical_force;
     EXPECT_LE(split, kWhole.capacity(slow_load(angle)).vertical_force * (1 + 1e-12));
-    if (last > 0) {
-      EXPECT_NEAR(split / last, 1, 0.02) << angle;
-    }
+    EXPECT_NEAR(split / last, 1, 0.02) << angle;
     last = split;
   }
 }

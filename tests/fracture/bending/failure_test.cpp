@@ -1,6 +1,9 @@
 // When and where the wedge breaks: the verified table, dimensionless collapse, trends, convergence.
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <numeric>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -28,15 +31,12 @@ BendingLoad paper_load(double ship_speed) {
 
 // Ship speeds .1 … 4 m/s, against an independent prototype of the same model.
 TEST(Failure, PapersIceAtFiveSpeeds) {
-  struct Row {
-    double speed, force_kN, time, radius;
-  };
   const WedgeSolver solver = wedge_of(paper_load(1), {});
-  for (const auto& [speed, force, time, radius] : {Row{.1, 70.5, 1.893, 3.03},
+  for (const auto& [speed, force, time, radius] : {std::tuple{.1, 70.5, 1.893, 3.03},
                                                    {.5, 70.6, .379, 2.64},
-                                                   {1, 71.6, .191, 2.17},
-                                                   {2, 73.2, .0965, 1.74},
-                                                   {4, 75.5, .049, 1.39}}) {
+                                                   {1., 71.6, .191, 2.17},
+                                                   {2., 73.2, .0965, 1.74},
+                                                   {4., 75.5, .049, 1.39}}) {
     const auto forecast = direct_forecast(solver, paper_load(speed));
     ASSERT_TRUE(forecast.has_value()) << speed;
     EXPECT_NEAR(forecast->capacity.vertical_force / 1e3 / force, 1, 0.005) << speed;
@@ -46,11 +46,8 @@ TEST(Failure, PapersIceAtFiveSpeeds) {
 }
 
 TEST(Failure, GroupsAtThreeSpeeds) {
-  struct Row {
-    double froude, force, radius;
-  };
   const WedgeSolver solver(std::numbers::pi / 2, 0.05, {});
-  for (const auto& [froude, force, radius] : {Row{.005, .353, .324}, {.05, .353, .291}, {.4, .378, .154}}) {
+  for (const auto& [froude, force, radius] : {std::tuple{.005, .353, .324}, {.05, .353, .291}, {.4, .378, .154}}) {
     const auto failure = solver.failure({froude, 1e-3, 0, 0});
     ASSERT_TRUE(failure.has_value());
     EXPECT_NEAR(failure->force / force, 1, 0.005) << froude;
@@ -127,10 +124,9 @@ TEST(Failure, TimeStepsConvergeToSecondOrder) {
   };
   const std::vector<double> reference = forces(960);
   const auto error = [&](int steps) {
+    const auto miss = [](double found, double expected) { return std::abs(found / expected - 1) / 5; };
     const std::vector<double> found = forces(steps);
-    double sum = 0;
-    for (std::size_t i = 0; i < found.size(); ++i) sum += std::abs(found[i] / reference[i] - 1);
-    return sum / static_cast<double>(found.size());
+    return std::transform_reduce(found.begin(), found.end(), reference.begin(), 0.0, std::plus{}, miss);
   };
   const double usual = error(SolverSettings{}.steps_to_failure);
   EXPECT_LT(usual, error(15) / 8);
@@ -167,11 +163,10 @@ TEST(Failure, CollapsesOntoTheGroups) {
 // The water's own waves hardly matter in the time a wedge takes to break.
 TEST(Failure, FreeSurfaceIsNearPotential) {
   SolverSettings settings;
-  settings.fluid = FluidModel::kFreeSurface;
   settings.panel_rings = 32;
-  SolverSettings potential = settings;
-  potential.fluid = FluidModel::kPotential;
-  const WedgeSolver free_surface(std::numbers::pi / 2, 0.05, settings), plain(std::numbers::pi / 2, 0.05, potential);
+  const WedgeSolver plain(std::numbers::pi / 2, 0.05, settings);
+  settings.fluid = FluidModel::kFreeSurface;
+  const WedgeSolver free_surface(std::numbers::pi / 2, 0.05, settings);
   for (const double froude : {0.005, 0.05, 0.4}) {
     const auto a = free_surface.failure({froude, 1e-3, 0, 0}), b = plain.failure({froude, 1e-3, 0, 0});
     ASSERT_TRUE(a && b);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -10,19 +11,25 @@ namespace polynya::fracture {
 /// wedge).
 enum class BeamShape { kUniform, kWedge };
 
-/// What a tip load does to a semi-infinite floating beam or narrow wedge. Lengths in l = (E h³ / 12 ρ_w g)^¼.
-struct BeamResponse {
-  double tip_deflection = 0;  ///< w(0), in P / (ρ_w g b l) for a beam, P / (ρ_w g b0 l²) for a wedge [-]
-  double peak_curvature = 0;  ///< max of M / (EI/b or EI/b0 x): M_max / (P l) for a beam, σ b0 h² / 6P for a wedge
-  double peak_distance = 0;   ///< distance of that maximum from the tip, in l [-]
+/// On the tip, for unit widths: a unit force as uniform pressure over 0 < x < patch (of wedges), a force and a moment.
+struct TipLoad {
+  double patch = 0, force = 0, moment = 0;
 };
 
-/// Solves (b w'')'' + b w = q on [0, 12 l] with a free tip by cubic Hermite elements; the static equation of
-/// a beam of width b(x) on water [Hetenyi1946]. The load P is uniform pressure over the tip, 0 < x <
-/// patch_length; a patch_length of 0 is a point load (beams only). patch_length a / l [-], elements ≥ 8. The
-/// discretisation error falls as elements⁻⁴ while round-off grows as the shortest element⁻⁴: 100 elements are
-/// best, and patches below about 0.01 l need a wider arithmetic.
-BeamResponse solve_floating_beam(BeamShape shape, double patch_length, int elements);
+inline constexpr double kBeamStep = 1e-3;
+
+/// What a tip load does to a semi-infinite floating beam or narrow wedge. Lengths in l = (E h³ / 12 ρ_w g)^¼.
+struct BeamResponse {
+  double tip_deflection = 0;    ///< w(0), in P / (ρ_w g b l) for a beam, P / (ρ_w g b0 l²) for a wedge [-]
+  double peak_curvature = 0;    ///< max of M / (EI/b or EI/b0 x): M_max / (P l) for a beam, σ b0 h² / 6P for a wedge
+  double peak_distance = 0;     ///< distance of that maximum from the tip, in l [-]
+  std::vector<double> moments;  ///< every kBeamStep from the tip on, in P l
+};
+
+/// Solves (b w'')'' + b w = q, the static equation of a beam of width b(x) on water [Hetenyi1946], by finite
+/// differences of w and M = b w'' on [0, length], where both are taken as 0, with errors of second order in
+/// kBeamStep / patch.
+BeamResponse solve_floating_beam(BeamShape shape, const TipLoad& load, double length = 12);
 
 /// An error falls at least by a factor from each refinement to the next, the first from 1. Gives the last.
 template <class Refinement, class Error>

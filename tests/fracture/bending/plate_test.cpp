@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include <boost/math/tools/minima.hpp>
 #include <gtest/gtest.h>
 
 #include "fracture/bending/internal/fluid.hpp"
@@ -59,13 +60,9 @@ std::complex<double> kelvin_derivative(double x) {
   return sum * kStep;
 }
 
-struct InfinitePlate {
-  double moment, deflection;
-};
-
-/// Our infinite plate: a disc of 8 l, axisymmetric, its moment at the middle from the mean of radial and hoop
-/// moment, which the mesh's small hole does not disturb, carried to r = 0 along its parabola.
-InfinitePlate solve_infinite(double patch, int elements = 72) {
+/// Moment and deflection of our infinite plate: a disc of 8 l, axisymmetric, its moment at the middle from the mean of
+/// radial and hoop moment, which the mesh's small hole does not disturb, carried to r = 0 along its parabola.
+std::pair<double, double> solve_infinite(double patch, int elements = 72) {
   SolverSettings settings;
   settings.angular_terms = 1;
   settings.inner_radius = 5e-4;
@@ -79,36 +76,30 @@ InfinitePlate solve_infinite(double patch, int elements = 72) {
 
 // M0 = (1+ν) kei′(a) / 2πa, w0 = (1 + a ker′(a)) / πa² [Wyman1950]; the table's digits are the same.
 TEST(Plate, InfiniteUnderAPatchIsKelvins) {
-  struct Row {
-    double patch, moment, deflection;
-  };
-  for (const auto& [a, moment, deflection] : {Row{.05, .37366, .12478},
+  for (const auto& [a, moment, deflection] : {std::tuple{.05, .37366, .12478},
                                               {.1, .30203, .12427},
                                               {.2, .23062, .12263},
                                               {.5, .13789, .11472},
-                                              {1, .07291, .09721}}) {
+                                              {1., .07291, .09721}}) {
     const std::complex<double> kelvin = kelvin_derivative(a);
     EXPECT_NEAR(1.3 * kelvin.imag() / (2 * kPi * a), moment, 1e-5) << a;
     EXPECT_NEAR((1 + a * kelvin.real()) / (kPi * a * a), deflection, 1e-5) << a;
-    const InfinitePlate plate = solve_infinite(a);
-    EXPECT_NEAR(plate.moment / moment, 1, 2e-3) << a;
-    EXPECT_NEAR(plate.deflection / deflection, 1, 1e-3) << a;
+    const auto [found_moment, found_deflection] = solve_infinite(a);
+    EXPECT_NEAR(found_moment / moment, 1, 2e-3) << a;
+    EXPECT_NEAR(found_deflection / deflection, 1, 1e-3) << a;
   }
 }
 
 TEST(Plate, InfiniteConvergesUnderRefinement) {
   const double moment = 1.3 * kelvin_derivative(0.2).imag() / (2 * kPi * 0.2);
   expect_falls({10, 20, 40}, 0.5,
-               [&](int elements) { return std::abs(solve_infinite(0.2, elements).moment / moment - 1); });
+               [&](int elements) { return std::abs(solve_infinite(0.2, elements).first / moment - 1); });
 }
 
 // Half-plane, point load on its edge: w0 for three ν. The mesh's inner radius stands for the point, with an
 // error proportional to it: halving it halves the error.
 TEST(Plate, HalfPlaneEdgeDeflection) {
-  struct Row {
-    double nu, deflection;
-  };
-  for (const auto& [nu, deflection] : {Row{0, .40825}, {.15, .43144}, {.3, .46198}}) {
+  for (const auto& [nu, deflection] : {std::pair{0., .40825}, {.15, .43144}, {.3, .46198}}) {
     expect_falls({4e-3, 2e-3, 1e-3}, 0.6, [&, nu = nu, deflection = deflection](double inner) {
       SolverSettings settings;
       settings.poisson_ratio = nu;
@@ -143,15 +134,12 @@ TEST(Plate, HalfPlaneTopStress) {
 
 // The radii agree with the prototype's two digits within 5 %: the maximum is flat.
 TEST(Plate, StaticWedges) {
-  struct Row {
-    double angle_deg, force, radius;
-  };
   const SolverSettings settings;
   SolverSettings fine;
   fine.radial_elements = 54;
   fine.angular_terms = 8;
   for (const auto& [angle, force, radius] :
-       {Row{30, .0965, .27}, {60, .208, .29}, {90, .3545, .34}, {120, .5635, .45}, {180, 1.335, .83}}) {
+       {std::tuple{30, .0965, .27}, {60, .208, .29}, {90, .3545, .34}, {120, .5635, .45}, {180, 1.335, .83}}) {
     const Peak peak = top_stress_peak(rest(angle * kPi / 360, 0.02, settings), settings);
     EXPECT_NEAR(1 / peak.value / force, 1, 2e-3) << angle;
     EXPECT_NEAR(peak.place / radius, 1, 0.05) << angle;
@@ -183,7 +171,7 @@ TEST(Plate, PatchInsideTheInnerRadius) {
 TEST(Plate, NarrowWedgeIsTheBeam) {
   SolverSettings settings;
   settings.poisson_ratio = 0;
-  const double beam = solve_floating_beam(BeamShape::kWedge, 0.1, 100).peak_curvature;
+  const double beam = solve_floating_beam(BeamShape::kWedge, {.patch = 0.1}).peak_curvature;
   const double last = expect_falls({80.0, 40.0, 20.0}, 0.3, [&](double opening) {
     const double half_angle = opening * kPi / 360;
     const double plate = top_stress_peak(rest(half_angle, 0.1, settings), settings).value;
@@ -237,16 +225,11 @@ std::vector<double> even_rays(double edge, int columns) {
   return rays;
 }
 
-/// A unit disc whose rings draw together towards its edge.
-double heaving_disc_added_mass(int rings) {
-  const PanelMesh mesh = make_panel_mesh(rays_towards_edge(0, 1, rings), even_rays(kPi, 8));
-  return added_mass(mesh).sum();
-}
-
 // One side of a disc heaving in unbounded water, 4/3 ρ a³ [Lamb1932].
 TEST(Water, HeavingDiscAddedMass) {
-  const double last =
-      expect_falls({8, 16, 32}, 0.6, [](int rings) { return std::abs(heaving_disc_added_mass(rings) - 4.0 / 3); });
+  const double last = expect_falls({8, 16, 32}, 0.6, [](int rings) {
+    return std::abs(added_mass(make_panel_mesh(rays_towards_edge(0, 1, rings), even_rays(kPi, 8))).sum() - 4.0 / 3);
+  });
   EXPECT_LT(last, 0.006);
 }
 
@@ -278,7 +261,7 @@ TEST(Water, SmallDiscHeaves) {
   EXPECT_LT(last, 0.03);
 }
 
-/// Wave number k of the J0(kr) that fits samples of a mode best, by a scan and a golden section.
+/// Wave number k of the J0(kr) that fits samples of a mode best, by a scan and Brent's method.
 double fitted_wave_number(const std::vector<double>& radii, const Eigen::VectorXd& values, double least, double most) {
   const auto misfit = [&](double k) {
     double vj = 0, jj = 0, vv = 0;
@@ -293,12 +276,8 @@ double fitted_wave_number(const std::vector<double>& radii, const Eigen::VectorX
   double best = least;
   for (double k = least; k < most; k *= 1.01)
     if (misfit(k) < misfit(best)) best = k;
-  double low = best / 1.01, high = best * 1.01;
-  for (int i = 0; i < 60; ++i) {
-    const double a = low + 0.382 * (high - low), b = low + 0.618 * (high - low);
-    (misfit(a) < misfit(b) ? high : low) = misfit(a) < misfit(b) ? b : a;
-  }
-  return misfit(best) < 0.02 ? 0.5 * (low + high) : 0;
+  const auto [k, miss] = boost::math::tools::brent_find_minima(misfit, best / 1.01, best * 1.01, 30);
+  return miss < 0.02 ? k : 0;
 }
 
 /// Worst relative error of ω² against ω² = (k⁵ + k) / (1 + m̂ k) over the axisymmetric modes of a large disc
@@ -353,43 +332,20 @@ TEST(Water, AddedMassIsSymmetricAndPositive) {
 // Semi-infinite beam under an end load: w0 = √2 P / k l, M_max = √2 e^{−π/4} sin(π/4) P l at x = π/4 · √2 l
 // [Hetenyi1946].
 TEST(FloatingBeam, EndLoadIsTheClosedForm) {
-  const BeamResponse beam = solve_floating_beam(BeamShape::kUniform, 0, 200);
+  const BeamResponse beam = solve_floating_beam(BeamShape::kUniform, {.force = 1});
   EXPECT_NEAR(beam.tip_deflection, std::numbers::sqrt2, 1e-5);
   EXPECT_NEAR(beam.peak_curvature, std::exp(-std::numbers::pi / 4), 2e-5);  // √2 · sin(π/4) = 1
   EXPECT_NEAR(beam.peak_distance, std::numbers::pi / 4 * std::numbers::sqrt2, 3e-4);
 }
 
-TEST(FloatingBeam, EndLoadConvergesUnderRefinement) {
-  expect_falls({10, 20, 40}, 0.3, [](int elements) {
-    return std::abs(solve_floating_beam(BeamShape::kUniform, 0, elements).peak_curvature -
-                    std::exp(-std::numbers::pi / 4));
-  });
-}
-
-struct WedgeRow {
-  double patch, force, radius;
-};
-
 // The narrow wedge of docs/theory/bending.md. The expected forces are those of an earlier prototype, which
 // ours exceeds by 0.22 % at a/l = 0.1, less for longer patches; the radii agree.
 TEST(NarrowWedge, AgreesWithThePrototype) {
   for (const auto& [patch, force, radius] :
-       {WedgeRow{.1, 1.2527, .512}, {.2, 1.449, .679}, {.5, 2.101, 1.036}, {1, 3.700, 1.541}}) {
-    const BeamResponse wedge = solve_floating_beam(BeamShape::kWedge, patch, 100);
+       {std::tuple{.1, 1.2527, .512}, {.2, 1.449, .679}, {.5, 2.101, 1.036}, {1., 3.700, 1.541}}) {
+    const BeamResponse wedge = solve_floating_beam(BeamShape::kWedge, {.patch = patch});
     EXPECT_NEAR(1 / wedge.peak_curvature / force, 1, 2.5e-3) << patch;
     EXPECT_NEAR(wedge.peak_distance, radius, 1.1e-3) << patch;
-  }
-}
-
-// Under a tip patch the deflection converges as the energy does; the stress follows.
-TEST(NarrowWedge, ConvergesUnderRefinement) {
-  for (const double patch : {0.1, 0.5}) {
-    const BeamResponse fine = solve_floating_beam(BeamShape::kWedge, patch, 100);
-    expect_falls({8, 16, 32}, 0.25, [&](int elements) {
-      const BeamResponse wedge = solve_floating_beam(BeamShape::kWedge, patch, elements);
-      return std::abs(wedge.tip_deflection - fine.tip_deflection);
-    });
-    EXPECT_NEAR(solve_floating_beam(BeamShape::kWedge, patch, 50).peak_curvature, fine.peak_curvature, 3e-5);
   }
 }
 
@@ -400,7 +356,7 @@ TEST(Nevel, ForceFormIsTheNarrowWedge) {
   const double scale = 2 * std::tan(opening / 2) * ice.flexural_strength * ice.thickness * ice.thickness / 6;
   for (const auto& [a, expected, tolerance] :
        {std::tuple(0.05, 1.0, 0.02), {0.1, 1.0, 0.02}, {0.2, 1.0, 0.02}, {1.0, 0.96, 0.005}}) {
-    const double solved = 1 / solve_floating_beam(BeamShape::kWedge, a, 100).peak_curvature;
+    const double solved = 1 / solve_floating_beam(BeamShape::kWedge, {.patch = a}).peak_curvature;
     EXPECT_NEAR(nevel_force(opening, a, ice) / scale / solved, expected, tolerance) << a;
   }
   EXPECT_NEAR(nevel_force(opening, 1, ice) / scale, 3.55, 1e-12);
@@ -409,14 +365,14 @@ TEST(Nevel, ForceFormIsTheNarrowWedge) {
 TEST(Nevel, RadiusTableIsTheBeamSolution) {
   for (const double root : {0.3, 0.43, 0.58, 0.75, 0.92, 1.14, 1.37, 1.5}) {
     const double a = root * root * root;
-    const double solved = solve_floating_beam(BeamShape::kWedge, a, 100).peak_distance;
+    const double solved = solve_floating_beam(BeamShape::kWedge, {.patch = a}).peak_distance;
     EXPECT_NEAR(nevel_cusp_radius_over_l(a) / solved, 1, 1e-3) << a;
   }
 }
 
 // A short load: beyond the patch w'' = P (1 − 2a/3x) − w(0) x²/6, greatest at x³ = 2a / w(0).
 TEST(Nevel, RadiusHasTheShortLoadLimit) {
-  const double tip = solve_floating_beam(BeamShape::kWedge, 0.01, 60).tip_deflection;
+  const double tip = solve_floating_beam(BeamShape::kWedge, {.patch = 0.01}).tip_deflection;
   EXPECT_NEAR(nevel_cusp_radius_over_l(1e-9) / 1e-3, std::cbrt(2 / tip), 3e-3);
   EXPECT_EQ(nevel_cusp_radius_over_l(0), 0);
 }
@@ -445,9 +401,9 @@ TEST(Nevel, WideWedgesAreOutOfRange) {
     load.penetration = penetration * characteristic_length(load.ice, load.water);
     return NevelModel().capacity(load);
   };
-  EXPECT_TRUE(capacity(std::numbers::pi / 3, 0.01).is_in_range);
-  for (const double degrees : {61.0, 90.0, 120.0, 175.0})
-    EXPECT_FALSE(capacity(degrees * std::numbers::pi / 180, 0.01).is_in_range) << degrees;
+  for (const auto& [opening, is_narrow] :
+       {std::pair{kWidestNevelWedge, true}, {61 * kPi / 180, false}, {kPi / 2, false}})
+    EXPECT_EQ(capacity(opening, 0.01).is_in_range, is_narrow) << opening;
   const Ice ice;
   const double force_scale = ice.flexural_strength * ice.thickness * ice.thickness;
   SolverSettings still;
@@ -464,9 +420,8 @@ TEST(Nevel, WideWedgesAreOutOfRange) {
 
 TEST(Kashtelyan, ForceAndRadius) {
   const Ice ice;
-  const double pi = std::numbers::pi;
-  EXPECT_NEAR(kashtelyan_force(pi, ice), 3.1 * 0.8e6 * 0.25, 1e-6);
-  EXPECT_NEAR(kashtelyan_force(pi / 2, ice) / kashtelyan_force(pi, ice), 0.25, 1e-12);
+  EXPECT_NEAR(kashtelyan_force(kPi, ice), 3.1 * 0.8e6 * 0.25, 1e-6);
+  EXPECT_NEAR(kashtelyan_force(kPi / 2, ice) / kashtelyan_force(kPi, ice), 0.25, 1e-12);
   EXPECT_NEAR(kashtelyan_radius(8.909, 0), 2.851, 1e-3);
   EXPECT_GT(kashtelyan_radius(8.909, 1), kashtelyan_radius(8.909, 2));
   BendingLoad load;
