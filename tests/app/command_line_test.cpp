@@ -1,5 +1,4 @@
-// The commands around scenes: validate, run --set, init, schema; problems and hints in the terminal and as
-// JSON.
+// The commands around scenes: validate, run --set, init, schema; problems and hints in the terminal and as JSON.
 #include "program.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>

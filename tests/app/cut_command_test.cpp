@@ -1,5 +1,4 @@
-// `polynya cut`: the ledger and the pieces of every tool, what is refused, and what is kept of a file's
-// formats.
+// `polynya cut`: the ledger and the pieces of every tool, what is refused, and what is kept of a file's formats.
 #include <cmath>
 
 #include "program.hpp"
@@ -183,8 +182,7 @@ TEST_F(CutCommand, OpsApplyInOrderToAllPieces) {
       << "the lower half is missed by the disc, so nothing of it is inside";
 }
 
-/// A cut that must cut is refused where it leaves a floe, or one of its pieces, as it was; the others are
-/// cut.
+/// A cut that must cut is refused where it leaves a floe, or one of its pieces, as it was; the others are cut.
 TEST_F(CutCommand, ACutThatMustCutRefusesWhatItLeavesWhole) {
   const std::string disc = R"([{"disc": [0, 0, 1], "keep": "both")";
   write("may.json", disc + "}]");

@@ -80,8 +80,7 @@ TEST_F(DamagedRun, ADamagedSummaryIsNamedWithItsPlace) {
   write_file(summary, whole);
 }
 
-/// Rings that can be read but bound no valid area: the check finds them, and everything else says what it
-/// leaves out.
+/// Rings that can be read but bound no valid area: the check finds them, and everything else says what it leaves out.
 TEST_F(DamagedRun, ARingThatIsNotValidCrashesNoCommand) {
   for (const char* ring : {"[[0,0],[1,0],[2,0]]", "[[1,1],[1,1],[1,1]]", "[[0,0],[4,4],[4,0],[0,4]]",
                            "[[0,0],[9,0],[4,0],[4,9]]", "[[0,0],[1e300,0],[0,1e300]]", "[[0,0],[0,9],[9,9],[9,0]]"}) {
@@ -111,8 +110,7 @@ TEST_F(DamagedRun, ASizeDistributionLeavesOutAreasThatAreNone) {
 
 // ---- a run whose account of energy does not close says so, leaves the state before, and repeats it
 
-/// A ship that thrust alone has brought to ½ m v² = (F t)² / 2 m = 5e4 J/s² · t², and a floe that nobody
-/// meets.
+/// A ship that thrust alone has brought to ½ m v² = (F t)² / 2 m = 5e4 J/s² · t², and a floe that nobody meets.
 const std::string kScene = scene({R"("time": {"step_s": 0.01, "until_s": 10}, "record": {"frames_interval_s": 1})",
                                   list("ships", {ship(R"("position_m": [0, 0], "propulsion": {"thrust_N": 1e6})")}),
                                   list("floes", {square(500, -30, 40)})});

@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 /// Runs in a folder, without rsvg-convert, which takes seconds.
 class Resume : public testing::Test {
  protected:
-  /// A run that was killed when it had two checkpoints, beside the same run uninterrupted; a copy of it is
-  /// kept.
+  /// A run that was killed when it had two checkpoints, beside the same run uninterrupted; a copy of it is kept.
   void interrupt() {
     write_file(folder_ / "scene.json", crash_scene("100"));
     ASSERT_EQ(polynya("run scene.json --out whole", start_).code, 0);
@@ -158,8 +157,7 @@ TEST_F(Resume, ASignalStopsWithACheckpointAndNobodyElseMayWriteMeanwhile) {
   }
 }
 
-/// A size limit stands for a full disk, of 64 kB: forces.csv or floes.ndjson meets it. After it is lifted,
-/// all is well.
+/// A size limit stands for a full disk, of 64 kB: forces.csv or floes.ndjson meets it. After it is lifted, all is well.
 TEST_F(Resume, AfterAFullDiskTheRunGoesOn) {
   write_file(folder_ / "scene.json", crash_scene("100"));
   ASSERT_EQ(polynya("run scene.json --out whole", start_).code, 0);

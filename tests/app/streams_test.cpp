@@ -82,8 +82,7 @@ TEST_F(Streams, MessagesThatCannotBeWrittenNeverEndInZero) {
   EXPECT_EQ(in_folder("validate tiny.json", [] { fill_disk_of(2); }).code, 0);  // it has no message
 }
 
-/// The files of the run would take the descriptors of closed streams, and reports and progress would go
-/// there.
+/// The files of the run would take the descriptors of closed streams, and reports and progress would go there.
 TEST_F(Streams, WhateverStreamIsClosedARunsFilesHoldTheRun) {
   for (int closed = 1; closed < 8; ++closed) {
     const auto close_some = [closed] {

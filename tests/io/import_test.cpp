@@ -49,8 +49,7 @@ tl::expected<PlaneReport, PlaneError> bring(std::vector<SourceFloe>& floes, cons
   return report;
 }
 
-/// The polar stereographic of EPSG:3413 in closed form (Snyder 1987, 21-33 to 21-40), true at 70° N, 45° W
-/// down.
+/// The polar stereographic of EPSG:3413 in closed form (Snyder 1987, 21-33 to 21-40), true at 70° N, 45° W down.
 Point polar_stereographic(double latitude, double longitude) {
   const double a = 6378137, e = 0.0818191908426215;
   const auto t = [&](double lat) {

@@ -373,8 +373,7 @@ TEST_F(RunFiles, OfVersionOneReadTheSameAndOfALaterOneNot) {
     EXPECT_HAS(refusal(run_file::kSummary, replaced(summary, version, other)), "summary.json: a run folder of version");
 }
 
-/// Level ice: every cusp leaves the same plate with a longer boundary. Later lines are as short as early
-/// ones.
+/// Level ice: every cusp leaves the same plate with a longer boundary. Later lines are as short as early ones.
 TEST(Run, FloesGrowWithTheIceThatIsNewNotWithThePlate) {
   const TemporaryFolder folder;
   const LoadedScene scene = load(

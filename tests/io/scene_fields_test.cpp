@@ -162,8 +162,7 @@ TEST(SceneFields, TheResolvedSceneReadsBackToTheSameSceneAndText) {
     expect_reads_back(load(text));
 }
 
-/// Every field of the table reaches the scene: changing it alone changes the scene, and survives the resolved
-/// text.
+/// Every field of the table reaches the scene: changing it alone changes the scene, and survives the resolved text.
 TEST(SceneFields, EveryFieldRoundTripsAndReachesTheScene) {
   std::set<std::string> seen;
   for (const std::string& base_text : {kFirst, kSecond, kThird, kFourth, kFifth, fleet()}) {
@@ -220,8 +219,7 @@ TEST(SceneFields, DefaultsAreTheSimulations) {
   EXPECT_TRUE(settings == simulation::Scene{});
 }
 
-/// What is kept in radians and newtons is written as it was given: resolved scenes and their hashes rest on
-/// it.
+/// What is kept in radians and newtons is written as it was given: resolved scenes and their hashes rest on it.
 TEST(SceneFields, NumbersInTheUnitsOfTheirKeysAreWrittenAsTheyWereGiven) {
   for (const std::string_view unit : {"°", "°/s", "kN", "MW", "m"})
     for (int i = -2000; i <= 2000; ++i) {

@@ -1,6 +1,5 @@
-// Measures the player: node tests/view/measure.js PAGE.html [seconds]     (playwright-core in NODE_PATH)
-// Prints how long the page took to open, the time between frames and in drawing while it plays, and the processor time
-// of all the
+// Measures the player: node tests/view/measure.js PAGE.html [seconds] (playwright-core in NODE_PATH) Prints how long
+// the page took to open, the time between frames and in drawing while it plays, and the processor time of all the
 // browser's processes for a frame, which other work on the machine changes little (Linux).
 "use strict";
 const fs = require("node:fs");

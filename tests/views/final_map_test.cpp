@@ -60,8 +60,7 @@ io::Run run_with_floes(const std::string& name) {
   return run;
 }
 
-/// Of the five floes the first floats all the time, the second is under a hull from 5 s on, and the third
-/// came up.
+/// Of the five floes the first floats all the time, the second is under a hull from 5 s on, and the third came up.
 io::Run run_with_ice_under_a_hull() {
   io::Run run = run_with_floes("level");
   run.scene.scene.ships[0].hull.draught = 6;
