@@ -8,18 +8,16 @@
 namespace polynya::tests {
 namespace {
 
-class Usage : public testing::Test {
+class Usage : public InSharedFolder {
  protected:
   static void SetUpTestSuite() {
-    folder = new TemporaryFolder;
+    folder.emplace();
     write_file(*folder / "tiny.json", kTinyScene);
     ASSERT_EQ(polynya("run tiny.json --out run --no-map", *folder).code, 0);
     ASSERT_EQ(polynya("run scenes/two-floes.json --until 1 --out shipless --no-map", *folder).code, 0);
     write_file(*folder / "ops.json", R"([{"disk": [1,2,3]}])");
     write_file(*folder / "floes.wkt", "POLYGON ((0 0, 10 0, 10 10, 0 10))\n");
   }
-  static void TearDownTestSuite() { delete folder; }
-  static inline TemporaryFolder* folder = nullptr;
 };
 
 TEST_F(Usage, ErrorsNameTheCommandTheFaultAndWhatWasMeant) {
@@ -161,14 +159,25 @@ TEST_F(Usage, AMissingPythonIsNamed) {
 
 // ---- help, manual page and completion list every command and option
 
-const TemporaryFolder& folder() {
-  static const TemporaryFolder kFolder;
-  return kFolder;
-}
-std::string output_of(const Words& words) {
-  const Outcome outcome = expect_code(0, polynya(words, {folder().path()}));
-  return outcome.out;
-}
+class Guide : public InFolder {
+ protected:
+  std::string output_of(const Words& words) const { return done(words).out; }
+  /// What bash completes a line to.
+  std::string completed(const std::string& line) const {
+    const std::string script = "source " POLYNYA_BINARY ".bash; COMP_WORDS=(" + line +
+                               "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _polynya; echo \" ${COMPREPLY[*]} \"";
+    FILE* pipe = popen(("cd '" + folder.path().string() + "' && bash -c '" + script + "'").c_str(), "r");
+    std::string text;
+    for (int c = 0; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
+    EXPECT_EQ(pclose(pipe), 0);
+    return text;
+  }
+  /// What the build writes beside the program.
+  static std::string manual_page() {
+    const auto file = std::filesystem::path(POLYNYA_BINARY).parent_path() / "polynya.1";
+    return std::regex_replace(read_file(file), std::regex(R"(\\-)"), "-");
+  }
+};
 
 /// The commands that the help lists after its line "Subcommands:".
 std::vector<std::string> subcommands(const std::string& help) {
@@ -189,17 +198,7 @@ std::set<std::string> long_options(const std::string& help) {
   return found;
 }
 
-std::string completed(const std::string& line) {
-  const std::string script = "source " POLYNYA_BINARY ".bash; COMP_WORDS=(" + line +
-                             "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _polynya; echo \" ${COMPREPLY[*]} \"";
-  FILE* pipe = popen(("cd '" + folder().path().string() + "' && bash -c '" + script + "'").c_str(), "r");
-  std::string text;
-  for (int c = 0; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
-  EXPECT_EQ(pclose(pipe), 0);
-  return text;
-}
-
-TEST(Guide, HelpLeadsWithExamples) {
+TEST_F(Guide, HelpLeadsWithExamples) {
   const std::string help = output_of("--help");
   EXPECT_BEGINS(help, "Examples:");
   const auto commands = subcommands(help);
@@ -213,14 +212,8 @@ TEST(Guide, HelpLeadsWithExamples) {
   }
 }
 
-/// What the build writes beside the program.
-std::string page_named(const char* name) {
-  return read_file(std::filesystem::path(POLYNYA_BINARY).parent_path() / name);
-}
-
-TEST(Guide, TheManualPageHasEveryCommandAndOption) {
-  std::string page = page_named("polynya.1");
-  page = std::regex_replace(page, std::regex(R"(\\-)"), "-");
+TEST_F(Guide, TheManualPageHasEveryCommandAndOption) {
+  const std::string page = manual_page();
   for (const std::string& command : subcommands(output_of("--help"))) {
     EXPECT_HAS(page, ".SS " + command + "\n") << command;
     for (const std::string& option : long_options(output_of({command, "--help"})))
@@ -228,11 +221,10 @@ TEST(Guide, TheManualPageHasEveryCommandAndOption) {
   }
 }
 
-TEST(Guide, BashCompletesCommandsOptionsChoicesAndFiles) {
-  write_file(folder() / "scene-of-mine.json", "{}");
-  const std::string help = output_of("--help");
+TEST_F(Guide, BashCompletesCommandsOptionsChoicesAndFiles) {
+  write("scene-of-mine.json", "{}");
   const std::string all = completed("polynya \"\"");
-  for (const std::string& command : subcommands(help)) {
+  for (const std::string& command : subcommands(output_of("--help"))) {
     EXPECT_HAS(all, " " + command + " ") << command;
     const std::string options = completed("polynya " + command + " --");
     for (const std::string& option : long_options(output_of({command, "--help"})))
@@ -243,10 +235,9 @@ TEST(Guide, BashCompletesCommandsOptionsChoicesAndFiles) {
   EXPECT_EQ(completed("polynya validate scene-of"), " scene-of-mine.json \n");
 }
 
-TEST(Guide, BashCompletesFilesOnlyWhereTheyAreExpected) {
-  std::filesystem::create_directories(folder() / "scene-folder");
-  write_file(folder() / "scene-of-mine.json", "{}");
-  write_file(folder() / "scene of two words.json", "{}");
+TEST_F(Guide, BashCompletesFilesOnlyWhereTheyAreExpected) {
+  std::filesystem::create_directories(folder / "scene-folder");
+  for (const char* name : {"scene-of-mine.json", "scene of two words.json"}) write(name, "{}");
   EXPECT_EQ(completed("polynya database \"\""), " build show query \n");
   EXPECT_EQ(completed("polynya inspect scene"), " scene-folder \n");
   for (const char* line : {"polynya run --until scene", "polynya cut --disc scene", "polynya schema scene",
@@ -260,9 +251,8 @@ TEST(Guide, BashCompletesFilesOnlyWhereTheyAreExpected) {
     EXPECT_HAS(options, std::string(" ") + tool + " ");
 }
 
-TEST(Guide, OptionsComeInTheOrderOfTheirUse) {
-  const std::string help = output_of("cut --help");
-  const std::string page = std::regex_replace(page_named("polynya.1"), std::regex(R"(\\-)"), "-");
+TEST_F(Guide, OptionsComeInTheOrderOfTheirUse) {
+  const std::string help = output_of("cut --help"), page = manual_page();
   for (const auto& [text, begin] : {std::pair{help, "\n  "}, {page.substr(page.find(".SS cut\n")), "\n.B "}}) {
     std::size_t last = 0;
     for (const char* option :

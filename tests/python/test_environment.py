@@ -169,15 +169,10 @@ def test_it_passes_gymnasiums_own_check():
 GYMNASIUM = '''
 import numpy
 class Env:
-    _np_random = None
+    np_random = numpy.random.default_rng()
     def reset(self, *, seed=None, options=None):
         if seed is not None:
-            self._np_random = numpy.random.default_rng(seed)
-    @property
-    def np_random(self):
-        if self._np_random is None:
-            self._np_random = numpy.random.default_rng()
-        return self._np_random
+            self.np_random = numpy.random.default_rng(seed)
 '''
 SPACES = '''
 import numpy
