@@ -136,19 +136,17 @@ TEST(FloeShapes, ALineHoldsWhatIsNew) {
       const ShapeParts shape = parts_of(birth.polygon_in_body, parent);
       if (!shape.has_parent()) continue;
       ++lines;
+      std::vector<Ring> rings{parent.outer};
+      rings.insert(rings.end(), parent.holes.begin(), parent.holes.end());
       std::map<std::pair<double, double>, int> left;
-      for (const Ring* ring : {&parent.outer})
-        for (const Point p : *ring) ++left[{p.x, p.y}];
-      for (const Ring& hole : parent.holes)
-        for (const Point p : hole) ++left[{p.x, p.y}];
-      const std::vector<std::size_t> sizes = ring_sizes(whole(parent));
+      for (const Ring& ring : rings)
+        for (const Point p : ring) ++left[{p.x, p.y}];
       std::map<std::pair<std::int32_t, std::size_t>, int> taken;
       for (const ShapePart& part : shape.parts) {
         if (part.ring == ShapePart::kNew) continue;
-        const auto ring = static_cast<std::size_t>(part.ring);
-        const Ring& of = ring == 0 ? parent.outer : parent.holes[ring - 1];
+        const Ring& of = rings[static_cast<std::size_t>(part.ring)];
         for (std::uint32_t k = 0; k < part.count; ++k) {
-          const std::size_t at = (part.first + k) % sizes[ring];
+          const std::size_t at = (part.first + k) % of.size();
           EXPECT_EQ(++taken[std::pair(part.ring, at)], 1);
           --left[{of[at].x, of[at].y}];
         }

@@ -104,21 +104,14 @@ TEST(FloeText, WhatStandsInATextIsNumberedAndPlaced) {
     {"type": "Polygon", "coordinates": [[[7,0],[8,0,3],[7,1]], 5]},
     {"type": "Polygon", "coordinates": []},
     7]})");
-  struct Expected {
-    std::size_t feature, member, line;
-    std::string refusal;
-  };
+  using Expected = std::tuple<std::size_t, std::size_t, std::size_t, std::string>;  // feature, member, line, refusal
   const std::vector<Expected> expected{
       {0, 0, 3, ""}, {0, 1, 4, ""},          {1, 0, 5, "no-geometry"}, {2, 0, 7, "not-a-polygon"},
       {2, 1, 8, ""}, {3, 0, 9, "malformed"}, {4, 0, 10, ""},           {5, 0, 11, "malformed"}};
-  ASSERT_EQ(floes.entries.size(), expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    const FloeEntry& entry = floes.entries[i];
-    EXPECT_EQ(entry.feature, expected[i].feature) << i;
-    EXPECT_EQ(entry.member, expected[i].member) << i;
-    EXPECT_EQ(entry.line, expected[i].line) << i;
-    EXPECT_EQ(entry.refusal, expected[i].refusal) << i << entry.detail;
-  }
+  std::vector<Expected> found;
+  for (const FloeEntry& entry : floes.entries)
+    found.emplace_back(entry.feature, entry.member, entry.line, entry.refusal);
+  EXPECT_EQ(found, expected);
   EXPECT_TRUE(floes.has_more_coordinates);
 }
 
@@ -208,9 +201,7 @@ TEST(FloeText, PropertiesAndCrsAreKeptAsWritten) {
             R"("name":"a  \"b\" // c","thick_m":0.70,"id":12345678901234567890,"mean":null,"huge":null,)"
             R"("list":[1,{"x":null}])");
   EXPECT_EQ(floes.entries[1].properties, nullptr);
-  EXPECT_TRUE(floes_of("SRID=3413;"
-                       "POLYGON ((0 0, 1 0, 0 1))")
-                  .has_srid);
+  EXPECT_TRUE(floes_of("SRID=3413;POLYGON ((0 0, 1 0, 0 1))").has_srid);
 }
 
 TEST(FloeText, NumbersThatAreNoneBecomeNan) {
@@ -280,20 +271,20 @@ TEST(CutOps, AListIsReadInOrder) {
     {"polygon": "POLYGON ((0 0, 0 1, 1 0, 0 0))"}])json",
                                                {Keep::kOutside, 0.1}));
   ASSERT_EQ(ops->size(), 7U);
-  EXPECT_EQ(std::get<DiscTool>((*ops)[0].tool).sagitta, 0.1);
-  EXPECT_EQ(std::get<DiscTool>((*ops)[1].tool).sagitta, 0.5);
-  EXPECT_EQ((*ops)[1].keep, Keep::kBoth);
-  EXPECT_EQ((*ops)[2].keep, Keep::kOutside);
-  EXPECT_FALSE((*ops)[2].must_cut);
-  EXPECT_TRUE((*ops)[3].must_cut);
-  EXPECT_EQ(std::get<CrackTool>((*ops)[2].tool).angle_deg, 30);
-  EXPECT_EQ(std::get<LineTool>((*ops)[3].tool).path, (std::vector<geometry::Point>{{0, 1}, {2, 3}}));
-  EXPECT_EQ(std::get<LineTool>((*ops)[4].tool).path.size(), 3U);
-  const auto& polygons = std::get<PolygonTool>((*ops)[5].tool).polygons;
+  const std::vector<CutOp>& op = *ops;
+  EXPECT_EQ(std::get<DiscTool>(op[0].tool).sagitta, 0.1);
+  EXPECT_EQ(std::get<DiscTool>(op[1].tool).sagitta, 0.5);
+  EXPECT_EQ(op[1].keep, Keep::kBoth);
+  EXPECT_EQ(op[2].keep, Keep::kOutside);
+  EXPECT_TRUE(!op[2].must_cut && op[3].must_cut);
+  EXPECT_EQ(std::get<CrackTool>(op[2].tool).angle_deg, 30);
+  EXPECT_EQ(std::get<LineTool>(op[3].tool).path, (std::vector<geometry::Point>{{0, 1}, {2, 3}}));
+  EXPECT_EQ(std::get<LineTool>(op[4].tool).path.size(), 3U);
+  const auto& polygons = std::get<PolygonTool>(op[5].tool).polygons;
   ASSERT_EQ(polygons.size(), 2U);
   EXPECT_EQ(polygons[0].outer.size(), 4U);
   EXPECT_EQ(polygons[0].holes.size(), 1U);
-  EXPECT_EQ((*ops)[5].keep, Keep::kInside);
+  EXPECT_EQ(op[5].keep, Keep::kInside);
 }
 
 TEST(CutOps, WhatIsWrongIsToldWithItsNumber) {

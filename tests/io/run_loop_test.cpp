@@ -125,6 +125,7 @@ TEST(RunLoop, ALargeFinalGeojsonIsWrittenOnRequestAlone) {
        list(
            "floes",
            {R"({"lattice": {"origin_m": [0.1, 0.2], "columns": 320, "rows": 320, "pitch_m": 3.3, "size_m": 3.1}})"})}));
+  ASSERT_EQ(many.scene.floes.size(), 102'400U);
   const FolderSize estimated = estimate_folder_size(many.scene);
   for (const bool is_asked : {false, true}) {
     auto run = checked(start_run(folder / "run", many, true));

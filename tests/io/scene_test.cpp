@@ -61,11 +61,6 @@ TEST(Scene, OverridesTakeTheScenesPlace) {
   EXPECT_EQ(loaded->scene.name, "a-b---");
 }
 
-TEST(Scene, ALargeLatticeIsReadWhole) {
-  const std::string lattice = R"({"lattice": {"columns": 400, "rows": 250, "pitch_m": 10, "size_m": 10}})";
-  EXPECT_EQ(load(scene({list("floes", {lattice})})).scene.floes.size(), 100'000U);
-}
-
 TEST(Scene, FastIceHoldsItsVelocityOverGround) {
   const std::string moving = R"("velocity_m_per_s": [0.1, -0.2])";
   const auto loaded =
@@ -272,13 +267,10 @@ simulation::Ship ship_of(const std::string& text) {
   return loaded.scene.ships.empty() ? simulation::Ship{} : loaded.scene.ships.front();
 }
 
-TEST(SceneShips, AShipAtConstantSpeedStartsAtIt) {
+TEST(SceneShips, WhatAShipIsNotGivenFollowsFromTheRest) {
   const auto held = ship_of(ship(R"("propulsion": {"constant_speed_m_per_s": 1.5})"));
   EXPECT_EQ(held.speed, 1.5);
   EXPECT_EQ(held.name, "ship-1");
-}
-
-TEST(SceneShips, MassInertiaAndWaterFollowFromTheForm) {
   const auto sailing = ship_of(sailing_ship());
   EXPECT_DOUBLE_EQ(sailing.mass, 1000 * 0.58 * 120 * 24 * 6);
   EXPECT_DOUBLE_EQ(sailing.moment_of_inertia, sailing.mass * 900);
