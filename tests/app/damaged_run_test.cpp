@@ -33,10 +33,7 @@ class DamagedRun : public InSharedFolder {
       io::append_birth(floes, {floe.birth, *run->shape(floe.birth.floe)}, nullptr);
     write_file(file(), floes);
   }
-  /// Without rsvg-convert, which takes seconds.
-  static Outcome call(const Words& words) {
-    return polynya(words, Start{.folder = folder->path(), .arrange_streams = [] { setenv("PATH", "/", 1); }});
-  }
+  static Outcome call(const Words& words) { return polynya(words, without_converter(*folder)); }
   static std::filesystem::path file() { return folder->path() / "damaged/floes.ndjson"; }
   /// Writes other rings to the first floe, a plate.
   static void damage(const std::string& ring, const std::string& holes = "") {

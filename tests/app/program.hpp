@@ -52,6 +52,11 @@ struct Start {
   std::vector<std::string> under = {};  ///< a program, and its options, that starts polynya
 };
 
+/// Without rsvg-convert, which takes seconds.
+inline Start without_converter(const TemporaryFolder& folder) {
+  return {.folder = folder.path(), .arrange_streams = [] { setenv("PATH", "/", 1); }};
+}
+
 /// With stdout or stderr a pipe without a reader.
 inline void close_pipe_behind(int descriptor) {
   int ends[2];

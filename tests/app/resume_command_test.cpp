@@ -41,7 +41,7 @@ class Resume : public testing::Test {
   std::string difference() const { return first_difference(folder_ / "whole", folder_ / "run"); }
 
   const TemporaryFolder folder_;
-  const Start start_{.folder = folder_.path(), .arrange_streams = [] { setenv("PATH", "/", 1); }};
+  const Start start_ = without_converter(folder_);
   std::vector<fs::path> checkpoints_;  // the newest first
 };
 
@@ -139,15 +139,14 @@ TEST_F(Resume, ASignalStopsWithACheckpointAndNobodyElseMayWriteMeanwhile) {
     while (!has_ended(child) && (io::checkpoints_in(folder_ / "run").empty() || !has_rows()))
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     const TemporaryFolder elsewhere;
-    const Start beside{elsewhere.path()};
-    for (const auto& words : {Words{"resume", folder_ / "run"},
-                              Words{"run", folder_ / "scene.json", "--out", folder_ / "run", "--overwrite"}}) {
-      EXPECT_HAS(expect_code(5, polynya(words, beside)).err, "another polynya is writing this run");
-    }
+    const std::string run_folder = folder_ / "run", message = "another polynya is writing this run";
+    expect_refusals({{{"resume", run_folder}, 5, message},
+                     {{"run", folder_ / "scene.json", "--out", run_folder, "--overwrite"}, 5, message}},
+                    {elsewhere.path()});
     kill(child, signal);
     EXPECT_HAS(expect_code(75, wait_for(child, start_)).err, name, "polynya resume run");
-    EXPECT_FALSE(io::checkpoints_in(folder_ / "run").empty());
-    EXPECT_LE(io::checkpoints_in(folder_ / "run").size(), 2U);
+    const std::size_t kept = io::checkpoints_in(run_folder).size();
+    EXPECT_TRUE(kept == 1 || kept == 2) << kept;
     const auto run = checked(io::read_run(folder_ / "run"));
     EXPECT_FALSE(run->summary.find("finished")->boolean());
     EXPECT_GT(run->samples.size(), 0U);
@@ -215,7 +214,7 @@ CrashTally crash_trials(int kills, unsigned seed) {
   std::cout << "seed " << seed << std::endl;  // before any fork
   std::mt19937 random(seed);
   const TemporaryFolder folder;
-  const Start start{.folder = folder.path(), .arrange_streams = [] { setenv("PATH", "/", 1); }};  // no rsvg-convert
+  const Start start = without_converter(folder);
   write_file(folder / "scene.json", crash_scene("100"));
   const Words often = "--checkpoint-every 4 --progress none";
   const auto begin = std::chrono::steady_clock::now();

@@ -29,10 +29,7 @@ class FloeFile : public testing::Test {
     return outcome ? "" : in_words(outcome.error());
   }
   LoadedScene sound(const std::string& geojson, const std::string& entry = "", const std::string& more = "") const {
-    auto outcome = read_file(geojson, entry, more);
-    if (outcome) return std::move(*outcome);
-    ADD_FAILURE() << in_words(outcome.error());
-    return {};
+    return std::move(*checked(read_file(geojson, entry, more)));
   }
   TemporaryFolder folder;
 };

@@ -288,31 +288,12 @@ TEST(CutOps, AListIsReadInOrder) {
 }
 
 TEST(CutOps, WhatIsWrongIsToldWithItsNumber) {
-  using Kind = ToolError::Kind;
-  for (const auto& [text, words, kind] : std::initializer_list<std::tuple<std::string, std::string, Kind>>{
-           {"{}", "a list", Kind::kMalformed},
-           {"[]", "empty", Kind::kMalformed},
-           {R"([{"disc": [1,2,3]}, 5])", "[1]: expected an object", Kind::kMalformed},
-           {R"([{"disc": [1,2]}])", "[0]: disc: expected [x, y, radius]", Kind::kMalformed},
-           {R"([{"disc": [1,2,0]}])", "[0]: disc: the radius is not > 0", Kind::kMalformed},
-           {R"([{"disc": [1,2,NaN]}])", "[0]: disc: expected", Kind::kMalformed},
-           {R"([{"disk": [1,2,3]}])", R"(did you mean "disc")", Kind::kMalformed},
-           {R"([{"disc": [1,2,3], "crack": [1,2,3]}])", R"("disc" and "crack" in one)", Kind::kMalformed},
-           {R"([{"disc": [1,2,3], "keep": "all"}])", "keep: expected", Kind::kMalformed},
-           {R"([{"disc": [1,2,3], "sagitta_m": 0}])", "sagitta_m: expected", Kind::kMalformed},
-           {R"([{"disc": [1,2,3], "must_cut": 1}])", "must_cut: expected", Kind::kMalformed},
-           {R"([{"keep": "both"}])", "expected an object with one of", Kind::kMalformed},
-           {R"([{"line": [1,2,1,2]}])", "the line's ends are one point", Kind::kMalformed},
-           {R"([{"line": [1,2,3]}])", "[0]: line: expected", Kind::kMalformed},
-           {R"([{"disc": [1,2,3]},])", "1:19: a comma too many", Kind::kMalformed},
-           {R"([{"disc": [1e300,0,1]}])", "not-finite", Kind::kInvalidPolygon},
-           {R"json([{"polygon": "POLYGON((0 0,2 2,2 0,0 2))"}])json", "self-crossing at (1, 1)", Kind::kInvalidPolygon},
-           {R"([{"polygon": {"type": "Point", "coordinates": [0,0]}}])", "not-a-polygon", Kind::kInvalidPolygon},
-           {R"([{"polygon": {"type": "MultiPolygon", "coordinates": []}}])", "no polygon", Kind::kMalformed}}) {
-    const auto ops = read_cut_ops(text, {});
-    ASSERT_FALSE(ops.has_value()) << text;
-    EXPECT_HAS(ops.error().words, words) << text;
-    EXPECT_EQ(ops.error().kind, kind) << text << "\n" << ops.error().words;
+  for (const std::vector<std::string>& row : tests::table_of("io/wrong_cuts.txt")) {
+    const auto ops = read_cut_ops(row[0], {});
+    ASSERT_FALSE(ops.has_value()) << row[0];
+    EXPECT_HAS(ops.error().words, row[1]) << row[0];
+    const auto kind = row.size() > 2 ? ToolError::Kind::kInvalidPolygon : ToolError::Kind::kMalformed;
+    EXPECT_EQ(ops.error().kind, kind) << row[0] << "\n" << ops.error().words;
   }
 }
 

@@ -73,17 +73,15 @@ TEST(Scene, FastIceHoldsItsVelocityOverGround) {
 }
 
 TEST(Scene, WindHasSkinDragOfItsOwnUnlessGiven) {
-  const auto windy = [](const std::string& members) {
-    return load(scene({list("floes", {square(0, 0, 10)}), "\"wind\": " + members}));
-  };
   const std::string blowing = R"({"velocity_m_per_s": [0, 10]})";
-  EXPECT_EQ(windy(R"({"drag_coefficient": 0.003})").scene.water.skin_drag_coefficient, 0);
-  EXPECT_EQ(windy(blowing).scene.water.skin_drag_coefficient, 0.004);
-  const auto own = windy(blowing + R"(, "water": {"skin_drag_coefficient": 0.005})");
-  EXPECT_EQ(own.scene.water.skin_drag_coefficient, 0.005);
-  expect_reads_back(own);
-  const auto none = windy(blowing + R"(, "water": {"skin_drag_coefficient": 0})");
-  EXPECT_EQ(none.scene.water.skin_drag_coefficient, 0);
+  for (const auto& [wind, drag] : {std::pair<std::string, double>(R"({"drag_coefficient": 0.003})", 0),
+                                   {blowing, 0.004},
+                                   {blowing + R"(, "water": {"skin_drag_coefficient": 0.005})", 0.005},
+                                   {blowing + R"(, "water": {"skin_drag_coefficient": 0})", 0}}) {
+    const LoadedScene loaded = load(scene({list("floes", {square(0, 0, 10)}), "\"wind\": " + wind}));
+    EXPECT_EQ(loaded.scene.water.skin_drag_coefficient, drag) << wind;
+    expect_reads_back(loaded);
+  }
 }
 
 TEST(ShippedScenes, AreValidAndHaveNoHints) {
@@ -156,10 +154,9 @@ TEST(Field, ReportsHowItCameOut) {
 
 TEST(Field, FollowsTheScenesSeedAndItsOwn) {
   const auto first_corner = [](int scene_seed, int field_seed) {
-    return with_field(kBox + fmt::format(R"("floe_size_m": 10, "concentration": 0.5, "seed": {})", field_seed),
-                      fmt::format("\"seed\": {}", scene_seed))
-        .scene.floes.front()
-        .polygon_in_world.outer.front();
+    const std::string field = fmt::format(R"("floe_size_m": 10, "concentration": 0.5, "seed": {})", field_seed);
+    const LoadedScene loaded = with_field(kBox + field, fmt::format("\"seed\": {}", scene_seed));
+    return loaded.scene.floes.front().polygon_in_world.outer.front();
   };
   EXPECT_EQ(first_corner(1, 0), first_corner(1, 0));
   EXPECT_NE(first_corner(1, 0), first_corner(2, 0));

@@ -39,9 +39,7 @@ def agent(scene=SCENE, **settings):
 
 def episode(env, seed, actions):
     observation, info = env.reset(seed=seed)
-    rows = [(observation, 0.0, False, False, info)]
-    rows += [env.step(action) for action in actions]
-    return rows
+    return [(observation, 0.0, False, False, info), *map(env.step, actions)]
 
 
 def same(a, b):

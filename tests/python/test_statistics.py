@@ -22,7 +22,8 @@ def scatter(level, trials=TRIALS):
     (lambda x: statistics.mean(x, 0.95), lambda rng, n: rng.normal(3, 2, n), 6, 3, TRIALS,
      0.95 - scatter(0.95), 0.95 + scatter(0.95)),
     # Percentile intervals of skewed samples are a little short.
-    (lambda x: statistics.bootstrap_mean(x, count=400), lambda rng, n: rng.exponential(1, n), 60, 1, TRIALS, 0.88, 0.98),
+    (lambda x: statistics.bootstrap_mean(x, count=400), lambda rng, n: rng.exponential(1, n), 60, 1, TRIALS,
+     0.88, 0.98),
     # At least as often as stated.
     (lambda x: statistics.quantile(x, 0.5), lambda rng, n: rng.exponential(1, n), 30, stats.expon.ppf(0.5), TRIALS,
      0.95 - scatter(0.95), 0.995),
