@@ -139,10 +139,10 @@ TEST_F(Resume, ASignalStopsWithACheckpointAndNobodyElseMayWriteMeanwhile) {
     while (!has_ended(child) && (io::checkpoints_in(folder_ / "run").empty() || !has_rows()))
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     const TemporaryFolder elsewhere;
-    const std::string run_folder = folder_ / "run", message = "another polynya is writing this run";
-    expect_refusals({{{"resume", run_folder}, 5, message},
-                     {{"run", folder_ / "scene.json", "--out", run_folder, "--overwrite"}, 5, message}},
-                    {elsewhere.path()});
+    const std::string run_folder = folder_ / "run";
+    for (const Words& words :
+         {Words{"resume", run_folder}, {"run", folder_ / "scene.json", "--out", run_folder, "--overwrite"}})
+      EXPECT_HAS(expect_code(5, polynya(words, elsewhere)).err, "another polynya is writing this run");
     kill(child, signal);
     EXPECT_HAS(expect_code(75, wait_for(child, start_)).err, name, "polynya resume run");
     const std::size_t kept = io::checkpoints_in(run_folder).size();

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <fstream>
 #include <initializer_list>
 #include <stdexcept>
@@ -39,18 +38,17 @@ Expected checked(Expected outcome) {
     throw std::runtime_error("refused");
 }
 
-/// The rows of a table in tests/: the cells of a line are parted by " | "; the last of two may be empty. Lines that
-/// begin with "#" are none.
+/// The rows of a table in tests/: the cells of a line are parted by " | ", and may be empty. Lines that begin with "#"
+/// are none.
 inline std::vector<std::vector<std::string>> table_of(const std::string& file) {
   std::ifstream lines(std::string(POLYNYA_SOURCE_DIR) + "/tests/" + file);
   std::vector<std::vector<std::string>> rows;
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("#")) continue;
     std::vector<std::string>& row = rows.emplace_back();
-    std::size_t start = 0;
-    for (std::size_t at = 0; (at = line.find(" |", start)) != std::string::npos; start = std::min(at + 3, line.size()))
-      row.push_back(line.substr(start, at - start));
-    row.push_back(line.substr(start));
+    line = " " + line + " |";
+    for (std::size_t start = 0, end = 0; (end = line.find(" |", start)) != std::string::npos; start = end + 2)
+      row.push_back(end > start ? line.substr(start + 1, end - start - 1) : "");
   }
   EXPECT_FALSE(rows.empty()) << file;
   return rows;

@@ -1,4 +1,7 @@
 // What is wrong with scenes: each problem at its place, with what was found and what would do.
+#include <functional>
+#include <map>
+
 #include "scene_text.hpp"
 #include "temporary_folder.hpp"
 
@@ -109,46 +112,67 @@ TEST(SceneProblems, WhatNoFieldAloneCanTell) {
         "together"}});
 }
 
-std::string field(const std::string& members) {
-  return scene({list("floes", {"{\"field\": {" + members + "}}"})});
+/// A scene that is given something, and where that is.
+struct KindOfScene {
+  std::function<std::string(const std::string& members)> scene_with;
+  std::string path;
+};
+
+/// Of one floe entry or one ship, what is given between two parts of its text.
+KindOfScene floe_kind(const std::string& begin, const std::string& end, const std::string& path) {
+  return {[=](const std::string& members) { return scene({list("floes", {begin + members + end})}); },
+          "floes[0]" + path};
+}
+KindOfScene field_kind(const std::string& begin) {
+  return floe_kind("{\"field\": {" + begin, "}}", ".field");
+}
+KindOfScene ship_kind(const std::string& begin, const std::string& end = "", const std::string& path = "") {
+  return {[=](const std::string& members) { return scene_of_ship(sailing_ship(begin + members + end)); },
+          "ships[0]" + path};
 }
 
-TEST(SceneProblems, OfFields) {
-  const std::string one_size = R"("corner_m": [0, 0], "extent_m": 100, "floe_size_m": 10, )";
-  const std::string box = R"("corner_m": [0, 0], "extent_m": 300, )";
-  const std::string power = box + R"("concentration": 0.9, "sizes": {"exponent": 1.87, "least_m": 10, "largest_m": )";
-  const std::string equal = box + R"("sizes": {"size_m": 15}, "concentration": 0.8, )";
-  const std::string dense = box + R"("sizes": {"size_m": 15}, "concentration": 0.98, )";
-  const std::string channel =
-      R"("width_m": 12, "concentration": 0.8, "sizes": {"size_m": 15}, "centreline_m": [[0, 0], )";
-  const std::string at = "floes[0].field";
-  expect_problems(
-      {{field(one_size + R"("concentration": 0.95, "gap_m": 3)"), at + ".concentration", "0.95"},
-       {field(one_size + R"("concentration": 0.005)"), at, "less than one floe"},
-       {field(one_size + R"("concentration": 0)"), at + ".concentration", "found 0"},
-       {field(one_size + R"("concentration": 0.5, "most_corners": 2)"), at + ".most_corners", "found 2"},
-       {field(one_size + R"("concentration": 0.5, "keep_clear_m": [[[0, 0], [9, 9], [9, 0], [0, 9]]])"),
-        at + ".keep_clear_m[0]", "self-crossing"},
-       {field(R"("corner_m": [0, 0], "extent_m": 1e6, "floe_size_m": 1, "concentration": 0.5)"), at, "floes in all"},
-       {field(R"("outline_m": [[0, 0], [90, 90], [90, 0], [0, 90]], "floe_size_m": 10, "concentration": 0.5)"),
-        at + ".outline_m", "self-crossing"},
-       {field(power + "5}"), at + ".sizes.least_m", "less than 5"},
-       {field(power + "4000}"), at + ".sizes.largest_m", "at most 300, or a wider region"},
-       {field(dense + R"("gap_m": 0.5)"), at + ".concentration", "or a gap_m of at most"},
-       {field(dense + R"("most_corners": 4)"), at + ".concentration", "or most_corners above 4"},
-       {field(equal + R"("packing": 0.5)"), at + ".packing", "at least 0.8"},
-       {field(equal + R"("least_corners": 20)"), at + ".least_corners", "at most 16"},
-       {field(equal + R"("orientation_deg": 20)"), at + ".orientation_deg", "without aspect"},
-       {field(equal + R"("size_spread": 0.1)"), at + ".size_spread", "mean_m and spread"},
-       {field(equal + R"("floe_size_m": 10)"), at + ".sizes", "beside floe_size_m"},
-       {field(equal + R"("keep_clear_m": [[[-9, -9], [400, -9], [400, 400], [-9, 400]]])"), at,
-        "all of the region is kept clear"},
-       {field(box + R"("concentration": 0.8)"), at, "neither sizes nor floe_size_m"},
-       {field(box + R"("concentration": 0.8, "floe_size_m": 10, "aspect": 2)"), at + ".aspect", "sizes instead"},
-       {field(box + R"("concentration": 0.005, "sizes": {"size_m": 100})"), at, "less than one floe"},
-       {field(channel + "[60, 0], [0, 9]]"), at + ".centreline_m", "too sharp"},
-       {field(channel + "[0, 0]]"), at + ".centreline_m", "a second time"},
-       {field(channel + "[900, 0]]"), at + ".sizes", "12 m across"}});
+std::string route(const std::string& waypoints) {
+  return scene({list("ships", {sailing_ship(R"("steering": {"rudder": {}}, "pilot": {"route": {"waypoints": [)" +
+                                            waypoints + "]}}")}),
+                R"("structures": [{"name": "tower", "radius_m": 20, "position_m": [600, 0]}])"});
+}
+
+std::map<std::string, KindOfScene> kinds_of_scenes() {
+  const std::string box = R"("corner_m": [0, 0], "extent_m": 300, )", thrust = R"("propulsion": {"thrust_N": 1e5}, )";
+  const std::string ice = R"({"rectangle": {"corner_m": [0, 0], "size_m": 10}, "ice": {)";
+  return {{"field", field_kind("")},
+          {"field of one size", field_kind(R"("corner_m": [0, 0], "extent_m": 100, "floe_size_m": 10, )")},
+          {"field in a box", field_kind(box)},
+          {"field of 80 %", field_kind(box + R"("sizes": {"size_m": 15}, "concentration": 0.8, )")},
+          {"field of 98 %", field_kind(box + R"("sizes": {"size_m": 15}, "concentration": 0.98, )")},
+          {"field of a power law",
+           field_kind(box + R"("concentration": 0.9, "sizes": {"exponent": 1.87, "least_m": 10, )")},
+          {"field in a channel",
+           field_kind(R"("width_m": 12, "concentration": 0.8, "sizes": {"size_m": 15}, "centreline_m": [[0, 0], )")},
+          {"ice", floe_kind(ice, "}}", ".ice")},
+          {"ice too heavy", floe_kind(ice, "}}", "")},
+          {"thickness", floe_kind(ice + R"("thickness_m": {)", "}}}", ".ice.thickness_m")},
+          {"ship", ship_kind("")},
+          {"ship without a form", ship_kind(R"("hull": {"draught_m": null, "block_coefficient": null}, )")},
+          {"ship without a block coefficient", ship_kind(R"("hull": {"block_coefficient": null}, )")},
+          {"ship under thrust", ship_kind(thrust)},
+          {"ship moored under thrust",
+           ship_kind(thrust + R"("mooring": {"sway_stiffness_N_per_m": 1e5, "position_m": [0, 30], )", "}")},
+          {"engine", ship_kind(R"("propulsion": {"engine": {)", "}}")},
+          {"engine of 12 m/s", ship_kind(R"("propulsion": {"engine": {"open_water_speed_m_per_s": 12, )", "}}")},
+          {"pilot", ship_kind(R"("steering": {"rudder": {}}, "pilot": {)", "}", ".pilot")},
+          {"route", {route, "ships[0].pilot.route.waypoints[0]"}}};
+}
+
+TEST(SceneProblems, OfFieldsShipsAndIceAreThoseOfTheTable) {
+  const auto kinds = kinds_of_scenes();
+  std::vector<WrongScene> rows;
+  for (const std::vector<std::string>& row : table_of("io/wrong_scenes.txt")) {
+    const KindOfScene& kind = kinds.at(row.at(0));
+    rows.push_back({kind.scene_with(row.at(1)), kind.path + row.at(2), row.at(3)});
+  }
+  expect_problems(rows);
+  load(route(R"({"position_m": [600, 80], "speed_m_per_s": 3}, {"position_m": [1000, 0], "speed_m_per_s": 3})"));
 }
 
 TEST(SceneProblems, OfWallsAndFastIce) {
@@ -191,69 +215,17 @@ TEST(SceneProblems, OfIceUnderAHull) {
   EXPECT_TRUE(read(under("presser", draught, -60))) << "the hull is over it";
 }
 
-TEST(SceneProblems, OfShipsThatSail) {
-  const auto changed = [](const std::string& members) { return scene_of_ship(sailing_ship(members)); };
-  const auto engine = [&](const std::string& members) {
-    return changed(R"("propulsion": {"engine": {)" + members + "}}");
-  };
-  const auto piloted = [&](const std::string& pilot) {
-    return changed(R"("steering": {"rudder": {}}, "pilot": {)" + pilot + "}");
-  };
+TEST(SceneProblems, OfShipsThatFollowInACircleAndOfAPresetWithoutAnEngine) {
   const auto led = [](const std::string& name, const std::string& leader, int y) {
     return sailing_ship(fmt::format(R"("name": "{}", "position_m": [0, {}], "steering": {{"rudder": {{}}}},
       "pilot": {{"follow": {{"distance_m": 100, "ship": "{}"}}}})",
                                     name, y, leader));
   };
-  const auto route = [&](const std::string& waypoints) {
-    return scene({list("ships", {sailing_ship(R"("steering": {"rudder": {}}, "pilot": {"route": {"waypoints": [)" +
-                                              waypoints + "]}}")}),
-                  R"("structures": [{"name": "tower", "radius_m": 20, "position_m": [600, 0]}])"});
-  };
-  const std::string bare = R"("hull": {"draught_m": null, "block_coefficient": null})";
-  const std::string thrust = R"("propulsion": {"thrust_N": 1e5})";
-  const std::string weighed = R"("moment_of_inertia_kg_m2": 5e9, "mass_kg": )";
-  const std::string drawn = R"("hull": {"block_coefficient": null}, )";
-  const std::string at = "ships[0]";
   expect_problems(
-      {{changed(bare + R"(, "moment_of_inertia_kg_m2": 5e9, )" + thrust), at + ".mass_kg", "found nothing"},
-       {changed(drawn + R"("mass_kg": 1e7, )" + thrust), at + ".moment_of_inertia_kg_m2", "found nothing"},
-       {changed(bare + ", " + weighed + "1e7"), at + ".hull.draught_m", "water acts on the hull"},
-       {changed(drawn + weighed + "1e8"), at + ".mass_kg", "a block coefficient of 5.79"},
-       {changed(R"("hull": {"length_m": 40, "beam_m": 30, "entrance_angle_deg": 60, "block_coefficient": 0.6})"),
-        at + ".water.model", "no meaning for a hull of 40 × 30 × 6 m"},
-       {engine(R"("open_water_speed_m_per_s": 8)"), at + ".propulsion.engine", "neither bollard_pull_kN nor power_MW"},
-       {engine(R"("open_water_speed_m_per_s": 8, "power_MW": 5)"), at + ".propulsion.engine",
-        "neither bollard_pull_kN nor power_MW"},
-       {engine(R"("open_water_speed_m_per_s": 12, "bollard_pull_kN": 500)"),
-        at + ".propulsion.engine.open_water_speed_m_per_s", "the bollard pull 500 kN"},
-       {engine(R"("open_water_speed_m_per_s": 9, "bollard_pull_kN": 900, "power_MW": 3)"),
-        at + ".propulsion.engine.open_water_speed_m_per_s", "MW of 3"},
-       {changed(thrust + R"(, "steering": {"rudder": {}})"), at + ".steering", "without an engine"},
+      {{scene({list("ships", {led("a", "b", 0), led("b", "c", 200), led("c", "a", 400)})}),
+        "ships[0].pilot.follow.ship", "which follows this ship", 3},
        {scene_of_ship(R"({"ship": "oden", "propulsion": {"constant_speed_m_per_s": 2}, "steering": {"azimuth": {}}})"),
-        at + ".steering", "without an engine"},
-       {changed(thrust + R"(, "mooring": {"sway_stiffness_N_per_m": 1e5, "position_m": [0, 30], "break_load_N": 2e6})"),
-        at + ".mooring.break_load_N", "it pulls with 3e+06 N"},
-       {changed(R"("steering": {"rudder": {"area_m2": 150}})"), at + ".steering.rudder.area_m2", "found 150"},
-       {changed(R"("propulsion": {"constant_speed_m_per_s": 1}, "mooring": {})"), at + ".mooring",
-        "speed is prescribed"},
-       {changed(thrust + R"(, "pilot": {"constant": {}})"), at + ".pilot", "without an engine"},
-       {changed(R"("pilot": {"hold_heading": {}})"), at + ".pilot.hold_heading", "nothing to steer with"},
-       {piloted(R"("constant": {"steering_deg": 40})"), at + ".pilot.constant.steering_deg", "40°"},
-       {piloted(R"("table": {"rows": [{"t_s": 5, "lever": 1}, {"t_s": 5, "lever": 0}]})"),
-        at + ".pilot.table.rows[1].t_s", "found 5"},
-       {piloted(R"("route": {"waypoints": [{"position_m": [-500, 0], "speed_m_per_s": 3}]})"),
-        at + ".pilot.route.waypoints[0].position_m", "500 m behind the ship"},
-       {piloted(R"("constant": {}, "hold_heading": {})"), at + ".pilot", "constant and hold_heading together"},
-       {piloted(R"("follow": {"ship": "ship-1", "distance_m": 100})"), at + ".pilot.follow.ship",
-        "cannot follow itself"},
-       {piloted(R"("follow": {"ship": "Fram", "distance_m": 100})"), at + ".pilot.follow.ship", "the name of no ship"},
-       {route(R"({"position_m": [1000, 0], "speed_m_per_s": 3})"), at + ".pilot.route.waypoints[0].position_m",
-        "leads through tower"},
-       {route(R"({"position_m": [600, 31], "speed_m_per_s": 3})"),  // nearer than half a beam
-        at + ".pilot.route.waypoints[0].position_m", ""},
-       {scene({list("ships", {led("a", "b", 0), led("b", "c", 200), led("c", "a", 400)})}), at + ".pilot.follow.ship",
-        "which follows this ship", 3}});
-  load(route(R"({"position_m": [600, 80], "speed_m_per_s": 3}, {"position_m": [1000, 0], "speed_m_per_s": 3})"));
+        "ships[0].steering", "without an engine"}});
 }
 
 TEST(SceneProblems, OfShipsThatManageIce) {
@@ -322,26 +294,6 @@ TEST(SceneProblems, OfIceUnderHulls) {
        {under(draught, R"("resurface": {"rim_loss": 1})"), "fracture.resurface.rim_loss", "found 1"},
        {under(draught, R"("going_under": {"enabled": "yes"})"), "fracture.going_under.enabled", "\"yes\""},
        {under(R"("submersion_speed_factor": "riska")", ""), "ships[0].hull.submersion_speed_factor", "riska"}});
-}
-
-TEST(SceneProblems, OfTheIceOfFloes) {
-  const auto ice = [](const std::string& members) {
-    return scene({list("floes", {square(0, 0, 10, R"("ice": {)" + members + "}")})});
-  };
-  const auto law = [&](const std::string& members) { return ice(R"("thickness_m": {)" + members + "}"); };
-  const std::string at = "floes[0].ice.thickness_m";
-  expect_problems(
-      {{ice(R"("thickness_m": -1)"), at, "a number ≥ 0.001"},
-       {ice(R"("thickness_m": "thin")"), at, "or a law"},
-       {ice(R"("thicknes_m": 1)"), "floes[0].ice.thicknes_m", "thickness_m"},
-       {law(R"("mean": 30, "spread": 0.1)"), at + ".mean", "≤ 20"},
-       {law(R"("mean": 0.5)"), at + ".spread", "law log_normal needs it"},
-       {law(R"("law": "gamma", "spread": 0.1)"), at + ".law", "log_normal"},
-       {law(R"("law": "uniform", "mean": 0.5, "least": 0.4, "most": 0.6)"), at + ".mean", "law uniform has none"},
-       {law(R"("spread": 0.1, "least": 0.6, "most": 0.4)"), at + ".least", "at most"},
-       {law(R"("spread": 0.1, "least": 0.9)"), at, "bounds around the mean"},
-       {ice(R"("density_kg_per_m3": 1050)"), "floes[0]: ice.density_kg_per_m3", "the water's density"},
-       {ice(R"("seed": -1)"), "floes[0].ice.seed", "an integer"}});
 }
 
 /// A field of ice takes long to make: what is wrong without it is reported before, and what is wrong with the
