@@ -38,6 +38,13 @@ Expected checked(Expected outcome) {
     throw std::runtime_error("refused");
 }
 
+/// Why something was refused; ends the test where it was not.
+template <class Expected>
+auto refused(const Expected& outcome) {
+  if (outcome) throw std::runtime_error("not refused");
+  return outcome.error();
+}
+
 /// The rows of a table in tests/: the cells of a line are parted by " | ", and may be empty. Lines that begin with "#"
 /// are none.
 inline std::vector<std::vector<std::string>> table_of(const std::string& file) {
