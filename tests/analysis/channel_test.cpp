@@ -53,6 +53,11 @@ struct HandMadeRun {
     run.frames.front().floes.push_back({birth.floe, {birth.centroid_in_body, 0, drift, 0}});
     run.floes.push_back({.birth = birth, .death_event = {}});
   }
+  /// Ice on both sides of the track, 33 m apart.
+  void add_walls() {
+    add(box({-50, 14}, {200, 40}));
+    add(box({-50, -60}, {200, -19}));
+  }
   /// A piece that came up from under the hull.
   void add_brash(const Polygon& along_track) {
     add(along_track);
@@ -70,8 +75,7 @@ TEST(Channel, IsAsWideAsItsWallsAreApartWhateverTheHeadingAndTheDrift) {
   for (const double heading : {0.0, 0.7, -2.5}) {
     for (const Vector drift : {Vector{0, 0}, Vector{-0.3, 0.11}}) {
       HandMadeRun made(heading, drift);
-      made.add(box({-50, 14}, {200, 40}));
-      made.add(box({-50, -60}, {200, -19}));
+      made.add_walls();
       made.add(box({41, 2}, {47, 6}));  // half of it in the band
       const analysis::Channel channel = measured(made.run);
       ASSERT_EQ(channel.stations.size(), 11U);  // 90 m behind the stern, 8 m each
@@ -131,8 +135,7 @@ TEST(Channel, LeftoverIceOfTheBandIsAccountedForFloeByFloe) {
 TEST(Channel, BrashCoversItAndDoesNotNarrowIt) {
   for (const double heading : {0.0, 0.7}) {
     HandMadeRun made(heading, {0.2, -0.1});
-    made.add(box({-50, 14}, {200, 40}));
-    made.add(box({-50, -60}, {200, -19}));
+    made.add_walls();
     made.add_brash(box({1, -2}, {5, 2}));      // 16 m²
     made.add_brash(box({7, -1}, {16, 3}));     // 4 and 32 m²
     made.add_brash(box({26, -19}, {29, 14}));  // 99 m²: water on both sides of it
@@ -168,8 +171,7 @@ TEST(Channel, BrashCoversItAndDoesNotNarrowIt) {
 
 TEST(Channel, WithoutBrashHasNoPiecesAndNoSizes) {
   HandMadeRun made;
-  made.add(box({-50, 14}, {200, 40}));
-  made.add(box({-50, -60}, {200, -19}));
+  made.add_walls();
   const analysis::Channel channel = measured(made.run);
   EXPECT_EQ(channel.brash_cover(), 0);
   EXPECT_EQ(brash_sizes(channel).count, 0U);
@@ -200,60 +202,36 @@ TEST(Channel, RefusesTimesAndShipsThatAreNotThere) {
 
 const Polygon kSquare{{{0, 0}, {2, 0}, {2, 2}, {0, 2}}, {}};
 
-std::vector<analysis::PlacedIce> ice_of(const Polygon& polygon) {
-  std::vector<analysis::PlacedIce> ice;
-  const auto done = analysis::add_ice(ice, nullptr, polygon);
-  EXPECT_TRUE(done.has_value()) << done.error();
-  return ice;
-}
-
-TEST(PlacedIce, AValidFloeIsAddedAsItIs) {
-  const auto ice = ice_of(kSquare);
+/// A valid floe is ice as it is, near where boxes meet; of one whose ring crosses itself what it winds around.
+TEST(PlacedIce, IsWhatItsFloeEncloses) {
+  std::vector<analysis::PlacedIce> ice, crossed, none;
+  ASSERT_TRUE(analysis::add_ice(ice, nullptr, kSquare));
   ASSERT_EQ(ice.size(), 1);
   EXPECT_EQ(ice[0].polygon.outer, kSquare.outer);
   EXPECT_EQ(ice[0].box.high.x, 2);
-}
-
-TEST(PlacedIce, ARingThatCrossesItselfIsWhatItWindsAround) {
-  const auto ice = ice_of({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}, {}});
-  ASSERT_EQ(ice.size(), 2);
-  EXPECT_EQ(geometry::measure(ice[0].polygon).area + geometry::measure(ice[1].polygon).area, 2);
-}
-
-TEST(PlacedIce, WhatEnclosesNothingIsNoIce) {
-  EXPECT_TRUE(ice_of({{{0, 0}, {1, 1}, {2, 2}}, {}}).empty());
-}
-
-TEST(PlacedIce, AFloeThatCannotBePlacedIsToldNotLost) {
-  std::vector<analysis::PlacedIce> ice;
-  const auto done =
-      analysis::add_ice(ice, nullptr, {{{0, 0}, {1, 0}, {0, std::numeric_limits<double>::infinity()}}, {}});
-  ASSERT_FALSE(done.has_value());
-  EXPECT_HAS(done.error(), "a placed floe is not a polygon");
-  EXPECT_TRUE(ice.empty());
-}
-
-TEST(PlacedIce, NearIsWhereBoxesMeet) {
-  const auto ice = ice_of(kSquare);
   EXPECT_EQ(near(ice, {{1, 1}, {5, 5}}).size(), 1);
   EXPECT_EQ(near(ice, {{3, 1}, {5, 5}}).size(), 0);
+  ASSERT_TRUE(analysis::add_ice(crossed, nullptr, {{{0, 0}, {2, 2}, {2, 0}, {0, 2}}, {}}));
+  ASSERT_EQ(crossed.size(), 2);
+  EXPECT_EQ(geometry::measure(crossed[0].polygon).area + geometry::measure(crossed[1].polygon).area, 2);
+  EXPECT_TRUE(analysis::add_ice(none, nullptr, {{{0, 0}, {1, 1}, {2, 2}}, {}}));
+  const Polygon endless{{{0, 0}, {1, 0}, {0, std::numeric_limits<double>::infinity()}}, {}};
+  EXPECT_HAS(analysis::add_ice(none, nullptr, endless).error(), "a placed floe is not a polygon");
+  EXPECT_TRUE(none.empty());
 }
 
-TEST(PlacedIce, APolygonIsPartedIntoWhatOthersCoverAndTheRest) {
+TEST(PlacedIce, IsPartedIntoWhatOthersCoverAndTheRest) {
   const Polygon half{{{-1, -1}, {1, -1}, {1, 3}, {-1, 3}}, {}};
   const auto parted = checked(analysis::part(kSquare, {half}));
   EXPECT_EQ(parted->inside_area, 2);
   ASSERT_EQ(parted->outside.size(), 1);
   EXPECT_EQ(geometry::measure(parted->outside[0]).area, 2);
-}
-
-TEST(PlacedIce, WhatNothingMeetsIsOutsideWhole) {
   const Polygon far{{{10, 10}, {11, 10}, {11, 11}}, {}};
   for (const auto& by : {std::vector<Polygon>{}, std::vector<Polygon>{far}}) {
-    const auto parted = checked(analysis::part(kSquare, by));
-    EXPECT_TRUE(parted->inside.empty());
-    ASSERT_EQ(parted->outside.size(), 1);
-    EXPECT_EQ(parted->outside[0].outer, kSquare.outer);
+    const auto whole = checked(analysis::part(kSquare, by));
+    EXPECT_TRUE(whole->inside.empty());
+    ASSERT_EQ(whole->outside.size(), 1);
+    EXPECT_EQ(whole->outside[0].outer, kSquare.outer);
   }
 }
 

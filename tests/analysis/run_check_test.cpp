@@ -104,8 +104,7 @@ void add_floe(io::Run& run, simulation::FloeId parent, double born, const Ring& 
   run.shapes.add({ring, {}});
 }
 
-/// A square of 4 m breaks at 1 s into two halves; beside it another square drifts by 0.5 m a second towards
-/// it.
+/// A square of 4 m breaks at 1 s into two halves; beside it another square drifts by 0.5 m a second towards it.
 io::Run small_run(const Ring& drifting = square(5, 1, 2), const Ring& second_half = {{0, 2}, {4, 2}, {4, 4}, {0, 4}}) {
   io::Run run;
   add_floe(run, simulation::kNoFloe, 0, square(0, 0, 4));

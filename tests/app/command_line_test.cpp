@@ -1,5 +1,4 @@
-// The commands around scenes: validate, run --set, init, schema; problems and hints in the terminal and as
-// JSON.
+// The commands around scenes: validate, run --set, init, schema; problems and hints in the terminal and as JSON.
 #include "program.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,25 +6,29 @@
 
 #include "io/scene/scene_reader.hpp"
 #include "io/scene/ship_presets.hpp"
-#include "io/text/json_parser.hpp"
 #include "simulation/simulation.hpp"
 
 namespace polynya::tests {
 namespace {
 
-class CommandLine : public testing::Test {
+class CommandLine : public InFolder {
  protected:
-  Outcome call(const Words& words) const { return polynya(words, folder); }
   Outcome piped(const Words& words, const std::string& input) const {
     return polynya(words, Start{.folder = folder.path(), .input = folder / input});
   }
-  TemporaryFolder folder;
 };
+using ShipsCommand = InFolder;
+
+/// What a command prints as JSON.
+nlohmann::json printed(const Outcome& outcome) {
+  const auto json = nlohmann::json::parse(outcome.out, nullptr, false);
+  EXPECT_FALSE(json.is_discarded()) << outcome.out;
+  return json;
+}
 
 TEST_F(CommandLine, AWrongSceneIsThreeAndWritesNothing) {
-  write_file(folder / "wrong.json",
-             R"({"ice": {"thicknes_m": 1}, "time": {"step_s": 0}, "floes": [{"rectangle": {"size_m": 3}}]})");
-  write_file(folder / "wrong-in-lines.json", "{\"floes\": [\n}");
+  write("wrong.json", R"({"ice": {"thicknes_m": 1}, "time": {"step_s": 0}, "floes": [{"rectangle": {"size_m": 3}}]})");
+  write("wrong-in-lines.json", "{\"floes\": [\n}");
   for (const char* command : {"validate wrong.json", "run wrong.json"}) {
     expect_refusals({{command, 3, "wrong.json:1:10: ice.thicknes_m: "}}, {folder.path()});
     EXPECT_HAS(call(command).err, "did you mean \"thickness_m\"?", "wrong.json:1:47: time.step_s: found 0",
@@ -38,60 +41,54 @@ TEST_F(CommandLine, AWrongSceneIsThreeAndWritesNothing) {
 }
 
 TEST_F(CommandLine, ProblemsAreJsonOnRequest) {
-  write_file(folder / "wrong.json",
-             "{\"ice\": {\"thicknes_m\": 1},\n \"time\": {\"step_s\": 0},\n \"name\": \"a \\\"b\\\"\"}");
-  const Outcome text = call("validate wrong.json"), outcome = call("validate wrong.json --json");
-  EXPECT_EQ(outcome.code, 3);
+  write("wrong.json", "{\"ice\": {\"thicknes_m\": 1},\n \"time\": {\"step_s\": 0},\n \"name\": \"a \\\"b\\\"\"}");
+  const Outcome text = call("validate wrong.json"), outcome = expect_code(3, call("validate wrong.json --json"));
   EXPECT_EQ(outcome.err, "");
-  const io::JsonDocument problems = io::parse_json(outcome.out);
-  ASSERT_TRUE(problems.faults.empty()) << outcome.out;
-  ASSERT_EQ(problems.root.items().size(), 3U) << outcome.out;
-  for (const io::JsonValue& problem : problems.root.items()) {
-    const auto member = [&](const char* key) { return problem.find(key); };
-    EXPECT_EQ(member("severity")->text(), "error");
-    EXPECT_HAS(text.err, fmt::format("{}:{}:{}: {}: {}\n", member("file")->text(), member("line")->number(),
-                                     member("column")->number(), member("path")->text(), member("message")->text()));
+  const auto problems = printed(outcome);
+  ASSERT_EQ(problems.size(), 3U) << outcome.out;
+  for (const auto& problem : problems) {
+    const auto text_at = [&](const char* key) { return problem.at(key).get<std::string>(); };
+    EXPECT_EQ(problem.at("severity"), "error");
+    EXPECT_HAS(text.err, fmt::format("{}:{}:{}: {}: {}\n", text_at("file"), problem.at("line").get<int>(),
+                                     problem.at("column").get<int>(), text_at("path"), text_at("message")));
   }
-  EXPECT_EQ(problems.root.items()[1].find("line")->number(), 2);
-  EXPECT_EQ(problems.root.items()[1].find("path")->text(), "time.step_s");
-  EXPECT_EQ(expect_code(0, call("validate scenes/two-floes.json --json")).out, "[]\n");
-  const Outcome missing = expect_code(5, call("validate missing.json --json"));
-  EXPECT_TRUE(io::parse_json(missing.out).root.items().at(0).find("line")->is_null()) << missing.out;
+  EXPECT_EQ(problems[1].at("line"), 2);
+  EXPECT_EQ(problems[1].at("path"), "time.step_s");
+  EXPECT_EQ(done("validate scenes/two-floes.json --json").out, "[]\n");
+  EXPECT_TRUE(printed(expect_code(5, call("validate missing.json --json"))).at(0).at("line").is_null());
 }
 
 TEST_F(CommandLine, HintsChangeNoExitCode) {
-  write_file(folder / "light.json", R"({"time": {"until_s": 0.1}, "ships": [
+  write("light.json", R"({"time": {"until_s": 0.1}, "ships": [
     {"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27},
      "mass_kg": 1e4, "moment_of_inertia_kg_m2": 5e9, "propulsion": {"thrust_N": 0}}],
     "floes": []})");
   for (const char* command : {"validate light.json", "run light.json"}) {
-    EXPECT_HAS(expect_code(0, call(command)).err,
-               "light.json:3:17: warning: ships[0].mass_kg: 1e+04 kg for a hull of 120 × 24 m",
+    EXPECT_HAS(done(command).err, "light.json:3:17: warning: ships[0].mass_kg: 1e+04 kg for a hull of 120 × 24 m",
                "light.json:4:14: hint: floes: there is no ice");
   }
-  const Outcome json = expect_code(0, call("validate light.json --json"));
+  const Outcome json = done("validate light.json --json");
   EXPECT_EQ(json.err, "");
-  const io::JsonDocument hints = io::parse_json(json.out);
-  ASSERT_EQ(hints.root.items().size(), 2U) << json.out;
-  EXPECT_EQ(hints.root.items()[0].find("severity")->text(), "warning");
-  EXPECT_EQ(hints.root.items()[1].find("severity")->text(), "hint");
+  const auto hints = printed(json);
+  ASSERT_EQ(hints.size(), 2U) << json.out;
+  EXPECT_EQ(hints[0].at("severity"), "warning");
+  EXPECT_EQ(hints[1].at("severity"), "hint");
 }
 
 /// A scene from stdin is the scene: the same hash, and floe files from the working folder.
 TEST_F(CommandLine, ASceneComesFromStdin) {
-  write_file(folder / "floes.geojson", R"({"type": "Polygon", "coordinates": [[[0,0],[10,0],[10,10],[0,10],[0,0]]]})");
-  write_file(folder / "scene.json",
-             R"({"name": "piped", "time": {"until_s": 0.1}, "floes": [{"file": "floes.geojson"}]})");
+  write("floes.geojson", R"({"type": "Polygon", "coordinates": [[[0,0],[10,0],[10,10],[0,10],[0,0]]]})");
+  write("scene.json", R"({"name": "piped", "time": {"until_s": 0.1}, "floes": [{"file": "floes.geojson"}]})");
   const std::string valid = call("validate scene.json").out;
   EXPECT_EQ(piped("validate -", "scene.json").out, "stdin" + valid.substr(valid.find(':')));
-  const Outcome run = expect_code(0, piped("run - --progress none", "scene.json"));
+  expect_code(0, piped("run - --progress none", "scene.json"));
   EXPECT_TRUE(std::filesystem::exists(folder / "runs/piped/scene.json"));
 }
 
 /// Nothing but ice acts on a ship, so the first scene a user runs must not accelerate through open water.
 TEST_F(CommandLine, InitWritesAValidSceneWhoseShipDoesNotRunAway) {
-  EXPECT_EQ(call("init new.json").code, 0);
-  EXPECT_EQ(call("init").out, read_file(folder / "new.json"));
+  done("init new.json");
+  EXPECT_EQ(call("init").out, read("new.json"));
   const auto scene = checked(io::read_scene_file(folder / "new.json"));
   simulation::Simulation simulation(scene->scene);
   double fastest = 0;
@@ -105,38 +102,36 @@ TEST_F(CommandLine, InitWritesAValidSceneWhoseShipDoesNotRunAway) {
 }
 
 TEST_F(CommandLine, SetPutsValuesByTheirPaths) {
-  const Outcome run = expect_code(0, call("run scenes/two-floes.json --set time.until_s=1 --set name=short --no-map"));
-  EXPECT_HAS(read_file(folder / "runs/short/scene.json"), "\"until_s\": 1");
+  const Outcome run = done("run scenes/two-floes.json --set time.until_s=1 --set name=short --no-map");
+  EXPECT_HAS(read("runs/short/scene.json"), "\"until_s\": 1");
   EXPECT_FALSE(std::filesystem::exists(folder / "runs/short/final.svg"));
   EXPECT_LACKS(run.out, "picture");
 }
 
 TEST_F(CommandLine, CasesAreReportedEachWithItsPlaceAndCounted) {
   const std::string thin = "{\"ice.thickness_m\": 0.4}\n";
-  write_file(folder / "cases.ndjson", thin + "{\"ice.thickness_m\": -1}\n{\"floes[0].rectangle.corner_m\": [10, 0]}\n");
+  write("cases.ndjson", thin + "{\"ice.thickness_m\": -1}\n{\"floes[0].rectangle.corner_m\": [10, 0]}\n");
   const Words validate = "validate scenes/two-floes.json --cases cases.ndjson";
   EXPECT_HAS(expect_code(3, call(validate)).err, "cases.ndjson:2:21: ice.thickness_m: found -1",
              "cases.ndjson:3: " + scene_path("two-floes"), "2 of 3 cases are refused");
   const Outcome json = expect_code(3, call(validate + "--json"));
   EXPECT_BEGINS(json.out, "{\"line\": 2, \"problems\": [{");
   EXPECT_EQ(std::ranges::count(json.out, '\n'), 2);
-  write_file(folder / "cases.ndjson", thin + "{}\n");
+  write("cases.ndjson", thin + "{}\n");
   EXPECT_EQ(call(validate).out, "cases.ndjson: 2 cases, all valid\n");
 }
 
 // ---- ships: the list, a ship with its sources, both as JSON; and the ship of a file
 
-TEST(ShipsCommand, PrintsTheListAsJsonOfEachShipAsItPrintsThat) {
-  const TemporaryFolder folder;
-  const Outcome table = polynya("ships", folder), list = polynya("ships --json", folder);
-  ASSERT_EQ(table.code + list.code, 0) << list.err;
-  const auto ships = nlohmann::json::parse(list.out);
+TEST_F(ShipsCommand, PrintsTheListAsJsonOfEachShipAsItPrintsThat) {
+  const Outcome table = done("ships");
+  const auto ships = printed(done("ships --json"));
   ASSERT_EQ(ships.size(), io::ship_presets().size());
   for (const auto& ship : ships) {
     const std::string name = ship.at("name");
     EXPECT_HAS(table.out, "\n" + name + " ");
     EXPECT_GT(ship.at("ship").at("hull").size(), 0u) << name;
-    EXPECT_EQ(nlohmann::json::parse(polynya({"ships", name, "--json"}, folder).out), ship);
+    EXPECT_EQ(printed(done({"ships", name, "--json"})), ship);
   }
 }
 
@@ -158,8 +153,7 @@ constexpr const char* kWrongShips[] = {
     ""};
 
 /// A ship of a file is read by the code that reads a scene's: the same problems at the same places.
-TEST(ShipsCommand, AShipOfAFileHasTheProblemsThatItHasInAScene) {
-  const TemporaryFolder folder;
+TEST_F(ShipsCommand, AShipOfAFileHasTheProblemsThatItHasInAScene) {
   for (const std::string text : kWrongShips) {
     const auto scene = io::read_scene("{\"ships\": [\n" + text + "\n]}", "ship.json", ".");
     ASSERT_FALSE(scene) << text;
@@ -170,8 +164,8 @@ TEST(ShipsCommand, AShipOfAFileHasTheProblemsThatItHasInAScene) {
       if (problem.path.starts_with(prefix)) problem.path.erase(0, prefix.size() + (problem.path.size() > 8));
       expected += to_string(problem) + "\n";
     }
-    write_file(folder / "ship.json", text);
-    const Outcome refused = expect_code(3, polynya("ships ship.json --json", folder));
+    write("ship.json", text);
+    const Outcome refused = expect_code(3, call("ships ship.json --json"));
     EXPECT_TRUE(refused.out.empty()) << refused.out;
     if (text.ends_with('}') || text.ends_with(']')) {
       EXPECT_EQ(refused.err.substr(0, expected.size()), expected) << text;
@@ -180,31 +174,27 @@ TEST(ShipsCommand, AShipOfAFileHasTheProblemsThatItHasInAScene) {
   }
 }
 
-TEST(ShipsCommand, AShipOfAFileIsPrintedAsItsSceneResolvesIt) {
-  const TemporaryFolder folder;
+TEST_F(ShipsCommand, AShipOfAFileIsPrintedAsItsSceneResolvesIt) {
   const std::string text = R"({"ship": "polaris", // as scenes have it
     "hull": {"draught_m": 8.5}})";
-  write_file(folder / "deeper.json", text);
-  const Outcome printed = expect_code(0, polynya("ships deeper.json --json", folder));
-  const auto ship = nlohmann::json::parse(printed.out);
+  write("deeper.json", text);
+  const auto ship = printed(done("ships deeper.json --json"));
   const auto scene = checked(io::read_scene("{\"ships\": [" + text + "]}", "scene.json", "."));
   EXPECT_EQ(ship.at("ship"), nlohmann::json::parse(scene->resolved_text).at("ships").at(0));
   EXPECT_EQ(ship.at("title"), "deeper");
   EXPECT_EQ(ship.at("engine").at("bollard_pull_N"), 2.1e6);
   EXPECT_EQ(ship.at("reported").size(), 2u);
-  const Outcome list = polynya("ships deeper.json", folder);
-  EXPECT_HAS(list.out, "hull.draught_m                                         8.5  given\n",
+  EXPECT_HAS(call("ships deeper.json").out, "hull.draught_m                                         8.5  given\n",
              "hull.beam_m                                             24  polaris\n",
              "hull.submersion_speed_factor                   \"lindqvist\"  default\n");
 }
 
-TEST(ShipsCommand, WhatIsNoShipOrNoneForPerformanceIsRefusedWithItsPlace) {
-  const TemporaryFolder folder;
-  write_file(folder / "scene.json", R"({"ships": []})");
-  write_file(folder / "outline.json", R"({"name": "x", "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9,
+TEST_F(ShipsCommand, WhatIsNoShipOrNoneForPerformanceIsRefusedWithItsPlace) {
+  write("scene.json", R"({"ships": []})");
+  write("outline.json", R"({"name": "x", "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9,
     "hull": {"waterline_m": [[60, 0], [30, 12], [-60, 12], [-60, -12], [30, -12]]},
     "propulsion": {"thrust_N": 1e6}, "mooring": {}})");
-  EXPECT_EQ(polynya("ships outline.json", folder).code, 0);
+  done("ships outline.json");
   const Words outline = "ships outline.json --for-performance";
   expect_refusals({{outline, 3, "outline.json:2:29: hull.waterline_m: "},
                    {outline, 3, "outline.json:2:13: hull.draught_m: "},

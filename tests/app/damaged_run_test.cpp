@@ -20,68 +20,58 @@ const std::vector<Words> kReading{"inspect damaged",
                                   "export damaged --vtk vtk",
                                   "export damaged --geojson layers"};
 
-class DamagedRun : public testing::Test {
+class DamagedRun : public InSharedFolder {
  protected:
   static void SetUpTestSuite() {
-    folder = new TemporaryFolder;
+    folder.emplace();
     write_file(folder->path() / "tiny.json", kTinyScene);
     ASSERT_EQ(call("run tiny.json --out damaged").code, 0);
     // Every shape whole: no other line then needs the vertices of one that is damaged.
     const auto run = checked(io::read_run(folder->path() / "damaged"));
-    floes = new std::string;
+    floes.clear();
     for (const io::RunFloe& floe : run->floes)
-      io::append_birth(*floes, {floe.birth, *run->shape(floe.birth.floe)}, nullptr);
-    write_file(file(), *floes);
+      io::append_birth(floes, {floe.birth, *run->shape(floe.birth.floe)}, nullptr);
+    write_file(file(), floes);
   }
-  static void TearDownTestSuite() {
-    delete floes;
-    delete folder;
-  }
-  /// Without rsvg-convert, which takes seconds.
-  static Outcome call(const Words& words) {
-    return polynya(words, Start{.folder = folder->path(), .arrange_streams = [] { setenv("PATH", "/", 1); }});
-  }
+  static Outcome call(const Words& words) { return polynya(words, without_converter(*folder)); }
   static std::filesystem::path file() { return folder->path() / "damaged/floes.ndjson"; }
   /// Writes other rings to the first floe, a plate.
   static void damage(const std::string& ring, const std::string& holes = "") {
-    const std::size_t start = floes->find("\"ring_m\":");
-    const std::size_t end = floes->find('\n');
-    std::string text = *floes;
+    const std::size_t start = floes.find("\"ring_m\":"), end = floes.find('\n');
+    std::string text = floes;
     text.replace(start, end - start, R"("ring_m":)" + ring + R"(,"holes_m":[)" + holes + "]}");
     write_file(file(), text);
   }
-  static inline TemporaryFolder* folder = nullptr;
-  static inline std::string* floes = nullptr;
+  /// Every command ends with 5 and that place.
+  static void expect_named(const char* place) {
+    for (const Words& words : kReading) EXPECT_HAS(expect_code(5, call(words)).err, place);
+  }
+  static inline std::string floes;
 };
 
 TEST_F(DamagedRun, ARingOfTooFewPointsIsNamedWithItsLineByEveryCommand) {
   const char* square = "[[0,0],[9,0],[9,9],[0,9]]";
-  const std::vector<std::pair<std::string, std::string>> rings{
-      {"[]", ""},     {"[[0,0]]", ""},          {"[[0,0],[1,1]]", ""}, {"[[0,0],[1,0],[1,1e999]]", ""},
-      {square, "[]"}, {square, "[[1,1],[2,2]]"}};
-  for (const auto& [ring, hole] : rings) {
+  for (const auto& [ring, hole] : std::vector<std::pair<std::string, std::string>>{{"[]", ""},
+                                                                                   {"[[0,0]]", ""},
+                                                                                   {"[[0,0],[1,1]]", ""},
+                                                                                   {"[[0,0],[1,0],[1,1e999]]", ""},
+                                                                                   {square, "[]"},
+                                                                                   {square, "[[1,1],[2,2]]"}}) {
     damage(ring, hole);
-    for (const auto& words : kReading) {
-      EXPECT_HAS(expect_code(5, call(words)).err, "damaged/floes.ndjson:1: ");
-    }
+    expect_named("damaged/floes.ndjson:1: ");
   }
 }
 
 TEST_F(DamagedRun, ADamagedSummaryIsNamedWithItsPlace) {
-  write_file(file(), *floes);
+  write_file(file(), floes);
   const auto summary = folder->path() / "damaged/summary.json";
   const std::string whole = read_file(summary);
-  std::string text = whole;
-  text.insert(text.find("\"steps\": ") + 9, "j");
-  write_file(summary, text);
-  for (const auto& words : kReading) {
-    EXPECT_HAS(expect_code(5, call(words)).err, "damaged/summary.json:9:12: ");
-  }
+  write_file(summary, replaced(whole, "\"steps\": ", "\"steps\": j"));
+  expect_named("damaged/summary.json:9:12: ");
   write_file(summary, whole);
 }
 
-/// Rings that can be read but bound no valid area: the check finds them, and everything else says what it
-/// leaves out.
+/// Rings that can be read but bound no valid area: the check finds them, and everything else says what it leaves out.
 TEST_F(DamagedRun, ARingThatIsNotValidCrashesNoCommand) {
   for (const char* ring : {"[[0,0],[1,0],[2,0]]", "[[1,1],[1,1],[1,1]]", "[[0,0],[4,4],[4,0],[0,4]]",
                            "[[0,0],[9,0],[4,0],[4,9]]", "[[0,0],[1e300,0],[0,1e300]]", "[[0,0],[0,9],[9,9],[9,0]]"}) {
@@ -101,7 +91,7 @@ TEST_F(DamagedRun, ARingThatIsNotValidCrashesNoCommand) {
 
 TEST_F(DamagedRun, ASizeDistributionLeavesOutAreasThatAreNone) {
   for (const char* area : {"0", "-1", "1e-310"}) {
-    std::string text = *floes;
+    std::string text = floes;
     const std::size_t start = text.find("\"area_m2\":") + 10;
     text.replace(start, text.find(',', start) - start, area);
     write_file(file(), text);
@@ -111,8 +101,7 @@ TEST_F(DamagedRun, ASizeDistributionLeavesOutAreasThatAreNone) {
 
 // ---- a run whose account of energy does not close says so, leaves the state before, and repeats it
 
-/// A ship that thrust alone has brought to ½ m v² = (F t)² / 2 m = 5e4 J/s² · t², and a floe that nobody
-/// meets.
+/// A ship that thrust alone has brought to ½ m v² = (F t)² / 2 m = 5e4 J/s² · t², and a floe that nobody meets.
 const std::string kScene = scene({R"("time": {"step_s": 0.01, "until_s": 10}, "record": {"frames_interval_s": 1})",
                                   list("ships", {ship(R"("position_m": [0, 0], "propulsion": {"thrust_N": 1e6})")}),
                                   list("floes", {square(500, -30, 40)})});
@@ -157,9 +146,8 @@ class BrokenAudit : public testing::Test {
 
 TEST_F(BrokenAudit, IsToldAtTheEndAndDumpedAndRepeated) {
   stop_run();
-  const Outcome resumed = expect_code(0, resume());
-  EXPECT_HAS(resumed.err, "THE AUDIT IS BROKEN: energy is off by 6.00e+00 J");
-  EXPECT_HAS(resumed.err, "polynya resume run --from-failure");
+  EXPECT_HAS(expect_code(0, resume()).err, "THE AUDIT IS BROKEN: energy is off by 6.00e+00 J",
+             "polynya resume run --from-failure");
   const auto summary = io::parse_json(read_file(folder_ / "run/summary.json"));
   EXPECT_FALSE(summary.root.find("audit_closed")->boolean());
   expect_reproduced();

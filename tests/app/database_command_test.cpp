@@ -15,13 +15,12 @@
 namespace polynya::tests {
 namespace {
 
-class Database : public testing::Test {
+class Database : public InFolder {
  protected:
   Outcome database(const Words& words) const { return polynya(Words("database") + words, folder); }
   /// The fewest wedges that make a database.
   const Words build_small = "build --fluid winkler --wedge-angles 40,90 --threads 2 --out";
   const Words paper_wedge = "query --json --thickness 0.5 --wedge-angle 90 --hull-angle 60 --speed";
-  TemporaryFolder folder;
 };
 
 /// The number at that key of the answer's JSON, NaN for null.
@@ -35,26 +34,25 @@ double number(const std::string& as_json, const std::string& key) {
 TEST_F(Database, BuildMakesTheShippedBytes) {
   const Outcome built = expect_code(0, database("build --threads 2 --progress json"));
   EXPECT_HAS(built.out, "byte for byte the database that ships with Polynya");
-  EXPECT_EQ(read_file(folder / "icebreaking-database.txt"), fracture::default_database_text());
+  EXPECT_EQ(read("icebreaking-database.txt"), fracture::default_database_text());
   EXPECT_HAS(built.err, R"("wedges":45,"wedges_total":45)");
 }
 
 TEST_F(Database, BuildMakesWhatIsAskedAndOverwritesOnlyWhenTold) {
   ASSERT_EQ(database(build_small + "small.txt").code, 0);
-  const std::string small = read_file(folder / "small.txt");
-  const auto read = checked(fracture::parse_database(small));
-  EXPECT_EQ(read->settings().fluid, fracture::FluidModel::kWinkler);
-  EXPECT_EQ(read->grid().opening_angles_deg, (std::vector<double>{40, 90}));
-  EXPECT_EQ(read->grid().softnesses, fracture::default_grid().softnesses);
+  const std::string small = read("small.txt");
+  const auto built = checked(fracture::parse_database(small));
+  EXPECT_EQ(built->settings().fluid, fracture::FluidModel::kWinkler);
+  EXPECT_EQ(built->grid().opening_angles_deg, (std::vector<double>{40, 90}));
+  EXPECT_EQ(built->grid().softnesses, fracture::default_grid().softnesses);
 
-  write_file(folder / "kept.txt", "mine");
+  write("kept.txt", "mine");
   const Words build = "database build --fluid winkler --wedge-angles 40,90 --threads 1 --out kept.txt";
   expect_refusals({{build, 5, "kept.txt: it exists already"}}, {folder.path()});
-  EXPECT_EQ(read_file(folder / "kept.txt"), "mine");
   expect_refusals({{build + "--overwrite", 5, "kept.txt: "}}, {folder.path(), 10'000});  // as on a full disk
-  EXPECT_EQ(read_file(folder / "kept.txt"), "mine");
-  EXPECT_EQ(polynya(build + "--overwrite", folder).code, 0);
-  EXPECT_EQ(read_file(folder / "kept.txt"), small) << "one thread makes what two made";
+  EXPECT_EQ(read("kept.txt"), "mine");
+  done(build + "--overwrite");
+  EXPECT_EQ(read("kept.txt"), small) << "one thread makes what two made";
   EXPECT_FALSE(std::filesystem::exists(folder / "kept.txt.part"));
 
   EXPECT_HAS(expect_code(0, database("show small.txt")).out, small.substr(small.rfind(' ') + 1, 16), "winkler",
@@ -85,12 +83,10 @@ TEST_F(Database, BuildLeavesNothingWhenStopped) {
 }
 
 TEST_F(Database, QueryIsTheModelOfTheSimulation) {
-  const Outcome outcome = expect_code(
-      0,
-      database("query --json --thickness 1.2 --speed 2.5 --front-angle 30 --back-angle 70 --hull-angle 50 "
-               "--slip-speed 1.5 "
-               "--friction 0.1 --flexural-strength 6e5 --compressive-strength 2e6 --youngs-modulus 4e9 --density 910 "
-               "--water-density 1025"));
+  const Outcome outcome = done(
+      "database query --json --thickness 1.2 --speed 2.5 --front-angle 30 --back-angle 70 --hull-angle 50 "
+      "--slip-speed 1.5 --friction 0.1 --flexural-strength 6e5 --compressive-strength 2e6 --youngs-modulus 4e9 "
+      "--density 910 --water-density 1025");
   constexpr double kDegree = std::numbers::pi / 180;
   fracture::BendingLoad load;
   load.ice.thickness = 1.2;
@@ -169,7 +165,7 @@ TEST_F(Database, FilesThatAreNoDatabaseAreRefused) {
   std::vector<std::pair<std::string, std::string>> rows{
       {"missing.txt", " "}, {"/dev/zero", " "}, {folder.path().string(), " "}};
   for (const auto& [name, text, message] : files) {
-    write_file(folder / name, text);
+    write(name, text);
     rows.emplace_back(name, message);
   }
   for (const auto& [file, message] : rows) {
@@ -187,7 +183,7 @@ TEST_F(Database, ShowPrintsTheShippedParametersAndWritesTheNumbersOfItsThreePict
   for (const double value : fracture::default_grid().froude_numbers) EXPECT_HAS(shipped, fmt::format(" {:g}", value));
   const Outcome drawn = database("show --svg one/plots");  // 5 where matplotlib is missing
   EXPECT_HAS(drawn.out, "numbers         one/plots/slices.json\n") << drawn.err;
-  const auto as_json = io::parse_json(read_file(folder / "one/plots/slices.json"));
+  const auto as_json = io::parse_json(read("one/plots/slices.json"));
   const io::JsonValue* figures = as_json.root.find("figures");
   ASSERT_EQ(figures->items().size(), 3U);
   for (const io::JsonValue& figure : figures->items()) {
@@ -198,7 +194,7 @@ TEST_F(Database, ShowPrintsTheShippedParametersAndWritesTheNumbersOfItsThreePict
       for (const char* key : {"vertical_force_N", "cusp_radius_m", "is_in_range"})
         EXPECT_EQ(curve.find(key)->items().size(), points) << key;
   }
-  write_file(folder / "file", "");
+  write("file", "");
   EXPECT_EQ(database("show --svg file").code, 5);
 }
 

@@ -12,11 +12,11 @@
 namespace polynya::tests {
 namespace {
 
-class Import : public testing::Test {
+class Import : public InFolder {
  protected:
   Outcome import(const std::string& text, const Words& more = {}) const {
-    write_file(folder / "mapped.geojson", text);
-    return polynya(Words("import mapped.geojson --out floes.geojson") + more, folder);
+    write("mapped.geojson", text);
+    return call(Words("import mapped.geojson --out floes.geojson") + more);
   }
   /// Has a program of Debian's gdal-bin been installed?
   static bool has_gdal() { return std::system("ogr2ogr --version >/dev/null 2>&1") == 0; }
@@ -27,7 +27,6 @@ class Import : public testing::Test {
   io::SceneOutcome scene() const {
     return io::read_scene(R"({"floes": [{"file": "floes.geojson"}]})", "scene.json", folder.path());
   }
-  TemporaryFolder folder;
 };
 
 std::string square(double x, double y, double side, const std::string& properties = "") {
@@ -49,20 +48,17 @@ const std::string kSvalbard = collection_of(square(15.60, 78.2000, 0.002, R"("fl
                                             square(15.6019, 78.2001, 0.001, R"("floe_id":8)"));
 
 TEST_F(Import, DegreesBecomeAFloeFileThatAScenesReads) {
-  const Outcome done = expect_code(0, import(kSvalbard, "--origin 78.2,15.6"));
-  EXPECT_HAS(done.err, "feature 2, polygon 0: trimmed", "to feature 0", "3 floes read, 1 trimmed; 3 written",
+  const Outcome imported = expect_code(0, import(kSvalbard, "--origin 78.2,15.6"));
+  EXPECT_HAS(imported.err, "feature 2, polygon 0: trimmed", "to feature 0", "3 floes read, 1 trimmed; 3 written",
              "projected about 78.2, 15.6", " m2 written");
-  const std::string floes = read_file(folder / "floes.geojson");
+  const std::string floes = read("floes.geojson");
   EXPECT_HAS(floes, R"("floe_id":7)", R"("thickness_m":0.8)", R"("sensor":"S1A")", R"("origin":{"latitude_deg":78.2)");
-  const io::JsonDocument report = io::parse_json(done.out);
-  EXPECT_TRUE(report.faults.empty()) << done.out;
+  const io::JsonDocument report = io::parse_json(imported.out);
+  EXPECT_TRUE(report.faults.empty()) << imported.out;
   EXPECT_EQ(report.root.find("floes")->find("trimmed")->number(), 1);
-  const auto read = checked(scene());
-  EXPECT_EQ(read->scene.floes.size(), 3U);
+  EXPECT_EQ(checked(scene())->scene.floes.size(), 3U);
   // Again: nothing is left to do.
-  write_file(folder / "mapped.geojson", floes);
-  const Outcome again = polynya("import mapped.geojson --out again.geojson", folder);
-  EXPECT_HAS(again.err, "3 floes read; 3 written");
+  EXPECT_HAS(import(floes).err, "3 floes read; 3 written");
 }
 
 TEST_F(Import, RefusedFloesAreNamedAndTheOthersWritten) {
@@ -97,7 +93,7 @@ TEST_F(Import, WhatCannotBeReadIsRefusedInOneSentence) {
     EXPECT_HAS(expect_code(code, import(text, more)).err, part);
     EXPECT_FALSE(std::filesystem::exists(folder / "floes.geojson")) << part;
   }
-  EXPECT_HAS(expect_code(5, polynya("import nowhere.shp --out floes.geojson", folder)).err, "nowhere.shp: ");
+  EXPECT_HAS(expect_code(5, call("import nowhere.shp --out floes.geojson")).err, "nowhere.shp: ");
 }
 
 TEST_F(Import, AFileWithoutFloesGivesOneWithoutFloes) {
@@ -112,34 +108,31 @@ TEST_F(Import, ShapefilesGeoPackagesAndFlatGeobufsAreReadByGdal) {
   const auto expected = checked(scene());
   for (const std::string name : {"mapped.shp", "mapped.gpkg", "mapped.fgb"}) {
     ASSERT_TRUE(convert("-t_srs EPSG:3413 " + name + " mapped.geojson")) << name;
-    const Outcome done = expect_code(0, polynya({"import", name, "--shift", "--out", "floes.geojson"}, folder));
-    EXPECT_HAS(done.err, name + ": WGS 84 / NSIDC Sea Ice Polar Stereographic North", "3 written");
-    const auto read = checked(scene());
-    EXPECT_NEAR(area_of(read->scene), area_of(expected->scene), 1e-3) << name;
+    EXPECT_HAS(done({"import", name, "--shift", "--out", "floes.geojson"}).err,
+               name + ": WGS 84 / NSIDC Sea Ice Polar Stereographic North", "3 written");
+    EXPECT_NEAR(area_of(checked(scene())->scene), area_of(expected->scene), 1e-3) << name;
   }
   ASSERT_EQ(import(kSvalbard, "--origin 78.201,15.606").code, 0);
   const double area = area_of(scene()->scene);
   for (const std::string name : {"degrees.shp", "degrees.gpkg", "degrees.fgb"}) {
     ASSERT_TRUE(convert(name + " mapped.geojson")) << name;
-    EXPECT_HAS(expect_code(0, polynya({"import", name, "--out", "floes.geojson"}, folder)).err,
-               name + ": WGS 84 (CRS84), projected about 78.20", "the floes' middle");
+    EXPECT_HAS(done({"import", name, "--out", "floes.geojson"}).err, name + ": WGS 84 (CRS84), projected about 78.20",
+               "the floes' middle");
     EXPECT_NEAR(area_of(scene()->scene), area, 0.1) << name;
   }
   // A system without a code is converted; a file without a system is not in degrees.
   ASSERT_TRUE(convert("-t_srs '+proj=laea +lat_0=78 +lon_0=15 +datum=WGS84' own.shp mapped.geojson"));
-  EXPECT_HAS(expect_code(0, polynya("import own.shp --origin 78.2,15.6 --out floes.geojson", folder)).err,
-             "3 floes read, 1 trimmed; 3 written");
-  write_file(folder / "broken.shp", read_file(folder / "mapped.shp").substr(0, 60));
-  const Outcome broken = expect_code(5, polynya("import broken.shp --out floes.geojson", folder));
-  EXPECT_HAS(broken.err, "broken.shp: ogr2ogr could not read it: ");
+  EXPECT_HAS(done("import own.shp --origin 78.2,15.6 --out floes.geojson").err, "3 floes read, 1 trimmed; 3 written");
+  write("broken.shp", read("mapped.shp").substr(0, 60));
+  EXPECT_HAS(expect_code(5, call("import broken.shp --out floes.geojson")).err,
+             "broken.shp: ogr2ogr could not read it: ");
 }
 
 TEST_F(Import, WithoutOgr2ogrAMessageNamesThePackage) {
-  write_file(folder / "mapped.gpkg", std::string("SQLite format 3\0 and more", 25));
+  write("mapped.gpkg", std::string("SQLite format 3\0 and more", 25));
   const Outcome outcome = polynya("import mapped.gpkg --out floes.geojson",
                                   {.folder = folder.path(), .arrange_streams = [] { setenv("PATH", "/nowhere", 1); }});
-  EXPECT_EQ(outcome.code, 5);
-  EXPECT_HAS(outcome.err, "mapped.gpkg: a GeoPackage is read by GDAL's ogr2ogr, which is not there",
+  EXPECT_HAS(expect_code(5, outcome).err, "mapped.gpkg: a GeoPackage is read by GDAL's ogr2ogr, which is not there",
              "apt-get install gdal-bin");
 }
 

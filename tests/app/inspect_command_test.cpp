@@ -27,8 +27,7 @@ class InspectCommand : public PlateRun {
 };
 
 TEST_F(InspectCommand, TheTableHasALineForEachLivingFloe) {
-  const Outcome at_end = expect_code(0, inspect(""));
-  const auto all = lines(at_end.out);
+  const auto all = lines(expect_code(0, inspect("")).out);
   ASSERT_EQ(all.size(), 1 + living_at(run->end_time()));
   EXPECT_HAS(all[0], "floe", "parent", "born_s", "area_m2", "perimeter_m", "vertices", "holes", "mass_kg",
              "thickness_m", "valid");
@@ -97,12 +96,10 @@ TEST_F(InspectCommand, TheLineageLeadsFromTheSceneToTheFloe) {
 }
 
 TEST_F(InspectCommand, ASoundRunPassesTheCheck) {
-  const Outcome outcome = expect_code(0, inspect("--check"));
-  const auto all = lines(outcome.out);
-  EXPECT_BEGINS(all.front(), "validity   " + std::to_string(run->floes.size()) + " shapes, 0 invalid") << outcome.out;
-  EXPECT_EQ(all.back(), "sound");
-  EXPECT_HAS(outcome.out, std::to_string(run->frames.size()) + " instants");
-  EXPECT_HAS(outcome.out, "Overlap is part of the contact model");
+  const std::string text = expect_code(0, inspect("--check")).out;
+  EXPECT_BEGINS(text, "validity   " + std::to_string(run->floes.size()) + " shapes, 0 invalid");
+  EXPECT_EQ(lines(text).back(), "sound");
+  EXPECT_HAS(text, std::to_string(run->frames.size()) + " instants", "Overlap is part of the contact model");
 }
 
 TEST_F(InspectCommand, ReportsAreJsonOnRequest) {

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,11 @@ struct Start {
   std::function<void()> arrange_streams = [] {};
   std::vector<std::string> under = {};  ///< a program, and its options, that starts polynya
 };
+
+/// Without rsvg-convert, which takes seconds.
+inline Start without_converter(const TemporaryFolder& folder) {
+  return {.folder = folder.path(), .arrange_streams = [] { setenv("PATH", "/", 1); }};
+}
 
 /// With stdout or stderr a pipe without a reader.
 inline void close_pipe_behind(int descriptor) {
@@ -144,29 +150,42 @@ inline std::string scene_path(const std::string& name) {
   return std::string(POLYNYA_SOURCE_DIR) + "/scenes/" + name + ".json";
 }
 
+/// The folder of its own in which a test calls the program.
+class InFolder : public testing::Test {
+ protected:
+  Outcome call(const Words& words) const { return polynya(words, folder); }
+  /// Of a command that succeeds.
+  Outcome done(const Words& words) const { return expect_code(0, call(words)); }
+  void write(const std::string& name, const std::string& text) const { write_file(folder / name, text); }
+  std::string read(const std::string& name) const { return read_file(folder / name); }
+  TemporaryFolder folder;
+};
+
+/// A folder that the tests of a class share, filled by SetUpTestSuite.
+class InSharedFolder : public testing::Test {
+ protected:
+  static void TearDownTestSuite() { folder.reset(); }
+  static inline std::optional<TemporaryFolder> folder;
+};
+
 /// One real run for all tests of a command: an icebreaker 30 s into a plate.
-class PlateRun : public testing::Test {
+class PlateRun : public InSharedFolder {
  protected:
   static void SetUpTestSuite() {
-    folder = new TemporaryFolder;
+    folder.emplace();
     const Outcome outcome = polynya("run scenes/level-plate.json --until 30 --out run", *folder);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     auto read = io::read_run(folder->path() / "run");
     ASSERT_TRUE(read.has_value()) << read.error();
-    run = new io::Run(std::move(*read));
+    run = std::move(*read);
     ASSERT_GT(run->events.size(), 5U);
-  }
-  static void TearDownTestSuite() {
-    delete run;
-    delete folder;
   }
   /// The command with the run's folder, or another of that folder's, and more words.
   static Outcome on_run(const std::string& command, const Words& words, const std::string& of = "run") {
     return polynya(Words{command, of} + words, *folder);
   }
 
-  static inline TemporaryFolder* folder = nullptr;
-  static inline io::Run* run = nullptr;
+  static inline std::optional<io::Run> run;
 };
 
 }  // namespace polynya::tests

@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 /// Runs in a folder, without rsvg-convert, which takes seconds.
 class Resume : public testing::Test {
  protected:
-  /// A run that was killed when it had two checkpoints, beside the same run uninterrupted; a copy of it is
-  /// kept.
+  /// A run that was killed when it had two checkpoints, beside the same run uninterrupted; a copy of it is kept.
   void interrupt() {
     write_file(folder_ / "scene.json", crash_scene("100"));
     ASSERT_EQ(polynya("run scene.json --out whole", start_).code, 0);
@@ -42,7 +41,7 @@ class Resume : public testing::Test {
   std::string difference() const { return first_difference(folder_ / "whole", folder_ / "run"); }
 
   const TemporaryFolder folder_;
-  const Start start_{.folder = folder_.path(), .arrange_streams = [] { setenv("PATH", "/", 1); }};
+  const Start start_ = without_converter(folder_);
   std::vector<fs::path> checkpoints_;  // the newest first
 };
 
@@ -140,15 +139,14 @@ TEST_F(Resume, ASignalStopsWithACheckpointAndNobodyElseMayWriteMeanwhile) {
     while (!has_ended(child) && (io::checkpoints_in(folder_ / "run").empty() || !has_rows()))
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     const TemporaryFolder elsewhere;
-    const Start beside{elsewhere.path()};
-    for (const auto& words : {Words{"resume", folder_ / "run"},
-                              Words{"run", folder_ / "scene.json", "--out", folder_ / "run", "--overwrite"}}) {
-      EXPECT_HAS(expect_code(5, polynya(words, beside)).err, "another polynya is writing this run");
-    }
+    const std::string run_folder = folder_ / "run";
+    for (const Words& words :
+         {Words{"resume", run_folder}, {"run", folder_ / "scene.json", "--out", run_folder, "--overwrite"}})
+      EXPECT_HAS(expect_code(5, polynya(words, elsewhere)).err, "another polynya is writing this run");
     kill(child, signal);
     EXPECT_HAS(expect_code(75, wait_for(child, start_)).err, name, "polynya resume run");
-    EXPECT_FALSE(io::checkpoints_in(folder_ / "run").empty());
-    EXPECT_LE(io::checkpoints_in(folder_ / "run").size(), 2U);
+    const std::size_t kept = io::checkpoints_in(run_folder).size();
+    EXPECT_TRUE(kept == 1 || kept == 2) << kept;
     const auto run = checked(io::read_run(folder_ / "run"));
     EXPECT_FALSE(run->summary.find("finished")->boolean());
     EXPECT_GT(run->samples.size(), 0U);
@@ -158,18 +156,15 @@ TEST_F(Resume, ASignalStopsWithACheckpointAndNobodyElseMayWriteMeanwhile) {
   }
 }
 
-/// A size limit stands for a full disk, of 64 kB: forces.csv or floes.ndjson meets it. After it is lifted,
-/// all is well.
+/// A size limit stands for a full disk, of 64 kB: forces.csv or floes.ndjson meets it. After it is lifted, all is well.
 TEST_F(Resume, AfterAFullDiskTheRunGoesOn) {
   write_file(folder_ / "scene.json", crash_scene("100"));
   ASSERT_EQ(polynya("run scene.json --out whole", start_).code, 0);
   for (const rlim_t limit : {20'000, 100'000, 150'000}) {
     const Start full{folder_.path(), limit};
     const Outcome stopped = expect_code(5, polynya("run scene.json --out run --overwrite --checkpoint-every 1", full));
-    EXPECT_HAS(stopped.err, "File too large");
-    EXPECT_HAS(stopped.err, "polynya resume run");
-    const auto summary = io::parse_json(read_file(folder_ / "run/summary.json"));
-    EXPECT_TRUE(summary.faults.empty());
+    EXPECT_HAS(stopped.err, "File too large", "polynya resume run");
+    EXPECT_TRUE(io::parse_json(read_file(folder_ / "run/summary.json")).faults.empty());
     expect_code(0, resume());
     EXPECT_EQ(difference(), "") << limit;
   }
@@ -198,12 +193,10 @@ TEST_F(Resume, TheBytesAreTheSameOnAnyNumberOfThreads) {
     "record": {"frames_interval_s": 2}, "structures": [{"radius_m": 30, "position_m": [430, 430]}],
     "floes": [{"field": {"corner_m": [0, 0], "extent_m": 860, "floe_size_m": 14, "concentration": 0.8}}]})");
   for (const char* threads : {"1", "2", "8"}) {
-    EXPECT_LACKS(expect_code(0, polynya({"run", "scene.json", "--out", std::string("on") + threads, "--threads",
-                                         threads, "--progress", "none"},
-                                        start_))
-                     .err,
-                 "TBB");
-    EXPECT_EQ(first_difference(folder_ / "on1", folder_ / (std::string("on") + threads)), "") << threads;
+    const std::string out = std::string("on") + threads;
+    const Words words{"run", "scene.json", "--out", out, "--threads", threads, "--progress", "none"};
+    EXPECT_LACKS(expect_code(0, polynya(words, start_)).err, "TBB");
+    EXPECT_EQ(first_difference(folder_ / "on1", folder_ / out), "") << threads;
   }
 }
 
@@ -221,7 +214,7 @@ CrashTally crash_trials(int kills, unsigned seed) {
   std::cout << "seed " << seed << std::endl;  // before any fork
   std::mt19937 random(seed);
   const TemporaryFolder folder;
-  const Start start{.folder = folder.path(), .arrange_streams = [] { setenv("PATH", "/", 1); }};  // no rsvg-convert
+  const Start start = without_converter(folder);
   write_file(folder / "scene.json", crash_scene("100"));
   const Words often = "--checkpoint-every 4 --progress none";
   const auto begin = std::chrono::steady_clock::now();

@@ -136,8 +136,7 @@ class Unsynced {
   std::set<std::string> paths_;  ///< of files with bytes, and folders with names, that are not on the disk
 };
 
-/// A checkpoint is what a run can be had again from: it goes only when all that was written before is on the
-/// disk.
+/// A checkpoint is what a run can be had again from: it goes only when all that was written before is on the disk.
 TEST_F(RunFolderTrial, EveryByteIsOnTheDiskBeforeACheckpointGoes) {
   if (!has_strace()) GTEST_SKIP() << "no strace that works here";
   expect_code(

@@ -9,16 +9,15 @@
 namespace polynya::tests {
 namespace {
 
-class Streams : public testing::Test {
+class Streams : public InSharedFolder {
  protected:
   static void SetUpTestSuite() {
-    folder = new TemporaryFolder;
+    folder.emplace();
     write_file(folder->path() / "tiny.json", kTinyScene);
     write_file(folder->path() / "floes.wkt", "POLYGON ((0 0, 10 0, 10 10, 0 10))\n");
     ASSERT_EQ(in_folder("run tiny.json --out good").code, 0);
     ASSERT_GT(read_file(folder->path() / "good/events.ndjson").size(), 0U);
   }
-  static void TearDownTestSuite() { delete folder; }
   static Outcome in_folder(
       const Words& words, std::function<void()> arrange = [] {}) {
     const auto arrange_all = [&] {
@@ -27,7 +26,6 @@ class Streams : public testing::Test {
     };
     return polynya(words, {.folder = folder->path(), .arrange_streams = arrange_all});
   }
-  static inline TemporaryFolder* folder = nullptr;
 };
 
 /// Every command that prints to stdout, as a user calls it.
@@ -73,17 +71,17 @@ TEST_F(Streams, AClosedPipeIsQuietAndEndsAsShellsReportIt) {
   }
 }
 
-TEST_F(Streams, MessagesThatCannotBeWrittenNeverEndInZero) {
+TEST_F(Streams, ThatCannotBeWrittenOrReadNeverEndInZero) {
   const Words noisy = "cut floes.wkt --crack 5,5,30";
   ASSERT_NE(in_folder(noisy).err, "");
   EXPECT_EQ(in_folder(noisy, [] { fill_disk_of(2); }).code, 5);
   EXPECT_EQ(in_folder(noisy, [] { close(2); }).code, 5);
   EXPECT_EQ(in_folder(noisy, [] { close_pipe_behind(2); }).code, 141);
   EXPECT_EQ(in_folder("validate tiny.json", [] { fill_disk_of(2); }).code, 0);  // it has no message
+  EXPECT_HAS(expect_code(5, in_folder("cut - --crack 5,5,30", [] { close(0); })).err, "stdin: ");
 }
 
-/// The files of the run would take the descriptors of closed streams, and reports and progress would go
-/// there.
+/// The files of the run would take the descriptors of closed streams, and reports and progress would go there.
 TEST_F(Streams, WhateverStreamIsClosedARunsFilesHoldTheRun) {
   for (int closed = 1; closed < 8; ++closed) {
     const auto close_some = [closed] {
@@ -98,12 +96,6 @@ TEST_F(Streams, WhateverStreamIsClosedARunsFilesHoldTheRun) {
   }
 }
 
-TEST_F(Streams, AClosedStdinIsAnErrorWhereItIsRead) {
-  const Outcome outcome = in_folder("cut - --crack 5,5,30", [] { close(0); });
-  EXPECT_EQ(outcome.code, 5);
-  EXPECT_HAS(outcome.err, "stdin: ");
-}
-
 /// A named pipe without a writer would be waited for.
 TEST_F(Streams, ANamedPipeIsNoFileToRead) {
   ASSERT_EQ(mkfifo((folder->path() / "in").c_str(), 0600), 0);
@@ -116,7 +108,8 @@ TEST_F(Streams, ANamedPipeIsNoFileToRead) {
   }
 }
 
-TEST_F(Streams, APageGoesIntoAPipe) {
+/// On stdout it is alone: the line about it goes to stderr, where a page that is a file would lose it.
+TEST_F(Streams, APageGoesIntoAPipeAndToStdout) {
   ASSERT_EQ(in_folder("view good --out page.html").code, 0);
   const std::string page = read_file(folder->path() / "page.html");
   ASSERT_EQ(mkfifo((folder->path() / "fifo").c_str(), 0600), 0);
@@ -130,13 +123,8 @@ TEST_F(Streams, APageGoesIntoAPipe) {
   std::filesystem::remove(folder->path() / "fifo");
   waitpid(reader, nullptr, 0);
   EXPECT_TRUE(read_file(folder->path() / "read.html") == page);
-}
-
-/// The line about the page goes to stderr then; a page that is a file would lose it.
-TEST_F(Streams, APageOnStdoutIsThePageAlone) {
-  ASSERT_EQ(in_folder("view good --out page.html").code, 0);
   const Outcome outcome = expect_code(0, in_folder("view good --out /dev/stdout"));
-  EXPECT_TRUE(outcome.out == read_file(folder->path() / "page.html"));
+  EXPECT_TRUE(outcome.out == page);
   EXPECT_HAS(outcome.err, "open it in a browser");
 }
 
@@ -189,9 +177,12 @@ std::vector<int> columns_of_lines(const std::string& text) {
   return columns;
 }
 
-TEST(ProgressBar, FitsAnyTerminal) {
-  const TemporaryFolder folder;
-  write_file(folder / "tiny.json", kTinyScene);
+class ProgressBar : public InFolder {
+ protected:
+  void SetUp() override { write("tiny.json", kTinyScene); }
+};
+
+TEST_F(ProgressBar, FitsAnyTerminal) {
   for (const int columns : {1, 6, 20, 59, 80}) {
     const std::string text = on_terminal({"run", "tiny.json", "--out", "run", "--overwrite"}, folder, columns);
     std::filesystem::remove_all(folder / "run");
@@ -203,20 +194,16 @@ TEST(ProgressBar, FitsAnyTerminal) {
 }
 
 /// A scene that comes late, as a field that takes long to make.
-TEST(ProgressBar, IsThereWhileASceneIsReadAndGoesAway) {
-  const TemporaryFolder folder;
-  write_file(folder / "tiny.json", kTinyScene);
+TEST_F(ProgressBar, IsThereWhileASceneIsReadAndGoesAway) {
   Start start{folder.path()};
   start.under = {"/bin/sh", "-c", "{ /bin/sleep 4; /bin/cat tiny.json; } | \"$@\"", "sh"};
   EXPECT_HAS(expect_code(0, polynya("validate - --progress json", start)).err,
              R"({"work":"reading the scene","part":null,"wall_time_s":)");
-  EXPECT_EQ(polynya("validate tiny.json --progress json", folder).err, "");
+  EXPECT_EQ(done("validate tiny.json --progress json").err, "");
 }
 
-TEST(ProgressBar, IsLinesWhereThereIsNoTerminal) {
-  const TemporaryFolder folder;
-  write_file(folder / "tiny.json", kTinyScene);
-  EXPECT_LACKS(expect_code(0, polynya("run tiny.json --out run --progress bar", folder)).err, "\r");
+TEST_F(ProgressBar, IsLinesWhereThereIsNoTerminal) {
+  EXPECT_LACKS(done("run tiny.json --out run --progress bar").err, "\r");
 }
 
 }  // namespace

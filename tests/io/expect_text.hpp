@@ -1,9 +1,11 @@
 #pragma once
 
+#include <fstream>
 #include <initializer_list>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -34,6 +36,29 @@ Expected checked(Expected outcome) {
     throw std::runtime_error(to_string(outcome.error().front()));
   else
     throw std::runtime_error("refused");
+}
+
+/// Why something was refused; ends the test where it was not.
+template <class Expected>
+auto refused(const Expected& outcome) {
+  if (outcome) throw std::runtime_error("not refused");
+  return outcome.error();
+}
+
+/// The rows of a table in tests/: the cells of a line are parted by " | ", and may be empty. Lines that begin with "#"
+/// are none.
+inline std::vector<std::vector<std::string>> table_of(const std::string& file) {
+  std::ifstream lines(std::string(POLYNYA_SOURCE_DIR) + "/tests/" + file);
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("#")) continue;
+    std::vector<std::string>& row = rows.emplace_back();
+    line = " " + line + " |";
+    for (std::size_t start = 0, end = 0; (end = line.find(" |", start)) != std::string::npos; start = end + 2)
+      row.push_back(end > start ? line.substr(start + 1, end - start - 1) : "");
+  }
+  EXPECT_FALSE(rows.empty()) << file;
+  return rows;
 }
 
 /// Replaces the one place of a text.

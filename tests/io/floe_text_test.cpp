@@ -104,21 +104,14 @@ TEST(FloeText, WhatStandsInATextIsNumberedAndPlaced) {
     {"type": "Polygon", "coordinates": [[[7,0],[8,0,3],[7,1]], 5]},
     {"type": "Polygon", "coordinates": []},
     7]})");
-  struct Expected {
-    std::size_t feature, member, line;
-    std::string refusal;
-  };
+  using Expected = std::tuple<std::size_t, std::size_t, std::size_t, std::string>;  // feature, member, line, refusal
   const std::vector<Expected> expected{
       {0, 0, 3, ""}, {0, 1, 4, ""},          {1, 0, 5, "no-geometry"}, {2, 0, 7, "not-a-polygon"},
       {2, 1, 8, ""}, {3, 0, 9, "malformed"}, {4, 0, 10, ""},           {5, 0, 11, "malformed"}};
-  ASSERT_EQ(floes.entries.size(), expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    const FloeEntry& entry = floes.entries[i];
-    EXPECT_EQ(entry.feature, expected[i].feature) << i;
-    EXPECT_EQ(entry.member, expected[i].member) << i;
-    EXPECT_EQ(entry.line, expected[i].line) << i;
-    EXPECT_EQ(entry.refusal, expected[i].refusal) << i << entry.detail;
-  }
+  std::vector<Expected> found;
+  for (const FloeEntry& entry : floes.entries)
+    found.emplace_back(entry.feature, entry.member, entry.line, entry.refusal);
+  EXPECT_EQ(found, expected);
   EXPECT_TRUE(floes.has_more_coordinates);
 }
 
@@ -176,9 +169,7 @@ TEST(FloeText, AFaultOfGeojsonIsNotTakenForNdjson) {
   for (const std::string& text :
        {begin + kSquareText + ",\n" + kSquareText + "\n" + kSquareText + "\n]}\n", begin + kSquareText,
         begin + kSquareText + ",\n" + kSquareText + ",\n]}\n", begin + kSquareText + ",\n" + kSquareText + "\n]\n"}) {
-    const auto floes = read_floe_text(text);
-    ASSERT_FALSE(floes.has_value()) << text;
-    EXPECT_HAS(floes.error(), "(read as GeoJSON)");
+    EXPECT_HAS(tests::refused(read_floe_text(text)), "(read as GeoJSON)");
   }
 }
 
@@ -208,9 +199,7 @@ TEST(FloeText, PropertiesAndCrsAreKeptAsWritten) {
             R"("name":"a  \"b\" // c","thick_m":0.70,"id":12345678901234567890,"mean":null,"huge":null,)"
             R"("list":[1,{"x":null}])");
   EXPECT_EQ(floes.entries[1].properties, nullptr);
-  EXPECT_TRUE(floes_of("SRID=3413;"
-                       "POLYGON ((0 0, 1 0, 0 1))")
-                  .has_srid);
+  EXPECT_TRUE(floes_of("SRID=3413;POLYGON ((0 0, 1 0, 0 1))").has_srid);
 }
 
 TEST(FloeText, NumbersThatAreNoneBecomeNan) {
@@ -233,9 +222,7 @@ TEST(FloeText, WhatCannotBeReadIsToldWithItsPlace) {
                                     {"garbage\nmore of it\n", "1:1: neither"},
                                     {"{\"type\": \"Polygon\",\n \"coordinates\": [[[0 0]]]}", "2:22: "},
                                     {R"({"type": "Polygon")", "1:19: "}}) {
-    const auto floes = read_floe_text(text);
-    ASSERT_FALSE(floes.has_value()) << text;
-    EXPECT_EQ(floes.error().find(place), 0U) << floes.error();
+    EXPECT_BEGINS(tests::refused(read_floe_text(text)), place);
   }
   std::string deep(100'000, '[');
   EXPECT_FALSE(read_floe_text(deep).has_value());
@@ -280,48 +267,28 @@ TEST(CutOps, AListIsReadInOrder) {
     {"polygon": "POLYGON ((0 0, 0 1, 1 0, 0 0))"}])json",
                                                {Keep::kOutside, 0.1}));
   ASSERT_EQ(ops->size(), 7U);
-  EXPECT_EQ(std::get<DiscTool>((*ops)[0].tool).sagitta, 0.1);
-  EXPECT_EQ(std::get<DiscTool>((*ops)[1].tool).sagitta, 0.5);
-  EXPECT_EQ((*ops)[1].keep, Keep::kBoth);
-  EXPECT_EQ((*ops)[2].keep, Keep::kOutside);
-  EXPECT_FALSE((*ops)[2].must_cut);
-  EXPECT_TRUE((*ops)[3].must_cut);
-  EXPECT_EQ(std::get<CrackTool>((*ops)[2].tool).angle_deg, 30);
-  EXPECT_EQ(std::get<LineTool>((*ops)[3].tool).path, (std::vector<geometry::Point>{{0, 1}, {2, 3}}));
-  EXPECT_EQ(std::get<LineTool>((*ops)[4].tool).path.size(), 3U);
-  const auto& polygons = std::get<PolygonTool>((*ops)[5].tool).polygons;
+  const std::vector<CutOp>& op = *ops;
+  EXPECT_EQ(std::get<DiscTool>(op[0].tool).sagitta, 0.1);
+  EXPECT_EQ(std::get<DiscTool>(op[1].tool).sagitta, 0.5);
+  EXPECT_EQ(op[1].keep, Keep::kBoth);
+  EXPECT_EQ(op[2].keep, Keep::kOutside);
+  EXPECT_TRUE(!op[2].must_cut && op[3].must_cut);
+  EXPECT_EQ(std::get<CrackTool>(op[2].tool).angle_deg, 30);
+  EXPECT_EQ(std::get<LineTool>(op[3].tool).path, (std::vector<geometry::Point>{{0, 1}, {2, 3}}));
+  EXPECT_EQ(std::get<LineTool>(op[4].tool).path.size(), 3U);
+  const auto& polygons = std::get<PolygonTool>(op[5].tool).polygons;
   ASSERT_EQ(polygons.size(), 2U);
   EXPECT_EQ(polygons[0].outer.size(), 4U);
   EXPECT_EQ(polygons[0].holes.size(), 1U);
-  EXPECT_EQ((*ops)[5].keep, Keep::kInside);
+  EXPECT_EQ(op[5].keep, Keep::kInside);
 }
 
 TEST(CutOps, WhatIsWrongIsToldWithItsNumber) {
-  using Kind = ToolError::Kind;
-  for (const auto& [text, words, kind] : std::initializer_list<std::tuple<std::string, std::string, Kind>>{
-           {"{}", "a list", Kind::kMalformed},
-           {"[]", "empty", Kind::kMalformed},
-           {R"([{"disc": [1,2,3]}, 5])", "[1]: expected an object", Kind::kMalformed},
-           {R"([{"disc": [1,2]}])", "[0]: disc: expected [x, y, radius]", Kind::kMalformed},
-           {R"([{"disc": [1,2,0]}])", "[0]: disc: the radius is not > 0", Kind::kMalformed},
-           {R"([{"disc": [1,2,NaN]}])", "[0]: disc: expected", Kind::kMalformed},
-           {R"([{"disk": [1,2,3]}])", R"(did you mean "disc")", Kind::kMalformed},
-           {R"([{"disc": [1,2,3], "crack": [1,2,3]}])", R"("disc" and "crack" in one)", Kind::kMalformed},
-           {R"([{"disc": [1,2,3], "keep": "all"}])", "keep: expected", Kind::kMalformed},
-           {R"([{"disc": [1,2,3], "sagitta_m": 0}])", "sagitta_m: expected", Kind::kMalformed},
-           {R"([{"disc": [1,2,3], "must_cut": 1}])", "must_cut: expected", Kind::kMalformed},
-           {R"([{"keep": "both"}])", "expected an object with one of", Kind::kMalformed},
-           {R"([{"line": [1,2,1,2]}])", "the line's ends are one point", Kind::kMalformed},
-           {R"([{"line": [1,2,3]}])", "[0]: line: expected", Kind::kMalformed},
-           {R"([{"disc": [1,2,3]},])", "1:19: a comma too many", Kind::kMalformed},
-           {R"([{"disc": [1e300,0,1]}])", "not-finite", Kind::kInvalidPolygon},
-           {R"json([{"polygon": "POLYGON((0 0,2 2,2 0,0 2))"}])json", "self-crossing at (1, 1)", Kind::kInvalidPolygon},
-           {R"([{"polygon": {"type": "Point", "coordinates": [0,0]}}])", "not-a-polygon", Kind::kInvalidPolygon},
-           {R"([{"polygon": {"type": "MultiPolygon", "coordinates": []}}])", "no polygon", Kind::kMalformed}}) {
-    const auto ops = read_cut_ops(text, {});
-    ASSERT_FALSE(ops.has_value()) << text;
-    EXPECT_HAS(ops.error().words, words) << text;
-    EXPECT_EQ(ops.error().kind, kind) << text << "\n" << ops.error().words;
+  for (const std::vector<std::string>& row : tests::table_of("io/wrong_cuts.txt")) {
+    const ToolError error = tests::refused(read_cut_ops(row[0], {}));
+    EXPECT_HAS(error.words, row[1]) << row[0];
+    const auto kind = row.size() > 2 ? ToolError::Kind::kInvalidPolygon : ToolError::Kind::kMalformed;
+    EXPECT_EQ(error.kind, kind) << row[0] << "\n" << error.words;
   }
 }
 

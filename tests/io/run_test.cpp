@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <regex>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "scene_text.hpp"
 #include "temporary_folder.hpp"
@@ -53,13 +55,14 @@ Recorded write_run(const LoadedScene& scene, const std::filesystem::path& folder
   simulation::Simulation simulation(scene.scene);
   auto writer = RunWriter::create(folder, false, scene);
   EXPECT_TRUE(writer.has_value());
+  const auto add = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
   const auto take = [&] {
     const simulation::Journal& journal = simulation.journal();
-    recorded.births.insert(recorded.births.end(), journal.births.begin(), journal.births.end());
-    recorded.events.insert(recorded.events.end(), journal.events.begin(), journal.events.end());
-    recorded.samples.insert(recorded.samples.end(), journal.samples.begin(), journal.samples.end());
+    add(recorded.births, journal.births);
+    add(recorded.events, journal.events);
+    add(recorded.samples, journal.samples);
+    add(recorded.panels, journal.panels);
     for (const simulation::LoadPeak& peak : journal.peaks) recorded.peaks.push_back({peak.time, peak.state});
-    recorded.panels.insert(recorded.panels.end(), journal.panels.begin(), journal.panels.end());
     writer->record(simulation.journal());
   };
   const auto frame = [&] {
@@ -139,14 +142,17 @@ std::vector<double> fields_of(const simulation::ContactState& state) {
   return fields;
 }
 
+void expect_same(const std::vector<RunContact>& read, const std::vector<RunContact>& written) {
+  ASSERT_EQ(read.size(), written.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    EXPECT_EQ(read[i].time, written[i].time);
+    EXPECT_EQ(fields_of(read[i].state), fields_of(written[i].state)) << i;
+  }
+}
+
 class RunFiles : public testing::Test {
  protected:
-  io::Run read() const {
-    auto run = read_run(folder / "run");
-    if (run) return std::move(*run);
-    ADD_FAILURE() << run.error();
-    return {};
-  }
+  io::Run read() const { return std::move(*checked(read_run(folder / "run"))); }
   /// Why the run cannot be read with that text in a file.
   std::string refusal(std::string_view name, const std::string& text) const {
     write_file(path(name), text);
@@ -180,19 +186,11 @@ TEST_F(RunFiles, ReadBackWhatWasWritten) {
     for (const ForceColumn& column : force_columns())
       EXPECT_EQ(column.read(run.samples[i]), column.read(recorded.samples[i])) << column.name;
   EXPECT_GT(recorded.contacts.size(), 10U);
-  ASSERT_EQ(run.contacts.size(), recorded.contacts.size());
-  for (std::size_t i = 0; i < run.contacts.size(); ++i) {
-    EXPECT_EQ(run.contacts[i].time, recorded.contacts[i].time);
-    EXPECT_EQ(fields_of(run.contacts[i].state), fields_of(recorded.contacts[i].state)) << i;
-  }
+  expect_same(run.contacts, recorded.contacts);
   std::vector<RunContact> peaks = recorded.peaks;  // which the file has where they ended
   std::ranges::stable_sort(peaks, {}, &RunContact::time);
   EXPECT_GT(peaks.size(), 3U);
-  ASSERT_EQ(run.peaks.size(), peaks.size());
-  for (std::size_t i = 0; i < peaks.size(); ++i) {
-    EXPECT_EQ(run.peaks[i].time, peaks[i].time);
-    EXPECT_EQ(fields_of(run.peaks[i].state), fields_of(peaks[i].state)) << i;
-  }
+  expect_same(run.peaks, peaks);
   std::size_t of_frames = 0;
   for (const Frame& frame : run.frames) of_frames += run.contacts_at(frame.time).size();
   EXPECT_EQ(of_frames, run.contacts.size()) << "each belongs to a frame";
@@ -220,8 +218,12 @@ TEST_F(RunFiles, ContactsOfEarlierVersionsHaveNoPlaces) {
   }
 }
 
+std::string page_of_run_folders() {
+  return read_file(std::string(POLYNYA_SOURCE_DIR) + "/docs/run-folder.md");
+}
+
 TEST(LoadColumns, AreDocumented) {
-  const std::string page = read_file(std::string(POLYNYA_SOURCE_DIR) + "/docs/run-folder.md");
+  const std::string page = page_of_run_folders();
   for (const ContactColumn& column : contact_columns())
     EXPECT_HAS(page, fmt::format("| `{}` | {} |\n", column.name, column.meaning));
   for (const PanelColumn& column : panel_columns())
@@ -257,7 +259,7 @@ TEST(ForceColumns, NameTheirUnitsOnceAndAreDocumented) {
   const std::map<std::string_view, std::string_view> suffixes{
       {"N", "_N"},         {"N·m", "_Nm"},        {"m", "_m"}, {"°", "_deg"}, {"m²", "_m2"},
       {"m/s", "_m_per_s"}, {"°/s", "_deg_per_s"}, {"W", "_W"}, {"", ""}};
-  const std::string page = read_file(std::string(POLYNYA_SOURCE_DIR) + "/docs/run-folder.md");
+  const std::string page = page_of_run_folders();
   std::set<std::string_view> names;
   for (const ForceColumn& column : force_columns()) {
     ASSERT_TRUE(suffixes.contains(column.unit)) << column.name;
@@ -276,7 +278,7 @@ constexpr std::size_t count_kinds_of_ice(const std::variant<Kinds...>*) {
 }
 
 TEST(EventFields, AreDocumented) {
-  const std::string page = read_file(std::string(POLYNYA_SOURCE_DIR) + "/docs/run-folder.md");
+  const std::string page = page_of_run_folders();
   using Kinds = decltype(simulation::Event::what);
   constexpr std::size_t kKinds = std::variant_size_v<Kinds>;
   constexpr std::size_t kOfIce = count_kinds_of_ice(static_cast<const Kinds*>(nullptr));
@@ -301,13 +303,15 @@ TEST(EventFields, OfWrongValuesAreRefusedByTheirNames) {
       return error.what();
     }
   };
-  EXPECT_EQ(refusal("kind", "kind"), "mooring_break");
-  EXPECT_EQ(refusal("\"force_N\":6", "\"force_kN\":6"), "\"force_N\" is missing");
-  EXPECT_EQ(refusal("\"force_N\":6", "\"force_N\":\"6\""), "\"force_N\" is not a number");
-  EXPECT_EQ(refusal("\"force_N\":6", "\"force_N\":-6"), "\"force_N\" is not ≥ 0");
-  EXPECT_EQ(refusal("[3,4]", "[3]"), "1 numbers where [x, y] is expected");
-  EXPECT_EQ(refusal("\"a ship\"", "\"b ship\""), "\"ship\" is \"b ship\", which is not in the scene");
-  EXPECT_EQ(refusal("mooring_break", "mooring"), "an unknown kind of event, \"mooring\"");
+  for (const auto& [from, to, message] :
+       {std::tuple{"kind", "kind", "mooring_break"},
+        {R"("force_N":6)", R"("force_kN":6)", R"("force_N" is missing)"},
+        {R"("force_N":6)", R"("force_N":"6")", R"("force_N" is not a number)"},
+        {R"("force_N":6)", R"("force_N":-6)", R"("force_N" is not ≥ 0)"},
+        {"[3,4]", "[3]", "1 numbers where [x, y] is expected"},
+        {R"("a ship")", R"("b ship")", R"("ship" is "b ship", which is not in the scene)"},
+        {"mooring_break", "mooring", R"(an unknown kind of event, "mooring")"}})
+    EXPECT_EQ(refusal(from, to), message);
 }
 
 /// Who lives is known by births and events; where, by frames.
@@ -373,8 +377,7 @@ TEST_F(RunFiles, OfVersionOneReadTheSameAndOfALaterOneNot) {
     EXPECT_HAS(refusal(run_file::kSummary, replaced(summary, version, other)), "summary.json: a run folder of version");
 }
 
-/// Level ice: every cusp leaves the same plate with a longer boundary. Later lines are as short as early
-/// ones.
+/// Level ice: every cusp leaves the same plate with a longer boundary. Later lines are as short as early ones.
 TEST(Run, FloesGrowWithTheIceThatIsNewNotWithThePlate) {
   const TemporaryFolder folder;
   const LoadedScene scene = load(
@@ -484,23 +487,18 @@ TEST(ForceCauses, AreShownWhereAShipHasThem) {
 class UnderHullRun : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder = new tests::TemporaryFolder;
-    const LoadedScene loaded = tests::load(tests::scene(
-        {R"("time": {"step_s": 0.01, "until_s": 35}, "water": {"drift_m_per_s": [0, 0.1]})",
-         R"("floes": [{"rectangle": {"corner_m": [0, -25], "size_m": [100, 50]}}])",
-         tests::list("ships", {tests::ship(R"("hull": {"length_m": 40, "beam_m": 8, "draught_m": 2}, "mass_kg": 1e6,
+    const TemporaryFolder folder;
+    const LoadedScene loaded =
+        load(tests::scene({R"("time": {"step_s": 0.01, "until_s": 35}, "water": {"drift_m_per_s": [0, 0.1]})",
+                           R"("floes": [{"rectangle": {"corner_m": [0, -25], "size_m": [100, 50]}}])",
+                           list("ships", {ship(R"("hull": {"length_m": 40, "beam_m": 8, "draught_m": 2}, "mass_kg": 1e6,
            "moment_of_inertia_kg_m2": 1e8, "position_m": [-21, 0], "propulsion": {"constant_speed_m_per_s": 2})")})}));
-    auto active = tests::checked(start_run(folder->path() / "run", loaded, true));
+    auto active = checked(start_run(folder / "run", loaded));
     ASSERT_EQ(run_to_end(*active).end, RunEnd::kFinished);
-    auto read = tests::checked(read_run(folder->path() / "run"));
-    run = new io::Run(std::move(*read));
+    run = std::move(*checked(read_run(folder / "run")));
   }
-  static void TearDownTestSuite() {
-    delete run;
-    delete folder;
-  }
-  static inline tests::TemporaryFolder* folder = nullptr;
-  static inline io::Run* run = nullptr;
+  static void TearDownTestSuite() { run.reset(); }
+  static inline std::optional<io::Run> run;
 };
 
 TEST_F(UnderHullRun, BrashIsWhatCameUpAndWhatItBrokeInto) {
@@ -533,7 +531,7 @@ TEST_F(UnderHullRun, ThinnedFramesHaveWhatIsUnderWhereItIs) {
   std::size_t compared = 0;
   for (const Frame& frame : thin.frames) {
     for (const PlacedFloe& floe : floes_under_hulls_at(*run, all, frame.time)) {
-      const auto motion = tests::checked(some.floe_at(floe.birth->floe, frame.time));
+      const auto motion = checked(some.floe_at(floe.birth->floe, frame.time));
       EXPECT_LT(distance(motion->position, floe.motion->position), 1e-9);
       ++compared;
     }

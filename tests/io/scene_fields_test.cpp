@@ -94,38 +94,23 @@ void change_number(const Field& field, JsonValue& value) {
   value.data = now + step < field.range.high ? now + step : now - step;
 }
 
+/// The first number in a value, of a law its mean; of a vector the second.
+JsonValue& number_in(const Field& field, JsonValue& value) {
+  if (JsonValue* mean = value.find("mean")) return *mean;
+  if (!value.is(JsonValue::Kind::kArray)) return value;
+  const bool is_vector = field.kind == FieldKind::kVector || field.kind == FieldKind::kNumberOrVector;
+  return number_in(field, value.items()[is_vector ? 1 : 0]);
+}
+
 void change(const Field& field, JsonValue& value) {
-  switch (field.kind) {
-    case FieldKind::kText:
-    case FieldKind::kName:
-      value.data = std::string("changed");
-      return;
-    case FieldKind::kBoolean:
-      value.data = !value.boolean();
-      return;
-    case FieldKind::kChoice:
-      value.data = std::string(field.choices[value.text() == field.choices[0] ? 1 : 0]);
-      return;
-    case FieldKind::kInteger:
-    case FieldKind::kNumber:
-      return change_number(field, value);
-    case FieldKind::kVector:
-    case FieldKind::kNumberOrVector:
-      return change_number(field, value.items()[1]);
-    case FieldKind::kNumbers:
-      return change_number(field, value.items()[0]);
-    case FieldKind::kNumberOrLaw: {
-      JsonValue* mean = value.find("mean");
-      return change_number(field, mean ? *mean : value);
-    }
-    case FieldKind::kRing:
-    case FieldKind::kLine:
-      return change_number(field, value.items()[0].items()[0]);
-    case FieldKind::kRings:
-      return change_number(field, value.items()[0].items()[0].items()[0]);
-    default:
-      FAIL();
-  }
+  if (field.kind == FieldKind::kText || field.kind == FieldKind::kName)
+    value.data = std::string("changed");
+  else if (field.kind == FieldKind::kBoolean)
+    value.data = !value.boolean();
+  else if (field.kind == FieldKind::kChoice)
+    value.data = std::string(field.choices[value.text() == field.choices[0] ? 1 : 0]);
+  else
+    change_number(field, number_in(field, value));
 }
 
 /// Visits every leaf of a resolved scene with its field and path.
@@ -162,8 +147,20 @@ TEST(SceneFields, TheResolvedSceneReadsBackToTheSameSceneAndText) {
     expect_reads_back(load(text));
 }
 
-/// Every field of the table reaches the scene: changing it alone changes the scene, and survives the resolved
-/// text.
+/// Whether another part of that scene does not let a field change alone.
+bool is_bound(const std::string& path, const LoadedScene& base, const std::string& text, const JsonValue& tree) {
+  const std::set<std::string_view> of_ice_under_hulls{".fracture.cusp_fate", ".fracture.going_under.enabled",
+                                                      ".fracture.resurface.enabled"};
+  if (of_ice_under_hulls.contains(path)) return !has_draught(base.scene);
+  if (path == ".ships.speed_m_per_s")  // said twice in a resolved scene, and changed in both places
+    return tree.find("ships")->items()[0].find("propulsion")->find("constant_speed_m_per_s") != nullptr;
+  if (path == ".water.drift_m_per_s" || path == ".wind.velocity_m_per_s") return text == kFifth;  // it has tables
+  if (path == ".contact.law") return text == kThird;                                              // its wall presses
+  if (path == ".ships.name") return text == fleet() || text == kSecond;                           // named elsewhere too
+  return path == ".ships.water.model" && !base.scene.ships[0].water.acts;                         // it needs a draught
+}
+
+/// Every field of the table reaches the scene: changing it alone changes the scene, and survives the resolved text.
 TEST(SceneFields, EveryFieldRoundTripsAndReachesTheScene) {
   std::set<std::string> seen;
   for (const std::string& base_text : {kFirst, kSecond, kThird, kFourth, kFifth, fleet()}) {
@@ -171,23 +168,10 @@ TEST(SceneFields, EveryFieldRoundTripsAndReachesTheScene) {
     JsonValue tree = parse_json(base.resolved_text).root;
     walk(kSceneDescription, tree, "", [&](const Field& field, JsonValue& value, const std::string& path) {
       if (value.is(JsonValue::Kind::kArray) && value.items().empty()) return;
-      // A constant speed is said twice in a resolved scene, and must be changed in both places.
-      if (path == ".ships.speed_m_per_s" &&
-          tree.find("ships")->items()[0].find("propulsion")->find("constant_speed_m_per_s"))
-        return;
-      const bool is_under_hull = path == ".fracture.cusp_fate" || path == ".fracture.going_under.enabled" ||
-                                 path == ".fracture.resurface.enabled";
-      if (is_under_hull && !has_draught(base.scene)) return;  // no ice can go under these hulls
-      if (path == ".ships.pilot.follow.ship" || path == ".ships.pilot.manage.body" ||
-          path == ".floes.under_hull_of") {  // it must be a ship's name
-        seen.insert(path);
-        return;
-      }
-      // Those have a table in their place.
-      if ((path == ".water.drift_m_per_s" || path == ".wind.velocity_m_per_s") && base_text == kFifth) return;
-      if (path == ".contact.law" && base_text == kThird) return;                            // its wall presses
-      if (path == ".ships.name" && (base_text == fleet() || base_text == kSecond)) return;  // named elsewhere too
-      if (path == ".ships.water.model" && !base.scene.ships[0].water.acts) return;          // it needs a draught
+      const std::set<std::string_view> of_names{".ships.pilot.follow.ship", ".ships.pilot.manage.body",
+                                                ".floes.under_hull_of"};
+      if (of_names.contains(path)) seen.insert(path);  // it must be a ship's name
+      if (of_names.contains(path) || is_bound(path, base, base_text, tree)) return;
       seen.insert(path);
       SCOPED_TRACE(path);
       const auto before = value.data;
@@ -220,8 +204,7 @@ TEST(SceneFields, DefaultsAreTheSimulations) {
   EXPECT_TRUE(settings == simulation::Scene{});
 }
 
-/// What is kept in radians and newtons is written as it was given: resolved scenes and their hashes rest on
-/// it.
+/// What is kept in radians and newtons is written as it was given: resolved scenes and their hashes rest on it.
 TEST(SceneFields, NumbersInTheUnitsOfTheirKeysAreWrittenAsTheyWereGiven) {
   for (const std::string_view unit : {"°", "°/s", "kN", "MW", "m"})
     for (int i = -2000; i <= 2000; ++i) {

@@ -1,4 +1,7 @@
 // What is wrong with scenes: each problem at its place, with what was found and what would do.
+#include <functional>
+#include <map>
+
 #include "scene_text.hpp"
 #include "temporary_folder.hpp"
 
@@ -51,104 +54,132 @@ TEST(SceneProblems, TenMistakesGiveTenPlacedMessages) {
 }
 
 TEST(SceneProblems, WhatNoFieldAloneCanTell) {
-  const std::string one = list("floes", {square(0, 0, 1)});
   const std::string shear = R"("water": {"shear": {"rate_per_s": 0.01}})";
-  const std::string no_floes = R"("floes": [])";
-  const std::string lattice = R"({{"lattice": {{"columns": {0}, "rows": {0}, "pitch_m": 10, "size_m": {1}}}}})";
   const std::string small_ship =
       ship(R"("hull": {"length_m": 40, "beam_m": 8}, "mass_kg": 1e3, "moment_of_inertia_kg_m2": 1e4,
         "position_m": null, "propulsion": {"thrust_N": 2e3})");
-  expect_problems(
-      {{scene({R"("ice": {"density_kg_per_m3": 1050})", one}), "ice.density_kg_per_m3", "sinks"},
-       {scene({R"("time": {"step_s": 0.9}, "water": {"drift_m_per_s": [1, 1]})", one}), "time.step_s",
-        "1.27 m in one step"},
-       {scene({shear, list("floes", {square(0, 0, 1), R"({"polygon": {"outer_m":
+  expect_problems({
+      {scene({shear, list("floes", {square(0, 0, 1), R"({"polygon": {"outer_m":
           [[-60, -20], [-10, -20], [-10, 20], [-60, 999999]]}})"})}),
-        "floes[1]", "a rim that moves at"},
-       {scene({R"("time": {"step_s": 0.005})", shear, list("floes", {square(0, 40000, 1)})}), "time.step_s",
-        "0.005: floes[0] moves 2 m in one step at 400 m/s"},
-       {scene({R"("water": {"shear": {"rate_per_s": 0.5}})", list("floes", {square(0, 9000, 9)})}), "floes[0]",
-        "moves at 4504 m/s"},
-       {scene({R"("time": {"step_s": 0.005})",
-               list("floes", {square(0, 0, 200, R"("angular_velocity_deg_per_s": 100)")})}),
-        "time.step_s", "0.005: floes[0] moves 1.23 m in one step at 247 m/s"},
-       {scene({R"("ice": {"thickness_m": 5e-324})", one}), "ice.thickness_m", "found 5e-324"},
-       {scene({R"("ice": {"thickness_m": 0})", no_floes}), "ice.thickness_m", "found 0,"},
-       {scene({R"("ice": {"thickness_m": 1e308})", no_floes}), "ice.thickness_m", "found 1e+308"},
-       {scene({R"("time": {"step_s": 0.9})", list("ships", {small_ship})}), "time.step_s",
-        "1.62 m in one step at 1.8 m/s"},
-       {scene({R"("time": {"step_s": 1e-5, "until_s": 1e6})", list("ships", {ship()})}), "time.until_s", "1e+11 steps"},
-       {scene({R"("time": {"step_s": 0.005, "until_s": 0.001})", list("ships", {ship()})}), "time.until_s",
-        "less than one step"},
-       {scene({list("ships", {ship()}), list("floes", {square(-70, 0, 5)})}), "floes[0]",
-        "an overlap with ships[0], 25 m² shared"},
-       {scene({list("ships", {ship(), ship()})}), "ships[1]", "an overlap with ships[0]"},
-       {scene({list("floes", {fmt::format(fmt::runtime(lattice), 2, "[10, 11]")})}), "floes[0].lattice.size_m",
-        "more than the pitch"},
-       {scene({list("floes", {fmt::format(fmt::runtime(lattice), 100000, 5)})}), "floes[0]", "floes in all"},
-       {"{}", "", "neither ships nor floes"},
-       {"[]", "", "a list of 0"},
-       {"{\"floes\": 3}", "floes", "found 3"},
-       {scene({list("floes", {R"({"velocity_m_per_s": [0, 0]})"})}), "floes[0]", "none of them"},
-       {scene({list("floes", {R"({"polygon": {"outer_m": [[0, 0], [1, 1], [2, 2]]}})"})}), "floes[0]", "zero-area"},
-       {scene({list("floes", {R"({"polygon": {"outer_m": [[0, 0], [1e-4, 0], [0, 1e-4]]}})"})}), "floes[0]",
-        "a floe of 5e-09 m²"},
-       {scene_of_ship(R"({"propulsion": {"thrust_N": 1}})"), "ships[0].hull",
-        R"(length_m and beam_m and entrance_angle_deg, or waterline_m; or "ship": a preset's name, as "reference")"},
-       {scene_of_ship(R"({"ship": "polarys"})"), "ships[0].ship", "polaris"},
-       {scene_of_ship(ship(R"("propulsion": {"constant_speed_m_per_s": 1.5}, "speed_m_per_s": 1)")),
-        "ships[0].speed_m_per_s", "found 1"},
-       {scene({list("structures", {R"({"radius_m": 5})"}), list("floes", {square(0, 0, 9)})}), "floes[0]",
-        "an overlap with structures[0]"},
-       {scene({list("structures", {R"({"waterline_m": [[0, 0], [9, 9], [9, 0], [0, 9]]})"})}),
-        "structures[0].waterline_m", "an invalid waterline"},
-       {scene({list("structures", {R"({"radius_m": 5})", R"({"radius_m": 5, "position_m": [50, 0], "name":
-          "structure-1"})"})}),
-        "structures[1].name", "a second time"},
-       {scene({list("structures", {R"({"radius_m": 5, "waterline_m": [[0, 0], [1, 0], [0, 1]]})"})}), "structures[0]",
-        "together"}});
+       "floes[1]", "a rim that moves at"},
+      {scene({R"("time": {"step_s": 0.005})", shear, list("floes", {square(0, 40000, 1)})}), "time.step_s",
+       "0.005: floes[0] moves 2 m in one step at 400 m/s"},
+      {scene({R"("water": {"shear": {"rate_per_s": 0.5}})", list("floes", {square(0, 9000, 9)})}), "floes[0]",
+       "moves at 4504 m/s"},
+      {scene({R"("time": {"step_s": 0.005})",
+              list("floes", {square(0, 0, 200, R"("angular_velocity_deg_per_s": 100)")})}),
+       "time.step_s", "0.005: floes[0] moves 1.23 m in one step at 247 m/s"},
+      {scene({R"("time": {"step_s": 0.9})", list("ships", {small_ship})}), "time.step_s",
+       "1.62 m in one step at 1.8 m/s"},
+      {scene({list("ships", {ship(), ship()})}), "ships[1]", "an overlap with ships[0]"},
+      {"{}", "", "neither ships nor floes"},
+      {"[]", "", "a list of 0"},
+      {"{\"floes\": 3}", "floes", "found 3"},
+      {scene_of_ship(R"({"propulsion": {"thrust_N": 1}})"), "ships[0].hull",
+       R"(length_m and beam_m and entrance_angle_deg, or waterline_m; or "ship": a preset's name, as "reference")"},
+      {scene_of_ship(R"({"ship": "polarys"})"), "ships[0].ship", "polaris"},
+      {scene_of_ship(ship(R"("propulsion": {"constant_speed_m_per_s": 1.5}, "speed_m_per_s": 1)")),
+       "ships[0].speed_m_per_s", "found 1"},
+      {scene({list("structures", {R"({"radius_m": 5})"}), list("floes", {square(0, 0, 9)})}), "floes[0]",
+       "an overlap with structures[0]"},
+  });
 }
 
-std::string field(const std::string& members) {
-  return scene({list("floes", {"{\"field\": {" + members + "}}"})});
+/// A scene that is given something, and where that is.
+struct KindOfScene {
+  std::function<std::string(const std::string& members)> scene_with;
+  std::string path;
+};
+
+/// Of one floe entry or one ship, what is given between two parts of its text.
+KindOfScene floe_kind(const std::string& begin, const std::string& end, const std::string& path) {
+  return {[=](const std::string& members) { return scene({list("floes", {begin + members + end})}); },
+          "floes[0]" + path};
+}
+KindOfScene field_kind(const std::string& begin) {
+  return floe_kind("{\"field\": {" + begin, "}}", ".field");
+}
+KindOfScene ship_kind(const std::string& begin, const std::string& end = "", const std::string& path = "") {
+  return {[=](const std::string& members) { return scene_of_ship(sailing_ship(begin + members + end)); },
+          "ships[0]" + path};
 }
 
-TEST(SceneProblems, OfFields) {
-  const std::string one_size = R"("corner_m": [0, 0], "extent_m": 100, "floe_size_m": 10, )";
-  const std::string box = R"("corner_m": [0, 0], "extent_m": 300, )";
-  const std::string power = box + R"("concentration": 0.9, "sizes": {"exponent": 1.87, "least_m": 10, "largest_m": )";
-  const std::string equal = box + R"("sizes": {"size_m": 15}, "concentration": 0.8, )";
-  const std::string dense = box + R"("sizes": {"size_m": 15}, "concentration": 0.98, )";
-  const std::string channel =
-      R"("width_m": 12, "concentration": 0.8, "sizes": {"size_m": 15}, "centreline_m": [[0, 0], )";
-  const std::string at = "floes[0].field";
-  expect_problems(
-      {{field(one_size + R"("concentration": 0.95, "gap_m": 3)"), at + ".concentration", "0.95"},
-       {field(one_size + R"("concentration": 0.005)"), at, "less than one floe"},
-       {field(one_size + R"("concentration": 0)"), at + ".concentration", "found 0"},
-       {field(one_size + R"("concentration": 0.5, "most_corners": 2)"), at + ".most_corners", "found 2"},
-       {field(one_size + R"("concentration": 0.5, "keep_clear_m": [[[0, 0], [9, 9], [9, 0], [0, 9]]])"),
-        at + ".keep_clear_m[0]", "self-crossing"},
-       {field(R"("corner_m": [0, 0], "extent_m": 1e6, "floe_size_m": 1, "concentration": 0.5)"), at, "floes in all"},
-       {field(R"("outline_m": [[0, 0], [90, 90], [90, 0], [0, 90]], "floe_size_m": 10, "concentration": 0.5)"),
-        at + ".outline_m", "self-crossing"},
-       {field(power + "5}"), at + ".sizes.least_m", "less than 5"},
-       {field(power + "4000}"), at + ".sizes.largest_m", "at most 300, or a wider region"},
-       {field(dense + R"("gap_m": 0.5)"), at + ".concentration", "or a gap_m of at most"},
-       {field(dense + R"("most_corners": 4)"), at + ".concentration", "or most_corners above 4"},
-       {field(equal + R"("packing": 0.5)"), at + ".packing", "at least 0.8"},
-       {field(equal + R"("least_corners": 20)"), at + ".least_corners", "at most 16"},
-       {field(equal + R"("orientation_deg": 20)"), at + ".orientation_deg", "without aspect"},
-       {field(equal + R"("size_spread": 0.1)"), at + ".size_spread", "mean_m and spread"},
-       {field(equal + R"("floe_size_m": 10)"), at + ".sizes", "beside floe_size_m"},
-       {field(equal + R"("keep_clear_m": [[[-9, -9], [400, -9], [400, 400], [-9, 400]]])"), at,
-        "all of the region is kept clear"},
-       {field(box + R"("concentration": 0.8)"), at, "neither sizes nor floe_size_m"},
-       {field(box + R"("concentration": 0.8, "floe_size_m": 10, "aspect": 2)"), at + ".aspect", "sizes instead"},
-       {field(box + R"("concentration": 0.005, "sizes": {"size_m": 100})"), at, "less than one floe"},
-       {field(channel + "[60, 0], [0, 9]]"), at + ".centreline_m", "too sharp"},
-       {field(channel + "[0, 0]]"), at + ".centreline_m", "a second time"},
-       {field(channel + "[900, 0]]"), at + ".sizes", "12 m across"}});
+std::string route(const std::string& waypoints) {
+  return scene({list("ships", {sailing_ship(R"("steering": {"rudder": {}}, "pilot": {"route": {"waypoints": [)" +
+                                            waypoints + "]}}")}),
+                R"("structures": [{"name": "tower", "radius_m": 20, "position_m": [600, 0]}])"});
+}
+
+/// One ship or two that manage the ice about a tower, or another body.
+std::string fleet(const std::string& first, const std::string& second = "") {
+  std::vector<std::string> ships;
+  for (const std::string& pilot : {first, second}) {
+    const bool has_body = pilot.find("\"body\"") != std::string::npos;
+    if (!pilot.empty())
+      ships.push_back(sailing_ship(fmt::format(
+          R"("position_m": [1500, {}], "steering": {{"rudder": {{}}}}, "pilot": {{"manage": {{{} {},
+            "distance_m": 1500, "safety_radius_m": 200}}}})",
+          300 * ships.size(), has_body ? "" : R"("body": "tower",)", pilot)));
+  }
+  return scene({fmt::format("\"ships\": [{}]", fmt::join(ships, ", ")),
+                R"("structures": [{"name": "tower", "radius_m": 30}])",
+                R"("walls": [{"name": "quay", "from_m": [0, -3000], "to_m": [100, -3000]}])"});
+}
+
+/// What is given stands in a scene beside one thing.
+KindOfScene scene_kind(const std::string& begin, const std::string& end = "", const std::string& path = "") {
+  return {[=](const std::string& members) { return "{" + begin + members + end + "}"; }, path};
+}
+
+std::map<std::string, KindOfScene> kinds_of_scenes() {
+  const std::string box = R"("corner_m": [0, 0], "extent_m": 300, )", thrust = R"("propulsion": {"thrust_N": 1e5}, )";
+  const std::string ice = R"({"rectangle": {"corner_m": [0, 0], "size_m": 10}, "ice": {)";
+  const std::string deep = list("ships", {ship(R"("hull": {"draught_m": 6})")});
+  return {{"field", field_kind("")},
+          {"field of one size", field_kind(R"("corner_m": [0, 0], "extent_m": 100, "floe_size_m": 10, )")},
+          {"field in a box", field_kind(box)},
+          {"field of 80 %", field_kind(box + R"("sizes": {"size_m": 15}, "concentration": 0.8, )")},
+          {"field of 98 %", field_kind(box + R"("sizes": {"size_m": 15}, "concentration": 0.98, )")},
+          {"field of a power law",
+           field_kind(box + R"("concentration": 0.9, "sizes": {"exponent": 1.87, "least_m": 10, )")},
+          {"field in a channel",
+           field_kind(R"("width_m": 12, "concentration": 0.8, "sizes": {"size_m": 15}, "centreline_m": [[0, 0], )")},
+          {"ice", floe_kind(ice, "}}", ".ice")},
+          {"ice too heavy", floe_kind(ice, "}}", "")},
+          {"thickness", floe_kind(ice + R"("thickness_m": {)", "}}}", ".ice.thickness_m")},
+          {"ship", ship_kind("")},
+          {"ship without a form", ship_kind(R"("hull": {"draught_m": null, "block_coefficient": null}, )")},
+          {"ship without a block coefficient", ship_kind(R"("hull": {"block_coefficient": null}, )")},
+          {"ship under thrust", ship_kind(thrust)},
+          {"ship moored under thrust",
+           ship_kind(thrust + R"("mooring": {"sway_stiffness_N_per_m": 1e5, "position_m": [0, 30], )", "}")},
+          {"engine", ship_kind(R"("propulsion": {"engine": {)", "}}")},
+          {"engine of 12 m/s", ship_kind(R"("propulsion": {"engine": {"open_water_speed_m_per_s": 12, )", "}}")},
+          {"pilot", ship_kind(R"("steering": {"rudder": {}}, "pilot": {)", "}", ".pilot")},
+          {"route", {route, "ships[0].pilot.route.waypoints[0]"}},
+          {"manager", {[](const std::string& pilot) { return fleet(pilot); }, "ships[0].pilot.manage"}},
+          {"hull",
+           {[](const std::string& hull) { return scene_of_ship(ship("\"hull\": {" + hull + "}")); }, "ships[0].hull"}},
+          {"fracture", scene_kind(list("ships", {ship()}) + ", \"fracture\": {", "}", "fracture")},
+          {"fracture under a hull", scene_kind(deep + ", \"fracture\": {", "}", "fracture")},
+          {"fracture where cusps float",
+           scene_kind(deep + R"(, "fracture": {"cusp_fate": "float", "going_under": {"enabled": false}, )", "}",
+                      "fracture")},
+          {"one floe", scene_kind(list("floes", {square(0, 0, 1)}) + ", ")},
+          {"one ship", scene_kind(list("ships", {ship()}) + ", ")},
+          {"floe", floe_kind("", "", "")},
+          {"structures", scene_kind("\"structures\": [", "]", "structures")}};
+}
+
+TEST(SceneProblems, AreThoseOfTheTable) {
+  const auto kinds = kinds_of_scenes();
+  std::vector<WrongScene> rows;
+  for (const std::vector<std::string>& row : table_of("io/wrong_scenes.txt")) {
+    const KindOfScene& kind = kinds.at(row.at(0));
+    rows.push_back({kind.scene_with(row.at(1)), kind.path + row.at(2), row.at(3)});
+  }
+  expect_problems(rows);
+  load(route(R"({"position_m": [600, 80], "speed_m_per_s": 3}, {"position_m": [1000, 0], "speed_m_per_s": 3})"));
 }
 
 TEST(SceneProblems, OfWallsAndFastIce) {
@@ -191,102 +222,27 @@ TEST(SceneProblems, OfIceUnderAHull) {
   EXPECT_TRUE(read(under("presser", draught, -60))) << "the hull is over it";
 }
 
-TEST(SceneProblems, OfShipsThatSail) {
-  const auto changed = [](const std::string& members) { return scene_of_ship(sailing_ship(members)); };
-  const auto engine = [&](const std::string& members) {
-    return changed(R"("propulsion": {"engine": {)" + members + "}}");
-  };
-  const auto piloted = [&](const std::string& pilot) {
-    return changed(R"("steering": {"rudder": {}}, "pilot": {)" + pilot + "}");
-  };
+TEST(SceneProblems, OfShipsThatFollowInACircleAndOfAPresetWithoutAnEngine) {
   const auto led = [](const std::string& name, const std::string& leader, int y) {
     return sailing_ship(fmt::format(R"("name": "{}", "position_m": [0, {}], "steering": {{"rudder": {{}}}},
       "pilot": {{"follow": {{"distance_m": 100, "ship": "{}"}}}})",
                                     name, y, leader));
   };
-  const auto route = [&](const std::string& waypoints) {
-    return scene({list("ships", {sailing_ship(R"("steering": {"rudder": {}}, "pilot": {"route": {"waypoints": [)" +
-                                              waypoints + "]}}")}),
-                  R"("structures": [{"name": "tower", "radius_m": 20, "position_m": [600, 0]}])"});
-  };
-  const std::string bare = R"("hull": {"draught_m": null, "block_coefficient": null})";
-  const std::string thrust = R"("propulsion": {"thrust_N": 1e5})";
-  const std::string weighed = R"("moment_of_inertia_kg_m2": 5e9, "mass_kg": )";
-  const std::string drawn = R"("hull": {"block_coefficient": null}, )";
-  const std::string at = "ships[0]";
   expect_problems(
-      {{changed(bare + R"(, "moment_of_inertia_kg_m2": 5e9, )" + thrust), at + ".mass_kg", "found nothing"},
-       {changed(drawn + R"("mass_kg": 1e7, )" + thrust), at + ".moment_of_inertia_kg_m2", "found nothing"},
-       {changed(bare + ", " + weighed + "1e7"), at + ".hull.draught_m", "water acts on the hull"},
-       {changed(drawn + weighed + "1e8"), at + ".mass_kg", "a block coefficient of 5.79"},
-       {changed(R"("hull": {"length_m": 40, "beam_m": 30, "entrance_angle_deg": 60, "block_coefficient": 0.6})"),
-        at + ".water.model", "no meaning for a hull of 40 × 30 × 6 m"},
-       {engine(R"("open_water_speed_m_per_s": 8)"), at + ".propulsion.engine", "neither bollard_pull_kN nor power_MW"},
-       {engine(R"("open_water_speed_m_per_s": 8, "power_MW": 5)"), at + ".propulsion.engine",
-        "neither bollard_pull_kN nor power_MW"},
-       {engine(R"("open_water_speed_m_per_s": 12, "bollard_pull_kN": 500)"),
-        at + ".propulsion.engine.open_water_speed_m_per_s", "the bollard pull 500 kN"},
-       {engine(R"("open_water_speed_m_per_s": 9, "bollard_pull_kN": 900, "power_MW": 3)"),
-        at + ".propulsion.engine.open_water_speed_m_per_s", "MW of 3"},
-       {changed(thrust + R"(, "steering": {"rudder": {}})"), at + ".steering", "without an engine"},
+      {{scene({list("ships", {led("a", "b", 0), led("b", "c", 200), led("c", "a", 400)})}),
+        "ships[0].pilot.follow.ship", "which follows this ship", 3},
        {scene_of_ship(R"({"ship": "oden", "propulsion": {"constant_speed_m_per_s": 2}, "steering": {"azimuth": {}}})"),
-        at + ".steering", "without an engine"},
-       {changed(thrust + R"(, "mooring": {"sway_stiffness_N_per_m": 1e5, "position_m": [0, 30], "break_load_N": 2e6})"),
-        at + ".mooring.break_load_N", "it pulls with 3e+06 N"},
-       {changed(R"("steering": {"rudder": {"area_m2": 150}})"), at + ".steering.rudder.area_m2", "found 150"},
-       {changed(R"("propulsion": {"constant_speed_m_per_s": 1}, "mooring": {})"), at + ".mooring",
-        "speed is prescribed"},
-       {changed(thrust + R"(, "pilot": {"constant": {}})"), at + ".pilot", "without an engine"},
-       {changed(R"("pilot": {"hold_heading": {}})"), at + ".pilot.hold_heading", "nothing to steer with"},
-       {piloted(R"("constant": {"steering_deg": 40})"), at + ".pilot.constant.steering_deg", "40°"},
-       {piloted(R"("table": {"rows": [{"t_s": 5, "lever": 1}, {"t_s": 5, "lever": 0}]})"),
-        at + ".pilot.table.rows[1].t_s", "found 5"},
-       {piloted(R"("route": {"waypoints": [{"position_m": [-500, 0], "speed_m_per_s": 3}]})"),
-        at + ".pilot.route.waypoints[0].position_m", "500 m behind the ship"},
-       {piloted(R"("constant": {}, "hold_heading": {})"), at + ".pilot", "constant and hold_heading together"},
-       {piloted(R"("follow": {"ship": "ship-1", "distance_m": 100})"), at + ".pilot.follow.ship",
-        "cannot follow itself"},
-       {piloted(R"("follow": {"ship": "Fram", "distance_m": 100})"), at + ".pilot.follow.ship", "the name of no ship"},
-       {route(R"({"position_m": [1000, 0], "speed_m_per_s": 3})"), at + ".pilot.route.waypoints[0].position_m",
-        "leads through tower"},
-       {route(R"({"position_m": [600, 31], "speed_m_per_s": 3})"),  // nearer than half a beam
-        at + ".pilot.route.waypoints[0].position_m", ""},
-       {scene({list("ships", {led("a", "b", 0), led("b", "c", 200), led("c", "a", 400)})}), at + ".pilot.follow.ship",
-        "which follows this ship", 3}});
-  load(route(R"({"position_m": [600, 80], "speed_m_per_s": 3}, {"position_m": [1000, 0], "speed_m_per_s": 3})"));
+        "ships[0].steering", "without an engine"}});
 }
 
-TEST(SceneProblems, OfShipsThatManageIce) {
-  const auto fleet = [](const std::string& first, const std::string& second = "") {
-    const auto manager = [](int y, const std::string& pilot) {
-      return sailing_ship(fmt::format(R"("position_m": [1500, {}], "steering": {{"rudder": {{}}}},
-        "pilot": {{"manage": {{{}}}}})",
-                                      y, pilot));
-    };
-    std::vector<std::string> ships{manager(0, first)};
-    if (!second.empty()) ships.push_back(manager(300, second));
-    return scene({fmt::format("\"ships\": [{}]", fmt::join(ships, ", ")),
-                  R"("structures": [{"name": "tower", "radius_m": 30}])",
-                  R"("walls": [{"name": "quay", "from_m": [0, -3000], "to_m": [100, -3000]}])"});
-  };
-  const auto pilot = [](const std::string& pattern, const std::string& more, const std::string& body = "tower") {
-    return fmt::format(R"("body": "{}", "pattern": "{}", "distance_m": 1500, "safety_radius_m": 200, {})", body,
-                       pattern, more);
-  };
-  const std::string wide = R"("width_m": 800)", at = "ships[0].pilot.manage", phase = R"(, "phase": 0.5)";
+TEST(SceneProblems, OfShipsThatManageIceInEachOthersWay) {
+  const std::string wide = R"("pattern": "circular", "width_m": 800)", phase = R"(, "phase": 0.5)";
+  const std::string linear = R"("pattern": "linear", "width_m": )", race = R"("pattern": "racetrack", "width_m": 800)";
+  const std::string at = "ships[0].pilot.manage.phase", message = "0 m from ship-2";
   expect_problems(
-      {{fleet(pilot("linear", wide, "Fram")), at + ".body", "Fram"},
-       {fleet(pilot("linear", wide, "quay")), at + ".body", "a structure"},
-       {fleet(pilot("linear", wide, "ship-1")), at + ".body", "another ship"},
-       {fleet(pilot("zigzag", wide)), at + ".pattern", "linear"},
-       {fleet(pilot("linear", wide + R"(, "speed_m_per_s": 3, "lever": 0.5)")), at + ".lever", "one of the two"},
-       {fleet(pilot("racetrack", wide + R"(, "depth_m": 900)")), at + ".depth_m", "the racetrack's width, 800"},
-       {fleet(pilot("sector", R"("width_m": 5000)")), at + ".width_m", "half a circle about the body, 4712"},
-       {fleet(pilot("circular", R"("width_m": 2800)")), at + ".distance_m", "100 m from tower"},
-       {fleet(pilot("linear", wide), pilot("linear", wide + phase)), at + ".phase", "0 m from ship-2", 2},
-       {fleet(pilot("racetrack", wide), pilot("racetrack", wide)), at + ".phase", "0 m from ship-2", 2}});
-  load(fleet(pilot("circular", wide), pilot("circular", wide + phase)));
-  load(fleet(pilot("linear", wide), pilot("linear", R"("width_m": 500)")));
+      {{fleet(linear + "800", linear + "800" + phase), at, message, 2}, {fleet(race, race), at, message, 2}});
+  load(fleet(wide, wide + phase));
+  load(fleet(linear + "800", linear + "500"));
 }
 
 TEST(SceneProblems, OfFlowsOverTime) {
@@ -303,45 +259,6 @@ TEST(SceneProblems, OfFlowsOverTime) {
        {with(R"("water": {"drift_m_per_s": [0.1, 0], "drift_table": )" + rows(60) + "}"), "water.drift_m_per_s",
         "one of the two"}});
   load(with(R"("water": {"drift_table": )" + rows(60) + R"(}, "wind": {"table": )" + rows(60) + "}"));
-}
-
-TEST(SceneProblems, OfIceUnderHulls) {
-  const auto under = [](const std::string& hull, const std::string& fracture) {
-    return scene({list("ships", {ship(R"("hull": {)" + hull + "}")}), "\"fracture\": {" + fracture + "}"});
-  };
-  const std::string draught = R"("draught_m": 6)", at = "ships[0].hull.draught_m";
-  expect_problems(
-      {{under(R"("draught_m": -1)", ""), at, "found -1"},
-       {under(R"("draught_m": 0)", ""), at, "found 0"},
-       {under(R"("draught_m": 121)", ""), at, "found 121"},
-       {under("", R"("cusp_fate": "under_hull")"), "fracture.cusp_fate", "under_hull without a hull"},
-       {under("", R"("going_under": {"enabled": true})"), "fracture.going_under.enabled", "true without"},
-       {under("", R"("resurface": {"enabled": true})"), "fracture.resurface.enabled", "no ice goes under"},
-       {under(draught, R"("cusp_fate": "float", "going_under": {"enabled": false}, "resurface": {"enabled": true})"),
-        "fracture.resurface.enabled", "no ice goes under"},
-       {under(draught, R"("resurface": {"rim_loss": 1})"), "fracture.resurface.rim_loss", "found 1"},
-       {under(draught, R"("going_under": {"enabled": "yes"})"), "fracture.going_under.enabled", "\"yes\""},
-       {under(R"("submersion_speed_factor": "riska")", ""), "ships[0].hull.submersion_speed_factor", "riska"}});
-}
-
-TEST(SceneProblems, OfTheIceOfFloes) {
-  const auto ice = [](const std::string& members) {
-    return scene({list("floes", {square(0, 0, 10, R"("ice": {)" + members + "}")})});
-  };
-  const auto law = [&](const std::string& members) { return ice(R"("thickness_m": {)" + members + "}"); };
-  const std::string at = "floes[0].ice.thickness_m";
-  expect_problems(
-      {{ice(R"("thickness_m": -1)"), at, "a number ≥ 0.001"},
-       {ice(R"("thickness_m": "thin")"), at, "or a law"},
-       {ice(R"("thicknes_m": 1)"), "floes[0].ice.thicknes_m", "thickness_m"},
-       {law(R"("mean": 30, "spread": 0.1)"), at + ".mean", "≤ 20"},
-       {law(R"("mean": 0.5)"), at + ".spread", "law log_normal needs it"},
-       {law(R"("law": "gamma", "spread": 0.1)"), at + ".law", "log_normal"},
-       {law(R"("law": "uniform", "mean": 0.5, "least": 0.4, "most": 0.6)"), at + ".mean", "law uniform has none"},
-       {law(R"("spread": 0.1, "least": 0.6, "most": 0.4)"), at + ".least", "at most"},
-       {law(R"("spread": 0.1, "least": 0.9)"), at, "bounds around the mean"},
-       {ice(R"("density_kg_per_m3": 1050)"), "floes[0]: ice.density_kg_per_m3", "the water's density"},
-       {ice(R"("seed": -1)"), "floes[0].ice.seed", "an integer"}});
 }
 
 /// A field of ice takes long to make: what is wrong without it is reported before, and what is wrong with the

@@ -104,12 +104,12 @@ struct WrongScene {
 
 inline void expect_problems(const std::vector<WrongScene>& rows) {
   for (const WrongScene& row : rows) {
-    const auto outcome = read(row.text);
-    ASSERT_FALSE(outcome.has_value()) << row.text;
-    const io::Problem& problem = outcome.error().front();
-    EXPECT_EQ(problem.path, row.path) << row.text << in_words(outcome.error());
-    EXPECT_HAS(message_of(problem), row.message) << row.text;
-    EXPECT_EQ(outcome.error().size(), row.problems) << row.text << in_words(outcome.error());
+    SCOPED_TRACE(row.text);
+    const std::vector<io::Problem> problems = refused(read(row.text));
+    const io::Problem& problem = problems.front();
+    EXPECT_EQ(problem.path, row.path) << in_words(problems);
+    EXPECT_HAS(message_of(problem), row.message);
+    EXPECT_EQ(problems.size(), row.problems) << in_words(problems);
     EXPECT_GT(problem.line, 0);
     EXPECT_GT(problem.column, 0);
   }

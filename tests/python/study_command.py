@@ -40,8 +40,11 @@ def planned(folder, name="s", *words, **keys):
     return folder / "studies" / name
 
 
-def table(folder):
-    return rows(folder / "table.csv")
+def gathered(study_folder):
+    """The table of a study whose cases are run, those that are left."""
+    study("run", study_folder, "--quiet")
+    study("gather", study_folder)
+    return rows(study_folder / "table.csv")
 
 
 def files_of(case):

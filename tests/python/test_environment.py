@@ -39,9 +39,7 @@ def agent(scene=SCENE, **settings):
 
 def episode(env, seed, actions):
     observation, info = env.reset(seed=seed)
-    rows = [(observation, 0.0, False, False, info)]
-    rows += [env.step(action) for action in actions]
-    return rows
+    return [(observation, 0.0, False, False, info), *map(env.step, actions)]
 
 
 def same(a, b):
@@ -169,15 +167,10 @@ def test_it_passes_gymnasiums_own_check():
 GYMNASIUM = '''
 import numpy
 class Env:
-    _np_random = None
+    np_random = numpy.random.default_rng()
     def reset(self, *, seed=None, options=None):
         if seed is not None:
-            self._np_random = numpy.random.default_rng(seed)
-    @property
-    def np_random(self):
-        if self._np_random is None:
-            self._np_random = numpy.random.default_rng()
-        return self._np_random
+            self.np_random = numpy.random.default_rng(seed)
 '''
 SPACES = '''
 import numpy

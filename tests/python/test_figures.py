@@ -269,9 +269,9 @@ def figures(home, *words):
 
 
 def test_the_command_writes_every_format_and_the_same_bytes_again(home):
-    done = figures(home, "alone", "--out", "one", "--only", "loads,energy")
+    done = figures(home, "alone", "--out", "one", "--only", "sizes,energy")
     assert (done.returncode, done.stderr) == (0, "")
-    names = [f"figure-{name}.{suffix}" for name in ("loads", "energy") for suffix in ("svg", "png", "pdf")]
+    names = [f"figure-{name}.{suffix}" for name in ("sizes", "energy") for suffix in ("svg", "png", "pdf")]
     assert done.stdout.split() == [f"one/{name}" for name in names]
     assert sorted(os.listdir(home / "one")) == sorted(names)
     assert started("figures", "alone", "--out", "two", "--only", "energy", cwd=home).returncode == 0
@@ -279,7 +279,7 @@ def test_the_command_writes_every_format_and_the_same_bytes_again(home):
         data = (home / "one" / name).read_bytes()
         assert data[:4] == {"svg": b"<?xm", "png": b"\x89PNG", "pdf": b"%PDF"}[name[-3:]]
         assert "energy" not in name or data == (home / "two" / name).read_bytes()
-    width = re.search(r'width="([\d.]+)pt"', (home / "one/figure-loads.svg").read_text())
+    width = re.search(r'width="([\d.]+)pt"', (home / "one/figure-sizes.svg").read_text())
     assert float(width[1]) == pytest.approx(170 / 25.4 * 72, abs=1e-3)
 
 

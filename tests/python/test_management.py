@@ -151,13 +151,12 @@ def test_a_fleets_effort_is_that_of_its_rows(home):
     assert (gates.body, gates.width, gates.upstream) == ("rig", 400, pytest.approx(600 + 10, abs=0.1))
 
 
-def test_what_cannot_be_measured_is_refused(drifting):
-    with pytest.raises(InputError, match="no ship of the run manages ice"):
-        gates_of(drifting, {})
-    with pytest.raises(InputError, match='no ship or structure "Fram"'):
-        gates_of(drifting, {"body": "Fram"})
-    with pytest.raises(InputError, match="not nearer"):
-        gates_of(drifting, {**GATES, "near_m": 330})
+@pytest.mark.parametrize("settings, words", [({}, "no ship of the run manages ice"),
+                                             ({**GATES, "near_m": 330}, "not nearer"),
+                                             ({"body": "Fram"}, 'no ship or structure "Fram"')])
+def test_what_cannot_be_measured_is_refused(drifting, settings, words):
+    with pytest.raises(InputError, match=words):
+        gates_of(drifting, settings)
 
 
 def test_the_command_writes_tables_and_a_figure(home, drifting, hit):

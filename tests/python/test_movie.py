@@ -30,8 +30,8 @@ def run(folder):
     return polynya.Run(folder, pandas=False)
 
 
-def movie(*words, environment=None):
-    return ended("movie", *words, env={**os.environ, **(environment or {})})
+def movie(*words, **environment):
+    return ended("movie", *words, env={**os.environ, **environment})
 
 
 def area_of(path):
@@ -60,19 +60,13 @@ def test_a_picture_shows_all_ice_of_its_time(run, time):
 
 
 def test_floes_and_ships_are_drawn_where_they_are(run):
-    drawn = picture.Picture(run, picture.Look(size=(640, 360)))
-    pixels = drawn.draw(9.0)[:, :, :3].astype(int).copy()
-
-    def colour_at(x, y):
-        across, up = drawn._map.transData.transform((x, y))
-        return pixels[len(pixels) - 1 - int(up), int(across)]
-
-    frame = run.frame(9.0)
-    stern = run.frame(9.0).ship_motions[0, :2] - (25, 0)
-    assert colour_at(*stern).max() < 90, "the hull is dark"
+    drawn, frame = picture.Picture(run, picture.Look(size=(640, 360))), run.frame(9.0)
+    pixels = drawn.draw(9.0)
+    stern = frame.ship_motions[0, :2] - (25, 0)
+    assert colour_at(drawn, pixels, *stern).max() < 90, "the hull is dark"
     floe = frame.rings[int(numpy.flatnonzero(frame.ids == 1)[0])][0].mean(axis=0)
-    assert colour_at(*floe).min() == 255, "a floe that nothing broke is white"
-    assert colour_at(-55, -30).tolist() == [0x8F, 0xB8, 0xD0], "water"
+    assert colour_at(drawn, pixels, *floe).min() == 255, "a floe that nothing broke is white"
+    assert colour_at(drawn, pixels, -55, -30).tolist() == [0x8F, 0xB8, 0xD0], "water"
 
 
 def test_a_map_that_follows_a_ship_has_it_in_its_middle(run):
@@ -162,8 +156,8 @@ def test_a_film_that_ffmpeg_cannot_write_leaves_the_old_one(folder, tmp_path, su
     fake.chmod(0o755)
     out = tmp_path / f"film.{suffix}"
     out.write_text("old")
-    changed = {"PATH": f"{fake.parent}:{os.environ['PATH']}", "TMPDIR": str(tmp_path / "scratch")}
-    done = movie(folder, "--out", out, "--to", 1, "--speed", 1, environment=changed)
+    done = movie(folder, "--out", out, "--to", 1, "--speed", 1,
+                 PATH=f"{fake.parent}:{os.environ['PATH']}", TMPDIR=str(tmp_path / "scratch"))
     assert (done.returncode, out.read_text()) == (5, "old")
     assert "No space left on device" in done.stderr and "ignored" not in done.stderr
     assert sorted(os.listdir(tmp_path)) == ["bin", out.name, "scratch"]
@@ -185,10 +179,9 @@ def test_wrong_words_are_answered(folder, tmp_path):
 
 
 def test_without_ffmpeg_the_message_names_what_to_install_and_a_picture_needs_none(folder, tmp_path):
-    alone = {"PATH": str(tmp_path)}
-    done = movie(folder, "--out", tmp_path / "film.mp4", environment=alone)
+    done = movie(folder, "--out", tmp_path / "film.mp4", PATH=str(tmp_path))
     assert done.returncode == 5 and "apt-get install ffmpeg" in done.stderr
-    done = movie(folder, "--out", tmp_path / "frame.png", "--from", 12, environment=alone)
+    done = movie(folder, "--out", tmp_path / "frame.png", "--from", 12, PATH=str(tmp_path))
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "frame.png").read_bytes()[:4] == b"\x89PNG"
 
@@ -199,13 +192,17 @@ def test_a_film_of_a_run_without_a_ship_has_no_chart(tmp_path):
     assert drawn.history is None and drawn.draw(0.5).shape == (320, 320, 4)
 
 
+def colour_at(drawn, pixels, x, y):
+    """Of a picture at a point of the world."""
+    across, up = drawn._map.transData.transform((x, y))
+    return pixels[len(pixels) - 1 - int(up), int(across), :3].astype(int)
+
+
 def test_walls_are_grey_and_make_no_tracks(tmp_path):
     walls = [{"from_m": [150, -60], "to_m": [150, 60], "pressure": {"line_load_N_per_m": 1e4}}]
     walled = run_of(tmp_path, "walled", {**SCENE, "time": {"step_s": 0.02, "until_s": 1}, "walls": walls})
     drawn = picture.Picture(polynya.Run(walled, pandas=False), picture.Look(size=(640, 360)))
-    pixels = drawn.draw(1.0)
-    across, up = drawn._map.transData.transform((155, 0))
-    assert pixels[len(pixels) - 1 - int(up), int(across), :3].tolist() == [0x8A] * 3
+    assert colour_at(drawn, drawn.draw(1.0), 155, 0).tolist() == [0x8A] * 3
     assert len(drawn.scenery.tracks(1.0)) == 1
 
 

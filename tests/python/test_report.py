@@ -17,25 +17,21 @@ def synthetic(folder, groups=3, of_group=40):
     thickness."""
     rng = numpy.random.default_rng(1)
     folder.mkdir()
-    values = [
-        {"ice.thickness_m": 0.4 + 0.1 * (i % groups), "ice.friction": 0.1 * (1 + i // groups % 2), "seed": i}
-        for i in range(groups * of_group)
-    ]
+    values = [{"ice.thickness_m": 0.4 + 0.1 * (i % groups), "ice.friction": 0.1 * (1 + i // groups % 2), "seed": i}
+              for i in range(groups * of_group)]
     write_cases(folder, [json.dumps({"scene": 0, "set": v}) + "\n" for v in values])
-    plan = {"format": 1, "name": "synthetic", "cases": len(values), "chunk": 1,
-            "archive": False, "keep": "summary", "set": {},
-            "source": "", "scenes": ["scenes/0/a.json"], "varied": ["ice.thickness_m", "ice.friction", "seed"],
-            "collect": {},
+    plan = {"format": 1, "name": "synthetic", "cases": len(values), "chunk": 1, "archive": False, "keep": "summary",
+            "set": {}, "source": "", "scenes": ["scenes/0/a.json"],
+            "varied": ["ice.thickness_m", "ice.friction", "seed"], "collect": {},
             "report": {"group_by": "ice.thickness_m", "against": "ice.thickness_m"}}
     (folder / PLAN).write_text(json.dumps(plan))
     study = open_study(folder)
     for i, v in enumerate(values):
         case = study.case_folder(i)
         case.mkdir(parents=True)
-        measures = {
-            "resistance_mean_N": rng.normal(1e5, 1e4), "resistance_peak_N": rng.gumbel(1e6 * v["ice.thickness_m"], 5e4),
-            "outcome": "bent" if v["ice.friction"] < 0.15 else "split",
-        }
+        measures = {"resistance_mean_N": rng.normal(1e5, 1e4),
+                    "resistance_peak_N": rng.gumbel(1e6 * v["ice.thickness_m"], 5e4),
+                    "outcome": "bent" if v["ice.friction"] < 0.15 else "split"}
         (case / RESULT).write_text(json.dumps({"state": "finished", "case": i, "measures": measures}))
     return study
 
@@ -45,9 +41,8 @@ def test_the_page_has_its_pictures_statistics_and_cases_and_needs_no_network(tmp
     study_command("report", study.folder)
     page = (study.folder / "study.html").read_text()
     shown = re.findall(r"<img src='([^']+)'", page)
-    assert {
-        "report/exceedance-resistance_peak_N.svg", "report/means-resistance_mean_N.svg", "report/outcomes.svg"
-    } <= set(shown)
+    kinds = ("exceedance-resistance_peak_N", "means-resistance_mean_N", "outcomes")
+    assert {f"report/{kind}.svg" for kind in kinds} <= set(shown)
     for name in shown:
         assert (study.folder / name).stat().st_size > 5000 and (study.folder / name).with_suffix(".png").exists()
     assert "http" not in page

@@ -51,8 +51,8 @@ def run(request, folder):
 
 
 def columns_of(table):
-    return {name: numpy.asarray(table[name]) for name in (getattr(table, "columns", None)
-                                                          if hasattr(table, "columns") else table.dtype.names)}
+    names = table.columns if hasattr(table, "columns") else table.dtype.names
+    return {name: numpy.asarray(table[name]) for name in names}
 
 
 @pytest.mark.parametrize("name", ["forces", "contacts", "peaks", "crushed", "states"])
@@ -81,10 +81,9 @@ def test_a_mooring_that_broke_is_a_row_without_a_floe(copy):
         file.write(json.dumps(broken) + "\n")
     run = polynya.Run(copy, pandas=False)
     row = run.events[-1]
-    assert (row["t_s"], row["kind"], row["ship"], row["floe"],
-            row["children"]) == (3.5, "mooring_break", "breaker", -1, ())
-    assert (row["force_N"], row["break_load_N"], row["offset_along_m"],
-            row["offset_across_m"]) == (1.25e5, 1.2e5, 12.5, -0.5)
+    wanted = {"t_s": 3.5, "kind": "mooring_break", "ship": "breaker", "floe": -1, "children": (), "force_N": 1.25e5,
+              "break_load_N": 1.2e5, "offset_along_m": 12.5, "offset_across_m": -0.5}
+    assert {name: row[name] for name in wanted} == wanted
     assert not numpy.isfinite(run.events[0]["offset_along_m"])
     assert len(run.floes) == len(lines(copy / "floes.ndjson"))
 
@@ -94,8 +93,7 @@ def test_events_have_all_that_their_lines_have(run, folder):
     assert {"bend", "submerge"} <= set(columns["kind"])
     for i, event in enumerate(written):
         row = {name: values[i] for name, values in columns.items()}
-        assert (row["t_s"], row["kind"], row["ship"], row["floe"]) == (event["t_s"],
-                                                                       event["kind"], event["ship"], event["floe"])
+        assert all(row[name] == event[name] for name in ("t_s", "kind", "ship", "floe"))
         assert row["parent"] == (-1 if event["parent"] is None else event["parent"])
         assert row["children"] == tuple(event["children"])
         assert [row["x_m"], row["y_m"]] == event["point_m"] and [row["normal_x"], row["normal_y"]] == event["normal"]
@@ -141,8 +139,8 @@ def test_some_ice_is_under_a_hull_and_some_has_holes(folder):
     assert [frame.time for frame in run.frames] == run.times.tolist() == [row["t_s"] for row in run.states]
     births = lines(folder / "floes.ndjson")
     assert [floe["area_m2"] for floe in births] == run.floes["area_m2"].tolist()
-    assert run.floes["parent_id"].tolist() == [-1 if floe["parent_id"] is None else floe["parent_id"]
-                                               for floe in births]
+    parents = [-1 if floe["parent_id"] is None else floe["parent_id"] for floe in births]
+    assert run.floes["parent_id"].tolist() == parents
 
 
 def test_floes_are_shapely_polygons_where_it_is_installed(folder):
@@ -160,9 +158,8 @@ def test_a_channel_is_that_of_the_command(copy):
     succeeded("channel", copy, cwd=copy)
     run = polynya.Run(copy, pandas=False)
     assert columns_of(run.channel).keys() == columns_of(measured.stations).keys()
-    written = rows(copy / "channel.csv")
-    assert run.channel["width_m"].tolist() == [float(row["width_m"])
-                                               for row in written] == measured.stations["width_m"].tolist()
+    written = [float(row["width_m"]) for row in rows(copy / "channel.csv")]
+    assert run.channel["width_m"].tolist() == written == measured.stations["width_m"].tolist()
     assert set(measured.parts) >= {"open water", "swept band"}
     with pytest.raises(polynya.FolderError, match="no ship"):
         run.measure_channel(ship="nobody")
@@ -282,10 +279,8 @@ def test_what_is_wanted_and_not_installed_is_named(folder, monkeypatch):
         polynya.Run(folder, shapely=True).frame(0).polygons
 
 
-def test_the_classes_are_documented():
-    for documented in (polynya.Run, polynya.Study):
-        members = {name: value for name, value in vars(documented).items() if not name.startswith("_")
-                   and callable(getattr(value, "fget", value))}
-        assert len(members) >= 5
-        undocumented = [name for name, value in members.items() if not value.__doc__]
-        assert documented.__doc__ and not undocumented
+@pytest.mark.parametrize("documented", [polynya.Run, polynya.Study])
+def test_the_classes_are_documented(documented):
+    members = {name: value for name, value in vars(documented).items()
+               if not name.startswith("_") and callable(getattr(value, "fget", value))}
+    assert documented.__doc__ and len(members) >= 5 and all(value.__doc__ for value in members.values())

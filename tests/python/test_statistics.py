@@ -11,25 +11,33 @@ from polynya import statistics
 TRIALS = 400
 
 
-def covered(interval_of, truth, trials=TRIALS, size=40, draw=None):
-    """How often the interval of a sample has the truth in it."""
+def scatter(level, trials=TRIALS):
+    """Four standard deviations of what a right interval's coverage scatters by."""
+    return 4 * math.sqrt(level * (1 - level) / trials)
+
+
+@pytest.mark.parametrize("interval_of, draw, size, truth, trials, least, most", [
+    (lambda x: statistics.mean(x, 0.8), lambda rng, n: rng.normal(3, 2, n), 6, 3, TRIALS,
+     0.8 - scatter(0.8), 0.8 + scatter(0.8)),
+    (lambda x: statistics.mean(x, 0.95), lambda rng, n: rng.normal(3, 2, n), 6, 3, TRIALS,
+     0.95 - scatter(0.95), 0.95 + scatter(0.95)),
+    # Percentile intervals of skewed samples are a little short.
+    (lambda x: statistics.bootstrap_mean(x, count=400), lambda rng, n: rng.exponential(1, n), 60, 1, TRIALS,
+     0.88, 0.98),
+    # At least as often as stated.
+    (lambda x: statistics.quantile(x, 0.5), lambda rng, n: rng.exponential(1, n), 30, stats.expon.ppf(0.5), TRIALS,
+     0.95 - scatter(0.95), 0.995),
+    (lambda x: statistics.quantile(x, 0.9), lambda rng, n: rng.exponential(1, n), 100, stats.expon.ppf(0.9), TRIALS,
+     0.95 - scatter(0.95), 0.995),
+    (lambda x: statistics.proportion(int(x.sum()), x.size), lambda rng, n: rng.random(n) < 0.2, 80, 0.2, TRIALS,
+     0.95 - scatter(0.95), 0.95 + scatter(0.95)),
+    (lambda x: statistics.level_interval("gumbel", x, 0.01, count=200), lambda rng, n: rng.gumbel(5, 2, n), 80,
+     5 - 2 * math.log(-math.log1p(-0.01)), 150, 0.86, 0.99),
+], ids=["student-0.8", "student-0.95", "bootstrap", "median", "quantile-0.9", "wilson", "gumbel-level"])
+def test_intervals_cover_the_truth_as_often_as_stated(interval_of, draw, size, truth, trials, least, most):
     rng = numpy.random.default_rng(7)
-    inside = 0
-    for _ in range(trials):
-        interval = interval_of(draw(rng, size))
-        inside += interval.low <= truth <= interval.high
-    return inside / trials
-
-
-def near(part, level, trials=TRIALS):
-    """Within four standard deviations of what a right interval's coverage scatters by."""
-    return abs(part - level) < 4 * math.sqrt(level * (1 - level) / trials)
-
-
-@pytest.mark.parametrize("level", [0.8, 0.95])
-def test_students_interval_covers_the_mean_of_normal_samples(level):
-    part = covered(lambda x: statistics.mean(x, level), 3, draw=lambda rng, n: rng.normal(3, 2, n), size=6)
-    assert near(part, level)
+    intervals = [interval_of(draw(rng, size)) for _ in range(trials)]
+    assert least < sum(interval.low <= truth <= interval.high for interval in intervals) / trials < most
 
 
 def test_students_interval_is_that_of_scipys_t_test():
@@ -38,45 +46,22 @@ def test_students_interval_is_that_of_scipys_t_test():
     assert own.low == pytest.approx(peer.low) and own.high == pytest.approx(peer.high)
 
 
-def test_bootstrap_interval_covers_the_mean_of_skewed_samples():
-    part = covered(lambda x: statistics.bootstrap_mean(x, count=400), 1, size=60,
-                   draw=lambda rng, n: rng.exponential(1, n))
-    assert 0.88 < part < 0.98  # percentile intervals of skewed samples are a little short
-
-
 def test_bootstrap_depends_on_its_seed_alone():
     x = numpy.random.default_rng(1).normal(0, 1, 30)
     assert statistics.bootstrap_mean(x, seed=3) == statistics.bootstrap_mean(x, seed=3)
     assert statistics.bootstrap_mean(x, seed=3) != statistics.bootstrap_mean(x, seed=4)
 
 
-@pytest.mark.parametrize("probability, size", [(0.5, 30), (0.9, 100)])
-def test_quantile_intervals_cover_at_least_as_often_as_stated(probability, size):
-    truth = stats.expon.ppf(probability)
-    part = covered(lambda x: statistics.quantile(x, probability), truth,
-                   draw=lambda rng, n: rng.exponential(1, n), size=size)
-    assert part > 0.95 - 4 * math.sqrt(0.95 * 0.05 / TRIALS)
-    assert part < 0.995
-
-
-def test_quantiles_and_exceedance_at_the_ends_of_a_sample():
+def test_quantiles_proportions_and_exceedance_at_the_ends_of_a_sample():
     interval = statistics.quantile(range(10), 0.99)
     assert interval.high == math.inf and interval.low > 0
     values, above = statistics.exceedance([3, 1, 2])  # plotting positions
     assert values.tolist() == [1, 2, 3] and above.tolist() == pytest.approx([0.75, 0.5, 0.25])
-
-
-def test_wilsons_interval_covers_a_proportion():
-    part = covered(lambda x: statistics.proportion(int(x.sum()), x.size), 0.2,
-                   draw=lambda rng, n: rng.random(n) < 0.2, size=80)
-    assert near(part, 0.95)
     assert statistics.proportion(0, 10).low == 0 and statistics.proportion(0, 10).high > 0.2
 
 
-@pytest.mark.parametrize(
-    "name, peer",
-    [("gumbel", lambda x: stats.gumbel_r.fit(x)), ("weibull", lambda x: stats.weibull_min.fit(x, floc=0)[::2])],
-)
+@pytest.mark.parametrize("name, peer", [("gumbel", stats.gumbel_r.fit),
+                                        ("weibull", lambda x: stats.weibull_min.fit(x, floc=0)[::2])])
 @pytest.mark.parametrize("seed", range(5))
 def test_fits_are_scipys(name, peer, seed):
     rng = numpy.random.default_rng(seed)
@@ -115,13 +100,6 @@ def test_the_level_of_a_probability_is_exceeded_by_it():
         fitted = statistics.fit(name, x, count=50)
         for p in (0.5, 0.01, 1e-6):
             assert float(fitted.exceedance(fitted.level_of(p))) == pytest.approx(p, rel=1e-9)
-
-
-def test_level_intervals_cover_the_level():
-    part = covered(lambda x: statistics.level_interval("gumbel", x, 0.01, count=200),
-                   5 - 2 * math.log(-math.log1p(-0.01)),
-                   trials=150, size=80, draw=lambda rng, n: rng.gumbel(5, 2, n))
-    assert 0.86 < part < 0.99
 
 
 def test_as_many_cases_as_are_needed_make_the_interval_narrow_enough():

@@ -15,7 +15,7 @@ from polynya.study.expand import count_cases, expand
 from polynya.study.folder import list_of_numbers, numbers_of_list, open_study
 from polynya.study.located_json import LocatedJson, StudyError
 from program import mutated
-from study_command import SCENE, folder, planned, study, write_study
+from study_command import SCENE, folder, gathered, planned, study, write_study
 
 
 def problems_of(path):
@@ -25,10 +25,8 @@ def problems_of(path):
 
 
 def test_cases_are_every_combination_repeated_with_other_seeds(folder):
-    path = write_study(
-        folder, grid={"ice.thickness_m": [0.4, 0.6], "time.until_s": {"from": 5, "to": 7, "count": 3}},
-        paired={"name": ["a", "b"], "ice.friction": [0.1, 0.2]}, repetitions=2, seed=10,
-    )
+    path = write_study(folder, grid={"ice.thickness_m": [0.4, 0.6], "time.until_s": {"from": 5, "to": 7, "count": 3}},
+                       paired={"name": ["a", "b"], "ice.friction": [0.1, 0.2]}, repetitions=2, seed=10)
     definition = read_definition(path)
     cases = [case for _, case in expand(definition)]
     assert len(cases) == count_cases(definition) == 2 * 3 * 2 * 2
@@ -39,14 +37,9 @@ def test_cases_are_every_combination_repeated_with_other_seeds(folder):
 
 
 def test_ranges_end_where_they_say(folder):
-    path = write_study(
-        folder,
-        grid={
-            "a.x": {"from": 0.1, "to": 0.7, "step": 0.1}, "a.y": {"from": 3, "to": 1, "step": -0.5},
-            "a.z": {"from": 1, "to": 100, "count": 3, "spacing": "log"},
-        },
-    )
-    grid = read_definition(path).grid
+    ranges = {"a.x": {"from": 0.1, "to": 0.7, "step": 0.1}, "a.y": {"from": 3, "to": 1, "step": -0.5},
+              "a.z": {"from": 1, "to": 100, "count": 3, "spacing": "log"}}
+    grid = read_definition(write_study(folder, grid=ranges)).grid
     assert grid["a.x"] == [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]
     assert grid["a.y"] == [3, 2.5, 2, 1.5, 1]
     assert grid["a.z"] == pytest.approx([1, 10, 100])
@@ -54,22 +47,16 @@ def test_ranges_end_where_they_say(folder):
 
 def test_a_longer_study_begins_with_the_shorter_one(folder):
     spec = {"of": {"ice.thickness_m": {"normal": {"mean": 0.5, "sd": 0.1, "least": 0.2}}}}
-    few, many = (
-        list(expand(read_definition(write_study(folder, draw={"count": n, **spec}, grid={"ice.friction": [0.1, 0.2]}))))
-        for n in (3, 50)
-    )
+    drawn = lambda n: write_study(folder, draw={"count": n, **spec}, grid={"ice.friction": [0.1, 0.2]})
+    few, many = (list(expand(read_definition(drawn(n)))) for n in (3, 50))
     assert many[: len(few)] == few
 
 
-@pytest.mark.parametrize(
-    "kind, numbers, mean, sd",
-    [
-        ("uniform", {"low": 2, "high": 4}, 3, 2 / 12**0.5),
-        ("normal", {"mean": 5, "sd": 2}, 5, 2),
-        ("log_normal", {"mean": 3, "sd": 1}, 3, 1),
-        ("log_uniform", {"low": 1, "high": 2.718281828}, 1.71828, 0.4920),
-    ],
-)
+@pytest.mark.parametrize("kind, numbers, mean, sd", [
+    ("uniform", {"low": 2, "high": 4}, 3, 2 / 12**0.5),
+    ("normal", {"mean": 5, "sd": 2}, 5, 2),
+    ("log_normal", {"mean": 3, "sd": 1}, 3, 1),
+    ("log_uniform", {"low": 1, "high": 2.718281828}, 1.71828, 0.4920)])
 @pytest.mark.parametrize("method", ["independent", "latin_hypercube"])
 def test_draws_have_the_distribution_that_was_asked_for(kind, numbers, mean, sd, method):
     values = draws.draw(1, "ice.thickness_m", kind, numbers, 4000, method)
@@ -77,10 +64,8 @@ def test_draws_have_the_distribution_that_was_asked_for(kind, numbers, mean, sd,
     spread = (sum((v - middle) ** 2 for v in values) / len(values)) ** 0.5
     assert middle == pytest.approx(mean, abs=4 * sd / 4000**0.5)
     assert spread == pytest.approx(sd, rel=0.1)
-    assert (
-        max(abs(draws.probability_below(kind, numbers, draws.value_at(kind, numbers, p)) - p) for p in (0.01, 0.3, 0.9))
-        < 1e-9
-    )
+    for p in (0.01, 0.3, 0.9):
+        assert draws.probability_below(kind, numbers, draws.value_at(kind, numbers, p)) == pytest.approx(p, abs=1e-9)
 
 
 def test_latin_hypercube_has_one_draw_in_each_part_and_bounds_hold():
@@ -93,15 +78,13 @@ def test_latin_hypercube_has_one_draw_in_each_part_and_bounds_hold():
 
 def test_everything_wrong_with_a_study_is_reported_with_its_place(folder):
     path = folder / "wrong.json"
-    path.write_text(
-        '''{
+    path.write_text('''{
   "scenes": "plate.json",  // a comment
   "grid": {"a": [], "b": {"from": 1, "to": 2}},
   "paired": {"c": [1], "d": [1, 2]},
   "draw": {"count": 0, "of": {"e": {"normal": {"mean": 1, "sd": -1}}, "a": {"uniform": {"low": 1, "high": 2}}}},
   "report": {"map": ["a"], "channels": -1, "means": 3}, "collect": {"quantiles": [1.5], "time_to": {"port": {"z_m": 1}}}
-}'''
-    )
+}''')
     found = problems_of(path)
     for words in (
         'wrong.json:2:3: scenes: found an unknown key', 'did you mean "scene"?',
@@ -249,8 +232,7 @@ def test_what_only_began_by_another_plan_is_removed(folder):
     assert 'forces.csv has no column "surge_from_moorng_N"' in study("run", "studies/s", code=4)
     planned(folder, set={"ice.thickness_m": 0.4})
     assert not (folder / "studies/s/cases").exists()
-    study("run", "studies/s", "--quiet")
-    study("gather", "studies/s")
+    gathered(folder / "studies/s")
 
 
 def test_the_trial_estimates_and_is_the_first_case(folder):
@@ -263,12 +245,10 @@ def test_the_trial_estimates_and_is_the_first_case(folder):
 
 def test_floe_files_come_with_the_study(folder):
     (folder / "ice").mkdir()
-    (folder / "ice" / "a.geojson").write_text(
-        '{"type": "Polygon", "coordinates": [[[0, 0], [50, 0], [50, 150], [0, 150], [0, 0]]]}'
-    )
-    (folder / "plate.json").write_text(
-        SCENE.replace('{"rectangle": {"corner_m": [0, 0], "size_m": 150}}', '{"file": "ice/a.geojson"}')
-    )
+    plate = {"type": "Polygon", "coordinates": [[[0, 0], [50, 0], [50, 150], [0, 150], [0, 0]]]}
+    (folder / "ice" / "a.geojson").write_text(json.dumps(plate))
+    rectangle = '{"rectangle": {"corner_m": [0, 0], "size_m": 150}}'
+    (folder / "plate.json").write_text(SCENE.replace(rectangle, '{"file": "ice/a.geojson"}'))
     planned(folder)
     shutil.rmtree(folder / "ice")
     study("run", "studies/s", "--quiet")

@@ -23,6 +23,20 @@ exports.openPage = async (browser, file, options = {}) => {
   await page.waitForFunction(() => window.polynyaPlayer?.drawn > 0 || window.polynyaPair?.players.every(({ drawn }) =>
     drawn > 0));
   page.openedAfter = Date.now() - start; // [ms]
+  /** What `read` gives of the player, and of more words. */
+  page.player = (read, ...words) => page.evaluate(([text, list]) =>
+    new Function("player", "words", `return (${text})(player, ...words)`)(window.polynyaPlayer, list),
+  [read.toString(), words]);
+  page.text = (css) => page.locator(css).textContent();
+  /** Drags the pointer from a place to another; does something halfway. */
+  page.drag = async (from, to, halfway) => {
+    await page.mouse.move(...from);
+    await page.mouse.down();
+    await page.mouse.move((from[0] + to[0]) / 2, (from[1] + to[1]) / 2, { steps: 3 });
+    await halfway?.();
+    await page.mouse.move(...to, { steps: 3 });
+    await page.mouse.up();
+  };
   /** Waits until what was asked for is drawn. */
   page.drawn = () => page.evaluate(() => new Promise((done) =>
     requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))));

@@ -5,13 +5,10 @@ const { test, before, assert, folder, open } = require("./bench.js");
 const { makeRun, makePage, smallScene, ship } = require("./runs.js");
 
 const sizes = [[360, 740], [390, 844], [721, 900], [768, 1024], [900, 700], [1024, 768], [1190, 800], [1280, 720],
-  [1440, 900],
-  [1920, 1080], [844, 390]];
-const description = "Two icebreakers at constant speed through nine floes of fifteen metres, in a scene " +
-  "whose only purpose is a description " +
-  "of three hundred characters, because a line as long as this one once made the page wider than every " +
-  "window it was opened in, and its " +
-  "controls could no longer be reached by anyone who opened it.";
+  [1440, 900], [1920, 1080], [844, 390]];
+const description = "Two icebreakers at constant speed through nine floes of fifteen metres, in a scene whose only " +
+  "purpose is a description of three hundred characters, because a line as long as this one once made the page wider " +
+  "than every window it was opened in, and its controls could no longer be reached by anyone who opened it.";
 
 let page;
 before(async () => {
@@ -19,14 +16,9 @@ before(async () => {
     ships: [ship("north", 60), ship("south", 10)] });
   page = await open(makePage(makeRun(folder, scene)));
   await page.addScriptTag({ content: findProblems.toString() });
-  await page.evaluate(() => {
-    const { actions } = window.polynyaPlayer;
-    actions.goTo(6);
-    actions.select(4); // with the line on the map
-    actions.toggleLayer("largestLoads", true); // with its notice
-    actions.toggleLayer("forces", true);
-    actions.toggleLayer("velocities", true);
-  });
+  await page.act("goTo", 6);
+  await page.act("select", 4); // with the line on the map
+  for (const layer of ["largestLoads", "forces", "velocities"]) await page.act("toggleLayer", layer, true);
 });
 
 /** In the page: what is cut off, reaches out of the window or overlaps, in words. */
@@ -62,8 +54,8 @@ function findProblems() {
     "#stage, #chip, #notice, #plot, #track, aside")).map((e) => ({ e, box: boxOf(e) })).filter(({ box }) =>
       box.bottom > box.top);
   for (const { e, box } of parts) {
-    if (box.left < -0.5
-      || box.right > innerWidth + 0.5) problems.push(`${name(e)} reaches from ${box.left} to ${box.right} px across`);
+    if (box.left < -0.5 || box.right > innerWidth + 0.5)
+      problems.push(`${name(e)} reaches from ${box.left} to ${box.right} px across`);
     if (!scrolls && (box.top < -0.5 || box.bottom > innerHeight + 0.5))
       problems.push(`${name(e)} reaches from ${box.top} to ${box.bottom} px down`);
   }
@@ -72,37 +64,29 @@ function findProblems() {
       if (e.contains(other) || other.contains(e)) continue;
       const [width, height] = [Math.min(box.right, b.right) - Math.max(box.left, b.left),
         Math.min(box.bottom, b.bottom) - Math.max(box.top, b.top)];
-      if (width > 0.5
-        && height > 0.5) problems.push(`${name(e)} and ${name(other)} overlap by ${width} x ${height} px`);
+      if (Math.min(width, height) > 0.5)
+        problems.push(`${name(e)} and ${name(other)} overlap by ${width} x ${height} px`);
     }
   }
   return problems;
 }
 
-const state = () => page.evaluate(() => {
-  const { state: { time }, view: { x, y, scale } } = window.polynyaPlayer;
-  return { time, x, y, scale };
-});
+const state = () => page.player(({ state: { time }, view: { x, y, scale } }) => ({ time, x, y, scale }));
 
 /** Waits until the page has the theme's colours everywhere. */
 async function useTheme(theme) {
   await page.emulateMedia({ colorScheme: theme });
   await page.waitForFunction(() =>
     window.polynyaPlayer.colours.ink === getComputedStyle(document.documentElement).getPropertyValue("--ink").trim());
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  await page.drawn();
 }
 
-/** Drags the pointer over an element, from one part of its width to another; `underWay` is called halfway. */
-async function drag(selector, from, to, underWay) {
+/** Drags the pointer over an element, from one part of its width to another. */
+async function drag(selector, from, to, halfway) {
   await page.locator(selector).scrollIntoViewIfNeeded();
   const box = await page.locator(selector).boundingBox();
   const at = (part) => [box.x + part * box.width, box.y + 0.6 * box.height];
-  await page.mouse.move(...at(from));
-  await page.mouse.down();
-  await page.mouse.move(...at((from + to) / 2), { steps: 3 });
-  await underWay?.();
-  await page.mouse.move(...at(to), { steps: 3 });
-  await page.mouse.up();
+  await page.drag(at(from), at(to), halfway);
   return box;
 }
 
@@ -113,7 +97,7 @@ for (const [width, height] of sizes) {
       await useTheme(theme);
       await page.evaluate(() => scrollTo(0, 0));
       for (const quantity of ["surge_by_cause@north", "surge_N"]) {
-        await page.evaluate((name) => window.polynyaPlayer.actions.plotQuantity(name), quantity);
+        await page.act("plotQuantity", quantity);
         assert.deepEqual(await page.evaluate(() => findProblems()), [], `${theme}, ${quantity}`);
       }
     }
@@ -127,28 +111,22 @@ for (const [width, height] of sizes) {
     assert.ok(Math.abs((before.x - moved.x) * before.scale - 0.2 * map.width) < 2, "the map follows the pointer");
 
     // Halfway the legend grows, and with it everything gets another place.
-    const box = await drag("#plot .u-over", 0.2, 0.7, () => page.evaluate(() => {
-      window.polynyaPlayer.actions.toggleLayer("forces");
-      return new Promise((done) => setTimeout(done, 50));
-    }));
-    assert.ok(Math.abs((await state()).time - 0.7 * 10) < (2 * 10) / box.width,
-      `the drag ends at ${(await state()).time} s`);
-    await page.evaluate(() => window.polynyaPlayer.actions.fit());
+    const box = await drag("#plot .u-over", 0.2, 0.7, () => page.act("toggleLayer", "forces"));
+    const { time } = await state();
+    assert.ok(Math.abs(time - 0.7 * 10) < (2 * 10) / box.width, `the drag ends at ${time} s`);
+    await page.act("fit");
   });
 }
 
 test("each swatch of the legend stands out from its panel in both themes", async () => {
   for (const theme of ["light", "dark"]) {
     await useTheme(theme);
-    await page.evaluate((by) => {
-      const { actions } = window.polynyaPlayer;
-      for (const name of ["channel", "startIce", "forces"]) actions.toggleLayer(name, true);
-      actions.colourBy(by);
-    }, theme === "light" ? "speed" : "generation");
+    for (const name of ["channel", "startIce", "forces"]) await page.act("toggleLayer", name, true);
+    await page.act("colourBy", theme === "light" ? "speed" : "generation");
     const contrasts = await page.evaluate(() => {
       const light = (colour) => {
-        const [r, g, b] = colour.match(/[\d.]+/g).map((v) => (v / 255 <= 0.04045
-          ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4));
+        const [r, g, b] = colour.match(/[\d.]+/g).map((v) => v / 255)
+          .map((v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4));
         return 0.2126 * r + 0.7152 * g + 0.0722 * b;
       };
       const contrast = (a, b) => (Math.max(light(a), light(b)) + 0.05) / (Math.min(light(a), light(b)) + 0.05);

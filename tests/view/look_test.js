@@ -2,16 +2,11 @@
 "use strict";
 const { test, before, assert, fs, path, folder, open } = require("./bench.js");
 const vm = require("node:vm");
-const { makeRun, makePage, readNdjson, smallScene, ship } = require("./runs.js");
+const { makeRun, makePage, readNdjson, plateAndFloe, ship } = require("./runs.js");
 
 let page, run;
 before(async () => {
-  run = makeRun(folder, smallScene("plate-and-floe", {
-    time: { step_s: 0.01, until_s: 30 }, fracture: { cusp_fate: "float",
-      splitting: { model: "michel" } }, ships: [ship("a", 30)],
-    floes: [{ rectangle: { corner_m: [2, 0], size_m: [90, 60] } },
-      { rectangle: { corner_m: [2, 80], size_m: [20, 20] } }],
-  }));
+  run = makeRun(folder, plateAndFloe("plate-and-floe", { ships: [ship("a", 30)] }));
   page = await open(makePage(run));
   for (const layer of ["track", "channel", "startIce"]) await page.act("toggleLayer", layer, false);
   await page.act("goToEnd", true);
@@ -30,19 +25,16 @@ test("untouched floes, what is left of a plate, and cusps have the colours that 
   const legend = Object.fromEntries(await page.locator("#legend span").evaluateAll((all) =>
     all.filter((row) => row.querySelector("i")).map((row) => [row.textContent.split(":")[0],
       row.querySelector("i").style.background])));
-  const living = await page.evaluate(() =>
-    Array.from(window.polynyaPlayer.places.living.subarray(0, window.polynyaPlayer.places.count)));
+  const living = await page.player(({ places }) => Array.from(places.living.subarray(0, places.count)));
   const left = living.filter((id) => id !== 1).sort((a, b) => births[b].area_m2 - births[a].area_m2);
   assert.ok(births[left[0]].generation > 0 && births[left[0]].area_m2 > 0.8 * 5400,
     "the plate lost cusps and is still there");
   assert.ok(left.length > 1, "cusps float");
-  const inPlate = await page.evaluate((id) => [window.polynyaPlayer.places.x[id],
-    window.polynyaPlayer.places.y[id] + 20], left[0]);
+  const inPlate = await page.player(({ places }, id) => [places.x[id], places.y[id] + 20], left[0]);
   const [whole, cut] = await page.colours("ice", [[12, 90], inPlate]);
   assert.equal(whole, legend.whole);
   assert.equal(cut, legend.cut);
-  const breakage = await page.evaluate((ids) => ids.map((id) => window.polynyaPlayer.colourings.breakage.value(id)),
-    left);
+  const breakage = await page.player(({ colourings }, ids) => ids.map((id) => colourings.breakage.value(id)), left);
   assert.deepEqual([...new Set(breakage.slice(1))], [3], "all others are broken off by bending");
   assert.equal(breakage[0], 1);
   assert.deepEqual(Object.keys(legend), ["whole", "cut", "broken off by bending"], "nothing was split here");
@@ -58,8 +50,8 @@ test("what became of a floe follows from its lineage and its area", () => {
     [2, "bend", 190, 1], [2, "bend", 110, 3],
     [5, "split", 11, 3], [5, "split", 9, 2],
     [-1, "", 10, 0], [-1, "", 1000, 0]];
-  for (let k = 0, plate = rows.length - 1; k < 200; ++k, plate = rows.length - 2) rows.push([plate, "bend",
-    1000 - 4.9 * (k + 1), 1], [plate, "bend", 4.9, 3]);
+  for (let k = 0, plate = rows.length - 1; k < 200; ++k, plate = rows.length - 2)
+    rows.push([plate, "bend", 1000 - 4.9 * (k + 1), 1], [plate, "bend", 4.9, 3]);
   const children = new Map();
   const breakOf = new Map();
   const events = [];
@@ -71,8 +63,7 @@ test("what became of a floe follows from its lineage and its area", () => {
   const oldest = [];
   rows.forEach(([parent], id) => oldest.push(parent < 0 ? id : oldest[parent]));
   const floes = { count: rows.length, parent: rows.map(([parent]) => parent), area: rows.map(([, , area]) => area),
-    oldest, children,
-    cameUp: rows.map(() => 0) };
+    oldest, children, cameUp: rows.map(() => 0) };
   assert.deepEqual(Array.from(breakagesOf({ floes, info: { events }, breakOf })),
     rows.map(([, , , expected]) => expected));
   floes.cameUp[3] = floes.cameUp[6] = 1; // whatever broke it, and its largest piece

@@ -1,24 +1,18 @@
 // A link to an instant, pictures of map and plot, and the histogram of floe sizes.
 "use strict";
 const { test, before, assert, fs, folder, open } = require("./bench.js");
-const { makeRun, makePage, readNdjson, smallScene, ship } = require("./runs.js");
+const { makeRun, makePage, readNdjson, plateAndFloe, ship } = require("./runs.js");
 
 let page, run, file;
 before(async () => {
-  run = makeRun(folder,
-    smallScene("moments",
-      { time: { step_s: 0.01, until_s: 30 }, fracture: { cusp_fate: "float", splitting: { model: "michel" } },
-        ships: [ship("north", 60), ship("a b", 10)],
-    floes: [{ rectangle: { corner_m: [2, 0], size_m: [90, 60] } },
-      { rectangle: { corner_m: [2, 80], size_m: [20, 20] } }] }));
+  run = makeRun(folder, plateAndFloe("moments", { ships: [ship("north", 60), ship("a b", 10)] }));
   file = makePage(run);
   page = await open(`${file}#t=12.5&floe=1&by=size&plot=yaw_Nm&follow=a%20b`);
 });
 
-const state = (of = page) => of.evaluate(() => {
-  const { state: { time, selected, colourBy, follow, sizes }, plot: { quantity } } = window.polynyaPlayer;
-  return { time, selected, colourBy, follow, sizes, quantity };
-});
+const state = (of = page) =>
+  of.player(({ state: { time, selected, colourBy, follow, sizes }, plot: { quantity } }) =>
+    ({ time, selected, colourBy, follow, sizes, quantity }));
 const act = (...words) => page.act(...words);
 const drawn = () => page.drawn();
 
@@ -42,8 +36,7 @@ test("the address follows the page, and a copy of it opens the same", async () =
   assert.equal(link, page.url());
   const other = await open(link.replace("file://", ""));
   assert.deepEqual(await state(other), await state());
-  const viewOf = (of) =>
-    of.evaluate(() => { const { x, y, scale } = window.polynyaPlayer.view; return [x, y, scale]; });
+  const viewOf = (of) => of.player(({ view: { x, y, scale } }) => [x, y, scale]);
   const [mine, its] = [await viewOf(page), await viewOf(other)];
   mine.forEach((value, k) => assert.ok(Math.abs(value - its[k]) < 0.01 * Math.max(1, Math.abs(value))));
   // An address that is entered while the page is open goes there too.
@@ -55,6 +48,7 @@ test("the address follows the page, and a copy of it opens the same", async () =
 test("while it plays the address stays; when it stops it is that instant's", async () => {
   await act("goTo", 5);
   await page.waitForFunction(() => location.hash.includes("t=5&"));
+  await page.selectOption("#rate", "10");
   await page.click("#play");
   await page.waitForFunction(() => window.polynyaPlayer.state.time > 8);
   assert.match(page.url(), /#t=5&/);
@@ -94,11 +88,10 @@ test("the map and the plot are saved as pictures, under a title, over their keys
   await act("fit");
   await act("goTo", 20);
   await drawn();
-  const places = await page.evaluate(() => {
-    const { view, places: { x, y, living, count } } = window.polynyaPlayer;
+  const places = await page.player(({ view, places: { x, y, living, count } }) => {
     const context = document.getElementById("ice").getContext("2d");
-    return Array.from(living.subarray(0, count), (id) => view.toScreen(x[id],
-      y[id]).map(Math.round)).filter(([px, py]) => px > 0 && py > 0 && px < view.width && py < view.height)
+    return Array.from(living.subarray(0, count), (id) => view.toScreen(x[id], y[id]).map(Math.round))
+      .filter(([px, py]) => px > 0 && py > 0 && px < view.width && py < view.height)
       .map(([px, py]) => ({ at: [px, py + 34], ice: [...context.getImageData(px, py, 1, 1).data].join() }));
   });
   const stage = await page.locator("#stage").boundingBox();
@@ -126,10 +119,8 @@ test("the histogram has every floe that floats, by number or by area; a range is
     ["bend", "split", "grind"].includes(kind)).map(({ floe }) => floe));
   const living = births.filter(({ floe_id: id }) => !broken.has(id));
   const colours = async () => {
-    const floating = await page.evaluate(() => {
-      const { places: { x, y, living: ids, count }, run: { floes } } = window.polynyaPlayer;
-      return Array.from(ids.subarray(0, count), (id) => ({ at: [x[id], y[id]], size: Math.sqrt(floes.area[id]) }));
-    });
+    const floating = await page.player(({ places: { x, y, living: ids, count }, run: { floes } }) =>
+      Array.from(ids.subarray(0, count), (id) => ({ at: [x[id], y[id]], size: Math.sqrt(floes.area[id]) })));
     const found = await page.colours("ice", floating.map(({ at }) => at));
     return floating.map(({ size }, k) => [size, found[k]]);
   };
@@ -140,15 +131,14 @@ test("the histogram has every floe that floats, by number or by area; a range is
   await drawn();
   assert.deepEqual((await state()).sizes, { from: 3, below: 25 });
   const chosen = living.filter(({ area_m2: area }) => Math.sqrt(area) >= 3 && Math.sqrt(area) < 25);
-  const words = await page.locator("#size-words").textContent();
+  const words = await page.text("#size-words");
   assert.ok(words.startsWith(`${chosen.length} of ${living.length} floes`), words);
   const area = chosen.reduce((sum, floe) => sum + floe.area_m2, 0);
   const all = living.reduce((sum, floe) => sum + floe.area_m2, 0);
   assert.ok(words.includes(`(${((100 * area) / all).toFixed(1)} % of the ice)`), words);
   assert.match(await page.locator("#legend").textContent(), /pale: not from 3 to 25 m/);
-  (await colours()).forEach(([size, colour], k) => {
-    if (size > 8) assert.equal(colour === before[k][1], size >= 3 && size < 25,
-      `a floe of ${size} m`); // its centre is its own
+  (await colours()).forEach(([size, colour], k) => { // the centre of one above 8 m is its own
+    if (size > 8) assert.equal(colour === before[k][1], size >= 3 && size < 25, `a floe of ${size} m`);
   });
   assert.ok(before.some(([size]) => size > 25) && before.some(([size]) => size > 8 && size < 25));
 });
@@ -158,26 +148,23 @@ test("a drag over the histogram chooses whole classes, a double click all; it co
   await act("chooseSizes", null);
   await page.locator("#sizes").scrollIntoViewIfNeeded();
   const box = await page.locator("#sizes").boundingBox();
-  await page.mouse.move(box.x + 0.3 * box.width, box.y + 40);
-  await page.mouse.down();
-  await page.mouse.move(box.x + 0.6 * box.width, box.y + 40, { steps: 4 });
-  await page.mouse.up();
+  await page.drag([box.x + 0.3 * box.width, box.y + 40], [box.x + 0.6 * box.width, box.y + 40]);
   const { sizes } = await state();
-  const round = [1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.3, 8];
-  for (const edge of [sizes.from, sizes.below]) assert.ok(round.some((r) =>
-    [0.1, 1, 10, 100].some((d) => Math.abs(edge - r * d) < 1e-9 * d)), `${edge}`);
+  const round = [0.1, 1, 10, 100].flatMap((d) => [1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.3, 8].map((r) => r * d));
+  for (const edge of [sizes.from, sizes.below])
+    assert.ok(round.some((value) => Math.abs(edge - value) < 1e-9 * value), `${edge}`);
   assert.ok(sizes.below > 1.5 * sizes.from);
   assert.equal(await page.inputValue("#size-from"), String(sizes.from));
   await act("goTo", 0);
   await drawn();
-  assert.match(await page.locator("#size-words").textContent(), /of 2 floes/);
+  assert.match(await page.text("#size-words"), /of 2 floes/);
   await page.mouse.dblclick(box.x + 0.5 * box.width, box.y + 40);
   assert.equal((await state()).sizes, null);
   await drawn();
   assert.ok(await page.locator("#size-all").isDisabled());
   await page.fill("#size-from", "9");
   await page.press("#size-from", "Enter");
-  assert.deepEqual(await page.evaluate(() => window.polynyaPlayer.state.sizes.below), Infinity);
+  assert.equal((await state()).sizes.below, Infinity);
   await page.fill("#size-below", "4"); // no range: nothing changes
   await page.press("#size-below", "Enter");
   assert.equal(await page.inputValue("#size-below"), "");

@@ -16,6 +16,13 @@ before(async () => {
 const both = (read) =>
   page.evaluate((text) => window.polynyaPair.players.map(new Function("player", `return (${text})(player)`)),
     read.toString());
+/** A value that is the same in both; it. */
+async function same(read) {
+  const [mine, its] = await both(read);
+  assert.deepEqual(mine, its);
+  return mine;
+}
+const clock = () => page.evaluate(() => window.polynyaPair.clock.time);
 const drawn = () => page.drawn();
 const inFirst = (css) => page.frameLocator("iframe >> nth=0").locator(css);
 const inSecond = (css) => page.frameLocator("iframe >> nth=1").locator(css);
@@ -32,9 +39,7 @@ test("one clock moves both: played, by a drag on either timeline, by keys; a run
   await page.click("#play");
   await page.waitForFunction(() => window.polynyaPair.clock.time > 1);
   await page.click("#play");
-  const [first, second] = await both((player) => player.state.time);
-  assert.equal(first, second);
-  assert.equal(first, await page.evaluate(() => window.polynyaPair.clock.time));
+  assert.equal(await same((player) => player.state.time), await clock());
   const box = await inSecond("#track").boundingBox();
   await page.mouse.click(box.x + 0.5 * box.width, box.y + box.height - 3);
   for (const time of await both((player) => player.state.time)) assert.ok(Math.abs(time - 5) < 0.1, `${time}`);
@@ -48,7 +53,7 @@ test("one clock moves both: played, by a drag on either timeline, by keys; a run
   assert.deepEqual(await both((player) => player.state.time), [0, 0]);
   await page.click("#event-after");
   const events = await both((player) => player.run.info.events.map(({ t_s: time }) => time));
-  assert.equal(await page.evaluate(() => window.polynyaPair.clock.time), Math.min(...events.flat()));
+  assert.equal(await clock(), Math.min(...events.flat()));
 });
 
 test("the part of the map is one, until it is ticked off; colours have the same classes", async () => {
@@ -57,15 +62,12 @@ test("the part of the map is one, until it is ticked off; colours have the same 
   await page.mouse.wheel(0, -600);
   await drawn();
   const view = (player) => [player.view.x, player.view.y, player.view.scale];
-  const [mine, its] = await both(view);
-  assert.deepEqual(mine, its);
+  const its = await same(view);
   await inSecond("#by-speed").check();
   await drawn();
-  assert.deepEqual(await both((player) => player.state.colourBy), ["speed", "speed"]);
-  const [edges, others] = await both((player) => player.colourings.speed.edges);
-  assert.deepEqual(edges, others);
-  const [scales, theirs] = await both(({ forceScale, arrowScale }) => [forceScale, arrowScale]);
-  assert.deepEqual(scales, theirs);
+  assert.equal(await same((player) => player.state.colourBy), "speed");
+  await same((player) => player.colourings.speed.edges);
+  await same(({ forceScale, arrowScale }) => [forceScale, arrowScale]);
   await page.uncheck("#same-map");
   await page.mouse.move(box.x + 100, box.y + 150);
   await page.mouse.wheel(0, -300);
@@ -79,13 +81,12 @@ test("the part of the map is one, until it is ticked off; colours have the same 
 test("the plots show one quantity, one part of the run and one scale, until that is ticked off", async () => {
   await inFirst("#quantity").selectOption("surge_by_cause");
   await drawn();
-  assert.deepEqual(await both((player) => player.plot.quantity), ["surge_by_cause", "surge_by_cause"]);
+  assert.equal(await same((player) => player.plot.quantity), "surge_by_cause");
   await page.evaluate(() => window.polynyaPair.players[1].actions.zoomPlot(2, 5));
   await drawn();
-  assert.deepEqual(await both((player) => player.plot.span), [[2, 5], [2, 5]]);
+  assert.deepEqual(await same((player) => player.plot.span), [2, 5]);
   const range = (player) => [player.plot.chart.scales.y.min, player.plot.chart.scales.y.max];
-  const [mine, its] = await both(range);
-  assert.deepEqual(mine, its);
+  await same(range);
   await page.uncheck("#same-scale");
   await drawn();
   assert.notDeepEqual(...(await both(range)));
@@ -93,15 +94,14 @@ test("the plots show one quantity, one part of the run and one scale, until that
   for (const quantity of ["speed_m_per_s", "surge_N"]) { // one goes at 2 m/s, the other at 4
     await inFirst("#quantity").selectOption(quantity);
     await drawn();
-    const [one, other] = await both(range);
-    assert.deepEqual(one, other, quantity);
-    if (quantity === "speed_m_per_s") assert.ok(one[0] <= 2 && one[1] >= 4, `${one}`);
+    const [low, high] = await same(range);
+    if (quantity === "speed_m_per_s") assert.ok(low <= 2 && high >= 4, `${low} to ${high}`);
   }
   await inFirst("#quantity").selectOption("surge_by_cause");
   await drawn();
   await inSecond("#curve-thrust").uncheck();
   await drawn();
-  assert.deepEqual(await both((player) => [...player.plot.hidden].includes("thrust")), [true, true]);
+  assert.ok(await same((player) => [...player.plot.hidden].includes("thrust")));
 });
 
 test("a link has the instant and a floe of each", async () => {
@@ -120,20 +120,17 @@ test("a link has the instant and a floe of each", async () => {
 
 test("light and dark are one; nothing is cut off at any width", async () => {
   await page.click("#theme");
-  const themes = await page.evaluate(() =>
-    [document, ...window.polynyaPair.players.map(({ frame }) => frame.contentDocument)].map((d) =>
-      d.documentElement.dataset.theme));
-  assert.equal(new Set(themes).size, 1);
+  const roots = (read) => page.evaluate((text) =>
+    [document, ...window.polynyaPair.players.map(({ frame }) => frame.contentDocument)]
+      .map(({ documentElement }) => new Function("e", `return (${text})(e)`)(documentElement)), read.toString());
+  assert.equal(new Set(await roots((e) => e.dataset.theme)).size, 1);
   for (const [width, height] of [[390, 844], [768, 1024], [1024, 768], [1280, 720], [1920, 1080], [844, 390]]) {
     await page.setViewportSize({ width, height });
     await drawn();
-    const wide = await page.evaluate(() =>
-      [document, ...window.polynyaPair.players.map(({ frame }) => frame.contentDocument)]
-      .map(({ documentElement: e }) => e.scrollWidth - e.clientWidth));
-    assert.deepEqual(wide, [0, 0, 0], `${width} x ${height}`);
+    assert.deepEqual(await roots((e) => e.scrollWidth - e.clientWidth), [0, 0, 0], `${width} x ${height}`);
     const maps = await both((player) => [player.view.width, player.view.height]);
-    for (const [across, down] of maps) assert.ok(across > 150 && down > 120,
-      `${width} x ${height}: a map of ${across} x ${down}`);
+    for (const [across, down] of maps)
+      assert.ok(across > 150 && down > 120, `${width} x ${height}: a map of ${across} x ${down}`);
   }
 });
 

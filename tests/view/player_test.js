@@ -1,18 +1,19 @@
 // The player in a real browser. Started by tests/view/run; POLYNYA_BINARY names the program under test.
 "use strict";
 const { test, before, assert, fs, path, folder, open } = require("./bench.js");
-const { makeRun, makePage, readLines, readNdjson, inspectAt, polynya } = require("./runs.js");
+const { shippedRun, makePage, readLines, readNdjson, inspectAt, polynya } = require("./runs.js");
 
 let run, file, page;
 
 before(async () => {
-  run = makeRun(folder, "sawamura2017-fig4b");
+  run = shippedRun(folder, "sawamura2017-fig4b");
   file = makePage(run);
   page = await open(file);
 });
 
-const text = (id) => page.locator(`#${id}`).textContent();
+const text = (id) => page.text(`#${id}`);
 const timeShown = async () => parseFloat(await text("now"));
+const time = () => page.player(({ state }) => state.time);
 const act = (...words) => page.act(...words);
 const drawn = () => page.drawn();
 const picture = () => page.locator("#stage").screenshot();
@@ -31,12 +32,12 @@ test("it plays and pauses", async () => {
   await page.click("#play");
   await page.waitForFunction(() => window.polynyaPlayer.state.time > 20);
   await page.click("#play");
-  const stopped = await page.evaluate(() => window.polynyaPlayer.state.time);
+  const stopped = await time();
   assert.notDeepEqual(await picture(), before);
   await page.waitForTimeout(100);
-  assert.equal(await page.evaluate(() => window.polynyaPlayer.state.time), stopped);
+  assert.equal(await time(), stopped);
   await page.keyboard.press("Space");
-  await page.waitForFunction((time) => window.polynyaPlayer.state.time > time, stopped);
+  await page.waitForFunction((at) => window.polynyaPlayer.state.time > at, stopped);
   await page.keyboard.press("Space");
   assert.equal(await page.locator("#play").getAttribute("aria-label"), "Play");
 });
@@ -46,25 +47,17 @@ test("it scrubs: on the timeline, on the plot, by keys", async () => {
     const box = await page.locator(`#${id}`).boundingBox();
     const y = box.y + box.height - 3;
     for (const part of [0.25, 0.8]) {
-      await page.mouse.move(box.x + 0.5 * box.width, y);
-      await page.mouse.down();
-      await page.mouse.move(box.x + part * box.width, y, { steps: 4 });
-      await page.mouse.up();
+      await page.drag([box.x + 0.5 * box.width, y], [box.x + part * box.width, y]);
       await drawn();
       assert.ok(Math.abs((await timeShown()) - part * 550) < 550 / box.width, `${id}: ${await timeShown()} s`);
     }
   }
   await act("goTo", 100.5);
-  await page.keyboard.press("ArrowRight");
-  await drawn();
-  assert.equal(await timeShown(), 102);
-  await page.keyboard.press("ArrowLeft");
-  await page.keyboard.press("ArrowLeft");
-  await drawn();
-  assert.equal(await timeShown(), 98);
-  await page.keyboard.press("End");
-  await drawn();
-  assert.equal(await timeShown(), 550);
+  for (const [keys, shown] of [[["ArrowRight"], 102], [["ArrowLeft", "ArrowLeft"], 98], [["End"], 550]]) {
+    for (const key of keys) await page.keyboard.press(key);
+    await drawn();
+    assert.equal(await timeShown(), shown);
+  }
   assert.equal(await page.locator("#track").getAttribute("aria-valuenow"), "550.0");
 });
 
@@ -74,30 +67,28 @@ test("a click on an event's mark goes there", async () => {
     const box = await page.locator("#track").boundingBox();
     await page.mouse.click(box.x + (split.t_s / 550) * box.width, box.y + 6);
     await drawn();
-    assert.equal(await page.evaluate(() => window.polynyaPlayer.state.time), split.t_s);
+    assert.equal(await time(), split.t_s);
     const card = await text("event-card");
     assert.ok(card.includes(`floe${split.floe}`) && card.includes(split.children.join(", ")), card);
   }
   await act("goToEnd", false);
   for (const event of events.slice(0, 3)) {
     await page.keyboard.press("]");
-    assert.equal(await page.evaluate(() => window.polynyaPlayer.state.time), event.t_s);
+    assert.equal(await time(), event.t_s);
   }
 });
 
-/** Points the mouse at a floe's centroid; false where another floe or nothing is there, or it does not show. */
-async function pointAt(id) {
-  const at = await page.evaluate((floe) => {
-    const { view, places } = window.polynyaPlayer;
-    return view.toScreen(places.x[floe], places.y[floe]);
-  }, id);
-  const box = await stageBox();
-  const isShown = at[0] > 5 && at[1] > 5 && at[0] < box.width - 70 && at[1] < box.height - 50;
-  if (!isShown) return false;
-  await page.mouse.move(box.x + at[0], box.y + at[1]);
-  await drawn();
-  return (await page.evaluate(() => window.polynyaPlayer.state.hovered)) === id;
-}
+/** Points at each of these floes' centroids, for a frame: facts of the card, by the floes that were found there. */
+const factsOf = (floes) => page.player(async ({ view, places, state, actions }, ids) => {
+  const facts = [];
+  for (const id of ids) {
+    actions.hover(...view.toScreen(places.x[id], places.y[id]));
+    await new Promise(requestAnimationFrame);
+    if (state.hovered === id) facts.push([id, Object.fromEntries(Array.from(document.querySelectorAll("#floe-card dd"),
+      (dd) => [dd.dataset.fact, { words: dd.textContent, value: dd.dataset.value }]))]);
+  }
+  return facts;
+}, floes);
 
 test("the floe under the pointer has the numbers that `polynya inspect` prints and the files hold", async (t) => {
   const births = readNdjson(run, "floes.ndjson");
@@ -107,10 +98,8 @@ test("the floe under the pointer has the numbers that `polynya inspect` prints a
     await act("goTo", time);
     const table = inspectAt(run, time);
     assert.equal(Number(await text("living")), table.size);
-    for (const [id, row] of [...table].filter((_, k) => k % 7 === 0 || k > table.size - 8)) {
-      if (!(await pointAt(id))) continue;
-      const facts = Object.fromEntries(await page.locator("#floe-card dd").evaluateAll((all) =>
-        all.map((dd) => [dd.dataset.fact, { words: dd.textContent, value: dd.dataset.value }])));
+    for (const [id, facts] of await factsOf([...table.keys()].filter((_, k) => k % 7 === 0 || k > table.size - 8))) {
+      const row = table.get(id);
       assert.equal(facts.floe.words, String(id));
       assert.equal(facts.parent.words, row.parent === "-" ? "none, of the scene" : row.parent);
       assert.equal(facts.area.words, `${row.area} m²`);
@@ -133,17 +122,18 @@ test("a floe's lineage is that of the files", async () => {
   const last = births.at(-1).floe_id;
   const parents = [];
   for (let at = last; at !== null; at = births[at].parent_id) parents.unshift(at);
-  assert.ok(await pointAt(last), `floe ${last} is not under the pointer`);
-  await page.mouse.down();
-  await page.mouse.up();
+  const box = await stageBox();
+  const [x, y] = await page.player(({ view, places }, id) => view.toScreen(places.x[id], places.y[id]), last);
+  await page.mouse.move(box.x + x, box.y + y);
+  assert.equal(await page.player(({ state }) => state.hovered), last);
+  await page.mouse.click(box.x + x, box.y + y);
   const shown = await page.locator(".lineage li > button:first-child").evaluateAll((all) =>
     all.map((b) => b.textContent));
   assert.deepEqual(shown.filter((words) => words.startsWith("floe")), [parents[0], ...parents.slice(-7)].map((id) =>
     `floe ${id}`));
   const events = readNdjson(run, "events.ndjson");
   await page.locator(".lineage li > button:nth-child(2)").first().click();
-  assert.equal(await page.evaluate(() => window.polynyaPlayer.state.time),
-    events.find((e) => e.floe === parents[0]).t_s);
+  assert.equal(await time(), events.find((e) => e.floe === parents[0]).t_s);
   await page.keyboard.press("Escape");
 });
 
@@ -153,12 +143,12 @@ test("a floe that was chosen is followed through its fractures, to its largest p
   const comesFrom = (id) => id === plate || (births[id].parent_id !== null && comesFrom(births[id].parent_id));
   await act("goTo", 0);
   await act("select", plate);
-  assert.equal(await page.locator("[data-fact=floe]").textContent(), String(plate));
-  for (const time of [200, 550]) {
-    await act("goTo", time);
-    const pieces = [...inspectAt(run, time).keys()].filter(comesFrom).sort((a, b) =>
-      births[b].area_m2 - births[a].area_m2);
-    assert.equal(await page.locator("[data-fact=floe]").textContent(), String(pieces[0]));
+  assert.equal(await page.text("[data-fact=floe]"), String(plate));
+  for (const at of [200, 550]) {
+    await act("goTo", at);
+    const pieces = [...inspectAt(run, at).keys()].filter(comesFrom);
+    const largest = pieces.reduce((best, id) => (births[id].area_m2 > births[best].area_m2 ? id : best));
+    assert.equal(await page.text("[data-fact=floe]"), String(largest));
   }
   await page.keyboard.press("Escape");
 });
@@ -166,8 +156,7 @@ test("a floe that was chosen is followed through its fractures, to its largest p
 test("floes are drawn where final.geojson has them", async () => {
   await act("goToEnd", true);
   const { features } = JSON.parse(fs.readFileSync(path.join(run, "final.geojson"), "utf8"));
-  const placed = await page.evaluate(() => {
-    const { places, run: { floes } } = window.polynyaPlayer;
+  const placed = await page.player(({ places, run: { floes } }) => {
     const rings = {};
     for (const id of places.living.subarray(0, places.count)) {
       const points = floes.shape(id);
@@ -236,15 +225,14 @@ test("the contact forces shown are those of contacts.csv, at the hull, and go wi
     if (wanted.some((row) => Math.hypot(row.fx_N, row.fy_N) > 1e5)) assert.ok(arrows > 20,
       `${time} s: ${arrows} pixels`);
     if (wanted.length === 0) assert.equal(arrows, 0, `${time} s`);
-    const held = await page.evaluate(() => window.polynyaPlayer.contacts());
+    const held = await page.player((player) => player.contacts());
     assert.deepEqual(held.map(({ x, y, fx, fy, byFloe, isCrushing }) => [x, y, fx, fy, byFloe, isCrushing]),
       wanted.map((row) => [row.x_m, row.y_m, row.fx_N, row.fy_N, row.by_floe_id, row.is_crushing].map(Number)));
     shown += wanted.length;
   }
   t.diagnostic(`${shown} contacts`);
   assert.ok(shown > 5);
-  const unit = await page.locator("#legend").textContent();
-  assert.match(unit, /[kM]N.*crushing/);
+  assert.match(await text("legend"), /[kM]N.*crushing/);
   await act("toggleLayer", "forces", false);
   await act("toggleLayer", "track", true);
   await act("setFollow", -1);
@@ -285,8 +273,7 @@ test("following keeps the ship in the middle", async () => {
   await page.click("#follow");
   for (const time of [50, 400]) {
     await act("goTo", time);
-    const off = await page.evaluate(() => {
-      const { view, motions } = window.polynyaPlayer;
+    const off = await page.player(({ view, motions }) => {
       const [x, y] = view.toScreen(...motions.ship(0).subarray(0, 2));
       return Math.hypot(x - view.width / 2, y - view.height / 2);
     });
@@ -298,18 +285,15 @@ test("following keeps the ship in the middle", async () => {
 test("wheel and drag keep what is under the pointer under it", async () => {
   const box = await stageBox();
   const [left, top] = [Math.round(box.x + 300), Math.round(box.y + 200)]; // pointers are at whole pixels
-  const under = (dx, dy) => page.evaluate((at) => window.polynyaPlayer.view.toWorld(...at),
-    [left + dx - box.x, top + dy - box.y]);
+  const under = (dx, dy) => page.player(({ view }, ...at) => view.toWorld(...at), left + dx - box.x, top + dy - box.y);
   const first = await under(0, 0);
-  const scale = await page.evaluate(() => window.polynyaPlayer.view.scale);
+  const scale = await page.player(({ view }) => view.scale);
   await page.mouse.move(left, top);
   await page.mouse.wheel(0, -600);
   await page.waitForFunction((before) => window.polynyaPlayer.view.scale > 2 * before, scale);
   const zoomed = await under(0, 0);
   assert.ok(Math.hypot(zoomed[0] - first[0], zoomed[1] - first[1]) < 1e-6);
-  await page.mouse.down();
-  await page.mouse.move(left + 80, top + 60, { steps: 5 });
-  await page.mouse.up();
+  await page.drag([left, top], [left + 80, top + 60]);
   const moved = await under(80, 60);
   assert.ok(Math.hypot(moved[0] - first[0], moved[1] - first[1]) < 1e-6);
   await page.click("#fit");

@@ -23,18 +23,15 @@ before(async () => {
 });
 
 const over = () => page.locator("#plot .u-over").boundingBox();
-const span = () => page.evaluate(() => window.polynyaPlayer.plot.span);
-const scale = (name) => page.evaluate((key) => {
-  const { min, max } = window.polynyaPlayer.plot.chart.scales[key];
-  return [min, max];
-}, name);
+const span = () => page.player(({ plot }) => plot.span);
+const scale = (name) => page.player(({ plot: { chart } }, key) => [chart.scales[key].min, chart.scales[key].max], name);
 const close = (a, b, room = 1e-6) => Math.abs(a - b) <= room;
 
 test("true loads lead: the interval's mean, the step maximum, then j/\u03c4c by its name on its own axis", async () => {
   const key = await page.locator("#load-now .curve").allTextContents();
   assert.deepEqual(key.map((words) => words.replace(/[\u2212\d.]+ \w*N$/, "").trim()),
     ["0.1 s mean", "step maximum", "j/\u03c4c (paper)"]);
-  assert.equal(await page.locator("#quantity option").first().textContent(), "Surge force of the ice");
+  assert.equal(await page.text("#quantity option >> nth=0"), "Surge force of the ice");
   const zero = ([low, high]) => -low / (high - low);
   assert.ok(close(zero(await scale("y")), zero(await scale("paper")), 1e-9), "0 is at one height on both axes");
 });
@@ -42,23 +39,22 @@ test("true loads lead: the interval's mean, the step maximum, then j/\u03c4c by 
 test("j/\u03c4c is shown by default where it decides splits, elsewhere on request", async () => {
   assert.ok(await page.locator("#curve-paper").isChecked());
   const other = await open(makePage(runWithSpike("true-only", { splitting: { model: "lefm" } })));
+  const scales = () => other.player(({ plot }) => plot.chart.series.slice(1).map((series) => series.scale));
   assert.ok(!(await other.locator("#curve-paper").isChecked()));
-  assert.deepEqual(await other.evaluate(() => window.polynyaPlayer.plot.chart.series.slice(1).map((series) =>
-    series.scale)), ["y", "y"]);
+  assert.deepEqual(await scales(), ["y", "y"]);
   await other.locator("#curve-paper").check();
-  assert.deepEqual(await other.evaluate(() => window.polynyaPlayer.plot.chart.series.slice(1).map((series) =>
-    series.scale)), ["paper", "y", "y"]);
+  assert.deepEqual(await scales(), ["paper", "y", "y"]);
   await other.context().close();
 });
 
 test("one spike does not flatten the rest: it is marked and counted, and the full scale shows it", async () => {
   const [low] = await scale("y");
   assert.ok(low <= -3e5 && low > -6e5, `the scale goes down to ${low} N for steps of 300 kN`);
-  const words = await page.locator("#off-scale .long").textContent();
+  const words = await page.text("#off-scale .long");
   for (const part of ["0.1 s mean to \u22129.000 MN at 7.1 s", "step maximum to \u221213.50 MN at 7.1 s",
     "j/\u03c4c (paper) to \u2212180.0 MN"])
     assert.ok(words.includes(part), words);
-  assert.equal(await page.evaluate(() => window.polynyaPlayer.plot.off.count), 3);
+  assert.equal(await page.player(({ plot }) => plot.off.count), 3);
   await page.click("#full-scale");
   assert.ok((await scale("y"))[0] <= -13.5e6);
   assert.ok(!(await page.locator("#off-scale").isVisible()));
@@ -104,17 +100,14 @@ test("the wheel zooms about the pointer, a part can be chosen, a double click sh
   assert.ok(await page.locator("#whole-run").isDisabled());
 
   await page.keyboard.down("Shift");
-  await page.mouse.move(box.x + 0.2 * box.width, box.y + 30);
-  await page.mouse.down();
-  await page.mouse.move(box.x + 0.6 * box.width, box.y + 30, { steps: 4 });
-  await page.mouse.up();
+  await page.drag([box.x + 0.2 * box.width, box.y + 30], [box.x + 0.6 * box.width, box.y + 30]);
   await page.keyboard.up("Shift");
   const chosen = await span();
   assert.ok(close(chosen[0], 2, 0.05) && close(chosen[1], 6, 0.05), `${chosen}`);
   // In the part a drag goes to its times, and what is in view follows the present time.
   await page.mouse.click(box.x + 0.5 * box.width, box.y + 30);
-  assert.ok(close(await page.evaluate(() => window.polynyaPlayer.state.time), 4, 0.05));
-  await page.evaluate(() => window.polynyaPlayer.actions.goTo(9));
+  assert.ok(close(await page.player(({ state }) => state.time), 4, 0.05));
+  await page.act("goTo", 9);
   await page.waitForFunction(() => window.polynyaPlayer.plot.span[1] > 9);
   await page.click("#whole-run");
   assert.deepEqual(await span(), [0, 10]);

@@ -10,16 +10,17 @@ const scenes = path.resolve(__dirname, "../../scenes");
 exports.polynya = (...words) =>
   execFileSync(polynya, words, { encoding: "utf8", maxBuffer: 1 << 28, stdio: ["ignore", "pipe", "pipe"] });
 
-/** Runs a scene (a name of scenes/, or the scene itself) and writes its page. */
+/** Runs a scene, for its page. */
 exports.makeRun = (folder, scene, ...options) => {
-  const name = typeof scene === "string" ? scene : scene.name;
-  const run = path.join(folder, name.replace(/\W/g, "-"));
-  let file = path.join(scenes, `${name}.json`);
-  if (typeof scene !== "string") {
-    file = `${run}.json`;
-    fs.writeFileSync(file, JSON.stringify(scene));
-  }
-  exports.polynya("run", file, "--out", run, "--overwrite", "--progress", "none", ...options);
+  const run = path.join(folder, scene.name.replace(/\W/g, "-"));
+  fs.writeFileSync(`${run}.json`, JSON.stringify(scene));
+  exports.polynya("run", `${run}.json`, "--out", run, "--overwrite", "--progress", "none", ...options);
+  return run;
+};
+/** A run of a shipped scene in the folder of runs that all files of tests share (`tests/view/run` empties it). */
+exports.shippedRun = (folder, name, ...options) => {
+  const run = path.join(process.env.POLYNYA_SHARED_RUNS ?? folder, name);
+  if (!fs.existsSync(run)) exports.polynya("run", path.join(scenes, `${name}.json`), "--out", run, ...options);
   return run;
 };
 exports.makePage = (run, ...options) => {
@@ -59,6 +60,12 @@ exports.smallScene = (name, fields) => ({
   name,
   time: { step_s: 0.01, until_s: 10 },
   floes: [{ lattice: { origin_m: [20, 0], columns: 3, rows: 3, pitch_m: 18, size_m: 15 }, velocity_m_per_s: [0.2, 0] }],
+  ...fields,
+});
+/** A ship breaks cusps that float from a plate, beside a floe that nobody touches. */
+exports.plateAndFloe = (name, fields) => exports.smallScene(name, {
+  time: { step_s: 0.01, until_s: 30 }, fracture: { cusp_fate: "float", splitting: { model: "michel" } },
+  floes: [[[2, 0], [90, 60]], [[2, 80], [20, 20]]].map(([corner_m, size_m]) => ({ rectangle: { corner_m, size_m } })),
   ...fields,
 });
 exports.ship = (name, y) => ({

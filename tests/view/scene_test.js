@@ -20,10 +20,10 @@ const write = (name, fields = {}) => {
 };
 
 /** How many pixels of the marks are nearly of a colour of the theme. */
-const pixelsOf = (page, name) => page.evaluate((colour) => {
+const pixelsOf = (page, name) => page.player(({ colours }, colour) => {
   const canvas = document.getElementById("marks");
   const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-  const wanted = [1, 3, 5].map((k) => parseInt(window.polynyaPlayer.colours[colour].slice(k, k + 2), 16));
+  const wanted = [1, 3, 5].map((k) => parseInt(colours[colour].slice(k, k + 2), 16));
   let count = 0;
   for (let i = 0; i < data.length; i += 4)
     if (data[i + 3] > 200 && wanted.every((value, k) => Math.abs(value - data[i + k]) < 12)) ++count;
@@ -35,11 +35,9 @@ test("a scene is shown with its route, wind, current and names, and without what
   assert.match(polynya("view", file), /routed\.html {2}9 floes, 2 hulls/);
   const page = await open(file.replace(".json", ".html"));
   assert.equal(await page.locator("footer").isVisible(), false);
-  assert.match(await page.locator("#badge").textContent(), /not run; until 10 s/);
-  const { floes, routes, wind, right } = await page.evaluate(() => {
-    const { run, plan, box } = window.polynyaPlayer;
-    return { floes: run.floes.count, routes: plan.routes, wind: plan.wind_m_per_s, right: box.right };
-  });
+  assert.match(await page.text("#badge"), /not run; until 10 s/);
+  const { floes, routes, wind, right } = await page.player(({ run, plan, box }) =>
+    ({ floes: run.floes.count, routes: plan.routes, wind: plan.wind_m_per_s, right: box.right }));
   assert.equal(floes, 9);
   assert.deepEqual(routes, [{ points_m: [[-80, 10], [300, 40]], speeds_m_per_s: [3] }]);
   assert.deepEqual(wind, [10, 0]);
@@ -54,10 +52,10 @@ test("a click gives coordinates to copy", async () => {
   const file = write("picked.json", { ships: [ship("icebreaker", 30)] });
   polynya("view", file, "--out", path.join(folder, "picked.html"));
   const page = await open(path.join(folder, "picked.html"), { permissions: ["clipboard-read", "clipboard-write"] });
-  const at = await page.evaluate(() => window.polynyaPlayer.view.toScreen(70, 20));
+  const at = await page.player(({ view }) => view.toScreen(70, 20));
   const stage = await page.locator("#stage").boundingBox();
   await page.mouse.click(stage.x + at[0], stage.y + at[1]);
-  const [x, y] = await page.evaluate(() => window.polynyaPlayer.state.place);
+  const [x, y] = await page.player(({ state }) => state.place);
   assert.ok(Math.hypot(x - 70, y - 20) < 1);
   await page.locator("#toast").waitFor();  // the clipboard answers later
   assert.match(await page.locator("#toast").textContent(), new RegExp(`\\[${x}, ${y}\\] m`));
@@ -69,13 +67,13 @@ test("what validate warns of is listed, and marked where it has a place", async 
   const file = write("warned.json", { ships: [ship("icebreaker", 30), far], ice: { thickness_m: 19 } });
   polynya("view", file);
   const page = await open(file.replace(".json", ".html"));
-  const problems = await page.evaluate(() => window.polynyaPlayer.plan.problems);
+  const problems = await page.player(({ plan }) => plan.problems);
   const warned = JSON.parse(polynya("validate", "--json", file));
   assert.ok(warned.length > 0, "the scene is unusual");
   assert.equal(problems.length, warned.length);
   assert.equal(await page.locator("#problems li").count(), problems.length);
-  for (const problem of problems.filter(({ path: key }) =>
-    key.startsWith("ships["))) assert.equal(problem.point_m.length, 2);
+  const ofShips = problems.filter(({ path: key }) => key.startsWith("ships["));
+  for (const problem of ofShips) assert.equal(problem.point_m.length, 2);
 });
 
 test("a watched scene is shown again when its file is saved", async () => {
@@ -84,10 +82,9 @@ test("a watched scene is shown again when its file is saved", async () => {
   const ended = new Promise((resolve) => { watching.on("exit", resolve); });
   await new Promise((resolve) => { watching.stdout.once("data", resolve); });
   const page = await open(file.replace(".json", ".html"));
-  assert.equal(await page.evaluate(() => window.polynyaPlayer.run.floes.count), 9);
+  assert.equal(await page.player(({ run }) => run.floes.count), 9);
   write("watched.json", { floes: "wrong" });
-  write("watched.json",
-    { ships: [ship("icebreaker", 30)], floes: [{ rectangle: { corner_m: [20, 0], size_m: [30, 30] } }] });
+  write("watched.json", { ships: [ship("icebreaker", 30)], floes: [{ rectangle: { corner_m: [20, 0], size_m: 30 } }] });
   await page.waitForFunction(() => window.polynyaPlayer?.run.floes.count === 1, null, { timeout: 20000 });
   watching.kill("SIGTERM");
   assert.equal(await ended, 0);

@@ -4,8 +4,8 @@ const { test, before, assert, folder, open } = require("./bench.js");
 const { makeRun, makePage, giveLoads, smallScene, ship } = require("./runs.js");
 
 let page, rows;
-const causes = ["ice", "friction", "submerged", "water", "thrust", "rudder",
-  "mooring"]; // from 0 outwards, as the plot stacks them
+// From 0 outwards, as the plot stacks them.
+const causes = ["ice", "friction", "submerged", "water", "thrust", "rudder", "mooring"];
 
 /** Loads that change their signs, of row k. */
 const loadsOf = (k) => {
@@ -17,19 +17,15 @@ const loadsOf = (k) => {
 /** What each cause gives in a row of forces.csv [N]. */
 const partsOf = (row) => ({ ice: row.surge_N - row.surge_from_ice_friction_N, friction: row.surge_from_ice_friction_N,
   submerged: row.surge_from_submerged_ice_N, water: row.surge_from_water_N, thrust: row.thrust_N,
-    rudder: row.surge_from_rudder_N,
-  mooring: row.surge_from_mooring_N });
+  rudder: row.surge_from_rudder_N, mooring: row.surge_from_mooring_N });
 const sumOf = (values) => values.reduce((sum, value) => sum + value, 0);
 
 /** A run of a moored ship with an engine, whose forces.csv has been given known loads; sampled at an interval [s]. */
 function runWithLoads(name, interval) {
-  const moored = { ...ship("a", 0), hull: { length_m: 40, beam_m: 8, entrance_angle_deg: 27, draught_m: 2,
-    block_coefficient: 0.6 },
-    propulsion: { engine: { bollard_pull_kN: 100, open_water_speed_m_per_s: 6,
-      propeller_diameter_m: 1.5 } }, steering: { rudder: { area_m2: 2 } },
-    mooring: { surge_stiffness_N_per_m: 1e4 } };
-  delete moored.mass_kg;
-  delete moored.moment_of_inertia_kg_m2;
+  const { mass_kg: _, moment_of_inertia_kg_m2: __, ...moored } = { ...ship("a", 0),
+    hull: { length_m: 40, beam_m: 8, entrance_angle_deg: 27, draught_m: 2, block_coefficient: 0.6 },
+    propulsion: { engine: { bollard_pull_kN: 100, open_water_speed_m_per_s: 6, propeller_diameter_m: 1.5 } },
+    steering: { rudder: { area_m2: 2 } }, mooring: { surge_stiffness_N_per_m: 1e4 } };
   const run = makeRun(folder, smallScene(name, { ships: [moored], record: { forces_interval_s: interval } }));
   return { run, rows: giveLoads(run, loadsOf) };
 }
@@ -42,8 +38,7 @@ before(async () => {
 });
 
 /** The colours of the plot in the middle of each cause's area at a time, and whether each is that cause's. */
-const areasAt = (time, parts) => page.evaluate(([at, list]) => {
-  const { chart, colours } = window.polynyaPlayer.plot;
+const areasAt = (time, parts) => page.player(({ plot: { chart, colours } }, at, list) => {
   const probe = document.createElement("canvas").getContext("2d");
   const bytesOf = (colour) =>
     { probe.fillStyle = colour; probe.fillRect(0, 0, 1, 1); return [...probe.getImageData(0, 0, 1, 1).data].join(); };
@@ -60,7 +55,7 @@ const areasAt = (time, parts) => page.evaluate(([at, list]) => {
     return { cause, isClear: Math.abs(a - b) > 4 && Math.abs(y - sum) > 4,
       isIts: colour === bytesOf(colours[`cause-${cause}`]) };
   });
-}, [time, parts]);
+}, time, parts);
 
 test("each cause has its area, one on the other from 0, above it or below it", async () => {
   let compared = 0;
@@ -90,9 +85,10 @@ test("the key has the causes of this ship, with their present values, and the su
 });
 
 test("a cause that is ticked off leaves the stack, the sum stays that of all", async () => {
-  const before = await page.evaluate(() => window.polynyaPlayer.plot.chart.scales.y.max);
+  const most = () => page.player(({ plot }) => plot.chart.scales.y.max);
+  const before = await most();
   await page.locator("#curve-thrust").uncheck();
-  const now = await page.evaluate(() => window.polynyaPlayer.plot.chart.scales.y.max);
+  const now = await most();
   assert.ok(now < before - 1.5e5, `${before} N, then ${now} N`);
   const row = rows[47];
   const parts = partsOf(row);
@@ -110,13 +106,12 @@ test("rows closer than the pixels are drawn as their means, which is stated; zoo
   const { run } = runWithLoads("by-cause-densely", 0.01);
   const dense = await open(makePage(run), { viewport: { width: 900, height: 700 } });
   await dense.selectOption("#quantity", "surge_by_cause");
-  const words = () => dense.locator("#off-scale").textContent();
+  const words = () => dense.text("#off-scale");
   const stated = /means over ([\d.]+) s/.exec(await words());
   assert.ok(Number(stated?.[1]) >= 0.02, await words());
-  const most = await dense.evaluate(() => window.polynyaPlayer.plot.inView().map(({ values }) =>
-    Math.max(...values.map(Math.abs))));
+  const most = await dense.player(({ plot }) => plot.inView().map(({ values }) => Math.max(...values.map(Math.abs))));
   assert.ok(most[0] > 1e6, "mooring reaches 1 MN in the last rows");
-  await dense.evaluate(() => window.polynyaPlayer.actions.zoomPlot(2, 3));
+  await dense.act("zoomPlot", 2, 3);
   assert.ok(!(await words()).includes("means"));
   await dense.context().close();
 });

@@ -122,6 +122,15 @@ class SceneExport : public testing::Test {
     for (const auto& [name, text] : scene->files) write_file(folder / name, text);
     return load(scene->files[0].second);
   }
+  void expect_ship_goes_on(const io::Run& whole, double time) const {
+    const auto at = io::MotionIndex(whole).ship_at(0, time);
+    const io::LoadedScene loaded = continued(whole, time);
+    const simulation::Ship& ship = loaded.scene.ships[0];
+    EXPECT_EQ(ship.position_in_world, at->position);
+    const geometry::Vector ahead{std::cos(at->angle), std::sin(at->angle)};
+    EXPECT_NEAR(length(ship.speed * ahead + ship.sway_speed * perpendicular(ahead) - at->velocity), 0, 1e-12);
+    EXPECT_NEAR(ship.yaw_rate, at->angular_velocity, 1e-12);
+  }
   TemporaryFolder folder;
 };
 
@@ -144,50 +153,33 @@ Miss miss_between(const io::Run& a, const io::Run& b) {
   return miss;
 }
 
-TEST_F(SceneExport, ContinuingFromTheEndMovesAsAnUnbrokenRun) {
+/// From the end of a shorter run, and from the frame before 8.6 s of the run itself.
+TEST_F(SceneExport, ContinuingMovesAsAnUnbrokenRun) {
   const io::Run whole = run("whole", load(crowd(12)));
+  EXPECT_GT(distance(io::MotionIndex(whole).ship_at(0, 12)->position, {-31, 1}), 5);
   const io::Run half = run("half", load(crowd(8)));
-  const io::LoadedScene scene = continued(half, half.end_time());
-  EXPECT_TRUE(std::ranges::any_of(scene.scene.floes, [](const simulation::FloeSpec& floe) {
+  io::LoadedScene of_half = continued(half, half.end_time());
+  EXPECT_TRUE(std::ranges::any_of(of_half.scene.floes, [](const simulation::FloeSpec& floe) {
     return length(floe.velocity) > 0.05;
   })) << "ice is on the move";
-  EXPECT_EQ(scene.scene.floes[5].source_floe, 5);
-  const io::LoadedScene again = load(scene.resolved_text);
-  EXPECT_EQ(again.hash, scene.hash);
-  const io::Run rest = run("rest", load([&] {
-                             std::string text = read_file(folder / "scene.json");
-                             const std::size_t at = text.find("\"until_s\": ");
-                             return text.replace(at, text.find_first_of(",\n}", at) - at, "\"until_s\": 4");
-                           }()));
-  const Miss miss = miss_between(whole, rest);
-  EXPECT_LT(miss.ship, 2e-3);
-  EXPECT_LT(miss.floes, 0.2);
-  const double moved = distance(io::MotionIndex(whole).ship_at(0, 12)->position, {-31, 1});
-  EXPECT_GT(moved, 5);
-}
+  EXPECT_EQ(of_half.scene.floes[5].source_floe, 5);
+  EXPECT_EQ(load(of_half.resolved_text).hash, of_half.hash);
+  const std::string text = read_file(folder / "scene.json");
+  const std::size_t at = text.find("\"until_s\": ");
+  of_half = load(std::string(text).replace(at, text.find_first_of(",\n}", at) - at, "\"until_s\": 4"));
 
-TEST_F(SceneExport, AFrameIsAStartToo) {
-  const io::Run whole = run("whole", load(crowd(12)));
   const auto scene = checked(views::continued_scene(whole, 8.6));
   EXPECT_EQ(scene->time, 8);
   EXPECT_TRUE(scene->left_out.empty());
-  const io::LoadedScene loaded = continued(whole, 8.6);
-  EXPECT_NEAR(loaded.scene.time.until, 4, 1e-12);
-  EXPECT_NEAR(loaded.scene.water.shear.origin.y, -1.6, 1e-12);
-  const Miss miss = miss_between(whole, run("rest", loaded));
-  EXPECT_LT(miss.ship, 2e-3);
-  EXPECT_LT(miss.floes, 0.2);
-}
-
-TEST_F(SceneExport, AShipGoesOnAsItWent) {
-  const io::Run whole = run("whole", load(crowd(6)));
-  const auto at = io::MotionIndex(whole).ship_at(0, 6);
-  const io::LoadedScene loaded = continued(whole, 6);
-  const simulation::Ship& ship = loaded.scene.ships[0];
-  EXPECT_EQ(ship.position_in_world, at->position);
-  const geometry::Vector ahead{std::cos(at->angle), std::sin(at->angle)};
-  EXPECT_NEAR(length(ship.speed * ahead + ship.sway_speed * perpendicular(ahead) - at->velocity), 0, 1e-12);
-  EXPECT_NEAR(ship.yaw_rate, at->angular_velocity, 1e-12);
+  const io::LoadedScene of_frame = continued(whole, 8.6);
+  EXPECT_NEAR(of_frame.scene.time.until, 4, 1e-12);
+  EXPECT_NEAR(of_frame.scene.water.shear.origin.y, -1.6, 1e-12);
+  for (const auto& [name, rest] : {std::pair("end", of_half), std::pair("frame", of_frame)}) {
+    const Miss miss = miss_between(whole, run(name, rest));
+    EXPECT_LT(miss.ship, 2e-3) << name;
+    EXPECT_LT(miss.floes, 0.2) << name;
+  }
+  expect_ship_goes_on(half, half.end_time());
 }
 
 TEST_F(SceneExport, TheClockOfATablePilotGoesOn) {

@@ -2,8 +2,6 @@
 #include "views/map/final_map.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
 
 #include "../io/scene_text.hpp"
@@ -28,10 +26,9 @@ io::Run run_of_three(const std::string& name, const std::string& more = "") {
                                 R"("structures": [{"name": "pile", "radius_m": 5, "position_m": [90, 0]}])"}));
   run.label = name;
   for (int ship = 0; ship < 3; ++ship) {
-    simulation::HullSample sample;
+    simulation::HullSample& sample = run.samples.emplace_back();
     sample.time = 10;
     sample.ship = ship;
-    run.samples.push_back(sample);
   }
   run.frames = {{.time = 0, .ships = {}, .floes = {}}, {.time = 10, .ships = {}, .floes = {}}};
   run.events = {{5, 1, {}, simulation::Bend()}};
@@ -60,8 +57,7 @@ io::Run run_with_floes(const std::string& name) {
   return run;
 }
 
-/// Of the five floes the first floats all the time, the second is under a hull from 5 s on, and the third
-/// came up.
+/// Of the five floes the first floats all the time, the second is under a hull from 5 s on, and the third came up.
 io::Run run_with_ice_under_a_hull() {
   io::Run run = run_with_floes("level");
   run.scene.scene.ships[0].hull.draught = 6;
@@ -148,16 +144,12 @@ TEST(FinalMap, IceUnderAHullHasALayerOfItsOwn) {
 TEST(FinalMap, IceUnderAHullIsAPartOfTheVtkExport) {
   const tests::TemporaryFolder folder;
   ASSERT_TRUE(export_vtk(run_with_ice_under_a_hull(), {}, folder.path()).has_value());
-  const auto count = [&](const char* file, const std::string& words) {
-    std::ifstream stream(folder.path() / file);
-    EXPECT_TRUE(stream) << file;
-    return count_of({std::istreambuf_iterator<char>(stream), {}}, words);
-  };
-  EXPECT_EQ(count("run.pvd", "under-hull-"), 2U);
-  EXPECT_EQ(count("under-hull-00000.vtp", "NumberOfLines=\"0\""), 1U);
-  EXPECT_EQ(count("under-hull-00001.vtp", "NumberOfLines=\"1\""), 1U);
-  EXPECT_EQ(count("ice-00001.vtp", "NumberOfLines=\"4\""), 1U);
-  EXPECT_EQ(count("loads-00001.vtp", "NumberOfVerts=\"4\""), 1U) << "three ships and one fracture";
+  EXPECT_EQ(count_of(tests::read_file(folder / "run.pvd"), "under-hull-"), 2U);
+  for (const auto& [file, words] : {std::pair{"under-hull-00000.vtp", "NumberOfLines=\"0\""},
+                                    {"under-hull-00001.vtp", "NumberOfLines=\"1\""},
+                                    {"ice-00001.vtp", "NumberOfLines=\"4\""},
+                                    {"loads-00001.vtp", "NumberOfVerts=\"4\""}})  // three ships and one fracture
+    EXPECT_EQ(count_of(tests::read_file(folder / file), words), 1U) << file;
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-// A picture of the player: node tests/view/screenshot.js PAGE.html OUT.png [STEP...]    (playwright-core in NODE_PATH)
+// A picture of the player: node tools/screenshot.js PAGE.html OUT.png [STEP...]    (playwright-core in NODE_PATH)
 // Each STEP is a call of the player, such as goTo=300, setFollow=0, colourBy=speed, zoomCentre=2, select=240,
 // toggleLayer=velocities or toggleTheme; first, "phone" makes it a phone's screen, "size=1440x900" a window of that
 // size.
 "use strict";
 const path = require("node:path");
-const { startBrowser, openPage } = require("./browser.js");
+const { startBrowser, openPage } = require("../tests/view/browser.js");
 
 async function main([file, out, ...steps]) {
   const isPhone = steps[0] === "phone";

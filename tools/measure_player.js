@@ -1,11 +1,10 @@
-// Measures the player: node tests/view/measure.js PAGE.html [seconds]     (playwright-core in NODE_PATH)
+// Measures the player: node tools/measure_player.js PAGE.html [seconds]     (playwright-core in NODE_PATH)
 // Prints how long the page took to open, the time between frames and in drawing while it plays, and the processor time
-// of all the
-// browser's processes for a frame, which other work on the machine changes little (Linux).
+// of all the browser's processes for a frame, which other work on the machine changes little (Linux).
 "use strict";
 const fs = require("node:fs");
 const path = require("node:path");
-const { startBrowser, openPage } = require("./browser.js");
+const { startBrowser, openPage } = require("../tests/view/browser.js");
 
 /** Processor time of this process' descendants [ms]. */
 function processorTime() {
