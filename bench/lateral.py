@@ -54,30 +54,18 @@ def best_of(found):
 def print_case(case, found):
     best = best_of(found)
     ours = (best, "tick", "one")
+    ratios = [(row["peer_longest"]["ms"] / row[best]["ms"], row["peer"]["ms"] / row["one"]["ms"]) for row in found]
+    for place, row, (of_best, of_one) in zip(PLACES, found, ratios):
+        costs = " | ".join(f"{row[name]['ms']:.3f} | {row[name]['surge']:.1f}" for name in ours)
+        print(f"| {case} | {place} | {costs} | {row['peer']['ms']:.3f} | {row['peer_longest']['ms']:.3f} | "
+              f"{row['peer_longest']['step']:g} | {of_best:.2f} | {of_one:.2f} |", flush=True)
 
-    def line(place, ms, surge, step, ratio, ratio_of_one):
-        costs = " | ".join(f"{ms(name):.3f} | {surge(name)}" for name in ours)
-        print(f"| {case} | {place} | {costs} | {ms('peer'):.3f} | {ms('peer_longest'):.3f} | {step} | {ratio} | "
-              f"{ratio_of_one:.2f} |", flush=True)
-
-    def ratio(row, name, peer):
-        return row[peer]["ms"] / row[name]["ms"]
-
-    for place, row in zip(PLACES, found):
-        line(place, lambda name, row=row: row[name]["ms"], lambda name, row=row: f"{row[name]['surge']:.1f}",
-             f"{row['peer_longest']['step']:g}", f"{ratio(row, best, 'peer_longest'):.2f}",
-             ratio(row, "one", "peer"))
-
-    def median(value):
-        return statistics.median(value(row) for row in found)
-
-    def mean_surge(name):
-        return "{:.2f} ± {:.2f}".format(*mean_and_error([row[name]["surge"] for row in found]))
-
-    line(f"all; tick {found[0][best]['step']:g} s, {found[0]['tick']['step']:g} s",
-         lambda name: median(lambda row: row[name]["ms"]), mean_surge, "",
-         f"**{median(lambda row: ratio(row, best, 'peer_longest')):.2f}**",
-         median(lambda row: ratio(row, "one", "peer")))
+    medians = {name: statistics.median(row[name]["ms"] for row in found) for name in ENGINES}
+    surges = {name: mean_and_error([row[name]["surge"] for row in found]) for name in ours}
+    costs = " | ".join("{:.3f} | {:.2f} ± {:.2f}".format(medians[name], *surges[name]) for name in ours)
+    of_best, of_one = (statistics.median(column) for column in zip(*ratios))
+    print(f"| {case} | all; tick {found[0][best]['step']:g} s, {found[0]['tick']['step']:g} s | {costs} | "
+          f"{medians['peer']:.3f} | {medians['peer_longest']:.3f} |  | **{of_best:.2f}** | {of_one:.2f} |", flush=True)
 
 
 def main():

@@ -168,9 +168,10 @@ TEST(PlanDrag, TheRotationalIntegralIsExactForDiscRingAndRectangles) {
     EXPECT_NEAR(moment(rectangle(10, 6), about) / third_moment_of_rectangle({-5, -3}, {5, 3}, about), 1, 1e-9);
 }
 
-/// m v' = −½ C_D ρ_w A v² ⇒ v(t) = v0 / (1 + k v0 t), k = C_D ρ_w A / 2m, for any step length, and I ω' = −½ C_D ρ_w K
-/// ω²: by its edge A = h w and K = h times the rotational integral; in plan, whatever its course and thickness, A = 60
-/// m² and K = ∫r³dA.
+/// m v' = −½ C_D ρ_w A v² ⇒ v(t) = v0 / (1 + k v0 t), k = C_D ρ_w A / 2m, for any step length.
+/// I ω' = −½ C_D ρ_w K ω² alike.
+/// By its edge A = h w, and K is h times the rotational integral.
+/// In plan A = 60 m² and K = ∫r³dA, whatever its course and thickness.
 TEST(WaterDrag, AFreeFloeSlowsAndStopsItsSpinAsTheClosedForms) {
   Random random(4);
   for (const double dt : {0.005, 0.5, 50.0}) {

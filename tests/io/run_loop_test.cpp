@@ -145,7 +145,7 @@ TEST(RunLoop, ALargeFinalGeojsonIsWrittenOnRequestAlone) {
 
 TEST(MemoryAvailable, IsWhatTheMachineHasFreeWithSwapAndWhatThisProcessHas) {
   const TemporaryFolder root;
-  EXPECT_TRUE(std::isinf(memory_available(root.path()).bytes)) << "nothing tells";
+  EXPECT_TRUE(std::isinf(memory_available(root.path()).bytes)) << "nothing states a limit";
   EXPECT_GT(memory_available().bytes, 1e6);
   write_file(root / "proc/meminfo", "MemTotal: 9000 kB\nMemAvailable:    3000 kB\nSwapFree: 1000 kB\n");
   write_file(root / "proc/self/statm", "100 0 0 0 0 0 0\n");

@@ -56,7 +56,8 @@ Stop stop_of(const Scene& scene, double gap) {
 constexpr double kStiffness = 2 * 2.8e6 * 0.5;
 
 /// A right corner: F = σ_c h dS/dξ = 2 σ_c h ξ, S = ξ², so it stops as half a swing of a spring:
-/// depth v √(m/2σ_c h), time π/2 √(m/2σ_c h), peak v √(2σ_c h m). A face of 2 m presses with a constant force.
+/// depth v √(m/2σ_c h), time π/2 √(m/2σ_c h), peak v √(2σ_c h m).
+/// A face of 2 m presses with a constant force.
 TEST(CrushLaw, ACornerAndAFlatFaceStopAsTheirClosedFormsSay) {
   for (const double gap : {0.0001, 0.0021, 0.0034}) {
     const Stop corner = stop_of(floe_against_wall(square_on_its_corner(gap), 0.005), gap);

@@ -126,8 +126,9 @@ double swept_share(const PatternLine& line, double drift, double speed, double b
 }
 
 TEST(Pattern, LeavesNoGapsWhileDriftTimesPeriodIsWithinTheBand) {
-  // Passes of the line at a place y are at y/W and 1 − y/W of half periods: a band of b leaves |gap − b| of both gaps,
-  // spacing (½ ± y/W). Of the mean over y that is (1 − b/spacing)².
+  // Passes of the line at a place y are at y/W and 1 − y/W of half periods.
+  // A band of b leaves |gap − b| of both gaps, spacing (½ ± y/W).
+  // Of the mean over y that is (1 − b/spacing)².
   for (const auto& [pattern, depth, drift, narrow, least, most] :
        {std::tuple{Form::kLinear, 0.0, 0.25, 0.5, 0.69, 0.81}, {Form::kCircular, kWide, 0.16, 0.2, 0.0, 0.95}}) {
     const PatternLine line = line_of(managing(pattern, depth));

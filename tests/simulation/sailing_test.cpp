@@ -376,8 +376,8 @@ TEST(Pilot, OneFromOutsideTakesThePlaceOfTheScenes) {
   EXPECT_NEAR(run(simulation, 100).samples.back().steering_angle, 0, 1e-12);
 }
 
-/// 10° of rudder to either side, laid over whenever the heading has changed by 10°. [IMO2002] at L/V = 20 s: overshoots
-/// of at most 15° and 32.5°, and the first 10° within 2.5 L.
+/// 10° of rudder to either side, laid over whenever the heading has changed by 10°.
+/// [IMO2002] at L/V = 20 s: overshoots of at most 15° and 32.5°, and the first 10° within 2.5 L.
 TEST(Pilot, ZigZagsAsShipsDo) {
   Scene scene = piloted(ConstantPilot{}, 6);
   scene.ships[0].propulsion = engine(314e3, 6);
