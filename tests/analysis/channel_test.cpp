@@ -216,7 +216,9 @@ TEST(PlacedIce, IsWhatItsFloeEncloses) {
   EXPECT_EQ(geometry::measure(crossed[0].polygon).area + geometry::measure(crossed[1].polygon).area, 2);
   EXPECT_TRUE(analysis::add_ice(none, nullptr, {{{0, 0}, {1, 1}, {2, 2}}, {}}));
   const Polygon endless{{{0, 0}, {1, 0}, {0, std::numeric_limits<double>::infinity()}}, {}};
-  EXPECT_HAS(analysis::add_ice(none, nullptr, endless).error(), "a placed floe is not a polygon");
+  const auto placed = analysis::add_ice(none, nullptr, endless);
+  ASSERT_FALSE(placed.has_value());
+  EXPECT_HAS(placed.error(), "a placed floe is not a polygon");
   EXPECT_TRUE(none.empty());
 }
 

@@ -39,7 +39,8 @@ TEST_F(Usage, ErrorsNameTheCommandTheFaultAndWhatWasMeant) {
        "query\n"},
       {{"database", "build", "--out", ""}, 2, "--out: the name is empty"},
       {{"database", "show", "--svg", ""}, 2, "--svg: the name is empty"}};
-  for (const std::vector<std::string>& row : table_of("app/usage.txt")) rows.push_back({row[0], 2, row[1]});
+  for (const std::vector<std::string>& row : table_of("app/usage.txt"))
+    rows.push_back({row[0], 2, std::regex_replace(row[1], std::regex(R"(\\n)"), "\n")});
   expect_refusals(rows, {folder->path()});
   for (const char* name : {"x.html", "runs"}) EXPECT_FALSE(std::filesystem::exists(*folder / name)) << name;
 }
