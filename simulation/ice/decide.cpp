@@ -46,9 +46,34 @@ void find_crack(const Setup& setup, const dynamics::Bodies& bodies, const HullCo
       fracture::michel_splitting_force(load.ice, length, setup.scene.fracture.splitting_shape_factor);
 }
 
+/// V_b and the cusp, by the law of crushing ice where the load comes to V_b: within the step or, of a contact that is
+/// found late, before it. V ∝ ξ^n by its slope and V_b ∝ ξ^e by its value at one more depth, where V would come to the
+/// V_b of the depth at hand.
+fracture::BendingCapacity capacity_where_it_breaks(const Setup& setup, const HullContactLoad& load) {
+  constexpr double kLeastExponent = 0.5;  // of n and n - e: below it V and V_b need not meet anywhere near
+  constexpr double kLeastShare = 0.25;    // of the depth: farther back the powers do not hold
+  fracture::BendingLoad bending = bending_load(setup, load);
+  const fracture::BendingCapacity here = setup.bending->capacity(bending);
+  if (!is_crush_law(setup) || load.vertical_force <= 0 || !std::isfinite(here.vertical_force)) return here;
+  const double n = load.stiffness * load.contact.depth / load.normal_force;
+  if (n < kLeastExponent) return here;
+  const double ratio = here.vertical_force / load.vertical_force;
+  const double share = std::max(kLeastShare, std::pow(ratio, 1 / n));
+  if (share == 1 || share > 1 + load.contact.approach_speed * setup.step / load.contact.depth) return here;
+  bending.penetration *= share;
+  bending.vertical_force = here.vertical_force;
+  fracture::BendingCapacity there = setup.bending->capacity(bending);
+  if (!std::isfinite(there.vertical_force)) return here;
+  const double e = std::log(there.vertical_force / here.vertical_force) / std::log(share);
+  if (n - e >= kLeastExponent) there.vertical_force = here.vertical_force * std::pow(ratio, e / (n - e));
+  // V has passed V_b already: the ice has broken, however far the powers hold.
+  if (ratio < 1) there.vertical_force = std::min(there.vertical_force, load.vertical_force);
+  return there;
+}
+
 /// V of the contact, V_b and the cusp. Returns whether the model answered for the load itself.
 bool measure_bending(const Setup& setup, const HullContactLoad& load, PendingFracture& pending) {
-  fracture::BendingCapacity capacity = setup.bending->capacity(bending_load(setup, load));
+  fracture::BendingCapacity capacity = capacity_where_it_breaks(setup, load);
   const BendingFactors factors = bending_factors_of(setup.scene, load.contact.a);
   capacity.vertical_force *= factors.load;
   capacity.cusp_radius *= factors.cusp_radius;

@@ -156,6 +156,19 @@ TEST(Bending, TheHullFollowsIceThatBendsAwayOrOnlyCrushesIt) {
   EXPECT_GT(event.time, 1.3 * crushed.time);
 }
 
+/// V_b and R follow the depth of the facet, which a step finds up to .048 m before or after the ice breaks.
+TEST(Bending, TheCuspIsNotTheSteps) {
+  const auto radius = [](double step) {
+    Ship bow = barge({-0.001, 0}, ConstantSpeed{1.5}, 1.5);
+    set_hull_angle(bow, kHullAngle);
+    Build scene = Build().thickness(0.3).step(step).one_step_for_all().without_drag().without_splits().ship(bow);
+    scene.floe(fast({{{0, 0}, {40, -450}, {80, -450}, {80, 450}, {40, 450}}, {}}));  // a corner of 170 degrees
+    return std::get<Bend>(first_bend(scene).what).cusp_radius;
+  };
+  const double fine = radius(0.0002);
+  for (const double step : {0.01, 0.02, 0.03, 0.05}) EXPECT_NEAR(radius(step) / fine, 1, 0.006) << step;
+}
+
 /// What the ice gives way does not change what a vertical wall, or a floe too small to break, takes.
 TEST(Bending, WhatCannotBendDoesNotRecede) {
   for (const bool is_small : {false, true}) {
