@@ -131,7 +131,7 @@ int parts_of_tick(const Setup& setup, const Clock& clock, const Population& popu
   double longest = setup.scene.time.step;
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull)
     longest = std::min(longest, longest_step(setup, population, hull));
-  const double needed = std::min<double>(most, std::ceil(setup.scene.time.step / longest * (1 - 1e-9)));
+  const double needed = std::min<double>(most, std::ceil(setup.scene.time.step / longest / kWayExceeded));
   return std::min(most, static_cast<int>(needed) * clock.finer);
 }
 
