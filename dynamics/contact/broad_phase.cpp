@@ -16,7 +16,7 @@ using geometry::Pose;
 /// pairs are sought (smaller: more often) against how many are kept (greater: more).
 constexpr double kBoxMargin = 2.0;
 /// Bodies that leave their boxes, for one thread at a time.
-constexpr std::size_t kMovedPerChunk = 64;
+constexpr std::size_t kMovedPerChunk = 16;
 
 /// Fragments' vertices are rounded by far less than that [m]. Smaller than the rounding, fragments that touch
 /// may be taken for apart.
@@ -60,10 +60,13 @@ void BroadPhase::add(const Bodies& bodies, BodyIndex body) {
 
 void BroadPhase::place(const Bodies& bodies, BodyIndex body, const Box& box) {
   Entry& entry = entries_[body];
-  if (entry.is_in) grid_.remove(body, entry.box);
-  entry.box = geometry::grown(box, kBoxMargin);
+  const Box grown = geometry::grown(box, kBoxMargin);
+  if (entry.is_in)
+    grid_.move(body, entry.box, grown);
+  else
+    grid_.insert(body, grown);
+  entry.box = grown;
   travel_limits_[body] = bodies.travel[body] + kBoxMargin;
-  grid_.insert(body, entry.box);
   entry.is_in = true;
 }
 

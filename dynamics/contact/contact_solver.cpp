@@ -35,6 +35,12 @@ constexpr int sweeps_to_jam(const Island& island) {
   return is_large(island) ? 24 : 48;
 }
 
+/// Room for that many: steps with few contacts come between those with many.
+template <class T>
+void grow(std::vector<T>& list, std::size_t count) {
+  if (list.size() < count) list.resize(count);
+}
+
 /// Calls use(part, range) for each part of an island: for its two halves, 0 and 1, side by side, then for what is
 /// between, 2.
 template <class Use>
@@ -52,14 +58,14 @@ template <class Law>
 void ContactSolver::fill(const Bodies& bodies, const std::vector<Contact>& contacts, const Law& law, int threads) {
   auto& states = std::get<States<Law>>(states_);
   const std::span touched = islands_.bodies_touched();
-  solver_bodies_.resize(touched.size());
+  grow(solver_bodies_, touched.size());
   for_chunks(touched.size(), kContactsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
     take_bodies(bodies, touched.subspan(begin, end - begin), std::span(solver_bodies_).subspan(begin, end - begin));
   });
-  constraints_.resize(contacts.size());
-  states.resize(contacts.size());
-  sums_.resize(contacts.size());
-  directions_.resize(contacts.size());
+  grow(constraints_, contacts.size());
+  grow(states, contacts.size());
+  grow(sums_, contacts.size());
+  grow(directions_, contacts.size());
   for_chunks(contacts.size(), kContactsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t i = islands_.order()[k];
@@ -278,7 +284,7 @@ double ContactSolver::solve_island(const Island& island, const Law& law, const S
 template <class Law>
 void ContactSolver::write_back(Bodies& bodies, std::vector<Contact>& contacts, const Law& law, int threads) {
   const auto& states = std::get<States<Law>>(states_);
-  for_chunks(constraints_.size(), kContactsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+  for_chunks(contacts.size(), kContactsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       Contact& contact = contacts[islands_.order()[k]];
       const Sums& sums = sums_[k];

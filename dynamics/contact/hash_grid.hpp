@@ -41,6 +41,17 @@ class HashGrid {
     for_cells(level.cell, box, [&](std::int64_t key) { erase(level.cells[key]); });
   }
 
+  /// A body whose box has moved: mostly within the same cells.
+  void move(BodyIndex body, const geometry::Box& from, const geometry::Box& to) {
+    if (!is_wide(from) && !is_wide(to) && &level_of(from) == &level_of(to)) {
+      const double cell = level_of(to).cell;
+      if (cell_of(from.low, cell) == cell_of(to.low, cell) && cell_of(from.high, cell) == cell_of(to.high, cell))
+        return;
+    }
+    remove(body, from);
+    insert(body, to);
+  }
+
   /// Calls function(other) for each body in the cells of the box, once per common cell.
   template <typename Function>
   void for_each_near(const geometry::Box& box, Function function) const {
@@ -57,13 +68,18 @@ class HashGrid {
   static constexpr double kFewCells = 64;      ///< that many are always looked up one by one
   static constexpr double kMostCells = 65536;  ///< a body that spans more is in no cell but near all bodies
 
+  /// Column and row.
+  static std::array<std::int64_t, 2> cell_of(geometry::Point p, double cell) {
+    return {static_cast<std::int64_t>(std::floor(p.x / cell)), static_cast<std::int64_t>(std::floor(p.y / cell))};
+  }
+
   template <typename Function>
   static void for_cells(double cell, const geometry::Box& box, Function function) {
-    const auto index = [&](double x) { return static_cast<std::int64_t>(std::floor(x / cell)); };
-    for (std::int64_t row = index(box.low.y); row <= index(box.high.y); ++row) {
-      for (std::int64_t column = index(box.low.x); column <= index(box.high.x); ++column) {
+    const auto [first_column, first_row] = cell_of(box.low, cell);
+    const auto [last_column, last_row] = cell_of(box.high, cell);
+    for (std::int64_t row = first_row; row <= last_row; ++row) {
+      for (std::int64_t column = first_column; column <= last_column; ++column)
         function((row << 32) ^ (column & 0xffffffff));
-      }
     }
   }
 

@@ -189,14 +189,10 @@ void decide(const Setup& setup, const Clock& clock, int threads, const Populatio
   step.fractures.clear();
   step.slopes.clear();
   step.loads.assign(static_cast<std::size_t>(population.hull_count), {});
-  dynamics::for_chunks(step.contacts.size(), dynamics::kContactsPerChunk, threads,
-                       [&](std::size_t, std::size_t begin, std::size_t end) {
-                         for (std::size_t i = begin; i < end; ++i) {
-                           Contact& c = step.contacts[i];
-                           c.friction = setup.scene.ice.friction;
-                           if (!population.is_hull(c.a)) decide_between_floes(setup, clock, population, c);
-                         }
-                       });
+  dynamics::for_contacts(step.contacts, threads, [&](Contact& c) {
+    c.friction = setup.scene.ice.friction;
+    if (!population.is_hull(c.a)) decide_between_floes(setup, clock, population, c);
+  });
   for (Contact& c : step.contacts) {  // by (a, b): those of hulls come first
     if (!population.is_hull(c.a)) break;
     step.slopes.emplace_back();

@@ -3,6 +3,7 @@
 #include <span>
 #include <utility>
 
+#include "dynamics/chunks.hpp"
 #include "fracture/crushing.hpp"
 #include "geometry/exact/measures.hpp"
 #include "simulation/ice/pieces.hpp"
@@ -145,17 +146,17 @@ void book(double thickness, double friction, const HullSlope& hull, const Contac
 
 }  // namespace
 
-void book_overlaps(const Setup& setup, const Population& population, const StepData& step) {
+void book_overlaps(const Setup& setup, int threads, const Population& population, const StepData& step) {
   if (!is_crush_law(setup)) return;
   const std::vector<double>& thickness = population.bodies.thickness;
   const double friction = setup.scene.ice.friction;
-  for (std::size_t i = 0; i < step.contacts.size(); ++i) {
-    const Contact& c = step.contacts[i];
-    if (c.total_normal_impulse() == 0 || c.is_rigid()) continue;
+  dynamics::for_contacts(step.contacts, threads, [&](const Contact& c) {
+    if (c.total_normal_impulse() == 0 || c.is_rigid()) return;
+    const auto i = static_cast<std::size_t>(&c - step.contacts.data());
     const bool is_at_hull = i < step.slopes.size();
     book(is_at_hull ? thickness[c.b] : std::min(thickness[c.a], thickness[c.b]), friction,
          is_at_hull ? step.slopes[i] : HullSlope{}, c);
-  }
+  });
 }
 
 // ---- blind overlaps are ground
@@ -336,9 +337,10 @@ void shed_parted(const Setup& setup, const Clock& clock, const dynamics::PartedC
 void shed_touching(const Setup& setup, const Clock& clock, const Touching& touching, Population& population,
                    Accounts& accounts, Journal& journal) {
   const Contact& c = touching.contacts.front();
-  if (are_prescribed(population.bodies, c.a, c.b) || !can_cut(population, accounts, c.a, c.b)) return;
-  const double crushed = touching.crushed_area();  // records of bodies that broke may be gone
-  if (crushed == 0) return;
+  const dynamics::Bodies& bodies = population.bodies;
+  if (!bodies.is_alive[c.a] || !bodies.is_alive[c.b]) return;  // their records may be gone
+  const double crushed = touching.crushed_area();
+  if (crushed == 0 || are_prescribed(bodies, c.a, c.b) || !can_cut(population, accounts, c.a, c.b)) return;
   const double least = kLeastCrushedShare * smaller_area(population, c.a, c.b);
   if (crushed < least || (touching.is_pressing() && !touching.is_vertical() && !is_most(population, c, crushed)))
     return;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dynamics/chunks.hpp"
 #include "simulation/ice/beams.hpp"
 #include "simulation/ship/pressing.hpp"
 
@@ -19,14 +20,17 @@ constexpr double kAimedShare = 1.01;
 /// where one is stopped another may let go. Solved again so often at most.
 constexpr int kMostRounds = 8;
 
-void keep_start(const dynamics::Bodies& bodies, const std::vector<Contact>& contacts, std::vector<SolverStart>& kept) {
-  kept.clear();
-  for (const Contact& c : contacts)
-    kept.push_back({{bodies.velocity[c.a], bodies.velocity[c.b]},
-                    {bodies.angular_velocity[c.a], bodies.angular_velocity[c.b]},
-                    {c.record->last_impulse[0], c.record->last_impulse[1]},
-                    c.record->last_slip_impulse,
-                    c.record->loaded_depth});
+void keep_start(const dynamics::Bodies& bodies, const std::vector<Contact>& contacts, int threads,
+                std::vector<SolverStart>& kept) {
+  kept.resize(contacts.size());
+  dynamics::for_contacts(contacts, threads, [&](const Contact& c) {
+    kept[static_cast<std::size_t>(&c - contacts.data())] = {
+        {bodies.velocity[c.a], bodies.velocity[c.b]},
+        {bodies.angular_velocity[c.a], bodies.angular_velocity[c.b]},
+        {c.record->last_impulse[0], c.record->last_impulse[1]},
+        c.record->last_slip_impulse,
+        c.record->loaded_depth};
+  });
 }
 
 void go_back(const std::vector<SolverStart>& kept, const std::vector<Contact>& contacts, dynamics::Bodies& bodies) {
@@ -199,7 +203,7 @@ dynamics::SolverResult solve_to_splits(const Setup& setup, const dynamics::Solve
     find_splits(setup, population, step.contacts, step.splits);
     find_broken_beams(setup, population, step);
   };
-  keep_start(bodies, step.contacts, step.solver_start);
+  keep_start(bodies, step.contacts, settings.threads, step.solver_start);
   Instants instants(step.contacts, setup.step);
   dynamics::SolverResult result = solve();
   find();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/chunks.hpp"
 #include "simulation/ice/split_instant.hpp"
 #include "simulation/ice/turning.hpp"
 #include "simulation/world/levels.hpp"
@@ -24,16 +25,18 @@ void enter_prescribed_work(const dynamics::Bodies& bodies, const dynamics::Conta
 
 /// Marks what crushed: contacts that needed all that crushing ice can carry. Enters what all contacts did
 /// into the accounts.
-void enter_contacts(const Setup& setup, const dynamics::Bodies& bodies, std::vector<dynamics::Contact>& contacts,
-                    Accounts& accounts) {
+void enter_contacts(const Setup& setup, int threads, const dynamics::Bodies& bodies,
+                    std::vector<dynamics::Contact>& contacts, Accounts& accounts) {
+  dynamics::for_contacts(contacts, threads, [&](dynamics::Contact& c) {
+    remember_overlap(c);
+    if (is_crush_law(setup)) remember_crushed(bodies, c);
+  });
   EnergyFlows& energy = accounts.audit.energy;
   double given = 0;
   for (dynamics::Contact& c : contacts) {
     (c.is_at_limit ? energy.crushing : energy.restitution) -= c.normal_work;
     energy.friction -= c.slip_work;
     given += c.normal_work + c.slip_work;
-    remember_overlap(c);
-    if (is_crush_law(setup)) remember_crushed(bodies, c);
     if (bodies.inverse_mass[c.a] == 0 || bodies.inverse_mass[c.b] == 0)
       enter_prescribed_work(bodies, c, accounts.audit);
     if (!c.is_at_limit || c.approach_speed <= 0) continue;
@@ -70,9 +73,9 @@ void push_ship(dynamics::Bodies& bodies, BodyIndex ship, double thrust_impulse, 
 
 }  // namespace
 
-void find_pairs(Population& population) {
-  population.pairs.update(population.bodies, population.due());
-  if (population.level == 0) population.pairs.update(population.bodies, population.moving_along);
+void find_pairs(int threads, Population& population) {
+  population.pairs.update(population.bodies, population.due(), 0, threads);
+  if (population.level == 0) population.pairs.update(population.bodies, population.moving_along, 0, threads);
 }
 
 void find_contacts(const Setup& setup, int threads, const Components& components, Population& population,
@@ -94,7 +97,7 @@ void solve_impulses(const Setup& setup, int threads, Population& population, Ste
   const dynamics::SolverResult result = solve_to_splits(setup, settings, population, step, accounts.counts);
   if (!result.is_converged()) ++accounts.counts.unconverged_steps;
   accounts.counts.largest_residual = std::max(accounts.counts.largest_residual, result.residual);
-  enter_contacts(setup, population.bodies, step.contacts, accounts);
+  enter_contacts(setup, threads, population.bodies, step.contacts, accounts);
   for (const dynamics::Contact& c : step.contacts) {
     if (c.total_normal_impulse() == 0) continue;
     wake(c.a, population);
@@ -181,7 +184,7 @@ const std::array<Stage, 34> kStages = {{
     {"steer", RunsIn::kTicks, [](World& w) { steer(w.setup, w.clock, w.pilots, w.population); }},
     {"press walls", RunsIn::kTicks, [](World& w) { press_walls(w.setup, w.clock, w.population, w.accounts.audit); }},
     {"keep motion", RunsIn::kTicks, [](World& w) { keep_motion(w.population, w.step); }},
-    {"find pairs", RunsIn::kAllSteps, [](World& w) { find_pairs(w.population); }},
+    {"find pairs", RunsIn::kAllSteps, [](World& w) { find_pairs(w.threads, w.population); }},
     {"find contacts", RunsIn::kAllSteps,
      [](World& w) { find_contacts(w.setup, w.threads, w.components, w.population, w.step, w.accounts.counts); }},
     {"decide", RunsIn::kAllSteps,
@@ -194,7 +197,7 @@ const std::array<Stage, 34> kStages = {{
     {"enter splits", RunsIn::kAllSteps, [](World& w) { enter_splits(w.setup, w.population, w.step); }},
     {"overload", RunsIn::kAllSteps, [](World& w) { fail(overload_of(w.setup, w.clock, w.population, w.step), w); }},
     {"tilt floes", RunsIn::kTicks, [](World& w) { tilt_floes(w.setup, w.population, w.step); }},
-    {"book overlaps", RunsIn::kAllSteps, [](World& w) { book_overlaps(w.setup, w.population, w.step); }},
+    {"book overlaps", RunsIn::kAllSteps, [](World& w) { book_overlaps(w.setup, w.threads, w.population, w.step); }},
     {"tally loads", RunsIn::kTicks, [](World& w) { tally_loads(w.population, w.step.contacts, w.step.loads); }},
     {"follow loads", RunsIn::kTicks,
      [](World& w) {

@@ -30,7 +30,7 @@ void hold_walls(const Setup& setup, const Clock& clock, Population& population, 
 /// Keeps the ships' motion before the step's impulses, and where all hulls are.
 void keep_motion(const Population& population, StepData& step);
 
-void find_pairs(Population& population);
+void find_pairs(int threads, Population& population);
 
 void find_contacts(const Setup& setup, int threads, const Components& components, Population& population,
                    StepData& step, Counts& counts);
@@ -58,7 +58,7 @@ void tilt_floes(const Setup& setup, Population& population, StepData& step);
 
 /// By the law of crushing ice: books what overlaps have grown in the step, as crushed, with the work that it took,
 /// or as tilted, where the ice edge gave way.
-void book_overlaps(const Setup& setup, const Population& population, const StepData& step);
+void book_overlaps(const Setup& setup, int threads, const Population& population, const StepData& step);
 
 /// Adds what the impulses did to the ships.
 void tally_loads(const Population& population, const std::vector<dynamics::Contact>& contacts,
