@@ -2,7 +2,7 @@
 
 Usage: python3 tools/step_cliff.py [BINARY] [--way M] [--ways H] [--places N] [--levels N] [--only THICKNESS,SPEED]
        BINARY by default build/release/app/polynya; --way, --ways: of the ship in the ice, at least so many metres and
-       so many thicknesses, since cusps grow with these; --places: lateral places of the ship in ice of 1 m and more;
+       so many thicknesses, since cusps grow with these; --places: lateral places of the ship in ice of .3 m and more;
        --levels: time.levels
 
 A ship of 80 m by 20 m at constant speed in fast ice that does not split. The run beside it has one step for all, a
@@ -23,7 +23,7 @@ from study import measured_run, rows_of, slant_of, slanted_ice
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 THICKNESSES = (0.05, 0.3, 2)  # [m]
 SPEEDS = (0.25, 1.5, 8)  # [m/s]
-THICK = 1  # ice that is broken at several places [m]
+THICK = 0.3  # ice that is broken at several places [m]
 BOW = 24  # the way after which the bow is in the ice [m]
 PARTS = 16
 ALLOWED = 0.05

@@ -382,7 +382,7 @@ TEST(Run, FloesGrowWithTheIceThatIsNewNotWithThePlate) {
   const TemporaryFolder folder;
   const LoadedScene scene = load(
       tests::scene({R"("name": "level", "time": {"step_s": 0.02, "until_s": 60}, )"
-                    R"("fracture": {"characteristic_length": "fourth_root"})",
+                    R"("fracture": {"splitting": {"model": "none"}})",
                     list("ships", {ship(R"("hull": {"length_m": 60}, "mass_kg": 3e6, "moment_of_inertia_kg_m2": 5e8,
          "position_m": [-30.5, 2], "propulsion": {"constant_speed_m_per_s": 3})")}),
                     list("floes", {R"({"rectangle": {"corner_m": [0, -75], "size_m": [300, 150]}})"})}));
@@ -514,13 +514,15 @@ TEST_F(UnderHullRun, BrashIsWhatCameUpAndWhatItBrokeInto) {
 
 TEST_F(UnderHullRun, EveryFloeEitherFloatsOrIsUnder) {
   const MotionIndex motions(*run);
+  std::size_t most = 0;
   for (const Frame& frame : run->frames) {
     const auto floating = floes_at(*run, motions, frame.time), under = floes_under_hulls_at(*run, motions, frame.time);
+    most = std::max(most, under.size());
     std::size_t there = 0;
     for (const RunFloe& floe : run->floes) there += floe.birth.time <= frame.time && frame.time < floe.died ? 1 : 0;
     EXPECT_EQ(floating.size() + under.size(), there) << frame.time;
   }
-  EXPECT_GE(floes_under_hulls_at(*run, motions, run->end_time()).size(), 5U);
+  EXPECT_GE(most, 5U);
 }
 
 TEST_F(UnderHullRun, ThinnedFramesHaveWhatIsUnderWhereItIs) {

@@ -22,7 +22,7 @@ SCENE = {
     "water": {"drift_m_per_s": [0.1, 0.3]},
     "ice": {"thickness_m": 0.5},
     "floes": [{"rectangle": {"corner_m": [0, -30], "size_m": [40, 60]}},
-              {"rectangle": {"corner_m": [42, -1], "size_m": 5}},
+              {"rectangle": {"corner_m": [42, 0], "size_m": 5}},
               {"polygon": {"outer_m": [[62, -9], [80, -9], [80, 9], [62, 9]],
                            "holes_m": [[[68, -3], [68, 3], [74, 3], [74, -3]]]}}],
 }
