@@ -3,8 +3,8 @@
 Usage: lateral.py BENCH [--quick] [--only CASE]      BENCH: polynya_bench_voyages
 
 Each by longer steps as far as its own answer holds. Ours: up to the longest tick with which the mean surge over the
-places differs from that by the tick of a scene that gives none by no more than their standard errors together, the one
-of least cost; Box2D's: the longest step with which its bodies come to the same places. Beside them ours by that tick,
+places differs from that by the tick of a scene that gives none by no more than their standard deviation, the one of
+least cost; Box2D's: the longest step with which its bodies come to the same places. Beside them ours by that tick,
 and both by one step for all. The last row of a case has the medians of the costs and ratios, and the means of the surge
 with standard errors.
 """
@@ -15,6 +15,7 @@ import math
 import pathlib
 import statistics
 import subprocess
+import sys
 import tempfile
 
 CASES = ("voyage", "field-10000")
@@ -41,13 +42,15 @@ def mean_and_error(values):
 
 def best_of(found):
     """The name of our tick of least cost, of those with which, and with all shorter ones, the mean surge stays."""
-    mean, error = mean_and_error([row["tick"]["surge"] for row in found])
+    surges = {name: [row[name]["surge"] for row in found] for name in ("tick", *LONGER)}
     holding = ["tick"]
     for longer in LONGER:
-        mean_of_longer, error_of_longer = mean_and_error([row[longer]["surge"] for row in found])
-        if abs(mean_of_longer - mean) > math.hypot(error, error_of_longer):
+        if abs(statistics.fmean(surges[longer]) - statistics.fmean(surges["tick"])) > statistics.stdev(surges["tick"]):
             break
         holding.append(longer)
+    for name, of in surges.items():
+        ms = statistics.median(row[name]["ms"] for row in found)
+        print(f"{name}: {ms:.3f} ms, {statistics.fmean(of):.3f} kN, deviation {statistics.stdev(of):.3f}", file=sys.stderr)
     return min(holding, key=lambda name: statistics.median(row[name]["ms"] for row in found))
 
 
