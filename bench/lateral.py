@@ -50,7 +50,8 @@ def best_of(found):
         holding.append(longer)
     for name, of in surges.items():
         ms = statistics.median(row[name]["ms"] for row in found)
-        print(f"{name}: {ms:.3f} ms, {statistics.fmean(of):.3f} kN, deviation {statistics.stdev(of):.3f}", file=sys.stderr)
+        print(f"{name}: {ms:.3f} ms, {statistics.fmean(of):.3f} kN, deviation {statistics.stdev(of):.3f}",
+              file=sys.stderr)
     return min(holding, key=lambda name: statistics.median(row[name]["ms"] for row in found))
 
 
