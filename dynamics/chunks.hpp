@@ -67,11 +67,11 @@ void for_chunks(std::size_t count, std::size_t chunk, int threads, Work work) {
   }
 }
 
-/// Calls work(contact) for each of a step's contacts, on that many threads.
+/// Calls work(contact, place) for each of a step's contacts, on that many threads.
 template <typename Contacts, typename Work>
 void for_contacts(Contacts& contacts, int threads, Work work) {
   for_chunks(contacts.size(), kContactsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) work(contacts[i]);
+    for (std::size_t i = begin; i < end; ++i) work(contacts[i], i);
   });
 }
 

@@ -48,7 +48,7 @@ void find_crack(const Setup& setup, const dynamics::Bodies& bodies, const HullCo
 
 /// V_b and the cusp, by the law of crushing ice where the load comes to V_b: within the step or, of a contact that is
 /// found late, before it. V ∝ ξ^n by its slope and V_b ∝ ξ^e by its value at one more depth, where V would come to the
-/// V_b of the depth at hand.
+/// V_b of the depth at hand; R is that of this depth.
 fracture::BendingCapacity capacity_where_it_breaks(const Setup& setup, const HullContactLoad& load) {
   constexpr double kLeastExponent = 0.5;  // of n and n - e: below it V and V_b need not meet anywhere near
   constexpr double kLeastShare = 0.25;    // of the depth: farther back the powers do not hold
@@ -189,7 +189,7 @@ void decide(const Setup& setup, const Clock& clock, int threads, const Populatio
   step.fractures.clear();
   step.slopes.clear();
   step.loads.assign(static_cast<std::size_t>(population.hull_count), {});
-  dynamics::for_contacts(step.contacts, threads, [&](Contact& c) {
+  dynamics::for_contacts(step.contacts, threads, [&](Contact& c, std::size_t) {
     c.friction = setup.scene.ice.friction;
     if (!population.is_hull(c.a)) decide_between_floes(setup, clock, population, c);
   });

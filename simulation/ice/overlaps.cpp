@@ -150,9 +150,8 @@ void book_overlaps(const Setup& setup, int threads, const Population& population
   if (!is_crush_law(setup)) return;
   const std::vector<double>& thickness = population.bodies.thickness;
   const double friction = setup.scene.ice.friction;
-  dynamics::for_contacts(step.contacts, threads, [&](const Contact& c) {
+  dynamics::for_contacts(step.contacts, threads, [&](const Contact& c, std::size_t i) {
     if (c.total_normal_impulse() == 0 || c.is_rigid()) return;
-    const auto i = static_cast<std::size_t>(&c - step.contacts.data());
     const bool is_at_hull = i < step.slopes.size();
     book(is_at_hull ? thickness[c.b] : std::min(thickness[c.a], thickness[c.b]), friction,
          is_at_hull ? step.slopes[i] : HullSlope{}, c);

@@ -23,13 +23,12 @@ constexpr int kMostRounds = 8;
 void keep_start(const dynamics::Bodies& bodies, const std::vector<Contact>& contacts, int threads,
                 std::vector<SolverStart>& kept) {
   kept.resize(contacts.size());
-  dynamics::for_contacts(contacts, threads, [&](const Contact& c) {
-    kept[static_cast<std::size_t>(&c - contacts.data())] = {
-        {bodies.velocity[c.a], bodies.velocity[c.b]},
-        {bodies.angular_velocity[c.a], bodies.angular_velocity[c.b]},
-        {c.record->last_impulse[0], c.record->last_impulse[1]},
-        c.record->last_slip_impulse,
-        c.record->loaded_depth};
+  dynamics::for_contacts(contacts, threads, [&](const Contact& c, std::size_t i) {
+    kept[i] = {{bodies.velocity[c.a], bodies.velocity[c.b]},
+               {bodies.angular_velocity[c.a], bodies.angular_velocity[c.b]},
+               {c.record->last_impulse[0], c.record->last_impulse[1]},
+               c.record->last_slip_impulse,
+               c.record->loaded_depth};
   });
 }
 

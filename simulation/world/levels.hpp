@@ -20,8 +20,8 @@ inline constexpr double kFloesWayOverThickness = 0.1;
 /// And in radii of contact circles: farther on, a contact is lost from one step to the next.
 inline constexpr double kWayOverCircle = 0.25;
 
-/// By so much a hull may exceed its way before a tick has one more part: else ice that a bow throws ahead by a tenth of
-/// the ship's speed doubles all steps at it.
+/// By so much a hull may exceed its way before a tick has one more part: else a ship that goes one way a tick has half
+/// the step wherever ice at it moves aside or comes to meet it.
 inline constexpr double kWayExceeded = 1.1;
 
 /// Steps are made shorter from so many bends in one on, in the mean of the last ticks. An overlap bends its ice once

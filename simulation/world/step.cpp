@@ -27,7 +27,7 @@ void enter_prescribed_work(const dynamics::Bodies& bodies, const dynamics::Conta
 /// into the accounts.
 void enter_contacts(const Setup& setup, int threads, const dynamics::Bodies& bodies,
                     std::vector<dynamics::Contact>& contacts, Accounts& accounts) {
-  dynamics::for_contacts(contacts, threads, [&](dynamics::Contact& c) {
+  dynamics::for_contacts(contacts, threads, [&](dynamics::Contact& c, std::size_t) {
     remember_overlap(c);
     if (is_crush_law(setup)) remember_crushed(bodies, c);
   });
