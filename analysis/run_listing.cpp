@@ -178,13 +178,11 @@ std::string under_hull_lines(const simulation::Counts& counts, const simulation:
                      areas.under_ice);
 }
 
-/// "ticks of 0.05 s, steps of 0.025 to 0.4 s".
+/// "ticks of 0.05 s, the shortest step 0.0125 s".
 std::string steps_of(const simulation::Counts& counts, double tick) {
-  const std::vector<io::StepsTaken> taken = io::steps_taken(counts);
   std::string ticks = fmt::format("ticks of {:g} s", tick);
-  if (taken.empty() || (taken.front().level == 0 && taken.back().level == 0)) return ticks;
-  return fmt::format("{}, steps of {:g} to {:g} s", ticks, std::ldexp(tick, taken.front().level),
-                     std::ldexp(tick, taken.back().level));
+  if (counts.most_parts <= 1) return ticks;
+  return fmt::format("{}, the shortest step {:g} s", ticks, io::shortest_step(counts, tick));
 }
 
 }  // namespace

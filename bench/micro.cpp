@@ -53,7 +53,7 @@ void measure_stage(benchmark::State& state, std::string_view name) {
       stage.run(world);
       if (stage.name == name) state.PauseTiming();
     }
-    contacts += static_cast<double>(world.step.contacts.size());
+    contacts += static_cast<double>(world.data.contacts.size());
     world.journal.clear();
     state.ResumeTiming();
   }

@@ -55,7 +55,7 @@ Profile profile(const Case& at, double part, int threads) {
         seconds[i] += std::chrono::duration<double>(now - before).count();
         before = now;
       }
-      result.contacts += static_cast<double>(world.step.contacts.size()) / static_cast<double>(steps);
+      result.contacts += static_cast<double>(world.data.contacts.size()) / static_cast<double>(steps);
       world.journal.clear();
     }
   });

@@ -109,7 +109,7 @@ RunCost step_through(simulation::Simulation& simulation, const Limits& limits) {
     report.ticks = static_cast<long>(simulation.steps() - done);
     report.awake =
         static_cast<int>(simulation.world().population.awake.size()) - simulation.world().population.hull_count;
-    report.contacts = counts_contacts ? touching_pairs(simulation.world().step.contacts) : -1;
+    report.contacts = counts_contacts ? touching_pairs(simulation.world().data.contacts) : -1;
     return report;
   });
   if (samples > 0) cost.surge /= static_cast<double>(samples);

@@ -20,6 +20,7 @@ BodyIndex add_body(Bodies& bodies, const NewBody& body) {
   for (const geometry::Point p : edges.vertices) radius = std::max(radius, distance(p, body.centroid));
   bodies.position.push_back(body.position);
   bodies.angle.push_back(body.angle);
+  bodies.angle_rest.push_back(0);
   bodies.rotation.push_back(geometry::Rotation::by(body.angle));
   bodies.velocity.push_back(body.velocity);
   bodies.angular_velocity.push_back(body.angular_velocity);
@@ -30,7 +31,6 @@ BodyIndex add_body(Bodies& bodies, const NewBody& body) {
   bodies.rim_speed.push_back(length(body.velocity) + std::abs(body.angular_velocity) * radius);
   bodies.drag_span.push_back({});
   bodies.is_awake.push_back(0);
-  bodies.level.push_back(kNoLevel);
   bodies.is_alive.push_back(1);
   bodies.mass.push_back(body.mass);
   bodies.moment.push_back(body.moment);
@@ -45,18 +45,17 @@ BodyIndex add_body(Bodies& bodies, const NewBody& body) {
 
 void reserve(Bodies& bodies, std::size_t count) {
   const auto reserve_all = [count](auto&... columns) { (columns.reserve(count), ...); };
-  reserve_all(bodies.position, bodies.angle, bodies.rotation, bodies.velocity, bodies.angular_velocity,
-              bodies.inverse_mass, bodies.inverse_moment, bodies.travel, bodies.bounding_radius, bodies.rim_speed,
-              bodies.drag_span, bodies.is_awake, bodies.level, bodies.is_alive, bodies.mass, bodies.moment,
-              bodies.centroid, bodies.area, bodies.thickness, bodies.kind, bodies.boundary, bodies.drag);
+  reserve_all(bodies.position, bodies.angle, bodies.angle_rest, bodies.rotation, bodies.velocity,
+              bodies.angular_velocity, bodies.inverse_mass, bodies.inverse_moment, bodies.travel,
+              bodies.bounding_radius, bodies.rim_speed, bodies.drag_span, bodies.is_awake, bodies.is_alive, bodies.mass,
+              bodies.moment, bodies.centroid, bodies.area, bodies.thickness, bodies.kind, bodies.boundary, bodies.drag);
 }
 
 void move_body(Bodies& bodies, BodyIndex i, geometry::Vector shift, double turn) {
   bodies.position[i] += shift;
   bodies.travel[i] += length(shift) + std::abs(turn) * bodies.bounding_radius[i];
   if (turn == 0) return;
-  bodies.angle[i] += turn;
-  bodies.rotation[i] = turned(bodies.rotation[i], turn);
+  turn_body(bodies, i, turn);
 }
 
 double integrate(Bodies& bodies, const std::vector<BodyIndex>& awake, double dt, int threads) {
@@ -68,8 +67,7 @@ double integrate(Bodies& bodies, const std::vector<BodyIndex>& awake, double dt,
     const double* angular_velocity = bodies.angular_velocity.data();
     const double* radius = bodies.bounding_radius.data();
     geometry::Point* position = bodies.position.data();
-    geometry::Rotation* rotation = bodies.rotation.data();
-    double *angle = bodies.angle.data(), *travel = bodies.travel.data();
+    double* travel = bodies.travel.data();
     double* rim_speed = bodies.rim_speed.data();
     double most = 0;
     for (const BodyIndex i : std::span(awake).subspan(begin, end - begin)) {
@@ -79,8 +77,7 @@ double integrate(Bodies& bodies, const std::vector<BodyIndex>& awake, double dt,
       if (is_faster(rim, most)) most = rim;
       position[i] += dt * velocity[i];
       travel[i] += dt * rim;
-      angle[i] += dt * omega;
-      rotation[i] = turned(rotation[i], dt * omega);
+      if (omega != 0) turn_body(bodies, i, dt * omega);
     }
     fastest[chunk] = most;
   });

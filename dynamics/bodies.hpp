@@ -15,9 +15,6 @@ namespace polynya::dynamics {
 
 using BodyIndex = std::int32_t;
 
-/// Bodies::level of what has its contacts in the steps of others: it stands still, or sleeps, or is far heavier.
-inline constexpr std::uint8_t kNoLevel = 255;
-
 /// Ships, structures and walls are hulls: rigid bodies that are not ice.
 enum class BodyKind : std::uint8_t { kShip, kStructure, kWall, kFloe };
 
@@ -49,7 +46,8 @@ struct DragSpan {
 struct Bodies {
   // Hot: read or written every step while awake.
   std::vector<geometry::Point> position;     ///< centre of mass in the water frame [m]
-  std::vector<double> angle;                 ///< of the body's axes [rad]
+  std::vector<double> angle;                 ///< of the body's axes; the sum of all its turns [rad]
+  std::vector<double> angle_rest;            ///< what rounding took from that sum (turn_body) [rad]
   std::vector<geometry::Rotation> rotation;  ///< cosine and sine of angle
   std::vector<geometry::Vector> velocity;    ///< of the centre of mass relative to the water [m/s]
   std::vector<double> angular_velocity;      ///< [rad/s]
@@ -60,8 +58,6 @@ struct Bodies {
   std::vector<double> rim_speed;             ///< bound of any point's speed at the last integration [m/s]
   std::vector<DragSpan> drag_span;
   std::vector<std::uint8_t> is_awake;
-  /// While not all bodies take the same steps: it takes 2^level ticks in one. Bodies that may touch have the same.
-  std::vector<std::uint8_t> level;
   // Cold.
   std::vector<std::uint8_t> is_alive;
   std::vector<double> mass;               ///< [kg], also of bodies of prescribed motion
@@ -155,20 +151,19 @@ inline double push(Bodies& bodies, BodyIndex i, geometry::Vector impulse, double
   return work;
 }
 
-/// The rotation by `turn` after r, for the small turns of a step [rad]. Cayley's form: a rotation to the last
-/// bit or two however many follow one another, by 2 atan(turn/2), which is turn³/12 short: 1e-14 at 0.01
-/// rad/s and 5 ms.
-inline geometry::Rotation turned(geometry::Rotation r, double turn) {
-  const double h = 0.5 * turn;
-  const double hh = h * h;
-  // 1 / (1 + h²): for all that turns by less than 6 mrad in a step its series is exact to the last bit.
-  const double scale = hh < 1e-5 ? 1 - hh * (1 - hh * (1 - hh)) : 1 / (1 + hh);
-  const double cosine = (1 - hh) * scale;
-  const double sine = 2 * h * scale;
-  return {r.cosine * cosine - r.sine * sine, r.sine * cosine + r.cosine * sine};
+/// Turns a body by an angle [rad]. Its angle is a compensated sum (TwoSum [Knuth1997]): however many turns follow one
+/// another, angle + angle_rest is their sum to the last bit or two, and the rotation is that by the angle.
+inline void turn_body(Bodies& bodies, BodyIndex i, double turn) {
+  const double before = bodies.angle[i];
+  const double added = turn + bodies.angle_rest[i];
+  const double sum = before + added;
+  const double taken = sum - before;
+  bodies.angle[i] = sum;
+  bodies.angle_rest[i] = (before - (sum - taken)) + (added - taken);
+  bodies.rotation[i] = geometry::Rotation::by(sum);
 }
 
-/// Moves a body by a displacement [m] and a small turn [rad].
+/// Moves a body by a displacement [m] and a turn [rad].
 void move_body(Bodies& bodies, BodyIndex i, geometry::Vector shift, double turn);
 
 /// A bound of any of its points' speed, now [m/s].

@@ -23,7 +23,6 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 tl::expected<Simulation, std::string> Simulation::resumed(Scene scene, std::string_view state) {
   auto world = std::make_unique<World>(std::move(scene), Shortcuts{}, Start::kEmpty);
   if (std::string reason = load_state(*world, state); !reason.empty()) return tl::unexpected(std::move(reason));
-  world->setup.scene.floes = std::vector<FloeSpec>();  // they are in the population now
   return Simulation(std::move(world));
 }
 std::string Simulation::state() const {
@@ -51,7 +50,7 @@ void validate([[maybe_unused]] const World& world) {
   if (world.failure) return;
   const auto defect = validate_world(world);
   if (!defect) return;
-  std::fprintf(stderr, "step %lld: %s\n", static_cast<long long>(world.clock.steps), defect->c_str());
+  std::fprintf(stderr, "step %lld: %s\n", static_cast<long long>(world.clock.ticks), defect->c_str());
   std::abort();
 #endif
 }
@@ -70,11 +69,11 @@ bool is_recorded(const World& world, const dynamics::Contact& contact) {
 
 }  // namespace
 
-void Simulation::step(std::int64_t most_ticks) {
+void Simulation::step() {
   if (thread_limit_ == nullptr) {
-    simulation::step(*world_, most_ticks);
+    simulation::step(*world_);
   } else {
-    thread_limit_->execute([&] { simulation::step(*world_, most_ticks); });
+    thread_limit_->execute([&] { simulation::step(*world_); });
   }
   validate(*world_);
 }
@@ -85,7 +84,7 @@ double Simulation::time() const {
   return world_->clock.time();
 }
 std::int64_t Simulation::steps() const {
-  return world_->clock.steps;
+  return world_->clock.ticks;
 }
 const Scene& Simulation::scene() const {
   return world_->setup.scene;
@@ -113,7 +112,7 @@ IceLedger Simulation::mass_ledger() const {
 Counts Simulation::counts() const {
   const Population& population = world_->population;
   Counts counts = world_->accounts.counts;
-  counts.steps = world_->clock.steps;
+  counts.steps = world_->clock.ticks;
   for (FloeId id = 0; id < population.floe_count(); ++id) counts.floes_final += population.is_floating(id);
   return counts;
 }
@@ -133,7 +132,7 @@ FloeState state_of(const World& world, Vector drift, FloeId id) {
   state.world_from_body = dynamics::water_from_body(bodies, body);
   state.world_from_body.position += drift;
   state.angle = bodies.angle[body];
-  state.velocity = bodies.velocity[body] + world.clock.water_drift;
+  state.velocity = bodies.velocity[body] + world.population.water_velocity;
   state.angular_velocity = bodies.angular_velocity[body];
   if (floe.is_under && !world.setup.current.is_still()) {  // it goes with the water
     state.velocity += world.setup.current.velocity_at(bodies.position[body]);
@@ -151,7 +150,7 @@ FloeState state_of(const World& world, Vector drift, FloeId id) {
 
 void Simulation::for_each_floe(Living which, const std::function<void(const FloeState&)>& use) const {
   const Population& population = world_->population;
-  const Vector drift = world_->clock.drift();
+  const Vector drift = drift_at(world_->setup, world_->clock.time());
   for (FloeId id = 0; id < population.floe_count(); ++id)
     if (which == Living::kFloating ? population.is_floating(id) : population.is_alive(id))
       use(state_of(*world_, drift, id));
@@ -187,21 +186,15 @@ std::vector<CrushedOverlap> Simulation::crushed_overlaps() const {
 std::vector<ContactState> Simulation::contact_states() const {
   const World& world = *world_;
   std::vector<ContactState> states;
-  const auto add = [&](const dynamics::Contact& c, double dt, const HullSlope* slope) {
-    if (!is_recorded(world, c)) return;
-    Clock of_step = world.clock;
-    of_step.step = dt;
-    ContactState& state = states.emplace_back(state_of(world.setup, of_step, world.population, c, slope));
-    const double then = (world.clock.ticks() - dt / world.clock.tick) * world.clock.tick;
-    state.point_in_world = c.centre_of_pressure() + world.clock.drift_at(then);
-    if (!world.population.is_hull(c.a)) return;
-    const geometry::Pose& water_from_hull = world.step.water_from_hull[static_cast<std::size_t>(c.a)];
+  for (std::size_t i = 0; i < world.data.contacts.size(); ++i) {
+    const dynamics::Contact& c = world.data.contacts[i];
+    if (!is_recorded(world, c)) continue;
+    const HullSlope* slope = i < world.data.slopes.size() ? &world.data.slopes[i] : nullptr;
+    ContactState& state = states.emplace_back(state_of(world.setup, world.last_step, world.population, c, slope));
+    if (!world.population.is_hull(c.a)) continue;
+    const geometry::Pose& water_from_hull = world.data.water_from_hull[static_cast<std::size_t>(c.a)];
     place_on_waterline(world.setup, inverse_transform(water_from_hull, c.centre_of_pressure()), state);
-  };
-  for (std::size_t i = 0; i < world.step.contacts.size(); ++i)
-    add(world.step.contacts[i], world.clock.step, i < world.step.slopes.size() ? &world.step.slopes[i] : nullptr);
-  for (std::size_t i = 0; i < world.step.longer_contacts.size(); ++i)
-    add(world.step.longer_contacts[i], world.step.longer_steps[i], nullptr);
+  }
   return states;
 }
 
@@ -211,9 +204,9 @@ std::vector<HullState> Simulation::ship_states() const {
   for (BodyIndex hull = 0; hull < world_->population.hull_count; ++hull) {
     HullState state;
     state.world_from_ship = dynamics::water_from_body(bodies, hull);
-    state.world_from_ship.position += world_->clock.drift();
+    state.world_from_ship.position += drift_at(world_->setup, world_->clock.time());
     state.heading = bodies.angle[hull];
-    state.velocity = bodies.velocity[hull] + world_->clock.water_drift;
+    state.velocity = bodies.velocity[hull] + world_->population.water_velocity;
     state.angular_velocity = bodies.angular_velocity[hull];
     states.push_back(state);
   }

@@ -88,15 +88,14 @@ class Simulation {
   /// outside pilot remembers is not in state().
   void set_pilot(int ship, ExternalPilot pilot);
 
-  /// One tick; or, where floes can take longer steps and so many ticks are allowed, up to that many. Appends what
-  /// happened in it to journal().
-  void step(std::int64_t most_ticks = 1);
+  /// Advances the run by one tick. Appends what happened in it to journal().
+  void step();
 
   /// Why the run cannot continue (NaN, runaway speed); checked every step.
   std::optional<std::string> numerical_failure() const;
 
-  double time() const;  ///< [s]
-  std::int64_t steps() const;
+  double time() const;         ///< [s]
+  std::int64_t steps() const;  ///< ticks so far
   const Scene& scene() const;  ///< without its floes: the simulation has taken them
   Journal& journal();
   IceLedger area_ledger() const;

@@ -106,7 +106,6 @@ void BroadPhase::leave_movers(BodyIndex body) {
 }
 
 void BroadPhase::wake(const Bodies& bodies, BodyIndex body) {
-  note_level(bodies, body);
   enter_mover(bodies, body);
   add_pairs_of(bodies, body);
 }
@@ -212,7 +211,6 @@ void BroadPhase::merge_new() {
   merge(recent_, new_);
   new_.clear();
   const std::size_t many = 16 + active_.size() / 8;
-  if (dropped_ > many || recent_.size() > many) has_levels_ = false;
   if (dropped_ > many) {
     erase_dropped(active_);
     erase_dropped(recent_);
@@ -260,44 +258,6 @@ void BroadPhase::update(const Bodies& bodies, const std::vector<BodyIndex>& awak
   if (!new_.empty() || dropped_ > 0) merge_new();
 }
 
-namespace {
-
-/// Of a pair, whose bodies take steps of their own.
-int level_of_pair(const std::uint8_t* level, BodyIndex a, BodyIndex b) {
-  const std::uint8_t lower = std::min(level[a], level[b]);
-  return lower == kNoLevel ? 0 : lower;
-}
-
-}  // namespace
-
-std::vector<std::uint32_t>& BroadPhase::places_of(int level) {
-  const auto place = static_cast<std::size_t>(level);
-  if (of_level_.size() <= place) of_level_.resize(place + 1);
-  return of_level_[place];
-}
-
-void BroadPhase::note_levels(const Bodies& bodies) {
-  for (auto& places : of_level_) places.clear();
-  const std::uint8_t* level = bodies.level.data();
-  for (std::size_t i = 0; i < active_.size(); ++i)
-    places_of(level_of_pair(level, active_[i].a, active_[i].b)).push_back(static_cast<std::uint32_t>(i));
-  has_levels_ = true;
-}
-
-void BroadPhase::note_level(const Bodies& bodies, BodyIndex body) {
-  if (!has_levels_) return;
-  for (const std::uint32_t slot : entries_[body].pairs) {
-    const ActivePair pair{pairs_[slot].a, pairs_[slot].b, -1, slot};
-    std::vector<std::uint32_t>& places = places_of(level_of_pair(bodies.level.data(), pair.a, pair.b));
-    const auto first = std::lower_bound(active_.begin(), active_.end(), pair);
-    for (auto active = first; active != active_.end() && !(pair < *active); ++active) {  // dropped ones too
-      const auto place = static_cast<std::uint32_t>(active - active_.begin());
-      const auto after = std::lower_bound(places.begin(), places.end(), place);
-      if (after == places.end() || *after != place) places.insert(after, place);
-    }
-  }
-}
-
 /// The pairs that may touch by now, by (a, b): of the active ones from begin to end, and of the recent ones
 /// that belong between these. Returns how many.
 std::size_t BroadPhase::find_pending(const Bodies& bodies, std::size_t begin, std::size_t end,
@@ -310,24 +270,15 @@ std::size_t BroadPhase::find_pending(const Bodies& bodies, std::size_t begin, st
   const std::size_t most = end - begin + static_cast<std::size_t>(last_recent - recent);
   if (pending.size() < most) pending.resize(most);
   const double* travel = bodies.travel.data();
-  const std::uint8_t* level = bodies.level.data();
   ActivePair** next = pending.data();
   const auto consider = [&](ActivePair& active) {
     const bool is_apart = travel[active.a] + travel[active.b] <= active.separation_bound;
-    const bool is_due = level_ == kEveryLevel || level_of_pair(level, active.a, active.b) == level_;
     *next = &active;  // without a branch: which pairs may touch is unpredictable
-    next += static_cast<int>(is_due) & static_cast<int>(!(is_apart & rule_.is_culling));
+    next += static_cast<int>(!(is_apart & rule_.is_culling));
   };
-  const auto consider_next = [&](ActivePair& active) {
-    while (recent != last_recent && *recent < active) consider(*recent++);
-    consider(active);
-  };
-  if (has_levels_ && level_ != kEveryLevel) {
-    const std::vector<std::uint32_t>& places = places_of(level_);
-    auto place = std::lower_bound(places.begin(), places.end(), begin);
-    for (; place != places.end() && *place < end; ++place) consider_next(active_[*place]);
-  } else {
-    for (std::size_t i = begin; i < end; ++i) consider_next(active_[i]);
+  for (std::size_t i = begin; i < end; ++i) {
+    while (recent != last_recent && *recent < active_[i]) consider(*recent++);
+    consider(active_[i]);
   }
   while (recent != last_recent) consider(*recent++);
   return static_cast<std::size_t>(next - pending.data());
@@ -347,9 +298,7 @@ void BroadPhase::collide(const Bodies& bodies, ActivePair& active, double dt, Pa
 
 /// All that may touch by now, by (a, b). Valid until the next call.
 std::span<BroadPhase::ActivePair* const> BroadPhase::find_all_pending(const Bodies& bodies, int threads) {
-  constexpr std::size_t kFew = 4096;
-  const bool are_few = has_levels_ && level_ != kEveryLevel && places_of(level_).size() <= kFew;
-  const std::size_t chunk = are_few ? std::max<std::size_t>(1, active_.size()) : kFew;
+  constexpr std::size_t chunk = 4096;
   const std::size_t chunks = std::max<std::size_t>(1, chunk_count(active_.size(), chunk));
   if (pending_.size() < chunks) pending_.resize(chunks);
   const auto find = [&](std::size_t k, std::size_t begin, std::size_t end) {
@@ -382,11 +331,9 @@ void BroadPhase::collide_share(const Bodies& bodies, std::span<ActivePair* const
   scratch.covers.clear();
 }
 
-void BroadPhase::find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads,
-                               int level) {
+void BroadPhase::find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads) {
   constexpr std::size_t kLeastShare = 16;  // of pairs that may touch: fewer are not worth another thread
   constexpr std::size_t kMostShares = 64;  // more take memory
-  level_ = level;
   if (!new_.empty() || dropped_ > 0) merge_new();
   const std::span<ActivePair* const> pending = find_all_pending(bodies, threads);
   const std::size_t share = std::max(kLeastShare, chunk_count(pending.size(), kMostShares));

@@ -76,16 +76,8 @@ class BroadPhase {
   void update(const Bodies& bodies, const std::vector<BodyIndex>& awake, double ahead = 0, int threads = 1);
 
   /// All contacts of the present positions, ordered by (a, b, place), the same on any number of threads.
-  /// Contact records are kept over the steps. Of bodies that take different steps: of the pairs that take theirs
-  /// by this Bodies::level, the lower of the two; 0 where neither has one.
-  void find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads = 1,
-                     int level = kEveryLevel);
-  static constexpr int kEveryLevel = -1;
-  /// Notes which pairs are of which level, where bodies have just got theirs: the search of a step then leaves out the
-  /// others. Finds the same contacts.
-  void note_levels(const Bodies& bodies);
-  /// The same of one that has got another.
-  void note_level(const Bodies& bodies, BodyIndex body);
+  /// Contact records are kept over the steps.
+  void find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads = 1);
 
   /// The pairs, by (a, b): together with the bodies, all that decides which contacts the next steps find.
   std::vector<PairState> pair_states() const;
@@ -103,16 +95,17 @@ class BroadPhase {
     });
   }
 
-  /// Calls use(other) for each body of a pair with this one of which matters(other) and whose box meets its box where
-  /// they are now: the same after a resume, though more pairs are kept then.
-  template <class Matters, class Use>
-  void for_bodies_at(const Bodies& bodies, BodyIndex body, Matters matters, Use use) const {
+  /// Calls use(other) for each body of a pair with this one for which matters(other) is true, and whose box meets this
+  /// body's box where they are now, grown by reach(other) [m]. That does not depend on which more distant pairs are
+  /// kept, which may differ after a resume; `reach` must be within the margin of the pairs' boxes (update's `ahead`).
+  template <class Matters, class Reach, class Use>
+  void for_bodies_at(const Bodies& bodies, BodyIndex body, Matters matters, Reach reach, Use use) const {
     std::optional<geometry::Box> box;
     for (const std::uint32_t slot : entries_[static_cast<std::size_t>(body)].pairs) {
       const BodyIndex other = pairs_[slot].a == body ? pairs_[slot].b : pairs_[slot].a;
       if (!matters(other)) continue;
       if (!box) box = box_in_water(bodies, body);
-      if (overlaps(box_in_water(bodies, other), *box)) use(other);
+      if (overlaps(grown(box_in_water(bodies, other), reach(other)), *box)) use(other);
     }
   }
 
@@ -193,12 +186,7 @@ class BroadPhase {
   std::vector<ActivePair> recent_;  // the same; merged into active_ when there are many
   std::vector<ActivePair> new_;     // not sorted yet
   std::size_t dropped_ = 0;         // of all three
-  // By level, the places of its pairs in active_, ascending; also of levels that pairs had before.
-  std::vector<std::vector<std::uint32_t>> of_level_;
-  bool has_levels_ = false;  // they hold
-  std::vector<std::uint32_t>& places_of(int level);
-  int level_ = kEveryLevel;  // of find_contacts
-  double kept_pieces_ = 0;   // of all bodies' covers
+  double kept_pieces_ = 0;          // of all bodies' covers
   struct Pending {
     std::vector<ActivePair*> pairs;  // and room for more
     std::size_t count = 0;

@@ -92,8 +92,8 @@ Simulation at_last_checkpoint(const ActiveRun& run) {
 /// is. The step is found by stepping again from the newest sound checkpoint, which costs nothing where
 /// nothing fails.
 Result<> dump_failure(const ActiveRun& run) {
-  const auto step = [last = last_step_of(run.scene.scene.time)](Simulation& simulation) {
-    simulation.step(last - simulation.steps());
+  const auto step = [](Simulation& simulation) {
+    simulation.step();
     simulation.journal().clear();
   };
   Simulation ahead = at_last_checkpoint(run);
@@ -115,20 +115,10 @@ Result<> dump_failure(const ActiveRun& run) {
 
 constexpr std::int64_t kStepsBetweenReports = 16;  ///< looking at the clock costs as much as a small step
 
-/// Steps in a time [s], at least 1.
-std::int64_t steps_in(double duration, double step) {
-  return std::max<std::int64_t>(1, std::llround(duration / step));
-}
-
 }  // namespace
 
 RunRecorder::RunRecorder(Simulation& simulation, RunWriter& writer, const LoadedScene& scene, double wall_time)
-    : simulation_(simulation),
-      writer_(writer),
-      scene_(scene),
-      wall_time_before_(wall_time),
-      steps_per_frame_(steps_in(scene.scene.record.frames_interval, scene.scene.time.step)),
-      longest_step_(longest_block(simulation.world().setup)) {}
+    : simulation_(simulation), writer_(writer), scene_(scene), wall_time_before_(wall_time) {}
 
 void RunRecorder::begin(simulation::Journal& journal) {
   writer_.record(journal);
@@ -144,18 +134,12 @@ Result<> RunRecorder::checkpoint(double wall_time) {
   return written;
 }
 
-Result<> RunRecorder::before_end(std::int64_t ticks_left) {
-  if (ticks_left >= longest_step_ || has_end_checkpoint()) return {};
-  end_checkpoint_at_ = simulation_.steps();
-  return checkpoint(0);  // so that folders of one run are the same bytes
-}
-
-bool RunRecorder::has_end_checkpoint() const {
-  return end_checkpoint_at_ && simulation_.steps() - *end_checkpoint_at_ < longest_step_;
+bool RunRecorder::is_frame_due() const {
+  return is_due(simulation_.world().clock, scene_.scene.record.frames_interval);
 }
 
 Result<> RunRecorder::end() {
-  auto written = has_end_checkpoint() ? Result<>{} : checkpoint(0);
+  auto written = checkpoint(0);  // without the time that it took: folders of one run are the same bytes
   if (written && !is_frame_due()) writer_.frame(simulation_);
   return written;
 }
@@ -179,7 +163,6 @@ class RunLoop {
       : run_(run), control_(control), recorder_(run.simulation, run.writer, run.scene, run.wall_time) {
     const simulation::StepSettings& time = run.scene.scene.time;
     last_step_ = last_step_of(time);
-    if (control.checkpoint_every > 0) steps_per_checkpoint_ = steps_in(control.checkpoint_every, time.step);
   }
 
   /// Steps to the end of the run; nothing where it got there.
@@ -214,9 +197,7 @@ class RunLoop {
   Simulation& simulation() { return run_.simulation; }
 
   std::optional<Stop> advance_step() {
-    before_ = simulation().steps();
-    if (auto stop = stop_where_failed(recorder_.before_end(last_step_ - before_))) return stop;
-    simulation().step(last_step_ - before_);
+    simulation().step();
     recorder_.record_step();
     auto failure = control_.check ? failure_after_step(simulation()) : numerical_failure_of(simulation());
     if (failure) return Stop{RunEnd::kNumericalFailure, *std::move(failure)};
@@ -228,22 +209,19 @@ class RunLoop {
   std::optional<Stop> stop_on_request() {
     auto reason = control_.stop ? control_.stop() : std::nullopt;
     if (!reason) return {};
-    // Within the last steps, which this end cuts short, the one before them stands: a longer run goes on from there.
-    if (!recorder_.has_end_checkpoint())
-      if (auto failed = stop_where_failed(recorder_.checkpoint())) return failed;
+    if (auto failed = stop_where_failed(recorder_.checkpoint())) return failed;
     return Stop{RunEnd::kStopped, *reason};
   }
 
   /// Checkpoints, flushing and progress, each where it is due.
   std::optional<Stop> work_between_steps() {
     const std::int64_t step = simulation().steps();
-    const auto is_due = [&](std::int64_t every) { return step / every > before_ / every; };
-    const bool is_report_due = is_due(kStepsBetweenReports);
-    const bool is_checkpoint_due =
-        !recorder_.has_end_checkpoint() && ((steps_per_checkpoint_ > 0 && is_due(steps_per_checkpoint_)) ||
-                                            (is_report_due && control_.checkpoint_every_wall > 0 &&
-                                             recorder_.checkpoint_age() >= control_.checkpoint_every_wall));
-    if (is_checkpoint_due) return stop_where_failed(recorder_.checkpoint());
+    const bool is_report_due = step % kStepsBetweenReports == 0;
+    const bool is_due_by_time =
+        control_.checkpoint_every > 0 && is_due(simulation().world().clock, control_.checkpoint_every);
+    const bool is_due_by_wall = is_report_due && control_.checkpoint_every_wall > 0 &&
+                                recorder_.checkpoint_age() >= control_.checkpoint_every_wall;
+    if (is_due_by_time || is_due_by_wall) return stop_where_failed(recorder_.checkpoint());
     if (!is_report_due) return {};
     run_.writer.flush_if_due();
     if (auto stop = stop_where_failed(run_.writer.status())) return stop;
@@ -255,8 +233,6 @@ class RunLoop {
   const RunControl& control_;
   RunRecorder recorder_;
   std::int64_t last_step_ = 0;
-  std::int64_t before_ = 0;                ///< ticks before the last step, which may take several
-  std::int64_t steps_per_checkpoint_ = 0;  ///< 0: by the clock alone
 };
 
 }  // namespace

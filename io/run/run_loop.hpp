@@ -24,7 +24,7 @@ struct ActiveRun {
   double wall_time = 0;  ///< that it has taken before [s]
 };
 
-/// The step that a run ends with.
+/// The tick that a run ends with: its end is rounded up to a whole tick.
 std::int64_t last_step_of(const simulation::StepSettings& time);
 
 /// A run before its first step. The error is what is wrong with the folder (RunWriter::create).
@@ -63,13 +63,8 @@ class RunRecorder {
     if (is_frame_due()) writer_.frame(simulation_);
   }
   Result<> checkpoint() { return checkpoint(wall_time()); }
-  /// Before a step, with the ticks to the end of the run: the checkpoint from which a longer run goes on, ahead of
-  /// steps of several ticks that this end would cut short.
-  Result<> before_end(std::int64_t ticks_left);
-  /// Whether that one has been written: no later one is to take its place.
-  bool has_end_checkpoint() const;
-  /// At the end: a checkpoint where before_end() has written none, and behind it a frame where none was due. A longer
-  /// run goes on without the frame that only this end has.
+  /// At the end: a checkpoint, and behind it a frame where none was due. A longer run goes on from the checkpoint,
+  /// without the frame that only this end has.
   Result<> end();
   double wall_time() const { return wall_time_before_ + seconds_since(start_); }  ///< of the run so far [s]
   double checkpoint_age() const { return seconds_since(last_checkpoint_); }       ///< by the clock [s]
@@ -80,14 +75,11 @@ class RunRecorder {
     return std::chrono::duration<double>(Clock::now() - then).count();
   }
   Result<> checkpoint(double wall_time);
-  bool is_frame_due() const { return simulation_.steps() % steps_per_frame_ == 0; }
+  bool is_frame_due() const;
   simulation::Simulation& simulation_;
   RunWriter& writer_;
   const LoadedScene& scene_;
   double wall_time_before_;
-  std::int64_t steps_per_frame_;
-  std::int64_t longest_step_;                      ///< [ticks]
-  std::optional<std::int64_t> end_checkpoint_at_;  ///< the tick of the last one that before_end() wrote
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_checkpoint_ = start_;
 };

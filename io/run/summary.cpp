@@ -123,14 +123,6 @@ void append(JsonWriter& json, const simulation::PeakCounts& peaks, double least)
   json.key("largest_beyond_limit_N").value(peaks.largest_beyond).close('}');
 }
 
-/// The lengths of the steps that the run took.
-void append_levels(JsonWriter& json, const simulation::Counts& counts, double tick) {
-  json.key("levels").objects(steps_taken(counts), [&](const StepsTaken& taken) {
-    json.key("level").value(taken.level).key("step_s").value(std::ldexp(tick, taken.level));
-    json.key("steps").value(taken.steps);
-  });
-}
-
 constexpr std::size_t kMostShipContacts = 5;  ///< that each have a warning
 
 /// A warning for each two ships or structures that came into contact, the first few of them.
@@ -217,12 +209,8 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
 
 }  // namespace
 
-std::vector<StepsTaken> steps_taken(const simulation::Counts& counts) {
-  std::vector<StepsTaken> taken;
-  for (std::size_t k = 0; k < counts.steps_at_level.size(); ++k)
-    if (const std::int64_t steps = counts.steps_at_level[k]; steps > 0)
-      taken.push_back({static_cast<int>(k) - simulation::kMostLevels, steps});
-  return taken;
+double shortest_step(const simulation::Counts& counts, double tick) {
+  return tick / static_cast<double>(std::max<std::int64_t>(1, counts.most_parts));
 }
 
 RunSummary summarise(const Simulation& simulation, const RunWriter& writer, const std::string& stopped_by,
@@ -273,7 +261,8 @@ std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
     if (!summary.stopped_by.empty()) json.key("stopped_by").value(summary.stopped_by);
     json.key("step_s").value(scene.scene.time.step);
     json.key("steps").value(summary.steps).key("sim_time_s").value(summary.sim_time);
-    append_levels(json, summary.counts, scene.scene.time.step);
+    json.key("time_steps").value(summary.counts.steps_taken);
+    json.key("shortest_step_s").value(shortest_step(summary.counts, scene.scene.time.step));
     json.key("wall_time_s").value(summary.wall_time).key("real_time_factor").value(summary.real_time_factor());
     json.key("forces_interval_s").value(recording_interval(scene.scene));
     const std::vector<const ForceColumn*> columns = peak_columns(scene.scene);

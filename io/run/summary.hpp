@@ -56,13 +56,8 @@ struct RunSummary {
   double real_time_factor() const { return wall_time > 0 ? sim_time / wall_time : 0; }
 };
 
-/// Steps of 2^level ticks, where a run took some.
-struct StepsTaken {
-  int level;
-  std::int64_t steps;
-};
-/// By level.
-std::vector<StepsTaken> steps_taken(const simulation::Counts& counts);
+/// The shortest time step that a run of such ticks [s] took [s].
+double shortest_step(const simulation::Counts& counts, double tick);
 
 /// The summary of a run at its end, or where it was stopped; `stopped_by` is empty at the end.
 RunSummary summarise(const simulation::Simulation& simulation, const RunWriter& writer, const std::string& stopped_by,

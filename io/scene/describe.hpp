@@ -261,6 +261,19 @@ FieldOf<Record> chosen(FieldOf<Record> field) {
   field.presence = Presence::kChosen;
   return field;
 }
+/// An integer from 0 to 5 that older scenes have: it is accepted, changes nothing and is not written again.
+template <class Record>
+FieldOf<Record> retired(std::string_view key, std::string_view meaning) {
+  FieldOf<Record> field;
+  field.key = key;
+  field.meaning = meaning;
+  field.kind = FieldKind::kInteger;
+  field.range = {.low = 0, .high = 5};
+  field.presence = Presence::kLeftOut;
+  field.set = [](void*, const JsonValue&) {};
+  field.get = [](const void*) { return std::optional<JsonValue>(); };
+  return field;
+}
 /// Belongs to one of its object's alternatives.
 template <class Record>
 FieldOf<Record> of(std::string_view alternative, FieldOf<Record> field) {

@@ -21,14 +21,12 @@ const Description<GeographicOrigin> kOrigin{
 
 const Description<StepSettings> kTime{
     {chosen(member("step_s", "s", from(1e-5, 1),
-                   "a tick: the time step Δt, but for its parts; if not given, .0005 to .05 s by speeds and thickness "
-                   "(docs/theory/steps.md)",
+                   "the tick: the longest time step Δt; if not given, 0.0005 to 0.1 s by speeds and thickness. By law "
+                   "crush a tick is taken in up to 32 equal parts where ice breaks fast (docs/theory/steps.md)",
                    &StepSettings::step)),
-     member("until_s", "s", above(0, 1e7), "simulated time to run to", &StepSettings::until),
-     member("levels", "", from(0, 5),
-            "a tick is taken in up to 2 to this power parts, where a hull goes far in thin ice, and floes that move "
-            "little take up to four times as many ticks in a step; 0: one step for all, as always by law impulse",
-            &StepSettings::levels)}};
+     retired<StepSettings>("levels", "has no effect any more: the parts of a tick follow from what happens in it"),
+     member("until_s", "s", above(0, 1e7), "simulated time to run to, rounded up to a whole tick",
+            &StepSettings::until)}};
 
 const Description<ShearSettings> kShear{
     {member("rate_per_s", "1/s", from(-1, 1),

@@ -10,6 +10,7 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/pose.hpp"
 #include "simulation/world/limits.hpp"
+#include "simulation/world/parts.hpp"
 #include "simulation/world/setup.hpp"
 
 namespace polynya::io {
@@ -27,9 +28,6 @@ void check_water_and_time(const SceneDraft& draft, const JsonValue& given, Probl
   if (scene.ice.density >= scene.water.water.density)
     report("ice.density_kg_per_m3", fmt::format("{}: this ice sinks", scene.ice.density),
            fmt::format("a number < the water's density, {} [kg/m³]", scene.water.water.density));
-  if (scene.time.until < scene.time.step)
-    report("time.until_s", fmt::format("{}, less than one step", scene.time.until),
-           fmt::format("a number ≥ step_s, {} [s]", scene.time.step));
   if (scene.time.until / scene.time.step > kMostSteps)
     report("time.until_s", fmt::format("{:.3g} steps", scene.time.until / scene.time.step),
            fmt::format("at most {:g} steps", kMostSteps));
@@ -147,7 +145,7 @@ double most_that_ice_bears(const simulation::Scene& scene) {
   return most;
 }
 
-/// A load that no ice bears, and a mass that it takes beyond the closing speed in one step.
+/// Reports a load that no ice bears, and a mass that the load takes beyond the closing speed in the shortest step.
 void check_load(const simulation::Scene& scene, const simulation::WallPressure& pressure, const JsonValue& given,
                 const std::string& path, ProblemCollector& problems) {
   const ReportAt report{problems, given, path};
@@ -155,13 +153,15 @@ void check_load(const simulation::Scene& scene, const simulation::WallPressure& 
     report("pressure.line_load_N_per_m",
            fmt::format("{:g} N/m, which crushes the strongest ice of the scene without end", pressure.line_load),
            fmt::format("less than its σ_c h, {:.4g} [N/m]", most));
-  const double gain = scene.time.step * pressure.line_load / pressure.mass_per_length;
+  const bool has_parts = scene.contact.law == simulation::ContactLaw::kCrush;
+  const double shortest_step = has_parts ? scene.time.step / simulation::kMostParts : scene.time.step;
+  const double gain = shortest_step * pressure.line_load / pressure.mass_per_length;
   if (gain > pressure.closing_speed)
     report("pressure.mass_kg_per_m",
            fmt::format("{:g} kg/m, which the load takes to {:.3g} m/s in one step, beyond the closing speed",
                        pressure.mass_per_length, gain),
            fmt::format("at least {:.4g} [kg/m], or a shorter time.step_s",
-                       scene.time.step * pressure.line_load / pressure.closing_speed));
+                       shortest_step * pressure.line_load / pressure.closing_speed));
 }
 
 /// Calls with the pressure of each wall that has one, the JSON of the wall and its path.

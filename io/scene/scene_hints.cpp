@@ -6,7 +6,7 @@
 
 #include "geometry/cut/overlap.hpp"
 #include "io/scene/scene_check.hpp"
-#include "simulation/world/levels.hpp"
+#include "simulation/world/parts.hpp"
 #include "simulation/world/population.hpp"
 
 namespace polynya::io {
@@ -57,6 +57,7 @@ class Hinter {
       hint_at_side(scene_.walls[i], hull_count(scene_) - scene_.walls.size() + i);
     hint_at_crossings();
     hint_at_drift();
+    hint_at_levels();
     hint_at_step();
   }
 
@@ -191,13 +192,13 @@ class Hinter {
     add(Severity::kWarning, hull, "to_m", "all ice lies behind its face: exchange from_m and to_m");
   }
 
-  /// In the shortest step [s]: hulls take a tick in parts.
+  /// The shortest step [s]: ticks have parts where a hull meets ice.
   double shortest_step(bool is_hull) const {
     const bool has_parts = is_hull && scene_.contact.law == simulation::ContactLaw::kCrush;
-    return has_parts ? std::ldexp(scene_.time.step, -scene_.time.levels) : scene_.time.step;
+    return has_parts ? scene_.time.step / simulation::kMostParts : scene_.time.step;
   }
 
-  /// The longest way in a step (simulation/world/levels.hpp), and which bound it is.
+  /// The longest way in a step (simulation/world/parts.hpp), and which bound it is.
   std::string most_way_as_text(double thickness) const {
     const double way = simulation::most_way(scene_.contact, thickness);
     if (way == simulation::kWayOverThickness * thickness)
@@ -206,6 +207,14 @@ class Hinter {
       return fmt::format("{:g} m² over the ice's thickness of {:g} m", simulation::kWayTimesThickness, thickness);
     return fmt::format("{:g} of contact.circle_radius_m {:g}", simulation::kWayOverCircle,
                        scene_.contact.circle_radius);
+  }
+
+  void hint_at_levels() {
+    const JsonValue* time = given_.find("time", JsonKind::kObject);
+    if (time == nullptr || time->find("levels") == nullptr) return;
+    add(Severity::kHint, "time.levels",
+        "has no effect any more, and the next version will refuse it: the parts of a tick follow from what happens in "
+        "it (docs/theory/steps.md); leave it out");
   }
 
   void hint_at_step() {

@@ -10,7 +10,7 @@
 #include "io/scene/scene_check.hpp"
 #include "io/scene/ship_presets.hpp"
 #include "io/text/json_writer.hpp"
-#include "simulation/world/levels.hpp"
+#include "simulation/world/default_tick.hpp"
 
 namespace polynya::io {
 namespace {

@@ -74,8 +74,8 @@ void bind_simulation(py::module_& module) {
           "Continues from the bytes of save(), of the same scene: bit for bit as if it had not "
           "stopped.\nRaises ValueError where the bytes are damaged, or of another scene or version.")
       .def("step", &Simulation::step, py::arg("n") = 1,
-           "step(n=1)\n\nTakes n ticks (time.step_s), all bodies in each; run() has bodies that need no short steps\n"
-           "take longer ones, unless time.levels is 0. Raises SimulationError where the run cannot continue.")
+           "step(n=1)\n\nTakes n ticks (time.step_s), as run() does. Raises SimulationError where the run cannot\n"
+           "continue.")
       .def("run", &Simulation::run, py::arg("until") = py::none(), py::arg("progress") = py::none(), kRunDoc)
       .def("events", &Simulation::events, kEventsDoc)
       .def("set_pilot", &Simulation::set_pilot, py::arg("ship"), py::arg("pilot"), kPilotDoc)

@@ -146,11 +146,15 @@ void bind_floe_memory(py::module_& module, py::class_<Simulation>& simulation) {
            "shape(id)\n\nThe rings of a floe that has not broken, n x 2 each, in its body's frame [m]: the "
            "outer one,\nthen its holes.")
       .def_property_readonly(
-          "water_shift", [](const FloeMemory& m) { return pair_of(m.simulation().at_rest().world().clock.drift()); },
+          "water_shift",
+          [](const FloeMemory& m) {
+            const simulation::Simulation& s = m.simulation().at_rest();
+            return pair_of(drift_at(s.world().setup, s.time()));
+          },
           "How far the water has gone over ground, x and y [m].")
       .def_property_readonly(
           "water_velocity",
-          [](const FloeMemory& m) { return pair_of(m.simulation().at_rest().world().clock.water_drift); },
+          [](const FloeMemory& m) { return pair_of(m.simulation().at_rest().world().population.water_velocity); },
           "Over ground, x and y [m/s].")
       .def("__len__", [](const FloeMemory& m) { return population_of(m).floe_count(); });
   simulation.def_property_readonly(

@@ -103,7 +103,7 @@ void add_floes(const simulation::Simulation& simulation, const geometry::Pose& w
                const ImageFrame& frame) {
   const simulation::Population& population = simulation.world().population;
   const dynamics::Bodies& bodies = population.bodies;
-  const geometry::Vector drift = simulation.world().clock.drift();
+  const geometry::Vector drift = drift_at(simulation.world().setup, simulation.time());
   const geometry::Point middle = transform(world_from_ship, {frame.ahead, 0}) - drift;  // water frame
   for (simulation::FloeId id = 0; id < population.floe_count(); ++id) {
     const auto body = static_cast<std::size_t>(population.body_of(id));

@@ -30,17 +30,13 @@ void Recording::keep(const io::Result<>& result) {
   if (!result && !failure_) failure_ = result.error();
 }
 
-void Recording::before_end(std::int64_t ticks_left) {
-  if (!failure_) keep(recorder_.before_end(ticks_left));
-}
-
 void Recording::take_step() {
   recorder_.record_step();
   if (simulation_.numerical_failure() || failure_) return;
   recorder_.frame_if_due();
   if (simulation_.steps() % kStepsBetweenFlushes != 0) return;
   writer_.flush_if_due();
-  const bool is_due = recorder_.checkpoint_age() >= kBetweenCheckpoints && !recorder_.has_end_checkpoint();
+  const bool is_due = recorder_.checkpoint_age() >= kBetweenCheckpoints;
   keep(is_due ? recorder_.checkpoint() : writer_.status());
 }
 

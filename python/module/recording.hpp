@@ -17,8 +17,6 @@ class Recording {
   Recording(const io::LoadedScene& scene, simulation::Simulation& simulation, const std::filesystem::path& folder,
             bool overwrite);
   /// After each step; takes its journal.
-  /// Before a step, with the ticks to where the run is asked to go.
-  void before_end(std::int64_t ticks_left);
   void take_step();
   const std::optional<std::string>& failure() const { return failure_; }
   /// Ends the run here, as one whose scene ends at `until` [s]; or stops it, where there is a reason. Raises

@@ -118,9 +118,9 @@ void Simulation::take_journal() {
     journal.clear();
 }
 
-void Simulation::step_once(std::int64_t most_ticks) {
+void Simulation::step_once() {
   try {
-    simulation_.step(most_ticks);
+    simulation_.step();
     take_journal();
   } catch (...) {  // memory ran out
     is_broken_ = true;
@@ -133,7 +133,7 @@ void Simulation::raise_failure() {
     raise("SimulationError", py::str(fmt::format("numerical failure at {:.6g} s: {}", simulation_.time(), *failure)));
 }
 
-void Simulation::advance_to(std::int64_t last_step, Pace pace, const py::object& progress) {
+void Simulation::advance_to(std::int64_t last_step, const py::object& progress) {
   at_rest();
   refuse_while_viewed();
   raise_failure();
@@ -142,9 +142,7 @@ void Simulation::advance_to(std::int64_t last_step, Pace pace, const py::object&
     const py::gil_scoped_release release;
     auto last_report = Clock::now();
     while (simulation_.steps() < last_step && !simulation_.numerical_failure()) {
-      const std::int64_t left = last_step - simulation_.steps();
-      if (recording_ && pace == Pace::kBlocks) recording_->before_end(left);
-      step_once(pace == Pace::kTicks ? 1 : left);
+      step_once();
       if (pilot_error_ || (recording_ && recording_->failure())) break;
       if (const auto now = Clock::now(); now - last_report >= kBetweenReports) {
         last_report = now;
@@ -163,7 +161,7 @@ void Simulation::step(std::int64_t count) {
   const std::int64_t done = between_steps().steps();
   if (static_cast<double>(done) + static_cast<double>(count) > kMostSteps)
     throw py::value_error(fmt::format("step: found {} steps, allowed: at most {}", count, kMostSteps));
-  advance_to(done + count, Pace::kTicks, py::none());
+  advance_to(done + count, py::none());
 }
 
 void Simulation::run(std::optional<double> until, const py::object& progress) {
@@ -175,7 +173,7 @@ void Simulation::run(std::optional<double> until, const py::object& progress) {
     throw py::value_error(fmt::format("run: until is {} s, allowed: a finite time of at most {} steps",
                                       until.value_or(time.until), kMostSteps));
   until_ = until.value_or(time.until);
-  advance_to(static_cast<std::int64_t>(steps), Pace::kBlocks, progress);
+  advance_to(static_cast<std::int64_t>(steps), progress);
   report(progress, simulation_.time());
 }
 

@@ -55,12 +55,8 @@ class Simulation {
  private:
   class Stepping;
   Simulation(std::shared_ptr<Scene> scene, simulation::Simulation simulation, int threads);
-  enum class Pace : std::uint8_t {
-    kTicks,   ///< all bodies tick by tick
-    kBlocks,  ///< as `polynya run`: longer steps of bodies that need no shorter
-  };
-  void advance_to(std::int64_t last_step, Pace pace, const py::object& progress);
-  void step_once(std::int64_t most_ticks);
+  void advance_to(std::int64_t last_step, const py::object& progress);
+  void step_once();
   void refuse_while_stepping() const;
   void refuse_while_viewed() const;
   simulation::Command command_of(std::size_t ship, const simulation::PilotView& view);

@@ -41,13 +41,14 @@ bool may_break(const Setup& setup, const Population& population, BodyIndex body)
 }
 
 /// By floe, and by contact within it.
-std::vector<OnBeam> contacts_of_beams(const Setup& setup, const Population& population, const StepData& step) {
+std::vector<OnBeam> contacts_of_beams(const Setup& setup, const Step& step, const Population& population,
+                                      const StepData& data) {
   std::vector<OnBeam> found;
-  for (std::size_t i = 0; i < step.contacts.size(); ++i) {
-    const Contact& c = step.contacts[i];
-    const double force = normal_force_of(c, setup.step);
+  for (std::size_t i = 0; i < data.contacts.size(); ++i) {
+    const Contact& c = data.contacts[i];
+    const double force = normal_force_of(c, step.length);
     if (!(force > 0)) continue;
-    const double down = i < step.slopes.size() ? std::max(0.0, step.slopes[i].vertical_share) * force : 0;
+    const double down = i < data.slopes.size() ? std::max(0.0, data.slopes[i].vertical_share) * force : 0;
     for (const BodyIndex body : {c.a, c.b})
       if (may_break(setup, population, body)) found.push_back({body, i, down});
   }
@@ -113,7 +114,7 @@ const BeamShape& shape_among(const Setup& setup, const Population& population, B
   return shapes.emplace(id, shape_of(setup, population, floe)).first->second;
 }
 
-std::vector<fracture::BeamLoad> loads_on(const Setup& setup, const dynamics::Bodies& bodies,
+std::vector<fracture::BeamLoad> loads_on(const Step& step, const dynamics::Bodies& bodies,
                                          const std::vector<Contact>& contacts, std::span<const OnBeam> on,
                                          const BeamShape& beam) {
   const BodyIndex floe = on.front().floe;
@@ -123,7 +124,7 @@ std::vector<fracture::BeamLoad> loads_on(const Setup& setup, const dynamics::Bod
   for (const OnBeam& one : on) {
     const Contact& c = contacts[one.contact];
     const Point at = transform(beam.frame_from_body, inverse_transform(water_from_body, c.centre_of_pressure()));
-    const Vector force = force_on(c, floe, setup.step);
+    const Vector force = force_on(c, floe, step.length);
     loads.push_back({at, rotate(turn, rotate_back(water_from_body.rotation, force)), one.down});
   }
   return loads;
@@ -144,10 +145,10 @@ void consider(const fracture::Ice& ice, const BeamShape& beam, std::span<const f
   if (stress > worst.stress) worst = {stress, load.moment > 0, part.path};
 }
 
-PendingFracture break_of(const Setup& setup, const Population& population, const Contact& c, BodyIndex floe,
-                         const LoadedSection& section) {
+PendingFracture break_of(const Setup& setup, const Step& step, const Population& population, const Contact& c,
+                         BodyIndex floe, const LoadedSection& section) {
   const geometry::Pose water_from_body = dynamics::water_from_body(population.bodies, floe);
-  PendingFracture split = split_by(setup, population, c, floe);
+  PendingFracture split = split_by(setup, step, population, c, floe);
   split.point_in_water = transform(water_from_body, section.pulls_at_end ? section.path.end : section.path.start);
   split.crack_in_body = section.path;
   split.criteria.crack_length = section.path.length_in_ice;
@@ -177,12 +178,12 @@ Pressing pressing_of(const std::vector<Contact>& contacts, std::span<const OnBea
 }
 
 /// The break of one beam, by what presses it most.
-std::optional<PendingFracture> break_of_beam(const Setup& setup, const Population& population, StepData& step,
-                                             std::span<const OnBeam> on) {
+std::optional<PendingFracture> break_of_beam(const Setup& setup, const Step& step, const Population& population,
+                                             StepData& data, std::span<const OnBeam> on) {
   const dynamics::Bodies& bodies = population.bodies;
   const BodyIndex floe = on.front().floe;
   const fracture::Ice& ice = ice_of_body(setup, population, floe);
-  const Pressing pressing = pressing_of(step.contacts, on, setup.step);
+  const Pressing pressing = pressing_of(data.contacts, on, step.length);
   const auto may_reach = [&](double least_width, double longest) {
     return fracture::most_section_stress(ice, least_width, longest, pressing.force, pressing.down) >=
            ice.flexural_strength;
@@ -190,27 +191,27 @@ std::optional<PendingFracture> break_of_beam(const Setup& setup, const Populatio
   const double across = 2 * bodies.bounding_radius[floe];
   if (!may_reach(fracture::kLeastSection * bodies.area[floe] / across, across)) return std::nullopt;
   if (pressing.strongest == nullptr || pressing.strongest->record->was_refused) return std::nullopt;
-  const BeamShape& beam = shape_among(setup, population, floe, step.beam_shapes);
+  const BeamShape& beam = shape_among(setup, population, floe, data.beam_shapes);
   if (beam.parts.empty() || !may_reach(beam.least_width, beam.length)) return std::nullopt;
-  const std::vector<fracture::BeamLoad> loads = loads_on(setup, bodies, step.contacts, on, beam);
+  const std::vector<fracture::BeamLoad> loads = loads_on(step, bodies, data.contacts, on, beam);
   LoadedSection worst;
   for (const BeamPart& part : beam.parts) consider(ice, beam, loads, part, worst);
   if (worst.stress < kShareBetween * ice.flexural_strength) return std::nullopt;
   for (const fracture::BeamLoad& load : loads)
     if (const auto part = part_at(setup, population, floe, beam, load.at.x)) consider(ice, beam, loads, *part, worst);
   if (worst.stress < ice.flexural_strength) return std::nullopt;
-  return break_of(setup, population, *pressing.strongest, floe, worst);
+  return break_of(setup, step, population, *pressing.strongest, floe, worst);
 }
 
 }  // namespace
 
-void find_broken_beams(const Setup& setup, const Population& population, StepData& step) {
-  const std::vector<OnBeam> all = contacts_of_beams(setup, population, step);
+void find_broken_beams(const Setup& setup, const Step& step, const Population& population, StepData& data) {
+  const std::vector<OnBeam> all = contacts_of_beams(setup, step, population, data);
   for (std::size_t first = 0; first < all.size();) {
     std::size_t end = first + 1;
     while (end < all.size() && all[end].floe == all[first].floe) ++end;
-    if (auto split = break_of_beam(setup, population, step, std::span(all).subspan(first, end - first)))
-      step.splits.push_back(*split);
+    if (auto split = break_of_beam(setup, step, population, data, std::span(all).subspan(first, end - first)))
+      data.splits.push_back(*split);
     first = end;
   }
 }

@@ -9,6 +9,7 @@ namespace polynya::simulation {
 
 struct Population;
 struct Setup;
+struct Step;
 struct StepData;
 
 /// A section of a floe at right angles to its long axis.
@@ -30,6 +31,6 @@ struct BeamShape {
 
 /// Enters among the splits the floes below κ l that the forces of solved contacts break across as beams, by floe. By
 /// all bodies that press a floe together: those that it lies on bear as well.
-void find_broken_beams(const Setup& setup, const Population& population, StepData& step);
+void find_broken_beams(const Setup& setup, const Step& step, const Population& population, StepData& data);
 
 }  // namespace polynya::simulation

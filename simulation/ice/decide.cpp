@@ -16,22 +16,21 @@ using dynamics::Contact;
 using geometry::Vector;
 
 /// Whether a floe was born by what broke at the end of the step before.
-bool is_just_born(const Population& population, const Clock& clock, BodyIndex body) {
-  return !population.is_hull(body) && population.floes[population.floe_of(body)].born == clock.time();
+bool is_just_born(const Population& population, const Step& step, BodyIndex body) {
+  return !population.is_hull(body) && population.floes[population.floe_of(body)].born == step.begin.time;
 }
 
 /// Enters what the law of crushing ice takes of a contact: force [N] and stiffness dF/dξ [N/m]. One that is found for
 /// the first time has pressed while its bodies came to overlap so far: with F ∝ ξ^n, n = k ξ / F, it has given
 /// F ξ / ((1 + n) v). But for pieces of floes that broke just now, whose contacts were there before.
-void set_crushing(const Setup& setup, const Clock& clock, const Population& population, double force, double stiffness,
-                  Contact& c) {
+void set_crushing(const Step& step, const Population& population, double force, double stiffness, Contact& c) {
   c.crushing_force = force;
   c.crushing_stiffness = stiffness;
-  const bool is_new = c.record->loaded_depth == 0 && c.record->age <= setup.step;
+  const bool is_new = c.record->loaded_depth == 0 && c.record->age <= step.length;
   if (!is_new || force <= 0 || c.approach_speed <= 0) return;
-  if (is_just_born(population, clock, c.a) || is_just_born(population, clock, c.b)) return;
+  if (is_just_born(population, step, c.a) || is_just_born(population, step, c.b)) return;
   const double exponent = stiffness * c.depth / force;
-  c.missed_impulse = std::min(setup.step, c.depth / c.approach_speed) * force / (1 + exponent);
+  c.missed_impulse = std::min(step.length, c.depth / c.approach_speed) * force / (1 + exponent);
 }
 
 /// By the paper's rule: the crack that would start at the contact, along the hull's normal through all ice
@@ -49,17 +48,17 @@ void find_crack(const Setup& setup, const dynamics::Bodies& bodies, const HullCo
 /// V_b and the cusp, by the law of crushing ice where the load comes to V_b: within the step or, of a contact that is
 /// found late, before it. V ∝ ξ^n by its slope and V_b ∝ ξ^e by its value at one more depth, where V would come to the
 /// V_b of the depth at hand; R is that of this depth.
-fracture::BendingCapacity capacity_where_it_breaks(const Setup& setup, const HullContactLoad& load) {
+fracture::BendingCapacity capacity_where_it_breaks(const Setup& setup, const Step& step, const HullContactLoad& load) {
   constexpr double kLeastExponent = 0.5;  // of n and n - e: below it V and V_b need not meet anywhere near
   constexpr double kLeastShare = 0.25;    // of the depth: farther back the powers do not hold
   fracture::BendingLoad bending = bending_load(setup, load);
   const fracture::BendingCapacity here = setup.bending->capacity(bending);
-  if (!is_crush_law(setup) || load.vertical_force <= 0 || !std::isfinite(here.vertical_force)) return here;
+  if (load.vertical_force <= 0 || !std::isfinite(here.vertical_force)) return here;
   const double n = load.stiffness * load.contact.depth / load.normal_force;
   if (n < kLeastExponent) return here;
   const double ratio = here.vertical_force / load.vertical_force;
   const double share = std::max(kLeastShare, std::pow(ratio, 1 / n));
-  if (share == 1 || share > 1 + load.contact.approach_speed * setup.step / load.contact.depth) return here;
+  if (share == 1 || share > 1 + load.contact.approach_speed * step.length / load.contact.depth) return here;
   bending.penetration *= share;
   bending.vertical_force = here.vertical_force;
   fracture::BendingCapacity there = setup.bending->capacity(bending);
@@ -71,22 +70,33 @@ fracture::BendingCapacity capacity_where_it_breaks(const Setup& setup, const Hul
   return there;
 }
 
-/// V of the contact, V_b and the cusp. Returns whether the model answered for the load itself.
-bool measure_bending(const Setup& setup, const HullContactLoad& load, PendingFracture& pending) {
-  fracture::BendingCapacity capacity = capacity_where_it_breaks(setup, load);
+/// Enters V_b and the cusp, with the scene's factors on them.
+void enter_capacity(const Setup& setup, const HullContactLoad& load, fracture::BendingCapacity capacity,
+                    PendingFracture& pending) {
   const BendingFactors factors = bending_factors_of(setup.scene, load.contact.a);
-  capacity.vertical_force *= factors.load;
-  capacity.cusp_radius *= factors.cusp_radius;
-  pending.criteria.bending_capacity = capacity.vertical_force;
+  pending.criteria.bending_capacity = factors.load * capacity.vertical_force;
   pending.criteria.flexural_strength = load.ice.flexural_strength;
-  pending.cusp_radius = capacity.cusp_radius;
-  if (is_crush_law(setup)) {  // the solver finds whether the load comes to V_b
-    // Where thrust keeps every section closed it never does.
-    pending.criteria.vertical_force = std::isfinite(capacity.vertical_force) ? capacity.vertical_force : 0;
-    return capacity.is_in_range;
-  }
-  // The contact crushes with all of F_n only where the bodies' inertia can press that hard within the step.
-  const double crushing_impulse = load.shares.horizontal * load.normal_force * setup.step;
+  pending.cusp_radius = factors.cusp_radius * capacity.cusp_radius;
+}
+
+/// By the law of crushing ice: V_b, the cusp, and V_b as V, since the solver finds whether the load reaches it. Where
+/// thrust keeps every section closed it never does. Returns whether the model answered for the load itself.
+bool measure_bending_by_crushing(const Setup& setup, const Step& step, const HullContactLoad& load,
+                                 PendingFracture& pending) {
+  const fracture::BendingCapacity capacity = capacity_where_it_breaks(setup, step, load);
+  enter_capacity(setup, load, capacity, pending);
+  const double most = pending.criteria.bending_capacity;
+  pending.criteria.vertical_force = std::isfinite(most) ? most : 0;
+  return capacity.is_in_range;
+}
+
+/// By the law of impulses: V_b, the cusp, and V. The contact crushes with all of F_n only where the bodies' inertia can
+/// press that hard within the step. Returns whether the model answered for the load itself.
+bool measure_bending_by_collision(const Setup& setup, const Step& step, const HullContactLoad& load,
+                                  PendingFracture& pending) {
+  const fracture::BendingCapacity capacity = setup.bending->capacity(bending_load(setup, load));
+  enter_capacity(setup, load, capacity, pending);
+  const double crushing_impulse = load.shares.horizontal * load.normal_force * step.length;
   const double pressed = crushing_impulse > 0 ? std::min(1.0, load.impulse / crushing_impulse) : 0;
   pending.criteria.vertical_force = pressed * load.shares.vertical * load.normal_force;
   return capacity.is_in_range;
@@ -106,8 +116,10 @@ EdgePush push_of(const HullContactLoad& load) {
   return push;
 }
 
+/// Whether and how the ice of a contact breaks. `measure_bending(pending)` enters V, V_b and the cusp.
+template <class MeasureBending>
 PendingFracture evaluate(const Setup& setup, const Population& population, const HullContactLoad& load,
-                         Counts& counts) {
+                         MeasureBending measure_bending, Counts& counts) {
   const Contact& c = load.contact;
   PendingFracture pending;
   if (c.approach_speed <= 0) return pending;
@@ -124,11 +136,10 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
       measure_crack_and_sides(setup, population, c.b, pending.crack_in_body, criteria);
   }
   if (load.shares.vertical > 0) {
-    const bool is_in_range = measure_bending(setup, load, pending);
+    const bool is_in_range = measure_bending(pending);
     if (!is_in_range && criteria.vertical_force >= criteria.bending_capacity) ++counts.database_out_of_range;
   }
   pending.failure = fracture::decide(criteria);
-  if (is_crush_law(setup) && pending.failure == fracture::Failure::kBend) pending.push = push_of(load);
   pending.ship = c.a;
   pending.floe = population.floe_of(c.b);
   pending.point_in_water = c.middle();
@@ -139,72 +150,113 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
   return pending;
 }
 
-/// Of floe against floe: vertical walls. By the law of crushing ice F_n at the deepest overlap that pressed.
-void decide_between_floes(const Setup& setup, const Clock& clock, const Population& population, Contact& c) {
-  const fracture::Ice ice =
-      fracture::crushed_between(ice_of_body(setup, population, c.a), ice_of_body(setup, population, c.b));
-  if (!is_crush_law(setup)) {
-    c.crushing_force = crushing_force(ice, c, 0);
-    return;
-  }
+fracture::Ice crushed_between(const Setup& setup, const Population& population, const Contact& c) {
+  return fracture::crushed_between(ice_of_body(setup, population, c.a), ice_of_body(setup, population, c.b));
+}
+
+/// Floe against floe by the law of crushing ice: vertical walls, F_n at the deepest overlap that pressed.
+void crush_between_floes(const Setup& setup, const Step& step, const Population& population, Contact& c) {
+  const fracture::Ice ice = crushed_between(setup, population, c);
   const fracture::CrushedArea crushed = fracture::crushed_overlap_at(
       {c.width, c.depth, c.area}, std::max(c.depth, c.record->loaded_depth), ice.thickness, 0);
-  set_crushing(setup, clock, population, fracture::crushing_force(ice, crushed.area),
+  set_crushing(step, population, fracture::crushing_force(ice, crushed.area),
                fracture::crushing_force(ice, crushed.slope), c);
 }
 
-/// Of a ship with ice: also whether the ice breaks.
-void decide_at_ship(const Setup& setup, const Clock& clock, const Population& population, Contact& c, StepData& step,
-                    Counts& counts) {
-  const dynamics::Bodies& bodies = population.bodies;
-  HullContactLoad load = load_of(setup, population, c);
-  if (is_crush_law(setup)) {
-    press_prescribed(setup, population, load);
-    close_prescribed_gap(setup, bodies, c);
-  }
-  const double collision_force = load.impulse / setup.scene.contact.contact_time;  // j/τ_c
-  step.loads[c.a].collision += planar_of(bodies, c.a, c.middle(), -collision_force * c.normal);
+/// Enters what both laws take of a ship's contact with ice: the collision force j/τ_c, friction, and the hull's slope.
+void enter_hull_contact(const Setup& setup, const Population& population, const HullContactLoad& load, Contact& c,
+                        StepData& data) {
+  const double collision_force = load.impulse / setup.scene.contact.contact_time;
+  data.loads[c.a].collision += planar_of(population.bodies, c.a, c.middle(), -collision_force * c.normal);
   const double horizontal = load.shares.horizontal;
-  if (is_crush_law(setup))
-    set_crushing(setup, clock, population, horizontal * load.normal_force, horizontal * load.stiffness, c);
-  else
-    c.crushing_force = horizontal * load.normal_force;
   c.friction = load.shares.tangential / horizontal;
   const double tangent = std::tan(load.hull_angle);
   // An inclined hull crushes the edge from its top corner down.
   const double height = tangent > 0 ? std::min(load.ice.thickness, load.penetration / tangent) : load.ice.thickness;
-  step.slopes.back() = {load.shares.vertical / horizontal, tangent, load.crushed_share, height};
-  const PendingFracture pending = evaluate(setup, population, load, counts);
-  const bool breaks = pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit;
-  if (!breaks || c.record->was_refused) return;
-  if (is_crush_law(setup) && pending.failure == fracture::Failure::kBend)
+  data.slopes.back() = {load.shares.vertical / horizontal, tangent, load.crushed_share, height};
+}
+
+bool breaks(const PendingFracture& pending, const Contact& c) {
+  const bool fails = pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit;
+  return fails && !c.record->was_refused;
+}
+
+/// A ship's contact with ice by the law of crushing ice: also at which force the ice bends.
+void crush_at_hull(const Setup& setup, const Step& step, const Population& population, Contact& c, StepData& data,
+                   Counts& counts) {
+  HullContactLoad load = crushing_load_of(setup, population, c);
+  press_prescribed(setup, step, population, load);
+  close_prescribed_gap(step, population.bodies, c);
+  enter_hull_contact(setup, population, load, c, data);
+  const double horizontal = load.shares.horizontal;
+  set_crushing(step, population, horizontal * load.normal_force, horizontal * load.stiffness, c);
+  const auto measure = [&](PendingFracture& pending) {
+    return measure_bending_by_crushing(setup, step, load, pending);
+  };
+  PendingFracture pending = evaluate(setup, population, load, measure, counts);
+  if (!breaks(pending, c)) return;
+  if (pending.failure == fracture::Failure::kBend) {
+    pending.push = push_of(load);
+    pending.passes_to_pieces = true;
     break_at(c, pending.criteria.bending_capacity * horizontal / load.shares.vertical);
-  step.fractures.push_back(pending);
+  }
+  data.fractures.push_back(pending);
+}
+
+/// A ship's contact with ice by the law of impulses: also whether the ice breaks.
+void collide_with_hull(const Setup& setup, const Step& step, const Population& population, Contact& c, StepData& data,
+                       Counts& counts) {
+  const HullContactLoad load = collision_load_of(setup, population, c);
+  enter_hull_contact(setup, population, load, c, data);
+  c.crushing_force = load.shares.horizontal * load.normal_force;
+  const auto measure = [&](PendingFracture& pending) {
+    return measure_bending_by_collision(setup, step, load, pending);
+  };
+  const PendingFracture pending = evaluate(setup, population, load, measure, counts);
+  if (breaks(pending, c)) data.fractures.push_back(pending);
+}
+
+/// Calls between_floes(c) for all contacts of two floes, side by side, and at_hull(c) for those of a hull and a floe,
+/// in their order.
+template <class BetweenFloes, class AtHull>
+void decide(const Setup& setup, int threads, const Population& population, StepData& data, BetweenFloes between_floes,
+            AtHull at_hull) {
+  data.fractures.clear();
+  data.slopes.clear();
+  data.loads.assign(static_cast<std::size_t>(population.hull_count), {});
+  dynamics::for_contacts(data.contacts, threads, [&](Contact& c, std::size_t) {
+    c.friction = setup.scene.ice.friction;
+    if (!population.is_hull(c.a)) between_floes(c);
+  });
+  for (Contact& c : data.contacts) {  // by (a, b): those of hulls come first
+    if (!population.is_hull(c.a)) break;
+    data.slopes.emplace_back();
+    if (!population.is_hull(c.b)) at_hull(c);
+  }
 }
 
 }  // namespace
 
-void decide(const Setup& setup, const Clock& clock, int threads, const Population& population, StepData& step,
-            Counts& counts) {
-  step.fractures.clear();
-  step.slopes.clear();
-  step.loads.assign(static_cast<std::size_t>(population.hull_count), {});
-  dynamics::for_contacts(step.contacts, threads, [&](Contact& c, std::size_t) {
-    c.friction = setup.scene.ice.friction;
-    if (!population.is_hull(c.a)) decide_between_floes(setup, clock, population, c);
-  });
-  for (Contact& c : step.contacts) {  // by (a, b): those of hulls come first
-    if (!population.is_hull(c.a)) break;
-    step.slopes.emplace_back();
-    if (!population.is_hull(c.b)) decide_at_ship(setup, clock, population, c, step, counts);
-  }
+void decide_by_crushing(const Setup& setup, const Step& step, int threads, const Population& population, StepData& data,
+                        Counts& counts) {
+  decide(
+      setup, threads, population, data, [&](Contact& c) { crush_between_floes(setup, step, population, c); },
+      [&](Contact& c) { crush_at_hull(setup, step, population, c, data, counts); });
 }
 
-void drop_unbroken(const Setup& setup, StepData& step) {
-  if (!is_crush_law(setup)) return;
-  std::erase_if(step.fractures, [&](const PendingFracture& pending) {
+void decide_by_collision(const Setup& setup, const Step& step, int threads, const Population& population,
+                         StepData& data, Counts& counts) {
+  const auto between_floes = [&](Contact& c) {
+    c.crushing_force = crushing_force(crushed_between(setup, population, c), c, 0);
+  };
+  decide(setup, threads, population, data, between_floes,
+         [&](Contact& c) { collide_with_hull(setup, step, population, c, data, counts); });
+}
+
+void drop_unbroken(StepData& data) {
+  std::erase_if(data.fractures, [&](const PendingFracture& pending) {
     if (pending.failure != fracture::Failure::kBend) return false;
-    return std::ranges::none_of(step.contacts,
+    return std::ranges::none_of(data.contacts,
                                 [&](const Contact& c) { return c.record == pending.record && c.is_broken; });
   });
 }

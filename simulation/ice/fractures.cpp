@@ -47,7 +47,7 @@ void recentre(const Population& population, PendingFracture& pending) {
 }
 
 template <class Kind>
-Event event_of(const Clock& clock, const PendingFracture& pending) {
+Event event_of(const Instant& now, const PendingFracture& pending) {
   Kind kind;
   kind.floe = pending.floe;
   kind.by_floe = pending.by_floe;
@@ -56,12 +56,12 @@ Event event_of(const Clock& clock, const PendingFracture& pending) {
   kind.criterion = pending.criteria;
   if constexpr (requires { kind.cusp_radius; })
     kind.cusp_radius = pending.failure == fracture::Failure::kBend ? pending.cusp_radius : 0;
-  return {clock.time(), pending.ship, pending.point_in_water + clock.drift(), std::move(kind)};
+  return {now.time, pending.ship, pending.point_in_water + now.drift, std::move(kind)};
 }
 
-void reject(const Setup& setup, const Clock& clock, const PendingFracture& pending, const geometry::Shape& shape,
+void reject(const Setup& setup, const Instant& now, const PendingFracture& pending, const geometry::Shape& shape,
             const geometry::CutError& error, Counts& counts, Journal& journal) {
-  Event event = event_of<RejectedCut>(clock, pending);
+  Event event = event_of<RejectedCut>(now, pending);
   auto& rejected = std::get<RejectedCut>(event.what);
   rejected.reason = to_string(error);
   rejected.input = {++counts.rejected_cuts, shape.polygon, {}, {}};
@@ -84,10 +84,10 @@ InsideFate fate_of_cusp(const Setup& setup, int ship) {
 }
 
 /// What becomes of the floe's pieces.
-Breakage breakage_of(const Setup& setup, const Clock& clock, const PendingFracture& pending) {
+Breakage breakage_of(const Setup& setup, const Instant& now, const PendingFracture& pending) {
   if (pending.failure != fracture::Failure::kBend)
-    return {event_of<Split>(clock, pending), InsideFate::kFloats, &EnergyFlows::splitting, &Counts::splits};
-  return {event_of<Bend>(clock, pending), fate_of_cusp(setup, pending.ship), &EnergyFlows::bending, &Counts::bends};
+    return {event_of<Split>(now, pending), InsideFate::kFloats, &EnergyFlows::splitting, &Counts::splits};
+  return {event_of<Bend>(now, pending), fate_of_cusp(setup, pending.ship), &EnergyFlows::bending, &Counts::bends};
 }
 
 /// Passes the other bends of a floe that bent to the pieces, from `first` on, in which their contacts are: a hull
@@ -95,7 +95,7 @@ Breakage breakage_of(const Setup& setup, const Clock& clock, const PendingFractu
 /// side first, which depends on the step. A piece too small to break takes none.
 void pass_bends(FloeId bent, FloeId first, std::span<PendingFracture> others, const Population& population) {
   for (PendingFracture& pending : others) {
-    if (pending.floe != bent || pending.failure != fracture::Failure::kBend) continue;
+    if (pending.floe != bent || !pending.passes_to_pieces) continue;
     for (FloeId piece = first; piece < population.floe_count(); ++piece) {
       const BodyIndex body = population.body_of(piece);
       if (!population.is_floating(piece) || floe_size(population, body) < pending.criteria.breakable_size) continue;
@@ -110,9 +110,9 @@ void pass_bends(FloeId bent, FloeId first, std::span<PendingFracture> others, co
 
 }  // namespace
 
-void apply_fractures(const Setup& setup, const Clock& clock, StepData& step, Population& population, Accounts& accounts,
+void apply_fractures(const Setup& setup, const Step& step, StepData& data, Population& population, Accounts& accounts,
                      Journal& journal) {
-  std::vector<PendingFracture>& fractures = step.fractures;
+  std::vector<PendingFracture>& fractures = data.fractures;
   std::ranges::stable_sort(fractures, {}, &PendingFracture::floe);
   for (std::size_t i = 0; i < fractures.size(); ++i) {
     PendingFracture& pending = fractures[i];
@@ -126,14 +126,13 @@ void apply_fractures(const Setup& setup, const Clock& clock, StepData& step, Pop
     }
     if (outcome) {
       const FloeId first = population.floe_count();
-      const Breakage breakage = breakage_of(setup, clock, pending);
+      const Breakage breakage = breakage_of(setup, step.end, pending);
       if (breakage.inside == InsideFate::kUnderHull)
-        turn_cusp(setup, pending, *outcome, population, step.loads[pending.ship], accounts.audit);
-      replace_by_pieces(setup, clock, breakage, *outcome, population, accounts, journal);
-      if (is_crush_law(setup) && pending.failure == fracture::Failure::kBend)
-        pass_bends(pending.floe, first, std::span(fractures).subspan(i + 1), population);
+        turn_cusp(setup, pending, *outcome, population, data.loads[pending.ship], accounts.audit);
+      replace_by_pieces(setup, step.end, breakage, *outcome, population, accounts, journal);
+      if (pending.passes_to_pieces) pass_bends(pending.floe, first, std::span(fractures).subspan(i + 1), population);
     } else {
-      reject(setup, clock, pending, shape, outcome.error(), accounts.counts, journal);
+      reject(setup, step.end, pending, shape, outcome.error(), accounts.counts, journal);
     }
   }
 }

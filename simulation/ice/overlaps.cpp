@@ -47,12 +47,12 @@ geometry::Polygon outline_of(const Population& population, const Setup& setup, B
 
 /// A kind of event with what all that happens to overlaps has.
 template <class Kind>
-Event event_of(const Population& population, const Clock& clock, const OverlapCut& overlap, BodyIndex ground,
+Event event_of(const Population& population, const Instant& now, const OverlapCut& overlap, BodyIndex ground,
                Kind kind) {
   const BodyIndex by = ground == overlap.a ? overlap.b : overlap.a;
   kind.floe = population.floe_of(ground);
   kind.by_floe = population.floe_or_none(by);
-  return {clock.time(), population.hull_or_none(by), overlap.middle + clock.drift(), std::move(kind)};
+  return {now.time, population.hull_or_none(by), overlap.middle + now.drift, std::move(kind)};
 }
 
 /// Whether a cut leaves two floes or more, slivers and what would be brash aside.
@@ -91,7 +91,7 @@ BodyIndex ground_of(const Setup& setup, const Population& population, BodyIndex 
 /// Cuts what the two share from the floe that is ground, by the other's outline, and makes it brash: event
 /// `grind`. Nothing where that is less than the criterion's least area, or leaves no two floes that it is to
 /// leave: returns whether it was cut.
-bool cut_overlap(const Setup& setup, const Clock& clock, const OverlapCut& overlap, Population& population,
+bool cut_overlap(const Setup& setup, const Instant& now, const OverlapCut& overlap, Population& population,
                  Accounts& accounts, Journal& journal) {
   const BodyIndex ground = ground_of(setup, population, overlap.a, overlap.b);
   const BodyIndex by = ground == overlap.a ? overlap.b : overlap.a;
@@ -107,14 +107,14 @@ bool cut_overlap(const Setup& setup, const Clock& clock, const OverlapCut& overl
     criterion.overlap_area = outcome->ledger.area_inside;
     if (criterion.overlap_area < criterion.least_area) return false;
     if (overlap.when == CutWhen::kParts && !is_parted(setup, *outcome)) return false;
-    Event event = event_of(population, clock, overlap, ground, Grind{{}, criterion});
-    replace_by_pieces(setup, clock, {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
+    Event event = event_of(population, now, overlap, ground, Grind{{}, criterion});
+    replace_by_pieces(setup, now, {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
                       *outcome, population, accounts, journal);
     return true;
   }
   if (outcome.error().reason != geometry::CutFailure::kMisses) {  // else they have parted
     RejectedCut rejected = rejected_grind(criterion, shape.polygon, tools.front().outer, outcome.error(), accounts);
-    journal.events.push_back(event_of(population, clock, overlap, ground, std::move(rejected)));
+    journal.events.push_back(event_of(population, now, overlap, ground, std::move(rejected)));
     accounts.refused_grinds.emplace_back(overlap.a, overlap.b);
   }
   return false;
@@ -146,15 +146,14 @@ void book(double thickness, double friction, const HullSlope& hull, const Contac
 
 }  // namespace
 
-void book_overlaps(const Setup& setup, int threads, const Population& population, const StepData& step) {
-  if (!is_crush_law(setup)) return;
+void book_overlaps(const Setup& setup, int threads, const Population& population, const StepData& data) {
   const std::vector<double>& thickness = population.bodies.thickness;
   const double friction = setup.scene.ice.friction;
-  dynamics::for_contacts(step.contacts, threads, [&](const Contact& c, std::size_t i) {
+  dynamics::for_contacts(data.contacts, threads, [&](const Contact& c, std::size_t i) {
     if (c.total_normal_impulse() == 0 || c.is_rigid()) return;
-    const bool is_at_hull = i < step.slopes.size();
+    const bool is_at_hull = i < data.slopes.size();
     book(is_at_hull ? thickness[c.b] : std::min(thickness[c.a], thickness[c.b]), friction,
-         is_at_hull ? step.slopes[i] : HullSlope{}, c);
+         is_at_hull ? data.slopes[i] : HullSlope{}, c);
   });
 }
 
@@ -181,29 +180,21 @@ GrindCriterion criterion_of(const Population& population, const BlindOverlap& ov
 
 }  // namespace
 
-void grind_blind_overlaps(const Setup& setup, const Clock& clock, const std::vector<BlindOverlap>& overlaps,
-                          Population& population, Accounts& accounts, Journal& journal) {
-  for (const BlindOverlap& overlap : overlaps) {
+void grind_blind_overlaps(const Setup& setup, const Step& step, const StepData& data, Population& population,
+                          Accounts& accounts, Journal& journal) {
+  for (const BlindOverlap& overlap : data.blind_overlaps) {
     if (!can_cut(population, accounts, overlap.a, overlap.b)) continue;
     const GrindCriterion criterion = criterion_of(population, overlap);
     if (criterion.overlap_area < criterion.least_area) continue;
     const geometry::Pose pose = dynamics::a_from_b(population.bodies, overlap.a, overlap.b);
-    cut_overlap(setup, clock, {overlap.a, overlap.b, {pose}, overlap.middle, criterion}, population, accounts, journal);
+    cut_overlap(setup, step.end, {overlap.a, overlap.b, {pose}, overlap.middle, criterion}, population, accounts,
+                journal);
   }
 }
 
 // ---- floes that hulls have come through are cut
 
 namespace {
-
-/// How often floes that hulls pierce are examined [s]. Rarer, a floe stays one in which a hull has come through;
-/// more often, large plates that are pierced and hold together elsewhere cost a cut at each time.
-constexpr double kInterval = 0.25;
-
-bool is_due(const Setup& setup, const Clock& clock) {
-  const auto period = static_cast<std::int64_t>(std::max(1.0, std::floor(kInterval / setup.scene.time.step)));
-  return clock.is_at_tick() && clock.steps % period == 0;
-}
 
 /// Whether a hull may have come through a floe: a hull that has not carves an overlap of one stretch of each
 /// boundary. Where nothing moves the two, carve_channels() cuts.
@@ -213,14 +204,13 @@ bool may_part(const Population& population, const Contact& c) {
 
 }  // namespace
 
-void cut_through_floes(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+void cut_through_floes(const Setup& setup, const Step& step, const StepData& data, Population& population,
                        Accounts& accounts, Journal& journal) {
-  if (!is_crush_law(setup) || !is_due(setup, clock)) return;
-  for (std::size_t i = 0; i < step.slopes.size(); ++i) {
-    const Contact& c = step.contacts[i];
+  for (std::size_t i = 0; i < data.slopes.size(); ++i) {
+    const Contact& c = data.contacts[i];
     if (!can_cut(population, accounts, c.a, c.b) || !may_part(population, c)) continue;
     const geometry::Pose pose = dynamics::a_from_b(population.bodies, c.a, c.b);
-    cut_overlap(setup, clock, {c.a, c.b, {pose}, c.middle(), {c.area, 0}, CutWhen::kParts}, population, accounts,
+    cut_overlap(setup, step.end, {c.a, c.b, {pose}, c.middle(), {c.area, 0}, CutWhen::kParts}, population, accounts,
                 journal);
   }
 }
@@ -265,14 +255,14 @@ struct Touching {
 
 /// Calls use(touching) for each pair that touched in the step.
 template <class Use>
-void for_touching(const StepData& step, Use use) {
-  const std::span<const Contact> all(step.contacts);
+void for_touching(const StepData& data, Use use) {
+  const std::span<const Contact> all(data.contacts);
   for (std::size_t first = 0; first < all.size();) {
     std::size_t end = first + 1;
     while (end < all.size() && all[end].a == all[first].a && all[end].b == all[first].b) ++end;
-    const bool has_slopes = first < step.slopes.size();
+    const bool has_slopes = first < data.slopes.size();
     use(Touching{all.subspan(first, end - first),
-                 has_slopes ? std::span(step.slopes).subspan(first, end - first) : std::span<const HullSlope>()});
+                 has_slopes ? std::span(data.slopes).subspan(first, end - first) : std::span<const HullSlope>()});
     first = end;
   }
 }
@@ -298,11 +288,11 @@ bool is_tilted(const Population& population, BodyIndex ship, BodyIndex floe) {
 }
 
 /// A body, or what it broke into in this step: its pieces have its frame.
-std::vector<BodyIndex> left_of(const Population& population, const Clock& clock, BodyIndex body) {
+std::vector<BodyIndex> left_of(const Population& population, const Instant& now, BodyIndex body) {
   if (population.bodies.is_alive[body]) return {body};
   const FloeId first = population.floe_of(body);
   std::vector<BodyIndex> left;
-  for (FloeId id = population.floe_count() - 1; id > first && population.floes[id].born == clock.time(); --id) {
+  for (FloeId id = population.floe_count() - 1; id > first && population.floes[id].born == now.time; --id) {
     FloeId ancestor = population.floes[id].parent;
     while (ancestor > first) ancestor = population.floes[ancestor].parent;
     if (ancestor == first && population.is_alive(id)) left.push_back(population.body_of(id));
@@ -312,10 +302,10 @@ std::vector<BodyIndex> left_of(const Population& population, const Clock& clock,
 }
 
 /// Cuts off what a contact crushed that has parted.
-void shed_parted(const Setup& setup, const Clock& clock, const dynamics::PartedContact& parted, Population& population,
+void shed_parted(const Setup& setup, const Instant& now, const dynamics::PartedContact& parted, Population& population,
                  Accounts& accounts, Journal& journal) {
-  for (const BodyIndex a : left_of(population, clock, parted.a)) {
-    for (const BodyIndex b : left_of(population, clock, parted.b)) {
+  for (const BodyIndex a : left_of(population, now, parted.a)) {
+    for (const BodyIndex b : left_of(population, now, parted.b)) {
       const bool is_in_order = a < b;  // pieces have numbers of their own
       const BodyIndex low = is_in_order ? a : b;
       const BodyIndex high = is_in_order ? b : a;
@@ -325,7 +315,7 @@ void shed_parted(const Setup& setup, const Clock& clock, const dynamics::PartedC
       if (parted.crushed.area < least) continue;
       const geometry::Pose pose = parted.crushed.a_from_b;
       cut_overlap(
-          setup, clock,
+          setup, now,
           {low, high, {is_in_order ? pose : geometry::inverse(pose)}, parted.middle, {parted.crushed.area, least}},
           population, accounts, journal);
     }
@@ -333,7 +323,7 @@ void shed_parted(const Setup& setup, const Clock& clock, const dynamics::PartedC
 }
 
 /// Cuts off what contacts crushed that last, where it is much.
-void shed_touching(const Setup& setup, const Clock& clock, const Touching& touching, Population& population,
+void shed_touching(const Setup& setup, const Instant& now, const Touching& touching, Population& population,
                    Accounts& accounts, Journal& journal) {
   const Contact& c = touching.contacts.front();
   const dynamics::Bodies& bodies = population.bodies;
@@ -347,19 +337,18 @@ void shed_touching(const Setup& setup, const Clock& clock, const Touching& touch
   const OverlapCut cut{c.a, c.b, poses_of(population.bodies, touching), touching.largest().middle(), {crushed, least}};
   std::vector<dynamics::CrushedIce> kept;  // the pieces inherit none of it
   for (const Contact& contact : touching.contacts) kept.push_back(std::exchange(contact.record->crushed, {}));
-  if (cut_overlap(setup, clock, cut, population, accounts, journal)) return;
+  if (cut_overlap(setup, now, cut, population, accounts, journal)) return;
   for (std::size_t i = 0; i < kept.size(); ++i) touching.contacts[i].record->crushed = kept[i];
 }
 
 }  // namespace
 
-void shed_crushed_ice(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+void shed_crushed_ice(const Setup& setup, const Step& step, const StepData& data, Population& population,
                       Accounts& accounts, Journal& journal) {
-  if (!is_crush_law(setup)) return;
-  for (const dynamics::PartedContact& parted : step.parted)
-    shed_parted(setup, clock, parted, population, accounts, journal);
-  for_touching(step,
-               [&](const Touching& touching) { shed_touching(setup, clock, touching, population, accounts, journal); });
+  for (const dynamics::PartedContact& parted : data.parted)
+    shed_parted(setup, step.end, parted, population, accounts, journal);
+  for_touching(
+      data, [&](const Touching& touching) { shed_touching(setup, step.end, touching, population, accounts, journal); });
 }
 
 }  // namespace polynya::simulation

@@ -76,7 +76,7 @@ void enter_areas(IceEvent& event, const geometry::CutLedger& cut, double mass_pe
 
 }  // namespace
 
-void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage, const geometry::CutResult& cut,
+void replace_by_pieces(const Setup& setup, const Instant& now, Breakage breakage, const geometry::CutResult& cut,
                        Population& population, Accounts& accounts, Journal& journal) {
   IceEvent& event = *breakage.event.ice();
   const int ship = breakage.event.ship;
@@ -105,15 +105,15 @@ void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage
     }
     child.shape = piece.shape;
     child.is_fast = i == fast;
-    const FloeId id = add_floe(setup, clock, child, measures, population, journal);
+    const FloeId id = add_floe(setup, now, child, measures, population, journal);
     event.children.push_back(id);
     if (was_fast && !child.is_fast)  // the fast ice gave it, as bodies of prescribed motion do
       enter_motion(population.bodies, population.body_of(id), accounts.audit.energy.thrust,
                    accounts.audit.momentum.held, accounts.audit);
     if (is_inside && breakage.inside == InsideFate::kUnderHull) {
       std::get<Bend>(breakage.event.what).under_hull_area += measures.area;
-      submersions.push_back(submersion_event(clock, population, id, ship));
-      go_under(setup, clock, id, ship, population, accounts);
+      submersions.push_back(submersion_event(now, population, id, ship));
+      go_under(setup, now, id, ship, population, accounts);
       continue;
     }
     wake(population.body_of(id), population);

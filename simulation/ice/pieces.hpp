@@ -18,7 +18,7 @@ struct Breakage {
 
 /// Replaces the event's floe by the pieces of a cut: floes that move on as the parts of the body they were,
 /// submerged ice and brash. Records the event and enters areas, motion and counts.
-void replace_by_pieces(const Setup& setup, const Clock& clock, Breakage breakage, const geometry::CutResult& cut,
+void replace_by_pieces(const Setup& setup, const Instant& now, Breakage breakage, const geometry::CutResult& cut,
                        Population& population, Accounts& accounts, Journal& journal);
 
 /// A cut of ground ice that geometry refused: counted, with its input.

@@ -33,8 +33,8 @@ constexpr double kVertical = 1e-6;
 /// law of overlaps ends there).
 constexpr double kCrescent = 3;
 
-double tangent_of(const StepData& step, std::size_t i) {
-  return i < step.slopes.size() ? std::max(0.0, step.slopes[i].tangent) : 0;
+double tangent_of(const StepData& data, std::size_t i) {
+  return i < data.slopes.size() ? std::max(0.0, data.slopes[i].tangent) : 0;
 }
 
 /// A hull that is due to be carved out of a floe.
@@ -61,22 +61,22 @@ geometry::Polygon tool_of(const Setup& setup, const dynamics::Bodies& bodies, co
 
 /// The hulls that have come on far enough, one by one. What is left of an overlap is the step's own way and,
 /// under an inclined hull, all that it crushes below the waterline.
-std::vector<Carving> due_carvings(const Setup& setup, const Population& population, const StepData& step,
-                                  const Accounts& accounts) {
+std::vector<Carving> due_carvings(const Setup& setup, const Step& step, const Population& population,
+                                  const StepData& data, const Accounts& accounts) {
   const dynamics::Bodies& bodies = population.bodies;
   std::vector<Carving> due;
-  for (std::size_t i = 0; i < step.contacts.size(); ++i) {
-    const Contact& c = step.contacts[i];
+  for (std::size_t i = 0; i < data.contacts.size(); ++i) {
+    const Contact& c = data.contacts[i];
     if (!population.is_hull(c.a)) break;
     if (population.is_hull(c.b) || !are_prescribed(bodies, c.a, c.b)) continue;
     if (c.total_normal_impulse() <= 0 || c.approach_speed <= 0 || !bodies.is_alive[c.b]) continue;
-    const double facet = ice_of_body(setup, population, c.b).thickness * tangent_of(step, i);
+    const double facet = ice_of_body(setup, population, c.b).thickness * tangent_of(data, i);
     const double least = std::min(kFarthest, kShareOfRadius * bodies.bounding_radius[c.a]);
     const double least_area = c.width * (facet + least);
     if (c.area < least_area) continue;
     if (!due.empty() && due.back().contact->a == c.a && due.back().contact->b == c.b) continue;
     if (is_refused(accounts, c.a, c.b)) continue;
-    const double time_ago = setup.step + facet / c.approach_speed;
+    const double time_ago = step.length + facet / c.approach_speed;
     due.push_back({population.floe_of(c.b), &c, tool_of(setup, bodies, c, time_ago), {c.area, least_area, c.width, 0}});
   }
   std::ranges::stable_sort(due, {}, &Carving::floe);
@@ -84,12 +84,12 @@ std::vector<Carving> due_carvings(const Setup& setup, const Population& populati
 }
 
 template <class Kind>
-Event event_of_carving(const Clock& clock, const Carving& carving, Kind kind) {
+Event event_of_carving(const Instant& now, const Carving& carving, Kind kind) {
   const Contact& c = *carving.contact;
   kind.floe = carving.floe;
   kind.normal_in_world = c.normal;
   kind.penetration = c.depth;
-  return {clock.time(), c.a, c.middle() + clock.drift(), std::move(kind)};
+  return {now.time, c.a, c.middle() + now.drift, std::move(kind)};
 }
 
 /// The share of friction that a contact of prescribed bodies has. Nothing stops their slip: friction that is
@@ -112,7 +112,7 @@ double most_that_ice_bears(const Setup& setup, const Population& population, con
   return ice.compressive_strength * (ice.thickness * across) * (1 + ice.friction * slope_tangent);
 }
 
-void press_prescribed(const Setup& setup, const Population& population, HullContactLoad& load) {
+void press_prescribed(const Setup& setup, const Step& step, const Population& population, HullContactLoad& load) {
   const Contact& c = load.contact;
   if (!are_prescribed(population.bodies, c.a, c.b)) return;
   const double line = load.ice.thickness * c.width / std::cos(load.hull_angle);
@@ -129,20 +129,19 @@ void press_prescribed(const Setup& setup, const Population& population, HullCont
   load.vertical_force = load.shares.vertical * load.normal_force;
   load.shares.tangential *= share_of_friction(c, spans_facet);
   load.stiffness = fracture::crushing_force(load.ice, crushed.slope);
-  const double way = setup.step * std::max(0.0, c.approach_speed);
+  const double way = step.length * std::max(0.0, c.approach_speed);
   if (way * load.stiffness > most - load.normal_force) load.stiffness = (most - load.normal_force) / way;
 }
 
-void close_prescribed_gap(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c) {
+void close_prescribed_gap(const Step& step, const dynamics::Bodies& bodies, const Contact& c) {
   if (!are_prescribed(bodies, c.a, c.b) || c.approach_speed <= 0) return;
-  const double half_a_step = 0.5 * c.width * c.approach_speed * setup.step;  // of area
+  const double half_a_step = 0.5 * c.width * c.approach_speed * step.length;  // of area
   if (c.area + half_a_step >= c.record->loaded_area) c.record->loaded_depth = std::min(c.record->loaded_depth, c.depth);
 }
 
-void carve_channels(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+void carve_channels(const Setup& setup, const Step& step, const StepData& data, Population& population,
                     Accounts& accounts, Journal& journal) {
-  if (!is_crush_law(setup)) return;
-  const std::vector<Carving> due = due_carvings(setup, population, step, accounts);
+  const std::vector<Carving> due = due_carvings(setup, step, population, data, accounts);
   for (auto first = due.begin(); first != due.end();) {
     std::vector<geometry::Polygon> tools;
     auto next = first;
@@ -150,13 +149,14 @@ void carve_channels(const Setup& setup, const Clock& clock, const StepData& step
     const geometry::Shape& shape = population.floes[first->floe].shape;
     const geometry::CutOutcome outcome = geometry::cut_by_polygons(shape, tools);
     if (outcome) {
-      Event event = event_of_carving(clock, *first, Grind{{}, first->criterion});
-      replace_by_pieces(setup, clock, {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
-                        *outcome, population, accounts, journal);
+      Event event = event_of_carving(step.end, *first, Grind{{}, first->criterion});
+      replace_by_pieces(setup, step.end,
+                        {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground}, *outcome,
+                        population, accounts, journal);
     } else if (outcome.error().reason != geometry::CutFailure::kMisses) {
       RejectedCut rejected =
           rejected_grind(first->criterion, shape.polygon, tools.front().outer, outcome.error(), accounts);
-      journal.events.push_back(event_of_carving(clock, *first, std::move(rejected)));
+      journal.events.push_back(event_of_carving(step.end, *first, std::move(rejected)));
       for (auto refused = first; refused != next; ++refused)
         accounts.refused_grinds.emplace_back(refused->contact->a, refused->contact->b);
     }
@@ -164,19 +164,18 @@ void carve_channels(const Setup& setup, const Clock& clock, const StepData& step
   }
 }
 
-std::optional<std::string> overload_of(const Setup& setup, const Clock& clock, const Population& population,
-                                       const StepData& step) {
-  if (!is_crush_law(setup)) return std::nullopt;
-  const double dt = setup.step;
-  for (std::size_t i = 0; i < step.contacts.size(); ++i) {
-    const Contact& c = step.contacts[i];
+std::optional<std::string> overload_of(const Setup& setup, const Step& step, const Population& population,
+                                       const StepData& data) {
+  const double dt = step.length;
+  for (std::size_t i = 0; i < data.contacts.size(); ++i) {
+    const Contact& c = data.contacts[i];
     if (c.is_rigid() || c.total_normal_impulse() <= 0) continue;
     const double force = c.steady_share * c.total_normal_impulse() / dt;
-    const double most = most_that_ice_bears(setup, population, c, tangent_of(step, i));
+    const double most = most_that_ice_bears(setup, population, c, tangent_of(data, i));
     if (!(force > kOverload * most)) continue;
     return "bodies " + std::to_string(c.a) + " and " + std::to_string(c.b) + " press each other with " +
            std::to_string(1e-6 * force) + " MN, their ice bears " + std::to_string(1e-6 * most) +
-           " MN, at t = " + std::to_string(clock.time()) + " s";
+           " MN, at t = " + std::to_string(step.begin.time) + " s";
   }
   return std::nullopt;
 }

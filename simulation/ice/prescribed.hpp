@@ -12,10 +12,10 @@ double most_that_ice_bears(const Setup& setup, const Population& population, con
 /// Enters the load of a hull in fast ice where the motion of both is prescribed: as the overlap's area grows
 /// by w per metre, so much ice crushes, whatever the overlap has become; never more than a line as long as
 /// the hull is wide bears, since nothing gives way there. Else the load is as it was.
-void press_prescribed(const Setup& setup, const Population& population, HullContactLoad& load);
+void press_prescribed(const Setup& setup, const Step& step, const Population& population, HullContactLoad& load);
 
 /// Closes the gap to what has pressed in a contact of prescribed bodies whose overlap is at least as large:
 /// its depth does not show it where ice was carved out.
-void close_prescribed_gap(const Setup& setup, const dynamics::Bodies& bodies, const dynamics::Contact& c);
+void close_prescribed_gap(const Step& step, const dynamics::Bodies& bodies, const dynamics::Contact& c);
 
 }  // namespace polynya::simulation

@@ -189,31 +189,30 @@ class Instants {
 
 }  // namespace
 
-dynamics::SolverResult solve_to_splits(const Setup& setup, const dynamics::SolverSettings& settings,
-                                       Population& population, StepData& step, Counts& counts) {
+dynamics::SolverResult solve_to_splits(const Setup& setup, const Step& step, const dynamics::SolverSettings& settings,
+                                       Population& population, StepData& data, Counts& counts) {
   dynamics::Bodies& bodies = population.bodies;
-  const auto solve = [&] { return step.solver.solve(bodies, step.contacts, setup.law, settings); };
-  if (!is_crush_law(setup) || setup.scene.fracture.splitting != fracture::SplittingModel::kLefm) {
-    const dynamics::SolverResult result = solve();
-    find_splits(setup, population, step.contacts, step.splits);
-    return result;
-  }
+  const ContactSettings& contact = setup.scene.contact;
+  const dynamics::CrushLaw law{step.length, contact.substeps, contact.is_warm_started};
+  const auto solve = [&] { return data.solver.solve(bodies, data.contacts, law, settings); };
+  data.splits.clear();
+  if (setup.scene.fracture.splitting != fracture::SplittingModel::kLefm) return solve();
   const auto find = [&] {
-    find_splits(setup, population, step.contacts, step.splits);
-    find_broken_beams(setup, population, step);
+    find_splits(setup, step, population, data.contacts, data.splits);
+    find_broken_beams(setup, step, population, data);
   };
-  keep_start(bodies, step.contacts, settings.threads, step.solver_start);
-  Instants instants(step.contacts, setup.step);
+  keep_start(bodies, data.contacts, settings.threads, data.solver_start);
+  Instants instants(data.contacts, step.length);
   dynamics::SolverResult result = solve();
   find();
-  for (int round = 0; round < kMostRounds && instants.stop(step.splits); ++round) {
-    go_back(step.solver_start, step.contacts, bodies);
+  for (int round = 0; round < kMostRounds && instants.stop(data.splits); ++round) {
+    go_back(data.solver_start, data.contacts, bodies);
     result = solve();
     find();
   }
   if (!instants.any()) return result;
-  instants.enter(step.splits, counts);
-  std::erase_if(step.fractures, [&](const PendingFracture& pending) {
+  instants.enter(data.splits, counts);
+  std::erase_if(data.fractures, [&](const PendingFracture& pending) {
     return pending.failure == fracture::Failure::kBend && instants.stops(pending.record);
   });
   return result;

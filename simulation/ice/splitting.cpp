@@ -199,16 +199,16 @@ std::optional<CrackCandidate> first_to_run(const Setup& setup, const Population&
 }
 
 /// The split of a floe by one other body, where their contacts open a crack.
-std::optional<PendingFracture> split_of(const Setup& setup, const Population& population,
+std::optional<PendingFracture> split_of(const Setup& setup, const Step& step, const Population& population,
                                         std::span<const Contact> contacts, BodyIndex floe, PressedFloe& pressed) {
   const IceLimits& limits = limits_of_body(setup, population, floe);
   if (floe_size(population, floe) < limits.breakable_size) return std::nullopt;
-  press(setup, population.bodies, contacts, floe, pressed);
+  press(setup, step, population.bodies, contacts, floe, pressed);
   if (pressed.most < limits.least_splitting_force) return std::nullopt;
   find_mouths(floe, pressed);
   const auto crack = first_to_run(setup, population, floe, pressed, 1);
   if (!crack) return std::nullopt;
-  PendingFracture split = split_by(setup, population, *crack->mouth.contact, floe);
+  PendingFracture split = split_by(setup, step, population, *crack->mouth.contact, floe);
   split.point_in_water = crack->begins_at;
   split.crack_in_body = crack->path_in_body;
   enter_crack(crack->criteria, split.criteria);
@@ -226,16 +226,16 @@ std::span<const Contact> contacts_beside(const std::vector<Contact>& contacts, c
 }
 
 /// Enters the forces that there were into a fracture that another rule decided.
-void enter_true_forces(const Setup& setup, const Population& population, const std::vector<Contact>& contacts,
-                       PendingFracture& pending) {
+void enter_true_forces(const Setup& setup, const Step& step, const Population& population,
+                       const std::vector<Contact>& contacts, PendingFracture& pending) {
   const dynamics::Bodies& bodies = population.bodies;
   const auto c = std::ranges::find(contacts, pending.record, &Contact::record);
   if (c == contacts.end()) return;
   const fracture::Ice& ice = ice_of_body(setup, population, c->b);
   fracture::FailureCriteria& criteria = pending.criteria;
-  criteria.contact_force = length(force_on(*c, c->b, setup.step));
+  criteria.contact_force = length(force_on(*c, c->b, step.length));
   PressedFloe pressed;
-  press(setup, bodies, contacts_beside(contacts, *c), c->b, pressed);
+  press(setup, step, bodies, contacts_beside(contacts, *c), c->b, pressed);
   if (setup.scene.fracture.splitting == fracture::SplittingModel::kLefm) {
     find_mouths(c->b, pressed);
     const auto crack = first_to_run(setup, population, c->b, pressed, 0);
@@ -252,7 +252,7 @@ void enter_true_forces(const Setup& setup, const Population& population, const s
 
 }  // namespace
 
-void find_splits(const Setup& setup, const Population& population, const std::vector<Contact>& all,
+void find_splits(const Setup& setup, const Step& step, const Population& population, const std::vector<Contact>& all,
                  std::vector<PendingFracture>& splits) {
   splits.clear();
   if (setup.scene.fracture.splitting != fracture::SplittingModel::kLefm) return;
@@ -260,19 +260,19 @@ void find_splits(const Setup& setup, const Population& population, const std::ve
   for (std::size_t i = 0; i < all.size();) {
     const std::span<const Contact> contacts = contacts_beside(all, all[i]);
     i += contacts.size();
-    const double bound = opening_bound(setup, contacts);
+    const double bound = opening_bound(setup, step, contacts);
     for (const BodyIndex body : {contacts.front().a, contacts.front().b}) {
       if (population.is_hull(body)) continue;
       if (bound < limits_of_body(setup, population, body).least_splitting_force) continue;
-      if (auto split = split_of(setup, population, contacts, body, pressed)) splits.push_back(*split);
+      if (auto split = split_of(setup, step, population, contacts, body, pressed)) splits.push_back(*split);
     }
   }
 }
 
-void enter_splits(const Setup& setup, const Population& population, StepData& step) {
-  for (PendingFracture& pending : step.fractures) enter_true_forces(setup, population, step.contacts, pending);
+void enter_splits(const Setup& setup, const Step& step, const Population& population, StepData& data) {
+  for (PendingFracture& pending : data.fractures) enter_true_forces(setup, step, population, data.contacts, pending);
   // Before the bends: a bend stops the force at V_b, so what splits at it has split before.
-  step.fractures.insert(step.fractures.begin(), step.splits.begin(), step.splits.end());
+  data.fractures.insert(data.fractures.begin(), data.splits.begin(), data.splits.end());
 }
 
 }  // namespace polynya::simulation

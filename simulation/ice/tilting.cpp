@@ -98,10 +98,10 @@ double covered_share(const Population& population, const Pressed& pressed) {
 
 /// Turns the floe's edge, and enters that it goes under where that is deep enough, or the hull covers most of it:
 /// then its middle is below the hull's waterline.
-void tilt(const Setup& setup, const Population& population, const Pressed& pressed, std::vector<TiltedFloe>& tilted,
-          std::vector<PendingSubmersion>& submersions) {
+void tilt(const Setup& setup, const Step& step, const Population& population, const Pressed& pressed,
+          std::vector<TiltedFloe>& tilted, std::vector<PendingSubmersion>& submersions) {
   const fracture::TiltSettings& settings = setup.scene.fracture.going_under.tilting;
-  const double dt = setup.step;
+  const double dt = step.length;
   double vertical_force = 0;
   const Contact* strongest = &pressed.contacts.front();
   for (std::size_t i = 0; i < pressed.contacts.size(); ++i) {
@@ -128,9 +128,9 @@ void tilt(const Setup& setup, const Population& population, const Pressed& press
 
 }  // namespace
 
-void limit_by_tilt(const Setup& setup, const Population& population, StepData& step) {
-  const double dt = setup.step;
-  for_pressed(setup, population, step.contacts, step.slopes, [&](const Pressed& pressed) {
+void limit_by_tilt(const Setup& setup, const Step& step, const Population& population, StepData& data) {
+  const double dt = step.length;
+  for_pressed(setup, population, data.contacts, data.slopes, [&](const Pressed& pressed) {
     double expected = 0;
     for (std::size_t i = 0; i < pressed.contacts.size(); ++i) {
       if (pressed.slopes[i].vertical_share > 0)
@@ -147,22 +147,22 @@ void limit_by_tilt(const Setup& setup, const Population& population, StepData& s
   });
 }
 
-void tilt_floes(const Setup& setup, Population& population, StepData& step) {
-  step.submersions.clear();
+void tilt_floes(const Setup& setup, const Step& step, Population& population, StepData& data) {
+  data.submersions.clear();
   std::vector<TiltedFloe> tilted;
   const auto is_pressed = [&](const TiltedFloe& floe) {
-    return std::ranges::any_of(std::span(step.contacts).first(step.slopes.size()), [&](const Contact& c) {
+    return std::ranges::any_of(std::span(data.contacts).first(data.slopes.size()), [&](const Contact& c) {
       return c.a == floe.ship && c.b == population.body_of(floe.floe);
     });
   };
   for (const TiltedFloe& floe : population.tilted) {
     if (!population.is_floating(floe.floe) || is_pressed(floe)) continue;
     const fracture::EdgeMotion edge = fracture::tilted(resistance_of(setup, population, floe.floe), floe.edge, 0,
-                                                       setup.scene.fracture.going_under.tilting.damping, setup.step);
+                                                       setup.scene.fracture.going_under.tilting.damping, step.length);
     if (edge.deflection > 0) tilted.push_back({floe.floe, floe.ship, edge});
   }
-  for_pressed(setup, population, step.contacts, step.slopes,
-              [&](const Pressed& pressed) { tilt(setup, population, pressed, tilted, step.submersions); });
+  for_pressed(setup, population, data.contacts, data.slopes,
+              [&](const Pressed& pressed) { tilt(setup, step, population, pressed, tilted, data.submersions); });
   std::ranges::sort(tilted, {}, [](const TiltedFloe& floe) { return std::pair(floe.ship, floe.floe); });
   population.tilted = std::move(tilted);
 }

@@ -124,7 +124,8 @@ void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::
 }
 
 /// Presses a deck on over a step.
-void press(const Setup& setup, PressedDeck& pressed, dynamics::Bodies& bodies, HullLoads& loads, AuditSums& audit) {
+void press(const Setup& setup, const Step& step, PressedDeck& pressed, dynamics::Bodies& bodies, HullLoads& loads,
+           AuditSums& audit) {
   const BodyIndex ship = pressed.ship;
   const Vector arm = rotate(bodies.rotation[ship], pressed.arm_in_ship);
   const Vector normal = rotate(bodies.rotation[ship], pressed.normal_in_ship);
@@ -133,9 +134,9 @@ void press(const Setup& setup, PressedDeck& pressed, dynamics::Bodies& bodies, H
       dynamics::velocity_at(bodies, ship, arm) - setup.current.velocity_at(bodies.position[ship]);
   const double speed = std::max(0.0, dot(normal, through_water));
   const fracture::DeckForces forces = fracture::turn_deck(
-      pressed.deck, setup.scene.water.water, dot(normal, horizontal), speed * setup.step, setup.step, pressed.state);
+      pressed.deck, setup.scene.water.water, dot(normal, horizontal), speed * step.length, step.length, pressed.state);
   if (speed == 0) return;
-  const Vector impulse = setup.step * (forces.ahead * normal - forces.down * horizontal);
+  const Vector impulse = step.length * (forces.ahead * normal - forces.down * horizontal);
   const double slowed = -speed_by(bodies, ship, arm, normal, impulse);  // it stops a ship and never reverses it
   brake(ship, arm, slowed > speed ? (speed / slowed) * impulse : impulse, bodies, loads, audit);
 }
@@ -154,12 +155,13 @@ void turn_cusp(const Setup& setup, const PendingFracture& bend, const geometry::
   const double slowed = edge.speed_per_approach * speed_by(bodies, ship, arm, bend.normal, edge.horizontal);
   const double given = mass * edge.speed / (1 + mass * std::max(0.0, slowed));  // down on the edge
   brake(ship, arm, -given * edge.horizontal, bodies, loads, audit);
-  if (has_flooding_decks(setup)) add_decks(setup, bend, cut, population);
+  if (setup.has_flooding_decks) add_decks(setup, bend, cut, population);
 }
 
-void press_decks(const Setup& setup, Population& population, std::vector<HullLoads>& loads, AuditSums& audit) {
+void press_decks(const Setup& setup, const Step& step, Population& population, std::vector<HullLoads>& loads,
+                 AuditSums& audit) {
   for (PressedDeck& pressed : population.decks)
-    press(setup, pressed, population.bodies, loads[static_cast<std::size_t>(pressed.ship)], audit);
+    press(setup, step, pressed, population.bodies, loads[static_cast<std::size_t>(pressed.ship)], audit);
   std::erase_if(population.decks, [](const PressedDeck& p) { return p.state.way >= way_to_lie_along(p.deck); });
 }
 

@@ -13,6 +13,7 @@ void turn_cusp(const Setup& setup, const PendingFracture& bend, const geometry::
 
 /// Presses the decks on that hulls press down, by the way of a step, and lets water onto them: brakes the hulls by the
 /// pressure of the water that is missing there. Those that lie along the hull end.
-void press_decks(const Setup& setup, Population& population, std::vector<HullLoads>& loads, AuditSums& audit);
+void press_decks(const Setup& setup, const Step& step, Population& population, std::vector<HullLoads>& loads,
+                 AuditSums& audit);
 
 }  // namespace polynya::simulation

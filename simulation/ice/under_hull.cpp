@@ -35,15 +35,15 @@ double weight_under(const Setup& setup, const Population& population, FloeId flo
 
 }  // namespace
 
-Event submersion_event(const Clock& clock, const Population& population, FloeId floe, int ship) {
+Event submersion_event(const Instant& now, const Population& population, FloeId floe, int ship) {
   Submerge submerge;
   submerge.under_hull_area = population.floes[floe].area;
   submerge.floe = floe;
-  const geometry::Point place = population.bodies.position[population.body_of(floe)] + clock.drift();
-  return {clock.time(), ship, place, submerge};
+  const geometry::Point place = population.bodies.position[population.body_of(floe)] + now.drift;
+  return {now.time, ship, place, submerge};
 }
 
-void go_under(const Setup& setup, const Clock& clock, FloeId floe, int ship, Population& population,
+void go_under(const Setup& setup, const Instant& now, FloeId floe, int ship, Population& population,
               Accounts& accounts) {
   const BodyIndex body = population.body_of(floe);
   leave_contacts(floe, population);
@@ -55,23 +55,23 @@ void go_under(const Setup& setup, const Clock& clock, FloeId floe, int ship, Pop
                                   .ship = ship,
                                   .path = 0,
                                   .weight = weight_under(setup, population, floe, ship),
-                                  .next_try = clock.time(),
+                                  .next_try = now.time,
                                   .waited = 0,
                                   .area = population.floes[floe].area});
   ++accounts.counts.went_under;
 }
 
-void apply_submersions(const Setup& setup, const Clock& clock, const std::vector<PendingSubmersion>& pending,
-                       Population& population, Accounts& accounts, Journal& journal) {
-  for (const PendingSubmersion& floe : pending) {
+void apply_submersions(const Setup& setup, const Step& step, const StepData& data, Population& population,
+                       Accounts& accounts, Journal& journal) {
+  for (const PendingSubmersion& floe : data.submersions) {
     if (!population.is_floating(floe.floe)) continue;  // it broke in this step, or another ship has it
-    Event event = submersion_event(clock, population, floe.floe, floe.ship);
-    event.point_in_world = floe.point_in_water + clock.drift();
+    Event event = submersion_event(step.end, population, floe.floe, floe.ship);
+    event.point_in_world = floe.point_in_water + step.end.drift;
     auto& submerge = std::get<Submerge>(event.what);
     submerge.normal_in_world = floe.normal;
     submerge.penetration = floe.penetration;
     submerge.criterion = floe.criterion;
-    go_under(setup, clock, floe.floe, floe.ship, population, accounts);
+    go_under(setup, step.end, floe.floe, floe.ship, population, accounts);
     ++accounts.counts.tilted_under;
     journal.events.push_back(std::move(event));
   }
@@ -101,12 +101,12 @@ double distance_to_port(const Setup& setup, const dynamics::Bodies& bodies, cons
   return std::clamp(rotate_back(bodies.rotation[piece.ship], from_ship).y, -half_beam, half_beam);
 }
 
-void add_piece(const Setup& setup, const dynamics::SubmersionPath& path, const Population& population,
-               const SubmergedPiece& piece, Pull& pull) {
+void add_piece(const Setup& setup, double dt, const Population& population, const SubmergedPiece& piece, Pull& pull) {
+  const dynamics::SubmersionPath& path = setup.underwater[piece.ship].path;
   if (piece.path >= std::max(path.bow, path.sliding)) return;  // behind it
   if (piece.path < path.sliding) pull.area += piece.area;
   if (pull.speed <= 0) return;
-  const double to = piece.path + pull.speed * setup.step;
+  const double to = piece.path + pull.speed * dt;
   const double work =
       piece.weight * (path.risen_over(piece.path, to) + setup.scene.ice.friction * path.slid_over(piece.path, to));
   if (work == 0) return;
@@ -115,14 +115,14 @@ void add_piece(const Setup& setup, const dynamics::SubmersionPath& path, const P
 }
 
 /// Brakes the ship, which it never reverses, and turns it. Enters both.
-void apply(const Setup& setup, BodyIndex ship, const Pull& pull, dynamics::Bodies& bodies, SubmergedLoads& loads,
-           AuditSums& audit) {
+void apply(const Setup& setup, double dt, BodyIndex ship, const Pull& pull, dynamics::Bodies& bodies,
+           SubmergedLoads& loads, AuditSums& audit) {
   loads.area = pull.area;
   if (pull.work == 0) return;
   const bool has_factor = setup.scene.ships[ship].hull.has_speed_factor;
   const double factor =
       has_factor ? dynamics::submersion_speed_factor(pull.speed, setup.underwater[ship].form.length) : 1;
-  double impulse = factor * pull.work / (pull.speed * setup.step) * setup.step;
+  double impulse = factor * pull.work / (pull.speed * dt) * dt;
   const bool is_free = bodies.inverse_mass[ship] != 0;
   if (is_free) impulse = std::min(impulse, bodies.mass[ship] * pull.speed);
   const double angular = impulse * pull.moment / pull.work;
@@ -141,18 +141,16 @@ double speed_ahead(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex
 
 }  // namespace
 
-void pull_of_submerged_ice(const Setup& setup, Population& population, std::vector<HullLoads>& loads,
+void pull_of_submerged_ice(const Setup& setup, const Step& step, Population& population, std::vector<HullLoads>& loads,
                            AuditSums& audit) {
-  if (population.submerged.empty()) return;
   dynamics::Bodies& bodies = population.bodies;
-  const double dt = setup.step;
+  const double dt = step.length;
   std::vector<Pull> pulls(setup.scene.ships.size());
   const auto ships = static_cast<BodyIndex>(pulls.size());
   for (BodyIndex ship = 0; ship < ships; ++ship) pulls[ship].speed = speed_ahead(setup, bodies, ship);
-  for (const SubmergedPiece& piece : population.submerged)
-    add_piece(setup, setup.underwater[piece.ship].path, population, piece, pulls[piece.ship]);
+  for (const SubmergedPiece& piece : population.submerged) add_piece(setup, dt, population, piece, pulls[piece.ship]);
   for (BodyIndex ship = 0; ship < ships; ++ship) {
-    apply(setup, ship, pulls[ship], bodies, loads[ship].submerged, audit);
+    apply(setup, dt, ship, pulls[ship], bodies, loads[ship].submerged, audit);
     pulls[ship].speed = speed_ahead(setup, bodies, ship);
   }
   const bool is_still = setup.current.is_still();
@@ -237,22 +235,23 @@ bool is_over_another(const Population& population, const SubmergedPiece& submerg
 
 /// A kind of event with what decided it.
 template <class Kind>
-Event event_of(const Setup& setup, const Clock& clock, const Population& population, const SubmergedPiece& submerged,
+Event event_of(const Setup& setup, const Instant& now, const Population& population, const SubmergedPiece& submerged,
                Kind kind) {
   kind.floe = submerged.floe;
   kind.criterion = {submerged.path, setup.underwater[submerged.ship].path.sliding, submerged.waited,
                     setup.scene.fracture.resurface.give_up};
   const BodyIndex body = population.body_of(submerged.floe);
-  return {clock.time(), submerged.ship, population.bodies.position[body] + clock.drift(), std::move(kind)};
+  return {now.time, submerged.ship, population.bodies.position[body] + now.drift, std::move(kind)};
 }
 
 /// One submerged piece's attempts to come up.
 class Resurfacing {
  public:
-  Resurfacing(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts, Journal& journal)
+  Resurfacing(const Setup& setup, const Step& step, Population& population, Accounts& accounts, Journal& journal)
       : setup_(setup),
         settings_(setup.scene.fracture.resurface),
-        clock_(clock),
+        now_(step.end),
+        whole_ticks_(step.whole_ticks),
         population_(population),
         accounts_(accounts),
         journal_(journal) {}
@@ -260,9 +259,9 @@ class Resurfacing {
   void go_on(SubmergedPiece& submerged) {
     const bool is_ahead = submerged.path < 0;  // the ship backed off it
     if (submerged.path < setup_.underwater[submerged.ship].path.sliding && !is_ahead) return;
-    if (clock_.time() < submerged.next_try) return;
+    if (now_.time < submerged.next_try) return;
     if (!settings_.is_enabled && !is_ahead) return stay_under(submerged);
-    submerged.next_try = clock_.time() + settings_.retry;
+    submerged.next_try = now_.time + settings_.retry;
     try_to_come_up(submerged);
   }
 
@@ -270,7 +269,7 @@ class Resurfacing {
   void stay_under(const SubmergedPiece& submerged) {
     StayUnder stays;
     stays.under_ice_area = population_.floes[submerged.floe].area;
-    Event event = event_of(setup_, clock_, population_, submerged, stays);
+    Event event = event_of(setup_, now_, population_, submerged, stays);
     accounts_.areas.under_ice += stays.under_ice_area;
     accounts_.masses.under_ice += population_.bodies.mass[population_.body_of(submerged.floe)];
     ++accounts_.counts.stayed_under;
@@ -286,7 +285,7 @@ class Resurfacing {
     const Pose in_place = dynamics::water_from_body(population_.bodies, body);
     if (is_under_hull(population_, boundary, in_place)) return;  // not behind it yet
     Random random(setup_.scene.seed ^ (static_cast<std::uint64_t>(submerged.floe) << 32U) ^
-                  static_cast<std::uint64_t>(clock_.steps));
+                  static_cast<std::uint64_t>(whole_ticks_));
     for (int i = 0; i < kPlaces; ++i) {
       const double share = 1 - static_cast<double>(i) / (kPlaces - 1);
       const Place place = scattered(population_.bodies, body, std::sqrt(floe.area), share * settings_.scatter, random);
@@ -310,7 +309,7 @@ class Resurfacing {
     accounts_.counts.brash_pieces += is_floe ? 0 : 1;
     accounts_.areas.brash += up.brash_area;
     accounts_.masses.brash += mass_per_area(ice_of_floe(setup_, population_, submerged.floe)) * up.brash_area;
-    Event event = event_of(setup_, clock_, population_, submerged, std::move(up));
+    Event event = event_of(setup_, now_, population_, submerged, std::move(up));
     ++accounts_.counts.came_up;
     retire_floe(submerged.floe, population_, journal_);
     journal_.events.push_back(std::move(event));
@@ -332,7 +331,7 @@ class Resurfacing {
       piece.velocity =
           setup_.current.velocity_at(centre) - cross(piece.angular_velocity, centre - place.water_from_body.position);
     }
-    const FloeId id = add_floe(setup_, clock_, piece, measures, population_, journal_);
+    const FloeId id = add_floe(setup_, now_, piece, measures, population_, journal_);
     wake_and_enter(population_.body_of(id));
     return id;
   }
@@ -346,7 +345,8 @@ class Resurfacing {
 
   const Setup& setup_;
   const ResurfaceSettings& settings_;
-  const Clock& clock_;
+  const Instant& now_;
+  std::int64_t whole_ticks_;
   Population& population_;
   Accounts& accounts_;
   Journal& journal_;
@@ -354,9 +354,8 @@ class Resurfacing {
 
 }  // namespace
 
-void come_up(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts, Journal& journal) {
-  if (population.submerged.empty()) return;
-  Resurfacing resurfacing(setup, clock, population, accounts, journal);
+void come_up(const Setup& setup, const Step& step, Population& population, Accounts& accounts, Journal& journal) {
+  Resurfacing resurfacing(setup, step, population, accounts, journal);
   for (SubmergedPiece& submerged : population.submerged) resurfacing.go_on(submerged);
   std::erase_if(population.submerged,
                 [&](const SubmergedPiece& submerged) { return !population.floes[submerged.floe].is_under; });

@@ -6,10 +6,10 @@ namespace polynya::simulation {
 
 /// Takes a floe out of the contact world and puts it under a ship's hull, where it rests in the water. Enters
 /// its motion and counts it.
-void go_under(const Setup& setup, const Clock& clock, FloeId floe, int ship, Population& population,
+void go_under(const Setup& setup, const Instant& now, FloeId floe, int ship, Population& population,
               Accounts& accounts);
 
 /// The event of a floe that goes under, without what decided it.
-Event submersion_event(const Clock& clock, const Population& population, FloeId floe, int ship);
+Event submersion_event(const Instant& now, const Population& population, FloeId floe, int ship);
 
 }  // namespace polynya::simulation

@@ -7,14 +7,14 @@ namespace {
 
 using geometry::Vector;
 
-std::vector<SeenHull> seen_hulls(const Setup& setup, const Clock& clock, const Population& population) {
+std::vector<SeenHull> seen_hulls(const Setup& setup, const Step& step, const Population& population) {
   const dynamics::Bodies& bodies = population.bodies;
   std::vector<SeenHull> seen;
   for (std::size_t i = 0; i < hull_count(setup.scene); ++i) {
     const geometry::Box box = bounding_box(hull_of(setup.scene, i).hull.waterline);
-    seen.push_back({.position_in_world = bodies.position[i] + clock.drift(),
+    seen.push_back({.position_in_world = bodies.position[i] + step.begin.drift,
                     .heading = bodies.angle[i],
-                    .velocity = bodies.velocity[i] + clock.water_drift,
+                    .velocity = bodies.velocity[i] + population.water_velocity,
                     .length = box.high.x - box.low.x,
                     .stern = box.low.x,
                     .stem = box.high.x,
@@ -27,9 +27,9 @@ std::vector<SeenHull> seen_hulls(const Setup& setup, const Clock& clock, const P
   return seen;
 }
 
-std::vector<SeenFloe> seen_floes(const Clock& clock, const Population& population) {
+std::vector<SeenFloe> seen_floes(const Step& step, const Population& population) {
   std::vector<SeenFloe> seen;
-  const Vector drift = clock.drift();
+  const Vector drift = step.begin.drift;
   for (FloeId id = 0; id < population.floe_count(); ++id)
     if (population.is_floating(id))
       seen.push_back({id, population.bodies.position[population.body_of(id)] + drift, population.floes[id].area});
@@ -51,7 +51,7 @@ double steering_gain(const Sailing& sailing, const PilotView& view, double momen
   return (yaw_at(kAngle) - yaw_at(-kAngle)) / (2 * kAngle * inertia);
 }
 
-PilotView view_of(const Setup& setup, const Clock& clock, const Population& population, std::span<const SeenHull> hulls,
+PilotView view_of(const Setup& setup, const Step& step, const Population& population, std::span<const SeenHull> hulls,
                   BodyIndex i) {
   const dynamics::Bodies& bodies = population.bodies;
   const Sailing& sailing = setup.sailing[i];
@@ -60,8 +60,8 @@ PilotView view_of(const Setup& setup, const Clock& clock, const Population& popu
       rotate_back(bodies.rotation[i], bodies.velocity[i] - setup.current.velocity_at(bodies.position[i]));
   const Vector over_ground = rotate_back(bodies.rotation[i], hulls[i].velocity);
   PilotView view;
-  view.time = clock.time();
-  view.step = clock.step;
+  view.time = step.begin.time;
+  view.step = step.length;
   view.ship = i;
   view.hulls = hulls;
   view.through_water = {through_water.x, through_water.y, bodies.angular_velocity[i]};
@@ -70,8 +70,8 @@ PilotView view_of(const Setup& setup, const Clock& clock, const Population& popu
   view.steering_angle = helm.steering_angle;
   view.steering_most = sailing.steering_most;
   view.ice_force = helm.ice_force;
-  view.ice_drift = free_drift(setup.scene, clock.time());
-  view.floes = [&clock, &population] { return seen_floes(clock, population); };
+  view.ice_drift = free_drift(setup.scene, step.begin.time);
+  view.floes = [&step, &population] { return seen_floes(step, population); };
   view.engine = *sailing.engine;
   view.mass = bodies.mass[i] + sailing.hull.added_mass.rows[0].surge;
   view.steering_gain = steering_gain(sailing, view, bodies.moment[i]);
@@ -94,34 +94,34 @@ Command commanded(const Setup& setup, const PilotView& view, const std::vector<E
 
 }  // namespace
 
-void take_helms(const Setup& setup, const Clock& clock, Population& population) {
+void take_helms(const Setup& setup, const Step& step, Population& population) {
   population.helms.resize(setup.scene.ships.size());
-  const std::vector<SeenHull> hulls = seen_hulls(setup, clock, population);
+  const std::vector<SeenHull> hulls = seen_hulls(setup, step, population);
   for (BodyIndex i = 0; i < std::ssize(population.helms); ++i) {
     if (!setup.sailing[i].engine) continue;
     Helm& helm = population.helms[i];
-    helm.memory = memory_at_start(view_of(setup, clock, population, hulls, i));
+    helm.memory = memory_at_start(view_of(setup, step, population, hulls, i));
     PilotMemory untouched = helm.memory;
     const Command first =
-        limited(command_of(setup.scene.ships[i].pilot, view_of(setup, clock, population, hulls, i), untouched),
+        limited(command_of(setup.scene.ships[i].pilot, view_of(setup, step, population, hulls, i), untouched),
                 setup.sailing[i]);
     helm.lever = first.lever;
     helm.steering_angle = first.steering_angle;
   }
 }
 
-void steer(const Setup& setup, const Clock& clock, const std::vector<ExternalPilot>& external, Population& population) {
+void steer(const Setup& setup, const Step& step, const std::vector<ExternalPilot>& external, Population& population) {
   if (std::ranges::none_of(setup.sailing, [](const Sailing& s) { return s.engine.has_value(); })) return;
-  const std::vector<SeenHull> hulls = seen_hulls(setup, clock, population);
+  const std::vector<SeenHull> hulls = seen_hulls(setup, step, population);
   for (BodyIndex i = 0; i < std::ssize(population.helms); ++i) {
     const Sailing& sailing = setup.sailing[i];
     if (!sailing.engine) continue;
     Helm& helm = population.helms[i];
-    const PilotView view = view_of(setup, clock, population, hulls, i);
+    const PilotView view = view_of(setup, step, population, hulls, i);
     const Command command = commanded(setup, view, external, helm);
-    helm.lever = dynamics::approach(helm.lever, command.lever, sailing.engine->lever_rate, clock.step);
+    helm.lever = dynamics::approach(helm.lever, command.lever, sailing.engine->lever_rate, step.length);
     helm.steering_angle =
-        dynamics::approach(helm.steering_angle, command.steering_angle, sailing.steering_rate, clock.step);
+        dynamics::approach(helm.steering_angle, command.steering_angle, sailing.steering_rate, step.length);
   }
 }
 

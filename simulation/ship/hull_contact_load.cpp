@@ -112,7 +112,7 @@ fracture::BendingLoad bending_load(const Setup& setup, const HullContactLoad& lo
   bending.water = setup.scene.water.water;
   bending.front_half_angle = std::clamp(wedge.front, fracture::kSmallestHalfAngle, fracture::kLargestHalfAngle);
   bending.back_half_angle = std::clamp(wedge.back, fracture::kSmallestHalfAngle, fracture::kLargestHalfAngle);
-  if (is_crush_law(setup)) bending.opening_angle = std::max(wedge.front + wedge.back, 2 * fracture::kSmallestHalfAngle);
+  if (load.opening_angle > 0) bending.opening_angle = load.opening_angle;
   bending.hull_angle = load.hull_angle;
   bending.mean_approach_speed = load.mean_speed;
   bending.penetration = load.penetration;
@@ -124,7 +124,10 @@ fracture::BendingLoad bending_load(const Setup& setup, const HullContactLoad& lo
   return bending;
 }
 
-HullContactLoad load_of(const Setup& setup, const Population& population, const Contact& c) {
+namespace {
+
+/// What both laws take of a contact; `can_break`: its floe is large enough to break.
+HullContactLoad common_load_of(const Setup& setup, const Population& population, const Contact& c, bool can_break) {
   const dynamics::Bodies& bodies = population.bodies;
   HullContactLoad load{.contact = c, .ice = ice_of_body(setup, population, c.b)};
   if (const double scatter = setup.scene.fracture.bending_scatter; scatter > 0)
@@ -134,14 +137,29 @@ HullContactLoad load_of(const Setup& setup, const Population& population, const 
   load.shares = fracture::crushing_shares(load.hull_angle, load.ice.friction, c.approach_speed, c.slip_speed);
   load.penetration = c.depth;
   load.mean_speed = c.record->age > 0 ? c.record->approach / c.record->age : c.approach_speed;
-  const bool can_bend = floe_size(population, c.b) >= limits_of_body(setup, population, c.b).breakable_size;
-  if (can_bend) load.wedge = wedge_at(setup, bodies, load);
-  if (can_bend && is_crush_law(setup) && setup.scene.fracture.outline == fracture::EdgeOutline::kSections)
-    load.openings = openings_at(setup, bodies, load);
-  if (is_crush_law(setup))
-    press(setup, can_bend, load);
-  else
-    load.normal_force = crushing_force(load.ice, c, load.hull_angle);
+  if (can_break) load.wedge = wedge_at(setup, bodies, load);
+  return load;
+}
+
+bool can_break(const Setup& setup, const Population& population, const Contact& c) {
+  return floe_size(population, c.b) >= limits_of_body(setup, population, c.b).breakable_size;
+}
+
+}  // namespace
+
+HullContactLoad crushing_load_of(const Setup& setup, const Population& population, const Contact& c) {
+  const bool is_breakable = can_break(setup, population, c);
+  HullContactLoad load = common_load_of(setup, population, c, is_breakable);
+  load.opening_angle = std::max(load.wedge.front + load.wedge.back, 2 * fracture::kSmallestHalfAngle);
+  if (is_breakable && setup.scene.fracture.outline == fracture::EdgeOutline::kSections)
+    load.openings = openings_at(setup, population.bodies, load);
+  press(setup, is_breakable, load);
+  return load;
+}
+
+HullContactLoad collision_load_of(const Setup& setup, const Population& population, const Contact& c) {
+  HullContactLoad load = common_load_of(setup, population, c, can_break(setup, population, c));
+  load.normal_force = crushing_force(load.ice, c, load.hull_angle);
   return load;
 }
 

@@ -18,6 +18,7 @@ struct HullContactLoad {
   double impulse = 0;             ///< j of Eq. (5) [N s]
   double hull_angle = 0;          ///< θ_s [rad]
   geometry::WedgeAngles wedge{};  ///< of the ice, where its floe is large enough to break
+  double opening_angle = 0;       ///< of that wedge; 0 where its half-angles decide alone [rad]
   /// Of the ice, likewise, where its outline decides what it bears.
   std::optional<fracture::EdgeOpenings> openings{};
   double penetration = 0;     ///< ξ that is crushed [m]
@@ -35,10 +36,12 @@ double crushing_force(const fracture::Ice& ice, const dynamics::Contact& c, doub
 /// √area [m].
 double floe_size(const Population& population, BodyIndex body);
 
-/// What a ship's contact with ice carries while the ice crushes. By the law of crushing ice, ice that can
-/// break bends away under the hull meanwhile, so that only a part of the overlap with the ice as it lay is
-/// crushed.
-HullContactLoad load_of(const Setup& setup, const Population& population, const dynamics::Contact& c);
+/// What a ship's contact with ice carries while the ice crushes, by the law of crushing ice. Ice that can break bends
+/// away under the hull meanwhile, so that only a part of the overlap with the ice as it lay is crushed.
+HullContactLoad crushing_load_of(const Setup& setup, const Population& population, const dynamics::Contact& c);
+
+/// The same by the law of impulses: all of the overlap is crushed.
+HullContactLoad collision_load_of(const Setup& setup, const Population& population, const dynamics::Contact& c);
 
 /// The load as a bending model takes it.
 fracture::BendingLoad bending_load(const Setup& setup, const HullContactLoad& load);

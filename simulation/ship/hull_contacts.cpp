@@ -22,33 +22,33 @@ geometry::Ring waterline_in_water(const Setup& setup, const dynamics::Bodies& bo
 
 /// The contact of two ships of prescribed motion whose outlines came to touch in the step. The contact search
 /// leaves such pairs out: no impulse moves them.
-std::optional<Event> prescribed_contact(const Setup& setup, const Clock& clock, const dynamics::Bodies& bodies,
+std::optional<Event> prescribed_contact(const Setup& setup, const Step& step, const dynamics::Bodies& bodies,
                                         BodyIndex ship, BodyIndex other) {
   const Vector velocity = bodies.velocity[other] - bodies.velocity[ship];
   const double speed = length(velocity);
   // The touch may lie in the step before, where rounding hid it.
-  const double earliest = -2 * setup.step;
+  const double earliest = -2 * step.length;
   const double reach = bodies.bounding_radius[ship] + bodies.bounding_radius[other] - earliest * speed;
   if (speed == 0 || distance(bodies.position[ship], bodies.position[other]) > reach) return std::nullopt;
   const auto touch = geometry::first_contact(waterline_in_water(setup, bodies, ship),
                                              waterline_in_water(setup, bodies, other), velocity, earliest, 0);
   if (!touch) return std::nullopt;
-  return Event{clock.time(), ship, touch->point + clock.drift(),
+  return Event{step.end.time, ship, touch->point + step.end.drift,
                HullContact{other, -dot(velocity, touch->normal), speed, true}};
 }
 
 }  // namespace
 
-void record_hull_contacts(const Setup& setup, const Clock& clock, const Population& population, const StepData& step,
+void record_hull_contacts(const Setup& setup, const Step& step, const Population& population, const StepData& data,
                           std::vector<Event>& known_contacts, Journal& journal) {
   const dynamics::Bodies& bodies = population.bodies;
   const auto enter = [&](const Event& contact) {
     known_contacts.push_back(contact);
     journal.events.push_back(contact);
   };
-  for (const dynamics::Contact& c : step.contacts) {
+  for (const dynamics::Contact& c : data.contacts) {
     if (!population.is_hull(c.b) || is_known(known_contacts, c.a, c.b)) continue;
-    enter({clock.time(), c.a, c.middle() + clock.drift(),
+    enter({step.end.time, c.a, c.middle() + step.end.drift,
            HullContact{c.b, c.approach_speed, std::hypot(c.approach_speed, c.slip_speed), false}});
   }
   for (BodyIndex ship = 0; ship < population.hull_count; ++ship) {
@@ -56,10 +56,10 @@ void record_hull_contacts(const Setup& setup, const Clock& clock, const Populati
       if (!are_prescribed(bodies, ship, other)) continue;
       if (is_grounded(bodies.kind[ship]) && is_grounded(bodies.kind[other])) continue;  // they do not meet
       if (is_known(known_contacts, ship, other)) continue;
-      if (const auto contact = prescribed_contact(setup, clock, bodies, ship, other)) enter(*contact);
+      if (const auto contact = prescribed_contact(setup, step, bodies, ship, other)) enter(*contact);
     }
   }
-  std::ranges::copy(step.mooring_breaks, std::back_inserter(journal.events));
+  std::ranges::copy(data.mooring_breaks, std::back_inserter(journal.events));
 }
 
 }  // namespace polynya::simulation

@@ -18,14 +18,14 @@ double thickness_at(const Setup& setup, const Population& population, const Cont
 }
 
 /// What happens in this step to the ice of a contact, or whether it tilts rather than bears more.
-PeakEnd fate_of(const Population& population, const StepData& step, const Contact& c) {
+PeakEnd fate_of(const Population& population, const StepData& data, const Contact& c) {
   const FloeId floe = population.floe_of(c.b);
-  for (const PendingFracture& pending : step.fractures) {
+  for (const PendingFracture& pending : data.fractures) {
     if (pending.floe == floe && !c.record->was_refused)
       return pending.failure == fracture::Failure::kBend ? PeakEnd::kBend : PeakEnd::kSplit;
   }
   const auto goes_under = [&](const PendingSubmersion& pending) { return pending.floe == floe; };
-  return c.gives_way || std::ranges::any_of(step.submersions, goes_under) ? PeakEnd::kTilt : PeakEnd::kSlip;
+  return c.gives_way || std::ranges::any_of(data.submersions, goes_under) ? PeakEnd::kTilt : PeakEnd::kSlip;
 }
 
 LoadTrack* track_of(std::vector<LoadTrack>& tracks, std::int64_t id) {
@@ -59,9 +59,9 @@ void record_peak(const Setup& setup, const LoadTrack& track, LoadPeaks& peaks, J
 }
 
 /// Of a gauge's way to a force that stays for a step, dF/dt = (force - F)/τ: the share that it goes.
-double response_in(const Setup& setup) {
+double response_in(const Setup& setup, const Step& step) {
   const double time_constant = setup.scene.record.peak_response;
-  return time_constant > 0 ? -std::expm1(-setup.step / time_constant) : 1;
+  return time_constant > 0 ? -std::expm1(-step.length / time_constant) : 1;
 }
 
 /// Enters the force of a step into a track. Returns whether what the gauge has is the largest.
@@ -82,13 +82,13 @@ ContactState::Body contact_body(const Population& population, BodyIndex body) {
                                   : ContactState::Body{-1, population.floe_of(body)};
 }
 
-ContactState state_of(const Setup& setup, const Clock& clock, const Population& population, const Contact& c,
+ContactState state_of(const Setup& setup, const Step& step, const Population& population, const Contact& c,
                       const HullSlope* slope) {
-  const double dt = clock.step;
+  const double dt = step.length;
   ContactState state;
   state.on = contact_body(population, c.a);
   state.by = contact_body(population, c.b);
-  state.point_in_world = c.centre_of_pressure() + clock.drift();
+  state.point_in_world = c.centre_of_pressure() + step.begin.drift;
   state.force = -1 / dt * c.impulse_on_b();
   state.depth = c.depth;
   state.is_crushing = c.total_normal_impulse() > 0 && c.is_at_limit;
@@ -106,31 +106,29 @@ void place_on_waterline(const Setup& setup, geometry::Point point_in_hull, Conta
   state.station = waterline.stem_x - point_in_hull.x;
 }
 
-void follow_loads(const Setup& setup, const Clock& clock, const Population& population, const StepData& step,
+void follow_loads(const Setup& setup, const Step& step, const Population& population, const StepData& data,
                   LoadPeaks& peaks, Journal& journal) {
   if (setup.scene.record.contacts == RecordedContacts::kNone) return;
-  Clock at_end = clock;
-  advance(at_end);
   for (LoadTrack& track : peaks.tracks) track.is_seen = false;
-  const double response = response_in(setup);
-  for (std::size_t i = 0; i < step.slopes.size(); ++i) {
-    const Contact& c = step.contacts[i];
-    const double force = c.steady_share * c.total_normal_impulse() / setup.step;
+  const double response = response_in(setup, step);
+  for (std::size_t i = 0; i < data.slopes.size(); ++i) {
+    const Contact& c = data.contacts[i];
+    const double force = c.steady_share * c.total_normal_impulse() / step.length;
     if (population.is_hull(c.b) || (force == 0 && c.record->load_track == 0)) continue;
     LoadTrack& track = track_at(peaks, *c.record);
     track.is_seen = true;
     if (rises(force, response, track)) {
       const double share = c.steady_share * track.force / force;  // of what the contact bears in this step
       track.largest = track.force;
-      track.time = at_end.time();
-      track.at_largest = state_of(setup, clock, population, c, &step.slopes[i]);
+      track.time = step.end.time;
+      track.at_largest = state_of(setup, step, population, c, &data.slopes[i]);
       track.at_largest.force = share * track.at_largest.force;
       track.at_largest.pressure *= share;
       track.point_in_hull =
           inverse_transform(dynamics::water_from_body(population.bodies, c.a), c.centre_of_pressure());
       track.ending = PeakEnd::kSlip;
     }
-    const PeakEnd fate = fate_of(population, step, c);
+    const PeakEnd fate = fate_of(population, data, c);
     if (fate != PeakEnd::kSlip) track.ending = fate;
     if (track.is_rising && track.force < track.largest / 2) {
       record_peak(setup, track, peaks, journal);

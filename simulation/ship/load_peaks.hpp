@@ -8,7 +8,7 @@
 
 namespace polynya::simulation {
 
-struct Clock;
+struct Step;
 struct HullSlope;
 struct Population;
 struct Setup;
@@ -39,7 +39,7 @@ struct LoadPeaks {
 ContactState::Body contact_body(const Population& population, dynamics::BodyIndex body);
 
 /// What a contact is, as records have it, but for its place on the waterline. In the step it is found in.
-ContactState state_of(const Setup& setup, const Clock& clock, const Population& population,
+ContactState state_of(const Setup& setup, const Step& step, const Population& population,
                       const dynamics::Contact& contact, const HullSlope* slope);
 
 /// Enters where its force acts on the hull's waterline, by that point in the hull's frame.
@@ -47,7 +47,7 @@ void place_on_waterline(const Setup& setup, geometry::Point point_in_hull, Conta
 
 /// Enters the forces of the step, and records the peaks that have ended in it. While the hulls are where they were
 /// when its contacts were found.
-void follow_loads(const Setup& setup, const Clock& clock, const Population& population, const StepData& step,
+void follow_loads(const Setup& setup, const Step& step, const Population& population, const StepData& data,
                   LoadPeaks& peaks, Journal& journal);
 
 }  // namespace polynya::simulation

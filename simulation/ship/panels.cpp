@@ -105,28 +105,28 @@ std::vector<HullPanels> panels_of(const Setup& setup) {
   return panels;
 }
 
-void load_panels(const Setup& setup, const Population& population, const StepData& step,
+void load_panels(const Setup& setup, const Step& step, const Population& population, const StepData& data,
                  std::vector<HullPanels>& panels) {
   if (std::ranges::all_of(panels, &HullPanels::empty)) return;
   std::vector<PanelLoads*> touched;
-  for (std::size_t i = 0; i < step.slopes.size(); ++i) {
-    const Contact& c = step.contacts[i];
+  for (std::size_t i = 0; i < data.slopes.size(); ++i) {
+    const Contact& c = data.contacts[i];
     const auto hull = static_cast<std::size_t>(c.a);
     if (panels[hull].empty() || population.is_hull(c.b) || c.total_normal_impulse() == 0) continue;
     const fracture::Ice& ice = ice_of_body(setup, population, c.b);
     const double top = ice.thickness * (1 - ice.density / setup.scene.water.water.density);
     add_contact({*hull_of(setup.scene, hull).panels, setup.waterlines[hull]}, population.bodies, c,
-                top - step.slopes[i].height, top, panels[hull], touched);
+                top - data.slopes[i].height, top, panels[hull], touched);
   }
   for (PanelLoads* panel : touched) {
-    if (panel->step > 0) panel->loaded += setup.step;
-    panel->largest = std::max(panel->largest, panel->step / setup.step);
+    if (panel->step > 0) panel->loaded += step.length;
+    panel->largest = std::max(panel->largest, panel->step / step.length);
     panel->step = 0;
   }
 }
 
-void sample_panels(const Setup& setup, const Clock& clock, std::vector<HullPanels>& panels, Journal& journal) {
-  const double interval = static_cast<double>(setup.steps_per_sample) * setup.scene.time.step;
+void sample_panels(const Setup& setup, const Clock& clock, double interval, std::vector<HullPanels>& panels,
+                   Journal& journal) {
   for (std::size_t hull = 0; hull < panels.size(); ++hull) {
     if (panels[hull].empty()) continue;
     const PanelGrid grid{*hull_of(setup.scene, hull).panels, setup.waterlines[hull]};

@@ -8,6 +8,7 @@ namespace polynya::simulation {
 
 struct Accounts;
 struct Clock;
+struct Step;
 struct Journal;
 struct Population;
 struct Setup;
@@ -31,10 +32,11 @@ std::vector<HullPanels> panels_of(const Setup& setup);
 
 /// Adds the step's contacts with ice. A contact's impulse is spread over its width, each end's evenly over its half,
 /// and over the height of the ice that presses. While the hulls are where they were when the contacts were found.
-void load_panels(const Setup& setup, const Population& population, const StepData& step,
+void load_panels(const Setup& setup, const Step& step, const Population& population, const StepData& data,
                  std::vector<HullPanels>& panels);
 
-/// Records the panels that ice pressed in the interval, and begins the next.
-void sample_panels(const Setup& setup, const Clock& clock, std::vector<HullPanels>& panels, Journal& journal);
+/// Records the panels that ice pressed in the interval [s] that ends now, and begins the next.
+void sample_panels(const Setup& setup, const Clock& clock, double interval, std::vector<HullPanels>& panels,
+                   Journal& journal);
 
 }  // namespace polynya::simulation

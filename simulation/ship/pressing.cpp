@@ -71,7 +71,7 @@ Vector force_on(const Contact& c, BodyIndex floe, double dt) {
   return floe == c.b ? force : -force;
 }
 
-double opening_bound(const Setup& setup, std::span<const Contact> contacts) {
+double opening_bound(const Setup& setup, const Step& step, std::span<const Contact> contacts) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr double kLeast = 1e-3;  // of a sine: below, rounding shows
   const double friction = setup.scene.ice.friction;
@@ -79,7 +79,7 @@ double opening_bound(const Setup& setup, std::span<const Contact> contacts) {
   double half_sine = 0.5 * std::numbers::sqrt2, half_cosine = half_sine;  // of half of the sharpest corner
   for (const Contact& c : contacts) {
     const double slip = c.friction * c.friction;
-    const double normal = normal_force_of(c, setup.step);
+    const double normal = normal_force_of(c, step.length);
     if (!(normal > 0)) continue;
     sum += normal * std::sqrt(1 + slip);
     for (const Point tip : {c.tip_of_a, c.tip_of_b}) {
@@ -96,13 +96,13 @@ double opening_bound(const Setup& setup, std::span<const Contact> contacts) {
   return sine < kLeast ? kInfinity : 0.5 * std::sqrt(1 + friction * friction) / sine * sum;
 }
 
-void press(const Setup& setup, const dynamics::Bodies& bodies, std::span<const Contact> contacts, BodyIndex floe,
-           PressedFloe& pressed) {
+void press(const Setup& setup, const Step& step, const dynamics::Bodies& bodies, std::span<const Contact> contacts,
+           BodyIndex floe, PressedFloe& pressed) {
   pressed.contacts.clear();
   pressed.pushes.clear();
   for (const Contact& c : contacts) {
     if (c.total_normal_impulse() <= 0 && !c.is_broken) continue;
-    const Vector force = force_on(c, floe, setup.step);
+    const Vector force = force_on(c, floe, step.length);
     const auto pushes = corner_pushes(bodies, c, floe, force, setup.scene.ice.friction);
     if (pushes)
       pressed.pushes.insert(pressed.pushes.end(), pushes->begin(), pushes->end());
@@ -114,7 +114,8 @@ void press(const Setup& setup, const dynamics::Bodies& bodies, std::span<const C
   for (const Push& push : pressed.pushes) pressed.most += 0.5 * length(push.force);
 }
 
-PendingFracture split_by(const Setup& setup, const Population& population, const Contact& c, BodyIndex floe) {
+PendingFracture split_by(const Setup& setup, const Step& step, const Population& population, const Contact& c,
+                         BodyIndex floe) {
   const BodyIndex by = other_of(c, floe);
   PendingFracture split;
   split.failure = fracture::Failure::kSplit;
@@ -126,7 +127,7 @@ PendingFracture split_by(const Setup& setup, const Population& population, const
   split.penetration = c.depth;
   split.criteria.floe_size = floe_size(population, floe);
   split.criteria.breakable_size = limits_of_body(setup, population, floe).breakable_size;
-  split.criteria.contact_force = length(force_on(c, floe, setup.step));
+  split.criteria.contact_force = length(force_on(c, floe, step.length));
   return split;
 }
 

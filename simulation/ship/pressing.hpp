@@ -62,15 +62,15 @@ geometry::Vector force_on(const dynamics::Contact& contact, BodyIndex floe, doub
 /// corners [N]. A force F on faces whose own forces enclose an angle δ splits in two of a sum ≤ F / cos(δ/2); at
 /// a corner of γ, or 90° where it is more, δ ≤ 180° − γ + 2 atan μ. No bound where γ is little
 /// more than 2 atan μ.
-double opening_bound(const Setup& setup, std::span<const dynamics::Contact> contacts);
+double opening_bound(const Setup& setup, const Step& step, std::span<const dynamics::Contact> contacts);
 
 /// Enters the contacts of a floe with one other body, and their pushes.
-void press(const Setup& setup, const dynamics::Bodies& bodies, std::span<const dynamics::Contact> contacts,
-           BodyIndex floe, PressedFloe& pressed);
+void press(const Setup& setup, const Step& step, const dynamics::Bodies& bodies,
+           std::span<const dynamics::Contact> contacts, BodyIndex floe, PressedFloe& pressed);
 
 /// The split of a floe by the force of a contact, without where and how it splits.
-PendingFracture split_by(const Setup& setup, const Population& population, const dynamics::Contact& contact,
-                         BodyIndex floe);
+PendingFracture split_by(const Setup& setup, const Step& step, const Population& population,
+                         const dynamics::Contact& contact, BodyIndex floe);
 
 /// Enters where the pushes may start a crack: at a corner's tip, and between each contact and the next.
 void find_mouths(BodyIndex floe, PressedFloe& pressed);

@@ -27,7 +27,7 @@ struct ShipInStep {
   Planar of_ground;    ///< of the ground
 };
 
-ShipInStep ship_of(const Setup& setup, const Clock& clock, const dynamics::Bodies& bodies, const ShipMotion& start,
+ShipInStep ship_of(const Setup& setup, const Step& step, const dynamics::Bodies& bodies, const ShipMotion& start,
                    BodyIndex i) {
   const geometry::Rotation rotation = bodies.rotation[i];
   ShipInStep ship;
@@ -35,11 +35,11 @@ ShipInStep ship_of(const Setup& setup, const Clock& clock, const dynamics::Bodie
   ship.moment = bodies.moment[i];
   ship.now = in_ship(rotation, bodies.velocity[i], bodies.angular_velocity[i]);
   ship.start = in_ship(rotation, start.velocity, start.angular_velocity);
-  const geometry::Rotation turn = dynamics::turned({}, start.angular_velocity * clock.step);
+  const geometry::Rotation turn = geometry::Rotation::by(start.angular_velocity * step.length);
   const Vector turned = rotate(turn, {ship.start.surge, ship.start.sway});
   ship.before_turn = {turned.x, turned.y, ship.start.yaw};
   ship.of_current = in_ship(rotation, setup.current.velocity_at(bodies.position[i]), 0);
-  ship.of_ground = in_ship(rotation, -clock.water_drift, 0);
+  ship.of_ground = in_ship(rotation, -step.water_velocity, 0);
   return ship;
 }
 
@@ -52,14 +52,14 @@ struct LinearForce {
 };
 
 /// The pull of a mooring at the end of the step, in the axes of the ship.
-LinearForce mooring_force(const MooringSettings& mooring, const Clock& clock, const dynamics::Bodies& bodies,
+LinearForce mooring_force(const MooringSettings& mooring, const Step& step, const dynamics::Bodies& bodies,
                           const ShipInStep& ship, BodyIndex i) {
   const auto to_mooring = geometry::Rotation::by(mooring.heading);
   const double turn = bodies.angle[i] - mooring.heading;
-  const Vector off = rotate_back(to_mooring, bodies.position[i] + clock.drift() - mooring.position_in_world);
+  const Vector off = rotate_back(to_mooring, bodies.position[i] + step.begin.drift - mooring.position_in_world);
   const geometry::Rotation to_ship = geometry::relative_pose({{}, to_mooring}, {{}, bodies.rotation[i]}).rotation;
   const Vector pull = rotate_back(to_ship, {-mooring.surge_stiffness * off.x, -mooring.sway_stiffness * off.y});
-  const double dt = clock.step;
+  const double dt = step.length;
   const double along = dt * mooring.surge_stiffness + mooring.surge_damping;
   const double across = dt * mooring.sway_stiffness + mooring.sway_damping;
   const auto [c, s] = to_ship;
@@ -81,7 +81,7 @@ struct Forces {
   LinearForce mooring;
 };
 
-Forces forces_on(const Setup& setup, const Clock& clock, const Population& population, const ShipInStep& ship,
+Forces forces_on(const Setup& setup, const Step& step, const Population& population, const ShipInStep& ship,
                  BodyIndex i) {
   const Sailing& sailing = setup.sailing[i];
   const Helm& helm = population.helms[i];
@@ -100,7 +100,7 @@ Forces forces_on(const Setup& setup, const Clock& clock, const Population& popul
         dynamics::rudder_force(*sailing.rudder, helm.steering_angle, through_water, thrust, sailing.hull.density);
   forces.water = {{}, dynamics::water_damping(sailing.hull, through_water), ship.of_current};
   const auto& mooring = setup.scene.ships[i].mooring;
-  if (mooring && !helm.is_adrift) forces.mooring = mooring_force(*mooring, clock, population.bodies, ship, i);
+  if (mooring && !helm.is_adrift) forces.mooring = mooring_force(*mooring, step, population.bodies, ship, i);
   return forces;
 }
 
@@ -142,27 +142,27 @@ void add(const SailingLoads& of_step, SailingLoads& sum) {
 
 /// The mooring breaks where it held the ship with more than it can. `velocity` is the ship's in the water at
 /// the end of the step: the pull is that of the place where the step takes the ship.
-void break_mooring(const MooringSettings& mooring, const Clock& clock, Planar impulse, Vector velocity, BodyIndex i,
+void break_mooring(const MooringSettings& mooring, const Step& step, Planar impulse, Vector velocity, BodyIndex i,
                    Population& population, std::vector<Event>& breaks) {
-  const double force = std::hypot(impulse.surge, impulse.sway) / clock.step;
+  const double force = std::hypot(impulse.surge, impulse.sway) / step.length;
   if (mooring.break_load <= 0 || force <= mooring.break_load) return;
   Helm& helm = population.helms[i];
   helm.is_adrift = true;
-  helm.adrift_since = clock.time() + clock.step;
+  helm.adrift_since = step.end.time;
   const geometry::Point place =
-      population.bodies.position[i] + clock.drift() + clock.step * (velocity + clock.water_drift);
+      population.bodies.position[i] + step.begin.drift + step.length * (velocity + step.water_velocity);
   const Vector offset = rotate_back(geometry::Rotation::by(mooring.heading), place - mooring.position_in_world);
   breaks.push_back({helm.adrift_since, i, place, MooringBreak{offset, force, mooring.break_load}});
 }
 
-void sail_ship(const Setup& setup, const Clock& clock, const ShipMotion& start, BodyIndex i, Population& population,
+void sail_ship(const Setup& setup, const Step& step, const ShipMotion& start, BodyIndex i, Population& population,
                Accounts& accounts, std::vector<Event>& mooring_breaks) {
   dynamics::Bodies& bodies = population.bodies;
-  const double dt = clock.step;
+  const double dt = step.length;
   const bool is_free = bodies.inverse_mass[i] != 0;
-  const ShipInStep ship = ship_of(setup, clock, bodies, start, i);
+  const ShipInStep ship = ship_of(setup, step, bodies, start, i);
   const PlanarMatrix& added_mass = setup.sailing[i].hull.added_mass;
-  const Forces forces = forces_on(setup, clock, population, ship, i);
+  const Forces forces = forces_on(setup, step, population, ship, i);
   const Planar end = is_free ? solved_motion(ship, added_mass, forces, dt) : ship.now;
   SailingLoads impulses;
   impulses.engine = dt * forces.engine;
@@ -173,7 +173,7 @@ void sail_ship(const Setup& setup, const Clock& clock, const ShipMotion& start, 
   add(impulses, accounts.sailing[i]);
   const Vector velocity = rotate(bodies.rotation[i], {end.surge, end.sway});
   if (const auto& mooring = setup.scene.ships[i].mooring)
-    break_mooring(*mooring, clock, impulses.mooring, velocity, i, population, mooring_breaks);
+    break_mooring(*mooring, step, impulses.mooring, velocity, i, population, mooring_breaks);
   if (!is_free) return;
   enter_all(impulses, 0.5 * (ship.now + end), bodies.rotation[i], accounts.audit);
   bodies.velocity[i] = velocity;
@@ -240,21 +240,21 @@ Sailing sailing_of(const Ship& ship, double water_density) {
   return sailing;
 }
 
-void keep_motion(const Population& population, StepData& step) {
-  step.start.resize(population.helms.size());
-  for (std::size_t ship = 0; ship < step.start.size(); ++ship)
-    step.start[ship] = {population.bodies.velocity[ship], population.bodies.angular_velocity[ship]};
-  step.water_from_hull.clear();
+void keep_motion(const Population& population, StepData& data) {
+  data.start.resize(population.helms.size());
+  for (std::size_t ship = 0; ship < data.start.size(); ++ship)
+    data.start[ship] = {population.bodies.velocity[ship], population.bodies.angular_velocity[ship]};
+  data.water_from_hull.clear();
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull)
-    step.water_from_hull.push_back(water_from_body(population.bodies, hull));
+    data.water_from_hull.push_back(water_from_body(population.bodies, hull));
 }
 
-void sail(const Setup& setup, const Clock& clock, StepData& step, Population& population, Accounts& accounts) {
-  step.mooring_breaks.clear();
+void sail(const Setup& setup, const Step& step, StepData& data, Population& population, Accounts& accounts) {
+  data.mooring_breaks.clear();
   for (BodyIndex ship = 0; ship < std::ssize(setup.sailing); ++ship) {
     if (!setup.sailing[ship].is_active) continue;
-    population.helms[ship].ice_force = (1 / clock.step) * step.loads[ship].ice.impulse;
-    sail_ship(setup, clock, step.start[ship], ship, population, accounts, step.mooring_breaks);
+    population.helms[ship].ice_force = (1 / step.length) * data.loads[ship].ice.impulse;
+    sail_ship(setup, step, data.start[ship], ship, population, accounts, data.mooring_breaks);
   }
 }
 

@@ -36,11 +36,9 @@ void change_velocity(Vector to, BodyIndex wall, dynamics::Bodies& bodies, AuditS
 
 }  // namespace
 
-void follow_water(const Setup& setup, Clock& clock, Population& population, AuditSums& audit) {
-  if (!clock.changing) return;
-  const Vector now = (clock.drift_at(clock.time() + clock.step) - clock.drift()) / clock.step;
-  const Vector change = now - clock.water_drift;
-  clock.water_drift = now;
+void follow_water(const Setup& setup, const Step& step, Population& population, AuditSums& audit) {
+  const Vector change = step.water_velocity - population.water_velocity;
+  population.water_velocity = step.water_velocity;
   if (change == Vector{}) return;
   dynamics::Bodies& bodies = population.bodies;
   for (BodyIndex i = 0; i < bodies.size(); ++i) {
@@ -52,23 +50,23 @@ void follow_water(const Setup& setup, Clock& clock, Population& population, Audi
                [&](const Pressing& p) { change_velocity(bodies.velocity[p.body] - change, p.body, bodies, audit); });
 }
 
-void press_walls(const Setup& setup, const Clock& clock, Population& population, AuditSums& audit) {
+void press_walls(const Setup& setup, const Step& step, Population& population, AuditSums& audit) {
   for_pressing(setup, population, [&](const Pressing& p) {
     dynamics::Bodies& bodies = population.bodies;
     // M dv/dt = q L (1 − v/v_c), v over ground along the normal. Damped by the speed that the ice left it,
     // not by what the load adds: where the ice bears all of the load, it is q L.
-    const double most = clock.step * p.wall.load() / bodies.mass[p.body];
-    const double speed = dot(bodies.velocity[p.body] + clock.water_drift, p.normal);
+    const double most = step.length * p.wall.load() / bodies.mass[p.body];
+    const double speed = dot(bodies.velocity[p.body] + population.water_velocity, p.normal);
     const double closing_speed = p.wall.pressure->closing_speed;
     const double gain = std::min(most, closing_speed) * (1 - speed / closing_speed);
     change_velocity(bodies.velocity[p.body] + gain * p.normal, p.body, bodies, audit);
   });
 }
 
-void hold_walls(const Setup& setup, const Clock& clock, Population& population, AuditSums& audit) {
+void hold_walls(const Setup& setup, Population& population, AuditSums& audit) {
   for_pressing(setup, population, [&](const Pressing& p) {
-    const Vector over_ground = population.bodies.velocity[p.body] + clock.water_drift;
-    const Vector held = dot(over_ground, p.normal) * p.normal - clock.water_drift;
+    const Vector over_ground = population.bodies.velocity[p.body] + population.water_velocity;
+    const Vector held = dot(over_ground, p.normal) * p.normal - population.water_velocity;
     change_velocity(held, p.body, population.bodies, audit);
     population.bodies.angular_velocity[p.body] = 0;  // rounding
   });

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,6 +15,7 @@
 #include "geometry/exact/validity.hpp"
 #include "simulation/state/state_fields.hpp"
 #include "simulation/world/limits.hpp"
+#include "simulation/world/parts.hpp"
 
 namespace polynya::simulation {
 
@@ -51,9 +55,9 @@ void write(Archive& archive, const World& world, const std::vector<dynamics::Pai
     motion_fields(archive, population.bodies, population.body_of(id));
   }
   archive(population.tilted, population.submerged);
-  if (has_flooding_decks(world.setup)) archive(population.decks);
+  if (world.setup.has_flooding_decks) archive(population.decks);
   archive(pairs);
-  if (is_crush_law(world.setup)) archive(members(pairs, &dynamics::PersistentContact::crushed));
+  archive(members(pairs, &dynamics::PersistentContact::crushed));
 }
 
 }  // namespace
@@ -66,7 +70,7 @@ std::string save_state(const World& world) {
   ByteWriter archive;
   write(archive, world, pairs);
   archive(separation_bound);
-  if (is_crush_law(world.setup)) archive(members(pairs, &dynamics::PersistentContact::booked));
+  archive(members(pairs, &dynamics::PersistentContact::booked));
   tail_fields(archive, world);
   archive(world.accounts.load_peaks, world.accounts.panels, members(pairs, &dynamics::PersistentContact::load_track));
   return archive.take();
@@ -84,14 +88,15 @@ namespace {
 
 constexpr double kFarthest = 1e9;               ///< from the origin that a body can have gone [m]
 constexpr double kFastest = 8 * kRunawaySpeed;  ///< pieces of a fracture may turn faster for one step [m/s]
+constexpr double kMostTurned = 1e9;             ///< by a body [rad]
 constexpr double kLongestCusp = 1e4;            ///< [m]
 constexpr double kOutside = 1e-3;  ///< rounded vertices may stand outside the scene's ice by less than that [m]
 
 /// Where the ice of a scene was at the start: its floes' frames, in which their pieces stay.
-geometry::Box ice_box(const Scene& scene) {
+geometry::Box ice_box(std::span<const FloeSpec> floes) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   geometry::Box box{{kFar, kFar}, {-kFar, -kFar}};
-  for (const FloeSpec& floe : scene.floes) extend(box, bounding_box(floe.polygon_in_world.outer));
+  for (const FloeSpec& floe : floes) extend(box, bounding_box(floe.polygon_in_world.outer));
   return geometry::grown(box, kOutside);
 }
 
@@ -99,28 +104,28 @@ geometry::Box ice_box(const Scene& scene) {
 class StateLoader {
  public:
   StateLoader(World& world, std::string_view bytes)
-      : scene_(world.setup.scene), world_(world), population_(world.population), bytes_(bytes), ice_(ice_box(scene_)) {}
+      : scene_(world.setup.scene),
+        floes_at_start_(std::exchange(world.floes_at_start, {})),
+        world_(world),
+        population_(world.population),
+        bytes_(bytes),
+        ice_(ice_box(floes_at_start_)) {}
 
   std::string load() {
     load_accounts();
     std::uint64_t floes = 0;
     bytes_(floes);
-    bytes_.require(floes >= scene_.floes.size() && floes <= bytes_.left(), "a number of floes that cannot be");
+    bytes_.require(floes >= floes_at_start_.size() && floes <= bytes_.left(), "a number of floes that cannot be");
     for (BodyIndex hull = 0; hull < population_.hull_count && bytes_.is_well(); ++hull) load_hull(hull);
     for (std::uint64_t id = 0; id < floes && bytes_.is_well(); ++id) load_floe(static_cast<FloeId>(id));
     if (bytes_.is_well()) load_ice_at_hulls();
     if (bytes_.is_well()) load_pairs();
     tail_fields(bytes_, world_);
     const Counts& counts = world_.accounts.counts;
-    for (const std::int64_t steps : counts.steps_at_level)
+    for (const std::int64_t steps : {counts.steps_taken, counts.most_parts, counts.body_steps})
       bytes_.require(steps >= 0 && steps <= kMostCounted, "a number of steps that cannot be");
-    bytes_.require(counts.body_steps >= 0 && counts.body_steps <= kMostCounted, "a number of steps that cannot be");
-    bytes_.require(world_.clock.next_levels >= 0 && world_.clock.next_levels <= kMostSteps + 64,
-                   "a tick that cannot be");
-    const int finer = world_.clock.finer;
-    bytes_.require(finer >= 1 && finer <= 1 << world_.setup.levels && std::has_single_bit(static_cast<unsigned>(finer)),
-                   "parts of a tick that cannot be");
-    bytes_.require(world_.clock.bends >= 0 && world_.clock.bends <= kMostCounted, "a number of bends that cannot be");
+    const std::int64_t sampled_at = world_.accounts.sampled_at;
+    bytes_.require(sampled_at >= 0 && sampled_at <= world_.clock.ticks, "a sample of a time to come");
     load_peaks();
     load_panels();
     bytes_.require(bytes_.is_at_end(), "more bytes than it should have");
@@ -150,8 +155,12 @@ class StateLoader {
       bytes_.require(contact.ship >= 0 && contact.ship < other && other < population_.hull_count,
                      "a contact of no two ships");
     }
-    const std::int64_t steps = world_.clock.steps;
+    const std::int64_t steps = world_.clock.ticks;
     bytes_.require(steps >= 0 && steps <= kMostSteps, "a number of steps that cannot be");
+    const auto [finer, bends] = world_.pace;
+    bytes_.require(finer >= 1 && finer <= kMostParts && std::has_single_bit(static_cast<unsigned>(finer)),
+                   "parts of a tick that cannot be");
+    bytes_.require(bends >= 0 && bends <= kMostCounted, "a number of bends that cannot be");
   }
 
   /// Of a body that has been added, and puts it into the contact world.
@@ -159,12 +168,13 @@ class StateLoader {
     dynamics::Bodies& bodies = population_.bodies;
     motion_fields(bytes_, bodies, i);
     const auto is_within = [](double x, double y, double most) { return std::max(std::abs(x), std::abs(y)) <= most; };
-    const geometry::Rotation r = bodies.rotation[i];
+    bodies.rotation[i] = geometry::Rotation::by(bodies.angle[i]);
     bytes_.require(is_within(bodies.position[i].x, bodies.position[i].y, kFarthest), "a body beyond the world");
     bytes_.require(is_within(bodies.velocity[i].x, bodies.velocity[i].y, kFastest), "a body faster than any");
     bytes_.require(std::abs(bodies.angular_velocity[i]) * bodies.bounding_radius[i] <= kFastest,
                    "a body that spins faster than any");
-    bytes_.require(std::abs(r.cosine * r.cosine + r.sine * r.sine - 1) < 1e-6, "a rotation that is none");
+    bytes_.require(is_within(bodies.angle[i], 0, kMostTurned), "a body that has turned farther than any");
+    bytes_.require(is_within(bodies.angle_rest[i], 0, 1e-9 * kMostTurned), "a turn that rounding cannot leave");
     bytes_.require(bodies.travel[i] >= 0, "a negative travel");
     bytes_.require(bodies.is_awake[i] <= 1, "a truth value that is neither");
     bytes_.require(!is_under || bodies.is_awake[i] == 0, "ice under a hull that is awake");
@@ -184,7 +194,7 @@ class StateLoader {
   }
 
   void check_origin(FloeId id, const Floe& floe, bool is_alive, Standing standing) {
-    const bool is_of_scene = id < static_cast<FloeId>(scene_.floes.size());
+    const bool is_of_scene = id < static_cast<FloeId>(floes_at_start_.size());
     bytes_.require(floe.parent >= kNoFloe && floe.parent < id, "a floe older than its parent");
     bytes_.require((floe.parent == kNoFloe) == is_of_scene, "a floe without a parent");
     if (!bytes_.is_well()) return;
@@ -194,7 +204,7 @@ class StateLoader {
     bytes_.require(standing <= Standing::kFast, "a standing that there is not");
     bytes_.require(is_alive || standing != Standing::kUnderHull, "a broken floe under a hull");
     const bool is_fast = standing == Standing::kFast;
-    const bool can_be_fast = is_of_scene ? scene_.floes[id].is_fast : population_.is_fast(floe.parent);
+    const bool can_be_fast = is_of_scene ? floes_at_start_[id].is_fast : population_.is_fast(floe.parent);
     bytes_.require(!is_fast || can_be_fast, "a fast floe of a free one");
     bytes_.require(is_fast || !is_of_scene || !can_be_fast, "a free floe where the scene has a fast one");
   }
@@ -206,7 +216,7 @@ class StateLoader {
     bytes_(floe, is_alive, standing);
     check_origin(id, floe, is_alive, standing);
     if (!bytes_.is_well()) return;
-    const FloeSpec* spec = floe.parent == kNoFloe ? &scene_.floes[id] : nullptr;
+    const FloeSpec* spec = floe.parent == kNoFloe ? &floes_at_start_[id] : nullptr;
     floe.own_ice = spec ? spec->own_ice : population_.floes[floe.parent].own_ice;
     floe.is_under = standing == Standing::kUnderHull;
     if (is_alive) floe.shape = spec ? geometry::Shape{spec->polygon_in_world} : load_shape();
@@ -279,7 +289,7 @@ class StateLoader {
       is_submerged[static_cast<std::size_t>(submerged.floe)] = true;
       submerged.area = population_.floes[submerged.floe].area;
     }
-    if (has_flooding_decks(world_.setup)) load_decks();
+    if (world_.setup.has_flooding_decks) load_decks();
   }
 
   void load_decks() {
@@ -340,9 +350,9 @@ class StateLoader {
     std::vector<dynamics::PairState> pairs;
     std::vector<double> separation_bound;
     bytes_(pairs);
-    if (is_crush_law(world_.setup)) load_crushed_ice(pairs);
+    load_crushed_ice(pairs);
     bytes_(separation_bound);
-    if (is_crush_law(world_.setup)) load_booked(pairs);
+    load_booked(pairs);
     bytes_.require(pairs.size() == separation_bound.size(), "another number of separation bounds than of pairs");
     const dynamics::Bodies& bodies = population_.bodies;
     for (std::size_t i = 0; i < pairs.size() && bytes_.is_well(); ++i) {
@@ -394,6 +404,7 @@ class StateLoader {
   }
 
   const Scene& scene_;
+  std::vector<FloeSpec> floes_at_start_;  ///< of the scene
   World& world_;
   Population& population_;
   ByteReader bytes_;

@@ -133,10 +133,6 @@ void fields(auto& archive, Is<std::pair<std::int64_t, std::int64_t>> auto& p) {
   archive(p.first, p.second);
 }
 
-void fields(auto& archive, Is<std::array<std::int64_t, 2 * kMostLevels + 1>> auto& counts) {
-  for (auto& count : counts) archive(count);
-}
-
 /// Its bodies follow from hull and floe, its place on the waterline is found when the peak is recorded.
 void fields(auto& archive, Is<LoadTrack> auto& t) {
   auto& s = t.at_largest;
@@ -155,15 +151,15 @@ void fields(auto& archive, Is<Accounts> auto& a) {
   archive(a.areas, a.audit, a.counts, a.loads, a.hull_contacts, a.refused_grinds);
 }
 
-/// Where a body is and how it moves, and how far it has travelled, which bounds its neighbours' caches.
+/// Where a body is and how it moves, and how far it has travelled, which bounds its neighbours' caches. Its rotation
+/// follows from its angle.
 void motion_fields(auto& archive, Is<dynamics::Bodies> auto& b, BodyIndex i) {
-  archive(b.position[i], b.angle[i], b.rotation[i], b.velocity[i], b.angular_velocity[i], b.travel[i], b.rim_speed[i],
+  archive(b.position[i], b.angle[i], b.angle_rest[i], b.velocity[i], b.angular_velocity[i], b.travel[i], b.rim_speed[i],
           b.is_awake[i]);
 }
 /// What a state begins with.
 void head_fields(auto& archive, Is<World> auto& world) {
-  archive(world.clock.steps, world.accounts);
-  if (world.clock.changing) archive(world.clock.water_drift);
+  archive(world.clock.ticks, world.pace.finer, world.pace.bends, world.population.water_velocity, world.accounts);
   if (has_wind_or_walls(world.setup.scene)) archive(world.accounts.audit.boundaries);
 }
 /// Beside its motion.
@@ -175,8 +171,8 @@ void hull_fields(auto& archive, Is<World> auto& world, std::int32_t hull) {
 /// is alike.
 void tail_fields(auto& archive, Is<World> auto& world) {
   auto& counts = world.accounts.counts;
-  archive(world.accounts.masses, counts.unresolved_splits, counts.steps_at_level, counts.crowded_ticks,
-          world.clock.finer, world.clock.bends, counts.body_steps, world.clock.next_levels);
+  archive(world.accounts.masses, counts.unresolved_splits, counts.crowded_ticks, counts.steps_taken, counts.most_parts,
+          counts.body_steps, world.accounts.sampled_at);
 }
 
 }  // namespace polynya::simulation

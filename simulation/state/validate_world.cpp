@@ -18,9 +18,10 @@ Defect check_columns(const World& world) {
   const dynamics::Bodies& b = world.population.bodies;
   const auto count = static_cast<std::size_t>(world.population.hull_count) + world.population.floes.size();
   const auto size_of = [](const auto&... columns) { return std::array{columns.size()...}; };
-  const auto sizes = size_of(b.position, b.angle, b.rotation, b.velocity, b.angular_velocity, b.inverse_mass,
-                             b.inverse_moment, b.travel, b.bounding_radius, b.rim_speed, b.drag_span, b.is_awake,
-                             b.is_alive, b.mass, b.moment, b.centroid, b.thickness, b.kind, b.boundary, b.drag);
+  const auto sizes =
+      size_of(b.position, b.angle, b.angle_rest, b.rotation, b.velocity, b.angular_velocity, b.inverse_mass,
+              b.inverse_moment, b.travel, b.bounding_radius, b.rim_speed, b.drag_span, b.is_awake, b.is_alive, b.mass,
+              b.moment, b.centroid, b.thickness, b.kind, b.boundary, b.drag);
   const auto is_count = [&](std::size_t size) { return size == count; };
   if (!std::ranges::all_of(sizes, is_count)) return fmt::format("a column of bodies is not {} long", count);
   if (world.accounts.loads.size() != hull_count(world.setup.scene)) return "loads of other ships than there are";
@@ -64,8 +65,9 @@ Defect check_motion(const Population& population, const Setup& setup, BodyIndex 
   const double sum = b.position[i].x + b.position[i].y + b.angle[i] + b.velocity[i].x + b.velocity[i].y +
                      b.angular_velocity[i] + b.travel[i];
   if (!std::isfinite(sum)) return fmt::format("body {} is not finite", i);
-  if (std::abs(r.cosine * r.cosine + r.sine * r.sine - 1) > 1e-9)
-    return fmt::format("body {} has a rotation that is none", i);
+  const auto by_angle = geometry::Rotation::by(b.angle[i]);
+  if (r.cosine != by_angle.cosine || r.sine != by_angle.sine)
+    return fmt::format("body {} has a rotation that is not by its angle", i);
   if (b.boundary[i] == nullptr) return fmt::format("body {} has no boundary", i);
   if (b.is_awake[i] == 0 && rim_speed_of(b, i) >= kRestSpeed && setup.shortcuts.sleeps)
     return fmt::format("body {} moves asleep", i);

@@ -160,10 +160,6 @@ struct IceLedger {
   double imbalance() const { return floes + under_hulls + under_ice + submerged + brash - rounding - initial; }
 };
 
-/// A tick is taken in at most 2^kMostLevels parts; steps of several ticks take at most so many, or all of a block of
-/// four times as many (components.hpp).
-inline constexpr int kMostLevels = 5;
-
 struct Counts {
   std::int64_t floes_initial = 0;
   std::int64_t floes_final = 0;
@@ -187,10 +183,9 @@ struct Counts {
   double energy_created = 0;            ///< by steps whose contacts gave more than they took [J]
   std::int64_t unpaired_stretches = 0;  ///< overlaps without a contact for a step: crossings not in pairs
   std::int64_t steps = 0;               ///< whole ticks
-  /// Steps that took 2^(k − kMostLevels) ticks and less than twice as many, of the last k: or more; each for the
-  /// bodies that are due in it.
-  std::array<std::int64_t, 2 * kMostLevels + 1> steps_at_level{};
-  std::int64_t body_steps = 0;  ///< the bodies due in them, summed
+  std::int64_t steps_taken = 0;         ///< time steps: the parts of all ticks
+  std::int64_t most_parts = 0;          ///< of a tick
+  std::int64_t body_steps = 0;          ///< awake bodies, summed over the time steps
   std::int64_t peak_contacts = 0;
   std::int64_t peak_awake = 0;
 };

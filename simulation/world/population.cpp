@@ -18,9 +18,9 @@ constexpr double kNeverTurns = 1e30;
 
 /// Cells about as large as the typical floe and its margin, so that most floes are in one to four of them
 /// [m].
-double grid_cell(const Scene& scene) {
+double grid_cell(std::span<const FloeSpec> floes) {
   std::vector<double> sizes;
-  for (const FloeSpec& floe : scene.floes) {
+  for (const FloeSpec& floe : floes) {
     const geometry::Box box = bounding_box(floe.polygon_in_world.outer);
     sizes.push_back(std::max(box.high.x - box.low.x, box.high.y - box.low.y));
   }
@@ -28,12 +28,6 @@ double grid_cell(const Scene& scene) {
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
   return std::max(5.0, 1.5 * *middle);
-}
-
-dynamics::ContactRule contact_rule(const Setup& setup) {
-  const ContactSettings& contact = setup.scene.contact;
-  return {contact.circle_radius, contact.normal == ContactNormal::kCircleCentres, setup.shortcuts.culls,
-          is_crush_law(setup), is_crush_law(setup)};
 }
 
 /// A floe of the scene, at the start; takes its polygon.
@@ -58,14 +52,14 @@ NewFloe new_floe_of(FloeSpec& spec, Point centroid, const Setup& setup) {
 
 }  // namespace
 
-Population::Population(const Setup& setup)
+Population::Population(const Setup& setup, std::span<const FloeSpec> floes_at_start)
     : hull_count(static_cast<int>(simulation::hull_count(setup.scene))),
       drag_area(setup.scene.water.drag_area),
       has_skin_drag(setup.scene.water.skin_drag_coefficient > 0),
-      pairs(contact_rule(setup), grid_cell(setup.scene)) {}
+      water_velocity(setup.scene.water.drift_at(0)),
+      pairs(setup.contact_rule, grid_cell(floes_at_start)) {}
 
-void add_scene(const Setup& setup, std::vector<FloeSpec>& floes, const Clock& clock, Population& population,
-               Journal& journal) {
+void add_scene(const Setup& setup, std::vector<FloeSpec>& floes, Population& population, Journal& journal) {
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull) {
     add_body(population.bodies, new_body_of(setup.scene, hull));
     population.pairs.add(population.bodies, hull);
@@ -76,7 +70,7 @@ void add_scene(const Setup& setup, std::vector<FloeSpec>& floes, const Clock& cl
   journal.births.reserve(floes.size());
   for (FloeSpec& spec : floes) {
     const geometry::Measures measures = geometry::measure(spec.polygon_in_world);
-    add_floe(setup, clock, new_floe_of(spec, measures.centroid, setup), measures, population, journal);
+    add_floe(setup, instant_at(setup, 0), new_floe_of(spec, measures.centroid, setup), measures, population, journal);
   }
   // Only now: a body that wakes looks up its neighbours once, so they all have to be there.
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull) wake(hull, population);
@@ -94,7 +88,7 @@ void add_scene(const Setup& setup, std::vector<FloeSpec>& floes, const Clock& cl
   }
 }
 
-FloeId add_floe(const Setup& setup, const Clock& clock, NewFloe floe, const geometry::Measures& measures,
+FloeId add_floe(const Setup& setup, const Instant& now, NewFloe floe, const geometry::Measures& measures,
                 Population& population, Journal& journal) {
   const FloeId id = population.floe_count();
   dynamics::NewBody body = new_body_of(floe.shape.polygon, measures, ice_of(setup.scene, floe.own_ice), floe.is_fast);
@@ -104,10 +98,10 @@ FloeId add_floe(const Setup& setup, const Clock& clock, NewFloe floe, const geom
   body.velocity = floe.velocity + cross(floe.angular_velocity, body.position - floe.water_from_body.position);
   body.angular_velocity = floe.angular_velocity;
   journal.births.push_back(
-      {{id, floe.parent, clock.time(), floe.generation, measures.area, body.mass, body.centroid, floe.own_ice},
+      {{id, floe.parent, now.time, floe.generation, measures.area, body.mass, body.centroid, floe.own_ice},
        floe.shape.polygon});
   population.floes.push_back({.parent = floe.parent,
-                              .born = clock.time(),
+                              .born = now.time,
                               .generation = floe.generation,
                               .own_ice = floe.own_ice,
                               .area = measures.area,
@@ -125,9 +119,6 @@ void leave_contacts(FloeId floe, Population& population) {
   if (!population.bodies.is_awake[body]) return;
   population.bodies.is_awake[body] = 0;
   erase_from(population.awake, body);
-  if (population.level == Population::kAllDue) return;
-  erase_from(population.due_some, body);
-  erase_from(population.moving_along, body);
 }
 
 void retire_floe(FloeId floe, Population& population, Journal& journal) {
@@ -156,11 +147,6 @@ void wake(BodyIndex body, Population& population) {
   population.bodies.is_awake[body] = 1;
   add_drag(body, population);
   insert_into(population.awake, body);
-  if (population.level != Population::kAllDue) {
-    insert_into(population.due_some, body);
-    const bool is_still = is_held(population.bodies, body);
-    population.bodies.level[body] = is_still ? dynamics::kNoLevel : static_cast<std::uint8_t>(population.level);
-  }
   population.pairs.wake(population.bodies, body);
 }
 

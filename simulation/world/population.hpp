@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "dynamics/contact/broad_phase.hpp"
@@ -67,27 +68,21 @@ struct Helm {
 
 /// The hulls and floes of a run, where they are and how they move.
 struct Population {
-  explicit Population(const Setup& setup);
+  Population(const Setup& setup, std::span<const FloeSpec> floes);
 
   int hull_count = 0;
-  dynamics::DragArea drag_area;         ///< the scene's
-  bool has_skin_drag = false;           ///< likewise
-  dynamics::Bodies bodies;              ///< the hulls as the scene numbers them, then floes by id
-  std::vector<Helm> helms;              ///< per ship
-  std::vector<Floe> floes;              ///< by id
-  std::vector<BodyIndex> awake;         ///< ascending
-  std::vector<BodyIndex> due_some;      ///< of them those that the step at hand moves, where that is not all
-  int level = kAllDue;                  ///< Bodies::level of these
-  std::vector<BodyIndex> moving_along;  ///< those of longer steps that move with the ticks (components.hpp); ascending
-  dynamics::BroadPhase pairs;           ///< of bodies that may touch, with the memory of their contacts
-  std::vector<TiltedFloe> tilted;       ///< by (ship, floe)
+  dynamics::DragArea drag_area;           ///< the scene's
+  bool has_skin_drag = false;             ///< likewise
+  geometry::Vector water_velocity;        ///< of the water frame over ground, its mean over the last step [m/s]
+  dynamics::Bodies bodies;                ///< the hulls as the scene numbers them, then floes by id
+  std::vector<Helm> helms;                ///< per ship
+  std::vector<Floe> floes;                ///< by id
+  std::vector<BodyIndex> awake;           ///< ascending
+  dynamics::BroadPhase pairs;             ///< of bodies that may touch, with the memory of their contacts
+  std::vector<TiltedFloe> tilted;         ///< by (ship, floe)
   std::vector<SubmergedPiece> submerged;  ///< in the order in which they went under
   std::vector<PressedDeck> decks;         ///< in the order in which they broke off
 
-  static constexpr int kAllDue = dynamics::BroadPhase::kEveryLevel;
-
-  /// The bodies that the step at hand moves; ascending.
-  const std::vector<BodyIndex>& due() const { return level == kAllDue ? awake : due_some; }
   FloeId floe_count() const { return static_cast<FloeId>(floes.size()); }
   BodyKind kind(BodyIndex body) const { return bodies.kind[body]; }
   bool is_hull(BodyIndex body) const { return body < hull_count; }
@@ -115,12 +110,11 @@ struct NewFloe {
 };
 
 /// Adds the scene's hulls, and its floes, asleep and awake; takes their polygons.
-void add_scene(const Setup& setup, std::vector<FloeSpec>& floes, const Clock& clock, Population& population,
-               Journal& journal);
+void add_scene(const Setup& setup, std::vector<FloeSpec>& floes, Population& population, Journal& journal);
 
 /// Adds a floe of these measures, at rest or moving as a part of a rigid body whose frame is the floe's;
 /// records its birth.
-FloeId add_floe(const Setup& setup, const Clock& clock, NewFloe floe, const geometry::Measures& measures,
+FloeId add_floe(const Setup& setup, const Instant& now, NewFloe floe, const geometry::Measures& measures,
                 Population& population, Journal& journal);
 
 /// Takes a floe out of the contact world, and puts it to sleep.

@@ -81,11 +81,16 @@ double thrust_of(const Wall& wall, const HullSample& s) {
   return wall.pressure ? wall.load() : holding_force(s);
 }
 
+/// The time since the last sample [s].
+double interval_of(const Clock& clock, const Accounts& accounts) {
+  return static_cast<double>(clock.ticks - accounts.sampled_at) * clock.tick;
+}
+
 HullSample sample_of(const Setup& setup, const Clock& clock, const Population& population, BodyIndex ship,
                      const Accounts& accounts) {
   const HullLoads& loads = accounts.loads[ship];
   const dynamics::Bodies& bodies = population.bodies;
-  const double interval = static_cast<double>(setup.steps_per_sample) * setup.scene.time.step;
+  const double interval = interval_of(clock, accounts);
   HullSample sample;
   sample.time = clock.time();
   sample.ship = ship;
@@ -95,9 +100,9 @@ HullSample sample_of(const Setup& setup, const Clock& clock, const Population& p
   sample.from_ships = over(loads.hulls.impulse, interval);
   sample.from_ships_largest = loads.hulls.largest;
   sample.from_submerged = over(loads.submerged.impulse, interval);
-  sample.position_in_world = bodies.position[ship] + clock.drift();
+  sample.position_in_world = bodies.position[ship] + drift_at(setup, clock.time());
   sample.heading = bodies.angle[ship];
-  sample.velocity_in_world = bodies.velocity[ship] + clock.water_drift;
+  sample.velocity_in_world = bodies.velocity[ship] + population.water_velocity;
   sample.yaw_rate = bodies.angular_velocity[ship];
   sample.submerged_area = loads.submerged.area;
   if (population.kind(ship) == BodyKind::kShip)
@@ -119,20 +124,21 @@ void tally_loads(const Population& population, const std::vector<dynamics::Conta
   }
 }
 
-void record(const Setup& setup, const Clock& clock, const Population& population,
-            const std::vector<HullLoads>& step_loads, Accounts& accounts, Journal& journal) {
-  for (std::size_t hull = 0; hull < step_loads.size(); ++hull)
-    add_step(accounts.loads[hull], step_loads[hull], setup.step);
+void sum_loads(const Setup& setup, const Step& step, const StepData& data, Accounts& accounts) {
+  for (std::size_t hull = 0; hull < data.loads.size(); ++hull)
+    add_step(accounts.loads[hull], data.loads[hull], step.length);
   for (std::size_t ship = 0; ship < setup.sailing.size(); ++ship)
-    if (setup.sailing[ship].is_active) accounts.sailing[ship].ice_friction += step_loads[ship].ice.friction;
-  Counts& counts = accounts.counts;
-  counts.peak_awake = std::max(counts.peak_awake, static_cast<std::int64_t>(population.awake.size()));
-  if (!clock.is_at_tick() || clock.steps % setup.steps_per_sample != 0) return;
+    if (setup.sailing[ship].is_active) accounts.sailing[ship].ice_friction += data.loads[ship].ice.friction;
+}
+
+void sample_loads(const Setup& setup, const Clock& clock, const Population& population, Accounts& accounts,
+                  Journal& journal) {
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull)
     journal.samples.push_back(sample_of(setup, clock, population, hull, accounts));
-  sample_panels(setup, clock, accounts.panels, journal);
+  sample_panels(setup, clock, interval_of(clock, accounts), accounts.panels, journal);
   std::ranges::fill(accounts.loads, HullLoads{});
   std::ranges::fill(accounts.sailing, SailingLoads{});
+  accounts.sampled_at = clock.ticks;
 }
 
 }  // namespace polynya::simulation

@@ -52,8 +52,7 @@ std::string shown_name(const Scene& scene) {
 }
 
 double recording_interval(const Scene& scene) {
-  const double steps = std::max(1.0, std::round(scene.record.forces_interval / scene.time.step));
-  return steps * scene.time.step;
+  return std::max(scene.record.forces_interval, scene.time.step);
 }
 
 geometry::Vector WaterSettings::drift_at(double time) const {

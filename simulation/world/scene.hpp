@@ -25,9 +25,8 @@ namespace polynya::simulation {
 /// JSON form and its field table are io's (docs/scene.md).
 
 struct StepSettings {
-  double step = 0.005;  ///< a tick, which is Δt where levels is 0 [s]
-  double until = 550;   ///< simulated time to run to [s]
-  int levels = 5;       ///< a step is 2^-levels to 1 tick; by rigid impulses always a tick
+  double step = 0.005;  ///< the tick, which is taken in equal parts where it is too long for what happens in it [s]
+  double until = 550;   ///< simulated time to run to; a whole number of ticks is taken [s]
   friend bool operator==(const StepSettings&, const StepSettings&) = default;
 };
 
@@ -322,8 +321,9 @@ bool splits_by_j_over_tau_c(const Scene& scene);
 /// Work that a run skips because it would change nothing. Not part of a scene: tests switch it off and
 /// compare.
 struct Shortcuts {
-  bool culls = true;   ///< pairs of bodies are not collided while they cannot touch
-  bool sleeps = true;  ///< floes at rest that touch nothing are not stepped
+  bool culls = true;        ///< pairs of bodies are not collided while they cannot touch
+  bool sleeps = true;       ///< floes at rest that touch nothing are not stepped
+  bool takes_parts = true;  ///< ticks are taken in parts where one step would be too long: this changes results
 };
 
 /// Whether anything beside ice, other ships and a prescribed thrust or speed moves the ship: water around the

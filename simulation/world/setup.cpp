@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fracture/bending/fsi_database_model.hpp"
 #include "fracture/bending/published_forms.hpp"
 #include "fracture/characteristic_length.hpp"
 #include "fracture/splitting.hpp"
+#include "simulation/world/parts.hpp"
 
 namespace polynya::simulation {
 namespace {
@@ -41,7 +43,6 @@ std::vector<IceLimits> limits_of(const Scene& scene) {
 Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
     : scene(std::move(scene_of_run)),
       shortcuts(shortcuts_of_run),
-      step(scene.time.step),
       bending(make_bending_model(scene.fracture)),
       current(current_of(scene.water.shear)),
       ice_limits(limits_of(scene)) {
@@ -51,31 +52,30 @@ Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
     waterlines.push_back(waterline_of(hull_of(scene, hull).hull.waterline));
   }
   for (const Ship& ship : scene.ships) sailing.push_back(sailing_of(ship, scene.water.water.density));
-  steps_per_sample = std::max<std::int64_t>(1, std::llround(scene.record.forces_interval / scene.time.step));
-  steps_per_frame = std::max<std::int64_t>(1, std::llround(scene.record.frames_interval / scene.time.step));
   const ContactSettings& contact = scene.contact;
-  if (contact.law == ContactLaw::kCrush) {
-    law = dynamics::CrushLaw{scene.time.step, contact.substeps, contact.is_warm_started};
+  const bool crushes = contact.law == ContactLaw::kCrush;
+  contact_rule = {contact.circle_radius, contact.normal == ContactNormal::kCircleCentres, shortcuts.culls, crushes,
+                  crushes};
+  longest_step_by_walls = simulation::longest_step_by_walls(scene);
+  if (crushes) {
     solver.tolerance = contact.tolerance;
-    levels = scene.time.levels;
-    steps_per_rest = std::max<std::int64_t>(1, std::llround(kRestInterval / scene.time.step));
+    has_flooding_decks = scene.fracture.floods_decks && scene.fracture.cusp_fate == CuspFate::kUnderHull;
   } else {
-    law = dynamics::RestitutionLaw{contact.restitution, scene.time.step};
-    separation = {.time = contact.separation_time};  // crushed overlap is gone ice
+    separation = {.time = contact.separation_time};  // the law of crushing ice has no such overlap: that ice is gone
   }
 }
 
-void take_step(Setup& setup, Clock& clock, int ticks, int parts) {
-  clock.ticks_in_step = ticks;
-  clock.parts = parts;
-  clock.step = setup.step = ticks * clock.tick / parts;
-  std::visit([&](auto& law) { law.step = setup.step; }, setup.law);
+double longest_step_by_walls(const Scene& scene) {
+  double longest = std::numeric_limits<double>::infinity();
+  for (const Wall& wall : scene.walls)
+    if (const auto& p = wall.pressure; p && p->line_load > 0)
+      longest = std::min({longest, kStepUnderPressure, p->closing_speed * p->mass_per_length / p->line_load});
+  return longest;
 }
 
-void advance(Clock& clock) {
-  if (++clock.part < clock.parts) return;
-  clock.part = 0;
-  clock.steps += clock.ticks_in_step;
+geometry::Vector drift_at(const Setup& setup, double time) {
+  const WaterSettings& water = setup.scene.water;
+  return water.is_steady() ? time * water.drift_at(0) : water.drift_path(time);
 }
 
 Underwater underwater_of(const Hull& hull) {

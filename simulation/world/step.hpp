@@ -1,153 +1,169 @@
 #pragma once
 
-#include <array>
+#include <span>
 #include <string_view>
 
 #include "simulation/world/world.hpp"
 
 namespace polynya::simulation {
 
-// The stages of one time step. A stage reads what it takes as const and changes only what it takes as a
-// plain reference.
+// One tick of a run, and the stages of a time step. The clock stands still while stages run: a stage is given the
+// step, reads what it takes as const, and changes only what it takes as a plain reference. Stages before
+// integrate_motion see the bodies at step.begin, the ones behind it at step.end. Only the stages from apply_fractures
+// to come_up change which floes there are; they work serially, in an order that does not depend on threads.
 
-/// Puts levers and steering where the pilots' first commands want them.
-void take_helms(const Setup& setup, const Clock& clock, Population& population);
+// ---- before the contacts
 
-/// Where the drift changes, gives the water frame its mean velocity over the step, and keeps what stands or moves
-/// over ground at its velocity there. Free bodies go with the water: what speeds it up, the slope of its surface,
-/// speeds them up alike.
-void follow_water(const Setup& setup, Clock& clock, Population& population, AuditSums& audit);
+/// Sets levers and steering to what the pilots command at the start of the run.
+void take_helms(const Setup& setup, const Step& step, Population& population);
+
+/// Gives the water frame its mean velocity over the step. Bodies of prescribed motion and walls keep their velocity
+/// over ground. Free bodies keep theirs in the water, because the slope of its surface speeds both up alike.
+void follow_water(const Setup& setup, const Step& step, Population& population, AuditSums& audit);
 
 /// Asks the pilots, and moves levers and steering towards their commands.
-void steer(const Setup& setup, const Clock& clock, const std::vector<ExternalPilot>& external, Population& population);
+void steer(const Setup& setup, const Step& step, const std::vector<ExternalPilot>& external, Population& population);
 
-/// Moves the walls that press by their loads. Before the contacts, so that the ice answers within the step.
-void press_walls(const Setup& setup, const Clock& clock, Population& population, AuditSums& audit);
+/// Accelerates the walls that press by their loads, so that the ice answers within the step.
+void press_walls(const Setup& setup, const Step& step, Population& population, AuditSums& audit);
 
-/// Takes from walls that press what impulses gave them beside their normals.
-void hold_walls(const Setup& setup, const Clock& clock, Population& population, AuditSums& audit);
+/// Stores the ships' motion before the step's impulses, and the places of all hulls.
+void keep_motion(const Population& population, StepData& data);
 
-/// Keeps the ships' motion before the step's impulses, and where all hulls are.
-void keep_motion(const Population& population, StepData& step);
+// ---- contacts and their impulses
 
+/// Updates the pairs of bodies that are near each other.
 void find_pairs(int threads, Population& population);
 
-void find_contacts(const Setup& setup, int threads, const Components& components, Population& population,
-                   StepData& step, Counts& counts);
+/// Finds the contacts of all pairs.
+void find_contacts(const Step& step, int threads, Population& population, StepData& data, Counts& counts);
 
-/// What each contact can carry, and whether ice breaks there: impulse, crush, bend or split.
-void decide(const Setup& setup, const Clock& clock, int threads, const Population& population, StepData& step,
-            Counts& counts);
+/// Law of crushing ice: finds what each contact can bear, and at which force its ice bends.
+void decide_by_crushing(const Setup& setup, const Step& step, int threads, const Population& population, StepData& data,
+                        Counts& counts);
 
-/// Limits what contacts carry by what the floes that they press down resist.
-void limit_by_tilt(const Setup& setup, const Population& population, StepData& step);
+/// Law of impulses: finds what each contact can bear, and whether its ice breaks by the collision force j/τ_c.
+void decide_by_collision(const Setup& setup, const Step& step, int threads, const Population& population,
+                         StepData& data, Counts& counts);
 
-/// Finds the impulses of all contacts, and with them what floes split: where contacts would come to more than
-/// a split takes, they are stopped there and the step is solved again (ice/split_instant.hpp).
-void solve_impulses(const Setup& setup, int threads, Population& population, StepData& step, Accounts& accounts);
+/// Reduces what contacts bear to what the floes that they press down resist.
+void limit_by_tilt(const Setup& setup, const Step& step, const Population& population, StepData& data);
 
-/// By the law of crushing ice: drops the bends whose contacts were not loaded up to V_b.
-void drop_unbroken(const Setup& setup, StepData& step);
+/// Law of crushing ice: finds the impulses of all contacts, and which floes split by them. Where the contacts would
+/// bear more than a split needs, they are stopped there and the step is solved again (ice/split_instant.hpp).
+void solve_crushing(const Setup& setup, const Step& step, int threads, Population& population, StepData& data,
+                    Accounts& accounts);
 
-/// Enters the splits by true forces among what breaks, and the true forces into what breaks otherwise.
-void enter_splits(const Setup& setup, const Population& population, StepData& step);
+/// Law of impulses: finds the impulses of all contacts, and which floes split by them.
+void solve_collisions(const Setup& setup, const Step& step, int threads, Population& population, StepData& data,
+                      Accounts& accounts);
 
-/// Tilts the floes that hulls press down, by the impulses found; those pressed down far enough are to go
-/// under.
-void tilt_floes(const Setup& setup, Population& population, StepData& step);
+/// Takes from walls that press all velocity that is not along their normals.
+void hold_walls(const Setup& setup, Population& population, AuditSums& audit);
 
-/// By the law of crushing ice: books what overlaps have grown in the step, as crushed, with the work that it took,
-/// or as tilted, where the ice edge gave way.
-void book_overlaps(const Setup& setup, int threads, const Population& population, const StepData& step);
+/// Law of crushing ice: removes the bends whose contacts were not loaded up to V_b.
+void drop_unbroken(StepData& data);
 
-/// Adds what the impulses did to the ships.
+/// Adds the splits by true forces to the fractures of the step, and the true forces to its other fractures.
+void enter_splits(const Setup& setup, const Step& step, const Population& population, StepData& data);
+
+/// Law of crushing ice: returns why the step's loads cannot be trusted, where one exceeds all that its ice can bear.
+std::optional<std::string> overload_of(const Setup& setup, const Step& step, const Population& population,
+                                       const StepData& data);
+
+/// Turns the edges of floes that hulls press down, and lists the floes that are to go under.
+void tilt_floes(const Setup& setup, const Step& step, Population& population, StepData& data);
+
+/// Law of crushing ice: books what each overlap has grown in the step as crushed, with its work, or as tilted, where
+/// the ice edge gave way.
+void book_overlaps(const Setup& setup, int threads, const Population& population, const StepData& data);
+
+/// Sums what the impulses did to the hulls.
 void tally_loads(const Population& population, const std::vector<dynamics::Contact>& contacts,
                  std::vector<HullLoads>& loads);
 
-/// Water and wind on the bodies that are due.
-void apply_forces(const Setup& setup, const Clock& clock, int threads, Population& population, AuditSums& audit);
+// ---- forces and motion
 
-/// Constant thrust.
-void push_ships(const Setup& setup, Population& population, AuditSums& audit);
+/// Lets water and wind act on all awake bodies.
+void apply_forces(const Setup& setup, const Step& step, int threads, Population& population, AuditSums& audit);
+
+/// Gives ships their constant thrust.
+void push_ships(const Setup& setup, const Step& step, Population& population, AuditSums& audit);
 
 /// Brakes ships by the ice under their hulls, and moves that ice along its path.
-void pull_of_submerged_ice(const Setup& setup, Population& population, std::vector<HullLoads>& loads, AuditSums& audit);
+void pull_of_submerged_ice(const Setup& setup, const Step& step, Population& population, std::vector<HullLoads>& loads,
+                           AuditSums& audit);
 
-/// Moves ships by water, engine, steering and mooring (sailing.hpp). After all other impulses of the step,
-/// since the water shares those too.
-void sail(const Setup& setup, const Clock& clock, StepData& step, Population& population, Accounts& accounts);
+/// Moves ships by water, engine, steering and mooring (ship/sailing.hpp). It is the last of the step's impulses, since
+/// the water around a ship takes its share of all others.
+void sail(const Setup& setup, const Step& step, StepData& data, Population& population, Accounts& accounts);
 
-/// Returns why the numbers cannot be trusted any more, where a body has no finite speed below kRunawaySpeed.
-std::optional<std::string> integrate_motion(const Setup& setup, const Clock& clock, int threads,
-                                            const std::vector<dynamics::Contact>& contacts, Population& population);
+/// Law of impulses: pushes overlaps apart, over several steps.
+void separate_overlaps(const Setup& setup, const Step& step, const StepData& data, Population& population);
 
-/// Brakes ships by the cusps that they push down. With the next three all that changes which floes there are: serially,
-/// in floe-id order.
-void apply_fractures(const Setup& setup, const Clock& clock, StepData& step, Population& population, Accounts& accounts,
+/// Moves all awake bodies. Returns why the numbers cannot be trusted any more, where a body has no finite speed below
+/// kRunawaySpeed.
+std::optional<std::string> integrate_motion(const Step& step, int threads, Population& population);
+
+// ---- what happens to the ice
+
+/// Breaks the floes whose fractures the step has decided. Ships are braked by the cusps that they push down.
+void apply_fractures(const Setup& setup, const Step& step, StepData& data, Population& population, Accounts& accounts,
                      Journal& journal);
 
-/// Cuts overlaps that no contact can part from the floe and makes them brash, in the order of the pairs.
-void grind_blind_overlaps(const Setup& setup, const Clock& clock, const std::vector<dynamics::BlindOverlap>& overlaps,
-                          Population& population, Accounts& accounts, Journal& journal);
+/// Cuts overlaps that no contact can part from the floe and makes them brash.
+void grind_blind_overlaps(const Setup& setup, const Step& step, const StepData& data, Population& population,
+                          Accounts& accounts, Journal& journal);
 
-/// Cuts the ice that hulls of prescribed motion have crushed out of fast ice, and makes it brash: their
-/// channels are open.
-void carve_channels(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+/// Law of crushing ice: cuts the ice that hulls of prescribed motion have crushed out of fast ice, and makes it brash.
+void carve_channels(const Setup& setup, const Step& step, const StepData& data, Population& population,
                     Accounts& accounts, Journal& journal);
 
-/// Why the step's loads cannot be trusted, where one is above all that its ice can bear.
-std::optional<std::string> overload_of(const Setup& setup, const Clock& clock, const Population& population,
-                                       const StepData& step);
-
-/// By the law of crushing ice: cuts off what contacts crushed that have parted, or that crushed much, and
-/// makes it brash, in the order of the pairs.
-void shed_crushed_ice(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+/// Law of crushing ice: cuts off what contacts crushed that have parted, or that crushed much, and makes it brash.
+void shed_crushed_ice(const Setup& setup, const Step& step, const StepData& data, Population& population,
                       Accounts& accounts, Journal& journal);
 
-/// By the law of crushing ice: cuts floes that hulls have come through into those that are left of them. What is
-/// in the hull is brash.
-void cut_through_floes(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
+/// Law of crushing ice: cuts floes that hulls have come through into their remaining parts. The ice within the hull
+/// becomes brash.
+void cut_through_floes(const Setup& setup, const Step& step, const StepData& data, Population& population,
                        Accounts& accounts, Journal& journal);
 
 /// Puts floes that tilted far enough under the hulls.
-void apply_submersions(const Setup& setup, const Clock& clock, const std::vector<PendingSubmersion>& pending,
-                       Population& population, Accounts& accounts, Journal& journal);
+void apply_submersions(const Setup& setup, const Step& step, const StepData& data, Population& population,
+                       Accounts& accounts, Journal& journal);
 
-/// Lets ice come up that ships have passed, in the order in which it went under.
-void come_up(const Setup& setup, const Clock& clock, Population& population, Accounts& accounts, Journal& journal);
+/// Lets ice that ships have passed come up, in the order in which it went under.
+void come_up(const Setup& setup, const Step& step, Population& population, Accounts& accounts, Journal& journal);
 
-/// Records the first contact of each two ships, and the moorings that broke.
-void record_hull_contacts(const Setup& setup, const Clock& clock, const Population& population, const StepData& step,
+// ---- what is recorded
+
+/// Records the first contact of each two hulls, and the moorings that broke.
+void record_hull_contacts(const Setup& setup, const Step& step, const Population& population, const StepData& data,
                           std::vector<Event>& known_contacts, Journal& journal);
 
-/// Keeps which bodies touch others, at the ticks that put floes to rest.
-void note_touches(const Setup& setup, const Clock& clock, const Population& population, StepData& step);
+/// Adds the step's loads to those of the recording interval.
+void sum_loads(const Setup& setup, const Step& step, const StepData& data, Accounts& accounts);
 
-void put_to_rest(const Setup& setup, const Clock& clock, const StepData& step, Population& population,
-                 AuditSums& audit);
+/// Puts floes to sleep that are as good as at rest and touch nothing.
+void put_to_rest(const Setup& setup, const StepData& data, Population& population, AuditSums& audit);
 
-void record(const Setup& setup, const Clock& clock, const Population& population,
-            const std::vector<HullLoads>& step_loads, Accounts& accounts, Journal& journal);
+/// Writes a row for each hull and panel, and begins new sums.
+void sample_loads(const Setup& setup, const Clock& clock, const Population& population, Accounts& accounts,
+                  Journal& journal);
 
-/// Where bodies take different steps: in which of them a stage runs.
-enum class RunsIn : std::uint8_t {
-  kAllSteps,
-  kTicks,     ///< with what goes by the tick: hulls and what is at them
-  kTogether,  ///< of these, where no body lags behind: floes are where they are seen
-};
-
-/// A stage with the parts of the world that it takes.
+/// A stage of a step, with the parts of the world that it takes.
 struct Stage {
   std::string_view name;
-  RunsIn in;
-  void (*run)(World& world);
+  void (*run)(World& world, const Step& step);
 };
 
-/// All of them, in their order.
-extern const std::array<Stage, 34> kStages;
+/// The stages of a step by a law of contacts, in their order.
+std::span<const Stage> stages_of(ContactLaw law);
 
-/// One tick: all stages, once or in each of its parts (levels.hpp). Where floes can take longer steps: up to so many
-/// ticks, after which all bodies have come to the same one (components.hpp).
-void step(World& world, std::int64_t most_ticks = 1);
+/// The given one of the equal parts of the tick that follows the clock; the whole tick is part 0 of 1.
+Step step_of(const Setup& setup, const Clock& clock, int part, int parts);
+
+/// Advances the world by one tick: all stages, in each of the tick's parts (parts.hpp).
+void step(World& world);
 
 }  // namespace polynya::simulation

@@ -9,31 +9,32 @@ namespace {
 
 /// Of a floe of the scene that is under a hull at the start.
 void put_under(FloeId floe, const FloeSpec& spec, World& world) {
-  world.journal.events.push_back(submersion_event(world.clock, world.population, floe, spec.under_ship));
-  go_under(world.setup, world.clock, floe, spec.under_ship, world.population, world.accounts);
+  const Instant now = instant_at(world.setup, 0);
+  world.journal.events.push_back(submersion_event(now, world.population, floe, spec.under_ship));
+  go_under(world.setup, now, floe, spec.under_ship, world.population, world.accounts);
   world.population.submerged.back().path = spec.under_path;
 }
 
 }  // namespace
 
 World::World(Scene scene, Shortcuts shortcuts, Start start)
-    : setup(std::move(scene), shortcuts),
-      clock{.tick = setup.scene.time.step, .step = setup.scene.time.step, .water_drift = setup.scene.water.drift_at(0)},
-      population(setup) {
-  if (!setup.scene.water.is_steady()) clock.changing = std::make_shared<const WaterSettings>(setup.scene.water);
+    : floes_at_start(std::exchange(scene.floes, {})),
+      setup(std::move(scene), shortcuts),
+      clock{.tick = setup.scene.time.step},
+      population(setup, floes_at_start) {
   accounts.loads.resize(hull_count(setup.scene));
   accounts.panels = panels_of(setup);
   accounts.sailing.resize(setup.scene.ships.size());
   population.helms.resize(setup.scene.ships.size());
   if (start == Start::kEmpty) return;
-  std::vector<FloeSpec> floes = std::exchange(setup.scene.floes, {});
-  add_scene(setup, floes, clock, population, journal);
+  std::vector<FloeSpec> floes = std::exchange(floes_at_start, {});
+  add_scene(setup, floes, population, journal);
   for (FloeId id = 0; id < population.floe_count(); ++id) {
     accounts.areas.initial += population.floes[id].area;
     accounts.masses.initial += population.bodies.mass[population.body_of(id)];
   }
   accounts.counts.floes_initial = population.floe_count();
-  take_helms(setup, clock, population);
+  take_helms(setup, step_of(setup, clock, 0, 1), population);
   open_accounts(population.bodies, accounts.audit);
   for (std::size_t i = 0; i < floes.size(); ++i)
     if (floes[i].under_ship >= 0) put_under(static_cast<FloeId>(i), floes[i], *this);

@@ -11,7 +11,7 @@
 #include "simulation/ice/beams.hpp"
 #include "simulation/ship/load_peaks.hpp"
 #include "simulation/ship/panels.hpp"
-#include "simulation/world/components.hpp"
+#include "simulation/world/clock.hpp"
 #include "simulation/world/energy.hpp"
 #include "simulation/world/journal.hpp"
 #include "simulation/world/population.hpp"
@@ -71,6 +71,7 @@ struct PendingFracture {
   double penetration = 0;               ///< [m]
   double cusp_radius = 0;               ///< [m]
   EdgePush push;                        ///< of a bend by the law of crushing ice
+  bool passes_to_pieces = false;        ///< where its floe bends at another place in the step, it breaks a piece
   geometry::CrackPath crack_in_body;    ///< of a split
   fracture::FailureCriteria criteria;
   dynamics::PersistentContact* record = nullptr;  ///< of the contact that broke it, valid during the step
@@ -110,7 +111,7 @@ struct SolverStart {
   double loaded_depth = 0;              ///< [m]
 };
 
-/// What one step works out; of the step before, between two steps.
+/// The results of the stages of one step. Between two steps they are those of the last one.
 struct StepData {
   std::vector<dynamics::Contact> contacts;
   std::vector<dynamics::BlindOverlap> blind_overlaps;
@@ -123,12 +124,8 @@ struct StepData {
   std::vector<HullLoads> loads;                       ///< per hull
   std::vector<ShipMotion> start;                      ///< per ship: its motion before the step's impulses
   std::vector<geometry::Pose> water_from_hull;        ///< per hull: where it was when the contacts were found
-  std::vector<std::int64_t> touched_at_step;          ///< per body: the last step at which it touched something
   dynamics::ContactSolver solver;                     ///< its reusable memory
   std::unordered_map<FloeId, BeamShape> beam_shapes;  ///< of slender floes that forces may break, once they may
-  std::vector<dynamics::Contact> longer_contacts;     ///< of the longer steps that ended with it, where recorded
-  std::vector<double> longer_steps;                   ///< of each of them [s]
-  std::vector<BodyIndex> met;                         ///< lagging behind, by bodies of shorter steps
   std::vector<SolverStart> solver_start;              ///< per contact, where splits by the true forces are found
 };
 
@@ -144,6 +141,13 @@ struct Accounts {
   LoadPeaks load_peaks;
   std::vector<HullPanels> panels;                                     ///< per hull, since the last sample
   std::vector<std::pair<std::int64_t, std::int64_t>> refused_grinds;  ///< bodies that geometry refused to cut
+  std::int64_t sampled_at = 0;                                        ///< the tick of the last sample
+};
+
+/// What the ticks so far tell about the parts that the next one needs (parts.hpp).
+struct Pace {
+  int finer = 1;     ///< factor on the number of parts, a power of 2
+  double bends = 0;  ///< bends in a step, a running mean over some eight ticks
 };
 
 /// What a new world has in it.
@@ -156,12 +160,14 @@ enum class Start {
 struct World {
   explicit World(Scene scene, Shortcuts shortcuts = {}, Start start = Start::kScene);
 
-  Setup setup;
-  int threads = 1;  ///< to step with; results do not depend on it
+  std::vector<FloeSpec> floes_at_start;  ///< the scene's, until the population has them
+  const Setup setup;                     ///< its scene has no floes
+  int threads = 1;                       ///< to step with; results do not depend on it
   Clock clock;
   Population population;
-  Components components;
-  StepData step;
+  Pace pace;
+  Step last_step;  ///< the one taken last; the data are of it
+  StepData data;
   Accounts accounts;
   Journal journal;
   std::vector<ExternalPilot> pilots;   ///< per ship, those that take the place of the scene's; or fewer

@@ -24,7 +24,9 @@ class Resume : public testing::Test {
     ASSERT_TRUE(kill_at_checkpoints("run scene.json --out run --checkpoint-every 1", start_, folder_ / "run", 2))
         << "it ended before it was killed";
     checkpoints_ = io::checkpoints_in(folder_ / "run");
-    ASSERT_EQ(checkpoints_.size(), 2U);
+    ASSERT_GE(checkpoints_.size(), 2U);
+    for (; checkpoints_.size() > 2; checkpoints_.pop_back())  // killed before the oldest one went
+      fs::remove(checkpoints_.back());
     fs::copy(folder_ / "run", folder_ / "killed");
   }
   void restore() {

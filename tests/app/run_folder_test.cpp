@@ -154,7 +154,7 @@ TEST_F(RunFolderTrial, EveryByteIsOnTheDiskBeforeACheckpointGoes) {
     }
     unsynced.take(call);
   }
-  EXPECT_EQ(gone, 4);
+  EXPECT_EQ(gone, 7);
   EXPECT_EQ(difference("run"), "");
 }
 

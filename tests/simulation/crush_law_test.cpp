@@ -205,7 +205,7 @@ double time_of_compression(const Scene& scene) {
   double start = -1;
   for (int step = 0; step < 200000; ++step) {
     simulation.step();
-    if (start < 0 && !simulation.world().step.contacts.empty()) start = simulation.time();
+    if (start < 0 && !simulation.world().data.contacts.empty()) start = simulation.time();
     if (start >= 0 && simulation.floe_states()[0].velocity.x >= -1e-9) return simulation.time() - start;
   }
   return -1;
@@ -281,7 +281,7 @@ TEST(CrushingCollision, ByCircleCentresIsFeltLaterByAShareOfTheRadius) {
     scene.contact.circle_radius = radius;
     scene.contact.normal = ContactNormal::kCircleCentres;
     Simulation simulation(scene);
-    while (simulation.world().step.contacts.empty() && simulation.time() < 20) simulation.step();
+    while (simulation.world().data.contacts.empty() && simulation.time() < 20) simulation.step();
     return 0.5 * simulation.time() - 0.003;
   };
   std::vector<double> lags;

@@ -38,7 +38,7 @@ Build drifting_onto(const geometry::Ring& hull, double edge, Drift drift) {
 Trial over_the_way(const Scene& scene, double speed, double most) {
   Trial done = run(scene, kWay / speed, [&](const Simulation& simulation) {
     geometry::Vector force{};
-    for (const dynamics::Contact& c : simulation.world().step.contacts)
+    for (const dynamics::Contact& c : simulation.world().data.contacts)
       force += (c.steady_share / scene.time.step) * c.impulse_on_b();
     EXPECT_LT(length(force), 1.005 * most) << simulation.time();
   });
@@ -123,10 +123,10 @@ TEST(Prescribed, AWallThatClosesFlatBearsOnAllOfTheIce) {
 TEST(Prescribed, ALoadAboveAllThatIceBearsIsANumericalFailure) {
   World world(drifting_onto(cylinder_waterline(kRadius), -kRadius - 0.001, {0.2, 0.05}));
   for (int i = 0; i < 10; ++i) step(world);
-  ASSERT_EQ(world.step.contacts.size(), 1u);
-  EXPECT_FALSE(overload_of(world.setup, world.clock, world.population, world.step).has_value());
-  for (double& impulse : world.step.contacts[0].normal_impulse) impulse = 0.05 * 5 * kLineLoad * 2 * kRadius;
-  const auto failure = overload_of(world.setup, world.clock, world.population, world.step);
+  ASSERT_EQ(world.data.contacts.size(), 1u);
+  EXPECT_FALSE(overload_of(world.setup, world.last_step, world.population, world.data).has_value());
+  for (double& impulse : world.data.contacts[0].normal_impulse) impulse = 0.05 * 5 * kLineLoad * 2 * kRadius;
+  const auto failure = overload_of(world.setup, world.last_step, world.population, world.data);
   ASSERT_TRUE(failure.has_value());
   EXPECT_NE(failure->find("their ice bears 14"), std::string::npos) << *failure;
 }

@@ -161,7 +161,7 @@ TEST(Bending, TheCuspIsNotTheSteps) {
   const auto radius = [](double step) {
     Ship bow = barge({-0.001, 0}, ConstantSpeed{1.5}, 1.5);
     set_hull_angle(bow, kHullAngle);
-    Build scene = Build().thickness(0.3).step(step).one_step_for_all().without_drag().without_splits().ship(bow);
+    Build scene = Build().thickness(0.3).step(step).without_drag().without_splits().ship(bow);
     scene.floe(fast({{{0, 0}, {40, -450}, {80, -450}, {80, 450}, {40, 450}}, {}}));  // a corner of 170 degrees
     return std::get<Bend>(first_bend(scene).what).cusp_radius;
   };
@@ -194,9 +194,9 @@ TEST(Regression, AMovingFloeMeetsFloesThatTheSceneListsLater) {
     const FloeSpec mover = floe(rectangle(0, 0, 10, 10), {1, 0}), rester = floe(rectangle(10.5, 0, 20.5, 10));
     scene.floe(is_mover_first ? mover : rester).floe(is_mover_first ? rester : mover);
     Simulation simulation(scene);
-    while (simulation.world().step.contacts.empty() && simulation.time() < 3) simulation.step();
+    while (simulation.world().data.contacts.empty() && simulation.time() < 3) simulation.step();
     EXPECT_NEAR(simulation.time(), 0.5, 3 * scene.time.step) << is_mover_first;
-    EXPECT_LT(simulation.world().step.contacts.front().depth, 2 * scene.time.step);
+    EXPECT_LT(simulation.world().data.contacts.front().depth, 2 * scene.time.step);
   }
 }
 

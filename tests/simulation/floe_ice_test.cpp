@@ -211,7 +211,7 @@ TEST(BendingScatter, EachEventStatesTheStrengthItBrokeAt) {
       for (const Event& event : simulation.journal().events) {
         if (!event.is<Bend>()) continue;
         factors.push_back(event.criteria().flexural_strength / kIce.flexural_strength);
-        EXPECT_TRUE(std::ranges::any_of(simulation.world().step.fractures, [&](const PendingFracture& pending) {
+        EXPECT_TRUE(std::ranges::any_of(simulation.world().data.fractures, [&](const PendingFracture& pending) {
           const double drawn = strength_factor(seed, pending.first_touch_in_body, kSpread);
           return pending.floe == event.ice()->floe && std::abs(drawn / factors.back() - 1) < 1e-12;
         })) << event.time;

@@ -31,13 +31,12 @@ Engine engine(double pull = 1e6, double speed = 8) {
   return {.bollard_pull = pull, .open_water_speed = speed, .propeller_area = 12};
 }
 
-World world_of(const Scene& scene, dynamics::Planar motion) {
-  World world(scene);
+/// Gives the only ship a motion, in her axes, before the first step.
+void set_in_motion(dynamics::Planar motion, World& world) {
   dynamics::Bodies& bodies = world.population.bodies;
   bodies.velocity[0] = rotate(bodies.rotation[0], {motion.surge, motion.sway});
   bodies.angular_velocity[0] = motion.yaw;
   open_accounts(bodies, world.accounts.audit);
-  return world;
 }
 
 dynamics::Planar motion_of(const World& world) {
@@ -51,7 +50,7 @@ dynamics::Planar motion_of(const World& world) {
 double wet_energy(const World& world) {
   const dynamics::Bodies& b = world.population.bodies;
   const dynamics::Planar now = motion_of(world);
-  const geometry::Vector before = rotate(dynamics::turned({}, now.yaw * world.clock.step), {now.surge, now.sway});
+  const geometry::Vector before = rotate(geometry::Rotation::by(now.yaw * world.clock.tick), {now.surge, now.sway});
   const dynamics::Planar in_water{before.x, before.y, now.yaw};
   return kinetic_energy(b) + 0.5 * dot(in_water, world.setup.sailing[0].hull.added_mass * in_water);
 }
@@ -60,7 +59,8 @@ TEST(Sailing, NoEnergyComesFromNothing) {
   for (const double step : {0.005, 0.1, 1.0}) {
     for (const dynamics::Planar start :
          {dynamics::Planar{6, 0, 0}, {3, 2, 0.05}, {-4, 1, -0.08}, {0.1, 2, 0.1}, {0, 0, 0.15}}) {
-      World world = world_of(in_water(ConstantThrust{0}, 0, step), start);
+      World world(in_water(ConstantThrust{0}, 0, step));
+      set_in_motion(start, world);
       double before = wet_energy(world) * (1 + 1e-3);  // the first step's turn is not known
       for (int i = 0; i < 600; ++i) {
         simulation::step(world);
@@ -100,7 +100,6 @@ dynamics::Planar sum_of_causes(const HullSample& s, bool has_engine) {
 
 /// Steps a scene and compares what the causes gave in each step with the change of the ship's momentum.
 void expect_balance(Scene scene, double until) {
-  scene.time.levels = 0;  // samples are of single steps
   World world(scene);
   const dynamics::Bodies& b = world.population.bodies;
   const bool has_engine = std::holds_alternative<Engine>(scene.ships[0].propulsion);
@@ -435,8 +434,7 @@ TEST(ConstantSpeed, IsKeptExactlyAndTheForcesAreWhatItTakes) {
 TEST(Ships, SeveralDoNotDisturbOneAnother) {
   // The same ship and ice, alone and with another ship at work 2 km away: the same numbers to the last bit. In steps of
   // one length: parts of a tick are taken by the whole world.
-  Build scene =
-      Build().one_step_for_all().ship(icebreaker({0, 0}, ConstantThrust{2e4})).floe(rectangle(0.5, -40, 40.5, 40));
+  Build scene = Build().ship(icebreaker({0, 0}, ConstantThrust{2e4})).floe(rectangle(0.5, -40, 40.5, 40));
   const Story alone = run(scene, 8).story;
   const Story both =
       run(scene.ship(icebreaker({0, 2000}, ConstantSpeed{2})).floe(rectangle(1.5, 1960, 50, 2040)), 8).story;

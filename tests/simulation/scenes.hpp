@@ -97,7 +97,6 @@ class Build : public Scene {
   /// Cusps and floes go under hulls and, where they are to, come up behind them.
   Build& under_hulls(bool come_up = true);
   /// Steps of one length for all.
-  Build& one_step_for_all() { return set(time.levels, 0); }
   Build& restitution(double share) { return set(contact.restitution, share); }
   /// Forces are recorded so often, by default in each step [s].
   Build& recorded_every(double interval) { return set(record.forces_interval, interval); }

@@ -28,7 +28,7 @@ double largest_before_split(const Scene& scene, double until) {
   Simulation simulation(scene);
   double largest = 0;
   while (simulation.counts().splits == 0 && simulation.time() < until) {
-    for (const dynamics::Contact& c : simulation.world().step.contacts)
+    for (const dynamics::Contact& c : simulation.world().data.contacts)
       largest = std::max(largest, length(c.impulse_on_b()) / scene.time.step);
     simulation.step();
   }
@@ -169,11 +169,11 @@ TEST(Splitting, WhatPassesFloesOverIsNoLessThanTheirPushes) {
   int bounded = 0, corners = 0, sharp = 0;
   run(crowd(random), 8, [&](const Simulation& simulation) {
     const World& world = simulation.world();
-    for (const dynamics::Contact& c : world.step.contacts) {
-      const double bound = opening_bound(world.setup, {&c, 1});
+    for (const dynamics::Contact& c : world.data.contacts) {
+      const double bound = opening_bound(world.setup, world.last_step, {&c, 1});
       for (const BodyIndex floe : {c.a, c.b}) {
         PressedFloe pressed;
-        press(world.setup, world.population.bodies, {&c, 1}, floe, pressed);
+        press(world.setup, world.last_step, world.population.bodies, {&c, 1}, floe, pressed);
         EXPECT_LE(pressed.most, bound * (1 + 1e-9));
         corners += !pressed.contacts.empty() && pressed.contacts.front().is_corner ? 1 : 0;
       }

@@ -112,7 +112,7 @@ TEST(State, TheHashIsTheSameOnAnyNumberOfThreads) {
     Simulation simulation(scene);
     simulation.set_threads(threads);
     while (simulation.time() < 8) skip(simulation);
-    EXPECT_GT(simulation.world().step.contacts.size(), 600U) << "too few to share out";
+    EXPECT_GT(simulation.world().data.contacts.size(), 600U) << "too few to share out";
     EXPECT_GT(simulation.counts().peak_awake, 2048);
     EXPECT_GT(simulation.counts().bends, 0);
     hashes.push_back(simulation.state_hash());

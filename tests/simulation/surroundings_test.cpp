@@ -347,9 +347,9 @@ TEST(Cusp, WhoseFirstTouchHasBrokenOffIsCentredAtTheIceNearestToTheContact) {
   pending.cusp_radius = 2;
   pending.penetration = 3;
   pending.record = &record;
-  world.step.fractures = {pending};
-  world.step.loads.resize(1);
-  apply_fractures(world.setup, world.clock, world.step, world.population, world.accounts, world.journal);
+  world.data.fractures = {pending};
+  world.data.loads.resize(1);
+  apply_fractures(world.setup, world.last_step, world.data, world.population, world.accounts, world.journal);
   EXPECT_EQ(world.accounts.counts.bends, 1);
   EXPECT_EQ(world.accounts.counts.rejected_cuts, 0);
   EXPECT_FALSE(record.was_refused);

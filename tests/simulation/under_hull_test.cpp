@@ -82,7 +82,7 @@ TEST(UnderHull, IceStopsAShipButNeverReversesIt) {
     world.population.bodies.velocity[0] = {speed, 0};
     std::vector<HullLoads> loads(1);
     AuditSums audit;
-    pull_of_submerged_ice(world.setup, world.population, loads, audit);
+    pull_of_submerged_ice(world.setup, world.last_step, world.population, loads, audit);
     EXPECT_NEAR(world.population.bodies.velocity[0].x, std::min(0.0, speed), 1e-18) << speed;
     EXPECT_NEAR(audit.energy.submerged_ice, speed > 0 ? 0.5 * 1e7 * speed * speed : 0, 1e-9);
   }

@@ -15,7 +15,9 @@ function fillFacts({ run: { info, floes }, name, plan }) {
     ...(info.area_m && { area: `${info.area_m.map(shortNumber).join(", ")} m` }),
     ...Object.fromEntries(counts.filter(([words, count]) => count > 0 || (!plan && /bends|splits/.test(words)))),
     ships: info.ships.map((ship) => ship.name).join(", ") || "none",
-    ...(info.steps?.length && { steps: info.steps.map(({ step_s, count }) => `${count} of ${step_s} s`).join(", ") }),
+    ...(info.time_steps && {
+    steps: `${info.time_steps}, ticks of ${info.step_s} s, the shortest step ${+info.shortest_step_s.toPrecision(3)} s`,
+  }),
     ...(!plan && { frames: ofRun(info.frames, info.frames_of_run) }),
     ...(name !== info.scene && { "scene's name": info.scene }),
     seed: info.seed, scene: info.scene_hash, polynya: info.polynya,

@@ -356,18 +356,11 @@ void write_summary(io::JsonWriter& json, const io::Run& run) {
     json.key("stopped_by").value(by->text());
 }
 
-/// How many steps there were of each length; older runs do not have that.
-void write_levels(io::JsonWriter& json, const io::Run& run) {
-  const io::JsonValue* levels = run.summary.find("levels", io::JsonValue::Kind::kArray);
-  if (levels == nullptr) return;
-  json.key("steps").open('[');
-  for (const io::JsonValue& level : levels->items()) {
-    const io::JsonValue* step = level.find("step_s", io::JsonValue::Kind::kNumber);
-    const io::JsonValue* steps = level.find("steps", io::JsonValue::Kind::kNumber);
-    if (step && steps)
-      json.open('{').key("step_s").value(step->number()).key("count").value(steps->number()).close('}');
-  }
-  json.close(']');
+/// The tick and the shortest time step; older runs do not have that.
+void write_steps(io::JsonWriter& json, const io::Run& run) {
+  for (const char* key : {"step_s", "time_steps", "shortest_step_s"})
+    if (const io::JsonValue* found = run.summary.find(key, io::JsonValue::Kind::kNumber))
+      json.key(key).value(found->number());
 }
 
 std::string info_of(const io::Run& run, const PlayerData& data, const PlayerSelection& selection,
@@ -386,7 +379,7 @@ std::string info_of(const io::Run& run, const PlayerData& data, const PlayerSele
   json.key("forces_interval_s").value(recording_interval(scene));
   json.key("splits_by_j_over_tau_c").value(splits_by_j_over_tau_c(scene));
   write_summary(json, run);
-  write_levels(json, run);
+  write_steps(json, run);
   write_ships(json, scene);
   write_events(json, run, held);
   const simulation::ShearSettings& shear = scene.water.shear;

@@ -1,0 +1,108 @@
+#include "simulation/world/default_tick.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "geometry/exact/measures.hpp"
+#include "simulation/world/parts.hpp"
+
+namespace polynya::simulation {
+namespace {
+
+/// Ticks to choose from [s].
+constexpr std::array kTickChoices{0.1, 0.05, 0.025, 0.02, 0.01, 0.005, 0.0025, 0.002, 0.001, 0.0005};
+/// Number of parts that a tick needs for the fastest hull at its full speed [-]. More would leave too few parts for ice
+/// that breaks faster than that; fewer would make ticks short where a ship is slower than she can be.
+constexpr double kPartsAtFullSpeed = 8;
+/// Speed in ice that is assumed of a ship under constant thrust [m/s], because the scene does not state it.
+constexpr double kUnderThrust = 4;
+/// Fraction of the scene's ice by area that is at least as thick as its "thin ice" [-]. Ticks get more parts where a
+/// hull meets the few thinner floes.
+constexpr double kMostIce = 0.95;
+
+/// The greatest speed of a ship: that at the start, or that of its engine in open water [m/s].
+double full_speed(const Ship& ship) {
+  const double start = std::hypot(ship.speed, ship.sway_speed);
+  if (const auto* engine = std::get_if<Engine>(&ship.propulsion)) return std::max(start, engine->open_water_speed);
+  const auto* constant = std::get_if<ConstantThrust>(&ship.propulsion);
+  return constant && constant->thrust != 0 ? std::max(start, kUnderThrust) : start;
+}
+
+/// The greatest speed at which the wind drives ice through the water [m/s].
+double wind_drift(const Scene& scene) {
+  double fastest = length(free_drift(scene, 0) - scene.water.drift_at(0));
+  for (const dynamics::FlowRow& row : scene.wind.rows)
+    fastest = std::max(fastest, length(free_drift(scene, row.time) - scene.water.drift_at(row.time)));
+  return fastest;
+}
+
+/// The greatest speed of a floe through the water at the start [m/s].
+double fastest_floe(const Scene& scene) {
+  double fastest = 0;
+  for (const FloeSpec& floe : scene.floes) fastest = std::max(fastest, length(floe.velocity));
+  return fastest;
+}
+
+/// The greatest speed at which a hull and ice meet, or floes where there is no hull [m/s].
+double fastest_meeting(const Scene& scene) {
+  const dynamics::ShearCurrent current = current_of(scene.water.shear);
+  double of_hulls = 0;
+  const auto meet = [&](const PlacedHull& hull, double speed) {
+    of_hulls = std::max(of_hulls, speed + length(current.velocity_at(hull.position_in_world)));
+  };
+  for (const Ship& ship : scene.ships) meet(ship, full_speed(ship));
+  for (const Structure& structure : scene.structures) meet(structure, 0);
+  for (const Wall& wall : scene.walls) meet(wall, wall.pressure ? wall.pressure->closing_speed : length(wall.velocity));
+  return of_hulls + fastest_floe(scene) + wind_drift(scene) + scene.water.fastest_drift();
+}
+
+/// The greatest speed of any floe's rim at the start [m/s].
+double fastest_rim(const Scene& scene) {
+  const dynamics::ShearCurrent current = current_of(scene.water.shear);
+  double fastest = 0;
+  for (const FloeSpec& floe : scene.floes) {
+    const geometry::Box box = bounding_box(floe.polygon_in_world.outer);
+    const double turning = std::abs(floe.angular_velocity + current.angular_velocity()) * distance(box.low, box.high);
+    fastest = std::max(fastest, length(floe.velocity + current.velocity_at(midpoint(box.low, box.high))) + turning);
+  }
+  return fastest;
+}
+
+/// The thickness that kMostIce of the ice exceeds, by area [m].
+double thin_ice(const Scene& scene) {
+  if (scene.own_ice.empty() || scene.floes.empty()) return scene.ice.thickness;
+  std::vector<std::pair<double, double>> ice;  // thickness, area
+  double rest = 0;
+  for (const FloeSpec& floe : scene.floes) {
+    ice.emplace_back(ice_of(scene, floe.own_ice).thickness, geometry::measure(floe.polygon_in_world).area);
+    rest += (1 - kMostIce) * ice.back().second;
+  }
+  std::ranges::sort(ice);
+  const auto found = std::ranges::find_if(ice, [&](const auto& of) { return (rest -= of.second) < 0; });
+  return found == ice.end() ? ice.back().first : found->first;
+}
+
+}  // namespace
+
+double default_tick(const Scene& scene) {
+  const double radius = scene.contact.circle_radius;
+  const double way = most_way(scene.contact, thin_ice(scene));
+  const double parts = scene.contact.law == ContactLaw::kCrush ? kPartsAtFullSpeed : 1;
+  const double longest = std::min(
+      {parts * way / fastest_meeting(scene), way / fastest_floe(scene), kWayOverCircle * radius / fastest_rim(scene)});
+  const auto goes_into = [](double tick, double interval) {
+    const double times = std::round(interval / tick);
+    return times >= 1 && std::abs(interval / tick - times) < 1e-6 * times;
+  };
+  const auto fits = [&](double tick) { return tick <= longest * (1 + 1e-9); };
+  for (const double tick : kTickChoices)
+    if (fits(tick) && goes_into(tick, scene.record.forces_interval) && goes_into(tick, scene.record.frames_interval))
+      return tick;
+  const auto* found = std::ranges::find_if(kTickChoices, fits);
+  return found == kTickChoices.end() ? kTickChoices.back() : *found;
+}
+
+}  // namespace polynya::simulation

@@ -1,0 +1,62 @@
+#include "simulation/world/parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace polynya::simulation {
+namespace {
+
+/// How far two bodies come towards each other in a tick at most [m]: what the margins of their pair's boxes allow for
+/// (BroadPhase::update with `ahead` of a tick).
+double ways_in_tick(const dynamics::Bodies& bodies, double tick, BodyIndex a, BodyIndex b) {
+  constexpr double kMost = 1;  // less than the margin
+  return std::min(kMost, tick * bodies.rim_speed[a]) + std::min(kMost, tick * bodies.rim_speed[b]);
+}
+
+/// The longest step in which a hull stays within its way relative to ice that it may reach within a tick [s].
+double longest_step(const Setup& setup, const Population& population, BodyIndex hull) {
+  const dynamics::Bodies& bodies = population.bodies;
+  const double tick = setup.scene.time.step;
+  double longest = tick;
+  const auto way = [&](BodyIndex other) { return most_way(setup.scene.contact, bodies.thickness[other]); };
+  const auto speed = [&](BodyIndex other) { return length(bodies.velocity[hull] - bodies.velocity[other]); };
+  const auto matters = [&](BodyIndex other) {
+    return !population.is_hull(other) && speed(other) * longest > way(other);
+  };
+  const auto reach = [&](BodyIndex other) { return ways_in_tick(bodies, tick, hull, other); };
+  population.pairs.for_bodies_at(bodies, hull, matters, reach,
+                                 [&](BodyIndex other) { longest = way(other) / speed(other); });
+  return longest;
+}
+
+}  // namespace
+
+double most_way(const ContactSettings& contact, double thickness) {
+  return std::min(
+      {kWayOverThickness * thickness, kWayTimesThickness / thickness, kWayOverCircle * contact.circle_radius});
+}
+
+int parts_of_tick(const Setup& setup, const Pace& pace, const Population& population) {
+  const double tick = setup.scene.time.step;
+  double longest = tick;
+  for (BodyIndex hull = 0; hull < population.hull_count; ++hull)
+    longest = std::min(longest, longest_step(setup, population, hull));
+  const double needed =
+      std::max(std::ceil(tick / longest / kWayExceeded), std::ceil(tick / setup.longest_step_by_walls * (1 - 1e-9)));
+  return static_cast<int>(std::min<double>(kMostParts, needed * pace.finer));
+}
+
+bool follow_bends(int parts, std::int64_t bends, Pace& pace) {
+  pace.bends += kLastTick * (static_cast<double>(bends) / parts - pace.bends);
+  const bool is_finest = parts == kMostParts;
+  if (pace.bends > kMostBends && !is_finest) {
+    pace.finer *= 2;
+    pace.bends /= 2;
+  } else if (pace.bends < kFewBends && pace.finer > 1) {
+    pace.finer /= 2;
+    pace.bends *= 2;
+  }
+  return is_finest && pace.bends > kCrowded;
+}
+
+}  // namespace polynya::simulation
