@@ -2,11 +2,11 @@
 
 Usage: lateral.py BENCH [--quick] [--only CASE]      BENCH: polynya_bench_voyages
 
-Each by longer steps as far as its own answer holds. Ours: up to the longest tick with which the mean surge over the
-places differs from that by the tick of a scene that gives none by no more than their standard deviation, the one of
-least cost; Box2D's: the longest step with which its bodies come to the same places. Beside them ours by that tick,
-and both by one step for all. The last row of a case has the medians of the costs and ratios, and the means of the surge
-with standard errors.
+Each engine takes longer steps as far as its own answer holds. Polynya takes the cheapest of its longer ticks, up to the
+longest one with which the mean surge over the places stays within its standard deviation from the mean by the tick of a
+scene that gives none. Box2D takes the longest step with which its bodies reach the same places. The table also has
+Polynya by the tick of a scene that gives none, and both engines by the fine step (bench/voyage_run.hpp). The last row
+of a case has the medians of the costs and ratios, and the means of the surge with standard errors.
 """
 
 import argparse
@@ -22,7 +22,7 @@ CASES = ("voyage", "field-10000")
 PLACES = (-3, -2, -1, 0, 1, 2, 3)
 LONGER = ("tick x 2", "tick x 4", "tick x 8")
 ENGINES = {"tick": "Polynya", **{longer: f"Polynya, {longer}" for longer in LONGER},
-           "one": "Polynya, one step for all", "peer": "Box2D 3.2", "peer_longest": "Box2D 3.2, longest step"}
+           "fine": "Polynya, fine step", "peer": "Box2D 3.2", "peer_longest": "Box2D 3.2, longest step"}
 
 
 def measured(bench, case, metres, quick):
@@ -41,7 +41,7 @@ def mean_and_error(values):
 
 
 def best_of(found):
-    """The name of our tick of least cost, of those with which, and with all shorter ones, the mean surge stays."""
+    """Returns the name of the cheapest tick among those with which, and with all shorter ones, the mean surge holds."""
     surges = {name: [row[name]["surge"] for row in found] for name in ("tick", *LONGER)}
     holding = ["tick"]
     for longer in LONGER:
@@ -57,19 +57,19 @@ def best_of(found):
 
 def print_case(case, found):
     best = best_of(found)
-    ours = (best, "tick", "one")
-    ratios = [(row["peer_longest"]["ms"] / row[best]["ms"], row["peer"]["ms"] / row["one"]["ms"]) for row in found]
-    for place, row, (of_best, of_one) in zip(PLACES, found, ratios):
+    ours = (best, "tick", "fine")
+    ratios = [(row["peer_longest"]["ms"] / row[best]["ms"], row["peer"]["ms"] / row["fine"]["ms"]) for row in found]
+    for place, row, (of_best, of_fine) in zip(PLACES, found, ratios):
         costs = " | ".join(f"{row[name]['ms']:.3f} | {row[name]['surge']:.1f}" for name in ours)
         print(f"| {case} | {place} | {costs} | {row['peer']['ms']:.3f} | {row['peer_longest']['ms']:.3f} | "
-              f"{row['peer_longest']['step']:g} | {of_best:.2f} | {of_one:.2f} |", flush=True)
+              f"{row['peer_longest']['step']:g} | {of_best:.2f} | {of_fine:.2f} |", flush=True)
 
     medians = {name: statistics.median(row[name]["ms"] for row in found) for name in ENGINES}
     surges = {name: mean_and_error([row[name]["surge"] for row in found]) for name in ours}
     costs = " | ".join("{:.3f} | {:.2f} ± {:.2f}".format(medians[name], *surges[name]) for name in ours)
-    of_best, of_one = (statistics.median(column) for column in zip(*ratios))
+    of_best, of_fine = (statistics.median(column) for column in zip(*ratios))
     print(f"| {case} | all; tick {found[0][best]['step']:g} s, {found[0]['tick']['step']:g} s | {costs} | "
-          f"{medians['peer']:.3f} | {medians['peer_longest']:.3f} |  | **{of_best:.2f}** | {of_one:.2f} |", flush=True)
+          f"{medians['peer']:.3f} | {medians['peer_longest']:.3f} |  | **{of_best:.2f}** | {of_fine:.2f} |", flush=True)
 
 
 def main():
@@ -80,8 +80,8 @@ def main():
     given = parser.parse_args()
     quick = ["--quick"] if given.quick else []
     print("| case | to port, m | Polynya by a longer tick, ms a simulated s | surge, kN | by the tick | surge, kN "
-          "| one step for all | surge, kN | Box2D 3.2 at that step | at its longest | of, s "
-          "| Box2D's longest over Polynya's | both with one step |")
+          "| by the fine step | surge, kN | Box2D 3.2 at that step | at its longest | of, s "
+          "| Box2D's longest over Polynya's | both by the fine step |")
     print("|---|---|---|---|---|---|---|---|---|---|---|---|---|")
     for case in CASES:
         if not given.only or given.only == case:

@@ -40,7 +40,6 @@ PeerScene peer_scene(const simulation::Simulation& simulation);
 /// What a step cost and what it had to do.
 struct StepReport {
   double seconds = 0;
-  long ticks = 1;    ///< that it took
   int awake = 0;     ///< bodies that moved
   int contacts = 0;  ///< pairs that touch; −1: not counted at this step
 };

@@ -1,4 +1,5 @@
-// Where a step's time goes: the stages of simulation/world/step.hpp, each under the clock, over whole runs.
+// The time of each stage of a step (simulation/world/step.hpp) and of the end of a tick, over whole runs. Each tick is
+// one fine step without parts.
 //   polynya_bench_profile [--quick]      prints a Markdown table of shares, on one thread
 //   polynya_bench_profile [--quick] --only voyage|field-10000|cylinder-shear [--until SECONDS]
 //                                        prints one case in microseconds a step, on one and on two threads
@@ -7,7 +8,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "bench/voyage_run.hpp"
 #include "dynamics/thread_limit.hpp"
@@ -17,13 +20,22 @@ namespace polynya::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using simulation::kStages;
 
-/// Of each stage [s a step].
-using Times = std::array<double, kStages.size()>;
+/// The stages that are timed: those of the law of crushing ice.
+std::span<const simulation::Stage> stages() {
+  return simulation::stages_of(simulation::ContactLaw::kCrush);
+}
+
+/// Mean time of each of stages() and, last, of the end of a tick [s].
+using Times = std::vector<double>;
+
+/// The name of a row of Times.
+std::string_view name_of(std::size_t row) {
+  return row < stages().size() ? stages()[row].name : "end of a tick";
+}
 
 struct Profile {
-  Times times{};
+  Times times;
   double contacts = 0;  ///< mean of a step
 };
 
@@ -36,30 +48,44 @@ constexpr Case kCases[] = {{"voyage", "sawamura2017-fig4b.json", 550},
                            {"field-10000", "field-10000.json", 500},
                            {"cylinder-shear", "cylinder-shear.json", 100}};
 
+/// Takes one tick as one step, and adds the time of each stage and of the tick's end [s].
+void timed_tick(simulation::World& world, Times& seconds) {
+  auto before = Clock::now();
+  const auto add_time_to = [&](double& sum) {
+    const auto now = Clock::now();
+    sum += std::chrono::duration<double>(now - before).count();
+    before = now;
+  };
+  world.last_step = step_of(world.setup, world.clock, 0, 1);
+  for (std::size_t i = 0; i < stages().size(); ++i) {
+    stages()[i].run(world, world.last_step);
+    add_time_to(seconds[i]);
+  }
+  ++world.clock.ticks;
+  simulation::end_tick(world);
+  add_time_to(seconds.back());
+}
+
 Profile profile(const Case& at, double part, int threads) {
-  simulation::World world(load(at.file, [](simulation::Scene& scene) {
-    scene.contact.law = simulation::ContactLaw::kCrush;
-    take_one_step_for_all(scene);
-  }));
+  simulation::World world(load(at.file,
+                               [](simulation::Scene& scene) {
+                                 scene.contact.law = simulation::ContactLaw::kCrush;
+                                 take_fine_step(scene);
+                               }),
+                          kWithoutParts);
   world.threads = threads;
   dynamics::ThreadLimit limit(threads);
   const auto steps = std::lround(at.until * part / world.clock.tick);
   Profile result;
-  Times& seconds = result.times;
+  result.times.resize(stages().size() + 1);
   limit.execute([&] {
     for (long step = 0; step < steps; ++step) {
-      auto before = Clock::now();
-      for (std::size_t i = 0; i < kStages.size(); ++i) {
-        kStages[i].run(world);
-        const auto now = Clock::now();
-        seconds[i] += std::chrono::duration<double>(now - before).count();
-        before = now;
-      }
+      timed_tick(world, result.times);
       result.contacts += static_cast<double>(world.data.contacts.size()) / static_cast<double>(steps);
       world.journal.clear();
     }
   });
-  for (double& s : seconds) s /= static_cast<double>(steps);
+  for (double& s : result.times) s /= static_cast<double>(steps);
   return result;
 }
 
@@ -70,11 +96,11 @@ double sum_of(const Times& times) {
 }
 
 void print_shares(double part) {
-  std::array<Times, std::size(kCases)> times{};
+  std::array<Times, std::size(kCases)> times;
   for (std::size_t c = 0; c < times.size(); ++c) times[c] = profile(kCases[c], part, 1).times;
   std::puts("| stage | voyage | field-10000 | cylinder-shear |\n|---|---|---|---|");
-  for (std::size_t i = 0; i < kStages.size(); ++i) {
-    std::printf("| %s |", kStages[i].name.data());
+  for (std::size_t i = 0; i < times.front().size(); ++i) {
+    std::printf("| %s |", name_of(i).data());
     for (const Times& t : times) std::printf(" %.0f %% |", 100 * t[i] / sum_of(t));
     std::puts("");
   }
@@ -85,8 +111,8 @@ void print_threads(const Case& at, double part) {
   const Times& one = profiled.times;
   const Times two = profile(at, part, 2).times;
   std::printf("| stage of %s | 1 thread, us | 2 threads, us |\n|---|---|---|\n", at.name);
-  for (std::size_t i = 0; i < kStages.size(); ++i)
-    std::printf("| %s | %.2f | %.2f |\n", kStages[i].name.data(), 1e6 * one[i], 1e6 * two[i]);
+  for (std::size_t i = 0; i < one.size(); ++i)
+    std::printf("| %s | %.2f | %.2f |\n", name_of(i).data(), 1e6 * one[i], 1e6 * two[i]);
   std::printf("| all | %.2f | %.2f |\n", 1e6 * sum_of(one), 1e6 * sum_of(two));
   std::printf("%.1f contacts a step\n", profiled.contacts);
 }

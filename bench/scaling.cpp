@@ -78,11 +78,11 @@ std::vector<Sweep> run_sweeps(bool is_quick) {
   std::vector<Sweep> sweeps{{"floes", {}}, {"awake", {}}, {"contacts", {}}, {"vertices", {}}, {"threads", {}}};
   const double part = is_quick ? 0.1 : 1;
   const auto measure = [&](Sweep& sweep, double x, const simulation::Scene& scene, double until, int threads = 1) {
-    simulation::Scene in_one_step = scene;
-    take_one_step_for_all(in_one_step);
+    simulation::Scene in_fine_steps = scene;
+    take_fine_step(in_fine_steps);
     const Limits limits{1e9, part * until, threads};
-    RunCost cost = run_polynya(in_one_step, limits);
-    keep_quieter(cost, run_polynya(in_one_step, limits));
+    RunCost cost = run_polynya(in_fine_steps, limits, kWithoutParts);
+    keep_quieter(cost, run_polynya(in_fine_steps, limits, kWithoutParts));
     std::fprintf(stderr, "%s %g: %.1f us\n", sweep.name.c_str(), x, 1e6 * cost.mean_tick());
     sweep.samples.push_back({x > 0 ? x : cost.mean_contacts, std::move(cost)});
   };

@@ -6,11 +6,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <utility>
 
 #include <malloc.h>
 
 #include "io/scene/scene_reader.hpp"
-#include "simulation/world/levels.hpp"
+#include "simulation/world/default_tick.hpp"
 
 namespace polynya::bench {
 namespace {
@@ -35,13 +36,12 @@ double peak_memory() {
   return 0;
 }
 
-/// Takes the steps until a limit is met, and adds up what they report.
+/// Takes ticks until a limit is met, and adds up their reports.
 template <class Step>
 void run_steps(RunCost& cost, const Limits& limits, Step step) {
   const long most = std::lround(limits.time / cost.step);
   double spent = 0;
   double block = 0;
-  long block_end = RunCost::kBlock;
   double contacts = 0;
   long counted = 0;
   double awake = 0;
@@ -49,20 +49,19 @@ void run_steps(RunCost& cost, const Limits& limits, Step step) {
   while (cost.ticks < most && spent < limits.wall) {
     const bool counts_contacts = cost.ticks >= next_count;
     if (counts_contacts) next_count = cost.ticks + 20;
-    const StepReport report = step(counts_contacts, most - cost.ticks);
-    cost.ticks += report.ticks;
+    const StepReport report = step(counts_contacts);
+    ++cost.ticks;
     spent += report.seconds;
     block += report.seconds;
-    awake += static_cast<double>(report.ticks) * report.awake;
+    awake += report.awake;
     cost.most_awake = std::max(cost.most_awake, report.awake);
     if (report.contacts >= 0) {
       contacts += report.contacts;
       ++counted;
     }
-    if (cost.ticks < block_end) continue;
+    if (cost.ticks % RunCost::kBlock != 0) continue;
     cost.blocks.push_back(block);
     block = 0;
-    block_end = cost.ticks + RunCost::kBlock;
   }
   if (block > 0) cost.blocks.push_back(block);
   cost.mean_awake = awake / static_cast<double>(cost.ticks);
@@ -82,7 +81,7 @@ RunCost run_peer(const Peer& peer, const PeerScene& scene, const Limits& limits)
   cost.engine = peer.name;
   cost.step = scene.step;
   Engine engine(scene);
-  run_steps(cost, limits, [&](bool counts_contacts, long) { return engine.step(counts_contacts); });
+  run_steps(cost, limits, [&](bool counts_contacts) { return engine.step(counts_contacts); });
   if constexpr (requires { engine.places(); }) cost.places = engine.places();
   return cost;
 }
@@ -94,11 +93,10 @@ RunCost step_through(simulation::Simulation& simulation, const Limits& limits) {
   cost.step = simulation.scene().time.step;
   simulation.journal().clear();
   long samples = 0;
-  run_steps(cost, limits, [&](bool counts_contacts, long most) {
+  run_steps(cost, limits, [&](bool counts_contacts) {
     StepReport report;
-    const std::int64_t done = simulation.steps();
     const auto before = Clock::now();
-    simulation.step(most);
+    simulation.step();
     report.seconds = seconds_since(before);
     for (const simulation::HullSample& sample : simulation.journal().samples) {
       if (sample.ship != 0) continue;
@@ -106,7 +104,6 @@ RunCost step_through(simulation::Simulation& simulation, const Limits& limits) {
       ++samples;
     }
     simulation.journal().clear();
-    report.ticks = static_cast<long>(simulation.steps() - done);
     report.awake =
         static_cast<int>(simulation.world().population.awake.size()) - simulation.world().population.hull_count;
     report.contacts = counts_contacts ? touching_pairs(simulation.world().data.contacts) : -1;
@@ -156,23 +153,25 @@ simulation::Scene load(const std::string& file, const Edit& edit) {
   return std::move(loaded->scene);
 }
 
-void take_one_step_for_all(simulation::Scene& scene) {
-  scene.time.levels = 0;
+void take_fine_step(simulation::Scene& scene) {
+  // By the law of impulses ticks have no parts, so the tick that is chosen for it is the fine step.
+  const simulation::ContactLaw law = std::exchange(scene.contact.law, simulation::ContactLaw::kImpulse);
   scene.time.step = std::min(scene.time.step, simulation::default_tick(scene));
+  scene.contact.law = law;
 }
 
-RunCost run_polynya(const std::string& file, const Edit& edit, const Limits& limits) {
+RunCost run_polynya(const std::string& file, const Edit& edit, const Limits& limits, simulation::Shortcuts shortcuts) {
   forget_peak_memory();
   const auto start = Clock::now();
-  simulation::Simulation simulation(load(file, edit));
+  simulation::Simulation simulation(load(file, edit), shortcuts);
   const double load_time = seconds_since(start);
   RunCost cost = step_through(simulation, limits);
   cost.load = load_time;
   cost.memory = peak_memory();
   return cost;
 }
-RunCost run_polynya(const simulation::Scene& scene, const Limits& limits) {
-  simulation::Simulation simulation{simulation::Scene(scene)};
+RunCost run_polynya(const simulation::Scene& scene, const Limits& limits, simulation::Shortcuts shortcuts) {
+  simulation::Simulation simulation{simulation::Scene(scene), shortcuts};
   return step_through(simulation, limits);
 }
 

@@ -15,14 +15,14 @@ struct Limits {
   int threads = 1;    ///< of ours; the peers have one
 };
 
-/// What a run came to.
+/// The cost of a run, and its results as far as they are compared.
 struct RunCost {
   std::string engine;
-  long ticks = 0;              ///< of `step`; a step of ours may take several
-  double step = 0;             ///< Δt; of ours a tick [s]
+  long ticks = 0;              ///< a tick of ours may have several parts; the peers have one time step in each
+  double step = 0;             ///< length of a tick [s]
   double load = 0;             ///< from the scene's text to before the first step; 0 for the peers [s]
   double memory = 0;           ///< peak of the process during load and run [MiB]; 0: not measured
-  std::vector<double> blocks;  ///< wall time of each block of kBlock ticks, or of somewhat more [s]
+  std::vector<double> blocks;  ///< wall time of each kBlock ticks; the last has the rest of the run [s]
   double mean_awake = 0;       ///< bodies
   int most_awake = 0;
   double mean_contacts = 0;  ///< over the steps at which they were counted
@@ -46,12 +46,19 @@ void keep_quieter(RunCost& cost, const RunCost& again);
 using Edit = std::function<void(simulation::Scene&)>;
 simulation::Scene load(const std::string& file, const Edit& edit = {});
 
-/// One step for all, in which nothing goes farther than loads allow: as a run takes it without levels, and the peers.
-void take_one_step_for_all(simulation::Scene& scene);
+/// Gives the scene the fine step: the longest round number of seconds in which no hull moves farther than loads allow
+/// (most_way in simulation/world/parts.hpp), so that no tick needs parts for the way of a hull. The peers take that
+/// step.
+void take_fine_step(simulation::Scene& scene);
 
-/// Loading included, which is timed.
-RunCost run_polynya(const std::string& file, const Edit& edit, const Limits& limits);
-RunCost run_polynya(const simulation::Scene& scene, const Limits& limits);
+/// Ticks without parts: each tick is one time step, as in the peers.
+inline constexpr simulation::Shortcuts kWithoutParts{.takes_parts = false};
+
+/// Runs a scene of scenes/; the time to load it is measured too.
+RunCost run_polynya(const std::string& file, const Edit& edit, const Limits& limits,
+                    simulation::Shortcuts shortcuts = {});
+/// Runs a scene that is loaded already.
+RunCost run_polynya(const simulation::Scene& scene, const Limits& limits, simulation::Shortcuts shortcuts = {});
 
 /// An engine that we are compared to.
 struct Peer {

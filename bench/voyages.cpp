@@ -1,9 +1,10 @@
 // Whole runs side by side with Box2D 2.4.1, Chipmunk 7.0.3 and, where its sources are, Box2D 3.2 stepping the
 // same bodies without any fracture. One process, one engine after another.
 //   polynya_bench_voyages [--quick] [--csv FILE] [--only CASE] [--peer-seconds S] [--lateral METRES]
-// Ours steps by levels (simulation/world/levels.hpp), by ticks 2, 4 and 8 times as long, and by one step for all; the
-// peers take that one step too, and Box2D 3.2 beside it the longest one with which its bodies come to the same places.
-// Prints the table of docs/performance.md (Markdown). bench/performance.sh puts it there.
+// Polynya takes the tick of a scene that gives none, with its parts (simulation/world/parts.hpp); ticks 2, 4 and 8
+// times as long; and the fine step, without parts. The peers take the fine step too. Box2D 3.2 also takes the longest
+// step with which its bodies reach the same places. Prints the table of docs/performance.md (Markdown).
+// bench/performance.sh puts it there.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -14,7 +15,7 @@
 #include <fmt/format.h>
 
 #include "bench/voyage_run.hpp"
-#include "simulation/world/levels.hpp"
+#include "simulation/world/default_tick.hpp"
 
 namespace polynya::bench {
 namespace {
@@ -36,10 +37,10 @@ struct Case {
   Edit edit;
   double until = 0;  ///< [s]
   bool has_peers = true;
-  double scene_step = 0;    ///< one step for all, where the scene gives it [s]; 0: chosen
+  double scene_step = 0;    ///< the fine step, where the scene gives it [s]; 0: take_fine_step() chooses it
   std::string compared_to;  ///< the case whose cost is the yardstick; empty: none
   int threads = 1;          ///< of ours
-  int repeats = 1;          ///< of all its engines; of each block of ticks the quietest counts
+  int repeats = 1;          ///< of all engines; of each kBlock ticks the quietest repeat counts
 };
 
 /// As many floes again, far away from the voyage.
@@ -73,19 +74,18 @@ Edit round_plate(int corners) {
   };
 }
 
-/// The scene by the law of crushing ice, with the levels and the tick that a scene has which gives none.
-void by_levels(simulation::Scene& scene) {
+/// The scene by the law of crushing ice, with the tick of a scene that gives none.
+void by_crushing(simulation::Scene& scene) {
   scene.contact.law = simulation::ContactLaw::kCrush;
-  scene.time.levels = simulation::StepSettings{}.levels;
   scene.time.step = simulation::default_tick(scene);
 }
 
-/// The same bodies by the paper's law of contact, which has no levels, at the scene's own step.
+/// The same bodies by the paper's law of contact, whose ticks have no parts, at the scene's own step.
 void by_impulses(simulation::Scene& scene) {
   scene.contact.law = simulation::ContactLaw::kImpulse;
 }
 
-/// An edit, and then ticks so many times as long.
+/// An edit, and then a tick that is longer by a factor.
 Edit in_longer_ticks(const Edit& edit, int times) {
   return [edit, times](simulation::Scene& scene) {
     edit(scene);
@@ -93,11 +93,11 @@ Edit in_longer_ticks(const Edit& edit, int times) {
   };
 }
 
-/// An edit, and then one step for all: the scene's own, or the longest that it may have.
-Edit in_one_step(const Edit& edit, double scene_step) {
+/// An edit, and then the fine step: the given one [s], or the one that take_fine_step() chooses.
+Edit in_fine_steps(const Edit& edit, double scene_step) {
   return [edit, scene_step](simulation::Scene& scene) {
     edit(scene);
-    take_one_step_for_all(scene);
+    take_fine_step(scene);
     if (scene_step > 0) scene.time.step = scene_step;
   };
 }
@@ -114,11 +114,11 @@ Edit moved_to_port(const Edit& edit, double lateral) {
   };
 }
 
-/// A case's floes or outlines changed, by levels.
-Edit also_by_levels(const Edit& edit) {
+/// A case's floes or outlines changed, by the law of crushing ice.
+Edit also_crushing(const Edit& edit) {
   return [edit](simulation::Scene& scene) {
     edit(scene);
-    by_levels(scene);
+    by_crushing(scene);
   };
 }
 
@@ -127,15 +127,15 @@ std::vector<Case> cases(bool is_quick) {
   const char* fig4b = "sawamura2017-fig4b.json";
   const char* cylinder = "cylinder-shear.json";
   return {
-      {"voyage", fig4b, by_levels, 550 * part, true, 0.005, "", 1, 3},
+      {"voyage", fig4b, by_crushing, 550 * part, true, 0.005, "", 1, 3},
       {"voyage-impulse", fig4b, by_impulses, 550 * part, true, 0.005, "", 1, 2},
-      {"field-10000", "field-10000.json", by_levels, 500 * part, true, 0, "", 1, 3},
-      {"field-20000", "field-10000.json", also_by_levels(double_the_field), 500 * part, false, 0, "field-10000", 1, 2},
-      {"field-100000", "field-100000.json", by_levels, 500 * part, true, 0, "", 1, 2},
-      {"cylinder-shear", cylinder, by_levels, 400 * part, true, 0, "", 1, 2},
-      {"cylinder-shear-2", cylinder, by_levels, 400 * part, false, 0, "cylinder-shear", 2, 2},
-      {"plate-100", "level-plate.json", also_by_levels(round_plate(100)), 200 * part, false, 0, "", 1, 3},
-      {"plate-10000", "level-plate.json", also_by_levels(round_plate(10000)), 200 * part, false, 0, "plate-100", 1, 3}};
+      {"field-10000", "field-10000.json", by_crushing, 500 * part, true, 0, "", 1, 3},
+      {"field-20000", "field-10000.json", also_crushing(double_the_field), 500 * part, false, 0, "field-10000", 1, 2},
+      {"field-100000", "field-100000.json", by_crushing, 500 * part, true, 0, "", 1, 2},
+      {"cylinder-shear", cylinder, by_crushing, 400 * part, true, 0, "", 1, 2},
+      {"cylinder-shear-2", cylinder, by_crushing, 400 * part, false, 0, "cylinder-shear", 2, 2},
+      {"plate-100", "level-plate.json", also_crushing(round_plate(100)), 200 * part, false, 0, "", 1, 3},
+      {"plate-10000", "level-plate.json", also_crushing(round_plate(10000)), 200 * part, false, 0, "plate-100", 1, 3}};
 }
 
 void print_row(const Case& at, const RunCost& cost, std::size_t floes, const std::string& ratio, std::FILE* csv) {
@@ -226,25 +226,27 @@ void add_peers(const simulation::Scene& scene, const Limits& limits, Runs& to) {
 }
 
 void run_case(const Case& at, const std::vector<Case>& all, const Options& options, std::FILE* csv) {
-  const auto ours = [&](const Case& which, const Edit& edit) {
-    return [&which, edit, until = at.until] { return run_polynya(which.scene, edit, {1e9, until, which.threads}); };
+  const auto ours = [&](const Case& which, const Edit& edit, simulation::Shortcuts shortcuts = {}) {
+    return [&which, edit, shortcuts, until = at.until] {
+      return run_polynya(which.scene, edit, {1e9, until, which.threads}, shortcuts);
+    };
   };
   Runs compared{{ours(at, at.edit)}, {}};
   const auto yardstick = std::find_if(all.begin(), all.end(), [&](const Case& c) { return c.name == at.compared_to; });
   if (yardstick != all.end()) compared.runs.emplace_back(ours(*yardstick, yardstick->edit));
-  const bool has_levels = at.has_peers && load(at.scene, at.edit).contact.law == simulation::ContactLaw::kCrush;
-  const auto add_ours = [&](const Edit& edit, const std::string& how) {
-    compared.runs.emplace_back([run = ours(at, edit), how] {
+  const bool has_parts = at.has_peers && load(at.scene, at.edit).contact.law == simulation::ContactLaw::kCrush;
+  const auto add_ours = [&](const Edit& edit, const std::string& how, simulation::Shortcuts shortcuts = {}) {
+    compared.runs.emplace_back([run = ours(at, edit, shortcuts), how] {
       RunCost cost = run();
       cost.engine += how;
       return cost;
     });
   };
-  if (has_levels) {
+  if (has_parts) {
     for (const int times : {2, 4, 8}) add_ours(in_longer_ticks(at.edit, times), fmt::format(", tick x {}", times));
-    add_ours(in_one_step(at.edit, at.scene_step), ", one step for all");
+    add_ours(in_fine_steps(at.edit, at.scene_step), ", fine step", kWithoutParts);
   }
-  const simulation::Scene scene = load(at.scene, in_one_step(at.edit, at.scene_step));
+  const simulation::Scene scene = load(at.scene, in_fine_steps(at.edit, at.scene_step));
   if (at.has_peers) add_peers(scene, {options.peer_seconds, at.until}, compared);
   const std::vector<RunCost> costs = alternate(at.repeats, compared.runs);
   const RunCost& own = costs.front();

@@ -1,14 +1,15 @@
-"""Mean loads of a ship in level ice by thickness and speed, at the default step and at a quarter of its finest step.
+"""Mean loads of a ship in level ice by thickness and speed, at the default tick and at a quarter of its shortest step.
 
-Usage: python3 tools/step_cliff.py [BINARY] [--way M] [--ways H] [--places N] [--levels N] [--only THICKNESS,SPEED]
-       BINARY by default build/release/app/polynya; --way, --ways: of the ship in the ice, at least so many metres and
-       so many thicknesses, since cusps grow with these; --places: lateral places of the ship in ice of .3 m and more;
-       --levels: time.levels
+Usage: python3 tools/step_cliff.py [BINARY] [--way M] [--ways H] [--places N] [--only THICKNESS,SPEED]
+       BINARY is build/release/app/polynya by default. --way and --ways: the ship goes at least this many metres and
+       this many ice thicknesses through the ice, because cusps grow with the thickness. --places: number of lateral
+       places of the ship in ice of 0.3 m and more.
 
-A ship of 80 m by 20 m at constant speed in fast ice that does not split. The run beside it has one step for all, a
-quarter of the shortest that the first one took. The mean is that of the surge by contact from the time its bow is
-in the ice, whose edge is slanted by 2 to 6 degrees. Thick ice breaks in patterns that repeat, so both runs are the mean
-of several places of the ship, fractions of a metre apart, each with its slant. The standard error is that of 16 parts
+A ship of 80 m by 20 m goes at constant speed through fast ice that does not split. Each case is run twice: as a scene
+that gives no tick, and with a tick (`time.step_s`) of a quarter of the shortest time step that the first run took
+(`shortest_step_s` of summary.json). The mean is that of the surge by contact from the time at which the bow is in the
+ice, whose edge is slanted by 2 to 6 degrees. Thick ice breaks in patterns that repeat, so both runs are the mean of
+several places of the ship, fractions of a metre apart, each with its own slant. The standard error is that of 16 parts
 of the way, at all places. A row whose two means differ by more than 5 % is marked.
 """
 
@@ -53,15 +54,15 @@ class Runs:
     """Runs that differ in the place of the ship."""
 
     def __init__(self, binary, cases):
-        self.parts, self.bends, self.cost, finest = [], 0, 0, []
+        self.parts, self.bends, self.cost, shortest = [], 0, 0, []
         with tempfile.TemporaryDirectory() as folder:
             for case in cases:
                 parts, summary, cost = measure(binary, folder, case)
                 self.parts += parts
                 self.bends += summary["counts"]["bends"]
                 self.cost += cost
-                finest.append(min(level["step_s"] for level in summary["levels"]))
-        self.tick, self.finest = summary["step_s"], min(finest)
+                shortest.append(summary["shortest_step_s"])
+        self.tick, self.shortest = summary["step_s"], min(shortest)
         self.mean = statistics.fmean(self.parts)
         self.error = statistics.stdev(self.parts) / math.sqrt(len(self.parts))
 
@@ -72,13 +73,12 @@ def main():
     parser.add_argument("--way", type=float, default=40)
     parser.add_argument("--ways", type=float, default=200)
     parser.add_argument("--places", type=int, default=4)
-    parser.add_argument("--levels", type=int)
     parser.add_argument("--only")
     given = parser.parse_args()
     cases = [(h, v) for h in THICKNESSES for v in SPEEDS]
     if given.only:
         cases = [tuple(float(x) for x in given.only.split(","))]
-    print("| thickness, m | speed, m/s | tick, s | mean, kN | a quarter of, s | mean, kN | differs, % | s.e., % "
+    print("| thickness, m | speed, m/s | tick, s | mean, kN | tick a quarter of, s | mean, kN | differs, % | s.e., % "
           "| bends | s of a core |")
     print("|---|---|---|---|---|---|---|---|---|---|")
     for thickness, speed in cases:
@@ -88,12 +88,12 @@ def main():
         def runs(time):
             return Runs(given.binary, [scene(thickness, speed, place, way, time) for place in places])
 
-        found = runs({} if given.levels is None else {"levels": given.levels})
-        fine = runs({"levels": 0, "step_s": found.finest / 4})
+        found = runs({})
+        fine = runs({"step_s": found.shortest / 4})
         off = found.mean / fine.mean - 1
         both = math.hypot(found.error, fine.error) / fine.mean
         mark = "**" if abs(off) > ALLOWED else ""
-        print(f"| {thickness:g} | {speed:g} | {found.tick:g} | {found.mean / 1e3:.4g} | {found.finest:g} | "
+        print(f"| {thickness:g} | {speed:g} | {found.tick:g} | {found.mean / 1e3:.4g} | {found.shortest:g} | "
               f"{fine.mean / 1e3:.4g} | {mark}{100 * off:+.1f}{mark} | {100 * both:.1f} | "
               f"{found.bends} / {fine.bends} | {found.cost:.1f} / {fine.cost:.1f} |", flush=True)
 

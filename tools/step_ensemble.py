@@ -1,11 +1,13 @@
-"""Mean surge in level ice by the step, one for all, as the mean of runs whose thickness differs by .3 % each.
+"""Mean surge in level ice by the tick, as the mean of runs whose thickness differs by 0.3 % each.
 
 Usage: python3 tools/step_ensemble.py THICKNESS SPEED STEP... [--members N] [--binary BINARY] [--way M] [--slanted]
-       --way: through the ice, 150 m if not given; --slanted: thicknesses within 3 %, and edges of the ice that slant by
-       2 to 6 degrees: in even ice a bow breaks mirror images, alike in all members for some 40 m
+       STEP: ticks (`time.step_s`) [s]. The program takes a tick in parts where it is longer than loads allow
+       (docs/theory/steps.md), so the table also has the shortest time step of the runs.
+       --way: through the ice, 150 m if not given. --slanted: thicknesses within 3 %, and edges of the ice that slant by
+       2 to 6 degrees, because in even ice a bow breaks mirror images, alike in all members for some 40 m.
 
-Thick ice breaks in patterns that repeat themselves, and jumps between them: one run is one draw. The reference ship, at
-constant speed through fast ice that does not split; the mean is that from the way of 32 m on, brought to the
+Thick ice breaks in patterns that repeat themselves, and jumps between them, so one run is one draw. The reference ship
+goes at constant speed through fast ice that does not split. The mean is that from the way of 32 m on, brought to the
 first run's thickness by h^1.8.
 """
 
@@ -31,16 +33,18 @@ def members(count, is_slanted):
 
 
 def surge(binary, thickness, speed, step, slant, way):
+    """The mean surge [N], and the shortest time step [s]."""
     ship = {"hull": HULL, "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9, "position_m": [-62, 0],
             "propulsion": {"constant_speed_m_per_s": speed}}
-    scene = {"name": "step-ensemble", "time": {"until_s": (way + 30) / speed, "step_s": step, "levels": 0},
+    scene = {"name": "step-ensemble", "time": {"until_s": (way + 30) / speed, "step_s": step},
              "ice": {"thickness_m": thickness}, "record": {"frames_interval_s": 10}, "ships": [ship],
              "fracture": {"splitting": {"model": "none"}, "cusp_fate": "under_hull"},
              "floes": [slanted_ice(slant, way + 250)]}
     with tempfile.TemporaryDirectory() as folder:
-        run, _, _ = measured_run(binary, folder, scene, "--no-map")
-        return statistics.fmean(-float(row["surge_N"]) for row in rows_of(run, "forces.csv")
+        run, summary, _ = measured_run(binary, folder, scene, "--no-map")
+        mean = statistics.fmean(-float(row["surge_N"]) for row in rows_of(run, "forces.csv")
                                 if float(row["t_s"]) * speed > BOW)
+        return mean, summary["shortest_step_s"]
 
 
 def main():
@@ -53,13 +57,16 @@ def main():
     parser.add_argument("--slanted", action="store_true")
     parser.add_argument("--binary", default=str(ROOT / "build/release/app/polynya"))
     given = parser.parse_args()
-    print("| step, s | mean, kN | runs, kN |\n|---|---|---|")
+    print("| tick, s | shortest step, s | mean, kN | runs, kN |\n|---|---|---|---|")
     for step in given.steps:
-        found = [surge(given.binary, given.thickness * factor, given.speed, step, slant, given.way) / factor**1.8 / 1e3
-                 for factor, slant in members(given.members, given.slanted)]
+        found, shortest = [], step
+        for factor, slant in members(given.members, given.slanted):
+            mean, shortest_of_run = surge(given.binary, given.thickness * factor, given.speed, step, slant, given.way)
+            found.append(mean / factor**1.8 / 1e3)
+            shortest = min(shortest, shortest_of_run)
         error = statistics.stdev(found) / math.sqrt(len(found))
-        print(f"| {step:g} | {statistics.fmean(found):.1f} ± {error:.1f} | {', '.join(f'{x:.0f}' for x in found)} |",
-              flush=True)
+        print(f"| {step:g} | {shortest:g} | {statistics.fmean(found):.1f} ± {error:.1f} "
+              f"| {', '.join(f'{x:.0f}' for x in found)} |", flush=True)
 
 
 if __name__ == "__main__":

@@ -217,25 +217,38 @@ def hull_path():
     return figure
 
 
-def levels():
-    """Ticks, their parts, and what makes them shorter."""
-    figure, axes = plt.subplots(figsize=(6.4, 2.2))
-    parts = [1, 1, 2, 4, 4, 8, 4, 4, 2, 1]
+def steps():
+    """Which bodies are stepped when: the parts of ticks, a floe that wakes, and a frame between two ticks."""
+    figure, axes = plt.subplots(figsize=(7.2, 3))
+    parts, struck = [1, 4, 1], 1.25
+    ends = [tick + part / count for tick, count in enumerate(parts) for part in range(count)] + [len(parts)]
+    rows = ["ship", "floe that touches the hull", "floe far away", "floe asleep until struck", "frame"]
+    for row, name in enumerate(rows):
+        axes.text(-.06, -row, name, ha="right", va="center")
+        for begin, end in zip(ends, ends[1:]):
+            if name == "frame" or (row == 3 and begin < struck):
+                continue
+            is_struck = row == 3 and begin == struck
+            axes.add_patch(FancyBboxPatch((begin + .012, -row - .25), end - begin - .024, .5, boxstyle="square,pad=0",
+                                          fc=FORCE if is_struck else ICE, alpha=.9, ec=EDGE, lw=.7, zorder=2))
+    axes.text(.5, -3, "not stepped", color=SOFT, ha="center", va="center", fontsize=8)
+    axes.text(struck + .125, -3, "struck", color="w", ha="center", va="center", fontsize=6, zorder=3)
+    for end in ends:
+        is_tick = end == int(end)
+        axes.plot([end, end], [.45, -4.85], color="k" if is_tick else SOFT, lw=1 if is_tick else .7,
+                  ls="-" if is_tick else ":", zorder=1)
     for tick, count in enumerate(parts):
-        for part in range(count):
-            axes.add_patch(FancyBboxPatch((tick + part / count + .01, .1), 1 / count - .02, .5, boxstyle="square,pad=0",
-                                          fc=ICE, ec=EDGE, lw=.7))
-        axes.text(tick + .5, .75, f"$2^{{{count.bit_length() - 1}}}$", ha="center", fontsize=8)
-        axes.plot([tick, tick], [-.05, 1], color="k", lw=1)
-    axes.plot([10, 10], [-.05, 1], color="k", lw=1)
-    axes.annotate("", (0, -.2), (1, -.2), arrowprops={"arrowstyle": "<|-|>", "shrinkA": 0, "shrinkB": 0})
-    axes.text(.5, -.5, "tick: time.step_s", ha="center")
-    axes.annotate("more than .75 cusps a part,\nor way over h/10: twice as many", (3, 1), (3.5, 1.5), ha="center",
-                  fontsize=8, arrowprops={"arrowstyle": "-|>", "color": FORCE}, color=FORCE)
-    axes.annotate("below .25 cusps a part:\nhalf as many", (8, 1), (8.1, 1.5), ha="center", fontsize=8,
-                  arrowprops={"arrowstyle": "-|>"})
-    axes.text(9.9, -.5, "samples, frames and checkpoints: at whole ticks", ha="right", color=EDGE)
-    axes.set(xlim=(-.1, 10.1), ylim=(-.6, 2.2))
+        axes.text(tick + .5, .58, f"{count} part{'s' if count > 1 else ''}", ha="center", fontsize=8, color=EDGE)
+        arrow(axes, (tick, 1.05), (tick + 1, 1.05), "tick", "k", (tick + .5, 1.26), both=True, fontsize=8)
+    asked, written = 1.4, 2
+    axes.plot([asked], [-4], "o", color="w", mec=FORCE, ms=6, zorder=3)
+    axes.plot([written], [-4], "o", color=FORCE, ms=6, zorder=3)
+    arrow(axes, (asked + .04, -4), (written - .035, -4), "", FORCE)
+    for time, what in ((asked, "asked for"), (written, "written")):
+        axes.text(time, -4.5, what, ha="center", va="center", fontsize=8, color=FORCE, zorder=3,
+                  bbox={"fc": "w", "ec": "none", "pad": 1})
+    arrow(axes, (0, -5.05), (3.15, -5.05), "time", "k", (3.2, -5.05), ha="left")
+    axes.set(xlim=(-1.02, 3.4), ylim=(-5.3, 1.5))
     axes.axis("off")
     return figure
 
@@ -244,9 +257,9 @@ def step():
     """The stages of a step, by what they do."""
     figure, axes = plt.subplots(figsize=(7.2, 2.5))
     groups = [("steer", "pilots, walls"), ("find", "pairs, contacts"), ("decide", "which failure,\nat which force"),
-              ("solve", "impulses,\nsplits, tilt"), ("push", "water, wind,\nengine, submerged ice"),
-              ("move", "integrate,\nclock"), ("cut", "cusps, splits,\nbrash, under, up"),
-              ("record", "loads, rest,\nsamples")]
+              ("solve", "impulses,\nsplits, tilt"), ("push", "water, wind, engine,\nsubmerged ice"),
+              ("move", "integrate"), ("cut", "cusps, splits,\nbrash, under, up"),
+              ("record", "ship events,\nloads")]
     for k, (name, what) in enumerate(groups):
         column, row = k % 4, 1 - k // 4
         x, y = column * 2.5, row * 1.5
@@ -286,7 +299,7 @@ def cut():
 
 FIGURES = {"contact": contact, "wedge": wedge, "radial": radial, "arms": arms, "tilting": tilting,
            "hull-path": hull_path,
-           "levels": levels, "step": step, "cut": cut}
+           "steps": steps, "step": step, "cut": cut}
 
 
 def main(*names):

@@ -41,16 +41,18 @@ constexpr auto kSimulationDoc =
     "thread at a time; the others get a RuntimeError.";
 constexpr auto kRunDoc =
     "run(until=None, progress=None)\n\n"
-    "Steps to a time [s], or to the scene's own end. `progress` is called with the time [s] about 20 times\n"
-    "a second and at the end; what it raises ends the run between two steps, and so does Ctrl-C.\n"
+    "Takes ticks to a time [s], or to the scene's own end, rounded up to a whole tick. run() in pieces and\n"
+    "step(1) repeated give the same bytes as one call. `progress` is called with the time [s] about 20 times\n"
+    "a second and at the end; what it raises ends the run between two ticks, and so does Ctrl-C.\n"
     "Raises SimulationError where the run cannot continue.";
 constexpr auto kPilotDoc =
     "set_pilot(ship, pilot)\n\n"
     "Lets a callable steer a ship that has an engine (an index or a name), in the place of the scene's\n"
-    "pilot; None gives it back. It is called at the start of every step with a PilotView and returns\n"
-    "(lever -1 to 1, steering angle to port [rad]), or None to keep both; beyond their stops they are\n"
-    "limited. It may read the simulation (ships, floes), not step or save it. What it raises comes out of\n"
-    "step() or run() after that step is whole. save() does not hold what it remembers.";
+    "pilot; None gives it back. It is called at the start of every time step, also of each part of a tick,\n"
+    "with a PilotView, and returns (lever -1 to 1, steering angle to port [rad]), or None to keep both;\n"
+    "beyond their stops they are limited. It may read the simulation (ships, floes), not step or save it.\n"
+    "What it raises comes out of step() or run() after that tick is whole. save() does not hold what it\n"
+    "remembers.";
 constexpr auto kEventsDoc =
     "events()\n\n"
     "What happened since the last call: dicts as the lines of events.ndjson (docs/run-folder.md), in their\n"

@@ -276,18 +276,6 @@ constexpr double kCutThroughInterval = 0.25;
 /// the paper.
 constexpr double kRestInterval = 1;
 
-/// What is done at the end of ticks, after the last of their parts.
-void end_tick(ContactLaw law, const Step& last, World& w) {
-  const bool crushes = law == ContactLaw::kCrush;
-  if (crushes && is_due(w.clock, kCutThroughInterval)) kCutThrough.run(w, last);
-  if (w.setup.shortcuts.sleeps && is_due(w.clock, crushes ? kRestInterval : w.clock.tick))
-    put_to_rest(w.setup, w.data, w.population, w.accounts.audit);
-  w.accounts.counts.peak_awake =
-      std::max(w.accounts.counts.peak_awake, static_cast<std::int64_t>(w.population.awake.size()));
-  if (is_due(w.clock, w.setup.scene.record.forces_interval))
-    sample_loads(w.setup, w.clock, w.population, w.accounts, w.journal);
-}
-
 }  // namespace
 
 std::span<const Stage> stages_of(ContactLaw law) {
@@ -308,6 +296,17 @@ Step step_of(const Setup& setup, const Clock& clock, int part, int parts) {
   const WaterSettings& water = setup.scene.water;
   step.water_velocity = water.is_steady() ? water.drift_at(0) : (step.end.drift - step.begin.drift) / step.length;
   return step;
+}
+
+void end_tick(World& w) {
+  const bool crushes = w.setup.scene.contact.law == ContactLaw::kCrush;
+  if (crushes && is_due(w.clock, kCutThroughInterval)) kCutThrough.run(w, w.last_step);
+  if (w.setup.shortcuts.sleeps && is_due(w.clock, crushes ? kRestInterval : w.clock.tick))
+    put_to_rest(w.setup, w.data, w.population, w.accounts.audit);
+  w.accounts.counts.peak_awake =
+      std::max(w.accounts.counts.peak_awake, static_cast<std::int64_t>(w.population.awake.size()));
+  if (is_due(w.clock, w.setup.scene.record.forces_interval))
+    sample_loads(w.setup, w.clock, w.population, w.accounts, w.journal);
 }
 
 namespace {
@@ -336,7 +335,7 @@ void step(World& world) {
   ++world.clock.ticks;
   counts.steps_taken += parts;
   counts.most_parts = std::max<std::int64_t>(counts.most_parts, parts);
-  end_tick(law, world.last_step, world);
+  end_tick(world);
   counts.crowded_ticks += follow_bends(parts, counts.bends - bends, world.pace) ? 1 : 0;
 }
 

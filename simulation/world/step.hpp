@@ -163,6 +163,10 @@ std::span<const Stage> stages_of(ContactLaw law);
 /// The given one of the equal parts of the tick that follows the clock; the whole tick is part 0 of 1.
 Step step_of(const Setup& setup, const Clock& clock, int part, int parts);
 
+/// Does what is done once in a tick, after its last part: floes that hulls pierce are cut, floes are put to rest, and
+/// rows are written, each at its interval.
+void end_tick(World& world);
+
 /// Advances the world by one tick: all stages, in each of the tick's parts (parts.hpp).
 void step(World& world);
 

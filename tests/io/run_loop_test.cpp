@@ -79,9 +79,8 @@ TEST(RunLoop, AStoppedRunIsResumedToTheSameBytes) {
   expect_resumes_to(folder, small);
 }
 
-/// Steps of several ticks end with the run: of one shorter than such a step, and of one that is stopped where its end
-/// cuts one short, the checkpoint is from before.
-TEST(RunLoop, AnEndThatCutsAStepShortLeavesNoTraceInALongerRun) {
+/// A run that ends early, or is stopped, goes on to a later end as if it had not ended.
+TEST(RunLoop, AnEarlierEndLeavesNoTraceInALongerRun) {
   const TemporaryFolder folder;
   const LoadedScene longer = small_scene();
   auto whole = checked(start_run(folder / "whole", longer));
