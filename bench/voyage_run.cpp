@@ -12,6 +12,7 @@
 
 #include "io/scene/scene_reader.hpp"
 #include "simulation/world/default_tick.hpp"
+#include "simulation/world/world.hpp"
 
 namespace polynya::bench {
 namespace {

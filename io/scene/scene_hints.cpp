@@ -210,7 +210,7 @@ class Hinter {
   }
 
   void hint_at_levels() {
-    const JsonValue* time = given_.find("time", JsonKind::kObject);
+    const JsonValue* time = given_.find("time", JsonValue::Kind::kObject);
     if (time == nullptr || time->find("levels") == nullptr) return;
     add(Severity::kHint, "time.levels",
         "has no effect any more, and the next version will refuse it: the parts of a tick follow from what happens in "
