@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 
 #include "geometry/shape/point.hpp"
@@ -39,16 +38,11 @@ struct Rotation {
                   z * (-1. / 720 + z * (1. / 40320 + z * (-1. / 3628800 +
                                                           z * (1. / 479001600 + z * (-1. / 87178291200 +
                                                                                      z * (1. / 20922789888000))))))));
-    switch (static_cast<std::int64_t>(quarters) & 3) {
-      case 0:
-        return {cosine, sine};
-      case 1:
-        return {-sine, cosine};
-      case 2:
-        return {-cosine, -sine};
-      default:
-        return {sine, -cosine};
-    }
+    const double of_turn = quarters - 4 * std::floor(quarters / 4);  // without a cast: an angle may be no number
+    if (of_turn == 0) return {cosine, sine};
+    if (of_turn == 1) return {-sine, cosine};
+    if (of_turn == 2) return {-cosine, -sine};
+    return {sine, -cosine};
   }
 };
 
