@@ -16,21 +16,21 @@
 
 namespace polynya::simulation {
 
-/// What ice under a ship's hull meets.
+/// The underwater hull, as ice under it meets it.
 struct Underwater {
   dynamics::HullForm form;
   dynamics::SubmersionPath path;
-  bool can_take_ice = false;  ///< it has a draught
+  bool can_take_ice = false;  ///< true if the hull has a draught
 };
 
-/// What ice breaks under, where that depends on its material alone.
+/// Limits of breaking that depend on the ice's material alone.
 struct IceLimits {
-  double breakable_size = 0;         ///< κ l: no smaller floe breaks [m]
-  double least_splitting_force = 0;  ///< of the shortest crack, as long and wide as the ice is thick [N]
-  bool breaks_beams = false;         ///< κ l is not above l: slender floes below it break across as beams
+  double breakable_size = 0;         ///< κ l: floes with a smaller √area do not break [m]
+  double least_splitting_force = 0;  ///< force of a crack that is as long and wide as the ice is thick [N]
+  bool breaks_beams = false;         ///< true if κ l ≤ l: slender floes that are smaller break across as beams
 };
 
-/// What a run is computed with; const from its first step to its last.
+/// The settings of a run, and what follows from them alone. Const from the first step to the last.
 struct Setup {
   explicit Setup(Scene scene, Shortcuts shortcuts = {});
 
@@ -40,30 +40,30 @@ struct Setup {
   dynamics::ShearCurrent current;                          ///< in the water frame
   dynamics::ContactRule contact_rule;                      ///< how contacts are found
   dynamics::SolverSettings solver;                         ///< without the number of threads
-  std::optional<dynamics::SeparationSettings> separation;  ///< of a law that leaves overlap to be separated
+  std::optional<dynamics::SeparationSettings> separation;  ///< for the law of impulses, which leaves overlap
   std::vector<Underwater> underwater;                      ///< per hull
   std::vector<Waterline> waterlines;                       ///< per hull
   std::vector<Sailing> sailing;                            ///< per ship
   std::vector<IceLimits> ice_limits;                       ///< of the scene's ice, then of each own_ice
-  double longest_step_by_walls = 0;                        ///< of walls that press; infinite without any [s]
-  bool has_flooding_decks = false;  ///< hulls bear the water that is missing on the decks of cusps that they press down
+  double longest_step_by_walls = 0;                        ///< infinite in scenes without walls that press [s]
+  bool has_flooding_decks = false;  ///< cusps that a hull presses down carry no water yet, which loads the hull
 };
 
-/// Δt that keeps a wall's step within kStepUnderPressure (parts.hpp) and within the time in which its load takes it to
-/// its closing speed [s].
+/// Returns the longest step of a scene with walls that press [s]: kStepUnderPressure (parts.hpp), or the time in which
+/// the load of a wall accelerates it to its closing speed. Infinite without such walls.
 double longest_step_by_walls(const Scene& scene);
 
-/// A hull's underwater form by its waterline, stem angle and draught. Its entrance angle is the mean one of
+/// Returns a hull's underwater form by its waterline, stem angle and draught. The entrance angle is the mean one of
 /// the bow: tan α = ½ B / (distance from the stem to where the waterline is widest).
 Underwater underwater_of(const Hull& hull);
 
-/// The scene's sheared current, as the water drag takes it.
+/// Returns the scene's sheared current in the form that the water drag takes.
 dynamics::ShearCurrent current_of(const ShearSettings& shear);
 
-/// Displacement of the water frame over ground since the start [m].
+/// Returns the displacement of the water frame over ground from the start to a time [s] [m].
 geometry::Vector drift_at(const Setup& setup, double time);
 
-/// An instant of the run with that displacement.
+/// Returns the instant of a time [s].
 inline Instant instant_at(const Setup& setup, double time) {
   return {time, drift_at(setup, time)};
 }
