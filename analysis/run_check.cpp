@@ -382,6 +382,7 @@ RunCheck check_run(const io::Run& run, std::optional<double> only_at, const std:
     work.compare(time);
     advance(static_cast<double>(run.floes.size()) / 8);
   }
+  check.final_places = compare_final_places(run);
   return check;
 }
 
@@ -523,6 +524,7 @@ std::string to_text(const RunCheck& check, const simulation::Scene& scene) {
   add("           Overlap is part of the contact model: ice in contact is let in by what it crushes, and "
       "frames are right to");
   add("           1 mm and 1e-5 rad. All areas are exact for the rings and poses on record.");
+  add_text(text, check.final_places);
   add(check.is_sound() ? "sound" : "NOT SOUND");
   return text;
 }
@@ -545,6 +547,7 @@ std::string to_json_text(const RunCheck& check, const simulation::Scene& scene) 
     write_shared(json, "largest_overlap", check.worst);
     write_shared(json, "deepest_overlap", check.deepest);
     write_hulls(json, check, scene);
+    write_members(json, check.final_places);
   };
   return io::json_object(write, JsonWriter::Layout::kIndented);
 }

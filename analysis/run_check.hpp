@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/final_places.hpp"
 #include "io/run/run_reader.hpp"
 
 namespace polynya::analysis {
@@ -89,18 +90,20 @@ struct RunCheck {
   double most_expected = 0;                 ///< Σ σ_c V over all pairs at the instant it is most [J]
   double work_then = 0;                     ///< Σ of the work on record at that instant [J]
   std::size_t undecided = 0;                ///< pairs whose overlap geometry failed to find
+  FinalPlaces final_places;
 
   bool is_sound() const {
     return invalid.empty() && recorded_area.wrong == 0 && balance.wrong == 0 && overlapping_siblings == 0 &&
-           uncrushed_pairs == 0 && unpaid.empty() && undecided == 0;
+           uncrushed_pairs == 0 && unpaid.empty() && undecided == 0 && final_places.is_sound();
   }
 };
 
 /// Finds validity, areas, balances and shared areas exactly, for the doubles on record; areas are rounded once for the
 /// report. Measures overlaps at every frame, or at one instant only. Frames are right to 1 mm (frames.hpp). What bodies
 /// share at a frame is compared with what was crushed or tilted there (crushed.csv), and what was crushed with the work
-/// that it took, hulls and structures included; runs of versions that did not record it are measured only. `on_part` is
-/// called often, with how much is done (0..1).
+/// that it took, hulls and structures included; runs of versions that did not record it are measured only. The floes of
+/// final.geojson are compared with their places in frames.bin, also with `only_at`. `on_part` is called often, with how
+/// much is done (0..1).
 RunCheck check_run(const io::Run& run, std::optional<double> only_at = {},
                    const std::function<void(double)>& on_part = {});
 

@@ -174,11 +174,11 @@ constexpr auto kInspectExamples =
     "  polynya inspect runs/level-plate --floe 17 --format geojson > floe-17.geojson\n"
     "  polynya inspect runs/level-plate --lineage 17           the fractures that led to it\n"
     "  polynya inspect runs/level-plate --events               what broke, met and went under\n"
-    "  polynya inspect runs/level-plate --check                validity, areas, overlaps, exactly\n"
+    "  polynya inspect runs/level-plate --check                validity, areas, overlaps, last places\n"
     "  polynya inspect runs/level-plate --fsd                  floe size distribution\n"
     "  polynya inspect runs/level-plate --json                 each of these but a shape as JSON\n"
     "\n"
-    "Exit codes: 0 done, 2 usage, 4 --check found a shape or an area wrong, 5 input/output.\n";
+    "Exit codes: 0 done, 2 usage, 4 --check found the run not sound, 5 input/output.\n";
 
 struct InspectOptions {
   std::string run;
@@ -473,7 +473,7 @@ Command add_inspect(CommandLine& app) {
                  {.excludes = {"--floe"}});
   command.flag("--events", options->events, "Every event of the run: fractures, ships that meet, moorings that break",
                {.excludes = {"--floe", "--lineage"}});
-  command.flag("--check", options->check, "Re-derive validity, areas and overlaps of the whole run",
+  command.flag("--check", options->check, "Recompute validity, areas, overlaps and last places of the whole run",
                {.excludes = {"--floe", "--lineage", "--events"}});
   command.flag("--fsd", options->fsd, "The distribution of floe sizes",
                {.excludes = {"--floe", "--lineage", "--events", "--check"}});

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <random>
 
+#include "../io/expect_text.hpp"
+#include "../io/temporary_folder.hpp"
 #include <gtest/gtest.h>
 
 #include "geometry/cut/cut.hpp"
@@ -12,6 +14,8 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/outline.hpp"
+#include "io/run/run_folder.hpp"
+#include "io/text/json_writer.hpp"
 
 namespace polynya::analysis {
 namespace {
@@ -241,6 +245,185 @@ TEST(RunCheck, WhatIsWrongIsFound) {
   EXPECT_EQ(of_doubled.balance.wrong, 0U) << "the areas add up";
   EXPECT_EQ(of_doubled.siblings.area, 4) << "but the pieces share a strip";
   for (const RunCheck& check : {of_crossed, of_leaking, of_doubled}) EXPECT_FALSE(check.is_sound());
+}
+
+// ---- final.geojson and frames.bin
+
+/// The last instant of small_run() in a folder with a final.geojson, from which a test may change the floes' motions.
+class FinalPlacesOfARun : public testing::Test {
+ protected:
+  FinalPlacesOfARun() { run.folder = folder.path(); }
+
+  /// The motion in the last frame.
+  io::Motion& in_frame(simulation::FloeId floe) {
+    return std::ranges::find(run.frames.back().floes, floe, &io::FloeMotion::floe)->motion;
+  }
+
+  /// Writes final.geojson, with the motions of the last frame and those that the test changed.
+  void write_final() {
+    io::GeojsonLayer layer(run.end_time());
+    for (const io::FloeMotion& floe : run.frames.back().floes) {
+      if (left_out == floe.floe) continue;
+      const auto changed = std::ranges::find(in_file, floe.floe, &io::FloeMotion::floe);
+      layer.start().key("floe_id").value(floe.floe);
+      layer.end_with(polygon_in_world(*run.shape(floe.floe), run.floe(floe.floe)->birth.centroid_in_body,
+                                      changed != in_file.end() ? changed->motion : floe.motion));
+    }
+    write(layer.finish());
+  }
+  void write(const std::string& text) { tests::write_file(folder / "final.geojson", text); }
+  std::string text() const { return tests::read_file(folder / "final.geojson"); }
+
+  /// Checks the run, which must not be sound because of one floe alone, and returns what is wrong with that floe.
+  MisplacedFloe only_misplaced() {
+    const RunCheck check = check_run(run);
+    EXPECT_FALSE(check.is_sound());
+    EXPECT_EQ(check.final_places.misplaced.size(), 1U) << to_text(check, run.scene.scene);
+    return check.final_places.misplaced.empty() ? MisplacedFloe{} : check.final_places.misplaced.front();
+  }
+
+  const tests::TemporaryFolder folder;
+  io::Run run = small_run();
+  std::vector<io::FloeMotion> in_file;  ///< motions of final.geojson that are not the frame's
+  simulation::FloeId left_out = simulation::kNoFloe;
+};
+
+TEST_F(FinalPlacesOfARun, AreTheSameInASoundRun) {
+  in_frame(1).angle = 0.7 + 6 * std::numbers::pi;
+  in_file = {{1, in_frame(1)}};
+  in_file.front().motion.angle = 0.7;
+  write_final();
+  const RunCheck check = check_run(run);
+  EXPECT_TRUE(check.is_sound()) << to_text(check, run.scene.scene);
+  EXPECT_EQ(check.final_places.compared, 3U);
+  EXPECT_EQ(check.final_places.time, 3);
+  EXPECT_LT(check.final_places.farthest, 1e-13) << "whole turns make no difference";
+  EXPECT_HAS(to_text(check, run.scene.scene), "places     3 floes at 3 s: ", "; 0 floes are wrong\nsound");
+  EXPECT_EQ(check_run(run, 0).final_places.compared, 3U) << "compared at the end, also where --at is another instant";
+}
+
+/// Floe 2 is 4 m by 2 m: its corners are √5 m from its centre.
+TEST_F(FinalPlacesOfARun, AFloeTurnedInFinalGeojsonIsNamed) {
+  in_file = {{2, in_frame(2)}};
+  in_file.front().motion.angle += 0.01;
+  write_final();
+  const MisplacedFloe wrong = only_misplaced();
+  EXPECT_EQ(wrong.floe, 2);
+  EXPECT_NEAR(wrong.distance, 2 * std::sqrt(5) * std::sin(0.005), 1e-12);
+  EXPECT_NEAR(wrong.allowed, std::sqrt(2) * 1e-3 + 1e-5 * std::sqrt(5), 1e-7);
+  const RunCheck check = check_run(run);
+  EXPECT_HAS(to_text(check, run.scene.scene), "(floe 2); 1 floe is wrong\n",
+             "floe 2 at 3 s: a vertex in final.geojson is 0.0223606 m from its place by frames.bin, 0.00143658 m are "
+             "allowed\nNOT SOUND");
+  const io::JsonDocument json = io::parse_json(to_json_text(check, run.scene.scene));
+  EXPECT_FALSE(json.root.find("is_sound")->boolean());
+  const io::JsonValue& named = json.root.find("final_places")->find("misplaced")->items().at(0);
+  EXPECT_EQ(named.find("floe_id")->number(), 2);
+  EXPECT_EQ(named.find("t_s")->number(), 3);
+  EXPECT_EQ(named.find("distance_m")->number(), wrong.distance);
+}
+
+TEST_F(FinalPlacesOfARun, AFloeTurnedInAFrameIsNamed) {
+  write_final();
+  in_frame(3).angle -= 0.01;
+  const MisplacedFloe wrong = only_misplaced();
+  EXPECT_EQ(wrong.floe, 3);
+  EXPECT_NEAR(wrong.distance, 2 * std::sqrt(5) * std::sin(0.005), 1e-12);
+}
+
+/// Frames are right to 1 mm along each axis and 1e-5 rad.
+TEST_F(FinalPlacesOfARun, MayDifferByWhatAFrameMayBeWrongBy) {
+  for (const auto& [part, is_sound] : {std::pair{0.999, true}, {1.01, false}}) {
+    in_file = {{1, in_frame(1)}};
+    in_file.front().motion.position += geometry::Vector{part * 1e-3, part * 1e-3};
+    in_file.front().motion.angle += part * 1e-5;
+    write_final();
+    EXPECT_EQ(check_run(run).is_sound(), is_sound) << part;
+  }
+}
+
+TEST_F(FinalPlacesOfARun, AFloeThatIsInOneFileAloneIsNamed) {
+  left_out = 3;
+  write_final();
+  EXPECT_EQ(only_misplaced().floe, 3);
+  EXPECT_HAS(only_misplaced().defect, "final.geojson does not have it");
+  left_out = simulation::kNoFloe;
+  write_final();
+  const std::string sound = text();
+  const std::size_t line = sound.find("\n{") + 1;
+  const std::string first = sound.substr(line, sound.find('\n', line) + 1 - line);
+  write(tests::replaced(sound, first, first + tests::replaced(first, "\"floe_id\":1", "\"floe_id\":0")));
+  EXPECT_EQ(only_misplaced().floe, 0);
+  EXPECT_HAS(only_misplaced().defect, "which does not float then");
+  write(tests::replaced(sound, first, first + first));
+  EXPECT_HAS(only_misplaced().defect, "twice");
+  write(sound);
+  std::erase_if(run.frames.back().floes, [](const io::FloeMotion& floe) { return floe.floe == 2; });
+  for (io::Frame& frame : run.frames)
+    std::erase_if(frame.floes, [](const io::FloeMotion& floe) { return floe.floe == 2; });
+  EXPECT_HAS(only_misplaced().defect, "no frame has it");
+}
+
+/// Two corners that round to one point are one in final.geojson; any other corner may not be missing.
+TEST_F(FinalPlacesOfARun, OnlyCornersAtOnePointMayBeOne) {
+  run = small_run({{5, 1}, {7, 1}, {7, 3}, {7, 3 + 1e-11}, {5, 3}});
+  run.folder = folder.path();
+  in_frame(1).angle = 0.3;
+  write_final();
+  const std::string all = text();
+  const RunCheck check = check_run(run);
+  EXPECT_TRUE(check.final_places.is_sound());
+  const auto without = [&](std::size_t corner) {
+    std::size_t from = all.find("[[[") + 2;
+    for (std::size_t i = 0; i < corner; ++i) from = all.find("],[", from) + 2;
+    return std::string(all).erase(from, all.find("],[", from) + 2 - from);
+  };
+  write(without(2));
+  EXPECT_TRUE(check_run(run).final_places.is_sound());
+  write(without(1));
+  EXPECT_HAS(only_misplaced().defect, "a ring of the floe has 4 vertices in final.geojson and 5 in floes.ndjson");
+}
+
+/// Runs that were stopped, are large or are old may have nothing to compare, and are checked as they always were.
+TEST_F(FinalPlacesOfARun, AreNotComparedWhereThereIsNoFileOrNoFrame) {
+  RunCheck check = check_run(run);
+  EXPECT_TRUE(check.is_sound());
+  EXPECT_HAS(to_text(check, run.scene.scene), "places     not compared: the run has no final.geojson\nsound");
+  write_final();
+  write(tests::replaced(text(), "\"t_s\":3", "\"t_s\":2.5"));
+  check = check_run(run);
+  EXPECT_TRUE(check.is_sound());
+  EXPECT_HAS(to_text(check, run.scene.scene), "not compared: final.geojson is of 2.5 s, and no frame is\nsound");
+  const io::JsonDocument json = io::parse_json(to_json_text(check, run.scene.scene));
+  EXPECT_TRUE(json.root.find("final_places")->find("t_s")->is_null());
+}
+
+/// Older versions wrote the comma between two floes at the start of a line.
+TEST_F(FinalPlacesOfARun, AreReadFromOlderFiles) {
+  write_final();
+  std::string older = text();
+  for (std::size_t at = 0; (at = older.find(",\n{", at)) != std::string::npos;) older.replace(at, 3, "\n,{");
+  write(older);
+  EXPECT_EQ(check_run(run).final_places.compared, 3U);
+  EXPECT_TRUE(check_run(run).is_sound());
+}
+
+TEST_F(FinalPlacesOfARun, AFileThatCannotBeReadIsNamedWithItsLine) {
+  write_final();
+  const std::string sound = text();
+  for (const auto& [from, to, words] :
+       {std::tuple{"features\":[\n", "features\":[", "final.geojson:1: the file is not written as a run writes it"},
+        {"\"t_s\":3", "\"t_s\":null", "final.geojson:1: \"t_s\" is not a number"},
+        {"\"floe_id\":2", "\"floe_id\":null", "final.geojson:3: \"floe_id\" is not a number"},
+        {"\"floe_id\":3", "\"id\":3", "final.geojson:4: "},
+        {"[[[3.5,", "[[[\"\",", "final.geojson:2: "},
+        {"[[[0,0],", "[[[0,0,", "final.geojson:3: not JSON"}}) {
+    write(tests::replaced(sound, from, to));
+    const RunCheck check = check_run(run);
+    EXPECT_FALSE(check.is_sound()) << to;
+    EXPECT_HAS(to_text(check, run.scene.scene), "places     not compared: ", words, "NOT SOUND");
+    EXPECT_HAS(to_json_text(check, run.scene.scene), "\"fault\": \"");
+  }
 }
 
 }  // namespace

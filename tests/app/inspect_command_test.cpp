@@ -99,7 +99,8 @@ TEST_F(InspectCommand, ASoundRunPassesTheCheck) {
   const std::string text = expect_code(0, inspect("--check")).out;
   EXPECT_BEGINS(text, "validity   " + std::to_string(run->floes.size()) + " shapes, 0 invalid");
   EXPECT_EQ(lines(text).back(), "sound");
-  EXPECT_HAS(text, std::to_string(run->frames.size()) + " instants", "Overlap is part of the contact model");
+  EXPECT_HAS(text, std::to_string(run->frames.size()) + " instants", "Overlap is part of the contact model",
+             "places     " + io::counted(living_at(30), "floe") + " at 30 s: ", "; 0 floes are wrong");
 }
 
 TEST_F(InspectCommand, ReportsAreJsonOnRequest) {
@@ -137,9 +138,12 @@ TEST_F(InspectCommand, ReportsAreJsonOnRequest) {
   const io::JsonValue check = report({"--check"});
   EXPECT_TRUE(check.find("is_sound")->boolean());
   EXPECT_EQ(check.find("shapes")->number(), static_cast<double>(run->floes.size()));
+  EXPECT_EQ(check.find("final_places")->find("floes")->number(), static_cast<double>(living_at(run->end_time())));
+  EXPECT_LT(check.find("final_places")->find("farthest_m")->number(), 0.01);
 }
 
-/// A ring with two vertices exchanged, or an area that is not its ring's: the check names the floe.
+/// A ring with two vertices exchanged, an area that is not its ring's, or a floe at another place at the end: the check
+/// names the floe.
 TEST_F(InspectCommand, ADamagedRunFailsTheCheck) {
   const auto floes = folder->path() / "damaged/floes.ndjson";
   std::filesystem::copy(folder->path() / "run", folder->path() / "damaged");
@@ -152,6 +156,14 @@ TEST_F(InspectCommand, ADamagedRunFailsTheCheck) {
     EXPECT_HAS(outcome.out, words);
     EXPECT_EQ(lines(outcome.out).back(), "NOT SOUND");
   }
+  write_file(floes, sound);
+  expect_code(0, inspect("--check", "damaged"));
+  const std::string last = std::to_string(run->floes.back().birth.floe);
+  const auto final_floes = folder->path() / "damaged/final.geojson";
+  write_file(final_floes, replaced(read_file(final_floes), "\"floe_id\":" + last + ",", "\"floe_id\":0,"));
+  EXPECT_HAS(expect_code(4, inspect("--check", "damaged")).out, "2 floes are wrong",
+             "floe 0 at 30 s: final.geojson has the floe, which does not float then",
+             "floe " + last + " at 30 s: the floe floats then, and final.geojson does not have it");
 }
 
 TEST(InspectSplit, TheLineageAndThePlayerStateBothSidesOfASplitByTrueForces) {

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/run/run_reader.hpp"
+#include "io/text/json_writer.hpp"
+
+namespace polynya::analysis {
+
+/// A floe that is not in the same place in final.geojson and in frames.bin.
+struct MisplacedFloe {
+  simulation::FloeId floe = simulation::kNoFloe;
+  std::string defect;   ///< what is wrong where vertices cannot be compared; empty where they can
+  double distance = 0;  ///< between the two places of the vertex that is wrong by most [m]
+  double allowed = 0;   ///< of that distance [m]
+};
+
+/// Comparison of the floes in final.geojson with their places in frames.bin at the same instant.
+struct FinalPlaces {
+  std::string not_compared;    ///< why there is nothing to compare; empty where the floes were compared
+  std::string fault;           ///< why final.geojson cannot be read, with the file and the line; empty where it can
+  std::optional<double> time;  ///< of the instant; nothing where the floes were not compared [s]
+  std::size_t compared = 0;    ///< floes
+  double farthest = 0;         ///< greatest distance between the two places of a vertex [m]
+  simulation::FloeId farthest_floe = simulation::kNoFloe;
+  std::vector<MisplacedFloe> misplaced;
+
+  bool is_sound() const { return fault.empty() && misplaced.empty(); }
+};
+
+/// Compares every vertex of final.geojson with the floe's polygon on record, placed by its motion in frames.bin. Both
+/// must have the same floating floes. The two places of a vertex may differ by what a frame may be wrong by: 1 mm along
+/// each axis, and 1e-5 rad times the distance of the vertex from the floe's centre of mass. A run without
+/// final.geojson, or without a frame at its instant, is not compared and is sound.
+FinalPlaces compare_final_places(const io::Run& run);
+
+/// Adds the lines of `polynya inspect --check`, or the members of its JSON.
+void add_text(std::string& text, const FinalPlaces& places);
+void write_members(io::JsonWriter& json, const FinalPlaces& places);
+
+}  // namespace polynya::analysis
