@@ -5,7 +5,9 @@
 namespace polynya::simulation {
 
 bool is_due(const Clock& clock, double interval) {
-  constexpr double kRounding = 1e-6;  // [intervals]; a multiple that rounding puts behind a tick still lies in it
+  // Tolerance of rounding, as a fraction of the interval [-]. A multiple of the interval that rounding puts just behind
+  // the end of a tick still belongs to the tick.
+  constexpr double kRounding = 1e-6;
   const auto passed = [&](std::int64_t ticks) {
     return std::floor(static_cast<double>(ticks) * clock.tick / interval + kRounding);
   };

@@ -12,7 +12,7 @@
 namespace polynya::simulation {
 namespace {
 
-/// Ticks to choose from [s].
+/// Round tick lengths from which default_tick() chooses, the longest first [s].
 constexpr std::array kTickChoices{0.1, 0.05, 0.025, 0.02, 0.01, 0.005, 0.0025, 0.002, 0.001, 0.0005};
 /// Number of parts that a tick needs for the fastest hull at its full speed [-]. More would leave too few parts for ice
 /// that breaks faster than that; fewer would make ticks short where a ship is slower than she can be.
@@ -23,7 +23,8 @@ constexpr double kUnderThrust = 4;
 /// hull meets the few thinner floes.
 constexpr double kMostIce = 0.95;
 
-/// The greatest speed of a ship: that at the start, or that of its engine in open water [m/s].
+/// Returns the greatest speed of a ship [m/s]: the speed at the start, or the open-water speed of its engine or the
+/// speed assumed of a constant thrust, if that is greater.
 double full_speed(const Ship& ship) {
   const double start = std::hypot(ship.speed, ship.sway_speed);
   if (const auto* engine = std::get_if<Engine>(&ship.propulsion)) return std::max(start, engine->open_water_speed);
@@ -31,7 +32,7 @@ double full_speed(const Ship& ship) {
   return constant && constant->thrust != 0 ? std::max(start, kUnderThrust) : start;
 }
 
-/// The greatest speed at which the wind drives ice through the water [m/s].
+/// Returns the greatest speed at which the wind drives ice through the water [m/s].
 double wind_drift(const Scene& scene) {
   double fastest = length(free_drift(scene, 0) - scene.water.drift_at(0));
   for (const dynamics::FlowRow& row : scene.wind.rows)
@@ -39,14 +40,14 @@ double wind_drift(const Scene& scene) {
   return fastest;
 }
 
-/// The greatest speed of a floe through the water at the start [m/s].
+/// Returns the greatest speed of a floe through the water at the start [m/s].
 double fastest_floe(const Scene& scene) {
   double fastest = 0;
   for (const FloeSpec& floe : scene.floes) fastest = std::max(fastest, length(floe.velocity));
   return fastest;
 }
 
-/// The greatest speed at which a hull and ice meet, or floes where there is no hull [m/s].
+/// Returns the greatest speed at which a hull and ice meet, or floes where there is no hull [m/s].
 double fastest_meeting(const Scene& scene) {
   const dynamics::ShearCurrent current = current_of(scene.water.shear);
   double of_hulls = 0;
@@ -59,7 +60,7 @@ double fastest_meeting(const Scene& scene) {
   return of_hulls + fastest_floe(scene) + wind_drift(scene) + scene.water.fastest_drift();
 }
 
-/// The greatest speed of any floe's rim at the start [m/s].
+/// Returns the greatest speed of any floe's rim at the start [m/s].
 double fastest_rim(const Scene& scene) {
   const dynamics::ShearCurrent current = current_of(scene.water.shear);
   double fastest = 0;
@@ -71,10 +72,11 @@ double fastest_rim(const Scene& scene) {
   return fastest;
 }
 
-/// The thickness that kMostIce of the ice exceeds, by area [m].
+/// Returns the thickness of the scene's "thin ice": the fraction kMostIce of the ice, by area, is at least as thick
+/// [m].
 double thin_ice(const Scene& scene) {
   if (scene.own_ice.empty() || scene.floes.empty()) return scene.ice.thickness;
-  std::vector<std::pair<double, double>> ice;  // thickness, area
+  std::vector<std::pair<double, double>> ice;  // thickness [m] and area [m²] of each floe
   double rest = 0;
   for (const FloeSpec& floe : scene.floes) {
     ice.emplace_back(ice_of(scene, floe.own_ice).thickness, geometry::measure(floe.polygon_in_world).area);

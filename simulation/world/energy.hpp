@@ -4,79 +4,113 @@
 
 namespace polynya::simulation {
 
-/// Where the energy of the bodies' motion in the plane came from and went, summed over all steps [J]. In the
-/// water frame, of everything whose motion is not prescribed. Each entry is measured where it happens; that
-/// they account for the kinetic energy is audited, not arranged (audit).
+/// Energy that flowed into and out of the motion of the bodies in the plane, summed over all steps [J]. The energy is
+/// the kinetic energy in the water frame of all bodies whose motion is not prescribed. Each flow is measured where it
+/// happens. Whether all flows together explain the kinetic energy is checked by audit(); no entry is computed from the
+/// others.
 struct EnergyFlows {
-  double thrust = 0;         ///< in: by thrust and moorings, and by bodies of prescribed motion
-  double current = 0;        ///< in: by a sheared current carrying ice along
-  double drag = 0;           ///< out: to the water around, of ships with the inertia that it has
-  double friction = 0;       ///< out: along contact lines
-  double restitution = 0;    ///< out: across contact lines that did not crush, which restitution does not return
-  double crushing = 0;       ///< out: across contact lines that pressed with all that crushing ice carries
-  double bending = 0;        ///< out: the motion of the cusps and brash that bending took out of the floe list
-  double splitting = 0;      ///< out: the same of splits
-  double grinding = 0;       ///< out: the same of overlaps that were ground to brash
-  double submersion = 0;     ///< out: the motion of ice that went under a hull
-  double submerged_ice = 0;  ///< out: of ships, to the ice under their hulls
-  double rest = 0;           ///< out: what was left to floes that came to rest
+  /// Inflow: work of propellers, of moorings and of bodies of prescribed motion, fast ice included.
+  double thrust = 0;
+  /// Inflow: work of a sheared current that carries ice along.
+  double current = 0;
+  /// Outflow: work lost to the surrounding water by drag on floes and by the water's forces on hulls and rudders, which
+  /// include the inertia of the water around a ship.
+  double drag = 0;
+  /// Outflow: work of Coulomb friction along contact lines.
+  double friction = 0;
+  /// Outflow: work of the normal impulses of contacts that did not press with the full force of crushing ice. It is the
+  /// energy that restitution does not return, and negative where such contacts return stored energy.
+  double restitution = 0;
+  /// Outflow: work of the normal impulses of contacts that pressed with the full force of crushing ice.
+  double crushing = 0;
+  /// Outflow: kinetic energy of the ice that became brash or went under for good when a cusp broke off.
+  double bending = 0;
+  /// Outflow: kinetic energy of the ice that became brash when a floe split.
+  double splitting = 0;
+  /// Outflow: kinetic energy of the ice that became brash when an overlap was cut off a floe.
+  double grinding = 0;
+  /// Outflow: kinetic energy of ice when it goes under a hull, and the work of ships on cusps that they press down.
+  double submersion = 0;
+  /// Outflow: work of ships on the ice that lies under their hulls.
+  double submerged_ice = 0;
+  /// Outflow: kinetic energy that floes still had when they were put to sleep.
+  double rest = 0;
 };
 
-/// Impulses from outside on everything free to move, summed over all steps [N s]. In the water frame.
+/// External impulses on all bodies whose motion is not prescribed, in the water frame, summed over all steps [N s].
 struct MomentumFlows {
-  geometry::Vector thrust;   ///< of ships' propellers
-  geometry::Vector held;     ///< of moorings, and through contacts with bodies of prescribed motion
-  geometry::Vector water;    ///< of drag and current, on hulls and rudders, and of the ice under hulls
-  geometry::Vector removed;  ///< with what left the floe list, and what rest took
+  /// Impulse of the propellers and of constant thrust on ships [N s].
+  geometry::Vector thrust;
+  /// Impulse of moorings, of contacts with bodies of prescribed motion, and the momentum of pieces that break off fast
+  /// ice [N s].
+  geometry::Vector held;
+  /// Impulse of the water: drag and current on floes, forces on hulls and rudders, and the pull of ice under hulls and
+  /// of cusps that hulls press down [N s].
+  geometry::Vector water;
+  /// Momentum of ice that left the floe list, went under a hull or was put to sleep; an outflow [N s].
+  geometry::Vector removed;
 };
 
-/// What wind and walls that press did, summed over all steps. All 0 in scenes without them, whose states do
-/// not have it.
+/// Energy and impulses of the wind and of walls that press, summed over all steps. All entries are 0 in a scene without
+/// wind and without such walls; saved states of such a scene do not contain them.
 struct BoundaryFlows {
-  double wind = 0;                ///< energy in, by the wind on the ice [J]
-  double walls = 0;               ///< energy in, by the loads of walls, less what damps and holds them [J]
-  geometry::Vector wind_impulse;  ///< on floes [N s]
-  geometry::Vector wall_impulse;  ///< on walls, of the same [N s]
+  /// Inflow of energy: work of the wind on floes [J].
+  double wind = 0;
+  /// Inflow of energy: work of the loads on walls, minus the work of the damping and of the constraint that keeps
+  /// each wall on its normal [J].
+  double walls = 0;
+  geometry::Vector wind_impulse;  ///< impulse of the wind on floes [N s]
+  geometry::Vector wall_impulse;  ///< impulse of the loads, the damping and the constraint on walls that press [N s]
 };
 
+/// Sums from which an audit is made: the state at the start and all flows since then.
 struct AuditSums {
-  double initial_energy = 0;          ///< [J]
-  geometry::Vector initial_momentum;  ///< [N s]
-  double impulses = 0;                ///< sum of the sizes of all impulses from outside [N s]
+  double initial_energy = 0;          ///< kinetic energy before the first step [J]
+  geometry::Vector initial_momentum;  ///< momentum before the first step [N s]
+  double impulses = 0;                ///< sum of the magnitudes of all external impulses [N s]
   EnergyFlows energy;
   MomentumFlows momentum;
   BoundaryFlows boundaries;
 };
 
-/// The accounts at one instant.
+/// Balance of energy and momentum at one instant.
 struct Audit {
   AuditSums sums;
-  double kinetic_energy = 0;            ///< at that instant [J]
-  double turnover = 0;                  ///< all energy that flowed, and the initial [J]
-  double energy_imbalance = 0;          ///< kinetic − initial − in + out [J]
-  geometry::Vector total_momentum;      ///< at that instant [N s]
-  double momentum_turnover = 0;         ///< all impulses' sizes, and the initial [N s]
-  geometry::Vector momentum_imbalance;  ///< [N s]
+  double kinetic_energy = 0;  ///< kinetic energy at that instant [J]
+  /// Scale for the energy imbalance: the initial energy, the magnitude of each inflow and the magnitude of the sum of
+  /// all outflows [J].
+  double turnover = 0;
+  double energy_imbalance = 0;      ///< kinetic energy − initial energy − inflows + outflows; ideally 0 [J]
+  geometry::Vector total_momentum;  ///< momentum at that instant [N s]
+  /// Scale for the momentum imbalance: the magnitudes of the initial momentum and of all external impulses [N s].
+  double momentum_turnover = 0;
+  geometry::Vector momentum_imbalance;  ///< momentum − initial momentum − inflows + outflow; ideally 0 [N s]
 
-  /// The accounts close to this share of the turnover, or something is wrong.
+  /// Largest imbalance, as a fraction of the turnover, at which the balance counts as closed [-]. A larger value hides
+  /// flows that are not measured; a much smaller one reports rounding as an error.
   static constexpr double kTolerance = 1e-6;
+  /// Returns true if the imbalances of energy and momentum are both within kTolerance.
   bool is_closed() const;
 };
 
-double kinetic_energy(const dynamics::Bodies& bodies);      ///< of all that is alive and free to move [J]
-geometry::Vector momentum(const dynamics::Bodies& bodies);  ///< of the same [N s]
+/// Returns the kinetic energy of all bodies that exist and whose motion is not prescribed, in the water frame [J].
+double kinetic_energy(const dynamics::Bodies& bodies);
+/// Returns the momentum of the same bodies, in the water frame [N s].
+geometry::Vector momentum(const dynamics::Bodies& bodies);
 
-/// Opens the accounts, before the first step.
+/// Sets all sums to 0 and stores the initial energy and momentum of the bodies. Called once, before the first step.
 void open_accounts(const dynamics::Bodies& bodies, AuditSums& sums);
 
-/// Enters the motion of a floe: its energy into one of the sums' flows [J], its momentum into another [N s].
+/// Adds the kinetic energy of a floe to `energy` [J] and its momentum to `momentum` [N s]. Both are members of the
+/// flows in `sums`; the magnitude of the momentum is added to AuditSums::impulses.
 void enter_motion(const dynamics::Bodies& bodies, dynamics::BodyIndex floe, double& energy, geometry::Vector& momentum,
                   AuditSums& sums);
 
-/// Stops a floe: its energy goes to the sink, one of the sums' flows [J], its momentum to what was removed.
+/// Sets the velocity of a floe to 0. If the floe's motion is not prescribed, its kinetic energy is added to
+/// `energy_sink`, one of the flows in `sums` [J], and its momentum to MomentumFlows::removed.
 void stop(dynamics::Bodies& bodies, dynamics::BodyIndex floe, double& energy_sink, AuditSums& sums);
 
-/// Closes the sums against the bodies' kinetic energy [J] and momentum [N s].
+/// Returns the balance of the sums with the present kinetic energy [J] and momentum [N s] of the bodies.
 Audit audit(const AuditSums& sums, double kinetic_energy, geometry::Vector momentum);
 
 }  // namespace polynya::simulation

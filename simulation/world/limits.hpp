@@ -4,15 +4,17 @@
 
 namespace polynya::simulation {
 
-/// A run whose bodies reach this speed, rims included, ends as a numerical failure; a scene that starts so is
-/// refused [m/s].
+/// Speed of any point of a body, rim included, at which a run ends as a numerical failure [m/s]. A scene in which a
+/// body starts at this speed is refused. No real ship or floe comes near it. A larger value detects a diverging run
+/// later.
 inline constexpr double kRunawaySpeed = 1e3;
 
-/// The least area of a floe [m²]: smaller ice of a scene is refused, of a fracture it is brash.
+/// Smallest area of a floe [m²]. Smaller ice in a scene is refused; smaller pieces of a fracture become brash. A
+/// smaller value admits pieces whose shape is lost in rounding.
 inline constexpr double kLeastFloeArea = 1e-6;
 
-/// Whether ice of these measures can be a rigid body: not where its area is too small, or where its second
-/// moment is lost in rounding, as of a sliver kilometres long.
+/// Returns true if ice with these measures can be a rigid body. It cannot if its area is below kLeastFloeArea, or if
+/// its second moment is not positive because rounding has lost it, as in a sliver kilometres long.
 inline bool can_be_floe(const geometry::Measures& measures) {
   return measures.area >= kLeastFloeArea && measures.second_moment > 0;
 }

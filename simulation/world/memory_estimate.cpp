@@ -12,29 +12,31 @@ namespace {
 using geometry::Polygon;
 using geometry::Ring;
 
-/// Size of a heap block [bytes].
+/// Returns the size of a heap block for a number of bytes [bytes].
 double block(double bytes) {
-  constexpr double kHeader = 8;  // of glibc's allocator
+  constexpr double kHeader = 8;  // header that glibc's allocator adds to a block [bytes]
   return bytes > 0 ? bytes + kHeader : 0;
 }
 
+/// Returns the number of vertices of a polygon, holes included.
 double vertices_of(const Polygon& polygon) {
   auto count = static_cast<double>(polygon.outer.size());
   for (const Ring& hole : polygon.holes) count += static_cast<double>(hole.size());
   return count;
 }
 
-/// Of a polygon's rings [bytes].
+/// Returns the heap memory of a polygon's rings [bytes].
 double heap_of(const Polygon& polygon) {
   return block(sizeof(geometry::Point) * vertices_of(polygon)) +
          block(sizeof(Ring) * static_cast<double>(polygon.holes.size()));
 }
 
-/// A body's share of the columns of dynamics::Bodies.
+/// Memory of one body in the columns of dynamics::Bodies [bytes].
 constexpr double kColumns = 16 * sizeof(double) + 2 * sizeof(geometry::Vector) + sizeof(dynamics::DragSpan) + 3;
 
-/// A floe in the scene and in the world's copy of it, whose polygon becomes the floe's, the floe, its birth
-/// in the journal and its outline.
+/// Returns the memory of a floe at rest [bytes]: the floe's specification in the caller's scene and in the world's
+/// copy, the floe itself, its birth in the journal, its body and its outline. Three polygons count, because the polygon
+/// of the world's copy becomes the floe's.
 double at_rest(const FloeSpec& floe) {
   const Polygon& polygon = floe.polygon_in_world;
   const double vertices = vertices_of(polygon);
@@ -44,19 +46,19 @@ double at_rest(const FloeSpec& floe) {
   return copies + outline + kColumns;
 }
 
-/// What a floe that moves has beside: its drag, and half of the pairs with its neighbours, of which each
-/// knows some edges that are near each other.
+/// Returns the additional memory of a floe that moves [bytes]: its drag shape and its pairs with neighbours. Each pair
+/// stores edges that are near each other, and belongs half to either floe.
 double moving() {
-  constexpr double kPairs = 4;      // half of a floe's eight neighbours
-  constexpr double kNearEdges = 4;  // of a pair that touches
-  constexpr double kEnds = 8 * sizeof(double);
+  constexpr double kPairs = 4;                  // number of pairs per floe: half of eight neighbours
+  constexpr double kNearEdges = 4;              // number of near edges of a pair that touches
+  constexpr double kEnds = 8 * sizeof(double);  // coordinates of the ends of two near edges [bytes]
   const double near =
       block(sizeof(dynamics::NearParts)) + block(kNearEdges * sizeof(geometry::NearPair)) + block(kNearEdges * kEnds);
   return block(sizeof(dynamics::DragShape)) + kPairs * (sizeof(dynamics::Pair) + near);
 }
 
-/// The covers of boundaries that are kept, one piece for each contact circle. Floes of few edges have none;
-/// that those beside a plate of many have one is left out.
+/// Memory of the covers of boundaries that are kept, which have one piece for each contact circle. Floes with few edges
+/// have no cover. The estimate leaves out the covers that such floes get beside a plate with many edges.
 class KeptCovers {
  public:
   explicit KeptCovers(const ContactSettings& contact)
@@ -69,7 +71,7 @@ class KeptCovers {
   }
 
   double bytes() const {
-    constexpr double kNodes = 0.8;  // of the tree, a piece
+    constexpr double kNodes = 0.8;  // number of nodes of the tree per piece
     constexpr double kPiece =
         sizeof(geometry::PieceEdges) + sizeof(geometry::BoundingCircle) + kNodes * sizeof(geometry::CircleNode);
     const double room = std::max(0.0, dynamics::ContactRule{}.most_kept_pieces - always_);
@@ -79,11 +81,11 @@ class KeptCovers {
  private:
   double radius_;
   bool has_circles_;
-  double always_ = 0, others_ = 0;  ///< pieces
+  double always_ = 0, others_ = 0;  ///< numbers of pieces: in covers that are always kept, and in others
 };
 
-/// Factor for pairs, contacts and the heap's unused part: measured on drifting lattices
-/// (tests/app/run_command_test.cpp).
+/// Factor for further pairs, contacts and unused heap memory [-]. It was measured with drifting lattices of floes
+/// (tests/app/run_command_test.cpp). Larger values overestimate the memory of a run; smaller ones underestimate it.
 constexpr double kBesides = 1.2;
 
 }  // namespace

@@ -4,13 +4,14 @@
 
 namespace polynya::simulation {
 
-/// Memory of a run of a scene, of what grows with its floes [bytes].
+/// Estimated memory of a run [bytes]. It covers the data that grow with the number and size of the scene's floes.
 struct MemoryEstimate {
-  double at_start = 0;    ///< it takes at least this much before the first step
-  double all_moving = 0;  ///< and about this much where every floe comes to move and to touch others
+  double at_start = 0;    ///< lower bound of the memory before the first step [bytes]
+  double all_moving = 0;  ///< approximate memory if every floe moves and touches its neighbours [bytes]
 };
 
-/// Counted from vertices, floes and contact circles; `scene` twice, as the caller's and as the world's.
+/// Returns the estimate for a scene. It counts vertices, floes and contact circles. The scene counts twice, because the
+/// caller and the world each hold a copy.
 MemoryEstimate estimate_memory(const Scene& scene);
 
 }  // namespace polynya::simulation

@@ -6,14 +6,15 @@
 namespace polynya::simulation {
 namespace {
 
-/// How far two bodies come towards each other in a tick at most [m]: what the margins of their pair's boxes allow for
-/// (BroadPhase::update with `ahead` of a tick).
+/// Returns the distance by which two bodies may approach each other in a tick, where each contributes at most kMost
+/// [m]. The margins of the pair's boxes cover this distance (BroadPhase::update with `ahead` of a tick).
 double ways_in_tick(const dynamics::Bodies& bodies, double tick, BodyIndex a, BodyIndex b) {
-  constexpr double kMost = 1;  // less than the margin
+  constexpr double kMost = 1;  // largest contribution of a body, less than the margin of its box [m]
   return std::min(kMost, tick * bodies.rim_speed[a]) + std::min(kMost, tick * bodies.rim_speed[b]);
 }
 
-/// The longest step in which a hull stays within its way relative to ice that it may reach within a tick [s].
+/// Returns the longest step in which a hull moves at most most_way() relative to any ice that it may reach in the tick
+/// [s].
 double longest_step(const Setup& setup, const Population& population, BodyIndex hull) {
   const dynamics::Bodies& bodies = population.bodies;
   const double tick = setup.scene.time.step;

@@ -12,12 +12,12 @@ namespace {
 using geometry::Point;
 using geometry::Vector;
 
-/// A moment of inertia that no impulse turns by more than rounding, and whose inverse solvers can take
-/// [kg m²].
+/// Moment of inertia of walls that press, which must not turn [kg m²]. It is so large that impulses turn a wall only by
+/// rounding, and finite because the solver of jams divides by its inverse (jam_solver.cpp).
 constexpr double kNeverTurns = 1e30;
 
-/// Cells about as large as the typical floe and its margin, so that most floes are in one to four of them
-/// [m].
+/// Returns the cell size of the broad phase's grid [m]: 1.5 times the median floe size, at least 5 m, and 20 m without
+/// floes. Most floes with their margins then lie in one to four cells.
 double grid_cell(std::span<const FloeSpec> floes) {
   std::vector<double> sizes;
   for (const FloeSpec& floe : floes) {
@@ -30,7 +30,8 @@ double grid_cell(std::span<const FloeSpec> floes) {
   return std::max(5.0, 1.5 * *middle);
 }
 
-/// A floe of the scene, at the start; takes its polygon.
+/// Returns the data of a floe of the scene at the start, by its centre of mass in the scene's coordinates [m]. The
+/// polygon is moved out of `spec`.
 NewFloe new_floe_of(FloeSpec& spec, Point centroid, const Setup& setup) {
   NewFloe floe;
   floe.shape.polygon = std::move(spec.polygon_in_world);
@@ -42,7 +43,7 @@ NewFloe new_floe_of(FloeSpec& spec, Point centroid, const Setup& setup) {
     floe.velocity -= setup.scene.water.drift_at(0);
     return floe;
   }
-  if (!setup.current.is_still()) {  // at rest in a sheared current is to go and turn with it
+  if (!setup.current.is_still()) {  // scene velocities are relative to the sheared current and its rotation
     floe.velocity += setup.current.velocity_at(centroid);
     floe.angular_velocity += setup.current.angular_velocity();
   }
@@ -72,7 +73,7 @@ void add_scene(const Setup& setup, std::vector<FloeSpec>& floes, Population& pop
     const geometry::Measures measures = geometry::measure(spec.polygon_in_world);
     add_floe(setup, instant_at(setup, 0), new_floe_of(spec, measures.centroid, setup), measures, population, journal);
   }
-  // Only now: a body that wakes looks up its neighbours once, so they all have to be there.
+  // Bodies are woken only after all have been added, because a waking body looks up its neighbours once.
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull) wake(hull, population);
   for (std::size_t i = 0; i < floes.size(); ++i) {
     const FloeSpec& spec = floes[i];
@@ -94,7 +95,7 @@ FloeId add_floe(const Setup& setup, const Instant& now, NewFloe floe, const geom
   dynamics::NewBody body = new_body_of(floe.shape.polygon, measures, ice_of(setup.scene, floe.own_ice), floe.is_fast);
   body.position = transform(floe.water_from_body, body.centroid);
   body.angle = floe.angle;
-  // v + ω × r, with r from the frame's origin to this floe's own centre of mass.
+  // The velocity is v + ω × r, where r points from the frame's origin to the floe's own centre of mass.
   body.velocity = floe.velocity + cross(floe.angular_velocity, body.position - floe.water_from_body.position);
   body.angular_velocity = floe.angular_velocity;
   journal.births.push_back(
@@ -137,7 +138,7 @@ void insert_into(std::vector<BodyIndex>& ascending, BodyIndex body) {
   ascending.insert(std::ranges::lower_bound(ascending, body), body);
 }
 void erase_from(std::vector<BodyIndex>& ascending, BodyIndex body) {
-  // Not of std::ranges, whose subrange the fuzzers' clang does not take.
+  // std::ranges::equal_range is avoided because the clang version of the fuzzers does not compile its subrange.
   const auto [first, last] = std::equal_range(ascending.begin(), ascending.end(), body);
   ascending.erase(first, last);
 }
@@ -152,7 +153,7 @@ void wake(BodyIndex body, Population& population) {
 
 void add_drag(BodyIndex body, Population& population) {
   if (population.is_hull(body) || population.bodies.drag[body] != nullptr) return;
-  if (population.bodies.inverse_mass[body] == 0) {  // water does not move fast ice
+  if (population.bodies.inverse_mass[body] == 0) {  // the water does not move fast ice
     static const auto none = std::make_shared<const dynamics::DragShape>(dynamics::DragShape{.same_width = 0});
     population.bodies.drag[body] = none;
     return;
@@ -172,7 +173,8 @@ bool stays_at_rest(BodyIndex body, const Setup& setup, const dynamics::Bodies& b
 
 namespace {
 
-/// A body that goes ahead at a prescribed speed over ground [m/s].
+/// Returns the body of a hull that moves along its heading with a prescribed speed over ground [m/s], where the water
+/// frame has the velocity `water_drift` over ground [m/s].
 dynamics::NewBody held_body(const PlacedHull& hull, BodyKind kind, double speed, Vector water_drift) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   return {.position = hull.position_in_world,

@@ -17,154 +17,173 @@ namespace polynya::simulation {
 
 using dynamics::BodyIndex;
 
-/// A floe's cold data. Its body is at index hulls + floe id; both are never reused.
+/// Data of a floe that few stages read. The data that each step reads are in the floe's body, which has the index
+/// `number of hulls + floe id` in dynamics::Bodies. Neither the id nor the index is ever reused.
 struct Floe {
-  FloeId parent = kNoFloe;
-  double born = 0;                   ///< [s]
-  int generation = 0;                ///< fractures since the scene's floe
-  std::int32_t own_ice = kSceneIce;  ///< index in Scene::own_ice, as its parent's
-  double area = 0;                   ///< [m²]
-  geometry::Shape shape;  ///< body frame: the scene's coordinates of its oldest ancestor; empty once it broke
-  bool is_under = false;  ///< a submerged piece under a hull: it meets no body, and rests in the water
+  FloeId parent = kNoFloe;           ///< floe from which this one was made; kNoFloe for a floe of the scene
+  double born = 0;                   ///< time of creation [s]
+  int generation = 0;                ///< number of ancestors; 0 for a floe of the scene
+  std::int32_t own_ice = kSceneIce;  ///< index of the ice in Scene::own_ice, the same as the parent's
+  double area = 0;                   ///< area in plan [m²]
+  /// Shape in the body frame, which has the scene coordinates of the oldest ancestor. Empty once the floe is retired.
+  geometry::Shape shape;
+  /// True for a piece under a hull. Such a piece has no contacts and is at rest relative to the water.
+  bool is_under = false;
 };
 
-/// A floe that a ship's hull presses down.
+/// A floe whose edge a ship's hull presses down.
 struct TiltedFloe {
   FloeId floe = 0;
-  int ship = 0;
-  fracture::EdgeMotion edge;
+  int ship = 0;               ///< number of the hull that presses
+  fracture::EdgeMotion edge;  ///< deflection of the edge and its rate
 };
 
-/// A floe under a ship's hull, or under the ice behind it.
+/// A piece of ice under a ship's hull, or behind the hull under other ice.
 struct SubmergedPiece {
   FloeId floe = 0;
-  int ship = 0;         ///< whose hull it is under
-  double path = 0;      ///< s: how far the ship has come over it [m]
-  double weight = 0;    ///< w_t: buoyancy of its part within the beam, when it went under [N]
-  double next_try = 0;  ///< of coming up [s]
-  double waited = 0;    ///< clear of the hull, for room [s]
-  double area = 0;      ///< of the floe, beside what each step reads; in no state [m²]
+  int ship = 0;         ///< ship under whose hull the piece went
+  double path = 0;      ///< distance s that the ship has moved over the piece; negative if the ship backed off it [m]
+  double weight = 0;    ///< net buoyancy w_t of the part within the ship's beam when the piece went under [N]
+  double next_try = 0;  ///< time from which the piece may try to surface again [s]
+  double waited = 0;    ///< time that the piece, clear of the hull, has waited for space to surface [s]
+  double area = 0;      ///< copy of Floe::area, kept here for fast access and not stored in saved states [m²]
 };
 
-/// A cusp that broke off under a ship's hull and turns until it lies along it. In the ship's frame where named so.
+/// A cusp that broke off under a ship's hull and turns until it lies along the hull. Members named `_in_ship` are in
+/// the ship's frame.
 struct PressedDeck {
-  int ship = 0;
-  geometry::Vector arm_in_ship;         ///< of the contact that broke it, from the ship's centre [m]
-  geometry::Vector normal_in_ship;      ///< of that contact, out of the hull
-  geometry::Vector horizontal_in_ship;  ///< force on the ice per force down on it [-]
-  fracture::Deck deck;
-  fracture::DeckState state;
+  int ship = 0;                         ///< number of the ship
+  geometry::Vector arm_in_ship;         ///< vector from the ship's centre to the contact that broke the cusp [m]
+  geometry::Vector normal_in_ship;      ///< unit normal of that contact, out of the hull
+  geometry::Vector horizontal_in_ship;  ///< horizontal force on the ice per downward force on it [-]
+  fracture::Deck deck;                  ///< geometry of the cusp
+  fracture::DeckState state;            ///< progress of the turning, and water on the deck
 };
 
-/// How a ship is steered, and what it may lose.
+/// Positions of a ship's thrust lever and steering, and the state of its mooring and pilot.
 struct Helm {
-  double lever = 0;            ///< of the thrust, −1 to 1
-  double steering_angle = 0;   ///< of the rudder or the thrusters; to port [rad]
-  bool is_adrift = false;      ///< its mooring broke
-  double adrift_since = 0;     ///< [s]
-  dynamics::Planar ice_force;  ///< of the step before [N, N m]
+  double lever = 0;           ///< thrust lever, −1 (full astern) to 1 (full ahead) [-]
+  double steering_angle = 0;  ///< angle of the rudder or the thrusters, positive to port [rad]
+  bool is_adrift = false;     ///< true once the ship's mooring has broken
+  double adrift_since = 0;    ///< time at which the mooring broke [s]
+  /// Force of the ice around the hull in the previous step, in the ship's frame [N, N m]. Pilots see this force. It is
+  /// updated only for ships with water around the hull, an engine or a mooring.
+  dynamics::Planar ice_force;
   PilotMemory memory;
 };
 
-/// The hulls and floes of a run, where they are and how they move.
+/// The hulls and floes of a run with their positions, motions and contacts.
 struct Population {
   Population(const Setup& setup, std::span<const FloeSpec> floes);
 
-  int hull_count = 0;
-  dynamics::DragArea drag_area;           ///< the scene's
-  bool has_skin_drag = false;             ///< likewise
-  geometry::Vector water_velocity;        ///< of the water frame over ground, its mean over the last step [m/s]
-  dynamics::Bodies bodies;                ///< the hulls as the scene numbers them, then floes by id
-  std::vector<Helm> helms;                ///< per ship
-  std::vector<Floe> floes;                ///< by id
-  std::vector<BodyIndex> awake;           ///< ascending
-  dynamics::BroadPhase pairs;             ///< of bodies that may touch, with the memory of their contacts
-  std::vector<TiltedFloe> tilted;         ///< by (ship, floe)
-  std::vector<SubmergedPiece> submerged;  ///< in the order in which they went under
-  std::vector<PressedDeck> decks;         ///< in the order in which they broke off
+  int hull_count = 0;                     ///< number of ships, structures and walls
+  dynamics::DragArea drag_area;           ///< reading of the drag area A of Eq. (6), from the scene
+  bool has_skin_drag = false;             ///< true if the scene has skin drag on floes
+  geometry::Vector water_velocity;        ///< mean velocity of the water frame over ground in the last step [m/s]
+  dynamics::Bodies bodies;                ///< bodies of the hulls in the order of the scene, then of the floes by id
+  std::vector<Helm> helms;                ///< helm of each ship
+  std::vector<Floe> floes;                ///< floes by id
+  std::vector<BodyIndex> awake;           ///< indices of the awake bodies, ascending
+  dynamics::BroadPhase pairs;             ///< pairs of bodies that may touch, with the memory of their contacts
+  std::vector<TiltedFloe> tilted;         ///< floes pressed down by hulls, ordered by (ship, floe)
+  std::vector<SubmergedPiece> submerged;  ///< pieces under hulls, in the order in which they went under
+  std::vector<PressedDeck> decks;         ///< turning cusps, in the order in which they broke off
 
   FloeId floe_count() const { return static_cast<FloeId>(floes.size()); }
   BodyKind kind(BodyIndex body) const { return bodies.kind[body]; }
   bool is_hull(BodyIndex body) const { return body < hull_count; }
   BodyIndex body_of(FloeId floe) const { return static_cast<BodyIndex>(floe) + hull_count; }
   FloeId floe_of(BodyIndex body) const { return body - hull_count; }
-  /// The same of any body, as events name who did it: one of the two is none.
+  /// Returns the hull number of a body, or −1 for a floe. Events name the cause of an event by this number and by
+  /// floe_or_none(), one of which is none.
   std::int32_t hull_or_none(BodyIndex body) const { return is_hull(body) ? body : -1; }
+  /// Returns the floe id of a body, or kNoFloe for a hull.
   FloeId floe_or_none(BodyIndex body) const { return is_hull(body) ? kNoFloe : floe_of(body); }
+  /// Returns true until the floe is retired.
   bool is_alive(FloeId floe) const { return bodies.is_alive[body_of(floe)] != 0; }
+  /// Returns true if the floe exists and is not under a hull.
   bool is_floating(FloeId floe) const { return is_alive(floe) && !floes[floe].is_under; }
+  /// Returns true if the floe is fast ice, whose motion is prescribed.
   bool is_fast(FloeId floe) const { return bodies.inverse_mass[body_of(floe)] == 0; }
 };
 
-/// A floe to be added; the population gives it an id and a body.
+/// Data of a floe to be added. The population gives it an id and a body.
 struct NewFloe {
-  geometry::Shape shape;
-  std::int32_t own_ice = kSceneIce;  ///< index in Scene::own_ice
-  FloeId parent = kNoFloe;
-  int generation = 0;
-  geometry::Pose water_from_body;
-  double angle = 0;             ///< of water_from_body [rad]
-  geometry::Vector velocity;    ///< of the body frame's origin relative to the water [m/s]
-  double angular_velocity = 0;  ///< [rad/s]
-  bool is_fast = false;         ///< its motion is prescribed
+  geometry::Shape shape;             ///< shape in the body frame
+  std::int32_t own_ice = kSceneIce;  ///< index of the ice in Scene::own_ice
+  FloeId parent = kNoFloe;           ///< floe from which this one is made
+  int generation = 0;                ///< number of ancestors
+  geometry::Pose water_from_body;    ///< pose of the body frame in the water frame
+  double angle = 0;                  ///< angle of water_from_body, full turns included [rad]
+  geometry::Vector velocity;         ///< velocity of the body frame's origin relative to the water [m/s]
+  double angular_velocity = 0;       ///< angular velocity, counter-clockwise [rad/s]
+  bool is_fast = false;              ///< true if the motion of the floe is prescribed
 };
 
-/// Adds the scene's hulls, and its floes, asleep and awake; takes their polygons.
+/// Adds the scene's hulls and floes, and wakes the hulls and all floes that move or may not stay at rest. The polygons
+/// are moved out of `floes`.
 void add_scene(const Setup& setup, std::vector<FloeSpec>& floes, Population& population, Journal& journal);
 
-/// Adds a floe of these measures, at rest or moving as a part of a rigid body whose frame is the floe's;
-/// records its birth.
+/// Adds a floe, asleep, records its birth and returns its id. The floe moves as a part of a rigid body that has the
+/// floe's body frame, NewFloe::velocity and NewFloe::angular_velocity. `measures` are the area, centroid and second
+/// moment of the floe's polygon in the body frame.
 FloeId add_floe(const Setup& setup, const Instant& now, NewFloe floe, const geometry::Measures& measures,
                 Population& population, Journal& journal);
 
-/// Takes a floe out of the contact world, and puts it to sleep.
+/// Removes a floe from the contact search and from the tilted floes, and puts it to sleep. The floe stays alive.
 void leave_contacts(FloeId floe, Population& population);
 
-/// Removes a floe that broke; records its death.
+/// Ends the life of a floe that broke or was replaced, and records its death. Its shape is moved to the journal.
 void retire_floe(FloeId floe, Population& population, Journal& journal);
 
+/// Wakes a body: each step moves it from now on, and its neighbours are looked up. Does nothing if it is awake.
 void wake(BodyIndex body, Population& population);
 
+/// Inserts a body into a list in ascending order.
 void insert_into(std::vector<BodyIndex>& ascending, BodyIndex body);
+/// Removes a body from a list in ascending order, if it is there.
 void erase_from(std::vector<BodyIndex>& ascending, BodyIndex body);
 
-/// Makes the drag shape of a floe that is about to move.
+/// Computes the drag shape of a floe that is about to move, unless the floe has one. Hulls have none.
 void add_drag(BodyIndex body, Population& population);
 
-/// Whether a body at rest in the water frame stays at rest as far as water and wind go: a sheared current or
-/// a wind carries it off.
+/// Returns true if a body at rest in the water frame stays there: no wind blows on it, and a sheared current moves none
+/// of its points at kRestSpeed or faster. Wind does not move fast ice.
 bool stays_at_rest(BodyIndex body, const Setup& setup, const dynamics::Bodies& bodies);
 
-/// The body of a hull where the scene has it.
+/// Returns the body of a hull, by its number in the scene, with its position and motion at the start.
 dynamics::NewBody new_body_of(const Scene& scene, std::size_t hull);
 
-/// The body of a floe, without its place and motion. Its thickness is kept there too, in Bodies::thickness,
-/// where drag reads it.
+/// Returns the body of a floe without its position and motion. The ice's thickness is copied to the body because the
+/// drag of the water reads it there.
 dynamics::NewBody new_body_of(const geometry::Polygon& polygon_in_body, const geometry::Measures& measures,
                               const fracture::Ice& ice, bool is_fast);
 
-/// The ice of a floe: its own where it has that, else the scene's.
+/// Returns the ice of a floe: its own ice if it has one, otherwise the scene's.
 inline const fracture::Ice& ice_of_floe(const Setup& setup, const Population& population, FloeId floe) {
   return ice_of(setup.scene, population.floes[floe].own_ice);
 }
+/// Returns the ice of a body, which must be a floe.
 inline const fracture::Ice& ice_of_body(const Setup& setup, const Population& population, BodyIndex body) {
   if (setup.scene.own_ice.empty()) return setup.scene.ice;
   return ice_of_floe(setup, population, population.floe_of(body));
 }
 
+/// Returns the limits of breaking of the ice of a body, which must be a floe.
 inline const IceLimits& limits_of_body(const Setup& setup, const Population& population, BodyIndex body) {
-  if (setup.ice_limits.size() == 1) return setup.ice_limits.front();  // without a look at a floe that is in no cache
+  if (setup.ice_limits.size() == 1) return setup.ice_limits.front();  // avoids reading the floe from slow memory
   const std::int32_t own_ice = population.floes[population.floe_of(body)].own_ice;
   return setup.ice_limits[own_ice == kSceneIce ? 0 : static_cast<std::size_t>(own_ice) + 1];
 }
 
-/// ρ h of a floe [kg/m²].
+/// Returns the mass of ice per area in plan, ρ_i h [kg/m²].
 inline double mass_per_area(const fracture::Ice& ice) {
   return ice.density * ice.thickness;
 }
 
-/// Floes slower than this, all their points included, that touch nothing are at rest with the water [m/s].
-/// Quadratic drag alone never brings anything to rest.
+/// Speed relative to the water, of the fastest point of a floe, below which a floe without contacts is put to sleep
+/// [m/s]. The limit is needed because quadratic drag alone never stops a floe. Larger values stop drifting floes too
+/// early; smaller values keep floes awake, which costs time.
 inline constexpr double kRestSpeed = 1e-4;
 
 }  // namespace polynya::simulation

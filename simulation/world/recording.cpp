@@ -8,17 +8,21 @@ namespace {
 using dynamics::Planar;
 using geometry::Vector;
 
+/// Returns the value with the larger magnitude.
 double larger(double a, double b) {
   return std::abs(b) > std::abs(a) ? b : a;
 }
+/// Returns, for each component, the value with the larger magnitude.
 Planar larger(Planar a, Planar b) {
   return {larger(a.surge, b.surge), larger(a.sway, b.sway), larger(a.yaw, b.yaw)};
 }
+/// Returns the mean force of an impulse over a time [s].
 Planar over(Planar impulse, double time) {
   return {impulse.surge / time, impulse.sway / time, impulse.yaw / time};
 }
 
-/// Adds what a contact's impulses did to one of its two bodies, a hull.
+/// Adds the impulses of a contact to the loads of one of its two bodies, which is a hull. `sign` is +1 if the hull is
+/// the contact's body b, on which its impulses act, and −1 if it is body a.
 void add_contact(const Population& population, const dynamics::Contact& c, BodyIndex ship, double sign,
                  HullLoads& hull_loads) {
   const bool is_with_ship = population.is_hull(ship == c.a ? c.b : c.a);
@@ -34,12 +38,14 @@ void add_contact(const Population& population, const dynamics::Contact& c, BodyI
   ++loads.contacts;
 }
 
+/// Adds the loads of a step of length dt [s] to the sums of a recording interval.
 void add_step(ContactLoads& sum, const ContactLoads& step, double dt) {
   sum.impulse += step.impulse;
   sum.largest = larger(sum.largest, over(step.steady_impulse, dt));
   sum.contacts = step.contacts;
 }
 
+/// Adds the loads of a step of length dt [s] to the sums of a recording interval.
 void add_step(HullLoads& sum, const HullLoads& step, double dt) {
   add_step(sum.ice, step.ice, dt);
   add_step(sum.hulls, step.hulls, dt);
@@ -48,7 +54,8 @@ void add_step(HullLoads& sum, const HullLoads& step, double dt) {
   sum.collision = larger(sum.collision, step.collision);
 }
 
-/// What the helm is at, and what moved the ship beside ice and other ships.
+/// Enters the helm's state, and the mean loads of water, engine, rudder, mooring and ice friction over the interval
+/// [s].
 void add_sailing(const Setup& setup, const Helm& helm, const SailingLoads& loads, double interval, HullSample& sample) {
   HullSample& s = sample;
   const auto mean = [&](Planar impulse) { return (1 / interval) * impulse; };
@@ -65,11 +72,13 @@ void add_sailing(const Setup& setup, const Helm& helm, const SailingLoads& loads
   s.delivered_power = engine ? std::abs(helm.lever) * engine->power : 0;
 }
 
-/// What holds a hull at its speed.
+/// Returns the force along the heading that holds a hull at its speed [N]: the negative sum of the forces of ice, other
+/// hulls, ice under the hull and water.
 double holding_force(const HullSample& s) {
   return -(s.from_ice.surge + s.from_ships.surge + s.from_submerged.surge + s.from_water.surge);
 }
 
+// Return HullSample::thrust [N].
 double thrust_of(const Ship& ship, const HullSample& s) {
   if (const auto* constant = std::get_if<ConstantThrust>(&ship.propulsion)) return constant->thrust;
   return std::holds_alternative<Engine>(ship.propulsion) ? s.from_engine.surge : holding_force(s);
@@ -81,11 +90,12 @@ double thrust_of(const Wall& wall, const HullSample& s) {
   return wall.pressure ? wall.load() : holding_force(s);
 }
 
-/// The time since the last sample [s].
+/// Returns the time since the last sample [s].
 double interval_of(const Clock& clock, const Accounts& accounts) {
   return static_cast<double>(clock.ticks - accounts.sampled_at) * clock.tick;
 }
 
+/// Returns the sample of a hull for the interval that ends now.
 HullSample sample_of(const Setup& setup, const Clock& clock, const Population& population, BodyIndex ship,
                      const Accounts& accounts) {
   const HullLoads& loads = accounts.loads[ship];

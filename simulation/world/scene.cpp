@@ -109,7 +109,8 @@ Wall wall_between(geometry::Point from, geometry::Point to, double depth) {
 }
 
 geometry::Ring cylinder_waterline(double radius) {
-  constexpr double kSagitta = 0.01;  // [m]
+  // Largest distance of the polygon from the circle [m]. Smaller values give more corners, which cost time.
+  constexpr double kSagitta = 0.01;
   const double half_turn = std::acos(std::max(-1.0, 1 - kSagitta / radius));
   const int corners = std::max(24, static_cast<int>(std::ceil(std::numbers::pi / half_turn)));
   geometry::Ring ring;

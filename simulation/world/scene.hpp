@@ -21,137 +21,181 @@
 
 namespace polynya::simulation {
 
-/// A scene as the simulation needs it: all defaults and all floes explicit. SI units, angles in radians. The
-/// JSON form and its field table are io's (docs/scene.md).
+// A scene in the form that the simulation reads: all defaults are filled in, and all floes are listed. Units are SI and
+// angles are in radians. Module io reads the JSON form; docs/scene.md lists its fields.
 
+/// Time step and duration of a run.
 struct StepSettings {
-  double step = 0.005;  ///< the tick, which is taken in equal parts where it is too long for what happens in it [s]
-  double until = 550;   ///< simulated time to run to; a whole number of ticks is taken [s]
+  double step = 0.005;  ///< length of a tick, the longest time step; parts.hpp divides ticks into shorter steps [s]
+  double until = 550;   ///< simulated time at which the run ends, rounded up to a whole tick [s]
   friend bool operator==(const StepSettings&, const StepSettings&) = default;
 };
 
-/// A current that grows linearly across its direction, on top of the uniform drift and carried by it: at x it
-/// runs along `direction` at rate · (distance of x from the line through `origin`, to port of the direction).
+/// A current whose speed grows linearly across its direction. It adds to the uniform drift and is carried along by it.
+/// At a point x the current flows along `direction` with the speed rate · d, where d is the distance of x from the line
+/// through `origin` along `direction`, positive to port of it.
 struct ShearSettings {
-  double rate = 0;         ///< [1/s]
-  double direction = 0;    ///< of the current, from the x axis, counter-clockwise [rad]
-  geometry::Point origin;  ///< a point that moves with the drift alone, where it is at the start [m]
+  double rate = 0;         ///< increase of the speed per distance to port [1/s]
+  double direction = 0;    ///< direction to which the current flows, counter-clockwise from the x axis [rad]
+  geometry::Point origin;  ///< position at the start of a point that moves with the drift alone, world frame [m]
   friend bool operator==(const ShearSettings&, const ShearSettings&) = default;
 };
 
+/// Water of a scene: its properties, its drag on floes and its motion.
 struct WaterSettings {
   fracture::Water water;
-  double drag_coefficient = 0.5;                             ///< C_D of Eq. (6) [-]
-  dynamics::DragArea drag_area = dynamics::DragArea::kEdge;  ///< A of Eq. (6)
-  double skin_drag_coefficient = 0;                          ///< C_w, of a floe's area in plan, beside Eq. (6) [-]
-  geometry::Vector drift;                                    ///< velocity of the water, and of all ice with it [m/s]
-  std::vector<dynamics::FlowRow> drift_rows;                 ///< if any, in its place
-  std::optional<dynamics::Tide> tide;                        ///< on top
-  ShearSettings shear;
+  double drag_coefficient = 0.5;                             ///< drag coefficient C_D of Eq. (6) [-]
+  dynamics::DragArea drag_area = dynamics::DragArea::kEdge;  ///< reading of the drag area A of Eq. (6)
+  /// Coefficient C_w of the skin drag on a floe's area in plan, which adds to Eq. (6) [-].
+  double skin_drag_coefficient = 0;
+  geometry::Vector drift;                     ///< uniform velocity of the water over ground; carries the ice [m/s]
+  std::vector<dynamics::FlowRow> drift_rows;  ///< drift over time; replaces `drift` unless empty
+  std::optional<dynamics::Tide> tide;         ///< tidal velocity, which adds to the drift
+  ShearSettings shear;                        ///< sheared current, which adds to the drift
   friend bool operator==(const WaterSettings&, const WaterSettings&) = default;
 
-  bool is_steady() const { return drift_rows.empty() && !tide; }  ///< whether the drift is the same at all times
-  geometry::Vector drift_at(double time) const;                   ///< [m/s]
-  geometry::Vector drift_path(double time) const;                 ///< where it takes the water from time 0 [m]
-  double fastest_drift() const;                                   ///< no slower than the drift ever is [m/s]
+  /// Returns true if the drift is the same at all times.
+  bool is_steady() const { return drift_rows.empty() && !tide; }
+  /// Returns the drift over ground at a time [s], with the tide and without the sheared current [m/s].
+  geometry::Vector drift_at(double time) const;
+  /// Returns the displacement of the water by that drift from time 0 to a time [s] [m].
+  geometry::Vector drift_path(double time) const;
+  /// Returns an upper bound of the speed of the drift at all times [m/s].
+  double fastest_drift() const;
 };
 
-/// How the normal of a contact is found.
+/// Rule for the normal of a contact.
 enum class ContactNormal {
-  kBoundary,       ///< from the boundary pieces the touching circles stand for
-  kCircleCentres,  ///< along the line between the circles' centres, the paper's own rule
+  kBoundary,       ///< the normal follows from the boundary pieces that the touching circles represent
+  kCircleCentres,  ///< the normal is the line between the circles' centres, the paper's rule
 };
 
-/// How bodies push each other apart (docs/theory/contact.md).
+/// Law of the normal force between two bodies in contact (docs/theory/contact.md).
 enum class ContactLaw {
-  kCrush,    ///< what crushing ice carries while bodies close, nothing at rest or parting
-  kImpulse,  ///< the paper's rigid impulses, Eq. (5), up to what crushing ice carries
+  kCrush,    ///< force of crushing ice while the bodies approach each other, none at rest or when they part
+  kImpulse,  ///< the paper's rigid impulses, Eq. (5), limited to the force of crushing ice
 };
 
+/// Detection and solution of contacts. The coefficient of friction belongs to the ice (fracture::Ice).
 struct ContactSettings {
   ContactLaw law = ContactLaw::kCrush;
-  int substeps = 1;             ///< of kCrush: parts of a step, solved one after the other
-  double tolerance = 1e-4;      ///< of kCrush: largest violation of the law that is left [m/s]
-  bool is_warm_started = true;  ///< of kCrush: from the impulses of the step before
-  double circle_radius = 1.0;   ///< [m]
+  /// For kCrush: number of substeps of a time step, solved one after the other. More substeps follow the growth of the
+  /// crushing force more closely and take more time.
+  int substeps = 1;
+  /// For kCrush: residual at which an island of bodies in contact counts as solved [m/s]. Smaller values take more
+  /// sweeps.
+  double tolerance = 1e-4;
+  /// For kCrush: true if the solver starts from the impulses of the previous step, false if it starts from 0. The
+  /// solution does not depend on it.
+  bool is_warm_started = true;
+  /// Radius of the contact circles that cover the boundaries of bodies [m]. Smaller circles need more memory and, at
+  /// hulls, shorter steps (kWayOverCircle).
+  double circle_radius = 1.0;
   ContactNormal normal = ContactNormal::kBoundary;
-  double restitution = 0.1;      ///< ε of Eq. (5) [-]; friction is the ice's μ
-  double contact_time = 0.5;     ///< τ_c, only for the paper's peak force j/τ_c [s]
-  double separation_time = 1.0;  ///< decay time of overlap that nothing presses together any more [s]
-  int iterations = 100;          ///< most sweeps of the contact solver over an island
+  /// Coefficient of restitution ε of Eq. (5) [-]. For kCrush it affects only the collision force j/τ_c.
+  double restitution = 0.1;
+  /// Contact time τ_c by which the impulse j of Eq. (5) becomes the paper's collision force j/τ_c [s]. The motion
+  /// depends on it only where that force decides splits (fracture::SplittingModel::kMichel).
+  double contact_time = 0.5;
+  /// For kImpulse: decay time of overlaps that no contact presses together any more [s].
+  double separation_time = 1.0;
+  /// Largest number of sweeps of the contact solver over an island of bodies in contact, in each substep.
+  int iterations = 100;
   friend bool operator==(const ContactSettings&, const ContactSettings&) = default;
 };
 
+/// Model of the bending capacity of an ice edge: NevelModel, KashtelyanModel or FsiDatabaseModel (fracture/bending).
 enum class BendingModelKind { kNevel, kKashtelyan, kFsiDatabase };
+/// Fate of a cusp that breaks off at a hull.
 enum class CuspFate {
-  kSubmerge,   ///< gone, the paper's
-  kFloat,      ///< a floe
-  kUnderHull,  ///< under the hull until it comes up behind; gone at a hull without a draught
+  kSubmerge,   ///< the cusp goes under for good and is removed, the paper's rule
+  kFloat,      ///< the cusp becomes a floe
+  kUnderHull,  ///< the cusp lies under the hull until it surfaces; it is removed if the hull has no draught
 };
 
-/// How floes go under inclined hulls with a draught.
+/// Floes that tilt and go under inclined hulls with a draught.
 struct GoingUnderSettings {
-  bool is_enabled = false;
-  fracture::TiltSettings tilting;
+  bool is_enabled = false;         ///< true if floes can go under
+  fracture::TiltSettings tilting;  ///< parameters of the tilting
   friend bool operator==(const GoingUnderSettings&, const GoingUnderSettings&) = default;
 };
 
-/// How ice comes up that went under a hull.
+/// Ice that surfaces after the hull has passed over it.
 struct ResurfaceSettings {
+  /// True if ice surfaces behind the hull. If false, it stays under the ice for good, unless the ship backs off it.
   bool is_enabled = false;
-  double retry = 1;        ///< time between two tries where there was no room [s]
-  double give_up = 120;    ///< time without room after which it stays under the ice [s]
-  double rim_loss = 0.05;  ///< share of a piece's area that becomes brash, evenly off its rim [-]
-  double scatter = 0.2;    ///< deviation of its place, of √area, and of its turn, of a half turn [-]
+  double retry = 1;        ///< time between two attempts to surface [s]
+  double give_up = 120;    ///< waiting time for space after which a piece stays under the ice for good [s]
+  double rim_loss = 0.05;  ///< fraction of a piece's area that becomes brash, taken evenly off its rim [-]
+  /// Scatter of the place and angle at which a piece surfaces [-]: standard deviation of each coordinate divided by
+  /// √area, and standard deviation of the angle divided by half a turn. 0: pieces surface where they are.
+  double scatter = 0.2;
   friend bool operator==(const ResurfaceSettings&, const ResurfaceSettings&) = default;
 };
 
-/// Calibration to tests of a ship; 1: as computed.
+/// Factors that calibrate bending to tests with a ship. With 1, the computed values are used.
 struct BendingFactors {
-  double load = 1;         ///< on V_b [-]
-  double cusp_radius = 1;  ///< on R [-]
+  double load = 1;         ///< factor on the bending capacity V_b [-]
+  double cusp_radius = 1;  ///< factor on the cusp radius R [-]
   friend bool operator==(const BendingFactors&, const BendingFactors&) = default;
 };
 
+/// Breaking of ice, and the fate of the broken ice.
 struct FractureSettings {
+  /// Reading of the characteristic length l of Eq. (7).
   fracture::CharacteristicLength characteristic_length = fracture::CharacteristicLength::kFourthRoot;
-  double breakable_size_factor = 1.0;  ///< κ: floes with √area < κ l are pushed, never broken [-]
+  /// Factor κ on l [-]. Floes with √area < κ l are pushed and neither bend nor split. With SplittingModel::kLefm,
+  /// slender ones may still break across as beams, unless κ l exceeds (D/ρ_w g)^¼ (IceLimits).
+  double breakable_size_factor = 1.0;
   BendingModelKind bending = BendingModelKind::kFsiDatabase;
-  fracture::RadialCracks radial_cracks = fracture::RadialCracks::kSplitWedge;  ///< of kFsiDatabase
-  fracture::EdgeOutline outline = fracture::EdgeOutline::kSections;  ///< of kFsiDatabase and ContactLaw::kCrush
-  BendingFactors factors;                                            ///< for all hulls
-  bool follows_deflection = true;  ///< of ContactLaw::kCrush: ice that bends under a hull recedes from it
-  bool floods_decks = true;        ///< likewise: water reaches the deck of a turning cusp only through what opens
-  double bending_scatter = 0;      ///< deviation / mean of each bending event's flexural strength, log-normal [-]
+  /// For kFsiDatabase: effect of the radial crack that opens below a wide edge before its cusp breaks off.
+  fracture::RadialCracks radial_cracks = fracture::RadialCracks::kSplitWedge;
+  /// For kFsiDatabase with ContactLaw::kCrush: part of the ice's outline that decides where the edge breaks.
+  fracture::EdgeOutline outline = fracture::EdgeOutline::kSections;
+  BendingFactors factors;  ///< calibration factors for all hulls
+  /// For ContactLaw::kCrush: true if ice that bends under a hull recedes from it, so that less ice crushes.
+  bool follows_deflection = true;
+  /// For ContactLaw::kCrush with CuspFate::kUnderHull: true if water reaches the deck of a turning cusp only through
+  /// the gaps that open at its edges, and the hull bears the missing water pressure. If false, water covers
+  /// the deck at once, and the hull bears no such load.
+  bool floods_decks = true;
+  /// Scatter of the flexural strength among bending events, log-normal: standard deviation / mean [-].
+  double bending_scatter = 0;
   fracture::SplittingModel splitting = fracture::SplittingModel::kLefm;
-  double splitting_shape_factor = 0.25;  ///< n of Eq. (4) [-]
-  fracture::LeastPiece least_piece;      ///< that a crack leaves on either side
+  double splitting_shape_factor = 0.25;  ///< shape factor n of Eq. (4) [-]
+  /// Smallest piece that a crack may leave on either side; cracks that would leave less do not run.
+  fracture::LeastPiece least_piece;
   CuspFate cusp_fate = CuspFate::kSubmerge;
   GoingUnderSettings going_under;
   ResurfaceSettings resurface;
-  double cusp_sagitta = 0.02;       ///< a cusp's polygon stays this close to its circle [m]
-  double smallest_floe_area = 0.1;  ///< smaller pieces leave the floe list as brash [m²]
+  double cusp_sagitta = 0.02;       ///< largest distance of a cusp's polygon from its circle [m]
+  double smallest_floe_area = 0.1;  ///< area below which a piece becomes brash instead of a floe [m²]
   friend bool operator==(const FractureSettings&, const FractureSettings&) = default;
 };
 
-/// A waterline in the ship's frame (origin at the centre of gravity, x forward, y to port) [m].
+/// Shape of a hull in its own frame. The frame of a ship has its origin at the centre of gravity, x forward and y to
+/// port.
 struct Hull {
-  geometry::Ring waterline;                         ///< counter-clockwise
-  double stem_angle = 30 * std::numbers::pi / 180;  ///< φ, of the stem from the horizontal [rad]
-  double draught = 0;                               ///< T; 0: no ice goes under this hull [m]
-  bool has_speed_factor = true;                     ///< Lindqvist's factor of speed on the load of ice under it
-  std::vector<double> angles_from_vertical;         ///< θ_s per waterline vertex [rad]; empty: from the stem angle
+  geometry::Ring waterline;                         ///< vertices of the waterline, counter-clockwise [m]
+  double stem_angle = 30 * std::numbers::pi / 180;  ///< angle φ of the stem from the horizontal [rad]
+  double draught = 0;                               ///< draught T; with 0, no ice goes under this hull [m]
+  /// True if the resistance of ice under the hull grows with speed by Lindqvist's factor.
+  bool has_speed_factor = true;
+  /// Angle θ_s of the hull from the vertical at each vertex of the waterline [rad]. If empty, it follows from the stem
+  /// angle.
+  std::vector<double> angles_from_vertical;
   friend bool operator==(const Hull&, const Hull&) = default;
 };
 
-/// Thrust along the ship's heading [N].
+/// Propulsion by a constant thrust.
 struct ConstantThrust {
-  double thrust = 0;
+  double thrust = 0;  ///< thrust along the ship's heading; negative astern [N]
   friend bool operator==(const ConstantThrust&, const ConstantThrust&) = default;
 };
-/// Velocity over ground and heading are prescribed; the forces reported are what that takes.
+/// Prescribed motion: the velocity over ground and the yaw rate keep their values of the start. The reported thrust is
+/// the force that holds the ship at its speed.
 struct ConstantSpeed {
-  double speed = 0;  ///< [m/s]
+  double speed = 0;  ///< speed over ground along the heading at the start; negative astern [m/s]
   friend bool operator==(const ConstantSpeed&, const ConstantSpeed&) = default;
 };
 using dynamics::Engine;
@@ -159,112 +203,124 @@ using Propulsion = std::variant<ConstantThrust, ConstantSpeed, Engine>;
 
 using dynamics::BodyKind;
 
-/// Panels of a hull, counted along its waterline from the stem, on which the loads of the ice are recorded.
+/// Panels of a hull on which the loads of the ice are recorded. They are counted along the waterline from the stem.
 struct PanelSettings {
-  double length = 0;   ///< along the waterline [m]
-  double bottom = -2;  ///< above the water [m]
-  double top = 1;      ///< [m]
-  int rows = 1;        ///< between the two
+  double length = 0;   ///< length of a panel along the waterline [m]
+  double bottom = -2;  ///< height of the lowest row's bottom above the water [m]
+  double top = 1;      ///< height of the highest row's top above the water [m]
+  int rows = 1;        ///< number of rows of equal height between bottom and top
   friend bool operator==(const PanelSettings&, const PanelSettings&) = default;
 };
 
-/// What ships, structures and walls have in common: a hull, and where it is at the start.
+/// Members that ships, structures and walls have in common: a hull and its place at the start.
 struct PlacedHull {
   std::string name;
   Hull hull;
-  geometry::Point position_in_world;  ///< of the origin of its frame, of a ship its centre of gravity [m]
-  double heading = 0;                 ///< from the x axis, counter-clockwise [rad]
-  std::optional<PanelSettings> panels;
+  /// Position of the origin of the hull's frame at the start, in the world frame; of a ship its centre of gravity [m].
+  geometry::Point position_in_world;
+  double heading = 0;                   ///< heading at the start, counter-clockwise from the x axis [rad]
+  std::optional<PanelSettings> panels;  ///< panels for recorded loads, if any
   friend bool operator==(const PlacedHull&, const PlacedHull&) = default;
 };
 
+/// A ship.
 struct Ship : PlacedHull {
   static constexpr BodyKind kKind = BodyKind::kShip;
-  double mass = 0;               ///< [kg]
-  double moment_of_inertia = 0;  ///< about the vertical through the centre of gravity [kg m²]
-  double speed = 0;              ///< along the heading over ground at the start [m/s]
-  double sway_speed = 0;         ///< to port, likewise [m/s]
-  double yaw_rate = 0;           ///< counter-clockwise at the start [rad/s]
+  double mass = 0;               ///< mass of the ship [kg]
+  double moment_of_inertia = 0;  ///< moment of inertia about the vertical axis through the centre of gravity [kg m²]
+  /// Speed over ground along the heading at the start [m/s]. ConstantSpeed uses its own speed instead.
+  double speed = 0;
+  double sway_speed = 0;  ///< speed over ground to port at the start [m/s]
+  double yaw_rate = 0;    ///< yaw rate at the start, counter-clockwise [rad/s]
   Propulsion propulsion;
-  HullWaterSettings water;
-  Steering steering;
-  PilotSettings pilot;  ///< of a ship with an engine
-  std::optional<MooringSettings> mooring;
-  std::optional<BendingFactors> calibration;  ///< of the ice that this ship breaks
+  HullWaterSettings water;                    ///< forces of the water on the hull
+  Steering steering;                          ///< rudder or thrusters that turn, if any
+  PilotSettings pilot;                        ///< pilot, for a ship with an engine
+  std::optional<MooringSettings> mooring;     ///< mooring, if any
+  std::optional<BendingFactors> calibration;  ///< factors for the ice that this ship breaks; multiply the scene's
   friend bool operator==(const Ship&, const Ship&) = default;
 };
 
-/// Stands on the ground, whatever pushes it.
+/// A structure that stands on the ground and never moves.
 struct Structure : PlacedHull {
   static constexpr BodyKind kKind = BodyKind::kStructure;
   friend bool operator==(const Structure&, const Structure&) = default;
 };
 
-/// A load with which a wall presses on the ice along its normal.
+/// Load with which a wall presses on the ice along its normal. It represents a wide ice pack behind the wall.
 struct WallPressure {
-  double line_load = 0;            ///< q, over ground [N/m]
-  double closing_speed = 0.1;      ///< at which q alone moves it [m/s]
-  double mass_per_length = 4.5e5;  ///< of what moves with the wall [kg/m]
+  double line_load = 0;        ///< load q per length of a wall that stands still over ground [N/m]
+  double closing_speed = 0.1;  ///< speed over ground that the wall reaches if no ice resists [m/s]
+  /// Mass that moves with the wall, per length [kg/m]. Larger values hit the ice harder when the wall reaches it.
+  double mass_per_length = 4.5e5;
   friend bool operator==(const WallPressure&, const WallPressure&) = default;
 };
 
-/// A straight boundary that ice cannot pass: it stands, moves at a prescribed velocity, or presses on the
-/// ice. A wall that presses moves along its normal alone, the x axis of its frame (docs/theory/wind-and-walls.md).
+/// A straight boundary that ice cannot pass. A wall stands still, moves at a prescribed velocity, or presses on the
+/// ice. A wall that presses moves only along its normal, the x axis of its frame (docs/theory/wind-and-walls.md).
 struct Wall : PlacedHull {
   static constexpr BodyKind kKind = BodyKind::kWall;
-  double length = 0;          ///< of its face [m]
-  geometry::Vector velocity;  ///< over ground; of one that presses 0 [m/s]
-  std::optional<WallPressure> pressure;
+  double length = 0;                     ///< length of the wall's face [m]
+  geometry::Vector velocity;             ///< prescribed velocity over ground; 0 for a wall that presses [m/s]
+  std::optional<WallPressure> pressure;  ///< load of a wall that presses
 
-  double load() const { return pressure ? pressure->line_load * length : 0; }  ///< [N]
+  /// Returns the load with which the wall presses while it stands still over ground; 0 without pressure [N].
+  double load() const { return pressure ? pressure->line_load * length : 0; }
   friend bool operator==(const Wall&, const Wall&) = default;
 };
 
-inline constexpr std::int32_t kSceneIce = -1;  ///< instead of an index in Scene::own_ice
+/// Value of an index in Scene::own_ice that means Scene::ice.
+inline constexpr std::int32_t kSceneIce = -1;
 
+/// A floe of the scene at the start.
 struct FloeSpec {
-  geometry::Polygon polygon_in_world;  ///< valid, at the start [m]
-  geometry::Vector velocity;           ///< of the centre of mass relative to the water there, at the start [m/s]
-  double angular_velocity = 0;         ///< relative to the water's own turning there, at the start [rad/s]
-  bool is_fast = false;  ///< held at its velocity, which is then over ground, whatever pushes it; it does not turn
-  std::int32_t own_ice = kSceneIce;   ///< index in Scene::own_ice
-  bool has_crushed_overlaps = false;  ///< what it shares with other bodies at the start has pressed already
-  std::int64_t source_floe = -1;      ///< its id in the file that it is from; < 0: none
-  int under_ship = -1;                ///< the ship that it is under the hull of; < 0: it floats
-  double under_path = 0;              ///< then how far that ship has come over it [m]
+  geometry::Polygon polygon_in_world;  ///< outline, a valid polygon [m]
+  /// Velocity of the centre of mass relative to the water at that point; of fast ice, over ground [m/s].
+  geometry::Vector velocity;
+  double angular_velocity = 0;       ///< angular velocity relative to the rotation of the water [rad/s]
+  bool is_fast = false;              ///< true for fast ice: a prescribed, constant velocity without rotation
+  std::int32_t own_ice = kSceneIce;  ///< index of the floe's ice in Scene::own_ice
+  /// True if the floe may overlap other bodies, and the ice in these overlaps counts as already crushed.
+  bool has_crushed_overlaps = false;
+  std::int64_t source_floe = -1;  ///< id of the floe in the file that the floe was read from; negative: none
+  int under_ship = -1;            ///< ship under whose hull the floe is; negative: the floe floats
+  double under_path = 0;          ///< distance that this ship has moved over the floe [m]
   friend bool operator==(const FloeSpec&, const FloeSpec&) = default;
 };
 
-/// Which contacts are recorded at each frame.
+/// Contacts that are recorded at each frame.
 enum class RecordedContacts {
-  kNone,
-  kShips,  ///< those with a ship or a structure
-  kAll,    ///< those between floes too
+  kNone,   ///< no contacts; peaks of contact forces are not recorded either
+  kShips,  ///< contacts with a hull
+  kAll,    ///< all contacts, also between floes
 };
 
+/// Records that a run writes.
 struct RecordSettings {
-  double forces_interval = 0.1;  ///< between rows of forces.csv [s]
-  double frames_interval = 2.0;  ///< between frames [s]
+  double forces_interval = 0.1;  ///< time between two rows of forces.csv [s]
+  double frames_interval = 2.0;  ///< time between two frames [s]
   RecordedContacts contacts = RecordedContacts::kShips;
-  double least_peak = 1e3;  ///< of a contact's force that is recorded [N]
-  /// Time constant of the gauge through which a contact's force is followed; 0: each step's own force [s]. With less,
-  /// peaks are of the step: a floe that tilts takes its impulse in one, however short.
+  double least_peak = 1e3;  ///< smallest peak of a contact's force that is recorded [N]
+  /// Time constant of the first-order gauge that smooths a contact's force before peaks are found [s]. With 0, peaks
+  /// are those of the mean force of each step. Much smaller values make peaks depend on the time step, because a floe
+  /// that tilts takes its impulse in a single step, however short.
   double peak_response = 0.02;
   friend bool operator==(const RecordSettings&, const RecordSettings&) = default;
 };
 
-/// Where the scene's plane lies on the Earth. Nothing in the simulation depends on it.
+/// Place of the scene's plane on the Earth. The simulation does not use it; imports and exports do.
 struct GeographicOrigin {
-  double latitude = 0;                           ///< of the scene's origin, WGS 84 [rad]
-  double longitude = 0;                          ///< [rad]
-  double heading = 90 * std::numbers::pi / 180;  ///< of the scene's x axis, from true north, clockwise [rad]
+  double latitude = 0;                           ///< latitude of the scene's origin, WGS 84, north positive [rad]
+  double longitude = 0;                          ///< longitude of the scene's origin, east positive [rad]
+  double heading = 90 * std::numbers::pi / 180;  ///< direction of the scene's x axis, clockwise from true north [rad]
   friend bool operator==(const GeographicOrigin&, const GeographicOrigin&) = default;
 };
 
+/// All input of a run.
 struct Scene {
   std::string name;
   std::optional<GeographicOrigin> origin;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;  ///< seed of all random numbers of the scene and of the run
   StepSettings time;
   WaterSettings water;
   dynamics::Wind wind;
@@ -272,22 +328,25 @@ struct Scene {
   ContactSettings contact;
   FractureSettings fracture;
   RecordSettings record;
-  // Its hulls are numbered in this order, and so are the bodies of a run: the floes follow.
+  // Hulls are numbered in this order: ships, structures, walls. The bodies of a run have the same order, then the
+  // floes.
   std::vector<Ship> ships;
   std::vector<Structure> structures;
   std::vector<Wall> walls;
   std::vector<FloeSpec> floes;
-  /// Of floes whose thickness, density, strengths or toughness are not the scene's; the rest of it is.
+  /// Ice of floes whose thickness, density, strengths or toughness differ from the scene's ice. Their other properties
+  /// are equal to the scene's.
   std::vector<fracture::Ice> own_ice;
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-/// The ice of a floe by its index in the scene's own_ice.
+/// Returns the ice of a floe by its index in Scene::own_ice, or the scene's ice for kSceneIce.
 inline const fracture::Ice& ice_of(const Scene& scene, std::int32_t own_ice) {
   return own_ice == kSceneIce ? scene.ice : scene.own_ice[static_cast<std::size_t>(own_ice)];
 }
 
-/// Calls `use` with a hull by its number: the ship, the structure or the wall that it is.
+/// Calls `use` with the ship, structure or wall that has the given hull number, and returns the result of the call.
+/// Throws std::out_of_range if there is no such hull.
 template <class Use>
 decltype(auto) visit_hull(const Scene& scene, std::size_t hull, Use use) {
   if (hull < scene.ships.size()) return use(scene.ships[hull]);
@@ -296,56 +355,64 @@ decltype(auto) visit_hull(const Scene& scene, std::size_t hull, Use use) {
   return use(scene.walls.at(hull - scene.structures.size()));
 }
 
+/// Returns the number of hulls: ships, structures and walls.
 std::size_t hull_count(const Scene& scene);
+/// Returns the hull with the given number. Throws std::out_of_range if there is none.
 const PlacedHull& hull_of(const Scene& scene, std::size_t hull);
+/// Returns the kind of the hull with the given number. Throws std::out_of_range if there is none.
 BodyKind kind_of_hull(const Scene& scene, std::size_t hull);
-/// The number of a hull by its name; −1: there is none.
+/// Returns the number of the hull with the given name, or −1 if there is none.
 int hull_named(const Scene& scene, std::string_view name);
 
-/// The velocity over ground of free ice: it goes with the drift, and through the water as fast as the friction
-/// below it bears the wind's above it [m/s].
+/// Returns the velocity over ground of ice that moves freely, at a time [s] [m/s]. It is the drift of the water plus
+/// the velocity at which the skin drag of the water below the ice balances the stress of the wind above it. Without
+/// wind or without skin drag it is the drift of the water.
 geometry::Vector free_drift(const Scene& scene, double time);
 
-/// What the loads and cusps of ice that a hull breaks are multiplied with: the scene's factors, and the ship's.
+/// Returns the calibration factors for ice that a hull breaks: product of the scene's factors and the ship's
+/// factors.
 BendingFactors bending_factors_of(const Scene& scene, std::size_t hull);
+/// Returns true if a calibration factor of the scene or of a ship differs from 1.
 bool is_calibrated(const Scene& scene);
-/// The scene's name, as outputs show it: with ", calibrated" where it is.
+/// Returns the scene's name as outputs show it, followed by ", calibrated" if the scene is calibrated.
 std::string shown_name(const Scene& scene);
 
-/// What a row of forces.csv covers: a whole number of steps [s].
+/// Returns the nominal time that a row of forces.csv covers [s]: RecordSettings::forces_interval, or the tick if that
+/// is longer. Each row ends at a whole tick, so single rows may differ from it by up to a tick.
 double recording_interval(const Scene& scene);
 
-/// Does the paper's collision force j/τ_c decide splits? Views show it beside the true force only then.
+/// Returns true if the paper's collision force j/τ_c decides splits. Views show that force only in this case.
 bool splits_by_j_over_tau_c(const Scene& scene);
 
-/// Work that a run skips because it would change nothing. Not part of a scene: tests switch it off and
-/// compare.
+/// Methods that save computing time. They are not part of a scene; tests switch them off and compare the results.
 struct Shortcuts {
-  bool culls = true;        ///< pairs of bodies are not collided while they cannot touch
-  bool sleeps = true;       ///< floes at rest that touch nothing are not stepped
-  bool takes_parts = true;  ///< ticks are taken in parts where one step would be too long: this changes results
+  bool culls = true;   ///< true if contacts are searched only between bodies that can touch; results do not change
+  bool sleeps = true;  ///< true if floes at rest without contacts are not moved (kRestSpeed)
+  /// True if a tick is divided into parts where one step would be too long (parts.hpp). With false, each tick is one
+  /// step, and results differ.
+  bool takes_parts = true;
 };
 
-/// Whether anything beside ice, other ships and a prescribed thrust or speed moves the ship: water around the
-/// hull, an engine, a mooring.
+/// Returns true if the ship has water around its hull, an engine or a mooring, so that ship/sailing.hpp moves it.
 bool sails(const Ship& ship);
 
-/// Whether a wind blows or a wall presses: both do work, which states keep.
+/// Returns true if a wind blows or a wall presses. Saved states then contain BoundaryFlows.
 bool has_wind_or_walls(const Scene& scene);
 
-/// A wall that stands, whose face runs from one point to another, with the ice to its left, and its body of a
-/// depth [m] to its right. Its frame: the face's middle, x along the normal into the ice.
+/// Returns a wall that stands still. Its face runs from one point to another in the world frame [m], with the ice to
+/// the left of that direction and the wall's body of the given depth [m] to the right. The origin of the wall's frame
+/// is the middle of the face; its x axis is the normal into the ice.
 Wall wall_between(geometry::Point from, geometry::Point to, double depth);
 
-/// Whether ice can go under a ship's hull.
+/// Returns true if the hull of any ship has a draught, so that ice can go under it.
 bool has_draught(const Scene& scene);
 
-/// A wedge-bowed waterline of the given length and beam [m]: straight flanks from the stem at the entrance
-/// angle from the centreline [rad], a parallel midbody, a square stern. Origin amidships.
+/// Returns the waterline of a ship with a wedge bow, by length [m], beam [m] and the entrance angle of the bow's flanks
+/// from the centreline [rad]: straight flanks, a parallel midbody and a square stern. The origin is amidships.
 geometry::Ring wedge_bow_waterline(double length, double beam, double entrance_angle);
 
-/// The waterline of a vertical or conical cylinder about the origin [m], as a polygon of at least 24 corners
-/// that stays within 1 cm of the circle, corners on it.
+/// Returns the waterline of a vertical or conical cylinder by its radius at the waterline [m]: a polygon about the
+/// origin with at least 24 corners on the circle. It deviates from the circle by at most 1 cm.
 geometry::Ring cylinder_waterline(double radius);
 
 }  // namespace polynya::simulation

@@ -22,10 +22,11 @@ std::unique_ptr<const fracture::BendingModel> make_bending_model(const FractureS
     case BendingModelKind::kFsiDatabase:
       return std::make_unique<fracture::FsiDatabaseModel>(settings.radial_cracks);
   }
-  return nullptr;  // no other kind
+  return nullptr;  // unreachable: all kinds are handled above
 }
 
-/// Of all ices of a scene, the scene's own first. κ l by Eq. (7) of [Sawamura2017].
+/// Returns the limits of all kinds of ice of a scene: first of Scene::ice, then of each Scene::own_ice. κ l follows
+/// from Eq. (7) of [Sawamura2017].
 std::vector<IceLimits> limits_of(const Scene& scene) {
   const auto limits = [&](const fracture::Ice& ice) -> IceLimits {
     const double breakable = scene.fracture.breakable_size_factor *
@@ -82,7 +83,7 @@ Underwater underwater_of(const Hull& hull) {
   const geometry::Box box = bounding_box(hull.waterline);
   const double half_beam = 0.5 * (box.high.y - box.low.y);
   const double middle = 0.5 * (box.high.y + box.low.y);
-  double widest = box.low.x;  // the foremost place with the full beam
+  double widest = box.low.x;  // x of the foremost vertex at which the hull has its full beam
   for (const geometry::Point p : hull.waterline) {
     if (std::abs(p.y - middle) > (1 - 1e-6) * half_beam) widest = std::max(widest, p.x);
   }

@@ -14,7 +14,7 @@ namespace {
 
 using geometry::Vector;
 
-/// Enters what bodies of prescribed motion did through their contact.
+/// Adds the work and impulse of a body of prescribed motion on the other body of its contact to the accounts.
 void enter_prescribed_work(const dynamics::Bodies& bodies, const dynamics::Contact& c, AuditSums& audit) {
   audit.energy.thrust += c.prescribed_work;
   if (are_prescribed(bodies, c.a, c.b)) return;
@@ -23,7 +23,8 @@ void enter_prescribed_work(const dynamics::Bodies& bodies, const dynamics::Conta
   audit.impulses += length(on_free);
 }
 
-/// Enters what all contacts did into the accounts. Contacts that needed all that crushing ice can carry have crushed.
+/// Adds the work of all contacts to the accounts. A contact that pressed with the full force of crushing ice while its
+/// bodies approached each other is marked as crushed.
 void enter_contacts(const dynamics::Bodies& bodies, std::vector<dynamics::Contact>& contacts, Accounts& accounts) {
   EnergyFlows& energy = accounts.audit.energy;
   double given = 0;
@@ -41,11 +42,13 @@ void enter_contacts(const dynamics::Bodies& bodies, std::vector<dynamics::Contac
   accounts.counts.energy_created += std::max(0.0, given);
 }
 
+/// Counts an unconverged step and the residual of the contact solver.
 void count(const dynamics::SolverResult& result, Counts& counts) {
   if (!result.is_converged()) ++counts.unconverged_steps;
   counts.largest_residual = std::max(counts.largest_residual, result.residual);
 }
 
+/// Wakes the bodies of all contacts that pressed.
 void wake_pressed(const std::vector<dynamics::Contact>& contacts, Population& population) {
   for (const dynamics::Contact& c : contacts) {
     if (c.total_normal_impulse() == 0) continue;
@@ -54,6 +57,7 @@ void wake_pressed(const std::vector<dynamics::Contact>& contacts, Population& po
   }
 }
 
+/// Adds the work and impulse of the water to the accounts.
 void enter_water(const dynamics::WaterWork& work, AuditSums& audit) {
   audit.energy.drag += work.lost;
   audit.energy.current += work.by_current;
@@ -61,6 +65,7 @@ void enter_water(const dynamics::WaterWork& work, AuditSums& audit) {
   audit.impulses += work.impulses;
 }
 
+/// Applies the wind's stress on the ice [Pa] to the awake floes over dt [s], and adds its work to the accounts.
 void blow(Vector stress, Population& population, double dt, AuditSums& audit) {
   const std::vector<BodyIndex>& awake = population.awake;
   const auto first_floe = std::ranges::lower_bound(awake, population.hull_count);
@@ -70,6 +75,7 @@ void blow(Vector stress, Population& population, double dt, AuditSums& audit) {
   audit.impulses += work.impulses;
 }
 
+/// Applies an impulse of thrust [N s] along a ship's heading, and adds its work to the accounts.
 void push_ship(dynamics::Bodies& bodies, BodyIndex ship, double thrust_impulse, AuditSums& audit) {
   const Vector heading{bodies.rotation[ship].cosine, bodies.rotation[ship].sine};
   const Vector impulse = thrust_impulse * heading;
@@ -155,8 +161,8 @@ void put_to_rest(const Setup& setup, const StepData& data, Population& populatio
   std::erase_if(population.awake, [&](BodyIndex i) {
     if (population.is_hull(i) || touches[i] != 0) return false;
     if (bodies.rim_speed[i] >= kRestSpeed) return false;
-    if (bodies.inverse_mass[i] == 0 && bodies.rim_speed[i] > 0) return false;  // its motion is prescribed
-    if (!stays_at_rest(i, setup, bodies)) return false;                        // it would not stay at rest
+    if (bodies.inverse_mass[i] == 0 && bodies.rim_speed[i] > 0) return false;  // moving fast ice keeps its motion
+    if (!stays_at_rest(i, setup, bodies)) return false;                        // wind or current would move the floe
     stop(bodies, i, audit.energy.rest, audit);
     bodies.is_awake[i] = 0;
     population.pairs.sleep(bodies, i);
@@ -166,12 +172,12 @@ void put_to_rest(const Setup& setup, const StepData& data, Population& populatio
 
 namespace {
 
-/// Keeps the first reason why a run cannot continue.
+/// Stores the reason why the run cannot continue, unless an earlier one is stored.
 void fail(std::optional<std::string> failure, World& world) {
   if (failure && !world.failure) world.failure = std::move(failure);
 }
 
-// The stages, each with the parts of the world that it takes.
+// The stages of a step. Each calls its function with the members of the world that the function reads and changes.
 
 constexpr Stage kFollowWater{"follow the water",
                              [](World& w, const Step& s) { follow_water(w.setup, s, w.population, w.accounts.audit); }};
@@ -267,13 +273,15 @@ constexpr std::array kImpulseStages{
     kForces,      kThrust,          kSubmergedIce, kSail,         kSeparate,  kIntegrate,    kApplyFractures,
     kGrind,       kGoUnder,         kComeUp,       kHullContacts, kSumLoads};
 
-/// Interval at which floes are examined that hulls pierce [s]. At longer intervals a floe stays one piece although a
-/// hull has come through it; shorter ones cost a cut each for large plates that hold together elsewhere.
+/// Interval at which floes pierced by hulls are examined for a cut [s]. With longer intervals, a floe stays one piece
+/// for longer although a hull has come through it. Shorter intervals cost more trial cuts of large plates that still
+/// hold together elsewhere.
 constexpr double kCutThroughInterval = 0.25;
-/// Interval at which floes are put to rest by the law of crushing ice [s]. A plate that a ship breaks is still and
-/// untouched between most of its contacts: put to rest in each of them, it would lose its pairs with all the brash
-/// around it, and find them again. By the law of impulses floes are put to rest in every tick, as in the replicas of
-/// the paper.
+/// Interval at which floes without motion or contacts are put to sleep by the law of crushing ice [s]. A plate that a
+/// ship breaks has no motion and no contact most of the time. With a short interval, the plate would fall asleep
+/// between its contacts, lose its pairs with the floes around it, and search for them again. With a long interval,
+/// floes at rest stay awake, which costs time. By the law of impulses, floes are put to sleep in every tick, as in the
+/// replicas of the paper.
 constexpr double kRestInterval = 1;
 
 }  // namespace
@@ -311,7 +319,7 @@ void end_tick(World& w) {
 
 namespace {
 
-/// The number of parts of the tick that follows.
+/// Returns the number of parts of the next tick, and updates the pairs of bodies for the whole tick.
 int next_parts(World& world) {
   const Setup& setup = world.setup;
   if (setup.scene.contact.law == ContactLaw::kImpulse || !setup.shortcuts.takes_parts) return 1;

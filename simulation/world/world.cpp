@@ -7,7 +7,7 @@ namespace polynya::simulation {
 
 namespace {
 
-/// Of a floe of the scene that is under a hull at the start.
+/// Puts a floe under a hull, where the scene has it at the start, and records its submersion.
 void put_under(FloeId floe, const FloeSpec& spec, World& world) {
   const Instant now = instant_at(world.setup, 0);
   world.journal.events.push_back(submersion_event(now, world.population, floe, spec.under_ship));
@@ -42,7 +42,7 @@ World::World(Scene scene, Shortcuts shortcuts, Start start)
 
 namespace {
 
-/// Of what there is at the moment: amount_of(id) of each floe.
+/// Returns the ledger of the ice that is gone, plus amount_of(id) of each floe that exists now.
 template <class AmountOf>
 IceLedger ledger_of(IceLedger gone, const Population& population, AmountOf amount_of) {
   for (FloeId id = 0; id < population.floe_count(); ++id)
