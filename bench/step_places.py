@@ -9,9 +9,10 @@ Usage: python3 bench/step_places.py run PROGRAM --label NAME --results FILE [--p
 `run` runs each scene at each place by PROGRAM on one thread and appends a line of JSON to FILE as soon as a run is
 known. It may be interrupted: a label's runs that FILE has are not repeated. `--set` goes on to PROGRAM.
 
-A place is a shift of the ship, or of the structure where there is no ship, of 3.1 m to its side. Level ice is the same
-at all places. So in level-brash and level-plate the thickness differs as well, by up to 3 %, and the mean surge is
-brought back to the scene's thickness by h^1.8, as tools/step_ensemble.py does.
+A place is one of seven shifts of the ship, or of the structure where there is no ship, 3.1 m apart to its side. The
+next seven places have the same shifts and the next seed of the scene, and so on. Level ice is the same at all shifts.
+So in level-brash and level-plate the thickness differs as well, by up to 3 %, and the mean surge is brought back to the
+scene's thickness by h^1.8, as tools/step_ensemble.py does.
 
 The mean surge is that by contact of the first ship, after 15 s and after a tenth of the run; of a structure it is the
 length of the mean force. The processor's time is that of the run in user and system mode, start-up and all, without
@@ -41,7 +42,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 UNTIL = {"field-10000": 500, "field-100000": 300, "pack-power-law": 100, "cylinder-shear": 150, "level-brash": 200,
          "pressure": 110, "mixed-ice": 80, "route-in-ice": 280, "level-plate": 200}  # [s]
 LEVEL_ICE = ("level-brash", "level-plate")
-APART = 3.1  # places [m]
+SHIFTS = 7
+APART = 3.1  # shifts [m]
 THICKNESS = 0.5  # of a scene that gives none [m]
 THICKNESS_SPREAD = 0.03
 THICKNESS_POWER = 1.8
@@ -53,14 +55,17 @@ def read_scene(file):
     return json.loads(STRING_OR_COMMENT.sub(lambda found: found[1] or "", file.read_text(encoding="utf-8")))
 
 
-def place_of(name, scene, place, places):
+def place_of(name, scene, place):
     """Returns what a place sets in the scene, its shift [m], and its factor on the thickness."""
     moved = "ships" if "ships" in scene else "structures"
-    shift = APART * (place - (places - 1) / 2)
+    seed, number = divmod(place, SHIFTS)
+    shift = APART * (number - (SHIFTS - 1) / 2)
     settings = [f"{moved}[0].position_m[1]={scene[moved][0]['position_m'][1] + shift:.10g}"]
+    if seed > 0:
+        settings.append(f"seed={scene.get('seed', 1) + seed}")
     factor = 1.0
     if name in LEVEL_ICE:
-        factor += THICKNESS_SPREAD * ((2 * place + 1) / places - 1)
+        factor += THICKNESS_SPREAD * ((2 * number + 1) / SHIFTS - 1)
         settings.append(f"ice.thickness_m={factor * scene.get('ice', {}).get('thickness_m', THICKNESS):.10g}")
     return settings, shift, factor
 
@@ -91,8 +96,8 @@ def checked(program, run):
 
 def measured(given, name, scene, place):
     """Runs one scene at one place and returns its row; a run that failed has its exit code and last line only."""
-    settings, shift, factor = place_of(name, scene, place, given.places)
-    row = {"label": given.label, "scene": name, "place": place, "places": given.places, "shift_m": round(shift, 6),
+    settings, shift, factor = place_of(name, scene, place)
+    row = {"label": given.label, "scene": name, "place": place, "shift_m": round(shift, 6),
            "thickness_factor": factor, "set": given.set}
     options = [word for setting in settings + given.set for word in ("--set", setting)]
     with tempfile.TemporaryDirectory() as folder:
@@ -123,9 +128,8 @@ def run_all(given):
     """Runs what the result file does not have yet, place by place, so that all scenes are known early."""
     known = rows_by_key(given.results)
     for row in known.values():
-        if row["label"] == given.label and (row["places"], row["set"]) != (given.places, given.set):
-            raise SystemExit(f"{given.results} has {given.label} by {row['places']} places and --set {row['set']}: "
-                             "give another --label")
+        if row["label"] == given.label and row["set"] != given.set:
+            raise SystemExit(f"{given.results} has {given.label} by --set {row['set']}: give another --label")
     names = given.only.split(",") if given.only else list(UNTIL)
     if unknown := [name for name in names if name not in UNTIL]:
         raise SystemExit(f"no such scene here: {', '.join(unknown)}; there are {', '.join(UNTIL)}")
