@@ -31,7 +31,7 @@ double allowed_distance(double arm) {
   return std::numbers::sqrt2 * io::kFramePositionTolerance + io::kFrameAngleTolerance * arm + kRounding;
 }
 
-/// The ring without vertices that are, to rounding, at the place of the one before.
+/// Returns the ring without vertices whose distance from the vertex before them is within rounding.
 Ring without_near_repeats(const Ring& ring) {
   Ring kept;
   for (const Point p : ring)
@@ -40,7 +40,7 @@ Ring without_near_repeats(const Ring& ring) {
   return kept;
 }
 
-/// Compares the floes of final.geojson with those of the run, one after the other.
+/// Compares the floes of final.geojson with the floes of the run. It keeps which floes final.geojson had.
 class PlaceComparison {
  public:
   PlaceComparison(const io::Run& run, double time, FinalPlaces& result)

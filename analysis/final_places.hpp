@@ -12,17 +12,17 @@ namespace polynya::analysis {
 /// A floe that is not in the same place in final.geojson and in frames.bin.
 struct MisplacedFloe {
   simulation::FloeId floe = simulation::kNoFloe;
-  std::string defect;   ///< what is wrong where vertices cannot be compared; empty where they can
-  double distance = 0;  ///< between the two places of the vertex that is wrong by most [m]
-  double allowed = 0;   ///< of that distance [m]
+  std::string defect;   ///< reason why its vertices cannot be compared; empty if they can
+  double distance = 0;  ///< distance between the two places of its worst vertex [m]
+  double allowed = 0;   ///< largest distance that the accuracy of frames allows that vertex [m]
 };
 
 /// Comparison of the floes in final.geojson with their places in frames.bin at the same instant.
 struct FinalPlaces {
-  std::string not_compared;    ///< why there is nothing to compare; empty where the floes were compared
-  std::string fault;           ///< why final.geojson cannot be read, with the file and the line; empty where it can
-  std::optional<double> time;  ///< of the instant; nothing where the floes were not compared [s]
-  std::size_t compared = 0;    ///< floes
+  std::string not_compared;    ///< reason why there is nothing to compare; empty if the floes were compared
+  std::string fault;           ///< reason why final.geojson cannot be read, with file and line; empty if it can
+  std::optional<double> time;  ///< instant of final.geojson [s]; nullopt if the floes were not compared
+  std::size_t compared = 0;    ///< number of floes whose places were compared
   double farthest = 0;         ///< greatest distance between the two places of a vertex [m]
   simulation::FloeId farthest_floe = simulation::kNoFloe;
   std::vector<MisplacedFloe> misplaced;

@@ -103,10 +103,6 @@ class WorkCheck {
   std::map<PairKey, std::size_t> unpaid_;  ///< in the check's list
 };
 
-// What frames are right to (docs/run-folder.md).
-constexpr double kFrameDistance = 1e-3;  // [m]
-constexpr double kFrameAngle = 1e-5;     // [rad]
-
 bool is_same_place(const io::Motion& a, const io::Motion& b) {
   return a.position == b.position && a.angle == b.angle;
 }
@@ -331,7 +327,7 @@ class OverlapCheck {
     const double speed =
         length(small.motion.velocity - large.motion.velocity - cross(large.motion.angular_velocity, arm)) +
         std::abs(small.motion.angular_velocity - large.motion.angular_velocity) * small.radius;
-    const double off = 2 * kFrameDistance + kFrameAngle * (a.radius + b.radius);
+    const double off = 2 * io::kFramePositionTolerance + io::kFrameAngleTolerance * (a.radius + b.radius);
     const double allowed =
         kUncrushedShare * smaller + (run_.scene.scene.time.step * speed + off) * length(common.high - common.low);
     if (shared - crushed <= allowed) return;
