@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "dynamics/thread_limit.hpp"
+#include "simulation/ship/mooring.hpp"
 #include "simulation/state/state.hpp"
 #include "simulation/world/step.hpp"
 
@@ -98,7 +99,9 @@ const World& Simulation::world() const {
 
 Audit Simulation::audit() const {
   const dynamics::Bodies& bodies = world_->population.bodies;
-  return simulation::audit(world_->accounts.audit, kinetic_energy(bodies), momentum(bodies));
+  const double stored =
+      stored_in_moorings(world_->setup, world_->population, drift_at(world_->setup, world_->clock.time()));
+  return simulation::audit(world_->accounts.audit, holdings(bodies, stored));
 }
 
 IceLedger Simulation::area_ledger() const {

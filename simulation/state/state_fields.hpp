@@ -18,6 +18,11 @@ inline bool is_sailing(const Setup& setup, std::int32_t body) {
   return body < std::ssize(setup.sailing) && setup.sailing[body].is_active;
 }
 
+/// Whether a body is a ship with a mooring, which may have broken.
+inline bool has_mooring(const Setup& setup, std::int32_t body) {
+  return is_sailing(setup, body) && setup.scene.ships[body].mooring.has_value();
+}
+
 inline bool manages_ice(const Setup& setup, std::int32_t body) {
   return is_sailing(setup, body) && std::holds_alternative<ManagingPilot>(setup.scene.ships[body].pilot);
 }
@@ -104,7 +109,11 @@ void fields(auto& archive, Is<MomentumFlows> auto& m) {
 void fields(auto& archive, Is<BoundaryFlows> auto& b) {
   archive(b.wind, b.walls, b.wind_impulse, b.wall_impulse);
 }
-/// Not its boundaries: those are in states of scenes that have wind or walls (state.cpp).
+void fields(auto& archive, Is<MooringFlows> auto& m) {
+  archive(m.initial, m.taken_up, m.given_back, m.ground, m.damping, m.breaking, m.separation);
+}
+/// Not its boundaries: those are in states of scenes that have wind or walls. Not its moorings and scales: they decide
+/// nothing of the run (tail_fields).
 void fields(auto& archive, Is<AuditSums> auto& a) {
   archive(a.initial_energy, a.initial_momentum, a.impulses, a.energy, a.momentum);
 }
@@ -165,6 +174,7 @@ void head_fields(auto& archive, Is<World> auto& world) {
 /// Beside its motion.
 void hull_fields(auto& archive, Is<World> auto& world, std::int32_t hull) {
   if (is_sailing(world.setup, hull)) archive(world.population.helms[hull], world.accounts.sailing[hull]);
+  if (has_mooring(world.setup, hull)) archive(world.population.helms[hull].last_turn);
   if (manages_ice(world.setup, hull)) archive(world.population.helms[hull].memory.pattern);
 }
 /// What checkpoints alone have after the contacts, before peaks and panels: masses follow from the areas where all ice
@@ -173,6 +183,8 @@ void tail_fields(auto& archive, Is<World> auto& world) {
   auto& counts = world.accounts.counts;
   archive(world.accounts.masses, counts.unresolved_splits, counts.crowded_ticks, counts.steps_taken, counts.most_parts,
           counts.body_steps, world.accounts.sampled_at);
+  auto& audit = world.accounts.audit;
+  archive(audit.moorings, audit.exchanged, audit.initial_momenta);
 }
 
 }  // namespace polynya::simulation
