@@ -228,6 +228,12 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
                     "do not trust this run, and please report it with its failure.bin",
                     audit.energy_imbalance, audit.turnover, length(audit.momentum_imbalance), audit.momentum_turnover));
   }
+  const simulation::IceLedger areas = simulation.area_ledger(), masses = simulation.mass_ledger();
+  if (!areas.is_closed() || !masses.is_closed())
+    warnings.push_back(
+        fmt::format("THE LEDGER IS BROKEN: ice is off by {:.2e} m2 of {:.2e} m2, {:.2e} kg of {:.2e} kg; do not trust "
+                    "this run, and please report it with its failure.bin",
+                    areas.imbalance(), areas.initial, masses.imbalance(), masses.initial));
   add_calibrations(simulation.scene(), warnings);
   if (simulation.scene().fracture.characteristic_length == fracture::CharacteristicLength::kAsPrinted)
     warnings.emplace_back("fracture.characteristic_length is as_printed: Eq. (7) with the paper's misprint");
@@ -295,6 +301,7 @@ std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
     const std::vector<const ForceColumn*> columns = peak_columns(scene.scene);
     json.key("peaks").objects(summary.peaks, [&](const ShipPeaks& peaks) { append(json, peaks, columns); });
     append(json, summary.areas, summary.masses);
+    json.key("ledger_closed").value(summary.areas.is_closed() && summary.masses.is_closed());
     append_ice_of_floes(json, scene.scene);
     append(json, summary.audit, scene.scene);
     append(json, summary.counts);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -180,6 +181,12 @@ struct IceLedger {
 
   /// Returns the ice of all places − rounding − initial, which is ideally 0.
   double imbalance() const { return floes + under_hulls + under_ice + submerged + brash - rounding - initial; }
+
+  /// Largest imbalance, as a fraction of the ice at the start, at which the ledger counts as closed [-]. Sums of
+  /// doubles leave far less.
+  static constexpr double kTolerance = 1e-9;
+  /// Returns true if the imbalance is within kTolerance; false for an imbalance that is not a number.
+  bool is_closed() const { return std::abs(imbalance()) <= kTolerance * initial; }
 };
 
 /// Counts of a run so far. `floes_final` and `steps` are set only in the copy that Simulation::counts() returns.
