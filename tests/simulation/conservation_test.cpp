@@ -1,5 +1,6 @@
 // What a fracture keeps, by both laws: mass, momentum, angular momentum, area; who came from whom; and that
 // energy and momentum at the end are those of the accounts.
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <utility>
@@ -236,17 +237,21 @@ TEST(EveryAlarm, IsRaisedByTwiceItsToleranceAndNotByHalf) {
 TEST(EveryAlarm, IsNotRaisedByMomentaThatCancel) {
   for (const Laws laws : kBothLaws) {
     for (const double spin : {0.0, 0.1}) {
-      const double speed = spin == 0 ? 0.4 : 0;
+      const double speed = spin == 0 ? 0.3 : 0;  // of 20 m x 20 m against 15 m x 16 m
       Simulation simulation(Build(laws)
                                 .without_drag()
                                 .floe(rectangle(-21, -10, -1, 10), {speed, 0}, spin)
-                                .floe(rectangle(1, -10, 21, 10), {-speed, 0}, spin));
+                                .floe(rectangle(1, -7, 16, 9), {-speed * 400 / 240, 0}, spin));
+      double largest = 0;
       for (int step = 0; step < 4000; ++step) {
         skip(simulation);
-        ASSERT_TRUE(simulation.audit().is_closed()) << step << ' ' << length(simulation.audit().momentum_imbalance);
+        const Audit audit = simulation.audit();
+        largest = std::max(largest, length(audit.momentum_imbalance));
+        ASSERT_TRUE(audit.is_closed()) << step << ' ' << length(audit.momentum_imbalance);
       }
       EXPECT_GT(simulation.counts().peak_contacts, 0);
       EXPECT_EQ(simulation.audit().sums.impulses, 0) << "no outer impulse";
+      EXPECT_GT(largest, 1e-6 * length(simulation.audit().sums.initial_momentum)) << "what rounding leaves of nothing";
     }
   }
 }
