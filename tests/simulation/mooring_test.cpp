@@ -158,12 +158,13 @@ TEST(Mooring, AStiffDamperStopsAndDoesNotReverse) {
   }
 }
 
-/// A steady force holds the ship where the spring's force is its size.
+/// A steady force holds the ship where the spring's force is its size; between two steps it has −½Δt F/m.
 TEST(Mooring, AShipUnderAConstantForceStandsWhereTheSpringHasIt) {
   Ship ship = icebreaker({60, 0}, ConstantThrust{1e6}, 0);
   ship.mooring = moored(ship.position_in_world, stiffness_of(20), damping_of(20, 1));
   const Trial done = run(Build().step(0.1).ship(ship), 300);
   EXPECT_NEAR(offset_of(done.simulation.world()).surge, 1e6 / stiffness_of(20).surge, 1e-9);
+  EXPECT_NEAR(done.simulation.world().population.bodies.velocity[0].x, -0.5 * 0.1 * 1e6 / kMass, 1e-9);
   expect_closed(done.simulation);
 }
 
