@@ -220,6 +220,19 @@ TEST(MooringAccounts, AMooringThatBreaksLosesWhatItStored) {
   expect_stored_is_accounted(done.simulation);
 }
 
+/// The force that breaks it is that of spring and damper together, each in the axes of the moored heading.
+TEST(Mooring, BreaksByItsSpringAndItsDamper) {
+  Ship ship = icebreaker({60, 0}, ConstantThrust{0}, 2);
+  const auto heading = geometry::Rotation::by(kMooredHeading);
+  ship.mooring =
+      moored(ship.position_in_world - rotate(heading, {1, 2}), {1e5, 2e5, 0}, {1e5, 3e5, 0}, 1e5, kMooredHeading);
+  const Trial done = run(Build().step(0.01).ship(ship), 0.02);
+  const Vector v = rotate_back(heading, {2, 0});
+  const double force = std::hypot(1e5 * 1 + 1e5 * v.x, 2e5 * 2 + 3e5 * v.y);
+  const MooringBreak broken = std::get<MooringBreak>(only(done.story.of_kind<MooringBreak>()).what);
+  EXPECT_NEAR(broken.force / force, 1, 0.02);
+}
+
 TEST(MooringAccounts, GoOnFromASavedState) {
   const Scene scene = in_drifting_ice(Laws::kDefault);
   const Trial resumed = expect_resumes(scene, 20, 30);
