@@ -31,8 +31,8 @@ class Band:
 def lay_bands(dice, setting):
     """Bands from x = 0 on, which touch or leave a gap."""
     bands, x = [], 0.0
-    for _ in range(dice.among({1: 5, 2: 3, 3: 1})):
-        width = dice.between(35, 150)
+    for _ in range(dice.among({1: 4, 2: 4, 3: 2})):
+        width = dice.between(35, 120)
         bands.append(Band(dice.among(KINDS), x, 0.0, x + width, setting.width_m))
         x += width + dice.choice((0.0, 0.1, dice.between(0.05, 5)))
     return bands
@@ -46,15 +46,24 @@ def entries_of(dice, setting, band):
     for entry in entries:
         if dice.chance(0.3):
             entry["ice"] = own_ice(dice, setting)
-        if "fast_ice" not in entry and dice.chance(0.25):
+        if "fast_ice" not in entry and dice.chance(0.5):
             entry["velocity_m_per_s"] = velocity(dice, setting)
         if band.kind != "channel" and "file" not in entry and "fast_ice" not in entry and dice.chance(0.1):
-            entry["angular_velocity_deg_per_s"] = dice.between(-1, 1) * setting.spin_deg_per_s
+            entry["angular_velocity_deg_per_s"] = spin(dice, setting, math.hypot(*band.size_m()))
     return entries
 
 
+def spin(dice, setting, reach_m):
+    """Of a floe whose rim is at most so far from its centre, and then moves at no more than the fastest floes."""
+    rate = math.radians(dice.between(-1, 1) * setting.spin_deg_per_s)
+    most = min(3, setting.fastest_m_per_s) / reach_m
+    rate = max(-most, min(most, rate))
+    setting.see_speed(abs(rate) * reach_m)
+    return math.degrees(rate)
+
+
 def velocity(dice, setting):
-    speed = dice.choice((0.1, 0.5, 1, dice.decades(0.05, min(3, setting.fastest_m_per_s))))
+    speed = dice.choice((0.2, 0.5, 1, dice.decades(0.1, min(3, setting.fastest_m_per_s))))
     direction = math.radians(dice.choice((180, dice.uniform(0, 360))))
     setting.see_speed(speed)
     return setting.plane.vector(speed * math.cos(direction), speed * math.sin(direction))
@@ -79,7 +88,7 @@ def own_ice(dice, setting):
 
 
 def floe_count(dice, setting):
-    return dice.decades(6, setting.most_floes)
+    return dice.decades(12, setting.most_floes)
 
 
 def region(setting, band):
@@ -116,11 +125,11 @@ def field(dice, setting, band):
         return [{"field": entry}]
     entry["sizes"] = size_law(dice, band.kind, size)
     if dice.chance(0.2):
-        entry["aspect"] = dice.between(1.3, 2)
+        entry.update(aspect=dice.between(1.3, 2), concentration=min(concentration, 0.8))
         if dice.chance(0.5):
             entry["orientation_deg"] = dice.choice((0, 45, dice.between(-180, 180)))
     elif dice.chance(0.2):
-        entry.update(most_corners=dice.randint(6, 12), concentration=min(concentration, 0.8))
+        entry.update(most_corners=dice.randint(6, 12), concentration=min(concentration, 0.75))
     if concentration < 0.6 and dice.chance(0.3):
         entry["packing"] = dice.choice((concentration, 0.75))
     return [{"field": entry}]
@@ -133,7 +142,8 @@ def channel(dice, setting, band):
     middle = dice.choice((width / 2, dice.uniform(0.4, 0.6) * width))
     is_bent = dice.chance(0.3)
     aside = min(0.2 * width, 0.2 * length) if is_bent else 0
-    line = [(band.x0_m, middle), ((band.x0_m + band.x1_m) / 2, middle + aside), (band.x1_m, middle)]
+    inset = breadth / 2 if is_bent else 0  # its ends are square to the line
+    line = [(band.x0_m + inset, middle), ((band.x0_m + band.x1_m) / 2, middle + aside), (band.x1_m - inset, middle)]
     concentration = dice.between(0.3, 0.9)
     count = min(floe_count(dice, setting), 100)
     size = min(math.sqrt(concentration * length * breadth / count), 0.2 * breadth)
@@ -264,9 +274,7 @@ def odd_shapes(dice, setting, band):
         if dice.chance(0.3):
             entry["velocity_m_per_s"] = velocity(dice, setting)
         if dice.chance(0.2):
-            spin = dice.between(-1, 1) * setting.spin_deg_per_s
-            setting.see_speed(abs(math.radians(spin)) * 1.5 * half)
-            entry["angular_velocity_deg_per_s"] = spin
+            entry["angular_velocity_deg_per_s"] = spin(dice, setting, 1.5 * half)
         entries.append(entry)
     return entries
 

@@ -31,9 +31,9 @@ class Setting:
         self.length_m = 0.0  # of all bands
         self.thickness_m = dice.choice((0.5, 1.0, dice.decades(0.05, 3), dice.decades(0.1, 1.5)))
         self.compressive_Pa = dice.choice((2.8e6, dice.between(1e6, 5e6)))
-        self.fastest_m_per_s = dice.choice((2, 5, 10))
+        self.fastest_m_per_s = dice.choice((3, 5, 10))
         self.spin_deg_per_s = dice.choice((1, 10, 60))
-        self.most_floes = dice.choice((30, 80, 150))
+        self.most_floes = dice.choice((40, 100, 200))
         self.radius_m = dice.choice((1, 1, 1, 0.5, 2))
         self.origin = None
         self.exact_m_per_s, self.exact_step_s = 0.0, 0.0  # of scenes whose hulls reach edges exactly at a tick
@@ -43,6 +43,7 @@ class Setting:
         self.room_m = []           # boxes in which hulls may stand
         self.hulls, self.standing = [], []  # outlines of all, and of those that do not move
         self.structure_names = []
+        self.routes = []           # ships with pilots, their places and how far they keep from hulls
         self.dice = dice
 
     def see_speed(self, *speeds_m_per_s):
@@ -65,9 +66,9 @@ def water(dice, setting):
         keys["drag_area"] = "plan"
     if dice.chance(0.2):
         keys["skin_drag_coefficient"] = dice.between(0.003, 0.0055)
-    flow = dice.among({"none": 4, "drift": 3, "table": 2})
+    flow = dice.among({"none": 3, "drift": 3, "table": 2})
     if flow == "drift":
-        speed = dice.choice((0.1, 0.5, dice.decades(0.02, 1.5)))
+        speed = dice.choice((0.2, 0.5, 1, dice.decades(0.05, 1.5)))
         setting.see_speed(speed + 0.5)
         keys["drift_m_per_s"] = setting.plane.vector(*dice.choice(((-speed, 0), (0, speed), (-0.6 * speed, 0.8 * speed))))
     elif flow == "table":
@@ -202,10 +203,11 @@ def build(seed, law, time_scale=1.0):
              "structures": random_ships.structures(dice, setting), "ships": random_ships.ships(dice, setting),
              "walls": random_ships.walls(dice, setting), "water": water(dice, setting), "wind": wind(dice, setting),
              "ice": ice(dice, setting), "contact": contact(dice, setting)}
+    random_ships.drop_blocked_routes(setting)
     if setting.origin:
         scene["origin"] = setting.origin
     scene["fracture"] = fracture(dice, scene["ships"])
-    duration_s = dice.choice((10, 20, 30, 60, dice.decades(10, 120)))
+    duration_s = dice.choice((10, 20, 30, 60, 120, dice.uniform(10, 120), dice.uniform(10, 120)))
     step_s = given_step(dice, setting, duration_s)
     scene["record"] = record(dice, duration_s)
     scene["time"] = {"until_s": max(2.0, duration_s * time_scale)}

@@ -23,7 +23,7 @@ def hull(dice, length):
             keys["stem_angle_deg"] = dice.choice((20, 30, 45, 60, 78, 79, 85, 90, dice.between(15, 90)))
     else:
         outline = dice.choice((box(-length / 2, -beam / 2, length / 2, beam / 2),
-                               wedge(length, beam, angle) + [(-length / 2 - 0.2 * beam, 0)][:0],
+                               wedge(length, beam, angle),
                                [(0.5 * length, 0), (0.3 * length, beam / 2), (-0.4 * length, beam / 2),
                                 (-0.5 * length, 0), (-0.4 * length, -beam / 2), (0.3 * length, -beam / 2)]))
         keys = {"waterline_m": [list(point) for point in outline]}
@@ -39,7 +39,7 @@ def ship_of_size(dice, length):
     block = dice.between(0.5, 0.75)
     mass = 1000 * block * length * beam * deep
     ship = {"hull": keys}
-    if dice.chance(0.75):
+    if dice.chance(0.85):
         keys.update(draught_m=deep, block_coefficient=block)
         if dice.chance(0.2):
             keys["submersion_speed_factor"] = "none"
@@ -84,7 +84,7 @@ def engine(dice, length, deep):
 
 def propel(dice, setting, ship, length, deep, mass, speed):
     """Gives a ship its propulsion and steering. Returns whether it has an engine, and whether it is steered."""
-    if deep is not None and dice.chance(0.6):
+    if deep is not None and dice.chance(0.7):
         if "ship" not in ship or dice.chance(0.5):
             ship["propulsion"] = {"engine": engine(dice, length, deep)}
         else:
@@ -99,7 +99,7 @@ def propel(dice, setting, ship, length, deep, mass, speed):
         ship["propulsion"] = {"constant_speed_m_per_s": speed}
         setting.see_speed(abs(speed))
         return False, False
-    ship["propulsion"] = {"thrust_N": math.copysign(mass * dice.choice((0, 0.05, dice.decades(0.01, 0.3))), speed)}
+    ship["propulsion"] = {"thrust_N": math.copysign(mass * dice.choice((0, 0.05, 0.1, dice.decades(0.02, 0.3))), speed)}
     ship["speed_m_per_s"] = speed
     setting.see_speed(abs(speed), 4)
     if dice.chance(0.15):
@@ -181,13 +181,13 @@ def mooring(dice, mass, length):
     return keys
 
 
-def places(dice, setting, outline):
+def places(dice, setting, outline, is_round):
     """Places to try for a hull: (x, y, heading), west or east of the ice, or in room within it."""
     length = max(x for x, _ in outline) - min(x for x, _ in outline)
     for _ in range(12):
         middle = setting.width_m / 2
         y = dice.choice((middle, middle, dice.uniform(0.2, 0.8) * setting.width_m))
-        swing = dice.choice((0, 0, dice.uniform(-15, 15)))
+        swing = 0 if is_round else dice.choice((0, 0, dice.uniform(-15, 15)))
         side = dice.among({"west": 4, "east": 1, "inside": 2})
         if side != "inside":
             heading = swing + dice.choice((0, 0, 0, 180)) if side == "west" else swing + 180
@@ -204,9 +204,9 @@ def places(dice, setting, outline):
                    dice.choice((0, 90, dice.uniform(-180, 180))), False)
 
 
-def stand(dice, setting, outline):
-    """Finds and takes a place for a hull; None where there is none."""
-    for x, y, heading, is_outside in places(dice, setting, outline):
+def stand(dice, setting, outline, is_round=False):
+    """Finds and takes a place for a hull; None where there is none. A round one is not turned."""
+    for x, y, heading, is_outside in places(dice, setting, outline, is_round):
         body = turned(outline, heading, (x, y))
         # Outside it must not reach over the ice, inside it must stay within room for hulls.
         is_free = is_outside or any(all(x0 < px < x1 and y0 < py < y1 for px, py in body)
@@ -215,6 +215,14 @@ def stand(dice, setting, outline):
             setting.hulls.append(body)
             return x, y, heading, is_outside
     return None
+
+
+def drop_blocked_routes(setting):
+    """A route that comes near to what stands is refused: such a ship goes straight on."""
+    for ship, place, beam in setting.routes:
+        route = ship.get("pilot", {}).get("route")
+        if route and not legs_are_clear(setting, place, route["waypoints"], beam):
+            ship["pilot"] = {"constant": {}}
 
 
 def place_ship(dice, setting, ship, place):
@@ -227,11 +235,11 @@ def place_ship(dice, setting, ship, place):
 
 def speed_into_ice(dice, setting, place):
     """Of a ship, along its heading: into the ice, also by the stern, or any way within it."""
-    speed = dice.choice((0.5, 1, 2, dice.decades(0.2, 5), dice.decades(1, setting.fastest_m_per_s)))
+    speed = dice.choice((0.5, 1, 2, 3, dice.decades(0.3, 5), dice.decades(1, setting.fastest_m_per_s)))
     if setting.exact_m_per_s:
         speed = setting.exact_m_per_s
     if not place[3]:
-        return dice.choice((0, 0.5, min(speed, 2)))
+        return dice.choice((0, 1, -1, min(speed, 4)))
     is_stern_first = (abs(place[2]) < 90) != (place[0] < 0)
     return -speed if is_stern_first else speed
 
@@ -239,7 +247,7 @@ def speed_into_ice(dice, setting, place):
 def ships(dice, setting):
     """Up to three ships; with two or more, one may follow another or manage the ice of another body."""
     result = []
-    for number in range(dice.among({0: 2, 1: 5, 2: 3, 3: 1})):
+    for number in range(dice.among({0: 1, 1: 5, 2: 4, 3: 2})):
         if dice.chance(0.1):
             ship, outline, deep, mass = preset(dice)
         else:
@@ -260,6 +268,7 @@ def ships(dice, setting):
             has_engine, is_steered = propel(dice, setting, ship, length, deep, mass, speed)
             if has_engine and dice.chance(0.9):
                 choose_pilot(dice, setting, ship, is_steered, place, length, result)
+                setting.routes.append((ship, place[:2], length / 4))
         result.append(ship)
     return result
 
@@ -273,9 +282,6 @@ def choose_pilot(dice, setting, ship, is_steered, place, length, others):
         ship["pilot"] = {"manage": manage(dice, dice.choice(moored), length)}
     else:
         pilot(dice, setting, ship, is_steered, place[:3])
-        route = ship["pilot"].get("route")
-        if route and not legs_are_clear(setting, place[:2], route["waypoints"], length / 4):
-            ship["pilot"] = {"constant": {}}
 
 
 def manage(dice, body, length):
@@ -299,7 +305,7 @@ def manage(dice, body, length):
 def structures(dice, setting):
     """Piles, boxes and cones, in room within the ice or before its edges."""
     result = []
-    for number in range(dice.among({0: 4, 1: 4, 2: 2, 4: 1})):
+    for number in range(dice.among({0: 4, 1: 4, 2: 3, 4: 1})):
         size = dice.choice((0.5, 1, 5, dice.decades(0.3, 10)))
         keys = {"name": f"structure {number + 1}"}
         if dice.chance(0.6):
@@ -313,7 +319,8 @@ def structures(dice, setting):
             keys["wall_angle_deg"] = dice.choice((10, 30, 45, 60, dice.between(5, 75)))
         if dice.chance(0.2):
             keys["panels"] = panels(dice)
-        place = stand(dice, setting, outline) if size > 2 else stand_small(dice, setting, outline)
+        is_round = "radius_m" in keys
+        place = (stand if size > 2 else stand_small)(dice, setting, outline, is_round)
         if not place:
             continue
         keys["position_m"] = setting.plane.point(*place[:2])
@@ -325,11 +332,11 @@ def structures(dice, setting):
     return result
 
 
-def stand_small(dice, setting, outline):
+def stand_small(dice, setting, outline, is_round):
     """A place for what is small, mostly in a hole or field."""
     for _ in range(12):
         if not setting.room_m or dice.chance(0.3):
-            return stand(dice, setting, outline)
+            return stand(dice, setting, outline, is_round)
         x0, y0, x1, y1 = dice.choice(setting.room_m)
         x, y = dice.choice(((x0 + x1) / 2, dice.uniform(x0, x1))), dice.choice(((y0 + y1) / 2, dice.uniform(y0, y1)))
         body = turned(outline, 0, (x, y))
@@ -342,12 +349,13 @@ def stand_small(dice, setting, outline):
 
 def walls(dice, setting):
     """Walls along edges of the ice, which they may touch exactly: they stand, move inwards or press."""
-    if dice.chance(0.6):
+    if dice.chance(0.5):
         return []
     x1, y1 = setting.length_m, setting.width_m
     overhang = dice.choice((0, 5, 20))
     gap = dice.choice((0.0, 0.1, dice.between(0.05, 3)))
-    faces = {"south": ((-overhang, -gap), (x1 + overhang, -gap)), "north": ((x1 + overhang, y1 + gap), (-overhang, y1 + gap)),
+    faces = {"south": ((-overhang, -gap), (x1 + overhang, -gap)),
+             "north": ((x1 + overhang, y1 + gap), (-overhang, y1 + gap)),
              "east": ((x1 + gap, -5), (x1 + gap, y1 + 5))}
     names = dice.choice((["south", "north"], ["east"], ["north"], ["south", "north", "east"]))
     result = []
@@ -373,10 +381,10 @@ def walls(dice, setting):
 def move(dice, setting, wall, inwards):
     way = dice.among({"stands": 1, "moves": 1, "presses": 2 * (setting.law == "crush")})
     if way == "moves":
-        speed = dice.choice((0.05, 0.1, dice.decades(0.01, 0.5)))
+        speed = dice.choice((0.1, 0.2, dice.decades(0.02, 1)))
         wall["velocity_m_per_s"] = setting.plane.vector(speed * inwards[0], speed * inwards[1])
     elif way == "presses":
         most = 0.3 * setting.compressive_Pa * setting.thickness_m
-        wall["pressure"] = {"line_load_N_per_m": min(most, dice.decades(1e3, 3e5))}
+        wall["pressure"] = {"line_load_N_per_m": min(most, dice.decades(5e3, 5e5))}
         if dice.chance(0.4):
             wall["pressure"]["closing_speed_m_per_s"] = dice.choice((0.05, 0.2, 0.5))
