@@ -173,6 +173,13 @@ def record(dice, duration_s):
     return keys
 
 
+def duration(dice, setting):
+    """10 to 120 s; less where thin ice or fast bodies ask for many steps, which take long [s]."""
+    wanted = dice.choice((10, 20, 30, 60, 120, dice.uniform(10, 120), dice.uniform(10, 120)))
+    most_ways = 2500 if setting.law == "crush" else 1000  # of the ice's thickness; rigid impulses have no long steps
+    return min(wanted, max(10, most_ways * setting.thickness_m / setting.top_speed_m_per_s))
+
+
 def given_step(dice, setting, duration_s):
     """A tick in which nothing comes near to moving as far as a contact circle's radius; None: let it be chosen."""
     longest = 0.4 * setting.radius_m / setting.top_speed_m_per_s
@@ -207,7 +214,7 @@ def build(seed, law, time_scale=1.0):
     if setting.origin:
         scene["origin"] = setting.origin
     scene["fracture"] = fracture(dice, scene["ships"])
-    duration_s = dice.choice((10, 20, 30, 60, 120, dice.uniform(10, 120), dice.uniform(10, 120)))
+    duration_s = duration(dice, setting)
     step_s = given_step(dice, setting, duration_s)
     scene["record"] = record(dice, duration_s)
     scene["time"] = {"until_s": max(2.0, duration_s * time_scale)}
