@@ -24,7 +24,7 @@ import time
 import load_bounds
 import random_scenes
 
-SHORT = 0.2  # of all durations
+SHORT = 0.4  # of all durations
 NOTED = "not sound: overlap not crushed"  # by law impulse no fault: rigid impulses crush nothing
 
 
