@@ -141,6 +141,7 @@ def channel(dice, setting, band):
     breadth = min(dice.between(8, 25), 0.5 * width)
     middle = dice.choice((width / 2, dice.uniform(0.4, 0.6) * width))
     is_bent = dice.chance(0.3)
+    breadth = min(breadth, 0.25 * length) if is_bent else breadth
     aside = min(0.2 * width, 0.2 * length) if is_bent else 0
     inset = breadth / 2 if is_bent else 0  # its ends are square to the line
     line = [(band.x0_m + inset, middle), ((band.x0_m + band.x1_m) / 2, middle + aside), (band.x1_m - inset, middle)]
@@ -235,7 +236,7 @@ def holed_plate(dice, setting, band):
         if dice.chance(0.4):
             entries.append(polygon(setting, turned([(0.8 * x, 0.8 * y) for x, y in circle], tilt, centre)))
         elif half > 2:
-            reach = 0.4 * half if corners == 3 else 0.6 * half
+            reach = 0.98 * half * math.cos(math.pi / corners) / math.sqrt(2)  # of a square in the hole, however turned
             band.room_m.append((centre[0] - reach, centre[1] - reach, centre[0] + reach, centre[1] + reach))
     holed = polygon(setting, band.box_m(), holes)
     make_fast(dice, setting, band, holed)
