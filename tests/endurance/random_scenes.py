@@ -13,6 +13,7 @@ import sys
 
 import random_ice
 import random_ships
+import random_structures
 from random_numbers import Dice, Plane
 
 TICKS_S = (0.1, 0.05, 0.025, 0.02, 0.01, 0.005)
@@ -70,7 +71,8 @@ def water(dice, setting):
     if flow == "drift":
         speed = dice.choice((0.2, 0.5, 1, dice.decades(0.05, 1.5)))
         setting.see_speed(speed + 0.5)
-        keys["drift_m_per_s"] = setting.plane.vector(*dice.choice(((-speed, 0), (0, speed), (-0.6 * speed, 0.8 * speed))))
+        x, y = dice.choice(((-1, 0), (0, 1), (-0.6, 0.8)))
+        keys["drift_m_per_s"] = setting.plane.vector(x * speed, y * speed)
     elif flow == "table":
         keys["drift_table"] = flow_table(dice, setting, 1.2)
     if dice.chance(0.2):
@@ -201,14 +203,15 @@ def build(seed, law, time_scale=1.0):
     if dice.chance(0.2):
         setting.exact_step_s, setting.exact_m_per_s = dice.choice((0.05, 0.02, 0.01)), dice.choice((0.5, 1.0, 2.0))
     if dice.chance(0.3):
-        setting.origin = {"latitude_deg": dice.choice((0, 70, 78.5, -65)), "longitude_deg": dice.choice((0, 15.5, -120))}
+        setting.origin = {"latitude_deg": dice.choice((0, 70, 78.5, -65)),
+                          "longitude_deg": dice.choice((0, 15.5, -120))}
     bands = random_ice.lay_bands(dice, setting)
     setting.length_m = bands[-1].x1_m
     floes = [entry for band in bands for entry in random_ice.entries_of(dice, setting, band)]
     setting.room_m = [room for band in bands for room in band.room_m]
     scene = {"name": f"random-{law}-{seed}", "seed": dice.randint(1, 10**6), "floes": floes,
-             "structures": random_ships.structures(dice, setting), "ships": random_ships.ships(dice, setting),
-             "walls": random_ships.walls(dice, setting), "water": water(dice, setting), "wind": wind(dice, setting),
+             "structures": random_structures.structures(dice, setting), "ships": random_ships.ships(dice, setting),
+             "walls": random_structures.walls(dice, setting), "water": water(dice, setting), "wind": wind(dice, setting),
              "ice": ice(dice, setting), "contact": contact(dice, setting)}
     random_ships.drop_blocked_routes(setting)
     if setting.origin:
