@@ -157,18 +157,25 @@ class Verdict:
             yield f"{kind}: {texts[0]}" + (f"; and {len(texts) - 1} more" if len(texts) > 1 else "")
 
 
-def check_means(row, verdict):
-    """A mean over an interval is at most the largest step in it."""
+def check_means(row, arm_m, verdict):
+    """A mean over an interval is at most the largest step in it; moments also differ by rounding of forces on an arm."""
     for source in ("", "_from_ships"):
+        force = math.hypot(float(row[f"surge{source}_max_N"]), float(row[f"sway{source}_max_N"]))
         for component in COMPONENTS:
             unit = "Nm" if component == "yaw" else "N"
             mean = abs(float(row[f"{component}{source}_{unit}"]))
             step = abs(float(row[f"{component}{source}_max_{unit}"]))
             verdict.checked["means"] += 1
             verdict.loaded["means"] += mean > 0
-            verdict.add("mean over step", mean, step * (1 + ROUNDING) + ROUNDING,
+            rounding = ROUNDING * (step + 1e-6 * force * (arm_m if component == "yaw" else 1) + 1)
+            verdict.add("mean over step", mean, step + rounding,
                         f"{component}{source}_{unit} of {row['ship']} at {row['t_s']} s: the mean {mean:.4g} is above "
                         f"the largest step {step:.4g}")
+
+
+def arm_of(hull):
+    """The greatest distance of its outline from its origin [m]."""
+    return max(math.hypot(x, y) for x, y in hull.outline_m)
 
 
 def most_on_hull(hull, strongest, friction):
@@ -180,8 +187,7 @@ def most_on_hull(hull, strongest, friction):
     across, along = one_sided(hull.outline_m, math.pi / 2), one_sided(hull.outline_m, 0)
     normal, slip = strongest * (1 + friction * tangent), strongest * friction * math.hypot(1, tangent)
     surge, sway = normal * across + slip * 2 * along, normal * along + slip * 2 * across
-    arm = max(math.hypot(x, y) for x, y in hull.outline_m)
-    return surge, sway, 2 * (normal + slip) * (across + along) * arm
+    return surge, sway, 2 * (normal + slip) * (across + along) * arm_of(hull)
 
 
 def check_steps(row, most, verdict):
@@ -203,7 +209,7 @@ def check_forces(run, hulls, floes, scene, verdict):
     with open(run / "forces.csv", encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
             verdict.checked["records"] += 1
-            check_means(row, verdict)
+            check_means(row, arm_of(hulls[row["ship"]]), verdict)
             if scene["contact"]["law"] == "crush":
                 check_steps(row, most[row["ship"]], verdict)
             times, angles = headings[row["ship"]]

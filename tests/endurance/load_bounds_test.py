@@ -42,8 +42,8 @@ def record(ship, **values):
 
 def contact(ship="pile", floe=0, force=0.0, **values):
     """A peak that presses a hull to the west, from the east, on a metre's width and half a metre's height."""
-    return {**dict.fromkeys(CONTACT_COLUMNS, ""), "t_s": 0.1, "ship": ship, "by_floe_id": floe, "fx_N": -force, "fy_N": 0,
-            "width_m": 1, "height_m": 0.5, "pressure_Pa": force / 0.5, "ended_by": "slip", **values}
+    return {**dict.fromkeys(CONTACT_COLUMNS, ""), "t_s": 0.1, "ship": ship, "by_floe_id": floe,
+            "fx_N": -force, "fy_N": 0, "width_m": 1, "height_m": 0.5, "pressure_Pa": force / 0.5, "ended_by": "slip", **values}
 
 
 class Bounds(unittest.TestCase):
@@ -91,6 +91,10 @@ class Bounds(unittest.TestCase):
     def test_means_and_steps_that_are_equal_but_for_rounding(self):
         self.expect([], records=[record("wedge", surge_N=1000 * (1 + 1e-12), surge_max_N=1000)])
 
+    def test_a_moment_of_rounding_beside_a_great_force(self):
+        self.expect([], records=[record("wedge", surge_max_N=1e7, yaw_Nm=2e-4, yaw_max_Nm=1e-5)])
+        self.expect(["mean over step"], records=[record("wedge", surge_max_N=1e7, yaw_Nm=1.0, yaw_max_Nm=1e-5)])
+
     def test_a_step_above_what_all_ice_along_the_hull_bears(self):
         slip = STRENGTH_N_PER_M * 0.2 * math.sqrt(2)  # on walls of 45 degrees
         surge = STRENGTH_N_PER_M * 1.2 * 10 + slip * 2 * 40
@@ -119,7 +123,8 @@ class Bounds(unittest.TestCase):
                     contacts=[contact("wedge", force=stem_on)])
 
     def test_a_piece_has_the_shape_that_its_parent_leaves_it(self):
-        self.assertAlmostEqual(load_bounds.diameter([[0, 0], [80, 0], [80, 10], [0, 10]]), math.hypot(80, 10), delta=0.5)
+        piece = [[0, 0], [80, 0], [80, 10], [0, 10]]
+        self.assertAlmostEqual(load_bounds.diameter(piece), math.hypot(80, 10), delta=0.5)
         wall = {"ship": "south", "floe": 1, "fx_N": 0}  # from the north: no more than the piece is wide
         self.expect([], contacts=[contact(force=80 * STRENGTH_N_PER_M, fy_N=-80 * STRENGTH_N_PER_M, **wall)])
         self.expect(["peak over ice"],

@@ -211,7 +211,8 @@ def plate(dice, setting, band):
     if style == "straight":
         entry = rectangle(setting, band.x0_m, band.y0_m, [length, width])
     elif style == "slanted":
-        entry = polygon(setting, [(band.x0_m, 0), (band.x1_m, 0), (band.x1_m, width), (band.x0_m + 0.2 * length, width)])
+        cut_off = (band.x0_m + 0.2 * length, width)
+        entry = polygon(setting, [(band.x0_m, 0), (band.x1_m, 0), (band.x1_m, width), cut_off])
     else:
         teeth = dice.randint(2, 8)
         edge = [(band.x0_m + (0.1 * length if k % 2 else 0), width - k * width / (2 * teeth))

@@ -210,9 +210,10 @@ def build(seed, law, time_scale=1.0):
     floes = [entry for band in bands for entry in random_ice.entries_of(dice, setting, band)]
     setting.room_m = [room for band in bands for room in band.room_m]
     scene = {"name": f"random-{law}-{seed}", "seed": dice.randint(1, 10**6), "floes": floes,
-             "structures": random_structures.structures(dice, setting), "ships": random_ships.ships(dice, setting),
-             "walls": random_structures.walls(dice, setting), "water": water(dice, setting), "wind": wind(dice, setting),
-             "ice": ice(dice, setting), "contact": contact(dice, setting)}
+             "structures": random_structures.structures(dice, setting),
+             "ships": random_ships.ships(dice, setting),
+             "walls": random_structures.walls(dice, setting), "water": water(dice, setting),
+             "wind": wind(dice, setting), "ice": ice(dice, setting), "contact": contact(dice, setting)}
     random_ships.drop_blocked_routes(setting)
     if setting.origin:
         scene["origin"] = setting.origin

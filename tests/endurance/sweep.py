@@ -43,6 +43,12 @@ def last_line(text, skipped=("warning:", "hint:")):
     return lines[-1].strip() if lines else ""
 
 
+def why_it_ended(messages):
+    """Of a run that failed: when and by what."""
+    stops = [line for line in messages.splitlines() if "stopped at" in line]
+    return stops[0].removeprefix("polynya: ") if stops else last_line(messages)
+
+
 def first_problem(messages):
     """Of `validate`, without the scene's path before it."""
     problems = [line for line in messages.splitlines() if "found" in line]
@@ -99,7 +105,7 @@ def faults_of(program, scene, run, timeout_s, result):
     if code is None:
         return [("timeout", f"more than {timeout_s:g} s")]
     if code != 0:
-        return [(f"run ends with {code}", last_line(messages))]
+        return [(f"run ends with {code}", why_it_ended(messages))]
     summary = json.loads((run / "summary.json").read_text())
     result["counts"] = {key: summary["counts"][key] for key in ("floes_initial", "bends", "splits", "ground",
                                                                 "crush_contacts", "went_under")}
