@@ -158,7 +158,7 @@ class Verdict:
 
 
 def check_means(row, arm_m, verdict):
-    """A mean over an interval is at most the largest step in it; moments also differ by rounding of forces on an arm."""
+    """A mean over an interval is at most the largest step in it; moments also differ by rounding of their forces."""
     for source in ("", "_from_ships"):
         force = math.hypot(float(row[f"surge{source}_max_N"]), float(row[f"sway{source}_max_N"]))
         for component in COMPONENTS:

@@ -43,7 +43,8 @@ def record(ship, **values):
 def contact(ship="pile", floe=0, force=0.0, **values):
     """A peak that presses a hull to the west, from the east, on a metre's width and half a metre's height."""
     return {**dict.fromkeys(CONTACT_COLUMNS, ""), "t_s": 0.1, "ship": ship, "by_floe_id": floe,
-            "fx_N": -force, "fy_N": 0, "width_m": 1, "height_m": 0.5, "pressure_Pa": force / 0.5, "ended_by": "slip", **values}
+            "fx_N": -force, "fy_N": 0, "width_m": 1, "height_m": 0.5, "pressure_Pa": force / 0.5, "ended_by": "slip",
+            **values}
 
 
 class Bounds(unittest.TestCase):
