@@ -1,6 +1,7 @@
 #include "analysis/run_listing.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -38,6 +39,7 @@ namespace {
 
 using io::counted;
 using io::id_or_none;
+using io::JsonValue;
 using io::JsonWriter;
 using simulation::FloeId;
 
@@ -336,12 +338,78 @@ std::string result_text(const io::RunSummary& summary, const simulation::Scene& 
       1e-3 * masses.brash, 1e-3 * masses.imbalance());
   const simulation::EnergyFlows& energy = summary.audit.sums.energy;
   const simulation::BoundaryFlows& boundaries = summary.audit.sums.boundaries;
+  const simulation::MooringFlows& moorings = summary.audit.sums.moorings;
   add("energy      {:.4g} kJ in: {:.4g} drag, {:.4g} friction, {:.4g} crushing, {:.4g} collisions, {:.4g} in "
       "motion (imbalance {:.1e} of it)\n",
-      (energy.thrust + energy.current + boundaries.wind + boundaries.walls + summary.audit.sums.initial_energy) / 1e3,
+      (energy.thrust + energy.current + boundaries.wind + boundaries.walls + moorings.ground + moorings.initial +
+       summary.audit.sums.initial_energy) /
+          1e3,
       energy.drag / 1e3, energy.friction / 1e3, energy.crushing / 1e3, energy.restitution / 1e3,
       summary.audit.kinetic_energy / 1e3, summary.audit.energy_imbalance / std::max(summary.audit.turnover, 1e-300));
+  if (has_moorings(scene))
+    add("moorings    {:.4g} kJ stored: {:.4g} at the start, {:.4g} taken up, {:.4g} given back, {:.4g} lost by "
+        "breaking; "
+        "{:.4g} damped\n",
+        summary.audit.stored_energy / 1e3, moorings.initial / 1e3, moorings.taken_up / 1e3, moorings.given_back / 1e3,
+        moorings.breaking / 1e3, moorings.damping / 1e3);
   return text + force_lines(summary, scene);
+}
+
+namespace {
+
+constexpr std::array kAccounts{"ledger", "energy", "moorings", "momentum"};  ///< of summary.json
+constexpr std::array kVerdicts{"ledger_closed", "audit_closed"};
+
+std::string account_line(const std::string& key, const JsonValue& value) {
+  if (value.is(JsonValue::Kind::kNumber)) return fmt::format("  {:<24} {:>16.9g}\n", key, value.number());
+  if (!value.is(JsonValue::Kind::kArray)) return "";
+  std::string numbers;
+  for (const JsonValue& item : value.items())
+    if (item.is(JsonValue::Kind::kNumber)) numbers += fmt::format(" {:>16.9g}", item.number());
+  return fmt::format("  {:<24}{}\n", key, numbers);
+}
+
+void append_value(JsonWriter& json, const JsonValue& value) {
+  if (value.is(JsonValue::Kind::kNumber)) {
+    json.value(value.number());
+  } else if (value.is(JsonValue::Kind::kArray)) {
+    json.open('[');
+    for (const JsonValue& item : value.items()) append_value(json, item);
+    json.close(']');
+  } else {
+    json.null();
+  }
+}
+
+}  // namespace
+
+std::string account_table(const io::Run& run) {
+  std::string text;
+  for (const char* name : kAccounts) {
+    const JsonValue* account = run.summary.find(name, JsonValue::Kind::kObject);
+    if (!account) continue;
+    text += fmt::format("{}\n", name);
+    for (const io::JsonMember& member : account->members()) text += account_line(member.key, member.value);
+  }
+  for (const char* name : kVerdicts)
+    if (const JsonValue* verdict = run.summary.find(name, JsonValue::Kind::kBoolean))
+      text += fmt::format("{:<26} {:>16}\n", name, verdict->boolean() ? "yes" : "NO");
+  return text.empty() ? "no accounts: the run has none before its end\n" : text;
+}
+
+std::string accounts_json(const io::Run& run) {
+  return io::json_object([&](JsonWriter& json) {
+    for (const char* name : kAccounts) {
+      const JsonValue* account = run.summary.find(name, JsonValue::Kind::kObject);
+      if (!account) continue;
+      json.key(name).open('{');
+      for (const io::JsonMember& member : account->members()) append_value(json.key(member.key), member.value);
+      json.close('}');
+    }
+    for (const char* name : kVerdicts)
+      if (const JsonValue* verdict = run.summary.find(name, JsonValue::Kind::kBoolean))
+        json.key(name).value(verdict->boolean());
+  });
 }
 
 }  // namespace polynya::analysis

@@ -55,6 +55,11 @@ std::vector<SizeClass> size_classes(const std::vector<SizedFloe>& floes);
 std::string size_table(const io::Run& run, double time);
 std::string sizes_json(const io::Run& run, double time);
 
+/// The accounts of a run's summary: where ice and energy went, what moorings store, and momentum; with units in their
+/// keys.
+std::string account_table(const io::Run& run);
+std::string accounts_json(const io::Run& run);
+
 /// What `polynya run` prints at its end: how fast it was, what broke, the ledgers of area, mass and energy, and the
 /// largest loads of each ship and structure.
 std::string result_text(const io::RunSummary& summary, const simulation::Scene& scene);

@@ -9,6 +9,12 @@ namespace {
 /// A hull angle from the vertical whose sine would overflow a quotient is taken as 0 [-].
 constexpr double kVertical = 1e-100;
 
+/// p of the power law of an overlap, S(ξ') = S (ξ'/ξ)^p [-]. Greater and smaller ones are those of shapes that one
+/// depth and one width do not describe.
+double power_of(const Overlap& overlap, double least = 1.0 / 3) {
+  return std::clamp(overlap.depth * overlap.width / overlap.area, least, 3.0);
+}
+
 }  // namespace
 
 double hull_angle_from_vertical(double sine_waterline_angle, double stem_angle) {
@@ -17,7 +23,7 @@ double hull_angle_from_vertical(double sine_waterline_angle, double stem_angle) 
 
 double crushed_overlap_area(const Overlap& overlap, double thickness, double hull_angle) {
   if (overlap.area <= 0 || overlap.depth <= 0) return 0;
-  const double p = std::clamp(overlap.depth * overlap.width / overlap.area, 1.0, 3.0);
+  const double p = power_of(overlap, 1);
   const double reach = thickness * std::tan(hull_angle);
   const double sine = std::sin(hull_angle);
   if (sine < kVertical) return overlap.area * p / overlap.depth * thickness;
@@ -35,19 +41,18 @@ struct HullSlant {
 };
 
 CrushedArea crushed_at(const Overlap& overlap, double depth, double thickness, const HullSlant& hull) {
-  if (overlap.area <= 0 || overlap.depth <= 0) return {};
-  const double p = std::clamp(overlap.depth * overlap.width / overlap.area, 1.0, 3.0);
-  const auto area_at = [&](double x) {
-    if (x == overlap.depth) return overlap.area;  // without a power: most contacts that crush
-    return x > 0 ? overlap.area * std::pow(x / overlap.depth, p) : 0.0;
-  };
-  const auto slope_at = [&](double x, double area) { return x > 0 ? p * area / x : 0.0; };
-  const double area = area_at(depth);
-  const double slope = slope_at(depth, area);
-  if (hull.sine < kVertical) return {thickness * slope, thickness * (p - 1) * slope / depth};
-  const double inner = depth - thickness * hull.tangent;
-  const double inner_area = area_at(inner);
-  return {(area - inner_area) / hull.sine, std::max(0.0, slope - slope_at(inner, inner_area)) / hull.sine};
+  if (overlap.area <= 0 || overlap.depth <= 0 || depth <= 0) return {};
+  const double p = power_of(overlap);
+  const bool is_its_own = depth == overlap.depth;  // without a power: most contacts that crush
+  const double area = is_its_own ? overlap.area : overlap.area * std::pow(depth / overlap.depth, p);
+  const double slope = p * area / depth;
+  if (hull.sine < kVertical) return {thickness * slope, std::max(0.0, thickness * (p - 1) * slope / depth)};
+  // Differences of powers by expm1: a hull that is vertical but for rounding has an angle of 1e-17 rad.
+  const double reach = thickness * hull.tangent / depth;
+  const double log_of_inner = reach < 1 ? std::log1p(-reach) : 0;
+  const double pressed = reach < 1 ? -std::expm1(p * log_of_inner) : 1;
+  const double growing = reach < 1 ? -std::expm1((p - 1) * log_of_inner) : 1;
+  return {area * pressed / hull.sine, std::max(0.0, slope * growing / hull.sine)};
 }
 
 }  // namespace
@@ -59,7 +64,7 @@ CrushedArea crushed_overlap_at(const Overlap& overlap, double depth, double thic
 double crushed_volume(const Overlap& overlap, double reached_area, double thickness, double hull_angle) {
   if (overlap.area <= 0 || overlap.depth <= 0 || reached_area <= 0) return 0;
   if (hull_angle == 0) return thickness * reached_area;  // between floes: most contacts
-  const double p = std::clamp(overlap.depth * overlap.width / overlap.area, 1.0, 3.0);
+  const double p = power_of(overlap);
   const double depth = overlap.depth * std::pow(reached_area / overlap.area, 1 / p);
   const double reach = thickness * std::tan(hull_angle) / depth;
   if (reach < kVertical) return thickness * reached_area;

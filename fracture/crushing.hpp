@@ -34,8 +34,8 @@ struct CrushedArea {
   double slope = 0;  ///< dA_c/dξ, ≥ 0 [m]
 };
 
-/// The same where the overlap was pressed to a depth before that is not less than its own now: S is
-/// continued by its power law to `depth` [m].
+/// The same at another depth: S is continued by its power law to `depth` [m], with p between 1/3 and 3, so that at its
+/// own depth an overlap grows by its width, though it is wider inside than its contact line.
 CrushedArea crushed_overlap_at(const Overlap& overlap, double depth, double thickness, double hull_angle);
 
 /// What crushed of the ice where an overlap reached that area, V = ∫ S(ξ − z tan θ_s) dz over the thickness,

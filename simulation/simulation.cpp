@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "dynamics/thread_limit.hpp"
+#include "simulation/ship/mooring.hpp"
 #include "simulation/state/state.hpp"
 #include "simulation/world/step.hpp"
 
@@ -98,7 +99,9 @@ const World& Simulation::world() const {
 
 Audit Simulation::audit() const {
   const dynamics::Bodies& bodies = world_->population.bodies;
-  return simulation::audit(world_->accounts.audit, kinetic_energy(bodies), momentum(bodies));
+  const double stored =
+      stored_in_moorings(world_->setup, world_->population, drift_at(world_->setup, world_->clock.time()));
+  return simulation::audit(world_->accounts.audit, holdings(bodies, stored));
 }
 
 IceLedger Simulation::area_ledger() const {
@@ -166,7 +169,7 @@ std::vector<CrushedOverlap> Simulation::crushed_overlaps() const {
   const Population& population = world_->population;
   const dynamics::Bodies& bodies = population.bodies;
   std::vector<std::tuple<BodyIndex, BodyIndex, CrushedOverlap>> pairs;
-  population.pairs.for_loaded_overlaps([&](BodyIndex a, BodyIndex b, double area, const dynamics::Booked& booked) {
+  population.pairs.for_paid_overlaps([&](BodyIndex a, BodyIndex b, double area, const dynamics::Booked& booked) {
     pairs.emplace_back(a, b,
                        CrushedOverlap{.on = contact_body(population, a),
                                       .by = contact_body(population, b),

@@ -176,6 +176,7 @@ constexpr auto kInspectExamples =
     "  polynya inspect runs/level-plate --events               what broke, met and went under\n"
     "  polynya inspect runs/level-plate --check                validity, areas, overlaps, last places\n"
     "  polynya inspect runs/level-plate --fsd                  floe size distribution\n"
+    "  polynya inspect runs/level-plate --accounts             where ice, energy and momentum went\n"
     "  polynya inspect runs/level-plate --json                 each of these but a shape as JSON\n"
     "\n"
     "Exit codes: 0 done, 2 usage, 4 --check found the run not sound, 5 input/output.\n";
@@ -189,6 +190,7 @@ struct InspectOptions {
   bool events = false;
   bool check = false;
   bool fsd = false;
+  bool accounts = false;
   ProgressKind progress = ProgressKind::kAuto;
   bool json = false;  ///< the report as JSON; a floe's shape has its own formats
 };
@@ -244,6 +246,8 @@ int print(const io::Run& run, const InspectOptions& options) {
     code = check.is_sound() ? kDone : kRefused;
   } else if (options.fsd) {
     write_out(options.json ? analysis::sizes_json(run, time) : analysis::size_table(run, time));
+  } else if (options.accounts) {
+    write_out(options.json ? analysis::accounts_json(run) : analysis::account_table(run));
   } else {
     write_out(options.json ? analysis::floes_json(run, time) : analysis::floe_table(run, time));
   }
@@ -477,6 +481,8 @@ Command add_inspect(CommandLine& app) {
                {.excludes = {"--floe", "--lineage", "--events"}});
   command.flag("--fsd", options->fsd, "The distribution of floe sizes",
                {.excludes = {"--floe", "--lineage", "--events", "--check"}});
+  command.flag("--accounts", options->accounts, "Where ice, energy and momentum went by the end, moorings included",
+               {.excludes = {"--at", "--floe", "--lineage", "--events", "--check", "--fsd"}});
   command.choice<bool>("--format", options->is_geojson, "Of --floe; wkt if not given",
                        {{"wkt", false}, {"geojson", true}}, {.needs = "--floe"});
   command.flag("--json", options->json, "Print the report as JSON; a shape: --format geojson",

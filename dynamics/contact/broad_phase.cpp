@@ -397,25 +397,26 @@ ContactMemory BroadPhase::contact_memory_of(const Bodies& bodies, BodyIndex pare
     const Pair& pair = pairs_[slot];
     const BodyIndex other = pair.a == parent ? pair.b : pair.a;
     if (pair.is_outside) memory.outside.push_back({other, clearance_of(bodies, pair)});
-    const Pose water_from_b = water_from_body(bodies, pair.b);
+    OverlapMemory overlap{.other = other};
     for (const PersistentContact& record : pair.records()) {
-      if (record.loaded_area == 0) continue;
-      CrushedIce crushed = record.crushed;
-      if (pair.b == parent) crushed.a_from_b = inverse(crushed.a_from_b);
-      memory.pressed.push_back({other, transform(water_from_b, record.last_point_in_b), record.reach,
-                                record.loaded_area, crushed, record.booked});
+      overlap.paid_area += record.paid_area;
+      overlap.area += record.area;
+      overlap.booked += record.booked;
+      if (record.crushed.area > overlap.crushed.area) overlap.crushed = record.crushed;
     }
+    if (overlap.paid_area == 0) continue;
+    if (pair.b == parent) overlap.crushed.a_from_b = inverse(overlap.crushed.a_from_b);
+    memory.overlaps.push_back(overlap);
   }
   std::sort(memory.outside.begin(), memory.outside.end(),
             [](const Outside& p, const Outside& q) { return p.other < q.other; });
   return memory;
 }
 
-void BroadPhase::note_pressed(BodyIndex body) {
-  constexpr double kEverywhere = 1e9;  // [m], and [m²] of the overlap that is found there
+void BroadPhase::note_paid(BodyIndex body) {
+  constexpr double kAnyArea = 1e18;  // more than any overlap has [m²]
   PersistentContact record;
-  record.reach = kEverywhere;
-  record.loaded_area = kEverywhere * kEverywhere;
+  record.paid_area = record.area = kAnyArea;
   record.is_inherited = true;
   for (const std::uint32_t slot : entries_[body].pairs) pairs_[slot].own_parts().records = {record};
 }
@@ -429,12 +430,11 @@ void BroadPhase::pass_contact_memory(const Bodies& bodies, BodyIndex fragment, c
     pair.is_outside = outside != memory.outside.end() && outside->other == other;
     if (pair.is_outside && outside->clearance > 0)
       pair.apart = {centre_a_from_b(bodies, pair.a, pair.b), outside->clearance};
-    for (const PressedOverlap& old : memory.pressed) {
+    for (const OverlapMemory& old : memory.overlaps) {
       if (old.other != other) continue;
       PersistentContact record;
-      record.last_point_in_b = inverse_transform(water_from_body(bodies, pair.b), old.place);
-      record.reach = old.reach;
-      record.loaded_area = old.loaded_area;
+      record.paid_area = old.paid_area;
+      record.area = old.area;
       record.booked = old.booked;
       record.crushed = old.crushed;  // a fragment has its floe's frame
       if (pair.b == fragment) record.crushed.a_from_b = inverse(record.crushed.a_from_b);

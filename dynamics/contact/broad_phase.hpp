@@ -17,13 +17,12 @@ struct PairState {
   std::vector<PersistentContact> records;
 };
 
-/// An overlap that has pressed, of a body that breaks.
-struct PressedOverlap {
+/// The overlaps of a body that breaks with another one, together.
+struct OverlapMemory {
   BodyIndex other = 0;
-  geometry::Point place;   ///< in the water frame [m]
-  double reach = 0;        ///< [m]
-  double loaded_area = 0;  ///< [m²]
-  CrushedIce crushed;      ///< its pose is that of the other's frame in the broken body's
+  double paid_area = 0;  ///< [m²]
+  double area = 0;       ///< [m²]
+  CrushedIce crushed;    ///< the largest; its pose is that of the other's frame in the broken body's
   Booked booked;
 };
 
@@ -35,7 +34,7 @@ struct Outside {
 
 /// What a floe that breaks passes on to its fragments.
 struct ContactMemory {
-  std::vector<PressedOverlap> pressed;
+  std::vector<OverlapMemory> overlaps;
   std::vector<Outside> outside;  ///< by other
 };
 
@@ -63,9 +62,8 @@ class BroadPhase {
   ContactMemory contact_memory_of(const Bodies& bodies, BodyIndex parent) const;
   /// Passes it on to a fragment that was added and woken.
   void pass_contact_memory(const Bodies& bodies, BodyIndex fragment, const ContactMemory& memory);
-  /// What a body shares with others where it is has all pressed before: it was crushed. Of a body that was
-  /// woken.
-  void note_pressed(BodyIndex body);
+  /// Notes that all overlaps of a body where it is are paid: their ice is gone. For a body that was woken.
+  void note_paid(BodyIndex body);
   /// Pairs are kept only where one of the two is awake and may move: ice that is held where the water stands
   /// meets only what comes to it, though a fast plate has a thousand pieces at rest in its box.
   void wake(const Bodies& bodies, BodyIndex body);
@@ -112,15 +110,15 @@ class BroadPhase {
   /// The pairs, in no order, and what is_dropped among them: those are none.
   std::span<const Pair> pairs() const { return pairs_; }
 
-  /// Calls use(a, b, area, booked) for each pair, in no order: the overlap of its bodies that has pressed [m²],
-  /// and what became of it.
+  /// Calls use(a, b, area, booked) for each pair, in no order: the paid area of its bodies' overlap [m²], and what
+  /// became of it.
   template <class Use>
-  void for_loaded_overlaps(Use use) const {
+  void for_paid_overlaps(Use use) const {
     for (const Pair& pair : pairs_) {
       double area = 0;
       Booked booked;
       for (const PersistentContact& record : pair.records()) {
-        area += record.loaded_area;
+        area += record.paid_area;
         booked += record.booked;
       }
       if (area > 0 && !pair.is_dropped) use(pair.a, pair.b, area, booked);

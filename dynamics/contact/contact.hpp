@@ -15,19 +15,17 @@ struct RestitutionMemory {
   double start_impulse[2] = {0, 0};  ///< where the next step starts, by the compression of the last two [N s]
 };
 
-/// What became of the overlap of a contact that has pressed. By the law of crushing ice.
+/// What became of the paid overlap of a contact. By the law of crushing ice.
 struct Booked {
-  double loaded = 0;   ///< of the loaded area what is booked [m²]
-  double crushed = 0;  ///< of that, the area that work crushed [m²]
-  double tilted = 0;   ///< and the area where the floe's edge gave way: it tilted or bent down [m²]
+  double crushed = 0;  ///< the area that work crushed [m²]
+  double tilted = 0;   ///< the area where the floe's edge gave way: it broke, tilted or bent down [m²]
   double volume = 0;   ///< of the ice that work crushed [m³]
   double work = 0;     ///< that crushed it [J]
 
   friend Booked operator*(double share, const Booked& b) {
-    return {share * b.loaded, share * b.crushed, share * b.tilted, share * b.volume, share * b.work};
+    return {share * b.crushed, share * b.tilted, share * b.volume, share * b.work};
   }
   Booked& operator+=(const Booked& b) {
-    loaded += b.loaded;
     crushed += b.crushed;
     tilted += b.tilted;
     volume += b.volume;
@@ -52,8 +50,8 @@ struct PersistentContact {
   double last_impulse[2] = {0, 0};   ///< of compression, at each end, in the last substep solved [N s]
   double last_slip_impulse = 0;      ///< along the contact line, there [N s]
   double last_substep = 0;           ///< how long that was; 0 by restitution [s]
-  double loaded_depth = 0;           ///< deepest overlap that pressed: the ice is gone so far [m]
-  double loaded_area = 0;            ///< of that overlap [m²]
+  double paid_area = 0;              ///< of the overlap, the part whose ice is gone (paid_overlap.hpp) [m²]
+  double area = 0;                   ///< of the overlap, as expected at the end of the last step [m²]
   double reach = 0;                  ///< of the contact from last_point_in_b, at the last step [m]
   std::int64_t load_track = 0;       ///< of what follows its force from step to step; 0: nothing does
   RestitutionMemory restitution;
@@ -62,7 +60,7 @@ struct PersistentContact {
   bool has_crushed = false;
   bool is_pierced = false;    ///< of a pierced body, at the last step
   bool was_refused = false;   ///< a fracture here was rejected by geometry: not tried again
-  bool is_inherited = false;  ///< of the body that this one broke from: states only what has pressed
+  bool is_inherited = false;  ///< of the body that this one broke from: states only what is paid
   bool is_continued = false;  ///< already taken over by a contact of the next step
 };
 
@@ -77,16 +75,18 @@ struct Contact {
   double width = 0;                     ///< of the contact line [m]
   double depth = 0;                     ///< of the overlap along the normal [m]
   double area = 0;                      ///< of the overlap [m²]
+  double paid_depth = 0;                ///< the depth to which the overlap is paid, at the start of the step [m]
   double approach_speed = 0;            ///< v_n at the middle, positive when approaching [m/s]
   double slip_speed = 0;                ///< along the contact line [m/s]
   std::uint32_t tip_edge_of_b = 0;      ///< the edge of b that starts at the tip, or that the tip is on
   std::uint32_t place = 0;              ///< among the contacts of its two bodies
+  bool is_new = false;                  ///< it was found in this step for the first time, and nothing of it is paid
   PersistentContact* record = nullptr;  ///< in its pair; valid during the step
 
   // Decided between finding and solving, along the normal, both ends together.
   double friction = 0;  ///< most tangential per normal impulse [-]
-  /// F, what crushing ice carries at the overlap now or the deepest that pressed [N]; infinite: steel on
-  /// steel, which does not crush.
+  /// F, what crushing ice carries at the depth of the overlap or the paid depth, whichever is greater [N]; infinite:
+  /// steel on steel, which does not crush.
   double crushing_force = std::numeric_limits<double>::infinity();
   double crushing_stiffness = 0;  ///< k = dF/dξ there [N/m]
   double missed_impulse = 0;      ///< in the step of the first contact, before it was found [N s]
@@ -96,6 +96,11 @@ struct Contact {
   double normal_impulse[2] = {0, 0};  ///< on b along the normal, at each end [N s]
   double normal_work = 0;             ///< of the normal impulses on the two bodies together [J]
   double slip_work = 0;               ///< of the slip impulse [J]
+  double depth_after = 0;             ///< expected of the overlap at the end of the step [m]
+  double paid_depth_after = 0;        ///< the depth to which work has paid it then [m]
+  double paying_work = 0;             ///< of the contact's work in the step, what paid [J]
+  double paid_by_work = 0;            ///< by how much that work has made the paid area grow [m²]
+  double paid_by_giving_way = 0;      ///< and by how much ice that broke or tilted [m²]
   bool is_at_limit = false;           ///< it pressed with all that crushing ice carries
   bool is_broken = false;             ///< the force reached breaking_force
   double steady_share = 1;            ///< of the impulses: without what was missed before the contact was found [-]
@@ -136,11 +141,5 @@ struct PartedContact {
   CrushedIce crushed;
   geometry::Point middle;  ///< of the contact when it was last found, in the water frame [m]
 };
-
-/// Keeps in the contact's record how far its overlap has pressed, after the solver.
-void remember_overlap(const Contact& contact);
-
-/// Keeps there the overlap that crushed, where it is the largest so far. Where the solver found the impulses.
-void remember_crushed(const Bodies& bodies, const Contact& contact);
 
 }  // namespace polynya::dynamics

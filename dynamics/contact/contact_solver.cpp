@@ -258,7 +258,7 @@ void ContactSolver::finish(const Island& island, const Law& law, int threads) {
       }
       sums.slip_impulse += constraint.slip_impulse;
       sums.slip_work += 0.5 * constraint.slip_impulse * (sums.before.slip + after.slip);
-      end_substep(law, after, constraint, states[k]);
+      end_substep(law, sums.before, after, constraint, states[k]);
     }
   });
 }

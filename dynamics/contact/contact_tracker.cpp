@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "dynamics/contact/paid_overlap.hpp"
+
 namespace polynya::dynamics {
 
 using geometry::ContactManifold;
@@ -10,11 +12,6 @@ using geometry::Point;
 using geometry::Vector;
 
 namespace {
-
-/// An overlap may be larger than what has pressed by this share of the smaller body, then it presses.
-/// Greater: faces that turn onto each other overlap further before they press; 0: they press again by
-/// rounding alone.
-constexpr double kUncrushedShare = 0.005;
 
 Point point_in_b(const Bodies& bodies, const Contact& c, Point point_in_water) {
   return bodies.centroid[c.b] + rotate_back(bodies.rotation[c.b], point_in_water - bodies.position[c.b]);
@@ -24,18 +21,6 @@ PersistentContact new_record(const Bodies& bodies, const Contact& c) {
   PersistentContact record;
   record.first_touch_in_b = point_in_b(bodies, c, c.tip_of_b);
   return record;
-}
-
-/// dS/dξ of the power law that continues an overlap to other depths, S(ξ) = S (ξ/d)^p (fracture::Overlap)
-/// [m].
-double growth_of(const Contact& c) {
-  return std::clamp(c.width, c.area / c.depth, 3 * c.area / c.depth);
-}
-
-/// The depth at which the contact's overlap would have that area [m].
-double loaded_depth_of(const Contact& c, double loaded_area) {
-  if (!(loaded_area > 0 && c.area > 0 && c.depth > 0)) return 0;
-  return std::max(0.0, c.depth + (loaded_area - c.area) / growth_of(c));
 }
 
 }  // namespace
@@ -57,24 +42,37 @@ ContactTracker::Patch ContactTracker::patch_of(const Contact& c, const ContactMa
 
 void ContactTracker::update(std::span<Contact> contacts, std::span<const ContactManifold> manifolds,
                             const Bodies& bodies) {
-  if (contacts.size() == 1 && records_.size() == 1 && !records_[0].is_inherited) {  // nearly always
-    const Patch patch = patch_of(contacts[0], manifolds[0], bodies);
-    const double reach = reach_of(records_[0], patch);
-    if (squared_length(patch.middle - records_[0].last_point_in_b) > reach * reach) {
-      PersistentContact record = new_record(bodies, contacts[0]);
-      keep_what_pressed(contacts[0], patch, record);
-      if (record.loaded_area == 0) note_parted(records_[0], bodies);
-      records_[0] = record;
-    }
-    advance(records_[0], contacts[0], patch, bodies);
-  } else {
-    updated_.clear();
-    for (std::size_t i = 0; i < contacts.size(); ++i)
-      updated_.push_back(record_of(contacts[i], patch_of(contacts[i], manifolds[i], bodies), bodies));
-    join_left_over(contacts, manifolds, bodies);
-    std::swap(records_, updated_);
+  if (!continues_one(contacts, manifolds, bodies)) update_several(contacts, manifolds, bodies);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    contacts[i].record = &records_[i];
+    contacts[i].is_new = records_[i].age <= dt_ && records_[i].paid_area == 0;
+    enter_paid_depth(contacts[i]);
   }
-  for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i].record = &records_[i];
+}
+
+/// Updates the record of a pair that has had one contact and has it still, as nearly all do. Returns whether it is one.
+bool ContactTracker::continues_one(std::span<Contact> contacts, std::span<const ContactManifold> manifolds,
+                                   const Bodies& bodies) {
+  if (contacts.size() != 1 || records_.size() != 1 || records_[0].is_inherited) return false;
+  const Patch patch = patch_of(contacts[0], manifolds[0], bodies);
+  const double reach = reach_of(records_[0], patch);
+  if (squared_length(patch.middle - records_[0].last_point_in_b) > reach * reach) return false;
+  advance(records_[0], contacts[0], patch, bodies);
+  return true;
+}
+
+void ContactTracker::update_several(std::span<Contact> contacts, std::span<const ContactManifold> manifolds,
+                                    const Bodies& bodies) {
+  updated_.clear();
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    updated_.push_back(record_of(contacts[i], patch_of(contacts[i], manifolds[i], bodies), bodies));
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (updated_[i].age == 0) take_parts(contacts, i);
+  }
+  join_left_over(contacts, manifolds, bodies);
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    advance(updated_[i], contacts[i], patch_of(contacts[i], manifolds[i], bodies), bodies);
+  std::swap(records_, updated_);
 }
 
 /// How far a contact may be from where its record was [m]. Where a body is or was pierced, line and middle
@@ -84,6 +82,7 @@ double ContactTracker::reach_of(const PersistentContact& record, const Patch& pa
   return tolerance_ + (is_pierced ? std::max(patch.reach, record.reach) : patch.reach);
 }
 
+/// The nearest record that may be the contact's; else a new one, whose age is 0.
 PersistentContact ContactTracker::record_of(const Contact& c, const Patch& patch, const Bodies& bodies) {
   PersistentContact* old = nullptr;
   double nearest = std::numeric_limits<double>::infinity();
@@ -93,40 +92,56 @@ PersistentContact ContactTracker::record_of(const Contact& c, const Patch& patch
     nearest = d;
     old = &record;
   }
-  PersistentContact record = old != nullptr ? *old : new_record(bodies, c);
-  if (old != nullptr)
-    old->is_continued = true;
-  else
-    keep_what_pressed(c, patch, record);
-  advance(record, c, patch, bodies);
+  if (old == nullptr) return new_record(bodies, c);
+  const PersistentContact record = *old;
+  old->is_continued = true;
   return record;
 }
 
-/// A contact without a record of its own, where an overlap was: a part of that one.
-void ContactTracker::keep_what_pressed(const Contact& c, const Patch& patch, PersistentContact& record) const {
-  for (const PersistentContact& old : records_) {
-    if (distance(old.last_point_in_b, patch.middle) > tolerance_ + old.reach) continue;
-    const double kept = std::min(old.loaded_area, c.area);
-    if (kept > record.loaded_area) {
-      record.loaded_area = kept;
-      record.booked = kept / old.loaded_area * old.booked;
-      record.booked.loaded = kept;
-    }
-    if (old.crushed.area > record.crushed.area) record.crushed = old.crushed;
+namespace {
+
+/// Moves what is paid of an overlap to one that was a part of it: that part's share, as far as it is available [m²].
+void give_part(double available, double area_of_part, PersistentContact& from, PersistentContact& to) {
+  if (!(available > 0)) return;
+  const double share_paid = std::min(1.0, from.paid_area / std::max(from.paid_area, from.area));
+  const double given = std::min(available, share_paid * area_of_part);
+  const Booked booked = given / from.paid_area * from.booked;
+  to.paid_area += given;
+  to.booked += booked;
+  from.booked += -1.0 * booked;
+  from.paid_area -= given;
+  from.area = std::max(0.0, from.area - area_of_part);
+  if (from.crushed.area > to.crushed.area) to.crushed = from.crushed;
+}
+
+}  // namespace
+
+/// A contact without a record of its own is a part of an overlap that was there: of one that ended or was inherited, or
+/// of one that goes on and of which more is paid than it has left.
+void ContactTracker::take_parts(std::span<const Contact> contacts, std::size_t part) {
+  PersistentContact& record = updated_[part];
+  const double area = contacts[part].area;
+  for (PersistentContact& old : records_) {
+    if (old.is_continued) continue;
+    give_part(old.paid_area, area - record.paid_area, old, record);
+    if (old.crushed.area > 0 && !old.is_inherited && record.crushed.area >= old.crushed.area) old.crushed = {};
   }
-  if (record.loaded_area > 0) record.loaded_depth = loaded_depth_of(c, record.loaded_area);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (updated_[i].age > 0)
+      give_part(updated_[i].paid_area - contacts[i].area, area - record.paid_area, updated_[i], record);
+  }
 }
 
 /// Records without a contact whose overlap has become part of another.
 void ContactTracker::join_left_over(std::span<Contact> contacts, std::span<const ContactManifold> manifolds,
                                     const Bodies& bodies) {
   for (const PersistentContact& old : records_) {
-    if (old.is_continued || old.is_inherited || old.loaded_area == 0) continue;
+    if (old.is_continued || old.is_inherited) continue;
     bool is_joined = false;
     for (std::size_t i = 0; i < contacts.size() && !is_joined; ++i) {
       if (!patch_of(contacts[i], manifolds[i], bodies).holds(old.last_point_in_b)) continue;
-      updated_[i].loaded_depth = std::max(updated_[i].loaded_depth, old.loaded_depth);
-      updated_[i].loaded_area += old.loaded_area;
+      updated_[i].paid_area += old.paid_area;
+      updated_[i].area += old.area;
       updated_[i].booked += old.booked;
       if (old.crushed.area > updated_[i].crushed.area) updated_[i].crushed = old.crushed;
       is_joined = true;
@@ -154,28 +169,11 @@ void ContactTracker::advance(PersistentContact& record, const Contact& c, const 
   record.approach += std::max(0.0, c.approach_speed) * dt_;
   record.is_pierced = patch.is_pierced;
   if (patch.is_pierced) {
-    // Its extent does not show how far the overlap has pressed: its area does. And it was crushed, or the
-    // bodies would not be in each other so far: nothing separates it.
+    // It was crushed, or the bodies would not be in each other so far: nothing separates it by the law of impulses.
     record.crushed_depth = c.depth;
-    record.loaded_depth = loaded_depth_of(c, record.loaded_area);
-    return;
+  } else {
+    record.crushed_depth = std::min(record.crushed_depth, c.depth);
   }
-  record.crushed_depth = std::min(record.crushed_depth, c.depth);
-  // Depth is a poor memory where faces turn onto each other: the overlap grows without becoming deeper.
-  if (record.loaded_depth == 0 || c.area <= record.loaded_area) return;
-  const double loaded = record.loaded_area + kUncrushedShare * std::min(bodies.area[c.a], bodies.area[c.b]);
-  if (c.area > loaded) record.loaded_depth = std::min(record.loaded_depth, loaded_depth_of(c, loaded));
-}
-
-void remember_crushed(const Bodies& bodies, const Contact& c) {
-  if (c.gives_way || !c.is_at_limit || c.area < c.record->crushed.area) return;
-  c.record->crushed = {relative_pose(water_from_body(bodies, c.a), water_from_body(bodies, c.b)), c.area};
-}
-
-void remember_overlap(const Contact& c) {
-  if (c.total_normal_impulse() == 0 || !(c.area > 0 && c.depth > 0)) return;
-  const double moved = std::max(0.0, c.record->loaded_depth - c.depth);  // within the step
-  c.record->loaded_area = c.area + growth_of(c) * moved;
 }
 
 }  // namespace polynya::dynamics

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -9,8 +10,8 @@
 namespace polynya::dynamics {
 
 /// Updates the records of a pair's contacts. A record passes to the nearest contact that may be the same; one
-/// without a contact is dropped. What has pressed is kept where overlaps join (the deepest) and where one
-/// becomes several (as far as each reaches).
+/// without a contact is dropped. What is paid of an overlap (paid_overlap.hpp) never grows here: overlaps that join add
+/// up what is paid of them, and where one becomes several, each takes its part.
 class ContactTracker {
  public:
   /// Of the pair a, b. Contacts that end with ice that they crushed are added to `parted`.
@@ -40,9 +41,13 @@ class ContactTracker {
     bool holds(geometry::Point point_in_b) const;
   };
   static Patch patch_of(const Contact& contact, const geometry::ContactManifold& manifold, const Bodies& bodies);
+  bool continues_one(std::span<Contact> contacts, std::span<const geometry::ContactManifold> manifolds,
+                     const Bodies& bodies);
+  void update_several(std::span<Contact> contacts, std::span<const geometry::ContactManifold> manifolds,
+                      const Bodies& bodies);
   double reach_of(const PersistentContact& record, const Patch& patch) const;
   PersistentContact record_of(const Contact& contact, const Patch& patch, const Bodies& bodies);
-  void keep_what_pressed(const Contact& contact, const Patch& patch, PersistentContact& record) const;
+  void take_parts(std::span<const Contact> contacts, std::size_t part);
   void join_left_over(std::span<Contact> contacts, std::span<const geometry::ContactManifold> manifolds,
                       const Bodies& bodies);
   void note_parted(const PersistentContact& record, const Bodies& bodies);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "dynamics/contact/paid_overlap.hpp"
+
 namespace polynya::dynamics {
 namespace {
 
@@ -101,6 +103,13 @@ std::array<double, 2> impulses_of(CrushLaw::State& c, const EndsMobility& mobili
   return impulse;
 }
 
+/// v_g, by how fast the gap to the paid depth is closed [m/s].
+double gap_speed_of(const CrushLaw& law, const CrushLaw::State& c) {
+  const double gap = c.paid - c.depth;
+  if (gap >= 0) return gap * law.substeps / law.step;
+  return c.is_new ? 0 : gap / std::max(kDecayTime, law.step);
+}
+
 /// The most impulse that the ice gives in a time τ before it breaks: where the force grows to the breaking
 /// force sooner, at the speed of closing now, all until then [N s].
 double impulse_to_breaking(const CrushLaw::State& c, const ConstraintSpeeds& speeds, double tau) {
@@ -161,7 +170,8 @@ CrushLaw::State state_of(const CrushLaw& /*law*/, const Contact& c) {
   return {.force = c.crushing_force,
           .stiffness = c.crushing_stiffness,
           .depth = c.depth,
-          .loaded = c.record->loaded_depth,
+          .paid = c.paid_depth,
+          .paying_work = 0,
           .missed = c.missed_impulse,
           .breaking_force = c.breaking_force,
           .ends = {},
@@ -171,7 +181,8 @@ CrushLaw::State state_of(const CrushLaw& /*law*/, const Contact& c) {
           .last_impulse = {c.record->last_impulse[0], c.record->last_impulse[1]},
           .last_slip = c.record->last_slip_impulse,
           .is_rigid = c.is_rigid(),
-          .is_broken = false};
+          .is_broken = false,
+          .is_new = c.is_new};
 }
 
 void begin_substep(const CrushLaw& law, const ConstraintSpeeds& before, bool is_first, CrushLaw::State& state,
@@ -183,7 +194,8 @@ void begin_substep(const CrushLaw& law, const ConstraintSpeeds& before, bool is_
   const double missed = is_first ? state.missed : 0;
   end.impulse_of_force = 0.5 * (tau * state.force + missed);
   end.slope = 0.25 * state.stiffness * tau * tau;
-  end.gap_speed = std::max(0.0, state.loaded - state.depth) / tau;
+  end.gap_speed = gap_speed_of(law, state);
+  end.creep_speed = creep_speed_of(end.gap_speed);
   end.cap = state.is_broken ? 0 : 0.5 * (impulse_to_breaking(state, before, tau) + missed);
   state.ends[1] = end;
   state.kinks[0] = state.kinks[1] = kinks_of(end);
@@ -199,7 +211,9 @@ double solve_block(const CrushLaw& /*law*/, CrushLaw::State& state, ContactConst
   const EndsMobility mobility = mobility_of(k);
   const auto trial = trial_speeds(mobility, apart_at(k, a, b), k.normal_impulse);
   const double p0 = k.normal_impulse[0], p1 = k.normal_impulse[1];
-  if (p0 == 0 && p1 == 0 && k.slip_impulse == 0 && trial[0] <= 0 && trial[1] <= 0) return 0;
+  if (p0 == 0 && p1 == 0 && k.slip_impulse == 0 && trial[0] <= state.ends[0].gap_speed &&
+      trial[1] <= state.ends[1].gap_speed)
+    return 0;
   const auto impulse = impulses_of(state, mobility, trial);
   const double change_0 = impulse[0] - p0;
   const double change_1 = impulse[1] - p1;
@@ -221,20 +235,24 @@ double missed_speed(const CrushLaw& law, const CrushLaw::State& state, const Con
   return solve_block(law, own, k, both);
 }
 
-void end_substep(const CrushLaw& law, const ConstraintSpeeds& after, const ContactConstraint& constraint,
-                 CrushLaw::State& state) {
+void end_substep(const CrushLaw& law, const ConstraintSpeeds& before, const ConstraintSpeeds& after,
+                 const ContactConstraint& constraint, CrushLaw::State& state) {
   double closing = 0;
+  double work = -0.5 * constraint.slip_impulse * (before.slip + after.slip);  // wears ice off, too
   for (std::size_t end = 0; end < 2; ++end) {
     closing -= 0.5 * after.apart[end];  // as the bodies are moved, by their new speeds
+    work -= 0.5 * constraint.normal_impulse[end] * (before.apart[end] + after.apart[end]);
     if (!state.is_rigid && branch_at(state.ends[end], -after.apart[end]) == CrushBranch::kBroken)
       state.is_broken = true;
   }
-  const double moved = law.step / law.substeps * closing;
-  state.depth = std::max(0.0, state.depth + moved);
-  const double crushed = state.depth - std::max(state.loaded, state.depth - moved);
-  state.force = std::max(0.0, state.force + state.stiffness * std::max(0.0, crushed));
-  if (constraint.normal_impulse[0] + constraint.normal_impulse[1] > 0)
-    state.loaded = std::max(state.loaded, state.depth);
+  const double deepest = std::max(state.depth, state.paid);
+  state.depth = std::max(0.0, state.depth + law.step / law.substeps * closing);
+  if (state.is_rigid) return;
+  const Payment payment = pay({state.force, state.stiffness, deepest}, state.paid, state.depth, work);
+  state.paid = payment.depth;
+  state.paying_work += payment.work;
+  const double deeper = std::max({deepest, state.depth, state.paid}) - deepest;
+  state.force = std::max(0.0, state.force + state.stiffness * deeper);
 }
 
 void write_back(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,
@@ -244,7 +262,9 @@ void write_back(const CrushLaw& law, const CrushLaw::State& state, const Contact
   contact.record->last_substep = law.step / law.substeps;
   contact.is_broken = state.is_broken;
   contact.is_at_limit = !state.is_rigid && contact.total_normal_impulse() > 0;  // all of it crushes
-  contact.record->loaded_depth = state.loaded;
+  contact.depth_after = state.depth;
+  contact.paid_depth_after = state.paid;
+  contact.paying_work = state.paying_work;
   const double steady = law.step * contact.crushing_force;
   contact.steady_share = state.missed > 0 ? steady / (steady + state.missed) : 1;
 }

@@ -10,12 +10,19 @@
 
 namespace polynya::dynamics {
 
-/// The law of a contact in which ice crushes (docs/theory/contact.md): what crushing takes while the two
-/// close, nothing while they part or rest.
+/// The least u_c: below it ice creeps instead of crushing with its full strength. It regularises the law; results are
+/// alike from 1 to 20 mm/s. Far smaller, the creep branch is so steep that jams take more sweeps; greater, ice at rest
+/// is driven into other ice.
+inline constexpr double kCreepSpeed = 5e-3;  // [m/s]
+
+/// The law of a contact in which ice crushes (docs/theory/contact.md): what crushing takes while the two close, nothing
+/// while they part.
 ///
-/// Over a time τ in which the bodies close by u⁺ (their closing speed once all impulses have acted), a
-/// contact first closes the gap g to the deepest overlap that was loaded before. What is left, x = u⁺ − g/τ,
-/// crushes new ice: the force there is F, growing by k x τ, so that the impulse is
+/// Over a time τ the bodies close by u⁺, their closing speed once all impulses have acted. The gap g is the depth to
+/// which the overlap is paid (paid_overlap.hpp) less the depth of the overlap. A positive gap is closed first, without
+/// a force. A negative gap is overlap whose ice is not gone: it is to be undone, or paid, within T, kDecayTime. What is
+/// left, x = u⁺ − v_g, v_g = g/τ where g ≥ 0 and g/T where g < 0, crushes ice: the force there is F, growing by k x τ,
+/// so that the impulse is
 ///
 ///   λ(x) = 0                       x ≤ 0
 ///          (τF/u_c + ½ k τ²) x     0 < x ≤ u_c
@@ -26,18 +33,25 @@ namespace polynya::dynamics {
 /// unique (docs/theory/solver.md): the solution of a strictly monotone problem, whatever the start.
 /// Own law; crushing force by Eq. (2) of [Sawamura2017].
 struct CrushResponse {
-  double impulse_of_force = 0;  ///< τF of this end of the contact line, ≥ 0 [N s]
-  double slope = 0;             ///< ½ k τ², ≥ 0 [N s per m/s]
-  double gap_speed = 0;         ///< g/τ, ≥ 0 [m/s]
-  double cap = 0;               ///< most impulse, ≥ 0 [N s]
+  double impulse_of_force = 0;       ///< τF of this end of the contact line, ≥ 0 [N s]
+  double slope = 0;                  ///< ½ k τ², ≥ 0 [N s per m/s]
+  double gap_speed = 0;              ///< v_g; negative: overlap that is not paid [m/s]
+  double cap = 0;                    ///< most impulse, ≥ 0 [N s]
+  double creep_speed = kCreepSpeed;  ///< u_c, > 0 [m/s]
 };
 
-/// u_c: below it ice creeps instead of crushing with its full strength. Regularises the law; results are
-/// alike from 1 to 20 mm/s. Far smaller, the creep branch is so steep that jams take more sweeps; greater,
-/// ice at rest is driven into other ice.
-inline constexpr double kCreepSpeed = 5e-3;  // [m/s]
+/// T: overlap that is not paid is undone or paid in about this time, or in a step that is longer. Shorter: bodies are
+/// thrown apart faster. Longer: overlap lasts for longer before its ice is paid.
+inline constexpr double kDecayTime = 0.25;  // [s]
 
-/// A straight branch of the law: λ = at_rest + slope · (u − g/τ).
+/// u_c by v_g: bodies that close by kCreepSpeed are pressed with all of F whatever is not paid; bodies at rest with a
+/// part of it that grows with what is not paid, so that the force does not switch between nothing and all of F from
+/// step to step where a jam is squeezed [m/s].
+inline double creep_speed_of(double gap_speed) {
+  return kCreepSpeed + std::max(0.0, -gap_speed);
+}
+
+/// A straight branch of the law: λ = at_rest + slope · (u − v_g).
 struct BranchLine {
   double at_rest = 0;  ///< [N s]
   double slope = 0;    ///< [N s per m/s]
@@ -45,7 +59,7 @@ struct BranchLine {
 enum class CrushBranch : std::uint8_t { kApart, kCreeping, kCrushing, kBroken };
 
 inline double creep_slope(const CrushResponse& r) {
-  return r.impulse_of_force / kCreepSpeed + r.slope;
+  return r.impulse_of_force / r.creep_speed + r.slope;
 }
 
 /// `creep` is creep_slope(r), for those that ask often.
@@ -72,7 +86,7 @@ struct CrushKinks {
 inline CrushKinks kinks_of(const CrushResponse& r) {
   CrushKinks kinks;
   kinks.creep = creep_slope(r);
-  kinks.crept = std::min(kinks.creep * kCreepSpeed, r.cap);
+  kinks.crept = std::min(kinks.creep * r.creep_speed, r.cap);
   kinks.creeping_to = kinks.creep > 0 ? kinks.crept / kinks.creep : 0;
   kinks.crushing_to = r.slope == 0 ? std::numeric_limits<double>::infinity() : (r.cap - r.impulse_of_force) / r.slope;
   return kinks;
@@ -143,7 +157,7 @@ std::array<double, 2> places_of(const CrushResponse& law, const CrushKinks& kink
                                 CrushBranch branch);
 
 /// The impulses of both ends that obey the law together: λ_i = λ_i(û_i − (K λ)_i), û the closing speeds
-/// without them [m/s]. On each pair of branches this is a 2 × 2 system, (I + diag(β) K) λ = α + β (û − g/τ);
+/// without them [m/s]. On each pair of branches this is a 2 × 2 system, (I + diag(β) K) λ = α + β (û − v_g);
 /// the branches follow from its solution, as in Newton's method, and where that goes round in circles, all
 /// pairs are tried. Starts from `branches`, or from those of û where both are apart, and leaves there those
 /// of the solution: the next one is likely on the same.
@@ -151,7 +165,7 @@ std::array<double, 2> crush_impulses(const std::array<CrushResponse, 2>& ends, c
                                      const EndsMobility& mobility, const std::array<double, 2>& closing_speed,
                                      ActiveBranches& branches);
 
-/// The impulses of both ends on one pair of branches, λ = at_rest + by (û − g/τ), and between which places
+/// The impulses of both ends on one pair of branches, λ = at_rest + by (û − v_g), and between which places
 /// (branch_near) that holds: solved once, asked in each sweep.
 struct EndsLine {
   double at_rest[2];       ///< [N s]
@@ -172,8 +186,9 @@ struct CrushLaw {
 
   /// Of one contact, through the substeps.
   struct State {
-    double force, stiffness;  ///< F and k at the depth reached, both ends together [N], [N/m]
-    double depth, loaded;     ///< overlap now, and the deepest that was loaded [m]
+    double force, stiffness;  ///< F and k at the greater of depth and paid, both ends together [N], [N/m]
+    double depth, paid;       ///< of the overlap now, and to which it is paid [m]
+    double paying_work;       ///< so far in the step [J]
     double missed;            ///< impulse before the contact was found [N s]
     double breaking_force;    ///< [N]
     EndLaws ends;             ///< of the substep
@@ -183,6 +198,7 @@ struct CrushLaw {
     double last_impulse[2];        ///< where the step starts [N s]
     double last_slip;              ///< [N s]
     bool is_rigid, is_broken;
+    bool is_new;  ///< the missed impulse stands for the overlap that is not paid
   };
 };
 
@@ -211,8 +227,8 @@ double solve_block(const CrushLaw& law, CrushLaw::State& state, ContactConstrain
 /// By how much a contact misses the law at the speeds now: the change that solve_block would make [m/s].
 double missed_speed(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,
                     std::span<const SolverBody> solver_bodies);
-void end_substep(const CrushLaw& law, const ConstraintSpeeds& after, const ContactConstraint& constraint,
-                 CrushLaw::State& state);
+void end_substep(const CrushLaw& law, const ConstraintSpeeds& before, const ConstraintSpeeds& after,
+                 const ContactConstraint& constraint, CrushLaw::State& state);
 /// Writes what the step leaves into the contact, whose impulses are found, and its record. The constraint has
 /// those of the last substep.
 void write_back(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,

@@ -25,6 +25,10 @@ double bounded_depth(const geometry::ContactManifold& m) {
   return m.depth * m.width > kMostPower * m.area ? m.area / m.width : m.depth;
 }
 
+/// By the law of crushing ice, the depth up to which an overlap is taken as a rectangle on its contact line: its
+/// measures are differences of coordinates that are rounded at 1e-12 m or so, and its shape would be rounding [m].
+constexpr double kShapeless = 1e-6;
+
 /// Not where nothing moves the two: what they crush is carved out by a rule of its own, which needs the extent.
 bool is_bounded(const ContactRule& rule, const Bodies& bodies, const Pair& pair) {
   return rule.is_depth_bounded && (bodies.inverse_mass[pair.a] != 0 || bodies.inverse_mass[pair.b] != 0);
@@ -134,7 +138,8 @@ bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRu
     c.normal = rotate(water_from_a.rotation, manifold.normal);
     c.width = manifold.width;
     c.depth = is_bounded(rule, bodies, pair) ? bounded_depth(manifold) : manifold.depth;
-    c.area = manifold.area;
+    const bool has_shape = !rule.is_depth_bounded || c.depth > kShapeless;
+    c.area = has_shape ? manifold.area : c.width * c.depth;
     c.tip_edge_of_b = manifold.tip_edge_of_b;
     c.place = number++;
     const Vector relative = velocity_at(bodies, c.b, c.middle() - bodies.position[c.b]) -

@@ -70,8 +70,9 @@ inline double solve_block(const RestitutionLaw& /*law*/, RestitutionLaw::State& 
 /// Gives back what a compression owes. Returns whether it gave any impulse, after which compression goes on.
 bool restore(const RestitutionLaw& law, bool is_converged, RestitutionLaw::State& state, ContactConstraint& constraint,
              std::span<SolverBody> solver_bodies);
-inline void end_substep(const RestitutionLaw& /*law*/, const ConstraintSpeeds& /*after*/,
-                        const ContactConstraint& /*constraint*/, RestitutionLaw::State& /*state*/) {}
+inline void end_substep(const RestitutionLaw& /*law*/, const ConstraintSpeeds& /*before*/,
+                        const ConstraintSpeeds& /*after*/, const ContactConstraint& /*constraint*/,
+                        RestitutionLaw::State& /*state*/) {}
 inline void write_back(const RestitutionLaw& /*law*/, const RestitutionLaw::State& state,
                        const ContactConstraint& /*constraint*/, Contact& contact) {
   contact.is_at_limit = contact.total_normal_impulse() >= state.crushing_impulse * (1 - 1e-9);

@@ -184,7 +184,7 @@ class RunLoop {
           fmt::format("no {} was written, of {} floes at the start: --final-geojson writes it, polynya export "
                       "--geojson makes it of the last frame",
                       run_file::kFinalGeojson, floes));
-    const bool is_failure = stop.end == RunEnd::kNumericalFailure || !result.summary.audit.is_closed();
+    const bool is_failure = stop.end == RunEnd::kNumericalFailure || !result.summary.accounts_close();
     if (is_failure && !run_.writer.is_displaced()) result.dump = dump_failure(run_);
     if (const auto written = run_.writer.finish(result.summary, has_floes ? &simulation() : nullptr); !written) {
       result.end = RunEnd::kFolderFailure;

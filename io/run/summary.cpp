@@ -65,13 +65,30 @@ void append_ice_of_floes(JsonWriter& json, const simulation::Scene& scene) {
   json.close('}');
 }
 
-void append(JsonWriter& json, const simulation::Audit& audit, bool has_boundaries) {
+/// Of the energy of moorings, what the balance of energy has.
+void append_stored(JsonWriter& json, const simulation::Audit& audit) {
+  const simulation::MooringFlows& m = audit.sums.moorings;
+  json.key("initial_stored_J").value(m.initial).key("stored_J").value(audit.stored_energy);
+  json.key("mooring_ground_J").value(m.ground).key("mooring_damping_J").value(m.damping);
+  json.key("mooring_breaking_J").value(m.breaking).key("mooring_separation_J").value(m.separation);
+}
+
+/// What went to and fro between ships and their moorings.
+void append_moorings(JsonWriter& json, const simulation::Audit& audit) {
+  const simulation::MooringFlows& m = audit.sums.moorings;
+  json.key("moorings").open('{').key("stored_J").value(audit.stored_energy);
+  json.key("taken_up_J").value(m.taken_up).key("given_back_J").value(m.given_back);
+  json.key("lost_J").value(m.damping + m.breaking).close('}');
+}
+
+void append_energy(JsonWriter& json, const simulation::Audit& audit, const simulation::Scene& scene) {
   const simulation::EnergyFlows& e = audit.sums.energy;
   json.key("energy").open('{');
   json.key("initial_J").value(audit.sums.initial_energy).key("kinetic_J").value(audit.kinetic_energy);
   json.key("thrust_J").value(e.thrust).key("current_J").value(e.current);
   const simulation::BoundaryFlows& b = audit.sums.boundaries;
-  if (has_boundaries) json.key("wind_J").value(b.wind).key("walls_J").value(b.walls);
+  if (has_wind_or_walls(scene)) json.key("wind_J").value(b.wind).key("walls_J").value(b.walls);
+  if (has_moorings(scene)) append_stored(json, audit);
   json.key("drag_J").value(e.drag);
   json.key("friction_J").value(e.friction).key("restitution_J").value(e.restitution);
   json.key("crushing_J").value(e.crushing).key("bending_J").value(e.bending);
@@ -80,8 +97,12 @@ void append(JsonWriter& json, const simulation::Audit& audit, bool has_boundarie
   json.key("rest_J").value(e.rest);
   json.key("imbalance_J").value(audit.energy_imbalance).key("turnover_J").value(audit.turnover);
   json.close('}');
+}
+
+void append_momentum(JsonWriter& json, const simulation::Audit& audit, bool has_boundaries) {
   const auto vector = [&](const char* key, geometry::Vector v) { json.key(key).list(std::array{v.x, v.y}); };
   const simulation::MomentumFlows& m = audit.sums.momentum;
+  const simulation::BoundaryFlows& b = audit.sums.boundaries;
   json.key("momentum").open('{');
   vector("initial_Ns", audit.sums.initial_momentum);
   vector("final_Ns", audit.total_momentum);
@@ -93,6 +114,12 @@ void append(JsonWriter& json, const simulation::Audit& audit, bool has_boundarie
   vector("removed_Ns", m.removed);
   vector("imbalance_Ns", audit.momentum_imbalance);
   json.key("turnover_Ns").value(audit.momentum_turnover).close('}');
+}
+
+void append(JsonWriter& json, const simulation::Audit& audit, const simulation::Scene& scene) {
+  append_energy(json, audit, scene);
+  if (has_moorings(scene)) append_moorings(json, audit);
+  append_momentum(json, audit, has_wind_or_walls(scene));
   json.key("audit_closed").value(audit.is_closed());
 }
 
@@ -201,6 +228,12 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
                     "do not trust this run, and please report it with its failure.bin",
                     audit.energy_imbalance, audit.turnover, length(audit.momentum_imbalance), audit.momentum_turnover));
   }
+  const simulation::IceLedger areas = simulation.area_ledger(), masses = simulation.mass_ledger();
+  if (!areas.is_closed() || !masses.is_closed())
+    warnings.push_back(
+        fmt::format("THE LEDGER IS BROKEN: ice is off by {:.2e} m2 of {:.2e} m2, {:.2e} kg of {:.2e} kg; do not trust "
+                    "this run, and please report it with its failure.bin",
+                    areas.imbalance(), areas.initial, masses.imbalance(), masses.initial));
   add_calibrations(simulation.scene(), warnings);
   if (simulation.scene().fracture.characteristic_length == fracture::CharacteristicLength::kAsPrinted)
     warnings.emplace_back("fracture.characteristic_length is as_printed: Eq. (7) with the paper's misprint");
@@ -268,8 +301,9 @@ std::string to_json_text(const RunSummary& summary, const LoadedScene& scene) {
     const std::vector<const ForceColumn*> columns = peak_columns(scene.scene);
     json.key("peaks").objects(summary.peaks, [&](const ShipPeaks& peaks) { append(json, peaks, columns); });
     append(json, summary.areas, summary.masses);
+    json.key("ledger_closed").value(summary.areas.is_closed() && summary.masses.is_closed());
     append_ice_of_floes(json, scene.scene);
-    append(json, summary.audit, has_wind_or_walls(scene.scene));
+    append(json, summary.audit, scene.scene);
     append(json, summary.counts);
     append(json, summary.load_peaks, scene.scene.record.least_peak);
     json.key("warnings").list(summary.warnings);

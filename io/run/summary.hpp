@@ -54,6 +54,8 @@ struct RunSummary {
   std::vector<std::string> warnings;
 
   double real_time_factor() const { return wall_time > 0 ? sim_time / wall_time : 0; }
+  /// Whether ice, energy and momentum are where the accounts have them.
+  bool accounts_close() const { return audit.is_closed() && areas.is_closed() && masses.is_closed(); }
 };
 
 /// The shortest time step that a run of such ticks [s] took [s].

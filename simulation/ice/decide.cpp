@@ -26,8 +26,7 @@ bool is_just_born(const Population& population, const Step& step, BodyIndex body
 void set_crushing(const Step& step, const Population& population, double force, double stiffness, Contact& c) {
   c.crushing_force = force;
   c.crushing_stiffness = stiffness;
-  const bool is_new = c.record->loaded_depth == 0 && c.record->age <= step.length;
-  if (!is_new || force <= 0 || c.approach_speed <= 0) return;
+  if (!c.is_new || force <= 0 || c.approach_speed <= 0) return;
   if (is_just_born(population, step, c.a) || is_just_born(population, step, c.b)) return;
   const double exponent = stiffness * c.depth / force;
   c.missed_impulse = std::min(step.length, c.depth / c.approach_speed) * force / (1 + exponent);
@@ -154,11 +153,11 @@ fracture::Ice crushed_between(const Setup& setup, const Population& population, 
   return fracture::crushed_between(ice_of_body(setup, population, c.a), ice_of_body(setup, population, c.b));
 }
 
-/// Floe against floe by the law of crushing ice: vertical walls, F_n at the deepest overlap that pressed.
+/// Floe against floe by the law of crushing ice: vertical walls, F_n at the depth of the overlap or the paid depth.
 void crush_between_floes(const Setup& setup, const Step& step, const Population& population, Contact& c) {
   const fracture::Ice ice = crushed_between(setup, population, c);
-  const fracture::CrushedArea crushed = fracture::crushed_overlap_at(
-      {c.width, c.depth, c.area}, std::max(c.depth, c.record->loaded_depth), ice.thickness, 0);
+  const fracture::CrushedArea crushed =
+      fracture::crushed_overlap_at({c.width, c.depth, c.area}, std::max(c.depth, c.paid_depth), ice.thickness, 0);
   set_crushing(step, population, fracture::crushing_force(ice, crushed.area),
                fracture::crushing_force(ice, crushed.slope), c);
 }

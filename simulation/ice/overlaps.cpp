@@ -126,22 +126,19 @@ bool cut_overlap(const Setup& setup, const Instant& now, const OverlapCut& overl
 
 namespace {
 
-/// Books what an overlap has grown in the step: crushed as far as the ice edge stood still, else tilted. The work
-/// of the normal force alone: friction along an inclined hull has the share μ tan θ_s of it.
+/// Books by what the paid area of a contact has grown in the step: crushed as far as work has paid it and the ice edge
+/// stood still, else tilted. The work is that of the normal force alone: friction along an inclined hull has the share
+/// μ tan θ_s of it.
 void book(double thickness, double friction, const HullSlope& hull, const Contact& c) {
   dynamics::Booked& booked = c.record->booked;
-  const double loaded = c.record->loaded_area;
-  if (loaded < booked.loaded) booked = loaded / booked.loaded * booked;
-  const double grown = loaded - booked.loaded;
-  const double crushed = hull.crushed_share * grown;
+  const double crushed = hull.crushed_share * c.paid_by_work;
   const fracture::Overlap overlap{c.width, c.depth, c.area};
   const double angle = hull.tangent == 0 ? 0 : std::atan(hull.tangent);
   const auto volume_of = [&](double area) { return fracture::crushed_volume(overlap, area, thickness, angle); };
   if (crushed > 0) booked.volume += volume_of(booked.crushed + crushed) - volume_of(booked.crushed);
   booked.crushed += crushed;
-  booked.tilted += grown - crushed;
-  booked.work -= hull.crushed_share * c.normal_work / (1 + friction * hull.tangent);
-  booked.loaded = loaded;
+  booked.tilted += c.paid_by_work - crushed + c.paid_by_giving_way;
+  booked.work += hull.crushed_share * c.paying_work / (1 + friction * hull.tangent);
 }
 
 }  // namespace
@@ -221,7 +218,7 @@ namespace {
 
 /// What a contact crushed is cut off from this share of the smaller body on; when it has parted also from h²
 /// on. Smaller, floes become new ones at every touch; greater, bodies share more than 1 % of the smaller when
-/// they part: half a per cent may not have pressed (contact_tracker.cpp).
+/// they part.
 constexpr double kLeastCrushedShare = 0.005;
 
 /// From which area on what a contact crushed that has parted is cut off [m²].
@@ -245,7 +242,7 @@ struct Touching {
   }
   double crushed_area() const {  ///< of the overlap now [m²]
     double area = 0;
-    for (const Contact& c : contacts) area += c.record->crushed.area > 0 ? std::min(c.area, c.record->loaded_area) : 0;
+    for (const Contact& c : contacts) area += c.record->crushed.area > 0 ? std::min(c.area, c.record->paid_area) : 0;
     return area;
   }
   const Contact& largest() const {

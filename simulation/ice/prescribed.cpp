@@ -133,10 +133,12 @@ void press_prescribed(const Setup& setup, const Step& step, const Population& po
   if (way * load.stiffness > most - load.normal_force) load.stiffness = (most - load.normal_force) / way;
 }
 
-void close_prescribed_gap(const Step& step, const dynamics::Bodies& bodies, const Contact& c) {
-  if (!are_prescribed(bodies, c.a, c.b) || c.approach_speed <= 0) return;
+void close_prescribed_gap(const Step& step, const dynamics::Bodies& bodies, Contact& c) {
+  if (!are_prescribed(bodies, c.a, c.b)) return;
+  c.paid_depth = std::max(c.paid_depth, c.depth);
+  if (c.approach_speed <= 0) return;
   const double half_a_step = 0.5 * c.width * c.approach_speed * step.length;  // of area
-  if (c.area + half_a_step >= c.record->loaded_area) c.record->loaded_depth = std::min(c.record->loaded_depth, c.depth);
+  if (c.area + half_a_step >= c.record->paid_area) c.paid_depth = c.depth;
 }
 
 void carve_channels(const Setup& setup, const Step& step, const StepData& data, Population& population,

@@ -14,8 +14,8 @@ double most_that_ice_bears(const Setup& setup, const Population& population, con
 /// the hull is wide bears, since nothing gives way there. Else the load is as it was.
 void press_prescribed(const Setup& setup, const Step& step, const Population& population, HullContactLoad& load);
 
-/// Closes the gap to what has pressed in a contact of prescribed bodies whose overlap is at least as large:
-/// its depth does not show it where ice was carved out.
-void close_prescribed_gap(const Step& step, const dynamics::Bodies& bodies, const dynamics::Contact& c);
+/// Enters the paid depth of a contact of prescribed bodies. All of its overlap is paid, since nothing can undo it.
+/// There is no gap where the overlap is as large as what is paid: its depth does not show it where ice was carved out.
+void close_prescribed_gap(const Step& step, const dynamics::Bodies& bodies, dynamics::Contact& c);
 
 }  // namespace polynya::simulation

@@ -27,8 +27,7 @@ void keep_start(const dynamics::Bodies& bodies, const std::vector<Contact>& cont
     kept[i] = {{bodies.velocity[c.a], bodies.velocity[c.b]},
                {bodies.angular_velocity[c.a], bodies.angular_velocity[c.b]},
                {c.record->last_impulse[0], c.record->last_impulse[1]},
-               c.record->last_slip_impulse,
-               c.record->loaded_depth};
+               c.record->last_slip_impulse};
   });
 }
 
@@ -42,7 +41,6 @@ void go_back(const std::vector<SolverStart>& kept, const std::vector<Contact>& c
       c.record->last_impulse[k] = kept[i].last_impulse[k];
     }
     c.record->last_slip_impulse = kept[i].last_slip_impulse;
-    c.record->loaded_depth = kept[i].loaded_depth;
   }
 }
 

@@ -78,10 +78,10 @@ double place_of_load(const Contact& c) {
   return (1 + std::clamp(dot(c.middle() - c.tip_of_b, c.normal) / c.depth, 0.0, 1.0)) / 3;
 }
 
-/// By the law of crushing ice, at the deepest overlap that pressed.
+/// By the law of crushing ice, at the depth of the overlap or the paid depth, whichever is greater.
 void press(const Setup& setup, bool can_bend, HullContactLoad& load) {
   const Contact& c = load.contact;
-  const double deepest = std::max(c.depth, c.record->loaded_depth);
+  const double deepest = std::max(c.depth, c.paid_depth);
   const bool recedes = can_bend && setup.scene.fracture.follows_deflection && load.shares.vertical > 0;
   const double recession = recedes ? fracture::recession_per_area(bending_load(setup, load), deepest) : 0;
   const fracture::RecedingCrush pressed =

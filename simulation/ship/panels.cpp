@@ -67,7 +67,7 @@ void for_rows_of(const PanelGrid& grid, double bottom, double top, Use use) {
 }
 
 void add_contact(const PanelGrid& grid, const dynamics::Bodies& bodies, const Contact& c, double bottom, double top,
-                 HullPanels& panels, std::vector<PanelLoads*>& touched) {
+                 HullPanels& panels) {
   const geometry::Pose pose = dynamics::water_from_body(bodies, c.a);
   const double full = grid.waterline.length;
   const std::array<double, 2> arc{arc_at(grid.waterline, inverse_transform(pose, c.ends[0])),
@@ -85,13 +85,29 @@ void add_contact(const PanelGrid& grid, const dynamics::Bodies& bodies, const Co
     for_columns(grid, half == 0 ? from : middle, half == 0 ? middle : to, [&](int column, double along) {
       for_rows_of(grid, bottom, top, [&](int row, double up) {
         PanelLoads& panel = panels[grid.first_of(column) + static_cast<std::size_t>(row)];
-        if (panel.step == 0) touched.push_back(&panel);
-        panel.impulse += along * up * load;
-        panel.normal += along * up * normal;
+        panel.impulse += along * up * c.steady_share * load;
+        panel.carried_load += along * up * (1 - c.steady_share) * load;
         panel.step += along * up * c.steady_share * normal;
+        panel.step_missed += along * up * (1 - c.steady_share) * normal;
       });
     });
   }
+}
+
+/// Books what the contacts gave a panel in a step of length dt [s].
+void book_step(PanelLoads& panel, double dt) {
+  const double carried = panel.carried.impulse + panel.step_missed;
+  if (panel.step == 0 && carried == 0) return;
+  if (panel.step > 0) panel.loaded += dt;
+  const double booked = panel.carried.book(panel.step, panel.step_missed, dt);
+  if (carried > 0) {
+    const Planar given = (booked - panel.step) / carried * panel.carried_load;
+    panel.impulse += given;
+    panel.carried_load += -1.0 * given;
+  }
+  panel.normal += booked;
+  panel.largest = std::max(panel.largest, booked / dt);
+  panel.step = panel.step_missed = 0;
 }
 
 }  // namespace
@@ -108,7 +124,6 @@ std::vector<HullPanels> panels_of(const Setup& setup) {
 void load_panels(const Setup& setup, const Step& step, const Population& population, const StepData& data,
                  std::vector<HullPanels>& panels) {
   if (std::ranges::all_of(panels, &HullPanels::empty)) return;
-  std::vector<PanelLoads*> touched;
   for (std::size_t i = 0; i < data.slopes.size(); ++i) {
     const Contact& c = data.contacts[i];
     const auto hull = static_cast<std::size_t>(c.a);
@@ -116,12 +131,10 @@ void load_panels(const Setup& setup, const Step& step, const Population& populat
     const fracture::Ice& ice = ice_of_body(setup, population, c.b);
     const double top = ice.thickness * (1 - ice.density / setup.scene.water.water.density);
     add_contact({*hull_of(setup.scene, hull).panels, setup.waterlines[hull]}, population.bodies, c,
-                top - data.slopes[i].height, top, panels[hull], touched);
+                top - data.slopes[i].height, top, panels[hull]);
   }
-  for (PanelLoads* panel : touched) {
-    if (panel->step > 0) panel->loaded += step.length;
-    panel->largest = std::max(panel->largest, panel->step / step.length);
-    panel->step = 0;
+  for (HullPanels& of_hull : panels) {
+    for (PanelLoads& panel : of_hull) book_step(panel, step.length);
   }
 }
 
@@ -145,7 +158,7 @@ void sample_panels(const Setup& setup, const Clock& clock, double interval, std:
                                   .largest = panel.largest,
                                   .pressure = area > 0 ? panel.normal / interval / area : 0,
                                   .loaded = panel.loaded});
-        panel = {};
+        panel = {.carried = panel.carried, .carried_load = panel.carried_load};
       }
     }
   }

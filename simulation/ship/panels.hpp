@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "dynamics/planar.hpp"
+#include "simulation/ship/carried_load.hpp"
 
 namespace polynya::simulation {
 
@@ -16,11 +17,14 @@ struct StepData;
 
 /// What the ice does to a panel of a hull over a recording interval, in the hull's frame.
 struct PanelLoads {
-  dynamics::Planar impulse;  ///< [N s, N m s]
-  double normal = 0;         ///< along the normals of its contacts [N s]
-  double largest = 0;        ///< of that, in a single step, as a force [N]
-  double loaded = 0;         ///< how long it pressed [s]
-  double step = 0;           ///< along the normals in the present step, as what is largest is found from [N s]
+  dynamics::Planar impulse;       ///< [N s, N m s]
+  double normal = 0;              ///< along the normals of its contacts [N s]
+  double largest = 0;             ///< of that, in a single step, as a force [N]
+  double loaded = 0;              ///< how long it pressed [s]
+  CarriedLoad carried;            ///< of normal, what was missed before contacts were found
+  dynamics::Planar carried_load;  ///< of impulse, the same [N s, N m s]
+  double step = 0;                ///< along the normals in the present step, without what was missed [N s]
+  double step_missed = 0;         ///< what was missed [N s]
 };
 
 /// Those of one hull: columns from the farthest to starboard on, the rows of each from the bottom, then what acts above

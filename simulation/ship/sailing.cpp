@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "simulation/ship/mooring.hpp"
 #include "simulation/world/step.hpp"
 
 namespace polynya::simulation {
@@ -27,15 +28,22 @@ struct ShipInStep {
   Planar of_ground;    ///< of the ground
 };
 
-ShipInStep ship_of(const Setup& setup, const Step& step, const dynamics::Bodies& bodies, const ShipMotion& start,
+/// The turn of a ship in the step before [rad]. A mooring's ship turns by its mean motion (sail_ship), so it is kept.
+double last_turn(const Setup& setup, const Step& step, const Population& population, const ShipMotion& start,
+                 BodyIndex i) {
+  return setup.scene.ships[i].mooring ? population.helms[i].last_turn : start.angular_velocity * step.length;
+}
+
+ShipInStep ship_of(const Setup& setup, const Step& step, const Population& population, const ShipMotion& start,
                    BodyIndex i) {
+  const dynamics::Bodies& bodies = population.bodies;
   const geometry::Rotation rotation = bodies.rotation[i];
   ShipInStep ship;
   ship.mass = bodies.mass[i];
   ship.moment = bodies.moment[i];
   ship.now = in_ship(rotation, bodies.velocity[i], bodies.angular_velocity[i]);
   ship.start = in_ship(rotation, start.velocity, start.angular_velocity);
-  const geometry::Rotation turn = geometry::Rotation::by(start.angular_velocity * step.length);
+  const geometry::Rotation turn = geometry::Rotation::by(last_turn(setup, step, population, start, i));
   const Vector turned = rotate(turn, {ship.start.surge, ship.start.sway});
   ship.before_turn = {turned.x, turned.y, ship.start.yaw};
   ship.of_current = in_ship(rotation, setup.current.velocity_at(bodies.position[i]), 0);
@@ -43,34 +51,9 @@ ShipInStep ship_of(const Setup& setup, const Step& step, const dynamics::Bodies&
   return ship;
 }
 
-/// A linear force k − D (ν − of what it moves against).
-struct LinearForce {
-  Planar constant;
-  PlanarMatrix damping;
-  Planar against;
-  Planar at(Planar velocity) const { return constant - damping * (velocity - against); }
-};
-
-/// The pull of a mooring at the end of the step, in the axes of the ship.
-LinearForce mooring_force(const MooringSettings& mooring, const Step& step, const dynamics::Bodies& bodies,
-                          const ShipInStep& ship, BodyIndex i) {
-  const auto to_mooring = geometry::Rotation::by(mooring.heading);
-  const double turn = bodies.angle[i] - mooring.heading;
-  const Vector off = rotate_back(to_mooring, bodies.position[i] + step.begin.drift - mooring.position_in_world);
-  const geometry::Rotation to_ship = geometry::relative_pose({{}, to_mooring}, {{}, bodies.rotation[i]}).rotation;
-  const Vector pull = rotate_back(to_ship, {-mooring.surge_stiffness * off.x, -mooring.sway_stiffness * off.y});
-  const double dt = step.length;
-  const double along = dt * mooring.surge_stiffness + mooring.surge_damping;
-  const double across = dt * mooring.sway_stiffness + mooring.sway_damping;
-  const auto [c, s] = to_ship;
-  const double shared = (across - along) * s * c;
-  LinearForce force;
-  force.constant = {pull.x, pull.y, -mooring.yaw_stiffness * turn};
-  force.damping.rows = {{{along * c * c + across * s * s, shared, 0},
-                         {shared, along * s * s + across * c * c, 0},
-                         {0, 0, dt * mooring.yaw_stiffness + mooring.yaw_damping}}};
-  force.against = ship.of_ground;
-  return force;
+/// Where the ship of a mooring is at the start of the step.
+Offset offset_at_start(const MooringSettings& mooring, const Step& step, const dynamics::Bodies& bodies, BodyIndex i) {
+  return offset_from(mooring, bodies.position[i] + step.begin.drift, bodies.angle[i]);
 }
 
 /// The forces on a ship in a step.
@@ -78,7 +61,7 @@ struct Forces {
   Planar engine;
   Planar rudder;
   LinearForce water;
-  LinearForce mooring;
+  MooringForce mooring;
 };
 
 Forces forces_on(const Setup& setup, const Step& step, const Population& population, const ShipInStep& ship,
@@ -99,8 +82,12 @@ Forces forces_on(const Setup& setup, const Step& step, const Population& populat
     forces.rudder =
         dynamics::rudder_force(*sailing.rudder, helm.steering_angle, through_water, thrust, sailing.hull.density);
   forces.water = {{}, dynamics::water_damping(sailing.hull, through_water), ship.of_current};
-  const auto& mooring = setup.scene.ships[i].mooring;
-  if (mooring && !helm.is_adrift) forces.mooring = mooring_force(*mooring, step, population.bodies, ship, i);
+  if (is_moored(setup, population, i)) {
+    const MooringSettings& mooring = *setup.scene.ships[i].mooring;
+    forces.mooring =
+        mooring_force(mooring, offset_at_start(mooring, step, population.bodies, i),
+                      {population.bodies.rotation[i], ship.mass, ship.moment, ship.now, ship.of_ground}, step.length);
+  }
   return forces;
 }
 
@@ -108,29 +95,43 @@ Forces forces_on(const Setup& setup, const Step& step, const Population& populat
 /// the ship's axes of the step before (docs/theory/ship.md).
 Planar solved_motion(const ShipInStep& ship, const PlanarMatrix& added_mass, const Forces& forces, double dt) {
   const PlanarMatrix inertia = PlanarMatrix{{{{ship.mass, 0, 0}, {0, ship.mass, 0}, {0, 0, ship.moment}}}};
-  const PlanarMatrix damping = forces.water.damping + forces.mooring.damping;
-  const Planar force = forces.engine + forces.rudder + forces.water.at({}) + forces.mooring.at({});
+  const MooringForce& mooring = forces.mooring;
+  const PlanarMatrix damping = forces.water.damping + mooring.spring.damping + mooring.damper.damping;
+  const Planar force =
+      forces.engine + forces.rudder + forces.water.at({}) + mooring.spring.at({}) + mooring.damper.at({});
   return solve(inertia + added_mass + dt * damping, inertia * ship.now + added_mass * ship.before_turn + dt * force);
 }
 
-/// Enters an impulse that took a ship from one velocity to another, its part of the work at their mean.
-void enter(Planar impulse, Planar mean, geometry::Rotation rotation, double& energy, Vector& momentum,
-           AuditSums& audit) {
+/// The impulses of a mooring in a step [N s, N m s].
+struct MooringImpulses {
+  Planar spring;
+  Planar damper;
+};
+
+/// Enters an impulse on a ship, and returns its work at the mean of the velocities before and after [J].
+double enter(Planar impulse, Planar mean, geometry::Rotation rotation, Vector& momentum, AuditSums& audit) {
   const Vector in_water = rotate(rotation, {impulse.surge, impulse.sway});
-  energy += dot(impulse, mean);
   momentum += in_water;
   audit.impulses += length(in_water);
+  return dot(impulse, mean);
+}
+
+/// Enters the work of a mooring. The ship's motion over ground works on spring and damper, that of the ground in the
+/// water frame on the ship.
+void enter_mooring(const MooringImpulses& impulses, Planar mean, const ShipInStep& ship, MooringFlows& flows) {
+  const Planar over_ground = mean - ship.of_ground;
+  const double given = dot(impulses.spring, over_ground);
+  (given > 0 ? flows.given_back : flows.taken_up) += std::abs(given);
+  flows.damping -= dot(impulses.damper, over_ground);
+  flows.ground += dot(impulses.spring + impulses.damper, ship.of_ground);
 }
 
 void enter_all(const SailingLoads& impulses, Planar mean, geometry::Rotation rotation, AuditSums& audit) {
-  EnergyFlows& energy = audit.energy;
   MomentumFlows& momentum = audit.momentum;
-  enter(impulses.engine, mean, rotation, energy.thrust, momentum.thrust, audit);
-  enter(impulses.mooring, mean, rotation, energy.thrust, momentum.held, audit);
-  double given = 0;
-  enter(impulses.water, mean, rotation, given, momentum.water, audit);
-  enter(impulses.rudder, mean, rotation, given, momentum.water, audit);
-  energy.drag -= given;
+  audit.energy.thrust += enter(impulses.engine, mean, rotation, momentum.thrust, audit);
+  enter(impulses.mooring, mean, rotation, momentum.held, audit);  // its work: enter_mooring
+  audit.energy.drag -= enter(impulses.water, mean, rotation, momentum.water, audit) +
+                       enter(impulses.rudder, mean, rotation, momentum.water, audit);
 }
 
 void add(const SailingLoads& of_step, SailingLoads& sum) {
@@ -140,19 +141,52 @@ void add(const SailingLoads& of_step, SailingLoads& sum) {
   sum.mooring += of_step.mooring;
 }
 
-/// The mooring breaks where it held the ship with more than it can. `velocity` is the ship's in the water at
-/// the end of the step: the pull is that of the place where the step takes the ship.
-void break_mooring(const MooringSettings& mooring, const Step& step, Planar impulse, Vector velocity, BodyIndex i,
-                   Population& population, std::vector<Event>& breaks) {
-  const double force = std::hypot(impulse.surge, impulse.sway) / step.length;
+/// Where the ship of a mooring is at the end of a step in which it moves by the mean of its velocities.
+Offset offset_at_end(const MooringSettings& mooring, const Step& step, const dynamics::Bodies& bodies, Planar mean,
+                     BodyIndex i) {
+  const Vector velocity = rotate(bodies.rotation[i], {mean.surge, mean.sway}) + step.water_velocity;
+  return offset_from(mooring, bodies.position[i] + step.begin.drift + step.length * velocity,
+                     bodies.angle[i] + step.length * mean.yaw);
+}
+
+/// The horizontal force of a mooring at an offset [N]: that of the spring there, and the mean one of the damper over
+/// the step, `damped` in the axes of a ship.
+double horizontal_force(const MooringSettings& mooring, const Offset& offset, Planar damped,
+                        geometry::Rotation rotation) {
+  const Vector in_world = rotate(rotation, {damped.surge, damped.sway});
+  const Vector in_mooring = rotate_back(geometry::Rotation::by(mooring.heading), in_world);
+  return std::hypot(in_mooring.x - mooring.surge_stiffness * offset.shift.x,
+                    in_mooring.y - mooring.sway_stiffness * offset.shift.y);
+}
+
+/// The mooring breaks at the end of the step where it holds the ship with more than it can. What it stores is lost.
+void break_mooring(const MooringSettings& mooring, const Step& step, const Offset& offset, double force, BodyIndex i,
+                   Population& population, double& lost, std::vector<Event>& breaks) {
   if (mooring.break_load <= 0 || force <= mooring.break_load) return;
   Helm& helm = population.helms[i];
   helm.is_adrift = true;
   helm.adrift_since = step.end.time;
+  lost += stored_energy(mooring, offset);
   const geometry::Point place =
-      population.bodies.position[i] + step.begin.drift + step.length * (velocity + step.water_velocity);
-  const Vector offset = rotate_back(geometry::Rotation::by(mooring.heading), place - mooring.position_in_world);
-  breaks.push_back({helm.adrift_since, i, place, MooringBreak{offset, force, mooring.break_load}});
+      mooring.position_in_world + rotate(geometry::Rotation::by(mooring.heading), offset.shift);
+  breaks.push_back({helm.adrift_since, i, place, MooringBreak{offset.shift, force, mooring.break_load}});
+}
+
+/// Makes the way of a moored ship in the step that of the mean motion in place of the new one, which integrate() adds
+/// to it: x⁺ = x + ½Δt (v + v⁺). Its mooring so takes up what its work takes from the ship.
+void move_by_mean(double dt, const ShipMotion& before, BodyIndex i, dynamics::Bodies& bodies) {
+  move_body(bodies, i, 0.5 * dt * (before.velocity - bodies.velocity[i]),
+            0.5 * dt * (before.angular_velocity - bodies.angular_velocity[i]));
+}
+
+void follow_mooring(const MooringSettings& mooring, const Step& step, const ShipInStep& ship, Planar mean,
+                    const MooringImpulses& impulses, BodyIndex i, Population& population, MooringFlows& flows,
+                    std::vector<Event>& breaks) {
+  const Offset offset = offset_at_end(mooring, step, population.bodies, mean, i);
+  const double force =
+      horizontal_force(mooring, offset, (1 / step.length) * impulses.damper, population.bodies.rotation[i]);
+  enter_mooring(impulses, mean, ship, flows);
+  break_mooring(mooring, step, offset, force, i, population, flows.breaking, breaks);
 }
 
 void sail_ship(const Setup& setup, const Step& step, const ShipMotion& start, BodyIndex i, Population& population,
@@ -160,24 +194,30 @@ void sail_ship(const Setup& setup, const Step& step, const ShipMotion& start, Bo
   dynamics::Bodies& bodies = population.bodies;
   const double dt = step.length;
   const bool is_free = bodies.inverse_mass[i] != 0;
-  const ShipInStep ship = ship_of(setup, step, bodies, start, i);
+  const bool was_moored = is_moored(setup, population, i);
+  const ShipInStep ship = ship_of(setup, step, population, start, i);
   const PlanarMatrix& added_mass = setup.sailing[i].hull.added_mass;
   const Forces forces = forces_on(setup, step, population, ship, i);
   const Planar end = is_free ? solved_motion(ship, added_mass, forces, dt) : ship.now;
+  const Planar mean = 0.5 * (ship.now + end);
+  const MooringImpulses held{dt * forces.mooring.spring.at(end), dt * forces.mooring.damper.at(end)};
   SailingLoads impulses;
   impulses.engine = dt * forces.engine;
   impulses.rudder = dt * forces.rudder;
-  impulses.mooring = dt * forces.mooring.at(end);
+  impulses.mooring = held.spring + held.damper;
   impulses.water = dt * forces.water.at(end);
   if (is_free) impulses.water += added_mass * (ship.before_turn - end);
   add(impulses, accounts.sailing[i]);
-  const Vector velocity = rotate(bodies.rotation[i], {end.surge, end.sway});
-  if (const auto& mooring = setup.scene.ships[i].mooring)
-    break_mooring(*mooring, step, impulses.mooring, velocity, i, population, mooring_breaks);
+  population.helms[i].last_turn = dt * (was_moored ? mean : end).yaw;
+  if (was_moored)
+    follow_mooring(*setup.scene.ships[i].mooring, step, ship, mean, held, i, population, accounts.audit.moorings,
+                   mooring_breaks);
   if (!is_free) return;
-  enter_all(impulses, 0.5 * (ship.now + end), bodies.rotation[i], accounts.audit);
-  bodies.velocity[i] = velocity;
+  enter_all(impulses, mean, bodies.rotation[i], accounts.audit);
+  const ShipMotion before{bodies.velocity[i], bodies.angular_velocity[i]};
+  bodies.velocity[i] = rotate(bodies.rotation[i], {end.surge, end.sway});
   bodies.angular_velocity[i] = end.yaw;
+  if (was_moored) move_by_mean(dt, before, i, bodies);
 }
 
 }  // namespace

@@ -18,6 +18,11 @@ inline bool is_sailing(const Setup& setup, std::int32_t body) {
   return body < std::ssize(setup.sailing) && setup.sailing[body].is_active;
 }
 
+/// Whether a body is a ship with a mooring, which may have broken.
+inline bool has_mooring(const Setup& setup, std::int32_t body) {
+  return is_sailing(setup, body) && setup.scene.ships[body].mooring.has_value();
+}
+
 inline bool manages_ice(const Setup& setup, std::int32_t body) {
   return is_sailing(setup, body) && std::holds_alternative<ManagingPilot>(setup.scene.ships[body].pilot);
 }
@@ -58,7 +63,8 @@ void fields(auto& archive, Is<SubmergedLoads> auto& l) {
   archive(l.impulse, l.area);
 }
 void fields(auto& archive, Is<ContactLoads> auto& l) {
-  archive(l.impulse, l.largest, l.contacts);
+  archive(l.impulse, l.largest, l.carried[0].impulse, l.carried[0].level, l.carried[1].impulse, l.carried[1].level,
+          l.carried[2].impulse, l.carried[2].level, l.contacts);
 }
 /// Of the contact of two ships.
 void fields(auto& archive, Is<Event> auto& e) {
@@ -104,7 +110,11 @@ void fields(auto& archive, Is<MomentumFlows> auto& m) {
 void fields(auto& archive, Is<BoundaryFlows> auto& b) {
   archive(b.wind, b.walls, b.wind_impulse, b.wall_impulse);
 }
-/// Not its boundaries: those are in states of scenes that have wind or walls (state.cpp).
+void fields(auto& archive, Is<MooringFlows> auto& m) {
+  archive(m.initial, m.taken_up, m.given_back, m.ground, m.damping, m.breaking, m.separation);
+}
+/// Not its boundaries: those are in states of scenes that have wind or walls. Not its moorings and scales: they decide
+/// nothing of the run (tail_fields).
 void fields(auto& archive, Is<AuditSums> auto& a) {
   archive(a.initial_energy, a.initial_momentum, a.impulses, a.energy, a.momentum);
 }
@@ -112,14 +122,13 @@ void fields(auto& archive, Is<dynamics::PersistentContact> auto& r) {
   archive(r.last_point_in_b, r.first_touch_in_b, r.age, r.approach, r.crushed_depth, r.restitution.owed_impulse,
           r.restitution.given_impulse, r.restitution.limit, r.restitution.start_impulse[0],
           r.restitution.start_impulse[1], r.last_impulse[0], r.last_impulse[1], r.last_slip_impulse, r.last_substep,
-          r.loaded_depth, r.loaded_area, r.reach, r.has_crushed, r.is_pierced, r.is_inherited, r.was_refused,
-          r.is_continued);
+          r.paid_area, r.area, r.reach, r.has_crushed, r.is_pierced, r.is_inherited, r.was_refused, r.is_continued);
 }
 void fields(auto& archive, Is<geometry::Pose> auto& p) {
   archive(p.position, p.rotation);
 }
 void fields(auto& archive, Is<dynamics::Booked> auto& b) {
-  archive(b.loaded, b.crushed, b.tilted, b.volume, b.work);
+  archive(b.crushed, b.tilted, b.volume, b.work);
 }
 void fields(auto& archive, Is<dynamics::CrushedIce> auto& c) {
   archive(c.a_from_b, c.area);
@@ -143,7 +152,7 @@ void fields(auto& archive, Is<LoadPeaks> auto& p) {
   archive(p.tracks, p.tracks_so_far, p.counts.recorded, p.counts.below, p.counts.beyond, p.counts.largest_beyond);
 }
 void fields(auto& archive, Is<PanelLoads> auto& p) {
-  archive(p.impulse, p.normal, p.largest, p.loaded);
+  archive(p.impulse, p.normal, p.largest, p.loaded, p.carried.impulse, p.carried.level, p.carried_load);
 }
 
 /// Not its peaks and panels: they decide nothing of the run (state.cpp).
@@ -165,6 +174,7 @@ void head_fields(auto& archive, Is<World> auto& world) {
 /// Beside its motion.
 void hull_fields(auto& archive, Is<World> auto& world, std::int32_t hull) {
   if (is_sailing(world.setup, hull)) archive(world.population.helms[hull], world.accounts.sailing[hull]);
+  if (has_mooring(world.setup, hull)) archive(world.population.helms[hull].last_turn);
   if (manages_ice(world.setup, hull)) archive(world.population.helms[hull].memory.pattern);
 }
 /// What checkpoints alone have after the contacts, before peaks and panels: masses follow from the areas where all ice
@@ -173,6 +183,8 @@ void tail_fields(auto& archive, Is<World> auto& world) {
   auto& counts = world.accounts.counts;
   archive(world.accounts.masses, counts.unresolved_splits, counts.crowded_ticks, counts.steps_taken, counts.most_parts,
           counts.body_steps, world.accounts.sampled_at);
+  auto& audit = world.accounts.audit;
+  archive(audit.moorings, audit.exchanged, audit.initial_momenta);
 }
 
 }  // namespace polynya::simulation

@@ -1,5 +1,6 @@
 #include "simulation/world/energy.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace polynya::simulation {
@@ -33,10 +34,50 @@ Vector momentum(const dynamics::Bodies& bodies) {
   return sum;
 }
 
-void open_accounts(const dynamics::Bodies& bodies, AuditSums& sums) {
+Holdings holdings(const dynamics::Bodies& bodies, double stored_energy) {
+  Holdings sum{kinetic_energy(bodies), stored_energy, momentum(bodies)};
+  for (BodyIndex i = 0; i < bodies.size(); ++i) {
+    if (counts(bodies, i)) sum.momenta += bodies.mass[i] * length(bodies.velocity[i]);
+  }
+  return sum;
+}
+
+void open_accounts(const Holdings& holdings, AuditSums& sums) {
   sums = {};
-  sums.initial_energy = kinetic_energy(bodies);
-  sums.initial_momentum = momentum(bodies);
+  sums.initial_energy = holdings.kinetic_energy;
+  sums.moorings.initial = holdings.stored_energy;
+  sums.initial_momentum = holdings.momentum;
+  sums.initial_momenta = holdings.momenta;
+}
+
+namespace {
+
+double inflow(const AuditSums& sums) {
+  const BoundaryFlows& b = sums.boundaries;
+  return sums.energy.thrust + sums.energy.current + b.wind + b.walls + sums.moorings.ground + sums.moorings.separation;
+}
+
+double outflow(const AuditSums& sums) {
+  const EnergyFlows& e = sums.energy;
+  return e.drag + e.friction + e.restitution + e.crushing + e.bending + e.splitting + e.grinding + e.submersion +
+         e.submerged_ice + e.rest + sums.moorings.damping + sums.moorings.breaking;
+}
+
+/// All flows of energy, those between ships and springs included [J].
+auto all_flows(const AuditSums& sums) {
+  const EnergyFlows& e = sums.energy;
+  const BoundaryFlows& b = sums.boundaries;
+  const MooringFlows& m = sums.moorings;
+  return std::array{e.thrust,    e.current,    e.drag,       e.friction,      e.restitution, e.crushing,  e.bending,
+                    e.splitting, e.grinding,   e.submersion, e.submerged_ice, e.rest,        b.wind,      b.walls,
+                    m.taken_up,  m.given_back, m.ground,     m.damping,       m.breaking,    m.separation};
+}
+
+}  // namespace
+
+void enter_exchange(const AuditSums& before, AuditSums& sums) {
+  const auto was = all_flows(before), is = all_flows(sums);
+  for (std::size_t i = 0; i < is.size(); ++i) sums.exchanged += std::abs(is[i] - was[i]);
 }
 
 void enter_motion(const dynamics::Bodies& bodies, BodyIndex floe, double& energy, Vector& momentum, AuditSums& sums) {
@@ -58,23 +99,20 @@ bool Audit::is_closed() const {
          length(momentum_imbalance) <= kTolerance * momentum_turnover;
 }
 
-Audit audit(const AuditSums& sums, double kinetic_energy, Vector momentum) {
+Audit audit(const AuditSums& sums, const Holdings& holdings) {
   Audit audit;
   audit.sums = sums;
-  const EnergyFlows& e = audit.sums.energy;
-  const MomentumFlows& m = audit.sums.momentum;
-  const BoundaryFlows& b = audit.sums.boundaries;
-  audit.kinetic_energy = kinetic_energy;
-  const double in = e.thrust + e.current + b.wind + b.walls;
-  const double out = e.drag + e.friction + e.restitution + e.crushing + e.bending + e.splitting + e.grinding +
-                     e.submersion + e.submerged_ice + e.rest;
-  audit.energy_imbalance = audit.kinetic_energy - audit.sums.initial_energy - in + out;
-  audit.turnover = audit.sums.initial_energy + std::abs(e.thrust) + std::abs(e.current) + std::abs(b.wind) +
-                   std::abs(b.walls) + std::abs(out);
-  audit.total_momentum = momentum;
-  audit.momentum_imbalance = audit.total_momentum - audit.sums.initial_momentum - m.thrust - m.held - m.water -
-                             b.wind_impulse - b.wall_impulse + m.removed;
-  audit.momentum_turnover = length(audit.sums.initial_momentum) + audit.sums.impulses;
+  const MomentumFlows& m = sums.momentum;
+  const BoundaryFlows& b = sums.boundaries;
+  audit.kinetic_energy = holdings.kinetic_energy;
+  audit.stored_energy = holdings.stored_energy;
+  audit.energy_imbalance = holdings.kinetic_energy + holdings.stored_energy - sums.initial_energy -
+                           sums.moorings.initial - inflow(sums) + outflow(sums);
+  audit.turnover = sums.initial_energy + sums.moorings.initial + sums.exchanged;
+  audit.total_momentum = holdings.momentum;
+  audit.momentum_imbalance = holdings.momentum - sums.initial_momentum - m.thrust - m.held - m.water - b.wind_impulse -
+                             b.wall_impulse + m.removed;
+  audit.momentum_turnover = sums.initial_momenta + holdings.momenta + sums.impulses;
   return audit;
 }
 

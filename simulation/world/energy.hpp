@@ -9,7 +9,8 @@ namespace polynya::simulation {
 /// happens. Whether all flows together explain the kinetic energy is checked by audit(); no entry is computed from the
 /// others.
 struct EnergyFlows {
-  /// Inflow: work of propellers, of moorings and of bodies of prescribed motion, fast ice included.
+  /// Inflow: work of propellers and of bodies of prescribed motion, fast ice included. That of moorings is in
+  /// MooringFlows.
   double thrust = 0;
   /// Inflow: work of a sheared current that carries ice along.
   double current = 0;
@@ -63,26 +64,54 @@ struct BoundaryFlows {
   geometry::Vector wall_impulse;  ///< impulse of the loads, the damping and the constraint on walls that press [N s]
 };
 
+/// Energy of moorings, summed over all steps [J]. What they store at an instant follows from where their ships are
+/// (stored_in_moorings, ship/mooring.hpp). All entries are 0 in a scene without moorings.
+struct MooringFlows {
+  double initial = 0;     ///< energy stored before the first step
+  double taken_up = 0;    ///< work that ships did on springs in steps in which these took up energy, ≥ 0
+  double given_back = 0;  ///< work of springs on ships in the other steps, ≥ 0
+  double ground = 0;      ///< inflow: work of the ground, which moves in the water frame, through moorings on ships
+  double damping = 0;     ///< outflow: work of ships on the dampers of moorings
+  double breaking = 0;    ///< outflow: energy that moorings stored when they broke
+  double separation = 0;  ///< inflow: work on springs where the law of impulses pushes overlaps apart
+};
+
 /// Sums from which an audit is made: the state at the start and all flows since then.
 struct AuditSums {
   double initial_energy = 0;          ///< kinetic energy before the first step [J]
   geometry::Vector initial_momentum;  ///< momentum before the first step [N s]
+  double initial_momenta = 0;         ///< sum of the magnitudes of all bodies' momenta before the first step [N s]
   double impulses = 0;                ///< sum of the magnitudes of all external impulses [N s]
+  /// Sum over all steps and all flows of energy of the magnitude of the flow in the step [J]. What flows to and fro
+  /// counts each time.
+  double exchanged = 0;
   EnergyFlows energy;
   MomentumFlows momentum;
   BoundaryFlows boundaries;
+  MooringFlows moorings;
+};
+
+/// Energy and momentum at one instant, in the water frame, of all bodies that exist and whose motion is not prescribed,
+/// and of moorings.
+struct Holdings {
+  double kinetic_energy = 0;  ///< [J]
+  double stored_energy = 0;   ///< in moorings [J]
+  geometry::Vector momentum;  ///< [N s]
+  double momenta = 0;         ///< sum of the magnitudes of the bodies' momenta [N s]
 };
 
 /// Balance of energy and momentum at one instant.
 struct Audit {
   AuditSums sums;
   double kinetic_energy = 0;  ///< kinetic energy at that instant [J]
-  /// Scale for the energy imbalance: the initial energy, the magnitude of each inflow and the magnitude of the sum of
-  /// all outflows [J].
+  double stored_energy = 0;   ///< energy stored in moorings at that instant [J]
+  /// Scale for the energy imbalance: the initial energy and all that was exchanged since, AuditSums::exchanged [J].
   double turnover = 0;
-  double energy_imbalance = 0;      ///< kinetic energy − initial energy − inflows + outflows; ideally 0 [J]
+  /// Kinetic and stored energy − the same at the start − inflows + outflows; ideally 0 [J].
+  double energy_imbalance = 0;
   geometry::Vector total_momentum;  ///< momentum at that instant [N s]
-  /// Scale for the momentum imbalance: the magnitudes of the initial momentum and of all external impulses [N s].
+  /// Scale for the momentum imbalance: the magnitudes of all bodies' momenta at the start and at that instant, and of
+  /// all external impulses [N s]. Momenta that cancel and forces to and fro count.
   double momentum_turnover = 0;
   geometry::Vector momentum_imbalance;  ///< momentum − initial momentum − inflows + outflow; ideally 0 [N s]
 
@@ -97,9 +126,15 @@ struct Audit {
 double kinetic_energy(const dynamics::Bodies& bodies);
 /// Returns the momentum of the same bodies, in the water frame [N s].
 geometry::Vector momentum(const dynamics::Bodies& bodies);
+/// Returns what the same bodies and moorings hold. `stored_energy` is that of the moorings [J].
+Holdings holdings(const dynamics::Bodies& bodies, double stored_energy);
 
-/// Sets all sums to 0 and stores the initial energy and momentum of the bodies. Called once, before the first step.
-void open_accounts(const dynamics::Bodies& bodies, AuditSums& sums);
+/// Sets all sums to 0 and stores what there is at the start. Called once, before the first step.
+void open_accounts(const Holdings& holdings, AuditSums& sums);
+
+/// Adds the magnitude of what each flow of energy has changed by since `before` to AuditSums::exchanged. Called after
+/// each step.
+void enter_exchange(const AuditSums& before, AuditSums& sums);
 
 /// Adds the kinetic energy of a floe to `energy` [J] and its momentum to `momentum` [N s]. Both are members of the
 /// flows in `sums`; the magnitude of the momentum is added to AuditSums::impulses.
@@ -110,7 +145,7 @@ void enter_motion(const dynamics::Bodies& bodies, dynamics::BodyIndex floe, doub
 /// `energy_sink`, one of the flows in `sums` [J], and its momentum to MomentumFlows::removed.
 void stop(dynamics::Bodies& bodies, dynamics::BodyIndex floe, double& energy_sink, AuditSums& sums);
 
-/// Returns the balance of the sums with the present kinetic energy [J] and momentum [N s] of the bodies.
-Audit audit(const AuditSums& sums, double kinetic_energy, geometry::Vector momentum);
+/// Returns the balance of the sums with what there is now.
+Audit audit(const AuditSums& sums, const Holdings& holdings);
 
 }  // namespace polynya::simulation

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -42,6 +43,7 @@ struct HullSample {
   double time = 0;            ///< end of the interval [s]
   int ship = 0;               ///< number of the hull in the scene
   dynamics::Planar from_ice;  ///< force of the ice around the hull: impulse / interval [N, N m]
+  dynamics::Planar carried;   ///< impulse of that ice that is booked in later intervals (CarriedLoad) [N s, N m s]
   /// Largest force of the ice around the hull in a single step, by magnitude and for each component [N, N m].
   dynamics::Planar from_ice_largest;
   /// Largest collision force j/τ_c of the paper, of the contacts with ice, in a single step, by magnitude and for each
@@ -180,6 +182,12 @@ struct IceLedger {
 
   /// Returns the ice of all places − rounding − initial, which is ideally 0.
   double imbalance() const { return floes + under_hulls + under_ice + submerged + brash - rounding - initial; }
+
+  /// Largest imbalance, as a fraction of the ice at the start, at which the ledger counts as closed [-]. Sums of
+  /// doubles leave far less.
+  static constexpr double kTolerance = 1e-9;
+  /// Returns true if the imbalance is within kTolerance; false for an imbalance that is not a number.
+  bool is_closed() const { return std::abs(imbalance()) <= kTolerance * initial; }
 };
 
 /// Counts of a run so far. `floes_final` and `steps` are set only in the copy that Simulation::counts() returns.

@@ -85,7 +85,7 @@ void add_scene(const Setup& setup, std::vector<FloeSpec>& floes, Population& pop
       wake(body, population);
   }
   for (std::size_t i = 0; i < floes.size(); ++i) {
-    if (floes[i].has_crushed_overlaps) population.pairs.note_pressed(population.body_of(static_cast<FloeId>(i)));
+    if (floes[i].has_crushed_overlaps) population.pairs.note_paid(population.body_of(static_cast<FloeId>(i)));
   }
 }
 

@@ -66,6 +66,7 @@ struct Helm {
   double steering_angle = 0;  ///< angle of the rudder or the thrusters, positive to port [rad]
   bool is_adrift = false;     ///< true once the ship's mooring has broken
   double adrift_since = 0;    ///< time at which the mooring broke [s]
+  double last_turn = 0;       ///< turn of the ship in the last step; only of a ship with a mooring [rad]
   /// Force of the ice around the hull in the previous step, in the ship's frame [N, N m]. Pilots see this force. It is
   /// updated only for ships with water around the hull, an engine or a mooring.
   dynamics::Planar ice_force;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "simulation/world/step.hpp"
@@ -40,8 +41,13 @@ void add_contact(const Population& population, const dynamics::Contact& c, BodyI
 
 /// Adds the loads of a step of length dt [s] to the sums of a recording interval.
 void add_step(ContactLoads& sum, const ContactLoads& step, double dt) {
-  sum.impulse += step.impulse;
-  sum.largest = larger(sum.largest, over(step.steady_impulse, dt));
+  const Planar steady = step.steady_impulse;
+  const Planar missed = step.impulse - steady;
+  const Planar booked{sum.carried[0].book(steady.surge, missed.surge, dt),
+                      sum.carried[1].book(steady.sway, missed.sway, dt),
+                      sum.carried[2].book(steady.yaw, missed.yaw, dt)};
+  sum.impulse += booked;
+  sum.largest = larger(sum.largest, over(booked, dt));
   sum.contacts = step.contacts;
 }
 
@@ -105,6 +111,7 @@ HullSample sample_of(const Setup& setup, const Clock& clock, const Population& p
   sample.time = clock.time();
   sample.ship = ship;
   sample.from_ice = over(loads.ice.impulse, interval);
+  sample.carried = {loads.ice.carried[0].impulse, loads.ice.carried[1].impulse, loads.ice.carried[2].impulse};
   sample.from_ice_largest = loads.ice.largest;
   sample.collision = loads.collision;
   sample.from_ships = over(loads.hulls.impulse, interval);
@@ -146,7 +153,12 @@ void sample_loads(const Setup& setup, const Clock& clock, const Population& popu
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull)
     journal.samples.push_back(sample_of(setup, clock, population, hull, accounts));
   sample_panels(setup, clock, interval_of(clock, accounts), accounts.panels, journal);
-  std::ranges::fill(accounts.loads, HullLoads{});
+  for (HullLoads& loads : accounts.loads) {
+    HullLoads next;
+    std::ranges::copy(loads.ice.carried, next.ice.carried);
+    std::ranges::copy(loads.hulls.carried, next.hulls.carried);
+    loads = next;
+  }
   std::ranges::fill(accounts.sailing, SailingLoads{});
   accounts.sampled_at = clock.ticks;
 }

@@ -96,6 +96,10 @@ bool has_wind_or_walls(const Scene& scene) {
          std::ranges::any_of(scene.walls, [](const Wall& wall) { return wall.pressure.has_value(); });
 }
 
+bool has_moorings(const Scene& scene) {
+  return std::ranges::any_of(scene.ships, [](const Ship& ship) { return ship.mooring.has_value(); });
+}
+
 Wall wall_between(geometry::Point from, geometry::Point to, double depth) {
   const geometry::Vector normal = perpendicular(to - from);
   Wall wall;

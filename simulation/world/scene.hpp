@@ -398,6 +398,8 @@ bool sails(const Ship& ship);
 
 /// Returns true if a wind blows or a wall presses. Saved states then contain BoundaryFlows.
 bool has_wind_or_walls(const Scene& scene);
+/// Returns true if a ship of the scene has a mooring.
+bool has_moorings(const Scene& scene);
 
 /// Returns a wall that stands still. Its face runs from one point to another in the world frame [m], with the ice to
 /// the left of that direction and the wall's body of the given depth [m] to the right. The origin of the wall's frame

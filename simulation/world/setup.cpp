@@ -61,8 +61,6 @@ Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
   if (crushes) {
     solver.tolerance = contact.tolerance;
     has_flooding_decks = scene.fracture.floods_decks && scene.fracture.cusp_fate == CuspFate::kUnderHull;
-  } else {
-    separation = {.time = contact.separation_time};  // the law of crushing ice has no such overlap: that ice is gone
   }
 }
 

@@ -37,16 +37,15 @@ struct Setup {
   Scene scene;
   Shortcuts shortcuts;
   std::unique_ptr<const fracture::BendingModel> bending;
-  dynamics::ShearCurrent current;                          ///< in the water frame
-  dynamics::ContactRule contact_rule;                      ///< how contacts are found
-  dynamics::SolverSettings solver;                         ///< without the number of threads
-  std::optional<dynamics::SeparationSettings> separation;  ///< for the law of impulses, which leaves overlap
-  std::vector<Underwater> underwater;                      ///< per hull
-  std::vector<Waterline> waterlines;                       ///< per hull
-  std::vector<Sailing> sailing;                            ///< per ship
-  std::vector<IceLimits> ice_limits;                       ///< of the scene's ice, then of each own_ice
-  double longest_step_by_walls = 0;                        ///< infinite in scenes without walls that press [s]
-  bool has_flooding_decks = false;  ///< cusps that a hull presses down carry no water yet, which loads the hull
+  dynamics::ShearCurrent current;      ///< in the water frame
+  dynamics::ContactRule contact_rule;  ///< how contacts are found
+  dynamics::SolverSettings solver;     ///< without the number of threads
+  std::vector<Underwater> underwater;  ///< per hull
+  std::vector<Waterline> waterlines;   ///< per hull
+  std::vector<Sailing> sailing;        ///< per ship
+  std::vector<IceLimits> ice_limits;   ///< of the scene's ice, then of each own_ice
+  double longest_step_by_walls = 0;    ///< infinite in scenes without walls that press [s]
+  bool has_flooding_decks = false;     ///< cusps that a hull presses down carry no water yet, which loads the hull
 };
 
 /// Returns the longest step of a scene with walls that press [s]: kStepUnderPressure (parts.hpp), or the time in which

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "dynamics/chunks.hpp"
+#include "dynamics/contact/paid_overlap.hpp"
 #include "simulation/ice/split_instant.hpp"
 #include "simulation/ice/turning.hpp"
+#include "simulation/ship/mooring.hpp"
 #include "simulation/world/limits.hpp"
 #include "simulation/world/parts.hpp"
 
@@ -105,7 +107,7 @@ void solve_crushing(const Setup& setup, const Step& step, int threads, Populatio
   settings.threads = threads;
   count(solve_to_splits(setup, step, settings, population, data, accounts.counts), accounts.counts);
   dynamics::for_contacts(data.contacts, threads, [&](dynamics::Contact& c, std::size_t) {
-    remember_overlap(c);
+    settle(are_prescribed(population.bodies, c.a, c.b), c);
     remember_crushed(population.bodies, c);
   });
   enter_contacts(population.bodies, data.contacts, accounts);
@@ -119,7 +121,7 @@ void solve_collisions(const Setup& setup, const Step& step, int threads, Populat
   const dynamics::RestitutionLaw law{setup.scene.contact.restitution, step.length};
   count(data.solver.solve(population.bodies, data.contacts, law, settings), accounts.counts);
   find_splits(setup, step, population, data.contacts, data.splits);
-  dynamics::for_contacts(data.contacts, threads, [&](dynamics::Contact& c, std::size_t) { remember_overlap(c); });
+  dynamics::for_contacts(data.contacts, threads, [&](dynamics::Contact& c, std::size_t) { settle_collision(c); });
   enter_contacts(population.bodies, data.contacts, accounts);
   wake_pressed(data.contacts, population);
 }
@@ -141,8 +143,11 @@ void push_ships(const Setup& setup, const Step& step, Population& population, Au
   }
 }
 
-void separate_overlaps(const Setup& setup, const Step& step, const StepData& data, Population& population) {
+void separate_overlaps(const Setup& setup, const Step& step, const StepData& data, Population& population,
+                       AuditSums& audit) {
+  const double before = stored_after(setup, step, population);
   separate(population.bodies, data.contacts, {.time = setup.scene.contact.separation_time}, step.length);
+  audit.moorings.separation += stored_after(setup, step, population) - before;
 }
 
 std::optional<std::string> integrate_motion(const Step& step, int threads, Population& population) {
@@ -230,8 +235,8 @@ constexpr Stage kSubmergedIce{"pull of submerged ice", [](World& w, const Step& 
                                 press_decks(w.setup, s, w.population, w.data.loads, w.accounts.audit);
                               }};
 constexpr Stage kSail{"sail", [](World& w, const Step& s) { sail(w.setup, s, w.data, w.population, w.accounts); }};
-constexpr Stage kSeparate{"separate",
-                          [](World& w, const Step& s) { separate_overlaps(w.setup, s, w.data, w.population); }};
+constexpr Stage kSeparate{
+    "separate", [](World& w, const Step& s) { separate_overlaps(w.setup, s, w.data, w.population, w.accounts.audit); }};
 constexpr Stage kIntegrate{"integrate",
                            [](World& w, const Step& s) { fail(integrate_motion(s, w.threads, w.population), w); }};
 constexpr Stage kApplyFractures{"apply fractures", [](World& w, const Step& s) {
@@ -260,12 +265,16 @@ constexpr Stage kHullContacts{"record ship events", [](World& w, const Step& s) 
                               }};
 constexpr Stage kSumLoads{"sum loads", [](World& w, const Step& s) { sum_loads(w.setup, s, w.data, w.accounts); }};
 
-constexpr std::array kCrushStages{
-    kFollowWater,  kSteer,          kPressWalls,  kKeepMotion,   kFindPairs,   kFindContacts, kDecideByCrushing,
-    kLimitByTilt,  kSolveCrushing,  kHoldWalls,   kDropUnbroken, kEnterSplits, kOverload,     kTiltFloes,
-    kBookOverlaps, kTallyLoads,     kFollowLoads, kForces,       kThrust,      kSubmergedIce, kSail,
-    kIntegrate,    kApplyFractures, kGrind,       kCarve,        kShed,        kGoUnder,      kComeUp,
-    kHullContacts, kSumLoads};
+constexpr std::array kCrushStages{kFollowWater,  kSteer,          kPressWalls,
+                                  kKeepMotion,   kForces,         kThrust,
+                                  kFindPairs,    kFindContacts,   kDecideByCrushing,
+                                  kLimitByTilt,  kSolveCrushing,  kHoldWalls,
+                                  kDropUnbroken, kEnterSplits,    kOverload,
+                                  kTiltFloes,    kBookOverlaps,   kTallyLoads,
+                                  kFollowLoads,  kSubmergedIce,   kSail,
+                                  kIntegrate,    kApplyFractures, kGrind,
+                                  kCarve,        kShed,           kGoUnder,
+                                  kComeUp,       kHullContacts,   kSumLoads};
 
 constexpr std::array kImpulseStages{
     kFollowWater, kSteer,           kPressWalls,   kKeepMotion,   kFindPairs, kFindContacts, kDecideByCollision,
@@ -308,9 +317,11 @@ Step step_of(const Setup& setup, const Clock& clock, int part, int parts) {
 
 void end_tick(World& w) {
   const bool crushes = w.setup.scene.contact.law == ContactLaw::kCrush;
+  const AuditSums before = w.accounts.audit;
   if (crushes && is_due(w.clock, kCutThroughInterval)) kCutThrough.run(w, w.last_step);
   if (w.setup.shortcuts.sleeps && is_due(w.clock, crushes ? kRestInterval : w.clock.tick))
     put_to_rest(w.setup, w.data, w.population, w.accounts.audit);
+  enter_exchange(before, w.accounts.audit);
   w.accounts.counts.peak_awake =
       std::max(w.accounts.counts.peak_awake, static_cast<std::int64_t>(w.population.awake.size()));
   if (is_due(w.clock, w.setup.scene.record.forces_interval))
@@ -338,7 +349,9 @@ void step(World& world) {
   for (int part = 0; part < parts && !world.failure; ++part) {
     world.last_step = step_of(world.setup, world.clock, part, parts);
     counts.body_steps += static_cast<std::int64_t>(world.population.awake.size());
+    const AuditSums before = world.accounts.audit;
     for (const Stage& stage : stages_of(law)) stage.run(world, world.last_step);
+    enter_exchange(before, world.accounts.audit);
   }
   ++world.clock.ticks;
   counts.steps_taken += parts;

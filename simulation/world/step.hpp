@@ -98,8 +98,10 @@ void pull_of_submerged_ice(const Setup& setup, const Step& step, Population& pop
 /// the water around a ship takes its share of all others.
 void sail(const Setup& setup, const Step& step, StepData& data, Population& population, Accounts& accounts);
 
-/// Law of impulses: pushes overlaps apart, over several steps.
-void separate_overlaps(const Setup& setup, const Step& step, const StepData& data, Population& population);
+/// Law of impulses: pushes overlaps apart, over several steps. Adds the work that this does on moorings to the
+/// accounts.
+void separate_overlaps(const Setup& setup, const Step& step, const StepData& data, Population& population,
+                       AuditSums& audit);
 
 /// Moves all awake bodies. Returns why the numbers cannot be trusted any more, where a body has no finite speed below
 /// kRunawaySpeed.

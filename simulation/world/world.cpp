@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "simulation/ice/under_hull.hpp"
+#include "simulation/ship/mooring.hpp"
 #include "simulation/world/step.hpp"
 
 namespace polynya::simulation {
@@ -35,9 +36,12 @@ World::World(Scene scene, Shortcuts shortcuts, Start start)
   }
   accounts.counts.floes_initial = population.floe_count();
   take_helms(setup, step_of(setup, clock, 0, 1), population);
-  open_accounts(population.bodies, accounts.audit);
+  const double stored = stored_in_moorings(setup, population, drift_at(setup, 0));
+  open_accounts(holdings(population.bodies, stored), accounts.audit);
+  const AuditSums at_start = accounts.audit;
   for (std::size_t i = 0; i < floes.size(); ++i)
     if (floes[i].under_ship >= 0) put_under(static_cast<FloeId>(i), floes[i], *this);
+  enter_exchange(at_start, accounts.audit);
 }
 
 namespace {

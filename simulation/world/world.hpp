@@ -9,6 +9,7 @@
 #include "fracture/decision.hpp"
 #include "geometry/contact/crack_path.hpp"
 #include "simulation/ice/beams.hpp"
+#include "simulation/ship/carried_load.hpp"
 #include "simulation/ship/load_peaks.hpp"
 #include "simulation/ship/panels.hpp"
 #include "simulation/world/clock.hpp"
@@ -25,6 +26,7 @@ struct ContactLoads {
   dynamics::Planar steady_impulse;  ///< in the present step, without missed impulses; gives `largest` [N s, N m s]
   dynamics::Planar largest;         ///< largest mean force of a step, component by component [N, N m]
   dynamics::Planar friction;        ///< part of the impulse that slip gave in the present step [N s, N m s]
+  CarriedLoad carried[3];           ///< of impulse: surge, sway, yaw; kept from one recording interval to the next
   int contacts = 0;                 ///< number of contacts in the last step
 };
 
@@ -108,7 +110,6 @@ struct SolverStart {
   double angular_velocity[2] = {0, 0};  ///< [rad/s]
   double last_impulse[2] = {0, 0};      ///< [N s]
   double last_slip_impulse = 0;         ///< [N s]
-  double loaded_depth = 0;              ///< [m]
 };
 
 /// The results of the stages of one step. Between two steps they are those of the last one.

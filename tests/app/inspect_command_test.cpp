@@ -142,6 +142,35 @@ TEST_F(InspectCommand, ReportsAreJsonOnRequest) {
   EXPECT_LT(check.find("final_places")->find("farthest_m")->number(), 0.01);
 }
 
+/// The accounts are those of summary.json: of ice, energy and momentum, and of moorings where there are any.
+TEST(InspectAccounts, AreThoseOfTheSummaryMooringsIncluded) {
+  const TemporaryFolder folder;
+  write_file(folder / "moored.json", R"({"time": {"until_s": 30},
+    "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}, "mass_kg": 1e7,
+      "moment_of_inertia_kg_m2": 5e9, "propulsion": {"thrust_N": 0},
+      "mooring": {"surge_stiffness_N_per_m": 1e6, "surge_damping_N_s_per_m": 1e5, "position_m": [1, 0]}}]})");
+  const Start start{folder.path()};
+  EXPECT_HAS(expect_code(0, polynya(Words{"run", "moored.json", "--out", "run"}, start)).out, "moorings    ",
+             "500 at the start");
+  const std::string text = expect_code(0, polynya(Words{"inspect", "run", "--accounts"}, start)).out;
+  EXPECT_HAS(text, "ledger\n", "energy\n", "  initial_stored_J                   500000\n", "mooring_damping_J",
+             "moorings\n", "taken_up_J", "given_back_J", "momentum\n", "imbalance_Ns", "audit_closed");
+  const auto report =
+      io::parse_json(expect_code(0, polynya(Words{"inspect", "run", "--accounts", "--json"}, start)).out);
+  const auto summary = io::parse_json(read_file(folder / "run/summary.json"));
+  const auto of = [](const io::JsonDocument& document, const char* account, const char* key) {
+    return document.root.find(account)->find(key)->number();
+  };
+  for (const char* key : {"initial_stored_J", "stored_J", "mooring_damping_J", "mooring_breaking_J", "kinetic_J"})
+    EXPECT_EQ(of(report, "energy", key), of(summary, "energy", key)) << key;
+  EXPECT_NEAR(
+      of(report, "energy", "kinetic_J") + of(report, "energy", "stored_J") + of(report, "energy", "mooring_damping_J"),
+      5e5, 1e-6);
+  const double left = of(report, "moorings", "taken_up_J") - of(report, "moorings", "given_back_J");
+  EXPECT_NEAR(5e5 + left, of(report, "moorings", "stored_J"), 1e-6);
+  EXPECT_TRUE(report.root.find("audit_closed")->boolean() && report.root.find("ledger_closed")->boolean());
+}
+
 /// A ring with two vertices exchanged, an area that is not its ring's, or a floe at another place at the end: the check
 /// names the floe.
 TEST_F(InspectCommand, ADamagedRunFailsTheCheck) {

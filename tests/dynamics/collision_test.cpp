@@ -374,10 +374,44 @@ TEST(Separation, CountsInWhatABodyHasTravelled) {
   }
 }
 
+/// Two contacts of the bodies of a pair, at two places of b's face, with the given areas.
+std::vector<Contact> two_contacts(double first, double second) {
+  std::vector<Contact> contacts(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    Contact& c = contacts[i];
+    c.a = 0, c.b = 1;
+    c.normal = {1, 0};
+    const double y = i == 0 ? -20 : 20;
+    c.ends[0] = {0, y - 0.5}, c.ends[1] = {0, y + 0.5};
+    c.tip_of_b = {0, y};
+    c.width = 1, c.depth = c.area = i == 0 ? first : second;
+  }
+  return contacts;
+}
+
+/// Of what floes inherit, each contact takes its part, wherever it is; together they take what was paid.
+TEST(Tracker, ContactsOfFragmentsTakeTheShareThatWasPaid) {
+  const Bodies bodies = two_floes(0, 3);
+  std::vector<PersistentContact> records(1), scratch;
+  records[0].is_inherited = true;
+  records[0].area = 0.5;
+  records[0].paid_area = 0.3;
+  records[0].booked.crushed = 0.2;
+  std::vector<PartedContact> parted;
+  std::vector<Contact> contacts = two_contacts(0.1, 0.4);
+  const std::vector<geometry::ContactManifold> manifolds(2);
+  ContactTracker(0, 1, records, scratch, parted, 1, 0.01).update(contacts, manifolds, bodies);
+  ASSERT_EQ(records.size(), 2U);
+  EXPECT_NEAR(records[0].paid_area, 0.06, 1e-12);
+  EXPECT_NEAR(records[1].paid_area, 0.24, 1e-12);
+  EXPECT_NEAR(records[0].booked.crushed, 0.04, 1e-12);
+  EXPECT_NEAR(records[1].booked.crushed, 0.16, 1e-12);
+}
+
 TEST(Tracker, EndsWhatWasCrushedWhereEdgesMeetWithoutAnOverlap) {
   const Bodies bodies = two_floes(0, 3);
   std::vector<PersistentContact> records(1), scratch;
-  records[0].loaded_area = records[0].crushed.area = 0.2;
+  records[0].paid_area = records[0].crushed.area = 0.2;
   std::vector<PartedContact> parted;
   ContactTracker(0, 1, records, scratch, parted, 1, 0.01).update({}, {}, bodies);
   EXPECT_TRUE(records.empty());

@@ -88,7 +88,7 @@ Jam jam_of(Random& random, int floes) {
     const double normal = left < right ? 1 : -1;
     Contact c = contact_at(std::min(left, right), std::max(left, right), {10.0 * i, random.between(-2, 2)}, {normal, 0},
                            random.between(0.5, 4));
-    c.depth = random.between(0.001, 0.1);
+    c.depth = c.paid_depth = random.between(0.001, 0.1);
     c.crushing_force = std::pow(10.0, random.between(3, 6.5));
     c.crushing_stiffness = c.crushing_force / c.depth * random.between(0, 2);
     jam.contacts.push_back(c);
@@ -111,8 +111,8 @@ TEST(ContactSolver, FindsOneAnswerWhateverItStartsFrom) {
     for (int start = 0; start < 3; ++start) {
       Jam now = jam;
       keep_records(now);
-      for (const Contact& c : now.contacts) {
-        c.record->loaded_depth = 0.5 * c.depth;
+      for (Contact& c : now.contacts) {
+        c.paid_depth = 0.5 * c.depth;
         for (double& impulse : c.record->last_impulse)
           size_of_start += impulse = start == 0 ? 0 : random.between(0, 0.02) * c.crushing_force;
       }

@@ -24,7 +24,9 @@ SCENE = {
     "floes": [{"rectangle": {"corner_m": [0, -30], "size_m": [40, 60]}},
               {"rectangle": {"corner_m": [42, 0], "size_m": 5}},
               {"polygon": {"outer_m": [[62, -9], [80, -9], [80, 9], [62, 9]],
-                           "holes_m": [[[68, -3], [68, 3], [74, 3], [74, -3]]]}}],
+                           "holes_m": [[[68, -3], [68, 3], [74, 3], [74, -3]]]}},
+              {"rectangle": {"corner_m": [100, 40], "size_m": 5}, "crushed_overlaps": True},
+              {"rectangle": {"corner_m": [104, 40], "size_m": 5}, "crushed_overlaps": True}],
 }
 STUDY = {"name": "thicknesses", "scene": "scene.json", "grid": {"ice.thickness_m": [0.4, 0.8]},
          "set": {"time.until_s": 2}, "keep": "all"}

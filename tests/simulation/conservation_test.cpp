@@ -1,10 +1,13 @@
 // What a fracture keeps, by both laws: mass, momentum, angular momentum, area; who came from whom; and that
 // energy and momentum at the end are those of the accounts.
+#include <algorithm>
+#include <functional>
 #include <map>
 #include <utility>
 
 #include <gtest/gtest.h>
 
+#include "simulation/state/state.hpp"
 #include "simulation/world/energy.hpp"
 #include "tests/dynamics/scenery.hpp"
 #include "tests/simulation/scenes.hpp"
@@ -192,6 +195,79 @@ TEST(EnergyAudit, FailsOnAChangeWithoutAnEntry) {
   ASSERT_TRUE(done.simulation.audit().is_closed());
   const_cast<World&>(done.simulation.world()).population.bodies.velocity[0].y += 0.01;
   EXPECT_FALSE(done.simulation.audit().is_closed()) << "a ship pushed aside by nothing";
+}
+
+/// An entry that is wrong by a share of what an account is compared with.
+struct Planted {
+  const char* account = "";
+  std::function<void(Accounts&, double share, const Audit&)> plant;
+  std::function<bool(const Simulation&)> is_closed;
+};
+
+const std::vector<Planted>& planted() {
+  const auto audit = [](const Simulation& s) { return s.audit().is_closed(); };
+  const auto is_valid = [](const Simulation& s) { return !validate_world(s.world()).has_value(); };
+  static const std::vector<Planted> all{
+      {"energy", [](Accounts& a, double share, const Audit& now) { a.audit.energy.drag += share * now.turnover; },
+       audit},
+      {"stored energy",
+       [](Accounts& a, double share, const Audit& now) { a.audit.moorings.initial -= share * now.turnover; }, audit},
+      {"momentum",
+       [](Accounts& a, double share, const Audit& now) { a.audit.momentum.held.y += share * now.momentum_turnover; },
+       audit},
+      {"area", [](Accounts& a, double share, const Audit&) { a.areas.brash += 1e-3 * share * a.areas.initial; },
+       is_valid},
+      {"mass", [](Accounts& a, double share, const Audit&) { a.masses.submerged -= 1e-3 * share * a.masses.initial; },
+       is_valid}};
+  return all;
+}
+
+/// Tolerances are 1e-6 of the turnover for energy and momentum, and 1e-9 of the ice for areas and masses.
+TEST(EveryAlarm, IsRaisedByTwiceItsToleranceAndNotByHalf) {
+  for (const Planted& each : planted()) {
+    for (const double share : {0.0, 5e-7, -5e-7, 2e-6, -2e-6}) {
+      Trial done = run(busy_scene(Laws::kDefault).ship(icebreaker({0, 3}, ConstantThrust{2e5}, 2)), 2);
+      each.plant(const_cast<World&>(done.simulation.world()).accounts, share, done.simulation.audit());
+      EXPECT_EQ(each.is_closed(done.simulation), std::abs(share) < 1e-6) << each.account << ' ' << share;
+    }
+  }
+}
+
+/// What cancels counts: floes whose momenta do, and floes that only spin, meet and stop with no outer impulse at all.
+TEST(EveryAlarm, IsNotRaisedByMomentaThatCancel) {
+  for (const Laws laws : kBothLaws) {
+    for (const double spin : {0.0, 0.1}) {
+      const double speed = spin == 0 ? 0.3 : 0;  // of 20 m x 20 m against 15 m x 16 m
+      Simulation simulation(Build(laws)
+                                .without_drag()
+                                .floe(rectangle(-21, -10, -1, 10), {speed, 0}, spin)
+                                .floe(rectangle(1, -7, 16, 9), {-speed * 400 / 240, 0}, spin));
+      double largest = 0;
+      for (int step = 0; step < 4000; ++step) {
+        skip(simulation);
+        const Audit audit = simulation.audit();
+        largest = std::max(largest, length(audit.momentum_imbalance));
+        ASSERT_TRUE(audit.is_closed()) << step << ' ' << length(audit.momentum_imbalance);
+      }
+      EXPECT_GT(simulation.counts().peak_contacts, 0);
+      EXPECT_EQ(simulation.audit().sums.impulses, 0) << "no outer impulse";
+      EXPECT_GT(largest, 1e-6 * length(simulation.audit().sums.initial_momentum)) << "what rounding leaves of nothing";
+    }
+  }
+}
+
+/// A flow to and fro adds to the turnover in both directions.
+TEST(EveryAlarm, ComparesWithWhatWentToAndFro) {
+  AuditSums sums;
+  open_accounts({}, sums);
+  for (int i = 0; i < 10; ++i) {
+    const AuditSums before = sums;
+    sums.energy.thrust += i % 2 == 0 ? 3 : -3;
+    sums.energy.drag += 0.5;
+    enter_exchange(before, sums);
+  }
+  EXPECT_EQ(sums.energy.thrust, 0);
+  EXPECT_DOUBLE_EQ(audit(sums, {}).turnover, 10 * 3.5);
 }
 
 }  // namespace

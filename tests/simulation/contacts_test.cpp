@@ -27,10 +27,15 @@ TEST(Contacts, OfAShipAddUpToItsLoadInTheStep) {
   int pressed = 0;
   int most = 0;
   bool has_crushed = false;
+  dynamics::Planar carried;  // impulse that was missed before contacts were found, which is booked later
   while (simulation.time() < 25) {
     const HullState before = simulation.ship_states()[0];
+    const double time_before = simulation.time();
     simulation.step();
     const HullSample sample = simulation.journal().samples.back();
+    const dynamics::Planar given =
+        sample.from_ice + 1 / (simulation.time() - time_before) * (sample.carried + -1.0 * carried);
+    carried = sample.carried;
     simulation.journal().clear();
     Vector force;
     double moment = 0;
@@ -45,9 +50,9 @@ TEST(Contacts, OfAShipAddUpToItsLoadInTheStep) {
       has_crushed = has_crushed || contact.is_crushing;
     }
     const Vector in_ship = rotate_back(geometry::Rotation::by(before.heading), force);
-    ASSERT_NEAR(in_ship.x, sample.from_ice.surge, 1e-9 * size) << simulation.time();
-    ASSERT_NEAR(in_ship.y, sample.from_ice.sway, 1e-9 * size);
-    ASSERT_NEAR(moment, sample.from_ice.yaw, 1e-7 * size);
+    ASSERT_NEAR(in_ship.x, given.surge, 1e-9 * size) << simulation.time();
+    ASSERT_NEAR(in_ship.y, given.sway, 1e-9 * size);
+    ASSERT_NEAR(moment, given.yaw, 1e-7 * size);
     ASSERT_EQ(static_cast<int>(contacts.size()), sample.contacts);
     pressed += size > 1e4;
     most = std::max(most, sample.contacts);
@@ -426,15 +431,17 @@ TEST(LoadPeaks, BelowTheScenesLeastAreCounted) {
             std::ssize(all.story.peaks) - std::ssize(expected));
 }
 
-/// At every record, those above and below all rows included.
+/// Those above and below all rows included. Over the run: in a record they may differ by what was missed before
+/// contacts were found, which each panel and the hull book later (CarriedLoad).
 TEST(Panels, AddUpToTheForceOfTheIce) {
   for (const Laws laws : kBothLaws) {
     const Trial done = run(pack(laws), 20);
     std::size_t next = 0;
     int loaded = 0;
     bool is_outside = false;
+    dynamics::Planar sum, expected;
+    double size = 1;
     for (const HullSample& sample : done.story.samples) {
-      dynamics::Planar sum;
       for (; next < done.story.panels.size() && done.story.panels[next].time == sample.time; ++next) {
         const PanelSample& panel = done.story.panels[next];
         sum += panel.load;
@@ -442,11 +449,13 @@ TEST(Panels, AddUpToTheForceOfTheIce) {
         EXPECT_GE(panel.largest, panel.force);
         ++loaded;
       }
-      const double size = 1 + std::hypot(sample.from_ice.surge, sample.from_ice.sway);
-      ASSERT_NEAR(sum.surge, sample.from_ice.surge, 1e-12 * size) << sample.time;
-      ASSERT_NEAR(sum.sway, sample.from_ice.sway, 1e-12 * size);
-      ASSERT_NEAR(sum.yaw, sample.from_ice.yaw, 1e-10 * size);
+      expected += sample.from_ice;
+      size += std::hypot(sample.from_ice.surge, sample.from_ice.sway);
     }
+    const double allowed = (laws == Laws::kPaper ? 1e-12 : 1e-4) * size;
+    EXPECT_NEAR(sum.surge, expected.surge, allowed);
+    EXPECT_NEAR(sum.sway, expected.sway, allowed);
+    EXPECT_NEAR(sum.yaw, expected.yaw, 100 * allowed);
     EXPECT_EQ(next, done.story.panels.size());
     EXPECT_GT(loaded, 200);
     EXPECT_TRUE(is_outside);

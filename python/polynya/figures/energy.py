@@ -8,9 +8,14 @@ from .page import POINT, Page, Sheet, in_words, plain
 from .subjects import all_labelled, colour_of
 
 SOURCES = {"initial": "motion at the start", "thrust": "thrust and holding", "current": "current",
-           "wind": "wind", "walls": "loads of walls", "imbalance": "imbalance"}
+           "wind": "wind", "walls": "loads of walls", "initial_stored": "in moorings at the start",
+           "mooring_ground": "moorings: work of the ground", "mooring_separation": "moorings: overlaps pushed apart",
+           "imbalance": "imbalance"}
 SINKS = {
     "kinetic": "motion at the end",
+    "stored": "in moorings at the end",
+    "mooring_damping": "moorings: damping",
+    "mooring_breaking": "moorings: lost by breaking",
     "drag": "water drag",
     "friction": "friction",
     "crushing": "crushing",

@@ -1,0 +1,74 @@
+#include "dynamics/contact/paid_overlap.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace polynya::dynamics {
+namespace {
+
+/// An overlap is kept to be cut off once this share of it is paid. Greater: the last bit of a deep overlap would delay
+/// the cut for ever. Smaller: ice is cut off that nothing has paid.
+constexpr double kPaidShareOfCut = 0.9;
+
+/// p of the power law, within the bounds that fracture::Overlap has for it [-].
+double power_of(const Contact& c) {
+  return std::clamp(c.depth * c.width / c.area, 1.0 / 3, 3.0);
+}
+
+bool has_shape(const Contact& c) {
+  return c.area > 0 && c.depth > 0;
+}
+
+}  // namespace
+
+double depth_at(const Contact& c, double area) {
+  if (!(area > 0) || !has_shape(c)) return 0;
+  if (area == c.area) return c.depth;
+  return c.depth * std::pow(area / c.area, 1 / power_of(c));
+}
+
+double area_at(const Contact& c, double depth) {
+  if (!(depth > 0) || !has_shape(c)) return 0;
+  if (depth == c.depth) return c.area;
+  return c.area * std::pow(depth / c.depth, power_of(c));
+}
+
+Payment pay(const CrushingForce& law, double paid, double reached, double work) {
+  if (!(work > 0 && law.force > 0 && law.depth > 0 && reached > paid)) return {paid, 0};
+  const double n = std::max(0.0, law.stiffness * law.depth / law.force);
+  const double scale = law.force * law.depth / (n + 1);  // ∫ F dξ from 0 to the depth [J]
+  const auto paid_for = [&](double depth) { return scale * std::pow(depth / law.depth, n + 1); };
+  const double before = paid_for(paid);
+  const double to_reached = paid_for(reached) - before;
+  if (work >= to_reached) return {reached, to_reached};
+  return {std::clamp(law.depth * std::pow((before + work) / scale, 1 / (n + 1)), paid, reached), work};
+}
+
+void enter_paid_depth(Contact& c) {
+  c.paid_depth = depth_at(c, c.record->paid_area);
+}
+
+void settle(bool are_prescribed, Contact& c) {
+  PersistentContact& record = *c.record;
+  record.area = area_at(c, c.depth_after);
+  if (c.is_rigid() || !has_shape(c)) return;
+  if (c.paid_depth_after > c.paid_depth)
+    c.paid_by_work = std::max(0.0, area_at(c, c.paid_depth_after) - record.paid_area);
+  const bool is_all_paid = c.is_broken || c.gives_way || (are_prescribed && c.total_normal_impulse() > 0);
+  const double left = std::max(0.0, record.area - record.paid_area - c.paid_by_work);
+  if (is_all_paid) (are_prescribed ? c.paid_by_work : c.paid_by_giving_way) += left;
+  record.paid_area += c.paid_by_work + c.paid_by_giving_way;
+}
+
+void settle_collision(const Contact& c) {
+  if (c.total_normal_impulse() > 0) c.record->paid_area = c.area;
+}
+
+void remember_crushed(const Bodies& bodies, const Contact& c) {
+  PersistentContact& record = *c.record;
+  if (c.gives_way || !c.is_at_limit || c.area < record.crushed.area) return;
+  if (record.paid_area < kPaidShareOfCut * c.area) return;
+  record.crushed = {relative_pose(water_from_body(bodies, c.a), water_from_body(bodies, c.b)), c.area};
+}
+
+}  // namespace polynya::dynamics

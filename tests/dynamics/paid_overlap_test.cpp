@@ -1,0 +1,76 @@
+#include "dynamics/contact/paid_overlap.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "dynamics/contact/crush_law.hpp"
+
+namespace polynya::dynamics {
+namespace {
+
+/// A wedge: p = 2.
+Contact wedge(double depth, double opening) {
+  Contact c;
+  c.depth = depth;
+  c.width = opening * depth;
+  c.area = 0.5 * c.width * depth;
+  return c;
+}
+
+TEST(PaidOverlap, AreaAndDepthOfAWedgeAreEachOthers) {
+  const Contact c = wedge(0.4, 1.5);
+  for (const double depth : {0.01, 0.2, 0.4, 0.9}) {
+    EXPECT_NEAR(area_at(c, depth), 0.75 * depth * depth, 1e-12);
+    EXPECT_NEAR(depth_at(c, area_at(c, depth)), depth, 1e-12);
+  }
+  EXPECT_EQ(depth_at(c, 0), 0);
+}
+
+/// F = a ξ^n: the work between two depths is known.
+TEST(PaidOverlap, WorkPaysAsFarAsItsIntegralReaches) {
+  for (const double n : {0.0, 0.5, 1.0, 2.0}) {
+    const auto force = [&](double depth) { return 3e5 * std::pow(depth, n); };
+    const auto work = [&](double from, double to) {
+      return 3e5 / (n + 1) * (std::pow(to, n + 1) - std::pow(from, n + 1));
+    };
+    const CrushingForce law{force(0.3), n * force(0.3) / 0.3, 0.3};
+    for (const double to : {0.21, 0.3, 0.35}) {
+      const Payment payment = pay(law, 0.2, 0.4, work(0.2, to));
+      EXPECT_NEAR(payment.depth, to, 1e-12) << n;
+      EXPECT_NEAR(payment.work, work(0.2, to), 1e-6);
+    }
+    const Payment all = pay(law, 0.2, 0.4, 2 * work(0.2, 0.4));
+    EXPECT_EQ(all.depth, 0.4);
+    EXPECT_NEAR(all.work, work(0.2, 0.4), 1e-6) << "what is left has crushed nothing";
+    EXPECT_EQ(pay(law, 0.2, 0.4, -1).depth, 0.2) << "work that is given back pays nothing, and takes nothing back";
+  }
+}
+
+TEST(PaidOverlap, WhatBreaksOrTiltsIsPaidButNotByWork) {
+  for (const bool is_broken : {true, false}) {
+    PersistentContact record;
+    Contact c = wedge(0.4, 1.5);
+    c.record = &record;
+    c.crushing_force = 1e5;
+    c.depth_after = 0.5;
+    c.is_broken = is_broken;
+    c.gives_way = !is_broken;
+    settle(false, c);
+    EXPECT_NEAR(record.paid_area, area_at(c, 0.5), 1e-12);
+    EXPECT_EQ(c.paid_by_work, 0);
+    EXPECT_NEAR(c.paid_by_giving_way, area_at(c, 0.5), 1e-12);
+  }
+}
+
+TEST(PaidOverlap, WhatIsNotPaidPressesBodiesAtRest) {
+  CrushResponse law{.impulse_of_force = 100, .slope = 0, .gap_speed = -0.02, .cap = 1e9};
+  law.creep_speed = creep_speed_of(law.gap_speed);
+  EXPECT_GT(crush_impulse(law, 0), 0.5 * law.impulse_of_force);
+  EXPECT_LT(crush_impulse(law, 0), law.impulse_of_force);
+  EXPECT_EQ(crush_impulse(law, kCreepSpeed), law.impulse_of_force) << "as if all were paid";
+  EXPECT_EQ(crush_impulse(law, -0.02), 0) << "they part as fast as it is to be undone";
+}
+
+}  // namespace
+}  // namespace polynya::dynamics
