@@ -58,7 +58,7 @@ class BroadPhase {
   void add(const Bodies& bodies, BodyIndex body);
   /// Removes a body and its pairs.
   void remove(BodyIndex body);
-  /// What has pressed against a floe that breaks, in water, and what is outside it.
+  /// The overlaps of a floe that breaks with other bodies, and the bodies that are outside it.
   ContactMemory contact_memory_of(const Bodies& bodies, BodyIndex parent) const;
   /// Passes it on to a fragment that was added and woken.
   void pass_contact_memory(const Bodies& bodies, BodyIndex fragment, const ContactMemory& memory);

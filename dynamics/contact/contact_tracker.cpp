@@ -124,6 +124,7 @@ void ContactTracker::take_parts(std::span<const Contact> contacts, std::size_t p
   for (PersistentContact& old : records_) {
     if (old.is_continued) continue;
     give_part(old.paid_area, area - record.paid_area, old, record);
+    // It is cut off with the part that took it over, and not again where its own record ends.
     if (old.crushed.area > 0 && !old.is_inherited && record.crushed.area >= old.crushed.area) old.crushed = {};
   }
   for (std::size_t i = 0; i < contacts.size(); ++i) {

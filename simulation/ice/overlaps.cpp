@@ -122,7 +122,7 @@ bool cut_overlap(const Setup& setup, const Instant& now, const OverlapCut& overl
 
 }  // namespace
 
-// ---- what contacts pressed is booked
+// ---- what contacts paid is booked
 
 namespace {
 

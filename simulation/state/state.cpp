@@ -342,7 +342,7 @@ class StateLoader {
   void load_booked(std::vector<dynamics::PairState>& pairs) {
     constexpr auto kOther = "another number of booked overlaps than of contacts";
     load_members(pairs, &dynamics::PersistentContact::booked, kOther, [this](const dynamics::Booked& b) {
-      bytes_.require(std::min({b.crushed, b.tilted, b.volume}) >= 0, "a negative area that has pressed");
+      bytes_.require(std::min({b.crushed, b.tilted, b.volume}) >= 0, "a negative area of paid overlap");
     });
   }
 
