@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Runs scenes whose numbers are drawn from the whole of what the schema allows, most at its ends.
+"""Runs scenes with one to four numbers at the ends of what the schema allows, or drawn from all of it.
 
-What `polynya validate` lets through must run: a scene may be refused (exit code 3), and must else run its steps with
-every account closed and every check passed (0). Anything else is kept and told.
+What `polynya validate` lets through must run: a scene may be refused (exit code 3, with a place and what is allowed),
+and must else run its first ticks with every account closed and every check passed (0). The scene.json of its run folder
+must be valid, and `polynya inspect --check` must be able to read the folder. Anything else is kept and told.
 
 Usage: tools/extreme_scenes.py [TRIALS [SEED [POLYNYA]]]   100, 1, build/dev/app/polynya; failures in runs/extreme
 """
@@ -15,80 +16,160 @@ import pathlib
 import random
 import subprocess
 import sys
+import tempfile
 
-STEPS = 60
-TIME_LIMIT = 600  # for one run, which then hangs [s]
+TICKS = 40         # of a run: what fails by its numbers alone fails early
+TIME_LIMIT = 600   # for one command, which then hangs [s]
+LEAST_SIZE = 1e-100  # of a number that is not 0: smaller ones are refused
+TRIED = ("runs", "is refused")
 
-BASE = {
-    "time": {"step_s": 0.01, "until_s": 1},
-    "ships": [{
-        "hull": {"length_m": 60, "beam_m": 16, "entrance_angle_deg": 30}, "mass_kg": 3e6,
-        "moment_of_inertia_kg_m2": 8e8, "position_m": [-31, 0], "speed_m_per_s": 3,
-        "propulsion": {"constant_speed_m_per_s": 3}}],
-    "structures": [{"radius_m": 5, "position_m": [90, 0]}],
-    "floes": [{"lattice": {"origin_m": [1, -20], "rows": 4, "columns": 4, "pitch_m": 10, "size_m": 9.9}},
-              {"rectangle": {"corner_m": [42, -30], "size_m": 40}, "velocity_m_per_s": [-0.5, 0]},
-              {"field": {"corner_m": [100, -60], "extent_m": [100, 100], "floe_size_m": 12, "concentration": 0.7}}],
-}
-KEPT = {"$schema", "name", "description", "origin", "record", "file", "until_s", "keep_clear_m", "corner_m", "origin_m",
-        "position_m", "waterline_m", "outer_m", "holes_m", "outline_m", "extent_m"}
+SHIP = {"hull": {"length_m": 60, "beam_m": 12, "entrance_angle_deg": 30, "draught_m": 4, "block_coefficient": 0.6},
+        "position_m": [-32, 0], "propulsion": {"constant_speed_m_per_s": 1}}
+SAILING = {**SHIP, "propulsion": {"engine": {"bollard_pull_kN": 500, "open_water_speed_m_per_s": 7}},
+           "steering": {"rudder": {}}, "speed_m_per_s": 2}
+PUSHED = {**SHIP, "propulsion": {"thrust_N": 2e5}, "speed_m_per_s": 1, "mass_kg": 2e6,
+          "moment_of_inertia_kg_m2": 4e8, "hull": {"length_m": 60, "beam_m": 12, "entrance_angle_deg": 30}}
+MOORED = {**SAILING, "mooring": {"surge_stiffness_N_per_m": 1e5, "sway_stiffness_N_per_m": 1e5,
+                                 "yaw_stiffness_Nm_per_rad": 1e8}}
+ICE = [{"rectangle": {"corner_m": [0.5, -10], "size_m": 20}},
+       {"rectangle": {"corner_m": [21, -10], "size_m": [10, 8]}, "velocity_m_per_s": [-0.5, 0.1],
+        "angular_velocity_deg_per_s": 2}]
+HOLED = {"polygon": {"outer_m": [[0.5, -12], [25, -12], [25, 12], [0.5, 12]],
+                     "holes_m": [[[8, -3], [14, -3], [14, 3], [8, 3]]]}}
+FIELD = {"field": {"corner_m": [0.5, -15], "extent_m": [40, 30], "concentration": 0.6, "floe_size_m": 6}}
+LATTICE = {"lattice": {"origin_m": [0.5, -15], "columns": 3, "rows": 3, "pitch_m": 11, "size_m": 10},
+           "ice": {"thickness_m": {"mean": 0.4, "spread": 0.3}}}
+PILE = {"radius_m": 3, "position_m": [40, 0], "panels": {"length_m": 1}}
+BOX = {"waterline_m": [[-3, -3], [3, -3], [3, 3], [-3, 3]], "position_m": [40, 0], "wall_angle_deg": 40}
+WALLS = [{"from_m": [0, -11], "to_m": [30, -11], "velocity_m_per_s": [0, 0.2]},
+         {"from_m": [30, 11], "to_m": [0, 11], "pressure": {"line_load_N_per_m": 1e5}}]
+PILOTS = ({"constant": {}}, {"hold_speed": {"speed_m_per_s": 2}}, {"hold_heading": {}}, {"ram": {}},
+          {"table": {"rows": [{"t_s": 0, "lever": 1}, {"t_s": 3, "lever": -1, "steering_deg": 5}]}},
+          {"route": {"waypoints": [{"position_m": [500, 0], "speed_m_per_s": 3}]}})
+MANAGING = {**SAILING, "position_m": [200, 0],
+            "pilot": {"manage": {"body": "tower", "pattern": "circular", "width_m": 80, "distance_m": 200,
+                                 "safety_radius_m": 60}}}
+FOLLOWING = {**SAILING, "name": "second", "position_m": [-32, 30],
+             "pilot": {"follow": {"ship": "ship-1", "distance_m": 100}}}
+BASES = [{"ships": [ship], "floes": ICE} for ship in (SHIP, PUSHED, MOORED)] + [
+    {"ships": [{**SAILING, "pilot": pilot}], "floes": ICE} for pilot in PILOTS] + [
+    {"ships": [{**SHIP, "panels": {"length_m": 3}}], "structures": [PILE], "floes": ICE},
+    {"ships": [SHIP], "floes": [HOLED], "fracture": {"cusp_fate": "float"}},
+    {"structures": [PILE], "floes": ICE[1:]},
+    {"structures": [BOX], "floes": ICE, "water": {"drift_m_per_s": [0.5, 0.1]}},
+    {"ships": [{**SHIP, "position_m": [-32.4, 0]}], "floes": [{**ICE[0], "fast_ice": True}, ICE[1]]},
+    {"walls": WALLS, "floes": ICE},
+    {"wind": {"velocity_m_per_s": [8, 3]}, "water": {"shear": {"rate_per_s": 0.001}}, "floes": ICE},
+    {"ships": [MOORED], "water": {"tide": {"major_m_per_s": 0.5}}, "floes": ICE},
+    {"ships": [SHIP], "floes": [FIELD]},
+    {"ships": [SAILING], "floes": [LATTICE]},
+    {"ships": [SHIP, FOLLOWING], "floes": ICE},
+    {"ships": [MANAGING], "structures": [{"name": "tower", "radius_m": 5}],
+     "floes": [{"rectangle": {"corner_m": [8, 0], "size_m": 9}}]}]
+
+# Objects that a scene has though it does not give them.
+SETTINGS = ("time", "water", "ice", "contact", "fracture", "record")
+# Numbers of fields and lattices that may make a million floes of them.
+LARGE = {"columns", "rows", "extent_m", "floe_size_m", "size_m", "mean_m", "least_m", "largest_m", "gap_m"}
 
 
 def numbers(schema, path=()):
-    """(path, schema) of every number that a scene may give where BASE has, or could have, an object."""
+    """Every number of a schema and every choice, by its path, in which [] stands for an item of a list."""
+    for alternative in schema.get("oneOf", []):
+        yield from numbers(alternative, path)
+    if schema.get("type") in ("number", "integer") or "enum" in schema:
+        yield path, schema
+    if isinstance(schema.get("items"), dict):
+        yield from numbers(schema["items"], path + ("[]",))
     for key, value in schema.get("properties", {}).items():
-        if key in KEPT:
-            continue
-        value = value.get("oneOf", [value])[0] if "type" not in value and "enum" not in value else value
-        if value.get("type") in ("number", "integer") or "enum" in value or is_vector(value):
-            yield path + (key,), value
-        elif value.get("type") == "object":
-            yield from numbers(value, path + (key,))
-        elif value.get("type") == "array" and value.get("items", {}).get("type") == "object":
-            for i in range(len(BASE.get(key, []))):
-                yield from numbers(value["items"], path + (key, i))
+        yield from numbers(value, path + (key,))
 
 
-def is_vector(schema):
-    return schema.get("minItems") == schema.get("maxItems") == 2 and schema["items"].get("type") == "number"
+def places(value, path):
+    """Where a path of the schema leads in a scene: lists of keys. The last key, and settings, need not be there."""
+    if not path:
+        return [[]]
+    key, rest = path[0], path[1:]
+    if key == "[]":
+        items = value if isinstance(value, list) else []
+        return [[i] + keys for i, item in enumerate(items) for keys in places(item, rest)]
+    if not isinstance(value, dict) or (key not in value and rest and key not in SETTINGS and value):
+        return []
+    return [[key] + keys for keys in places(value.get(key, {}), rest)]
+
+
+def put(scene, keys, value):
+    for key in keys[:-1]:
+        scene = scene.setdefault(key, {}) if isinstance(scene, dict) else scene[key]
+    scene[keys[-1]] = value
 
 
 def drawn(dice, schema):
-    if is_vector(schema):
-        return [drawn(dice, schema["items"]), drawn(dice, schema["items"])]
+    """A choice, or a number at an end of its range, next to 0, or even over the range's decades."""
     if "enum" in schema:
         return dice.choice(schema["enum"])
     low = schema.get("minimum", schema.get("exclusiveMinimum", -1e9))
     high = schema.get("maximum", schema.get("exclusiveMaximum", 1e9))
-    kind = dice.randrange(5)
-    if schema["type"] == "integer":
-        return dice.choice([low, high, dice.randint(low, min(high, low + 50))])
-    if kind == 0 and "minimum" in schema:
-        return low
-    if kind == 1 and "maximum" in schema:
-        return high
-    if kind == 2 and low <= 0:
-        return math.copysign(10 ** dice.uniform(-320, 0), dice.choice([-1, 1]) if low < 0 else 1)
-    if low >= 0 and high > 0:  # even over the decades
-        return 10 ** dice.uniform(math.log10(max(low, high * 1e-15)), math.log10(high))
-    return dice.uniform(low, high)
+    least = max(low, LEAST_SIZE) if "exclusiveMinimum" in schema and low >= 0 else low
+    most = math.nextafter(high, low) if "exclusiveMaximum" in schema else high
+    choices = [least, most, least, most, dice.uniform(least, most)]
+    if low <= 0 < high:
+        choices += [math.copysign(10 ** dice.uniform(-100, 0), dice.choice([-1, 1]) if low < 0 else 1), most * 1e-9]
+    if high > 0:
+        decades = math.log10(max(least, high * 1e-12)), math.log10(high)
+        choices += [10 ** dice.uniform(*decades), 10 ** dice.uniform(*decades)]
+    value = min(max(dice.choice(choices), least), most)
+    return round(value) if schema["type"] == "integer" else value
 
 
-def fits(scene, path, schema):
-    """Has the scene a number there, or may one be added: it, or the object that holds it, can be left out?"""
-    here = scene
-    for key in path[:-1]:
-        if isinstance(here, dict) and key not in here:
-            return path[0] in ("water", "ice", "contact", "fracture")
-        here = here[key]
-    return path[-1] in here or "default" in schema
+def drawn_scene(dice, choices):
+    """One of the bases, by either law, with one to four numbers drawn anew."""
+    scene = copy.deepcopy(dice.choice(BASES))
+    if dice.random() < 0.2:
+        scene["contact"] = {"law": "impulse"}
+    for _ in range(dice.randint(1, 4)):
+        path, schema = dice.choice(choices)
+        found = places(scene, path)
+        if found and not (path[0] == "floes" and LARGE & set(path)):
+            put(scene, dice.choice(found), drawn(dice, schema))
+    return scene
 
 
-def put(scene, path, value):
-    here = scene
-    for key in path[:-1]:
-        here = here.setdefault(key, {}) if isinstance(here, dict) else here[key]
-    here[path[-1]] = value
+class Trial:
+    """A scene that is tried in a folder."""
+
+    def __init__(self, polynya, folder):
+        self.polynya, self.folder = polynya, pathlib.Path(folder)
+
+    def call(self, *arguments):
+        """The exit code of a command, its output and its messages; None for the code where it hangs."""
+        try:
+            done = subprocess.run([self.polynya, *map(str, arguments)], capture_output=True, text=True, check=False,
+                                  timeout=TIME_LIMIT)
+        except subprocess.TimeoutExpired:
+            return None, "", f"more than {TIME_LIMIT} s"
+        return done.returncode, done.stdout, done.stderr.strip()
+
+    def judge(self, scene):
+        """What became of a scene, in two or three words, and the messages."""
+        file, run = self.folder / "scene.json", self.folder / "run"
+        file.write_text(json.dumps(scene))
+        code, out, told = self.call("validate", file)
+        if code == 3:
+            return ("is refused", "") if "found" in told and "scene.json:" in told else ("is refused without why", told)
+        if code != 0:
+            return f"validate ends with {code}", told
+        tick_s = float(out.split(" in ticks of ")[1].split(" s")[0])
+        until_s = max(1e-9, min(scene.get("time", {}).get("until_s", 550), TICKS * tick_s))
+        code, _, told = self.call("run", file, "--check", "--out", run, "--until", until_s, "--no-map")
+        if code != 0:
+            stops = [line for line in told.splitlines() if "stopped at" in line]
+            return f"run ends with {code}", stops[0] if stops else told
+        code, _, told = self.call("validate", run / "scene.json")
+        if code != 0:
+            return "its scene.json is refused", told
+        code, _, told = self.call("inspect", run, "--check", "--json")
+        return ("runs", "") if code in (0, 4) else ("its folder is not read", told)
 
 
 def main():
@@ -96,35 +177,22 @@ def main():
     dice = random.Random(int(sys.argv[2]) if len(sys.argv) > 2 else 1)
     polynya = sys.argv[3] if len(sys.argv) > 3 else "build/dev/app/polynya"
     schema = json.loads(subprocess.run([polynya, "schema"], capture_output=True, check=True, text=True).stdout)
-    choices = [(path, kind) for path, kind in numbers(schema) if fits(BASE, path, kind)]
-    folder = pathlib.Path("runs/extreme")
-    folder.mkdir(parents=True, exist_ok=True)
+    choices = list(numbers(schema))
+    kept = pathlib.Path("runs/extreme")
     ended = collections.Counter()
     for trial in range(trials):
-        scene = copy.deepcopy(BASE)
-        for path, kind in dice.sample(choices, dice.randint(1, 4)):
-            if fits(scene, path, kind):
-                put(scene, path, drawn(dice, kind))
-        if dice.random() < 0.5:  # at most 10 m/s², lest it run away from any accuracy
-            ship = scene["ships"][0]
-            ship["propulsion"] = {"thrust_N": ship["mass_kg"] * 10 ** dice.uniform(-6, 1)}
-        scene["time"]["until_s"] = STEPS * scene["time"]["step_s"]
-        file = folder / f"{trial}.json"
-        file.write_text(json.dumps(scene))
-        try:
-            done = subprocess.run([polynya, "run", str(file), "--check", "--overwrite", "--out", str(folder / "run")],
-                                  capture_output=True, text=True, timeout=TIME_LIMIT)
-            code, told = done.returncode, done.stderr.strip().splitlines()[-1:] or [""]
-        except subprocess.TimeoutExpired:
-            code, told = "late", [f"more than {TIME_LIMIT} s"]
-        ended[code] += 1
-        if code in (0, 3):
-            file.unlink()
-        else:
-            print(f"{file}: {code}: {told[0]}", flush=True)
-    print(f"{trials} scenes of {len(choices)} numbers: " + ", ".join(f"{n} ended {c}"
-                                                                     for c, n in sorted(ended.items(), key=str)))
-    sys.exit(any(code not in (0, 3) for code in ended))
+        scene = drawn_scene(dice, choices)
+        with tempfile.TemporaryDirectory(prefix="polynya-extreme-") as folder:
+            end, told = Trial(polynya, folder).judge(scene)
+        ended[end] += 1
+        if end in TRIED:
+            continue
+        kept.mkdir(parents=True, exist_ok=True)
+        (kept / f"{trial}.json").write_text(json.dumps(scene))
+        print(f"{kept / str(trial)}.json: {end}: {told[-300:]}", flush=True)
+    print(f"{trials} scenes of {len(choices)} numbers and choices: "
+          + ", ".join(f"{n}: {end}" for end, n in ended.most_common()))
+    sys.exit(any(end not in TRIED for end in ended))
 
 
 if __name__ == "__main__":
