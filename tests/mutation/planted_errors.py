@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Plants errors in the sources, one at a time, and tells which of them no test of their room finds.
 
-Errors are drawn at random by a seed from all code of geometry, dynamics, fracture and simulation: signs, factors, bounds
-and comparisons. A list is a file of JSON lines beside this script, an error each: where it is, the line as it is and as
+Errors are drawn at random by a seed from all code of geometry, dynamics, fracture and simulation: signs, factors,
+bounds and comparisons. A list is a file of JSON lines beside this script, an error each: where it is, the line as it is and as
 it is planted, and what is known of it: "found by" a test, "survives", "equivalent" with the reason why nothing can find
 it, or "stale" where the source has changed since.
 
@@ -189,7 +189,8 @@ def run(options):
             continue
         try_out(error, options)
         write_list(options.list, errors)
-        print(f"{error['number']}: {error['file']}:{error['line']}: {error['result']} {error.get('by', '')}", flush=True)
+        print(f"{error['number']}: {error['file']}:{error['line']}: {error['result']} {error.get('by', '')}",
+              flush=True)
     return errors
 
 

@@ -41,8 +41,8 @@ class PlantedErrors(unittest.TestCase):
         self.assertEqual(self.planted_in("  y = 0.5 * x;"), ["y = 1.0 * x;", "y = 0.25 * x;"])
 
     def test_nothing_where_there_is_no_law(self):
-        for line in ("// a + b", "#include <a>", "  std::vector<double> many;", '  print("a - b of 2.5");', "  f(1, 2);",
-                     "  assert(a < b);", "  x = -a;  // b + c"):
+        for line in ("// a + b", "#include <a>", "  std::vector<double> many;", '  print("a - b of 2.5");',
+                     "  f(1, 2);", "  assert(a < b);", "  x = -a;  // b + c"):
             self.assertEqual(self.planted_in(line), [], line)
 
     def test_a_seed_draws_the_same_list_and_no_line_twice(self):
