@@ -2,8 +2,8 @@
 """Plants errors in the sources, one at a time, and tells which of them no test of their room finds.
 
 Errors are drawn at random by a seed from all code of geometry, dynamics, fracture and simulation: signs, factors,
-bounds and comparisons. A list is a file of JSON lines beside this script, an error each: where it is, the line as it is and as
-it is planted, and what is known of it: "found by" a test, "survives", "equivalent" with the reason why nothing can find
+bounds and comparisons. A list is a file of JSON lines beside this script, an error each: where it is, the line as it is
+and as it is planted, and what is known of it: "found by" a test, "survives", "equivalent" with the reason why nothing can find
 it, or "stale" where the source has changed since.
 
 Usage: planted_errors.py draw SEED COUNT LIST      writes a new list
