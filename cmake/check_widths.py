@@ -14,7 +14,8 @@ MOST_COLUMNS = 120
 SKIPPED_FOLDERS = {".git", "build", "node_modules", "__pycache__", "runs", "studies", "vendor", "images"}
 # Data, written by programs or kept as they came.
 DATA = re.compile(r"\.(csv|geojson|svg|png|gif|ico)$|_corpus/|^tests/geometry/.*\.txt$|^tests/passing/.*\.json$|"
-                  r"^tests/mutation/.*\.ndjson$|^fracture/bending/default_database\.txt$|^tests/view/package-lock\.json$|^LICENSE$")
+                  r"^tests/mutation/.*\.ndjson$|^fracture/bending/default_database\.txt$|"
+                  r"^tests/view/package-lock\.json$|^LICENSE$")
 JSON_STRING = re.compile(r'\s*"\w+": "[^"]*",?$')
 
 
