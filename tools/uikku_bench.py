@@ -19,8 +19,8 @@ import sys
 
 import numpy as np
 
+import level_tests
 from study import run_all, run_scene, slant_of
-from polynya.calibrate import level_tests  # study.py has found the package
 
 HERE = pathlib.Path(__file__).parent
 # Stem from the horizontal and entrance from the centre line [°], friction of ice on the hull. "inverted": what the
@@ -33,7 +33,7 @@ def scene(test, particulars, share, slant, settings):
     """A test at that share of its speed, the ice's edge with that slant [rad], with settings of the scene's keys."""
     ship = json.loads((HERE / "uikku.json").read_text(encoding="utf-8"))
     ship["hull"] |= {"entrance_angle_deg": particulars["entrance"], "stem_angle_deg": particulars["stem"]}
-    whole = level_tests.scene(test, ship, (1, 1), particulars["friction"], share, slant=slant)
+    whole = level_tests.scene(test, ship, particulars["friction"], share, slant=slant)
     for key, value in settings:
         *path, last = key.split(".")
         inner = whole

@@ -19,7 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr std::pair<const char*, const char*> kCommands[] = {
     {"performance", "Find the speed that a ship keeps in level ice, by thickness"},
-    {"calibrate", "Fit the two factors of bending to level-ice tests of a ship"},
     {"figures", "Draw a run, or several side by side, for print"},
     {"loads", "Peaks of the ice's force by place: statistics, return values, figures"},
     {"management", "State what ice management did: floes through gates, hits, loads, effort"},

@@ -349,7 +349,7 @@ Outcome<ViewedRun> read_viewed(const std::string& folder, const views::PlayerSel
 std::array<std::string, 2> labels_of(const std::vector<ViewedRun>& viewed, const ViewOptions& options) {
   if (!options.labels.empty()) return {options.labels[0], options.labels[1]};
   const auto both = [&](auto name) { return std::array<std::string, 2>{name(0), name(1)}; };
-  auto scenes = both([&](std::size_t k) { return shown_name(viewed[k].run.scene.scene); });
+  auto scenes = both([&](std::size_t k) { return viewed[k].run.scene.scene.name; });
   if (scenes[0] != scenes[1]) return scenes;
   const auto folders = both([&](std::size_t k) {
     const fs::path path = fs::path(options.runs[k]).lexically_normal();

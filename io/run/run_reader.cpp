@@ -212,7 +212,7 @@ Result<Run> read_run(const std::filesystem::path& folder) {
     auto scene = read_scene_file(folder / run_file::kScene);
     if (!scene) return fail(to_string(scene.error().front()));
     run.scene = std::move(*scene);
-    run.label = shown_name(run.scene.scene);
+    run.label = run.scene.scene.name;
     run.summary = document_of(folder, run_file::kSummary);
     check_version(run);
     read_floes(run);

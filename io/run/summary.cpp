@@ -184,17 +184,6 @@ void add_mooring_warnings(const Simulation& simulation, std::vector<std::string>
   }
 }
 
-void add_calibrations(const simulation::Scene& scene, std::vector<std::string>& warnings) {
-  const auto add = [&](const simulation::BendingFactors& factors, std::string_view whose) {
-    if (factors != simulation::BendingFactors{})
-      warnings.push_back(fmt::format("calibrated: bending loads times {:.4g}, cusp radii times {:.4g} ({})",
-                                     factors.load, factors.cusp_radius, whose));
-  };
-  add(scene.fracture.factors, "fracture.bending");
-  for (const simulation::Ship& ship : scene.ships)
-    if (ship.calibration) add(*ship.calibration, ship.name);
-}
-
 std::vector<std::string> warnings_of(const Simulation& simulation, const simulation::Counts& counts) {
   std::vector<std::string> warnings = ship_contact_warnings(simulation);
   add_mooring_warnings(simulation, warnings);
@@ -234,7 +223,6 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
         fmt::format("THE LEDGER IS BROKEN: ice is off by {:.2e} m2 of {:.2e} m2, {:.2e} kg of {:.2e} kg; do not trust "
                     "this run, and please report it with its failure.bin",
                     areas.imbalance(), areas.initial, masses.imbalance(), masses.initial));
-  add_calibrations(simulation.scene(), warnings);
   if (simulation.scene().fracture.characteristic_length == fracture::CharacteristicLength::kAsPrinted)
     warnings.emplace_back("fracture.characteristic_length is as_printed: Eq. (7) with the paper's misprint");
   return warnings;

@@ -261,19 +261,6 @@ FieldOf<Record> chosen(FieldOf<Record> field) {
   field.presence = Presence::kChosen;
   return field;
 }
-/// An integer from 0 to 5 that older scenes have: it is accepted, changes nothing and is not written again.
-template <class Record>
-FieldOf<Record> retired(std::string_view key, std::string_view meaning) {
-  FieldOf<Record> field;
-  field.key = key;
-  field.meaning = meaning;
-  field.kind = FieldKind::kInteger;
-  field.range = {.low = 0, .high = 5};
-  field.presence = Presence::kLeftOut;
-  field.set = [](void*, const JsonValue&) {};
-  field.get = [](const void*) { return std::optional<JsonValue>(); };
-  return field;
-}
 /// Belongs to one of its object's alternatives.
 template <class Record>
 FieldOf<Record> of(std::string_view alternative, FieldOf<Record> field) {
@@ -295,18 +282,6 @@ FieldOf<Record> left_out(FieldOf<Record> field) {
     return value && value->number() == otherwise ? std::nullopt : value;
   };
   return field;
-}
-
-/// Calibration, of a scene and of a ship.
-template <class... Path>
-auto load_factor(Path... path) {
-  return member("load_factor", "", from(0.01, 100),
-                "calibration: the load V_b at which ice breaks by bending, times this; 1: as computed", path...);
-}
-template <class... Path>
-auto cusp_radius_factor(Path... path) {
-  return member("cusp_radius_factor", "", from(0.01, 100),
-                "calibration: the radius R of the cusps that break off, times this; 1: as computed", path...);
 }
 
 }  // namespace polynya::io

@@ -24,7 +24,6 @@ const Description<StepSettings> kTime{
                    "the tick: the longest time step Δt; if not given, 0.0005 to 0.1 s by speeds and thickness. By law "
                    "crush a tick is taken in up to 32 equal parts where ice breaks fast (docs/theory/steps.md)",
                    &StepSettings::step)),
-     retired<StepSettings>("levels", "has no effect any more: the parts of a tick follow from what happens in it"),
      member("until_s", "s", above(0, 1e7), "simulated time to run to, rounded up to a whole tick",
             &StepSettings::until)}};
 
@@ -132,8 +131,6 @@ const Description<FractureSettings> kBending{
          "of model fsi-database and contact law crush: whether the edge breaks at the weakest section of its true "
          "outline, or as the wedge that it makes over 0.3 l",
          {{"sections", EdgeOutline::kSections}, {"wedge", EdgeOutline::kWedge}}, &FractureSettings::outline),
-     load_factor(&FractureSettings::factors, &BendingFactors::load),
-     cusp_radius_factor(&FractureSettings::factors, &BendingFactors::cusp_radius),
      choice<bool>("deflection",
                   "of contact law crush: whether ice that bends under a hull recedes from it, so "
                   "that the hull comes farther before a cusp breaks, or only crushes until then",

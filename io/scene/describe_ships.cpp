@@ -117,9 +117,6 @@ const Description<MooringInput> kMooring{
      member("heading_deg", "°", from(-360, 360), "there; if not given, the ship's at the start",
             &MooringInput::heading)}};
 
-const Description<BendingFactors> kCalibration{
-    {load_factor(&BendingFactors::load), cusp_radius_factor(&BendingFactors::cusp_radius)}};
-
 template <class Pilot>
 FieldOf<Pilot> lever(double Pilot::*place) {
   return member("lever", "", from(-1, 1), "of the thrust", place);
@@ -291,9 +288,6 @@ const Description<ShipInput> kShipDescription{
      object("pilot", kPilot, "works lever and steering; if not given, full ahead with the rudder amidships",
             &ShipInput::pilot),
      object("mooring", kMooring, "what holds the ship in its place", &ShipInput::mooring),
-     object("calibration", kCalibration,
-            "of the ice that this ship breaks, by `polynya calibrate`; times the factors of `fracture.bending`",
-            &ShipInput::spec, &Ship::calibration),
      object("panels", kPanelSettings, "of the hull, of which panels.csv has the loads of the ice", &ShipInput::spec,
             &Ship::panels)}};
 

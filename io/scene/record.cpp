@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "io/scene/gone_keys.hpp"
 #include "io/text/json_writer.hpp"
 
 namespace polynya::io {
@@ -141,7 +142,13 @@ void RecordReader::report_unknown_keys(const Object& table, const JsonValue& val
   for (const JsonMember& member : value.members()) {
     if (std::ranges::find(known, member.key) != known.end()) continue;
     if (path.empty() && member.key == "$schema") continue;
-    report(member.key_offset, key_path(path, member.key), "an unknown key", fmt::format("{}", fmt::join(known, ", ")),
+    const std::string at = key_path(path, member.key);
+    if (const GoneKey* gone = gone_key(at)) {
+      if (!gone->changes_nothing(member.value))
+        report(member.key_offset, at, show(member.value), std::string(gone->allowed));
+      continue;
+    }
+    report(member.key_offset, at, "an unknown key", fmt::format("{}", fmt::join(known, ", ")),
            nearest(member.key, known));
   }
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "geometry/cut/overlap.hpp"
+#include "io/scene/gone_keys.hpp"
 #include "io/scene/scene_check.hpp"
 #include "simulation/world/parts.hpp"
 #include "simulation/world/population.hpp"
@@ -57,7 +58,6 @@ class Hinter {
       hint_at_side(scene_.walls[i], hull_count(scene_) - scene_.walls.size() + i);
     hint_at_crossings();
     hint_at_drift();
-    hint_at_levels();
     hint_at_step();
   }
 
@@ -209,14 +209,6 @@ class Hinter {
                        scene_.contact.circle_radius);
   }
 
-  void hint_at_levels() {
-    const JsonValue* time = given_.find("time", JsonValue::Kind::kObject);
-    if (time == nullptr || time->find("levels") == nullptr) return;
-    add(Severity::kHint, "time.levels",
-        "has no effect any more, and the next version will refuse it: the parts of a tick follow from what happens in "
-        "it (docs/theory/steps.md); leave it out");
-  }
-
   void hint_at_step() {
     if (scene_.floes.empty()) return;
     const auto thickness_of = [&](const simulation::FloeSpec& floe) { return ice_of(scene_, floe.own_ice).thickness; };
@@ -255,6 +247,7 @@ class Hinter {
 
 void add_scene_hints(const SceneDraft& draft, const JsonValue& given, ProblemCollector& hints) {
   Hinter(draft, given, hints).add_all();
+  add_hints_at_gone_keys(given, hints);
 }
 
 }  // namespace polynya::io

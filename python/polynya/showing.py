@@ -126,7 +126,7 @@ def html_of_run(self):
             ("fractures", f"{counts.get('bends')} cusps by bending, {counts.get('splits')} splits"),
             ("largest surge force of the ice", forces),
             *(("note", warning) for warning in self.summary.get("warnings", []))]
-    return page(self.shown_name, rows, image(fill) if len(self.births["floe_id"]) <= 3 * MOST_FLOES else "")
+    return page(self.name, rows, image(fill) if len(self.births["floe_id"]) <= 3 * MOST_FLOES else "")
 
 
 def html_of_study(self):

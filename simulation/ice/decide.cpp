@@ -69,13 +69,11 @@ fracture::BendingCapacity capacity_where_it_breaks(const Setup& setup, const Ste
   return there;
 }
 
-/// Enters V_b and the cusp, with the scene's factors on them.
-void enter_capacity(const Setup& setup, const HullContactLoad& load, fracture::BendingCapacity capacity,
-                    PendingFracture& pending) {
-  const BendingFactors factors = bending_factors_of(setup.scene, load.contact.a);
-  pending.criteria.bending_capacity = factors.load * capacity.vertical_force;
+/// Enters V_b and the cusp.
+void enter_capacity(const HullContactLoad& load, fracture::BendingCapacity capacity, PendingFracture& pending) {
+  pending.criteria.bending_capacity = capacity.vertical_force;
   pending.criteria.flexural_strength = load.ice.flexural_strength;
-  pending.cusp_radius = factors.cusp_radius * capacity.cusp_radius;
+  pending.cusp_radius = capacity.cusp_radius;
 }
 
 /// By the law of crushing ice: V_b, the cusp, and V_b as V, since the solver finds whether the load reaches it. Where
@@ -83,7 +81,7 @@ void enter_capacity(const Setup& setup, const HullContactLoad& load, fracture::B
 bool measure_bending_by_crushing(const Setup& setup, const Step& step, const HullContactLoad& load,
                                  PendingFracture& pending) {
   const fracture::BendingCapacity capacity = capacity_where_it_breaks(setup, step, load);
-  enter_capacity(setup, load, capacity, pending);
+  enter_capacity(load, capacity, pending);
   const double most = pending.criteria.bending_capacity;
   pending.criteria.vertical_force = std::isfinite(most) ? most : 0;
   return capacity.is_in_range;
@@ -94,7 +92,7 @@ bool measure_bending_by_crushing(const Setup& setup, const Step& step, const Hul
 bool measure_bending_by_collision(const Setup& setup, const Step& step, const HullContactLoad& load,
                                   PendingFracture& pending) {
   const fracture::BendingCapacity capacity = setup.bending->capacity(bending_load(setup, load));
-  enter_capacity(setup, load, capacity, pending);
+  enter_capacity(load, capacity, pending);
   const double crushing_impulse = load.shares.horizontal * load.normal_force * step.length;
   const double pressed = crushing_impulse > 0 ? std::min(1.0, load.impulse / crushing_impulse) : 0;
   pending.criteria.vertical_force = pressed * load.shares.vertical * load.normal_force;

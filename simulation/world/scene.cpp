@@ -33,24 +33,6 @@ int hull_named(const Scene& scene, std::string_view name) {
   return -1;
 }
 
-BendingFactors bending_factors_of(const Scene& scene, std::size_t hull) {
-  BendingFactors factors = scene.fracture.factors;
-  if (hull >= scene.ships.size() || !scene.ships[hull].calibration) return factors;
-  factors.load *= scene.ships[hull].calibration->load;
-  factors.cusp_radius *= scene.ships[hull].calibration->cusp_radius;
-  return factors;
-}
-
-bool is_calibrated(const Scene& scene) {
-  return scene.fracture.factors != BendingFactors{} || std::ranges::any_of(scene.ships, [](const Ship& ship) {
-           return ship.calibration.value_or(BendingFactors{}) != BendingFactors{};
-         });
-}
-
-std::string shown_name(const Scene& scene) {
-  return scene.name + (is_calibrated(scene) ? ", calibrated" : "");
-}
-
 double recording_interval(const Scene& scene) {
   return std::max(scene.record.forces_interval, scene.time.step);
 }

@@ -133,13 +133,6 @@ struct ResurfaceSettings {
   friend bool operator==(const ResurfaceSettings&, const ResurfaceSettings&) = default;
 };
 
-/// Factors that calibrate bending to tests with a ship. With 1, the computed values are used.
-struct BendingFactors {
-  double load = 1;         ///< factor on the bending capacity V_b [-]
-  double cusp_radius = 1;  ///< factor on the cusp radius R [-]
-  friend bool operator==(const BendingFactors&, const BendingFactors&) = default;
-};
-
 /// Breaking of ice, and the fate of the broken ice.
 struct FractureSettings {
   /// Reading of the characteristic length l of Eq. (7).
@@ -152,7 +145,6 @@ struct FractureSettings {
   fracture::RadialCracks radial_cracks = fracture::RadialCracks::kSplitWedge;
   /// For kFsiDatabase with ContactLaw::kCrush: part of the ice's outline that decides where the edge breaks.
   fracture::EdgeOutline outline = fracture::EdgeOutline::kSections;
-  BendingFactors factors;  ///< calibration factors for all hulls
   /// For ContactLaw::kCrush: true if ice that bends under a hull recedes from it, so that less ice crushes.
   bool follows_deflection = true;
   /// For ContactLaw::kCrush with CuspFate::kUnderHull: true if water reaches the deck of a turning cusp only through
@@ -233,11 +225,10 @@ struct Ship : PlacedHull {
   double sway_speed = 0;  ///< speed over ground to port at the start [m/s]
   double yaw_rate = 0;    ///< yaw rate at the start, counter-clockwise [rad/s]
   Propulsion propulsion;
-  HullWaterSettings water;                    ///< forces of the water on the hull
-  Steering steering;                          ///< rudder or thrusters that turn, if any
-  PilotSettings pilot;                        ///< pilot, for a ship with an engine
-  std::optional<MooringSettings> mooring;     ///< mooring, if any
-  std::optional<BendingFactors> calibration;  ///< factors for the ice that this ship breaks; multiply the scene's
+  HullWaterSettings water;                 ///< forces of the water on the hull
+  Steering steering;                       ///< rudder or thrusters that turn, if any
+  PilotSettings pilot;                     ///< pilot, for a ship with an engine
+  std::optional<MooringSettings> mooring;  ///< mooring, if any
   friend bool operator==(const Ship&, const Ship&) = default;
 };
 
@@ -368,14 +359,6 @@ int hull_named(const Scene& scene, std::string_view name);
 /// the velocity at which the skin drag of the water below the ice balances the stress of the wind above it. Without
 /// wind or without skin drag it is the drift of the water.
 geometry::Vector free_drift(const Scene& scene, double time);
-
-/// Returns the calibration factors for ice that a hull breaks: product of the scene's factors and the ship's
-/// factors.
-BendingFactors bending_factors_of(const Scene& scene, std::size_t hull);
-/// Returns true if a calibration factor of the scene or of a ship differs from 1.
-bool is_calibrated(const Scene& scene);
-/// Returns the scene's name as outputs show it, followed by ", calibrated" if the scene is calibrated.
-std::string shown_name(const Scene& scene);
 
 /// Returns the nominal time that a row of forces.csv covers [s]: RecordSettings::forces_interval, or the tick if that
 /// is longer. Each row ends at a whole tick, so single rows may differ from it by up to a tick.

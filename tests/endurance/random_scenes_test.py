@@ -47,7 +47,7 @@ EXPECTED = {
     "a plate with holes", "fast ice that is driven", "field with floe_size_m", "field with centreline_m",
     "field with outline_m", "field with corner_m", "field with aspect", "field with packing", "sizes by size_m",
     "sizes by mean_m", "sizes by exponent", "ship with ship", "ship with mooring", "ship with panels",
-    "ship with calibration", "ship with sway_speed_m_per_s", "propulsion by thrust_N",
+    "ship with sway_speed_m_per_s", "propulsion by thrust_N",
     "propulsion by constant_speed_m_per_s", "propulsion by engine", "steering by rudder", "steering by azimuth",
     "pilot constant", "pilot hold_speed", "pilot hold_heading", "pilot route", "pilot table", "pilot ram",
     "pilot follow", "pilot manage", "pattern linear", "pattern sector", "pattern circular", "pattern racetrack",

@@ -46,8 +46,6 @@ def ship_of_size(dice, length):
     else:
         deep = None
         ship.update(mass_kg=mass, moment_of_inertia_kg_m2=mass * length**2 / 16)
-    if dice.chance(0.15):
-        ship["calibration"] = {"load_factor": dice.between(0.5, 1.5), "cusp_radius_factor": dice.between(0.6, 1.4)}
     if dice.chance(0.2):
         ship["panels"] = panels(dice)
     return ship, outline, deep, mass

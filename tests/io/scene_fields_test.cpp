@@ -51,7 +51,7 @@ const std::string kFourth = scene({list(
        "pilot": {"route": {"waypoints": [{"position_m": [500, 500], "speed_m_per_s": 3},
                                          {"position_m": [900, 400], "speed_m_per_s": 2}]}},
        "mooring": {"surge_stiffness_N_per_m": 1e5, "break_load_N": 1e6, "position_m": [0, 501], )"
-         R"("heading_deg": 1}, "calibration": {"load_factor": 1.2})")})});
+         R"("heading_deg": 1})")})});
 
 /// The fields of a law of sizes.
 std::string field_of_law(const std::string& region, const std::string& law) {
@@ -190,7 +190,6 @@ TEST(SceneFields, EveryFieldRoundTripsAndReachesTheScene) {
   std::set<std::string> expected = all_leaves(kSceneDescription, "");
   expected.erase(".floes.file");  // becomes polygons in the resolved scene
   std::erase_if(expected, [](const std::string& path) { return path.starts_with(".floes.import."); });
-  expected.erase(".time.levels");  // has no effect any more
   expected.erase(".ships.ship");  // becomes the preset's particulars
   EXPECT_EQ(seen, expected);
 }

@@ -82,6 +82,12 @@ TEST(SceneProblems, WhatNoFieldAloneCanTell) {
        "ships[0].speed_m_per_s", "found 1"},
       {scene({list("structures", {R"({"radius_m": 5})"}), list("floes", {square(0, 0, 9)})}), "floes[0]",
        "an overlap with structures[0]"},
+      {scene({R"("fracture": {"bending": {"load_factor": 0.64}})"}), "fracture.bending.load_factor",
+       "found 0.64, allowed: 1, or no such key: this calibration factor was removed"},
+      {scene({R"("fracture": {"bending": {"cusp_radius_factor": "1"}})"}), "fracture.bending.cusp_radius_factor",
+       "found \"1\", allowed: 1, or no such key: this calibration factor was removed"},
+      {scene_of_ship(ship(R"("calibration": {"load_factor": 1, "cusp_radius_factor": 0.7})")), "ships[0].calibration",
+       "calibration factors were removed"},
   });
 }
 
@@ -366,6 +372,12 @@ TEST(SceneHints, HaveAPlaceASeverityAndNumbers) {
             "1: hint: ice.thickness_m: ",
             {"0.001 m", "0.01 m"}},
         Row{{{"100}", R"(100, "levels": 3})"}}, "1: hint: time.levels: ", {"no effect", "leave it out"}},
+        Row{{{"100}", R"(100}, "fracture": {"bending": {"load_factor": 1}})"}},
+            "1: hint: fracture.bending.load_factor: ",
+            {"no effect", "leave it out"}},
+        Row{{{"1e4}", R"(1e4}, "calibration": {"cusp_radius_factor": 1})"}},
+            "4: hint: ships[1].calibration: ",
+            {"no effect", "leave it out"}},
         Row{{{"100}", R"(100, "step_s": 0.06}, "contact": {"law": "impulse"})"}},
             "1: warning: time.step_s: ",
             {"at 2 m/s", "0.12 m in a step", "0.15 of the ice's thickness of 0.5 m", "give 0.0375 s or less"}},

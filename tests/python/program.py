@@ -31,7 +31,7 @@ TUG = {**BREAKER, "hull": {"length_m": 30, "beam_m": 12, "entrance_angle_deg": 3
        "mass_kg": 2e6, "moment_of_inertia_kg_m2": 2e8, "position_m": [-16, 1]}
 
 
-OF_PYTHON = {"calibrate", "figures", "loads", "management", "movie", "performance", "study"}
+OF_PYTHON = {"figures", "loads", "management", "movie", "performance", "study"}
 
 
 def started(*words, **more):

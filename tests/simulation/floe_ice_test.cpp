@@ -44,23 +44,6 @@ TEST(FloeIce, BreaksAtTheLoadOfItsOwnStrengthAndThickness) {
   EXPECT_NEAR(bend_of_thick.criteria().bending_capacity / as_scene, 2.25, 1e-9) << "P goes with h²";
 }
 
-TEST(Calibration, MultipliesWhatTheShipsIceBearsAndItsCusps) {
-  const auto as_computed = first_bend(ship_in_ice().floe(kPlate));
-  const auto with = [](BendingFactors of_scene, std::optional<BendingFactors> of_ship) {
-    Build scene = ship_in_ice().floe(kPlate);
-    scene.fracture.factors = of_scene;
-    scene.ships[0].calibration = of_ship;
-    EXPECT_EQ(shown_name(scene), scene.name + ", calibrated");
-    return first_bend(scene);
-  };
-  const double load = as_computed.criteria().bending_capacity, radius = std::get<Bend>(as_computed.what).cusp_radius;
-  for (const auto& bend : {with({1.5, 1}, {}), with({}, BendingFactors{1.5, 1}), with({3, 1}, BendingFactors{0.5, 1})})
-    EXPECT_NEAR(bend.criteria().bending_capacity / load, 1.5, 1e-9);
-  for (const auto& bend : {with({1, 0.8}, {}), with({}, BendingFactors{1, 0.8}), with({1, 0.4}, BendingFactors{1, 2})})
-    EXPECT_NEAR(std::get<Bend>(bend.what).cusp_radius / radius, 0.8, 1e-9);
-  EXPECT_EQ(shown_name(ship_in_ice()), ship_in_ice().name);
-}
-
 /// One floe: to give it the ice is to give the scene that ice, to the bit.
 Trial expect_same(Build scene, const fracture::Ice& ice, double until) {
   Scene own = Build(scene).of(ice);

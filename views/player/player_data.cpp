@@ -368,7 +368,7 @@ std::string info_of(const io::Run& run, const PlayerData& data, const PlayerSele
   std::string text;
   io::JsonWriter json(text);
   const simulation::Scene& scene = run.scene.scene;
-  json.open('{').key("polynya").value(io::version()).key("scene").value(shown_name(scene));
+  json.open('{').key("polynya").value(io::version()).key("scene").value(scene.name);
   json.key("description").value(run.scene.description).key("scene_hash").value(run.scene.hash);
   json.key("seed").value(scene.seed).key("until_s").value(scene.time.until);
   json.key("frames").value(data.frames).key("frames_of_run").value(run.frames.size());

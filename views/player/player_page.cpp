@@ -45,7 +45,7 @@ std::string pair_info(const std::array<ShownRun, 2>& runs) {
 }  // namespace
 
 std::string player_page(const io::Run& run, const PlayerData& data, const std::string& options) {
-  return filled(kPlayerTemplate, {{"{{title}}", io::escaped(shown_name(run.scene.scene))},
+  return filled(kPlayerTemplate, {{"{{title}}", io::escaped(run.scene.scene.name)},
                                   {"{{options}}", in_script(options)},
                                   {"{{info}}", in_script(data.info)},
                                   {"{{columns}}", io::to_base64(data.columns.bytes())}});

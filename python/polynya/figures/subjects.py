@@ -30,7 +30,7 @@ def labelled(run, label=None, start=None, end=None):
     start, end = run.start_time if start is None else start, run.end_time if end is None else end
     if start >= end and run.end_time > run.start_time:
         raise ValueError(f"--from {start:g} is not before --until {end:g}")
-    return Labelled(run, run.shown_name if label is None else label, start, end)
+    return Labelled(run, run.name if label is None else label, start, end)
 
 
 def all_labelled(runs):

@@ -87,7 +87,7 @@ class Picture:
             self.history.prepare(self.canvas)
 
     def _head(self):
-        name = self.figure.text(0.015, 1 - HEAD / 2, self.run.shown_name, ha="left", va="center",
+        name = self.figure.text(0.015, 1 - HEAD / 2, self.run.name, ha="left", va="center",
                                 fontweight="bold", fontsize=1.1 * self._font)
         room = 0.62 * self.look.size[0]
         taken = name.get_window_extent().width

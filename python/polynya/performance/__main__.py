@@ -54,14 +54,7 @@ def ten_thicknesses(curve):
     return [round(step * (i + 1), 3) for i in range(10)]
 
 
-def calibration_of(ship):
-    """A sentence about the ship's calibration; empty without one."""
-    factors = ship.get("calibration") or {}
-    load, radius = (factors.get(key, 1) for key in ("load_factor", "cusp_radius_factor"))
-    return "" if load == radius == 1 else f"calibrated: bending loads times {load:g}, cusp radii times {radius:g}"
-
-
-def print_table(rows, words=""):
+def print_table(rows):
     print(
         f"{'h [m]':>7} {'v [m/s]':>10}{'± scatter':>10}{'[kn]':>8}   {'contact [kN]':>13}{'under hull':>12}   "
         f"{'Lindqvist':>10}{'Riska':>8}{'Spencer-Jones':>15}"
@@ -74,8 +67,6 @@ def print_table(rows, words=""):
             f"{row['speed_m_per_s'] / KNOT:8.1f}   {row['contact_kN']:13.0f}{row['submerged_kN']:12.0f}   "
             f"{row['lindqvist_m_per_s']:10.2f}{row['riska_m_per_s']:8.2f}{row['spencer_jones_m_per_s']:15.2f}{note}"
         )
-    if words:
-        print(words)
     print("±: standard error of the run's own mean speed [m/s], its statistical scatter alone, not the model's error")
     outside = [row for row in rows if not row["is_in_validated_range"]]
     if outside:
@@ -136,8 +127,7 @@ def main():
         return fail(FAILED, error)
     except KeyboardInterrupt:
         return fail(STOPPED, "stopped; the same command goes on with the runs that are left")
-    words = calibration_of(ship)
-    print_table(rows, words)
+    print_table(rows)
     for point in reported:
         print(
             f"design point, at least: {point['thickness_m']:g} m at {point['speed_m_per_s']:.2f} m/s "
@@ -155,8 +145,7 @@ def main():
         print(f"figure  none: {error}; ./setup.sh python installs what it needs", file=sys.stderr)
         return DONE
     picture = os.path.join(folder, "performance.png")
-    strength = f"σf {arguments.flexural_strength / 1e3:g} kPa, μ {arguments.friction:g}" + (f"\n{words}"
-                                                                                            if words else "")
+    strength = f"σf {arguments.flexural_strength / 1e3:g} kPa, μ {arguments.friction:g}"
     figure.draw(rows, f"{found['title']}: level ice, full power\n{strength}", reported, picture)
     print(f"figure  {picture}")
     return DONE

@@ -68,11 +68,6 @@ class Run:
         return self.scene.get("name", self.folder.name)
 
     @property
-    def shown_name(self) -> str:
-        """The scene's name as figures show it: with ", calibrated" where its factors of bending are not 1."""
-        return self.name + (", calibrated" if is_calibrated(self.scene) else "")
-
-    @property
     def is_finished(self) -> bool:
         """Whether it ran to its end."""
         return bool(self.summary.get("finished", True))
@@ -390,13 +385,6 @@ class Frames:
         if isinstance(index, slice):
             return [Frame(self._run, time) for time in self._run.times[index]]
         return Frame(self._run, self._run.times[index])
-
-
-def is_calibrated(scene):
-    """Whether the load or the radius of cusps is multiplied in a scene: for all hulls, or for a ship."""
-    settings = [scene.get("fracture", {}).get("bending", {}),
-                *(ship.get("calibration", {}) for ship in scene.get("ships", []))]
-    return any(of.get(key, 1) != 1 for of in settings for key in ("load_factor", "cusp_radius_factor"))
 
 
 def body_poses(motions, centroids):

@@ -8,7 +8,6 @@ import subprocess
 LOADS = ("surge_N", "sway_N", "yaw_Nm")
 QUANTILES = (0.5, 0.9, 0.99)
 STOP_SPEED = 0.05  # [m/s]
-CALIBRATED = "calibrated"  # a column where a case's factors of bending are not 1
 TEXT_COLUMNS = {"ship"}
 
 
@@ -39,8 +38,6 @@ def measure(run, collect, program):
 
         found.update(of_folder(run, collect["management"]))
     found["warnings"] = len(summary["warnings"])
-    if any(warning.startswith("calibrated") for warning in summary["warnings"]):
-        found[CALIBRATED] = 1
     return found
 
 

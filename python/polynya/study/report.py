@@ -10,7 +10,6 @@ from ..program import program
 from .. import statistics
 from . import channels, pictures
 from .folder import RUN, write_atomically
-from .measures import CALIBRATED
 from .gather import TABLE, gather
 from .sample import QUANTILE, choices_of, fits_of, read_sample
 
@@ -168,10 +167,9 @@ def make_players(study, sample, players):
 def page(study, sample, choices, made, rows):
     text = html.escape
     state = sample.summary
-    note = "calibrated: factors on the bending of ice (docs/ships.md)" if CALIBRATED in sample.columns else ""
     lines = [
         f"<!doctype html><meta charset='utf-8'><title>{text(study.plan['name'])}</title><style>{STYLE}</style>",
-        f"<h1>{text(study.plan['name'])}</h1>" + (f"<p><b>{note}</b></p>" if note else ""),
+        f"<h1>{text(study.plan['name'])}</h1>",
         f"<p>{state['cases']} cases: {state['finished']} finished, {state['failed']} failed, {state['unfinished']} "
         f"unfinished, {state['missing']} missing. "
         + ("" if state["is_complete"] else "<b>This page shows a part of the study.</b> ")

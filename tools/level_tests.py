@@ -1,4 +1,4 @@
-"""Level-ice tests of a ship: their table, the scene of each, and what its run is compared by."""
+"""Level-ice tests of a ship: their table, the scene of each test, and what its run is compared by. Not a program."""
 import csv
 import dataclasses
 import math
@@ -6,9 +6,10 @@ import typing
 
 import numpy as np
 
-from ..errors import InputError
-from ..performance.level_ice import ENDLESS
-from ..study.measures import rows_by_ship
+import study  # noqa: F401  (it finds the package)
+from polynya.errors import InputError
+from polynya.performance.level_ice import ENDLESS
+from polynya.study.measures import rows_by_ship
 
 MEASURED = 100  # way over which the ice's force is measured, once the hull is full of ice [m]
 GAP = 2  # of water before the ice [m]
@@ -90,24 +91,22 @@ def ends_of(hull):
     return -0.5 * hull["length_m"], 0.5 * hull["length_m"], hull["beam_m"]
 
 
-def way_in(hull, is_full=True):
-    """Until the bow is in the ice, or the hull full of it as well [m]."""
+def way_in(hull):
+    """Distance that the ship sails until the ice reaches along all of its hull [m]."""
     stern, stem, beam = ends_of(hull)
     angle = hull.get("entrance_angle_deg")
     bow = 0.3 * (stem - stern) if angle is None else 0.5 * beam / math.tan(math.radians(angle))
-    return bow + (1.05 * (stem - stern) if is_full else 5)
+    return bow + 1.05 * (stem - stern)
 
 
-def scene(test, ship, factors, friction=None, share=1.0, is_full=True, slant=SLANT):
-    """The ship at constant speed, `share` of the test's, into fast ice that does not split, whose edge has that slant
-    [rad]; `factors` on the load at which ice bends off, and on the radius of cusps. It is measured once the hull is
-    full of ice, or the bow in it."""
-    way, (stern, stem, beam) = way_in(ship["hull"], is_full) + MEASURED, ends_of(ship["hull"])
+def scene(test, ship, friction=None, share=1.0, slant=SLANT):
+    """The ship at constant speed, `share` of the test's, in fast ice that does not split and whose edge has that slant
+    [rad]. Forces are measured once the ice reaches along all of the hull."""
+    way, (stern, stem, beam) = way_in(ship["hull"]) + MEASURED, ends_of(ship["hull"])
     speed, kept = share * test.speed, ("name", "hull", "mass_kg", "moment_of_inertia_kg_m2")
     placed = {key: ship[key] for key in kept if key in ship} | {
         "position_m": [-stem - GAP, 0],
         "propulsion": {"constant_speed_m_per_s": speed},
-        "calibration": {"load_factor": factors[0], "cusp_radius_factor": factors[1]},
     }
     ice = test.ice if friction is None or "friction" in test.ice else test.ice | {"friction": friction}
     side = 3.5 * beam
