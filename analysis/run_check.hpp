@@ -73,7 +73,8 @@ struct RunCheck {
 
   std::size_t instants = 0;           ///< at which overlaps were measured
   std::size_t pairs = 0;              ///< whose boxes met, over all instants
-  std::size_t overlapping_pairs = 0;  ///< that shared more than kTouchingArea (overlapping_pairs.hpp) at some instant
+  /// Pairs that shared more than kTouchingArea (geometry/cut/overlap.hpp) at some instant.
+  std::size_t overlapping_pairs = 0;
   double most_shared = 0;             ///< Σ over all pairs at the instant it is most [m²]
   double most_shared_time = 0;        ///< [s]
   double ice_then = 0;                ///< area of all floes at that instant [m²]

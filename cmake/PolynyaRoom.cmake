@@ -1,6 +1,6 @@
-# One function that makes a room: a static library polynya::NAME whose includes read "NAME/file.hpp".
+# One function that makes a room: a static library polynya::NAME whose includes begin with "NAME/".
 #
-#   polynya_room(geometry SOURCES a.cpp b.cpp [PUBLIC lib...] [PRIVATE lib...] [COLD])
+#   polynya_room(geometry SOURCES file... [PUBLIC lib...] [PRIVATE lib...] [COLD])
 #
 # COLD: no step runs its code, so that it is not worth the time of -O3, which is a third more of the compiler's.
 

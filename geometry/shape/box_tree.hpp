@@ -34,7 +34,7 @@ std::vector<Box> boxes_of(const Items& items, BoxOf box_of_item) {
 
 /// The search for edges and other things in a row in one frame: boxes over runs of them, halved down to a few.
 /// They are not sorted: edges that follow each other along a ring lie near each other. Boxes that touch meet.
-/// (Bodies and places are searched in grids: dynamics/hash_grid.hpp, power_diagram.cpp; boundaries in two
+/// (Bodies and places are searched in grids: dynamics/contact/hash_grid.hpp, power_diagram.cpp; boundaries in two
 /// turned frames by circles: contact/boundary.hpp.)
 class BoxTree {
  public:

@@ -9,7 +9,7 @@ import functools
 import numpy
 from matplotlib.path import Path
 
-# Light ice on mid water, apart in greyscale; marks in the Okabe–Ito palette [Okabe2008]. As views/map/picture.cpp.
+# Light ice on mid water, apart in greyscale; marks in the Okabe–Ito palette [Okabe2008]. As views/map/final_map.cpp.
 WATER = "#8fb8d0"
 AT_START = "#a9cadd"
 CHANNEL = "#5e93b5"

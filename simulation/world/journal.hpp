@@ -37,7 +37,7 @@ struct Death {
 };
 
 /// Loads and motion of one hull (ship, structure or wall) over one recording interval, in the hull's frame. Loads are
-/// means over the interval unless stated otherwise. io/run/force_columns.cpp defines the corresponding columns of
+/// means over the interval unless stated otherwise. io/run/records.cpp defines the corresponding columns of
 /// forces.csv.
 struct HullSample {
   double time = 0;            ///< end of the interval [s]

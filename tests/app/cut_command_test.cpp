@@ -199,7 +199,7 @@ TEST_F(CutCommand, ACutThatMustCutRefusesWhatItLeavesWhole) {
   EXPECT_EQ(each["pieces"], 3);
 }
 
-/// By every name that tests/geometry/validity_test.cpp does not reach through a text, and some that it does.
+/// By every name that tests/geometry/validity_peer_test.cpp does not reach through a text, and some that it does.
 TEST_F(CutCommand, DefectsAreRefusedByNameAndTheGoodAreCut) {
   const std::vector<std::pair<std::string, std::string>> all{
       {feature(""), "too-few-points"},

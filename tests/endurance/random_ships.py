@@ -46,6 +46,9 @@ def ship_of_size(dice, length):
     else:
         deep = None
         ship.update(mass_kg=mass, moment_of_inertia_kg_m2=mass * length**2 / 16)
+    if dice.chance(0.15):  # a mass and an inertia that are not those of draught and block coefficient
+        ship.update(moment_of_inertia_kg_m2=mass * length**2 / 16 * dice.between(0.5, 1.5),
+                    mass_kg=mass * dice.between(0.6, 1.4))
     if dice.chance(0.2):
         ship["panels"] = panels(dice)
     return ship, outline, deep, mass

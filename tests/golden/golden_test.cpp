@@ -44,7 +44,7 @@ std::map<std::string, Golden> read_goldens() {
   return goldens;
 }
 
-/// No crack runs under more than it takes (splits_test.cpp): by the default laws.
+/// No crack runs under more than it takes: by the default laws.
 void expect_met_in_time(simulation::Simulation& simulation, const std::filesystem::path& scene) {
   if (simulation.scene().contact.law != simulation::ContactLaw::kCrush) return;
   if (simulation.scene().fracture.splitting != fracture::SplittingModel::kLefm) return;

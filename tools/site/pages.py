@@ -10,7 +10,7 @@ PARTS = {
     "Reference": ["scene", "run-folder", "reference/commands", "reference/python", "reference/cpp", "references"],
     "Theory": ["theory/index", "geometry"],
     "Validation": ["validation", "paper-comparison"],
-    "Performance": ["performance", "scaling"],
+    "Performance": ["performance"],
     "Reliability": ["reliability"],
     "Developers": ["architecture", "change-a-law", "contributing", "decisions/index", "changelog"],
 }

@@ -1,6 +1,6 @@
 // Where everything is at a time, on the water and under hulls.
 
-// Where floes and ships are at a time, by the rules of docs/run-folder.md (and io/run/motion_index.cpp).
+// Where floes and ships are at a time, by the rules of docs/run-folder.md (and io/run/frames.cpp).
 
 /** The last index whose value is at most x, or −1; values grow. */
 function lastAtMost(values, x, from = 0, end = values.length) {

@@ -67,7 +67,7 @@ function rowsOffScale(times, values, [low, high]) {
 }
 
 // Forces by what causes them: columns, one for each cause, that add up to the force on a ship
-// (io/run/force_columns.cpp).
+// (io/run/records.cpp).
 
 /** The plots that stack the causes, one for each ship and direction, where any force acts. */
 function stackedQuantities({ info: { force_causes: causes, ships }, forces }) {

@@ -3,7 +3,7 @@
     plan.json            what was planned
     cases.ndjson         a line a case: {"scene": 0, "set": {path: value}}
     cases.index          where each line begins: 8 bytes, little-endian
-    scenes/0/…           the scenes, with the floe files they name
+    scenes/…             by number, the scenes, with the floe files they name
     cases/000012/000137  a case (below its chunk's folder where chunks have more than one)
     cases/000012.tar     a chunk whose cases are packed
 """
