@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <unordered_set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -110,6 +111,23 @@ std::string shown(const Token& token) {
   return token.is_text() ? std::string(word) : fmt::format("'{}'", word);
 }
 
+/// The keys of an object while it is read, for finding a key that stands twice.
+class Keys {
+ public:
+  /// Returns false if the object, whose members so far are given, has the key already. Few keys are compared one by
+  /// one; many are hashed, so that the time grows in proportion to their number.
+  bool add(const JsonValue::Object& members, const std::string& key) {
+    constexpr std::size_t kFew = 16;
+    if (members.size() < kFew) return std::ranges::find(members, key, &JsonMember::key) == members.end();
+    if (hashed_.empty())
+      for (const JsonMember& member : members) hashed_.insert(member.key);
+    return hashed_.insert(key).second;
+  }
+
+ private:
+  std::unordered_set<std::string> hashed_;
+};
+
 class Parser {
  public:
   Parser(std::string_view text, bool is_lenient, JsonDocument& document)
@@ -149,7 +167,7 @@ class Parser {
 
   void value(JsonValue& slot) {
     slot.offset = static_cast<std::uint32_t>(token_.begin);
-    if (token_.is('{')) return object(slot.data.emplace<JsonValue::Object>(), slot);
+    if (token_.is('{')) return object(slot.data.emplace<JsonValue::Object>());
     if (token_.is('[')) {
       auto& items = slot.data.emplace<JsonValue::Array>();
       return list(']', [&] { value(items.emplace_back()); });
@@ -167,7 +185,8 @@ class Parser {
     advance();
   }
 
-  void object(JsonValue::Object& members, const JsonValue& slot) {
+  void object(JsonValue::Object& members) {
+    Keys keys;
     list('}', [&] {
       if (!token_.is_text()) refuse("a key in double quotes");
       std::string key = text();
@@ -176,7 +195,7 @@ class Parser {
       if (!token_.is(':')) refuse("a colon between a key and its value");
       advance();
       JsonValue second;
-      const bool is_second = slot.find(key) != nullptr;
+      const bool is_second = !keys.add(members, key);
       if (is_second)
         document_.faults.push_back(
             {{.path = key, .found = fmt::format("\"{}\" a second time", key), .allowed = "each key once"}, offset});

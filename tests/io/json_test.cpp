@@ -51,6 +51,21 @@ TEST(JsonParser, TellsASecondKeyAndKeepsTheFirst) {
   EXPECT_EQ(document.root.members().size(), 2U);
 }
 
+/// If each key were compared with all before it, this test would take half an hour, more than it is given.
+TEST(JsonParser, ReadsHalfAMillionKeysOfOneObjectAndFindsASecondOneAmongThem) {
+  std::string text = R"({"properties": {)";
+  for (int i = 0; i < 500'000; ++i) text += "\"k" + std::to_string(i) + "\": " + std::to_string(i) + ", ";
+  text += R"("k15": -1, "k16": -1, "k499999": -1}})";
+  const JsonDocument document = parse_json(text);
+  ASSERT_EQ(document.faults.size(), 3U);
+  for (const JsonFault& fault : document.faults)
+    expect_text_at(text, {nullptr, fault.offset}, "\"" + fault.path + "\": -1");
+  const JsonValue& properties = *document.root.find("properties");
+  ASSERT_EQ(properties.members().size(), 500'000U);
+  for (const auto& [key, value] : {std::pair("k15", 15), std::pair("k16", 16), std::pair("k499999", 499'999)})
+    EXPECT_EQ(properties.find(key)->number(), value) << "the first one counts";
+}
+
 TEST(JsonParser, BoundsNesting) {
   const auto nested = [](int depth) {
     return std::string(static_cast<std::size_t>(depth), '[') + std::string(static_cast<std::size_t>(depth), ']');
