@@ -15,9 +15,9 @@ struct FailureCriteria {
   double flexural_strength = 0;  ///< σ_f that V_b, with the scatter of bending events, or a beam is of; 0: no bend [Pa]
 
   // The crack:
-  double crack_length = 0;  ///< L, its path in ice; 0 where there is none [m]
-  double crack_width = 0;   ///< W: twice the ice on its narrower side, where the force peaks [m]
-  bool pares = false;       ///< it would leave a sliver: it does not count
+  double crack_length = 0;     ///< L, its path in ice; 0 where there is none [m]
+  double crack_width = 0;      ///< W: twice the ice on its narrower side, where the force peaks [m]
+  bool leaves_sliver = false;  ///< it would leave a sliver: it does not count
 
   // Splitting by Eq. (4), with j/τ_c:
   double collision_force = 0;  ///< j / τ_c of Eq. (5) [N]
@@ -42,7 +42,7 @@ struct FailureCriteria {
 /// cusp; else the contact crushes.
 constexpr Failure decide(const FailureCriteria& c) {
   if (c.floe_size < c.breakable_size) return Failure::kNone;
-  const bool can_crack = c.crack_length > 0 && !c.pares;
+  const bool can_crack = c.crack_length > 0 && !c.leaves_sliver;
   if (can_crack && c.collision_force > c.splitting_force) return Failure::kSplit;
   if (c.vertical_force > 0 && c.vertical_force >= c.bending_capacity) return Failure::kBend;
   return Failure::kCrush;

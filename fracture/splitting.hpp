@@ -71,7 +71,7 @@ struct LeastPiece {
 };
 
 /// Whether a crack of that length [m] leaves a sliver, with the areas beside it [m²].
-inline bool pares(const LeastPiece& least, double l, double length, double left_area, double right_area) {
+inline bool leaves_sliver(const LeastPiece& least, double l, double length, double left_area, double right_area) {
   const double area = std::min(left_area, right_area);
   return area <= 0 || area < least.area_over_l2 * l * l || area < least.width_over_l * l * length;
 }

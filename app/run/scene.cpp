@@ -175,7 +175,7 @@ void print_list() {
 void print_ship(const io::ShipPreset& ship) {
   print_out("{}: {}\n\n", ship.name, ship.title);
   print_out("{:<46}{:>12}  {:<10}{}\n", "particular", "value", "basis", "source");
-  for (const io::Particular& p : ship.particulars)
+  for (const io::PresetValue& p : ship.particulars)
     print_out("{:<46}{:>12}  {:<10}{}\n", p.path, p.json, p.basis, p.source);
   if (!ship.reported.empty()) print_out("\nlevel ice as reported\n");
   for (const io::ReportedSpeed& speed : ship.reported) {

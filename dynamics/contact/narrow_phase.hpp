@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dynamics/contact/contact.hpp"
-#include "geometry/contact/boundary.hpp"
+#include "geometry/contact/manifolds.hpp"
 
 namespace polynya::dynamics {
 

@@ -1,3 +1,5 @@
+#include "geometry/contact/manifolds.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -5,7 +7,6 @@
 #include <limits>
 #include <span>
 
-#include "geometry/contact/boundary.hpp"
 #include "geometry/exact/predicates.hpp"
 #include "geometry/shape/avx2_clone.hpp"
 
@@ -176,7 +177,7 @@ void write_points(const Boundary& a, const Boundary& b, const Pose& a_from_b, Ma
 }
 
 /// Area, and its first moments about an origin.
-struct Moments {
+struct OverlapMoments {
   Point origin;
   double area = 0;  ///< [m²]
   Vector first;     ///< [m³]
@@ -194,7 +195,7 @@ std::span<const OverlapPoint> points_of(const ManifoldScratch& scratch, const Ov
   return std::span(scratch.loop_points).subspan(loop.first_point, loop.points);
 }
 
-void add_loop(Moments& moments, std::span<const OverlapPoint> points) {
+void add_loop(OverlapMoments& moments, std::span<const OverlapPoint> points) {
   for_ring_edges(points, [&](const OverlapPoint& p, const OverlapPoint& q) { moments.add_edge(p.point, q.point); });
 }
 
@@ -214,7 +215,7 @@ bool is_hole_of(const ManifoldScratch& scratch, std::size_t hole, std::size_t ou
 /// Takes out of an overlap the holes of one body that lie in it whole, without a crossing.
 template <typename InFrame, typename IsCrossed>
 void add_whole_holes(const EdgeList& edges, InFrame in_frame, IsCrossed is_crossed, std::span<const OverlapPoint> outer,
-                     Moments& moments) {
+                     OverlapMoments& moments) {
   std::size_t end = 0;
   for (std::size_t first = 0; first < edges.size(); first = end) {
     const std::uint32_t ring = edges.ring[first];
@@ -226,7 +227,7 @@ void add_whole_holes(const EdgeList& edges, InFrame in_frame, IsCrossed is_cross
 }
 
 void add_holes_of_both(const Boundary& a, const Boundary& b, const Pose& a_from_b, const ManifoldScratch& scratch,
-                       const OverlapLoop& loop, Moments& moments) {
+                       const OverlapLoop& loop, OverlapMoments& moments) {
   const auto points = points_of(scratch, loop);
   const auto is_crossed = [&scratch](const EdgeList& edges, Side on) {
     return [&, on](std::uint32_t ring) {
@@ -295,7 +296,7 @@ void measure_loops(const Boundary& a, const Boundary& b, const Pose& a_from_b, M
   for (OverlapLoop& loop : scratch.loops) {
     if (!loop.is_closed || (loop.stretches == 1 && !has_holes)) continue;
     write_points(a, b, a_from_b, scratch, loop);
-    Moments moments{scratch.loop_points[loop.first_point].point, 0, {}};
+    OverlapMoments moments{scratch.loop_points[loop.first_point].point, 0, {}};
     add_loop(moments, points_of(scratch, loop));
     loop.area = moments.area;
   }
@@ -314,7 +315,7 @@ void measure_loops(const Boundary& a, const Boundary& b, const Pose& a_from_b, M
 double area_of_whole_holes(const Boundary& a, const Boundary& b, const Pose& a_from_b, const ManifoldScratch& scratch,
                            const OverlapLoop& loop) {
   if (loop.points == 0) return 0;  // no body has holes
-  Moments moments{scratch.loop_points[loop.first_point].point, 0, {}};
+  OverlapMoments moments{scratch.loop_points[loop.first_point].point, 0, {}};
   add_holes_of_both(a, b, a_from_b, scratch, loop, moments);
   return -moments.area;
 }
@@ -325,7 +326,7 @@ ContactManifold gradient_manifold(const Boundary& a, const Boundary& b, const Po
                                   const ManifoldScratch& scratch, const OverlapLoop& outer) {
   ContactManifold manifold;
   manifold.is_pierced = true;
-  Moments moments{scratch.loop_points[outer.first_point].point, 0, {}};
+  OverlapMoments moments{scratch.loop_points[outer.first_point].point, 0, {}};
   for_loops_of(scratch, outer, [&](const OverlapLoop& loop) { add_loop(moments, points_of(scratch, loop)); });
   add_holes_of_both(a, b, a_from_b, scratch, outer, moments);
   if (!(moments.area > 0)) return manifold;

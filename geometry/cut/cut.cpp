@@ -49,13 +49,12 @@ bool is_simple(const std::vector<Point>& polyline) {
   });
 }
 
-// None where the local path does not cover the case: then the general path does. Out of memory is thrown on.
+// Returns nullopt if the local path does not handle this configuration; the caller then uses the general path. The
+// local path overlays segments only to round them, which CGAL may refuse.
 std::optional<CutOutcome> try_locally(const Shape& shape, const Tool& tool) {
   try {
     return cut_locally(shape.polygon, tool);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const exact::OverlayFailure&) {
     return {};
   }
 }

@@ -85,8 +85,8 @@ bool are_apart(const Ring& a, const RingInFrame& b) {
   double size = 0;
   for (const Point p : a) size = std::max({size, std::abs(p.x), std::abs(p.y)});
   const double off = b.error + 1e-12 * size;
-  constexpr double kFar = 1e50;  ///< beyond it products may overflow [m]
-  if (!(off < kFar)) return false;
+  constexpr double kOverflow = 1e50;  ///< beyond it products may overflow [m]
+  if (!(off < kOverflow)) return false;
   return has_separating_edge(a, b.ring, off, -4 * off) || has_separating_edge(b.ring, a, off, -4 * off);
 }
 

@@ -67,10 +67,10 @@ TwiceArea twice_area(const Ring& ring) {
     ux = vx;
     uy = vy;
   }
-  constexpr double kUnderflow = 1e-300;  // of one edge's products, and more
+  constexpr double kEdgeUnderflow = 1e-300;  // of one edge's products, and more
   const double edges = static_cast<double>(ring.size()) + 8;
   const double steps = edges * kUnit;
-  sum.doubt = 2 * steps * steps * (8 * reach_x * reach_y + largest) + edges * kUnderflow;
+  sum.doubt = 2 * steps * steps * (8 * reach_x * reach_y + largest) + edges * kEdgeUnderflow;
   return sum;
 }
 
@@ -131,8 +131,8 @@ RingArea ring_area(const Ring& ring) {
   const double step = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
   const auto edges = static_cast<double>(n);
   // Each term errs by at most 4ε of its two products, the compensated sums by next to nothing.
-  constexpr double kUnderflow = 1e-280;
-  return {twice / 2, 8 * std::numeric_limits<double>::epsilon() * edges * 2 * reach_x * reach_y + kUnderflow,
+  constexpr double kSumUnderflow = 1e-280;
+  return {twice / 2, 8 * std::numeric_limits<double>::epsilon() * edges * 2 * reach_x * reach_y + kSumUnderflow,
           4 * edges * (reach_x + reach_y) * step};
 }
 
@@ -175,7 +175,7 @@ double exact_balance(std::span<const Polygon* const> after, std::span<const Poly
 namespace {
 
 // Integrals over a region: of 1, of the position and of its square, each by a factor that Green's theorem leaves.
-struct Moments {
+struct RegionMoments {
   Rational twice_area = 0;
   Rational six_first_x = 0;
   Rational six_first_y = 0;
@@ -183,7 +183,7 @@ struct Moments {
 };
 
 // About the frame's origin: rationals lose no digits far from it.
-void add(Moments& moments, const Ring& ring) {
+void add(RegionMoments& moments, const Ring& ring) {
   if (ring.size() < 3) return;
   exact::Point u = exact::exactly(ring.back());
   for (const Point p : ring) {
@@ -199,7 +199,7 @@ void add(Moments& moments, const Ring& ring) {
 
 // Measures of a valid polygon computed in rationals and rounded once: for slivers, whose moments in doubles are noise.
 Measures exact_measures(const Polygon& polygon) {
-  Moments moments;
+  RegionMoments moments;
   add(moments, polygon.outer);
   for (const Ring& hole : polygon.holes) add(moments, hole);
   if (moments.twice_area == 0) return {0, polygon.outer.front(), 0};

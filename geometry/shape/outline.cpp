@@ -124,9 +124,9 @@ std::vector<Triangle> triangulate(const Polygon& polygon) {
       if (face->info() % 2 == 1)
         triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
     }
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
+  } catch (const CGAL::Failure_exception&) {
+    return {};
+  } catch (const Triangulation::Intersection_of_constraints_exception&) {  // the rings cross
     return {};
   }
   return triangles;

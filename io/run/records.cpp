@@ -153,7 +153,7 @@ void add_helm(Table& t) {
         {{}, kWithEngines, "Delivered power"}, &S::delivered_power);
   t.add("rams", "", kAtEnd, "charges after the first, of a pilot that rams", {{}, kRamming, "Rams"}, &S::rams);
   t.add("gained_m", "m", kAtEnd, "by rams, from where the ship was first stuck", {{}, kRamming, "Gained by ramming"},
-        &S::gained);
+        &S::distance_gained);
   t.add("contacts", "", kAtEnd, "with ice", {{}, {}, "Contacts at the hull"}, &S::contacts);
   t.add("contacts_with_ships", "", kAtEnd, "with other ships and structures", {}, &S::contacts_with_ships).is_optional =
       true;
@@ -474,7 +474,7 @@ using simulation::FloeId;
 
 namespace {
 
-double number(const JsonValue& value, std::string_view key) {
+double number_at(const JsonValue& value, std::string_view key) {
   return json_member(value, key, JsonValue::Kind::kNumber).number();
 }
 double take_number(std::string_view& row) {
@@ -512,10 +512,10 @@ simulation::BirthRecord birth_of(const JsonValue& line) {
   simulation::BirthRecord birth;
   birth.floe = floe_id(json_member(line, "floe_id"));
   birth.parent = floe_id(json_member(line, "parent_id"));
-  birth.time = number(line, "born_s");
-  birth.generation = static_cast<int>(number(line, "generation"));
-  birth.area = number(line, "area_m2");
-  birth.mass = number(line, "mass_kg");
+  birth.time = number_at(line, "born_s");
+  birth.generation = static_cast<int>(number_at(line, "generation"));
+  birth.area = number_at(line, "area_m2");
+  birth.mass = number_at(line, "mass_kg");
   birth.centroid_in_body = point_of(json_member(line, "centroid_m"));
   return birth;
 }

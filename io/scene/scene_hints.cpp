@@ -41,9 +41,9 @@ bool is_slowed(const Ship& ship) {
   return ship.water.acts || std::holds_alternative<simulation::Engine>(ship.propulsion);
 }
 
-class Hinter {
+class SceneHints {
  public:
-  Hinter(const SceneDraft& draft, const JsonValue& given, ProblemCollector& hints)
+  SceneHints(const SceneDraft& draft, const JsonValue& given, ProblemCollector& hints)
       : scene_(draft.scene), draft_(draft), given_(given), hints_(hints) {}
 
   void add_all() {
@@ -246,7 +246,7 @@ class Hinter {
 }  // namespace
 
 void add_scene_hints(const SceneDraft& draft, const JsonValue& given, ProblemCollector& hints) {
-  Hinter(draft, given, hints).add_all();
+  SceneHints(draft, given, hints).add_all();
   add_hints_at_gone_keys(given, hints);
 }
 

@@ -180,9 +180,9 @@ class SceneReader {
   std::vector<Problem> problems_of_ship() {
     std::vector<Problem> problems = problems_.take();
     for (Problem& problem : problems) {
-      constexpr std::string_view kPrefix = "ships[0]";
-      if (!problem.path.starts_with(kPrefix)) continue;
-      problem.path.erase(0, kPrefix.size());
+      constexpr std::string_view kShipPath = "ships[0]";
+      if (!problem.path.starts_with(kShipPath)) continue;
+      problem.path.erase(0, kShipPath.size());
       if (problem.path.starts_with('.')) problem.path.erase(0, 1);
     }
     return problems;

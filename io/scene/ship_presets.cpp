@@ -81,8 +81,7 @@ const ShipPreset* find_ship_preset(std::string_view name) {
 
 JsonValue json_of(const ShipPreset& preset) {
   JsonValue ship{JsonValue::Object{}, 0};
-  for (const Particular& particular : preset.particulars)
-    put_at(ship, particular.path, parse_json(particular.json).root);
+  for (const PresetValue& value : preset.particulars) put_at(ship, value.path, parse_json(value.json).root);
   return ship;
 }
 

@@ -15,7 +15,7 @@ inline constexpr double kKnot = 1852.0 / 3600;  ///< [m/s]
 extern const std::string_view kShipPresets;
 
 /// One particular of a preset: a scene key of a ship and its value.
-struct Particular {
+struct PresetValue {
   std::string path;   ///< below the ship, as "hull.length_m"
   std::string json;   ///< its value, in the key's unit
   std::string basis;  ///< "published", "estimated", "assumed", "recall"
@@ -34,7 +34,7 @@ struct ReportedSpeed {
 struct ShipPreset {
   std::string name;
   std::string title;
-  std::vector<Particular> particulars;
+  std::vector<PresetValue> particulars;
   std::vector<ReportedSpeed> reported;
 };
 

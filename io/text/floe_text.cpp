@@ -435,9 +435,9 @@ void append_ring(std::string& text, const geometry::Ring& ring) {
   text += ')';
 }
 
-constexpr double kPolarLatitude = 40;  ///< [°]
-constexpr double kLeastIce = 1;        ///< of a scene in metres [m²]
-constexpr double kMostPolarIce = 100;  ///< of a scene in degrees [°²]
+constexpr double kPolarLatitude = 40;    ///< [°]
+constexpr double kLeastIceInMetres = 1;  ///< of a scene in metres [m²]
+constexpr double kMostPolarIce = 100;    ///< of a scene in degrees [°²]
 
 std::string unknown_text(std::string_view first_line) {
   constexpr std::size_t kMost = 30;  // bytes of it in the message
@@ -548,7 +548,7 @@ bool CoordinateEvidence::look_polar() const {
 }
 
 bool CoordinateEvidence::look_like_degrees() const {
-  return (floes > 0 && are_all_whole && area < kLeastIce) || look_polar();
+  return (floes > 0 && are_all_whole && area < kLeastIceInMetres) || look_polar();
 }
 
 }  // namespace polynya::io

@@ -207,7 +207,7 @@ const JsonValue::Array& list(const JsonValue& value, std::string_view expected) 
   return value.items();
 }
 
-double number(const JsonValue& value, std::string_view expected) {
+double number_of(const JsonValue& value, std::string_view expected) {
   if (!value.is(JsonKind::kNumber))
     throw ReadError(fmt::format("{} where {} is expected", name_of(value.kind()), expected));
   return value.number();
@@ -215,7 +215,7 @@ double number(const JsonValue& value, std::string_view expected) {
 
 std::uint32_t whole_number(const JsonValue& value) {
   constexpr std::string_view kExpected = "[ring, first vertex, vertices]";
-  const double n = number(value, kExpected);
+  const double n = number_of(value, kExpected);
   if (!(n >= 0 && n < kMostVertices && n == std::floor(n)))
     throw ReadError(fmt::format("{} where {} is expected", n, kExpected));
   return static_cast<std::uint32_t>(n);
@@ -275,7 +275,7 @@ void append_shape(JsonWriter& json, const ShapeParts& shape) {
 Point point_of(const JsonValue& value) {
   const JsonValue::Array& items = list(value, "[x, y]");
   if (items.size() != 2) throw ReadError(fmt::format("{} numbers where [x, y] is expected", items.size()));
-  return {number(items[0], "a coordinate"), number(items[1], "a coordinate")};
+  return {number_of(items[0], "a coordinate"), number_of(items[1], "a coordinate")};
 }
 
 ShapeParts read_shape(const JsonValue& line) {

@@ -165,7 +165,7 @@ FieldLayout lattice_cells(const FloeField& field) {
 constexpr double kShortestFloeEdge = 0.03;  ///< of a floe, in sizes; smaller leaves slivers of edges
 /// Of a floe's area that its cell must have room for. Smaller, and floes far off the law stand at boundaries;
 /// larger, and boundaries are left bare.
-constexpr double kLeastShare = 0.25;
+constexpr double kLeastAreaShare = 0.25;
 
 /// Of floes one, two, three … of which share a round cell, cut across a random direction: measured.
 constexpr std::array kAspectOfStrips{1.27, 1.97, 2.9, 3.85, 4.83, 5.8};
@@ -263,7 +263,7 @@ void add_candidate(const FloeField& field, const Item& item, Ring ring, bool is_
   const double whole = measure_convex(candidate.ring).area;
   add_corners(candidate.ring, field.least_corners);
   const CellMeasures measures = measure_convex(candidate.ring);
-  if (!(measures.area >= kLeastShare * item.area)) return lose();
+  if (!(measures.area >= kLeastAreaShare * item.area)) return lose();
   layout.cell_area += cell_area * measures.area / whole;
   candidate.centroid = measures.centroid;
   candidate.area = candidate.room = measures.area;

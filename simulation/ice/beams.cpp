@@ -158,14 +158,14 @@ PendingFracture break_of(const Setup& setup, const Step& step, const Population&
 }
 
 /// The contact that presses a beam most, and the sums over all.
-struct Pressing {
+struct BeamForces {
   const Contact* strongest = nullptr;
   double force = 0;  ///< [N]
   double down = 0;   ///< [N]
 };
 
-Pressing pressing_of(const std::vector<Contact>& contacts, std::span<const OnBeam> on, double dt) {
-  Pressing sum;
+BeamForces forces_on_beam(const std::vector<Contact>& contacts, std::span<const OnBeam> on, double dt) {
+  BeamForces sum;
   double most = 0;
   for (const OnBeam& one : on) {
     const double force = length(force_on(contacts[one.contact], one.floe, dt));
@@ -183,7 +183,7 @@ std::optional<PendingFracture> break_of_beam(const Setup& setup, const Step& ste
   const dynamics::Bodies& bodies = population.bodies;
   const BodyIndex floe = on.front().floe;
   const fracture::Ice& ice = ice_of_body(setup, population, floe);
-  const Pressing pressing = pressing_of(data.contacts, on, step.length);
+  const BeamForces pressing = forces_on_beam(data.contacts, on, step.length);
   const auto may_reach = [&](double least_width, double longest) {
     return fracture::most_section_stress(ice, least_width, longest, pressing.force, pressing.down) >=
            ice.flexural_strength;

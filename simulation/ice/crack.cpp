@@ -31,7 +31,8 @@ geometry::CrackSides measure_sides(const Setup& setup, const Population& populat
   const geometry::CrackSides sides = sides_of_crack(*population.bodies.boundary[floe], path);
   const double l = fracture::characteristic_length(ice_of_body(setup, population, floe), setup.scene.water.water);
   criteria.crack_width = std::max(criteria.crack_width, mean_width_beside(path, sides));
-  criteria.pares = fracture::pares(setup.scene.fracture.least_piece, l, path.length_in_ice, sides.left, sides.right);
+  criteria.leaves_sliver =
+      fracture::leaves_sliver(setup.scene.fracture.least_piece, l, path.length_in_ice, sides.left, sides.right);
   return sides;
 }
 

@@ -48,15 +48,15 @@ void find_crack(const Setup& setup, const dynamics::Bodies& bodies, const HullCo
 /// found late, before it. V ∝ ξ^n by its slope and V_b ∝ ξ^e by its value at one more depth, where V would come to the
 /// V_b of the depth at hand; R is that of this depth.
 fracture::BendingCapacity capacity_where_it_breaks(const Setup& setup, const Step& step, const HullContactLoad& load) {
-  constexpr double kLeastExponent = 0.5;  // of n and n - e: below it V and V_b need not meet anywhere near
-  constexpr double kLeastShare = 0.25;    // of the depth: farther back the powers do not hold
+  constexpr double kLeastExponent = 0.5;     // of n and n - e: below it V and V_b need not meet anywhere near
+  constexpr double kLeastDepthShare = 0.25;  // of the depth: farther back the powers do not hold
   fracture::BendingLoad bending = bending_load(setup, load);
   const fracture::BendingCapacity here = setup.bending->capacity(bending);
   if (load.vertical_force <= 0 || !std::isfinite(here.vertical_force)) return here;
   const double n = load.stiffness * load.contact.depth / load.normal_force;
   if (n < kLeastExponent) return here;
   const double ratio = here.vertical_force / load.vertical_force;
-  const double share = std::max(kLeastShare, std::pow(ratio, 1 / n));
+  const double share = std::max(kLeastDepthShare, std::pow(ratio, 1 / n));
   if (share == 1 || share > 1 + load.contact.approach_speed * step.length / load.contact.depth) return here;
   bending.penetration *= share;
   bending.vertical_force = here.vertical_force;

@@ -16,7 +16,7 @@ using geometry::Pose;
 /// the contact line of a round hull is shorter than the hull is wide (at x times its radius by x²/8);
 /// smaller: more cuts.
 constexpr double kShareOfRadius = 0.05;
-constexpr double kFarthest = 0.25;  // [m]
+constexpr double kMostGrowth = 0.25;  // [m]
 
 /// The outline that carves is wider than the hull by this share: far more than what cuts round, so that the
 /// sides of a channel do not touch the hull that made it; far less than any overlap matters.
@@ -24,7 +24,7 @@ constexpr double kClearance = 1e-6;
 
 /// A load is a numerical failure from this many times what ice bears on. Loads of crushing ice stay below
 /// once that; a pierced body has several contact lines in one.
-constexpr double kOverload = 4;
+constexpr double kOverloadFactor = 4;
 
 /// From here on a hull is inclined [rad].
 constexpr double kVertical = 1e-6;
@@ -71,7 +71,7 @@ std::vector<Carving> due_carvings(const Setup& setup, const Step& step, const Po
     if (population.is_hull(c.b) || !are_prescribed(bodies, c.a, c.b)) continue;
     if (c.total_normal_impulse() <= 0 || c.approach_speed <= 0 || !bodies.is_alive[c.b]) continue;
     const double facet = ice_of_body(setup, population, c.b).thickness * tangent_of(data, i);
-    const double least = std::min(kFarthest, kShareOfRadius * bodies.bounding_radius[c.a]);
+    const double least = std::min(kMostGrowth, kShareOfRadius * bodies.bounding_radius[c.a]);
     const double least_area = c.width * (facet + least);
     if (c.area < least_area) continue;
     if (!due.empty() && due.back().contact->a == c.a && due.back().contact->b == c.b) continue;
@@ -174,7 +174,7 @@ std::optional<std::string> overload_of(const Setup& setup, const Step& step, con
     if (c.is_rigid() || c.total_normal_impulse() <= 0) continue;
     const double force = c.steady_share * c.total_normal_impulse() / dt;
     const double most = most_that_ice_bears(setup, population, c, tangent_of(data, i));
-    if (!(force > kOverload * most)) continue;
+    if (!(force > kOverloadFactor * most)) continue;
     return "bodies " + std::to_string(c.a) + " and " + std::to_string(c.b) + " press each other with " +
            std::to_string(1e-6 * force) + " MN, their ice bears " + std::to_string(1e-6 * most) +
            " MN, at t = " + std::to_string(step.begin.time) + " s";

@@ -19,7 +19,7 @@ using geometry::Vector;
 
 /// A crack that a body may open in a floe.
 struct CrackCandidate {
-  Mouth mouth;
+  CrackMouth mouth;
   geometry::Point begins_at;  ///< in the water frame: at the edge of the ice that the body has not crushed [m]
   geometry::CrackPath path_in_body;
   fracture::FailureCriteria criteria;
@@ -40,7 +40,7 @@ struct StraightCrack {
 
 /// A crack begins where the body that opens it ends, at ice that is not crushed, and does not lead into that
 /// body. None where it would.
-std::optional<StraightCrack> straight_crack(const dynamics::Bodies& bodies, BodyIndex floe, const Mouth& mouth,
+std::optional<StraightCrack> straight_crack(const dynamics::Bodies& bodies, BodyIndex floe, const CrackMouth& mouth,
                                             Vector direction) {
   const BodyIndex by = other_of(*mouth.contact, floe);
   const geometry::Boundary& boundary = *bodies.boundary[floe];
@@ -131,7 +131,7 @@ void enter_opening(const fracture::Opening& opening, const fracture::Ice& ice, f
 /// share of its way to F_max. One that would leave a strip turns to the free edge beside it. One that crosses
 /// holes has to break each stretch of ice by itself.
 std::optional<CrackCandidate> crack_candidate(const Setup& setup, const Population& population, BodyIndex floe,
-                                              const PressedFloe& pressed, const Mouth& mouth, Vector direction,
+                                              const PressedFloe& pressed, const CrackMouth& mouth, Vector direction,
                                               double least_share) {
   const dynamics::Bodies& bodies = population.bodies;
   const fracture::Opening opening = fracture::opening_of(pressed.pushes, mouth.point, direction);
@@ -162,7 +162,7 @@ std::optional<CrackCandidate> crack_candidate(const Setup& setup, const Populati
       measure_hardest(bodies, floe, ice, *straight, mean_width_beside(straight->path, sides), criteria);
     criteria.opening_capacity = fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
   }
-  if (criteria.pares || !(candidate.share() >= least_share)) return std::nullopt;
+  if (criteria.leaves_sliver || !(candidate.share() >= least_share)) return std::nullopt;
   return candidate;
 }
 
@@ -184,7 +184,7 @@ void enter_crack(const fracture::FailureCriteria& crack, fracture::FailureCriter
 std::optional<CrackCandidate> first_to_run(const Setup& setup, const Population& population, BodyIndex floe,
                                            const PressedFloe& pressed, double least_share) {
   std::optional<CrackCandidate> best;
-  for (const Mouth& mouth : pressed.mouths) {
+  for (const CrackMouth& mouth : pressed.mouths) {
     if (mouth.contact->record->was_refused) continue;
     for (int k = 0; k <= 2 * kDirectionsASide; ++k) {  // 0, 15°, −15°, 30°, …
       const int from_normal = (k + 1) / 2;

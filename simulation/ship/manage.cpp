@@ -88,10 +88,10 @@ PatternLine line_of(const ManagingPilot& pilot) {
 }
 
 double least_distance(const PatternLine& line, double ahead) {
-  constexpr int kPlaces = 360;  // of a lap. Fewer: a near approach between two of them is missed
+  constexpr int kPlacesOnLap = 360;  // of a lap. Fewer: a near approach between two of them is missed
   double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kPlaces; ++i) {
-    const double place = line.lap() * i / kPlaces;
+  for (int i = 0; i < kPlacesOnLap; ++i) {
+    const double place = line.lap() * i / kPlacesOnLap;
     least = std::min(least, distance(line.at(place), line.at(std::fmod(place + ahead * line.lap(), line.lap()))));
   }
   return least;
@@ -101,16 +101,16 @@ double least_distance(const PatternLine& line, double ahead) {
 
 namespace {
 
-constexpr double kLookAhead = 1.5;      ///< on the pattern, of the ship's length [-]
-constexpr double kTurnBefore = 0.5;     ///< from a sharp corner the ship turns, of its length [-]
-constexpr double kLeastDrift = 0.02;    ///< slower ice has no upstream of its own [m/s]
-constexpr double kSlowest = 0.5;        ///< to which a ship waits for others of its pattern, of its speed [-]
-constexpr double kFastest = 1.3;        ///< likewise, to catch up [-]
-constexpr double kPhaseGain = 4;        ///< of the speed by the phase's error in laps [-]
-constexpr double kLeastWayThrough = 1;  ///< a ship by the lever is taken to go at least so fast [m/s]
-constexpr double kHorizon = 120;        ///< within which a ship gives way [s]
-constexpr double kChoiceInterval = 10;  ///< between two looks at the floes [s]
-constexpr double kStationTime = 60;     ///< of closing the way to its station where there is no floe [s]
+constexpr double kLookAhead = 1.5;         ///< on the pattern, of the ship's length [-]
+constexpr double kTurnBefore = 0.5;        ///< from a sharp corner the ship turns, of its length [-]
+constexpr double kLeastDrift = 0.02;       ///< slower ice has no upstream of its own [m/s]
+constexpr double kSlowestInPattern = 0.5;  ///< to which a ship waits for others of its pattern, of its speed [-]
+constexpr double kFastestInPattern = 1.3;  ///< likewise, to catch up [-]
+constexpr double kPhaseGain = 4;           ///< of the speed by the phase's error in laps [-]
+constexpr double kLeastWayThrough = 1;     ///< a ship by the lever is taken to go at least so fast [m/s]
+constexpr double kHorizon = 120;           ///< within which a ship gives way [s]
+constexpr double kChoiceInterval = 10;     ///< between two looks at the floes [s]
+constexpr double kStationTime = 60;        ///< of closing the way to its station where there is no floe [s]
 
 /// Where the protected body and the pattern are at an instant.
 struct Frame {
@@ -170,7 +170,7 @@ double pace(const ManagingPilot& pilot, const PilotView& view, double own_place)
     error += std::remainder(place - (own_place - pilot.phase), 1.0);
   }
   if (!pilot.partners.empty()) error /= static_cast<double>(pilot.partners.size());
-  return std::clamp(1 + kPhaseGain * error, kSlowest, kFastest);
+  return std::clamp(1 + kPhaseGain * error, kSlowestInPattern, kFastestInPattern);
 }
 
 /// Velocity over ground along a direction in the pattern's frame: at a speed there, or by the lever's speed

@@ -151,7 +151,8 @@ Command steer(const RammingPilot& pilot, const PilotView& view, PilotMemory& mem
     memory.stuck_at = here;
     if (memory.rams == 0) memory.first_stuck_at = here;
   }
-  if (memory.rams > 0) memory.gained = std::max(memory.gained, dot(here - memory.first_stuck_at, unit(heading)));
+  if (memory.rams > 0)
+    memory.distance_gained = std::max(memory.distance_gained, dot(here - memory.first_stuck_at, unit(heading)));
   if (memory.is_backing) return {pilot.lever_astern, 0};
   return {pilot.lever_ahead, steering_to_hold(heading, view)};
 }

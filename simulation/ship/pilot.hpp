@@ -81,8 +81,8 @@ struct PilotMemory {
   double slow_since = 0;     ///< when the ship became slow [s]
   geometry::Point stuck_at;  ///< where it was last stuck [m]
   geometry::Point first_stuck_at;
-  std::int32_t rams = 0;  ///< charges after the first
-  double gained = 0;      ///< along the heading from where it was first stuck [m]
+  std::int32_t rams = 0;       ///< charges after the first
+  double distance_gained = 0;  ///< along the heading from where it was first stuck [m]
   PatternMemory pattern;
 };
 

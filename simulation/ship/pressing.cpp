@@ -48,7 +48,7 @@ std::optional<std::array<Push, 2>> corner_pushes(const dynamics::Bodies& bodies,
 }
 
 /// A crack between two contacts starts on the way between them, across it, to where they push.
-void add_mouth_between(const PressedContact& p, const PressedContact& q, std::vector<Mouth>& mouths) {
+void add_mouth_between(const PressedContact& p, const PressedContact& q, std::vector<CrackMouth>& mouths) {
   const Point at_p = p.contact->centre_of_pressure();
   const Point at_q = q.contact->centre_of_pressure();
   const Vector between = at_q - at_p;

@@ -11,7 +11,7 @@
 namespace polynya::simulation {
 
 /// Where a crack may start.
-struct Mouth {
+struct CrackMouth {
   geometry::Point point;       ///< [m]
   geometry::Vector direction;  ///< unit, into the ice
   const dynamics::Contact* contact = nullptr;
@@ -28,7 +28,7 @@ struct PressedContact {
 struct PressedFloe {
   std::vector<PressedContact> contacts;
   std::vector<fracture::Push> pushes;
-  std::vector<Mouth> mouths;
+  std::vector<CrackMouth> mouths;
   double most = 0;  ///< that the pushes can open a crack with [N]
 };
 

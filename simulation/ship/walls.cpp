@@ -8,7 +8,7 @@ namespace {
 using geometry::Vector;
 
 /// A wall that presses, in a step.
-struct Pressing {
+struct PressingWall {
   const Wall& wall;
   BodyIndex body = 0;
   Vector normal;  ///< into the ice
@@ -19,7 +19,7 @@ void for_pressing(const Setup& setup, const Population& population, Use use) {
   auto body = population.hull_count - static_cast<BodyIndex>(setup.scene.walls.size());
   for (const Wall& wall : setup.scene.walls) {
     const geometry::Rotation rotation = population.bodies.rotation[body];
-    if (wall.pressure) use(Pressing{wall, body, {rotation.cosine, rotation.sine}});
+    if (wall.pressure) use(PressingWall{wall, body, {rotation.cosine, rotation.sine}});
     ++body;
   }
 }
@@ -46,12 +46,13 @@ void follow_water(const Setup& setup, const Step& step, Population& population, 
     bodies.velocity[i] -= change;
     wake(i, population);
   }
-  for_pressing(setup, population,
-               [&](const Pressing& p) { change_velocity(bodies.velocity[p.body] - change, p.body, bodies, audit); });
+  for_pressing(setup, population, [&](const PressingWall& p) {
+    change_velocity(bodies.velocity[p.body] - change, p.body, bodies, audit);
+  });
 }
 
 void press_walls(const Setup& setup, const Step& step, Population& population, AuditSums& audit) {
-  for_pressing(setup, population, [&](const Pressing& p) {
+  for_pressing(setup, population, [&](const PressingWall& p) {
     dynamics::Bodies& bodies = population.bodies;
     // M dv/dt = q L (1 − v/v_c), v over ground along the normal. Damped by the speed that the ice left it,
     // not by what the load adds: where the ice bears all of the load, it is q L.
@@ -64,7 +65,7 @@ void press_walls(const Setup& setup, const Step& step, Population& population, A
 }
 
 void hold_walls(const Setup& setup, Population& population, AuditSums& audit) {
-  for_pressing(setup, population, [&](const Pressing& p) {
+  for_pressing(setup, population, [&](const PressingWall& p) {
     const Vector over_ground = population.bodies.velocity[p.body] + population.water_velocity;
     const Vector held = dot(over_ground, p.normal) * p.normal - population.water_velocity;
     change_velocity(held, p.body, population.bodies, audit);

@@ -23,9 +23,9 @@ namespace polynya::simulation {
 
 namespace {
 
-Standing standing_of(const Population& population, FloeId id) {
-  if (population.is_fast(id)) return Standing::kFast;  // also when it has broken: its pieces follow it
-  return population.floes[id].is_under ? Standing::kUnderHull : Standing::kFree;
+Restraint restraint_of(const Population& population, FloeId id) {
+  if (population.is_fast(id)) return Restraint::kFast;  // also when it has broken: its pieces follow it
+  return population.floes[id].is_under ? Restraint::kUnderHull : Restraint::kFree;
 }
 
 /// A member of all records, in their order. Only the law of crushing ice has these.
@@ -49,7 +49,7 @@ void write(Archive& archive, const World& world, const std::vector<dynamics::Pai
   }
   for (FloeId id = 0; id < population.floe_count(); ++id) {
     const Floe& floe = population.floes[id];
-    archive(floe, population.is_alive(id), standing_of(population, id));
+    archive(floe, population.is_alive(id), restraint_of(population, id));
     if (!population.is_alive(id)) continue;
     if (floe.parent != kNoFloe) archive(floe.shape.polygon);  // else the scene's
     motion_fields(archive, population.bodies, population.body_of(id));
@@ -86,10 +86,10 @@ std::uint64_t state_hash(const World& world) {
 
 namespace {
 
-constexpr double kFarthest = 1e9;               ///< from the origin that a body can have gone [m]
-constexpr double kFastest = 8 * kRunawaySpeed;  ///< pieces of a fracture may turn faster for one step [m/s]
-constexpr double kMostTurned = 1e9;             ///< by a body [rad]
-constexpr double kLongestCusp = 1e4;            ///< [m]
+constexpr double kFarthestPosition = 1e9;           ///< from the origin that a body can have gone [m]
+constexpr double kFastestBody = 8 * kRunawaySpeed;  ///< pieces of a fracture may turn faster for one step [m/s]
+constexpr double kMostTurned = 1e9;                 ///< by a body [rad]
+constexpr double kLongestCusp = 1e4;                ///< [m]
 constexpr double kOutside = 1e-3;  ///< rounded vertices may stand outside the scene's ice by less than that [m]
 
 /// Where the ice of a scene was at the start: its floes' frames, in which their pieces stay.
@@ -169,9 +169,9 @@ class StateLoader {
     motion_fields(bytes_, bodies, i);
     const auto is_within = [](double x, double y, double most) { return std::max(std::abs(x), std::abs(y)) <= most; };
     bodies.rotation[i] = geometry::Rotation::by(bodies.angle[i]);
-    bytes_.require(is_within(bodies.position[i].x, bodies.position[i].y, kFarthest), "a body beyond the world");
-    bytes_.require(is_within(bodies.velocity[i].x, bodies.velocity[i].y, kFastest), "a body faster than any");
-    bytes_.require(std::abs(bodies.angular_velocity[i]) * bodies.bounding_radius[i] <= kFastest,
+    bytes_.require(is_within(bodies.position[i].x, bodies.position[i].y, kFarthestPosition), "a body beyond the world");
+    bytes_.require(is_within(bodies.velocity[i].x, bodies.velocity[i].y, kFastestBody), "a body faster than any");
+    bytes_.require(std::abs(bodies.angular_velocity[i]) * bodies.bounding_radius[i] <= kFastestBody,
                    "a body that spins faster than any");
     bytes_.require(is_within(bodies.angle[i], 0, kMostTurned), "a body that has turned farther than any");
     bytes_.require(is_within(bodies.angle_rest[i], 0, 1e-9 * kMostTurned), "a turn that rounding cannot leave");
@@ -193,7 +193,7 @@ class StateLoader {
     hull_fields(bytes_, world_, hull);
   }
 
-  void check_origin(FloeId id, const Floe& floe, bool is_alive, Standing standing) {
+  void check_origin(FloeId id, const Floe& floe, bool is_alive, Restraint restraint) {
     const bool is_of_scene = id < static_cast<FloeId>(floes_at_start_.size());
     bytes_.require(floe.parent >= kNoFloe && floe.parent < id, "a floe older than its parent");
     bytes_.require((floe.parent == kNoFloe) == is_of_scene, "a floe without a parent");
@@ -201,9 +201,9 @@ class StateLoader {
     const int generation = is_of_scene ? 0 : population_.floes[floe.parent].generation + 1;
     bytes_.require(floe.generation == generation, "a generation that does not follow the parent's");
     bytes_.require(is_of_scene || !population_.is_alive(floe.parent), "a parent that has not broken");
-    bytes_.require(standing <= Standing::kFast, "a standing that there is not");
-    bytes_.require(is_alive || standing != Standing::kUnderHull, "a broken floe under a hull");
-    const bool is_fast = standing == Standing::kFast;
+    bytes_.require(restraint <= Restraint::kFast, "a restraint that there is not");
+    bytes_.require(is_alive || restraint != Restraint::kUnderHull, "a broken floe under a hull");
+    const bool is_fast = restraint == Restraint::kFast;
     const bool can_be_fast = is_of_scene ? floes_at_start_[id].is_fast : population_.is_fast(floe.parent);
     bytes_.require(!is_fast || can_be_fast, "a fast floe of a free one");
     bytes_.require(is_fast || !is_of_scene || !can_be_fast, "a free floe where the scene has a fast one");
@@ -212,17 +212,17 @@ class StateLoader {
   void load_floe(FloeId id) {
     Floe floe;
     bool is_alive = false;
-    Standing standing = Standing::kFree;
-    bytes_(floe, is_alive, standing);
-    check_origin(id, floe, is_alive, standing);
+    Restraint restraint = Restraint::kFree;
+    bytes_(floe, is_alive, restraint);
+    check_origin(id, floe, is_alive, restraint);
     if (!bytes_.is_well()) return;
     const FloeSpec* spec = floe.parent == kNoFloe ? &floes_at_start_[id] : nullptr;
     floe.own_ice = spec ? spec->own_ice : population_.floes[floe.parent].own_ice;
-    floe.is_under = standing == Standing::kUnderHull;
+    floe.is_under = restraint == Restraint::kUnderHull;
     if (is_alive) floe.shape = spec ? geometry::Shape{spec->polygon_in_world} : load_shape();
     if (!bytes_.is_well()) return;
     const fracture::Ice& ice = ice_of(scene_, floe.own_ice);
-    const bool is_fast = standing == Standing::kFast;
+    const bool is_fast = restraint == Restraint::kFast;
     dynamics::NewBody body;
     if (is_alive) {
       body = new_body_of(floe.shape.polygon, geometry::measure(floe.shape.polygon), ice, is_fast);
@@ -333,7 +333,7 @@ class StateLoader {
       const geometry::Pose& pose = crushed.a_from_b;
       const geometry::Rotation r = pose.rotation;
       bytes_.require(crushed.area >= 0, "a negative area of crushed ice");
-      bytes_.require(std::max(std::abs(pose.position.x), std::abs(pose.position.y)) <= kFarthest &&
+      bytes_.require(std::max(std::abs(pose.position.x), std::abs(pose.position.y)) <= kFarthestPosition &&
                          std::abs(r.cosine * r.cosine + r.sine * r.sine - 1) < 1e-6,
                      "crushed ice beyond the world");
     });

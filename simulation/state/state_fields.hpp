@@ -11,7 +11,7 @@ namespace polynya::simulation {
 // raise kCheckpointVersion (io/run/checkpoint.hpp) with it.
 
 /// What holds a floe, if anything.
-enum class Standing : std::uint8_t { kFree, kUnderHull, kFast };
+enum class Restraint : std::uint8_t { kFree, kUnderHull, kFast };
 
 /// Whether a body is a ship that has a helm and loads of its own.
 inline bool is_sailing(const Setup& setup, std::int32_t body) {
@@ -82,7 +82,7 @@ void fields(auto& archive, Is<SailingLoads> auto& l) {
 }
 void fields(auto& archive, Is<PilotMemory> auto& m) {
   archive(m.heading, m.speed_integral, m.drift_angle, m.waypoint, m.from, m.is_backing, m.slow_since, m.stuck_at,
-          m.first_stuck_at, m.rams, m.gained);
+          m.first_stuck_at, m.rams, m.distance_gained);
 }
 /// Of ships that manage ice alone.
 void fields(auto& archive, Is<PatternMemory> auto& m) {

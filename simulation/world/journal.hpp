@@ -71,7 +71,7 @@ struct HullSample {
   double lever = 0;                  ///< thrust lever at the end, −1 (full astern) to 1 (full ahead) [-]
   double steering_angle = 0;         ///< angle of the rudder or thrusters at the end, positive to port [rad]
   std::int32_t rams = 0;             ///< number of charges after the first, of a pilot that rams
-  double gained = 0;                 ///< distance along the heading that ramming has gained [m]
+  double distance_gained = 0;        ///< distance along the heading that ramming has gained [m]
   double delivered_power = 0;        ///< |lever| × installed power of the engine; 0 if that power is unknown [W]
   int contacts = 0;                  ///< number of contacts with ice in the last step
   int contacts_with_ships = 0;       ///< number of contacts with other hulls in the last step

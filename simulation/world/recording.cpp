@@ -73,7 +73,7 @@ void add_sailing(const Setup& setup, const Helm& helm, const SailingLoads& loads
   s.lever = helm.lever;
   s.steering_angle = helm.steering_angle;
   s.rams = helm.memory.rams;
-  s.gained = helm.memory.gained;
+  s.distance_gained = helm.memory.distance_gained;
   const auto& engine = setup.sailing[s.ship].engine;
   s.delivered_power = engine ? std::abs(helm.lever) * engine->power : 0;
 }

@@ -20,6 +20,7 @@ COMMENTS = {  # by suffix: what a person reads of a source
 OF_SOURCE = r"cpp|hpp|py|js|cmake|sh|md"
 NAME = re.compile(rf"(?<![\w./-])([\w-]+(?:/[\w-]+)*\.(?:{OF_SOURCE}))\b(?![(/])")
 PROGRAMS = {"gdal_polygonize.py"}  # of other packages
+MADE = "studies"  # `polynya study` makes folders there, too: of this one only sources and pages are looked for
 ELSEWHERE = ("tl/", "boost/", "nlohmann/", "CLI/", "fmt/", "CGAL/", "polynya/")  # headers of libraries
 
 
@@ -49,7 +50,7 @@ class Tree:
         folders = {str(parent) for name in files for parent in pathlib.PurePosixPath(name).parents}
         self.known = set(files) | folders - {"."}
         self.ends = {"/" + name for name in files}
-        tops = "|".join(sorted(re.escape(name.split("/")[0]) for name in files if "/" in name))
+        tops = "|".join(sorted({re.escape(name.split("/")[0]) for name in files if "/" in name} - {MADE}))
         self.path = re.compile(rf"(?<![\w./-])((?:{tops})/[\w./{{}},*-]*[\w}}*])")
 
     def has(self, path):

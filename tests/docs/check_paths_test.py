@@ -21,7 +21,7 @@ class CheckPaths(unittest.TestCase):
         self.assertEqual(check_paths.main(SOURCE), 0)
 
     def test_what_is_not_there_is_found(self):
-        for text, path in (("see io/run/gone.cpp.", "io/run/gone.cpp"), ("`docs/gone.md`", "docs/gone.md"),
+        for text, path in (("see io/run/gone.cpp.", "io/run/gone.cpp"), ("`docs/gone/x.cpp`", "docs/gone/x.cpp"),
                            ("(gone.hpp)", "gone.hpp"), ("io/run/{records,gone}.cpp", "io/run/gone.cpp"),
                            ("scenes/gone.json", "scenes/gone.json"), ("tests/fuzz/NAME_seeds", "tests/fuzz/NAME_seeds"),
                            ("run/gone.cpp", "run/gone.cpp")):

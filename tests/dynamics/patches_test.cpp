@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/contact/boundary.hpp"
+#include "geometry/contact/manifolds.hpp"
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/predicates.hpp"
 #include "tests/dynamics/scenery.hpp"
@@ -351,7 +351,7 @@ Pose turned(const Pose& pose, double by) {  // about the origin
 
 // The rule's gradient, over all patches of a pair: that of the overlap's area, shallow, deep and pierced.
 TEST_F(RandomPatches, TheirWidthsAndNormalsAreTheGradientOfTheOverlapsArea) {
-  constexpr double kStep = 1e-5;  // S is piecewise quadratic: central differences are exact but for corners
+  constexpr double kShift = 1e-5;  // S is piecewise quadratic: central differences are exact but for corners
   int plain = 0, pierced = 0, corners = 0;
   for (int i = 0; i < 600; ++i) {
     Polygon a = any();
@@ -368,9 +368,9 @@ TEST_F(RandomPatches, TheirWidthsAndNormalsAreTheGradientOfTheOverlapsArea) {
       EXPECT_NEAR(area_of(found), exact_area(a, b, pose), 1e-9) << i;
     }
     const auto slope = [&](Vector by) {
-      return (exact_area(a, b, moved(pose, by)) - exact_area(a, b, moved(pose, -by))) / (2 * kStep);
+      return (exact_area(a, b, moved(pose, by)) - exact_area(a, b, moved(pose, -by))) / (2 * kShift);
     };
-    const Vector expected{slope({kStep, 0}), slope({0, kStep})};
+    const Vector expected{slope({kShift, 0}), slope({0, kShift})};
     const double off = length(gradient - expected);
     corners += off > 1e-6;  // a vertex passes an edge within the step
     EXPECT_LT(off, 1e-3) << i;
@@ -381,7 +381,7 @@ TEST_F(RandomPatches, TheirWidthsAndNormalsAreTheGradientOfTheOverlapsArea) {
 }
 
 TEST_F(RandomPatches, ThePiercedOnesTurnAsTheOverlapsAreaDoes) {
-  constexpr double kStep = 1e-6;
+  constexpr double kShift = 1e-6;
   int checked = 0, limited = 0;
   for (int i = 0; i < 600; ++i) {
     const Polygon a = any(), b = any();
@@ -389,7 +389,8 @@ TEST_F(RandomPatches, ThePiercedOnesTurnAsTheOverlapsAreaDoes) {
     const Found found = patches_of(a, b, pose);
     if (found.manifolds.size() != 1 || !found.manifolds[0].is_pierced) continue;
     const ContactManifold& m = found.manifolds[0];
-    const double slope = (exact_area(a, b, turned(pose, kStep)) - exact_area(a, b, turned(pose, -kStep))) / (2 * kStep);
+    const double slope =
+        (exact_area(a, b, turned(pose, kShift)) - exact_area(a, b, turned(pose, -kShift))) / (2 * kShift);
     const Point middle = midpoint(m.ends[0], m.ends[1]);
     const double lever = slope / m.width - dot(m.centroid - Point{}, perpendicular(m.normal));
     const double here = dot(middle - m.centroid, perpendicular(m.normal));

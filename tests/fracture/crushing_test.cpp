@@ -197,7 +197,7 @@ TEST(CrushedReceding, WithoutRecessionIsThePlainOverlap) {
 
 /// dV/dξ = A_c cos θ_s: by the midpoint rule over the way to the overlap.
 TEST(CrushedVolume, IsWhatTheFacetPassesOver) {
-  constexpr double kThickness = 0.7;
+  constexpr double kIceThickness = 0.7;
   constexpr int kSteps = 4000;
   for (const double power : {1.0, 1.6, 2.0, 3.0}) {
     const Overlap overlap{power * 0.9 / 1.3, 1.3, 0.9};
@@ -205,12 +205,14 @@ TEST(CrushedVolume, IsWhatTheFacetPassesOver) {
       double volume = 0;
       for (int i = 0; i < kSteps; ++i) {
         const double depth = overlap.depth * (i + 0.5) / kSteps;
-        volume += crushed_overlap_at(overlap, depth, kThickness, angle).area * std::cos(angle) * overlap.depth / kSteps;
+        volume +=
+            crushed_overlap_at(overlap, depth, kIceThickness, angle).area * std::cos(angle) * overlap.depth / kSteps;
       }
-      EXPECT_NEAR(crushed_volume(overlap, overlap.area, kThickness, angle) / volume, 1, 1e-4) << power << ' ' << angle;
+      EXPECT_NEAR(crushed_volume(overlap, overlap.area, kIceThickness, angle) / volume, 1, 1e-4)
+          << power << ' ' << angle;
     }
   }
-  EXPECT_EQ(crushed_volume({1, 1, 1}, 0, kThickness, 0.3), 0);
+  EXPECT_EQ(crushed_volume({1, 1, 1}, 0, kIceThickness, 0.3), 0);
 }
 
 TEST(CrushedOverlapArea, OfNothingIsNothing) {

@@ -44,7 +44,7 @@ TEST(Decision, IsOnItsEdgesAsTheTheorySays) {
   FailureCriteria cracked = criteria_of({true, true, true, false, false});
   EXPECT_LT(cracked.crack_length, cracked.breakable_size);
   EXPECT_EQ(decide(cracked), Failure::kSplit) << "a crack shorter than the breakable size";
-  cracked.pares = true;
+  cracked.leaves_sliver = true;
   EXPECT_EQ(decide(cracked), Failure::kCrush);
   FailureCriteria pressed = criteria_of({true, true, false, true, true});
   EXPECT_EQ(pressed.collision_force, pressed.splitting_force);

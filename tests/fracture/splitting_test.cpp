@@ -37,12 +37,12 @@ TEST(Splitting, LefmIsWithinThreePercentOfTheFiniteElements) {
 
 TEST(Splitting, PiecesNarrowerOrSmallerThanTheLeastAreSlivers) {
   const LeastPiece least{0.5, 0.5};
-  EXPECT_FALSE(pares(least, 10, 20, 101, 300));
-  EXPECT_TRUE(pares(least, 10, 20, 99, 300)) << "20 m long, 4.95 m wide";
-  EXPECT_TRUE(pares(least, 10, 20, 300, 99));
-  EXPECT_TRUE(pares(least, 10, 4, 49, 300)) << "12 m wide, but 49 m²";
-  EXPECT_TRUE(pares({0, 0}, 10, 20, 0, 300)) << "a crack that parts nothing";
-  EXPECT_FALSE(pares({0, 0}, 10, 20, 1e-3, 300));
+  EXPECT_FALSE(leaves_sliver(least, 10, 20, 101, 300));
+  EXPECT_TRUE(leaves_sliver(least, 10, 20, 99, 300)) << "20 m long, 4.95 m wide";
+  EXPECT_TRUE(leaves_sliver(least, 10, 20, 300, 99));
+  EXPECT_TRUE(leaves_sliver(least, 10, 4, 49, 300)) << "12 m wide, but 49 m²";
+  EXPECT_TRUE(leaves_sliver({0, 0}, 10, 20, 0, 300)) << "a crack that parts nothing";
+  EXPECT_FALSE(leaves_sliver({0, 0}, 10, 20, 1e-3, 300));
 }
 
 TEST(Splitting, OfAnArmBesideAFreeEdgeJoinsTheTableWithinWhatOneArmIsStiffer) {

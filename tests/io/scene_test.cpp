@@ -357,7 +357,7 @@ TEST(ShipPresets, EachIsAShipWithASourceForEveryParticular) {
     const auto loaded =
         checked(preset(fmt::format("\"{}\"{}", one.name, has_engine ? "" : R"(, "propulsion": {"thrust_N": 2e4})")));
     EXPECT_GT(loaded->scene.ships[0].mass, 1e6) << one.name;
-    for (const Particular& particular : one.particulars) EXPECT_FALSE(particular.source.empty()) << particular.path;
+    for (const PresetValue& value : one.particulars) EXPECT_FALSE(value.source.empty()) << value.path;
     expect_reads_back(*loaded);
   }
 }

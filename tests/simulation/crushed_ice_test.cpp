@@ -102,7 +102,7 @@ TEST(Prescribed, APlateThatIsCutThroughIsTwo) {
 /// 300 m of .7 m, until the ice has taken its momentum, and never more
 /// (docs/decisions/2026-11-23-flat-wall.md).
 TEST(Prescribed, AWallThatClosesFlatBearsOnAllOfTheIce) {
-  constexpr double kWidth = 300;  // [m]
+  constexpr double kChannelWidth = 300;  // [m]
   for (const double step : {0.01, 0.002}) {
     const double bears = 588e6;  // σ_c h w [N]
     double most = 0;
@@ -110,9 +110,9 @@ TEST(Prescribed, AWallThatClosesFlatBearsOnAllOfTheIce) {
                                .step(step)
                                .thickness(0.7)
                                .without_splits()
-                               .floe(rectangle(0, 0.05, kWidth, 100))
-                               .wall({kWidth, 100.001}, {0, 100.001})
-                               .wall({0, 0}, {kWidth, 0}, pressing(5e4)),
+                               .floe(rectangle(0, 0.05, kChannelWidth, 100))
+                               .wall({kChannelWidth, 100.001}, {0, 100.001})
+                               .wall({0, 0}, {kChannelWidth, 0}, pressing(5e4)),
                            3, [&](const Simulation& s) { most = std::max(most, largest_contact_force(s)); });
     EXPECT_LE(most, 1.001 * bears) << step;
     EXPECT_GT(most, 0.5 * bears) << step;

@@ -77,7 +77,7 @@ TEST(Decision, LefmSplitsWhereMichelDoesNotAndStatesBothSides) {
     for (const auto& event : story.splits()) {
       EXPECT_GE(event.criteria().opening_force, event.criteria().opening_capacity);
       EXPECT_GT(event.criteria().opening_capacity, 0);
-      EXPECT_FALSE(event.criteria().pares);
+      EXPECT_FALSE(event.criteria().leaves_sliver);
       EXPECT_GE(event.criteria().floe_size, event.criteria().breakable_size);
     }
   }

@@ -343,13 +343,13 @@ TEST(Pilot, RamsThickIceAndCountsIt) {
                                                500);
   const HullSample& last = samples.back();
   EXPECT_GE(last.rams, 2);
-  EXPECT_GT(last.gained, 0);
+  EXPECT_GT(last.distance_gained, 0);
   double farthest = 0, first = 0;
   for (const HullSample& s : samples) {
     farthest = std::max(farthest, s.position_in_world.x);
     if (s.rams == 0) first = std::max(first, s.position_in_world.x);
   }
-  EXPECT_NEAR(last.gained, farthest - first, 0.1);
+  EXPECT_NEAR(last.distance_gained, farthest - first, 0.1);
 }
 
 TEST(Pilot, FollowsAShipAtADistance) {

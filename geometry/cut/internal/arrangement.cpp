@@ -81,7 +81,7 @@ class Tracer {
       trace(e, visited, regions[found->second].polygon);
     }
     for (const Region& region : regions) {
-      if (region.polygon.outer.empty()) throw std::logic_error("a region has no outer ring");
+      if (region.polygon.outer.empty()) throw OverlayFailure("a region has no outer ring");
     }
     return regions;
   }
@@ -249,7 +249,7 @@ class Tracer {
     } else if (turn > 0 && polygon.outer.empty()) {
       polygon.outer = std::move(ring);
     } else {
-      throw std::logic_error("a region has no single outer ring");
+      throw OverlayFailure("a region has no single outer ring");
     }
   }
 
@@ -275,12 +275,14 @@ void append_segments(std::vector<SourceSegment>& segments, const Polygon& polygo
   for (const Ring& hole : polygon.holes) append_segments(segments, hole, source);
 }
 
-Overlay overlay(const std::vector<SourceSegment>& segments, const Classifier& classify, Seams seams) {
+Overlay overlay(const std::vector<SourceSegment>& segments, const Classifier& classify, Seams seams) try {
   const std::unique_ptr<const Arrangement> arrangement = arrange(segments);
   Tracer tracer(*arrangement, segments, classify, seams);
   Overlay result{tracer.regions()};
   tracer.find_tool_inside(result);
   return result;
+} catch (const CGAL::Failure_exception& failure) {
+  throw OverlayFailure(failure.what());
 }
 
 }  // namespace polynya::geometry::exact

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <stdexcept>
 #include <vector>
 
 #include "geometry/exact/internal/exact_polygon.hpp"
@@ -44,9 +45,14 @@ struct Overlay {
   double dangling_length = 0;        ///< of those that have one face on both sides: dangles and bridges [m]
 };
 
+/// An overlay that cannot be computed: a precondition of CGAL that does not hold, or a region without an outer ring.
+struct OverlayFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// The exact overlay of all segments, by CGAL's arrangement: the general path and the oracle of the local
 /// one. Segments may cross, touch, overlap and repeat. Open polylines separate nothing and wind around
-/// nothing. Throws std::exception where CGAL refuses.
+/// nothing. Throws OverlayFailure if CGAL refuses the segments or their regions do not follow from them.
 Overlay overlay(const std::vector<SourceSegment>& segments, const Classifier& classify, Seams seams);
 
 }  // namespace polynya::geometry::exact

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <exception>
-#include <new>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "geometry/cut/cut.hpp"
+#include "geometry/cut/internal/arrangement.hpp"
 #include "geometry/exact/internal/exact_polygon.hpp"
 #include "geometry/exact/validity.hpp"
 
@@ -19,14 +18,13 @@ inline tl::unexpected<CutError> refuse(CutFailure reason, Defect defect) {
   return refuse(reason, std::string(name_of(defect)));
 }
 
-/// A geometric failure is a value: what CGAL throws in `work` becomes one (kInternal). Out of memory is thrown on.
+/// Calls work() and returns its result, or the error kInternal if it throws OverlayFailure. Other exceptions, as of a
+/// lack of memory or of a defect in the program, are not caught.
 template <typename Work>
 auto guarded(Work work) -> decltype(work()) {
   try {
     return work();
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& failure) {
+  } catch (const exact::OverlayFailure& failure) {
     return refuse(CutFailure::kInternal, failure.what());
   }
 }
