@@ -14,7 +14,8 @@ declare -A packages=(
            python3-dev python3-venv pybind11-dev ffmpeg"
   [module]="python3 python3-numpy python3-matplotlib python3-dev pybind11-dev"
   [package]="lintian mmdebstrap"
-  [site]="python3-sphinx furo python3-myst-parser python3-numpy doxygen libjs-katex node-normalize.css"
+  [site]="python3-sphinx furo python3-myst-parser python3-sphinx-copybutton python3-numpy
+           doxygen libjs-katex node-normalize.css"
   [slurm]="slurmctld slurmd slurm-client munge"
   [export]="python3-vtk9 python3-pandas python3-shapely gdal-bin"
   [bench]="libbenchmark-dev libbox2d-dev libchipmunk-dev libgeos-dev libpolyclipping-dev"

@@ -11,6 +11,7 @@ import argparse
 import importlib.util
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -42,20 +43,22 @@ def texts_of_pages():
 def children_of(name, texts, made):
     """Pages below a part's page: of decisions and theory, and of the reference what is made."""
     folder = os.path.dirname(name)
-    if not name.endswith("/index") and name != "reference/cpp":
+    is_made = name in ("reference/cpp", "reference/commands")
+    if not name.endswith("/index") and not is_made:
         return []
-    below = f"{name}/" if name == "reference/cpp" else f"{folder}/"
+    below = f"{name}/" if is_made else f"{folder}/"
     found = sorted(page.rsplit(".", 1)[0] for page in [*texts, *made] if page.startswith(below))
-    text = texts.get(f"{name}.md", "")  # in the order in which it links to them
+    text = texts.get(f"{name}.md", "") or made.get(f"{name}.md", "")  # in the order in which it links to them
     return sorted((page for page in found if page != name),
                   key=lambda page: text.find(f"({page[len(folder) + 1:]}.md)"))
 
 
-def write_sources(source, polynya):
+def write_sources(source, polynya, version):
     texts = texts_of_pages()
     headers, places = cpp.pages(ROOT, source.parent / "doxygen")
-    made = {"reference/commands.md": reference.commands(polynya), "reference/python.rst": reference.python(), **headers}
+    made = {**reference.commands(polynya, texts), "reference/python.rst": reference.python(), **headers}
     made["reference/cpp.md"] = "# C++\n\nThe public headers, by room and folder, from their comments (Doxygen).\n"
+    made["cite.md"] = reference.cite(ROOT, version)
     index, listed = (ROOT / "tools/site/index.md").read_text(), set()
     for caption, names in pages.PARTS.items():
         index += "\n" + pages.toctree([f"/{name}" for name in names], caption, hidden="", maxdepth=2)
@@ -85,14 +88,23 @@ def write_sources(source, polynya):
 
 
 def bundle_theme(static):
-    """Debian's furo has a script that imports another, which no browser does from disk, and a style from its server."""
+    """Debian's furo has a script that imports another, which no browser does from disk, a style from its server, and
+    its dark colours only for readers who chose them, not for systems that are dark."""
     script, gumshoe = static / "scripts/furo.js", static / "scripts/gumshoe-patched.js"
     text = script.read_text()
     if text.startswith("import Gumshoe"):  # the other is UMD: as a classic script it defines window.Gumshoe
         script.write_text(gumshoe.read_text() + text.split("\n", 1)[1])
     style = static / "styles/furo.css"
-    style.write_text(style.read_text().replace("@import url(/javascript/normalize.css/normalize.css);",
-                                               NORMALIZE.read_text()))
+    text = style.read_text().replace("@import url(/javascript/normalize.css/normalize.css);", NORMALIZE.read_text())
+    style.write_text(text + "".join(f"@media screen and (prefers-color-scheme: dark) {{\n{rule}}}\n"
+                                    for rule in dark_rules(text)))
+
+
+def dark_rules(style):
+    """The rules of a style sheet for the theme "dark", for the theme that follows the system."""
+    rules = re.findall(r"[^{}]*\[data-theme=\"?dark\"?\][^{}]*\{[^{}]*\}", style)
+    rules = [rule for rule in rules if "theme-icon" not in rule]  # which icon shows is of the choice, not of the system
+    return [rule.strip().replace('[data-theme="dark"]', '[data-theme="auto"]') + "\n" for rule in rules]
 
 
 def tree_of(options):
@@ -103,7 +115,8 @@ def tree_of(options):
 
 
 def missing():
-    modules = [name for name in ("sphinx", "furo", "myst_parser", "numpy") if not importlib.util.find_spec(name)]
+    needed = ("sphinx", "furo", "myst_parser", "sphinx_copybutton", "numpy")
+    modules = [name for name in needed if not importlib.util.find_spec(name)]
     return modules + [name for name, there in (("doxygen", shutil.which("doxygen")), ("KaTeX", KATEX.exists()),
                                        ("normalize.css", NORMALIZE.exists())) if not there]
 
@@ -117,8 +130,8 @@ def main():
         print(f"skipped: {sys.executable} has no {', '.join(missing())} (./setup.sh site)")
         return SKIPPED
     tree, out = tree_of(options), options.out.resolve()
-    write_sources(out / "source", str(tree / "app/polynya"))
     version = reference.printed(str(tree / "app/polynya"), "--version").split()[1]
+    write_sources(out / "source", str(tree / "app/polynya"), version)
     environment = {**os.environ, "POLYNYA_VERSION": version, "POLYNYA_PYTHON": str(tree / "python"),
                    "POLYNYA_STATIC": str(out / "source/static")}
     command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-c", str(ROOT / "tools/site"),

@@ -15,7 +15,10 @@ sys.path.insert(0, os.environ["POLYNYA_PYTHON"])
 project = "Polynya"
 version = release = os.environ["POLYNYA_VERSION"]
 copyright = "the Polynya authors, GPL-3.0-or-later"  # noqa: A001 (Sphinx's name)
-extensions = ["myst_parser", "sphinx.ext.autodoc"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_copybutton"]
+# Of a block with prompts the commands alone are copied, not what they print.
+copybutton_prompt_text = r"\$ "
+copybutton_prompt_is_regexp = True
 exclude_patterns = ["images/*", "static"]
 
 myst_enable_extensions = ["dollarmath", "amsmath"]
@@ -30,7 +33,8 @@ html_theme = "furo"
 html_title = f"Polynya {version}"
 html_static_path = [os.environ["POLYNYA_STATIC"]]
 html_css_files = ["site.css"]
-html_js_files = ["equations.js"]
+html_js_files = ["equations.js", "search.js"]
+html_search_scorer = os.path.join(os.path.dirname(__file__), "search_order.js")
 html_math_renderer = "katex"
 html_copy_source = False
 html_show_sphinx = False

@@ -4,10 +4,11 @@ import re
 
 # Caption: pages in their order. Pages of docs/ that no part names are an error.
 PARTS = {
-    "Start": ["start", "tutorial", "gallery"],
+    "Start": ["start", "tutorial", "gallery", "cite"],
     "How to": ["view", "figures", "loads", "movie", "channel", "inspect", "why-it-split", "export", "ships",
                "management", "import", "cut", "database", "studies", "python", "environment"],
-    "Reference": ["scene", "run-folder", "reference/commands", "reference/python", "reference/cpp", "references"],
+    "Reference": ["glossary", "scene", "run-folder", "reference/commands", "reference/python", "reference/cpp",
+                  "references"],
     "Theory": ["theory/index", "geometry"],
     "Validation": ["validation", "paper-comparison"],
     "Performance": ["performance"],
