@@ -1,4 +1,5 @@
-"""Fails on a function of the product above 50 lines, in C++ and JavaScript.
+"""Fails on a function of the product above 50 lines, in C++ and JavaScript, and on more functions of six and more
+parameters in C++ than there are today: values that belong together are one parameter.
 
     python3 cmake/check_sizes.py SOURCE
 
@@ -12,6 +13,8 @@ import sys
 ROOMS = ["geometry", "dynamics", "fracture", "simulation", "io", "analysis", "views", "app", "python"]
 SUFFIXES = {".cpp", ".hpp", ".js"}
 MOST_LINES_OF_FUNCTION = 50
+MANY_PARAMETERS = 6
+MOST_WITH_MANY_PARAMETERS = 15
 # "path: name of the function" -> why it is a table that reads best in one piece.
 TABLES = {}
 
@@ -78,6 +81,33 @@ def function_at(code, brace, partner):
     return None if name in CONTROL else (start, name)
 
 
+DEFINITION = re.compile(r"\s*(?:const|noexcept|override|final|mutable|try|\s)*(?:->\s*[\w:<>,*&\s]+)?(?::[^{;]*)?\{")
+
+
+def number_of_parameters(parameters):
+    """Of the text between a function's parentheses."""
+    depth, commas = 0, 0
+    for character in parameters.replace("->", "  "):
+        depth += {"(": 1, "<": 1, "[": 1, "{": 1, ")": -1, ">": -1, "]": -1, "}": -1}.get(character, 0)
+        commas += character == "," and depth == 0
+    return commas + 1 if parameters.strip() else 0
+
+
+def with_many_parameters(path, text):
+    """(place, name and number) of the functions that are defined with many parameters."""
+    code, opened = bare(path, text), []
+    for at, character in enumerate(code):
+        if character == "(":
+            opened.append(at)
+        elif character == ")" and opened:
+            start = opened.pop()
+            name = re.search(r"([\w~:]+|\])\s*$", code[max(0, start - 100):start])
+            count = number_of_parameters(code[start + 1:at])
+            if (count >= MANY_PARAMETERS and name and name[1] not in CONTROL
+                    and DEFINITION.match(code, at + 1)):
+                yield f"{path}:{code.count(chr(10), 0, start) + 1}: {name[1].replace(']', 'a lambda')} has {count}"
+
+
 def problems_of(path, text):
     code = bare(path, text)
     opened, partner = [], {}
@@ -108,11 +138,17 @@ def product_files(root):
 
 
 def main(root):
-    found, files = [], 0
+    found, files, many = [], 0, []
     for path in product_files(root):
         files += 1
-        found.extend(problems_of(path.relative_to(root).as_posix(), path.read_text()))
-    print("\n".join(found) or f"{files} files, their functions of at most {MOST_LINES_OF_FUNCTION} lines")
+        name, text = path.relative_to(root).as_posix(), path.read_text()
+        found.extend(problems_of(name, text))
+        many += with_many_parameters(name, text) if not name.endswith(".js") else ()
+    if len(many) > MOST_WITH_MANY_PARAMETERS:
+        found += [f"{len(many)} functions have {MANY_PARAMETERS} or more parameters, more than "
+                  f"{MOST_WITH_MANY_PARAMETERS}:", *many]
+    print("\n".join(found) or f"{files} files, their functions of at most {MOST_LINES_OF_FUNCTION} lines, "
+          f"{len(many)} with {MANY_PARAMETERS} or more parameters")
     return 1 if found or files == 0 else 0
 
 

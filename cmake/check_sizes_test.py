@@ -64,6 +64,18 @@ class CheckSizes(unittest.TestCase):
                     self.assertEqual(self.problems(path, in_function(head, end, most + 1)),
                                      [f"{path}:{line}: {name} has {most + 1} lines, more than {most}"])
 
+    def test_functions_with_many_parameters_are_counted(self):
+        five, six = "(int a, std::map<int, int> b, const C& c = {1, 2}, int d, D (*e)(int, int)", ", int f"
+        for head, name in (("void plain", "plain"), ("auto f = [&]", "a lambda"), ("A::A", "A::A")):
+            for end in (") {\n}\n", ") const {\n}\n", ") : a_(a), b_{b} {\n}\n", ") -> std::vector<int> {\n}\n"):
+                with self.subTest(head=head, end=end):
+                    self.assertEqual(list(check_sizes.with_many_parameters("a.cpp", head + five + end)), [])
+                    self.assertEqual(list(check_sizes.with_many_parameters("a.cpp", head + five + six + end)),
+                                     [f"a.cpp:1: {name} has 6"])
+        for text in ("call(a, b, c, d, e, f);\n", "if (is(a, b, c, d, e, f)) {\n}\n",
+                     "void f(int, int, int, int, int, int);\n"):
+            self.assertEqual(list(check_sizes.with_many_parameters("a.cpp", text)), [])
+
     def test_functions_within_count(self):
         inner = "  const f = () => {\n" + 30 * BODY + "  };\n"
         self.assertEqual(len(self.problems("a.js", "function outer() {\n" + 2 * inner + "}\n")), 1)

@@ -232,7 +232,8 @@ Deck deck_of(const Ice& ice, const Water& water, double hull_angle, std::span<co
   return deck;
 }
 
-DeckForces turn_deck(const Deck& deck, const Water& water, double thrust, double way, double dt, DeckState& state) {
+DeckForces turn_deck(const Deck& deck, const Water& water, const HullAdvance& advance, DeckState& state) {
+  const auto [thrust, way, dt] = advance;
   const double end = way_to_lie_along(deck);
   const int steps = std::clamp(static_cast<int>(std::ceil(kStepsOfATurn * way / deck.depth)), 1, kStepsOfATurn);
   DeckForces sum;

@@ -87,8 +87,14 @@ struct DeckForces {
   double ahead = 0;  ///< P, on the hull along its normal, for the water that is missing on its own face [N]
 };
 
-/// Lets the hull go on by `way` [m], not farther than the cusp turns, and water flow for dt [s]. Returns the mean
-/// forces, where the hull presses with `thrust` times its force down along its normal.
-DeckForces turn_deck(const Deck& deck, const Water& water, double thrust, double way, double dt, DeckState& state);
+/// How a hull goes on against a cusp in a step.
+struct HullAdvance {
+  double thrust = 0;    ///< force along the hull's normal over its force down [-]
+  double way = 0;       ///< distance along its normal [m]
+  double duration = 0;  ///< [s]
+};
+
+/// Lets the hull go on, not farther than the cusp turns, and water flow for that time. Returns the mean forces.
+DeckForces turn_deck(const Deck& deck, const Water& water, const HullAdvance& advance, DeckState& state);
 
 }  // namespace polynya::fracture

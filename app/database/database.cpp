@@ -60,30 +60,27 @@ void add_load(CommandLine& command, DatabaseLoadOptions& load) {
   command.option("--front-angle", &load.front_angle_deg, "DEG", "Instead: from the inward normal to the front edge",
                  between(0, 89.9));
   command.option("--back-angle", &load.back_angle_deg, "DEG", "and to the back edge", between(0, 89.9));
-  const auto add = [&command](const char* name, double& value, const char* unit, const char* meaning, double least,
-                              double most) {
-    command.option(name, &value, unit, meaning, between(least, most),
-                   {.shows_default = true, .group = "Ice and water"});
+  const auto add = [&command](const char* name, double& value, const char* unit, const char* meaning,
+                              const auto& allowed) {
+    command.option(name, &value, unit, meaning, allowed, {.shows_default = true, .group = "Ice and water"});
   };
-  add("--density", load.ice.density, "KG_PER_M3", "of the ice", 1, 5000);
-  add("--youngs-modulus", load.ice.youngs_modulus, "PA", "of the ice", 1e3, 1e12);
-  add("--poisson-ratio", load.ice.poisson_ratio, "NU", "of the ice", 0, 0.5);
-  add("--flexural-strength", load.ice.flexural_strength, "PA", "of the ice", 1, 1e9);
-  add("--compressive-strength", load.ice.compressive_strength, "PA", "of the ice", 1, 1e9);
-  add("--friction", load.ice.friction, "MU", "hull on ice", 0, 2);
-  add("--water-density", load.water.density, "KG_PER_M3", "", 1, 5000);
+  add("--density", load.ice.density, "KG_PER_M3", "of the ice", between(1, 5000));
+  add("--youngs-modulus", load.ice.youngs_modulus, "PA", "of the ice", between(1e3, 1e12));
+  add("--poisson-ratio", load.ice.poisson_ratio, "NU", "of the ice", between(0, 0.5));
+  add("--flexural-strength", load.ice.flexural_strength, "PA", "of the ice", between(1, 1e9));
+  add("--compressive-strength", load.ice.compressive_strength, "PA", "of the ice", between(1, 1e9));
+  add("--friction", load.ice.friction, "MU", "hull on ice", between(0, 2));
+  add("--water-density", load.water.density, "KG_PER_M3", "", between(1, 5000));
 }
 
 /// Those of the load's size and speed, required or with the defaults of a slice.
 void add_point(CommandLine& command, DatabaseLoadOptions& load, bool is_required) {
-  const auto add = [&](const char* name, double& value, const char* unit, const char* meaning, double least,
-                       double most) {
-    command.option(name, &value, unit, meaning, between(least, most),
-                   {.is_required = is_required, .shows_default = !is_required});
+  const auto add = [&](const char* name, double& value, const char* unit, const char* meaning, const auto& allowed) {
+    command.option(name, &value, unit, meaning, allowed, {.is_required = is_required, .shows_default = !is_required});
   };
-  add("--thickness", load.ice.thickness, "M", "of the ice", 1e-3, 100);
-  add("--speed", load.speed, "M_PER_S", "of approach, normal to the hull's waterline", 0, 100);
-  add("--hull-angle", load.hull_angle_deg, "DEG", "the hull's inclination from the vertical", 0, 89.9);
+  add("--thickness", load.ice.thickness, "M", "of the ice", between(1e-3, 100));
+  add("--speed", load.speed, "M_PER_S", "of approach, normal to the hull's waterline", between(0, 100));
+  add("--hull-angle", load.hull_angle_deg, "DEG", "the hull's inclination from the vertical", between(0, 89.9));
 }
 
 /// The database of that file, or the shipped one for an empty name. Reports on stderr why a file cannot be read or is

@@ -28,14 +28,13 @@ constexpr std::size_t kLongestCases = std::size_t{4} << 30;  ///< [bytes]
 constexpr std::size_t kMostPrinted = 100;                    ///< cases whose problems are printed
 
 /// Reads one case's scene; what is wrong with it.
-std::vector<io::Problem> problems_of(const std::string& scene_text, const std::string& scene_name,
-                                     std::string_view line, const std::string& cases, std::size_t number,
-                                     io::SceneOverrides overrides) {
+std::vector<io::Problem> problems_of(const io::SourceText& scene, std::string_view line, const std::string& cases,
+                                     std::size_t number, io::SceneOverrides overrides) {
   auto assignments = io::parse_case(line, cases, static_cast<int>(number));
   if (!assignments) return {std::move(assignments.error())};
   std::ranges::move(*assignments, std::back_inserter(overrides.assignments));
   const auto loaded =
-      io::read_scene(scene_text, scene_name, std::filesystem::path(scene_name).parent_path(), overrides);
+      io::read_scene(scene.text, scene.name, std::filesystem::path(scene.name).parent_path(), overrides);
   return loaded ? std::vector<io::Problem>{} : loaded.error();
 }
 
@@ -43,15 +42,16 @@ std::vector<io::Problem> problems_of(const std::string& scene_text, const std::s
 /// problem on stderr, or on stdout a JSON object for each case that is refused. The code to exit with.
 int validate_cases(const std::string& scene, const std::string& cases, const io::SceneOverrides& overrides,
                    bool as_json) {
-  const auto scene_text = read_input(scene, io::kLongestScene);
+  auto scene_text = read_input(scene, io::kLongestScene);
   if (!scene_text) return fail(kInputOutput, fmt::format("{}: {}", scene, scene_text.error()));
+  const io::SourceText named_scene{scene, *std::move(scene_text)};
   const auto text = read_input(cases, kLongestCases);
   if (!text) return fail(kInputOutput, fmt::format("{}: {}", cases, text.error()));
   std::size_t count = 0, refused = 0;
   for (std::size_t begin = 0; begin < text->size();) {
     const std::size_t end = std::min(text->find('\n', begin), text->size());
     const std::string_view line = std::string_view(*text).substr(begin, end - begin);
-    const auto problems = problems_of(*scene_text, scene, line, cases, ++count, overrides);
+    const auto problems = problems_of(named_scene, line, cases, ++count, overrides);
     refused += problems.empty() ? 0 : 1;
     if (as_json && !problems.empty()) {
       std::string list = io::to_json_text(problems);

@@ -115,7 +115,7 @@ bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRu
   if (rule.is_circle_centres) {
     find_circle_manifolds(a, b, a_from_b, pair.parts->circles, scratch.manifolds);
   } else {
-    unpaired = find_manifolds(a, b, a_from_b, pair.parts->edges, scratch.crossings, scratch.manifolds);
+    unpaired = find_manifolds({a, b, a_from_b}, pair.parts->edges, scratch.crossings, scratch.manifolds);
   }
   scratch.unpaired += unpaired;
   if (scratch.manifolds.empty()) {

@@ -178,6 +178,7 @@ namespace {
 struct Lanes {
   // So many that the arrays stay in the first cache. No result changes.
   static constexpr std::size_t kMost = 32;
+  std::size_t count = 0;  ///< bodies that are in the lanes
   BodyIndex body[kMost];
   // The motion through the water, and what changes it.
   double ux[kMost], uy[kMost], speed[kMost], cosine[kMost], sine[kMost], place[kMost], width[kMost];
@@ -316,7 +317,8 @@ void scatter(const Columns& bodies, const Lanes& l, std::size_t count, const She
 }
 
 /// Brakes the lanes' bodies over the step.
-void brake(const Columns& bodies, Lanes& l, std::size_t count, const WaterDrag& water, double dt, WaterWork& work) {
+void brake(const Columns& bodies, Lanes& l, const WaterDrag& water, double dt, WaterWork& work) {
+  const std::size_t count = l.count;
   const DragRates rates{0.5 * water.drag_coefficient * water.density * dt,
                         0.5 * water.skin_coefficient * water.density * dt, water.area == DragArea::kPlan};
   gather(bodies, l, count, rates, water.current);
@@ -338,12 +340,11 @@ WaterWork apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, 
   for_chunks(awake.size(), kBodiesPerChunk, threads, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     WaterWork work;
     Lanes lanes;
-    std::size_t count = 0;
     for (std::size_t k = begin; k < end; ++k) {
-      if (columns.span[awake[k]].place >= 0 || columns.drag[awake[k]] != nullptr) lanes.body[count++] = awake[k];
-      if (count < Lanes::kMost && k + 1 < end) continue;
-      brake(columns, lanes, count, water, dt, work);
-      count = 0;
+      if (columns.span[awake[k]].place >= 0 || columns.drag[awake[k]] != nullptr) lanes.body[lanes.count++] = awake[k];
+      if (lanes.count < Lanes::kMost && k + 1 < end) continue;
+      brake(columns, lanes, water, dt, work);
+      lanes.count = 0;
     }
     works[chunk] = work;
   });

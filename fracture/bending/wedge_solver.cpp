@@ -83,32 +83,30 @@ Eigen::ArrayXd modal_load(const WedgeModes& modes, const WedgePush& push, double
   return push_force(push, penetration) * static_amplitudes(modes, penetration).array();
 }
 
-MarchState stepped_to(const WedgeModes& modes, const WedgePush& push, const ModalStep& step, double time,
-                      double penetration, const MarchState& from) {
-  MarchState next = from;
-  next.time = time;
-  next.penetration = std::max(penetration, from.penetration);
-  next.load = modal_load(modes, push, next.penetration);
-  step.advance(from.load, next.load, next.amplitude, next.velocity);
-  return next;
-}
-
 /// One time step. Coupled, bisection solves ξ + χ w_tip(ξ) = Fr τ, whose left side grows with ξ.
 MarchState next_state(const WedgeModes& modes, const WedgePush& push, const ModalStep& step, double time,
                       const MarchState& from) {
   const double free_depth = push.froude * time;
-  if (push.feedback == 0) return stepped_to(modes, push, step, time, free_depth, from);
+  const auto stepped_to = [&](double penetration) {
+    MarchState next = from;
+    next.time = time;
+    next.penetration = std::max(penetration, from.penetration);
+    next.load = modal_load(modes, push, next.penetration);
+    step.advance(from.load, next.load, next.amplitude, next.velocity);
+    return next;
+  };
+  if (push.feedback == 0) return stepped_to(free_depth);
   const auto excess = [&](double penetration) {
-    const MarchState trial = stepped_to(modes, push, step, time, penetration, from);
+    const MarchState trial = stepped_to(penetration);
     return penetration + push.feedback * modes.tip.dot(trial.amplitude.matrix()) - free_depth;
   };
   double shallow = from.penetration, deep = std::max(free_depth, from.penetration);
-  if (excess(shallow) >= 0) return stepped_to(modes, push, step, time, shallow, from);  // the ice recedes faster
+  if (excess(shallow) >= 0) return stepped_to(shallow);  // the ice recedes faster
   while (deep - shallow > 1e-9 * deep) {
     const double middle = 0.5 * (shallow + deep);
     (excess(middle) < 0 ? shallow : deep) = middle;
   }
-  return stepped_to(modes, push, step, time, deep, from);
+  return stepped_to(deep);
 }
 
 /// Penetration at which a slow push breaks the wedge: where the static peak moment reaches the strength.

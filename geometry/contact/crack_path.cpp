@@ -26,14 +26,15 @@ std::uint32_t previous_edge(const EdgeList& edges, std::uint32_t edge) {
 
 }  // namespace
 
-WedgeAngles wedge_angles(const EdgeList& edges, std::uint32_t tip_edge, Point tip, Vector inward, double length) {
+WedgeAngles wedge_angles(const EdgeList& edges, const WedgeTip& tip, Vector inward, double length) {
   WedgeAngles angles;
-  wedge_angles(edges, tip_edge, tip, inward, {&length, 1}, {&angles, 1});
+  wedge_angles(edges, tip, inward, {&length, 1}, {&angles, 1});
   return angles;
 }
 
-void wedge_angles(const EdgeList& edges, std::uint32_t tip_edge, Point tip, Vector inward,
-                  std::span<const double> lengths, std::span<WedgeAngles> angles) {
+void wedge_angles(const EdgeList& edges, const WedgeTip& wedge_tip, Vector inward, std::span<const double> lengths,
+                  std::span<WedgeAngles> angles) {
+  const auto [tip_edge, tip] = wedge_tip;
   // Along the boundary one way: `end_of` is the end of an edge that is farther on, `after` the edge beyond it.
   const auto measure = [&](auto end_of, auto after, double WedgeAngles::*angle) {
     Point from = tip;
@@ -123,8 +124,9 @@ std::vector<CrackPath> ligaments_of(const Boundary& boundary, Point point, Vecto
   return ligaments;
 }
 
-std::optional<CrackPath> turned_path(const Boundary& boundary, const CrackPath& straight, Point first_ice, Point knee,
-                                     Vector onward, double margin) {
+std::optional<CrackPath> turned_path(const Boundary& boundary, const CrackPath& straight, Point first_ice,
+                                     const CrackTurn& turn, double margin) {
+  const auto [knee, onward] = turn;
   if (straight.stretches != 1 || distance(first_ice, knee) >= straight.length_in_ice) return std::nullopt;
   const CrackPath last_leg = crack_path(boundary, knee, onward, margin, CrackReach::kFirstEdge);
   if (last_leg.stretches != 1) return std::nullopt;

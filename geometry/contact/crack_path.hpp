@@ -48,10 +48,16 @@ CrackPath crack_path(const Boundary& boundary, Point point, Vector direction, do
 std::vector<CrackPath> ligaments_of(const Boundary& boundary, Point point, Vector direction, double margin,
                                     const CrackPath& path);
 
-/// The path that follows a straight one from its first ice on to `knee`, and from there the unit direction
-/// `onward` to the edge of the floe. None where it would cross water on its way.
-std::optional<CrackPath> turned_path(const Boundary& boundary, const CrackPath& straight, Point first_ice, Point knee,
-                                     Vector onward, double margin);
+/// The place where a crack turns, and its direction from there on.
+struct CrackTurn {
+  Point knee;     ///< [m]
+  Vector onward;  ///< unit
+};
+
+/// The path that follows a straight one from its first ice on to the knee, and from there goes onward to the edge of
+/// the floe. None where it would cross water on its way.
+std::optional<CrackPath> turned_path(const Boundary& boundary, const CrackPath& straight, Point first_ice,
+                                     const CrackTurn& turn, double margin);
 
 /// The ice on the two sides of a crack, holes counted as ice [m²].
 struct CrackSides {
@@ -92,14 +98,20 @@ struct WedgeAngles {
   double back = 0;   ///< to the boundary that comes before it [rad]
 };
 
+/// The tip of a wedge, on the boundary.
+struct WedgeTip {
+  std::uint32_t edge = 0;  ///< edge that starts at the tip or holds it
+  Point at;                ///< [m]
+};
+
 /// Measures the wedge over a length: from the tip, along the boundary either way to where it first leaves the
 /// circle of radius `length` about the tip [m], and the angle of that chord with the unit vector `inward`.
 /// Jagged edges and the short edges of earlier cusps so count by where they lead, not by which of them
-/// happens to be touched. `tip_edge` starts at the tip or holds it.
-WedgeAngles wedge_angles(const EdgeList& edges, std::uint32_t tip_edge, Point tip, Vector inward, double length);
+/// happens to be touched.
+WedgeAngles wedge_angles(const EdgeList& edges, const WedgeTip& tip, Vector inward, double length);
 
 /// The same over several lengths, ascending, one of `angles` each.
-void wedge_angles(const EdgeList& edges, std::uint32_t tip_edge, Point tip, Vector inward,
-                  std::span<const double> lengths, std::span<WedgeAngles> angles);
+void wedge_angles(const EdgeList& edges, const WedgeTip& tip, Vector inward, std::span<const double> lengths,
+                  std::span<WedgeAngles> angles);
 
 }  // namespace polynya::geometry

@@ -151,8 +151,7 @@ bool for_vertices_between(const EdgeList& edges, std::uint32_t first, std::uint3
   return edge == last;
 }
 
-void write_points(const Boundary& a, const Boundary& b, const Pose& a_from_b, ManifoldScratch& scratch,
-                  OverlapLoop& loop) {
+void write_points(const BoundaryPair& pair, ManifoldScratch& scratch, OverlapLoop& loop) {
   std::vector<OverlapPoint>& points = scratch.loop_points;
   loop.first_point = static_cast<std::uint32_t>(points.size());
   for (std::uint32_t s = loop.first; s < loop.first + loop.stretches; ++s) {
@@ -165,12 +164,12 @@ void write_points(const Boundary& a, const Boundary& b, const Pose& a_from_b, Ma
     const bool wraps_b =
         leave.edge_b == next.edge_b && scratch.place_on_b[stretch.next] < scratch.place_on_b[stretch.leave];
     points.push_back({enter.point, enter.edge_b});
-    for_vertices_between(a.edges, enter.edge_a, leave.edge_a, wraps_a, [&](std::uint32_t edge) {
-      points.push_back({a.edges.from(edge), kNotOnB});
+    for_vertices_between(pair.a.edges, enter.edge_a, leave.edge_a, wraps_a, [&](std::uint32_t edge) {
+      points.push_back({pair.a.edges.from(edge), kNotOnB});
     });
     points.push_back({leave.point, leave.edge_b});
-    for_vertices_between(b.edges, leave.edge_b, next.edge_b, wraps_b, [&](std::uint32_t edge) {
-      points.push_back({transform(a_from_b, b.edges.from(edge)), edge});
+    for_vertices_between(pair.b.edges, leave.edge_b, next.edge_b, wraps_b, [&](std::uint32_t edge) {
+      points.push_back({transform(pair.a_from_b, pair.b.edges.from(edge)), edge});
     });
   }
   loop.points = static_cast<std::uint32_t>(points.size()) - loop.first_point;
@@ -226,8 +225,8 @@ void add_whole_holes(const EdgeList& edges, InFrame in_frame, IsCrossed is_cross
   }
 }
 
-void add_holes_of_both(const Boundary& a, const Boundary& b, const Pose& a_from_b, const ManifoldScratch& scratch,
-                       const OverlapLoop& loop, OverlapMoments& moments) {
+void add_holes_of_both(const BoundaryPair& pair, const ManifoldScratch& scratch, const OverlapLoop& loop,
+                       OverlapMoments& moments) {
   const auto points = points_of(scratch, loop);
   const auto is_crossed = [&scratch](const EdgeList& edges, Side on) {
     return [&, on](std::uint32_t ring) {
@@ -235,9 +234,10 @@ void add_holes_of_both(const Boundary& a, const Boundary& b, const Pose& a_from_
     };
   };
   add_whole_holes(
-      a.edges, [](Point p) { return p; }, is_crossed(a.edges, kOnA), points, moments);
+      pair.a.edges, [](Point p) { return p; }, is_crossed(pair.a.edges, kOnA), points, moments);
   add_whole_holes(
-      b.edges, [&](Point p) { return transform(a_from_b, p); }, is_crossed(b.edges, kOnB), points, moments);
+      pair.b.edges, [&](Point p) { return transform(pair.a_from_b, p); }, is_crossed(pair.b.edges, kOnB), points,
+      moments);
 }
 
 struct Range {
@@ -290,12 +290,12 @@ void trace_loops(const Boundary& a, const Boundary& b, ManifoldScratch& scratch)
 
 /// Writes each loop's points and finds which loops are holes of which: only where a body has holes, or where
 /// a loop has several stretches of a boundary.
-void measure_loops(const Boundary& a, const Boundary& b, const Pose& a_from_b, ManifoldScratch& scratch) {
-  const bool has_holes = a.edges.has_holes() || b.edges.has_holes();
+void measure_loops(const BoundaryPair& pair, ManifoldScratch& scratch) {
+  const bool has_holes = pair.a.edges.has_holes() || pair.b.edges.has_holes();
   scratch.loop_points.clear();
   for (OverlapLoop& loop : scratch.loops) {
     if (!loop.is_closed || (loop.stretches == 1 && !has_holes)) continue;
-    write_points(a, b, a_from_b, scratch, loop);
+    write_points(pair, scratch, loop);
     OverlapMoments moments{scratch.loop_points[loop.first_point].point, 0, {}};
     add_loop(moments, points_of(scratch, loop));
     loop.area = moments.area;
@@ -312,23 +312,21 @@ void measure_loops(const Boundary& a, const Boundary& b, const Pose& a_from_b, M
 }
 
 /// Of a loop's overlap with one stretch: the area of the bodies' holes that lie in it whole [m²].
-double area_of_whole_holes(const Boundary& a, const Boundary& b, const Pose& a_from_b, const ManifoldScratch& scratch,
-                           const OverlapLoop& loop) {
+double area_of_whole_holes(const BoundaryPair& pair, const ManifoldScratch& scratch, const OverlapLoop& loop) {
   if (loop.points == 0) return 0;  // no body has holes
   OverlapMoments moments{scratch.loop_points[loop.first_point].point, 0, {}};
-  add_holes_of_both(a, b, a_from_b, scratch, loop, moments);
+  add_holes_of_both(pair, scratch, loop, moments);
   return -moments.area;
 }
 
 /// The manifold of a connected overlap with any number of stretches, by the gradient of its area
 /// (docs/theory/contact.md). `outer` is its outer loop. Area is 0 where it has none.
-ContactManifold gradient_manifold(const Boundary& a, const Boundary& b, const Pose& a_from_b,
-                                  const ManifoldScratch& scratch, const OverlapLoop& outer) {
+ContactManifold gradient_manifold(const BoundaryPair& pair, const ManifoldScratch& scratch, const OverlapLoop& outer) {
   ContactManifold manifold;
   manifold.is_pierced = true;
   OverlapMoments moments{scratch.loop_points[outer.first_point].point, 0, {}};
   for_loops_of(scratch, outer, [&](const OverlapLoop& loop) { add_loop(moments, points_of(scratch, loop)); });
-  add_holes_of_both(a, b, a_from_b, scratch, outer, moments);
+  add_holes_of_both(pair, scratch, outer, moments);
   if (!(moments.area > 0)) return manifold;
   const Point centroid = moments.origin + moments.first / moments.area;
   Vector gradient;    // R
@@ -383,22 +381,31 @@ struct ChainExtent {
   bool is_closed = false;  ///< the chain did arrive
 };
 
-/// Walks `edges` from a point on edge `first` to a point on edge `last`, measuring along `outward` from the
-/// line. Writes the chain's points as (along the line, off the line) into `profile`.
+/// A part of a boundary: from a point on one edge to a point on another or on the same one.
+struct Chain {
+  const EdgeList& edges;
+  std::uint32_t first = 0;  ///< edge of the first point
+  Point from;
+  std::uint32_t last = 0;  ///< edge of the last point
+  Point to;
+  bool wraps = false;  ///< true if it goes all around the ring, where both points are on one edge
+};
+
+/// Walks along a chain, measuring off the contact line, which has that width, along `outward`. Writes the chain's
+/// points as (along the line, off the line) into `profile`.
 template <typename InFrame>
-ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::uint32_t last, Point to, double width,
-                 Vector outward, bool wraps, InFrame in_frame, std::vector<Point>& profile) {
+ChainExtent walk(const Chain& chain, double width, Vector outward, InFrame in_frame, std::vector<Point>& profile) {
   ChainExtent extent;
-  extent.tip = midpoint(from, to);
-  extent.tip_edge = first;
+  extent.tip = midpoint(chain.from, chain.to);
+  extent.tip_edge = chain.first;
   const Vector along = perpendicular(outward);
   profile.assign(1, {0, 0});
-  Point previous = from;
-  extent.is_closed = for_vertices_between(edges, first, last, wraps, [&](std::uint32_t edge) {
-    const Point vertex = in_frame(edges.from(edge));
-    extent.area += 0.5 * cross(previous - from, vertex - from);
-    const double off = dot(vertex - from, outward);
-    profile.push_back({dot(vertex - from, along), off});
+  Point previous = chain.from;
+  extent.is_closed = for_vertices_between(chain.edges, chain.first, chain.last, chain.wraps, [&](std::uint32_t edge) {
+    const Point vertex = in_frame(chain.edges.from(edge));
+    extent.area += 0.5 * cross(previous - chain.from, vertex - chain.from);
+    const double off = dot(vertex - chain.from, outward);
+    profile.push_back({dot(vertex - chain.from, along), off});
     if (off > extent.depth) {
       extent.depth = off;
       extent.tip = vertex;
@@ -407,7 +414,7 @@ ChainExtent walk(const EdgeList& edges, std::uint32_t first, Point from, std::ui
     previous = vertex;
   });
   profile.push_back({width, 0});
-  extent.area += 0.5 * cross(previous - from, to - from);
+  extent.area += 0.5 * cross(previous - chain.from, chain.to - chain.from);
   return extent;
 }
 
@@ -441,29 +448,37 @@ double thickness_of(const std::vector<Point>& a_side, const std::vector<Point>& 
   return most;
 }
 
-/// The manifold of one stretch of a's boundary inside b, from its entering to its leaving crossing; false
-/// where its sides do not close.
-bool make_manifold(const Boundary& a, const Boundary& b, const Pose& a_from_b, const Crossing& enter,
-                   const Crossing& leave, bool closes_on_b, ManifoldScratch& scratch, ContactManifold& manifold) {
+/// A stretch of a's boundary inside b.
+struct Stretch {
+  const Crossing& enter;
+  const Crossing& leave;
+  bool closes_on_b = false;  ///< true if b's boundary leads from where it leaves to where it enters
+};
+
+/// Makes the manifold of a stretch. Returns false if its sides do not close.
+bool make_manifold(const BoundaryPair& pair, const Stretch& stretch, ManifoldScratch& scratch,
+                   ContactManifold& manifold) {
+  const Crossing& enter = stretch.enter;
+  const Crossing& leave = stretch.leave;
   const Vector line = leave.point - enter.point;
   manifold.width = length(line);
   if (manifold.width < kNoWidth) return false;
   manifold.normal = (-1 / manifold.width) * perpendicular(line);
   const auto as_is = [](Point p) { return p; };
-  const auto from_b = [&](Point p) { return transform(a_from_b, p); };
-  const ChainExtent on_a =
-      walk(a.edges, enter.edge_a, enter.point, leave.edge_a, leave.point, manifold.width, manifold.normal,
-           enter.edge_a == leave.edge_a && !is_before(enter, leave, kOnA), as_is, scratch.side_a);
+  const auto from_b = [&](Point p) { return transform(pair.a_from_b, p); };
+  const ChainExtent on_a = walk({pair.a.edges, enter.edge_a, enter.point, leave.edge_a, leave.point,
+                                 enter.edge_a == leave.edge_a && !is_before(enter, leave, kOnA)},
+                                manifold.width, manifold.normal, as_is, scratch.side_a);
   manifold.area = on_a.area;
   manifold.depth = on_a.depth;
   manifold.tip_of_a = on_a.tip;
   manifold.tip_of_b = midpoint(enter.point, leave.point);
   manifold.tip_edge_of_b = enter.edge_b;
   bool is_closed = on_a.is_closed;
-  if (closes_on_b) {
-    const ChainExtent on_b =
-        walk(b.edges, leave.edge_b, leave.point, enter.edge_b, enter.point, manifold.width, -manifold.normal,
-             leave.edge_b == enter.edge_b && !is_before(leave, enter, kOnB), from_b, scratch.side_b);
+  if (stretch.closes_on_b) {
+    const ChainExtent on_b = walk({pair.b.edges, leave.edge_b, leave.point, enter.edge_b, enter.point,
+                                   leave.edge_b == enter.edge_b && !is_before(leave, enter, kOnB)},
+                                  manifold.width, -manifold.normal, from_b, scratch.side_b);
     manifold.area += on_b.area;
     manifold.depth = thickness_of(scratch.side_a, scratch.side_b, manifold.width);
     if (on_b.depth > 0) {
@@ -478,31 +493,29 @@ bool make_manifold(const Boundary& a, const Boundary& b, const Pose& a_from_b, c
   return is_closed;
 }
 
-/// Appends the manifold of a stretch, where it has one.
-bool add_manifold(const Boundary& a, const Boundary& b, const Pose& a_from_b, const Crossing& enter,
-                  const Crossing& leave, bool closes_on_b, ManifoldScratch& scratch,
+/// Appends the manifold of a stretch. Returns false if it has none.
+bool add_manifold(const BoundaryPair& pair, const Stretch& stretch, ManifoldScratch& scratch,
                   std::vector<ContactManifold>& manifolds) {
   manifolds.emplace_back();
-  if (make_manifold(a, b, a_from_b, enter, leave, closes_on_b, scratch, manifolds.back())) return true;
+  if (make_manifold(pair, stretch, scratch, manifolds.back())) return true;
   manifolds.pop_back();
   return false;
 }
 
 /// The manifolds of boundaries that cross more than twice.
-int find_several(const Boundary& a, const Boundary& b, const Pose& a_from_b, ManifoldScratch& scratch,
-                 std::vector<ContactManifold>& manifolds) {
-  order_along(kOnA, a.edges.ring, scratch.crossings);
+int find_several(const BoundaryPair& pair, ManifoldScratch& scratch, std::vector<ContactManifold>& manifolds) {
+  order_along(kOnA, pair.a.edges.ring, scratch.crossings);
   for (std::uint32_t i = 0; i < scratch.crossings.size(); ++i) scratch.crossings[i].place_on_a = i;
   scratch.by_b = scratch.crossings;
-  order_along(kOnB, b.edges.ring, scratch.by_b);
-  trace_loops(a, b, scratch);
-  measure_loops(a, b, a_from_b, scratch);
+  order_along(kOnB, pair.b.edges.ring, scratch.by_b);
+  trace_loops(pair.a, pair.b, scratch);
+  measure_loops(pair, scratch);
   int left_out = 0;
   for (std::uint32_t i = 0; i < scratch.loops.size(); ++i) {
     const OverlapLoop& loop = scratch.loops[i];
     if (loop.outer != i) continue;
     if (loop.is_closed && (loop.stretches > 1 || loop.has_holes)) {
-      manifolds.push_back(gradient_manifold(a, b, a_from_b, scratch, loop));
+      manifolds.push_back(gradient_manifold(pair, scratch, loop));
       if (!(manifolds.back().area > 0)) manifolds.pop_back();
       continue;
     }
@@ -510,11 +523,11 @@ int find_several(const Boundary& a, const Boundary& b, const Pose& a_from_b, Man
       const Crossing& enter = scratch.crossings[scratch.stretches[s].enter];
       const Crossing& leave = scratch.crossings[scratch.stretches[s].leave];
       const bool is_left_out =
-          leave.is_entering || !add_manifold(a, b, a_from_b, enter, leave, loop.is_closed, scratch, manifolds);
+          leave.is_entering || !add_manifold(pair, {enter, leave, loop.is_closed}, scratch, manifolds);
       left_out += is_left_out ? 1 : 0;
       if (is_left_out || !loop.is_closed) continue;
       ContactManifold& manifold = manifolds.back();
-      manifold.area = std::max(0.0, manifold.area - area_of_whole_holes(a, b, a_from_b, scratch, loop));
+      manifold.area = std::max(0.0, manifold.area - area_of_whole_holes(pair, scratch, loop));
     }
   }
   return left_out;
@@ -522,20 +535,20 @@ int find_several(const Boundary& a, const Boundary& b, const Pose& a_from_b, Man
 
 }  // namespace
 
-int find_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b, const NearEdges& edges,
-                   ManifoldScratch& scratch, std::vector<ContactManifold>& manifolds) {
+int find_manifolds(const BoundaryPair& pair, const NearEdges& edges, ManifoldScratch& scratch,
+                   std::vector<ContactManifold>& manifolds) {
   const std::vector<Crossing>& by_a = scratch.crossings;
   scratch.crossings.clear();
-  find_crossings(a_from_b, edges, scratch.crossings);
+  find_crossings(pair.a_from_b, edges, scratch.crossings);
   if (by_a.empty()) return 0;
-  const bool is_simple =
-      by_a.size() == 2 && by_a[0].is_entering != by_a[1].is_entering && !a.edges.has_holes() && !b.edges.has_holes();
+  const bool is_simple = by_a.size() == 2 && by_a[0].is_entering != by_a[1].is_entering && !pair.a.edges.has_holes() &&
+                         !pair.b.edges.has_holes();
   if (is_simple) {  // nearly all contacts: no order to find
     const bool is_first = by_a[0].is_entering;
-    return !add_manifold(a, b, a_from_b, by_a[is_first ? 0 : 1], by_a[is_first ? 1 : 0], true, scratch, manifolds) ? 1
-                                                                                                                   : 0;
+    const Stretch stretch{by_a[is_first ? 0 : 1], by_a[is_first ? 1 : 0], true};
+    return add_manifold(pair, stretch, scratch, manifolds) ? 0 : 1;
   }
-  return find_several(a, b, a_from_b, scratch, manifolds);
+  return find_several(pair, scratch, manifolds);
 }
 
 void find_circle_manifolds(const Covered& a, const Covered& b, const Pose& a_from_b,

@@ -7,6 +7,13 @@
 
 namespace polynya::geometry {
 
+/// The boundaries of two bodies, each in its body frame, and the pose between the frames.
+struct BoundaryPair {
+  const Boundary& a;
+  const Boundary& b;
+  const Pose& a_from_b;
+};
+
 /// Where two bodies overlap, seen as one contact. In the frame of a.
 struct ContactManifold {
   Point ends[2];                    ///< the ends of the contact line [m]
@@ -80,8 +87,8 @@ struct ManifoldScratch {
 /// and the normal stands on it; where several do (a body is pierced), line and normal follow from the gradient of the
 /// overlap's area, which is the same rule. Appends to `manifolds`. Returns how many overlaps were left out because
 /// their crossings did not pair up (rounding at a touching vertex; they pair up one step later).
-int find_manifolds(const Boundary& a, const Boundary& b, const Pose& a_from_b, const NearEdges& edges,
-                   ManifoldScratch& scratch, std::vector<ContactManifold>& manifolds);
+int find_manifolds(const BoundaryPair& pair, const NearEdges& edges, ManifoldScratch& scratch,
+                   std::vector<ContactManifold>& manifolds);
 
 /// A width below this share of an overlap's mean width, area / extent, is blind [-]. Larger, healthy contacts
 /// of wedges (a half) are ground off; smaller, bodies lie in each other without a force that parts them.

@@ -102,15 +102,22 @@ void report_step(const Fastest& fastest, const simulation::Scene& scene, const J
       fmt::format("a step in which nothing moves as far as a circle's radius, {} m", scene.contact.circle_radius));
 }
 
+/// The keys of a flow over time, and of a constant one.
+struct FlowKeys {
+  std::string table;
+  std::string constant;
+};
+
 /// Rows of a flow over time ascend, and stand alone.
-void check_flow(const std::vector<dynamics::FlowRow>& rows, geometry::Vector constant, const std::string& table,
-                const std::string& instead, const JsonValue& given, ProblemCollector& problems) {
+void check_flow(const std::vector<dynamics::FlowRow>& rows, geometry::Vector constant, const FlowKeys& keys,
+                const JsonValue& given, ProblemCollector& problems) {
   const ReportAt report{problems, given, ""};
   for (std::size_t i = 1; i < rows.size(); ++i)
     if (rows[i].time <= rows[i - 1].time)
-      report(fmt::format("{}[{}].t_s", table, i), fmt::format("{:g}", rows[i].time),
+      report(fmt::format("{}[{}].t_s", keys.table, i), fmt::format("{:g}", rows[i].time),
              fmt::format("a time after that of the row before, {:g} [s]", rows[i - 1].time));
-  if (!rows.empty() && constant != geometry::Vector{}) report(instead, "a velocity, and a table", "one of the two");
+  if (!rows.empty() && constant != geometry::Vector{})
+    report(keys.constant, "a velocity, and a table", "one of the two");
 }
 
 void check_speeds_of_ships(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
@@ -266,16 +273,17 @@ void check_floes(const SceneDraft& draft, ProblemCollector& problems, std::vecto
   }
 }
 
-/// Whether two bodies may share that area: ice in contact overlaps by what it crushed. Not by nearly
-/// all of the smaller one, which would be the same ice twice.
-bool is_crushed(const SceneDraft& draft, const Named& first, const Named& second, double area, const Polygon& a,
-                const Polygon& b) {
+/// Whether two bodies may overlap so: ice in contact overlaps by what it crushed. Not by nearly all of the smaller one,
+/// which would be the same ice twice.
+bool is_crushed(const SceneDraft& draft, const std::vector<Named>& named, const std::vector<Polygon>& outlines,
+                const geometry::OverlappingPair& overlap) {
   const auto is_as_a_run_left_it = [&](const Named& one) {
     return one.is_floe() && draft.scene.floes[one.index].has_crushed_overlaps;
   };
   constexpr double kMostShare = 0.9;
-  return (is_as_a_run_left_it(first) || is_as_a_run_left_it(second)) &&
-         area <= kMostShare * std::min(geometry::measure(a).area, geometry::measure(b).area);
+  const auto area_of = [&](std::size_t body) { return geometry::measure(outlines[body]).area; };
+  return (is_as_a_run_left_it(named[overlap.first]) || is_as_a_run_left_it(named[overlap.second])) &&
+         overlap.area <= kMostShare * std::min(area_of(overlap.first), area_of(overlap.second));
 }
 
 /// All of a scene that may have overlaps, else as many as are reported.
@@ -293,10 +301,8 @@ std::string remedy_of(const Named& first, const Named& second) {
 void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named, const std::vector<Polygon>& outlines,
                     ProblemCollector& problems) {
   auto overlaps = geometry::find_overlapping_pairs(outlines, most_overlaps(draft));
-  std::erase_if(overlaps, [&](const geometry::OverlappingPair& overlap) {
-    return is_crushed(draft, named[overlap.first], named[overlap.second], overlap.area, outlines[overlap.first],
-                      outlines[overlap.second]);
-  });
+  std::erase_if(overlaps,
+                [&](const geometry::OverlappingPair& overlap) { return is_crushed(draft, named, outlines, overlap); });
   if (overlaps.size() > kMostOverlaps) overlaps.resize(kMostOverlaps);
   for (const geometry::OverlappingPair& overlap : overlaps) {
     const Named& first = named[overlap.first];
@@ -352,8 +358,8 @@ Polygon waterline_in_world(const simulation::PlacedHull& hull) {
 void check_without_ice(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
   check_water_and_time(draft, given, problems);
   const simulation::Scene& scene = draft.scene;
-  check_flow(scene.water.drift_rows, scene.water.drift, "water.drift_table", "water.drift_m_per_s", given, problems);
-  check_flow(scene.wind.rows, scene.wind.velocity, "wind.table", "wind.velocity_m_per_s", given, problems);
+  check_flow(scene.water.drift_rows, scene.water.drift, {"water.drift_table", "water.drift_m_per_s"}, given, problems);
+  check_flow(scene.wind.rows, scene.wind.velocity, {"wind.table", "wind.velocity_m_per_s"}, given, problems);
   check_walls(draft, given, problems);
   check_hulls(draft, problems);
   check_speeds_of_ships(draft, given, problems);

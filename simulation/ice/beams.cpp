@@ -145,10 +145,10 @@ void consider(const fracture::Ice& ice, const BeamShape& beam, std::span<const f
   if (stress > worst.stress) worst = {stress, load.moment > 0, part.path};
 }
 
-PendingFracture break_of(const Setup& setup, const Step& step, const Population& population, const Contact& c,
-                         BodyIndex floe, const LoadedSection& section) {
+/// The break at a section of a beam; `split` has what its contact gives (split_by).
+PendingFracture break_of(const Setup& setup, const Population& population, BodyIndex floe, const LoadedSection& section,
+                         PendingFracture split) {
   const geometry::Pose water_from_body = dynamics::water_from_body(population.bodies, floe);
-  PendingFracture split = split_by(setup, step, population, c, floe);
   split.point_in_water = transform(water_from_body, section.pulls_at_end ? section.path.end : section.path.start);
   split.crack_in_body = section.path;
   split.criteria.crack_length = section.path.length_in_ice;
@@ -200,7 +200,7 @@ std::optional<PendingFracture> break_of_beam(const Setup& setup, const Step& ste
   for (const fracture::BeamLoad& load : loads)
     if (const auto part = part_at(setup, population, floe, beam, load.at.x)) consider(ice, beam, loads, *part, worst);
   if (worst.stress < ice.flexural_strength) return std::nullopt;
-  return break_of(setup, step, population, *pressing.strongest, floe, worst);
+  return break_of(setup, population, floe, worst, split_by(setup, step, population, *pressing.strongest, floe));
 }
 
 }  // namespace

@@ -216,12 +216,12 @@ void collide_with_hull(const Setup& setup, const Step& step, const Population& p
 /// Calls between_floes(c) for all contacts of two floes, side by side, and at_hull(c) for those of a hull and a floe,
 /// in their order.
 template <class BetweenFloes, class AtHull>
-void decide(const Setup& setup, int threads, const Population& population, StepData& data, BetweenFloes between_floes,
-            AtHull at_hull) {
+void decide(const Setup& setup, const Step& step, const Population& population, StepData& data,
+            BetweenFloes between_floes, AtHull at_hull) {
   data.fractures.clear();
   data.slopes.clear();
   data.loads.assign(static_cast<std::size_t>(population.hull_count), {});
-  dynamics::for_contacts(data.contacts, threads, [&](Contact& c, std::size_t) {
+  dynamics::for_contacts(data.contacts, step.threads, [&](Contact& c, std::size_t) {
     c.friction = setup.scene.ice.friction;
     if (!population.is_hull(c.a)) between_floes(c);
   });
@@ -234,19 +234,19 @@ void decide(const Setup& setup, int threads, const Population& population, StepD
 
 }  // namespace
 
-void decide_by_crushing(const Setup& setup, const Step& step, int threads, const Population& population, StepData& data,
+void decide_by_crushing(const Setup& setup, const Step& step, const Population& population, StepData& data,
                         Counts& counts) {
   decide(
-      setup, threads, population, data, [&](Contact& c) { crush_between_floes(setup, step, population, c); },
+      setup, step, population, data, [&](Contact& c) { crush_between_floes(setup, step, population, c); },
       [&](Contact& c) { crush_at_hull(setup, step, population, c, data, counts); });
 }
 
-void decide_by_collision(const Setup& setup, const Step& step, int threads, const Population& population,
-                         StepData& data, Counts& counts) {
+void decide_by_collision(const Setup& setup, const Step& step, const Population& population, StepData& data,
+                         Counts& counts) {
   const auto between_floes = [&](Contact& c) {
     c.crushing_force = crushing_force(crushed_between(setup, population, c), c, 0);
   };
-  decide(setup, threads, population, data, between_floes,
+  decide(setup, step, population, data, between_floes,
          [&](Contact& c) { collide_with_hull(setup, step, population, c, data, counts); });
 }
 

@@ -59,16 +59,16 @@ Event event_of(const Instant& now, const PendingFracture& pending) {
   return {now.time, pending.ship, pending.point_in_water + now.drift, std::move(kind)};
 }
 
-void reject(const Setup& setup, const Instant& now, const PendingFracture& pending, const geometry::Shape& shape,
-            const geometry::CutError& error, Counts& counts, Journal& journal) {
+/// The event of a fracture whose cut geometry refused, without its number.
+Event rejected_fracture(const Setup& setup, const Instant& now, const PendingFracture& pending,
+                        const geometry::Shape& shape, const geometry::CutError& error) {
   Event event = event_of<RejectedCut>(now, pending);
   auto& rejected = std::get<RejectedCut>(event.what);
   rejected.reason = to_string(error);
-  rejected.input = {++counts.rejected_cuts, shape.polygon, {}, {}};
+  rejected.input.polygon_in_body = shape.polygon;
   if (pending.failure == fracture::Failure::kBend) rejected.input.cusp_in_body = cusp_of(setup, pending);
   rejected.input.crack_in_body = pending.crack_in_body.points();
-  journal.events.push_back(std::move(event));
-  pending.record->was_refused = true;
+  return event;
 }
 
 InsideFate fate_of_cusp(const Setup& setup, int ship) {
@@ -84,10 +84,11 @@ InsideFate fate_of_cusp(const Setup& setup, int ship) {
 }
 
 /// What becomes of the floe's pieces.
-Breakage breakage_of(const Setup& setup, const Instant& now, const PendingFracture& pending) {
+Breakage breakage_of(const Setup& setup, const Instant& now, const PendingFracture& pending,
+                     const geometry::CutResult& cut) {
   if (pending.failure != fracture::Failure::kBend)
-    return {event_of<Split>(now, pending), InsideFate::kFloats, &EnergyFlows::splitting, &Counts::splits};
-  return {event_of<Bend>(now, pending), fate_of_cusp(setup, pending.ship), &EnergyFlows::bending, &Counts::bends};
+    return {event_of<Split>(now, pending), cut, InsideFate::kFloats, &EnergyFlows::splitting, &Counts::splits};
+  return {event_of<Bend>(now, pending), cut, fate_of_cusp(setup, pending.ship), &EnergyFlows::bending, &Counts::bends};
 }
 
 /// Passes the other bends of a floe that bent to the pieces, from `first` on, in which their contacts are: a hull
@@ -110,8 +111,7 @@ void pass_bends(FloeId bent, FloeId first, std::span<PendingFracture> others, co
 
 }  // namespace
 
-void apply_fractures(const Setup& setup, const Step& step, StepData& data, Population& population, Accounts& accounts,
-                     Journal& journal) {
+void apply_fractures(const Setup& setup, const Step& step, StepData& data, Population& population, Books books) {
   std::vector<PendingFracture>& fractures = data.fractures;
   std::ranges::stable_sort(fractures, {}, &PendingFracture::floe);
   for (std::size_t i = 0; i < fractures.size(); ++i) {
@@ -126,13 +126,16 @@ void apply_fractures(const Setup& setup, const Step& step, StepData& data, Popul
     }
     if (outcome) {
       const FloeId first = population.floe_count();
-      const Breakage breakage = breakage_of(setup, step.end, pending);
+      const Breakage breakage = breakage_of(setup, step.end, pending, *outcome);
       if (breakage.inside == InsideFate::kUnderHull)
-        turn_cusp(setup, pending, *outcome, population, data.loads[pending.ship], accounts.audit);
-      replace_by_pieces(setup, step.end, breakage, *outcome, population, accounts, journal);
+        turn_cusp(setup, pending, *outcome, population, {data.loads[pending.ship], books.accounts.audit});
+      replace_by_pieces(setup, step.end, breakage, population, books);
       if (pending.passes_to_pieces) pass_bends(pending.floe, first, std::span(fractures).subspan(i + 1), population);
     } else {
-      reject(setup, step.end, pending, shape, outcome.error(), accounts.counts, journal);
+      Event event = rejected_fracture(setup, step.end, pending, shape, outcome.error());
+      std::get<RejectedCut>(event.what).input.number = ++books.accounts.counts.rejected_cuts;
+      books.journal.events.push_back(std::move(event));
+      pending.record->was_refused = true;
     }
   }
 }

@@ -92,7 +92,7 @@ BodyIndex ground_of(const Setup& setup, const Population& population, BodyIndex 
 /// `grind`. Nothing where that is less than the criterion's least area, or leaves no two floes that it is to
 /// leave: returns whether it was cut.
 bool cut_overlap(const Setup& setup, const Instant& now, const OverlapCut& overlap, Population& population,
-                 Accounts& accounts, Journal& journal) {
+                 Books books) {
   const BodyIndex ground = ground_of(setup, population, overlap.a, overlap.b);
   const BodyIndex by = ground == overlap.a ? overlap.b : overlap.a;
   const geometry::Polygon outline = outline_of(population, setup, by);
@@ -108,14 +108,16 @@ bool cut_overlap(const Setup& setup, const Instant& now, const OverlapCut& overl
     if (criterion.overlap_area < criterion.least_area) return false;
     if (overlap.when == CutWhen::kParts && !is_parted(setup, *outcome)) return false;
     Event event = event_of(population, now, overlap, ground, Grind{{}, criterion});
-    replace_by_pieces(setup, now, {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
-                      *outcome, population, accounts, journal);
+    replace_by_pieces(setup, now,
+                      {std::move(event), *outcome, InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
+                      population, books);
     return true;
   }
   if (outcome.error().reason != geometry::CutFailure::kMisses) {  // else they have parted
-    RejectedCut rejected = rejected_grind(criterion, shape.polygon, tools.front().outer, outcome.error(), accounts);
-    journal.events.push_back(event_of(population, now, overlap, ground, std::move(rejected)));
-    accounts.refused_grinds.emplace_back(overlap.a, overlap.b);
+    RejectedCut rejected =
+        rejected_grind(criterion, shape.polygon, tools.front().outer, outcome.error(), books.accounts);
+    books.journal.events.push_back(event_of(population, now, overlap, ground, std::move(rejected)));
+    books.accounts.refused_grinds.emplace_back(overlap.a, overlap.b);
   }
   return false;
 }
@@ -143,10 +145,10 @@ void book(double thickness, double friction, const HullSlope& hull, const Contac
 
 }  // namespace
 
-void book_overlaps(const Setup& setup, int threads, const Population& population, const StepData& data) {
+void book_overlaps(const Setup& setup, const Step& step, const Population& population, const StepData& data) {
   const std::vector<double>& thickness = population.bodies.thickness;
   const double friction = setup.scene.ice.friction;
-  dynamics::for_contacts(data.contacts, threads, [&](const Contact& c, std::size_t i) {
+  dynamics::for_contacts(data.contacts, step.threads, [&](const Contact& c, std::size_t i) {
     if (c.total_normal_impulse() == 0 || c.is_rigid()) return;
     const bool is_at_hull = i < data.slopes.size();
     book(is_at_hull ? thickness[c.b] : std::min(thickness[c.a], thickness[c.b]), friction,
@@ -178,14 +180,13 @@ GrindCriterion criterion_of(const Population& population, const BlindOverlap& ov
 }  // namespace
 
 void grind_blind_overlaps(const Setup& setup, const Step& step, const StepData& data, Population& population,
-                          Accounts& accounts, Journal& journal) {
+                          Books books) {
   for (const BlindOverlap& overlap : data.blind_overlaps) {
-    if (!can_cut(population, accounts, overlap.a, overlap.b)) continue;
+    if (!can_cut(population, books.accounts, overlap.a, overlap.b)) continue;
     const GrindCriterion criterion = criterion_of(population, overlap);
     if (criterion.overlap_area < criterion.least_area) continue;
     const geometry::Pose pose = dynamics::a_from_b(population.bodies, overlap.a, overlap.b);
-    cut_overlap(setup, step.end, {overlap.a, overlap.b, {pose}, overlap.middle, criterion}, population, accounts,
-                journal);
+    cut_overlap(setup, step.end, {overlap.a, overlap.b, {pose}, overlap.middle, criterion}, population, books);
   }
 }
 
@@ -202,13 +203,12 @@ bool may_part(const Population& population, const Contact& c) {
 }  // namespace
 
 void cut_through_floes(const Setup& setup, const Step& step, const StepData& data, Population& population,
-                       Accounts& accounts, Journal& journal) {
+                       Books books) {
   for (std::size_t i = 0; i < data.slopes.size(); ++i) {
     const Contact& c = data.contacts[i];
-    if (!can_cut(population, accounts, c.a, c.b) || !may_part(population, c)) continue;
+    if (!can_cut(population, books.accounts, c.a, c.b) || !may_part(population, c)) continue;
     const geometry::Pose pose = dynamics::a_from_b(population.bodies, c.a, c.b);
-    cut_overlap(setup, step.end, {c.a, c.b, {pose}, c.middle(), {c.area, 0}, CutWhen::kParts}, population, accounts,
-                journal);
+    cut_overlap(setup, step.end, {c.a, c.b, {pose}, c.middle(), {c.area, 0}, CutWhen::kParts}, population, books);
   }
 }
 
@@ -300,33 +300,33 @@ std::vector<BodyIndex> left_of(const Population& population, const Instant& now,
 
 /// Cuts off what a contact crushed that has parted.
 void shed_parted(const Setup& setup, const Instant& now, const dynamics::PartedContact& parted, Population& population,
-                 Accounts& accounts, Journal& journal) {
+                 Books books) {
   for (const BodyIndex a : left_of(population, now, parted.a)) {
     for (const BodyIndex b : left_of(population, now, parted.b)) {
       const bool is_in_order = a < b;  // pieces have numbers of their own
       const BodyIndex low = is_in_order ? a : b;
       const BodyIndex high = is_in_order ? b : a;
       // Of prescribed bodies carve_channels() takes what they crush.
-      if (are_prescribed(population.bodies, low, high) || !can_cut(population, accounts, low, high)) continue;
+      if (are_prescribed(population.bodies, low, high) || !can_cut(population, books.accounts, low, high)) continue;
       const double least = least_parted(setup, population, low, high);
       if (parted.crushed.area < least) continue;
       const geometry::Pose pose = parted.crushed.a_from_b;
       cut_overlap(
           setup, now,
           {low, high, {is_in_order ? pose : geometry::inverse(pose)}, parted.middle, {parted.crushed.area, least}},
-          population, accounts, journal);
+          population, books);
     }
   }
 }
 
 /// Cuts off what contacts crushed that last, where it is much.
 void shed_touching(const Setup& setup, const Instant& now, const Touching& touching, Population& population,
-                   Accounts& accounts, Journal& journal) {
+                   Books books) {
   const Contact& c = touching.contacts.front();
   const dynamics::Bodies& bodies = population.bodies;
   if (!bodies.is_alive[c.a] || !bodies.is_alive[c.b]) return;  // their records may be gone
   const double crushed = touching.crushed_area();
-  if (crushed == 0 || are_prescribed(bodies, c.a, c.b) || !can_cut(population, accounts, c.a, c.b)) return;
+  if (crushed == 0 || are_prescribed(bodies, c.a, c.b) || !can_cut(population, books.accounts, c.a, c.b)) return;
   const double least = kLeastCrushedShare * smaller_area(population, c.a, c.b);
   if (crushed < least || (touching.is_pressing() && !touching.is_vertical() && !is_most(population, c, crushed)))
     return;
@@ -334,18 +334,15 @@ void shed_touching(const Setup& setup, const Instant& now, const Touching& touch
   const OverlapCut cut{c.a, c.b, poses_of(population.bodies, touching), touching.largest().middle(), {crushed, least}};
   std::vector<dynamics::CrushedIce> kept;  // the pieces inherit none of it
   for (const Contact& contact : touching.contacts) kept.push_back(std::exchange(contact.record->crushed, {}));
-  if (cut_overlap(setup, now, cut, population, accounts, journal)) return;
+  if (cut_overlap(setup, now, cut, population, books)) return;
   for (std::size_t i = 0; i < kept.size(); ++i) touching.contacts[i].record->crushed = kept[i];
 }
 
 }  // namespace
 
-void shed_crushed_ice(const Setup& setup, const Step& step, const StepData& data, Population& population,
-                      Accounts& accounts, Journal& journal) {
-  for (const dynamics::PartedContact& parted : data.parted)
-    shed_parted(setup, step.end, parted, population, accounts, journal);
-  for_touching(
-      data, [&](const Touching& touching) { shed_touching(setup, step.end, touching, population, accounts, journal); });
+void shed_crushed_ice(const Setup& setup, const Step& step, const StepData& data, Population& population, Books books) {
+  for (const dynamics::PartedContact& parted : data.parted) shed_parted(setup, step.end, parted, population, books);
+  for_touching(data, [&](const Touching& touching) { shed_touching(setup, step.end, touching, population, books); });
 }
 
 }  // namespace polynya::simulation

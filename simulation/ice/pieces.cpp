@@ -27,8 +27,9 @@ NewFloe child_of(const Population& population, FloeId parent) {
 
 /// Which piece of fast ice stays fast: the largest of those that float. The others are free. None: kNoPiece.
 constexpr std::size_t kNoPiece = SIZE_MAX;
-std::size_t still_fast(const Population& population, const Breakage& breakage, const geometry::CutResult& cut,
+std::size_t still_fast(const Population& population, const Breakage& breakage,
                        const std::vector<geometry::Measures>& measures) {
+  const geometry::CutResult& cut = breakage.cut;
   if (!population.is_fast(breakage.event.ice()->floe)) return kNoPiece;
   std::size_t largest = kNoPiece;
   double most = 0;
@@ -76,20 +77,20 @@ void enter_areas(IceEvent& event, const geometry::CutLedger& cut, double mass_pe
 
 }  // namespace
 
-void replace_by_pieces(const Setup& setup, const Instant& now, Breakage breakage, const geometry::CutResult& cut,
-                       Population& population, Accounts& accounts, Journal& journal) {
+void replace_by_pieces(const Setup& setup, const Instant& now, Breakage breakage, Population& population, Books books) {
+  const geometry::CutResult& cut = breakage.cut;
   IceEvent& event = *breakage.event.ice();
   const int ship = breakage.event.ship;
   NewFloe child = child_of(population, event.floe);
   const bool was_fast = population.is_fast(event.floe);
   const double own_mass_per_area = mass_per_area(ice_of_floe(setup, population, event.floe));
   const std::vector<geometry::Measures> all_measures = measures_of(cut);
-  const std::size_t fast = still_fast(population, breakage, cut, all_measures);
+  const std::size_t fast = still_fast(population, breakage, all_measures);
   const dynamics::ContactMemory memory =
       population.pairs.contact_memory_of(population.bodies, population.body_of(event.floe));
-  retire_floe(event.floe, population, journal);
+  retire_floe(event.floe, population, books.journal);
   std::vector<Event> submersions;  // of pieces that go under the hull
-  double& energy_sink = accounts.audit.energy.*breakage.energy_sink;
+  double& energy_sink = books.accounts.audit.energy.*breakage.energy_sink;
   for (std::size_t i = 0; i < cut.pieces.size(); ++i) {
     const geometry::Piece& piece = cut.pieces[i];
     const geometry::Measures& measures = all_measures[i];
@@ -99,31 +100,32 @@ void replace_by_pieces(const Setup& setup, const Instant& now, Breakage breakage
                           measures.area < setup.scene.fracture.smallest_floe_area || !can_be_floe(measures);
     if (is_submerged || is_brash) {
       (is_submerged ? event.submerged_area : event.brash_area) += measures.area;
-      accounts.counts.brash_pieces += is_submerged ? 0 : 1;
-      if (!was_fast) enter_removed(child, measures, own_mass_per_area, energy_sink, accounts.audit);
+      books.accounts.counts.brash_pieces += is_submerged ? 0 : 1;
+      if (!was_fast) enter_removed(child, measures, own_mass_per_area, energy_sink, books.accounts.audit);
       continue;
     }
     child.shape = piece.shape;
+    child.measures = measures;
     child.is_fast = i == fast;
-    const FloeId id = add_floe(setup, now, child, measures, population, journal);
+    const FloeId id = add_floe(setup, now, child, population, books.journal);
     event.children.push_back(id);
     if (was_fast && !child.is_fast)  // the fast ice gave it, as bodies of prescribed motion do
-      enter_motion(population.bodies, population.body_of(id), accounts.audit.energy.thrust,
-                   accounts.audit.momentum.held, accounts.audit);
+      enter_motion(population.bodies, population.body_of(id), books.accounts.audit.energy.thrust,
+                   books.accounts.audit.momentum.held, books.accounts.audit);
     if (is_inside && breakage.inside == InsideFate::kUnderHull) {
       std::get<Bend>(breakage.event.what).under_hull_area += measures.area;
-      submersions.push_back(submersion_event(now, population, id, ship));
-      go_under(setup, now, id, ship, population, accounts);
+      submersions.push_back(submersion_event(now, population, {id, ship}));
+      go_under(setup, now, {id, ship}, population, books.accounts);
       continue;
     }
     wake(population.body_of(id), population);
     population.pairs.pass_contact_memory(population.bodies, population.body_of(id), memory);
-    accounts.counts.floated_cusps += is_inside ? 1 : 0;
+    books.accounts.counts.floated_cusps += is_inside ? 1 : 0;
   }
-  enter_areas(event, cut.ledger, own_mass_per_area, accounts);
-  ++(accounts.counts.*breakage.count);
-  journal.events.push_back(std::move(breakage.event));
-  for (Event& submersion : submersions) journal.events.push_back(std::move(submersion));
+  enter_areas(event, cut.ledger, own_mass_per_area, books.accounts);
+  ++(books.accounts.counts.*breakage.count);
+  books.journal.events.push_back(std::move(breakage.event));
+  for (Event& submersion : submersions) books.journal.events.push_back(std::move(submersion));
 }
 
 RejectedCut rejected_grind(const GrindCriterion& criterion, const geometry::Polygon& floe, geometry::Ring tool,

@@ -11,6 +11,7 @@ enum class InsideFate { kFloats, kSubmerged, kUnderHull, kBrash };
 /// A floe that breaks: what is recorded of it, and where it is counted.
 struct Breakage {
   Event event;  ///< without children and areas
+  const geometry::CutResult& cut;
   InsideFate inside = InsideFate::kFloats;
   double EnergyFlows::*energy_sink = nullptr;  ///< for the motion of ice that leaves the floe list
   std::int64_t Counts::*count = nullptr;
@@ -18,8 +19,7 @@ struct Breakage {
 
 /// Replaces the event's floe by the pieces of a cut: floes that move on as the parts of the body they were,
 /// submerged ice and brash. Records the event and enters areas, motion and counts.
-void replace_by_pieces(const Setup& setup, const Instant& now, Breakage breakage, const geometry::CutResult& cut,
-                       Population& population, Accounts& accounts, Journal& journal);
+void replace_by_pieces(const Setup& setup, const Instant& now, Breakage breakage, Population& population, Books books);
 
 /// A cut of ground ice that geometry refused: counted, with its input.
 RejectedCut rejected_grind(const GrindCriterion& criterion, const geometry::Polygon& floe, geometry::Ring tool,

@@ -141,9 +141,8 @@ void close_prescribed_gap(const Step& step, const dynamics::Bodies& bodies, Cont
   if (c.area + half_a_step >= c.record->paid_area) c.paid_depth = c.depth;
 }
 
-void carve_channels(const Setup& setup, const Step& step, const StepData& data, Population& population,
-                    Accounts& accounts, Journal& journal) {
-  const std::vector<Carving> due = due_carvings(setup, step, population, data, accounts);
+void carve_channels(const Setup& setup, const Step& step, const StepData& data, Population& population, Books books) {
+  const std::vector<Carving> due = due_carvings(setup, step, population, data, books.accounts);
   for (auto first = due.begin(); first != due.end();) {
     std::vector<geometry::Polygon> tools;
     auto next = first;
@@ -153,14 +152,14 @@ void carve_channels(const Setup& setup, const Step& step, const StepData& data, 
     if (outcome) {
       Event event = event_of_carving(step.end, *first, Grind{{}, first->criterion});
       replace_by_pieces(setup, step.end,
-                        {std::move(event), InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground}, *outcome,
-                        population, accounts, journal);
+                        {std::move(event), *outcome, InsideFate::kBrash, &EnergyFlows::grinding, &Counts::ground},
+                        population, books);
     } else if (outcome.error().reason != geometry::CutFailure::kMisses) {
       RejectedCut rejected =
-          rejected_grind(first->criterion, shape.polygon, tools.front().outer, outcome.error(), accounts);
-      journal.events.push_back(event_of_carving(step.end, *first, std::move(rejected)));
+          rejected_grind(first->criterion, shape.polygon, tools.front().outer, outcome.error(), books.accounts);
+      books.journal.events.push_back(event_of_carving(step.end, *first, std::move(rejected)));
       for (auto refused = first; refused != next; ++refused)
-        accounts.refused_grinds.emplace_back(refused->contact->a, refused->contact->b);
+        books.accounts.refused_grinds.emplace_back(refused->contact->a, refused->contact->b);
     }
     first = next;
   }

@@ -187,8 +187,10 @@ class Instants {
 
 }  // namespace
 
-dynamics::SolverResult solve_to_splits(const Setup& setup, const Step& step, const dynamics::SolverSettings& settings,
-                                       Population& population, StepData& data, Counts& counts) {
+dynamics::SolverResult solve_to_splits(const Setup& setup, const Step& step, Population& population, StepData& data,
+                                       Counts& counts) {
+  dynamics::SolverSettings settings = setup.solver;
+  settings.threads = step.threads;
   dynamics::Bodies& bodies = population.bodies;
   const ContactSettings& contact = setup.scene.contact;
   const dynamics::CrushLaw law{step.length, contact.substeps, contact.is_warm_started};
@@ -199,7 +201,7 @@ dynamics::SolverResult solve_to_splits(const Setup& setup, const Step& step, con
     find_splits(setup, step, population, data.contacts, data.splits);
     find_broken_beams(setup, step, population, data);
   };
-  keep_start(bodies, data.contacts, settings.threads, data.solver_start);
+  keep_start(bodies, data.contacts, step.threads, data.solver_start);
   Instants instants(data.contacts, step.length);
   dynamics::SolverResult result = solve();
   find();

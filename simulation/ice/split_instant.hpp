@@ -13,7 +13,7 @@ void find_splits(const Setup& setup, const Step& step, const Population& populat
 /// came to F_max at 1/s of themselves. There the contacts of the two break, as they do where ice bends, and
 /// the step is solved again from its start; where their forces then fall short of F_max, since one lets go as
 /// another breaks, the share is found by bisection.
-dynamics::SolverResult solve_to_splits(const Setup& setup, const Step& step, const dynamics::SolverSettings& settings,
-                                       Population& population, StepData& data, Counts& counts);
+dynamics::SolverResult solve_to_splits(const Setup& setup, const Step& step, Population& population, StepData& data,
+                                       Counts& counts);
 
 }  // namespace polynya::simulation

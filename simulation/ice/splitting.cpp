@@ -40,8 +40,8 @@ struct StraightCrack {
 
 /// A crack begins where the body that opens it ends, at ice that is not crushed, and does not lead into that
 /// body. None where it would.
-std::optional<StraightCrack> straight_crack(const dynamics::Bodies& bodies, BodyIndex floe, const CrackMouth& mouth,
-                                            Vector direction) {
+std::optional<StraightCrack> straight_crack(const dynamics::Bodies& bodies, BodyIndex floe, const CrackMouth& mouth) {
+  const Vector direction = mouth.direction;
   const BodyIndex by = other_of(*mouth.contact, floe);
   const geometry::Boundary& boundary = *bodies.boundary[floe];
   const geometry::Pose pose = dynamics::water_from_body(bodies, floe);
@@ -69,10 +69,11 @@ std::optional<StraightCrack> straight_crack(const dynamics::Bodies& bodies, Body
   return crack;
 }
 
-/// Of a crack through holes: enters the length and width of the stretch of ice that takes the greatest force;
-/// `least_width` [m] is the width that each has at least.
-void measure_hardest(const dynamics::Bodies& bodies, BodyIndex floe, const fracture::Ice& ice,
-                     const StraightCrack& crack, double least_width, fracture::FailureCriteria& criteria) {
+/// Of a crack through holes: the length and width of the stretch of ice that takes the greatest force. Each stretch is
+/// taken for at least as wide as `least_width` [m].
+fracture::FailureCriteria hardest_stretch(const dynamics::Bodies& bodies, BodyIndex floe, const fracture::Ice& ice,
+                                          const StraightCrack& crack, double least_width) {
+  fracture::FailureCriteria hardest;
   double most = 0;
   for (const CrackPath& ligament :
        ligaments_of(*bodies.boundary[floe], crack.from, crack.direction, kCrackMargin, crack.path)) {
@@ -82,9 +83,9 @@ void measure_hardest(const dynamics::Bodies& bodies, BodyIndex floe, const fract
     const double force = fracture::lefm_splitting_force(ice, own.crack_length, own.crack_width);
     if (force < most) continue;
     most = force;
-    criteria.crack_length = own.crack_length;
-    criteria.crack_width = own.crack_width;
+    hardest = own;
   }
+  return hardest;
 }
 
 /// The crack to the free edge beside a straight one, that runs in its place.
@@ -94,7 +95,7 @@ std::optional<CrackPath> turning_crack(const geometry::Boundary& boundary, const
   const auto turn = geometry::Rotation::by(arm.is_left ? shape.turn : -shape.turn);
   const Point knee = straight.first_ice + shape.straight * arm.width * straight.direction;
   auto path =
-      turned_path(boundary, straight.path, straight.first_ice, knee, rotate(turn, straight.direction), kCrackMargin);
+      turned_path(boundary, straight.path, straight.first_ice, {knee, rotate(turn, straight.direction)}, kCrackMargin);
   if (path && path->length_in_ice > (shape.straight + shape.most_on) * arm.width) return std::nullopt;
   return path;
 }
@@ -127,18 +128,19 @@ void enter_opening(const fracture::Opening& opening, const fracture::Ice& ice, f
   criteria.opening_capacity = fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
 }
 
-/// The crack from a mouth along a direction, where it can run: it does not pare, and it is no less than a
+/// The crack from a mouth along its direction, where it can run: it leaves no sliver, and it is no less than a
 /// share of its way to F_max. One that would leave a strip turns to the free edge beside it. One that crosses
 /// holes has to break each stretch of ice by itself.
-std::optional<CrackCandidate> crack_candidate(const Setup& setup, const Population& population, BodyIndex floe,
-                                              const PressedFloe& pressed, const CrackMouth& mouth, Vector direction,
-                                              double least_share) {
+std::optional<CrackCandidate> crack_candidate(const Setup& setup, const Population& population,
+                                              const PressedFloe& pressed, const CrackMouth& mouth, double least_share) {
+  const BodyIndex floe = pressed.floe;
+  const Vector direction = mouth.direction;
   const dynamics::Bodies& bodies = population.bodies;
   const fracture::Opening opening = fracture::opening_of(pressed.pushes, mouth.point, direction);
   const fracture::Ice& ice = ice_of_body(setup, population, floe);
   const double least_force = limits_of_body(setup, population, floe).least_splitting_force;
   if (opening.force() <= 0 || opening.force() < least_share * least_force) return std::nullopt;
-  const auto straight = straight_crack(bodies, floe, mouth, direction);
+  const auto straight = straight_crack(bodies, floe, mouth);
   if (!straight) return std::nullopt;
   CrackCandidate candidate;
   candidate.mouth = mouth;
@@ -146,8 +148,13 @@ std::optional<CrackCandidate> crack_candidate(const Setup& setup, const Populati
   candidate.path_in_body = straight->path;
   fracture::FailureCriteria& criteria = candidate.criteria;
   const bool crosses_holes = straight->path.stretches > 1;
+  const auto enter_hardest = [&](double least_width) {
+    const fracture::FailureCriteria hardest = hardest_stretch(bodies, floe, ice, *straight, least_width);
+    criteria.crack_length = hardest.crack_length;
+    criteria.crack_width = hardest.crack_width;
+  };
   if (crosses_holes)
-    measure_hardest(bodies, floe, ice, *straight, 0, criteria);
+    enter_hardest(0);
   else
     measure_crack(bodies, floe, straight->path, criteria);
   enter_opening(opening, ice, criteria);
@@ -158,8 +165,7 @@ std::optional<CrackCandidate> crack_candidate(const Setup& setup, const Populati
   if (leaves_strip(straight->path, sides)) {
     if (!turn_to_edge(setup, population, floe, *straight, candidate)) return std::nullopt;
   } else {
-    if (crosses_holes)
-      measure_hardest(bodies, floe, ice, *straight, mean_width_beside(straight->path, sides), criteria);
+    if (crosses_holes) enter_hardest(mean_width_beside(straight->path, sides));
     criteria.opening_capacity = fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
   }
   if (criteria.leaves_sliver || !(candidate.share() >= least_share)) return std::nullopt;
@@ -181,17 +187,17 @@ void enter_crack(const fracture::FailureCriteria& crack, fracture::FailureCriter
 }
 
 /// The crack that is nearest to running.
-std::optional<CrackCandidate> first_to_run(const Setup& setup, const Population& population, BodyIndex floe,
-                                           const PressedFloe& pressed, double least_share) {
+std::optional<CrackCandidate> first_to_run(const Setup& setup, const Population& population, const PressedFloe& pressed,
+                                           double least_share) {
   std::optional<CrackCandidate> best;
   for (const CrackMouth& mouth : pressed.mouths) {
     if (mouth.contact->record->was_refused) continue;
     for (int k = 0; k <= 2 * kDirectionsASide; ++k) {  // 0, 15°, −15°, 30°, …
       const int from_normal = (k + 1) / 2;
       const double turn = from_normal * (k % 2 == 0 ? -kBetweenDirections : kBetweenDirections);
-      const Vector direction = rotate(geometry::Rotation::by(turn), mouth.direction);
+      const CrackMouth turned{mouth.point, rotate(geometry::Rotation::by(turn), mouth.direction), mouth.contact};
       const double share = best ? std::max(least_share, best->share()) : least_share;
-      auto candidate = crack_candidate(setup, population, floe, pressed, mouth, direction, share);
+      auto candidate = crack_candidate(setup, population, pressed, turned, share);
       if (candidate && (!best || candidate->share() > best->share())) best = candidate;
     }
   }
@@ -200,13 +206,14 @@ std::optional<CrackCandidate> first_to_run(const Setup& setup, const Population&
 
 /// The split of a floe by one other body, where their contacts open a crack.
 std::optional<PendingFracture> split_of(const Setup& setup, const Step& step, const Population& population,
-                                        std::span<const Contact> contacts, BodyIndex floe, PressedFloe& pressed) {
+                                        std::span<const Contact> contacts, PressedFloe& pressed) {
+  const BodyIndex floe = pressed.floe;
   const IceLimits& limits = limits_of_body(setup, population, floe);
   if (floe_size(population, floe) < limits.breakable_size) return std::nullopt;
-  press(setup, step, population.bodies, contacts, floe, pressed);
+  press(setup, step, population.bodies, contacts, pressed);
   if (pressed.most < limits.least_splitting_force) return std::nullopt;
-  find_mouths(floe, pressed);
-  const auto crack = first_to_run(setup, population, floe, pressed, 1);
+  find_mouths(pressed);
+  const auto crack = first_to_run(setup, population, pressed, 1);
   if (!crack) return std::nullopt;
   PendingFracture split = split_by(setup, step, population, *crack->mouth.contact, floe);
   split.point_in_water = crack->begins_at;
@@ -234,11 +241,11 @@ void enter_true_forces(const Setup& setup, const Step& step, const Population& p
   const fracture::Ice& ice = ice_of_body(setup, population, c->b);
   fracture::FailureCriteria& criteria = pending.criteria;
   criteria.contact_force = length(force_on(*c, c->b, step.length));
-  PressedFloe pressed;
-  press(setup, step, bodies, contacts_beside(contacts, *c), c->b, pressed);
+  PressedFloe pressed{.floe = c->b};
+  press(setup, step, bodies, contacts_beside(contacts, *c), pressed);
   if (setup.scene.fracture.splitting == fracture::SplittingModel::kLefm) {
-    find_mouths(c->b, pressed);
-    const auto crack = first_to_run(setup, population, c->b, pressed, 0);
+    find_mouths(pressed);
+    const auto crack = first_to_run(setup, population, pressed, 0);
     if (!crack) return;
     enter_crack(crack->criteria, criteria);
   } else if (criteria.crack_length > 0) {
@@ -264,7 +271,8 @@ void find_splits(const Setup& setup, const Step& step, const Population& populat
     for (const BodyIndex body : {contacts.front().a, contacts.front().b}) {
       if (population.is_hull(body)) continue;
       if (bound < limits_of_body(setup, population, body).least_splitting_force) continue;
-      if (auto split = split_of(setup, step, population, contacts, body, pressed)) splits.push_back(*split);
+      pressed.floe = body;
+      if (auto split = split_of(setup, step, population, contacts, pressed)) splits.push_back(*split);
     }
   }
 }

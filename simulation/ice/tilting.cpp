@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "simulation/world/step.hpp"
 
@@ -96,10 +97,16 @@ double covered_share(const Population& population, const Pressed& pressed) {
   return presses_down ? area / population.floes[pressed.floe].area : 0;
 }
 
-/// Turns the floe's edge, and enters that it goes under where that is deep enough, or the hull covers most of it:
-/// then its middle is below the hull's waterline.
-void tilt(const Setup& setup, const Step& step, const Population& population, const Pressed& pressed,
-          std::vector<TiltedFloe>& tilted, std::vector<PendingSubmersion>& submersions) {
+/// What becomes of a floe whose edge is pressed down in a step.
+struct TiltOutcome {
+  std::optional<TiltedFloe> tilted;
+  std::optional<PendingSubmersion> submersion;
+};
+
+/// Turns the floe's edge. The floe goes under where its edge is deep enough, or the hull covers most of it: then its
+/// middle is below the hull's waterline.
+TiltOutcome tilt(const Setup& setup, const Step& step, const Population& population, const Pressed& pressed) {
+  TiltOutcome outcome;
   const fracture::TiltSettings& settings = setup.scene.fracture.going_under.tilting;
   const double dt = step.length;
   double vertical_force = 0;
@@ -111,19 +118,20 @@ void tilt(const Setup& setup, const Step& step, const Population& population, co
   }
   const double covered = covered_share(population, pressed);
   const fracture::EdgeMotion before = edge_of(population.tilted, pressed.key());
-  if (vertical_force == 0 && before.deflection == 0 && covered <= kMostCovered) return;
+  if (vertical_force == 0 && before.deflection == 0 && covered <= kMostCovered) return outcome;
   const fracture::TiltResistance resistance = resistance_of(setup, population, pressed.floe);
   const fracture::EdgeMotion edge = fracture::tilted(resistance, before, vertical_force, settings.damping, dt);
   share_growth(pressed, edge.deflection - before.deflection, dt);
-  if (edge.deflection > 0) tilted.push_back({pressed.floe, pressed.ship, edge});
+  if (edge.deflection > 0) outcome.tilted = {pressed.floe, pressed.ship, edge};
   const double least = settings.edge_deflection * ice_of_floe(setup, population, pressed.floe).thickness;
-  if (edge.deflection < least && covered <= kMostCovered) return;
-  submersions.push_back({.floe = pressed.floe,
-                         .ship = pressed.ship,
-                         .point_in_water = strongest->middle(),
-                         .normal = strongest->normal,
-                         .penetration = strongest->depth,
-                         .criterion = {edge.deflection, least, vertical_force, resistance.capacity, covered}});
+  if (edge.deflection < least && covered <= kMostCovered) return outcome;
+  outcome.submersion = {.floe = pressed.floe,
+                        .ship = pressed.ship,
+                        .point_in_water = strongest->middle(),
+                        .normal = strongest->normal,
+                        .penetration = strongest->depth,
+                        .criterion = {edge.deflection, least, vertical_force, resistance.capacity, covered}};
+  return outcome;
 }
 
 }  // namespace
@@ -161,8 +169,11 @@ void tilt_floes(const Setup& setup, const Step& step, Population& population, St
                                                        setup.scene.fracture.going_under.tilting.damping, step.length);
     if (edge.deflection > 0) tilted.push_back({floe.floe, floe.ship, edge});
   }
-  for_pressed(setup, population, data.contacts, data.slopes,
-              [&](const Pressed& pressed) { tilt(setup, step, population, pressed, tilted, data.submersions); });
+  for_pressed(setup, population, data.contacts, data.slopes, [&](const Pressed& pressed) {
+    const TiltOutcome outcome = tilt(setup, step, population, pressed);
+    if (outcome.tilted) tilted.push_back(*outcome.tilted);
+    if (outcome.submersion) data.submersions.push_back(*outcome.submersion);
+  });
   std::ranges::sort(tilted, {}, [](const TiltedFloe& floe) { return std::pair(floe.ship, floe.floe); });
   population.tilted = std::move(tilted);
 }

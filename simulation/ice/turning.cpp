@@ -41,15 +41,23 @@ double pressed_mass(const Setup& setup, const Population& population, const Pend
   return mass;
 }
 
-/// Takes an impulse that goes into ice on its way under from the hull, by the place where they touch.
-void brake(BodyIndex ship, Vector arm, Vector impulse, dynamics::Bodies& bodies, HullLoads& loads, AuditSums& audit) {
+/// An impulse on a hull, at an arm from its centre of mass.
+struct HullImpulse {
+  BodyIndex ship = 0;
+  Vector arm;      ///< [m]
+  Vector impulse;  ///< [N s]
+};
+
+/// Takes an impulse that goes into ice on its way under from the hull.
+void brake(const HullImpulse& given, dynamics::Bodies& bodies, HullBooks books) {
+  const auto [ship, arm, impulse] = given;
   const double turned = cross(arm, impulse);
   const Vector in_ship = rotate_back(bodies.rotation[ship], impulse);
-  loads.submerged.impulse += {in_ship.x, in_ship.y, turned};
+  books.loads.submerged.impulse += {in_ship.x, in_ship.y, turned};
   if (bodies.inverse_mass[ship] == 0) return;
-  audit.energy.submersion -= push(bodies, ship, impulse, turned);
-  audit.momentum.water += impulse;
-  audit.impulses += length(impulse);
+  books.audit.energy.submersion -= push(bodies, ship, impulse, turned);
+  books.audit.momentum.water += impulse;
+  books.audit.impulses += length(impulse);
 }
 
 /// By how much a ship's speed along a direction at an arm from its centre grows by an impulse there [m/s].
@@ -75,9 +83,10 @@ FloeId submerged_below(const Population& population, Point p) {
 constexpr double kBeside = 0.01;
 
 /// The edge of a cusp from a to b, counter-clockwise in its floe's body frame, by what is beside it; x of its frame is
-/// along `ahead`, a unit vector of the body frame.
+/// the direction in which the hull pushes the cusp (ahead_of).
 fracture::DeckEdge deck_edge(const Setup& setup, const Population& population, const PendingFracture& bend, Point a,
-                             Point b, Vector ahead) {
+                             Point b) {
+  const Vector ahead = ahead_of(population, bend);
   const Point middle = a + 0.5 * (b - a);
   const double rounding = 1e-9 * bend.cusp_radius;
   const double arc = bend.cusp_radius - setup.scene.fracture.cusp_sagitta - rounding;
@@ -100,7 +109,7 @@ fracture::Deck deck_of(const Setup& setup, const Population& population, const P
   std::vector<fracture::DeckEdge> edges;
   for (std::size_t i = 0; i < piece.size(); ++i) {
     outline.push_back(Point{} + rotate(ahead_from_body, piece[i] - Point{}));
-    edges.push_back(deck_edge(setup, population, bend, piece[i], piece[i + 1 < piece.size() ? i + 1 : 0], ahead));
+    edges.push_back(deck_edge(setup, population, bend, piece[i], piece[i + 1 < piece.size() ? i + 1 : 0]));
   }
   return fracture::deck_of(ice_of_floe(setup, population, bend.floe), setup.scene.water.water, bend.push.hull_angle,
                            outline, edges);
@@ -124,8 +133,7 @@ void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::
 }
 
 /// Presses a deck on over a step.
-void press(const Setup& setup, const Step& step, PressedDeck& pressed, dynamics::Bodies& bodies, HullLoads& loads,
-           AuditSums& audit) {
+void press(const Setup& setup, const Step& step, PressedDeck& pressed, dynamics::Bodies& bodies, HullBooks books) {
   const BodyIndex ship = pressed.ship;
   const Vector arm = rotate(bodies.rotation[ship], pressed.arm_in_ship);
   const Vector normal = rotate(bodies.rotation[ship], pressed.normal_in_ship);
@@ -133,18 +141,19 @@ void press(const Setup& setup, const Step& step, PressedDeck& pressed, dynamics:
   const Vector through_water =
       dynamics::velocity_at(bodies, ship, arm) - setup.current.velocity_at(bodies.position[ship]);
   const double speed = std::max(0.0, dot(normal, through_water));
-  const fracture::DeckForces forces = fracture::turn_deck(
-      pressed.deck, setup.scene.water.water, dot(normal, horizontal), speed * step.length, step.length, pressed.state);
+  const fracture::HullAdvance advance{dot(normal, horizontal), speed * step.length, step.length};
+  const fracture::DeckForces forces =
+      fracture::turn_deck(pressed.deck, setup.scene.water.water, advance, pressed.state);
   if (speed == 0) return;
   const Vector impulse = step.length * (forces.ahead * normal - forces.down * horizontal);
   const double slowed = -speed_by(bodies, ship, arm, normal, impulse);  // it stops a ship and never reverses it
-  brake(ship, arm, slowed > speed ? (speed / slowed) * impulse : impulse, bodies, loads, audit);
+  brake({ship, arm, slowed > speed ? (speed / slowed) * impulse : impulse}, bodies, books);
 }
 
 }  // namespace
 
 void turn_cusp(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut, Population& population,
-               HullLoads& loads, AuditSums& audit) {
+               HullBooks books) {
   const EdgePush& edge = bend.push;
   const BodyIndex ship = bend.ship;
   if (edge.speed <= 0) return;
@@ -154,14 +163,14 @@ void turn_cusp(const Setup& setup, const PendingFracture& bend, const geometry::
   // The hull slows down by what it gives: the two move on together.
   const double slowed = edge.speed_per_approach * speed_by(bodies, ship, arm, bend.normal, edge.horizontal);
   const double given = mass * edge.speed / (1 + mass * std::max(0.0, slowed));  // down on the edge
-  brake(ship, arm, -given * edge.horizontal, bodies, loads, audit);
+  brake({ship, arm, -given * edge.horizontal}, bodies, books);
   if (setup.has_flooding_decks) add_decks(setup, bend, cut, population);
 }
 
 void press_decks(const Setup& setup, const Step& step, Population& population, std::vector<HullLoads>& loads,
                  AuditSums& audit) {
   for (PressedDeck& pressed : population.decks)
-    press(setup, step, pressed, population.bodies, loads[static_cast<std::size_t>(pressed.ship)], audit);
+    press(setup, step, pressed, population.bodies, {loads[static_cast<std::size_t>(pressed.ship)], audit});
   std::erase_if(population.decks, [](const PressedDeck& p) { return p.state.way >= way_to_lie_along(p.deck); });
 }
 

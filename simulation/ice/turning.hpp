@@ -5,11 +5,17 @@
 
 namespace polynya::simulation {
 
+/// Where an impulse on a hull is entered.
+struct HullBooks {
+  HullLoads& loads;
+  AuditSums& audit;
+};
+
 /// By the law of crushing ice: the impulse with which a hull sets in motion the cusp that a bend breaks off and that
 /// goes under it (`InsideFate::kUnderHull`). Brakes the hull, and enters it in its loads and in the accounts. Keeps the
 /// cusp's deck, where water floods decks (`has_flooding_decks`).
 void turn_cusp(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut, Population& population,
-               HullLoads& loads, AuditSums& audit);
+               HullBooks books);
 
 /// Presses the decks on that hulls press down, by the way of a step, and lets water onto them: brakes the hulls by the
 /// pressure of the water that is missing there. Those that lie along the hull end.

@@ -35,7 +35,8 @@ double weight_under(const Setup& setup, const Population& population, FloeId flo
 
 }  // namespace
 
-Event submersion_event(const Instant& now, const Population& population, FloeId floe, int ship) {
+Event submersion_event(const Instant& now, const Population& population, const FloeAtHull& at) {
+  const auto [floe, ship] = at;
   Submerge submerge;
   submerge.under_hull_area = population.floes[floe].area;
   submerge.floe = floe;
@@ -43,8 +44,9 @@ Event submersion_event(const Instant& now, const Population& population, FloeId 
   return {now.time, ship, place, submerge};
 }
 
-void go_under(const Setup& setup, const Instant& now, FloeId floe, int ship, Population& population,
+void go_under(const Setup& setup, const Instant& now, const FloeAtHull& at, Population& population,
               Accounts& accounts) {
+  const auto [floe, ship] = at;
   const BodyIndex body = population.body_of(floe);
   leave_contacts(floe, population);
   stop(population.bodies, body, accounts.audit.energy.submersion, accounts.audit);
@@ -62,18 +64,18 @@ void go_under(const Setup& setup, const Instant& now, FloeId floe, int ship, Pop
 }
 
 void apply_submersions(const Setup& setup, const Step& step, const StepData& data, Population& population,
-                       Accounts& accounts, Journal& journal) {
+                       Books books) {
   for (const PendingSubmersion& floe : data.submersions) {
     if (!population.is_floating(floe.floe)) continue;  // it broke in this step, or another ship has it
-    Event event = submersion_event(step.end, population, floe.floe, floe.ship);
+    Event event = submersion_event(step.end, population, {floe.floe, floe.ship});
     event.point_in_world = floe.point_in_water + step.end.drift;
     auto& submerge = std::get<Submerge>(event.what);
     submerge.normal_in_world = floe.normal;
     submerge.penetration = floe.penetration;
     submerge.criterion = floe.criterion;
-    go_under(setup, step.end, floe.floe, floe.ship, population, accounts);
-    ++accounts.counts.tilted_under;
-    journal.events.push_back(std::move(event));
+    go_under(setup, step.end, {floe.floe, floe.ship}, population, books.accounts);
+    ++books.accounts.counts.tilted_under;
+    books.journal.events.push_back(std::move(event));
   }
 }
 
@@ -83,6 +85,7 @@ namespace {
 
 /// What the ice under a hull takes from its ship in a step.
 struct Pull {
+  BodyIndex ship = 0;
   double speed = 0;   ///< of the ship ahead, through the water [m/s]
   double work = 0;    ///< over the way of the step [J]
   double moment = 0;  ///< that work times the pieces' distances to port [J m]
@@ -114,20 +117,27 @@ void add_piece(const Setup& setup, double dt, const Population& population, cons
   pull.moment += work * distance_to_port(setup, population.bodies, piece, population.body_of(piece.floe));
 }
 
-/// Brakes the ship, which it never reverses, and turns it. Enters both.
-void apply(const Setup& setup, double dt, BodyIndex ship, const Pull& pull, dynamics::Bodies& bodies,
-           SubmergedLoads& loads, AuditSums& audit) {
-  loads.area = pull.area;
-  if (pull.work == 0) return;
+/// The impulse with which ice under a hull brakes a ship in a step of length dt, against its heading. It never
+/// reverses a ship [N s].
+double impulse_of(const Setup& setup, double dt, const Pull& pull, const dynamics::Bodies& bodies) {
+  const BodyIndex ship = pull.ship;
+  if (pull.work == 0) return 0;
   const bool has_factor = setup.scene.ships[ship].hull.has_speed_factor;
   const double factor =
       has_factor ? dynamics::submersion_speed_factor(pull.speed, setup.underwater[ship].form.length) : 1;
-  double impulse = factor * pull.work / (pull.speed * dt) * dt;
-  const bool is_free = bodies.inverse_mass[ship] != 0;
-  if (is_free) impulse = std::min(impulse, bodies.mass[ship] * pull.speed);
+  const double impulse = factor * pull.work / (pull.speed * dt) * dt;
+  return bodies.inverse_mass[ship] != 0 ? std::min(impulse, bodies.mass[ship] * pull.speed) : impulse;
+}
+
+/// Gives a ship that impulse, which also turns it, and enters it.
+void apply(double impulse, const Pull& pull, dynamics::Bodies& bodies, HullLoads& loads_of_ship, AuditSums& audit) {
+  const BodyIndex ship = pull.ship;
+  SubmergedLoads& loads = loads_of_ship.submerged;
+  loads.area = pull.area;
+  if (pull.work == 0) return;
   const double angular = impulse * pull.moment / pull.work;
   loads.impulse += {-impulse, 0, angular};
-  if (!is_free) return;
+  if (bodies.inverse_mass[ship] == 0) return;
   const Vector pushed = -impulse * heading_of(bodies, ship);
   audit.energy.submerged_ice -= push(bodies, ship, pushed, angular);
   audit.momentum.water += pushed;
@@ -147,10 +157,11 @@ void pull_of_submerged_ice(const Setup& setup, const Step& step, Population& pop
   const double dt = step.length;
   std::vector<Pull> pulls(setup.scene.ships.size());
   const auto ships = static_cast<BodyIndex>(pulls.size());
-  for (BodyIndex ship = 0; ship < ships; ++ship) pulls[ship].speed = speed_ahead(setup, bodies, ship);
+  for (BodyIndex ship = 0; ship < ships; ++ship)
+    pulls[ship] = {.ship = ship, .speed = speed_ahead(setup, bodies, ship)};
   for (const SubmergedPiece& piece : population.submerged) add_piece(setup, dt, population, piece, pulls[piece.ship]);
   for (BodyIndex ship = 0; ship < ships; ++ship) {
-    apply(setup, dt, ship, pulls[ship], bodies, loads[ship].submerged, audit);
+    apply(impulse_of(setup, dt, pulls[ship], bodies), pulls[ship], bodies, loads[ship], audit);
     pulls[ship].speed = speed_ahead(setup, bodies, ship);
   }
   const bool is_still = setup.current.is_still();
@@ -247,14 +258,14 @@ Event event_of(const Setup& setup, const Instant& now, const Population& populat
 /// One submerged piece's attempts to come up.
 class Resurfacing {
  public:
-  Resurfacing(const Setup& setup, const Step& step, Population& population, Accounts& accounts, Journal& journal)
+  Resurfacing(const Setup& setup, const Step& step, Population& population, Books books)
       : setup_(setup),
         settings_(setup.scene.fracture.resurface),
         now_(step.end),
         whole_ticks_(step.whole_ticks),
         population_(population),
-        accounts_(accounts),
-        journal_(journal) {}
+        accounts_(books.accounts),
+        journal_(books.journal) {}
 
   void go_on(SubmergedPiece& submerged) {
     const bool is_ahead = submerged.path < 0;  // the ship backed off it
@@ -320,6 +331,7 @@ class Resurfacing {
                    const geometry::Measures& measures, const Place& place) {
     NewFloe piece;
     piece.shape = {polygon, true};
+    piece.measures = measures;
     piece.own_ice = population_.floes[submerged.floe].own_ice;
     piece.parent = submerged.floe;
     piece.generation = population_.floes[submerged.floe].generation + 1;
@@ -331,7 +343,7 @@ class Resurfacing {
       piece.velocity =
           setup_.current.velocity_at(centre) - cross(piece.angular_velocity, centre - place.water_from_body.position);
     }
-    const FloeId id = add_floe(setup_, now_, piece, measures, population_, journal_);
+    const FloeId id = add_floe(setup_, now_, piece, population_, journal_);
     wake_and_enter(population_.body_of(id));
     return id;
   }
@@ -354,8 +366,8 @@ class Resurfacing {
 
 }  // namespace
 
-void come_up(const Setup& setup, const Step& step, Population& population, Accounts& accounts, Journal& journal) {
-  Resurfacing resurfacing(setup, step, population, accounts, journal);
+void come_up(const Setup& setup, const Step& step, Population& population, Books books) {
+  Resurfacing resurfacing(setup, step, population, books);
   for (SubmergedPiece& submerged : population.submerged) resurfacing.go_on(submerged);
   std::erase_if(population.submerged,
                 [&](const SubmergedPiece& submerged) { return !population.floes[submerged.floe].is_under; });

@@ -4,12 +4,17 @@
 
 namespace polynya::simulation {
 
+/// A floe, and the ship under whose hull it goes.
+struct FloeAtHull {
+  FloeId floe = 0;
+  int ship = 0;
+};
+
 /// Takes a floe out of the contact world and puts it under a ship's hull, where it rests in the water. Enters
 /// its motion and counts it.
-void go_under(const Setup& setup, const Instant& now, FloeId floe, int ship, Population& population,
-              Accounts& accounts);
+void go_under(const Setup& setup, const Instant& now, const FloeAtHull& at, Population& population, Accounts& accounts);
 
 /// The event of a floe that goes under, without what decided it.
-Event submersion_event(const Instant& now, const Population& population, FloeId floe, int ship);
+Event submersion_event(const Instant& now, const Population& population, const FloeAtHull& at);
 
 }  // namespace polynya::simulation

@@ -48,8 +48,8 @@ geometry::WedgeAngles wedge_at(const Setup& setup, const dynamics::Bodies& bodie
   const Contact& c = load.contact;
   const geometry::Pose water_from_floe = dynamics::water_from_body(bodies, c.b);
   const double l = fracture::characteristic_length(load.ice, setup.scene.water.water);
-  return geometry::wedge_angles(bodies.boundary[c.b]->edges, c.tip_edge_of_b,
-                                inverse_transform(water_from_floe, c.tip_of_b),
+  return geometry::wedge_angles(bodies.boundary[c.b]->edges,
+                                {c.tip_edge_of_b, inverse_transform(water_from_floe, c.tip_of_b)},
                                 rotate_back(water_from_floe.rotation, c.normal), kWedgeLengthOverL * l);
 }
 
@@ -62,7 +62,7 @@ fracture::EdgeOpenings openings_at(const Setup& setup, const dynamics::Bodies& b
   std::array<double, fracture::kSectionCount> radii = fracture::kSectionRadii;
   for (double& radius : radii) radius *= l;
   fracture::EdgeOpenings openings;
-  geometry::wedge_angles(bodies.boundary[c.b]->edges, c.tip_edge_of_b, tip, inward, radii, openings);
+  geometry::wedge_angles(bodies.boundary[c.b]->edges, {c.tip_edge_of_b, tip}, inward, radii, openings);
   for (auto& [front, back] : openings) {
     const double narrow = std::max(0.0, fracture::kSmallestHalfAngle - 0.5 * (front + back));
     front += narrow;

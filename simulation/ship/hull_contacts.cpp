@@ -40,11 +40,12 @@ std::optional<Event> prescribed_contact(const Setup& setup, const Step& step, co
 }  // namespace
 
 void record_hull_contacts(const Setup& setup, const Step& step, const Population& population, const StepData& data,
-                          std::vector<Event>& known_contacts, Journal& journal) {
+                          Books books) {
+  std::vector<Event>& known_contacts = books.accounts.hull_contacts;
   const dynamics::Bodies& bodies = population.bodies;
   const auto enter = [&](const Event& contact) {
     known_contacts.push_back(contact);
-    journal.events.push_back(contact);
+    books.journal.events.push_back(contact);
   };
   for (const dynamics::Contact& c : data.contacts) {
     if (!population.is_hull(c.b) || is_known(known_contacts, c.a, c.b)) continue;
@@ -59,7 +60,7 @@ void record_hull_contacts(const Setup& setup, const Step& step, const Population
       if (const auto contact = prescribed_contact(setup, step, bodies, ship, other)) enter(*contact);
     }
   }
-  std::ranges::copy(data.mooring_breaks, std::back_inserter(journal.events));
+  std::ranges::copy(data.mooring_breaks, std::back_inserter(books.journal.events));
 }
 
 }  // namespace polynya::simulation

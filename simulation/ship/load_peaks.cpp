@@ -107,7 +107,8 @@ void place_on_waterline(const Setup& setup, geometry::Point point_in_hull, Conta
 }
 
 void follow_loads(const Setup& setup, const Step& step, const Population& population, const StepData& data,
-                  LoadPeaks& peaks, Journal& journal) {
+                  Books books) {
+  LoadPeaks& peaks = books.accounts.load_peaks;
   if (setup.scene.record.contacts == RecordedContacts::kNone) return;
   for (LoadTrack& track : peaks.tracks) track.is_seen = false;
   const double response = response_in(setup, step);
@@ -131,13 +132,13 @@ void follow_loads(const Setup& setup, const Step& step, const Population& popula
     const PeakEnd fate = fate_of(population, data, c);
     if (fate != PeakEnd::kSlip) track.ending = fate;
     if (track.is_rising && track.force < track.largest / 2) {
-      record_peak(setup, track, peaks, journal);
+      record_peak(setup, track, peaks, books.journal);
       track.is_rising = false;
       track.least = track.force;
     }
   }
   for (const LoadTrack& track : peaks.tracks)
-    if (!track.is_seen && track.is_rising && track.largest > 0) record_peak(setup, track, peaks, journal);
+    if (!track.is_seen && track.is_rising && track.largest > 0) record_peak(setup, track, peaks, books.journal);
   std::erase_if(peaks.tracks, [](const LoadTrack& track) { return !track.is_seen; });
 }
 

@@ -48,6 +48,6 @@ void place_on_waterline(const Setup& setup, geometry::Point point_in_hull, Conta
 /// Enters the forces of the step, and records the peaks that have ended in it. While the hulls are where they were
 /// when its contacts were found.
 void follow_loads(const Setup& setup, const Step& step, const Population& population, const StepData& data,
-                  LoadPeaks& peaks, Journal& journal);
+                  Books books);
 
 }  // namespace polynya::simulation

@@ -18,9 +18,16 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kCorners = 32;  ///< of a full turn
 
-void add_arc(Point centre, Vector half_axes, double from, double to, int legs, geometry::Ring& ring) {
-  for (int i = 0; i <= legs; ++i) {
-    const double angle = from + (to - from) * i / legs;
+/// Angles between which an arc lies, and the number of its legs.
+struct ArcSpan {
+  double from = 0;  ///< [rad]
+  double to = 0;    ///< [rad]
+  int legs = kCorners;
+};
+
+void add_arc(Point centre, Vector half_axes, const ArcSpan& arc, geometry::Ring& ring) {
+  for (int i = 0; i <= arc.legs; ++i) {
+    const double angle = arc.from + (arc.to - arc.from) * i / arc.legs;
     ring.push_back(centre + Vector{half_axes.x * std::cos(angle), half_axes.y * std::sin(angle)});
   }
 }
@@ -36,19 +43,19 @@ geometry::Ring corners_of(const ManagingPilot& pilot) {
       break;
     case ManagementPattern::kSector: {
       const double angle = half / pilot.distance;
-      add_arc({}, {far, far}, -angle, angle, kCorners / 2, ring);
-      add_arc({}, {near, near}, angle, -angle, kCorners / 2, ring);
+      add_arc({}, {far, far}, {-angle, angle, kCorners / 2}, ring);
+      add_arc({}, {near, near}, {angle, -angle, kCorners / 2}, ring);
       break;
     }
     case ManagementPattern::kRacetrack: {
       const double radius = 0.5 * pilot.depth;
-      add_arc({pilot.distance, half - radius}, {radius, radius}, 0, kPi, kCorners / 2, ring);
-      add_arc({pilot.distance, radius - half}, {radius, radius}, kPi, 2 * kPi, kCorners / 2, ring);
+      add_arc({pilot.distance, half - radius}, {radius, radius}, {0, kPi, kCorners / 2}, ring);
+      add_arc({pilot.distance, radius - half}, {radius, radius}, {kPi, 2 * kPi, kCorners / 2}, ring);
       break;
     }
     case ManagementPattern::kCircular:
     case ManagementPattern::kLargestFloe:
-      add_arc({pilot.distance, 0}, {0.5 * pilot.depth, half}, 0, 2 * kPi, kCorners, ring);
+      add_arc({pilot.distance, 0}, {0.5 * pilot.depth, half}, {0, 2 * kPi, kCorners}, ring);
       break;
   }
   return ring;

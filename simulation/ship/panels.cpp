@@ -51,9 +51,16 @@ void for_columns(const PanelGrid& grid, double from, double to, Use use) {
   if (to > half) within(std::max(from, half) - 2 * half, to - 2 * half);
 }
 
+/// Where the ice that presses on a hull begins and ends above the waterline [m].
+struct IceHeight {
+  double bottom = 0;
+  double top = 0;
+};
+
 /// Calls use(row, share) for the parts of the ice's height in each row; row `rows` is above and below them.
 template <class Use>
-void for_rows_of(const PanelGrid& grid, double bottom, double top, Use use) {
+void for_rows_of(const PanelGrid& grid, const IceHeight& ice, Use use) {
+  const auto [bottom, top] = ice;
   const double height = std::max(top - bottom, 1e-9);
   double inside = 0;
   for (int row = 0; row < grid.settings.rows; ++row) {
@@ -66,7 +73,7 @@ void for_rows_of(const PanelGrid& grid, double bottom, double top, Use use) {
   if (inside < 1 - 1e-12) use(grid.settings.rows, 1 - inside);
 }
 
-void add_contact(const PanelGrid& grid, const dynamics::Bodies& bodies, const Contact& c, double bottom, double top,
+void add_contact(const PanelGrid& grid, const dynamics::Bodies& bodies, const Contact& c, const IceHeight& ice,
                  HullPanels& panels) {
   const geometry::Pose pose = dynamics::water_from_body(bodies, c.a);
   const double full = grid.waterline.length;
@@ -83,7 +90,7 @@ void add_contact(const PanelGrid& grid, const dynamics::Bodies& bodies, const Co
     const Planar load = planar_of(bodies, c.a, c.ends[end[half]], -normal * c.normal) +
                         normal / c.total_normal_impulse() * slip;  // friction is where the ice presses
     for_columns(grid, half == 0 ? from : middle, half == 0 ? middle : to, [&](int column, double along) {
-      for_rows_of(grid, bottom, top, [&](int row, double up) {
+      for_rows_of(grid, ice, [&](int row, double up) {
         PanelLoads& panel = panels[grid.first_of(column) + static_cast<std::size_t>(row)];
         panel.impulse += along * up * c.steady_share * load;
         panel.carried_load += along * up * (1 - c.steady_share) * load;
@@ -131,7 +138,7 @@ void load_panels(const Setup& setup, const Step& step, const Population& populat
     const fracture::Ice& ice = ice_of_body(setup, population, c.b);
     const double top = ice.thickness * (1 - ice.density / setup.scene.water.water.density);
     add_contact({*hull_of(setup.scene, hull).panels, setup.waterlines[hull]}, population.bodies, c,
-                top - data.slopes[i].height, top, panels[hull]);
+                {top - data.slopes[i].height, top}, panels[hull]);
   }
   for (HullPanels& of_hull : panels) {
     for (PanelLoads& panel : of_hull) book_step(panel, step.length);

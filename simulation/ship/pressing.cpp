@@ -97,7 +97,8 @@ double opening_bound(const Setup& setup, const Step& step, std::span<const Conta
 }
 
 void press(const Setup& setup, const Step& step, const dynamics::Bodies& bodies, std::span<const Contact> contacts,
-           BodyIndex floe, PressedFloe& pressed) {
+           PressedFloe& pressed) {
+  const BodyIndex floe = pressed.floe;
   pressed.contacts.clear();
   pressed.pushes.clear();
   for (const Contact& c : contacts) {
@@ -131,7 +132,8 @@ PendingFracture split_by(const Setup& setup, const Step& step, const Population&
   return split;
 }
 
-void find_mouths(BodyIndex floe, PressedFloe& pressed) {
+void find_mouths(PressedFloe& pressed) {
+  const BodyIndex floe = pressed.floe;
   pressed.mouths.clear();
   const PressedContact* before = nullptr;
   for (const PressedContact& next : pressed.contacts) {

@@ -26,6 +26,7 @@ struct PressedContact {
 
 /// A floe and one body that presses it, by the forces of the step at all of their contacts.
 struct PressedFloe {
+  BodyIndex floe = 0;
   std::vector<PressedContact> contacts;
   std::vector<fracture::Push> pushes;
   std::vector<CrackMouth> mouths;
@@ -66,13 +67,13 @@ double opening_bound(const Setup& setup, const Step& step, std::span<const dynam
 
 /// Enters the contacts of a floe with one other body, and their pushes.
 void press(const Setup& setup, const Step& step, const dynamics::Bodies& bodies,
-           std::span<const dynamics::Contact> contacts, BodyIndex floe, PressedFloe& pressed);
+           std::span<const dynamics::Contact> contacts, PressedFloe& pressed);
 
 /// The split of a floe by the force of a contact, without where and how it splits.
 PendingFracture split_by(const Setup& setup, const Step& step, const Population& population,
                          const dynamics::Contact& contact, BodyIndex floe);
 
 /// Enters where the pushes may start a crack: at a corner's tip, and between each contact and the next.
-void find_mouths(BodyIndex floe, PressedFloe& pressed);
+void find_mouths(PressedFloe& pressed);
 
 }  // namespace polynya::simulation

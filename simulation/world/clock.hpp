@@ -20,6 +20,7 @@ struct Step {
   double length = 0;                ///< Δt [s]
   std::int64_t whole_ticks = 0;     ///< that have passed at its end
   geometry::Vector water_velocity;  ///< mean velocity of the water frame over ground in the step [m/s]
+  int threads = 1;                  ///< number of threads that compute it; results do not depend on it
 };
 
 /// How far a run has come: always a whole number of ticks.

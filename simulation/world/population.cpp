@@ -71,7 +71,9 @@ void add_scene(const Setup& setup, std::vector<FloeSpec>& floes, Population& pop
   journal.births.reserve(floes.size());
   for (FloeSpec& spec : floes) {
     const geometry::Measures measures = geometry::measure(spec.polygon_in_world);
-    add_floe(setup, instant_at(setup, 0), new_floe_of(spec, measures.centroid, setup), measures, population, journal);
+    NewFloe floe = new_floe_of(spec, measures.centroid, setup);
+    floe.measures = measures;
+    add_floe(setup, instant_at(setup, 0), std::move(floe), population, journal);
   }
   // Bodies are woken only after all have been added, because a waking body looks up its neighbours once.
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull) wake(hull, population);
@@ -89,8 +91,8 @@ void add_scene(const Setup& setup, std::vector<FloeSpec>& floes, Population& pop
   }
 }
 
-FloeId add_floe(const Setup& setup, const Instant& now, NewFloe floe, const geometry::Measures& measures,
-                Population& population, Journal& journal) {
+FloeId add_floe(const Setup& setup, const Instant& now, NewFloe floe, Population& population, Journal& journal) {
+  const geometry::Measures& measures = floe.measures;
   const FloeId id = population.floe_count();
   dynamics::NewBody body = new_body_of(floe.shape.polygon, measures, ice_of(setup.scene, floe.own_ice), floe.is_fast);
   body.position = transform(floe.water_from_body, body.centroid);

@@ -111,6 +111,7 @@ struct Population {
 /// Data of a floe to be added. The population gives it an id and a body.
 struct NewFloe {
   geometry::Shape shape;             ///< shape in the body frame
+  geometry::Measures measures;       ///< area, centroid and second moment of the shape, in the body frame
   std::int32_t own_ice = kSceneIce;  ///< index of the ice in Scene::own_ice
   FloeId parent = kNoFloe;           ///< floe from which this one is made
   int generation = 0;                ///< number of ancestors
@@ -126,10 +127,8 @@ struct NewFloe {
 void add_scene(const Setup& setup, std::vector<FloeSpec>& floes, Population& population, Journal& journal);
 
 /// Adds a floe, asleep, records its birth and returns its id. The floe moves as a part of a rigid body that has the
-/// floe's body frame, NewFloe::velocity and NewFloe::angular_velocity. `measures` are the area, centroid and second
-/// moment of the floe's polygon in the body frame.
-FloeId add_floe(const Setup& setup, const Instant& now, NewFloe floe, const geometry::Measures& measures,
-                Population& population, Journal& journal);
+/// floe's body frame, NewFloe::velocity and NewFloe::angular_velocity.
+FloeId add_floe(const Setup& setup, const Instant& now, NewFloe floe, Population& population, Journal& journal);
 
 /// Removes a floe from the contact search and from the tilted floes, and puts it to sleep. The floe stays alive.
 void leave_contacts(FloeId floe, Population& population);

@@ -148,11 +148,11 @@ void sum_loads(const Setup& setup, const Step& step, const StepData& data, Accou
     if (setup.sailing[ship].is_active) accounts.sailing[ship].ice_friction += data.loads[ship].ice.friction;
 }
 
-void sample_loads(const Setup& setup, const Clock& clock, const Population& population, Accounts& accounts,
-                  Journal& journal) {
+void sample_loads(const Setup& setup, const Clock& clock, const Population& population, Books books) {
+  Accounts& accounts = books.accounts;
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull)
-    journal.samples.push_back(sample_of(setup, clock, population, hull, accounts));
-  sample_panels(setup, clock, interval_of(clock, accounts), accounts.panels, journal);
+    books.journal.samples.push_back(sample_of(setup, clock, population, hull, accounts));
+  sample_panels(setup, clock, interval_of(clock, accounts), accounts.panels, books.journal);
   for (HullLoads& loads : accounts.loads) {
     HullLoads next;
     std::ranges::copy(loads.ice.carried, next.ice.carried);

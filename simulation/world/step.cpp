@@ -88,25 +88,22 @@ void push_ship(dynamics::Bodies& bodies, BodyIndex ship, double thrust_impulse, 
 
 }  // namespace
 
-void find_pairs(int threads, Population& population) {
-  population.pairs.update(population.bodies, population.awake, 0, threads);
+void find_pairs(const Step& step, Population& population) {
+  population.pairs.update(population.bodies, population.awake, 0, step.threads);
 }
 
-void find_contacts(const Step& step, int threads, Population& population, StepData& data, Counts& counts) {
+void find_contacts(const Step& step, Population& population, StepData& data, Counts& counts) {
   std::vector<dynamics::Contact>& contacts = data.contacts;
-  population.pairs.find_contacts(population.bodies, step.length, contacts, threads);
+  population.pairs.find_contacts(population.bodies, step.length, contacts, step.threads);
   counts.unpaired_stretches += population.pairs.take_unpaired_stretches();
   counts.peak_contacts = std::max(counts.peak_contacts, static_cast<std::int64_t>(contacts.size()));
   population.pairs.take_blind_overlaps(data.blind_overlaps);
   population.pairs.take_parted(data.parted);
 }
 
-void solve_crushing(const Setup& setup, const Step& step, int threads, Population& population, StepData& data,
-                    Accounts& accounts) {
-  dynamics::SolverSettings settings = setup.solver;
-  settings.threads = threads;
-  count(solve_to_splits(setup, step, settings, population, data, accounts.counts), accounts.counts);
-  dynamics::for_contacts(data.contacts, threads, [&](dynamics::Contact& c, std::size_t) {
+void solve_crushing(const Setup& setup, const Step& step, Population& population, StepData& data, Accounts& accounts) {
+  count(solve_to_splits(setup, step, population, data, accounts.counts), accounts.counts);
+  dynamics::for_contacts(data.contacts, step.threads, [&](dynamics::Contact& c, std::size_t) {
     settle(are_prescribed(population.bodies, c.a, c.b), c);
     remember_crushed(population.bodies, c);
   });
@@ -114,25 +111,25 @@ void solve_crushing(const Setup& setup, const Step& step, int threads, Populatio
   wake_pressed(data.contacts, population);
 }
 
-void solve_collisions(const Setup& setup, const Step& step, int threads, Population& population, StepData& data,
+void solve_collisions(const Setup& setup, const Step& step, Population& population, StepData& data,
                       Accounts& accounts) {
   dynamics::SolverSettings settings = setup.solver;
-  settings.threads = threads;
+  settings.threads = step.threads;
   const dynamics::RestitutionLaw law{setup.scene.contact.restitution, step.length};
   count(data.solver.solve(population.bodies, data.contacts, law, settings), accounts.counts);
   find_splits(setup, step, population, data.contacts, data.splits);
-  dynamics::for_contacts(data.contacts, threads, [&](dynamics::Contact& c, std::size_t) { settle_collision(c); });
+  dynamics::for_contacts(data.contacts, step.threads, [&](dynamics::Contact& c, std::size_t) { settle_collision(c); });
   enter_contacts(population.bodies, data.contacts, accounts);
   wake_pressed(data.contacts, population);
 }
 
-void apply_forces(const Setup& setup, const Step& step, int threads, Population& population, AuditSums& audit) {
+void apply_forces(const Setup& setup, const Step& step, Population& population, AuditSums& audit) {
   const WaterSettings& water = setup.scene.water;
   if (setup.scene.wind.blows()) blow(setup.scene.wind.stress(step.begin.time), population, step.length, audit);
   enter_water(apply_water_drag(population.bodies, population.awake,
                                {water.drag_coefficient, water.water.density, setup.current, water.drag_area,
                                 water.skin_drag_coefficient},
-                               step.length, threads),
+                               step.length, step.threads),
               audit);
 }
 
@@ -150,8 +147,8 @@ void separate_overlaps(const Setup& setup, const Step& step, const StepData& dat
   audit.moorings.separation += stored_after(setup, step, population) - before;
 }
 
-std::optional<std::string> integrate_motion(const Step& step, int threads, Population& population) {
-  const double fastest = integrate(population.bodies, population.awake, step.length, threads);
+std::optional<std::string> integrate_motion(const Step& step, Population& population) {
+  const double fastest = integrate(population.bodies, population.awake, step.length, step.threads);
   if (fastest < kRunawaySpeed) return std::nullopt;
   const auto runaway = std::ranges::find_if(
       population.awake, [&](BodyIndex i) { return !(population.bodies.rim_speed[i] < kRunawaySpeed); });
@@ -190,25 +187,20 @@ constexpr Stage kSteer{"steer", [](World& w, const Step& s) { steer(w.setup, s, 
 constexpr Stage kPressWalls{"press walls",
                             [](World& w, const Step& s) { press_walls(w.setup, s, w.population, w.accounts.audit); }};
 constexpr Stage kKeepMotion{"keep motion", [](World& w, const Step&) { keep_motion(w.population, w.data); }};
-constexpr Stage kFindPairs{"find pairs", [](World& w, const Step&) { find_pairs(w.threads, w.population); }};
-constexpr Stage kFindContacts{"find contacts", [](World& w, const Step& s) {
-                                find_contacts(s, w.threads, w.population, w.data, w.accounts.counts);
-                              }};
-constexpr Stage kDecideByCrushing{"decide", [](World& w, const Step& s) {
-                                    decide_by_crushing(w.setup, s, w.threads, w.population, w.data, w.accounts.counts);
-                                  }};
+constexpr Stage kFindPairs{"find pairs", [](World& w, const Step& s) { find_pairs(s, w.population); }};
+constexpr Stage kFindContacts{
+    "find contacts", [](World& w, const Step& s) { find_contacts(s, w.population, w.data, w.accounts.counts); }};
+constexpr Stage kDecideByCrushing{
+    "decide", [](World& w, const Step& s) { decide_by_crushing(w.setup, s, w.population, w.data, w.accounts.counts); }};
 constexpr Stage kDecideByCollision{"decide", [](World& w, const Step& s) {
-                                     decide_by_collision(w.setup, s, w.threads, w.population, w.data,
-                                                         w.accounts.counts);
+                                     decide_by_collision(w.setup, s, w.population, w.data, w.accounts.counts);
                                    }};
 constexpr Stage kLimitByTilt{"limit by tilt",
                              [](World& w, const Step& s) { limit_by_tilt(w.setup, s, w.population, w.data); }};
-constexpr Stage kSolveCrushing{"solve impulses", [](World& w, const Step& s) {
-                                 solve_crushing(w.setup, s, w.threads, w.population, w.data, w.accounts);
-                               }};
-constexpr Stage kSolveCollisions{"solve impulses", [](World& w, const Step& s) {
-                                   solve_collisions(w.setup, s, w.threads, w.population, w.data, w.accounts);
-                                 }};
+constexpr Stage kSolveCrushing{
+    "solve impulses", [](World& w, const Step& s) { solve_crushing(w.setup, s, w.population, w.data, w.accounts); }};
+constexpr Stage kSolveCollisions{
+    "solve impulses", [](World& w, const Step& s) { solve_collisions(w.setup, s, w.population, w.data, w.accounts); }};
 constexpr Stage kHoldWalls{"hold walls",
                            [](World& w, const Step&) { hold_walls(w.setup, w.population, w.accounts.audit); }};
 constexpr Stage kDropUnbroken{"drop unbroken", [](World& w, const Step&) { drop_unbroken(w.data); }};
@@ -218,16 +210,15 @@ constexpr Stage kOverload{"overload",
                           [](World& w, const Step& s) { fail(overload_of(w.setup, s, w.population, w.data), w); }};
 constexpr Stage kTiltFloes{"tilt floes", [](World& w, const Step& s) { tilt_floes(w.setup, s, w.population, w.data); }};
 constexpr Stage kBookOverlaps{"book overlaps",
-                              [](World& w, const Step&) { book_overlaps(w.setup, w.threads, w.population, w.data); }};
+                              [](World& w, const Step& s) { book_overlaps(w.setup, s, w.population, w.data); }};
 constexpr Stage kTallyLoads{"tally loads",
                             [](World& w, const Step&) { tally_loads(w.population, w.data.contacts, w.data.loads); }};
 constexpr Stage kFollowLoads{"follow loads", [](World& w, const Step& s) {
-                               follow_loads(w.setup, s, w.population, w.data, w.accounts.load_peaks, w.journal);
+                               follow_loads(w.setup, s, w.population, w.data, {w.accounts, w.journal});
                                load_panels(w.setup, s, w.population, w.data, w.accounts.panels);
                              }};
-constexpr Stage kForces{"water and wind", [](World& w, const Step& s) {
-                          apply_forces(w.setup, s, w.threads, w.population, w.accounts.audit);
-                        }};
+constexpr Stage kForces{"water and wind",
+                        [](World& w, const Step& s) { apply_forces(w.setup, s, w.population, w.accounts.audit); }};
 constexpr Stage kThrust{"thrust",
                         [](World& w, const Step& s) { push_ships(w.setup, s, w.population, w.accounts.audit); }};
 constexpr Stage kSubmergedIce{"pull of submerged ice", [](World& w, const Step& s) {
@@ -237,31 +228,30 @@ constexpr Stage kSubmergedIce{"pull of submerged ice", [](World& w, const Step& 
 constexpr Stage kSail{"sail", [](World& w, const Step& s) { sail(w.setup, s, w.data, w.population, w.accounts); }};
 constexpr Stage kSeparate{
     "separate", [](World& w, const Step& s) { separate_overlaps(w.setup, s, w.data, w.population, w.accounts.audit); }};
-constexpr Stage kIntegrate{"integrate",
-                           [](World& w, const Step& s) { fail(integrate_motion(s, w.threads, w.population), w); }};
+constexpr Stage kIntegrate{"integrate", [](World& w, const Step& s) { fail(integrate_motion(s, w.population), w); }};
 constexpr Stage kApplyFractures{"apply fractures", [](World& w, const Step& s) {
-                                  apply_fractures(w.setup, s, w.data, w.population, w.accounts, w.journal);
+                                  apply_fractures(w.setup, s, w.data, w.population, {w.accounts, w.journal});
                                 }};
 constexpr Stage kGrind{"grind", [](World& w, const Step& s) {
-                         grind_blind_overlaps(w.setup, s, w.data, w.population, w.accounts, w.journal);
+                         grind_blind_overlaps(w.setup, s, w.data, w.population, {w.accounts, w.journal});
                        }};
 constexpr Stage kCarve{"carve channels", [](World& w, const Step& s) {
-                         carve_channels(w.setup, s, w.data, w.population, w.accounts, w.journal);
+                         carve_channels(w.setup, s, w.data, w.population, {w.accounts, w.journal});
                        }};
 constexpr Stage kShed{"shed crushed ice", [](World& w, const Step& s) {
-                        shed_crushed_ice(w.setup, s, w.data, w.population, w.accounts, w.journal);
+                        shed_crushed_ice(w.setup, s, w.data, w.population, {w.accounts, w.journal});
                       }};
 constexpr Stage kCutThrough{"cut through floes", [](World& w, const Step& s) {
-                              cut_through_floes(w.setup, s, w.data, w.population, w.accounts, w.journal);
+                              cut_through_floes(w.setup, s, w.data, w.population, {w.accounts, w.journal});
                             }};
 constexpr Stage kGoUnder{"go under", [](World& w, const Step& s) {
-                           apply_submersions(w.setup, s, w.data, w.population, w.accounts, w.journal);
+                           apply_submersions(w.setup, s, w.data, w.population, {w.accounts, w.journal});
                          }};
-constexpr Stage kComeUp{"come up",
-                        [](World& w, const Step& s) { come_up(w.setup, s, w.population, w.accounts, w.journal); }};
+constexpr Stage kComeUp{"come up", [](World& w, const Step& s) {
+                          come_up(w.setup, s, w.population, {w.accounts, w.journal});
+                        }};
 constexpr Stage kHullContacts{"record ship events", [](World& w, const Step& s) {
-                                record_hull_contacts(w.setup, s, w.population, w.data, w.accounts.hull_contacts,
-                                                     w.journal);
+                                record_hull_contacts(w.setup, s, w.population, w.data, {w.accounts, w.journal});
                               }};
 constexpr Stage kSumLoads{"sum loads", [](World& w, const Step& s) { sum_loads(w.setup, s, w.data, w.accounts); }};
 
@@ -325,7 +315,7 @@ void end_tick(World& w) {
   w.accounts.counts.peak_awake =
       std::max(w.accounts.counts.peak_awake, static_cast<std::int64_t>(w.population.awake.size()));
   if (is_due(w.clock, w.setup.scene.record.forces_interval))
-    sample_loads(w.setup, w.clock, w.population, w.accounts, w.journal);
+    sample_loads(w.setup, w.clock, w.population, {w.accounts, w.journal});
 }
 
 namespace {
@@ -348,6 +338,7 @@ void step(World& world) {
   const std::int64_t bends = counts.bends;
   for (int part = 0; part < parts && !world.failure; ++part) {
     world.last_step = step_of(world.setup, world.clock, part, parts);
+    world.last_step.threads = world.threads;
     counts.body_steps += static_cast<std::int64_t>(world.population.awake.size());
     const AuditSums before = world.accounts.audit;
     for (const Stage& stage : stages_of(law)) stage.run(world, world.last_step);

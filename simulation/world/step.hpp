@@ -33,30 +33,28 @@ void keep_motion(const Population& population, StepData& data);
 // ---- contacts and their impulses
 
 /// Updates the pairs of bodies that are near each other.
-void find_pairs(int threads, Population& population);
+void find_pairs(const Step& step, Population& population);
 
 /// Finds the contacts of all pairs.
-void find_contacts(const Step& step, int threads, Population& population, StepData& data, Counts& counts);
+void find_contacts(const Step& step, Population& population, StepData& data, Counts& counts);
 
 /// Law of crushing ice: finds what each contact can bear, and at which force its ice bends.
-void decide_by_crushing(const Setup& setup, const Step& step, int threads, const Population& population, StepData& data,
+void decide_by_crushing(const Setup& setup, const Step& step, const Population& population, StepData& data,
                         Counts& counts);
 
 /// Law of impulses: finds what each contact can bear, and whether its ice breaks by the collision force j/τ_c.
-void decide_by_collision(const Setup& setup, const Step& step, int threads, const Population& population,
-                         StepData& data, Counts& counts);
+void decide_by_collision(const Setup& setup, const Step& step, const Population& population, StepData& data,
+                         Counts& counts);
 
 /// Reduces what contacts bear to what the floes that they press down resist.
 void limit_by_tilt(const Setup& setup, const Step& step, const Population& population, StepData& data);
 
 /// Law of crushing ice: finds the impulses of all contacts, and which floes split by them. Where the contacts would
 /// bear more than a split needs, they are stopped there and the step is solved again (ice/split_instant.hpp).
-void solve_crushing(const Setup& setup, const Step& step, int threads, Population& population, StepData& data,
-                    Accounts& accounts);
+void solve_crushing(const Setup& setup, const Step& step, Population& population, StepData& data, Accounts& accounts);
 
 /// Law of impulses: finds the impulses of all contacts, and which floes split by them.
-void solve_collisions(const Setup& setup, const Step& step, int threads, Population& population, StepData& data,
-                      Accounts& accounts);
+void solve_collisions(const Setup& setup, const Step& step, Population& population, StepData& data, Accounts& accounts);
 
 /// Takes from walls that press all velocity that is not along their normals.
 void hold_walls(const Setup& setup, Population& population, AuditSums& audit);
@@ -76,7 +74,7 @@ void tilt_floes(const Setup& setup, const Step& step, Population& population, St
 
 /// Law of crushing ice: books what each overlap has grown in the step as crushed, with its work, or as tilted, where
 /// the ice edge gave way.
-void book_overlaps(const Setup& setup, int threads, const Population& population, const StepData& data);
+void book_overlaps(const Setup& setup, const Step& step, const Population& population, const StepData& data);
 
 /// Sums what the impulses did to the hulls.
 void tally_loads(const Population& population, const std::vector<dynamics::Contact>& contacts,
@@ -85,7 +83,7 @@ void tally_loads(const Population& population, const std::vector<dynamics::Conta
 // ---- forces and motion
 
 /// Lets water and wind act on all awake bodies.
-void apply_forces(const Setup& setup, const Step& step, int threads, Population& population, AuditSums& audit);
+void apply_forces(const Setup& setup, const Step& step, Population& population, AuditSums& audit);
 
 /// Gives ships their constant thrust.
 void push_ships(const Setup& setup, const Step& step, Population& population, AuditSums& audit);
@@ -105,43 +103,38 @@ void separate_overlaps(const Setup& setup, const Step& step, const StepData& dat
 
 /// Moves all awake bodies. Returns why the numbers cannot be trusted any more, where a body has no finite speed below
 /// kRunawaySpeed.
-std::optional<std::string> integrate_motion(const Step& step, int threads, Population& population);
+std::optional<std::string> integrate_motion(const Step& step, Population& population);
 
 // ---- what happens to the ice
 
 /// Breaks the floes whose fractures the step has decided. Ships are braked by the cusps that they push down.
-void apply_fractures(const Setup& setup, const Step& step, StepData& data, Population& population, Accounts& accounts,
-                     Journal& journal);
+void apply_fractures(const Setup& setup, const Step& step, StepData& data, Population& population, Books books);
 
 /// Cuts overlaps that no contact can part from the floe and makes them brash.
 void grind_blind_overlaps(const Setup& setup, const Step& step, const StepData& data, Population& population,
-                          Accounts& accounts, Journal& journal);
+                          Books books);
 
 /// Law of crushing ice: cuts the ice that hulls of prescribed motion have crushed out of fast ice, and makes it brash.
-void carve_channels(const Setup& setup, const Step& step, const StepData& data, Population& population,
-                    Accounts& accounts, Journal& journal);
+void carve_channels(const Setup& setup, const Step& step, const StepData& data, Population& population, Books books);
 
 /// Law of crushing ice: cuts off what contacts crushed that have parted, or that crushed much, and makes it brash.
-void shed_crushed_ice(const Setup& setup, const Step& step, const StepData& data, Population& population,
-                      Accounts& accounts, Journal& journal);
+void shed_crushed_ice(const Setup& setup, const Step& step, const StepData& data, Population& population, Books books);
 
 /// Law of crushing ice: cuts floes that hulls have come through into their remaining parts. The ice within the hull
 /// becomes brash.
-void cut_through_floes(const Setup& setup, const Step& step, const StepData& data, Population& population,
-                       Accounts& accounts, Journal& journal);
+void cut_through_floes(const Setup& setup, const Step& step, const StepData& data, Population& population, Books books);
 
 /// Puts floes that tilted far enough under the hulls.
-void apply_submersions(const Setup& setup, const Step& step, const StepData& data, Population& population,
-                       Accounts& accounts, Journal& journal);
+void apply_submersions(const Setup& setup, const Step& step, const StepData& data, Population& population, Books books);
 
 /// Lets ice that ships have passed come up, in the order in which it went under.
-void come_up(const Setup& setup, const Step& step, Population& population, Accounts& accounts, Journal& journal);
+void come_up(const Setup& setup, const Step& step, Population& population, Books books);
 
 // ---- what is recorded
 
 /// Records the first contact of each two hulls, and the moorings that broke.
 void record_hull_contacts(const Setup& setup, const Step& step, const Population& population, const StepData& data,
-                          std::vector<Event>& known_contacts, Journal& journal);
+                          Books books);
 
 /// Adds the step's loads to those of the recording interval.
 void sum_loads(const Setup& setup, const Step& step, const StepData& data, Accounts& accounts);
@@ -150,8 +143,7 @@ void sum_loads(const Setup& setup, const Step& step, const StepData& data, Accou
 void put_to_rest(const Setup& setup, const StepData& data, Population& population, AuditSums& audit);
 
 /// Writes a row for each hull and panel, and begins new sums.
-void sample_loads(const Setup& setup, const Clock& clock, const Population& population, Accounts& accounts,
-                  Journal& journal);
+void sample_loads(const Setup& setup, const Clock& clock, const Population& population, Books books);
 
 /// A stage of a step, with the parts of the world that it takes.
 struct Stage {

@@ -11,8 +11,8 @@ namespace {
 /// Puts a floe under a hull, where the scene has it at the start, and records its submersion.
 void put_under(FloeId floe, const FloeSpec& spec, World& world) {
   const Instant now = instant_at(world.setup, 0);
-  world.journal.events.push_back(submersion_event(now, world.population, floe, spec.under_ship));
-  go_under(world.setup, now, floe, spec.under_ship, world.population, world.accounts);
+  world.journal.events.push_back(submersion_event(now, world.population, {floe, spec.under_ship}));
+  go_under(world.setup, now, {floe, spec.under_ship}, world.population, world.accounts);
   world.population.submerged.back().path = spec.under_path;
 }
 

@@ -145,6 +145,12 @@ struct Accounts {
   std::int64_t sampled_at = 0;                                        ///< the tick of the last sample
 };
 
+/// The accounts and the journal, in which a stage that changes floes enters what it did.
+struct Books {
+  Accounts& accounts;
+  Journal& journal;
+};
+
 /// What the last ticks tell about the number of parts that the next one needs (parts.hpp).
 struct Pace {
   int finer = 1;     ///< factor on the number of parts, a power of 2

@@ -40,7 +40,7 @@ std::vector<Found> over_all_pairs(const Bodies& bodies, const ContactRule& rule)
         find_circle_manifolds(*bodies.boundary[a], *bodies.boundary[b], a_from_b, circles, manifolds);
       } else {
         edges_of(*bodies.boundary[a], *bodies.boundary[b], circles, edges);
-        find_manifolds(*bodies.boundary[a], *bodies.boundary[b], a_from_b, edges, scratch, manifolds);
+        find_manifolds({*bodies.boundary[a], *bodies.boundary[b], a_from_b}, edges, scratch, manifolds);
       }
       for (const geometry::ContactManifold& manifold : manifolds)
         found.push_back({a, b, manifold.width, manifold.depth, manifold.area});

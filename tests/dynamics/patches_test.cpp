@@ -179,7 +179,7 @@ Found patches_of(const Polygon& a, const Polygon& b, const Pose& a_from_b, doubl
   edges_of(boundary_a, boundary_b, circles, edges);
   ManifoldScratch scratch;
   Found found;
-  found.left_out = find_manifolds(boundary_a, boundary_b, a_from_b, edges, scratch, found.manifolds);
+  found.left_out = find_manifolds({boundary_a, boundary_b, a_from_b}, edges, scratch, found.manifolds);
   return found;
 }
 

@@ -38,7 +38,7 @@ TEST(WedgeAngles, OfCornersAndEdgesAreMeasuredFromTheInwardDirection) {
     rows.push_back({square, corner, tip, (Point{} - tip) / length(Point{} - tip), 45, 45});
   }
   for (const auto& [floe, edge, tip, inward, front, back] : rows) {
-    const WedgeAngles angles = wedge_angles(edge_list(floe), edge, tip, inward, 2.5);
+    const WedgeAngles angles = wedge_angles(edge_list(floe), {edge, tip}, inward, 2.5);
     EXPECT_NEAR(angles.front, front * kDegree, 1e-12) << edge;
     EXPECT_NEAR(angles.back, back * kDegree, 1e-12) << edge;
   }
@@ -48,7 +48,7 @@ TEST(WedgeAngles, OfAJaggedEdgeAreThoseOfWhereItLeads) {
   // A straight edge roughened by teeth of 5 cm: seen over 3 m it is straight but for the teeth's angle, 0.05 / 3.
   Polygon jagged{{{10, 20}, {-10, 20}}, {}};
   for (int i = 200; i >= 0; --i) jagged.outer.insert(jagged.outer.begin(), {-10 + 0.1 * i, i % 2 == 0 ? 0.0 : 0.05});
-  const WedgeAngles angles = wedge_angles(edge_list(jagged), 100, jagged.outer[100], {0, 1}, 3);
+  const WedgeAngles angles = wedge_angles(edge_list(jagged), {100, jagged.outer[100]}, {0, 1}, 3);
   EXPECT_NEAR(angles.front, 90 * kDegree, 0.05 / 3 * 1.01);
   EXPECT_NEAR(angles.back, 90 * kDegree, 0.05 / 3 * 1.01);
 }
@@ -62,13 +62,13 @@ TEST(WedgeAngles, TurnWithTheFloeAndMirrorWithIt) {
     const bool is_corner = i % 2 == 0;
     const Point tip = is_corner ? edges.from(edge) : midpoint(edges.from(edge), edges.to(edge));
     const Vector inward = (Point{} - tip) / length(Point{} - tip);
-    const WedgeAngles angles = wedge_angles(edges, edge, tip, inward, 2);
+    const WedgeAngles angles = wedge_angles(edges, {edge, tip}, inward, 2);
     ASSERT_GE(std::min(angles.front, angles.back), 0);
     ASSERT_LE(std::max(angles.front, angles.back), std::numbers::pi);
 
     const Pose turn{{}, Rotation::by(random.angle())};
     const WedgeAngles same =
-        wedge_angles(edge_list(transform(turn, floe)), edge, transform(turn, tip), rotate(turn.rotation, inward), 2);
+        wedge_angles(edge_list(transform(turn, floe)), {edge, transform(turn, tip)}, rotate(turn.rotation, inward), 2);
     ASSERT_NEAR(same.front, angles.front, 1e-9);
     ASSERT_NEAR(same.back, angles.back, 1e-9);
 
@@ -76,7 +76,7 @@ TEST(WedgeAngles, TurnWithTheFloeAndMirrorWithIt) {
     for (const Point p : floe.outer) mirrored.outer.insert(mirrored.outer.begin(), {p.x, -p.y});
     const std::uint32_t mirrored_edge = is_corner ? 8 - edge : (edge == 8 ? 8 : 7 - edge);
     const WedgeAngles swapped =
-        wedge_angles(edge_list(mirrored), mirrored_edge, {tip.x, -tip.y}, {inward.x, -inward.y}, 2);
+        wedge_angles(edge_list(mirrored), {mirrored_edge, {tip.x, -tip.y}}, {inward.x, -inward.y}, 2);
     ASSERT_NEAR(swapped.front, angles.back, 1e-9) << i;
     ASSERT_NEAR(swapped.back, angles.front, 1e-9) << i;
   }
@@ -85,7 +85,7 @@ TEST(WedgeAngles, TurnWithTheFloeAndMirrorWithIt) {
 TEST(WedgeAngles, OfAFloeSmallerThanTheLengthAreFinite) {
   const EdgeList edges = edge_list(rectangle(1, 1));
   for (const Point tip : {Point{-0.5, -0.5}, Point{0.2, -0.5}}) {
-    const WedgeAngles angles = wedge_angles(edges, 0, tip, {0, 1}, 50);
+    const WedgeAngles angles = wedge_angles(edges, {0, tip}, {0, 1}, 50);
     EXPECT_TRUE(std::isfinite(angles.front) && std::isfinite(angles.back));
     EXPECT_GE(std::min(angles.front, angles.back), 0);
     EXPECT_LE(std::max(angles.front, angles.back), std::numbers::pi);
@@ -194,7 +194,7 @@ TEST(CrackPath, OfTwoLegsHasTheAreasOfTheTwoPiecesThatItLeaves) {
     EXPECT_NEAR(arm->width, 6, 1e-9);
     EXPECT_EQ(arm->is_left, side > 0);
     const Vector onward{3.0 / 5, side * 4.0 / 5};
-    const auto path = turned_path(boundary, straight, mouth, {-45, side * 14}, onward, 1e-3);
+    const auto path = turned_path(boundary, straight, mouth, {{-45, side * 14}, onward}, 1e-3);
     ASSERT_TRUE(path);
     EXPECT_NEAR(path->length_in_ice, 5 + 6 / 0.8, 1e-9);
     const CrackSides sides = sides_of_crack(boundary, *path);
@@ -212,9 +212,9 @@ TEST(CrackPath, DoesNotTurnAcrossWaterOrBeyondItsOwnEnd) {
   const Boundary boundary =
       make_outline(Polygon{rectangle(100, 40).outer, {{{-44, -18}, {-44, -16}, {-38, -16}, {-38, -18}}}});
   const CrackPath straight = crack_path(boundary, {-50, -14}, {1, 0}, 1e-3, CrackReach::kFirstEdge);
-  EXPECT_FALSE(turned_path(boundary, straight, {-50, -14}, {-45, -14}, {0.6, -0.8}, 1e-3)) << "a hole";
-  EXPECT_TRUE(turned_path(boundary, straight, {-50, -14}, {-35, -14}, {0.6, -0.8}, 1e-3));
-  EXPECT_FALSE(turned_path(boundary, straight, {-50, -14}, {51, -14}, {0.6, -0.8}, 1e-3));
+  EXPECT_FALSE(turned_path(boundary, straight, {-50, -14}, {{-45, -14}, {0.6, -0.8}}, 1e-3)) << "a hole";
+  EXPECT_TRUE(turned_path(boundary, straight, {-50, -14}, {{-35, -14}, {0.6, -0.8}}, 1e-3));
+  EXPECT_FALSE(turned_path(boundary, straight, {-50, -14}, {{51, -14}, {0.6, -0.8}}, 1e-3));
 }
 
 TEST(CrackPath, HasALigamentOnEitherSideOfEachHole) {

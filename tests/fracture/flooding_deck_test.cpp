@@ -45,7 +45,7 @@ Work work(const Deck& deck, double duration, DeckState* end = nullptr, int steps
   DeckState state;
   Work sum;
   for (int i = 0; i < steps; ++i) {
-    const DeckForces forces = turn_deck(deck, kSea, thrust, way, duration / steps, state);
+    const DeckForces forces = turn_deck(deck, kSea, {thrust, way, duration / steps}, state);
     sum.down += thrust * way * forces.down;
     sum.ahead += way * forces.ahead;
   }
@@ -121,7 +121,7 @@ TEST(FloodingDeck, FloodsThroughWhatOpensTheSoonerTheSlowerTheHull) {
 TEST(FloodingDeck, StaysDryWhereNothingHasOpened) {
   const auto pool = [](const Deck& deck, double way) {
     DeckState state;
-    turn_deck(deck, kSea, 1, way, 10, state);
+    turn_deck(deck, kSea, {1, way, 10}, state);
     return state.pool;
   };
   const Deck sheet = apart_from_sheet(rectangle(Beside::kSheet), Deck::kStrips - 1);

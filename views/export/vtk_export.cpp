@@ -215,6 +215,18 @@ int number_of(const simulation::Event& fracture) {
   return fracture.is<simulation::Split>() ? 2 : 3;
 }
 
+/// A ship with its ice load, or a fracture with the force that decided it.
+struct LoadVertex {
+  geometry::Point at;
+  int kind = 0;
+  int ship = 0;
+  simulation::FloeId floe = simulation::kNoFloe;
+  double time = 0;
+  geometry::Vector force;
+  double moment = 0;
+  geometry::Vector collision;
+};
+
 /// The ice loads of the interval that ends at the time, a vertex a ship at its centre; and the fractures
 /// since the frame before, a vertex each where it happened.
 VtkPolyData loads_at(const io::Run& run, double after, double time) {
@@ -222,12 +234,13 @@ VtkPolyData loads_at(const io::Run& run, double after, double time) {
   data.cell_data = {{"kind", {}, 1, true},           {"ship", {}, 1, true},     {"floe_id", {}, 1, true},
                     {"t_s", {}, 1, false},           {"force_N", {}, 3, false}, {"yaw_moment_Nm", {}, 1, false},
                     {"j_over_tau_c_N", {}, 3, false}};
-  const auto add = [&](geometry::Point at, int kind, int ship, simulation::FloeId floe, double t,
-                       geometry::Vector force, double moment, geometry::Vector collision) {
+  const auto add = [&](const LoadVertex& vertex) {
     data.vertices.push_back({static_cast<std::int64_t>(data.points.size())});
-    data.points.push_back(at);
-    add_row(data.cell_data, {static_cast<double>(kind), static_cast<double>(ship), static_cast<double>(floe), t,
-                             force.x, force.y, 0.0, moment, collision.x, collision.y, 0.0});
+    data.points.push_back(vertex.at);
+    const geometry::Vector force = vertex.force, collision = vertex.collision;
+    add_row(data.cell_data,
+            {static_cast<double>(vertex.kind), static_cast<double>(vertex.ship), static_cast<double>(vertex.floe),
+             vertex.time, force.x, force.y, 0.0, vertex.moment, collision.x, collision.y, 0.0});
   };
   std::vector<const simulation::HullSample*> last(hull_count(run.scene.scene), nullptr);
   const auto until = std::ranges::upper_bound(run.samples, time + 1e-9, {}, &simulation::HullSample::time);
@@ -240,14 +253,23 @@ VtkPolyData loads_at(const io::Run& run, double after, double time) {
   for (const simulation::HullSample* s : last) {
     if (!s) continue;
     const auto world_from_ship = geometry::Rotation::by(s->heading);
-    add(s->position_in_world, 0, s->ship, simulation::kNoFloe, s->time,
-        rotate(world_from_ship, {s->from_ice.surge, s->from_ice.sway}), s->from_ice.yaw,
-        rotate(world_from_ship, {s->collision.surge, s->collision.sway}));
+    add({.at = s->position_in_world,
+         .ship = s->ship,
+         .time = s->time,
+         .force = rotate(world_from_ship, {s->from_ice.surge, s->from_ice.sway}),
+         .moment = s->from_ice.yaw,
+         .collision = rotate(world_from_ship, {s->collision.surge, s->collision.sway})});
   }
   for (const simulation::Event& event : run.events) {
     if (!(event.time > after && event.time <= time) || !event.is_fracture()) continue;
-    add(event.point_in_world, number_of(event), event.ship, event.ice()->floe, event.time, {kNan, kNan}, kNan,
-        event.criteria().collision_force * event.ice()->normal_in_world);
+    add({.at = event.point_in_world,
+         .kind = number_of(event),
+         .ship = event.ship,
+         .floe = event.ice()->floe,
+         .time = event.time,
+         .force = {kNan, kNan},
+         .moment = kNan,
+         .collision = event.criteria().collision_force * event.ice()->normal_in_world});
   }
   return data;
 }

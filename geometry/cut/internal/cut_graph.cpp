@@ -101,16 +101,18 @@ class Collector {
     Node node;
     node.at = at;
     const int n = static_cast<int>(rings_[e.ring].size());
-    node.on_shape = place(e.ring, e.index, n, at, rings_.point(e.ring, e.index), rings_.point(e.ring, e.index + 1));
+    node.on_shape =
+        place({e.ring, e.index, false}, n, at, rings_.point(e.ring, e.index), rings_.point(e.ring, e.index + 1));
     const int m = static_cast<int>(tool_.points.size());
-    node.on_tool = place(0, tool_edge, m, at, tool_.point(tool_edge), tool_.point(tool_edge + 1));
+    node.on_tool = place({0, tool_edge, false}, m, at, tool_.point(tool_edge), tool_.point(tool_edge + 1));
     nodes_.push_back(std::move(node));
   }
 
-  static Place place(int ring, int edge, int size, Point at, Point from, Point to) {
-    if (at == from) return {ring, edge, true};
-    if (at == to) return {ring, edge + 1 == size ? 0 : edge + 1, true};
-    return {ring, edge, false};
+  /// Where a point on an edge from `from` to `to`, of a ring of that size, is: at one of its ends or between.
+  static Place place(const Place& on_edge, int size, Point at, Point from, Point to) {
+    if (at == from) return {on_edge.ring, on_edge.edge, true};
+    if (at == to) return {on_edge.ring, on_edge.edge + 1 == size ? 0 : on_edge.edge + 1, true};
+    return on_edge;
   }
 
   void add_crossing(EdgeId e, int tool_edge) {
