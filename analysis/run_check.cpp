@@ -285,7 +285,13 @@ class OverlapCheck {
     is_recorded_ =
         run_.has_crushed && std::ranges::any_of(run_.frames, [&](const io::Frame& f) { return f.time == time; });
     for_crushed(run_, time, [&](const simulation::CrushedOverlap& overlap) {
-      crushed_[std::minmax({key_of(overlap.on), key_of(overlap.by)})] = overlap.area + overlap.tilted;
+      crushed_[std::minmax({key_of(overlap.on), key_of(overlap.by)})] = overlap;
+      if (overlap.unpaid > check_.most_in_contact.in_contact)
+        check_.most_in_contact = {.first = overlap.on,
+                                  .second = overlap.by,
+                                  .time = time,
+                                  .crushed = overlap.area + overlap.tilted,
+                                  .in_contact = overlap.unpaid};
     });
   }
 
@@ -316,9 +322,12 @@ class OverlapCheck {
 
   void compare_with_crushed(const Placed& a, const Placed& b, double shared, double time) {
     const auto recorded = crushed_.find({a.body, b.body});
-    const double crushed = recorded != crushed_.end() ? recorded->second : 0;
+    const simulation::CrushedOverlap of_pair =
+        recorded != crushed_.end() ? recorded->second : simulation::CrushedOverlap{};
+    const double crushed = of_pair.area + of_pair.tilted;
+    const double beyond = shared - crushed - of_pair.unpaid;
     const double smaller = std::min(a.area, b.area);
-    if (shared - crushed <= kUncrushedShare * smaller) return;
+    if (beyond <= kUncrushedShare * smaller) return;
     // A contact is found, and what has pressed is known, a step late; and frames are not exact.
     const Box common = common_part(a.box_in_world, b.box_in_world);
     const Placed& small = a.radius < b.radius ? a : b;
@@ -330,20 +339,20 @@ class OverlapCheck {
     const double off = 2 * io::kFramePositionTolerance + io::kFrameAngleTolerance * (a.radius + b.radius);
     const double allowed =
         kUncrushedShare * smaller + (run_.scene.scene.time.step * speed + off) * length(common.high - common.low);
-    if (shared - crushed <= allowed) return;
+    if (beyond <= allowed) return;
     ++check_.uncrushed_pairs;
     if (check_.uncrushed.size() < kMostUncrushed)
-      check_.uncrushed.push_back(
-          {name_of(a.body), name_of(b.body), time, shared, crushed, allowed, midpoint(common.low, common.high)});
+      check_.uncrushed.push_back({name_of(a.body), name_of(b.body), time, shared, crushed, of_pair.unpaid, allowed,
+                                  midpoint(common.low, common.high)});
   }
 
   const io::Run& run_;
   RunCheck& check_;
   io::MotionIndex motions_;
   std::vector<std::shared_ptr<const geometry::Polygon>> hulls_;
-  std::vector<Placed> bodies_;         ///< living
-  std::map<PairKey, double> crushed_;  ///< at the instant [m²]
-  bool is_recorded_ = false;           ///< the instant is that of a frame
+  std::vector<Placed> bodies_;                             ///< living
+  std::map<PairKey, simulation::CrushedOverlap> crushed_;  ///< at the instant
+  bool is_recorded_ = false;                               ///< the instant is that of a frame
   std::map<PairKey, Known> known_;
   std::set<PairKey> overlapping_;
 };
@@ -401,7 +410,7 @@ void add_hulls_and_crushed(std::string& text, const RunCheck& check, const simul
   if (!check.has_crushed) {
     add("crushed    not on record (no crushed.csv): overlaps are measured, not judged");
   } else {
-    add(fmt::format("crushed    {} more than was crushed there and {:g} % of the smaller body",
+    add(fmt::format("crushed    {} more than was crushed there, presses in a contact, and {:g} % of the smaller body",
                     check.uncrushed_pairs == 1 ? "1 pair shares" : fmt::format("{} pairs share", check.uncrushed_pairs),
                     100 * kUncrushedShare));
     const auto name = [&](const simulation::ContactState::Body& body) {
@@ -410,9 +419,12 @@ void add_hulls_and_crushed(std::string& text, const RunCheck& check, const simul
     for (const UncrushedOverlap& pair : check.uncrushed)
       add(
           fmt::format("           {} and {} at {:.6g} s about ({:.3f}, {:.3f}): {:.6g} m2 shared, {:.6g} m2 crushed, "
-                      "{:.6g} m2 beyond it allowed",
+                      "{:.6g} m2 in contact, {:.6g} m2 beyond these allowed",
                       name(pair.first), name(pair.second), pair.time, pair.place_in_world.x, pair.place_in_world.y,
-                      pair.shared, pair.crushed, pair.allowed));
+                      pair.shared, pair.crushed, pair.in_contact, pair.allowed));
+    if (const UncrushedOverlap& most = check.most_in_contact; most.in_contact > 0)
+      add(fmt::format("           most in contact that is not crushed yet: {} and {} at {:.6g} s, {:.6g} m2",
+                      name(most.first), name(most.second), most.time, most.in_contact));
     add(fmt::format("work       {} of more than that; {} from the work on record by more than a factor of {:g}",
                     counted(check.paid_pairs, "crushed overlap"),
                     check.unpaid.size() == 1 ? "1 differs" : fmt::format("{} differ", check.unpaid.size()),
@@ -468,6 +480,7 @@ void write_hulls(JsonWriter& json, const RunCheck& check, const simulation::Scen
     write_body("second", pair.second);
     json.key("t_s").value(pair.time).key("place_m").value(pair.place_in_world);
     json.key("shared_m2").value(pair.shared).key("crushed_m2").value(pair.crushed);
+    json.key("in_contact_m2").value(pair.in_contact);
     json.key("allowed_beyond_m2").value(pair.allowed);
   });
   json.key("compared_with_work").value(check.paid_pairs).key("most_expected_J").value(check.most_expected);

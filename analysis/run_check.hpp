@@ -39,12 +39,13 @@ struct SharedIce {
 inline constexpr double kUncrushedShare = 0.01;
 inline constexpr std::size_t kMostUncrushed = 20;  ///< of these are named
 
-/// Two bodies that are farther in each other than what was crushed there.
+/// Two bodies that are farther in each other than what was crushed there or presses in a contact.
 struct UncrushedOverlap {
   simulation::ContactState::Body first, second;
   double time = 0;                 ///< [s]
   double shared = 0;               ///< exact, to the nearest double [m²]
-  double crushed = 0;              ///< on record [m²]
+  double crushed = 0;              ///< on record, with what tilted [m²]
+  double in_contact = 0;           ///< on record as not paid: it presses the two apart [m²]
   double allowed = 0;              ///< beyond it [m²]
   geometry::Point place_in_world;  ///< about where [m]
 };
@@ -86,6 +87,7 @@ struct RunCheck {
   bool has_crushed = false;           ///< the run states what was crushed: overlaps were compared with it
   std::size_t uncrushed_pairs = 0;    ///< over all instants
   std::vector<UncrushedOverlap> uncrushed;  ///< the first of these
+  UncrushedOverlap most_in_contact;         ///< the most overlap that a contact presses and that is not paid
   std::size_t paid_pairs = 0;               ///< whose crushed ice was compared with the work that it took
   std::vector<UnpaidOverlap> unpaid;        ///< those of them that differ
   double most_expected = 0;                 ///< Σ σ_c V over all pairs at the instant it is most [J]

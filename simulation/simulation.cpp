@@ -169,16 +169,20 @@ std::vector<CrushedOverlap> Simulation::crushed_overlaps() const {
   const Population& population = world_->population;
   const dynamics::Bodies& bodies = population.bodies;
   std::vector<std::tuple<BodyIndex, BodyIndex, CrushedOverlap>> pairs;
-  population.pairs.for_paid_overlaps([&](BodyIndex a, BodyIndex b, double area, const dynamics::Booked& booked) {
-    pairs.emplace_back(a, b,
-                       CrushedOverlap{.on = contact_body(population, a),
-                                      .by = contact_body(population, b),
-                                      .area = std::max(0.0, area - booked.tilted),
-                                      .share = area / std::min(bodies.area[a], bodies.area[b]),
-                                      .tilted = booked.tilted,
-                                      .volume = booked.volume,
-                                      .work = booked.work});
-  });
+  population.pairs.for_overlaps(
+      [&](BodyIndex a, BodyIndex b, double paid, double unpaid, const dynamics::Booked& booked) {
+        const double smaller = std::min(bodies.area[a], bodies.area[b]);
+        paid = std::min(paid, smaller);  // a floe that came up has all of its overlaps paid, without their area
+        pairs.emplace_back(a, b,
+                           CrushedOverlap{.on = contact_body(population, a),
+                                          .by = contact_body(population, b),
+                                          .area = std::max(0.0, paid - booked.tilted),
+                                          .share = (paid + unpaid) / smaller,
+                                          .tilted = booked.tilted,
+                                          .unpaid = unpaid,
+                                          .volume = booked.volume,
+                                          .work = booked.work});
+      });
   std::ranges::sort(pairs, {}, [](const auto& pair) { return std::pair(std::get<0>(pair), std::get<1>(pair)); });
   std::vector<CrushedOverlap> overlaps;
   overlaps.reserve(pairs.size());

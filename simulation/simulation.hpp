@@ -54,13 +54,14 @@ struct HullState {
   double angular_velocity = 0;  ///< [rad/s]
 };
 
-/// Two bodies with an overlap that their contacts have pressed: ice that was crushed there, or gave way.
+/// Two bodies with an overlap: ice that was crushed there or gave way, and ice that is not paid yet.
 struct CrushedOverlap {
   ContactState::Body on;
   ContactState::Body by;
   double area = 0;    ///< crushed [m²]
-  double share = 0;   ///< of the smaller of the two bodies, with what is tilted
+  double share = 0;   ///< the whole overlap as a fraction of the smaller of the two bodies
   double tilted = 0;  ///< where the ice edge tilted or bent down under a hull [m²]
+  double unpaid = 0;  ///< in contact and not paid: it presses the two bodies apart [m²]
   double volume = 0;  ///< of the ice that the work crushed; under an inclined hull a wedge of the area's [m³]
   double work = 0;    ///< that crushed it, friction aside [J]
 };

@@ -404,7 +404,7 @@ ContactMemory BroadPhase::contact_memory_of(const Bodies& bodies, BodyIndex pare
       overlap.booked += record.booked;
       if (record.crushed.area > overlap.crushed.area) overlap.crushed = record.crushed;
     }
-    if (overlap.paid_area == 0) continue;
+    if (overlap.area == 0 && overlap.paid_area == 0) continue;
     if (pair.b == parent) overlap.crushed.a_from_b = inverse(overlap.crushed.a_from_b);
     memory.overlaps.push_back(overlap);
   }

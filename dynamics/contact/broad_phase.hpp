@@ -110,18 +110,20 @@ class BroadPhase {
   /// The pairs, in no order, and what is_dropped among them: those are none.
   std::span<const Pair> pairs() const { return pairs_; }
 
-  /// Calls use(a, b, area, booked) for each pair, in no order: the paid area of its bodies' overlap [m²], and what
-  /// became of it.
+  /// Calls use(a, b, paid, unpaid, booked) for each pair whose bodies overlap, in no order: the paid area of the
+  /// overlap [m²], the area that is not paid and presses the two apart [m²], and what became of the paid area.
   template <class Use>
-  void for_paid_overlaps(Use use) const {
+  void for_overlaps(Use use) const {
     for (const Pair& pair : pairs_) {
-      double area = 0;
+      double paid = 0;
+      double unpaid = 0;
       Booked booked;
       for (const PersistentContact& record : pair.records()) {
-        area += record.paid_area;
+        paid += record.paid_area;
+        unpaid += std::max(0.0, record.area - record.paid_area);
         booked += record.booked;
       }
-      if (area > 0 && !pair.is_dropped) use(pair.a, pair.b, area, booked);
+      if (paid + unpaid > 0 && !pair.is_dropped) use(pair.a, pair.b, paid, unpaid, booked);
     }
   }
 

@@ -80,7 +80,7 @@ struct Contact {
   double slip_speed = 0;                ///< along the contact line [m/s]
   std::uint32_t tip_edge_of_b = 0;      ///< the edge of b that starts at the tip, or that the tip is on
   std::uint32_t place = 0;              ///< among the contacts of its two bodies
-  bool is_new = false;                  ///< it was found in this step for the first time, and nothing of it is paid
+  bool is_new = false;                  ///< its overlap was found in this step for the first time
   PersistentContact* record = nullptr;  ///< in its pair; valid during the step
 
   // Decided between finding and solving, along the normal, both ends together.
@@ -89,7 +89,10 @@ struct Contact {
   /// steel on steel, which does not crush.
   double crushing_force = std::numeric_limits<double>::infinity();
   double crushing_stiffness = 0;  ///< k = dF/dξ there [N/m]
-  double missed_impulse = 0;      ///< in the step of the first contact, before it was found [N s]
+  double crushing_share = 1;      ///< F as a fraction of the force that crushes the ice: less where the floe tilts [-]
+  /// The most that the ice along the contact bears, however deep the overlap becomes in the step [N].
+  double most_force = std::numeric_limits<double>::infinity();
+  double missed_impulse = 0;  ///< in the step of the first contact, before it was found [N s]
   double breaking_force = std::numeric_limits<double>::infinity();  ///< at which the ice breaks [N]
 
   // Found by the solver.
@@ -99,8 +102,8 @@ struct Contact {
   double depth_after = 0;             ///< expected of the overlap at the end of the step [m]
   double paid_depth_after = 0;        ///< the depth to which work has paid it then [m]
   double paying_work = 0;             ///< of the contact's work in the step, what paid [J]
-  double paid_by_work = 0;            ///< by how much that work has made the paid area grow [m²]
-  double paid_by_giving_way = 0;      ///< and by how much ice that broke or tilted [m²]
+  double paid_by_work = 0;            ///< growth of the paid area in the step by ice that this work crushed [m²]
+  double paid_by_giving_way = 0;      ///< growth of the paid area in the step by ice that broke or tilted [m²]
   bool is_at_limit = false;           ///< it pressed with all that crushing ice carries
   bool is_broken = false;             ///< the force reached breaking_force
   double steady_share = 1;            ///< of the impulses: without what was missed before the contact was found [-]

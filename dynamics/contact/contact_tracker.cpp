@@ -45,7 +45,7 @@ void ContactTracker::update(std::span<Contact> contacts, std::span<const Contact
   if (!continues_one(contacts, manifolds, bodies)) update_several(contacts, manifolds, bodies);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     contacts[i].record = &records_[i];
-    contacts[i].is_new = records_[i].age <= dt_ && records_[i].paid_area == 0;
+    contacts[i].is_new = records_[i].age <= dt_ && records_[i].area == 0;
     enter_paid_depth(contacts[i]);
   }
 }
@@ -123,6 +123,7 @@ void ContactTracker::take_parts(std::span<const Contact> contacts, std::size_t p
   const double area = contacts[part].area;
   for (PersistentContact& old : records_) {
     if (old.is_continued) continue;
+    if (old.area > 0) record.area = area;
     give_part(old.paid_area, area - record.paid_area, old, record);
     // It is cut off with the part that took it over, and not again where its own record ends.
     if (old.crushed.area > 0 && !old.is_inherited && record.crushed.area >= old.crushed.area) old.crushed = {};

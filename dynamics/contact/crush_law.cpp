@@ -110,11 +110,25 @@ double gap_speed_of(const CrushLaw& law, const CrushLaw::State& c) {
   return c.is_new ? 0 : gap / std::max(kDecayTime, law.step);
 }
 
+double closing_speed_of(const ConstraintSpeeds& speeds) {
+  return -0.5 * (speeds.apart[0] + speeds.apart[1]);
+}
+
+CrushingForce force_of(const CrushLaw::State& c) {
+  return {c.force, c.exponent, std::max(c.depth, c.paid)};
+}
+
+/// k while the bodies close as they do now for a time τ, once the gap is closed [N/m].
+double stiffness_in(const CrushLaw::State& c, const ConstraintSpeeds& speeds, double tau) {
+  const double gap = std::max(0.0, c.paid - c.depth);
+  return stiffness_over(force_of(c), std::max(0.0, tau * closing_speed_of(speeds) - gap));
+}
+
 /// The most impulse that the ice gives in a time τ before it breaks: where the force grows to the breaking
 /// force sooner, at the speed of closing now, all until then [N s].
 double impulse_to_breaking(const CrushLaw::State& c, const ConstraintSpeeds& speeds, double tau) {
   if (!std::isfinite(c.breaking_force)) return c.breaking_force;
-  const double growth = -0.5 * (speeds.apart[0] + speeds.apart[1]) * c.stiffness;  // [N/s]
+  const double growth = closing_speed_of(speeds) * stiffness_in(c, speeds, tau);  // [N/s]
   const double left = c.breaking_force - c.force;
   if (left <= 0) return 0;
   const double time = growth > 0 ? left / growth : tau;
@@ -167,13 +181,16 @@ std::array<double, 2> crush_impulses(const std::array<CrushResponse, 2>& ends, c
 }
 
 CrushLaw::State state_of(const CrushLaw& /*law*/, const Contact& c) {
+  const bool crushes = c.crushing_force > 0 && !c.is_rigid();
+  const double exponent = crushes ? c.crushing_stiffness * std::max(c.depth, c.paid_depth) / c.crushing_force : 0;
   return {.force = c.crushing_force,
-          .stiffness = c.crushing_stiffness,
+          .exponent = exponent,
           .depth = c.depth,
           .paid = c.paid_depth,
           .paying_work = 0,
           .missed = c.missed_impulse,
           .breaking_force = c.breaking_force,
+          .most_force = c.most_force,
           .ends = {},
           .kinks = {},
           .branches = {},
@@ -182,6 +199,7 @@ CrushLaw::State state_of(const CrushLaw& /*law*/, const Contact& c) {
           .last_slip = c.record->last_slip_impulse,
           .is_rigid = c.is_rigid(),
           .is_broken = false,
+          .breaks_at_cap = false,
           .is_new = c.is_new};
 }
 
@@ -193,10 +211,13 @@ void begin_substep(const CrushLaw& law, const ConstraintSpeeds& before, bool is_
   CrushResponse& end = state.ends[0];
   const double missed = is_first ? state.missed : 0;
   end.impulse_of_force = 0.5 * (tau * state.force + missed);
-  end.slope = 0.25 * state.stiffness * tau * tau;
+  end.slope = 0.25 * stiffness_in(state, before, tau) * tau * tau;
   end.gap_speed = gap_speed_of(law, state);
   end.creep_speed = creep_speed_of(end.gap_speed);
-  end.cap = state.is_broken ? 0 : 0.5 * (impulse_to_breaking(state, before, tau) + missed);
+  const double to_breaking = state.is_broken ? 0 : impulse_to_breaking(state, before, tau);
+  const double most = tau * state.most_force;
+  state.breaks_at_cap = to_breaking <= most;
+  end.cap = state.is_broken ? 0 : 0.5 * (std::min(to_breaking, most) + missed);
   state.ends[1] = end;
   state.kinks[0] = state.kinks[1] = kinks_of(end);
   state.line.reset();
@@ -242,17 +263,16 @@ void end_substep(const CrushLaw& law, const ConstraintSpeeds& before, const Cons
   for (std::size_t end = 0; end < 2; ++end) {
     closing -= 0.5 * after.apart[end];  // as the bodies are moved, by their new speeds
     work -= 0.5 * constraint.normal_impulse[end] * (before.apart[end] + after.apart[end]);
-    if (!state.is_rigid && branch_at(state.ends[end], -after.apart[end]) == CrushBranch::kBroken)
+    if (!state.is_rigid && state.breaks_at_cap && branch_at(state.ends[end], -after.apart[end]) == CrushBranch::kBroken)
       state.is_broken = true;
   }
-  const double deepest = std::max(state.depth, state.paid);
+  const CrushingForce force = force_of(state);
   state.depth = std::max(0.0, state.depth + law.step / law.substeps * closing);
   if (state.is_rigid) return;
-  const Payment payment = pay({state.force, state.stiffness, deepest}, state.paid, state.depth, work);
+  const Payment payment = pay(force, state.paid, state.depth, work);
   state.paid = payment.depth;
   state.paying_work += payment.work;
-  const double deeper = std::max({deepest, state.depth, state.paid}) - deepest;
-  state.force = std::max(0.0, state.force + state.stiffness * deeper);
+  state.force = std::min(state.most_force, force_at(force, std::max({force.depth, state.depth, state.paid})));
 }
 
 void write_back(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,

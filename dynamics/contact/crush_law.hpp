@@ -56,6 +56,7 @@ struct BranchLine {
   double at_rest = 0;  ///< [N s]
   double slope = 0;    ///< [N s per m/s]
 };
+/// kBroken: the impulse is the most that there is, for the ice breaks or the whole length of the contact crushes.
 enum class CrushBranch : std::uint8_t { kApart, kCreeping, kCrushing, kBroken };
 
 inline double creep_slope(const CrushResponse& r) {
@@ -186,19 +187,21 @@ struct CrushLaw {
 
   /// Of one contact, through the substeps.
   struct State {
-    double force, stiffness;  ///< F and k at the greater of depth and paid, both ends together [N], [N/m]
-    double depth, paid;       ///< of the overlap now, and to which it is paid [m]
-    double paying_work;       ///< so far in the step [J]
-    double missed;            ///< impulse before the contact was found [N s]
-    double breaking_force;    ///< [N]
-    EndLaws ends;             ///< of the substep
+    double force, exponent;  ///< F at the greater of depth and paid, both ends together [N]; n of F ∝ ξ^n [-]
+    double depth, paid;      ///< of the overlap now, and to which it is paid [m]
+    double paying_work;      ///< so far in the step [J]
+    double missed;           ///< impulse before the contact was found [N s]
+    double breaking_force;   ///< [N]
+    double most_force;       ///< that the ice bears without breaking [N]
+    EndLaws ends;            ///< of the substep
     std::array<CrushKinks, 2> kinks;
     ActiveBranches branches;       ///< of the ends, at the last solution
     std::optional<EndsLine> line;  ///< of these branches, once it is solved in this substep
     double last_impulse[2];        ///< where the step starts [N s]
     double last_slip;              ///< [N s]
     bool is_rigid, is_broken;
-    bool is_new;  ///< the missed impulse stands for the overlap that is not paid
+    bool breaks_at_cap;  ///< the most impulse is that at which the ice breaks, not what it bears as it crushes
+    bool is_new;         ///< the missed impulse stands for the overlap that is not paid
   };
 };
 

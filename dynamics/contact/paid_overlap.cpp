@@ -33,9 +33,21 @@ double area_at(const Contact& c, double depth) {
   return c.area * std::pow(depth / c.depth, power_of(c));
 }
 
+double force_at(const CrushingForce& law, double depth) {
+  if (law.exponent == 0 || depth == law.depth || !(law.depth > 0)) return law.force;
+  return law.force * std::pow(std::max(0.0, depth) / law.depth, law.exponent);
+}
+
+double stiffness_over(const CrushingForce& law, double further) {
+  constexpr double kSmallGrowth = 0.01;  // of the depth: the mean differs from dF/dξ by less than half of it [-]
+  if (law.exponent == 0 || !(law.depth > 0)) return 0;
+  if (law.exponent >= 1 || further <= kSmallGrowth * law.depth) return law.exponent * law.force / law.depth;
+  return (force_at(law, law.depth + further) - law.force) / further;
+}
+
 Payment pay(const CrushingForce& law, double paid, double reached, double work) {
   if (!(work > 0 && law.force > 0 && law.depth > 0 && reached > paid)) return {paid, 0};
-  const double n = std::max(0.0, law.stiffness * law.depth / law.force);
+  const double n = law.exponent;
   const double scale = law.force * law.depth / (n + 1);  // ∫ F dξ from 0 to the depth [J]
   const auto paid_for = [&](double depth) { return scale * std::pow(depth / law.depth, n + 1); };
   const double before = paid_for(paid);
@@ -52,10 +64,15 @@ void settle(bool are_prescribed, Contact& c) {
   PersistentContact& record = *c.record;
   record.area = area_at(c, c.depth_after);
   if (c.is_rigid() || !has_shape(c)) return;
-  if (c.paid_depth_after > c.paid_depth)
-    c.paid_by_work = std::max(0.0, area_at(c, c.paid_depth_after) - record.paid_area);
+  if (c.paid_depth_after > c.paid_depth) {
+    // Work of a force that is a fraction of the crushing force has crushed that fraction of the ice that it let in. The
+    // floe's edge has given way for the rest.
+    const double let_in = std::max(0.0, area_at(c, c.paid_depth_after) - record.paid_area);
+    c.paid_by_work = c.crushing_share * let_in;
+    c.paid_by_giving_way = let_in - c.paid_by_work;
+  }
   const bool is_all_paid = c.is_broken || c.gives_way || (are_prescribed && c.total_normal_impulse() > 0);
-  const double left = std::max(0.0, record.area - record.paid_area - c.paid_by_work);
+  const double left = std::max(0.0, record.area - record.paid_area - c.paid_by_work - c.paid_by_giving_way);
   if (is_all_paid) (are_prescribed ? c.paid_by_work : c.paid_by_giving_way) += left;
   record.paid_area += c.paid_by_work + c.paid_by_giving_way;
 }

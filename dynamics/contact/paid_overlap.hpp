@@ -18,12 +18,20 @@ double depth_at(const Contact& contact, double area);
 /// The area that a contact's overlap would have at a depth [m], by that power law [m²].
 double area_at(const Contact& contact, double depth);
 
-/// The force of crushing ice about a depth: F(ξ) = force (ξ/depth)^n, n = stiffness · depth / force.
+/// The force of crushing ice about a depth: F(ξ) = force (ξ/depth)^n.
 struct CrushingForce {
-  double force = 0;      ///< [N]
-  double stiffness = 0;  ///< dF/dξ there [N/m]
-  double depth = 0;      ///< [m]
+  double force = 0;     ///< at the depth [N]
+  double exponent = 0;  ///< n, ≥ 0 [-]
+  double depth = 0;     ///< [m]
 };
+
+/// F at another depth [N].
+double force_at(const CrushingForce& law, double depth);
+
+/// How fast F grows while the depth grows by `further` [m]: dF/dξ where n ≥ 1 or the growth is small, else the mean,
+/// (F(ξ + further) − F(ξ)) / further. A tangent would let the force of a shallow overlap grow beyond what the ice bears
+/// where the overlap becomes several times as deep in one step [N/m].
+double stiffness_over(const CrushingForce& law, double further);
 
 /// What work has paid.
 struct Payment {

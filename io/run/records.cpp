@@ -355,7 +355,8 @@ std::span<const PanelColumn> panel_columns() {
 std::span<const CrushedColumn> crushed_columns() {
   using S = simulation::CrushedOverlap;
   static const std::array columns{number<S>("crushed_m2", "", &S::area), number<S>("tilted_m2", "", &S::tilted),
-                                  number<S>("crushed_m3", "", &S::volume), number<S>("crushing_J", "", &S::work)};
+                                  number<S>("crushed_m3", "", &S::volume), number<S>("crushing_J", "", &S::work),
+                                  number<S>("unpaid_m2", "", &S::unpaid)};
   return columns;
 }
 

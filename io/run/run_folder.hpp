@@ -16,7 +16,7 @@ namespace polynya::io {
 
 /// What a run folder's files are like, in its summary.json. 5: peaks in contacts.csv; 4: ice under hulls; 3:
 /// crushed.csv and ground overlaps; 2: floes.ndjson has parts of parents' shapes; folders without a number are 1.
-inline constexpr int kRunFolderVersion = 5;
+inline constexpr int kRunFolderVersion = 6;
 
 /// The files of a run (docs/run-folder.md).
 namespace run_file {

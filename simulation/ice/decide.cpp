@@ -15,21 +15,24 @@ namespace {
 using dynamics::Contact;
 using geometry::Vector;
 
-/// Whether a floe was born by what broke at the end of the step before.
-bool is_just_born(const Population& population, const Step& step, BodyIndex body) {
-  return !population.is_hull(body) && population.floes[population.floe_of(body)].born == step.begin.time;
+/// Enters the most that the ice of a contact bears, along the longest line that its two bodies can have, where its
+/// force could grow to that in the step: an overlap that is found when it is shallow may grow to many times its depth,
+/// and its measures do not tell how wide it will be. `line_load` is the force per metre of contact line [N/m].
+void limit_growth(const Step& step, const dynamics::Bodies& bodies, double line_load, Contact& c) {
+  constexpr double kUnforeseen = 1;  // by how much other bodies may make the two close faster in the step [m/s]
+  const double closing = std::max(0.0, c.approach_speed) + kUnforeseen;
+  const double grown = c.crushing_force + c.crushing_stiffness * step.length * closing;
+  const BodyIndex smaller = bodies.bounding_radius[c.a] < bodies.bounding_radius[c.b] ? c.a : c.b;
+  const double least_extent = bodies.area[smaller] / (2 * bodies.bounding_radius[smaller]);
+  if (grown > line_load * least_extent) c.most_force = line_load * longest_line(bodies, c);
 }
 
-/// Enters what the law of crushing ice takes of a contact: force [N] and stiffness dF/dξ [N/m]. One that is found for
-/// the first time has pressed while its bodies came to overlap so far: with F ∝ ξ^n, n = k ξ / F, it has given
-/// F ξ / ((1 + n) v). But for pieces of floes that broke just now, whose contacts were there before.
-void set_crushing(const Step& step, const Population& population, double force, double stiffness, Contact& c) {
-  c.crushing_force = force;
-  c.crushing_stiffness = stiffness;
-  if (!c.is_new || force <= 0 || c.approach_speed <= 0) return;
-  if (is_just_born(population, step, c.a) || is_just_born(population, step, c.b)) return;
-  const double exponent = stiffness * c.depth / force;
-  c.missed_impulse = std::min(step.length, c.depth / c.approach_speed) * force / (1 + exponent);
+/// Enters the impulse that a contact has missed which is found for the first time. It has pressed while its bodies came
+/// to overlap so far: with F ∝ ξ^n, n = k ξ / F, it has given F ξ / ((1 + n) v).
+void enter_missed_impulse(const Step& step, Contact& c) {
+  if (!c.is_new || c.crushing_force <= 0 || c.approach_speed <= 0) return;
+  const double exponent = c.crushing_stiffness * c.depth / c.crushing_force;
+  c.missed_impulse = std::min(step.length, c.depth / c.approach_speed) * c.crushing_force / (1 + exponent);
 }
 
 /// By the paper's rule: the crack that would start at the contact, along the hull's normal through all ice
@@ -156,8 +159,10 @@ void crush_between_floes(const Setup& setup, const Step& step, const Population&
   const fracture::Ice ice = crushed_between(setup, population, c);
   const fracture::CrushedArea crushed =
       fracture::crushed_overlap_at({c.width, c.depth, c.area}, std::max(c.depth, c.paid_depth), ice.thickness, 0);
-  set_crushing(step, population, fracture::crushing_force(ice, crushed.area),
-               fracture::crushing_force(ice, crushed.slope), c);
+  c.crushing_force = fracture::crushing_force(ice, crushed.area);
+  c.crushing_stiffness = fracture::crushing_force(ice, crushed.slope);
+  enter_missed_impulse(step, c);
+  limit_growth(step, population.bodies, ice.compressive_strength * ice.thickness, c);
 }
 
 /// Enters what both laws take of a ship's contact with ice: the collision force j/τ_c, friction, and the hull's slope.
@@ -186,7 +191,12 @@ void crush_at_hull(const Setup& setup, const Step& step, const Population& popul
   close_prescribed_gap(step, population.bodies, c);
   enter_hull_contact(setup, population, load, c, data);
   const double horizontal = load.shares.horizontal;
-  set_crushing(step, population, horizontal * load.normal_force, horizontal * load.stiffness, c);
+  c.crushing_force = horizontal * load.normal_force;
+  c.crushing_stiffness = horizontal * load.stiffness;
+  enter_missed_impulse(step, c);
+  limit_growth(step, population.bodies,
+               load.ice.compressive_strength * load.ice.thickness * (1 + load.ice.friction * std::tan(load.hull_angle)),
+               c);
   const auto measure = [&](PendingFracture& pending) {
     return measure_bending_by_crushing(setup, step, load, pending);
   };

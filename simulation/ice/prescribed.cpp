@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "simulation/ice/pieces.hpp"
 #include "simulation/world/step.hpp"
@@ -103,13 +104,25 @@ double share_of_friction(const Contact& c, bool is_crescent) {
 
 }  // namespace
 
+double longest_line(const dynamics::Bodies& bodies, const Contact& c) {
+  const BodyIndex smaller = bodies.bounding_radius[c.a] < bodies.bounding_radius[c.b] ? c.a : c.b;
+  const geometry::Vector along_in_body = rotate_back(bodies.rotation[smaller], perpendicular(c.normal));
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  for (const geometry::Point& corner : bodies.boundary[smaller]->edges.outer_corners()) {
+    const double place = dot(corner - geometry::Point{}, along_in_body);
+    least = std::min(least, place);
+    most = std::max(most, place);
+  }
+  return most - least;
+}
+
 double most_that_ice_bears(const Setup& setup, const Population& population, const Contact& c, double slope_tangent) {
   const dynamics::Bodies& bodies = population.bodies;
   const fracture::Ice& of_b = ice_of_body(setup, population, c.b);
   const fracture::Ice ice =
       population.is_hull(c.a) ? of_b : fracture::crushed_between(ice_of_body(setup, population, c.a), of_b);
-  const double across = 2 * std::min(bodies.bounding_radius[c.a], bodies.bounding_radius[c.b]);
-  return ice.compressive_strength * (ice.thickness * across) * (1 + ice.friction * slope_tangent);
+  return ice.compressive_strength * (ice.thickness * longest_line(bodies, c)) * (1 + ice.friction * slope_tangent);
 }
 
 void press_prescribed(const Setup& setup, const Step& step, const Population& population, HullContactLoad& load) {

@@ -4,8 +4,10 @@
 
 namespace polynya::simulation {
 
-/// The most that ice can bear along a contact line as long as the smaller of its two bodies is wide,
-/// σ_c h 2R (1 + μ tan θ_s) [N].
+/// The longest contact line that two bodies can have across the contact's normal: the extent of the smaller one [m].
+double longest_line(const dynamics::Bodies& bodies, const dynamics::Contact& c);
+
+/// The most that ice can bear along that line, σ_c h W (1 + μ tan θ_s) [N].
 double most_that_ice_bears(const Setup& setup, const Population& population, const dynamics::Contact& c,
                            double slope_tangent);
 

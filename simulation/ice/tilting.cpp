@@ -74,7 +74,9 @@ double expected_vertical_force(const Contact& c, const HullSlope& slope, double 
 void scale(Contact& c, double share) {
   c.crushing_force *= share;
   c.crushing_stiffness *= share;
+  c.most_force *= share;
   c.missed_impulse *= share;
+  c.crushing_share *= share;
   c.gives_way = true;
 }
 

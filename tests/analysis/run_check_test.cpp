@@ -193,6 +193,13 @@ TEST(RunCheck, OverlapsThatWereNotCrushedAreFoundHullsIncluded) {
   EXPECT_EQ(check_run(run, 3).uncrushed_pairs, 1U);
   run.crushed.back().overlap.area = 0.48;
   EXPECT_TRUE(check_run(run, 3).is_sound()) << "1 % of the smaller floe may be missing";
+  run.crushed.back().overlap.area = 0.2;
+  EXPECT_FALSE(check_run(run, 3).is_sound());
+  run.crushed.back().overlap.unpaid = 0.28;
+  const RunCheck with_contact = check_run(run, 3);
+  EXPECT_TRUE(with_contact.is_sound()) << "overlap that presses in a contact is on record";
+  EXPECT_EQ(with_contact.most_in_contact.in_contact, 0.28);
+  EXPECT_EQ(with_contact.most_in_contact.second.floe, 3);
 }
 
 TEST(RunCheck, CrushedIceIsComparedWithTheWorkThatItTook) {
@@ -201,7 +208,7 @@ TEST(RunCheck, CrushedIceIsComparedWithTheWorkThatItTook) {
   const fracture::Ice& ice = run.scene.scene.ice;
   const double volume = 0.5 * ice.thickness;
   const double work = ice.compressive_strength * volume;
-  run.crushed = {{3, {{-1, 1}, {-1, 2}, 0.5, 0, 0, volume, work}}, {3, {{-1, 1}, {-1, 3}, 0.1, 0, 0.4, 0, 0}}};
+  run.crushed = {{3, {{-1, 1}, {-1, 2}, 0.5, 0, 0, 0, volume, work}}, {3, {{-1, 1}, {-1, 3}, 0.1, 0, 0.4, 0, 0, 0}}};
   RunCheck check = check_run(run, 3);
   EXPECT_TRUE(check.is_sound()) << "what is tilted takes no crushing";
   EXPECT_EQ(check.paid_pairs, 1U);

@@ -408,6 +408,22 @@ TEST(Tracker, ContactsOfFragmentsTakeTheShareThatWasPaid) {
   EXPECT_NEAR(records[1].booked.crushed, 0.16, 1e-12);
 }
 
+/// The overlap of a floe that broke was there before, though nothing of it was paid: it is pressed apart, and no
+/// impulse was missed.
+TEST(Tracker, ContactsOfFragmentsAreNotNewWhereTheirFloeOverlapped) {
+  const Bodies bodies = two_floes(0, 3);
+  for (const double area_before : {0.0, 0.5}) {
+    std::vector<PersistentContact> records(1), scratch;
+    records[0].is_inherited = true;
+    records[0].area = area_before;
+    std::vector<PartedContact> parted;
+    std::vector<Contact> contacts = two_contacts(0.1, 0.4);
+    const std::vector<geometry::ContactManifold> manifolds(2);
+    ContactTracker(0, 1, records, scratch, parted, 1, 0.01).update(contacts, manifolds, bodies);
+    for (const Contact& c : contacts) EXPECT_EQ(c.is_new, area_before == 0) << area_before;
+  }
+}
+
 TEST(Tracker, EndsWhatWasCrushedWhereEdgesMeetWithoutAnOverlap) {
   const Bodies bodies = two_floes(0, 3);
   std::vector<PersistentContact> records(1), scratch;

@@ -183,6 +183,27 @@ TEST_P(ByBothLaws, BodiesThatPartAreLeftAlone) {
   }
 }
 
+/// An overlap of 1 mm becomes 20 mm deep in a step. Its force grows twentyfold by its measures at 1 mm, but the bodies
+/// have no ice that bears more than 30 kN.
+TEST(CrushLaw, NoImpulseExceedsWhatTheLongestLineBears) {
+  for (const double most : {3e4, std::numeric_limits<double>::infinity()}) {
+    Pair pair({-2, 0});
+    Contact& c = pair.contacts[0];
+    c.depth = 1e-3, c.width = 2, c.area = 1e-3;
+    c.crushing_force = 1e4;
+    c.crushing_stiffness = 1e7;
+    c.most_force = most;
+    CrushLaw law;
+    law.step = 0.01;
+    ContactSolver().solve(pair.bodies, pair.contacts, law, {});
+    EXPECT_FALSE(c.is_broken);
+    if (std::isfinite(most))
+      EXPECT_NEAR(c.total_normal_impulse(), law.step * most, 1e-9 * most);
+    else
+      EXPECT_GT(c.total_normal_impulse(), law.step * 4e4);
+  }
+}
+
 /// What does not crush ends its approach, by either law.
 TEST_P(ByBothLaws, RigidBodiesStopEachOtherWhateverTheIceIs) {
   Pair pair({-1, 0});

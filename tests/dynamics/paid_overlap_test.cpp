@@ -34,7 +34,7 @@ TEST(PaidOverlap, WorkPaysAsFarAsItsIntegralReaches) {
     const auto work = [&](double from, double to) {
       return 3e5 / (n + 1) * (std::pow(to, n + 1) - std::pow(from, n + 1));
     };
-    const CrushingForce law{force(0.3), n * force(0.3) / 0.3, 0.3};
+    const CrushingForce law{force(0.3), n, 0.3};
     for (const double to : {0.21, 0.3, 0.35}) {
       const Payment payment = pay(law, 0.2, 0.4, work(0.2, to));
       EXPECT_NEAR(payment.depth, to, 1e-12) << n;
@@ -45,6 +45,16 @@ TEST(PaidOverlap, WorkPaysAsFarAsItsIntegralReaches) {
     EXPECT_NEAR(all.work, work(0.2, 0.4), 1e-6) << "what is left has crushed nothing";
     EXPECT_EQ(pay(law, 0.2, 0.4, -1).depth, 0.2) << "work that is given back pays nothing, and takes nothing back";
   }
+}
+
+TEST(PaidOverlap, ForceGrowsInAStepByItsMeanStiffnessWhereItIsConcave) {
+  const CrushingForce concave{2e5, 0.2, 0.001};
+  EXPECT_NEAR(stiffness_over(concave, 0), 0.2 * 2e5 / 0.001, 1e-3) << "the tangent";
+  EXPECT_NEAR(2e5 + 0.009 * stiffness_over(concave, 0.009), force_at(concave, 0.01), 1e-6);
+  EXPECT_NEAR(force_at(concave, 0.01), 2e5 * std::pow(10, 0.2), 1e-6);
+  const CrushingForce wedge{2e5, 1, 0.001};
+  EXPECT_NEAR(stiffness_over(wedge, 0.009), 2e8, 1e-3);
+  EXPECT_EQ(stiffness_over({2e5, 0, 0.001}, 0.009), 0);
 }
 
 TEST(PaidOverlap, WhatBreaksOrTiltsIsPaidButNotByWork) {
@@ -61,6 +71,22 @@ TEST(PaidOverlap, WhatBreaksOrTiltsIsPaidButNotByWork) {
     EXPECT_EQ(c.paid_by_work, 0);
     EXPECT_NEAR(c.paid_by_giving_way, area_at(c, 0.5), 1e-12);
   }
+}
+
+/// A floe that tilts takes a fraction of the force that would crush it, and yields to that force as fast as ice would
+/// yield to all of it.
+TEST(PaidOverlap, OfIceLetInByAFractionOfTheCrushingForceThatFractionIsCrushed) {
+  PersistentContact record;
+  Contact c = wedge(0.4, 1.5);
+  c.record = &record;
+  c.crushing_force = 1e5;
+  c.crushing_share = 0.1;
+  c.gives_way = true;
+  c.depth_after = c.paid_depth_after = 0.5;
+  settle(false, c);
+  EXPECT_NEAR(record.paid_area, area_at(c, 0.5), 1e-12);
+  EXPECT_NEAR(c.paid_by_work, 0.1 * area_at(c, 0.5), 1e-12);
+  EXPECT_NEAR(c.paid_by_giving_way, 0.9 * area_at(c, 0.5), 1e-12);
 }
 
 TEST(PaidOverlap, WhatIsNotPaidPressesBodiesAtRest) {

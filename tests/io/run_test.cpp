@@ -369,11 +369,11 @@ TEST_F(RunFiles, OfVersionOneReadTheSameAndOfALaterOneNot) {
   std::string lines;
   for (const simulation::Birth& birth : recorded.births) append_birth(lines, birth, nullptr);
   EXPECT_EQ(refusal(run_file::kFloes, lines), "");
-  const std::string summary = text(run_file::kSummary), version = "\"folder_version\": 5,";
+  const std::string summary = text(run_file::kSummary), version = "\"folder_version\": 6,";
   EXPECT_EQ(refusal(run_file::kSummary, replaced(summary, version, "")), "");
   const io::Run run = read();
   for (const simulation::Birth& birth : recorded.births) EXPECT_EQ(*run.shape(birth.floe), birth.polygon_in_body);
-  for (const char* other : {"\"folder_version\": 6,", R"("folder_version": "3",)"})
+  for (const char* other : {"\"folder_version\": 7,", R"("folder_version": "3",)"})
     EXPECT_HAS(refusal(run_file::kSummary, replaced(summary, version, other)), "summary.json: a run folder of version");
 }
 

@@ -203,7 +203,7 @@ def test_other_versions_are_named(copy):
     assert len(run.forces) > 0
     with pytest.raises(polynya.VersionError, match="version 2 and before did not record it"):
         run.crushed
-    change(copy / "summary.json", folder_version=6)
+    change(copy / "summary.json", folder_version=7)
     with pytest.raises(polynya.VersionError, match="a run folder of version 6; this polynya reads 1 to 5"):
         polynya.Run(copy)
 
