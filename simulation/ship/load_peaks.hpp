@@ -12,6 +12,7 @@ struct Step;
 struct HullSlope;
 struct Population;
 struct Setup;
+struct Books;
 struct StepData;
 
 /// The force of one contact of a hull with ice, followed from step to step until it parts.
