@@ -423,7 +423,7 @@ TEST(RejectedCut, IsAnInputOfPolynyaCutThatComesToTheSame) {
   world.journal.clear();
   dynamics::PersistentContact record;
   world.data.fractures = {misplaced(fracture::Failure::kBend, record), misplaced(fracture::Failure::kSplit, record)};
-  apply_fractures(world.setup, world.last_step, world.data, world.population, world.accounts, world.journal);
+  apply_fractures(world.setup, world.last_step, world.data, world.population, {world.accounts, world.journal});
   ASSERT_EQ(world.journal.events.size(), 2U);
   EXPECT_EQ(world.accounts.counts.rejected_cuts, 2);
   for (const Event& event : world.journal.events) {

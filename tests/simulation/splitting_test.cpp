@@ -172,8 +172,8 @@ TEST(Splitting, WhatPassesFloesOverIsNoLessThanTheirPushes) {
     for (const dynamics::Contact& c : world.data.contacts) {
       const double bound = opening_bound(world.setup, world.last_step, {&c, 1});
       for (const BodyIndex floe : {c.a, c.b}) {
-        PressedFloe pressed;
-        press(world.setup, world.last_step, world.population.bodies, {&c, 1}, floe, pressed);
+        PressedFloe pressed{.floe = floe};
+        press(world.setup, world.last_step, world.population.bodies, {&c, 1}, pressed);
         EXPECT_LE(pressed.most, bound * (1 + 1e-9));
         corners += !pressed.contacts.empty() && pressed.contacts.front().is_corner ? 1 : 0;
       }

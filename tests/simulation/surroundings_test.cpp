@@ -349,7 +349,7 @@ TEST(Cusp, WhoseFirstTouchHasBrokenOffIsCentredAtTheIceNearestToTheContact) {
   pending.record = &record;
   world.data.fractures = {pending};
   world.data.loads.resize(1);
-  apply_fractures(world.setup, world.last_step, world.data, world.population, world.accounts, world.journal);
+  apply_fractures(world.setup, world.last_step, world.data, world.population, {world.accounts, world.journal});
   EXPECT_EQ(world.accounts.counts.bends, 1);
   EXPECT_EQ(world.accounts.counts.rejected_cuts, 0);
   EXPECT_FALSE(record.was_refused);
