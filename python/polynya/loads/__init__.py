@@ -4,7 +4,7 @@
     found = loads.gather("studies/load-peaks")
     loads.estimate.exceedance(found)
 """
-from . import estimate, rules
+from . import bursts, estimate, rules
 from .gather import Loads, gather
 
-__all__ = ["Loads", "estimate", "gather", "rules"]
+__all__ = ["Loads", "bursts", "estimate", "gather", "rules"]

@@ -1,41 +1,24 @@
-"""Estimates of a load's peaks: rates with bands, fits, return values, and what each panel bore."""
+"""Estimates of a load's peaks: rates with bands, tails, return values, and what each panel bore."""
 from __future__ import annotations
 
 import dataclasses
-import math
+from typing import Optional
 
 import numpy
 from scipy import stats
 
-from polynya import statistics
+from polynya import extremes
 
-LEVEL = 0.95
-LEAST = 10  # values that a distribution is fitted to
-BLOCKS = 20  # of one run, whose maxima are taken
+from . import bursts
 
-
-@dataclasses.dataclass(frozen=True)
-class Tail:
-    """Peaks above a force: how often they come, and how far they go beyond it."""
-
-    least: float  #: [N]
-    rate: float  #: per hour
-    excesses: numpy.ndarray  #: [N]
+REFUTED = 0.05  #: p values below refute a fit
+HALVINGS = 8  #: thresholds that are tried leave all peaks, half of them, a quarter, …
+HALF_WIDTH = 0.2  #: of an interval over its value, for which the record needed is stated
 
 
-@dataclasses.dataclass(frozen=True)
-class Maxima:
-    """The largest peaks of stretches of equal length, independent of each other where they are cases."""
-
-    hours: float  #: of a stretch
-    values: numpy.ndarray  #: [N]
-    words: str  #: of what
-
-
-def exceedance(loads, level=LEVEL):
+def exceedance(loads, level=extremes.LEVEL):
     """Columns: each peak's force, from the largest, how many are at least as large per hour, and between which limits
-    the
-    rate lies if peaks come independently of each other (exact Poisson limits [Garwood1936])."""
+    the rate lies if peaks come independently of each other (exact Poisson limits [Garwood1936])."""
     force = numpy.sort(loads.forces)[::-1]
     count = numpy.arange(1, len(force) + 1)
     low = stats.chi2.ppf((1 - level) / 2, 2 * count) / 2
@@ -48,53 +31,121 @@ def exceedance(loads, level=LEVEL):
     return columns
 
 
-def tail(loads, least=None):
-    """The peaks above a force [N], their median where none is given."""
-    if least is None:
-        least = float(numpy.median(loads.forces)) if len(loads.forces) else 0.0
-    above = loads.forces[loads.forces > least]
-    return Tail(least, len(above) / loads.hours if loads.hours else 0.0, above - least)
+@dataclasses.dataclass(frozen=True)
+class Fit:
+    """A tail fitted to the events above a threshold, and the tests that may refute it."""
+
+    tail: extremes.Tail
+    events: bursts.Events
+    goodness_p: float  #: of Anderson and Darling's test
+
+    @property
+    def refuted(self):
+        """Why the fit gives no return values; empty where it gives them."""
+        reasons = []
+        if self.goodness_p < REFUTED:
+            reasons.append(f"the peaks do not follow the fitted tail (p {self.goodness_p:.2g})")
+        if self.events.counts_p < bursts.UNLIKE:
+            reasons.append(f"peaks come more often in some parts of the record than in others (p "
+                           f"{self.events.counts_p:.2g})")
+        if self.events.sizes_p < bursts.UNLIKE:
+            reasons.append(f"peaks are larger in some runs or parts than in others (p {self.events.sizes_p:.2g})")
+        return "; ".join(reasons)
 
 
-def maxima(loads):
-    """Of each case, where there are ten of them at least; else of equal stretches of each run. Stretches without a peak
-    have none: a distribution of maxima is of those with one."""
-    several = len(loads.cases) >= LEAST
-    parts = 1 if several else max(1, math.ceil(BLOCKS / len(loads.cases)))
-    found = []
-    for case in loads.cases:
-        chosen = loads.peaks["case"] == case.number
-        times, forces = loads.peaks["t_s"][chosen], loads.forces[chosen]
-        edges = case.start_s + numpy.linspace(0, case.hours * 3600, parts + 1)[1:-1]
-        place = numpy.searchsorted(edges, times, side="right")
-        found += [forces[place == part].max() for part in range(parts) if numpy.any(place == part)]
-    return Maxima(loads.hours / (parts * len(loads.cases)), numpy.array(found),
-                  "of a case" if several else f"of a {parts}th of a run")
+@dataclasses.dataclass(frozen=True)
+class Estimate:
+    """The fits that were tried, from the lowest threshold on. The last is used where it is not refuted."""
+
+    fits: list
+    hours: float
+    why: str  #: there is no fit that may be used; empty where there is one
+
+    @property
+    def used(self) -> Optional[Fit]:
+        return None if self.why else self.fits[-1]
 
 
-def fits(loads, least=None):
-    """(of what, the sample [N], its fit) of all that has enough values: Gumbel and Weibull of the maxima, Weibull of
-    what peaks have above a force, whose shape is 1 where the tail is exponential."""
-    samples = [("maxima", "gumbel", maxima(loads).values), ("maxima", "weibull", maxima(loads).values),
-               ("tail", "weibull", tail(loads, least).excesses)]
-    return [(of, values, statistics.fit(name, values))
-            for of, name, values in samples if len(values) >= LEAST and values.min() < values.max()]
+def thresholds(forces, least=None):
+    """The forces above which peaks are fitted, until a fit is not refuted [N]: the given one alone, else those that
+    leave all peaks but the least, half of them, a quarter and so on."""
+    if least is not None:
+        return [float(least)]
+    ordered = numpy.sort(forces)
+    places = [int(len(ordered) * (1 - 0.5**k)) for k in range(HALVINGS)]
+    return list(dict.fromkeys(float(ordered[place]) for place in places if place < len(ordered)))
 
 
-def returns(loads, hours, least=None):
-    """Rows of what is exceeded once in so many hours in the mean, by each fit, with its bootstrap interval: of the tail
-    by its rate, of maxima by the length of their stretches. Periods that a fit does not reach are left out."""
-    rows, above, blocks = [], tail(loads, least), maxima(loads)
-    for of, values, fit in fits(loads, least):
-        for period in hours:
-            probability = 1 / (above.rate * period) if of == "tail" else -math.expm1(-blocks.hours / period)
-            if not 0 < probability < 1:
-                continue
-            value = statistics.level_interval(fit.name, values, probability)
-            base = above.least if of == "tail" else 0.0
-            rows.append({"of": of, "fit": fit.name, "period_h": period, "value_N": base + value.value,
-                         "low_N": base + value.low, "high_N": base + value.high})
-    return rows
+def estimate(loads, least=None):
+    """The tail of alike runs. Of several kinds of runs the answer is withheld: `loads.kinds()` parts them."""
+    record = bursts.record_of(loads)
+    if len(loads.kinds()) > 1:
+        return Estimate([], record.hours, "the runs differ in more than their seeds; each kind has its own answer")
+    if loads.beyond_limit:
+        return Estimate([], record.hours, f"{loads.beyond_limit} peaks are not in contacts.csv, whose limit was "
+                                          "reached: raise record.least_peak_N and run again")
+    fits = []
+    for threshold in thresholds(record.forces, least):
+        events = bursts.independent(record, threshold, extremes.LEAST_PEAKS)
+        if events is None:
+            break
+        excesses = events.forces - threshold
+        fits.append(Fit(extremes.Tail(threshold, record.hours, excesses), events, extremes.goodness(excesses)))
+        if not fits[-1].refuted:
+            return Estimate(fits, record.hours, "")
+    if fits:
+        return Estimate(fits, record.hours, f"every fit is refuted; the last: {fits[-1].refuted}")
+    count = numpy.count_nonzero(record.forces > (least or 0))
+    return Estimate([], record.hours, f"{count} peaks{f' above {least:g} N' if least else ''} make fewer than "
+                                      f"{extremes.LEAST_PEAKS} independent ones above a threshold")
+
+
+@dataclasses.dataclass(frozen=True)
+class Answer:
+    """What is exceeded once in a time on average, or why that is not said. Forces in N, times in hours."""
+
+    period_h: float
+    records: float  #: the period over the record's length
+    value_N: Optional[float]
+    low_N: Optional[float]
+    high_N: Optional[float]
+    is_extrapolated: bool  #: beyond the periods for which the intervals are tested
+    seen_low_N: float  #: between peaks that were seen, without a fit
+    seen_high_N: float
+    record_needed_h: Optional[float]
+    why: str  #: there is no value
+
+
+def standard_periods(hours):
+    """The record's length and ten times it [h]."""
+    return [hours, extremes.FARTHEST * hours]
+
+
+def returns(loads, hours=None, least=None, extrapolate=False, half_width=HALF_WIDTH):
+    """An Answer for each return period [h], by default the record's length and ten times it."""
+    found = estimate(loads, least)
+    if found.hours <= 0:
+        return []
+    return [answer(found, loads.forces, period, extrapolate, half_width)
+            for period in (standard_periods(found.hours) if hours is None else hours)]
+
+
+def answer(found, forces, period, extrapolate=False, half_width=HALF_WIDTH):
+    records = period / found.hours
+    is_far = records > extremes.FARTHEST * (1 + 1e-9)
+    tail, why, value = found.used and found.used.tail, found.why, None
+    if not why and is_far and not extrapolate:
+        why = (f"the period is {float(f'{records:.3g}'):.6g} times the record, more than {extremes.FARTHEST:g}; "
+               "--extrapolate answers all the same")
+    if not why and not tail.reaches(period):
+        why = f"peaks above the fit's threshold come more often than once in {period:.3g} h"
+    if not why:
+        value = tail.level(period)
+    events = found.fits[-1].events.forces if found.fits else forces
+    low, high = extremes.level_of_order(events, found.hours, period)
+    return Answer(period, records, *((None,) * 3 if value is None else (value.value, value.low, value.high)),
+                  is_far and value is not None, low, high,
+                  tail.record_needed(period, half_width) if tail else None, why)
 
 
 def panels(loads):

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import math
 import pathlib
 from typing import Optional
@@ -9,6 +10,7 @@ from typing import Optional
 import numpy
 
 from polynya.errors import FolderError, InputError
+from polynya.naming import names_of
 from polynya.results.run import Run
 from polynya.results.tables import read_csv
 
@@ -46,6 +48,7 @@ class Case:
     start_s: float
     hours: float
     kilometres: float  #: over ground
+    kind: str = ""  #: runs of one kind differ in their seeds alone
 
 
 @dataclasses.dataclass
@@ -63,7 +66,9 @@ class Loads:
     peaks: dict
     panels: Optional[dict]
     interval_s: float  #: that a row of those covers
-    left_out: int  #: peaks that the runs' limits left out
+    left_out: int  #: peaks below the least that the runs record
+    beyond_limit: int = 0  #: peaks after the most that the runs record
+    gauge_s: float = 0.0  #: time constant of the gauge that peaks are those of
 
     @property
     def hours(self):
@@ -77,6 +82,18 @@ class Loads:
     def forces(self):
         """Of the peaks [N]."""
         return self.peaks["force_N"]
+
+    def kinds(self):
+        """Names of the kinds of runs, in the order of the cases."""
+        return list(dict.fromkeys(case.kind for case in self.cases))
+
+    def of_kind(self, kind):
+        """The loads of one kind of runs alone."""
+        cases = [case for case in self.cases if case.kind == kind]
+        numbers = [case.number for case in cases]
+        chosen = {name: table and {key: values[numpy.isin(table["case"], numbers)] for key, values in table.items()}
+                  for name, table in (("peaks", self.peaks), ("panels", self.panels))}
+        return dataclasses.replace(self, cases=cases, **chosen)
 
     def panel_of(self, arc):
         return numpy.floor(numpy.asarray(arc) / self.panel_m).astype(int)
@@ -103,6 +120,20 @@ def of_ship(columns, ship, start):
     return {name: values[chosen] for name, values in columns.items()}
 
 
+def kind_of(scene):
+    """What runs of one kind share: the scene but for its seed, its length and its words."""
+    shared = {key: value for key, value in scene.items() if key not in ("seed", "name", "description")}
+    shared["time"] = {key: value for key, value in scene["time"].items() if key != "until_s"}
+    return json.dumps(shared, sort_keys=True)
+
+
+def with_kinds(cases, scenes):
+    """The cases with the names of their kinds, by what differs; none where all are of one kind."""
+    different = list(dict.fromkeys(scenes))
+    names = names_of(different) if len(different) > 1 else {scene: "" for scene in different}
+    return [dataclasses.replace(case, kind=names[scene]) for case, scene in zip(cases, scenes)]
+
+
 def case_of(number, run, ship, start):
     """How long a run is from then on, and how far the ship goes."""
     rows = of_ship(run.force_columns, ship, start)
@@ -127,7 +158,7 @@ def joined(parts):
 def gather(folder, ship=None, start=0.0, panel=None) -> Loads:
     """Reads the peaks, and the panels where they are recorded, of a ship or structure (the first one) from `start` [s]
     of each run on. `panel` is the length of the panels by which peaks are counted [m]."""
-    cases, peaks, panels, left_out = [], [], [], 0
+    cases, scenes, peaks, panels, left_out, beyond = [], [], [], [], 0, 0
     first = None
     for number, run_folder in runs_of(folder):
         run = Run(run_folder, unfinished=True, pandas=False, shapely=False)
@@ -136,11 +167,13 @@ def gather(folder, ship=None, start=0.0, panel=None) -> Loads:
         if run.waterlines[body["name"]].shape != first[0].waterlines[first[1]["name"]].shape:
             raise InputError(f"{run.folder}: another waterline than in {first[0].folder}: places are not the same")
         cases.append(case_of(number, run, body["name"], start))
+        scenes.append(kind_of(run.scene))
         of_run = of_ship({name: numpy.asarray(run.peaks[name]) for name in run.peaks.dtype.names}, body["name"], start)
         of_run["case"] = numpy.full(len(of_run["t_s"]), number)
         peaks.append(of_run)
         counts = run.summary.get("load_peaks", {})
-        left_out += counts.get("below_least", 0) + counts.get("beyond_limit", 0)
+        left_out += counts.get("below_least", 0)
+        beyond += counts.get("beyond_limit", 0)
         if body.get("panels"):
             rows = of_ship(read_csv(run.folder / "panels.csv"), body["name"], start)
             rows["case"] = numpy.full(len(rows["t_s"]), number)
@@ -151,9 +184,11 @@ def gather(folder, ship=None, start=0.0, panel=None) -> Loads:
     length = (body.get("panels") or {}).get("length_m", COMMON)
     is_recorded = len(panels) == len(cases) and panel in (None, length)  # of panels of another length nothing is
     return Loads(name=pathlib.Path(folder).resolve().name, ship=body["name"], is_fixed="propulsion" not in body,
-                 waterline=Waterline(run.waterlines[body["name"]]), panel_m=panel or length, cases=cases,
+                 waterline=Waterline(run.waterlines[body["name"]]), panel_m=panel or length,
+                 cases=with_kinds(cases, scenes),
                  peaks=all_peaks, panels=joined(panels) if is_recorded else None,
-                 interval_s=run.summary["forces_interval_s"], left_out=left_out)
+                 interval_s=run.summary["forces_interval_s"], left_out=left_out, beyond_limit=beyond,
+                 gauge_s=run.scene["record"].get("peak_response_s", 0.0))
 
 
 def facing(loads, columns):

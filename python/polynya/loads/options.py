@@ -5,6 +5,7 @@ from ..figures.options import FORMATS, STYLES
 EXAMPLES = (
     "loads runs/sawamura2017-fig4b --out loads             tables, figures and loads.html",
     "loads studies/load-peaks --out loads --from 20        of all its cases, from 20 s of each on",
+    "loads studies/load-peaks --out loads --returns 3,30   what is exceeded once in 3 h and in 30 h",
     "run scenes/level-plate.json --panel 2.5               records the loads of panels too",
 )
 REST = """Needs Python 3 with numpy, scipy and matplotlib (./setup.sh python).
@@ -22,11 +23,14 @@ def command_line():
     parser.add("--panel", meaning, type=number(0.1, 1000, "m"), metavar="M")
     parser.add("--from", "Leave out what is before that time of a run [s]", dest="start",
                type=number(0), default=0.0, metavar="S")
-    parser.add("--least", "Fit the tail of peaks above this force [N]; their median if not given",
-               type=number(0), metavar="N")
-    meaning = "Return periods [h]; 1,10,100,1000 if not given"
-    parser.add("--returns", meaning, type=numbers(number(0, is_open=True)), default=[1.0, 10.0, 100.0, 1000.0],
-               metavar="H,H,...")
+    meaning = ("Fit the tail of peaks above this force [N]; the lowest of some forces whose tail is not refuted if not "
+               "given")
+    parser.add("--least", meaning, type=number(0), metavar="N")
+    meaning = "Return periods [h]; the record's length and ten times it if not given"
+    parser.add("--returns", meaning, type=numbers(number(0, is_open=True)), metavar="H,H,...")
+    parser.add("--extrapolate", "Answer, and mark, return periods beyond ten times the record too", action="store_true")
+    meaning = "State the record needed for intervals of ± this share of the value; 0.2 if not given"
+    parser.add("--half-width", meaning, type=number(0, 10, is_open=True), default=0.2, metavar="SHARE")
     meaning = "What for: a column of a page, its whole width (if not given), or slides"
     parser.add("--style", meaning, type=choice(STYLES), default="two-columns", metavar="|".join(STYLES))
     meaning = "Which files of a figure, separated by commas; all if not given"

@@ -8,69 +8,84 @@ from matplotlib.ticker import MaxNLocator
 
 from polynya.figures.page import Page, Sheet
 
-from . import estimate, rules
+from . import estimate, rules, words
 
 BLACK, RED, BLUE, GREEN, PURPLE = "#000000", "#d55e00", "#0072b2", "#009e73", "#cc79a7"  # [Okabe2008]
+KINDS = (BLACK, RED, BLUE, GREEN, PURPLE, "#e69f00")
 ENDS = {"bend": (BLUE, "o"), "split": (RED, "^"), "tilt": (GREEN, "s"), "slip": ("#888888", ".")}
 MOST_POINTS = 5000  # of a scatter: the largest
 BINS = 400  # of time in a raster
+WIDEST = 5  # a fit is drawn up to so many times the largest peak
 HEIGHT = 70  # of a figure's panels [mm]
 
 
-def exceedance(loads, page=Page(), least=None):
-    """Peaks exceeded per hour, with their band, and the fitted tail."""
+def curve_of(tail, lowest):
+    """Rates from that of the threshold down to the lowest [1/h], and the interval of the return value at each [MN]."""
+    rates = numpy.geomspace(max(lowest, 1e-12), 0.95 * tail.rate.value, 60)[::-1]
+    levels = [tail.level(1 / rate) for rate in rates]
+    return rates, *(numpy.array([getattr(level, end) for level in levels]) / 1e6 for end in ("value", "low", "high"))
+
+
+def draw_fits(axes, found, lowest):
+    """The fit that is used with its interval; those that are refuted, paler. Returns the legend's entries."""
+    handles = []
+    for fit in found.fits:
+        rates, middle, low, high = curve_of(fit.tail, lowest)
+        words = f"above {fit.tail.threshold / 1e6:.3g} MN, shape {fit.tail.shape.value:.2f}".replace("-", "−")
+        if fit is found.used:
+            axes.fill_betweenx(rates, low, high, color=RED, alpha=0.15, linewidth=0)
+            style, words = {"color": RED, "linestyle": "--"}, f"fit {words}, with its 90 % interval"
+        else:
+            style, words = {"color": "#999999", "linestyle": ":"}, f"refuted: {words}, p {fit.goodness_p:.2g}"
+        axes.plot(middle, rates, **style)
+        handles.append(Line2D([], [], label=words, **style))
+    return handles
+
+
+def draw_kind(axes, loads, found, lowest):
+    """Peaks of one kind of runs with their band, and the fits of their tail. Returns the legend's entries."""
     columns = estimate.exceedance(loads)
     force = columns["force_N"] / 1e6
-    if len(force) < 2:
+    axes.fill_between(force, columns["per_hour_low"], columns["per_hour_high"], color=BLUE, alpha=0.25, linewidth=0)
+    axes.plot(force, columns["per_hour"], color=BLACK, drawstyle="steps-pre")
+    handles = [Line2D([], [], color=BLACK, label="peaks seen, with their 90 % band")]
+    return handles + draw_fits(axes, found, lowest)
+
+
+def draw_kinds(axes, estimates):
+    """Peaks of each kind of runs. Returns the legend's entries: of the six kinds with the largest peaks at most."""
+    drawn = {kind: estimate.exceedance(of) for kind, (of, _) in estimates.items() if len(of.forces) > 1}
+    largest = sorted(drawn, key=lambda kind: -drawn[kind]["force_N"][0])
+    handles = []
+    for kind in reversed(largest):
+        at = largest.index(kind)
+        is_named = at < len(KINDS)
+        style = {"color": KINDS[at], "linewidth": 1.0} if is_named else {"color": "#bbbbbb", "linewidth": 0.5}
+        axes.plot(drawn[kind]["force_N"] / 1e6, drawn[kind]["per_hour"], drawstyle="steps-pre", **style)
+        if is_named:
+            handles.append(Line2D([], [], label=kind, **style))
+    rest = len(largest) - len(KINDS)
+    others = [Line2D([], [], color="#bbbbbb", linewidth=0.5, label=f"{rest} more kinds")] if rest > 0 else []
+    return handles[::-1] + others
+
+
+def exceedance(loads, estimates, page=Page()):
+    """Peaks exceeded per hour with their band, and the fitted tail; of several kinds of runs a line each."""
+    if len(loads.forces) < 2 or not loads.hours:
         return None
-    caption = f"{len(force)} peaks of {loads.ship} in {loads.hours:.4g} h" + (f", {loads.kilometres:.4g} km"
-                                                                              if loads.kilometres > 1e-6 else "")
-    with Sheet(page, "Peaks exceeded", caption + "; band: 95 %") as sheet:
+    with Sheet(page, "Peaks exceeded", words.of_loads(loads)) as sheet:
         axes = sheet.panels(1, 1)[0, 0]
-        axes.fill_between(force, columns["per_hour_low"], columns["per_hour_high"], color=BLUE, alpha=0.25, linewidth=0)
-        axes.plot(force, columns["per_hour"], color=BLACK, drawstyle="steps-pre")
-        handles = [Line2D([], [], color=BLACK, label="peaks")]
-        above = estimate.tail(loads, least)
-        fit = next((fit for of, _, fit in estimate.fits(loads, least) if of == "tail"), None)
-        if fit:
-            x = numpy.linspace(0, 1.3 * above.excesses.max(), 200)
-            shape = fit.parameters["shape"].value
-            axes.plot((above.least + x) / 1e6, above.rate * fit.exceedance(x), color=RED, linestyle="--")
-            handles.append(Line2D([], [], color=RED, linestyle="--",
-                                  label=f"Weibull above {above.least / 1e6:.3g} MN, shape {shape:.2f} (exponential: "
-                                  f"1)"))
-        axes.set(yscale="log", xlabel="force of a peak, MN", ylabel="exceeded, per hour",
-                 ylim=(0.3 * columns["per_hour"][0], None))
+        lowest = 0.1 / loads.hours
+        several = len(estimates) > 1
+        handles = draw_kinds(axes, estimates) if several else draw_kind(axes, *estimates[loads.kinds()[0]], lowest)
+        rates = [0.5 / of.hours if several else lowest for of, _ in estimates.values() if of.hours]
+        axes.set(yscale="log", xlabel="force of a peak, MN", ylabel="exceeded, per hour", ylim=(min(rates), None))
+        axes.set_xlim(0, min(axes.get_xlim()[1], WIDEST * loads.forces.max() / 1e6))
         if loads.kilometres > 1e-6:
             per = loads.hours / loads.kilometres
             other = axes.secondary_yaxis("right", functions=(lambda rate: rate * per, lambda rate: rate / per))
             other.set_ylabel("exceeded, per km")
             other.tick_params(labelsize=page.style.small)
-        return sheet.finish(HEIGHT * page.style.scale, handles)
-
-
-def maxima(loads, page=Page()):
-    """The largest peaks on Gumbel's paper, beside both fits."""
-    found = estimate.maxima(loads)
-    fits = [fit for of, _, fit in estimate.fits(loads) if of == "maxima"]
-    if not fits:
-        return None
-    values = numpy.sort(found.values)
-    reduced = lambda below: -numpy.log(-numpy.log(below))
-    with Sheet(page, "Largest peaks", f"{len(values)}, each {found.words} of {found.hours * 3600:.4g} s; straight: "
-               f"Gumbel") as sheet:
-        axes = sheet.panels(1, 1)[0, 0]
-        axes.plot(values / 1e6, reduced(numpy.arange(1, len(values) + 1) / (len(values) + 1)),
-                  ".", color=BLACK, markersize=3)
-        x = numpy.linspace(0.8 * values[0], 1.1 * values[-1], 200)
-        handles = []
-        for fit, colour, dash in zip(fits, (BLUE, RED), ("-", "--")):
-            below = numpy.clip(1 - fit.exceedance(x), 1e-12, 1 - 1e-12)
-            axes.plot(x / 1e6, reduced(below), color=colour, linestyle=dash)
-            handles.append(Line2D([], [], color=colour, linestyle=dash,
-                                  label=f"{fit.name.capitalize()}: KS p {fit.ks_p:.2g}, AD p {fit.ad_p:.2g}"))
-        axes.set(xlabel="largest peak, MN", ylabel="−ln(−ln(share below))",
-                 ylim=(-2.2, reduced(len(values) / (len(values) + 1)) + 0.8))
         return sheet.finish(HEIGHT * page.style.scale, handles)
 
 
@@ -179,10 +194,9 @@ def polar(loads, page=Page()):
         return sheet.finish(HEIGHT * page.style.scale)
 
 
-def all_of(loads, page=Page(), least=None):
+def all_of(loads, estimates, page=Page()):
     """(name, what it shows, figure or None) of each."""
-    yield "exceedance", "Peaks exceeded per hour and per kilometre", exceedance(loads, page, least)
-    yield "maxima", "Largest peaks on Gumbel's paper", maxima(loads, page)
+    yield "exceedance", "Peaks exceeded per hour and per kilometre", exceedance(loads, estimates, page)
     yield "pressure-area", "Pressure over area, beside rules", pressure_area(loads, page)
     yield "along", "Panels along the waterline", along(loads, page)
     yield "unrolled", "The waterline unrolled, by time", unrolled(loads, page)

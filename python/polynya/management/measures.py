@@ -62,6 +62,14 @@ def effort(run, start=0.0):
     return found
 
 
+def ice_lost(ledger):
+    """Area of the ice that left the scene by a rule in the whole run [m²], and its share of all ice at the start [-]:
+    cusps that are taken to be gone, pieces below the size limit with rims and slivers, and ice that found no room to
+    come up. Where it is not small, the loads and sizes at the body are too low."""
+    area = sum(ledger[f"{place}_area_m2"] for place in ("submerged", "brash", "under_ice"))
+    return area, area / ledger["initial_ice_area_m2"] if ledger["initial_ice_area_m2"] > 0 else 0.0
+
+
 def measures_of(run, given):
     """By name; None where there is none. `given` is `collect.management` of a study."""
     gates = gates_of(run, given)
@@ -83,6 +91,8 @@ def measures_of(run, given):
         for level in LEVELS:
             found[f"{name}_q{level * 100:g}_N"] = float(numpy.quantile(loads, level))
     ships = effort(run, gates.start).values()
+    found["icebreakers"] = len(ships)
     found["icebreaker_distance_m"] = sum(ship["distance_m"] for ship in ships)
     found["icebreaker_energy_J"] = sum(ship["energy_J"] for ship in ships)
+    found["ice_lost_m2"], found["ice_lost_share"] = ice_lost(run.summary["ledger"])
     return {f"management_{name}": value for name, value in found.items()}

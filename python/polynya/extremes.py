@@ -1,0 +1,247 @@
+"""Rare loads: what is exceeded once in a long time, from the peaks of a shorter record.
+
+Peaks above a threshold come as a Poisson process, and what they have above it follows a generalised Pareto
+distribution [Coles2001]. Its shape is the curvature of the tail: 0 is exponential, below 0 the tail ends, above 0 it is
+heavy. The answer is Bayesian with a penalty on the shape, because few peaks say little of it: normal about 0 with the
+standard deviation SHAPE_SPREAD, uniform in the logarithm of the scale, Jeffreys's 1/√rate of the rate. Intervals are
+those of the posterior at LEVEL. How often they hold the truth is measured (docs/loads.md, tests/python/tail_coverage.py).
+
+Forces are in newtons and times in hours here, but nothing depends on it.
+"""
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+
+import numpy
+from scipy import optimize, stats
+
+from .statistics import Interval
+
+LEVEL = 0.90  #: of every interval here
+SHAPE_SPREAD = 0.3  #: standard deviation of the shape before any peak is seen [-]
+LEAST_SHAPE, MOST_SHAPE = -0.75, 1.5  #: of the posterior's grid
+LEAST_PEAKS = 20  #: that a tail is fitted to
+FARTHEST = 10.0  #: return period over the record's length up to which coverage is measured
+RESAMPLES = 499  #: simulated samples of a test
+NODES = (71, 61, 25)  #: of the posterior's grid: shape, scale, rate
+
+
+def stretched(shape, logarithm):
+    """((λT)^ξ − 1)/ξ from ln λT, which is its limit at ξ = 0."""
+    x = numpy.asarray(shape * logarithm, dtype=float)
+    small = numpy.abs(x) < 1e-8
+    return logarithm * numpy.where(small, 1 + x / 2, numpy.expm1(x) / numpy.where(small, 1, x))
+
+
+def log_likelihood(shape, log_scale, excesses):
+    """Of the excesses by the generalised Pareto distribution, for arrays of equal shape; -inf where a peak lies beyond
+    the tail's end."""
+    found = numpy.full(shape.shape, -numpy.inf)
+    chunk = max(1, int(2e6 / len(excesses)))
+    for begin in range(0, shape.size, chunk):
+        part = slice(begin, begin + chunk)
+        xi, scale = shape.flat[part][:, None], numpy.exp(log_scale.flat[part])[:, None]
+        inside = xi * excesses[None, :] / scale
+        with numpy.errstate(divide="ignore", invalid="ignore"):
+            bent = numpy.where(numpy.abs(xi) < 1e-9, excesses / scale, numpy.log1p(inside) / xi)
+            total = -len(excesses) * numpy.log(scale[:, 0]) - ((1 + xi) * bent).sum(axis=1)
+        found.flat[part] = numpy.where((inside > -1).all(axis=1), total, -numpy.inf)
+    return found
+
+
+def penalty(shape):
+    return -0.5 * (shape / SHAPE_SPREAD) ** 2
+
+
+def best_shape(bent, count):
+    """The shape ξ where the posterior is largest at a fixed ξ/σ, from the mean of ln(1 + y ξ/σ) over the excesses: the
+    only root of ξ³/SHAPE_SPREAD² + count (ξ − bent) = 0."""
+    shape = bent
+    for _ in range(20):
+        shape = shape - ((shape**3 / SHAPE_SPREAD**2 + count * (shape - bent))
+                         / (3 * shape**2 / SHAPE_SPREAD**2 + count))
+    return shape
+
+
+def profile(guess, rows):
+    """The largest posterior for each row of excesses where ξ/σ is that of a shape `guess` and the row's mean; shape and
+    scale there."""
+    mean, count = rows.mean(axis=1), rows.shape[1]
+    ratio = guess / ((1 - guess) * mean)
+    ratio = numpy.where(numpy.abs(ratio * mean) < 1e-7, 1e-7 / mean, ratio)
+    inside = ratio[:, None] * rows
+    with numpy.errstate(divide="ignore", invalid="ignore"):
+        bent = numpy.log1p(numpy.maximum(inside, -1)).mean(axis=1)
+    shape = best_shape(numpy.maximum(bent, -50), count)
+    scale = shape / ratio
+    log = -count * (numpy.log(scale) + (1 + 1 / shape) * bent) - 0.5 * (shape / SHAPE_SPREAD) ** 2
+    return numpy.where(numpy.isfinite(bent), log, -numpy.inf), shape, scale
+
+
+def most_likely(rows):
+    """Shape and scale of each row of excesses where the posterior is largest, by golden section."""
+    rows = numpy.atleast_2d(rows)
+    mean = rows.mean(axis=1)
+    end = -mean / rows.max(axis=1)  # beyond it the largest peak lies behind the tail's end
+    low = numpy.maximum(LEAST_SHAPE, end / numpy.maximum(1 + end, 1e-9))
+    high = numpy.full(len(rows), 0.8)
+    share = (math.sqrt(5) - 1) / 2
+    left, right = high - share * (high - low), low + share * (high - low)
+    of_left, of_right = profile(left, rows)[0], profile(right, rows)[0]
+    for _ in range(22):
+        is_left = of_left > of_right
+        low, high = numpy.where(is_left, low, left), numpy.where(is_left, right, high)
+        new = numpy.where(is_left, high - share * (high - low), low + share * (high - low))
+        of_new = profile(new, rows)[0]
+        left, right = numpy.where(is_left, new, right), numpy.where(is_left, left, new)
+        of_left, of_right = numpy.where(is_left, of_new, of_right), numpy.where(is_left, of_left, of_new)
+    return profile(0.5 * (low + high), rows)[1:]
+
+
+def weighted_quantiles(values, weights, levels):
+    order = numpy.argsort(values, axis=None)
+    values, weights = values.ravel()[order], weights.ravel()[order]
+    total = numpy.cumsum(weights)
+    return numpy.interp(levels, (total - 0.5 * weights) / total[-1], values)
+
+
+def interval_of(values, weights):
+    low, middle, high = weighted_quantiles(values, weights, [(1 - LEVEL) / 2, 0.5, (1 + LEVEL) / 2])
+    return Interval(float(middle), float(low), float(high))
+
+
+@dataclasses.dataclass(frozen=True)
+class Tail:
+    """Peaks above a threshold, and what they tell of rarer ones."""
+
+    threshold: float  #: [N]
+    hours: float  #: length of the record
+    excesses: numpy.ndarray  #: of the peaks above the threshold [N]
+
+    @property
+    def count(self):
+        return len(self.excesses)
+
+    @functools.cached_property
+    def posterior(self):
+        """Shapes, scales [N] and weights on a grid about their most likely values."""
+        shape, scale = (float(found[0]) for found in most_likely(self.excesses))
+        reach = 6 * min(SHAPE_SPREAD, 1.3 / math.sqrt(self.count))
+        shapes = numpy.linspace(max(LEAST_SHAPE, shape - reach), min(MOST_SHAPE, shape + reach), NODES[0])
+        scales = math.log(scale) + numpy.linspace(-1, 1, NODES[1]) * min(2.5, 7 / math.sqrt(self.count))
+        shapes, scales = numpy.meshgrid(shapes, scales, indexing="ij")
+        logs = log_likelihood(shapes, scales, self.excesses) + penalty(shapes)
+        weights = numpy.exp(logs - logs.max())
+        kept = weights > 1e-9
+        return shapes[kept], numpy.exp(scales[kept]), weights[kept] / weights[kept].sum()
+
+    @property
+    def rates(self):
+        """Nodes of equal weight of the rate of peaks above the threshold [1/h]."""
+        middles = (numpy.arange(NODES[2]) + 0.5) / NODES[2]
+        return stats.gamma.ppf(middles, self.count + 0.5) / self.hours
+
+    @functools.cached_property
+    def shape(self):
+        shapes, _, weights = self.posterior
+        return interval_of(shapes, weights)
+
+    @functools.cached_property
+    def scale(self):
+        """[N]"""
+        _, scales, weights = self.posterior
+        return interval_of(scales, weights)
+
+    @property
+    def rate(self):
+        """[1/h]"""
+        low, high = stats.gamma.ppf([(1 - LEVEL) / 2, (1 + LEVEL) / 2], self.count + 0.5) / self.hours
+        return Interval(self.count / self.hours, float(low), float(high))
+
+    def reaches(self, period):
+        """Whether what is exceeded once in so many hours lies above the threshold."""
+        return self.count * period / self.hours > 1
+
+    def level(self, period):
+        """What is exceeded once in so many hours on average [N]: the median and the interval of the posterior."""
+        shapes, scales, weights = self.posterior
+        logarithms = numpy.maximum(numpy.log(self.rates * period), 0)
+        levels = scales[:, None] * stretched(shapes[:, None], logarithms[None, :])
+        found = interval_of(levels, numpy.broadcast_to(weights[:, None], levels.shape))
+        return Interval(*(self.threshold + value for value in dataclasses.astuple(found)))
+
+    def exceeded(self, force):
+        """How often peaks exceed a force above the threshold [1/h], by the fit, with its interval."""
+        shapes, scales, weights = self.posterior
+        share = stats.genpareto.sf(force - self.threshold, shapes, scale=scales)
+        rates = share[:, None] * self.rates[None, :]
+        return interval_of(rates, numpy.broadcast_to(weights[:, None], rates.shape))
+
+    def spread_of_level(self, period, hours):
+        """Half of the interval of `level` that a record of that length would give [N]: by the information of as many
+        peaks as come in it, at the shape and scale found here."""
+        shape, scale, logarithm = self.shape.value, self.scale.value, math.log(self.count * period / self.hours)
+        count = self.count * hours / self.hours
+        information = count * numpy.array([[2 / ((1 + shape) * (1 + 2 * shape)), 1 / ((1 + shape) * (1 + 2 * shape))],
+                                           [1 / ((1 + shape) * (1 + 2 * shape)), 1 / (1 + 2 * shape)]])
+        information[0, 0] += 1 / SHAPE_SPREAD**2
+        step = 1e-4
+        slope = scale * float(stretched(shape + step, logarithm) - stretched(shape - step, logarithm)) / (2 * step)
+        gradient = numpy.array([slope, scale * float(stretched(shape, logarithm))])
+        of_rate = scale * math.exp(shape * logarithm) / math.sqrt(count)
+        spread = math.sqrt(gradient @ numpy.linalg.solve(information, gradient) + of_rate**2)
+        return float(stats.norm.ppf((1 + LEVEL) / 2)) * spread
+
+    def record_needed(self, period, half_width):
+        """How many hours of record make the interval of `level` at most ± half_width of it, and the period at most
+        FARTHEST records; None where the shape is at the edge of where the formula holds."""
+        if self.shape.value <= -0.45 or not self.reaches(period):
+            return None
+        logarithm = math.log(self.count * period / self.hours)
+        most = half_width * (self.threshold + self.scale.value * float(stretched(self.shape.value, logarithm)))
+        low, high = math.log(period / FARTHEST), math.log(1e6 * period)
+        too_wide = lambda hours: self.spread_of_level(period, math.exp(hours)) - most
+        if too_wide(low) <= 0:
+            return math.exp(low)
+        return math.exp(optimize.brentq(too_wide, low, high, xtol=1e-3)) if too_wide(high) < 0 else None
+
+
+def distances(rows):
+    """How far each row of excesses in order lies from the distribution fitted to it: Anderson and Darling's distance,
+    and how improbable its largest peak is."""
+    shape, scale = (found[:, None] for found in most_likely(rows))
+    with numpy.errstate(divide="ignore", invalid="ignore"):
+        logs = -numpy.log1p(numpy.maximum(shape * rows / scale, -1)) / shape  # of the share above
+    logs = numpy.clip(logs, -60, -1e-16)
+    below = numpy.log(-numpy.expm1(logs))
+    count = rows.shape[1]
+    weights = 2 * numpy.arange(1, count + 1) - 1
+    return -count - (weights * (below + logs[:, ::-1])).sum(axis=1) / count, -logs[:, -1]
+
+
+def goodness(excesses, seed=0):
+    """A p value, by a parametric bootstrap: how often samples of the fitted distribution lie as far from their own fits
+    as this one from its. It is twice the smaller one of two: of Anderson and Darling's distance, for the whole tail,
+    and of the largest peak, which a fit to many small ones may make impossible."""
+    own = numpy.sort(excesses)[None, :]
+    shape, scale = (float(found[0]) for found in most_likely(own))
+    samples = min(RESAMPLES, max(99, int(2e6 / own.shape[1])))  # enough to tell 0.05 in a long record too
+    uniform = numpy.random.default_rng(seed).uniform(1e-16, 1, (samples, own.shape[1]))
+    simulated = numpy.sort(scale * stretched(shape, -numpy.log(uniform)), axis=1)
+    shares = [(1 + numpy.count_nonzero(of_simulated >= of_own)) / (samples + 1)
+              for of_simulated, of_own in zip(distances(simulated), distances(own))]
+    return float(min(1.0, 2 * min(shares)))
+
+
+def level_of_order(values, hours, period):
+    """What is exceeded once in so many hours, between peaks that were seen, whatever the tail: as many exceed it as a
+    Poisson process of that rate has in the record. Ends are infinite, or 0, where no peak can be named."""
+    ordered = numpy.sort(values)[::-1]
+    expected = hours / period
+    most = int(stats.poisson.ppf((1 + LEVEL) / 2, expected))  # this many peaks may exceed it
+    least = int(stats.poisson.ppf((1 - LEVEL) / 2, expected))
+    low = float(ordered[most]) if most < len(ordered) else 0.0
+    high = float(ordered[least - 1]) if 0 < least <= len(ordered) else math.inf
+    return low, high

@@ -1,0 +1,53 @@
+"""loads.html: what was gathered, the figures and the short tables, offline and by themselves."""
+import html
+
+from ..page_style import STYLE
+from . import words
+
+
+def shown(value):
+    return html.escape(f"{value:.4g}" if isinstance(value, float) else "" if value is None else str(value))
+
+
+def cells(row, names):
+    """A row of a table; struck through where a fit is refuted or a value is withheld, with why."""
+    strike = ("<s>", "</s>") if row.get("refuted") else ("", "")
+    return "".join(f"<td>{strike[0] if name not in ('refuted', 'runs') else ''}{shown(row.get(name, ''))}"
+                   f"{strike[1] if name not in ('refuted', 'runs') else ''}</td>" for name in names)
+
+
+def table(heading, rows):
+    names = list(dict.fromkeys(name for row in rows for name in row))
+    names = [name for name in names if any(row.get(name) not in ("", None) for row in rows)]
+    head = "".join(f"<th>{html.escape(name.replace('_', ' '))}</th>" for name in names)
+    body = "".join(f"<tr>{cells(row, names)}</tr>" for row in rows)
+    return f'<h2>{heading}</h2><div class="wide"><table><tr>{head}</tr>{body}</table></div>'
+
+
+def answer_rows(answers, half_width):
+    """Return values as people read them."""
+    for kind, given in answers:
+        yield {"runs": kind, "once in": words.hours(given.period_h), "records": words.plain(given.records),
+               "force": words.of_answer(given), "by peaks seen": words.of_seen(given),
+               "record needed": words.of_record(given, half_width)}
+
+
+def page(loads, estimates, answers, options, tables, pictures):
+    """The whole page. `tables` are (heading, rows), `pictures` (file, what it shows)."""
+    start = f", from {options.start:g} s of each on" if options.start else ""
+    withheld = "".join(f"<p>{html.escape(kind + ': ' if kind else '')}{html.escape(found.why)}</p>"
+                       for kind, (_, found) in estimates.items() if found.why)
+    parts = [
+        f"<h1>Loads on {html.escape(loads.ship)}, {html.escape(loads.name)}</h1>",
+        f"<p>{html.escape(words.of_loads(loads))}{start}; {loads.left_out} below the least that the runs record are "
+        "left out. A peak is the largest force of a contact between two times at which it was below half of it "
+        "(docs/run-folder.md).</p>",
+        table("Return values", list(answer_rows(answers, options.half_width))),
+        withheld, f"<p>{html.escape(words.EXPLAINED)}</p>",
+    ]
+    parts += [f'<figure><img src="{name}" alt="{html.escape(what)}"><figcaption>{html.escape(what)}</figcaption>'
+              "</figure>" for name, what in pictures]
+    parts += [table(heading, rows) for heading, rows in tables if rows]
+    return (f'<!doctype html><html lang="en"><meta charset="utf-8"><title>Loads on '
+            f'{html.escape(loads.ship)}</title><style>{STYLE}</style>'
+            + "".join(parts) + "</html>\n")

@@ -1,0 +1,128 @@
+"""Short names of values, runs and cases: each is named by what differs from the others."""
+from __future__ import annotations
+
+import json
+import pathlib
+
+LONGEST = 40  #: characters of a name; a longer one is cut in its middle
+
+
+def parsed(value):
+    """The value that a table's cell stands for: JSON where the cell is an object or a list, else the cell itself."""
+    if isinstance(value, str) and value[:1] in ("{", "["):
+        try:
+            return json.loads(value)
+        except ValueError:
+            return value
+    return value
+
+
+def leaves(value, path=()):
+    """{path: value} of all numbers, words and empty lists or objects within a JSON value."""
+    if isinstance(value, dict) and value:
+        return {at: leaf for key, item in value.items() for at, leaf in leaves(item, (*path, key)).items()}
+    if isinstance(value, list) and value:
+        return {at: leaf for key, item in enumerate(value) for at, leaf in leaves(item, (*path, key)).items()}
+    return {path: value}
+
+
+def number_in_words(value):
+    """A number as people write it: up to six digits, true and false as in JSON."""
+    if isinstance(value, bool) or value is None:
+        return json.dumps(value)
+    return f"{value:.6g}" if isinstance(value, (int, float)) else str(value)
+
+
+#: Endings of keys that name a unit, and the unit as people write it.
+UNITS = {"m_per_s": "m/s", "deg": "°", "Pa": "Pa", "N": "N", "Nm": "N m", "J": "J", "kg": "kg", "MW": "MW", "m2": "m²",
+         "m": "m", "s": "s"}
+
+
+def leaf_in_words(path, value):
+    """"depth 120 m" of depth_m; a word alone names itself, as "circular" of pattern."""
+    words = number_in_words(value) if not isinstance(value, (list, dict)) else json.dumps(value)
+    key = next((part for part in reversed(path) if isinstance(part, str)), "")
+    if not key or (isinstance(value, str) and value):
+        return words.replace("_", " ")
+    unit = next((unit for unit in sorted(UNITS, key=len, reverse=True) if key.endswith("_" + unit)), "")
+    name = key.removesuffix("_" + unit) if unit else key
+    index = f"[{path[-1]}]" if isinstance(path[-1], int) else ""
+    return f"{name.replace('_', ' ')}{index} {words} {UNITS.get(unit, '')}".rstrip()
+
+
+def short(words, longest=LONGEST):
+    """The words, cut in the middle where they are longer."""
+    if len(words) <= longest:
+        return words
+    head = (longest - 1) // 2
+    return f"{words[:head].rstrip()}…{words[head + 1 - longest:].lstrip()}"
+
+
+def telling_paths(flat):
+    """The fewest leaves, of those that differ, by which all values are told apart: the one that makes most groups
+    first, then the next. Words go before numbers, because a word names what a number only measures."""
+    paths = list(dict.fromkeys(path for leaf in flat for path in leaf))
+    differing = [path for path in paths if len({repr(leaf.get(path)) for leaf in flat}) > 1]
+    chosen, groups = [], 1
+
+    def count(of):
+        return len({tuple(repr(leaf.get(path)) for path in of) for leaf in flat})
+
+    while groups < len(flat):
+        best = max((path for path in differing if path not in chosen), default=None,
+                   key=lambda path: (count([*chosen, path]),
+                                     any(isinstance(leaf.get(path), str) for leaf in flat), -paths.index(path)))
+        if best is None or count([*chosen, best]) == groups:
+            break
+        chosen.append(best)
+        groups = count(chosen)
+    return chosen
+
+
+def name_of_leaves(flat, chosen):
+    """The chosen leaves of a value in words; the way to its own leaves where it has none of them."""
+    found = [leaf_in_words(path, flat[path]) for path in chosen if path in flat]
+    if found:
+        return ", ".join(found)
+    keys = list(dict.fromkeys(str(path[0]) for path in flat if path))
+    return ", ".join(key.replace("_", " ") for key in keys) or "none"
+
+
+def names_of(values):
+    """{value: name} of the different values of a parameter. Numbers and words name themselves. Objects and lists are
+    named by the fewest of their members that tell them apart."""
+    different = list(dict.fromkeys(values))
+    read = {value: parsed(value) for value in different}
+    if not any(isinstance(item, (dict, list)) for item in read.values()):
+        return unique({value: short(number_in_words(value)) for value in different})
+    flat = {value: leaves(item) for value, item in read.items()}
+    chosen = telling_paths(list(flat.values()))
+    if not chosen:  # one value alone
+        words = [path for path, leaf in next(iter(flat.values())).items() if isinstance(leaf, str)]
+        chosen = words[:1] or list(next(iter(flat.values())))[:1]
+    return unique({value: short(name_of_leaves(flat[value], chosen)) for value in different})
+
+
+def unique(names):
+    """The names, with a number behind those that several values have."""
+    count, found = {}, {}
+    taken = list(names.values())
+    for value, name in names.items():
+        count[name] = count.get(name, 0) + 1
+        found[value] = name if taken.count(name) == 1 else f"{name} ({count[name]})"
+    return found
+
+
+def names_of_folders(folders):
+    """Names of run folders by the fewest of their last parts that tell them apart, without a last part `run` that all
+    have: A/run and B/run are A and B, and a study's cases are named by number."""
+    parts = [list(pathlib.Path(folder).resolve().parts) for folder in folders]
+    while all(len(part) > 2 for part in parts) and (len({part[-1] for part in parts}) == 1 and
+                                                     (len(parts) > 1 or parts[0][-1] == "run")):
+        parts = [part[:-1] for part in parts]
+    depth = 1
+    while depth < max(map(len, parts)) and len({tuple(part[-depth:]) for part in parts}) < len(set(map(tuple, parts))):
+        depth += 1
+    names = ["/".join(part[-depth:]) for part in parts]
+    names = [f"case {int(name)}" if len(name) == 6 and name.isdigit() else name for name in names]
+    return list(unique(dict(enumerate(map(short, names)))).values())
