@@ -21,7 +21,7 @@ constexpr std::pair<const char*, const char*> kCommands[] = {
     {"performance", "Find the speed that a ship keeps in level ice, by thickness"},
     {"figures", "Draw a run, or several side by side, for print"},
     {"loads", "Peaks of the ice's force by place: statistics, return values, figures"},
-    {"management", "State what ice management did: floes through gates, hits, loads, effort"},
+    {"management", "State what ice management did, and rank the patterns of a study"},
     {"movie", "Make a film of a run: the ice, and the force on the ship"},
     {"study", "Plan, run and gather many runs of one scene"}};
 constexpr auto kModule = "polynya.command";  ///< python/polynya/command.py starts every command of the package

@@ -4,7 +4,8 @@ Peaks above a threshold come as a Poisson process, and what they have above it f
 distribution [Coles2001]. Its shape is the curvature of the tail: 0 is exponential, below 0 the tail ends, above 0 it is
 heavy. The answer is Bayesian with a penalty on the shape, because few peaks say little of it: normal about 0 with the
 standard deviation SHAPE_SPREAD, uniform in the logarithm of the scale, Jeffreys's 1/√rate of the rate. Intervals are
-those of the posterior at LEVEL. How often they hold the truth is measured (docs/loads.md, tests/python/tail_coverage.py).
+those of the posterior at LEVEL. How often they hold the truth is measured (docs/loads.md,
+tests/python/tail_coverage.py).
 
 Forces are in newtons and times in hours here, but nothing depends on it.
 """
@@ -196,11 +197,13 @@ class Tail:
 
     def record_needed(self, period, half_width):
         """How many hours of record make the interval of `level` at most ± half_width of it, and the period at most
-        FARTHEST records; None where the shape is at the edge of where the formula holds."""
+        FARTHEST records: as wide as this record's, narrower by the information of more peaks; None where the
+        shape is at the edge of where the formula holds."""
         if self.shape.value <= -0.45 or not self.reaches(period):
             return None
-        logarithm = math.log(self.count * period / self.hours)
-        most = half_width * (self.threshold + self.scale.value * float(stretched(self.shape.value, logarithm)))
+        level = self.level(period)
+        scale = level.half_width / self.spread_of_level(period, self.hours)  # few peaks: wider than by information
+        most = half_width * level.value / scale
         low, high = math.log(period / FARTHEST), math.log(1e6 * period)
         too_wide = lambda hours: self.spread_of_level(period, math.exp(hours)) - most
         if too_wide(low) <= 0:
@@ -223,16 +226,17 @@ def distances(rows):
 
 def goodness(excesses, seed=0):
     """A p value, by a parametric bootstrap: how often samples of the fitted distribution lie as far from their own fits
-    as this one from its. It is twice the smaller one of two: of Anderson and Darling's distance, for the whole tail,
-    and of the largest peak, which a fit to many small ones may make impossible."""
+    as this one from its. It is three times the smallest of three, so that it is small by chance as seldom as one: of
+    Anderson and Darling's distance, for the whole tail; and of the largest peak, which a fit to many small ones may
+    make impossible, or promise where the ice cannot bear it."""
     own = numpy.sort(excesses)[None, :]
     shape, scale = (float(found[0]) for found in most_likely(own))
     samples = min(RESAMPLES, max(99, int(2e6 / own.shape[1])))  # enough to tell 0.05 in a long record too
     uniform = numpy.random.default_rng(seed).uniform(1e-16, 1, (samples, own.shape[1]))
     simulated = numpy.sort(scale * stretched(shape, -numpy.log(uniform)), axis=1)
-    shares = [(1 + numpy.count_nonzero(of_simulated >= of_own)) / (samples + 1)
-              for of_simulated, of_own in zip(distances(simulated), distances(own))]
-    return float(min(1.0, 2 * min(shares)))
+    (whole, largest), (own_whole, own_largest) = distances(simulated), distances(own)
+    as_far = (whole >= own_whole, largest >= own_largest, largest <= own_largest)
+    return float(min(1.0, 3 * min((1 + numpy.count_nonzero(found)) / (samples + 1) for found in as_far)))
 
 
 def level_of_order(values, hours, period):

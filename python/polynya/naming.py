@@ -47,7 +47,8 @@ def leaf_in_words(path, value):
     unit = next((unit for unit in sorted(UNITS, key=len, reverse=True) if key.endswith("_" + unit)), "")
     name = key.removesuffix("_" + unit) if unit else key
     index = f"[{path[-1]}]" if isinstance(path[-1], int) else ""
-    return f"{name.replace('_', ' ')}{index} {words} {UNITS.get(unit, '')}".rstrip()
+    shown = UNITS.get(unit, "")
+    return f"{name.replace('_', ' ')}{index} {words}{'' if shown in ('', '°') else ' '}{shown}"
 
 
 def short(words, longest=LONGEST):
@@ -95,11 +96,14 @@ def names_of(values):
     read = {value: parsed(value) for value in different}
     if not any(isinstance(item, (dict, list)) for item in read.values()):
         return unique({value: short(number_in_words(value)) for value in different})
+    if all(isinstance(item, list) and not any(isinstance(part, (dict, list)) for part in item)
+           for item in read.values()):  # a list of numbers is its own name
+        return unique({value: short(json.dumps(item, ensure_ascii=False)) for value, item in read.items()})
     flat = {value: leaves(item) for value, item in read.items()}
     chosen = telling_paths(list(flat.values()))
     if not chosen:  # one value alone
         words = [path for path, leaf in next(iter(flat.values())).items() if isinstance(leaf, str)]
-        chosen = words[:1] or list(next(iter(flat.values())))[:1]
+        chosen = words or list(next(iter(flat.values())))[:1]
     return unique({value: short(name_of_leaves(flat[value], chosen)) for value in different})
 
 
@@ -114,11 +118,12 @@ def unique(names):
 
 
 def names_of_folders(folders):
-    """Names of run folders by the fewest of their last parts that tell them apart, without a last part `run` that all
-    have: A/run and B/run are A and B, and a study's cases are named by number."""
+    """Names of run folders by the fewest of their last parts that tell them apart, without last parts that all have:
+    A/run and B/run are A and B, and a study's cases are named by number."""
     parts = [list(pathlib.Path(folder).resolve().parts) for folder in folders]
-    while all(len(part) > 2 for part in parts) and (len({part[-1] for part in parts}) == 1 and
-                                                     (len(parts) > 1 or parts[0][-1] == "run")):
+    is_told_apart = len(set(map(tuple, parts))) > 1
+    while all(len(part) > 2 for part in parts) and len({part[-1] for part in parts}) == 1 and (
+            is_told_apart or parts[0][-1] == "run"):
         parts = [part[:-1] for part in parts]
     depth = 1
     while depth < max(map(len, parts)) and len({tuple(part[-depth:]) for part in parts}) < len(set(map(tuple, parts))):

@@ -3,16 +3,19 @@ import dataclasses
 import json
 import math
 import pathlib
+import shutil
 
 import numpy
 import pytest
 
 import polynya
-from program import ended, run_of as folder_of, succeeded
+from program import ended, rows, run_of as folder_of, succeeded
 from polynya.errors import InputError
-from polynya.management import measures, study
+from polynya.management import measures, ranking, study
 from polynya.management.drift import by_rows, free_drift, tide
 from polynya.management.gates import Gates, Passage, gates_of, managed_width, passages
+from polynya.study.folder import PLAN, RESULT, open_study
+from polynya.study.plan import write_cases
 
 RIG = {"name": "rig", "radius_m": 10}
 DRIFTING = {
@@ -163,14 +166,116 @@ def test_the_command_writes_tables_and_a_figure(home, drifting, hit):
     gates = ["--upstream", 50, "--near", 20, "--width", 300]
     succeeded("management", "drifting", "hit", *gates, "--out", "out", cwd=home)
     names = {path.name for path in (home / "out").iterdir()}
-    assert names == {"management.csv", "management-sizes.csv", "management.png"}
+    assert names == {"management.csv", "management-sizes.csv", "management.svg", "management.png"}
     printed = succeeded("management", "hit", *gates, "--json", cwd=home)
     found = json.loads(printed.stdout)["hit"]
     assert found == polynya.management.of_folder(home / "hit", {"upstream_m": 50, "near_m": 20, "width_m": 300})
     assert ended("management", "hit", cwd=home).returncode == 3
 
 
-def test_a_study_compares_by_what_it_varies(home):
+def test_columns_are_named_by_folder_case_or_label(home, hit, tmp_path):
+    for name in ("A", "B"):
+        shutil.copytree(home / "hit", tmp_path / name / "run")
+    gates = ["--upstream", 50, "--near", 20, "--width", 300, "--json"]
+    printed = succeeded("management", "A/run", "B/run", *gates, cwd=tmp_path).stdout
+    assert list(json.loads(printed)) == ["A", "B"]
+    printed = succeeded("management", "A/run", "B/run", *gates, "--label", "first,second", cwd=tmp_path).stdout
+    assert list(json.loads(printed)) == ["first", "second"]
+    wrong = ended("management", "A/run", "B/run", *gates, "--label", "first", cwd=tmp_path)
+    assert wrong.returncode == 2 and "one for each of the 2 folders" in wrong.stderr
+
+
+def test_ice_that_left_by_a_rule_is_counted(home):
+    """A ship breaks ice whose cusps are taken to be gone, or stay."""
+    ship = {"ship": "reference", "position_m": [-60, 0], "speed_m_per_s": 3,
+            "propulsion": {"constant_speed_m_per_s": 3}}
+    plate = [{"rectangle": {"corner_m": [0, -100], "size_m": [200, 200]}}]
+    for fate, least, most in (("submerge", 1000, 4000), ("under_hull", 0, 400)):
+        far = {**RIG, "position_m": [-300, 0]}
+        run = run_of(home, f"lost-{fate}", {**DRIFTING, "time": {"until_s": 40}, "water": {}, "ships": [ship],
+                                            "structures": [far], "floes": plate, "fracture": {"cusp_fate": fate}})
+        area, share = measures.ice_lost(run.summary["ledger"])
+        assert least <= area <= most and share == pytest.approx(area / 40000)
+        found = measures.measures_of(run, {"body": "rig", "upstream_m": 150, "near_m": 20, "width_m": 50})
+        assert found["management_ice_lost_m2"] == area and found["management_icebreakers"] == 0
+
+
+def synthetic(folder, patterns, fields=6, drifts=(0.5, 0.8), keep=lambda case: True):
+    """A study of patterns, {name: share of the unmanaged load}, whose cases are written, not run."""
+    rng = numpy.random.default_rng(3)
+    field_loads = {(seed, drift): rng.normal(1e4, 2e3) for seed in range(fields) for drift in drifts}
+    folder.mkdir()
+    pilots = {name: {"manage": {"body": "rig", "pattern": name, "width_m": 160}} if share < 1
+              else {"constant": {"lever": 0}} for name, share in patterns.items()}
+    values = [{"ships[1].pilot": pilots[name], "ships[1].position_m[0]": -3000 if share == 1 else 250,
+               "water.drift_m_per_s[0]": -drift, "seed": seed}
+              for seed in range(fields) for name, share in patterns.items() for drift in drifts]
+    write_cases(folder, [json.dumps({"scene": 0, "set": v}) + "\n" for v in values])
+    varied = [name for name in values[0] if name != "water.drift_m_per_s[0]" or len(drifts) > 1]
+    plan = {"format": 1, "name": "synthetic", "cases": len(values), "chunk": 1, "archive": False, "keep": "summary",
+            "set": {}, "source": "", "scenes": ["scenes/0/a.json"], "varied": varied, "collect": {}, "report": {}}
+    (folder / PLAN).write_text(json.dumps(plan))
+    planned = open_study(folder)
+    shares = {json.dumps(pilots[name]): share for name, share in patterns.items()}
+    for i, v in enumerate(values):
+        case = planned.case_folder(i)
+        case.mkdir(parents=True)
+        share = shares[json.dumps(v["ships[1].pilot"])]
+        mean = share * field_loads[v["seed"], -v["water.drift_m_per_s[0]"]] * rng.normal(1, 0.02)
+        found = {"management_ice_load_mean_N": mean, "management_ice_load_q99_N": 4 * mean,
+                 "management_largest_at_body_m": 40 * share, "management_icebreakers": int(share < 1),
+                 "management_ice_lost_m2": 300.0, "management_ice_lost_share": 0.003}
+        if keep(i):
+            (case / RESULT).write_text(json.dumps({"state": "finished", "case": i, "measures": found}))
+    return planned
+
+
+def test_a_study_ranks_patterns_and_says_which_it_cannot_tell_apart(tmp_path):
+    shares = {"linear": 0.5, "circular": 0.2, "racetrack": 0.201, "none": 1}
+    made = synthetic(tmp_path / "s", shares)
+    succeeded("study", "gather", made.folder)
+    printed = succeeded("management", made.folder, "--out", tmp_path / "out").stdout
+    assert printed.count("Not distinguishable: circular and racetrack.") + printed.count(
+        "Not distinguishable: racetrack and circular.") >= 4
+    assert "mean load of the ice, drift 0.5 m/s" in printed and "300 m² (0.3 %)" in printed and "not managed" in printed
+    found = study.read(made.folder)
+    assert found.patterns == ["linear", "circular", "racetrack", "not managed"]  # by what differs: the pattern
+    for condition in found.conditions:
+        places = condition.ranked("management_ice_load_mean_N")
+        assert [place.name for place in places][2:] == ["linear", "not managed"]
+        for place in places[:3]:
+            ratio, low, high = place.left
+            assert low < shares[place.name] < high and high - low < 0.1 and ratio == pytest.approx((low + high) / 2,
+                                                                                                   rel=0.05)
+            assert place.benefit.half > 0
+    table = rows(tmp_path / "out/management-ranking.csv")
+    assert len(table) == 2 * 3 * 4 and table[0]["ice_lost_m2"] == "300.0"
+    stems = ("management", "management-ranking")
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {
+        f"{stem}.{suffix}" for stem in stems for suffix in ("csv", "svg", "png")}
+
+
+def test_a_study_of_the_pattern_alone_and_of_one_field_is_ranked_without_intervals(tmp_path):
+    made = synthetic(tmp_path / "s", {"circular": 0.2, "none": 1}, fields=1, drifts=(0.5,))
+    succeeded("study", "gather", made.folder)
+    ran = ended("management", made.folder)
+    assert ran.returncode == 0 and "nothing is told apart" in ran.stdout and "±" not in ran.stdout.partition(
+        "Student")[0].rpartition("±")[0] and ran.stderr == ""
+    assert "20 %" in ran.stdout
+    assert not (made.folder / "management.png").exists() and (made.folder / "management-ranking.png").exists()
+
+
+def test_patterns_are_compared_in_the_fields_that_both_have(tmp_path):
+    made = synthetic(tmp_path / "s", {"circular": 0.2, "none": 1}, fields=5, drifts=(0.5,), keep=lambda case: case != 1)
+    ended("study", "gather", made.folder)
+    places = study.read(made.folder).conditions[0].ranked("management_ice_load_mean_N")
+    assert [place.mean.count for place in places] == [5, 4] and places[0].benefit.count == 4
+    none = synthetic(tmp_path / "t", {"circular": 0.2, "none": 1}, keep=lambda case: False)
+    ended("study", "gather", none.folder)
+    assert "no case is finished" in ended("management", none.folder).stderr
+
+
+def test_a_study_without_icebreakers_is_ranked_by_what_it_varies(home):
     (home / "base.json").write_text(json.dumps({**DRIFTING, "time": {"step_s": 0.1, "until_s": 60}}))
     (home / "s.json").write_text(json.dumps({
         "scene": "base.json", "repetitions": 2, "grid": {"water.drift_m_per_s[0]": [-1, -2],
@@ -178,15 +283,40 @@ def test_a_study_compares_by_what_it_varies(home):
         "collect": {"management": {"upstream_m": 330, "near_m": 100, "width_m": 300}}}))
     succeeded("study", "run", "s.json", cwd=home)
     succeeded("study", "gather", "studies/s", cwd=home)
-    groups = json.loads(succeeded("management", "studies/s", "--json", cwd=home).stdout)
-    assert set(groups) == {"0.4", "0.6"}
-    assert [x for x, _, _ in groups["0.4"]["management_cover_upstream"]] == [1, 2]
+    found = json.loads(succeeded("management", "studies/s", "--json", cwd=home).stdout)
+    assert [condition["name"] for condition in found["conditions"]] == ["drift 1 m/s", "drift 2 m/s"]
+    means = found["conditions"][0]["means"]["management_cover_upstream"]
+    assert set(means) == {"0.4", "0.6"} and means["0.4"]["count"] == 2
     succeeded("management", "studies/s", cwd=home)
     assert (pathlib.Path(home) / "studies/s/management.png").exists()
-    assert ended("management", "studies/s", "--width", 3, cwd=home).returncode == 3
+    assert ended("management", "studies/s", "--width", 3, cwd=home).returncode == 2
 
 
 def test_means_have_students_interval():
-    mean, half = study.mean_of([1.0, 2.0, 3.0])
-    assert mean == 2 and half == pytest.approx(4.302653 / math.sqrt(3), rel=1e-5)
-    assert study.mean_of([]) == (None, 0.0) and study.mean_of([4.0]) == (4, 0.0)
+    mean = ranking.mean_of([1.0, 2.0, 3.0])
+    assert mean.value == 2 and mean.half == pytest.approx(4.302653 / math.sqrt(3), rel=1e-5)
+    assert ranking.mean_of([]) is None and ranking.mean_of([4.0]) == ranking.Mean(4, None, 1)
+
+
+def test_intervals_of_what_is_left_hold_the_truth_as_often_as_they_say():
+    rng = numpy.random.default_rng(5)
+    held = 0
+    for _ in range(400):
+        unmanaged = rng.normal(10, 3, 6)
+        managed = 0.3 * unmanaged + rng.normal(0, 0.5, 6)
+        _, low, high = ranking.share_left(dict(enumerate(managed)), dict(enumerate(unmanaged)))
+        held += low is None or low <= 0.3 <= high
+    assert 0.92 < held / 400 < 0.98
+    assert ranking.share_left({0: 1.0}, {0: 2.0}) == (0.5, None, None)
+    assert ranking.share_left({0: 1.0}, {1: 2.0}) is None
+    assert ranking.share_left({0: 1.0, 1: 1.0}, {0: -1.0, 1: 2.0})[1:] == (None, None)  # may be 0 without management
+
+
+def test_alike_patterns_are_rarely_told_apart():
+    rng = numpy.random.default_rng(6)
+    wrong = 0
+    for _ in range(200):
+        field = rng.normal(10, 3, 8)
+        patterns = {name: dict(enumerate(field + rng.normal(0, 1, 8))) for name in "abcd"}
+        wrong += bool(ranking.told_apart(patterns))
+    assert wrong / 200 < 0.09

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from typing import Optional
 
 import numpy
@@ -12,7 +13,6 @@ from polynya import extremes
 from . import bursts
 
 REFUTED = 0.05  #: p values below refute a fit
-HALVINGS = 8  #: thresholds that are tried leave all peaks, half of them, a quarter, …
 HALF_WIDTH = 0.2  #: of an interval over its value, for which the record needed is stated
 
 
@@ -72,8 +72,9 @@ def thresholds(forces, least=None):
     if least is not None:
         return [float(least)]
     ordered = numpy.sort(forces)
-    places = [int(len(ordered) * (1 - 0.5**k)) for k in range(HALVINGS)]
-    return list(dict.fromkeys(float(ordered[place]) for place in places if place < len(ordered)))
+    halvings = int(math.log2(max(1, len(ordered) / extremes.LEAST_PEAKS)))
+    return list(dict.fromkeys(float(ordered[int(len(ordered) * (1 - 0.5**k))]) for k in range(halvings + 1)
+                              if len(ordered)))
 
 
 def estimate(loads, least=None):
@@ -88,7 +89,7 @@ def estimate(loads, least=None):
     for threshold in thresholds(record.forces, least):
         events = bursts.independent(record, threshold, extremes.LEAST_PEAKS)
         if events is None:
-            break
+            continue
         excesses = events.forces - threshold
         fits.append(Fit(extremes.Tail(threshold, record.hours, excesses), events, extremes.goodness(excesses)))
         if not fits[-1].refuted:

@@ -35,8 +35,9 @@ def answer_rows(answers, half_width):
 def page(loads, estimates, answers, options, tables, pictures):
     """The whole page. `tables` are (heading, rows), `pictures` (file, what it shows)."""
     start = f", from {options.start:g} s of each on" if options.start else ""
-    withheld = "".join(f"<p>{html.escape(kind + ': ' if kind else '')}{html.escape(found.why)}</p>"
-                       for kind, (_, found) in estimates.items() if found.why)
+    notes = [f"{kind + ': ' if kind else ''}{why}" for kind, (_, found) in estimates.items()
+             for why in words.reasons([given for of_kind, given in answers if of_kind == kind], found)]
+    withheld = "".join(f"<p>{html.escape(note)}</p>" for note in notes)
     parts = [
         f"<h1>Loads on {html.escape(loads.ship)}, {html.escape(loads.name)}</h1>",
         f"<p>{html.escape(words.of_loads(loads))}{start}; {loads.left_out} below the least that the runs record are "

@@ -15,6 +15,7 @@ KINDS = (BLACK, RED, BLUE, GREEN, PURPLE, "#e69f00")
 ENDS = {"bend": (BLUE, "o"), "split": (RED, "^"), "tilt": (GREEN, "s"), "slip": ("#888888", ".")}
 MOST_POINTS = 5000  # of a scatter: the largest
 BINS = 400  # of time in a raster
+REFUTED = {"color": "#999999", "linestyle": ":", "linewidth": 0.8}
 WIDEST = 5  # a fit is drawn up to so many times the largest peak
 HEIGHT = 70  # of a figure's panels [mm]
 
@@ -27,29 +28,44 @@ def curve_of(tail, lowest):
 
 
 def draw_fits(axes, found, lowest):
-    """The fit that is used with its interval; those that are refuted, paler. Returns the legend's entries."""
-    handles = []
-    for fit in found.fits:
-        rates, middle, low, high = curve_of(fit.tail, lowest)
-        words = f"above {fit.tail.threshold / 1e6:.3g} MN, shape {fit.tail.shape.value:.2f}".replace("-", "−")
-        if fit is found.used:
-            axes.fill_betweenx(rates, low, high, color=RED, alpha=0.15, linewidth=0)
-            style, words = {"color": RED, "linestyle": "--"}, f"fit {words}, with its 90 % interval"
-        else:
-            style, words = {"color": "#999999", "linestyle": ":"}, f"refuted: {words}, p {fit.goodness_p:.2g}"
-        axes.plot(middle, rates, **style)
-        handles.append(Line2D([], [], label=words, **style))
-    return handles
+    """The fit that is used with its interval, and those that are refuted, paler. Returns the legend's entries, and how
+    far the interval goes [MN]."""
+    handles, reach = [], 0.0
+    refuted = [fit for fit in found.fits if fit is not found.used]
+    for fit in refuted:
+        rates, middle, _, _ = curve_of(fit.tail, lowest)
+        axes.plot(middle, rates, **REFUTED)
+    if refuted:
+        words_of_p = f"p {max(fit.goodness_p for fit in refuted):.2g}" + (" at most" if len(refuted) > 1 else "")
+        words_of_all = "refuted fit" if len(refuted) == 1 else f"{len(refuted)} refuted fits"
+        handles.append(Line2D([], [], label=f"{words_of_all} above {forces_of(refuted)}: {words_of_p}", **REFUTED))
+    if found.used:
+        tail = found.used.tail
+        rates, middle, low, high = curve_of(tail, lowest)
+        axes.fill_betweenx(rates, low, high, color=RED, alpha=0.15, linewidth=0)
+        axes.plot(middle, rates, color=RED, linestyle="--")
+        label = f"fit above {forces_of([found.used])}, shape {words.shape(tail.shape.value)}, with its 90 % interval"
+        handles.append(Line2D([], [], color=RED, linestyle="--", label=label))
+        reach = high.max()
+    return handles, reach
+
+
+def forces_of(fits):
+    """The least and the largest threshold."""
+    found = [words.force(fit.tail.threshold) for fit in fits]
+    return " to ".join(dict.fromkeys((found[0], found[-1])))
 
 
 def draw_kind(axes, loads, found, lowest):
-    """Peaks of one kind of runs with their band, and the fits of their tail. Returns the legend's entries."""
+    """Peaks of one kind of runs with their band, and the fits of their tail. Returns the legend's entries, and how far
+    the fit that is used goes [MN]."""
     columns = estimate.exceedance(loads)
     force = columns["force_N"] / 1e6
     axes.fill_between(force, columns["per_hour_low"], columns["per_hour_high"], color=BLUE, alpha=0.25, linewidth=0)
     axes.plot(force, columns["per_hour"], color=BLACK, drawstyle="steps-pre")
     handles = [Line2D([], [], color=BLACK, label="peaks seen, with their 90 % band")]
-    return handles + draw_fits(axes, found, lowest)
+    of_fits, reach = draw_fits(axes, found, lowest)
+    return handles + of_fits, reach
 
 
 def draw_kinds(axes, estimates):
@@ -77,10 +93,12 @@ def exceedance(loads, estimates, page=Page()):
         axes = sheet.panels(1, 1)[0, 0]
         lowest = 0.1 / loads.hours
         several = len(estimates) > 1
-        handles = draw_kinds(axes, estimates) if several else draw_kind(axes, *estimates[loads.kinds()[0]], lowest)
+        handles, reach = ((draw_kinds(axes, estimates), 0.0) if several
+                          else draw_kind(axes, *estimates[loads.kinds()[0]], lowest))
         rates = [0.5 / of.hours if several else lowest for of, _ in estimates.values() if of.hours]
         axes.set(yscale="log", xlabel="force of a peak, MN", ylabel="exceeded, per hour", ylim=(min(rates), None))
-        axes.set_xlim(0, min(axes.get_xlim()[1], WIDEST * loads.forces.max() / 1e6))
+        largest = loads.forces.max() / 1e6
+        axes.set_xlim(0, max(1.1 * largest, min(1.05 * reach, WIDEST * largest)))
         if loads.kilometres > 1e-6:
             per = loads.hours / loads.kilometres
             other = axes.secondary_yaxis("right", functions=(lambda rate: rate * per, lambda rate: rate / per))

@@ -9,12 +9,12 @@ from . import estimate
 def plain(value):
     """Three digits, without an exponent: 0.0123, 1250, 40000."""
     rounded = float(f"{value:.3g}")
-    return f"{rounded:.0f}" if abs(rounded) >= 100 else f"{rounded:.6g}"
+    return f"{rounded:.0f}" if abs(rounded) >= 100 else f"{rounded:.4g}"
 
 
 def hours(value):
     """A time as people say it: 90 s, 12 min, 3.5 h."""
-    for most, unit, name in ((1 / 30, 3600, "s"), (2, 60, "min")):
+    for most, unit, name in ((1 / 30, 3600, "s"), (0.9995, 60, "min")):
         if value < most:
             return f"{plain(value * unit)} {name}"
     return f"{plain(value)} h"
@@ -27,6 +27,11 @@ def force(value):
     return f"{value:.3g} N"
 
 
+def shape(value):
+    """Two digits behind the point, without a minus before 0."""
+    return f"{round(value, 2) + 0:.2f}"
+
+
 def span(low, high):
     """An interval of forces; an end without a limit is open."""
     return f"{force(low)} to {force(high) if math.isfinite(high) else 'no limit'}"
@@ -35,19 +40,32 @@ def span(low, high):
 def of_fit(fit):
     tail, gap = fit.tail, fit.events.gap
     bursts = f", peaks within {gap:.3g} s of each other as one" if gap else ""
-    return (f"{tail.count} peaks above {force(tail.threshold)}{bursts}: shape {tail.shape.value:.2f} "
-            f"({tail.shape.low:.2f} to {tail.shape.high:.2f}), scale {force(tail.scale.value)}, p {fit.goodness_p:.2g}")
+    return (f"{tail.count} peaks above {force(tail.threshold)}{bursts}: shape {shape(tail.shape.value)} "
+            f"({shape(tail.shape.low)} to {shape(tail.shape.high)}), scale {force(tail.scale.value)}, p "
+            f"{fit.goodness_p:.2g}")
 
 
 def of_answer(given):
-    """What is exceeded once in a period, or why that is not said."""
+    """What is exceeded once in a period, or that it is withheld."""
     if given.value_N is None:
-        return f"withheld: {given.why}"
-    mark = " EXTRAPOLATED: no interval was tested so far beyond a record" if given.is_extrapolated else ""
+        return "withheld"
+    mark = ", EXTRAPOLATED" if given.is_extrapolated else ""
     return f"{force(given.value_N)} ({span(given.low_N, given.high_N)}){mark}"
 
 
+def reasons(answers, found):
+    """Why values are withheld or not to be trusted, each once."""
+    said = {given.why: [] for given in answers if given.why}
+    for given in answers:
+        if given.why:
+            said[given.why].append(hours(given.period_h))
+    yield from (why if why == found.why else f"{', '.join(periods)} withheld: {why}" for why, periods in said.items())
+    if any(given.is_extrapolated for given in answers):
+        yield f"extrapolated: no interval was tested beyond {extremes.FARTHEST:g} records"
+
+
 def of_seen(given):
+    """What the peaks that were seen say without a fit."""
     return span(given.seen_low_N, given.seen_high_N)
 
 
@@ -68,22 +86,37 @@ def of_loads(loads):
             f"{hours(loads.hours)}{reach}{gauge}")
 
 
+def of_fits(found):
+    """The fits that are refuted, in one line, and the one that is used."""
+    rest = [fit for fit in found.fits if fit is not found.used]
+    if rest:
+        reach = dict.fromkeys(force(fit.tail.threshold) for fit in (rest[0], rest[-1]))
+        count = "1 fit" if len(rest) == 1 else f"{len(rest)} fits"
+        yield f"refuted  {count} above {' to '.join(reach)} (loads-fits.csv says why)"
+    if found.used:
+        yield f"fit      {of_fit(found.used)}"
+
+
+def aligned(rows):
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    return ["  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)).rstrip() for row in rows]
+
+
 def lines_of(loads, estimates, answers, half_width):
-    """The lines that the command prints, at most some for each kind of runs."""
+    """The lines that the command prints, some for each kind of runs."""
     yield of_loads(loads)
     for kind, (of, found) in estimates.items():
         if len(estimates) > 1:
             yield f"{kind}: {len(of.forces)} peaks in {hours(of.hours)}"
-        for fit in found.fits:
-            yield f"  {'fit     ' if fit is found.fits[-1] and not found.why else 'refuted '} {of_fit(fit)}"
-        if found.why:
-            yield f"  no fit    {found.why}"
-        for _, given in [pair for pair in answers if pair[0] == kind]:
-            yield (f"  once in {hours(given.period_h)}, {plain(given.records)} records: {of_answer(given)}; "
-                   f"by peaks seen {of_seen(given)}; record needed {of_record(given, half_width)}")
+        own = [given for of_kind, given in answers if of_kind == kind]
+        rows = [["once in", "records", "force (90 %)", "by peaks seen", "record needed"]]
+        rows += [[hours(given.period_h), plain(given.records), of_answer(given), of_seen(given),
+                  of_record(given, half_width)] for given in own]
+        for line in (*of_fits(found), *aligned(rows), *reasons(own, found)):
+            yield f"  {line}"
 
 
 EXPLAINED = (
-    f"Intervals hold {100 * extremes.LEVEL:g} %. A fit with p below {estimate.REFUTED:g} is refuted and gives no return "
-    f"value: it is struck through. Return values beyond {extremes.FARTHEST:g} records are withheld but with "
+    f"Intervals hold {100 * extremes.LEVEL:g} %. A fit with p below {estimate.REFUTED:g} is refuted and gives no "
+    f"return value: it is struck through. Return values beyond {extremes.FARTHEST:g} records are withheld but with "
     "--extrapolate. “By peaks seen” needs no fit. How often the intervals hold the truth is in docs/loads.md.")

@@ -7,9 +7,10 @@ import sys
 
 
 from ..errors import InputError
+from ..naming import names_of_folders
 from ..results.run import Run
 from ..study import folder as folders
-from . import study
+from . import study, words
 from .gates import Passage, distribution, gates_of, passages
 from .measures import effort, measures_of, rows_of
 from .options import command_line
@@ -41,10 +42,18 @@ def given_by(arguments):
     return {key: value for key, value in named.items() if value is not None}
 
 
-def case_of(folder, given):
+def case_of(folder, name, given):
     run = Run(folder, pandas=False)
     gates = gates_of(run, given)
-    return Case(pathlib.Path(folder).resolve().name, run, gates, *passages(run, gates), measures_of(run, given))
+    return Case(name, run, gates, *passages(run, gates), measures_of(run, given))
+
+
+def labels_of(arguments):
+    """A name for each folder: those given, else by what differs."""
+    if arguments.label and len(arguments.label) != len(arguments.folders):
+        raise InputError(f"--label: found {len(arguments.label)} names, allowed: one for each of the "
+                         f"{len(arguments.folders)} folders", 2)
+    return arguments.label or names_of_folders(arguments.folders)
 
 
 def shown(value):
@@ -54,10 +63,11 @@ def shown(value):
 def print_cases(cases):
     names = list(cases[0].measures)
     width = max(map(len, names)) - len("management_")
-    print(" " * width + "".join(f"  {case.name[-20:]:>20}" for case in cases))
+    columns = [max(12, len(case.name)) for case in cases]
+    print(" " * width + "".join(f"  {case.name:>{column}}" for case, column in zip(cases, columns)))
     for name in names:
         print(f"{name.removeprefix('management_'):{width}}"
-              + "".join(f"  {shown(case.measures.get(name)):>20}" for case in cases))
+              + "".join(f"  {shown(case.measures.get(name)):>{column}}" for case, column in zip(cases, columns)))
     for case in cases:
         for ship, of in effort(case.run, case.gates.start).items():
             print(f"{case.name}: {ship} went {of['distance_m'] / 1e3:.2f} km; its engine delivered "
@@ -65,6 +75,8 @@ def print_cases(cases):
         gates = case.gates
         print(f"{case.name}: gates {gates.width:g} m wide, {gates.upstream:g} and {gates.near:g} m upstream of "
               f"{gates.body}; hits are of floes from {gates.size:g} m on")
+    if len(cases) > 1:
+        print("One run a column: no interval. A study over seeds says what is more than chance (docs/management.md).")
 
 
 def write_tables(cases, folder):
@@ -85,34 +97,72 @@ def write_tables(cases, folder):
     print(f"tables  {folder / 'management.csv'}, {folder / 'management-sizes.csv'}")
 
 
-def draw(make, path):
-    """The picture, where matplotlib is there."""
+def draw(arguments, out, figures_of):
+    """Writes the pictures that figures_of(page) gives as (name, figure), where matplotlib is there."""
     try:
-        from . import figure
+        from ..figures.page import STYLES, Page, save
     except ImportError as error:
         print(f"figure  none: {error}; ./setup.sh python installs what it needs", file=sys.stderr)
         return
-    make(figure, path)
-    print(f"figure  {path}")
+    style = STYLES[arguments.style]
+    for name, figure in figures_of(Page(style)):
+        if figure is not None:
+            for path in save(figure, str(out / name), arguments.format, style.dots):
+                print(f"figure  {path}")
 
 
-def main():
-    arguments = command_line().parse_args()
-    given = given_by(arguments)
-    out = pathlib.Path(arguments.out or arguments.folders[0])
-    if (pathlib.Path(arguments.folders[0]) / folders.PLAN).is_file():
-        if len(arguments.folders) > 1 or given:
-            raise InputError("of a study the gates are those of its collect.management: one folder, and no gates")
-        return study.report(arguments.folders[0], out, arguments.json, draw)
-    cases = [case_of(folder, given) for folder in arguments.folders]
+def report_study(arguments, out):
+    """What `polynya management STUDY` prints and writes."""
+    found = study.read(arguments.folders[0])
+    if arguments.json:
+        print(study.in_json(found))
+        return DONE
+    print(*words.lines_of(found), sep="\n")
+    out.mkdir(parents=True, exist_ok=True)
+    words.write_ranking(found, out / "management-ranking.csv")
+    words.write_means(found, out / "management.csv")
+    print(f"tables  {out / 'management-ranking.csv'}, {out / 'management.csv'}")
+
+    def figures_of(page):
+        from . import study_figure
+
+        yield "management-ranking", study_figure.draw_ranking(found, page)
+        yield "management", study_figure.draw_study(found, page)
+
+    draw(arguments, out, figures_of)
+    return DONE
+
+
+def report_runs(arguments, out):
+    """What `polynya management RUN …` prints and writes."""
+    given, names = given_by(arguments), labels_of(arguments)
+    cases = [case_of(folder, name, given) for folder, name in zip(arguments.folders, names)]
     if arguments.json:
         print(json.dumps({case.name: case.measures for case in cases}, indent=2))
         return DONE
     print_cases(cases)
     out.mkdir(parents=True, exist_ok=True)
     write_tables(cases, out)
-    draw(lambda figure, path: figure.draw_runs(cases, path), out / "management.png")
+
+    def figures_of(page):
+        from . import figure
+
+        yield "management", figure.draw_runs(cases, page)
+
+    draw(arguments, out, figures_of)
     return DONE
+
+
+def main():
+    arguments = command_line().parse_args()
+    out = pathlib.Path(arguments.out or arguments.folders[0])
+    studies = [folder for folder in arguments.folders if (pathlib.Path(folder) / folders.PLAN).is_file()]
+    if not studies:
+        return report_runs(arguments, out)
+    if len(arguments.folders) > 1 or given_by(arguments) or arguments.label:
+        raise InputError("of a study the gates are those of its collect.management: one folder, and neither gates nor "
+                         "labels", 2)
+    return report_study(arguments, out)
 
 
 if __name__ == "__main__":

@@ -1,11 +1,12 @@
 """The command line of `polynya management`."""
-from ..arguments import Parser, number
+from ..arguments import Parser, choice, choices, number
+from ..figures.options import FORMATS, STYLES
 
 EXAMPLES = (
     "management runs/ice-management",
     "management runs/managed runs/unmanaged --body drillship --upstream 700 --width 300",
     "management runs/ice-management --size 30 --out pictures",
-    "management studies/ice-management             of a gathered study, by what it varies",
+    "management studies/ice-management             ranks the patterns of a gathered study, with intervals",
 )
 REST = """Gates are lines across the drift, upstream of the body that is protected (docs/management.md). Of a study the
 measures are those that its collect.management asks for. Needs Python 3 with numpy, and matplotlib for the figures
@@ -14,7 +15,7 @@ measures are those that its collect.management asks for. Needs Python 3 with num
 
 
 def command_line():
-    meaning = "State what ice management did: floes through gates, hits, loads, effort"
+    meaning = "State what ice management did, and rank the patterns of a study"
     parser = Parser("polynya management", meaning, EXAMPLES, REST)
     parser.add("folders", "Run folders, which are compared, or a study's folder", metavar="FOLDER", nargs="+")
     parser.add("--body", "The protected ship or structure; that of the pilots if not given", metavar="NAME")
@@ -26,5 +27,11 @@ def command_line():
     parser.add("--size", "√area of the least floe that counts as a hit; 20 if not given", type=distance, metavar="M")
     parser.add("--from", "Counts nothing before; 0 if not given", type=number(0, 1e7, "s"), dest="start", metavar="S")
     parser.add("--out", "Folder of tables and figures; the first folder given if not", metavar="DIR")
+    meaning = "Names of the runs, separated by commas; by what differs in their folders if not given"
+    parser.add("--label", meaning, type=lambda text: text.split(","), action="extend", default=[], metavar="NAME,...")
+    meaning = "What for: a column of a page, its whole width (if not given), or slides"
+    parser.add("--style", meaning, type=choice(STYLES), default="two-columns", metavar="|".join(STYLES))
+    meaning = "Which files of a figure, separated by commas; svg,png if not given"
+    parser.add("--format", meaning, type=choices(FORMATS), default=["svg", "png"], metavar="|".join(FORMATS))
     parser.add("--json", "Print the measures as JSON, and write nothing", action="store_true")
     return parser

@@ -1,117 +1,172 @@
-"""A study of ice management: means of its measures, by what it varies."""
-import csv
+"""A study of ice management: its patterns ranked, by the conditions that it varies."""
+import dataclasses
 import json
 import math
 
 from ..errors import InputError
+from ..naming import leaf_in_words, names_of, parsed
+from . import ranking
 
-SHOWN = {
-    "management_mean_size_at_body_m": "mean size at the body, by area [m]",
-    "management_largest_hit_m": "largest floe that touched it [m]",
-    "management_hit_s": "time with floes of the size on it [s]",
+PREFIX = "management_"
+UNMANAGED = "not managed"
+MEASURES = {  # by which patterns are ranked: the less the better
     "management_ice_load_mean_N": "mean load of the ice [N]",
     "management_ice_load_q99_N": "load exceeded 1 % of the time [N]",
-    "management_managed_width_m": "managed width [m]",
+    "management_largest_at_body_m": "largest floe that arrives [m]",
 }
+SEEDS = ("seed", "repetition")
 
 
-def mean_of(values):
-    """Mean, and half of Student's 95 % interval."""
-    from scipy import stats
+@dataclasses.dataclass
+class Condition:
+    """Cases that differ in their pattern and their field of ice alone: measure -> pattern -> {field: value}."""
 
-    count = len(values)
-    if not count:
-        return None, 0.0
-    mean = math.fsum(values) / count
-    if count < 2:
-        return mean, 0.0
-    deviation = math.sqrt(math.fsum((value - mean) ** 2 for value in values) / (count - 1))
-    return mean, float(stats.t.ppf(0.975, count - 1)) * deviation / math.sqrt(count)
+    name: str
+    x: float  #: of the parameter that figures have on their x axis; 0 where there is none
+    values: dict
+    lost: dict  #: pattern -> {field: (area that left by a rule [m²], its share of all ice)}
+
+    def ranked(self, measure):
+        return ranking.ranking(self.values.get(measure, {}), UNMANAGED)
 
 
-def axes_of(found):
-    """What the study varies: the parameter of the x axis (report.against, else one of drift, else the first that is a
-    number), and the one that names groups (report.group_by, else what is left)."""
-    asked = found.plan.get("report", {})
-    seeds = ("seed", "repetition")
-    varied = [name for name in found.parameters if name not in seeds
-              and len({str(value) for value in found.table[name]}) > 1]
+@dataclasses.dataclass
+class Found:
+    """What a study says of its patterns."""
+
+    name: str
+    finished: int
+    cases: int
+    by: list  #: parameters that make patterns
+    against: str  #: the parameter of the x axis; empty where there is none
+    conditions: list
+    patterns: list  #: their names in the order of the study
+    measures: list
+
+
+def different(table, name):
+    return list(dict.fromkeys(str(value) for value in table[name]))
+
+
+def is_number(value):
+    return isinstance(parsed(value), (int, float)) and not isinstance(parsed(value), bool)
+
+
+def follows(table, name, others):
+    """Whether a parameter has one value for each combination of the others: it was set together with them."""
+    values = {}
+    for row in table:
+        key = tuple(str(row[other]) for other in others)
+        if values.setdefault(key, str(row[name])) != str(row[name]):
+            return False
+    return True
+
+
+def roles_of(plan, parameters, table):
+    """The parameters that make patterns (report.group_by, else those with objects, else the first), the one of the x
+    axis (report.against, else one of drift, else one with numbers), and the rest that makes conditions."""
+    asked = plan.get("report", {})
+    varied = [name for name in parameters if name not in SEEDS and len(different(table, name)) > 1]
     if not varied:
-        raise InputError("the study varies nothing but seeds")
-    wanted = asked.get("against") or [name for name in varied if "drift" in name] or varied
-    against = wanted if isinstance(wanted, str) else wanted[0]
-    grouped = asked.get("group_by") or [name for name in varied if name != against]
-    return against, ([grouped] if isinstance(grouped, str) else list(grouped))[:1]
+        raise InputError("the study varies nothing but seeds: there is nothing to rank")
+    objects = [name for name in varied if any(isinstance(parsed(value), dict) for value in different(table, name))]
+    given = asked.get("against")
+    against = given or next((name for name in varied if "drift" in name and name not in objects), None)
+    grouped = asked.get("group_by") or objects or [name for name in varied if name != against][:1] or varied[:1]
+    by = [grouped] if isinstance(grouped, str) else list(grouped)
+    rest = [name for name in varied if name not in by and not follows(table, name, by)]
+    if against not in rest:
+        against = next((name for name in rest if all(is_number(value) for value in table[name])), "")
+    return by, against or "", rest
 
 
-def x_of(value):
+def x_of(against, value):
     """A number of a parameter's value: of a velocity its speed."""
-    try:
-        parsed = json.loads(str(value))
-    except ValueError:
+    value = parsed(value)
+    if isinstance(value, list) and value and all(isinstance(part, (int, float)) for part in value):
+        return math.hypot(*value)
+    if not is_number(value):
         return None
-    return math.hypot(*parsed) if isinstance(parsed,
-                                             list) else float(parsed) if isinstance(parsed, (int, float)) else None
+    return abs(float(value)) if "drift" in against else float(value)
 
 
-def name_of(value):
-    """Of a pilot its pattern; of anything else what it is."""
-    try:
-        parsed = json.loads(str(value))
-    except ValueError:
+def path_of(name):
+    """The parts of a parameter's path, by which its unit is found."""
+    return tuple(name.replace("]", "").replace("[", ".").split("."))
+
+
+def value_in_words(name, value):
+    """"drift 0.5 m/s" of a number at a path with its unit."""
+    if not is_number(value):
         return str(value)
-    if not isinstance(parsed, dict):
-        return str(value)
-    return parsed["manage"]["pattern"] if "manage" in parsed else "not managed"
+    keys = [part for part in path_of(name) if not part.isdigit()]
+    return leaf_in_words((keys[-1],), x_of(name, value))
 
 
-def groups_of(rows, against, by, measures):
-    """name -> measure -> [(x, mean, half)], in the order of the table."""
-    cells = {}
+def pattern_names(table, by):
+    """{values: name} of the patterns, by what differs; those without a ship that manages are not managed."""
+    names = {name: names_of([str(value) for value in table[name]]) for name in by}
+    found = {}
+    for row in table:
+        key = tuple(str(row[name]) for name in by)
+        words = ", ".join(names[name][str(row[name])] if isinstance(parsed(row[name]), (dict, list)) or len(by) == 1
+                          else value_in_words(name, row[name]) for name in by)
+        has_none = f"{PREFIX}icebreakers" in table.dtype.names and row[f"{PREFIX}icebreakers"] == 0
+        found.setdefault(key, UNMANAGED if has_none else words)
+    managed = [name for name in found.values() if name != UNMANAGED]
+    if not managed:  # a study without icebreakers: its groups have their own names
+        return {key: ", ".join(names[name][value] for name, value in zip(by, key)) for key in found}
+    return found
+
+
+def conditions_of(rows, by, against, rest, patterns, measures):
+    found = {}
     for row in rows:
-        x = x_of(row[against])
-        x = abs(x) if "drift" in against and x is not None else x  # its speed
-        group = ", ".join(name_of(row[name]) for name in by) or "all"
+        key = tuple(str(row[name]) for name in rest)
+        words = ", ".join(value_in_words(name, row[name]) for name in rest)
+        x = x_of(against, row[against]) if against else 0.0
+        condition = found.setdefault(key, Condition(words, x, {}, {}))
+        pattern = patterns[tuple(str(row[name]) for name in by)]
+        field = tuple(str(row[name]) for name in SEEDS if name in row.dtype.names)
         for measure in measures:
-            value = row[measure]
-            kept = cells.setdefault(group, {}).setdefault(measure, {}).setdefault(x, [])
-            if not math.isnan(value):
-                kept.append(float(value))
-    return {
-        group: {measure: [(x, *mean_of(values)) for x, values in sorted(by_x.items())] for measure, by_x in of.items()}
-        for group, of in cells.items()
-    }
+            if not math.isnan(row[measure]):
+                condition.values.setdefault(measure, {}).setdefault(pattern, {})[field] = float(row[measure])
+        if f"{PREFIX}ice_lost_m2" in row.dtype.names:
+            lost = (float(row[f"{PREFIX}ice_lost_m2"]), float(row[f"{PREFIX}ice_lost_share"]))
+            condition.lost.setdefault(pattern, {})[field] = lost
+    return sorted(found.values(), key=lambda condition: condition.x)
 
 
-def report(folder, out, as_json, draw):
+def read(folder):
     from ..results.study import Study
 
-    found = Study(folder, unfinished=True, pandas=False)
-    measures = [name for name in found.measures if name.startswith("management_")]
+    study = Study(folder, unfinished=True, pandas=False)
+    table = study.table
+    rows = table[table["state"] == "finished"]
+    if not len(rows):
+        raise InputError(f"{folder}: no case is finished: polynya study run {folder}, then polynya study gather "
+                         f"{folder}")
+    measures = [name for name in study.measures if name.startswith(PREFIX) and table[name].dtype.kind == "f"]
     if not measures:
         raise InputError(f"{folder}: the study has no measures of ice management: collect.management asks for them")
-    against, by = axes_of(found)
-    table = found.table
-    rows = [row for row in table if row["state"] == "finished"]
-    numeric = [name for name in measures if table[name].dtype.kind == "f"]
-    groups = groups_of(rows, against, by, numeric)
-    if as_json:
-        print(json.dumps(groups, indent=2))
-        return 0
-    shown = {name: words for name, words in SHOWN.items() if name in numeric}
-    print(f"{len(rows)} of {len(table)} cases; against {against}, by {', '.join(by) or 'nothing'}")
-    for measure, words in shown.items():
-        print(words)
-        for group, of in groups.items():
-            cells = [f"{x:g}: {mean:.4g} ± {half:.2g}" for x, mean, half in of[measure] if mean is not None]
-            print(f"  {group:20}" + "".join(f"{cell:>26}" for cell in cells))
-    out.mkdir(parents=True, exist_ok=True)
-    with open(out / "management.csv", "w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["group", against, "measure", "mean", "half_of_95_percent"])
-        for group, of in groups.items():
-            for measure, points in of.items():
-                writer.writerows([group, x, measure, mean, half] for x, mean, half in points)
-    print(f"table   {out / 'management.csv'}")
-    draw(lambda figure, path: figure.draw_study(groups, against, shown, path), out / "management.png")
-    return 0
+    by, against, rest = roles_of(study.plan, study.parameters, table)
+    patterns = pattern_names(rows, by)
+    conditions = conditions_of(rows, by, against, rest, patterns, measures)
+    names = list(dict.fromkeys(patterns.values()))
+    return Found(study.name, len(rows), len(table), by, against, conditions, names, measures)
+
+
+def in_json(found):
+    """Everything that is ranked, and the means of all measures."""
+    def of(mean):
+        return None if mean is None else dataclasses.asdict(mean)
+
+    return json.dumps({
+        "study": found.name, "finished": found.finished, "cases": found.cases, "by": found.by, "against": found.against,
+        "conditions": [{
+            "name": condition.name, "x": condition.x,
+            "ranking": {measure: [dataclasses.asdict(place) for place in condition.ranked(measure)]
+                        for measure in MEASURES if measure in found.measures},
+            "means": {measure: {pattern: of(ranking.mean_of(values.values())) for pattern, values in of_pattern.items()}
+                      for measure, of_pattern in condition.values.items()},
+        } for condition in found.conditions]}, indent=2)

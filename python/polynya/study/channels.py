@@ -2,15 +2,14 @@
 import json
 import math
 
-from matplotlib import pyplot
 from matplotlib.collections import PolyCollection
 
+from ..figures.page import Page, Sheet, plain
 from .folder import RUN
 from .measures import rows_by_ship
-from .pictures import STYLE, group_label, save
+from .pictures import group_label, save
 
-WIDTH, TITLE = 6.7, 0.16  # of the figure, and of a panel's title [inch]
-COLUMNS = 4
+COLUMNS, SMALL = 4, 6  # of panels; size of their titles [pt]
 
 
 def choose(study, sample, group_by, count):
@@ -35,19 +34,22 @@ def draw(study, sample, numbers, group_by, folder):
     points = [point for end in ends for ring in end["rings"] for point in ring]
     points += [point for end in ends for ship in end["ships"] for point in ship["track"]]
     (left, right), (low, high) = ((min(axis), max(axis)) for axis in zip(*points))
-    panel = WIDTH / columns * (high - low) / (right - left) + TITLE
     row_of = {number: i for i, number in enumerate(sample.columns["case"].astype(int).tolist())}
-    with pyplot.rc_context({**STYLE, "axes.grid": False, "figure.constrained_layout.use": False}):
-        figure, grid = pyplot.subplots(rows, columns, squeeze=False, figsize=(WIDTH, rows * panel))
-        figure.subplots_adjust(0, 0, 1, 1 - TITLE / (rows * panel), 0.02, TITLE / (panel - TITLE))
+    with Sheet(Page(), "The ice at the end of some runs", "with the ships and their tracks") as sheet:
+        grid = sheet.panels(rows, columns)
+        width = sheet.page.width / columns - 4
+        lines = 1
         for axes, number, end in zip(grid.flat, numbers, ends):
             draw_end(axes, end)
             axes.set(xlim=(left, right), ylim=(low, high), aspect="equal")
             group = f": {group_label(group_by, sample.columns[group_by][row_of[number]])}" if group_by else ""
-            axes.set_title(f"case {number}{group}", fontsize=6, pad=1.5)
+            words = sheet.wrapped(plain(f"case {number}{group}"), SMALL, width)
+            axes.set_title("\n".join(words), fontsize=SMALL, pad=1.5)
+            lines = max(lines, len(words))
         for axes in grid.flat:
             axes.set_axis_off()
-        return save(figure, folder, "channels")
+        panel = min(60.0, width * (high - low) / (right - left)) + 3 * lines
+        return save(sheet.finish(max(10.0, panel) * rows, is_snug=True), folder, "channels")
 
 
 def read_end(run):

@@ -1,16 +1,16 @@
 """The pictures of a study's page, by matplotlib: SVG and PNG."""
 import math
 
-import matplotlib
 import numpy
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Rectangle
 
-matplotlib.use("Agg")
-from matplotlib import pyplot  # noqa: E402  (after the backend is chosen)
-
-from .. import statistics  # noqa: E402
-from .sample import fits_of  # noqa: E402
+from .. import statistics
+from ..figures import page
+from .sample import fits_of, refuted
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999933")  # [Okabe2008]
+GREY = "#bbbbbb"  # of groups beyond as many
 OUTCOMES = {"pushed": "#56b4e9", "bent": "#009e73", "split": "#d55e00", "stuck": "#000000"}
 PAPER = (
     0.999,
@@ -29,25 +29,12 @@ PAPER = (
     0.001,
 )  # probabilities of exceedance
 SCALES = {"N": (1e6, "MN"), "Nm": (1e6, "MN m"), "J": (1e6, "MJ"), "m": (1, "m"), "s": (1, "s")}
-STYLE = {
-    "font.size": 8,
-    "axes.titlesize": 9,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "svg.hashsalt": "polynya",
-    "axes.grid": True,
-    "grid.color": "#dddddd",
-    "grid.linewidth": 0.5,
-    "figure.constrained_layout.use": True,
-}
 
 
 def save(figure, folder, name):
     """Writes name.svg and name.png; returns the name of the SVG."""
     folder.mkdir(exist_ok=True)
-    for suffix, options in ((".svg", {"metadata": {"Date": None}}), (".png", {"dpi": 200})):
-        figure.savefig(folder / (name + suffix), **options)
-    pyplot.close(figure)
+    list(page.save(figure, str(folder / name), ("svg", "png"), 200))
     return name + ".svg"
 
 
@@ -83,49 +70,72 @@ def group_label(name, value):
     return f"{words} {in_words(value)} {unit.rstrip(']')}".rstrip()
 
 
+def lines_of(sample, group_by):
+    """(value, cases, colour) of the groups: those beyond as many as there are colours are grey."""
+    groups = sample.groups(group_by)
+    return [(value, cases, COLOURS[k] if k < len(COLOURS) else GREY) for k, (value, cases) in enumerate(groups)]
+
+
+def more(lines):
+    """The legend's entry of the groups that are grey."""
+    rest = sum(colour == GREY for _, _, colour in lines)
+    return [Line2D([], [], color=GREY, label=f"{rest} more groups")] if rest else []
+
+
+def reduced(p):
+    """Gumbel's reduced variate of a probability of exceedance: his distribution is a straight line over it."""
+    return -numpy.log(-numpy.log1p(-numpy.asarray(p)))
+
+
+def draw_fits(axes, values, factor, lowest, colour):
+    """Lines of both fits; those that are refuted are dotted. Returns the words for the legend, each with its dash."""
+    found = {}
+    for name, dash in (("gumbel", "-"), ("weibull", "--")):
+        fitted = fits_of(values)[name]
+        if not isinstance(fitted, str):
+            p = numpy.geomspace(min(0.02, lowest / 2), 0.995, 200)
+            is_refuted = bool(refuted(fitted))
+            axes.plot(fitted.level_of(p) * factor, reduced(p), ":" if is_refuted else dash, color=colour)
+            found["refuted fit" if is_refuted else name.capitalize()] = ":" if is_refuted else dash
+    return found
+
+
 def exceedance(sample, measure, group_by, folder):
     """Peaks on Gumbel's probability paper, on which his distribution is a straight line, with both fits."""
     label, factor = label_of(measure)
-    with pyplot.rc_context(STYLE):
-        figure, axes = pyplot.subplots(figsize=(6.7, 4.2))
-        reduced = lambda p: -numpy.log(-numpy.log1p(-numpy.asarray(p)))
-        lowest = 0.5
-        for (value, cases), colour in zip(sample.groups(group_by), colours()):
+    lowest, handles, dashes = 0.5, [], {}
+    lines = lines_of(sample, group_by)
+    with page.Sheet(page.Page(), f"How often the {label.partition(' [')[0]} of a run exceeds a value") as sheet:
+        axes = sheet.panels(1, 1)[0, 0]
+        for value, cases, colour in lines[::-1]:
             values = sample.numbers(measure, cases)
             if len(values) == 0:
                 continue
             ordered, above = statistics.exceedance(values)
             lowest = min(lowest, above[-1])
-            named = group_label(group_by, value) if group_by else "all cases"
-            axes.plot(ordered * factor, reduced(above), "o", ms=3, color=colour, label=f"{named} ({len(values)})")
-            fits = fits_of(values)
-            for name, line in (("gumbel", "-"), ("weibull", "--")):
-                fitted = fits[name]
-                if not isinstance(fitted, str):
-                    p = numpy.geomspace(min(0.02, above[-1] / 2), 0.995, 200)
-                    axes.plot(fitted.level_of(p) * factor, reduced(p), line, color=colour, lw=1)
+            axes.plot(ordered * factor, reduced(above), "o", ms=3, color=colour)
+            if colour != GREY:
+                dashes.update(draw_fits(axes, values, factor, above[-1], colour))
+                named = group_label(group_by, value) if group_by else "all cases"
+                handles.insert(0, Line2D([], [], linestyle="", marker="o", ms=3, color=colour,
+                                         label=page.plain(f"{named} ({len(values)})")))
         ticks = [p for p in PAPER if p >= lowest / 2.1]
         axes.set_yticks(reduced(ticks), [f"{p:g}" for p in ticks])
         axes.set(xlabel=label, ylabel="probability of exceedance in one run")
-        axes.plot([], [], "-", color="#666666", lw=1, label="Gumbel")
-        axes.plot([], [], "--", color="#666666", lw=1, label="Weibull")
-        axes.legend(frameon=False, fontsize=7)
-        return save(figure, folder, f"exceedance-{measure}")
-
-
-def colours():
-    while True:
-        yield from COLOURS
+        axes.grid(color="#dddddd", linewidth=0.5)
+        handles += more(lines)
+        handles += [Line2D([], [], color="#666666", linestyle=dash, label=name)
+                    for name, dash in sorted(dashes.items())]
+        return save(sheet.finish(85, handles), folder, f"exceedance-{measure}")
 
 
 def means(sample, measure, against, group_by, folder):
     """Means with their 95 % intervals against a parameter, a line for each group."""
     label, factor = label_of(measure)
-    if group_by == against:
-        group_by = None
-    with pyplot.rc_context(STYLE):
-        figure, axes = pyplot.subplots(figsize=(6.7, 3.4))
-        for (value, cases), colour in zip(sample.groups(group_by), colours()):
+    lines, handles = lines_of(sample, None if group_by == against else group_by), []
+    with page.Sheet(page.Page(), f"Mean of the {label.partition(' [')[0]}", "with its 95 % interval") as sheet:
+        axes = sheet.panels(1, 1)[0, 0]
+        for value, cases, colour in lines[::-1]:
             xs, estimates = [], []
             for x in sample.values_of(against):
                 values = sample.numbers(measure, cases & (sample.columns[against] == x))
@@ -135,14 +145,18 @@ def means(sample, measure, against, group_by, folder):
                     estimates.append(statistics.mean(values) if len(values) > 1 else single)
             middle = numpy.array([e.value for e in estimates]) * factor
             half = numpy.array([e.half_width for e in estimates]) * factor
-            label_of_group = None if group_by is None else group_label(group_by, value)
-            axes.plot(xs, middle, "o-", ms=3, lw=1, color=colour, label=label_of_group)
+            axes.plot(xs, middle, "o-", ms=3, lw=1, color=colour)
             many = numpy.isfinite(half)  # a single case has no interval
             axes.errorbar(numpy.array(xs)[many], middle[many], half[many], fmt="none", lw=1, capsize=2, ecolor=colour)
-        axes.set(xlabel=label_of(against, is_parameter=True)[0], ylabel="mean of " + label)
-        if group_by is not None:
-            axes.legend(frameon=False, fontsize=7)
-        return save(figure, folder, f"means-{measure}")
+            if value is not None and colour != GREY:
+                handles.insert(0, Line2D([], [], marker="o", ms=3, color=colour,
+                                         label=page.plain(group_label(group_by, value))))
+        axes.set(xlabel=label_of(against, is_parameter=True)[0])
+        if not sample.has_numbers(against) and sum(len(str(x)) for x in sample.values_of(against)) > 90:
+            axes.tick_params(axis="x", rotation=90)
+        axes.grid(color="#dddddd", linewidth=0.5)
+        sheet.label_y(axes, "mean of " + label, 70)
+        return save(sheet.finish(70, handles + more(lines)), folder, f"means-{measure}")
 
 
 def outcome_map(sample, over, folder):
@@ -151,38 +165,33 @@ def outcome_map(sample, over, folder):
     if len(xs) < len(ys):
         over, xs, ys = over[::-1], ys, xs
     outcomes = sample.columns["outcome"]
-    with pyplot.rc_context({**STYLE, "axes.grid": False}):
-        figure, axes = pyplot.subplots(figsize=(6.7, max(1.6, 0.9 + 0.28 * len(ys))))
+    with page.Sheet(page.Page(), "What the runs came to", CAPTION) as sheet:
+        axes = sheet.panels(1, 1)[0, 0]
         for i, x in enumerate(xs):
             for k, y in enumerate(ys):
                 here = outcomes[(sample.columns[over[0]] == x) & (sample.columns[over[1]] == y)].tolist()
-                if not here:
-                    continue
-                word = max(OUTCOMES, key=here.count)
-                share = here.count(word) / len(here)
-                axes.add_patch(
-                    pyplot.Rectangle((i - 0.5, k - 0.5), 1, 1, color=OUTCOMES[word], alpha=0.25 + 0.75 * share, lw=0)
-                )
-                axes.add_patch(pyplot.Rectangle((i - 0.5, k - 0.5), 1, 1, fill=False, edgecolor="white", lw=0.6))
-                if share < 1 and len(xs) <= 25:
-                    axes.text(i, k, f"{100 * share:.0f}", ha="center", va="center", fontsize=6)
-        step = max(1, len(xs) // 20)
-        axes.set_xticks(range(0, len(xs), step), [in_words(x) for x in xs[::step]], rotation=0 if len(xs) <= 12 else 90)
-        axes.set_yticks(range(len(ys)), [in_words(y) for y in ys])
-        axes.set(
-            xlim=(-0.5, len(xs) - 0.5),
-            ylim=(-0.5, len(ys) - 0.5),
-            xlabel=label_of(over[0], is_parameter=True)[0],
-            ylabel=label_of(over[1], is_parameter=True)[0],
-        )
-        marks = [pyplot.Rectangle((0, 0), 1, 1, color=colour) for word, colour in OUTCOMES.items() if word in outcomes]
-        axes.legend(
-            marks,
-            [word for word in OUTCOMES if word in outcomes],
-            frameon=False,
-            fontsize=7,
-            ncols=4,
-            loc="lower left",
-            bbox_to_anchor=(0, 1),
-        )
-        return save(figure, folder, "outcomes")
+                if here:
+                    draw_cell(axes, i, k, here, is_numbered=len(xs) <= 25)
+        step, step_y = max(1, len(xs) // 20), max(1, len(ys) // 30)
+        words = [page.plain(in_words(x)) for x in xs[::step]]
+        is_wide = sum(map(len, words)) > 90
+        axes.set_xticks(range(0, len(xs), step), words, rotation=90 if is_wide else 0)
+        axes.set_yticks(range(0, len(ys), step_y), [page.plain(in_words(y)) for y in ys[::step_y]])
+        axes.set(xlim=(-0.5, len(xs) - 0.5), ylim=(-0.5, len(ys) - 0.5),
+                 xlabel=label_of(over[0], is_parameter=True)[0], ylabel=label_of(over[1], is_parameter=True)[0])
+        marks = [Patch(color=colour, label=word) for word, colour in OUTCOMES.items() if word in outcomes]
+        height = 18 + min(160, 7 * len(ys)) + (12 + max(map(len, words)) if is_wide else 0)
+        return save(sheet.finish(height, marks), folder, "outcomes")
+
+
+CAPTION = "Most frequent outcome; paler, and in percent, where it is not that of all"
+
+
+def draw_cell(axes, i, k, outcomes, is_numbered):
+    """The most frequent outcome of a cell's cases."""
+    word = max(OUTCOMES, key=outcomes.count)
+    share = outcomes.count(word) / len(outcomes)
+    axes.add_patch(Rectangle((i - 0.5, k - 0.5), 1, 1, color=OUTCOMES[word], alpha=0.25 + 0.75 * share, lw=0))
+    axes.add_patch(Rectangle((i - 0.5, k - 0.5), 1, 1, fill=False, edgecolor="white", lw=0.6))
+    if share < 1 and is_numbered:
+        axes.text(i, k, f"{100 * share:.0f}", ha="center", va="center", fontsize=6)

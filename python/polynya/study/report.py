@@ -6,21 +6,17 @@ import html
 import os
 import subprocess
 
+from ..page_style import STYLE
 from ..program import program
 from .. import statistics
 from . import channels, pictures
 from .folder import RUN, write_atomically
 from .gather import TABLE, gather
-from .sample import QUANTILE, choices_of, fits_of, read_sample
+from .sample import QUANTILE, choices_of, fits_of, read_sample, refuted
 
 PAGE = "study.html"
 MOST_PLAYERS, MOST_ROWS = 250, 2000
 RELATIVE_WIDTH = 0.05  # to which "cases needed" refers
-STYLE = """body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1a2530}
-table{border-collapse:collapse;font-size:13px}td,th{white-space:nowrap;padding:.15rem .6rem;border-bottom:1px solid
-#dde;text-align:right}
-th{position:sticky;top:0;background:#fff}img{max-width:100%}
-.wide{overflow-x:auto;max-height:32rem}code{background:#f0f3f6}"""
 
 
 def report(study, players):
@@ -125,14 +121,11 @@ def fit_columns(values):
         columns.update(
             {f"{name}_ks": fitted.ks, f"{name}_ks_p": fitted.ks_p, f"{name}_ad": fitted.ad, f"{name}_ad_p": fitted.ad_p}
         )
-        level = statistics.level_interval(name, values, 0.01)
-        columns.update(
-            {
-                f"{name}_exceeded_by_1_percent": level.value,
-                f"{name}_exceeded_by_1_percent_low": level.low,
-                f"{name}_exceeded_by_1_percent_high": level.high,
-            }
-        )
+        level, why = statistics.level_interval(name, values, 0.01), refuted(fitted)
+        if why:
+            columns[f"{name}_note"] = why
+        prefix = f"{name}_refuted_level" if why else f"{name}_exceeded_by_1_percent"
+        columns.update({prefix: level.value, f"{prefix}_low": level.low, f"{prefix}_high": level.high})
     return columns
 
 
@@ -168,7 +161,8 @@ def page(study, sample, choices, made, rows):
     text = html.escape
     state = sample.summary
     lines = [
-        f"<!doctype html><meta charset='utf-8'><title>{text(study.plan['name'])}</title><style>{STYLE}</style>",
+        f"<!doctype html><html lang='en'><meta charset='utf-8'>"
+        f"<title>{text(study.plan['name'])}</title><style>{STYLE}</style>",
         f"<h1>{text(study.plan['name'])}</h1>",
         f"<p>{state['cases']} cases: {state['finished']} finished, {state['failed']} failed, {state['unfinished']} "
         f"unfinished, {state['missing']} missing. "
@@ -184,10 +178,13 @@ def page(study, sample, choices, made, rows):
         "<h2>Statistics</h2><p>Means and 95 % intervals (Student); quantile with the interval of order statistics; "
         "cases that make the mean's "
         "interval ±5 % of it; what the fit of peaks is exceeded by in one run of a hundred, with its bootstrap "
-        "interval, and the "
-        "Anderson–Darling test's p.</p><div class='wide'>" + statistics_table(rows, choices.group_by) + "</div>"
+        "interval: struck through where the Kolmogorov–Smirnov or the Anderson–Darling test refutes the fit (p below "
+        "0.05), which then gives no value.</p><div class='wide'>" + statistics_table(rows, choices.group_by) + "</div>"
     )
     lines.append("<h2>Cases</h2>" + case_table(study, sample))
+    if sample.meanings:
+        lines.append("<h2>Names</h2><p>Short names of values, by what differs.</p><div class='wide'>"
+                     + name_table(sample) + "</div>")
     return "\n".join(lines) + "\n"
 
 
@@ -200,9 +197,7 @@ def statistics_table(rows, group_by):
         "99 % quantile",
         "cases for ±5 %",
         "Gumbel 1 %",
-        "p",
         "Weibull 1 %",
-        "p",
     ]
     body = []
     for row in rows:
@@ -216,13 +211,18 @@ def statistics_table(rows, group_by):
             row["cases_for_5_percent"],
         ]
         for name in statistics.NAMES:
-            level = f"{name}_exceeded_by_1_percent"
-            cells += [
-                with_interval(row, level, factor) or row.get(f"{name}_note", ""),
-                f"{row[name + '_ad_p']:.2g}" if name + "_ad_p" in row else "",
-            ]
+            cells.append(of_fit(row, name, factor))
         body.append(cells)
     return table(head, body)
+
+
+def of_fit(row, name, factor):
+    """What a fit is exceeded by in one run of a hundred; struck through, with why, where the fit is refuted; why there
+    is no fit."""
+    note = html.escape(row.get(f"{name}_note", ""))
+    level = with_interval(row, f"{name}_exceeded_by_1_percent", factor)
+    struck = with_interval(row, f"{name}_refuted_level", factor)
+    return Raw(f"<s>{html.escape(struck)}</s> {note}" if struck else html.escape(level) or note)
 
 
 def with_interval(row, name, factor):
@@ -261,6 +261,13 @@ def case_table(study, sample):
         + "</div>"
         + rest
     )
+
+
+def name_table(sample):
+    """What short names of parameters stand for."""
+    return table(["parameter", "name", "value"], [[parameter, name, Raw(f"<code>{html.escape(str(value))}</code>")]
+                                                  for parameter, of in sample.meanings.items()
+                                                  for name, value in of.items()])
 
 
 def in_unit(value, factor):

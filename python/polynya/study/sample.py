@@ -7,11 +7,13 @@ import json
 import numpy
 
 from .. import statistics
+from ..naming import names_of
 from .gather import SUMMARY, TABLE
 
 MOST_GROUPS = 8
 LEAST_FIT = 10  # cases of a group that is fitted
 QUANTILE = 0.99
+REFUTED = 0.05  # p values below refute a fit
 
 
 @dataclasses.dataclass
@@ -21,6 +23,7 @@ class Sample:
     columns: dict
     parameters: list
     summary: dict
+    meanings: dict = dataclasses.field(default_factory=dict)  #: parameter -> {short name: what the table has}
 
     @property
     def size(self):
@@ -60,7 +63,18 @@ def read_sample(study):
         rows = [row for row in reader if row[state] == "finished"]
     summary = json.loads((study.folder / SUMMARY).read_text(encoding="utf-8"))
     columns = {name: column(values) for name, values in zip(header, zip(*rows))} if rows else {"case": numpy.array([])}
-    return Sample(columns, summary["parameters"], summary)
+    meanings = {}
+    for name in summary["parameters"]:
+        if rows and columns[name].dtype.kind != "f":
+            columns[name], meanings[name] = named(columns[name])
+    return Sample(columns, summary["parameters"], summary, {name: of for name, of in meanings.items() if of})
+
+
+def named(values):
+    """A column of words with short names in place of objects and of long words, and {short name: the value}."""
+    names = names_of(values.tolist())
+    return (numpy.array([names[value] for value in values.tolist()]),
+            {name: value for value, name in names.items() if name != value})
 
 
 def column(values):
@@ -99,6 +113,12 @@ def choices_of(study, sample):
         over if over and all(name in sample.columns for name in over) else None,
         given.get("channels", 12),
     )
+
+
+def refuted(fit):
+    """Why a fit gives no value that is rarely exceeded; empty where it gives one."""
+    p = min(fit.ks_p, fit.ad_p)
+    return f"refuted: p {p:.2g}" if p < REFUTED else ""
 
 
 def fits_of(values, seed=0):

@@ -1,0 +1,154 @@
+"""Pictures of a study of ice management: patterns ranked, and measures against a parameter."""
+from matplotlib.lines import Line2D
+
+from ..figures.page import Sheet, plain
+from ..naming import UNITS
+from . import ranking
+from .figure import COLOURS
+from .study import MEASURES, UNMANAGED
+
+LINES = [{"color": colour, "marker": mark, "linestyle": dash}
+         for dash, mark in (("-", "o"), ("--", "s")) for colour in COLOURS]
+SHOWN = {
+    "management_ice_load_mean_N": "mean load of the ice",
+    "management_ice_load_q99_N": "load exceeded 1 % of the time",
+    "management_largest_at_body_m": "largest floe that arrives",
+    "management_mean_size_at_body_m": "mean floe size at the body, by area",
+    "management_hit_s": "time with floes of the size on the body",
+    "management_managed_width_m": "managed width",
+}
+MOST_PATTERNS = 24  # of a panel of the ranking
+MANY = 12  # places on the x axis, beyond which intervals are bands
+ROW = 5.2  # of a pattern in the ranking [mm]
+
+
+def scaled(measure, most):
+    """A factor and its unit of a measure's values."""
+    unit = measure.rpartition("_")[2]
+    if unit == "N":
+        return next(((factor, name) for factor, name in ((1e6, "MN"), (1e3, "kN")) if most >= factor), (1, "N"))
+    return 1, unit
+
+
+def draw_place(axes, place, y, factor, page):
+    """A pattern's mean and interval, with its name above."""
+    colour = "0.45" if place.name == UNMANAGED else COLOURS[0]
+    half = 0 if place.mean.half is None else place.mean.half / factor
+    scale = page.style.scale
+    axes.errorbar(place.mean.value / factor, y + 0.2, xerr=half, fmt="o", markersize=3 * scale, capsize=2 * scale,
+                  color=colour, linewidth=scale)
+    axes.text(0.01, y - 0.25, plain(place.name), fontsize=page.style.small, transform=axes.get_yaxis_transform(),
+              verticalalignment="center")
+
+
+def bracket_alike(axes, places):
+    """A bar beside each group of patterns that are not told apart."""
+    names = [place.name for place in places]
+    groups = ranking.alike(places)
+    low, high = axes.get_xlim()
+    axes.set_xlim(low, high + (high - low) * 0.04 * (len(groups) + 1))
+    for k, group in enumerate(groups):
+        ends = names.index(group[0]), names.index(group[-1])
+        x = 1 - 0.03 * (k + 1) / (1 + 0.04 * (len(groups) + 1))
+        axes.plot((x, x), (ends[0] - 0.05, ends[1] + 0.45), transform=axes.get_yaxis_transform(), color="0.35",
+                  linewidth=1.6, solid_capstyle="butt")
+
+
+def draw_places(sheet, axes, measure, condition, width):
+    """The patterns of one condition by one measure, from the best on."""
+    page = sheet.page
+    every = condition.ranked(measure)
+    places = every[:MOST_PATTERNS]
+    factor, unit = scaled(measure, max((abs(place.mean.value) for place in places), default=0))
+    for y, place in enumerate(places):
+        draw_place(axes, place, y, factor, page)
+    axes.set_xlim(min(0, axes.get_xlim()[0]), axes.get_xlim()[1])
+    bracket_alike(axes, places)
+    axes.set(ylim=(max(len(places), 1) - 0.4, -0.6), yticks=[])
+    axes.set_xlabel("\n".join(sheet.wrapped(f"{SHOWN[measure]}, {unit}", page.style.text, width)))
+    axes.grid(axis="x", linewidth=0.4, color="0.9")
+    axes.set_axisbelow(True)
+    return len(every) - len(places)
+
+
+def draw_ranking(found, page):
+    """For each condition and measure the patterns from the best on, with their intervals. Those that are not told
+    apart have a bar beside them."""
+    measures = [name for name in MEASURES if any(condition.values.get(name) for condition in found.conditions)]
+    every = [condition for condition in found.conditions if any(condition.values.get(name) for name in measures)]
+    if not every:
+        return None
+    columns = page.columns_for(len(measures))
+    lines = -(-len(measures) // columns)
+    height = (14 + ROW * max(2, min(len(found.patterns), MOST_PATTERNS))) * page.style.scale
+    drawn = every[:max(1, int((page.style.tallest - 30 * page.style.scale) / (height * lines)))]
+    caption = "Means over fields of ice with Student's 95 % intervals; a bar joins what is not distinguishable"
+    width = page.width / columns - 8 * page.style.scale
+    with Sheet(page, f"Patterns ranked: {plain(found.name)}", caption) as sheet:
+        grid = sheet.panels(lines * len(drawn), columns)
+        hidden = 0
+        for k, condition in enumerate(drawn):
+            panels = grid[k * lines:(k + 1) * lines].flat
+            for axes, measure in zip(panels, measures):
+                hidden = max(hidden, draw_places(sheet, axes, measure, condition, width))
+            for axes in list(panels)[len(measures):]:
+                axes.axis("off")
+            grid[k * lines, 0].set_title(plain(condition.name), loc="left", fontsize=page.style.text, fontweight="bold")
+        missing = [(len(every) - len(drawn), "conditions"), (hidden, "patterns")]
+        note = [f"{count} more {what} are in management-ranking.csv." for count, what in missing if count > 0]
+        return sheet.finish(height * lines * len(drawn), notes=note)
+
+
+def draw_line(axes, points, style, is_dense):
+    """The means of a pattern with their intervals: bands where points are dense."""
+    x, y, half = (list(column) for column in zip(*points))
+    if not is_dense:
+        axes.errorbar(x, y, yerr=half, **style, markersize=3, linewidth=1, capsize=2)
+        return
+    axes.plot(x, y, color=style["color"], linestyle=style["linestyle"])
+    axes.fill_between(x, [a - b for a, b in zip(y, half)], [a + b for a, b in zip(y, half)], color=style["color"],
+                      alpha=0.15, linewidth=0)
+
+
+def draw_study(found, page):
+    """Means with their 95 % intervals of some measures against a parameter, a line a pattern; None where there is no
+    parameter with at least two numbers, or other parameters vary too."""
+    xs = [condition.x for condition in found.conditions]
+    shown = [name for name in SHOWN if name in found.measures]
+    if not found.against or len(set(xs)) < 2 or len(set(xs)) < len(xs) or not shown:
+        return None
+    columns = page.columns_for(len(shown))
+    rows = -(-len(shown) // columns)
+    is_dense = len(xs) > MANY
+    named = found.patterns[:len(COLOURS) if is_dense else len(LINES)]
+    rest = len(found.patterns) - len(named)
+    note = [f"{rest} more patterns are in management.csv."] if rest > 0 else []
+    title = f"Ice management: {plain(found.name)}"
+    with Sheet(page, title, "Means over fields of ice with Student's 95 % intervals") as sheet:
+        grid = sheet.panels(rows, columns)
+        step = 0 if is_dense else 0.012 * (max(xs) - min(xs))
+        for axes, measure in zip(grid.flat, shown):
+            means = {name: [ranking.mean_of(c.values.get(measure, {}).get(name, {}).values())
+                            for c in found.conditions] for name in named}
+            most = max((abs(mean.value) for of in means.values() for mean in of if mean), default=0)
+            factor, unit = scaled(measure, most)
+            for k, name in enumerate(named):
+                points = [(x + step * (k - 0.5 * len(named)), mean.value / factor, (mean.half or 0) / factor)
+                          for x, mean in zip(xs, means[name]) if mean]
+                if points:
+                    draw_line(axes, points, LINES[k], is_dense)
+            axes.set(xlabel=words_of(found.against), ylim=(0, None))
+            sheet.label_y(axes, f"{SHOWN[measure]}, {unit}", page.row_height(rows, 48))
+        for axes in list(grid.flat)[len(shown):]:
+            axes.axis("off")
+        handles = [Line2D([], [], label=plain(name), markersize=3, **LINES[k]) for k, name in enumerate(named)]
+        return sheet.finish(page.row_height(rows, 52) * rows, handles, note)
+
+
+def words_of(parameter):
+    """A parameter's last name with its unit: "drift, m/s" of water.drift_m_per_s[0]."""
+    label = parameter.rpartition(".")[2].partition("[")[0]
+    for ending, unit in sorted(UNITS.items(), key=lambda item: -len(item[0])):
+        if label.endswith("_" + ending):
+            return f"{label.removesuffix('_' + ending).replace('_', ' ')}, {unit}"
+    return label.replace("_", " ")

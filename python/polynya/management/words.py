@@ -1,0 +1,129 @@
+"""The ranking of patterns, as lines of text and as a table."""
+import csv
+
+from . import ranking
+from .study import MEASURES, UNMANAGED
+
+UNITS = {"[N]": ((1e6, "MN"), (1e3, "kN"), (1, "N")), "[m]": ((1, "m"),)}
+
+
+def unit_of(measure, most):
+    """A factor and its unit, in which values up to `most` read well."""
+    choices = UNITS[MEASURES[measure][-3:]]
+    return next(((factor, name) for factor, name in choices if most >= factor), choices[-1])
+
+
+def three(value):
+    """Three digits, without an exponent."""
+    rounded = float(f"{value:.3g}")
+    return f"{rounded:.0f}" if abs(rounded) >= 100 else f"{rounded:.6g}"
+
+
+def interval(mean, factor=1.0):
+    half = "" if mean.half is None else f" ± {float(f'{mean.half / factor:.2g}'):.6g}"
+    return f"{three(mean.value / factor)}{half}"
+
+
+def left(place):
+    """What management leaves of the load, in percent."""
+    if place.left is None:
+        return ""
+    ratio, low, high = place.left
+    limits = f" ({100 * low:.0f} to {100 * high:.0f})" if low is not None else ""
+    return f"{100 * ratio:.0f} %{limits}"
+
+
+def lost(condition, name):
+    """The ice that left the scene by a rule: its mean area and its share of all ice."""
+    found = condition.lost.get(name)
+    if not found:
+        return ""
+    areas, shares = zip(*found.values())
+    return f"{three(sum(areas) / len(areas))} m² ({100 * sum(shares) / len(shares):.2g} %)"
+
+
+def listed(names):
+    return names[0] if len(names) == 1 else ", ".join(names[:-1]) + " and " + names[-1]
+
+
+def not_told_apart(places):
+    """Sentences on which patterns the study cannot tell apart."""
+    if len(places) < 2:
+        return []
+    if all(place.mean.half is None for place in places):
+        return ["One field of ice: nothing is told apart. Repeat the study with more seeds (repetitions)."]
+    groups = ranking.alike(places)
+    if not groups:
+        return ["All are told apart."]
+    return [f"Not distinguishable: {listed(group)}." for group in groups]
+
+
+def table_of(condition, measure):
+    """Rows of words: rank, pattern, mean, what is left, benefit, ice lost."""
+    places = condition.ranked(measure)
+    if not places:
+        return [], "", places
+    factor, unit = unit_of(measure, max(abs(place.mean.value) for place in places))
+    has_base = any(place.benefit for place in places)
+    head = ["", "pattern", f"mean [{unit}]", *((["of unmanaged", f"less by [{unit}]"]) if has_base else []),
+            "ice lost by rule", "fields"]
+    rows = [[f"{rank}.", place.name, interval(place.mean, factor),
+             *([left(place), interval(place.benefit, factor) if place.benefit else ""] if has_base else []),
+             lost(condition, place.name), str(place.mean.count)] for rank, place in enumerate(places, 1)]
+    return [head, *rows], unit, places
+
+
+def aligned(rows):
+    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+    return ["  " + "  ".join(f"{cell:<{width}}" if k < 2 else f"{cell:>{width}}"
+                             for k, (cell, width) in enumerate(zip(row, widths))).rstrip() for row in rows]
+
+
+def lines_of(found):
+    """What the command prints."""
+    yield f"{found.name}: {found.finished} of {found.cases} cases; patterns by {', '.join(found.by)}"
+    for condition in found.conditions:
+        for measure, words in MEASURES.items():
+            rows, _, places = table_of(condition, measure)
+            if not rows:
+                continue
+            yield ""
+            yield f"{words.rpartition(' [')[0]}{', ' + condition.name if condition.name else ''}"
+            yield from aligned(rows)
+            yield from (f"  {sentence}" for sentence in not_told_apart(places))
+    yield ""
+    yield f"±: Student's {100 * ranking.LEVEL:g} % intervals over fields of ice; “less by” is of differences in one"
+    yield "field, “of unmanaged” by Fieller's theorem. Distinguishable: by paired t tests, Holm's rule over all pairs."
+    if any(name != UNMANAGED for condition in found.conditions for name in condition.lost):
+        yield "Ice lost by rule in the whole run: cusps taken to be gone, pieces below the size limit, ice that found"
+        yield "no room. Where it is not small, the loads and floes that are counted are too small."
+
+
+def write_ranking(found, path):
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["condition", "measure", "rank", "pattern", "fields", "mean", "half_of_95_percent",
+                         "of_unmanaged", "of_unmanaged_low", "of_unmanaged_high", "less_by",
+                         "less_by_half_of_95_percent", "ice_lost_m2", "ice_lost_share", "not_distinguishable_from"])
+        for condition in found.conditions:
+            for measure in MEASURES:
+                for rank, place in enumerate(condition.ranked(measure), 1):
+                    areas = condition.lost.get(place.name, {}).values()
+                    mean_lost = [sum(column) / len(areas) for column in zip(*areas)] if areas else ["", ""]
+                    benefit = place.benefit
+                    writer.writerow([condition.name, measure, rank, place.name, place.mean.count, place.mean.value,
+                                     place.mean.half, *(place.left or ("", "", "")),
+                                     benefit.value if benefit else "", benefit.half if benefit else "", *mean_lost,
+                                     "; ".join(place.like)])
+
+
+def write_means(found, path):
+    """Means of all measures, by condition and pattern."""
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["condition", "pattern", "measure", "fields", "mean", "half_of_95_percent"])
+        for condition in found.conditions:
+            for measure, patterns in condition.values.items():
+                for name, values in patterns.items():
+                    mean = ranking.mean_of(values.values())
+                    writer.writerow([condition.name, name, measure, mean.count, mean.value, mean.half])
