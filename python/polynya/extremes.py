@@ -21,7 +21,7 @@ from scipy import optimize, stats
 from .statistics import Interval
 
 LEVEL = 0.90  #: of every interval here
-SHAPE_SPREAD = 0.3  #: standard deviation of the shape before any peak is seen [-]
+SHAPE_SPREAD = 0.4  #: standard deviation of the shape before any peak is seen [-]
 LEAST_SHAPE, MOST_SHAPE = -0.75, 1.5  #: of the posterior's grid
 LEAST_PEAKS = 20  #: that a tail is fitted to
 FARTHEST = 10.0  #: return period over the record's length up to which coverage is measured

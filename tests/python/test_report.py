@@ -59,6 +59,54 @@ def test_the_page_has_its_pictures_statistics_and_cases_and_needs_no_network(tmp
         assert float(row["mean_low"]) < 1e6 * thickness + 0.5772 * 5e4 < float(row["mean_high"])
 
 
+PILOTS = [{"manage": {"body": "rig", "pattern": pattern, "width_m": 160}} for pattern in ("circular", "racetrack")]
+
+
+def of_objects(folder, cases=36):
+    """A study over pilots and drifts; the peaks of circles fit no distribution."""
+    rng = numpy.random.default_rng(2)
+    folder.mkdir()
+    values = [{"ships[0].pilot": PILOTS[i % 2], "water.drift_m_per_s[0]": -0.5 - 0.3 * (i // 2 % 2), "seed": i}
+              for i in range(cases)]
+    write_cases(folder, [json.dumps({"scene": 0, "set": v}) + "\n" for v in values])
+    plan = {"format": 1, "name": "objects", "cases": cases, "chunk": 1, "archive": False, "keep": "summary", "set": {},
+            "source": "", "scenes": ["scenes/0/a.json"], "varied": list(values[0]), "collect": {},
+            "report": {"group_by": "ships[0].pilot"}}
+    (folder / PLAN).write_text(json.dumps(plan))
+    study = open_study(folder)
+    for i, v in enumerate(values):
+        case = study.case_folder(i)
+        case.mkdir(parents=True)
+        peak = rng.normal(2e6, 5e4) if i % 2 else 1e6 * (1 + 8 * (i % 4 == 0)) * rng.normal(1, 0.01)
+        measures = {"resistance_mean_N": rng.normal(1e5, 1e4), "resistance_peak_N": peak, "outcome": "bent"}
+        (case / RESULT).write_text(json.dumps({"state": "finished", "case": i, "measures": measures}))
+    return study
+
+
+def test_objects_have_short_names_everywhere(tmp_path):
+    study = of_objects(tmp_path / "s")
+    printed = study_command("report", study.folder)
+    assert "Warning" not in printed and "matplotlib" not in printed
+    page = (study.folder / "study.html").read_text()
+    shown = page[:page.index("<h2>Names</h2>")]
+    assert "manage" not in shown and "<td>circular</td>" in shown and "<td>racetrack</td>" in shown
+    assert "&quot;pattern&quot;: &quot;racetrack&quot;" in page[page.index("<h2>Names</h2>"):]
+    groups = {row["group"] for row in rows(study.folder / "report/statistics.csv")}
+    assert groups == {"circular", "racetrack"}
+    one = of_objects(tmp_path / "one", cases=1)
+    assert "Warning" not in study_command("report", one.folder)
+
+
+def test_a_refuted_fit_is_struck_through_and_gives_no_value(tmp_path):
+    study = of_objects(tmp_path / "s")
+    study_command("report", study.folder)
+    peaks = {row["group"]: row for row in rows(study.folder / "report/statistics.csv")
+             if row["measure"] == "resistance_peak_N"}
+    assert peaks["circular"]["gumbel_exceeded_by_1_percent"] == "" and "refuted: p" in peaks["circular"]["gumbel_note"]
+    assert float(peaks["racetrack"]["weibull_exceeded_by_1_percent"]) > 2e6
+    assert "<s>" in (study.folder / "study.html").read_text()
+
+
 def test_numbers_have_one_format_and_their_unit():
     assert [pictures.in_words(v) for v in (906693.0, 1.57945e6, 12345678, 0.35, 0.4000001)] == [
         "906693", "1579450", "12345678", "0.35", "0.4"]
