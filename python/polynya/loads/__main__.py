@@ -45,7 +45,7 @@ def report(options):
             tables.write_csv(out / f"loads-{name}.csv", rows)
             print(out / f"loads-{name}.csv", flush=True)
     drawn = draw(loads, estimates, options, out)
-    shown = [("Fits", written["fits"]), ("Panels", written["panels"])]
+    shown = [("Fits", list(page.fit_rows(estimates))), ("Panels", written["panels"])]
     made = page.page(loads, estimates, answers, options, shown, drawn)
     (out / "loads.html").write_text(made, encoding="utf-8")
     print(out / "loads.html")

@@ -95,7 +95,8 @@ def estimate(loads, least=None):
         if not fits[-1].refuted:
             return Estimate(fits, record.hours, "")
     if fits:
-        return Estimate(fits, record.hours, f"every fit is refuted; the last: {fits[-1].refuted}")
+        which = "the fit is refuted" if len(fits) == 1 else "every fit is refuted; the last"
+        return Estimate(fits, record.hours, f"{which}: {fits[-1].refuted}")
     count = numpy.count_nonzero(record.forces > (least or 0))
     return Estimate([], record.hours, f"{count} peaks{f' above {least:g} N' if least else ''} make fewer than "
                                       f"{extremes.LEAST_PEAKS} independent ones above a threshold")

@@ -24,6 +24,17 @@ def table(heading, rows):
     return f'<h2>{heading}</h2><div class="wide"><table><tr>{head}</tr>{body}</table></div>'
 
 
+def fit_rows(estimates):
+    """Fits as people read them; the numbers of refuted ones are struck through."""
+    for kind, (_, found) in estimates.items():
+        for fit in found.fits:
+            tail = fit.tail
+            shape = f"{words.shape(tail.shape.value)} ({words.shape(tail.shape.low)} to {words.shape(tail.shape.high)})"
+            yield {"runs": kind, "peaks above": words.force(tail.threshold), "number": tail.count,
+                   "as one within": f"{fit.events.gap:.3g} s" if fit.events.gap else "", "shape": shape,
+                   "scale": words.force(tail.scale.value), "p": f"{fit.goodness_p:.2g}", "refuted": fit.refuted}
+
+
 def answer_rows(answers, half_width):
     """Return values as people read them."""
     for kind, given in answers:
@@ -37,7 +48,7 @@ def page(loads, estimates, answers, options, tables, pictures):
     start = f", from {options.start:g} s of each on" if options.start else ""
     notes = [f"{kind + ': ' if kind else ''}{why}" for kind, (_, found) in estimates.items()
              for why in words.reasons([given for of_kind, given in answers if of_kind == kind], found)]
-    withheld = "".join(f"<p>{html.escape(note)}</p>" for note in notes)
+    withheld = "".join(f"<p>{html.escape(note[:1].upper() + note[1:])}.</p>" for note in notes)
     parts = [
         f"<h1>Loads on {html.escape(loads.ship)}, {html.escape(loads.name)}</h1>",
         f"<p>{html.escape(words.of_loads(loads))}{start}; {loads.left_out} below the least that the runs record are "

@@ -15,7 +15,7 @@ KINDS = (BLACK, RED, BLUE, GREEN, PURPLE, "#e69f00")
 ENDS = {"bend": (BLUE, "o"), "split": (RED, "^"), "tilt": (GREEN, "s"), "slip": ("#888888", ".")}
 MOST_POINTS = 5000  # of a scatter: the largest
 BINS = 400  # of time in a raster
-REFUTED = {"color": "#999999", "linestyle": ":", "linewidth": 0.8}
+REFUTED = {"color": "#777777", "linestyle": ":", "linewidth": 1.0}
 WIDEST = 5  # a fit is drawn up to so many times the largest peak
 HEIGHT = 70  # of a figure's panels [mm]
 

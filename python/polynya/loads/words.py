@@ -5,6 +5,8 @@ from polynya import extremes
 
 from . import estimate
 
+MOST_KINDS = 12  #: of runs, whose answers are printed
+
 
 def plain(value):
     """Three digits, without an exponent: 0.0123, 1250, 40000."""
@@ -105,7 +107,7 @@ def aligned(rows):
 def lines_of(loads, estimates, answers, half_width):
     """The lines that the command prints, some for each kind of runs."""
     yield of_loads(loads)
-    for kind, (of, found) in estimates.items():
+    for kind, (of, found) in list(estimates.items())[:MOST_KINDS]:
         if len(estimates) > 1:
             yield f"{kind}: {len(of.forces)} peaks in {hours(of.hours)}"
         own = [given for of_kind, given in answers if of_kind == kind]
@@ -114,6 +116,8 @@ def lines_of(loads, estimates, answers, half_width):
                   of_record(given, half_width)] for given in own]
         for line in (*of_fits(found), *aligned(rows), *reasons(own, found)):
             yield f"  {line}"
+    if len(estimates) > MOST_KINDS:
+        yield f"and {len(estimates) - MOST_KINDS} more kinds of runs: loads-returns.csv"
 
 
 EXPLAINED = (
