@@ -6,7 +6,8 @@ body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;paddin
 background:var(--paper)}a{color:var(--link)}figure{margin:1.5rem 0}
 img{max-width:100%;background:#fff;border-radius:4px}
 table{border-collapse:collapse;font-size:13px}td,th{padding:.15rem .6rem;border-bottom:1px solid var(--line);
-text-align:right;white-space:nowrap}td:last-child{white-space:normal;max-width:26rem}th{white-space:normal;position:sticky;top:0;background:var(--paper);vertical-align:bottom}
+text-align:right;white-space:nowrap}td:last-child{white-space:normal;min-width:9rem;max-width:26rem}
+th{white-space:normal;position:sticky;top:0;background:var(--paper);vertical-align:bottom}
 td:first-child,th:first-child{text-align:left}s{opacity:.6}
 .wide{overflow-x:auto;max-height:32rem}code{background:var(--code)}
 @media print{body{max-width:none;margin:0;color:#000;background:#fff}.wide{overflow:visible;max-height:none}

@@ -222,7 +222,7 @@ def of_fit(row, name, factor):
     note = html.escape(row.get(f"{name}_note", ""))
     level = with_interval(row, f"{name}_exceeded_by_1_percent", factor)
     struck = with_interval(row, f"{name}_refuted_level", factor)
-    return Raw(f"<s>{html.escape(struck)}</s> {note}" if struck else html.escape(level) or note)
+    return Raw(f"<s>{html.escape(struck)}</s><br>{note}" if struck else html.escape(level) or note)
 
 
 def with_interval(row, name, factor):
