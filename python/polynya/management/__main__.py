@@ -1,4 +1,5 @@
 """`polynya management FOLDER …` (polynya.command starts it)."""
+import contextlib
 import csv
 import dataclasses
 import json
@@ -10,6 +11,7 @@ from ..errors import InputError
 from ..naming import names_of_folders
 from ..results.run import Run
 from ..study import folder as folders
+from ..study.gather import gather
 from . import study, words
 from .gates import Passage, distribution, gates_of, passages
 from .measures import effort, measures_of, rows_of
@@ -113,6 +115,8 @@ def draw(arguments, out, figures_of):
 
 def report_study(arguments, out):
     """What `polynya management STUDY` prints and writes."""
+    with contextlib.redirect_stdout(sys.stderr):  # stdout is for the answer
+        gather(folders.open_study(arguments.folders[0]))
     found = study.read(arguments.folders[0])
     if arguments.json:
         print(study.in_json(found))

@@ -6,7 +6,7 @@ EXAMPLES = (
     "management runs/ice-management",
     "management runs/managed runs/unmanaged --body drillship --upstream 700 --width 300",
     "management runs/ice-management --size 30 --out pictures",
-    "management studies/ice-management             ranks the patterns of a gathered study, with intervals",
+    "management studies/ice-management             gathers a study and ranks its patterns, with intervals",
 )
 REST = """Gates are lines across the drift, upstream of the body that is protected (docs/management.md). Of a study the
 measures are those that its collect.management asks for. Needs Python 3 with numpy, and matplotlib for the figures

@@ -43,7 +43,11 @@ def lost(condition, name):
 
 
 def listed(names):
-    return names[0] if len(names) == 1 else ", ".join(names[:-1]) + " and " + names[-1]
+    if len(names) == 1:
+        return names[0]
+    if any("," in name for name in names):
+        return "; ".join(names)
+    return ", ".join(names[:-1]) + " and " + names[-1]
 
 
 def not_told_apart(places):
@@ -92,6 +96,9 @@ def lines_of(found):
             yield from aligned(rows)
             yield from (f"  {sentence}" for sentence in not_told_apart(places))
     yield ""
+    if UNMANAGED not in found.patterns:
+        yield ('No case is without management, so no benefit is stated: add the pilot {"constant": {"lever": 0}}, far '
+               "downstream, to the study.")
     yield f"±: Student's {100 * ranking.LEVEL:g} % intervals over fields of ice; “less by” is of differences in one"
     yield "field, “of unmanaged” by Fieller's theorem. Distinguishable: by paired t tests, Holm's rule over all pairs."
     if any(name != UNMANAGED for condition in found.conditions for name in condition.lost):
