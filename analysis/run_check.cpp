@@ -361,6 +361,7 @@ class OverlapCheck {
 
 RunCheck check_run(const io::Run& run, std::optional<double> only_at, const std::function<void(double)>& on_part) {
   RunCheck check;
+  check.files = io::check_files(run.folder);
   check.has_crushed = run.has_crushed;
   const std::size_t instants = only_at ? 1 : run.frames.size();
   // An instant takes about as long as an eighth of the shapes: most pairs have not moved.
@@ -501,6 +502,10 @@ std::string to_text(const RunCheck& check, const simulation::Scene& scene) {
   const auto from = [](FloeId floe) {
     return floe == simulation::kNoFloe ? std::string() : fmt::format(" (floe {})", floe);
   };
+  add(!check.files.has_checksums ? std::string("files      without checksums: of an older version, or not finished")
+                                 : fmt::format("files      {} compared with checksums, {} damaged",
+                                               counted(check.files.files, "file"), check.files.damaged.size()));
+  for (const std::string& file : check.files.damaged) add("           " + file);
   add(fmt::format("validity   {}, {} invalid", counted(check.shapes, "shape"), check.invalid.size()));
   for (const InvalidFloe& floe : check.invalid) {
     add(fmt::format("           floe {}: {}{}", floe.floe, floe.defect, io::places_in_words(floe.places_in_body, 4)));
@@ -540,7 +545,9 @@ std::string to_text(const RunCheck& check, const simulation::Scene& scene) {
 
 std::string to_json_text(const RunCheck& check, const simulation::Scene& scene) {
   const auto write = [&](JsonWriter& json) {
-    json.key("is_sound").value(check.is_sound()).key("shapes").value(check.shapes);
+    json.key("is_sound").value(check.is_sound()).key("has_checksums").value(check.files.has_checksums);
+    json.key("files").value(check.files.files).key("damaged_files").list(check.files.damaged);
+    json.key("shapes").value(check.shapes);
     json.key("invalid").objects(check.invalid, [&](const InvalidFloe& floe) {
       json.key("floe_id").value(floe.floe).key("defect").value(floe.defect).key("places_m").value(floe.places_in_body);
     });

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/final_places.hpp"
+#include "io/run/checksums.hpp"
 #include "io/run/run_reader.hpp"
 
 namespace polynya::analysis {
@@ -64,6 +65,7 @@ struct UnpaidOverlap {
 
 /// What re-deriving a run's geometry found.
 struct RunCheck {
+  io::FilesCheck files;  ///< their checksums
   std::size_t shapes = 0;
   std::vector<InvalidFloe> invalid;
   Worst recorded_area;  ///< recorded − that of the ring
@@ -96,17 +98,18 @@ struct RunCheck {
   FinalPlaces final_places;
 
   bool is_sound() const {
-    return invalid.empty() && recorded_area.wrong == 0 && balance.wrong == 0 && overlapping_siblings == 0 &&
-           uncrushed_pairs == 0 && unpaid.empty() && undecided == 0 && final_places.is_sound();
+    return files.damaged.empty() && invalid.empty() && recorded_area.wrong == 0 && balance.wrong == 0 &&
+           overlapping_siblings == 0 && uncrushed_pairs == 0 && unpaid.empty() && undecided == 0 &&
+           final_places.is_sound();
   }
 };
 
-/// Finds validity, areas, balances and shared areas exactly, for the doubles on record; areas are rounded once for the
-/// report. Measures overlaps at every frame, or at one instant only. Frames are right to 1 mm (frames.hpp). What bodies
-/// share at a frame is compared with what was crushed or tilted there (crushed.csv), and what was crushed with the work
-/// that it took, hulls and structures included; runs of versions that did not record it are measured only. The floes of
-/// final.geojson are compared with their places in frames.bin, also with `only_at`. `on_part` is called often, with how
-/// much is done (0..1).
+/// Compares the files with their checksums, and finds validity, areas, balances and shared areas exactly, for the
+/// doubles on record; areas are rounded once for the report. Measures overlaps at every frame, or at one instant only.
+/// Frames are right to 1 mm (frames.hpp). What bodies share at a frame is compared with what was crushed or tilted
+/// there (crushed.csv), and what was crushed with the work that it took, hulls and structures included; runs of
+/// versions that did not record it are measured only. The floes of final.geojson are compared with their places in
+/// frames.bin, also with `only_at`. `on_part` is called often, with how much is done (0..1).
 RunCheck check_run(const io::Run& run, std::optional<double> only_at = {},
                    const std::function<void(double)>& on_part = {});
 

@@ -18,6 +18,7 @@ Commands add_commands(CommandLine& app) {
     commands.push_back(add(app));
   add_python_commands(app, commands);
   commands.push_back(add_read_json(app));
+  commands.push_back(add_read_run(app));
   return commands;
 }
 

@@ -54,7 +54,7 @@ PACKAGES = {
     r"Eigen/": ["fracture/bending/", "dynamics/contact/internal/jam_matrix"],
     r"boost/container/": ["dynamics/"],
     r"boost/math/": ["fracture/bending/", "fracture/scatter"],
-    r"boost/crc": ["io/run/"],
+    r"boost/crc": ["io/text/"],
     r"nlohmann/": ["io/text/"],
     r"(proj|dlfcn)\.h$": ["io/import/plane.cpp"],
     r"CLI/": ["app/command_line/command_line.cpp"],

@@ -70,13 +70,15 @@ std::string wrong_command(const CLI::App& command, const std::vector<std::string
 
 std::string unexpected(const CLI::App& command, const std::vector<std::string>& rest) {
   std::vector<std::string_view> names;
-  std::vector<std::string> spelled;
   for (const CLI::Option* option : command.get_options())
-    for (const std::string& name : option->get_lnames()) spelled.push_back("--" + name);
-  names.assign(spelled.begin(), spelled.end());
+    names.insert(names.end(), option->get_lnames().begin(), option->get_lnames().end());
   const auto option = std::ranges::find_if(rest, [](const std::string& word) { return word.starts_with('-'); });
-  return fmt::format("not expected: {}{}", fmt::join(rest, " "),
-                     option == rest.end() ? "" : meant_by(option->substr(0, option->find('=')), names));
+  std::string words = fmt::format("not expected: {}", fmt::join(rest, " "));
+  if (option == rest.end()) return words;
+  const std::string_view given(*option);
+  const std::string_view name = given.substr(std::min(given.find_first_not_of('-'), given.size()));
+  const std::string meant = io::nearest(name.substr(0, name.find('=')), names);
+  return meant.empty() ? words : fmt::format("{}; did you mean --{}?", words, meant);
 }
 
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {

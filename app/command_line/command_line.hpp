@@ -118,6 +118,7 @@ Command add_import(CommandLine& app);
 Command add_init(CommandLine& app);
 Command add_inspect(CommandLine& app);
 Command add_read_json(CommandLine& app);
+Command add_read_run(CommandLine& app);
 Command add_resume(CommandLine& app);
 Command add_run(CommandLine& app);
 Command add_schema(CommandLine& app);

@@ -515,4 +515,17 @@ Command add_view(CommandLine& app) {
   return {command, [options] { return write_view(*options); }};
 }
 
+/// Reads a run folder, for the commands that are written in Python, which then read it themselves; not in the help.
+Command add_read_run(CommandLine& app) {
+  CommandLine command = app.add_command("read-run", "", "");
+  auto folder = std::make_shared<std::string>();
+  add_run_folder(command, *folder);
+  return {command, [folder]() -> int {
+            const auto run = io::read_run(*folder);
+            if (run) return kDone;
+            print_err("{}\n", run.error());
+            return kInputOutput;
+          }};
+}
+
 }  // namespace polynya::app

@@ -3,12 +3,15 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "analysis/run_listing.hpp"
 #include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/run/load_scene.hpp"
+#include "io/run/checksums.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_loop.hpp"
 #include "io/run/run_reader.hpp"
@@ -36,9 +39,16 @@ struct DriverOptions {
 /// folder is too large to be read back.
 io::Result<std::string> draw_map(const fs::path& folder) {
   const auto run = io::read_run(folder);
-  if (run) return views::draw_final_map(*run);
-  print_err("note: no map is drawn: {}\n", run.error());
-  return "";
+  if (!run) {
+    print_err("note: no map is drawn: {}\n", run.error());
+    return "";
+  }
+  auto picture = views::draw_final_map(*run);
+  std::vector<std::string_view> drawn;
+  for (const std::string_view name : {io::run_file::kFinalSvg, io::run_file::kFinalPng})
+    if (fs::exists(folder / name)) drawn.push_back(name);
+  const auto added = picture ? io::add_checksums(folder, drawn) : io::Result<>();
+  return added ? picture : io::fail(added.error());
 }
 
 std::optional<std::string> reason_to_stop() {
@@ -247,9 +257,18 @@ std::string no_run_in(const fs::path& folder) {
   return fmt::format("{}: no run to resume: there is no {}", name, io::run_file::kScene);
 }
 
+/// Nothing is added to a finished run of which a file is damaged.
+int refuse_damaged(const fs::path& folder, const io::FilesCheck& files) {
+  for (const std::string& file : files.damaged) fail(kInputOutput, file);
+  print_err("polynya: bring the files back from a copy, or run it again: polynya run {} --out {} --overwrite\n",
+            (folder / io::run_file::kScene).string(), folder.string());
+  return kInputOutput;
+}
+
 /// A kill between the end of a run and the end of the command leaves more than its last checkpoint, or a part of the
 /// pictures.
 int report_finished(const fs::path& folder, double end, bool no_map) {
+  if (const auto files = io::check_files(folder); !files.damaged.empty()) return refuse_damaged(folder, files);
   print_err("polynya: {}: the run is finished, at {:.6g} s; to go on from there: --until\n", folder.string(), end);
   const bool is_drawn = fs::exists(folder / io::run_file::kFinalSvg) && fs::exists(folder / io::run_file::kFinalPng);
   if (is_drawn && io::checkpoints_in(folder).size() <= 1) return kDone;
@@ -299,6 +318,7 @@ int resume(const ResumeOptions& options) {
   if (!lock) return fail(kInputOutput, lock.error());
   if (const auto end = finished())
     return report_finished(folder, *end, options.driver.no_map);  // by another polynya meanwhile
+  if (const auto files = io::check_files(folder); !files.damaged.empty()) return refuse_damaged(folder, files);
   watch_signals();
   const auto scene =
       load_scene(scene_file.string(), {.until = options.until, .seed = {}, .assignments = {}}, options.driver.progress);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include <boost/crc.hpp>
 #include <fmt/format.h>
 
+#include "io/text/checksum.hpp"
 #include "io/text/output_file.hpp"
 #include "simulation/state/archive.hpp"
 #include "simulation/state/state_fields.hpp"
@@ -27,8 +27,12 @@ void fields(Archive& archive, Is<RecordedMotion> auto& r) {
   archive(r.time, r.motion);
 }
 template <class Archive>
+void fields(Archive& archive, Is<WrittenFile> auto& f) {
+  archive(f.size, f.crc);
+}
+template <class Archive>
 void fields(Archive& archive, Is<RunProgress> auto& p) {
-  archive(p.file_sizes, p.recorded, p.peaks);
+  archive(p.files, p.recorded, p.peaks);
 }
 template <class Archive>
 void fields(Archive& archive, Is<Checkpoint> auto& c) {
@@ -41,12 +45,6 @@ constexpr std::string_view kMark = "PLYNYCKP";
 constexpr std::size_t kHeadSize = 24;
 constexpr std::string_view kPrefix = "checkpoint-";
 constexpr std::string_view kSuffix = ".bin";
-
-std::uint32_t crc_of(std::string_view bytes) {
-  boost::crc_32_type crc;
-  crc.process_bytes(bytes.data(), bytes.size());
-  return crc.checksum();
-}
 
 /// The number of steps in a checkpoint's name; negative where it is none.
 std::int64_t steps_of(const std::filesystem::path& path) {
@@ -69,7 +67,7 @@ std::string payload_of(const Checkpoint& checkpoint) {
 
 std::string head_of(std::string_view payload) {
   simulation::ByteWriter head;
-  head(kCheckpointVersion, crc_of(payload), std::uint64_t{payload.size()});
+  head(kCheckpointVersion, Checksum(payload).crc(), std::uint64_t{payload.size()});
   return std::string(kMark).append(head.take());
 }
 
@@ -103,7 +101,7 @@ Result<Checkpoint> read_checkpoint(std::string_view bytes) {
     return fail(fmt::format("a checkpoint of version {}; this program reads {}", version, kCheckpointVersion));
   const std::string_view payload = bytes.substr(kHeadSize);
   if (payload.size() != length) return fail(fmt::format("damaged: {} bytes of {}", payload.size(), length));
-  if (crc_of(payload) != crc) return fail("damaged: its checksum does not match");
+  if (Checksum(payload).crc() != crc) return fail("damaged: its checksum does not match");
   Checkpoint checkpoint;
   simulation::ByteReader reader(payload);
   fields(reader, checkpoint);
@@ -111,6 +109,10 @@ Result<Checkpoint> read_checkpoint(std::string_view bytes) {
   reader.require(checkpoint.steps >= 0, "a number of steps that cannot be");
   if (!reader.is_well()) return fail("damaged: " + reader.failure());
   return checkpoint;
+}
+
+bool is_checkpoint(const std::filesystem::path& path) {
+  return steps_of(path) >= 0;
 }
 
 std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder) {

@@ -29,7 +29,7 @@ struct Checkpoint {
   std::string failure;  ///< of a dump: what went wrong in the step after it; empty in a checkpoint
 };
 
-inline constexpr std::uint32_t kCheckpointVersion = 23;
+inline constexpr std::uint32_t kCheckpointVersion = 24;
 
 /// The file around a payload: mark, version, checksum, length.
 std::string checkpoint_file_of(std::string_view payload);
@@ -40,6 +40,9 @@ Result<> write_checkpoint_file(const std::filesystem::path& path, const Checkpoi
 
 /// The error is why the bytes are no checkpoint, or a damaged one, or one of another version.
 Result<Checkpoint> read_checkpoint(std::string_view bytes);
+
+/// Whether a file has the name of a checkpoint.
+bool is_checkpoint(const std::filesystem::path& path);
 
 /// The checkpoints in a run folder, the newest first: "checkpoint-000000012000.bin" after 12 000 steps.
 std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder);

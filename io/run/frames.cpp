@@ -4,6 +4,8 @@
 #include <cstring>
 #include <type_traits>
 
+#include <fmt/format.h>
+
 #include "simulation/state/state_fields.hpp"
 
 namespace polynya::io {
@@ -86,22 +88,56 @@ std::string FrameEncoder::end() {
   return bytes;
 }
 
-Result<std::vector<Frame>> decode_frames(std::string_view bytes) {
-  if (bytes.size() < kHeaderSize || !bytes.starts_with(kFileMark)) return fail("not a file of frames");
+namespace {
+
+bool is_finite(const Motion& m) {
+  // A sum is finite only if each of its terms is.
+  return std::isfinite(0 * (m.position.x + m.position.y + m.angle + m.velocity.x + m.velocity.y + m.angular_velocity));
+}
+
+/// Takes the bodies of a frame off the bytes, which have all of them. False where a number of one is none.
+template <class Body>
+bool take_bodies(std::string_view& bytes, std::size_t count, std::vector<Body>& bodies) {
+  bodies.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    bodies.push_back(take<Body>(bytes));
+    if constexpr (std::is_same_v<Body, FloeMotion>) {
+      if (!is_finite(bodies.back().motion)) return false;
+    } else if (!is_finite(bodies.back())) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+Result<std::vector<Frame>> decode_frames(std::string_view bytes, bool is_whole) {
+  const std::size_t size = bytes.size();
+  if (size < kHeaderSize || !bytes.starts_with(kFileMark)) return fail("not a file of frames");
   bytes.remove_prefix(kFileMark.size());
-  if (take<std::uint32_t>(bytes) != kVersion) return fail("frames of another version");
-  bytes.remove_prefix(4);
+  if (take<std::uint32_t>(bytes) != kVersion || take<std::uint32_t>(bytes) != 0)
+    return fail("frames of another version");
   std::vector<Frame> frames;
-  while (bytes.size() >= kFrameHeadSize) {
-    if (!bytes.starts_with(kFrameMark)) return fail("a damaged frame");
-    bytes.remove_prefix(kFrameMark.size());
-    const std::size_t ships = take<std::uint32_t>(bytes);
-    const std::size_t floes = take<std::uint32_t>(bytes);
-    bytes.remove_prefix(4);
-    Frame frame{.time = take<double>(bytes), .ships = {}, .floes = {}};
-    if (bytes.size() < ships * sizeof(Motion) + floes * sizeof(FloeMotion)) break;
-    for (std::size_t i = 0; i < ships; ++i) frame.ships.push_back(take<Motion>(bytes));
-    for (std::size_t i = 0; i < floes; ++i) frame.floes.push_back(take<FloeMotion>(bytes));
+  while (!bytes.empty()) {
+    const std::size_t start = size - bytes.size();
+    const auto refuse = [&](std::string_view what) {
+      return fail(fmt::format("frame {}, which begins at byte {}: {}", frames.size() + 1, start, what));
+    };
+    const bool has_head = bytes.size() >= kFrameHeadSize;
+    if (has_head && !bytes.starts_with(kFrameMark)) return refuse("damaged");
+    bytes.remove_prefix(has_head ? kFrameMark.size() : 0);
+    const std::size_t ships = has_head ? take<std::uint32_t>(bytes) : 0;
+    const std::size_t floes = has_head ? take<std::uint32_t>(bytes) : 0;
+    if (has_head && take<std::uint32_t>(bytes) != 0) return refuse("damaged");
+    Frame frame{.time = has_head ? take<double>(bytes) : 0, .ships = {}, .floes = {}};
+    if (!has_head || bytes.size() < ships * sizeof(Motion) + floes * sizeof(FloeMotion)) {
+      if (is_whole) return refuse("cut short, of a run that finished");
+      break;
+    }
+    if (!std::isfinite(frame.time) || !take_bodies(bytes, ships, frame.ships) ||
+        !take_bodies(bytes, floes, frame.floes))
+      return refuse("damaged, a number in it is none");
     frames.push_back(std::move(frame));
   }
   return frames;

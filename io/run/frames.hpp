@@ -85,7 +85,8 @@ struct Frame {
   std::vector<FloeMotion> floes;  ///< only those with a record in this frame
 };
 
-/// Reads frames; a last one that is cut short is left out.
-Result<std::vector<Frame>> decode_frames(std::string_view bytes);
+/// Reads frames; a last one that is cut short is left out, but of a whole file, a finished run's, refused. The error
+/// has the byte.
+Result<std::vector<Frame>> decode_frames(std::string_view bytes, bool is_whole = false);
 
 }  // namespace polynya::io

@@ -61,6 +61,15 @@ struct Shown {
   std::string plot = {};
 };
 
+/// A number of a file as one of a whole kind; throws ReadError where it is none.
+template <class Whole>
+Whole whole_of(double value) {
+  if (value < std::numeric_limits<Whole>::min() || value > std::numeric_limits<Whole>::max() ||
+      value != std::floor(value))
+    throw ReadError(fmt::format("{} is not {}", value, std::is_same_v<Whole, bool> ? "0 or 1" : "a whole number"));
+  return static_cast<Whole>(value);
+}
+
 /// A column of the number at the end of a path of pointers to members: in degrees, of one in radians.
 template <class Row, class... Path>
 Column<Row> number(std::string name, std::string meaning, Path... path) {
@@ -71,7 +80,11 @@ Column<Row> number(std::string name, std::string meaning, Path... path) {
           [=](const Row& row) { return scale * static_cast<double>((row.*....*path)); },
           [=](Row& row, double value) {
             auto& place = (row.*....*path);
-            place = static_cast<std::remove_reference_t<decltype(place)>>(inverse * value);
+            using Kind = std::remove_reference_t<decltype(place)>;
+            if constexpr (std::is_integral_v<Kind>)
+              place = whole_of<Kind>(value);
+            else
+              place = static_cast<Kind>(inverse * value);
           }};
 }
 
@@ -481,16 +494,38 @@ double number_at(const JsonValue& value, std::string_view key) {
 double take_number(std::string_view& row) {
   const std::string_view field = csv_field(row);
   const auto value = csv_number(field);
-  if (!value) throw ReadError(fmt::format("\"{}\" is not a number", field));
+  if (!value) throw ReadError(fmt::format("\"{}\" is not a number", shortened(field, 60)));
   return *value;
 }
 
+/// The instant of a row [s].
+double take_time(std::string_view& row) {
+  const double time = take_number(row);
+  if (std::isnan(time)) throw ReadError("a row without its time");
+  return time;
+}
+
+/// The hull of a row, by its name.
+int take_hull(std::string_view& row, const simulation::Scene& scene) {
+  const std::string_view name = csv_field(row);
+  const int hull = hull_named(scene, name);
+  if (hull < 0) throw ReadError(fmt::format("\"{}\" is no ship, structure or wall of the scene", shortened(name, 60)));
+  return hull;
+}
+
 simulation::ContactState::Body body_of(std::string_view& line, const Run& run) {
-  const std::string_view ship = csv_field(line);
-  std::string_view floe = csv_field(line);
-  simulation::ContactState::Body body{hull_named(run.scene.scene, ship), simulation::kNoFloe};
-  if (ship.empty()) body.floe = static_cast<FloeId>(take_number(floe));
-  if (body.ship < 0 && !run.floe(body.floe)) throw ReadError("a contact of what there is not");
+  const bool is_floe = line.starts_with(',');
+  simulation::ContactState::Body body{-1, simulation::kNoFloe};
+  if (is_floe)
+    line.remove_prefix(1);
+  else
+    body.ship = take_hull(line, run.scene.scene);
+  const std::string_view floe = csv_field(line);
+  if (!is_floe && floe.empty()) return body;
+  const auto number = is_floe ? csv_number(floe) : std::nullopt;
+  if (!number || !(*number >= 0 && *number < static_cast<double>(run.floes.size())))
+    throw ReadError(fmt::format("\"{}\" is no floe of the run", shortened(floe, 60)));
+  body.floe = static_cast<FloeId>(*number);
   return body;
 }
 
@@ -498,7 +533,7 @@ simulation::ContactState::Body body_of(std::string_view& line, const Run& run) {
 
 JsonValue json_of(std::string_view text) {
   JsonDocument document = parse_json(text);
-  if (!document.faults.empty()) throw ReadError("not JSON: " + document.faults.front().found);
+  if (!document.faults.empty()) throw ReadError("not JSON: " + message_of(document.faults.front()));
   return std::move(document.root);
 }
 
@@ -524,8 +559,8 @@ simulation::BirthRecord birth_of(const JsonValue& line) {
 simulation::HullSample sample_of(std::string_view line, const std::vector<const ForceColumn*>& columns,
                                  const simulation::Scene& scene) {
   simulation::HullSample s;
-  s.time = take_number(line);
-  s.ship = hull_named(scene, csv_field(line));
+  s.time = take_time(line);
+  s.ship = take_hull(line, scene);
   for (const ForceColumn* column : columns) column->store(s, take_number(line));
   return s;
 }
@@ -536,7 +571,7 @@ namespace {
 template <class Record, class Row>
 Record record_of(std::string_view line, const Run& run, Row Record::*row, std::span<const Column<Row>> columns) {
   Record record;
-  record.time = take_number(line);
+  record.time = take_time(line);
   (record.*row).on = body_of(line, run);
   (record.*row).by = body_of(line, run);
   read_row(line, record.*row, columns);
@@ -551,6 +586,22 @@ RunCrushed crushed_of(std::string_view line, const Run& run) {
 
 RunContact contact_of(std::string_view line, const Run& run) {
   return record_of(line, run, &RunContact::state, contact_columns());
+}
+
+simulation::PanelSample panel_of(std::string_view line, const simulation::Scene& scene) {
+  simulation::PanelSample sample;
+  sample.time = take_time(line);
+  sample.hull = take_hull(line, scene);
+  read_row(line, sample, panel_columns());
+  return sample;
+}
+
+void check_state(std::string_view line) {
+  constexpr std::size_t kHashDigits = 16;
+  take_time(line);
+  take_number(line);
+  if (line.size() != kHashDigits || line.find_first_not_of("0123456789abcdef") != std::string_view::npos)
+    throw ReadError(fmt::format("\"{}\" is not a hash", shortened(line, 60)));
 }
 
 }  // namespace polynya::io

@@ -40,12 +40,12 @@ inline std::string_view csv_field(std::string_view& row) {
   return field;
 }
 
-/// A field as a number, "null" as not a number; nothing where it is neither.
+/// A field as a finite number, "null" as not a number; nothing where it is neither.
 inline std::optional<double> csv_number(std::string_view field) {
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (field == "null") return std::numeric_limits<double>::quiet_NaN();
-  if (error != std::errc{} || end != field.data() + field.size()) return {};
+  if (error != std::errc{} || end != field.data() + field.size() || !std::isfinite(value)) return {};
   return value;
 }
 
@@ -204,5 +204,8 @@ simulation::HullSample sample_of(std::string_view line, const std::vector<const 
 /// `run` has its scene and its floes.
 RunCrushed crushed_of(std::string_view line, const Run& run);
 RunContact contact_of(std::string_view line, const Run& run);
+simulation::PanelSample panel_of(std::string_view line, const simulation::Scene& scene);
+/// Of states.csv only whether the line is one.
+void check_state(std::string_view line);
 
 }  // namespace polynya::io

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "io/run/checkpoint.hpp"
+#include "io/run/checksums.hpp"
 #include "io/run/event_records.hpp"
 #include "io/run/summary.hpp"
 #include "io/text/json_parser.hpp"
@@ -98,9 +99,19 @@ Result<> remove_with_part(const fs::path& path) {
   return removed ? remove_file(path) : removed;
 }
 
-/// What is written when a run has ended, and what commands make of it.
-std::vector<fs::path> made_at_end() {
+/// What is written when a run has ended, and what commands make of it; of the folder of `polynya loads` what it wrote
+/// there, and last the folder.
+std::vector<fs::path> made_at_end(const fs::path& folder) {
   std::vector<fs::path> names{run_file::kFailure};
+  if (std::error_code ignored; fs::is_directory(fs::symlink_status(folder / run_file::kLoads, ignored))) {
+    bool is_ours = true;
+    for (const auto& entry : fs::directory_iterator(folder / run_file::kLoads, ignored)) {
+      const bool is_of_loads = entry.path().filename().string().starts_with("loads");
+      is_ours = is_ours && is_of_loads;
+      if (is_of_loads) names.push_back(fs::path(run_file::kLoads) / entry.path().filename());
+    }
+    if (is_ours) names.emplace_back(run_file::kLoads);
+  }
   for (const fs::path figure : run_file::kFigures) {
     names.push_back(figure);
     for (const char* suffix : {".png", ".pdf"}) names.push_back(fs::path(figure).replace_extension(suffix));
@@ -113,10 +124,12 @@ std::vector<fs::path> made_at_end() {
 /// takes from the start, or the remains that --overwrite replaces: summary.json, which may call the run
 /// finished, goes first, and for good, and scene.json last.
 Result<> remove_run(const fs::path& folder) {
-  std::vector<fs::path> names = made_at_end();
+  std::vector<fs::path> names = made_at_end(folder);
   names.insert(names.end(), run_file::kGrowing.begin(), run_file::kGrowing.end());
   names.emplace_back(run_file::kScene);
-  Result<> removed = remove_with_part(folder / run_file::kSummary);
+  Result<> removed = remove_checksums(folder);
+  if (removed) removed = remove_with_part(folder / run_file::kChecksums);
+  if (removed) removed = remove_with_part(folder / run_file::kSummary);
   if (removed) removed = sync_folder(folder);
   if (removed) removed = remove_checkpoints(folder);
   if (removed) removed = remove_rejected_cuts(folder);
@@ -164,13 +177,14 @@ FolderSize estimate_folder_size(const simulation::Scene& scene) {
 Result<> set_end(const fs::path& folder, const LoadedScene& scene) {
   const auto text = read_text_file(folder / run_file::kSummary, kLongestScene);
   JsonValue summary = text ? parse_json(*text).root : JsonValue{};
+  if (const auto removed = remove_checksums(folder); !removed) return removed;
   if (!finished_run(folder) && summary.has("scene_hash", scene.hash)) return {};
   if (!summary.is(JsonValue::Kind::kObject)) summary.data = JsonValue::Object{};
   std::erase_if(summary.members(), [](const JsonMember& m) { return m.key == "finished" || m.key == "stopped_by"; });
   summary.members().push_back({"finished", 0, {false}});
   summary.members().push_back({"stopped_by", 0, {std::string("resumed to another end, or killed then")}});
   Result<> done = write_whole_file(folder / run_file::kSummary, to_json_text(summary) + "\n", Durability::kSynced);
-  for (const fs::path& name : made_at_end())
+  for (const fs::path& name : made_at_end(folder))
     if (done) done = remove_with_part(folder / name);
   if (done) done = write_whole_file(folder / run_file::kScene, scene.resolved_text, Durability::kSynced);
   return done;

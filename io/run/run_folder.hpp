@@ -44,12 +44,19 @@ inline constexpr std::string_view kFigureMotion = "figure-motion.svg";
 inline constexpr std::string_view kFigureSizes = "figure-sizes.svg";
 inline constexpr std::string_view kFigureEnergy = "figure-energy.svg";
 inline constexpr std::array kFigures{kFigureFloes, kFigureLoads, kFigureMotion, kFigureSizes, kFigureEnergy};
+inline constexpr std::string_view kLoads = "loads";  // a folder, of `polynya loads`
 inline constexpr std::string_view kFailure = "failure.bin";
+inline constexpr std::string_view kChecksums = "checksums.txt";     ///< of a finished run
 inline constexpr std::string_view kRejectedCuts = "rejected-cuts";  // a folder
 /// The files that grow, in the order they are flushed: what is named before what names it. A run without panels has
 /// all but the last.
 inline constexpr std::array kGrowing{kFloes, kEvents, kFrames, kContacts, kCrushed, kStates, kForces, kPanels};
-inline constexpr std::array kMadeAtEnd{kFinalGeojson, kFinalSvg, kFinalPng, kView, kChannel, kChannelCsv};
+// `polynya management` writes these.
+inline constexpr std::string_view kManagement = "management.csv";
+inline constexpr std::string_view kManagementSizes = "management-sizes.csv";
+inline constexpr std::string_view kManagementPng = "management.png";
+inline constexpr std::array kMadeAtEnd{kFinalGeojson, kFinalSvg,   kFinalPng,        kView,         kChannel,
+                                       kChannelCsv,   kManagement, kManagementSizes, kManagementPng};
 }  // namespace run_file
 
 /// The files that grow in a run of the scene.

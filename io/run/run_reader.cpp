@@ -10,6 +10,7 @@
 #include "io/run/event_records.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
+#include "io/run/summary.hpp"
 
 namespace polynya::io {
 
@@ -75,38 +76,69 @@ std::string text_of(const std::filesystem::path& folder, std::string_view name) 
   return std::move(*text);
 }
 
-/// The JSON of a whole file.
-JsonValue document_of(const std::filesystem::path& folder, std::string_view name) {
-  const std::string text = text_of(folder, name);
+JsonValue summary_of(const std::filesystem::path& folder, const LoadedScene& scene) {
+  const std::string text = text_of(folder, run_file::kSummary);
+  const std::string path = (folder / run_file::kSummary).string();
   JsonDocument document = parse_json(text);
-  if (document.faults.empty()) return std::move(document.root);
-  throw ReadError(fmt::format("{}:{}", (folder / name).string(), first_fault(document, text)));
+  if (!document.faults.empty()) throw ReadError(fmt::format("{}:{}", path, first_fault(document, text)));
+  if (const auto fault = fault_of_summary(document.root, scene)) {
+    const LineAndColumn at = line_and_column(text, fault->offset);
+    throw ReadError(fmt::format("{}:{}:{}: {}: {}", path, at.line, at.column, fault->path, message_of(*fault)));
+  }
+  return std::move(document.root);
 }
 
-/// Uses each whole line of a file.
+bool is_finished(const Run& run) {
+  const JsonValue* finished = run.summary.find("finished", JsonValue::Kind::kBoolean);
+  return finished && finished->boolean();
+}
+
+/// Uses each whole line of a file. A killed run may leave a part of a line behind them, a finished one none.
 template <class Use>
-void for_lines(const std::filesystem::path& folder, std::string_view name, Use use) {
-  const std::string text = text_of(folder, name);
+void for_lines(const Run& run, std::string_view name, Use use) {
+  const std::filesystem::path path = run.folder / name;
+  const std::string text = text_of(run.folder, name);
   int number = 0;
+  const auto place = [&](std::string_view words) { return fmt::format("{}:{}: {}", path.string(), number, words); };
   for_pieces(std::string_view(text).substr(0, text.rfind('\n') + 1), '\n', [&](std::string_view line, std::size_t) {
     try {
-      use(line, ++number);
+      ++number;
+      use(line, number);
     } catch (const ReadError& error) {
-      throw ReadError(fmt::format("{}:{}: {}", (folder / name).string(), number, error.what()));
+      throw ReadError(place(printable(error.what())));
     }
   });
+  ++number;
+  if (is_finished(run) && !text.empty() && text.back() != '\n')
+    throw ReadError(place("the last line is cut short, of a run that finished"));
 }
 
-/// Uses each row of a table, whose first line is to be its header.
-template <class Use>
-void for_rows(const std::filesystem::path& folder, std::string_view name, Use use) {
-  const std::string header = header_of(name);
-  for_lines(folder, name, [&](std::string_view line, int number) {
-    if (number > 1)
-      use(line);
-    else if (!header.starts_with(line))
-      throw ReadError("columns of another version");
+/// Uses each row of a table, and its first line as the header. Throws where a row has not as many fields.
+template <class UseHeader, class Use>
+void for_rows(const Run& run, std::string_view name, UseHeader use_header, Use use) {
+  std::ptrdiff_t commas = -1;
+  for_lines(run, name, [&](std::string_view line, int) {
+    const std::ptrdiff_t here = std::ranges::count(line, ',');
+    if (commas < 0) {
+      commas = here;
+      return use_header(line);
+    }
+    if (here != commas) throw ReadError(fmt::format("{} fields below a header of {}", here + 1, commas + 1));
+    use(line);
   });
+  if (commas < 0) throw ReadError(fmt::format("{}: empty, without its header", (run.folder / name).string()));
+}
+
+/// The same of a table whose header is the one that this program writes, or begins it: earlier versions had fewer
+/// columns. A table that earlier versions did not write may be missing.
+template <class Use>
+bool for_rows_where_recorded(const Run& run, std::string_view name, Use use) {
+  if (!exists(std::filesystem::symlink_status(run.folder / name))) return false;
+  const auto check_header = [header = header_of(name)](std::string_view line) {
+    if (!header.starts_with(line)) throw ReadError("columns of another version");
+  };
+  for_rows(run, name, check_header, use);
+  return true;
 }
 
 void check_version(const Run& run) {
@@ -119,7 +151,7 @@ void check_version(const Run& run) {
 }
 
 void read_floes(Run& run) {
-  for_lines(run.folder, run_file::kFloes, [&](std::string_view line, int) {
+  for_lines(run, run_file::kFloes, [&](std::string_view line, int) {
     const JsonValue json = json_of(line);
     simulation::BirthRecord birth = birth_of(json);
     if (const RunFloe* parent = run.floe(birth.parent))
@@ -141,7 +173,7 @@ void mark_brash(Run& run, const simulation::Event& event) {
 }
 
 void read_events(Run& run) {
-  for_lines(run.folder, run_file::kEvents, [&](std::string_view line, int) {
+  for_lines(run, run_file::kEvents, [&](std::string_view line, int) {
     const simulation::Event& event = run.events.emplace_back(event_of(json_of(line), run.scene.scene));
     if (!event.ice()) return;
     const FloeId id = event.ice()->floe;
@@ -158,22 +190,49 @@ void read_events(Run& run) {
 
 void read_forces(Run& run) {
   std::vector<const ForceColumn*> columns;
-  for_lines(run.folder, run_file::kForces, [&](std::string_view line, int number) {
-    if (number > 1) return run.samples.push_back(sample_of(line, columns, run.scene.scene));
+  const auto read_header = [&](std::string_view line) {
     auto found = force_columns_in(line);
     if (!found) throw ReadError(found.error());
     columns = std::move(*found);
-  });
+  };
+  for_rows(run, run_file::kForces, read_header,
+           [&](std::string_view line) { run.samples.push_back(sample_of(line, columns, run.scene.scene)); });
 }
 
 /// Peaks stand where they ended.
 void read_contacts(Run& run) {
-  for_rows(run.folder, run_file::kContacts, [&](std::string_view line) {
+  for_rows_where_recorded(run, run_file::kContacts, [&](std::string_view line) {
     RunContact contact = contact_of(line, run);
     const bool is_peak = contact.state.ended_by != simulation::PeakEnd::kNone;
     (is_peak ? run.peaks : run.contacts).push_back(contact);
   });
   std::ranges::stable_sort(run.peaks, {}, &RunContact::time);
+}
+
+void read_frames(Run& run) {
+  const std::filesystem::path path = run.folder / run_file::kFrames;
+  auto frames = decode_frames(text_of(run.folder, run_file::kFrames), is_finished(run));
+  if (!frames) throw ReadError(fmt::format("{}: {}", path.string(), frames.error()));
+  run.frames = std::move(*frames);
+  const std::size_t hulls = hull_count(run.scene.scene);
+  for (std::size_t i = 0; i < run.frames.size(); ++i) {
+    const auto refuse = [&](const std::string& what) {
+      throw ReadError(fmt::format("{}: frame {}: {}", path.string(), i + 1, what));
+    };
+    const Frame& frame = run.frames[i];
+    if (i > 0 && frame.time <= run.frames[i - 1].time)
+      refuse(fmt::format("at {} s, not after the one before, at {} s", frame.time, run.frames[i - 1].time));
+    if (frame.ships.size() != hulls)
+      refuse(fmt::format("{} ships and structures, where the scene has {}", frame.ships.size(), hulls));
+    for (const FloeMotion& floe : frame.floes)
+      if (!run.floe(floe.floe)) refuse(fmt::format("floe {} was never born", floe.floe));
+  }
+}
+
+/// What no command in C++ uses is read too: it is those in Python that do.
+void check_other_tables(const Run& run) {
+  for_rows_where_recorded(run, run_file::kPanels, [&](std::string_view line) { panel_of(line, run.scene.scene); });
+  for_rows_where_recorded(run, run_file::kStates, [&](std::string_view line) { check_state(line); });
 }
 
 /// Why a folder without a scene is none of a run.
@@ -213,18 +272,16 @@ Result<Run> read_run(const std::filesystem::path& folder) {
     if (!scene) return fail(to_string(scene.error().front()));
     run.scene = std::move(*scene);
     run.label = run.scene.scene.name;
-    run.summary = document_of(folder, run_file::kSummary);
+    run.summary = summary_of(folder, run.scene);
     check_version(run);
     read_floes(run);
     read_events(run);
     read_forces(run);
-    if (std::filesystem::exists(folder / run_file::kContacts)) read_contacts(run);
-    if (run.has_crushed = std::filesystem::exists(folder / run_file::kCrushed); run.has_crushed)
-      for_rows(folder, run_file::kCrushed,
-               [&](std::string_view line) { run.crushed.push_back(crushed_of(line, run)); });
-    auto frames = decode_frames(text_of(folder, run_file::kFrames));
-    if (!frames) return fail(fmt::format("{}: {}", (folder / run_file::kFrames).string(), frames.error()));
-    run.frames = std::move(*frames);
+    read_contacts(run);
+    run.has_crushed = for_rows_where_recorded(
+        run, run_file::kCrushed, [&](std::string_view line) { run.crushed.push_back(crushed_of(line, run)); });
+    read_frames(run);
+    check_other_tables(run);
     return run;
   } catch (const ReadError& error) {
     return fail(error.what());

@@ -89,21 +89,37 @@ Result<> check_header(const std::filesystem::path& file, std::string_view header
       fmt::format("{}: its columns are those of another version of polynya, which can continue it", file.string()));
 }
 
-/// Whether the folder can be cut back to a checkpoint, before any of its files is.
-Result<> check_progress(const RunProgress& progress, const std::filesystem::path& folder,
-                        const simulation::Scene& scene) {
+/// The checksum of a file up to its size at a checkpoint, which is what it was then: nothing is added to a file that is
+/// damaged.
+Result<Checksum> checksum_then(const std::filesystem::path& file, const WrittenFile& then) {
+  auto sum = checksum_of(file, then.size);
+  if (!sum || sum->crc() == then.crc) return sum;
+  return fail(
+      fmt::format("{}: damaged since the checkpoint: its first {} bytes have the checksum {:08x}; they had {:08x}",
+                  file.string(), then.size, sum->crc(), then.crc));
+}
+
+/// Whether the folder can be cut back to a checkpoint, before any of its files is: the checksums of those that grow.
+Result<std::vector<Checksum>> check_progress(const RunProgress& progress, const std::filesystem::path& folder,
+                                             const simulation::Scene& scene) {
   const auto is_of_scene = [columns = peak_columns(scene).size()](const ShipPeaks& peaks) {
     return peaks.of_column.size() == columns;
   };
   const std::size_t files = growing_files(scene).size();
-  if (progress.file_sizes.size() != files || progress.peaks.size() != hull_count(scene) ||
+  if (progress.files.size() != files || progress.peaks.size() != hull_count(scene) ||
       !std::ranges::all_of(progress.peaks, is_of_scene))
     return fail(fmt::format("{}: the checkpoint is of another run", folder.string()));
   for (std::size_t i = 0; i < files; ++i)
-    if (auto checked = check_size(folder / kGrowing[i], progress.file_sizes[i]); !checked) return checked;
-  for (std::size_t i = 0; i < files; ++i)
-    if (auto checked = check_header(folder / kGrowing[i], header_of(kGrowing[i])); !checked) return checked;
-  return {};
+    if (auto checked = check_size(folder / kGrowing[i], progress.files[i].size); !checked) return fail(checked.error());
+  std::vector<Checksum> sums;
+  for (std::size_t i = 0; i < files; ++i) {
+    const std::filesystem::path file = folder / kGrowing[i];
+    if (auto checked = check_header(file, header_of(kGrowing[i])); !checked) return fail(checked.error());
+    const auto sum = checksum_then(file, progress.files[i]);
+    if (!sum) return fail(sum.error());
+    sums.push_back(*sum);
+  }
+  return sums;
 }
 
 }  // namespace
@@ -112,13 +128,14 @@ Result<RunWriter> RunWriter::resume(RunLock lock, const LoadedScene& scene, cons
                                     const std::filesystem::path& file, const simulation::Simulation& simulation) {
   const RunProgress& progress = checkpoint.progress;
   const std::filesystem::path folder = lock.folder();
-  auto ready = check_progress(progress, folder, scene.scene);
-  if (ready) ready = set_end(folder, scene);
+  const auto sums = check_progress(progress, folder, scene.scene);
+  if (!sums) return fail(sums.error());
+  Result<> ready = set_end(folder, scene);
   if (ready) ready = rewind_to(folder, checkpoint, file);
   if (!ready) return fail(ready.error());
   std::vector<OutputFile> files;
-  for (std::size_t i = 0; i < progress.file_sizes.size(); ++i) {
-    auto grown = OutputFile::reopen(folder / kGrowing[i], progress.file_sizes[i]);
+  for (std::size_t i = 0; i < sums->size(); ++i) {
+    auto grown = OutputFile::reopen(folder / kGrowing[i], (*sums)[i]);
     if (!grown) return fail(grown.error());
     files.push_back(std::move(*grown));
   }
@@ -220,7 +237,7 @@ Result<> RunWriter::sync_files() {
 Result<RunProgress> RunWriter::sync() {
   if (const auto synced = sync_files(); !synced) return fail(synced.error());
   RunProgress progress;
-  for (const OutputFile& file : files_) progress.file_sizes.push_back(file.size());
+  for (const OutputFile& file : files_) progress.files.push_back({file.size(), file.checksum().crc()});
   progress.recorded = frames_.recorded();
   progress.peaks = peaks_;
   return progress;
@@ -258,33 +275,55 @@ Result<> RunWriter::status() const {
   return status;
 }
 
-std::vector<std::string> RunWriter::overlong() const {
+std::vector<std::string> RunWriter::overlong(std::uint64_t longest) const {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < files_.size(); ++i)
-    if (files_[i].size() + files_[i].buffered() > kLongestRunFile) names.emplace_back(kGrowing[i]);
+    if (files_[i].size() + files_[i].buffered() > longest) names.emplace_back(kGrowing[i]);
   return names;
+}
+
+Result<> RunWriter::write_checksums(Checksums known) const {
+  for (std::size_t i = 0; i < files_.size(); ++i) known[std::string(kGrowing[i])] = files_[i].checksum();
+  std::vector<std::filesystem::path> others{run_file::kScene};
+  std::error_code ignored;  // where nothing was rejected
+  for (const auto& entry : std::filesystem::directory_iterator(folder() / run_file::kRejectedCuts, ignored))
+    others.push_back(std::filesystem::path(run_file::kRejectedCuts) / entry.path().filename());
+  for (const std::filesystem::path& path : checkpoints_in(folder())) others.push_back(path.filename());
+  if (std::filesystem::exists(folder() / run_file::kFailure)) others.emplace_back(run_file::kFailure);
+  for (const std::filesystem::path& name : others) {
+    const auto sum = checksum_of(folder() / name);
+    if (!sum) return fail(sum.error());
+    known[name.string()] = *sum;
+  }
+  return io::write_checksums(folder(), known);
 }
 
 Result<> RunWriter::finish(const RunSummary& summary, const simulation::Simulation* simulation) {
   Result<> written = sync_files();
   if (is_displaced_) return written;  // whatever is there now is not this run's
-  const auto write = [&](std::string_view name, const std::string& text) {
-    auto done = write_whole_file(folder() / name, text, Durability::kSynced);
+  Checksums sums;
+  const auto write = [&](std::string_view name, const std::function<void(const WritePart&)>& produce) {
+    Checksum& sum = sums[std::string(name)];
+    const auto write_and_add = [&](const WritePart& part) {
+      produce([&](std::string_view text) {
+        sum.add(text);
+        part(text);
+      });
+    };
+    auto done = write_whole_file_in_parts(folder() / name, write_and_add, Durability::kSynced);
     if (written) written = std::move(done);
   };
   const auto write_ice = [&] {
-    if (!simulation) return;
-    auto done = write_whole_file_in_parts(
-        folder() / run_file::kFinalGeojson, [&](const WritePart& part) { write_floes(*simulation, part); },
-        Durability::kSynced);
-    if (written) written = std::move(done);
+    if (simulation) write(run_file::kFinalGeojson, [&](const WritePart& part) { write_floes(*simulation, part); });
   };
   // A summary with "finished": true comes last, when all is there, and on the disk. Of a run that stopped it
   // comes first: where space is short it matters more than the ice.
   if (summary.finished) write_ice();
-  if (written || !summary.finished) write(run_file::kSummary, to_json_text(summary, *scene_));
+  if (written || !summary.finished)
+    write(run_file::kSummary, [&](const WritePart& part) { part(to_json_text(summary, *scene_)); });
   if (!summary.finished) write_ice();
   if (summary.finished && written) written = remove_checkpoints(folder(), 1);
+  if (summary.finished && written) written = write_checksums(std::move(sums));
   return written;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/run/checksums.hpp"
 #include "io/run/frames.hpp"
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
@@ -17,10 +18,16 @@ namespace polynya::io {
 
 struct Checkpoint;
 
+/// How far a file is written, and the checksum of that (Checksum).
+struct WrittenFile {
+  std::uint64_t size = 0;  ///< [bytes]
+  std::uint32_t crc = 0;
+};
+
 /// What of a run's folder is written, and what the writer needs to continue it.
 struct RunProgress {
-  std::vector<std::uint64_t> file_sizes;  ///< of the files that grow, on disk [bytes]
-  std::vector<RecordedMotion> recorded;   ///< by floe id
+  std::vector<WrittenFile> files;        ///< those that grow
+  std::vector<RecordedMotion> recorded;  ///< by floe id
   std::vector<ShipPeaks> peaks;
 };
 
@@ -60,15 +67,15 @@ class RunWriter {
   /// The first failure to write a file of the folder.
   Result<> status() const;
 
-  /// The files that have become too long to be read back (kLongestRunFile).
-  std::vector<std::string> overlong() const;
+  /// The files that have become too long to be read back.
+  std::vector<std::string> overlong(std::uint64_t longest = kLongestRunFile) const;
 
   /// Peaks of the samples so far.
   const std::vector<ShipPeaks>& peaks() const { return peaks_; }
 
   /// Ends the run: everything buffered, final.geojson of a simulation, and last summary.json. All of it is on
   /// the disk before a summary with "finished": true is, and that one before the checkpoints are removed but that of
-  /// the end.
+  /// the end, and the checksums of all written.
   Result<> finish(const RunSummary& summary, const simulation::Simulation* simulation);
 
   /// The same scene with the end that the run has come to instead of its own (set_end()); it outlives this.
@@ -95,6 +102,8 @@ class RunWriter {
   }
   void flush();
   Result<> sync_files();
+  /// Writes the checksums of all files of the run; `known` are those of what was written last.
+  Result<> write_checksums(Checksums known) const;
   /// Keeps it as the failure if the folder or a file in it has lost its name.
   void check_place();
 

@@ -257,6 +257,43 @@ RunSummary summarise(const Simulation& simulation, const RunWriter& writer, cons
   return summary;
 }
 
+namespace {
+
+/// The first value within `found` that is of another kind than the one in the same place of `written`. Items of a list
+/// are compared with its first one.
+std::optional<JsonFault> other_kind(const JsonValue& found, const JsonValue& written, const std::string& path) {
+  if (!found.is(written.kind())) {
+    JsonFault fault;
+    fault.path = path.empty() ? "the file" : path;
+    fault.found = show(found);
+    fault.allowed = name_of(written.kind());
+    fault.offset = found.offset;
+    return fault;
+  }
+  std::optional<JsonFault> fault;
+  if (found.is(JsonValue::Kind::kArray)) {
+    for (std::size_t i = 0; i < found.items().size() && !fault && !written.items().empty(); ++i)
+      fault = other_kind(found.items()[i], written.items().front(), fmt::format("{}[{}]", path, i));
+  } else if (found.is(JsonValue::Kind::kObject)) {
+    for (std::size_t i = 0; i < found.members().size() && !fault; ++i) {
+      const auto& [key, offset, value] = found.members()[i];
+      if (const JsonValue* as_written = written.find(key))
+        fault = other_kind(value, *as_written, path.empty() ? key : path + "." + key);
+    }
+  }
+  return fault;
+}
+
+}  // namespace
+
+std::optional<JsonFault> fault_of_summary(const JsonValue& summary, const LoadedScene& scene) {
+  RunSummary any;
+  any.stopped_by = "any";
+  any.warnings = {"any"};
+  any.peaks.push_back({"any", std::vector<Peak>(peak_columns(scene.scene).size())});
+  return other_kind(summary, parse_json(to_json_text(any, scene)).root, "");
+}
+
 std::optional<FinishedRun> finished_run(const std::filesystem::path& folder) {
   const auto text = read_text_file(folder / run_file::kSummary, kLongestScene);
   if (!text) return {};

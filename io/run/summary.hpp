@@ -2,11 +2,13 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "io/scene/scene_reader.hpp"
+#include "io/text/json_parser.hpp"
 #include "simulation/world/energy.hpp"
 #include "simulation/world/journal.hpp"
 
@@ -33,9 +35,9 @@ struct ShipPeaks {
   std::vector<Peak> of_column;  ///< of each of peak_columns()
 };
 
-/// Bends, splits, ground overlaps and rejected cuts.
+/// The number of times that ice broke: bends and splits. Ground overlaps and refused cuts are no fractures.
 inline std::int64_t fractures_of(const simulation::Counts& counts) {
-  return counts.bends + counts.splits + counts.ground + counts.rejected_cuts;
+  return counts.bends + counts.splits;
 }
 
 /// What summary.json holds.
@@ -66,6 +68,10 @@ RunSummary summarise(const simulation::Simulation& simulation, const RunWriter& 
                      double wall_time);
 
 std::string to_json_text(const RunSummary& summary, const LoadedScene& scene);
+
+/// The first member of a summary.json that is of another kind than this program writes, for example a text where a
+/// number is written. Members may be missing: those of older versions had fewer.
+std::optional<JsonFault> fault_of_summary(const JsonValue& summary, const LoadedScene& scene);
 
 /// The end of a finished run.
 struct FinishedRun {

@@ -136,6 +136,31 @@ bool RecordReader::object(const Object& table, const JsonValue& value, const std
   return is_whole;
 }
 
+namespace {
+
+/// Where a key, or one that is it and a unit, stands below an object: the path with the fewest steps; empty where it
+/// stands nowhere.
+std::string path_of_key(const Object& root, std::string_view key) {
+  const auto is_meant = [key](const Field& field) {
+    return !field.unit.empty() && field.key.starts_with(key) && field.key.substr(key.size()).starts_with('_');
+  };
+  std::vector<std::pair<const Object*, std::string>> level{{&root, ""}}, below;
+  constexpr int kDeepest = 6;  // of scenes
+  for (int depth = 0; depth < kDeepest && !level.empty(); ++depth, level = std::exchange(below, {})) {
+    for (const bool is_exact : {true, false})
+      for (const auto& [object, path] : level)
+        for (const Field& field : object->fields)
+          if (is_exact ? field.key == key : is_meant(field)) return key_path(path, field.key);
+    for (const auto& [object, path] : level)
+      for (const Field& field : object->fields)
+        if (field.object)
+          below.emplace_back(field.object, key_path(path, field.key) + (field.kind == FieldKind::kList ? "[0]" : ""));
+  }
+  return "";
+}
+
+}  // namespace
+
 void RecordReader::report_unknown_keys(const Object& table, const JsonValue& value, const std::string& path) {
   std::vector<std::string_view> known;
   for (const Field& field : table.fields) known.push_back(field.key);
@@ -148,8 +173,9 @@ void RecordReader::report_unknown_keys(const Object& table, const JsonValue& val
         report(member.key_offset, at, show(member.value), std::string(gone->allowed));
       continue;
     }
-    report(member.key_offset, at, "an unknown key", fmt::format("{}", fmt::join(known, ", ")),
-           nearest(member.key, known));
+    std::string meant = nearest(member.key, known);
+    if (meant.empty()) meant = path_of_key(*root_, member.key);
+    report(member.key_offset, at, "an unknown key", fmt::format("{}", fmt::join(known, ", ")), std::move(meant));
   }
 }
 

@@ -115,6 +115,7 @@ class RecordReader {
   template <class Record>
   bool read(const Description<Record>& description, const JsonValue& value, const std::string& path, Record& record,
             std::size_t number = 1) {
+    if (!root_) root_ = &description;
     return object(description, value, path, &record, number);
   }
 
@@ -135,6 +136,7 @@ class RecordReader {
   }
 
   ProblemCollector& problems_;
+  const Object* root_ = nullptr;  ///< of what is read first: where keys are looked for that are unknown in their place
 };
 
 /// The object that reads back to the same record, with every default. Lists without a place in the record are

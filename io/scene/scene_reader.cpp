@@ -54,6 +54,14 @@ void override_scene(JsonValue& root, const SceneOverrides& overrides) {
   if (JsonValue* time = root.find("time")) time->set("until_s", *overrides.until);
 }
 
+/// Which items a value of a scene has, for messages.
+std::string items_of(const JsonValue& list, std::string_view path) {
+  if (!list.is(JsonKind::kArray)) return "a key: it is no list";
+  if (list.items().empty()) return "nothing: the list is empty";
+  if (list.items().size() == 1) return fmt::format("{}[0]", path);
+  return fmt::format("{0}[0] to {0}[{1}]", path, list.items().size() - 1);
+}
+
 /// Where the value of "ships[0].position_m[1]" belongs. Objects on the way are made where the scene has none, items of
 /// lists must be there; null where the path leads nowhere, which has been reported.
 template <class Report>
@@ -67,7 +75,7 @@ JsonValue* place_of(JsonValue& scene, std::string_view path, std::uint32_t offse
       const auto read = std::from_chars(path.data() + begin + 1, path.data() + end, index);
       if (read.ec != std::errc() || read.ptr + 1 != path.data() + end || *read.ptr != ']') return report.no_path();
       if (!at->is(JsonKind::kArray) || index >= at->items().size())
-        return report(so_far, show(*at), "an item of a list that the scene has");
+        return report(so_far, show(*at), items_of(*at, path.substr(0, begin)));
       at = &at->items()[index];
     } else {
       if (path[begin] == '.' && begin > 0) ++begin;
@@ -372,11 +380,13 @@ Result<Assignment> parse_assignment(std::string_view words, std::string_view opt
     return fail(fmt::format("\"{}\" is not KEY=VALUE, as ice.thickness_m=0.7", words));
   const std::string_view value = words.substr(equals + 1);
   JsonDocument document = parse_json(value);
-  if (!document.faults.empty()) document.root.data = std::string(value);
+  const bool is_json = document.faults.empty();
+  if (!is_json) document.root = {std::string(value)};
   return Assignment{std::string(words.substr(0, equals)),
                     std::move(document.root),
                     0,
-                    {fmt::format("{} {}", option, words), 0, words.size()}};
+                    {fmt::format("{} {}", option, words), 0, words.size(),
+                     is_json ? std::nullopt : std::optional(std::string(value))}};
 }
 
 tl::expected<std::vector<Assignment>, Problem> parse_case(std::string_view text, const std::string& file, int line) {

@@ -341,6 +341,12 @@ class PilotCheck {
       return report_(
           "pilot.manage.width_m", fmt::format("{:g}", pilot.width),
           fmt::format("at most half a circle about the body, {:.4g} [m]", std::numbers::pi * pilot.distance));
+    // A ship does not go round a line that is shorter than itself, and looks ahead by 1.5 of its lengths.
+    const double length = size_of(ship_.hull).x;
+    if (pilot.pattern != Pattern::kLargestFloe && !(line_of(pilot).lap() >= length))
+      return report_("pilot.manage.width_m",
+                     fmt::format("{:g}: once round the pattern is {:.4g} m", pilot.width, line_of(pilot).lap()),
+                     fmt::format("a pattern that is at least as long as the ship, {:g} m", length));
     const double nearest = pilot.distance - 0.5 * pilot.depth;
     const double least = safety_radius(pilot, static_cast<std::size_t>(pilot.body_index));
     if (nearest < least)

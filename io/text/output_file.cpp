@@ -54,7 +54,7 @@ Result<OutputFile> OutputFile::create(const std::filesystem::path& path) {
   return OutputFile(std::move(descriptor), path.string());
 }
 
-Result<OutputFile> OutputFile::reopen(const std::filesystem::path& path, std::uint64_t size) {
+Result<OutputFile> OutputFile::reopen(const std::filesystem::path& path, const Checksum& then) {
   // Not blocking: a pipe without a reader is refused instead of waited for.
   Descriptor descriptor(::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (descriptor < 0) return failed_in_run_folder(path, errno);
@@ -62,13 +62,13 @@ Result<OutputFile> OutputFile::reopen(const std::filesystem::path& path, std::ui
   struct stat status {};
   if (::fstat(descriptor, &status) != 0) return refuse(std::strerror(errno));
   if (!S_ISREG(status.st_mode)) return refuse("not a regular file");
-  if (static_cast<std::uint64_t>(status.st_size) < size)
-    return refuse(fmt::format("{} bytes; there were {}", status.st_size, size));
-  const auto end = static_cast<off_t>(size);
+  if (static_cast<std::uint64_t>(status.st_size) < then.size())
+    return refuse(fmt::format("{} bytes; there were {}", status.st_size, then.size()));
+  const auto end = static_cast<off_t>(then.size());
   if (::ftruncate(descriptor, end) != 0 || ::lseek(descriptor, end, SEEK_SET) != end)
     return refuse(std::strerror(errno));
   OutputFile file(std::move(descriptor), path.string());
-  file.size_ = size;
+  file.written_ = then;
   return file;
 }
 
@@ -84,10 +84,10 @@ bool OutputFile::flush() {
     status_ = failed(name_, errno);
     const auto beyond = std::ranges::upper_bound(record_ends_, written);
     whole = beyond == record_ends_.begin() ? 0 : *(beyond - 1);
-    if (::ftruncate(descriptor_, static_cast<off_t>(size_ + whole)) != 0)
+    if (::ftruncate(descriptor_, static_cast<off_t>(written_.size() + whole)) != 0)
       status_.error() += "; its last record is cut short";
   }
-  size_ += whole;
+  written_.add(std::string_view(buffer_).substr(0, whole));
   drop();
   if (buffer_.capacity() > kMuchKept) {  // of the floes at the start: not as many come again
     buffer_.shrink_to_fit();

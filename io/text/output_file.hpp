@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/text/checksum.hpp"
 #include "io/text/source_text.hpp"
 
 namespace polynya::io {
@@ -40,9 +41,9 @@ class OutputFile {
  public:
   /// A new file; what had its name before, a link for example, is removed.
   static Result<OutputFile> create(const std::filesystem::path& path);
-  /// Opens a file that had that size [bytes] when it was last known to be whole: what is beyond is cut off. A
-  /// shorter file, and what is no regular file, is refused and left as it is.
-  static Result<OutputFile> reopen(const std::filesystem::path& path, std::uint64_t size);
+  /// Opens a file that had this checksum when it was last known to be whole, which the caller has compared: what is
+  /// beyond its size is cut off. A shorter file, and what is no regular file, is refused and left as it is.
+  static Result<OutputFile> reopen(const std::filesystem::path& path, const Checksum& then);
   OutputFile(OutputFile&&) noexcept = default;
   ~OutputFile();
 
@@ -56,7 +57,9 @@ class OutputFile {
   bool flush();
   /// Writes what is buffered and waits until it is on the disk.
   bool sync();
-  std::uint64_t size() const { return size_; }  ///< on disk [bytes]
+  std::uint64_t size() const { return written_.size(); }  ///< on disk [bytes]
+  /// Of what was written to the disk, as it was handed over: what a disk makes of it later differs from it.
+  const Checksum& checksum() const { return written_; }
   /// Whether the file still has its name: it was neither removed nor replaced.
   bool is_in_place() const { return is_still_at(descriptor_, name_); }
   const std::string& name() const { return name_; }
@@ -74,7 +77,7 @@ class OutputFile {
   std::string name_;
   std::string buffer_;
   std::vector<std::size_t> record_ends_;  ///< in the buffer
-  std::uint64_t size_ = 0;                ///< on disk [bytes]
+  Checksum written_;                      ///< of what is on disk
   Result<> status_;
 };
 

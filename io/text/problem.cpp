@@ -1,6 +1,8 @@
 #include "io/text/problem.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 
@@ -84,7 +86,8 @@ std::string nearest(std::string_view word, const std::vector<std::string_view>& 
       best = candidate;
     }
   }
-  const std::size_t near_enough = std::max<std::size_t>(2, word.size() / 3);
+  // Two edits make any word of four letters another: "with" is not meant by "watch".
+  const std::size_t near_enough = word.size() <= 4 ? 1 : std::max<std::size_t>(2, word.size() / 3);
   return least <= near_enough ? std::string(best) : "";
 }
 
@@ -109,6 +112,73 @@ void ProblemCollector::add_faults(std::size_t source, const std::vector<JsonFaul
   for (const JsonFault& fault : faults) add(source, fault.offset, fault);
 }
 
+namespace {
+
+/// A number as people write it (.05, 0,7, 5., +3, 007, 12 m) as JSON has it; empty where it is no number.
+std::string as_json_number(std::string_view text) {
+  std::string plain(trimmed(text));
+  if (plain.starts_with('+')) plain.erase(0, 1);
+  if (std::ranges::count(plain, ',') == 1 && plain.find('.') == std::string::npos)
+    std::ranges::replace(plain, ',', '.');
+  double value = 0;
+  const auto read = std::from_chars(plain.data(), plain.data() + plain.size(), value);
+  const std::string_view unit =
+      trimmed(std::string_view(plain).substr(static_cast<std::size_t>(read.ptr - plain.data())));
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '/'; };
+  if (read.ec != std::errc{} || !std::isfinite(value) || !std::ranges::all_of(unit, is_letter)) return "";
+  std::string json;
+  append_number(json, value);
+  return json;
+}
+
+/// A list of numbers as people write it, 1,2 or (1 2), as JSON has it; empty where it is none.
+std::string as_json_list(std::string_view text) {
+  std::string plain(text), json;
+  const auto is_between = [](char c) { return std::string_view("()[],; ").find(c) != std::string_view::npos; };
+  std::ranges::replace_if(plain, is_between, ' ');
+  std::string_view left = trimmed(plain);
+  while (!left.empty()) {
+    const std::string_view word = left.substr(0, left.find(' '));
+    const std::string number = as_json_number(word);
+    if (number.empty()) return "";
+    json += (json.empty() ? "[" : ", ") + number;
+    left = trimmed(left.substr(word.size()));
+  }
+  return json.empty() ? "" : json + "]";
+}
+
+/// What was meant by a text that is not JSON where `allowed` stands in its place; empty where that is not clear.
+std::string meant_by(std::string_view text, std::string_view allowed) {
+  std::string_view bare = trimmed(text);
+  for (const char quote : {'\'', '"', '`'})
+    if (bare.size() > 1 && bare.front() == quote && bare.back() == quote) bare = bare.substr(1, bare.size() - 2);
+  if (allowed.starts_with("true or false")) {
+    for (const std::string_view yes : {"True", "TRUE", "true", "yes", "Yes", "on", "1"})
+      if (bare == yes) return "true";
+    for (const std::string_view no : {"False", "FALSE", "false", "no", "No", "off", "0"})
+      if (bare == no) return "false";
+    return "";
+  }
+  return allowed.starts_with("[") || allowed.starts_with("a list") ? as_json_list(bare) : as_json_number(bare);
+}
+
+/// Says of a value on the command line that it is not JSON, and what to write.
+void explain_json(Problem& problem, const std::string& text) {
+  if (!problem.sentence.empty() || problem.found != show({text})) return;
+  const std::string meant = meant_by(text, problem.allowed);
+  if (meant.empty()) {
+    problem.found += ", which is not JSON and so is taken as a text";
+  } else {
+    const std::string_view kind = meant.starts_with('[')                ? "list"
+                                  : meant == "true" || meant == "false" ? "boolean"
+                                                                        : "number";
+    problem.sentence =
+        fmt::format("{} is not a JSON {}; write {}; allowed: {}", problem.found, kind, meant, problem.allowed);
+  }
+}
+
+}  // namespace
+
 std::uint32_t ProblemCollector::add_overlay(PlacedText text) {
   const std::size_t begin =
       overlays_.empty() ? sources_[0].text.size() + 1 : overlays_.back().begin + overlays_.back().text.length + 1;
@@ -124,6 +194,7 @@ void ProblemCollector::place(const Entry& entry, Problem& problem) const {
     problem.file = overlay.text.name;
     problem.line = overlay.text.line;
     problem.column = problem.line > 0 ? static_cast<int>(entry.offset - overlay.begin) + 1 : 0;
+    if (overlay.text.not_json) explain_json(problem, *overlay.text.not_json);
     return;
   }
   const auto place = line_and_column(source.text, entry.offset);

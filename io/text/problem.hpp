@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,9 +39,10 @@ std::string nearest(std::string_view word, const std::vector<std::string_view>& 
 
 /// A text beside a source, put in place of a part of it: an option of the command line, or a line of a file.
 struct PlacedText {
-  std::string name;        ///< as shown to people
-  int line = 0;            ///< in the file of that name; 0: the name alone is the place
-  std::size_t length = 0;  ///< [bytes]
+  std::string name;                          ///< as shown to people
+  int line = 0;                              ///< in the file of that name; 0: the name alone is the place
+  std::size_t length = 0;                    ///< [bytes]
+  std::optional<std::string> not_json = {};  ///< a value that is taken as a text because it is not JSON
 };
 
 /// Gathers everything wrong in a scene and in the files it names, so that it can be reported at once.

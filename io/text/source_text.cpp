@@ -45,7 +45,7 @@ std::string_view name_of(Severity severity) {
 std::string message_of(const Problem& problem) {
   if (!problem.sentence.empty()) return problem.sentence;
   constexpr std::size_t kLongestFound = 1000;  // [bytes]
-  std::string text = "found " + shortened(problem.found, kLongestFound);
+  std::string text = "found " + printable(shortened(problem.found, kLongestFound));
   if (!problem.allowed.empty()) text += ", allowed: " + problem.allowed;
   if (!problem.suggestion.empty()) text += fmt::format("; did you mean \"{}\"?", problem.suggestion);
   return text;
@@ -57,6 +57,38 @@ std::string to_string(const Problem& problem) {
   if (problem.severity != Severity::kError) text += fmt::format("{}: ", name_of(problem.severity));
   if (!problem.path.empty()) text += shortened(problem.path, kLongestPath) + ": ";
   return text + message_of(problem);
+}
+
+namespace {
+
+/// How many bytes the character at the start of a text takes in UTF-8; 0 where there is none.
+std::size_t character_size(std::string_view text) {
+  const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (byte(0) < 0x80) return 1;
+  const std::size_t size = byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
+  if (byte(0) < 0xC2 || byte(0) > 0xF4 || text.size() < size) return 0;
+  for (std::size_t i = 1; i < size; ++i)
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  // Overlong forms, surrogates and what is beyond U+10FFFF.
+  const bool is_wrong = (byte(0) == 0xE0 && byte(1) < 0xA0) || (byte(0) == 0xED && byte(1) > 0x9F) ||
+                        (byte(0) == 0xF0 && byte(1) < 0x90) || (byte(0) == 0xF4 && byte(1) > 0x8F);
+  return is_wrong ? 0 : size;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::string shown;
+  while (!text.empty()) {
+    const auto first = static_cast<unsigned char>(text[0]);
+    const std::size_t size = character_size(text);
+    if (size == 0 || first < 0x20 || first == 0x7F)
+      shown += fmt::format("\\x{:02x}", first);
+    else
+      shown += text.substr(0, size);
+    text.remove_prefix(std::max<std::size_t>(size, 1));
+  }
+  return shown;
 }
 
 std::string shortened(std::string_view text, std::size_t most) {

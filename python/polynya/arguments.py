@@ -143,7 +143,8 @@ class Parser(argparse.ArgumentParser):
             if self.actions_of:
                 return f"a command is missing\ncommands: {', '.join(commands)}"
             name = message.removeprefix("the following arguments are required: ").split(",")[0]
-            return next(f"{name} is missing: {a.help}" for a in self.arguments() if a.metavar == name)
+            asked = next(a for a in self.arguments() if name in (a.metavar, *a.option_strings))
+            return f"{name} is missing: {asked.help}"
         message = message.removeprefix("argument ").replace("not allowed with argument", "not allowed with")
         return re.sub(r": expected one argument$", " needs a value", message)
 

@@ -53,6 +53,15 @@ class InputError(Exception):
         return "\n".join(str(problem) for problem in self.problems)
 
 
+def how_to_get(*packages):
+    """How this Python gets packages that it lacks: Debian's Python by apt-get, one of a virtual environment, or from
+    elsewhere, by its own pip."""
+    is_debians = os.path.realpath(sys.executable) == os.path.realpath(DEBIANS) and sys.prefix == sys.base_prefix
+    if is_debians:
+        return "apt-get install " + " ".join(f"python3-{name}" for name in packages)
+    return f"{sys.executable} -m pip install {' '.join(packages)}"
+
+
 def missing_package(error):
     """Which Python has not what an ImportError asks for, and what to do; empty where it is a part of polynya itself."""
     name = (error.name or "").partition(".")[0]
@@ -60,11 +69,11 @@ def missing_package(error):
         return ""
     version = sys.version.split()[0]
     found = f"{sys.executable} (Python {version}) has no {name}" if name else f"{sys.executable}: {error}"
-    debians = "./setup.sh python, or apt-get install python3-numpy python3-scipy python3-matplotlib"
-    if os.path.realpath(sys.executable) == os.path.realpath(DEBIANS):
-        return f"{found}: {debians}"
-    other = f"{sys.executable} -m pip install {name}" if name else "repair it there"
-    return f"{found}: use {DEBIANS} (its packages: ./setup.sh python), or {other}"
+    own = how_to_get("numpy", "scipy", "matplotlib")
+    if own.startswith("apt-get"):
+        return f"{found}: ./setup.sh python, or {own}"
+    other = how_to_get(name) if name else "repair it there"
+    return f"{found}: {other}, or use {DEBIANS} (its packages: ./setup.sh python; POLYNYA_PYTHON names it)"
 
 
 def require(*packages):

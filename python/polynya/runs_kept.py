@@ -2,7 +2,8 @@
 import json
 import subprocess
 
-from .study.case import DONE, STOPPED, summary_of
+from .files import writing
+from .study.case import DONE, STOPPED, is_finished
 
 
 class RunFailed(Exception):
@@ -13,10 +14,10 @@ def kept_run(program, folder, name, scene):
     """The run's folder, folder/name; of a run that is there already, at once."""
     path, run = folder / (name + ".json"), folder / name
     text = json.dumps(scene, indent=1)
-    summary = summary_of(run)
-    if summary and summary["finished"] and path.exists() and path.read_text(encoding="utf-8") == text:
+    if is_finished(run) and path.is_file() and path.read_text(encoding="utf-8") == text:
         return run
-    path.write_text(text, encoding="utf-8")
+    with writing(path) as file:
+        file.write(text)
     done = subprocess.run(
         [program, "run", path, "--out", run, "--overwrite", "--progress", "none", "--threads", "1"],
         stdout=subprocess.DEVNULL,

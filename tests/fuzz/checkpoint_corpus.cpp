@@ -26,7 +26,7 @@ int main(int count, char** words) {
     checkpoint.program_version = "seed";
     checkpoint.course_hash = "0123456789abcdef";
     checkpoint.steps = until;
-    checkpoint.progress.file_sizes = {1, 2, 3, 4, 5, 6};
+    checkpoint.progress.files = {{1, 1}, {2, 2}, {3, 3}, {4, 4}, {5, 5}, {6, 6}};
     checkpoint.progress.recorded = {{0, {}}, {}};
     checkpoint.progress.peaks = {{.ship = "ship"}};
     checkpoint.state = simulation.state();

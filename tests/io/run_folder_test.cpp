@@ -174,7 +174,7 @@ TEST(Checkpoints, AreWrittenInPartsAsTheyAreInMemory) {
   const TemporaryFolder folder;
   Checkpoint checkpoint = checkpoint_at(7);
   checkpoint.program_version = "0.1.0";
-  checkpoint.progress.file_sizes = {1, 2, 3};
+  checkpoint.progress.files = {{1, 1}, {2, 2}, {3, 3}};
   checkpoint.progress.recorded.resize(100'000);
   for (std::size_t i = 0; i < checkpoint.progress.recorded.size(); ++i)
     checkpoint.progress.recorded[i].time = static_cast<double>(i);
@@ -288,7 +288,7 @@ TEST(OutputFile, WritesThroughNoLinkThatWasPutInItsWay) {
   grown->append("text\n");
   EXPECT_TRUE(grown->flush() && grown->is_in_place());
   EXPECT_EQ(read_file(folder / "grown"), "text\n");
-  EXPECT_HAS(tests::refused(OutputFile::reopen(folder / "cut", 0)), "cut: a link");
+  EXPECT_HAS(tests::refused(OutputFile::reopen(folder / "cut", Checksum())), "cut: a link");
   EXPECT_EQ(read_file(folder / "precious"), "years of work");
 }
 

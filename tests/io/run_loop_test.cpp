@@ -61,6 +61,15 @@ TEST(RunLoop, ReportsProgressAndFinishesTheFolder) {
   EXPECT_TRUE(std::ranges::is_sorted(times));
 }
 
+TEST(RunLoop, CountsBendsAndSplitsAsFractures) {
+  simulation::Counts counts;
+  counts.bends = 3;
+  counts.splits = 2;
+  counts.ground = 40;  // overlaps that became brash
+  counts.rejected_cuts = 1;
+  EXPECT_EQ(fractures_of(counts), 5);
+}
+
 TEST(RunLoop, AStoppedRunIsResumedToTheSameBytes) {
   const TemporaryFolder folder;
   const LoadedScene small = small_scene();

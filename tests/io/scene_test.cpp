@@ -223,7 +223,7 @@ TEST(SceneAssign, NamesTheOptionAndTheKeyOfWhatIsWrong) {
   for (const auto& [words, message] :
        {std::pair{"ice.thickness_m=-1", "ice.thickness_m: found -1, allowed: a number ≥ 0.001, ≤ 20 [m]"},
         {"ice.thicknes_m=1", "ice.thicknes_m: found an unknown key"},
-        {"floes[1].rectangle.size_m=3", "floes[1]: found a list of 1, allowed: an item of a list that the scene has"},
+        {"floes[1].rectangle.size_m=3", "floes[1]: found a list of 1, allowed: floes[0]"},
         {"ships[0].mass_kg=3", "ships: found nothing, allowed: a list that the scene has"},
         {"ice.thickness_m.x=3", "ice.thickness_m: found 0.5, allowed: an object, to have \"x\""},
         {"a..b=1", ""},
@@ -233,9 +233,37 @@ TEST(SceneAssign, NamesTheOptionAndTheKeyOfWhatIsWrong) {
         {"a]=1", ""}}) {
     EXPECT_BEGINS(to_string(refused(with_values({words})).front()), std::string("--set ") + words + ": " + message);
   }
-  EXPECT_HAS(in_words(with_values({"ice.thicknes_m=1"}).error()), "did you mean \"thickness_m\"?");
+  for (const auto& [words, meant] : {std::pair{"ice.thicknes_m=1", "thickness_m"},
+                                     {"thickness_m=1", "ice.thickness_m"},
+                                     {"until_s=1", "time.until_s"},
+                                     {"ice.until=1", "time.until_s"},
+                                     {"draught_m=1", "ships[0].hull.draught_m"}})
+    EXPECT_HAS(in_words(with_values({words}).error()), fmt::format("did you mean \"{}\"?", meant));
   EXPECT_FALSE(parse_assignment("no-value"));
   EXPECT_FALSE(parse_assignment("=3"));
+}
+
+TEST(SceneAssign, SaysWhatJsonWantsInPlaceOfWhatIsNotJson) {
+  const std::vector<std::pair<std::string, std::string>> all{
+      {"time.step_s=.05", "\".05\" is not a JSON number; write 0.05; allowed: a number ≥ 1e-05"},
+      {"time.step_s=0,07", "\"0,07\" is not a JSON number; write 0.07;"},
+      {"time.step_s=+0.05", "write 0.05;"},
+      {"time.step_s=05e-3", "write 0.005;"},
+      {"time.step_s=1.", "write 1;"},
+      {"time.step_s=0.05 s", "write 0.05;"},
+      {"time.step_s='0.05'", "write 0.05;"},
+      {"time.step_s=5%", "found \"5%\", which is not JSON and so is taken as a text, allowed: a number"},
+      {"time.step_s=NaN", "found \"NaN\", which is not JSON"},
+      {"time.step_s=", "found \"\", which is not JSON"},
+      {"fracture.resurface.enabled=False", "\"False\" is not a JSON boolean; write false; allowed: true or false"},
+      {"water.drift_m_per_s=.1,2", "\".1,2\" is not a JSON list; write [0.1, 2]; allowed: [x, y]"},
+      {"water.drift_m_per_s=(1 -2)", "write [1, -2];"},
+      {"ice=thickness_m:5",
+       "found \"thickness_m:5\", which is not JSON and so is taken as a text, allowed: an object"}};
+  for (const auto& [words, message] : all)
+    EXPECT_HAS(to_string(refused(with_values({words})).front()), "--set " + words + ": ", message);
+  // A text is a text, with quotes or without.
+  EXPECT_EQ(checked(with_values({"description=.05"}))->description, ".05");
 }
 
 /// Of two options, the problem of the second is the second's; what the scene itself has stays the scene's.

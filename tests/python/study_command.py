@@ -48,8 +48,8 @@ def gathered(study_folder):
 
 
 def files_of(case):
-    """What a case's run wrote, but for the times by the clock."""
-    found = {path.name: path.read_bytes() for path in (case / "run").iterdir()}
+    """What a case's run wrote, but for the times by the clock, and the checksums, which are of these too."""
+    found = {path.name: path.read_bytes() for path in (case / "run").iterdir() if path.name != "checksums.txt"}
     for name, content in (("summary.json", found["summary.json"]), ("case.json", (case / "case.json").read_bytes())):
         members = json.loads(content).items()
         found[name] = {k: v for k, v in members if k not in ("wall_time_s", "real_time_factor", "elapsed_s")}

@@ -80,6 +80,18 @@ def test_a_missing_package_is_one_line_with_what_to_do(words, tmp_path):
     assert re.search(expected, done.stderr)
 
 
+def test_a_virtual_environment_is_told_its_own_pip(tmp_path):
+    """Debian's packages cannot be seen from there."""
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "bin/python3").symlink_to(os.path.realpath(sys.executable))
+    (tmp_path / "pyvenv.cfg").write_text(f"home = {os.path.dirname(os.path.realpath(sys.executable))}\n"
+                                         "include-system-site-packages = false\n")
+    own = str(tmp_path / "bin/python3")
+    done = of_python(own, "-m", "polynya.command", "loads", "x", cwd=tmp_path)
+    assert done.returncode == 5 and "has no numpy: " in done.stderr
+    assert f": {own} -m pip install numpy, or use /usr/bin/python3 (its packages: ./setup.sh python" in done.stderr
+
+
 @pytest.mark.parametrize("code", ["polynya.Run('x')", "polynya.Study('x')", "polynya.require('numpy')", *EXAMPLES])
 def test_a_python_without_numpy_names_itself_and_what_to_do_an_example_in_one_line(code):
     done = of_python(*BARE, *([code] if code in EXAMPLES else ["-c", f"import polynya; {code}"]))

@@ -1,12 +1,13 @@
 """polynya loads: places, rates and their limits, fits and return values of samples that are known, and the command."""
 import dataclasses
 import json
+import resource
 
 import numpy
 import polynya
 import pytest
 import tail_coverage
-from program import ended, rows, run_of, succeeded
+from program import ended, rows, run_of, started, succeeded
 from polynya import loads
 from polynya.loads.gather import Case, Loads, Waterline
 
@@ -170,8 +171,16 @@ def test_the_command_writes_what_the_runs_hold(folder):
     page = (folder / "out/loads.html").read_text()
     for name in ("exceedance", "pressure-area", "along", "unrolled", "polar"):
         assert (folder / f"out/loads-{name}.png").stat().st_size > 5000 and f'src="loads-{name}.svg"' in page
+    succeeded("loads", "run", "--format", "svg", cwd=folder)
+    assert (folder / "run/loads/loads.html").is_file()
     wrong = ended("loads", "run", "--out", "out", "--ship", "nobody", cwd=folder)
     assert wrong.returncode == 2 and "no ship or structure is named nobody; it has: pile" in wrong.stderr
+
+
+def test_a_full_disk_is_told_with_the_name_of_the_file(folder):
+    limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
+    full = started("loads", "run", "--out", "full", cwd=folder, preexec_fn=limit)
+    assert full.returncode == 5 and full.stderr == "polynya loads: full/loads-peaks.csv: File too large\n"
 
 
 def test_a_study_of_several_kinds_is_answered_by_kind(tmp_path):

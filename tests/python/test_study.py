@@ -322,6 +322,12 @@ def test_a_folder_without_a_plan_and_a_study_not_planned_are_named(folder):
     assert f"polynya study plan {path}" in study("gather", path, code=5)
     study("plan", path, "--trial-seconds", 0)
     assert "there is no case 7" in study("run", path, "--case", 7, code=2)
+    plan = folder / "studies/s/plan.json"
+    for text, message in (('{"format": 99}', "of format 99; this polynya reads format 1"), ("[]", "not a JSON object"),
+                          ('{"format": 1}', '"name" is missing or of another kind'), ("{", "plan.json:1:2: not JSON")):
+        plan.write_text(text)
+        for words in (("plan", path, "--trial-seconds", 0), ("run", "studies/s"), ("gather", "studies/s")):
+            assert f"studies/s/plan.json" in (told := study(*words, code=5)) and message in told
     (folder / "full").mkdir()
     (folder / "full" / "x").touch()
     assert "not empty" in study("plan", path, "--out", "full", code=5)

@@ -10,6 +10,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
+from polynya.files import naming
+
 from . import options
 
 MM = 1 / 25.4  # [inch]
@@ -289,7 +291,8 @@ def save(figure, stem, formats, dots=300):
         try:
             with matplotlib.rc_context({"font.family": "DejaVu Sans", "pdf.fonttype": 42,
                                         "svg.fonttype": "path", "svg.hashsalt": "polynya"}):
-                figure.savefig(draft, format=suffix, dpi=dots, metadata=nothing)
+                with naming(path):
+                    figure.savefig(draft, format=suffix, dpi=dots, metadata=nothing)
             os.replace(draft, path)
         finally:
             if os.path.exists(draft):

@@ -3,6 +3,7 @@ import pathlib
 import sys
 
 from ..command import fail, run
+from ..files import writing
 
 COMMAND = "polynya loads"
 DONE, USAGE = 0, 2
@@ -26,14 +27,17 @@ def draw(loads, estimates, options, out):
 
 def report(options):
     from polynya.errors import InputError
+    from polynya.study.located_json import StudyError
 
     from . import estimate, gather, page, tables, words
 
     try:
         loads = gather(options.folder, options.ship, options.start, options.panel)
+    except StudyError:  # of a folder that is damaged, not of the words
+        raise
     except InputError as error:
         return fail(COMMAND, error, USAGE)
-    out = pathlib.Path(options.out)
+    out = pathlib.Path(options.out or pathlib.Path(options.folder) / "loads")
     out.mkdir(parents=True, exist_ok=True)
     estimates = tables.estimates_of(loads, options.least)
     answers = list(tables.answers_of(estimates, options))
@@ -47,7 +51,8 @@ def report(options):
     drawn = draw(loads, estimates, options, out)
     shown = [("Fits", list(page.fit_rows(estimates))), ("Panels", written["panels"])]
     made = page.page(loads, estimates, answers, options, shown, drawn)
-    (out / "loads.html").write_text(made, encoding="utf-8")
+    with writing(out / "loads.html") as file:
+        file.write(made)
     print(out / "loads.html")
     print(*words.lines_of(loads, estimates, answers, options.half_width), sep="\n")
     return DONE

@@ -3,7 +3,7 @@ from ..arguments import Parser, choice, choices, number, numbers
 from ..figures.options import FORMATS, STYLES
 
 EXAMPLES = (
-    "loads runs/sawamura2017-fig4b --out loads             tables, figures and loads.html",
+    "loads runs/sawamura2017-fig4b                         tables, figures and loads.html, in its folder loads",
     "loads studies/load-peaks --out loads --from 20        of all its cases, from 20 s of each on",
     "loads studies/load-peaks --out loads --returns 3,30   what is exceeded once in 3 h and in 30 h",
     "run scenes/level-plate.json --panel 2.5               records the loads of panels too",
@@ -17,7 +17,8 @@ def command_line():
     parser = Parser("polynya loads", "Peaks of the ice's force by place: statistics, return values, figures",
                     EXAMPLES, REST)
     parser.add("folder", "A run's folder, or a study's", metavar="RUN|STUDY")
-    parser.add("--out", "Folder for tables, figures and loads.html", required=True, metavar="DIR")
+    meaning = "Folder for tables, figures and loads.html; loads in the run's or study's folder if not given"
+    parser.add("--out", meaning, metavar="DIR")
     parser.add("--ship", "The ship or structure; the first one if not given", metavar="NAME")
     meaning = "Length of the panels by which peaks are counted [m]; the scene's, else 2.5, if not given"
     parser.add("--panel", meaning, type=number(0.1, 1000, "m"), metavar="M")

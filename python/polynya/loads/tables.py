@@ -2,6 +2,7 @@
 import csv
 import math
 
+from ..files import writing
 from . import estimate
 
 FIT_COLUMNS = ("shape", "scale_N")
@@ -58,7 +59,7 @@ def names_of(rows):
 
 
 def write_csv(path, rows):
-    with open(path, "w", newline="", encoding="utf-8") as file:
+    with writing(path, newline="") as file:
         writer = csv.DictWriter(file, names_of(rows), restval="", lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)

@@ -8,6 +8,7 @@ import sys
 
 
 from ..errors import InputError
+from ..files import writing
 from ..naming import names_of_folders
 from ..results.run import Run
 from ..study import folder as folders
@@ -82,12 +83,12 @@ def print_cases(cases):
 
 
 def write_tables(cases, folder):
-    with open(folder / "management.csv", "w", encoding="utf-8", newline="") as file:
+    with writing(folder / "management.csv", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(["run", *cases[0].measures])
         for case in cases:
             writer.writerow([case.name, *("" if value is None else value for value in case.measures.values())])
-    with open(folder / "management-sizes.csv", "w", encoding="utf-8", newline="") as file:
+    with writing(folder / "management-sizes.csv", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(["run", "gate", "from_m", "to_m", "floes", "area_m2"])
         for case in cases:

@@ -1,6 +1,7 @@
 """The ranking of patterns, as lines of text and as a table."""
 import csv
 
+from ..files import writing
 from . import ranking
 from .study import MEASURES, UNMANAGED
 
@@ -107,7 +108,7 @@ def lines_of(found):
 
 
 def write_ranking(found, path):
-    with open(path, "w", encoding="utf-8", newline="") as file:
+    with writing(path, newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["condition", "measure", "rank", "pattern", "fields", "mean", "half_of_95_percent",
                          "of_unmanaged", "of_unmanaged_low", "of_unmanaged_high", "less_by",
@@ -126,7 +127,7 @@ def write_ranking(found, path):
 
 def write_means(found, path):
     """Means of all measures, by condition and pattern."""
-    with open(path, "w", encoding="utf-8", newline="") as file:
+    with writing(path, newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["condition", "pattern", "measure", "fields", "mean", "half_of_95_percent"])
         for condition in found.conditions:

@@ -6,6 +6,8 @@ import os
 
 import numpy
 
+from polynya.files import naming
+
 from .encoder import SAMPLES, Encoder
 from .picture import Picture
 
@@ -63,8 +65,9 @@ def write_png(pixels, path):
     path = os.path.realpath(path)
     draft = os.path.join(os.path.dirname(path), f".{os.path.basename(path)}.{os.getpid()}.part")
     try:
-        image.imsave(draft, pixels, format="png")
-        os.replace(draft, path)
+        with naming(path):
+            image.imsave(draft, pixels, format="png")
+            os.replace(draft, path)
     finally:
         if os.path.exists(draft):
             os.remove(draft)

@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 from .. import formulas
+from ..files import writing
 from ..formulas import KNOT
 from ..program import program
 from ..runs_kept import RunFailed
@@ -134,7 +135,7 @@ def main():
             f"({point['speed_m_per_s'] / KNOT:.1f} kn), {point['source']}"
         )
     table = os.path.join(folder, "performance.csv")
-    with open(table, "w", encoding="utf-8", newline="") as file:
+    with writing(table, newline="") as file:
         writer = csv.DictWriter(file, rows[0].keys())
         writer.writeheader()
         writer.writerows(rows)

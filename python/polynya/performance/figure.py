@@ -4,6 +4,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
+from ..files import naming  # noqa: E402
 from ..formulas import KNOT  # noqa: E402
 from .curve import VALIDATED_THICKNESS  # noqa: E402
 
@@ -67,5 +68,6 @@ def draw(rows, title, reported, path):
     right = axes.secondary_yaxis("right", functions=(lambda v: v / KNOT, lambda v: v * KNOT))
     right.set_ylabel("[kn]")
     axes.legend(frameon=False, fontsize=7)
-    figure.savefig(path, dpi=200)
+    with naming(path):
+        figure.savefig(path, dpi=200)
     plt.close(figure)

@@ -10,9 +10,10 @@ from typing import Any
 import numpy
 
 from polynya.errors import FolderError
+from polynya.files import read_json
 from polynya.program import program
 
-from .tables import read_csv, read_json, table
+from .tables import read_csv, table
 
 
 @dataclasses.dataclass(frozen=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 import numpy
 
 from polynya.errors import FolderError, VersionError
+from polynya.files import read_bytes
 
 HEAD, FRAME_HEAD, SHIP, FLOE = 16, 24, 48, 56  # [bytes]
 VERSION = 1
@@ -14,8 +15,7 @@ class Motions:
     """The records of a run's frames: of ships x, y [m], heading [rad] and their rates, of floes likewise."""
 
     def __init__(self, path, floes):
-        with open(path, "rb") as file:
-            data = file.read()
+        data = read_bytes(path)
         if data[:8] != b"PLYNYFRM" or len(data) < HEAD:
             raise FolderError(f"{path}: not a file of frames")
         version = int.from_bytes(data[8:12], "little")

@@ -9,14 +9,15 @@ from typing import Any, Optional, Union
 import numpy
 
 from polynya.errors import FolderError, NotARunError, UnfinishedError, VersionError
+from polynya.files import check_run, read_json, read_json_lines
 
 from . import channel as channels
 from .hulls import first_motion, waterline
 from .motions import Motions, placed
 from .shapes import Shapes
-from .tables import NONE, event_columns, optional, read_csv, read_json, read_lines, table
+from .tables import NONE, event_columns, optional, read_csv, table
 
-VERSION = 5  # of run folders, kRunFolderVersion of io/run/summary.hpp
+VERSION = 6  # of run folders, kRunFolderVersion of io/run/summary.hpp
 
 
 class Run:
@@ -27,7 +28,8 @@ class Run:
     is the file's. Floes are shapely's polygons, or GeoJSON's where shapely is not installed (`shapely=` likewise).
 
     Raises NotARunError, UnfinishedError (but with `unfinished=True`, which reads what is there), VersionError, and
-    FolderError with the file where one is missing or damaged."""
+    FolderError with the file and the line where one is missing or damaged: the program reads the whole folder first, so
+    that this class reads nothing that `polynya inspect` would refuse."""
 
     def __init__(self, folder: Union[str, os.PathLike[str]], *, unfinished: bool = False,
                  pandas: Optional[bool] = None, shapely: Optional[bool] = None):
@@ -37,21 +39,33 @@ class Run:
             what = "has no scene.json" if self.folder.is_dir() else "is a file"
             what = what if self.folder.exists() else "does not exist"
             raise NotARunError(f"not a run folder: {self.folder} {what}")
+        try:
+            check_run(self.folder)
+        except FolderError:
+            self._check_version()
+            raise
+        self._check_version()
         self.scene: dict = read_json(self.folder / "scene.json")  #: with every default filled in
         self.summary: dict = read_json(self.folder / "summary.json")  #: how it went
-        if not isinstance(self.scene, dict) or not isinstance(self.summary, dict):
-            raise NotARunError(f"not a run folder: {self.folder}: scene.json and summary.json are objects")
-        self.version: int = self.summary.get("folder_version", 1)  #: of the folder
-        if not isinstance(self.version, int) or not 1 <= self.version <= VERSION:
-            raise VersionError(
-                f"{self.folder / 'summary.json'}: a run folder of version {self.version}; this polynya reads 1 to "
-                f"{VERSION}: read it with the "
-                f"polynya that wrote it ({self.summary.get('version', 'unknown')}), or run its scene.json again")
+        self.version: int = int(self.summary.get("folder_version", 1))  #: of the folder
         if not self.is_finished and not unfinished:
             stopped = self.summary.get("stopped_by")
             raise UnfinishedError(
                 f"{self.folder}: the run is not finished" + (f" (stopped by {stopped})" if stopped else "") +
                 f": polynya resume {self.folder} continues it; Run(folder, unfinished=True) reads what is there")
+
+    def _check_version(self):
+        """Refuses a folder that another version wrote, whatever else the program says of it."""
+        try:
+            summary = read_json(self.folder / "summary.json")
+        except FolderError:
+            return
+        version = summary.get("folder_version", 1)
+        if isinstance(version, (int, float)) and version not in range(1, VERSION + 1):
+            raise VersionError(
+                f"{self.folder / 'summary.json'}: a run folder of version {version:g}; this polynya reads 1 to "
+                f"{VERSION}: read it with the polynya that wrote it ({summary.get('version', 'unknown')}), or run its "
+                f"scene.json again")
 
     def __repr__(self):
         state = "" if self.is_finished else ", not finished"
@@ -180,7 +194,7 @@ class Run:
     @functools.cached_property
     def event_columns(self) -> dict[str, numpy.ndarray]:
         """The columns of `events`."""
-        return event_columns(read_lines(self.folder / "events.ndjson"))
+        return event_columns(read_json_lines(self.folder / "events.ndjson"))
 
     # Frames
 
@@ -212,11 +226,7 @@ class Run:
 
     @functools.cached_property
     def _lines(self):
-        lines = read_lines(self.folder / "floes.ndjson")
-        for i, line in enumerate(lines):
-            if line.get("floe_id") != i:
-                raise FolderError(f"{self.folder / 'floes.ndjson'}:{i + 1}: floes are not in the order of their ids")
-        return lines
+        return read_json_lines(self.folder / "floes.ndjson")
 
     @functools.cached_property
     def shapes(self) -> Shapes:

@@ -1,7 +1,6 @@
 """A study's folder read back."""
 from __future__ import annotations
 
-import csv
 import os
 import pathlib
 from typing import Any, Optional, Union
@@ -9,12 +8,13 @@ from typing import Any, Optional, Union
 import numpy
 
 from polynya.errors import FolderError, NotAStudyError, UnfinishedError, VersionError
+from polynya.files import is_number, numbers, read_cells
 from polynya.study import archive, folder as folders
-from polynya.study.gather import SUMMARY, TABLE
+from polynya.study.gather import SUMMARY, TABLE, read_summary
 from polynya.study.located_json import StudyError
 
 from .run import Run
-from .tables import number, read_json, table
+from .tables import table
 
 
 class Study:
@@ -39,7 +39,7 @@ class Study:
         if not (self.folder / SUMMARY).is_file() or not (self.folder / TABLE).is_file():
             raise FolderError(f"{self.folder}: the study has no table: polynya study gather {self.folder} makes it")
         self.plan: dict = self._study.plan  #: what was planned
-        self.summary: dict = read_json(self.folder / SUMMARY)  #: of the table: how many cases have which state
+        self.summary: dict = read_summary(self.folder)  #: of the table: how many cases have which state
         if not self.summary["is_complete"] and not unfinished:
             raise UnfinishedError(
                 f"{self.folder}: {self.summary['finished']} of {self.summary['cases']} cases are in the table: polynya "
@@ -73,10 +73,8 @@ class Study:
     def table(self) -> Any:
         """table.csv, a row a case: a pandas frame, or a structured array. Columns are numbers where all values are,
         else words; NaN where there is none."""
-        with open(self.folder / TABLE, newline="", encoding="utf-8") as file:
-            names, *rows = csv.reader(file)
-        cells = list(zip(*rows)) if rows else [()] * len(names)
-        return table({name: values_of(name, of) for name, of in zip(names, cells)}, self._pandas)
+        cells = read_cells(self.folder / TABLE)
+        return table({name: values_of(name, of, cells.path) for name, of in cells.items()}, self._pandas)
 
     def run(self, case: int, **options: Any) -> Run:
         """A case's run, where the study keeps runs (`keep`) and the case is not packed; options as those of Run."""
@@ -91,10 +89,9 @@ class Study:
         return Run(found, **{"pandas": self._pandas, **options})
 
 
-def values_of(name, cells):
+def values_of(name, cells, path):
     if name == "case":
-        return numpy.array([int(cell) for cell in cells], dtype=numpy.int64)
-    try:
-        return numpy.array([number(cell) for cell in cells], dtype=float)
-    except ValueError:
+        return numpy.array(numbers(cells, path, name, absent=()), dtype=numpy.int64)
+    if not all(cell == "" or is_number(cell) for cell in cells):
         return numpy.array(cells, dtype=object)
+    return numpy.array(numbers(cells, path, name), dtype=float)

@@ -1,15 +1,15 @@
 """Columns of files, and the tables they become: pandas' frames, or numpy's structured arrays."""
 from __future__ import annotations
 
-import csv
 import importlib
-import json
 
 import numpy
 
-from polynya.errors import FolderError
+from polynya import files
+from polynya.errors import FolderError, how_to_get
 
 NONE = -1  #: the id of no floe
+LARGEST_WHOLE = 2.0**53
 WORDS = {"ship", "by_ship", "state_hash", "ended_by"}
 WHOLE = {"floe_id", "by_floe_id", "steps", "station", "contacts", "contacts_with_ships", "rams", "panel", "row"}
 
@@ -23,8 +23,8 @@ def optional(name, wanted):
         return importlib.import_module(name)
     except ImportError as error:
         if wanted:
-            package = {"pandas": "python3-pandas", "shapely.geometry": "python3-shapely"}[name]
-            raise ImportError(f"{name} is wanted and not installed: apt-get install {package} ({error})") from error
+            package = name.partition(".")[0]
+            raise ImportError(f"{package} is wanted and not installed: {how_to_get(package)} ({error})") from error
         return None
 
 
@@ -41,70 +41,24 @@ def table(columns, pandas=None):
     return rows
 
 
-def whole_lines(path):
-    """The lines of a file; a last one that is cut short is left out."""
-    try:
-        with open(path, encoding="utf-8", newline="") as file:
-            text = file.read()
-    except FileNotFoundError:
-        raise FolderError(f"{path}: is not there") from None
-    return text[: text.rfind("\n") + 1].splitlines()
-
-
-def number(text):
-    return float(text) if text not in ("", "null") else numpy.nan
-
-
-def column(name, cells):
+def column(name, cells, path):
     """The values of a column, by its name (docs/run-folder.md): words, whole numbers (-1 where there is none), yes or
     no, else numbers."""
     if name in WORDS:
         return numpy.array(cells, dtype=object)
+    values = numpy.array(files.numbers(cells, path, name), dtype=float)
     if name in WHOLE:
-        return numpy.array([int(cell) if cell else NONE for cell in cells], dtype=numpy.int64)
-    if name.startswith(("is_", "has_")):
-        return numpy.array([cell == "1" for cell in cells], dtype=bool)
-    try:
-        return numpy.fromiter(map(float, cells), float, len(cells))
-    except ValueError:  # some are empty, or null
-        return numpy.array([number(cell) for cell in cells], dtype=float)
+        values = numpy.where(numpy.isnan(values), NONE, values)
+        wrong = numpy.flatnonzero((values != numpy.floor(values)) | (numpy.abs(values) > LARGEST_WHOLE))
+        if len(wrong):
+            raise FolderError(f"{path}:{wrong[0] + 2}: {name}: found {cells[wrong[0]]}, allowed: a whole number")
+        return values.astype(numpy.int64)
+    return values == 1 if name.startswith(("is_", "has_")) else values
 
 
 def read_csv(path):
     """The columns of a run's table by name, each number as it is in the file."""
-    lines = whole_lines(path)
-    if not lines:
-        raise FolderError(f"{path}: has no header")
-    names, *rows = csv.reader(lines)
-    for i, row in enumerate(rows):
-        if len(row) != len(names):
-            raise FolderError(f"{path}:{i + 2}: {len(row)} cells below a header of {len(names)}")
-    cells = list(zip(*rows)) if rows else [()] * len(names)
-    try:
-        return {name: column(name, of) for name, of in zip(names, cells)}
-    except ValueError as error:
-        raise FolderError(f"{path}: {error}") from None
-
-
-def read_lines(path):
-    """The objects of a file of JSON lines."""
-    found = []
-    for i, line in enumerate(whole_lines(path)):
-        try:
-            found.append(json.loads(line))
-        except ValueError as error:
-            raise FolderError(f"{path}:{i + 1}: {error}") from None
-    return found
-
-
-def read_json(path):
-    try:
-        with open(path, encoding="utf-8") as file:
-            return json.load(file)
-    except FileNotFoundError:
-        raise FolderError(f"{path}: is not there") from None
-    except ValueError as error:
-        raise FolderError(f"{path}: {error}") from None
+    return files.Columns({name: column(name, cells, path) for name, cells in files.read_cells(path).items()}, path)
 
 
 FIRST = {"t_s": float, "kind": str, "ship": str, "by_ship": str, "floe": int, "parent": int,

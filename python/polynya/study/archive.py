@@ -5,7 +5,8 @@ import os
 import shutil
 import tarfile
 
-from .case import state_of
+from ..files import naming, open_regular
+from .case import is_result, state_of
 from .located_json import StudyError
 
 ROWS = "results.ndjson"  # first in an archive: the results of its cases, a line each
@@ -37,7 +38,7 @@ def pack(study, chunk):
 
 
 def write_archive(study, chunk, draft, results):
-    with open(draft, "wb") as file:
+    with naming(draft), open(draft, "wb") as file:
         with tarfile.open(fileobj=file, mode="w") as tar:
             info = tarfile.TarInfo(ROWS)
             info.size = len(results)
@@ -54,7 +55,7 @@ def unpack(study, chunk):
     home = study.chunk_folder(chunk) if study.chunk_size > 1 else study.folder / "cases"
     remove_folders(study, chunk)
     draft = study.archive(chunk).with_suffix(f".{os.getpid()}.tmp")
-    with tarfile.open(study.archive(chunk), "r") as tar:
+    with open_regular(study.archive(chunk)) as file, tarfile.open(fileobj=file, mode="r:") as tar:
         tar.extractall(draft)
     (draft / ROWS).unlink()
     home.mkdir(exist_ok=True)
@@ -92,13 +93,13 @@ def remove_folders(study, chunk):
 def results_of(study, chunk):
     """The results of a packed chunk's cases, in order."""
     try:
-        with tarfile.open(study.archive(chunk), "r") as tar:
+        with open_regular(study.archive(chunk)) as file, tarfile.open(fileobj=file, mode="r:") as tar:
             first = tar.next()  # extractfile(ROWS) would go through all of it
             text = tar.extractfile(first).read().decode() if first is not None and first.name == ROWS else ""
             results = [json.loads(line) for line in text.splitlines()]
-            if len(results) == len(study.cases_of(chunk)) and all("state" in result for result in results):
+            if len(results) == len(study.cases_of(chunk)) and all(map(is_result, results)):
                 return results
-    except (tarfile.TarError, ValueError, TypeError):
+    except (tarfile.TarError, ValueError, TypeError, OSError):
         pass
     raise StudyError(f"{study.archive(chunk)}: damaged, or no study's; remove it to run its cases again", 5)
 

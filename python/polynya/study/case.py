@@ -9,6 +9,8 @@ import signal
 import subprocess
 import time
 
+from .. import files
+from ..errors import FolderError
 from ..program import program
 
 from . import measures
@@ -31,13 +33,21 @@ def die_with_parent(number):
 
 def state_of(folder):
     """\"finished\", \"failed\", \"unfinished\" or \"missing\", and the result where there is one."""
-    try:
-        result = json.loads((folder / RESULT).read_text(encoding="utf-8"))
-        return result["state"], result
-    except FileNotFoundError:
+    if not (folder / RESULT).exists():
         return ("unfinished" if (folder / RUN).exists() else "missing"), None
-    except (OSError, ValueError, KeyError):
+    try:
+        result = files.read_json(folder / RESULT)
+    except FolderError:
         return "unfinished", None
+    return (result["state"], result) if is_result(result) else ("unfinished", None)
+
+
+def is_result(result):
+    """Whether a value read from a file is the result of a case."""
+    if not isinstance(result, dict):
+        return False
+    kinds = {"finished": {"measures": dict}, "failed": {"message": str}}.get(result.get("state"))
+    return kinds is not None and all(isinstance(result.get(key), kind) for key, kind in kinds.items())
 
 
 def run_case(study, number, stop=None, keep=None):
@@ -67,8 +77,7 @@ def carry(study, number, folder, lock, stop, keep):
     """Runs or resumes, then measures and writes the result."""
     run, began = folder / RUN, time.monotonic()
     (folder / RESULT).unlink(missing_ok=True)
-    summary = summary_of(run)
-    if not (summary and summary["finished"]):
+    if not is_finished(run):
         code, words = run_program(command_of(study, number, run), lock, stop)
         if code == STOPPED:
             return STOPPED, f"case {number}: stopped; it continues from its checkpoint"
@@ -79,21 +88,14 @@ def carry(study, number, folder, lock, stop, keep):
             return STOPPED, f"case {number}: killed by signal {-code}; it continues from its newest checkpoint"
         if code != DONE:
             return failed(study, number, folder, code, words)
-        summary = summary_of(run)
     try:
         found = measures.measure(run, study.plan["collect"], program())
+        summary = files.read_json(run / "summary.json")
+        kept = {key: summary[key] for key in ("version", "scene_hash", "warnings", "wall_time_s")}
     except (OSError, ValueError, KeyError) as error:
         return failed(study, number, folder, INPUT_OUTPUT, f"its measures: {error}")
-    result = {
-        "state": "finished",
-        **case_in_words(study, number),
-        "measures": found,
-        "version": summary["version"],
-        "scene_hash": summary["scene_hash"],
-        "warnings": summary["warnings"],
-        "wall_time_s": summary["wall_time_s"],
-        "elapsed_s": round(time.monotonic() - began, 3),
-    }
+    elapsed = round(time.monotonic() - began, 3)
+    result = {"state": "finished", **case_in_words(study, number), "measures": found, **kept, "elapsed_s": elapsed}
     write_atomically(folder / RESULT, json.dumps(result) + "\n")
     if keep == "summary":
         shutil.rmtree(run, ignore_errors=True)
@@ -111,7 +113,7 @@ def failed(study, number, folder, code, words):
     """Records a failure that another try would repeat. What the machine is to blame for, a full disk or too little
     memory, leaves the case unfinished."""
     words = words.strip()[-KEPT_WORDS:] or f"exit code {code}"
-    is_killed = code > 0 and (summary_of(folder / RUN) or {}).get("stopped_by") == KILLED
+    is_killed = code > 0 and summary_of(folder / RUN).get("stopped_by") == KILLED
     if code == INPUT_OUTPUT or is_killed:
         return code, f"case {number}: {gist(words)}"
     result = {"state": "failed", **case_in_words(study, number), "exit_code": code, "message": words}
@@ -127,10 +129,15 @@ def gist(words):
 
 
 def summary_of(run):
+    """The summary of a run; empty where it cannot be read."""
     try:
-        return json.loads((run / "summary.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return None
+        return files.read_json(run / "summary.json")
+    except FolderError:
+        return {}
+
+
+def is_finished(run):
+    return summary_of(run).get("finished") is True
 
 
 def command_of(study, number, run):

@@ -1,10 +1,8 @@
 """A small multiple of channels: the ice and the ships at the end of some runs."""
-import json
-import math
-
 from matplotlib.collections import PolyCollection
 
 from ..figures.page import Page, Sheet, plain
+from ..results.run import Run
 from .folder import RUN
 from .measures import rows_by_ship
 from .pictures import group_label, save
@@ -23,7 +21,7 @@ def choose(study, sample, group_by, count):
 
 
 def is_kept(study, number):
-    return (study.case_folder(number) / RUN / "final.geojson").exists()
+    return (study.case_folder(number) / RUN / "frames.bin").exists()
 
 
 def draw(study, sample, numbers, group_by, folder):
@@ -52,39 +50,15 @@ def draw(study, sample, numbers, group_by, folder):
         return save(sheet.finish(max(10.0, panel) * rows, is_snug=True), folder, "channels")
 
 
-def read_end(run):
+def read_end(folder):
     """The rings of the ice at the end of a run, and its ships: track and waterline in the world."""
-    features = json.loads((run / "final.geojson").read_text(encoding="utf-8"))["features"]
-    scene = json.loads((run / "scene.json").read_text(encoding="utf-8"))
-    rows = rows_by_ship(run / "forces.csv")
-    ships = []
-    for ship in scene["ships"]:
-        columns = rows.get(ship["name"])
-        if columns:
-            at = columns["x_m"][-1], columns["y_m"][-1], math.radians(columns["heading_deg"][-1])
-            track = list(zip(columns["x_m"], columns["y_m"]))
-            ships.append({"track": track, "hull": placed(waterline(ship["hull"]), *at)})
-    return {"rings": [ring for feature in features for ring in outer_rings(feature["geometry"])], "ships": ships}
-
-
-def outer_rings(shape):
-    polygons = [shape["coordinates"]] if shape["type"] == "Polygon" else shape["coordinates"]
-    return [polygon[0] for polygon in polygons]
-
-
-def waterline(hull):
-    """A resolved scene's waterline, in the ship's frame; a wedge bow as `wedge_bow_waterline` of
-    simulation/world/scene.cpp."""
-    if "waterline_m" in hull:
-        return hull["waterline_m"]
-    length, half = hull["length_m"], hull["beam_m"] / 2
-    shoulder = length / 2 - half / math.tan(math.radians(hull["entrance_angle_deg"]))
-    return [[length / 2, 0], [shoulder, half], [-length / 2, half], [-length / 2, -half], [shoulder, -half]]
-
-
-def placed(ring, x, y, heading):
-    c, s = math.cos(heading), math.sin(heading)
-    return [[x + c * a - s * b, y + s * a + c * b] for a, b in ring]
+    run = Run(folder, unfinished=True, pandas=False, shapely=False)
+    frame, rows = run.frame(run.end_time), rows_by_ship(run.folder / "forces.csv")
+    names = [ship["name"] for ship in run.scene["ships"]]
+    ships = [{"track": list(zip(rows[name]["x_m"], rows[name]["y_m"])), "hull": frame.hulls[name]}
+             for name in names if name in rows]
+    floating = [rings for rings, is_under in zip(frame.rings, frame.is_under) if not is_under]
+    return {"rings": [rings[0] for rings in floating], "ships": ships}
 
 
 def draw_end(axes, end):

@@ -12,8 +12,11 @@ import json
 import os
 import pathlib
 import struct
+import zlib
 
-from .located_json import StudyError
+from .. import files
+from ..errors import FolderError
+from .located_json import StudyError, shown
 
 PLAN, CASES, INDEX = "plan.json", "cases.ndjson", "cases.index"
 FORMAT = 1
@@ -60,43 +63,64 @@ class Study:
 
     def case(self, number):
         """The scene's file and all values of one case, by one read of 8 bytes and one of a line."""
-        with open(self.folder / INDEX, "rb") as index, open(self.folder / CASES, "rb") as cases:
+        with files.open_regular(self.folder / INDEX) as index, files.open_regular(self.folder / CASES) as cases:
             index.seek(8 * number)
             offset = index.read(8)
             cases.seek(struct.unpack("<Q", offset)[0] if len(offset) == 8 else 0, 0 if len(offset) == 8 else 2)
-            return self._whole(cases.readline())
+            return self._whole(cases.readline(), number)
 
     def all_cases(self):
         """Scene and values of every case, in order."""
-        with open(self.folder / CASES, "rb") as cases:
-            for line in cases:
-                yield self._whole(line)
+        with files.open_regular(self.folder / CASES) as cases:
+            for number, line in enumerate(cases):
+                yield self._whole(line, number)
 
-    def _whole(self, line):
+    def _whole(self, line, number):
+        """Scene and values of a case, by its line of cases.ndjson."""
         try:
             case = json.loads(line)
             return self.folder / self.plan["scenes"][case["scene"]], {**self.plan["set"], **case["set"]}
         except (ValueError, LookupError, TypeError):
-            raise StudyError(f"{self.folder / CASES}: damaged; remove the folder and plan the study again", 5) from None
+            raise StudyError(f"{self.folder / CASES}:{number + 1}: damaged; remove the folder and plan the study again",
+                             5) from None
 
 
 def open_study(given):
     """The planned study of a folder, or of a study's file, which is planned as studies/<name>."""
     folder = planned_folder(given)
-    try:
-        plan = json.loads((folder / PLAN).read_text(encoding="utf-8"))
-    except FileNotFoundError:
+    if not (folder / PLAN).exists():
         hint = f"polynya study plan {given}" if folder != pathlib.Path(given) else "polynya study plan FILE"
-        raise StudyError(f"{folder}: no study is planned there; plan it: {hint}", 5) from None
-    except (OSError, ValueError) as error:
-        raise StudyError(f"{folder / PLAN}: {error}", 5) from None
-    damaged = [key for key, kind in KEYS.items() if not isinstance(plan, dict) or not isinstance(plan.get(key), kind)]
-    if damaged or plan["cases"] < 0 or plan["chunk"] < 1:
-        what = f'"{damaged[0]}" is missing or of another kind' if damaged else "its numbers are none of a study"
+        raise StudyError(f"{folder}: no study is planned there; plan it: {hint}", 5)
+    return Study(folder, read_plan(folder))
+
+
+def read_plan(folder):
+    """The plan of a planned study's folder."""
+    try:
+        plan = files.read_json(folder / PLAN)
+    except FolderError as error:
+        raise StudyError(str(error), 5) from None
+    if plan.get("format") != FORMAT:
+        raise StudyError(f"{folder / PLAN}: of format {shown(plan.get('format'))}; this polynya reads format {FORMAT}: "
+                         f"read it with the polynya that wrote it, or choose another folder (--out)", 5)
+    damaged = [key for key, kind in KEYS.items() if not isinstance(plan.get(key), kind)]
+    is_changed = plan.get("crc32") not in (None, checksum_of(plan))  # plans of older versions have none
+    if damaged or is_changed or plan["cases"] < 0 or plan["chunk"] < 1:
+        what = f'"{damaged[0]}" is missing or of another kind' if damaged else "it is not as it was written"
         raise StudyError(f"{folder / PLAN}: damaged, {what}; remove the folder and plan the study again", 5)
-    if plan["format"] != FORMAT:
-        raise StudyError(f"{folder / PLAN}: of format {plan.get('format')}; this polynya reads format {FORMAT}", 5)
-    return Study(folder, plan)
+    return plan
+
+
+def write_plan(folder, plan):
+    """Writes the plan with its checksum: what it holds was checked when the study was planned, and not again."""
+    plan["crc32"] = checksum_of(plan)
+    write_atomically(folder / PLAN, json.dumps(plan, indent=1) + "\n")
+
+
+def checksum_of(plan):
+    """The CRC-32 of a plan without its checksum, in hexadecimal digits."""
+    rest = {key: value for key, value in plan.items() if key != "crc32"}
+    return f"{zlib.crc32(json.dumps(rest, sort_keys=True).encode()):08x}"
 
 
 def planned_folder(given):
@@ -111,11 +135,12 @@ def planned_folder(given):
 def write_atomically(path, text):
     """Replaces a file: a reader, or a kill, finds the old one or the new one whole."""
     draft = path.with_name(path.name + f".{os.getpid()}.tmp")
-    with open(draft, "w", encoding="utf-8") as file:
-        file.write(text)
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(draft, path)
+    with files.naming(path):
+        with files.writing(draft) as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(draft, path)
 
 
 def counted(count, noun):

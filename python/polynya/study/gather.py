@@ -5,6 +5,8 @@ import json
 import os
 import sys
 
+from ..errors import FolderError, how_to_get
+from ..files import naming, read_cells, read_json, writing
 from . import archive
 from .case import DONE, FAILED, STOPPED, gist
 from .folder import counted, list_of_numbers, write_atomically
@@ -45,6 +47,20 @@ def gather(study):
     return DONE if summary["is_complete"] else FAILED if rest.by_state["failed"] else STOPPED
 
 
+KINDS = {"cases": int, "is_complete": bool, "finished": int, "parameters": list, "columns": list}  # of gather.json
+
+
+def read_summary(folder):
+    """What gather.json states of the table."""
+    summary = read_json(folder / SUMMARY)
+    wrong = [key for key, kind in KINDS.items() if not isinstance(summary.get(key), kind)]
+    names = [] if wrong else [*summary["parameters"], *summary["columns"]]
+    if wrong or not all(isinstance(name, str) for name in names):
+        what = f'"{wrong[0]}" is missing or of another kind' if wrong else "a name is not a text"
+        raise FolderError(f"{folder / SUMMARY}: damaged, {what}: polynya study gather {folder} writes it again")
+    return summary
+
+
 @dataclasses.dataclass
 class Rest:
     """What a table does not have: cases that are not finished, and measures that its header lacks."""
@@ -71,7 +87,7 @@ def write_table(study, measures):
     """A row for each case. One without a result has its parameters, its state and nothing else."""
     rest, parameters, known = Rest(), parameter_columns(study), set(measures)
     draft = study.folder / (TABLE + ".tmp")
-    with open(draft, "w", newline="", encoding="utf-8") as file:
+    with writing(draft, newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["case", "state", *parameters, *measures])
         for (number, state, result), (scene, values) in zip(archive.all_states(study), study.all_cases()):
@@ -132,16 +148,15 @@ def write_netcdf(study, summary):
         import numpy
         import xarray
     except ImportError as error:
-        return f"{error.name} is not installed (apt-get install python3-xarray python3-netcdf4)"
-    with open(study.folder / TABLE, newline="", encoding="utf-8") as file:
-        names, *rows = csv.reader(file)
+        return f"{error.name} is not installed ({how_to_get('xarray', 'netcdf4')})"
     variables = {}
-    for name, values in zip(names, zip(*rows)):
+    for name, values in read_cells(study.folder / TABLE).items():
         try:
             data = numpy.array([float(value) if value else numpy.nan for value in values])
         except ValueError:
             data = numpy.array(values, dtype=object)
         variables[name] = ("case", data.astype(int) if name == "case" else data)
     attributes = {"study": study.plan["name"], "is_complete": int(summary["is_complete"])}
-    xarray.Dataset(variables, attrs=attributes).set_coords("case").to_netcdf(path, engine="netcdf4")
+    with naming(path):
+        xarray.Dataset(variables, attrs=attributes).set_coords("case").to_netcdf(path, engine="netcdf4")
     return None

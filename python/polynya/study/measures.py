@@ -1,9 +1,10 @@
 """What is measured of one finished run, from what it writes (docs/run-folder.md). Plain Python: a job needs little
 memory."""
-import csv
 import json
 import math
 import subprocess
+
+from .. import files
 
 LOADS = ("surge_N", "sway_N", "yaw_Nm")
 QUANTILES = (0.5, 0.9, 0.99)
@@ -13,7 +14,8 @@ TEXT_COLUMNS = {"ship"}
 
 def measure(run, collect, program):
     """Measures of a finished run by name, all the same for the same run on any machine; None where there are none."""
-    summary = json.loads((run / "summary.json").read_text(encoding="utf-8"))
+    files.check_run(run)
+    summary = files.read_json(run / "summary.json")
     counts = summary["counts"]
     ships = rows_by_ship(run / "forces.csv")
     ship = collect.get("ship") or next(iter(ships), None)
@@ -43,19 +45,15 @@ def measure(run, collect, program):
 
 def rows_by_ship(path):
     """The columns of forces.csv by ship: name -> values."""
-    ships = {}
-    with open(path, newline="", encoding="utf-8") as file:
-        reader = csv.reader(file)
-        header = next(reader)
-        at = header.index("ship")
-        for row in reader:
-            ships.setdefault(row[at], []).append(row)
+    cells, rows = files.read_cells(path), {}
+    for row, ship in enumerate(cells["ship"]):
+        rows.setdefault(ship, []).append(row)
+    columns = {
+        name: values if name in TEXT_COLUMNS else files.numbers(values, path, name) for name, values in cells.items()
+    }
     return {
-        ship: {
-            name: values if name in TEXT_COLUMNS else [float(value) for value in values]
-            for name, values in zip(header, zip(*rows))
-        }
-        for ship, rows in ships.items()
+        ship: files.Columns({name: [values[row] for row in own] for name, values in columns.items()}, path)
+        for ship, own in rows.items()
     }
 
 
@@ -169,11 +167,9 @@ def outcome(found, columns, collect):
 
 def fractures_of(path, ship):
     kinds = {"bend": 0, "split": 0}
-    with open(path, encoding="utf-8") as file:
-        for line in file:
-            event = json.loads(line)
-            if event["kind"] in kinds and event["ship"] == ship:
-                kinds[event["kind"]] += 1
+    for event in files.read_json_lines(path):
+        if event["kind"] in kinds and event["ship"] == ship:
+            kinds[event["kind"]] += 1
     return {"bends": kinds["bend"], "splits": kinds["split"]}
 
 

@@ -11,11 +11,12 @@ import sys
 import tempfile
 import time
 
+from ..files import naming, read_text, writing
 from ..program import program
 from . import trial
 from .definition import LARGEST_SEED, read_definition
 from .expand import count_cases, expand, repeats_by_seed, varied_paths
-from .folder import CASES, FORMAT, INDEX, PLAN, Study, list_of_numbers, write_atomically
+from .folder import CASES, FORMAT, INDEX, PLAN, Study, list_of_numbers, read_plan, write_atomically, write_plan
 from .located_json import Problem, StudyError, read_json
 
 MOST_TASKS = 1000  # of an array; Slurm's MaxArraySize is 1001 where a cluster does not raise it
@@ -44,14 +45,14 @@ def plan_study(file, options):
     folder.mkdir(parents=True, exist_ok=True)
     draft = pathlib.Path(tempfile.mkdtemp(prefix=".plan-", dir=folder))
     try:
-        return write_plan(definition, folder, draft, lines, old, expanded, options)
+        return write_study(definition, folder, draft, lines, old, expanded, options)
     finally:
         shutil.rmtree(draft, ignore_errors=True)
         if not was_there and not (folder / PLAN).exists():
             shutil.rmtree(folder, ignore_errors=True)
 
 
-def write_plan(definition, folder, draft, lines, old, expanded, options):
+def write_study(definition, folder, draft, lines, old, expanded, options):
     """Checks the cases and writes the folder; where the same is planned there, nothing. Scenes are copied into the
     draft first: what a refused plan would change stays as it is."""
     count, text = len(lines), "".join(lines)
@@ -84,7 +85,7 @@ def write_plan(definition, folder, draft, lines, old, expanded, options):
     shutil.rmtree(folder / "scenes", ignore_errors=True)
     os.rename(draft / "scenes", folder / "scenes")
     write_cases(folder, lines)
-    write_atomically(folder / PLAN, json.dumps(new, indent=1) + "\n")
+    write_plan(folder, new)
     study = Study(folder, new)
     if options.trial_seconds > 0:
         trial.estimate(study, options.trial_seconds, options.jobs)
@@ -92,15 +93,13 @@ def write_plan(definition, folder, draft, lines, old, expanded, options):
 
 
 def plan_in(folder):
-    try:
-        return json.loads((folder / PLAN).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return None
+    """The plan that a folder has already, or none."""
+    return read_plan(folder) if (folder / PLAN).exists() else None
 
 
 def is_same(old, new, folder, text):
-    same = {"source": None, "estimate": None}
-    return {**old, **same} == {**new, **same} and (folder / CASES).read_text(encoding="utf-8") == text
+    same = {"source": None, "estimate": None, "crc32": None}
+    return {**old, **same} == {**new, **same} and read_text(folder / CASES) == text
 
 
 def refuse_other_cases(old, new, folder, text):
@@ -109,8 +108,8 @@ def refuse_other_cases(old, new, folder, text):
     if old is None:
         return
     kept = ("set", "scenes", "inputs", "collect", "chunk", "archive")
-    differs = [key for key in kept if old[key] != new[key]]
-    if not differs and text.startswith((folder / CASES).read_text(encoding="utf-8")):
+    differs = [key for key in kept if old.get(key) != new[key]]
+    if not differs and text.startswith(read_text(folder / CASES)):
         return
     cases = folder / "cases"
     if any(found for pattern in ("*/case.json", "*/*/case.json", "*.tar") for found in cases.glob(pattern)):
@@ -193,8 +192,9 @@ def write_cases(folder, lines):
         at += len(line.encode())
     write_atomically(folder / CASES, "".join(lines))
     draft = folder / (INDEX + ".tmp")
-    draft.write_bytes(b"".join(offsets))
-    os.replace(draft, folder / INDEX)
+    with naming(folder / INDEX):
+        draft.write_bytes(b"".join(offsets))
+        os.replace(draft, folder / INDEX)
 
 
 def is_seed(path):
@@ -238,7 +238,8 @@ def check_scene(scene, name, groups, problems):
         def check(part):
             mine = groups[part::parts]
             file = pathlib.Path(work) / f"cases-{part}.ndjson"
-            file.write_text("".join(text + "\n" for text, _ in mine), encoding="utf-8")
+            with writing(file) as out:
+                out.writelines(text + "\n" for text, _ in mine)
             return (
                 mine,
                 file,

@@ -6,9 +6,10 @@ import html
 import os
 import subprocess
 
+from .. import statistics
+from ..files import writing
 from ..page_style import STYLE
 from ..program import program
-from .. import statistics
 from . import channels, pictures
 from .folder import RUN, write_atomically
 from .gather import TABLE, gather
@@ -131,7 +132,7 @@ def fit_columns(values):
 
 def write_csv(path, rows):
     columns = list(dict.fromkeys(key for row in rows for key in row))
-    with open(path, "w", newline="", encoding="utf-8") as file:
+    with writing(path, newline="") as file:
         writer = csv.DictWriter(file, columns, lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)

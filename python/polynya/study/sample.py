@@ -1,14 +1,13 @@
 """A gathered study as columns: its finished cases, grouped by parameters. Needs numpy."""
-import csv
 import dataclasses
 import functools
-import json
 
 import numpy
 
-from .. import statistics
+from .. import files, statistics
+from ..errors import FolderError
 from ..naming import names_of
-from .gather import SUMMARY, TABLE
+from .gather import TABLE, read_summary
 
 MOST_GROUPS = 8
 LEAST_FIT = 10  # cases of a group that is fitted
@@ -56,16 +55,17 @@ class Sample:
 
 
 def read_sample(study):
-    with open(study.folder / TABLE, newline="", encoding="utf-8") as file:
-        reader = csv.reader(file)
-        header = next(reader)
-        state = header.index("state")
-        rows = [row for row in reader if row[state] == "finished"]
-    summary = json.loads((study.folder / SUMMARY).read_text(encoding="utf-8"))
-    columns = {name: column(values) for name, values in zip(header, zip(*rows))} if rows else {"case": numpy.array([])}
+    cells, summary = files.read_cells(study.folder / TABLE), read_summary(study.folder)
+    kept = [row for row, state in enumerate(cells["state"]) if state == "finished"]
+    columns = files.Columns({name: column([of[row] for row in kept]) for name, of in cells.items()}, cells.path)
+    if not kept:
+        return Sample({"case": numpy.array([])}, summary["parameters"], summary, {})
+    if columns["case"].dtype.kind != "f" or not numpy.isin(columns["case"], range(study.count)).all():
+        raise FolderError(f"{cells.path}: a case that the study does not have: polynya study gather {study.folder} "
+                          f"writes it again")
     meanings = {}
     for name in summary["parameters"]:
-        if rows and columns[name].dtype.kind != "f":
+        if columns[name].dtype.kind != "f":
             columns[name], meanings[name] = named(columns[name])
     return Sample(columns, summary["parameters"], summary, {name: of for name, of in meanings.items() if of})
 
@@ -78,10 +78,9 @@ def named(values):
 
 
 def column(values):
-    try:
+    if all(value == "" or files.is_number(value) for value in values):
         return numpy.array([float(value) if value else numpy.nan for value in values])
-    except ValueError:
-        return numpy.array(values)
+    return numpy.array(values)
 
 
 @dataclasses.dataclass

@@ -1,13 +1,13 @@
 """What a study will take, from a trial of its first case."""
-import json
 import os
 import resource
 import sys
 import threading
 import time
 
+from ..files import read_json
 from .case import DONE, STOPPED, run_case, state_of, summary_of
-from .folder import PLAN, RUN, write_atomically
+from .folder import RUN, write_plan
 
 
 def estimate(study, seconds, jobs):
@@ -42,7 +42,7 @@ def estimate(study, seconds, jobs):
         "case_memory_bytes": resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024,
     }
     study.plan["estimate"] = found
-    write_atomically(study.folder / PLAN, json.dumps(study.plan, indent=1) + "\n")
+    write_plan(study.folder, study.plan)
     extrapolated = f", extrapolated from {100 * part:.2g} % of it" if part < 1 else ""
     each, memory = found["case_bytes"], in_bytes(found["case_memory_bytes"])
     print(f"a case      {in_time(found['case_s'])}, {in_bytes(each)}, {memory} of memory{extrapolated}")
@@ -55,11 +55,8 @@ def estimate(study, seconds, jobs):
 def part_done(folder, state):
     if state == "finished":
         return 1.0
-    summary = summary_of(folder / RUN)
-    if not summary or summary.get("sim_time_s", 0) <= 0:
-        return 0.0
-    until = json.loads((folder / RUN / "scene.json").read_text(encoding="utf-8"))["time"]["until_s"]
-    return summary["sim_time_s"] / until
+    done = summary_of(folder / RUN).get("sim_time_s", 0)
+    return done / read_json(folder / RUN / "scene.json")["time"]["until_s"] if done > 0 else 0.0
 
 
 def size_of(folder):

@@ -1,0 +1,215 @@
+"""Files that were written earlier, by the program or by hand, read back: every fault is a FolderError that names the
+file and, where there is one, the line. And files written so that every error names them. Plain Python: a study's jobs
+need no numpy for it."""
+import contextlib
+import csv
+import json
+import math
+import os
+import re
+import stat
+import subprocess
+
+from .errors import FolderError
+from .program import program
+
+LONGEST_CELL = 2**31 - 1  # of a CSV file [characters]; Python's own limit is 131 072
+LONGEST_SHOWN = 60  # of a value in a message [characters]
+
+
+def check_run(folder):
+    """Has the program read a run folder, as `polynya inspect` does, so that what is read from it here afterwards has
+    the form that it should have. Raises FolderError with the program's message."""
+    words = [program(), "read-run", "--", os.fspath(folder)]
+    try:
+        done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, check=False)
+    except OSError as error:
+        raise FolderError(f"{words[0]}: {error.strerror}: run folders are checked by the program polynya, which "
+                          f"POLYNYA_PROGRAM names") from None
+    if done.returncode != 0:
+        message = done.stderr.decode("utf-8", "surrogateescape").strip()
+        raise FolderError(message or f"{folder}: polynya read-run ended with {done.returncode}")
+
+
+def open_regular(path):
+    """Opens a file to read its bytes. A pipe, a device or a folder is refused: a pipe would wait for who writes it."""
+    try:
+        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+    except FileNotFoundError:
+        raise FolderError(f"{path}: is not there") from None
+    except OSError as error:
+        raise FolderError(f"{path}: {error.strerror}") from None
+    if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+        os.close(descriptor)
+        raise FolderError(f"{path}: not a regular file")
+    return open(descriptor, "rb")
+
+
+def read_bytes(path):
+    try:
+        with open_regular(path) as file:
+            return file.read()
+    except OSError as error:
+        raise FolderError(f"{path}: {error.strerror}") from None
+
+
+def read_text(path):
+    """The text of a file in UTF-8, its line ends as they are."""
+    data = read_bytes(path)
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise FolderError(f"{path}:{line}: not a text in UTF-8: found the byte 0x{data[error.start]:02x}") from None
+
+
+def whole_lines(path):
+    """The lines of a file; a last one that a killed run cut short is left out."""
+    text = read_text(path)
+    return text[: text.rfind("\n") + 1].split("\n")[:-1]
+
+
+@contextlib.contextmanager
+def naming(path):
+    """Has an error of writing within name the file: a full disk is found by a write, which does not know its name."""
+    try:
+        yield
+    except OSError as error:
+        if error.filename is None:
+            error.filename = os.fspath(path)
+        raise
+
+
+@contextlib.contextmanager
+def writing(path, **more):
+    """Opens a text file to write it, in UTF-8; an error names it."""
+    with naming(path), open(path, "w", encoding="utf-8", **more) as file:
+        yield file
+
+
+class Members(dict):
+    """The members of an object in a file. Asking for one that is missing raises FolderError with the file."""
+
+    def __init__(self, pairs, path):
+        super().__init__(pairs)
+        self.path = path
+
+    def __missing__(self, key):
+        raise FolderError(f'{self.path}: there is no "{key}": the file is damaged, or of another version')
+
+
+class _NoNumber(ValueError):
+    """A literal that is no finite number."""
+
+
+def _refuse(literal):
+    raise _NoNumber(literal)
+
+
+def _number(literal):
+    value = float(literal)
+    return value if math.isfinite(value) else _refuse(literal)
+
+
+def _whole(literal):
+    return int(literal) if len(literal) < 19 else _number(literal)  # beyond 64 bits a double, as in the program
+
+
+# Python reads numbers beyond the doubles as infinite, or as whole ones of any length. Only a text with one that may be
+# such is read by the functions above, which take ten times as long.
+MAY_BE_BEYOND = re.compile(r"[eE]\+?[0-9]{3}|[0-9]{19}")
+
+
+def parse_json(text, path, line=1, pairs_hook=None):
+    """The value of a JSON text that begins at a line of a file. NaN, Infinity and numbers beyond the doubles are
+    refused."""
+    kinds = {"parse_float": _number, "parse_int": _whole} if MAY_BE_BEYOND.search(text) else {}
+    try:
+        return json.loads(text, object_pairs_hook=pairs_hook, parse_constant=_refuse, **kinds)
+    except json.JSONDecodeError as error:
+        raise FolderError(f"{path}:{line + error.lineno - 1}:{error.colno}: not JSON: {error.msg}") from None
+    except _NoNumber as error:
+        literal = str(error)
+        at = line + text.count("\n", 0, max(0, text.find(literal)))
+        raise FolderError(f"{path}:{at}: found {shortened(literal)}, allowed: a finite number") from None
+    except RecursionError:
+        raise FolderError(f"{path}:{line}: not JSON: nested too deep") from None
+
+
+def read_json(path):
+    """The object of a JSON file, as Members."""
+    found = parse_json(read_text(path), path, pairs_hook=lambda pairs: Members(pairs, path))
+    if not isinstance(found, dict):
+        raise FolderError(f"{path}:1: not a JSON object")
+    return found
+
+
+def read_json_lines(path):
+    """The objects of a file of JSON lines."""
+    found = []
+    for number, line in enumerate(whole_lines(path), 1):
+        found.append(parse_json(line, path, number))
+        if not isinstance(found[-1], dict):
+            raise FolderError(f"{path}:{number}: not a JSON object")
+    return found
+
+
+class Columns(dict):
+    """The columns of a table in a file, by name. Asking for one that is missing raises FolderError with the file."""
+
+    def __init__(self, columns, path):
+        super().__init__(columns)
+        self.path = path
+
+    def __missing__(self, name):
+        raise FolderError(f'{self.path}:1: there is no column "{name}": the file is damaged, or of another version')
+
+
+def read_cells(path):
+    """The cells of a CSV file, as texts: a Columns of lists of one length."""
+    csv.field_size_limit(LONGEST_CELL)
+    reader = csv.reader(line + "\n" for line in whole_lines(path))
+    rows, places = [], []
+    try:
+        for row in reader:
+            rows.append(row)
+            places.append(reader.line_num)
+    except csv.Error as error:
+        raise FolderError(f"{path}:{reader.line_num}: not CSV: {error}") from None
+    if not rows or not rows[0]:
+        raise FolderError(f"{path}: empty, without the names of its columns")
+    names = rows[0]
+    if len(set(names)) < len(names):
+        raise FolderError(f"{path}:1: two columns of one name")
+    for row, place in zip(rows, places):
+        if len(row) != len(names):
+            raise FolderError(f"{path}:{place}: {len(row)} cells below {len(names)} names of columns")
+    return Columns({name: [row[i] for row in rows[1:]] for i, name in enumerate(names)}, path)
+
+
+def is_number(cell):
+    """Whether a cell is a finite number as the program writes it: 1.5, -2e-3, not 1_000 or nan."""
+    try:
+        return "_" not in cell and math.isfinite(float(cell))
+    except ValueError:
+        return False
+
+
+def numbers(cells, path, name, absent=("", "null")):
+    """A column's cells as numbers, NaN where there is none."""
+    try:
+        values = list(map(float, cells))
+        if all(map(math.isfinite, values)) and "_" not in "".join(cells):
+            return values
+    except ValueError:
+        pass
+    for row, cell in enumerate(cells):
+        if cell not in absent and not is_number(cell):
+            raise FolderError(f"{path}:{row + 2}: {name}: found {shortened(cell)}, allowed: a finite number")
+    return [math.nan if cell in absent else float(cell) for cell in cells]
+
+
+def shortened(words):
+    """A value in a message."""
+    words = repr(words) if not words.isprintable() else words
+    return words if len(words) <= LONGEST_SHOWN else words[: LONGEST_SHOWN - 1] + "…"
