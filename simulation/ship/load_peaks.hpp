@@ -14,7 +14,6 @@ struct Population;
 struct Setup;
 struct Books;
 struct StepData;
-struct Books;
 
 /// The force of one contact of a hull with ice, followed from step to step until it parts.
 struct LoadTrack {

@@ -341,6 +341,9 @@ TEST_F(RunFiles, WhoLivesWhereAtEveryFrame) {
 TEST_F(RunFiles, ALineCutShortIsLeftOutAndContactsMayBeMissing) {
   for (const auto name : {run_file::kForces, run_file::kEvents, run_file::kFrames, run_file::kContacts})
     std::filesystem::resize_file(path(name), std::filesystem::file_size(path(name)) - 5);
+  EXPECT_FALSE(read_run(folder).has_value()) << "a finished run has whole lines";
+  const std::string summary = text(run_file::kSummary);
+  std::ofstream(path(run_file::kSummary)) << replaced(summary, "\"finished\": true", "\"finished\": false");
   const io::Run run = read();
   EXPECT_EQ(run.samples.size(), 79U);
   EXPECT_EQ(run.frames.size(), 16U);
