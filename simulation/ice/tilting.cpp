@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "simulation/world/step.hpp"
@@ -74,7 +75,7 @@ double expected_vertical_force(const Contact& c, const HullSlope& slope, double 
 void scale(Contact& c, double share) {
   c.crushing_force *= share;
   c.crushing_stiffness *= share;
-  c.most_force *= share;
+  if (std::isfinite(c.most_force)) c.most_force *= share;
   c.missed_impulse *= share;
   c.crushing_share *= share;
   c.gives_way = true;

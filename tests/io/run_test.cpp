@@ -1,6 +1,7 @@
 // What a run writes reads back; what is damaged is refused with its line.
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <optional>
 #include <regex>
@@ -341,7 +342,7 @@ TEST_F(RunFiles, WhoLivesWhereAtEveryFrame) {
 TEST_F(RunFiles, ALineCutShortIsLeftOutAndContactsMayBeMissing) {
   for (const auto name : {run_file::kForces, run_file::kEvents, run_file::kFrames, run_file::kContacts})
     std::filesystem::resize_file(path(name), std::filesystem::file_size(path(name)) - 5);
-  EXPECT_FALSE(read_run(folder).has_value()) << "a finished run has whole lines";
+  EXPECT_FALSE(read_run(folder / "").has_value()) << "a finished run has whole lines";
   const std::string summary = text(run_file::kSummary);
   std::ofstream(path(run_file::kSummary)) << replaced(summary, "\"finished\": true", "\"finished\": false");
   const io::Run run = read();

@@ -185,7 +185,7 @@ std::string name_of(const Simulation& run, Body body) {
 Passed measure(const Simulation& run) {
   std::map<decltype(pair_of({}, {})), double> crushed;
   for (const simulation::CrushedOverlap& overlap : run.crushed_overlaps())
-    crushed[pair_of(overlap.on, overlap.by)] = overlap.area + overlap.tilted;
+    crushed[pair_of(overlap.on, overlap.by)] = overlap.area + overlap.tilted + overlap.unpaid;
   std::set<decltype(pair_of({}, {}))> pressing;
   for (const simulation::ContactState& contact : run.contact_states())
     if (squared_length(contact.force) > 0) pressing.insert(pair_of(contact.on, contact.by));
@@ -201,7 +201,7 @@ Passed measure(const Simulation& run) {
       const double was_crushed = crushed[pair_of(a.body, b.body)];
       const std::string where = name_of(run, a.body) + " and " + name_of(run, b.body) + " share " +
                                 std::to_string(shared) + " m2 of " + std::to_string(smaller.area) + ", " +
-                                std::to_string(was_crushed) + " crushed";
+                                std::to_string(was_crushed) + " crushed or in contact";
       // The contacts of a floe that was cut from another in this step are found in the next.
       if (!is_new(run, a.body) && !is_new(run, b.body) && !pressing.contains(pair_of(a.body, b.body)))
         passed.parted.take(shared / smaller.area, where);
