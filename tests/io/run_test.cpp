@@ -1,7 +1,6 @@
 // What a run writes reads back; what is damaged is refused with its line.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <regex>
@@ -342,9 +341,8 @@ TEST_F(RunFiles, WhoLivesWhereAtEveryFrame) {
 TEST_F(RunFiles, ALineCutShortIsLeftOutAndContactsMayBeMissing) {
   for (const auto name : {run_file::kForces, run_file::kEvents, run_file::kFrames, run_file::kContacts})
     std::filesystem::resize_file(path(name), std::filesystem::file_size(path(name)) - 5);
-  EXPECT_FALSE(read_run(folder / "").has_value()) << "a finished run has whole lines";
-  const std::string summary = text(run_file::kSummary);
-  std::ofstream(path(run_file::kSummary)) << replaced(summary, "\"finished\": true", "\"finished\": false");
+  EXPECT_HAS(refused(read_run(folder / "run")), "events.ndjson:", "the last line is cut short, of a run that finished");
+  write_file(path(run_file::kSummary), replaced(text(run_file::kSummary), "\"finished\": true", "\"finished\": false"));
   const io::Run run = read();
   EXPECT_EQ(run.samples.size(), 79U);
   EXPECT_EQ(run.frames.size(), 16U);
@@ -366,6 +364,37 @@ TEST_F(RunFiles, DamageIsNamedWithItsLine) {
        {std::pair{"[9,", "ring 9 of a parent"}, {"[0,999", "of the parent's ring 0, which has"}})
     EXPECT_HAS(refusal(run_file::kFloes, std::string(floes).replace(parts, 3, other)),
                fmt::format("floes.ndjson:{}: ", line), reason);
+}
+
+TEST_F(RunFiles, WhatCannotBeIsRefusedWithItsPlace) {
+  const std::string forces = text(run_file::kForces), frames = text(run_file::kFrames);
+  const std::string header = forces.substr(0, forces.find('\n') + 1), rows = forces.substr(header.size());
+  const std::string after_time = rows.substr(rows.find(','));
+  for (const char* number : {"nan", "inf", "-inf", "1e999", "1_000", "0x10", "", "x"})
+    EXPECT_HAS(refusal(run_file::kForces, header + number + after_time),
+               fmt::format("forces.csv:2: \"{}\" is not a number", number));
+  EXPECT_HAS(refusal(run_file::kForces, header + "null" + after_time), "forces.csv:2: a row without its time");
+  EXPECT_HAS(refusal(run_file::kForces, header + replaced(rows, "a ship", "b ship")),
+             "forces.csv:2: \"b ship\" is no ship, structure or wall of the scene");
+  EXPECT_HAS(refusal(run_file::kForces, header + "0.1,a ship\n" + rows), "forces.csv:2: 2 fields below a header of ");
+  EXPECT_HAS(refusal(run_file::kForces, header + replaced(rows, "a ship", "a\x8f\tship")), R"("a\x8f\x09ship" is no)");
+  EXPECT_HAS(refusal(run_file::kForces, ""), "forces.csv: empty");
+  write_file(path(run_file::kForces), forces);
+  EXPECT_HAS(refusal(run_file::kFrames, frames + frames.substr(FrameEncoder::header().size())),
+             "frames.bin: frame 18: at 0 s, not after the one before, at 8 s");
+  EXPECT_HAS(refusal(run_file::kFrames, frames.substr(0, frames.size() - 5)), "frames.bin: frame 17, which begins at ",
+             "cut short, of a run that finished");
+  const std::vector<Motion> two(2);
+  EXPECT_HAS(refusal(run_file::kFrames, FrameEncoder::header() + frame_bytes(0, two, {})),
+             "frames.bin: frame 1: 2 ships and structures, where the scene has 1");
+  const std::vector<Motion> one(1);
+  const std::vector<FloeMotion> unborn{{.floe = 1'000'000, .motion = {}}};
+  EXPECT_HAS(refusal(run_file::kFrames, FrameEncoder::header() + frame_bytes(0, one, unborn)),
+             "frame 1: floe 1000000 was never born");
+  EXPECT_HAS(refusal(run_file::kFrames, FrameEncoder::header() + frame_bytes(std::nan(""), one, {})),
+             "frame 1, which begins at byte 16: damaged, a number in it is none");
+  write_file(path(run_file::kFrames), frames);
+  EXPECT_HAS(refusal(run_file::kStates, "t_s,steps,state_hash\n0,0,00\n"), "states.csv:2: \"00\" is not a hash");
 }
 
 /// Version 1 wrote every shape whole, and no version.
