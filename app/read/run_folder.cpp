@@ -515,7 +515,8 @@ Command add_view(CommandLine& app) {
   return {command, [options] { return write_view(*options); }};
 }
 
-/// Reads a run folder, for the commands that are written in Python, which then read it themselves; not in the help.
+/// Checks a run folder by reading it. Commands that are written in Python call this before they read the folder
+/// themselves. It is not in the help.
 Command add_read_run(CommandLine& app) {
   CommandLine command = app.add_command("read-run", "", "");
   auto folder = std::make_shared<std::string>();

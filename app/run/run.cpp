@@ -257,7 +257,7 @@ std::string no_run_in(const fs::path& folder) {
   return fmt::format("{}: no run to resume: there is no {}", name, io::run_file::kScene);
 }
 
-/// Nothing is added to a finished run of which a file is damaged.
+/// Refuses to continue a finished run that has damaged files.
 int refuse_damaged(const fs::path& folder, const io::FilesCheck& files) {
   for (const std::string& file : files.damaged) fail(kInputOutput, file);
   print_err("polynya: bring the files back from a copy, or run it again: polynya run {} --out {} --overwrite\n",

@@ -24,8 +24,8 @@ std::string line_of(std::string_view name, const Checksum& sum) {
   return fmt::format("{:08x} {} {}\n", sum.crc(), sum.size(), name);
 }
 
-/// The lines above the last one of a folder's file of checksums, each with its line's end, and the name in each. The
-/// error says what is wrong with the file.
+/// Returns each line of checksums.txt but the last, with its line break, and the file name in it. Fails if the file
+/// cannot be read or does not match its own checksum.
 Result<std::vector<std::pair<std::string, std::string>>> lines_in(const fs::path& folder) {
   const fs::path file = folder / run_file::kChecksums;
   const auto text = read_text_file(file, kLongestChecksums);
@@ -47,12 +47,12 @@ Result<> write_lines(const fs::path& folder, const std::string& lines) {
                           Durability::kSynced);
 }
 
-/// Nothing is lost with a checkpoint of a run that has finished, and pictures are drawn again.
+/// Returns true for checkpoints, which a finished run does not need, and for pictures, which can be drawn again.
 bool may_be_removed(const std::string& name) {
   return is_checkpoint(name) || name == run_file::kFinalSvg || name == run_file::kFinalPng;
 }
 
-/// What is wrong with the file of a line; empty where nothing is.
+/// Compares a file with its line of checksums.txt. Returns what is wrong, or an empty text.
 std::string fault_of(const fs::path& folder, const std::string& name, const std::string& line) {
   const fs::path file = folder / name;
   const auto sum = checksum_of(file);
@@ -66,7 +66,7 @@ std::string fault_of(const fs::path& folder, const std::string& name, const std:
 
 Result<Checksum> checksum_of(const fs::path& file, std::uint64_t most) {
   const auto refuse = [&](std::string_view reason) { return fail(fmt::format("{}: {}", file.string(), reason)); };
-  // Not blocking: a pipe is refused instead of waited for.
+  // With O_NONBLOCK a pipe is opened at once and then refused. Without it, open() would wait for a writer.
   const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
   if (descriptor < 0 || ::fstat(descriptor, &status) != 0) return refuse(std::strerror(errno));

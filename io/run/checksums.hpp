@@ -13,34 +13,34 @@
 
 namespace polynya::io {
 
-// The checksums of a finished run's files, in its file checksums.txt: a line a file,
+// The file checksums.txt of a finished run has one line for each file that the run wrote:
 //
-//   0f3a2b1c 123456 forces.csv        CRC-32 and length [bytes], as they were when the run finished
+//   0f3a2b1c 123456 forces.csv        CRC-32, length [bytes] and name
 //
-// and last the line of checksums.txt itself, of all lines above it.
-// The file is there only while all that it names is as it was written: it is written last, when the run has finished,
-// and removed before anything of the run is changed. Only checkpoints and pictures may be removed before it.
+// Its last line has the checksum of the lines above it, under the name checksums.txt. The program writes the file last,
+// when the run has finished, and removes it before it changes any other file of the run. So while checksums.txt
+// exists, every file must be as the run wrote it. Only checkpoints and pictures may be missing.
 
-using Checksums = std::map<std::string, Checksum>;  ///< by the name of the file, relative to the folder
+using Checksums = std::map<std::string, Checksum>;  ///< by file name, relative to the folder
 
-/// The checksum of a regular file, or of its first bytes; the error names the file.
+/// Returns the checksum of the first `most` bytes of a regular file. The error names the file.
 Result<Checksum> checksum_of(const std::filesystem::path& file,
                              std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
 /// Writes the checksums of a run that has finished.
 Result<> write_checksums(const std::filesystem::path& folder, const Checksums& checksums);
 
-/// Adds files that were written after the end of a run, by reading them; only where the run has checksums.
+/// Reads files that were written after the end of a run and adds their checksums. Does nothing if the run has none.
 Result<> add_checksums(const std::filesystem::path& folder, const std::vector<std::string_view>& names);
 
-/// Removes the checksums, so that the run may be changed.
+/// Removes checksums.txt. Every function that changes a finished run calls this first.
 Result<> remove_checksums(const std::filesystem::path& folder);
 
-/// What the checksums of a run say about its files.
+/// Result of comparing the files of a run with their checksums.
 struct FilesCheck {
-  bool has_checksums = false;        ///< older runs, and those that have not finished, have none
-  std::size_t files = 0;             ///< that were compared
-  std::vector<std::string> damaged;  ///< of each file that is not as the run wrote it, its path and what is wrong
+  bool has_checksums = false;        ///< false for runs of older versions and for unfinished runs
+  std::size_t files = 0;             ///< number of compared files
+  std::vector<std::string> damaged;  ///< one message for each file that differs: its path and what is wrong
 };
 
 /// Compares the files of a run's folder with its checksums.

@@ -91,11 +91,11 @@ std::string FrameEncoder::end() {
 namespace {
 
 bool is_finite(const Motion& m) {
-  // A sum is finite only if each of its terms is.
+  // 0 times a sum is finite only if every term is finite.
   return std::isfinite(0 * (m.position.x + m.position.y + m.angle + m.velocity.x + m.velocity.y + m.angular_velocity));
 }
 
-/// Takes the bodies of a frame off the bytes, which have all of them. False where a number of one is none.
+/// Takes `count` bodies off the bytes, which must be long enough. Returns false if a number in them is not finite.
 template <class Body>
 bool take_bodies(std::string_view& bytes, std::size_t count, std::vector<Body>& bodies) {
   bodies.reserve(count);

@@ -85,8 +85,8 @@ struct Frame {
   std::vector<FloeMotion> floes;  ///< only those with a record in this frame
 };
 
-/// Reads frames; a last one that is cut short is left out, but of a whole file, a finished run's, refused. The error
-/// has the byte.
+/// Reads frames. A last frame that is cut short is ignored, or an error if `is_whole` (the run finished). The error
+/// message has the number of the frame and the byte at which it begins.
 Result<std::vector<Frame>> decode_frames(std::string_view bytes, bool is_whole = false);
 
 }  // namespace polynya::io

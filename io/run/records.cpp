@@ -61,7 +61,7 @@ struct Shown {
   std::string plot = {};
 };
 
-/// A number of a file as one of a whole kind; throws ReadError where it is none.
+/// Converts a number of a file to an integer type. Throws ReadError if the number is not a value of that type.
 template <class Whole>
 Whole whole_of(double value) {
   if (value < std::numeric_limits<Whole>::min() || value > std::numeric_limits<Whole>::max() ||
@@ -498,14 +498,14 @@ double take_number(std::string_view& row) {
   return *value;
 }
 
-/// The instant of a row [s].
+/// Takes the time of a row [s] off its text.
 double take_time(std::string_view& row) {
   const double time = take_number(row);
   if (std::isnan(time)) throw ReadError("a row without its time");
   return time;
 }
 
-/// The hull of a row, by its name.
+/// Takes the name of a hull off the text of a row and returns the number of the hull.
 int take_hull(std::string_view& row, const simulation::Scene& scene) {
   const std::string_view name = csv_field(row);
   const int hull = hull_named(scene, name);

@@ -40,7 +40,7 @@ inline std::string_view csv_field(std::string_view& row) {
   return field;
 }
 
-/// A field as a finite number, "null" as not a number; nothing where it is neither.
+/// Reads a field as a finite number, or "null" as NaN. Returns nothing for any other text.
 inline std::optional<double> csv_number(std::string_view field) {
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
@@ -205,7 +205,7 @@ simulation::HullSample sample_of(std::string_view line, const std::vector<const 
 RunCrushed crushed_of(std::string_view line, const Run& run);
 RunContact contact_of(std::string_view line, const Run& run);
 simulation::PanelSample panel_of(std::string_view line, const simulation::Scene& scene);
-/// Of states.csv only whether the line is one.
+/// Checks that a line is a row of states.csv.
 void check_state(std::string_view line);
 
 }  // namespace polynya::io

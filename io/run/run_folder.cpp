@@ -99,8 +99,8 @@ Result<> remove_with_part(const fs::path& path) {
   return removed ? remove_file(path) : removed;
 }
 
-/// What is written when a run has ended, and what commands make of it; of the folder of `polynya loads` what it wrote
-/// there, and last the folder.
+/// Returns the names of the files that a run writes at its end and that commands write later. The folder `loads` is
+/// listed behind its files, if it has no others.
 std::vector<fs::path> made_at_end(const fs::path& folder) {
   std::vector<fs::path> names{run_file::kFailure};
   if (std::error_code ignored; fs::is_directory(fs::symlink_status(folder / run_file::kLoads, ignored))) {

@@ -93,7 +93,8 @@ bool is_finished(const Run& run) {
   return finished && finished->boolean();
 }
 
-/// Uses each whole line of a file. A killed run may leave a part of a line behind them, a finished one none.
+/// Calls use(line, number) for each whole line of a file. Behind the last line break a killed run may leave part of a
+/// line, which is ignored; in a finished run that is an error.
 template <class Use>
 void for_lines(const Run& run, std::string_view name, Use use) {
   const std::filesystem::path path = run.folder / name;
@@ -113,7 +114,8 @@ void for_lines(const Run& run, std::string_view name, Use use) {
     throw ReadError(place("the last line is cut short, of a run that finished"));
 }
 
-/// Uses each row of a table, and its first line as the header. Throws where a row has not as many fields.
+/// Calls use_header(line) for the first line of a table and use(line) for each row. Throws ReadError if a row does not
+/// have as many fields as the header.
 template <class UseHeader, class Use>
 void for_rows(const Run& run, std::string_view name, UseHeader use_header, Use use) {
   std::ptrdiff_t commas = -1;
@@ -129,8 +131,8 @@ void for_rows(const Run& run, std::string_view name, UseHeader use_header, Use u
   if (commas < 0) throw ReadError(fmt::format("{}: empty, without its header", (run.folder / name).string()));
 }
 
-/// The same of a table whose header is the one that this program writes, or begins it: earlier versions had fewer
-/// columns. A table that earlier versions did not write may be missing.
+/// Calls use(line) for each row of a table that may be missing, because earlier versions did not write it. The header
+/// must be that of this version or its beginning, because earlier versions had fewer columns.
 template <class Use>
 bool for_rows_where_recorded(const Run& run, std::string_view name, Use use) {
   if (!exists(std::filesystem::symlink_status(run.folder / name))) return false;
@@ -229,7 +231,7 @@ void read_frames(Run& run) {
   }
 }
 
-/// What no command in C++ uses is read too: it is those in Python that do.
+/// Checks panels.csv and states.csv, which only commands in Python use.
 void check_other_tables(const Run& run) {
   for_rows_where_recorded(run, run_file::kPanels, [&](std::string_view line) { panel_of(line, run.scene.scene); });
   for_rows_where_recorded(run, run_file::kStates, [&](std::string_view line) { check_state(line); });

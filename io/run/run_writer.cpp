@@ -89,8 +89,8 @@ Result<> check_header(const std::filesystem::path& file, std::string_view header
       fmt::format("{}: its columns are those of another version of polynya, which can continue it", file.string()));
 }
 
-/// The checksum of a file up to its size at a checkpoint, which is what it was then: nothing is added to a file that is
-/// damaged.
+/// Returns the checksum of a file up to its size at a checkpoint. Fails if it differs from the checksum at the
+/// checkpoint, so that nothing is appended to a damaged file.
 Result<Checksum> checksum_then(const std::filesystem::path& file, const WrittenFile& then) {
   auto sum = checksum_of(file, then.size);
   if (!sum || sum->crc() == then.crc) return sum;

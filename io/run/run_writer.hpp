@@ -18,7 +18,7 @@ namespace polynya::io {
 
 struct Checkpoint;
 
-/// How far a file is written, and the checksum of that (Checksum).
+/// Length of a file at a checkpoint, and the CRC-32 of these bytes.
 struct WrittenFile {
   std::uint64_t size = 0;  ///< [bytes]
   std::uint32_t crc = 0;
@@ -102,7 +102,7 @@ class RunWriter {
   }
   void flush();
   Result<> sync_files();
-  /// Writes the checksums of all files of the run; `known` are those of what was written last.
+  /// Writes checksums.txt. `known` has the checksums of the files that were just written; other files are read.
   Result<> write_checksums(Checksums known) const;
   /// Keeps it as the failure if the folder or a file in it has lost its name.
   void check_place();

@@ -259,8 +259,8 @@ RunSummary summarise(const Simulation& simulation, const RunWriter& writer, cons
 
 namespace {
 
-/// The first value within `found` that is of another kind than the one in the same place of `written`. Items of a list
-/// are compared with its first one.
+/// Returns the first value in `found` whose kind differs from that of the value in the same place of `written`. Items
+/// of a list are compared with the first item of the list in `written`.
 std::optional<JsonFault> other_kind(const JsonValue& found, const JsonValue& written, const std::string& path) {
   if (!found.is(written.kind())) {
     JsonFault fault;

@@ -35,7 +35,7 @@ struct ShipPeaks {
   std::vector<Peak> of_column;  ///< of each of peak_columns()
 };
 
-/// The number of times that ice broke: bends and splits. Ground overlaps and refused cuts are no fractures.
+/// Number of fractures: bends and splits. Ground overlaps and refused cuts are not counted.
 inline std::int64_t fractures_of(const simulation::Counts& counts) {
   return counts.bends + counts.splits;
 }
@@ -69,8 +69,8 @@ RunSummary summarise(const simulation::Simulation& simulation, const RunWriter& 
 
 std::string to_json_text(const RunSummary& summary, const LoadedScene& scene);
 
-/// The first member of a summary.json that is of another kind than this program writes, for example a text where a
-/// number is written. Members may be missing: those of older versions had fewer.
+/// Finds the first member of a summary.json whose kind differs from what this program writes, for example a text
+/// instead of a number. Members may be missing, because older versions wrote fewer.
 std::optional<JsonFault> fault_of_summary(const JsonValue& summary, const LoadedScene& scene);
 
 /// The end of a finished run.

@@ -138,8 +138,8 @@ bool RecordReader::object(const Object& table, const JsonValue& value, const std
 
 namespace {
 
-/// Where a key, or one that is it and a unit, stands below an object: the path with the fewest steps; empty where it
-/// stands nowhere.
+/// Searches the scene's description for a key, with or without its unit. Returns the shortest path to it, or an empty
+/// text if there is no such key.
 std::string path_of_key(const Object& root, std::string_view key) {
   const auto is_meant = [key](const Field& field) {
     return !field.unit.empty() && field.key.starts_with(key) && field.key.substr(key.size()).starts_with('_');

@@ -54,7 +54,7 @@ void override_scene(JsonValue& root, const SceneOverrides& overrides) {
   if (JsonValue* time = root.find("time")) time->set("until_s", *overrides.until);
 }
 
-/// Which items a value of a scene has, for messages.
+/// Describes for a message which items a list of a scene has.
 std::string items_of(const JsonValue& list, std::string_view path) {
   if (!list.is(JsonKind::kArray)) return "a key: it is no list";
   if (list.items().empty()) return "nothing: the list is empty";

@@ -341,7 +341,8 @@ class PilotCheck {
       return report_(
           "pilot.manage.width_m", fmt::format("{:g}", pilot.width),
           fmt::format("at most half a circle about the body, {:.4g} [m]", std::numbers::pi * pilot.distance));
-    // A ship does not go round a line that is shorter than itself, and looks ahead by 1.5 of its lengths.
+    // The pilot steers to a point 1.5 ship lengths ahead on the pattern. On a line much shorter than that it would go
+    // round in circles for ever; a line without length has no direction at all.
     const double length = size_of(ship_.hull).x;
     if (pilot.pattern != Pattern::kLargestFloe && !(line_of(pilot).lap() >= length))
       return report_("pilot.manage.width_m",

@@ -8,8 +8,8 @@
 
 namespace polynya::io {
 
-/// The CRC-32 of bytes, as zlib and `crc32` compute it, and how many they are. It finds every error within 32
-/// neighbouring bits, and all but one in 4·10⁹ of others.
+/// CRC-32 (the variant of zlib and of the program `crc32`) and number of the bytes added so far. A CRC-32 detects every
+/// error that is confined to 32 neighbouring bits. It misses one in 4·10⁹ of all other errors.
 class Checksum {
  public:
   Checksum() = default;

@@ -41,8 +41,9 @@ class OutputFile {
  public:
   /// A new file; what had its name before, a link for example, is removed.
   static Result<OutputFile> create(const std::filesystem::path& path);
-  /// Opens a file that had this checksum when it was last known to be whole, which the caller has compared: what is
-  /// beyond its size is cut off. A shorter file, and what is no regular file, is refused and left as it is.
+  /// Opens a file to append to it. `then` is the checksum when the file was last known to be whole; the caller has
+  /// compared it. What is beyond its size is cut off. A shorter file, or one that is not a regular file, is refused and
+  /// not changed.
   static Result<OutputFile> reopen(const std::filesystem::path& path, const Checksum& then);
   OutputFile(OutputFile&&) noexcept = default;
   ~OutputFile();
@@ -58,7 +59,7 @@ class OutputFile {
   /// Writes what is buffered and waits until it is on the disk.
   bool sync();
   std::uint64_t size() const { return written_.size(); }  ///< on disk [bytes]
-  /// Of what was written to the disk, as it was handed over: what a disk makes of it later differs from it.
+  /// Checksum of the bytes as they were handed to the disk. If the disk changes them later, their checksum differs.
   const Checksum& checksum() const { return written_; }
   /// Whether the file still has its name: it was neither removed nor replaced.
   bool is_in_place() const { return is_still_at(descriptor_, name_); }

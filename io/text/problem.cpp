@@ -86,7 +86,7 @@ std::string nearest(std::string_view word, const std::vector<std::string_view>& 
       best = candidate;
     }
   }
-  // Two edits make any word of four letters another: "with" is not meant by "watch".
+  // Two edits turn a word of four letters into almost any other, for example "with" into "watch".
   const std::size_t near_enough = word.size() <= 4 ? 1 : std::max<std::size_t>(2, word.size() / 3);
   return least <= near_enough ? std::string(best) : "";
 }
@@ -114,7 +114,7 @@ void ProblemCollector::add_faults(std::size_t source, const std::vector<JsonFaul
 
 namespace {
 
-/// A number as people write it (.05, 0,7, 5., +3, 007, 12 m) as JSON has it; empty where it is no number.
+/// Converts a number that is not JSON (.05, 0,7, 5., +3, 007, 12 m) to JSON. Returns an empty text if it is no number.
 std::string as_json_number(std::string_view text) {
   std::string plain(trimmed(text));
   if (plain.starts_with('+')) plain.erase(0, 1);
@@ -131,7 +131,7 @@ std::string as_json_number(std::string_view text) {
   return json;
 }
 
-/// A list of numbers as people write it, 1,2 or (1 2), as JSON has it; empty where it is none.
+/// Converts a list of numbers that is not JSON, such as 1,2 or (1 2), to JSON. Returns an empty text if it is no list.
 std::string as_json_list(std::string_view text) {
   std::string plain(text), json;
   const auto is_between = [](char c) { return std::string_view("()[],; ").find(c) != std::string_view::npos; };
@@ -147,7 +147,7 @@ std::string as_json_list(std::string_view text) {
   return json.empty() ? "" : json + "]";
 }
 
-/// What was meant by a text that is not JSON where `allowed` stands in its place; empty where that is not clear.
+/// Guesses the JSON value that a user meant, from what is allowed there. Returns an empty text if that is not clear.
 std::string meant_by(std::string_view text, std::string_view allowed) {
   std::string_view bare = trimmed(text);
   for (const char quote : {'\'', '"', '`'})
@@ -162,7 +162,7 @@ std::string meant_by(std::string_view text, std::string_view allowed) {
   return allowed.starts_with("[") || allowed.starts_with("a list") ? as_json_list(bare) : as_json_number(bare);
 }
 
-/// Says of a value on the command line that it is not JSON, and what to write.
+/// Adds to a problem that the value on the command line is not JSON, and what to write instead.
 void explain_json(Problem& problem, const std::string& text) {
   if (!problem.sentence.empty() || problem.found != show({text})) return;
   const std::string meant = meant_by(text, problem.allowed);

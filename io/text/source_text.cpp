@@ -61,7 +61,7 @@ std::string to_string(const Problem& problem) {
 
 namespace {
 
-/// How many bytes the character at the start of a text takes in UTF-8; 0 where there is none.
+/// Returns the length of the UTF-8 character at the start of a text [bytes], or 0 if there is no valid one.
 std::size_t character_size(std::string_view text) {
   const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   if (byte(0) < 0x80) return 1;
@@ -69,7 +69,7 @@ std::size_t character_size(std::string_view text) {
   if (byte(0) < 0xC2 || byte(0) > 0xF4 || text.size() < size) return 0;
   for (std::size_t i = 1; i < size; ++i)
     if ((byte(i) & 0xC0) != 0x80) return 0;
-  // Overlong forms, surrogates and what is beyond U+10FFFF.
+  // Overlong encodings, surrogates and code points above U+10FFFF are not valid.
   const bool is_wrong = (byte(0) == 0xE0 && byte(1) < 0xA0) || (byte(0) == 0xED && byte(1) > 0x9F) ||
                         (byte(0) == 0xF0 && byte(1) < 0x90) || (byte(0) == 0xF4 && byte(1) > 0x8F);
   return is_wrong ? 0 : size;

@@ -95,7 +95,7 @@ std::string message_of(const Problem& problem);
 /// severity behind the place: "scene.json:9:3: hint: ice.thickness_m: …"
 std::string to_string(const Problem& problem);
 
-/// A text from a file as it can be printed: control characters, and bytes that are no UTF-8, as \x8f.
+/// Makes a text from a file printable: writes control characters and bytes that are not UTF-8 as \x8f.
 std::string printable(std::string_view text);
 
 /// A text of at most `most` bytes, cut between two characters and then ended by "…".

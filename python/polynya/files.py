@@ -1,6 +1,7 @@
-"""Files that were written earlier, by the program or by hand, read back: every fault is a FolderError that names the
-file and, where there is one, the line. And files written so that every error names them. Plain Python: a study's jobs
-need no numpy for it."""
+"""Reading files of runs and studies strictly, and writing files so that every error names them.
+
+Every fault in a file raises FolderError with the file and, if there is one, the line. The module needs no numpy,
+because the jobs of a study use it."""
 import contextlib
 import csv
 import json
@@ -18,8 +19,8 @@ LONGEST_SHOWN = 60  # of a value in a message [characters]
 
 
 def check_run(folder):
-    """Has the program read a run folder, as `polynya inspect` does, so that what is read from it here afterwards has
-    the form that it should have. Raises FolderError with the program's message."""
+    """Lets the program read a run folder, as `polynya inspect` does. Raises FolderError with the program's message if
+    the folder is damaged. Afterwards Python can read it without checking each value again."""
     words = [program(), "read-run", "--", os.fspath(folder)]
     try:
         done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, check=False)
@@ -32,7 +33,7 @@ def check_run(folder):
 
 
 def open_regular(path):
-    """Opens a file to read its bytes. A pipe, a device or a folder is refused: a pipe would wait for who writes it."""
+    """Opens a file to read its bytes. Refuses pipes, devices and folders: reading a pipe could wait for ever."""
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
     except FileNotFoundError:
@@ -54,7 +55,7 @@ def read_bytes(path):
 
 
 def read_text(path):
-    """The text of a file in UTF-8, its line ends as they are."""
+    """Returns the text of a file in UTF-8 and keeps its line ends."""
     data = read_bytes(path)
     try:
         return data.decode("utf-8-sig")
@@ -64,14 +65,14 @@ def read_text(path):
 
 
 def whole_lines(path):
-    """The lines of a file; a last one that a killed run cut short is left out."""
+    """Returns the lines of a file. A last line without a line break, which a killed run may leave, is ignored."""
     text = read_text(path)
     return text[: text.rfind("\n") + 1].split("\n")[:-1]
 
 
 @contextlib.contextmanager
 def naming(path):
-    """Has an error of writing within name the file: a full disk is found by a write, which does not know its name."""
+    """Adds the file's name to an OSError within. An error of write(), for example on a full disk, has no name."""
     try:
         yield
     except OSError as error:
@@ -82,13 +83,13 @@ def naming(path):
 
 @contextlib.contextmanager
 def writing(path, **more):
-    """Opens a text file to write it, in UTF-8; an error names it."""
+    """Opens a text file for writing in UTF-8. Errors name the file."""
     with naming(path), open(path, "w", encoding="utf-8", **more) as file:
         yield file
 
 
 class Members(dict):
-    """The members of an object in a file. Asking for one that is missing raises FolderError with the file."""
+    """A JSON object of a file. Accessing a missing member raises FolderError with the file's name."""
 
     def __init__(self, pairs, path):
         super().__init__(pairs)
@@ -99,7 +100,7 @@ class Members(dict):
 
 
 class _NoNumber(ValueError):
-    """A literal that is no finite number."""
+    """Raised while parsing for a literal that is not a finite number."""
 
 
 def _refuse(literal):
@@ -115,8 +116,8 @@ def _whole(literal):
     return int(literal) if len(literal) < 19 else _number(literal)  # beyond 64 bits a double, as in the program
 
 
-# Python reads numbers beyond the doubles as infinite, or as whole ones of any length. Only a text with one that may be
-# such is read by the functions above, which take ten times as long.
+# Python parses a number beyond the range of doubles as infinity, or as an integer of any length. The functions above
+# refuse these, but make parsing about ten times slower. So they are used only if a text may contain such a number.
 MAY_BE_BEYOND = re.compile(r"[eE]\+?[0-9]{3}|[0-9]{19}")
 
 
@@ -137,7 +138,7 @@ def parse_json(text, path, line=1, pairs_hook=None):
 
 
 def read_json(path):
-    """The object of a JSON file, as Members."""
+    """Returns the object of a JSON file as Members."""
     found = parse_json(read_text(path), path, pairs_hook=lambda pairs: Members(pairs, path))
     if not isinstance(found, dict):
         raise FolderError(f"{path}:1: not a JSON object")
@@ -145,7 +146,7 @@ def read_json(path):
 
 
 def read_json_lines(path):
-    """The objects of a file of JSON lines."""
+    """Returns the objects of a file with one JSON object per line."""
     found = []
     for number, line in enumerate(whole_lines(path), 1):
         found.append(parse_json(line, path, number))
@@ -155,7 +156,7 @@ def read_json_lines(path):
 
 
 class Columns(dict):
-    """The columns of a table in a file, by name. Asking for one that is missing raises FolderError with the file."""
+    """Columns of a table by name. Accessing a missing column raises FolderError with the file's name."""
 
     def __init__(self, columns, path):
         super().__init__(columns)
@@ -166,7 +167,7 @@ class Columns(dict):
 
 
 def read_cells(path):
-    """The cells of a CSV file, as texts: a Columns of lists of one length."""
+    """Returns the cells of a CSV file as Columns of texts, all of one length."""
     csv.field_size_limit(LONGEST_CELL)
     reader = csv.reader(line + "\n" for line in whole_lines(path))
     rows, places = [], []
@@ -188,7 +189,7 @@ def read_cells(path):
 
 
 def is_number(cell):
-    """Whether a cell is a finite number as the program writes it: 1.5, -2e-3, not 1_000 or nan."""
+    """Returns True if a cell is a finite number: 1.5 or -2e-3, but not 1_000 or nan."""
     try:
         return "_" not in cell and math.isfinite(float(cell))
     except ValueError:
@@ -196,7 +197,7 @@ def is_number(cell):
 
 
 def numbers(cells, path, name, absent=("", "null")):
-    """A column's cells as numbers, NaN where there is none."""
+    """Converts the cells of a column to numbers. Absent values become NaN."""
     try:
         values = list(map(float, cells))
         if all(map(math.isfinite, values)) and "_" not in "".join(cells):
@@ -210,6 +211,6 @@ def numbers(cells, path, name, absent=("", "null")):
 
 
 def shortened(words):
-    """A value in a message."""
+    """Returns a value as a message shows it."""
     words = repr(words) if not words.isprintable() else words
     return words if len(words) <= LONGEST_SHOWN else words[: LONGEST_SHOWN - 1] + "…"
