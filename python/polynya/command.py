@@ -9,6 +9,7 @@ import io
 import os
 import signal
 import sys
+import warnings
 
 FAILED, INPUT_OUTPUT, DEFECT, CLOSED_PIPE = 4, 5, 70, 141
 
@@ -107,6 +108,8 @@ def defect(name, error):
 
 def main():
     open_streams()
+    if not sys.warnoptions:  # warnings of libraries are for who works on polynya, by python3 -W default
+        warnings.simplefilter("ignore")
     name, *words = sys.argv[1:]
     sys.argv = [f"polynya {name}", *words]
     module = "polynya.figures.database" if name == "database" else f"polynya.{name}.__main__"
