@@ -34,7 +34,8 @@ WedgeAngles wedge_angles(const EdgeList& edges, const WedgeTip& tip, Vector inwa
 
 void wedge_angles(const EdgeList& edges, const WedgeTip& wedge_tip, Vector inward, std::span<const double> lengths,
                   std::span<WedgeAngles> angles) {
-  const auto [tip_edge, tip] = wedge_tip;
+  const std::uint32_t tip_edge = wedge_tip.edge;  // no structured binding: clang 14 captures none in a lambda
+  const Point tip = wedge_tip.at;
   // Along the boundary one way: `end_of` is the end of an edge that is farther on, `after` the edge beyond it.
   const auto measure = [&](auto end_of, auto after, double WedgeAngles::*angle) {
     Point from = tip;
