@@ -29,6 +29,13 @@ using io::GeojsonLayer;
 /// more pieces, whose union takes longer.
 constexpr double kTrackTolerance = 0.05;
 
+/// Limits of a channel that pictures show. Ice farther apart than the widest channel was not parted by the ship. On a
+/// track that turns with a smaller radius, neighbouring cells overlap on the inner side. A ship that drifts at a larger
+/// angle to its heading is driven by the ice and opens no channel.
+constexpr double kWidestChannel = 3;  ///< [beams]
+constexpr double kTightestTurn = 4;   ///< radius [beams]
+constexpr double kMostDrift = 0.5;    ///< between the heading and the track [rad]
+
 /// The track's corners with the way to them and when they were passed.
 struct Waypoint {
   Point point;        ///< carried to now [m]
@@ -200,7 +207,11 @@ class ChannelMeasure {
       const Vector chord = joints[std::min(i + 1, count)].point - joints[i == 0 ? 0 : i - 1].point;
       across.push_back(perpendicular(length(chord) > 0 ? chord / length(chord) : Vector{1, 0}));
     }
+    const auto turn_in_cell = [&](std::size_t i) {
+      return std::atan2(cross(across[i], across[i + 1]), dot(across[i], across[i + 1]));
+    };
     for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t before = channel_.stations.size();
       const auto cell = [&](double half) {
         return Polygon{geometry::convex_hull({joints[i].point + half * across[i], joints[i].point - half * across[i],
                                               joints[i + 1].point + half * across[i + 1],
@@ -209,8 +220,20 @@ class ChannelMeasure {
       };
       if (auto done = add_station(joints[i], joints[i + 1], cell(channel_.reach), cell(0.5 * channel_.beam)); !done)
         return done;
+      if (channel_.stations.size() > before)
+        channel_.stations.back().is_channel = is_channel(channel_.stations.back(), turn_in_cell(i));
     }
     return {};
+  }
+
+  /// Whether a station on a track that turns by so much in it [rad] is a channel that the ship cut.
+  bool is_channel(const ChannelStation& station, double turn) const {
+    const simulation::Scene& scene = run_.scene.scene;
+    const bool is_moored = ship_ < scene.ships.size() && scene.ships[ship_].mooring.has_value();
+    const Vector ahead = rotate(ship_pose_at(run_, motions_, ship_, station.passed).rotation, Vector{1, 0});
+    const double drift = std::atan2(std::abs(cross(ahead, station.forward)), std::abs(dot(ahead, station.forward)));
+    return !is_moored && station.is_bounded() && station.width() <= kWidestChannel * channel_.beam &&
+           std::abs(turn) * kTightestTurn * channel_.beam <= station.length && drift <= kMostDrift;
   }
 
   Done add_station(const Waypoint& from, const Waypoint& to, const Polygon& cell, const Polygon& within_beam) {
@@ -268,6 +291,21 @@ class ChannelMeasure {
           std::any_of(here, stations.end(), std::mem_fn(&ChannelStation::is_bounded)))
         cells.push_back(cells_[i]);
     }
+    std::vector<Polygon> cut;
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      if (channel_.stations[i].is_channel) cut.push_back(cells_[i]);
+    return open_water_in(cells)
+        .and_then([&](std::vector<Polygon> water) {
+          for (const Polygon& open : water) channel_.open_area += geometry::measure(open).area;
+          channel_.open_water = std::move(water);
+          return open_water_in(cut);
+        })
+        .map([&](std::vector<Polygon> water) { channel_.cut_water = std::move(water); });
+  }
+
+  /// The water in these cells that neither floes nor the hull cover and that water or brash joins to the track.
+  io::Result<std::vector<Polygon>> open_water_in(const std::vector<Polygon>& cells) const {
+    std::vector<Polygon> found;
     const auto corridor = union_of(cells);
     if (!corridor) return io::fail(to_string(corridor.error()));
     const auto& waterline = hull_of(run_.scene.scene, ship_).hull.waterline;
@@ -280,13 +318,10 @@ class ChannelMeasure {
         if (!has_track(joined)) continue;
         const auto water = part(joined, near(brash_, bounding_box(joined.outer)));
         if (!water) return io::fail(water.error());
-        for (const Polygon& open : water->outside) {
-          channel_.open_area += geometry::measure(open).area;
-          channel_.open_water.push_back(open);
-        }
+        for (const Polygon& open : water->outside) found.push_back(open);
       }
     }
-    return {};
+    return found;
   }
 
   bool has_track(const Polygon& piece) const {
@@ -403,7 +438,8 @@ constexpr StationColumn kStationColumns[] = {
     {"ice_across_beam", [](const ChannelStation& s, double) { return s.ice_across_beam; }},
     {"channel_area_m2", [](const ChannelStation& s, double) { return s.channel_area; }},
     {"brash_area_m2", [](const ChannelStation& s, double) { return s.brash_area; }},
-    {"brash_cover", [](const ChannelStation& s, double) { return s.brash_cover(); }}};
+    {"brash_cover", [](const ChannelStation& s, double) { return s.brash_cover(); }},
+    {"is_channel", [](const ChannelStation& s, double) { return s.is_channel ? 1.0 : 0.0; }}};
 
 std::string side(double width, bool has_ice) {
   return has_ice ? fmt::format("{:.2f}", width) : fmt::format(">{:.2f}", width);
@@ -538,6 +574,8 @@ std::string to_geojson(const Channel& channel) {
   GeojsonLayer layer(channel.time);
   append(layer.start().key("part").value("open water"), channel);
   layer.end_with(channel.open_water);
+  layer.start().key("part").value("channel");
+  layer.end_with(channel.cut_water);
   if (!channel.brash.empty()) {
     layer.start().key("part").value("brash").key("area_m2").value(channel.brash_area);
     layer.end_with(channel.brash);

@@ -35,6 +35,10 @@ struct ChannelStation {
   double ice_across_beam = 0;  ///< share of the cell within half a beam of the track that ice covers [-]
   double channel_area = 0;     ///< of the cell from ice to ice [m²]; 0 where it is not bounded
   double brash_area = 0;       ///< of it that brash covers [m²]
+  /// Whether the ship cut this stretch of the channel, so that pictures show it: ice lies on both sides, at most three
+  /// beams apart; the track is nearly straight; the ship moved along the track, not across it, and is not moored.
+  /// Elsewhere the width is a property of the ice field, not of the ship.
+  bool is_channel = false;
 
   double brash_cover() const;                        ///< [-]; NaN where there is no channel
   double width() const { return port + starboard; }  ///< [m]
@@ -63,6 +67,7 @@ struct Channel {
   std::vector<ChannelFloe> floes;             ///< in the band, the largest first
   std::vector<geometry::Polygon> open_water;  ///< joined to the track by water or brash, from the first to
                                               ///< the last bounded cell [m]
+  std::vector<geometry::Polygon> cut_water;   ///< the same in the cells that are a channel [m]
   double open_area = 0;                       ///< [m²]
   // From ice to ice, in the bounded cells. Brash is ice that came up from under a hull, and what it broke into.
   double area = 0;                        ///< of them together [m²]

@@ -8,8 +8,8 @@
 # In the order they stand in the page.
 set(POLYNYA_PLAYER_STYLES vendor/uPlot.min.css player.css)
 set(POLYNYA_PLAYER_SCRIPTS numbers.js clock.js run_data.js motion.js map_view.js colours.js sizes.js draw_ice.js
-  channel.js draw_marks.js load_line.js floe_card.js plot_curves.js plot.js timeline.js input.js moment_link.js
-  save_picture.js plan.js actions.js player.js)
+  channel.js draw_marks.js ship_names.js ruler.js load_line.js floe_card.js ship_card.js plot_curves.js plot.js
+  plot_panel.js timeline.js input.js moment_link.js save_picture.js plan.js actions.js player.js)
 set(POLYNYA_PAIR_SCRIPTS numbers.js clock.js input.js moment_link.js pair.js)
 
 function(polynya_player_page folder output)

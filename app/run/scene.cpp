@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -220,18 +221,53 @@ void print_list_as_json() {
   print_json(all);
 }
 
-/// A line for each particular below an object, and whose it is: the file's, its preset's or a default.
-void print_particulars(const std::string& path, const io::JsonValue& resolved, const io::JsonValue* given,
-                       const io::JsonValue* preset, const std::string& preset_name) {
+/// The values that a ship's file and its preset have at one path; null where they have none.
+struct Stated {
+  const io::JsonValue* by_file = nullptr;
+  const io::JsonValue* by_preset = nullptr;
+};
+
+using UseParticular =
+    std::function<void(const std::string& path, const io::JsonValue& value, const std::string& source)>;
+
+/// Calls use(path, value, source) for each particular below an object. Its source is "given" by the file, its preset's
+/// name, "estimated" or "default".
+void each_particular(const std::string& path, const io::JsonValue& resolved, const Stated& stated,
+                     const io::LoadedShip& ship, const UseParticular& use) {
   for (const io::JsonMember& member : resolved.members()) {
     const std::string below = path.empty() ? member.key : path + "." + member.key;
-    const io::JsonValue* own = given ? given->find(member.key) : nullptr;
-    const io::JsonValue* filled = preset ? preset->find(member.key) : nullptr;
+    const Stated here{stated.by_file ? stated.by_file->find(member.key) : nullptr,
+                      stated.by_preset ? stated.by_preset->find(member.key) : nullptr};
+    const bool is_estimate = std::ranges::find(ship.estimates, below, &io::Estimate::path) != ship.estimates.end();
     if (member.value.is(io::JsonValue::Kind::kObject))
-      print_particulars(below, member.value, own, filled, preset_name);
+      each_particular(below, member.value, here, ship, use);
     else
-      print_out("{:<46}{:>12}  {}\n", below, io::show(member.value), own ? "given" : filled ? preset_name : "default");
+      use(below, member.value,
+          here.by_file     ? "given"
+          : here.by_preset ? ship.preset
+          : is_estimate    ? "estimated"
+                           : "default");
   }
+}
+
+void print_estimates(const std::vector<io::Estimate>& estimates, const std::string& name) {
+  if (estimates.empty()) return;
+  print_out("\n{:<46}{:>12}  {}\n", "estimated, not stated", "value", "by");
+  for (const io::Estimate& estimate : estimates)
+    print_out("{:<46}{:>12g}  {}\n", estimate.path, estimate.value, estimate.by);
+  print_out("State what you know better. polynya performance {} --list prints how far the answer moves with each.\n",
+            name);
+}
+
+/// Whose each particular is, and by which formula it is estimated.
+void set_sources(io::JsonValue& root, const io::LoadedShip& ship, const io::JsonValue& of_preset) {
+  io::JsonValue from{io::JsonValue::Object{}, 0}, estimated{io::JsonValue::Object{}, 0};
+  each_particular(
+      "", ship.resolved, {&ship.given, &of_preset}, ship,
+      [&](const std::string& path, const io::JsonValue&, const std::string& source) { from.set(path, source); });
+  for (const io::Estimate& estimate : ship.estimates) estimated.set(estimate.path, estimate.by);
+  root.set("from", std::move(from.data));
+  root.set("estimated", std::move(estimated.data));
 }
 
 struct ShipsOptions {
@@ -254,13 +290,18 @@ ExitCode show_text(std::string text, const std::string& name, bool is_file, cons
   const io::ShipPreset* preset = io::find_ship_preset(ship->preset);
   const std::string stem = is_file ? io::name_from(name) : name;
   const std::string title = is_file || !preset ? stem : preset->title;
+  const io::JsonValue of_preset = preset ? json_of(*preset) : io::JsonValue{nullptr, 0};
   if (!options.is_json) {
-    const io::JsonValue of_preset = preset ? json_of(*preset) : io::JsonValue{nullptr, 0};
     print_out("{}\n\n{:<46}{:>12}  {}\n", title, "particular", "value", "from");
-    print_particulars("", ship->resolved, &ship->given, &of_preset, ship->preset);
+    each_particular("", ship->resolved, {&ship->given, &of_preset}, *ship,
+                    [](const std::string& path, const io::JsonValue& value, const std::string& source) {
+                      print_out("{:<46}{:>12}  {}\n", path, io::show(value), source);
+                    });
+    print_estimates(ship->estimates, name);
     return kDone;
   }
-  io::JsonValue root = described(stem, title, std::move(ship->resolved), preset);
+  io::JsonValue root = described(stem, title, ship->resolved, preset);
+  set_sources(root, *ship, of_preset);
   if (ship->engine) {
     io::JsonValue engine{io::JsonValue::Object{}, 0};
     engine.set("bollard_pull_N", ship->engine->bollard_pull);
@@ -414,7 +455,8 @@ Command add_ships(CommandLine& app) {
   command.flag("--json", options->is_json,
                "Print that ship, or the list of all, as JSON; of a file with every default filled in");
   command.flag("--for-performance", options->is_for_performance,
-               "Require also what polynya performance needs: main dimensions, draught and engine");
+               "Require also what polynya performance needs, main dimensions, draught and engine, and estimate what "
+               "can be: open-water speed, block coefficient, entrance angle, propellers");
   return {command, [options] { return show(*options); }};
 }
 

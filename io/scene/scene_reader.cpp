@@ -170,9 +170,13 @@ class SceneReader {
     if (const JsonValue* preset = given.find("ship", JsonKind::kText)) ship.preset = preset->text();
     JsonValue scene{JsonValue::Object{}, given.offset};
     scene.set("ships", JsonValue::Array{std::move(given)});
+    fill_in_presets(scene);
+    JsonValue& item = scene.find("ships")->items().front();
+    if (use == ShipUse::kLevelIce) ship.estimates = add_estimates(item, input_.scene.water.water.density);
     const bool is_valid = complete(scene);
-    if (use == ShipUse::kLevelIce) check_for_level_ice(scene.find("ships")->items().front());
-    if (!is_valid || problems_.count() > 0) return tl::unexpected(problems_of_ship());
+    std::vector<Problem> problems = problems_of_ship();
+    if (use == ShipUse::kLevelIce && item.is(JsonKind::kObject)) add_problems_of_level_ice(item, problems);
+    if (!is_valid || !problems.empty()) return tl::unexpected(std::move(problems));
     ship.resolved = std::move(resolved_.find("ships")->items().front());
     if (auto* engine = std::get_if<simulation::Engine>(&draft_.scene.ships.back().propulsion)) ship.engine = *engine;
     return ship;
@@ -196,20 +200,23 @@ class SceneReader {
     return problems;
   }
 
-  /// What the formulas and the course of `polynya performance` need, of a ship with its preset filled in.
-  void check_for_level_ice(const JsonValue& ship) {
-    const ReportAt report_at{problems_, ship, "ships[0]"};
-    const std::string reason = ": the formulas and the course in level ice need it";
-    if (const JsonValue* hull = ship.find("hull", JsonKind::kObject)) {
-      if (hull->find("waterline_m"))
-        report_at("hull.waterline_m", "a waterline point by point",
-                  "length_m, beam_m and entrance_angle_deg, which the formulas and the course need");
-      if (!hull->find("draught_m")) report_at("hull.draught_m", "nothing", "a number > 0, ≤ 1000 [m]" + reason);
-    }
-    const JsonValue* propulsion = ship.find("propulsion", JsonKind::kObject);
-    if (propulsion && !propulsion->members().empty() && !propulsion->find("engine"))
-      report_at("propulsion.engine", "nothing", "an engine, by which is known what the ship can push with");
-    if (ship.find("mooring")) report_at("mooring", "a mooring", "none: the ship sails");
+  /// Adds all that `polynya performance` lacks, each at its own path, in place of what the reader says of the same: it
+  /// stops at an object of which a part is missing, and would name the rest once that is there.
+  void add_problems_of_level_ice(const JsonValue& ship, std::vector<Problem>& problems) {
+    report_for_level_ice(ship, {problems_, ship, "ships[0]"});
+    const std::vector<Problem> lacking = problems_of_ship();
+    if (lacking.empty()) return;
+    std::erase_if(problems, [](const Problem& problem) {
+      const bool is_absence =
+          problem.found == "nothing" || problem.found == "none of them" || problem.found.starts_with("neither ");
+      const bool is_of_level_ice = problem.path.empty() || problem.path.starts_with("hull") ||
+                                   problem.path.starts_with("propulsion") || problem.path == "mass_kg" ||
+                                   problem.path == "moment_of_inertia_kg_m2";
+      return is_absence && is_of_level_ice;
+    });
+    problems.insert(problems.end(), lacking.begin(), lacking.end());
+    std::ranges::stable_sort(problems, {},
+                             [](const Problem& problem) { return std::pair(problem.line, problem.column); });
   }
 
   void report(std::uint32_t offset, std::string path, std::string found, std::string allowed) {

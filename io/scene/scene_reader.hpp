@@ -9,6 +9,7 @@
 
 #include "fracture/scatter.hpp"
 #include "io/import/floe_import.hpp"
+#include "io/scene/ship_estimates.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/problem.hpp"
 #include "io/text/source_text.hpp"
@@ -68,12 +69,14 @@ struct LoadedShip {
   JsonValue resolved;  ///< with its preset's particulars and every default filled in
   std::string preset;  ///< its name, or empty
   std::optional<simulation::Engine> engine;
+  std::vector<Estimate> estimates;  ///< particulars that the text does not state; for kLevelIce alone
 };
 
 /// What a ship is read for.
 enum class ShipUse {
   kScene,
-  kLevelIce,  ///< `polynya performance`: also main dimensions, draught and engine are needed, and no mooring
+  kLevelIce,  ///< `polynya performance`: needs main dimensions, draught and engine, and no mooring; what can be
+              ///< estimated is (ship_estimates.hpp)
 };
 
 /// A value in place of the scene's own, of one key by its path.

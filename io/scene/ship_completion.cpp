@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "dynamics/ship/open_water.hpp"
 #include "geometry/shape/angle.hpp"
 #include "geometry/shape/pose.hpp"
 #include "io/scene/floe_list_reader.hpp"
@@ -20,12 +21,11 @@ using geometry::Point;
 using geometry::Vector;
 using simulation::Ship;
 
-constexpr double kLargestRudder = 0.2;        ///< A_R of L T; rudders have a tenth of that [-]
-constexpr double kRudderShare = 0.018;        ///< A_R of L T [-]
-constexpr double kPropellerOfDraught = 0.65;  ///< D of T (recall) [-]
-constexpr double kGyrationOfLength = 0.25;    ///< [-]
-constexpr double kLeastBlock = 0.2;           ///< [-]
-constexpr double kShortestWall = 0.1;         ///< [m]
+constexpr double kLargestRudder = 0.2;      ///< A_R of L T; rudders have a tenth of that [-]
+constexpr double kRudderShare = 0.018;      ///< A_R of L T [-]
+constexpr double kGyrationOfLength = 0.25;  ///< [-]
+constexpr double kLeastBlock = 0.2;         ///< [-]
+constexpr double kShortestWall = 0.1;       ///< [m]
 
 /// The outline in house notation, with the angles of its vertices.
 void set_waterline(const HullOutline& outline, simulation::Hull& hull) {
@@ -113,7 +113,7 @@ class Completion {
     auto& engine = std::get<simulation::Engine>(ship_.propulsion);
     const std::string key = "propulsion.engine";
     const double diameter =
-        input.propeller_diameter > 0 ? input.propeller_diameter : kPropellerOfDraught * ship_.hull.draught;
+        input.propeller_diameter > 0 ? input.propeller_diameter : dynamics::kPropellerOfDraught * ship_.hull.draught;
     engine.propeller_area = input.propellers * 0.25 * std::numbers::pi * diameter * diameter;
     if (engine.bollard_pull == 0 && engine.power > 0 && input.propeller_diameter > 0)
       engine.bollard_pull =

@@ -115,9 +115,12 @@ def spencer_jones(hull, ice, speed):
     return breaking + 0.5 * (ice.water_density - ice.density) * G * h * b * hull.draught
 
 
+PULL_OF_PROPELLERS = {1: 0.78, 2: 0.98, 3: 1.12}  # K_e
+
+
 def bollard_pull(power, diameter, propellers, has_nozzles=False):
     """K_e (P D)^⅔ [N]: power of all propellers [W], diameter of one [m]; K_e .78, .98, 1.12 for 1, 2, 3 of them."""
-    factor = {1: 0.78, 2: 0.98, 3: 1.12}[propellers] * (1.4 if has_nozzles else 1)
+    factor = PULL_OF_PROPELLERS[propellers] * (1.4 if has_nozzles else 1)
     return 1e3 * factor * (1e-3 * power * diameter) ** (2 / 3)
 
 
@@ -140,3 +143,15 @@ def equilibrium(bollard, open_water_speed, resistance):
         middle = 0.5 * (slow + fast)
         slow, fast = (middle, fast) if excess(middle) > 0 else (slow, middle)
     return 0.5 * (slow + fast)
+
+
+def level_ice_speeds(hull, engine, ice):
+    """The speeds at which published resistances equal the net thrust of an engine, a mapping with bollard_pull_N and
+    open_water_speed_m_per_s [m/s]."""
+    resistances = {
+        "lindqvist": lambda v: sum(lindqvist(hull, ice, v)),
+        "riska": lambda v: riska(hull, ice, v),
+        "spencer_jones": lambda v: spencer_jones(hull, ice, v),
+    }
+    pull, fast = engine["bollard_pull_N"], engine["open_water_speed_m_per_s"]
+    return {name: equilibrium(pull, fast, of) for name, of in resistances.items()}

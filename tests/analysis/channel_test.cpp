@@ -1,7 +1,9 @@
 #include "analysis/channel.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "../io/expect_text.hpp"
 
@@ -165,8 +167,65 @@ TEST(Channel, BrashCoversItAndDoesNotNarrowIt) {
     EXPECT_HAS(to_geojson(channel), "\"part\":\"brash\"");
     const std::string csv = to_csv(channel);
     EXPECT_EQ(csv.substr(0, csv.find('\n')).substr(csv.find("channel_area_m2")),
-              "channel_area_m2,brash_area_m2,brash_cover");
+              "channel_area_m2,brash_area_m2,brash_cover,is_channel");
   }
+}
+
+/// How many of a run's stations are a channel that pictures show.
+std::size_t shown(const io::Run& run) {
+  const analysis::Channel channel = measured(run);
+  const auto count =
+      static_cast<std::size_t>(std::ranges::count_if(channel.stations, &analysis::ChannelStation::is_channel));
+  EXPECT_EQ(channel.cut_water.empty(), count == 0);
+  return count;
+}
+
+TEST(Channel, IsShownWhereAShipCutItAndNotWhereIceIsFar) {
+  for (const double side : {6.0, 11.9, 12.1}) {  // three beams are 24 m
+    HandMadeRun made(0.7, {0.2, -0.1});
+    made.add(box({-50, side}, {200, 40}));
+    made.add(box({-50, -60}, {200, -side}));
+    EXPECT_EQ(shown(made.run), side < 12 ? 11U : 0U) << side;
+  }
+}
+
+TEST(Channel, OfAMooredOrDriftingShipIsNotShown) {
+  HandMadeRun made;
+  made.add(box({-50, 6}, {200, 40}));
+  made.add(box({-50, -60}, {200, -6}));
+  made.run.scene.scene.ships.back().mooring.emplace();
+  EXPECT_EQ(shown(made.run), 0U) << "moored";
+  made.run.scene.scene.ships.back().mooring.reset();
+  ASSERT_EQ(shown(made.run), 11U);
+  for (io::Frame& frame : made.run.frames) frame.ships.front().angle += 0.6;
+  EXPECT_EQ(shown(made.run), 0U) << "it goes half sideways";
+  for (io::Frame& frame : made.run.frames) frame.ships.front().angle += std::numbers::pi - 0.6;
+  EXPECT_EQ(shown(made.run), 11U) << "astern";
+}
+
+/// A circle of that radius through narrow ice, made of many small boxes: one frame a second at 2 m/s.
+std::size_t shown_on_circle(double radius) {
+  HandMadeRun made;
+  made.run.frames.resize(1);
+  made.run.frames.front().ships.front().position = {radius, 0};
+  made.run.frames.front().ships.front().angle = std::numbers::pi / 2;
+  for (int i = 1; i <= 60; ++i) {
+    const double turn = 2.0 * i / radius;
+    const Point at{radius * std::cos(turn), radius * std::sin(turn)};
+    made.run.frames.push_back({1.0 * i, {{at, turn + std::numbers::pi / 2, {}, 0}}, {}});
+  }
+  for (double turn = -0.5; turn < 125 / radius; turn += 3 / radius) {
+    for (const double r : {radius - 7, radius + 7}) {
+      const Point c{r * std::cos(turn), r * std::sin(turn)};
+      made.add(box(c - Vector{1, 1}, c + Vector{1, 1}));
+    }
+  }
+  return shown(made.run);
+}
+
+TEST(Channel, IsShownInAWideTurnAndNotInATightOne) {
+  EXPECT_GT(shown_on_circle(80), 10U);  // ten beams
+  EXPECT_EQ(shown_on_circle(24), 0U);   // three beams
 }
 
 TEST(Channel, WithoutBrashHasNoPiecesAndNoSizes) {

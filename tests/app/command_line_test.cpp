@@ -189,6 +189,52 @@ TEST_F(ShipsCommand, AShipOfAFileIsPrintedAsItsSceneResolvesIt) {
              "hull.submersion_speed_factor                   \"lindqvist\"  default\n");
 }
 
+TEST_F(ShipsCommand, EverythingThatPerformanceLacksIsNamedAtOnce) {
+  const std::vector<std::string> all{"hull.length_m: found nothing",
+                                     "hull.beam_m: found nothing",
+                                     "hull.entrance_angle_deg: found nothing",
+                                     "hull.draught_m: found nothing",
+                                     "hull.block_coefficient: found nothing",
+                                     "propulsion.engine.power_MW: found nothing",
+                                     "propulsion.engine.open_water_speed_m_per_s: found nothing"};
+  for (const char* text : {"{}", R"({"hull": {}, "propulsion": {}})", R"({"propulsion": {"engine": {}}})"}) {
+    write("lacking.json", text);
+    const Outcome outcome = expect_code(3, call("ships lacking.json --for-performance"));
+    for (const std::string& line : all) EXPECT_HAS(outcome.err, line);
+    EXPECT_HAS(outcome.err, "7 problems in lacking.json");
+  }
+  write("lacking.json", R"({"hull": {"beam_m": 20, "draught_m": -1}, "mooring": {}, "propulsion": {"engine": {}}})");
+  const std::string found = call("ships lacking.json --for-performance").err;
+  for (const std::string& line : all)
+    EXPECT_EQ(found.find(line) != std::string::npos,
+              !line.starts_with("hull.beam") && !line.starts_with("hull.draught"))
+        << line;
+  EXPECT_HAS(found, "hull.draught_m: found -1", "mooring: found a mooring");
+  write("lacking.json", "[]");
+  EXPECT_HAS(call("ships lacking.json --for-performance").err, "1 problem in lacking.json");
+}
+
+TEST_F(ShipsCommand, WhatIsNotStatedIsEstimatedByAFormulaThatIsNamed) {
+  write("sparse.json", R"({"hull": {"length_m": 84, "beam_m": 20, "draught_m": 7, "block_coefficient": 0.62},
+    "propulsion": {"engine": {"power_MW": 9, "propellers": 2}}})");
+  expect_code(3, call("ships sparse.json"));  // a scene needs it stated
+  const std::string text = call("ships sparse.json --for-performance").out;
+  EXPECT_HAS(text, "propulsion.engine.propeller_diameter_m                4.55  estimated\n",
+             "hull.stem_angle_deg                                     30  default\n", "[Holtrop1984]",
+             "hull.length_m                                           84  given\n");
+  const auto json = printed(done("ships sparse.json --for-performance --json"));
+  EXPECT_EQ(json.at("from").at("propulsion.engine.open_water_speed_m_per_s"), "estimated");
+  EXPECT_EQ(json.at("from").at("hull.length_m"), "given");
+  EXPECT_EQ(json.at("estimated").size(), 3u) << "speed, entrance angle, diameter";
+  const double speed = json.at("ship").at("propulsion").at("engine").at("open_water_speed_m_per_s");
+  EXPECT_GT(speed, 7);
+  EXPECT_LT(speed, 9);
+  write("sparse.json", R"({"mass_kg": 7e6, "hull": {"length_m": 84, "beam_m": 20, "draught_m": 7},
+    "propulsion": {"engine": {"bollard_pull_kN": 1000, "open_water_speed_m_per_s": 8}}})");
+  const auto by_mass = printed(done("ships sparse.json --for-performance --json"));
+  EXPECT_NEAR(by_mass.at("ship").at("hull").at("block_coefficient").get<double>(), 7e6 / (1000 * 84 * 20 * 7), 5e-4);
+}
+
 TEST_F(ShipsCommand, WhatIsNoShipOrNoneForPerformanceIsRefusedWithItsPlace) {
   write("scene.json", R"({"ships": []})");
   write("outline.json", R"({"name": "x", "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9,

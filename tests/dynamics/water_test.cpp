@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/ship/manoeuvring.hpp"
+#include "dynamics/ship/open_water.hpp"
 #include "dynamics/ship/propulsion.hpp"
 #include "dynamics/water/submerged_ice.hpp"
 #include "dynamics/water/water_drag.hpp"
@@ -407,6 +408,39 @@ TEST(SubmergedIce, AHullCoveredWithIcePaysLindqvistsResistance) {
 TEST(SubmergedIce, TheSpeedFactorIsLindqvists) {
   EXPECT_EQ(submersion_speed_factor(0, 120), 1);
   EXPECT_NEAR(submersion_speed_factor(1, 120), 1 + 9.4 / std::sqrt(9.81 * 120), 1e-12);
+}
+
+// The container ship that Holtrop and Mennen compute in 1982 as their example (recall): 205 × 32 × 10 m, 37500 m³, half
+// angle of entrance 12.08°. At 25 kn friction with its form factor is 1005 kN, the correlation allowance 222 kN, and
+// waves are 557 kN behind a bulb and a transom that take factors 0.7595 and 0.9592 off, which our hull does not have.
+TEST(OpenWater, ResistanceOfThePublishedExample) {
+  const MainDimensions hull{205, 32, 10, 37500.0 / (205 * 32 * 10)};
+  constexpr double kKnot = 1852.0 / 3600, kDegree = std::numbers::pi / 180;
+  const double published = 1e3 * (1005 + 222 + 557 / (0.7595 * 0.9592));
+  EXPECT_NEAR(open_water_resistance(hull, 12.08 * kDegree, 25 * kKnot, 1025).value() / published, 1, 0.06);
+  EXPECT_NEAR(usual_entrance_angle(hull).value() / (12.08 * kDegree), 1, 0.03);
+}
+
+TEST(OpenWater, ASpeedOverThePowerItTakesGivesThatSpeed) {
+  const MainDimensions hull{100, 24, 8, 0.57};
+  for (const double speed : {4.0, 7.0, 9.0}) {
+    const double power = open_water_resistance(hull, 0.5, speed, 1000).value() * speed / kPowerIntoResistance;
+    EXPECT_NEAR(usual_open_water_speed(hull, 0.5, power, 1000).value(), speed, 1e-5);
+  }
+}
+
+TEST(OpenWater, GivesNothingOutsideTheRegression) {
+  EXPECT_FALSE(open_water_resistance({100, 20, 8, 1}, 0.5, 8, 1000)) << "a box";
+  EXPECT_FALSE(usual_entrance_angle({100, 20, 8, 0.95}));
+  EXPECT_FALSE(open_water_resistance({100, 20, 8, 0.6}, 0.5, 13, 1000)) << "a Froude number of 0.42";
+  EXPECT_FALSE(usual_open_water_speed({100, 20, 8, 0.6}, 0.5, 1e12, 1000));
+  EXPECT_FALSE(usual_open_water_speed({100, 20, 8, 0.6}, 0.5, 1, 1000));
+}
+
+TEST(OpenWater, FullHullsSuitSlowShips) {
+  EXPECT_NEAR(usual_block_coefficient(110, 24, 8.75), 0.497, 5e-4);  // 0.14/0.2664 × 24.58/26
+  EXPECT_EQ(usual_block_coefficient(110, 24, 1), 0.85);
+  EXPECT_EQ(usual_block_coefficient(110, 24, 20), 0.48);
 }
 
 }  // namespace

@@ -9,9 +9,9 @@ import pytest
 
 from program import SCENES, ended, mutated, succeeded
 from polynya import formulas
-from polynya.performance import level_ice
+from polynya.performance import level_ice, sensitivity
 from polynya.performance.__main__ import hull_of, print_table, ship_of
-from polynya.performance.curve import VALIDATED_THICKNESS, Curve
+from polynya.performance.curve import VALIDATED_THICKNESS, Curve, beyond_band
 from polynya.performance.options import command_line
 
 HULL = formulas.Hull(120, 24, 6, math.radians(30), math.radians(27))
@@ -144,11 +144,13 @@ def test_a_ship_that_is_none_ends_the_command_with_what_was_meant(capfd, tmp_pat
         assert ended.value.code == code and message in capfd.readouterr().err
 
 
-def rows_of(*thickness):
-    speeds = {f"{name}_m_per_s": 3.0 for name in ("speed", "lindqvist", "riska", "spencer_jones")}
-    return [speeds | {"thickness_m": h, "error_m_per_s": 0.01, "is_stuck": False,
-                      "is_steady": True, "contact_kN": 1.0, "submerged_kN": 1.0,
-                      "is_in_validated_range": h <= 0.5} for h in thickness]
+def rows_of(*thickness, speed=3.0):
+    """Points at that speed in the formulas' band from 2.5 to 3.5 m/s."""
+    formulas_of = {"lindqvist_m_per_s": 2.5, "riska_m_per_s": 3.0, "spencer_jones_m_per_s": 3.5}
+    return [formulas_of | {"speed_m_per_s": speed, "thickness_m": h, "error_m_per_s": 0.01, "is_stuck": False,
+                           "is_steady": True, "contact_kN": 1.0, "submerged_kN": 1.0,
+                           "is_in_validated_range": h <= 0.5,
+                           "beyond_formulas": beyond_band(speed, formulas_of.values())} for h in thickness]
 
 
 def test_points_outside_validation_are_marked_in_table_and_figure(capsys, tmp_path):
@@ -158,12 +160,88 @@ def test_points_outside_validation_are_marked_in_table_and_figure(capsys, tmp_pa
     for thickness, is_marked in (((0.25, 0.5), False), ((0.5, 0.8), True)):
         print_table(rows_of(*thickness))
         table = capsys.readouterr().out
-        assert ("0.8*" in table) == is_marked and "0.5*" not in table
+        assert ("0.8* " in table) == is_marked and "0.5*" not in table and "!" not in table
         assert ("outside the range of validation" in table) == is_marked
         assert "statistical scatter alone, not the model's error" in table
         figure.draw(rows_of(*thickness), "title", [], tmp_path / "figure.svg")
         drawn = (tmp_path / "figure.svg").read_text()
-        assert ("outside validation (&gt; 0.5 m)" in drawn) == is_marked and "run's own scatter" in drawn
+        assert ("thicker than 0.5 m: outside validation" in drawn) == is_marked and "run's own scatter" in drawn
+        assert "outside the band of the formulas" not in drawn
+
+
+@pytest.mark.parametrize("speed, words", [(2.4, "slower than by every formula"), (2.5, ""), (3.5, ""),
+                                          (3.51, "faster than by every formula")])
+def test_points_out_of_the_formulas_band_are_marked_in_thin_ice_too(speed, words, capsys, tmp_path):
+    matplotlib = pytest.importorskip("matplotlib")
+    from polynya.performance import figure
+    matplotlib.rcParams["svg.fonttype"] = "none"
+    print_table(rows_of(0.25, 0.5, speed=speed))
+    table = capsys.readouterr().out
+    assert ("0.5! " in table) == ("in 0.25 m, 0.5 m" in table) == bool(words) and words in table
+    figure.draw(rows_of(0.25, speed=speed), "title", [], tmp_path / "figure.svg")
+    assert ("outside the band of the formulas" in (tmp_path / "figure.svg").read_text()) == bool(words)
+
+
+SPARSE = {"hull": {"length_m": 84, "beam_m": 20, "draught_m": 7, "block_coefficient": 0.62},
+          "propulsion": {"engine": {"power_MW": 9}}}
+
+
+def test_the_table_shows_what_one_finds_by_changing_the_file(tmp_path):
+    """Each cell is the change of the formulas' mean where the file states that value a tenth more or less."""
+    path = tmp_path / "ship.json"
+    path.write_text(json.dumps(SPARSE))
+    found = ship_of(str(path))
+    ice = formulas.Ice(0, flexural_strength=500e3, friction=0.1)
+    of = (hull_of(found["ship"]), found["engine"], ice)
+    listed = sensitivity.particulars(found["ship"], *of, found["from"], {"flexural_strength": True, "friction": False})
+    assert {one.key for one in listed if one.is_guess} == {
+        "hull.stem_angle_deg", "hull.entrance_angle_deg", "propulsion.engine.open_water_speed_m_per_s",
+        "propulsion.engine.propeller_diameter_m", "propulsion.engine.propellers", "ice.friction"}
+    rows = dict((one.key, pairs[0]) for one, pairs in sensitivity.table(listed, [0.6], *of))
+    whole = found["ship"]
+    for key, factors in (("propulsion.engine.power_MW", (0.9, 1.1)), ("hull.beam_m", (0.9, 1.1)),
+                         ("propulsion.engine.propeller_diameter_m", (0.9, 1.1)),
+                         ("propulsion.engine.open_water_speed_m_per_s", (0.9, 1.1)),
+                         ("propulsion.engine.propellers", (None, 2))):
+        for factor, moved in zip(factors, rows[key]):
+            if factor is None:
+                assert moved is None
+                continue
+            changed = json.loads(json.dumps(whole))
+            place = changed
+            *way, last = key.split(".")
+            for step in way:
+                place = place[step]
+            place[last] *= factor
+            path.write_text(json.dumps(changed))
+            other = ship_of(str(path))
+            speeds = [formulas.level_ice_speeds(hull_of(one["ship"]), one["engine"], formulas.Ice(
+                0.6, flexural_strength=500e3, friction=0.1)) for one in (found, other)]
+            before, after = (sum(by.values()) / 3 for by in speeds)
+            assert moved == pytest.approx(after - before, abs=2e-3), key
+
+
+def test_guesses_lead_the_table_the_largest_first(tmp_path, capsys):
+    path = tmp_path / "ship.json"
+    path.write_text(json.dumps(SPARSE))
+    printed = succeeded("performance", str(path), "--list", "--thickness", "0.4,0.5,0.6,0.7").stdout
+    lines = [line for line in printed.splitlines() if line.startswith(("hull.", "propulsion.", "ice.")) and ": " not in
+             line]
+    marks = ["?" in line for line in lines]
+    assert marks == sorted(marks, reverse=True) and 5 < sum(marks) < len(marks)
+    assert "0.4 m" in printed and "0.6 m" in printed and "0.5 m" not in printed, "three thicknesses"
+    assert "[Holtrop1984]" in printed and "nobody stated it" in printed
+
+
+@pytest.mark.parametrize("name", ["araon", "polaris", "nordica", "oden", "xuelong-2"])
+def test_the_open_water_speed_of_known_ships_is_estimated_within_what_the_page_says(name, tmp_path):
+    ship = ship_of(name)["ship"]
+    known = ship["propulsion"]["engine"].pop("open_water_speed_m_per_s")
+    path = tmp_path / "ship.json"
+    path.write_text(json.dumps(ship))
+    found = ship_of(str(path))
+    assert found["from"]["propulsion.engine.open_water_speed_m_per_s"] == "estimated"
+    assert found["engine"]["open_water_speed_m_per_s"] == pytest.approx(known, rel=0.12)
 
 
 def test_the_range_of_validation_is_the_documents():

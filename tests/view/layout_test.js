@@ -31,7 +31,7 @@ function findProblems() {
     && e.getBoundingClientRect().height > 0;
   const { clientWidth, scrollWidth } = document.documentElement;
   if (scrollWidth > clientWidth) problems.push(`the page is ${scrollWidth} px wide in a window of ${clientWidth}`);
-  const scroller = document.querySelector("aside");
+  const scrollers = [...document.querySelectorAll("aside, #further-plots")];
   const scrolls = getComputedStyle(document.body).display === "flex";
   const all = [...document.body.querySelectorAll("*")].filter((e) =>
     !e.closest("dialog, .uplot canvas, select, svg, noscript, script") && isVisible(e));
@@ -45,11 +45,13 @@ function findProblems() {
   /** The part of an element's box that its scrolling panel shows. */
   const boxOf = (e) => {
     const { left, right, top, bottom } = e.getBoundingClientRect();
-    if (!scroller.contains(e)) return { left, right, top, bottom };
+    const scroller = scrollers.find((one) => one !== e && one.contains(e));
+    if (!scroller) return { left, right, top, bottom };
     const panel = scroller.getBoundingClientRect();
     return { left, right, top: Math.max(top, panel.top), bottom: Math.min(bottom, panel.bottom) };
   };
-  const parts = all.filter((e) => e.matches("button, select, label, output, h1, h2, h3, dt, dd, p, li, #badge, #now, " +
+  const parts = all.filter((e) => e.matches("button, select, label, output, h1, h2, h3, dt, dd, td, th, p, li, " +
+    "#badge, #now, " +
     ".clock > span, .legend > *, .keys-legend > span," +
     "#stage, #chip, #notice, #plot, #track, aside")).map((e) => ({ e, box: boxOf(e) })).filter(({ box }) =>
       box.bottom > box.top);
@@ -115,6 +117,21 @@ for (const [width, height] of sizes) {
     const { time } = await state();
     assert.ok(Math.abs(time - 0.7 * 10) < (2 * 10) / box.width, `the drag ends at ${time} s`);
     await page.act("fit");
+  });
+}
+
+for (const [width, height] of [[360, 740], [768, 1024], [1440, 900]]) {
+  test(`at ${width} x ${height} a ship's card and two more plots are cut off nowhere`, async () => {
+    await page.setViewportSize({ width, height });
+    await page.act("selectShip", 0);
+    await page.act("showPlots", ["speed_m_per_s", "yaw_Nm"]);
+    for (const theme of ["dark", "light"]) {
+      await useTheme(theme);
+      await page.evaluate(() => document.querySelector("#ship-card").scrollIntoView());
+      assert.deepEqual(await page.evaluate(() => findProblems()), [], theme);
+    }
+    await page.act("showPlots", []);
+    await page.act("selectShip", -1);
   });
 }
 

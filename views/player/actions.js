@@ -8,7 +8,8 @@ function makeActions(player) {
       act(...words);
       player.state.iceDirty = true;
     }]);
-  const groups = [eventActions, takeAwayActions, floeActions, pageActions].map((group) => group(player, actions));
+  const groups = [eventActions, takeAwayActions, floeActions, rulerActions, pageActions].map((group) =>
+    group(player, actions));
   return Object.assign(actions, Object.fromEntries(redrawn), ...groups);
 }
 
@@ -131,22 +132,30 @@ function floeActions(player, actions) {
       }
       actions.select(id);
     },
-    hover(px, py) {
-      const found = floeAt(run, places, ...view.toWorld(px, py));
-      byId("stage").style.cursor = found >= 0 ? "pointer" : "";
-      if (found === state.hovered) return;
-      state.hovered = found;
+    selectShip(index) {
+      state.ship = index;
       state.marksDirty = true;
     },
+    hover(px, py) {
+      const at = view.toWorld(px, py);
+      const [floe, ship] = [floeAt(run, places, ...at), shipAt(run, player.motions, ...at)];
+      byId("stage").style.cursor = floe >= 0 || ship >= 0 ? "pointer" : "";
+      if (floe === state.hovered && ship === state.hoveredShip) return;
+      Object.assign(state, { hovered: floe, hoveredShip: ship, marksDirty: true });
+      player.cardIsStale = true;
+    },
+    /** Chooses what is there, or lets go of it where it was chosen. Ice under a hull is chosen with its ship. */
     click(px, py) {
-      const found = floeAt(run, places, ...view.toWorld(px, py));
-      state.hovered = found;
+      const at = view.toWorld(px, py);
+      const [floe, ship] = [floeAt(run, places, ...at), shipAt(run, player.motions, ...at)];
+      Object.assign(state, { hovered: floe, hoveredShip: ship });
       if (player.plan) pickPlace(player, px, py);
-      actions.select(found === state.selected ? -1 : found);
+      const isKept = floe === state.selected;
+      if (ship >= 0) actions.selectShip(ship === state.ship && (floe < 0 || isKept) ? -1 : ship);
+      actions.select(isKept ? -1 : floe);
     },
     leave() {
-      state.hovered = -1;
-      state.marksDirty = true;
+      Object.assign(state, { hovered: -1, hoveredShip: -1, marksDirty: true });
     },
   };
 }
@@ -157,6 +166,8 @@ function pageActions(player, actions) {
   return {
     letGo() {
       if (byId("help").open) return byId("help").close();
+      if (state.isMeasuring) return actions.toggleRuler(false);
+      actions.selectShip(-1);
       state.event = null;
       showEventCard(byId("event-card"), run, null);
       return actions.select(-1);
@@ -173,7 +184,7 @@ function pageActions(player, actions) {
     },
     sizesBy: (what) => player.sizePanel.countBy(what),
     toggleFullScale() {
-      plot.setFull(!plot.isFull);
+      player.plotPanel.setFull(!plot.isFull);
       player.plotPanel.showTools();
     },
     /** Shows a part of the run in the plot [s]; without ends all of it. */
@@ -183,6 +194,15 @@ function pageActions(player, actions) {
       plot.quantity = name;
       byId("quantity").value = name;
       player.plotPanel.rebuild();
+    },
+    /** Adds a plot below the others, of the first quantity that none shows if not named. */
+    addPlot(name = nextQuantity(player.plotPanel)) {
+      if (name !== undefined) actions.showPlots([...player.plotPanel.further(), name]);
+    },
+    /** Shows plots of these quantities below the first. */
+    showPlots(quantities) {
+      player.plotPanel.showFurther(quantities.filter((name) => Object.hasOwn(plot.quantities, name)));
+      state.marksDirty = true;
     },
   };
 }

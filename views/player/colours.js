@@ -120,7 +120,7 @@ function makeLegend(player) {
     return row({ class: "arrow", style: `width: ${length * perUnit}px` }, words(length));
   }
   const loadRows = () => Array.from({ length: loadSteps }, (_, step) => swatchRow(loadColour((step + 0.5) / loadSteps),
-    `up to ${loadWords((player.loadLine.most * (step + 1)) / loadSteps, "N", shortNumber)}`));
+    `up to ${valueWords((player.loadLine.most * (step + 1)) / loadSteps, "N")}`));
 
   return {
     show() {
@@ -135,7 +135,7 @@ function makeLegend(player) {
       if (state.layers.channel) rows.push(swatchRow(colours.swept, "swept by the hull"),
         swatchRow(colours.channel, "open from ice to ice ", channelWidth));
       if (state.layers.velocities) rows.push(scaleRow(player.arrowScale, (v) => `${Number(v.toPrecision(2))} m/s`));
-      if (state.layers.forces) rows.push(scaleRow(player.forceScale, (force) => loadWords(force, "N", shortNumber)),
+      if (state.layers.forces) rows.push(scaleRow(player.forceScale, (force) => valueWords(force, "N")),
         swatchRow(colours.split, "crushing"), swatchRow(colours.bend, "not crushing"));
       if (state.layers.largestLoads || state.layers.meanLoads) rows.push(...loadRows());
       byId("legend").replaceChildren(make("b", {}, colouring.title), ...rows);

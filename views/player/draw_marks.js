@@ -283,7 +283,7 @@ function drawPatterns(context, view, run, motions, time, colours) {
   }
 }
 
-/** All of them, with their tracks where that layer is on, and their names where there are several. */
+/** All of them, with their tracks where that layer is on. */
 function drawShips(context, view, run, motions, time, layers, colours) {
   if (layers.track) drawPatterns(context, view, run, motions, time, colours);
   run.info.ships.forEach((ship, index) => {
@@ -292,11 +292,19 @@ function drawShips(context, view, run, motions, time, layers, colours) {
     if (layers.track && !ship.is_fixed)
       drawDashed(context, view, posesUpTo(run, motions, index, time), colours.track, 2, [8, 5]);
     drawShip(context, view, ship, pose, colours);
-    if (run.info.ships.length > 1) drawName(context, view, ship.name, pose, colours);
   });
 }
 
-function drawName(context, view, name, [x, y], colours) {
-  const [px, py] = view.toScreen(x, y);
-  drawWords(context, name, px, py + 4, "#ffffff", colours.hull);
+/** Ships as their names are placed by: names, centres and outlines on the screen. */
+function shipsOnScreen(view, { info: { ships } }, motions) {
+  return ships.map(({ name, waterline_m: ring }, index) => ({ name, pose: motions.ship(index), ring }))
+    .filter(({ pose }) => pose).map(({ name, pose, ring }) => ({ name, centre: view.toScreen(pose[0], pose[1]),
+      ring: ring.map((point) => view.toScreen(...placedBy(pose)(...point))) }));
+}
+
+/** The outline of the ship that is chosen. */
+function drawChosenShip(context, view, { waterline_m: ring }, pose, colours) {
+  traceLine(context, ring.map((point) => view.toScreen(...placedBy(pose)(...point))));
+  context.closePath();
+  strokeWith(context, colours.highlight, 2.5);
 }

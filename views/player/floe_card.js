@@ -43,7 +43,7 @@ function standIn(run, places, id, time) {
   return best;
 }
 
-/** What `polynya inspect` prints of a floe, in its digits. */
+/** What is known of a floe: words, and the run's own number. */
 function floeFacts(run, places, motions, id) {
   const { floes } = run;
   const speed = motions.isRecorded(id) ? Math.hypot(places.vx[id], places.vy[id]) : null;
@@ -51,12 +51,12 @@ function floeFacts(run, places, motions, id) {
     floe: [String(id), id],
     parent: [floes.parent[id] < 0 ? "none, of the scene" : String(floes.parent[id]), floes.parent[id]],
     generation: [String(floes.generation[id]), floes.generation[id]],
-    area: [`${floes.area[id].toFixed(6)} m\u00b2`, floes.area[id]],
-    mass: [`${sixDigits(floes.mass[id])} kg`, floes.mass[id]],
-    thickness: [`${sixDigits(floes.thickness[id])} m`, floes.thickness[id]],
-    "flexural strength": [`${sixDigits(floes.flexuralStrength[id] / 1e3)} kPa`, floes.flexuralStrength[id]],
-    speed: [speed === null ? "\u2013 (lived between two frames)" : `${speed.toFixed(5)} m/s`, speed],
-    born: [`${sixDigits(floes.born[id])} s`, floes.born[id]],
+    area: [valueWords(floes.area[id], "m\u00b2"), floes.area[id], "m\u00b2"],
+    mass: [valueWords(floes.mass[id], "kg"), floes.mass[id], "kg"],
+    thickness: [valueWords(floes.thickness[id], "m"), floes.thickness[id], "m"],
+    "flexural strength": [valueWords(floes.flexuralStrength[id], "Pa"), floes.flexuralStrength[id], "Pa"],
+    speed: [speed === null ? "\u2013 (lived between two frames)" : valueWords(speed, "m/s"), speed, "m/s"],
+    born: [valueWords(floes.born[id], "s"), floes.born[id], "s"],
     ...lastFacts(run, id),
   };
 }
@@ -70,8 +70,9 @@ function showFloeCard(host, run, places, motions, chosen, id, time, actions) {
   const facts = floeFacts(run, places, motions, id);
   if (!places.isThere(id, time)) facts.speed = ["\u2013 (not alive now)", null];
   const list = make("dl");
-  for (const [name, [words, value]] of Object.entries(facts))
-    list.append(make("dt", {}, name), make("dd", { "data-fact": name, "data-value": String(value) }, words));
+  for (const [name, [words, value, unit]] of Object.entries(facts))
+    list.append(make("dt", {}, name), make("dd", { "data-fact": name, "data-value": String(value),
+      ...(unit && value !== null && { title: `${value} ${unit}` }) }, words));
   if (chosen !== id) {
     const words = run.floes.born[chosen] > time
       ? `what floe ${chosen} was part of` : `the largest piece of floe ${chosen} now`;
@@ -160,7 +161,7 @@ function makeShownFloe(player) {
 
   function showCard() {
     const id = shown();
-    const key = `${id} ${state.time}`;
+    const key = `${id} ${state.time} ${state.hoveredShip}`;
     if (key === cardShown && !player.cardIsStale) return;
     cardShown = key;
     player.cardIsStale = false;
@@ -168,11 +169,12 @@ function makeShownFloe(player) {
     if (host.contains(document.activeElement) && state.isPlaying) return;
     showFloeCard(host, run, places, motions, chosen(), id, state.time, player.actions);
     const chip = byId("chip");
-    chip.hidden = id < 0;
+    chip.hidden = id < 0 && state.hoveredShip < 0;
+    if (id < 0 && state.hoveredShip >= 0) chip.textContent = shipLine(run, motions, state.hoveredShip);
     if (id < 0) return;
     const facts = floeFacts(run, places, motions, id);
     const speed = places.isThere(id, state.time) ? facts.speed[0] : "not alive now";
-    chip.textContent = `floe ${id} \u00b7 ${sixDigits(run.floes.area[id])} m\u00b2 \u00b7 ${speed}`;
+    chip.textContent = `floe ${id} \u00b7 ${valueWords(run.floes.area[id], "m\u00b2")} \u00b7 ${speed}`;
   }
   return { shown, showCard };
 }

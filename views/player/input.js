@@ -44,7 +44,7 @@ function watchPointers(element, { start, drag, pinch, hover, end }) {
   }
 }
 
-function watchMap(stage, actions) {
+function watchMap(stage, actions, isMeasuring) {
   let moved = 0; // since the press [px]; no end of it with two fingers
   let waiting = [0, 0]; // moved by less than a click may [px]
   let lastTap = -Infinity;
@@ -52,9 +52,11 @@ function watchMap(stage, actions) {
     start(event, at, count) {
       moved = count === 1 ? 0 : Infinity;
       waiting = [0, 0];
+      if (count === 1 && isMeasuring()) actions.rulerFrom(...at);
     },
     hover: (event, at) => event.buttons === 0 && event.pointerType !== "touch" && actions.hover(...at),
     drag(at, before) {
+      if (isMeasuring()) return actions.rulerTo(...at);
       const step = [at[0] - before[0], at[1] - before[1]];
       moved += Math.hypot(...step);
       waiting = waiting.map((way, k) => way + step[k]);
@@ -70,7 +72,7 @@ function watchMap(stage, actions) {
       actions.zoom(is.x, is.y, is.size / Math.max(1, was.size));
     },
     end({ type, timeStamp }, at) {
-      if (moved > clickSlop || type === "pointercancel") return;
+      if (moved > clickSlop || type === "pointercancel" || isMeasuring()) return;
       const isDouble = timeStamp - lastTap < 300;
       lastTap = isDouble ? -Infinity : timeStamp;
       if (isDouble) actions.zoom(...at, 2);

@@ -8,7 +8,9 @@ function momentOf(player) {
   if (state.colourBy !== "breakage") words.by = state.colourBy;
   if (state.sizes) words.sizes = [state.sizes.from, state.sizes.below].map((size) =>
     (Number.isFinite(size) ? Number(size.toPrecision(6)) : "")).join("-");
+  if (state.ship >= 0) words.ship = run.info.ships[state.ship].name;
   if (plot.quantity !== Object.keys(plot.quantities)[0]) words.plot = plot.quantity;
+  if (player.plotPanel.further().length > 0) words.below = player.plotPanel.further();
   if (state.follow >= 0) words.follow = run.info.ships[state.follow].name;
   if (state.follow >= 0 && !state.isFitted) words.width = Number((view.width / view.scale).toPrecision(4));
   if (state.follow < 0 && !state.isFitted) words.map = [view.x, view.y, view.width / view.scale].map((v) =>
@@ -17,7 +19,9 @@ function momentOf(player) {
 }
 
 const written = (value) => encodeURIComponent(value).replaceAll("%2C", ",");
-const linkOf = (words) => `#${Object.entries(words).map(([key, value]) => `${key}=${written(value)}`).join("&")}`;
+/** Of a list one word for each of its items. */
+const linkOf = (words) => `#${Object.entries(words).flatMap(([key, value]) => [value].flat().map((one) =>
+  `${key}=${written(one)}`)).join("&")}`;
 
 /** Shows a part of the map that is so wide [m]. */
 function showWidth({ state, view }, width) {
@@ -53,6 +57,15 @@ const momentWords = {
     if (!Object.hasOwn(plot.quantities, text)) return "no such quantity in this run";
     actions.plotQuantity(text);
   },
+  below({ actions, plot }, text) {
+    if (!Object.hasOwn(plot.quantities, text)) return "no such quantity in this run";
+    actions.addPlot(text);
+  },
+  ship({ actions, run }, text) {
+    const ship = run.info.ships.findIndex(({ name }) => name === text);
+    if (ship < 0) return "no such ship";
+    actions.selectShip(ship);
+  },
   follow({ actions, run }, text) {
     const ship = run.info.ships.findIndex(({ name }) => name === text);
     if (ship < 0) return "no such ship";
@@ -74,6 +87,7 @@ const momentWords = {
 /** Goes where a link leads; gives what of it was not understood. */
 function goToMoment(player, link) {
   const problems = [];
+  player.actions.showPlots([]);
   for (const [key, text] of new URLSearchParams(link.replace(/^#/, ""))) {
     const problem = Object.hasOwn(momentWords, key) ? momentWords[key](player, text) : "unknown";
     if (problem) problems.push(`${key}=${text}: ${problem}`);

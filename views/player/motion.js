@@ -155,7 +155,7 @@ function showCountsUnderHulls({ under }, places, time) {
 /** When a floe went under and how it ended: it broke, came up as another, or stayed under the ice. */
 function lastFacts({ floes, info, breakOf }, id) {
   const facts = {};
-  const seconds = (time) => `${sixDigits(time)} s`;
+  const seconds = (time) => valueWords(time, "s");
   if (Number.isFinite(floes.wentUnder[id])) facts["under the hull"] = [`since ${seconds(floes.wentUnder[id])}`,
     floes.wentUnder[id]];
   const last = info.events[breakOf.get(id)];

@@ -15,29 +15,57 @@ const counted = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
 
 const minus = (text) => text.replace(/^-/, "\u2212");
 
-/** A force [N] or moment [N m] in the unit that suits `largest`. */
-function loadUnit(largest, base) {
-  if (largest >= 1e6) return { factor: 1e-6, name: "M" + base };
-  if (largest >= 1e3) return { factor: 1e-3, name: "k" + base };
-  return { factor: 1, name: base };
+// Numbers as people read them: four digits, in a unit that suits the value, with spaces between thousands. A value
+// below what a run can mean in its unit is rounding and shows as 0.
+
+const prefixed = (base) => [[1e9, `G${base}`], [1e6, `M${base}`], [1e3, `k${base}`]];
+/** Of each base unit the larger units with their sizes, and the smallest value that is not rounding, both in it. */
+const unitScales = {
+  N: { larger: prefixed("N"), least: 0.1 }, "N\u00b7m": { larger: prefixed("N\u00b7m"), least: 0.1 },
+  Pa: { larger: prefixed("Pa"), least: 0.1 }, W: { larger: prefixed("W"), least: 0.1 },
+  J: { larger: prefixed("J"), least: 0.1 }, kg: { larger: [[1e3, "t"]], least: 1e-3 },
+  m: { larger: [[1e4, "km", 1e3]], least: 1e-3 }, "m\u00b2": { larger: [[1e6, "km\u00b2"]], least: 1e-3 },
+  s: { larger: [], least: 1e-3 }, "m/s": { larger: [], least: 1e-4 },
+};
+const otherScale = { larger: [], least: 1e-4 };
+
+/** The unit in which a value of a base unit is shown: its name, and the factor from the base. */
+function unitFor(value, base) {
+  const { larger } = unitScales[base] ?? otherScale;
+  const [, name, size] = larger.map(([from, word, step = from]) => [from, word, step])
+    .find(([from]) => Math.abs(value) >= from * 0.99995) ?? [0, base, 1];
+  return { factor: 1 / size, name };
 }
 
-/** A load [N] or moment [N m] in words, its number by `digits`. */
-function loadWords(value, base, digits) {
-  const unit = loadUnit(Math.abs(value), base);
-  return `${digits(value * unit.factor)} ${unit.name}`;
+/** Four significant digits, all digits before the point, and a narrow space between thousands. `isSteady`: with zeros
+ * at the end, so that a number that changes keeps its width. */
+function fourDigits(value, isSteady = false) {
+  const size = Math.abs(value);
+  const text = size >= 1000 ? String(Math.round(value)) : value.toPrecision(4);
+  const plain = isSteady && size > 0 && size < 1000 ? text : String(Number(text));
+  return minus(plain.replace(/\d(?=(\d{3})+$)/g, (digit, _, at, whole) =>
+    (whole.includes(".") || whole.includes("e") ? digit : `${digit}\u202f`)));
 }
+
+/** A value of a base unit ("N", "kg", "m", \u2026) in words: "4 889 t", "0.5 m", "\u2212289.3 N", "0 N". */
+function valueWords(value, base, isSteady = false) {
+  const { least } = unitScales[base] ?? otherScale;
+  const shown = Math.abs(value) < least ? 0 : value;
+  const { factor, name } = unitFor(shown, base);
+  const isCount = Number.isInteger(shown) && Math.abs(shown) < 1000 && factor === 1;
+  return `${isCount ? minus(String(shown)) : fourDigits(shown * factor, isSteady)} ${name}`.trim();
+}
+
+const metresPerSecondOfKnot = 1852 / 3600;
+
+/** A ship's speed in both units that are used of it. */
+const shipSpeedWords = (speed) =>
+  `${valueWords(speed, "m/s")} (${fourDigits(Number((speed / metresPerSecondOfKnot).toFixed(2)))} kn)`;
 
 /** The longest of 1, 2, 5 × 10ⁿ that is at most `room`. */
 function roundBelow(room) {
   const decade = 10 ** Math.floor(Math.log10(room));
   return decade * (room >= 5 * decade ? 5 : room >= 2 * decade ? 2 : 1);
-}
-
-/** Six significant digits, without an exponent where they can be read without. */
-function sixDigits(value) {
-  const text = value.toPrecision(6);
-  return text.includes("e") && Math.abs(value) < 1e12 && Math.abs(value) >= 1e-6 ? String(Number(text)) : text;
 }
 
 const shortNumber = (value) => String(Number(value.toPrecision(3)));

@@ -55,14 +55,15 @@ function makePairClock(players) {
   return clock;
 }
 
-/** Takes over how the plot of another player looks, as far as this one has the same curves. */
-function showPlotAs({ plot, plotPanel, actions }, { quantity, hidden, isFull, span }) {
+/** Takes over how the plots of another player look, as far as this one has the same curves. */
+function showPlotAs({ plot, plotPanel, actions }, { quantity, hidden, isFull, span, further }) {
   if (Object.hasOwn(plot.quantities, quantity) && (plot.quantity !== quantity
     || [...plot.hidden].join() !== hidden.join())) {
     plot.hidden = new Set(hidden);
     actions.plotQuantity(quantity);
   }
-  plot.isFull = isFull;
+  if (plotPanel.further().join() !== further.join()) actions.showPlots(further);
+  plotPanel.setFull(isFull);
   plotPanel.showTools();
   plot.show(...span);
 }
@@ -75,7 +76,8 @@ const common = {
   sizes: { of: ({ state }) => state.sizes, give: ({ actions }, sizes) => actions.chooseSizes(sizes) },
   follow: { of: ({ state }) => state.follow, give: ({ actions }, ship) => actions.setFollow(ship) },
   plot: {
-    of: ({ plot }) => ({ quantity: plot.quantity, hidden: [...plot.hidden], isFull: plot.isFull, span: plot.span }),
+    of: ({ plot, plotPanel }) => ({ quantity: plot.quantity, hidden: [...plot.hidden], isFull: plot.isFull,
+      span: plot.span, further: plotPanel.further() }),
     give: showPlotAs,
   },
   map: {

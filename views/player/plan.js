@@ -64,10 +64,9 @@ function drawProblem(context, view, problem, number, colours) {
   drawWords(context, String(number), x, y - 15, colours.ink, colours.panel);
 }
 
-function drawPlan(context, { plan, view, run, motions, colours, state }) {
+function drawPlan(context, { plan, view, run, colours, state }) {
   const fastest = drawCurrent(context, view, run, colours);
   plan.routes.forEach((route) => drawRoute(context, view, route, colours));
-  if (run.info.ships.length === 1) drawName(context, view, run.info.ships[0].name, motions.ship(0), colours);
   plan.problems.forEach((problem, k) => problem.point_m && drawProblem(context, view, problem, k + 1, colours));
   drawWindAndWords(context, view, plan.wind_m_per_s, fastest, colours);
   if (!state.place) return;

@@ -37,7 +37,7 @@ function quantityGroups(quantities) {
 }
 
 function fillPage(player) {
-  const { run: { info, frames }, range, name, isOneOfTwo, axis, state, plot, actions } = player;
+  const { run: { info, frames }, range, name, isOneOfTwo, axis, state, actions } = player;
   byId("scene").textContent = name;
   document.body.classList.toggle("one-of-two", isOneOfTwo);
   document.body.classList.toggle("no-ships", info.ships.length === 0);
@@ -54,10 +54,10 @@ function fillPage(player) {
   byId("event-before").disabled = byId("event-after").disabled = info.events.length === 0;
   byId("play").disabled = frames.times.length < 2;
   byId("follow").disabled = info.ships.length === 0;
+  byId("ship-section").hidden = info.ships.length === 0;
   for (const [layer, isOn] of Object.entries(state.layers)) byId(`layer-${layer}`).checked = isOn;
   byId("track").setAttribute("aria-valuemin", String(axis[0]));
   byId("track").setAttribute("aria-valuemax", String(axis[1]));
-  byId("quantity").replaceChildren(...quantityGroups(plot.quantities));
   state.setRate(playRates().find((rate) => (range[1] - range[0]) / rate <= 40) ?? playRates().at(-1));
   watchControls(actions);
   watchKeys(actions);
@@ -81,6 +81,7 @@ function startDrawing(player, canvases) {
   const drawIce = makeIcePicture(player, canvases[0]);
   const drawMarks = makeMarksPicture(player, canvases[1]);
   const shownFloe = makeShownFloe(player);
+  const showShip = makeShownShip(player);
   runClock(state, player.range, () => { // draws what has changed
     const { iceDirty } = state;
     if (!iceDirty && !state.marksDirty) return;
@@ -94,6 +95,7 @@ function startDrawing(player, canvases) {
     }
     drawMarks(shownFloe.shown());
     shownFloe.showCard();
+    showShip();
     player.keepLink();
     state.iceDirty = state.marksDirty = false;
     if (!iceDirty) return;
@@ -105,13 +107,14 @@ function startDrawing(player, canvases) {
 // The player: its parts, put together.
 
 /** The run, with what several parts ask of it. */
-function readPlayedRun() {
-  const run = readRun();
+function readPlayedRun(source) {
+  const run = readRun(source);
   run.breakOf = new Map();
   run.info.events.forEach((event, index) => {
     if ("floe" in event && !["rejected_cut", "submerge"].includes(event.kind)) run.breakOf.set(event.floe, index);
   });
   run.under = readIceUnderHulls(run.info.events);
+  run.moorings = readMoorings(run.info.events);
   run.carry = makeCarrier(run.info.water);
   run.outline = makeOutlines(run);
   return run;
@@ -123,11 +126,12 @@ const readOptions = () => JSON.parse(byId("page-options").textContent);
 
 /** What is shown when the page opens. */
 function firstState(run, motions, range) {
-  const isUnderWay = (carry) => run.frames.times.length > 0 && run.info.ships.some((_, ship) =>
-    hasGone(run, motions, ship, carry));
+  const isUnderWay = (carry) => run.frames.times.length > 0 && run.info.ships.some(({ is_moored: isMoored }, ship) =>
+    !isMoored && hasGone(run, motions, ship, carry));
   const state = makeClock(range, () => { state.iceDirty = true; });
   return Object.assign(state, {
-    selected: -1, hovered: -1, event: null, follow: -1, colourBy: "breakage", isFitted: true, sizes: null,
+    selected: -1, hovered: -1, ship: -1, hoveredShip: -1, isMeasuring: false, ruler: null,
+    event: null, follow: -1, colourBy: "breakage", isFitted: true, sizes: null,
     layers: { channel: isUnderWay(run.carry), startIce: isUnderWay((x, y) => [x, y]), track: true, velocities: false,
       forces: false, largestLoads: false, meanLoads: false, fractures: false },
     iceDirty: true, marksDirty: true,
@@ -135,8 +139,8 @@ function firstState(run, motions, range) {
 }
 
 /** The player without its controls. Includes what tests and measurements read. */
-function makePlayer(canvases) {
-  const run = readPlayedRun();
+function makePlayer(canvases, source) {
+  const run = readPlayedRun(source);
   const { times } = run.frames;
   const range = times.length > 0 ? [times[0], times[times.length - 1]] : [0, 0];
   const options = readOptions();
@@ -155,7 +159,7 @@ function makePlayer(canvases) {
     /** Classes of colours up to other extremes, as another run has them. */
     colourUpTo: (most) => Object.assign(colourings, makeColourings(run, places, most)),
     stations: (ship) => stationsOf(run, ship, state.time),
-    contacts: () => contactsOfFrame(run, motions.frame),
+    contacts: () => contactsOfFrame(run, motions.frame), valueWords, rulerWords,
   };
 }
 
@@ -178,9 +182,10 @@ function watchPage(player) {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", player.refreshTheme);
 }
 
-function startPlayer() {
+/** Starts the player in this page with the run of a source. */
+function startPlayer(source) {
   const canvases = [byId("ice"), byId("marks")];
-  const player = makePlayer(canvases);
+  const player = makePlayer(canvases, source);
   const { run, axis, view } = player;
   for (const [x, y] of player.plan?.routes.flatMap((route) => route.points_m) ?? []) includePoint(player.box, x, y);
   player.plotPanel = makePlotPanel(player);
@@ -192,12 +197,13 @@ function startPlayer() {
   player.address = () => addressOf(momentOf(player));
   player.keepLink = () => {};
   fillPage(player);
-  watchMap(byId("stage"), player.actions);
+  watchMap(byId("stage"), player.actions, () => player.state.isMeasuring);
   watchPage(player);
   view.resize();
   view.fit(player.box);
   player.refreshTheme();
   player.actions.select(-1);
+  player.actions.selectShip(-1);
   showEventCard(byId("event-card"), run, null);
   if (!player.isOneOfTwo) player.keepLink = watchMoment({ words: () => momentOf(player),
     goTo: (link) => goToMoment(player, link), isPlaying: () => player.state.isPlaying });

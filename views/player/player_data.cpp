@@ -204,8 +204,8 @@ void add_peaks(ColumnWriter& columns, const io::Run& run, const std::vector<io::
               [](const io::RunContact& peak) { return peak.state.pressure * peak.state.width * peak.state.height; });
 }
 
-/// The stations of each ship's channel with ice on both sides, at frames that are spread evenly over the run
-/// and end with the last. What geometry refuses to measure is not shown.
+/// The stations that are a channel of each ship, at frames that are spread evenly over the run and end with the last.
+/// What geometry refuses to measure is not shown.
 void add_channels(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames) {
   // More make pages larger and take longer: some 80 bytes a station and a millisecond an instant among 500 floes.
   constexpr std::size_t kMostInstants = 200;
@@ -224,7 +224,7 @@ void add_channels(ColumnWriter& columns, const io::Run& run, const std::vector<i
       const auto stations = analysis::measure_stations(run, motions, {.ship = ship, .time = time});
       if (!stations) continue;
       for (const analysis::ChannelStation& station : *stations) {
-        if (station.is_bounded()) rows.push_back({static_cast<int>(ship), time, station});
+        if (station.is_channel) rows.push_back({static_cast<int>(ship), time, station});
       }
     }
   }
@@ -320,6 +320,9 @@ void write_ships(io::JsonWriter& json, const simulation::Scene& scene) {
     json.object([&] {
       json.key("name").value(hull_of(scene, hull).name).key("waterline_m").value(hull_of(scene, hull).hull.waterline);
       json.key("is_fixed").value(is_grounded(kind_of_hull(scene, hull)));
+      const simulation::Ship* ship = hull < scene.ships.size() ? &scene.ships[hull] : nullptr;
+      json.key("is_moored").value(ship && ship->mooring.has_value());
+      json.key("has_engine").value(ship && std::holds_alternative<simulation::Engine>(ship->propulsion));
     });
   }
   json.close(']');

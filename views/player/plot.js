@@ -1,4 +1,4 @@
-// The plot: its key, what lies off its scale, its chart, its pointers and its panel.
+// One plot: its key, the values beyond its scale, its chart and its pointers.
 
 /** How a curve looks: a line, or the colour of an area. */
 function lineOf({ kind, isArea = false }) {
@@ -20,7 +20,7 @@ function fillPlotKey(run, plot, host, onChange) {
       return make("span", { class: "value", style }, isOfMany ? `${ships[ship].name} ` : "", output);
     });
     if (curves.length === 1) return make("div", { class: "curve" }, ...values);
-    const box = make("input", { type: "checkbox", id: `curve-${curve.kind}` });
+    const box = make("input", { type: "checkbox", ...(plot.isFirst && { id: `curve-${curve.kind}` }) });
     box.checked = plot.isShown(curve);
     box.addEventListener("change", () => {
       plot.hidden[box.checked ? "delete" : "add"](curve.kind);
@@ -32,7 +32,7 @@ function fillPlotKey(run, plot, host, onChange) {
   return (time) => {
     for (const { curve, ship, output } of outputs) {
       const at = plot.valueAt(ship, curve, time);
-      output.textContent = at ? valueWords(at.value, curve.base) : "\u2013";
+      output.textContent = at ? valueWords(at.value, curve.base, true) : "\u2013";
       output.dataset.value = at ? String(at.value) : "";
       output.dataset.time = at ? String(at.time) : "";
     }
@@ -73,6 +73,8 @@ function showOffScale(plot) {
 
 // The plot's chart, as uPlot takes it: its axes, its curves and their rows.
 
+const axisSize = 46; // of an axis of values [px]
+
 function chartAxis({ colours }, scale, label, extra) {
   const font = "11px system-ui, sans-serif";
   return { scale, stroke: colours.muted, grid: { stroke: colours.line, width: 1 },
@@ -83,11 +85,10 @@ function chartAxis({ colours }, scale, label, extra) {
 function valueAxis(plot, scale, side) {
   const base = plot.shownCurves().find((curve) => curve.scale === scale)?.base ?? "";
   const unit = (chart) =>
-    (base.startsWith("N") ? loadUnit(Math.max(-chart.scales[scale].min, chart.scales[scale].max), base)
-    : { factor: 1, name: base });
+    unitFor(Math.max(-chart.scales[scale].min, chart.scales[scale].max), base);
   const name = scale === "paper" ? "j/\u03c4c " : "";
   return chartAxis(plot, scale, (chart) => (unit(chart).name ? `${name}[${unit(chart).name}]` : ""), {
-    side, size: 46, grid: { show: side === 3, stroke: plot.colours.line, width: 1 },
+    side, size: axisSize, grid: { show: side === 3, stroke: plot.colours.line, width: 1 },
     values: (chart, splits) => splits.map((v) => minus(String(Number((v * unit(chart).factor).toPrecision(6))))),
   });
 }
@@ -111,14 +112,16 @@ function chartOptions(plot) {
   const placed = (chart) => plot.on.onPlaced(chart.over.offsetLeft, chart.over.offsetWidth);
   return {
     width: plot.host.clientWidth, height: plot.host.clientHeight,
-    padding: [plot.isOfLoads() ? 18 : 6, isPaper ? 0 : 24, 0, isPlain ? 0 : 24],
+    // Plots one below the other keep the ends of their axes of times at one place.
+    padding: [plot.isOfLoads() ? 18 : 6, isPaper ? 0 : plot.on.hasPaperAxis() ? axisSize : 24, 0,
+      isPlain ? 0 : axisSize],
     legend: { show: false }, cursor: { show: false },
     hooks: { ready: [placed], setSize: [placed],
       drawAxes: plot.shownQuantity().isStack ? [(chart) => drawStack(plot, chart)] : [] },
     scales: { x: { time: false, range: () => plot.span },
       ...Object.fromEntries(plot.scales().map((name) => [name, { range: rangeOf(name) }])) },
-    axes: [chartAxis(plot, "x", undefined, { size: 22, values: (_, splits) =>
-      splits.map((t) => `${Number(t.toFixed(6))} s`) }),
+    axes: [chartAxis(plot, "x", undefined, { size: plot.isFirst ? 22 : 4, values: (_, splits) =>
+      splits.map((t) => (plot.isFirst ? `${Number(t.toFixed(6))} s` : "")) }),
       ...(isPlain ? [valueAxis(plot, "y", 3)] : []), ...(isPaper ? [valueAxis(plot, "paper", 1)] : [])],
     series: [{}, ...chartSeries(plot, curves)],
   };
@@ -201,12 +204,14 @@ const shortestSpan = 20; // rows of forces.csv; the plot zooms no closer
 
 /** `on.onTime` is called with the requested time, `onPoint` with where the pointer is [px] (null: elsewhere),
  * `onPlaced` with the left end and the width of the axis of times [px], `onSpan` with the part of the run that is in
- * view [s]. */
+ * view [s], `hasPaperAxis` says whether any of the plots has that axis at its right. Without a `quantity` it is the
+ * first of the plots one below the other. */
 class Plot {
-  constructor(run, host, range, on) {
+  constructor(run, host, range, on, quantity) {
     Object.assign(this, { run, host, range, on });
     this.quantities = { ...plotQuantities(run), ...stackedQuantities(run) };
-    this.quantity = Object.keys(this.quantities)[0];
+    this.quantity = quantity ?? Object.keys(this.quantities)[0];
+    this.isFirst = quantity === undefined; // of those one below the other; it has the ids and the numbers of the times
     this.hidden = new Set(run.info.splits_by_j_over_tau_c ? [] : ["paper"]); // kinds of curves
     this.span = range; // in view [s]
     this.isFull = false; // up to the largest value, else without spikes
@@ -215,9 +220,10 @@ class Plot {
     this.widened = (ranges) => ranges; // so that two plots have one scale
     this.colours = {};
     this.now = make("div", { class: "now-line" });
-    this.offScale = make("div", { class: "off-scale", id: "off-scale" });
+    const id = (name) => (this.isFirst ? { id: name } : {});
+    this.offScale = make("div", { class: "off-scale", ...id("off-scale") });
     const words = make("div", { class: "reading-words" });
-    this.pointed = make("div", { class: "reading", id: "reading", hidden: "" }, words);
+    this.pointed = make("div", { class: "reading", ...id("reading"), hidden: "" }, words);
     this.timeAt = (px) => {
       const share = Math.min(1, Math.max(0, px / this.chart.over.clientWidth));
       return this.span[0] + share * (this.span[1] - this.span[0]);
@@ -354,54 +360,4 @@ class Plot {
     if (hasMoved && (time < from || time > until)) this.show(time - 0.1 * length, time + 0.9 * length);
     this.placeNow();
   }
-}
-
-// The plot with its controls and its key, and the timeline that follows its width.
-
-function makePlotPanel(player) {
-  const { run, axis, state } = player;
-  const hasShips = run.info.ships.length > 0;
-  const panel = { pointed: null, showLoads: () => {} };
-  const showTools = () => {
-    byId("full-scale").setAttribute("aria-pressed", String(plot.isFull));
-    byId("full-scale").disabled = !plot.isFull && plot.off === null;
-    byId("whole-run").disabled = !plot.isZoomed();
-  };
-  const plot = new Plot(run, byId("plot"), axis, {
-    onTime: (time) => player.actions.goTo(time),
-    onPoint(px) { // the key has the values there, under the end of their row's interval
-      panel.pointed = px === null ? null : plot.timeAt(px);
-      const at = px === null ? null : plot.valueAt(plot.ships()[0], plot.curves()[0], panel.pointed);
-      plot.pointed.hidden = at === null;
-      plot.pointed.style.left = `${px}px`;
-      plot.pointed.classList.toggle("to-left", px > plot.chart.over.clientWidth / 2);
-      plot.pointed.firstChild.textContent = at ? `values at ${Number(at.time.toFixed(6))} s` : "";
-      panel.setTime(state.time);
-    },
-    onPlaced: (left, width) => player.timeline.place(left, width, player.colours),
-    onSpan: (span) => {
-      player.timeline.setPart(span);
-      showTools();
-    },
-  });
-  const placeTimeline = () => player.timeline.place(8, byId("track-row").clientWidth - 16, player.colours);
-  return Object.assign(panel, {
-    plot, showTools,
-    rebuild() {
-      plot.build(player.colours);
-      panel.showLoads = fillPlotKey(run, plot, byId("load-now"), () => {
-        plot.build();
-        showTools();
-      });
-      panel.setTime(state.time);
-      showTools();
-    },
-    /** Takes the theme's colours. */
-    refresh: () => (hasShips ? panel.rebuild() : placeTimeline()),
-    resize: () => (hasShips ? plot.resize() : placeTimeline()),
-    setTime(time) {
-      plot.setTime(time);
-      panel.showLoads(panel.pointed ?? time);
-    },
-  });
 }

@@ -111,13 +111,6 @@ function plotQuantities({ info, forces }) {
 
 const isLoad = (curve) => curve.base.startsWith("N");
 
-/** A value with the unit that suits it. */
-function valueWords(value, base) {
-  const unit = /^(N|Pa)/.test(base) ? loadUnit(Math.abs(value), base) : { factor: 1, name: base };
-  const isCount = value === 0 || (Number.isInteger(value) && unit.factor === 1);
-  return minus(`${isCount ? value : (value * unit.factor).toPrecision(4)} ${unit.name}`.trim());
-}
-
 /** The row of forces.csv whose interval holds the time; null before any. */
 function rowAt(rows, time) {
   const times = rows.force_t_s;

@@ -76,12 +76,26 @@ function spreadFloes(columns, count) {
   columns.rings_of = ends;
 }
 
-function readRun() {
-  const info = JSON.parse(byId("run-info").textContent);
-  const bytes = bytesOfBase64(byId("run-columns").textContent.trim());
-  byId("run-columns").remove();
+/**
+ * Where the player's run comes from. A source's `read()` gives the run's words and lists, `info`, and its columns of
+ * numbers, `bytes`, as views/player/player_data.cpp makes both: `info.columns` says where each column is in the bytes.
+ * This one is the page that `polynya view` writes. Any other that gives the two is drawn by the same player.
+ */
+const pageSource = {
+  read() {
+    const info = JSON.parse(byId("run-info").textContent);
+    const bytes = bytesOfBase64(byId("run-columns").textContent.trim());
+    byId("run-columns").remove();
+    return { info, bytes };
+  },
+};
+
+/** The run of a source. */
+function readRun(source) {
+  const { info, bytes } = source.read();
   const columns = {};
-  for (const c of info.columns) columns[c.name] = new columnTypes[c.type](bytes.buffer, c.offset, c.count);
+  for (const { name, type, offset, count } of info.columns)
+    columns[name] = new columnTypes[type](bytes.buffer, bytes.byteOffset + offset, count);
   if (columns.floe_id) spreadFloes(columns, info.floes_of_run);
   const floes = readFloes(columns);
   const frames = readFrames(columns.frames, floes.count, info.ships.length);

@@ -38,6 +38,7 @@ function makeIcePicture(player, canvas) {
 function makeMarksPicture(player, canvas) {
   const { run, state, view, places, motions, loadLine } = player;
   const marks = canvas.getContext("2d");
+  const placeNames = makeNamePlacer();
 
   function outline(id) {
     marks.strokeStyle = player.colours.highlight;
@@ -62,6 +63,7 @@ function makeMarksPicture(player, canvas) {
     if (isOther && places.isThere(state.hovered, state.time)) outline(state.hovered);
     drawShips(marks, view, run, motions, state.time, state.layers, colours);
     drawIceUnderHulls(marks, view, run, places, colours);
+    if (state.ship >= 0) drawChosenShip(marks, view, run.info.ships[state.ship], motions.ship(state.ship), colours);
     if (places.under.includes(shown)) outline(shown);
     const notices = [player.isOver ? `This run ends at ${Number(player.range[1].toFixed(6))} s.` : ""];
     if (state.layers.forces)
@@ -71,6 +73,10 @@ function makeMarksPicture(player, canvas) {
     if (state.layers.velocities) drawVelocities(marks, view, run, places, motions, colours, player.arrowScale);
     if (state.event !== null) drawChosenEvent(marks, view, run.info.events[state.event], colours);
     if (player.plan) drawPlan(marks, player);
+    const hasNames = player.plan || run.info.ships.length > 1;
+    const names = hasNames ? placeNames(marks, view, shipsOnScreen(view, run, motions), colours) : [];
+    player.namesAt = () => names;
+    if (state.ruler) drawRuler(marks, view, state.ruler, colours);
     drawScaleBar(marks, view, colours);
     showNotices(notices);
   };
@@ -137,22 +143,40 @@ const mapPicture = (player) => composePicture(player, {
   },
 });
 
-function plotPicture(player) {
-  const { plot, state } = player;
+/** One plot over its key. */
+function pictureOfPlot(player, { plot, key }) {
   const { chart, host } = plot;
   const [width, height] = [host.clientWidth, host.clientHeight];
   return composePicture(player, {
-    width, height, title: `${plot.shownQuantity().label}, ${state.time.toFixed(1)} s`, key: byId("load-now"),
+    width, height, title: `${plot.shownQuantity().label}, ${player.state.time.toFixed(1)} s`, key,
     drawBody: (context) => {
       context.drawImage(chart.ctx.canvas, 0, 0, width, height);
       const { offsetLeft: left, offsetTop: top, offsetWidth: across, offsetHeight: down } = chart.over;
       const [from, until] = plot.span;
       context.fillStyle = plot.colours.highlight;
-      if (!plot.now.hidden) context.fillRect(left + ((state.time - from) / (until - from || 1)) * across - 1, top, 2,
-        down);
+      const now = left + ((player.state.time - from) / (until - from || 1)) * across;
+      if (!plot.now.hidden) context.fillRect(now - 1, top, 2, down);
       if (!plot.offScale.hidden) drawElement(context, plot.offScale, [left, top - plot.offScale.offsetHeight]);
     },
   });
+}
+
+/** All plots, one below the other. */
+function plotPicture(player) {
+  const pictures = player.plotPanel.views.map((view) => pictureOfPlot(player, view));
+  if (pictures.length === 1) return pictures[0];
+  const canvas = make("canvas");
+  canvas.width = Math.max(...pictures.map(({ width }) => width));
+  canvas.height = pictures.reduce((sum, { height }) => sum + height, 0);
+  const context = canvas.getContext("2d");
+  context.fillStyle = player.colours.panel;
+  context.fillRect(0, 0, canvas.width, canvas.height);
+  let top = 0;
+  for (const picture of pictures) {
+    context.drawImage(picture, 0, top);
+    top += picture.height;
+  }
+  return canvas;
 }
 
 /** Offers a picture as a file of that kind. */

@@ -76,22 +76,30 @@ function paleOutOfSizes(colouring, floes, range, colours) {
 
 // The panel with the histogram of floe sizes: a drag over it chooses a range, which the map shows; others are pale.
 
+const labelGap = 6; // between sizes below the histogram [px]
+
 /** A number of floes or an area as people read it. */
 const amountWords = (value, isArea) =>
-  (isArea ? `${sixDigits(Number(value.toPrecision(4)))} m\u00b2` : counted(value, "floe"));
+  (isArea ? valueWords(value, "m\u00b2") : counted(value, "floe"));
 
-const mostLabels = 9; // below the histogram, at round sizes
-
-/** Puts a bar for each class into the histogram; gives the bars. */
+/** Puts a bar for each class into the histogram; gives the bars. Below stand as many round sizes as have room; they are
+ * chosen again when the histogram gets another width. */
 function fillHistogram(host, { edges }) {
   const bars = edges.slice(1).map(() => make("i"));
-  let last = -Infinity;
-  const labels = edges.flatMap((edge, k) => {
-    if (k - last < bars.length / mostLabels || (k > 0 && !/^0*\.?0*[125]0*$/.test(String(edge)))) return [];
-    last = k;
-    return [make("span", { style: `left: ${(100 * k) / bars.length}%` }, `${edge}${k === 0 ? " m" : ""}`)];
-  });
+  const labels = edges.map((edge, k) => make("span", { style: `left: ${(100 * k) / bars.length}%` },
+    `${edge}${k === 0 ? " m" : ""}`));
+  const isRound = (edge) => /^0*\.?0*[125]0*$/.test(String(edge));
   host.replaceChildren(...bars.map((bar) => make("div", {}, bar)), ...labels);
+  new ResizeObserver(() => {
+    let end = -Infinity; // of the last label that is shown [px]
+    labels.forEach((label, k) => {
+      label.hidden = false;
+      const { left, right } = label.getBoundingClientRect();
+      label.hidden = !(k === 0 || isRound(edges[k])) || left < end + labelGap
+        || right > host.getBoundingClientRect().right + 1;
+      if (!label.hidden) end = right;
+    });
+  }).observe(host);
   return bars;
 }
 

@@ -50,7 +50,7 @@ def channels_at(run, time):
     polygons = []
     for ship in run.scene.get("ships", []):
         try:
-            polygons += run.measure_channel(time, ship["name"]).parts.get("open water", [])
+            polygons += run.measure_channel(time, ship["name"]).parts.get("channel", [])
         except FolderError:  # a ship that has not moved has no channel
             continue
     return polygons

@@ -13,8 +13,9 @@ from ..formulas import KNOT
 from ..program import program
 from ..runs_kept import RunFailed
 from ..study.case import DONE, FAILED, STOPPED
-from .curve import OUTSIDE, Curve
-from .options import command_line
+from . import sensitivity
+from .curve import BEYOND, THICKER, Curve, mark_of
+from .options import FLEXURAL_STRENGTH, FRICTION, command_line
 
 INPUT_OUTPUT = 5  # app/command_line/console.hpp
 
@@ -62,16 +63,30 @@ def print_table(rows):
     )
     for row in rows:
         note = "  stops" if row["is_stuck"] else "" if row["is_steady"] else "  not steady"
-        mark = " " if row["is_in_validated_range"] else "*"
         print(
-            f"{row['thickness_m']:7g}{mark}{row['speed_m_per_s']:10.2f}{row['error_m_per_s']:10.2f}"
+            f"{row['thickness_m']:7g}{mark_of(row):<2}{row['speed_m_per_s']:9.2f}{row['error_m_per_s']:10.2f}"
             f"{row['speed_m_per_s'] / KNOT:8.1f}   {row['contact_kN']:13.0f}{row['submerged_kN']:12.0f}   "
             f"{row['lindqvist_m_per_s']:10.2f}{row['riska_m_per_s']:8.2f}{row['spencer_jones_m_per_s']:15.2f}{note}"
         )
     print("±: standard error of the run's own mean speed [m/s], its statistical scatter alone, not the model's error")
-    outside = [row for row in rows if not row["is_in_validated_range"]]
-    if outside:
-        print(f"*: {OUTSIDE}: the ship may go much too fast (docs/validation.md, \"A ship in level ice\")")
+    if any(not row["is_in_validated_range"] for row in rows):
+        print(f"*: {THICKER}: the ship may go much too fast (docs/validation.md, \"A ship in level ice\")")
+    for sign, words in BEYOND.items():
+        beyond = [f"{row['thickness_m']:g} m" for row in rows if row["beyond_formulas"] == sign]
+        if beyond:
+            print(f"!: {words}, in {', '.join(beyond)}: no published formula supports that speed")
+
+
+def print_sensitivity(found, curve, thicknesses, arguments):
+    """The table of particulars, those that nobody stated marked; gives it for all thicknesses."""
+    is_given = {"flexural_strength": arguments.flexural_strength is not None,
+                "friction": arguments.friction is not None}
+    of = (curve.hull, curve.engine, curve.ice)
+    rows = sensitivity.table(sensitivity.particulars(curve.ship, *of, found["from"], is_given), thicknesses, *of)
+    sensitivity.print_table(rows, thicknesses)
+    for path, words in found["estimated"].items():
+        print(f"{path}: {words}")
+    return rows
 
 
 def report_progress(done, total, row):
@@ -102,24 +117,52 @@ def run_all(curve, wanted, jobs):
     return [rows[h] for h in sorted(rows)]
 
 
+def print_formulas(curve, wanted):
+    print(f"{'h [m]':>7}{'Lindqvist':>11}{'Riska':>8}{'Spencer-Jones':>15}   speeds [m/s]")
+    for h in wanted:
+        speeds = curve.formula_speeds(h)
+        print(f"{h:7g}{speeds['lindqvist']:11.2f}{speeds['riska']:8.2f}{speeds['spencer_jones']:15.2f}")
+
+
+def write_table(path, rows):
+    with writing(path, newline="") as file:
+        writer = csv.DictWriter(file, rows[0].keys())
+        writer.writeheader()
+        writer.writerows(rows)
+    print(f"table   {path}")
+
+
+def draw_figure(path, rows, found, ice):
+    """The picture; without matplotlib a line that says so."""
+    try:
+        from . import figure
+    except ImportError as error:
+        print(f"figure  none: {error}; ./setup.sh python installs what it needs", file=sys.stderr)
+        return
+    title = [f"{found['title']}: level ice, full power",
+             f"σf {ice.flexural_strength / 1e3:g} kPa, μ {ice.friction:g}"]
+    figure.draw(rows, "\n".join(title), found["reported"], path)
+    print(f"figure  {path}")
+
+
 def main():
     arguments = command_line().parse_args()
     try:
         found = ship_of(arguments.ship)
     except OSError as error:
         return fail(INPUT_OUTPUT, error)
-    ice = formulas.Ice(
-        thickness=0, flexural_strength=arguments.flexural_strength, friction=arguments.friction
-    )  # of each thickness in turn
+    ice = formulas.Ice(  # of each thickness in turn
+        thickness=0,
+        flexural_strength=FLEXURAL_STRENGTH if arguments.flexural_strength is None else arguments.flexural_strength,
+        friction=FRICTION if arguments.friction is None else arguments.friction,
+    )
     folder = arguments.out or os.path.join("runs", f"performance-{found['name']}")
     ship, reported = found["ship"], found["reported"]
     curve = Curve(ship, hull_of(ship), found["engine"], ice, folder, program(), arguments.error, arguments.step)
     wanted = arguments.thickness or ten_thicknesses(curve)
     if arguments.list:
-        print(f"{'h [m]':>7}{'Lindqvist':>11}{'Riska':>8}{'Spencer-Jones':>15}   speeds [m/s]")
-        for h in wanted:
-            speeds = curve.formula_speeds(h)
-            print(f"{h:7g}{speeds['lindqvist']:11.2f}{speeds['riska']:8.2f}{speeds['spencer_jones']:15.2f}")
+        print_formulas(curve, wanted)
+        print_sensitivity(found, curve, wanted, arguments)
         return DONE
     os.makedirs(folder, exist_ok=True)
     try:
@@ -134,21 +177,11 @@ def main():
             f"design point, at least: {point['thickness_m']:g} m at {point['speed_m_per_s']:.2f} m/s "
             f"({point['speed_m_per_s'] / KNOT:.1f} kn), {point['source']}"
         )
-    table = os.path.join(folder, "performance.csv")
-    with writing(table, newline="") as file:
-        writer = csv.DictWriter(file, rows[0].keys())
-        writer.writeheader()
-        writer.writerows(rows)
-    print(f"table   {table}")
-    try:
-        from . import figure
-    except ImportError as error:
-        print(f"figure  none: {error}; ./setup.sh python installs what it needs", file=sys.stderr)
-        return DONE
-    picture = os.path.join(folder, "performance.png")
-    strength = f"σf {arguments.flexural_strength / 1e3:g} kPa, μ {arguments.friction:g}"
-    figure.draw(rows, f"{found['title']}: level ice, full power\n{strength}", reported, picture)
-    print(f"figure  {picture}")
+    moves = print_sensitivity(found, curve, wanted, arguments)
+    print()
+    write_table(os.path.join(folder, "performance.csv"), rows)
+    write_table(os.path.join(folder, "sensitivity.csv"), sensitivity.as_rows(moves, wanted))
+    draw_figure(os.path.join(folder, "performance.png"), rows, found, ice)
     return DONE
 
 

@@ -8,7 +8,18 @@ from . import level_ice
 
 FIRST, MOST = 5, 20  # lengths of the course
 VALIDATED_THICKNESS = 0.5  # [m], docs/validation.md, "A ship in level ice"
-OUTSIDE = f"thicker than {VALIDATED_THICKNESS:g} m, outside the range of validation"
+THICKER = f"thicker than {VALIDATED_THICKNESS:g} m, outside the range of validation"
+BEYOND = {1: "faster than by every formula", -1: "slower than by every formula"}
+
+
+def beyond_band(speed, of_formulas):
+    """1 where a speed is above those of all formulas, -1 where it is below, 0 within their band."""
+    return int(speed > max(of_formulas)) - int(speed < min(of_formulas))
+
+
+def mark_of(row):
+    """The mark of a point that is not supported: "!" out of the formulas' band, "*" in ice thicker than validated."""
+    return ("*" if not row["is_in_validated_range"] else "") + ("!" if row["beyond_formulas"] else "")
 
 
 class Curve:
@@ -22,14 +33,7 @@ class Curve:
 
     def formula_speeds(self, thickness):
         """The speeds at which published resistances equal the net thrust [m/s]."""
-        ice = self.level(thickness)
-        pull, fast = self.engine["bollard_pull_N"], self.engine["open_water_speed_m_per_s"]
-        resistances = {
-            "lindqvist": lambda v: sum(formulas.lindqvist(self.hull, ice, v)),
-            "riska": lambda v: formulas.riska(self.hull, ice, v),
-            "spencer_jones": lambda v: formulas.spencer_jones(self.hull, ice, v),
-        }
-        return {name: formulas.equilibrium(pull, fast, of) for name, of in resistances.items()}
+        return formulas.level_ice_speeds(self.hull, self.engine, self.level(thickness))
 
     def first_speed(self, thickness):
         """A speed to start at [m/s]: where a bit less than Lindqvist's resistance equals the net thrust."""
@@ -52,6 +56,7 @@ class Curve:
             if measured.is_within(self.error) or lengths >= MOST:
                 break
             lengths *= 2
+        of_formulas = self.formula_speeds(thickness)
         return {
             "thickness_m": thickness,
             "speed_m_per_s": measured.speed,
@@ -59,8 +64,9 @@ class Curve:
             "is_steady": measured.is_within(self.error),
             "is_stuck": bool(measured.is_stuck),
             "is_in_validated_range": thickness <= VALIDATED_THICKNESS,
+            "beyond_formulas": beyond_band(measured.speed, of_formulas.values()),
             "contact_kN": 1e-3 * measured.contact,
             "submerged_kN": 1e-3 * measured.submerged,
             "way_m": measured.way,
             "run": name,
-        } | {f"{name}_m_per_s": value for name, value in self.formula_speeds(thickness).items()}
+        } | {f"{name}_m_per_s": value for name, value in of_formulas.items()}

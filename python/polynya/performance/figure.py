@@ -42,18 +42,18 @@ def draw(rows, title, reported, path):
         capsize=2,
         label="Polynya, ± 95 % of the run's own scatter",
     )
-    outside = [row for row in rows if not row["is_in_validated_range"]]
-    if outside:
-        axes.plot(
-            [row["thickness_m"] for row in outside],
-            [row["speed_m_per_s"] for row in outside],
-            "o",
-            color="#0072b2",
-            markerfacecolor="white",
-            markersize=3.5,
-            zorder=3,
-            label=f"outside validation (> {VALIDATED_THICKNESS:g} m)",
-        )
+    thicker = [row for row in rows if not row["is_in_validated_range"]]
+    beyond = [row for row in rows if row["beyond_formulas"]]
+    for marked, words, style in (
+        (thicker, f"thicker than {VALIDATED_THICKNESS:g} m: outside validation",
+         {"marker": "o", "markersize": 3.5, "color": "#0072b2", "markerfacecolor": "white"}),
+        (beyond, None, {"marker": "o", "markersize": 3.5, "color": "#0072b2", "markerfacecolor": "white"}),
+        (beyond, "outside the band of the formulas",
+         {"marker": "s", "markersize": 7, "color": "#d55e00", "markerfacecolor": "none"}),
+    ):
+        if marked:
+            at = [[row[key] for row in marked] for key in ("thickness_m", "speed_m_per_s")]
+            axes.plot(*at, linestyle="none", zorder=3, label=words, **style)
     if reported:
         axes.plot(
             [r["thickness_m"] for r in reported],

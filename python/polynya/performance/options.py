@@ -3,6 +3,8 @@ import os
 
 from ..arguments import Parser, number, numbers
 
+FLEXURAL_STRENGTH, FRICTION = 500e3, 0.1  # where the command line has none [Pa], [-]
+
 EXAMPLES = (
     "performance polaris                       ten thicknesses, on all processors",
     "performance araon --flexural-strength 630e3 --friction 0.1",
@@ -11,7 +13,9 @@ EXAMPLES = (
 )
 REST = """Each thickness is a run in a plate of fast ice, repeated twice as long until the mean speed's standard error
 and its change between the halves are below the error asked for. Finished runs are kept: a curve that was stopped goes
-on. Needs Python 3 with numpy, and matplotlib for the figure (./setup.sh python).
+on. What a ship's file does not state is estimated where it can be (polynya ships FILE --for-performance lists it), and
+a table shows how far the speed moves with each particular, by the published formulas. Needs Python 3 with numpy, and
+matplotlib for the figure (./setup.sh python).
 """
 
 
@@ -25,9 +29,10 @@ def command_line():
     parser.add("ship", "A preset (polynya ships), or a JSON file with a ship as scenes have it", metavar="SHIP")
     meaning = "Thicknesses [m], as 0.4,0.8,1.2; ten up to where formulas stop the ship if not given"
     parser.add("--thickness", meaning, type=thicknesses, metavar="LIST")
-    meaning = "Of the ice; 500e3 if not given"
-    parser.add("--flexural-strength", meaning, type=number(1, 1e9, "Pa"), default=500e3, metavar="PA")
-    parser.add("--friction", "Of ice on the hull; 0.1 if not given", type=number(0, 2), default=0.1, metavar="MU")
+    meaning = f"Of the ice; {FLEXURAL_STRENGTH:g} if not given"
+    parser.add("--flexural-strength", meaning, type=number(1, 1e9, "Pa"), metavar="PA")
+    meaning = f"Of ice on the hull; {FRICTION:g} if not given"
+    parser.add("--friction", meaning, type=number(0, 2), metavar="MU")
     meaning = "Largest error of a mean speed, of that speed; 0.03 if not given"
     parser.add("--error", meaning, type=number(0, 1, is_open=True), default=0.03, metavar="SHARE")
     parser.add("--step", "Time step; 0.01 if not given", type=number(1e-5, 1, "s"), default=0.01, metavar="S")
