@@ -7,8 +7,8 @@ cd "$(dirname "$0")"
 
 declare -A packages=(
   [build]="g++ cmake ninja-build libcgal-dev libeigen3-dev libboost-dev libgmp-dev libmpfr-dev
-           nlohmann-json3-dev libcli11-dev libfmt-dev libexpected-dev libtbb-dev libproj-dev librsvg2-bin python3"
-  [test]="libgtest-dev librapidcheck-dev libchipmunk-dev libgeos-dev python3 strace"
+           nlohmann-json3-dev libcli11-dev libfmt-dev libexpected-dev libtbb-dev librsvg2-bin python3"
+  [test]="libgtest-dev librapidcheck-dev libchipmunk-dev libgeos-dev python3 strace gdal-bin"
   [view]="chromium nodejs npm"
   [python]="python3 python3-numpy python3-scipy python3-matplotlib python3-pytest
            python3-dev python3-venv pybind11-dev ffmpeg"
@@ -17,7 +17,7 @@ declare -A packages=(
   [site]="python3-sphinx furo python3-myst-parser python3-sphinx-copybutton python3-numpy
            doxygen libjs-katex node-normalize.css"
   [slurm]="slurmctld slurmd slurm-client munge"
-  [export]="python3-vtk9 python3-pandas python3-shapely gdal-bin"
+  [export]="python3-vtk9 python3-pandas python3-shapely"
   [bench]="libbenchmark-dev libbox2d-dev libchipmunk-dev libgeos-dev libpolyclipping-dev"
 )
 

@@ -12,6 +12,7 @@
 #include "io/import/floe_properties.hpp"
 #include "io/run/event_records.hpp"
 #include "io/run/records.hpp"
+#include "io/text/floe_text.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/problem.hpp"
 
@@ -192,7 +193,9 @@ std::string steps_of(const simulation::Counts& counts, double tick) {
 std::string to_geojson(const ShapeView& view) {
   const simulation::BirthRecord& birth = view.birth;
   return io::json_object([&](JsonWriter& json) {
-    json.key("type").value("Feature").key("properties").open('{').key("floe_id").value(birth.floe);
+    json.key("type").value("Feature");
+    if (view.time_in_world) io::write_place(json, {.origin = view.origin, .shifted_crs = {}, .shift = {}, .wrong = {}});
+    json.key("properties").open('{').key("floe_id").value(birth.floe);
     json.key("parent_id").value(id_or_none(birth.parent));
     json.key("born_s").value(birth.time).key("generation").value(birth.generation);
     json.key("area_m2").value(birth.area).key("mass_kg").value(birth.mass);

@@ -19,6 +19,7 @@ struct ShapeView {
   const fracture::Ice& ice;
   geometry::Polygon polygon;
   std::optional<double> time_in_world;  ///< [s]; none: the body frame
+  std::optional<simulation::GeographicOrigin> origin = {};  ///< of the world, where that is known
 };
 /// A feature with the floe's properties.
 std::string to_geojson(const ShapeView& view);

@@ -28,9 +28,7 @@ if(CPACK_TEMPORARY_DIRECTORY)
   return()
 endif()
 
-get_property(proj_soname GLOBAL PROPERTY POLYNYA_PROJ)
 get_property(python_minor GLOBAL PROPERTY POLYNYA_PYTHON_MINOR)
-string(REGEX MATCH "[0-9]+" proj_version "${proj_soname}")  # opened at run time, so no shlibdeps sees it
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "Polynya maintainers <maintainers@users.noreply.github.com>")
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/package)
@@ -46,10 +44,9 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME polynya)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libproj${proj_version}")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
-  "python3, python3-numpy, python3-scipy, python3-matplotlib, librsvg2-bin, polynya-python")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, gdal-bin, python3-pandas, python3-shapely")
+  "python3, python3-numpy, python3-scipy, python3-matplotlib, librsvg2-bin, gdal-bin, polynya-python")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, python3-pandas, python3-shapely")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Floes are exact polygons: ships push them, break plates by bending and
 split them; the channel behind the ship, the ice forces and every
 fractured floe come out.")

@@ -56,7 +56,6 @@ PACKAGES = {
     r"boost/math/": ["fracture/bending/", "fracture/scatter"],
     r"boost/crc": ["io/text/"],
     r"nlohmann/": ["io/text/"],
-    r"(proj|dlfcn)\.h$": ["io/import/plane.cpp"],
     r"CLI/": ["app/command_line/command_line.cpp"],
     r"fmt/": ["simulation/", "io/", "analysis/", "views/", "app/", "python/module/"],
     r"pybind11/": ["python/module/"],

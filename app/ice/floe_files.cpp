@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <tuple>
 #include <utility>
@@ -9,8 +10,10 @@
 #include "app/command_line/console.hpp"
 #include "geometry/shape/angle.hpp"
 #include "io/import/floe_import.hpp"
+#include "io/import/gdal.hpp"
 #include "io/import/plane.hpp"
 #include "io/text/cut.hpp"
+#include "io/text/floe_ids.hpp"
 #include "io/text/floe_text.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/problem.hpp"
@@ -74,9 +77,11 @@ void report_losses(const std::string& name, const io::FloeText& floes, io::FloeF
   if (floes.entries.empty()) note("no floes in it");
   if (floes.has_more_coordinates) note("third coordinates are ignored");
   if (floes.has_srid) note("SRID is ignored");
-  if (floes.has_other_crs) note("its crs members differ; the pieces get the first");
+  if (floes.has_other_crs && !floes.crs.empty()) note("its crs members differ; the pieces get the first");
+  if (!floes.place.wrong.empty()) note(floes.place.wrong.c_str());
   if (format != io::FloeFormat::kWkt) return;
   if (!floes.crs.empty()) note("WKT has no room for its crs");
+  if (floes.place.is_stated()) note("WKT has no room for its origin");
   if (std::ranges::any_of(floes.entries, [](const io::FloeEntry& one) { return one.properties != nullptr; }))
     note("WKT has no room for properties");
 }
@@ -98,9 +103,10 @@ struct CutOptions {
   std::string floes;                            ///< a file, or "-" for stdin; so are the other files
   std::string disc, crack, line, polygon, ops;  ///< the one that is given; the others empty
   io::Keep keep = io::Keep::kOutside;
-  double sagitta = 0;  ///< [m]; 0: by the radius
-  std::string out;     ///< empty: none, or stdout where the ledger goes to a file
-  std::string ledger;  ///< empty: stdout, unless the pieces go there
+  double sagitta = 0;          ///< [m]; 0: by the radius
+  std::optional<double> snap;  ///< [m]; none: by the coordinates
+  std::string out;             ///< empty: none, or stdout where the ledger goes to a file
+  std::string ledger;          ///< empty: stdout, unless the pieces go there
   std::optional<geometry::FillRule> repair;
 };
 
@@ -128,7 +134,9 @@ Outcome<std::vector<io::CutOp>> read_ops(const CutOptions& options) {
     if (text->empty()) continue;
     const auto numbers = io::read_numbers(*text, count, count);
     if (!numbers) return failure(kUsage, fmt::format("{}: {}", option, numbers.error()));
-    return one_op(option, io::op_of_numbers(option + 2, *numbers, options.sagitta), options.keep);
+    auto op = io::op_of_numbers(option + 2, *numbers, options.sagitta);
+    if (auto* line = op ? std::get_if<io::LineTool>(&op->tool) : nullptr) line->snap = options.snap;
+    return one_op(option, std::move(op), options.keep);
   }
   const std::string& file = options.polygon.empty() ? options.ops : options.polygon;
   auto text = read_input(file, options.polygon.empty() ? kLongestOps : io::kLongestFloeText);
@@ -137,7 +145,7 @@ Outcome<std::vector<io::CutOp>> read_ops(const CutOptions& options) {
     const auto as_op = [](io::PolygonTool&& tool) { return io::CutOp{std::move(tool), {}}; };
     return one_op(file.c_str(), io::polygon_tool(std::move(*text)).map(as_op), options.keep);
   }
-  auto ops = io::read_cut_ops(*text, {options.keep, options.sagitta});
+  auto ops = io::read_cut_ops(*text, {options.keep, options.sagitta, options.snap});
   if (!ops) return failure(file, ops.error());
   return *std::move(ops);
 }
@@ -180,8 +188,8 @@ io::Result<> write_results(const CutOptions& options, const io::CutReport& repor
 Outcome<void> check_units(const std::string& name, const io::FloeText& floes) {
   constexpr auto kRemedy = "polynya import makes metres of them";
   const std::string crs = io::crs_name(floes.crs);
-  const auto known = io::find_crs(crs);
-  if (!crs.empty() && known && known->is_geographic)
+  const auto known = crs.empty() ? io::fail("") : io::find_crs(crs);
+  if (known && known->is_geographic)
     return failure(kRefused,
                    fmt::format("{}: crs: longitude and latitude ({}), areas would not be m2: {}", name, crs, kRemedy));
   io::CoordinateEvidence evidence;
@@ -211,6 +219,9 @@ ExitCode cut_all(const CutOptions& options) {
   report_losses(name, *floes, format);
   io::CutReport report = cut_floes(floes->entries, std::move(*ops), options.repair);
   report.crs = floes->crs;
+  report.place = floes->place;
+  if (!report.ids_replaced.empty())
+    print_err("note: {}: {}\n", name, io::replaced_in_words(report.ids_replaced, report.source_id_key));
   report_floes(name, report);
   if (const auto written = write_results(options, report, format); !written) return fail(kInputOutput, written.error());
   report_totals(report);
@@ -227,15 +238,18 @@ constexpr auto kImportExamples =
     "  polynya import floes.shp --crs EPSG:3413 --shift --out floes.geojson      by GDAL's ogr2ogr\n"
     "  polynya import drawn.geojson --repair non-zero --simplify 0.5 --min-area 4 --gap 0.1 --out floes.geojson\n"
     "  polynya import floes.gpkg --layer ice --property thickness_m=CM*0.01 --out floes.geojson\n"
+    "  polynya import chart.shp --where \"POLY_TYPE = 'I'\" --nodata -9 \\\n"
+    "    --property \"thickness_m=SA[85:0.2 87:0.5 91:0.95 93:1.6]\" --out floes.geojson    an ice chart (SIGRID-3)\n"
     "\n"
     "Exit codes: 0 done, 2 usage, 4 some floes were refused (the others are written) or all of them, 5 input/output.\n";
 
 struct ImportOptions {
-  std::string file;    ///< or "-" for stdin
-  std::string out;     ///< or "-" for stdout
-  std::string report;  ///< empty: stdout, unless the floes go there
-  std::string origin;  ///< "LAT,LON" or "LAT,LON,HEADING" [°]
-  std::string layer;
+  std::string file;     ///< or "-" for stdin
+  std::string out;      ///< or "-" for stdout
+  std::string report;   ///< empty: stdout, unless the floes go there
+  std::string origin;   ///< "LAT,LON" or "LAT,LON,HEADING" [°]
+  std::string no_data;  ///< numbers, between commas, that stand for no value
+  io::Selection selection;
   ProgressKind progress = ProgressKind::kAuto;
   std::vector<std::string> properties;
   io::ImportSettings settings;
@@ -254,16 +268,38 @@ Outcome<std::optional<simulation::GeographicOrigin>> read_origin(const std::stri
                                       (n.size() > 2 ? n[2] : 90) * geometry::kRadiansPerDegree};
 }
 
-Outcome<io::FloeText> read_floes(const ImportOptions& options, const std::string& name) {
-  std::optional<io::Result<std::string>> foreign;
-  if (options.file != "-") foreign = io::read_foreign_file(options.file, options.layer, io::kLongestFloeText);
-  auto found = foreign ? *std::move(foreign) : read_input(options.file, io::kLongestFloeText);
+/// A file of floes as it was read.
+struct FloeFile {
+  io::FloeText text;
+  io::FilePlace place;
+  std::vector<std::string> notes;
+};
+
+Outcome<FloeFile> read_floes(const ImportOptions& options, const std::string& name) {
+  std::optional<io::Result<io::ForeignFile>> foreign;
+  if (options.file != "-") foreign = io::read_foreign_file(options.file, options.selection, io::kLongestFloeText);
+  if (foreign && !*foreign) return failure(kInputOutput, fmt::format("{}: {}", name, foreign->error()));
+  auto found = foreign ? std::move((*foreign)->geojson) : read_input(options.file, io::kLongestFloeText);
   if (!found) return failure(kInputOutput, fmt::format("{}: {}", name, found.error()));
-  auto floes = io::read_floe_text(std::move(*found));
-  if (!floes) return failure(kInputOutput, fmt::format("{}:{}", name, floes.error()));
-  if (floes->has_more_coordinates) print_err("note: {}: third coordinates are ignored\n", name);
-  if (floes->has_other_crs) return failure(kRefused, fmt::format("{}: its crs members differ", name));
-  return std::move(*floes);
+  auto text = io::read_floe_text(std::move(*found));
+  if (!text) return failure(kInputOutput, fmt::format("{}:{}", name, text.error()));
+  FloeFile read{std::move(*text), {}, {}};
+  if (read.text.has_more_coordinates) read.notes.emplace_back("third coordinates are ignored");
+  if (read.text.has_other_crs) return failure(kRefused, fmt::format("{}: its crs members differ", name));
+  read.place = {foreign ? (*foreign)->system : io::system_of(read.text), read.text.place};
+  if (foreign) {
+    std::ranges::copy((*foreign)->notes, std::back_inserter(read.notes));
+    return read;
+  }
+  if (!options.selection.layer.empty())
+    return failure(
+        kUsage, fmt::format("{}: --layer {}: GeoJSON, NDJSON and WKT have no layers", name, options.selection.layer));
+  if (!options.selection.where.empty()) {
+    auto taken = io::select_features(read.text, options.selection.where);
+    if (!taken) return failure(kInputOutput, fmt::format("{}: --where: {}", name, taken.error()));
+    read.notes.push_back(std::move(*taken));
+  }
+  return read;
 }
 
 void report_items(const std::string& name, const io::ImportOutcome& imported,
@@ -305,6 +341,18 @@ io::Result<> write_results(const ImportOptions& options, const std::optional<std
   return options.out == "-" ? io::Result<>{} : write_output("-", report);
 }
 
+Outcome<io::PropertyRules> read_rules(const ImportOptions& options) {
+  io::PropertyRules rules;
+  for (const std::string& words : options.properties)
+    if (auto added = io::add_property_name(words, rules.names); !added)
+      return failure(kUsage, "--property: " + added.error());
+  if (options.no_data.empty()) return rules;
+  auto numbers = io::read_numbers(options.no_data, 1, 100);
+  if (!numbers) return failure(kUsage, "--nodata: " + numbers.error());
+  rules.no_data = std::move(*numbers);
+  return rules;
+}
+
 ExitCode import_all(const ImportOptions& options) {
   if (options.out == options.report) return fail(kUsage, "--out and --report are one and the same");
   io::ImportSettings settings = options.settings;
@@ -321,16 +369,15 @@ ExitCode import_all(const ImportOptions& options) {
   settings.plane.shift_in_words =
       "--shift moves the floes to the middle of the plane, --origin LAT,LON projects them about a place";
   settings.plane.source_in_words = "--from EPSG:n names it";
-  io::PropertyNames names;
-  for (const std::string& words : options.properties)
-    if (auto added = io::add_property_name(words, names); !added) return fail(kUsage, "--property: " + added.error());
+  const auto rules = read_rules(options);
+  if (!rules) return rules.error();
   const std::string name = input_name(options.file);
-  const auto text = read_floes(options, name);
-  if (!text) return text.error();
-  const std::string crs = io::crs_name(text->crs);
-  io::FloesOfText read = io::floes_of(*text, names);
+  auto file = read_floes(options, name);
+  if (!file) return file.error();
+  const io::FloeText* const text = &file->text;
+  io::FloesOfText read = io::floes_of(*text, *rules);
   const auto imported = with_progress(options.progress, "projecting and taking apart",
-                                      [&] { return import_floes(read.floes, crs, settings); });
+                                      [&] { return import_floes(read.floes, file->place, settings); });
   if (!imported) {
     std::string place = name;
     if (const auto floe = imported.error().floe) {
@@ -339,13 +386,17 @@ ExitCode import_all(const ImportOptions& options) {
     }
     return fail(kRefused, fmt::format("{}: {}; nothing was written", place, imported.error().words));
   }
+  const io::ImportedIds ids = ids_of(*imported, read.floes, text->entries);
+  std::ranges::copy(read.notes, std::back_inserter(file->notes));
+  if (!ids.note.empty()) file->notes.push_back(ids.note);
+  for (const std::string& note : file->notes) print_err("note: {}: {}\n", name, note);
   report_items(name, *imported, text->entries);
   const io::ImportTotals& totals = imported->totals;
   const bool are_all_refused = totals.refused > 0 && totals.refused == totals.read;
   std::optional<std::string> geojson;
-  if (!are_all_refused) geojson = to_geojson(*imported, read.floes, text->entries);
+  if (!are_all_refused) geojson = to_geojson(*imported, read.floes, text->entries, ids);
   if (const auto written =
-          write_results(options, geojson, to_json_text(*imported, name, text->entries, read.near_misses));
+          write_results(options, geojson, to_json_text(*imported, name, text->entries, read, file->notes));
       !written)
     return fail(kInputOutput, written.error());
   report_totals(name, *imported, read.near_misses);
@@ -365,10 +416,17 @@ void add_plane_options(CommandLine& command, ImportOptions& options) {
                  not_empty(), traits);
   command.flag("--shift", options.settings.plane.is_shifted,
                "Move the middle of the floes' box to (0, 0), by whole metres", traits);
+  command.option("--tolerance", &options.settings.plane.tolerance, "M",
+                 "Add points to edges that are not straight in the plane, until they are this near to it [m]; 0: none",
+                 between(0, 1e5), traits);
 }
 
 void add_floe_options(CommandLine& command, ImportOptions& options) {
   io::ImportSettings& settings = options.settings;
+  command.option("--join", &settings.join, "M",
+                 "Join polygons of one feature, and those on both sides of longitude 180, whose boundaries run along "
+                 "each other within this distance, and close slits that are narrower [m]",
+                 between(0, 1e3));
   command.choice<geometry::FillRule>(
       "--repair", settings.repair,
       "Make valid polygons of outlines that are not, exactly, by what the rule fills; else they are refused",
@@ -378,11 +436,18 @@ void add_floe_options(CommandLine& command, ImportOptions& options) {
   command.option("--min-area", &settings.least_area, "M2", "Drop smaller floes [m²]", between(0, 1e12));
   command.option("--gap", &settings.gap, "M", "Least distance between floes: the smaller of two is trimmed to it [m]",
                  between(0, 1e3));
-  command.option("--layer", &options.layer, "NAME", "Of a GeoPackage with several", not_empty());
+  const OptionTraits features{.group = "Features and properties"};
+  command.option("--layer", &options.selection.layer, "NAME", "The layer, of a file with several", not_empty(),
+                 features);
+  command.option("--where", &options.selection.where, "SQL",
+                 "Take only features whose properties meet this condition, as ogr2ogr does: \"POLY_TYPE = 'I'\"",
+                 not_empty(), features);
   command.option("--property", &options.properties, "KEY=NAME",
-                 "The file's name for a property, with a factor for its unit: thickness_m=THICK, "
-                 "thickness_m=CM*0.01; may be repeated",
-                 {}, {.one_each_time = true});
+                 "The file's name for a property, with a factor for its unit, or values for its codes: "
+                 "thickness_m=THICK, thickness_m=CM*0.01, thickness_m=SA[91:0.95 93:1.6]; may be repeated",
+                 {}, {.group = features.group, .one_each_time = true});
+  command.option("--nodata", &options.no_data, "N,N", "Numbers that stand for no value in a property: -9,-9999",
+                 not_empty(), features);
 }
 
 }  // namespace
@@ -406,6 +471,11 @@ Command add_cut(CommandLine& app) {
   command.option("--sagitta", &options->sagitta, "M",
                  "By how much a disc's polygon may stay inside it [m]; 0.02, or radius/250 if that is less",
                  between(1e-12, 1e6));
+  command.option(
+      "--snap", &options->snap, "M",
+      "Continue an end of a line that stops short of the ice's edge or of another line by at most this [m]; if "
+      "not given, what rounding of the coordinates leaves",
+      between(0, 1e6));
   command.option("--out", &options->out, "FILE", "The pieces; format by extension, else that of FLOES; - for stdout");
   command.option("--ledger", &options->ledger, "FILE", "The ledger, JSON; stdout if not given");
   command.choice<geometry::FillRule>(
@@ -420,8 +490,8 @@ Command add_import(CommandLine& app) {
       app.add_command("import", "Make a floe file of mapped ice: project, repair, part overlaps", kImportExamples);
   auto options = std::make_shared<ImportOptions>();
   command.option("file", &options->file, "FILE",
-                 "GeoJSON, NDJSON or WKT, recognised by content; shapefile, GeoPackage or FlatGeobuf by ogr2ogr; - "
-                 "for stdin",
+                 "GeoJSON, NDJSON or WKT, recognised by content; any other format that GDAL's ogr2ogr reads; - for "
+                 "stdin",
                  {}, {.is_required = true});
   command.option("--out", &options->out, "FILE", "The floes, GeoJSON in metres; - for stdout", not_empty(),
                  {.is_required = true});

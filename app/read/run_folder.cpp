@@ -16,6 +16,7 @@
 #include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "io/import/floe_properties.hpp"
+#include "io/import/gdal.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/floe_text.hpp"
 #include "io/text/output_file.hpp"
@@ -77,6 +78,7 @@ constexpr auto kExportExamples =
     "Examples:\n"
     "  polynya export runs/sawamura2017-fig4b --vtk paraview         open paraview/run.pvd in ParaView\n"
     "  polynya export runs/at-sea --geojson qgis --at 300            longitude, latitude from the scene's origin\n"
+    "  polynya export runs/at-sea --geojson qgis --crs EPSG:3413     the polar stereographic of NSIDC\n"
     "  polynya export --scene runs/sawamura2017-fig4b --at 300       a scene that continues from there\n"
     "\n"
     "Exit codes: 0 done, 2 usage, 5 input/output.\n";
@@ -91,6 +93,7 @@ struct ExportOptions {
   std::string out;           ///< folder of that; empty: one in the run's
   ProgressKind progress = ProgressKind::kAuto;
   bool is_in_metres = false;  ///< GeoJSON in the scene's plane though it has an origin
+  views::LayerPlane plane;    ///< of the GeoJSON, else
 };
 
 int write_vtk(const io::Run& run, const ExportOptions& options) {
@@ -122,16 +125,19 @@ int write_files(const fs::path& folder, const std::vector<std::pair<std::string,
 }
 
 int write_geojson(const io::Run& run, double time, const ExportOptions& options) {
-  io::Project project;
-  if (const auto& origin = run.scene.scene.origin; origin && !options.is_in_metres) {
-    auto degrees = views::degrees_about(*origin);
-    if (!degrees) return fail(kInputOutput, degrees.error() + "; --metres writes the scene's plane");
-    project = std::move(*degrees);
-  } else if (!options.is_in_metres) {
+  views::LayerPlane plane = options.plane;
+  const bool has_origin = run.scene.scene.origin.has_value();
+  if (!has_origin && !plane.system.empty())
+    return fail(kUsage,
+                fmt::format("--crs {}: the scene has no \"origin\", so that its place on the Earth is not known",
+                            plane.system));
+  if (!has_origin && !options.is_in_metres)
     print_err("note: the scene has no \"origin\"; coordinates are metres in its plane\n");
-  }
-  return write_files(options.geojson, with_progress(options.progress, "making the layers",
-                                                    [&] { return views::geojson_layers(run, time, project); }));
+  if (has_origin && !options.is_in_metres && plane.system.empty()) plane.system = io::kDegreesOnEarth;
+  const auto layers =
+      with_progress(options.progress, "making the layers", [&] { return views::geojson_layers(run, time, plane); });
+  if (!layers) return fail(kInputOutput, layers.error() + "; --metres writes the scene's plane");
+  return write_files(options.geojson, *layers);
 }
 
 /// A scene of its own that starts where the run was then.
@@ -202,7 +208,7 @@ std::string unknown_floe(const io::Run& run, FloeId id) {
 int print_floe(const io::Run& run, const InspectOptions& options) {
   const io::RunFloe* floe = run.floe(*options.floe);
   if (!floe) return fail(kUsage, unknown_floe(run, *options.floe));
-  analysis::ShapeView view{floe->birth, ice_of(run.scene.scene, floe->birth.own_ice), *run.shape(*options.floe), {}};
+  analysis::ShapeView view{floe->birth, ice_of(run.scene.scene, floe->birth.own_ice), *run.shape(*options.floe), {}, run.scene.scene.origin};
   if (options.at) {
     if (!run.is_alive(floe->birth.floe, *options.at)) {
       const std::string end = floe->death_event ? fmt::format("to {:g} s", floe->died) : std::string("to the end");
@@ -462,6 +468,14 @@ Command add_export(CommandLine& app) {
                "A scene of its own, scene.json and floes.geojson, that starts where the run was then");
   command.option("--out", &options->out, "DIR", "Folder of the scene; one in the run's if not given", not_empty());
   command.flag("--metres", options->is_in_metres, "GeoJSON in metres though the scene has an origin");
+  command.option("--crs", &options->plane.system, "EPSG:n",
+                 "GeoJSON in this coordinate system in place of longitude and latitude on WGS 84", not_empty(),
+                 {.excludes = {"--metres"}});
+  command.option(
+      "--tolerance", &options->plane.tolerance, "M",
+      "Of GeoJSON: add points to edges that are not straight in its coordinates, until they are this near to "
+      "it [m]; 0: none",
+      between(0, 1e5));
   add_progress(command, options->progress);
   return {command, [options] { return export_run(*options); }};
 }

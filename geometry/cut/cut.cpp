@@ -112,14 +112,16 @@ CutOutcome cut_by_polygons_generally(const exact::Polygon& shape, const std::vec
   });
 }
 
-CutOutcome cut_along_generally(const exact::Polygon& shape, const std::vector<Point>& polyline_in_body) {
+CutOutcome cut_along_generally(const exact::Polygon& shape, const std::vector<std::vector<Point>>& polylines_in_body) {
   return guarded([&]() -> CutOutcome {
     std::vector<exact::SourceSegment> segments;
     append_segments(segments, shape, 0);
-    for (std::size_t i = 1; i < polyline_in_body.size(); ++i) {
-      const Point from = polyline_in_body[i - 1];
-      const Point to = polyline_in_body[i];
-      if (from != to) segments.push_back({exact::exactly(from), exact::exactly(to), 1});
+    for (const std::vector<Point>& polyline : polylines_in_body) {
+      for (std::size_t i = 1; i < polyline.size(); ++i) {
+        const Point from = polyline[i - 1];
+        const Point to = polyline[i];
+        if (from != to) segments.push_back({exact::exactly(from), exact::exactly(to), 1});
+      }
     }
     const auto classify = [](Winding w) { return w.shape <= 0 ? -1 : 0; };
     exact::Overlay overlay = exact::overlay(segments, classify, exact::Seams::kKeep);
@@ -173,7 +175,16 @@ CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_b
   if (is_simple(crack)) {
     if (auto outcome = try_locally(shape, {crack, false})) return *std::move(outcome);
   }
-  return cut_along_generally(exact::exactly(shape.polygon), crack);
+  return cut_along_generally(exact::exactly(shape.polygon), {crack});
+}
+
+CutOutcome cut_along_all(const Shape& shape, const std::vector<std::vector<Point>>& polylines_in_body) {
+  if (polylines_in_body.size() == 1) return cut_along(shape, polylines_in_body.front());
+  if (const auto found = find_shape_defect(shape)) return refuse(CutFailure::kInvalidShape, found->defect);
+  if (polylines_in_body.empty()) return refuse(CutFailure::kInvalidTool, Defect::kTooFewPoints);
+  for (const std::vector<Point>& polyline : polylines_in_body)
+    if (!are_usable(polyline)) return refuse(CutFailure::kInvalidTool, Defect::kNotFinite);
+  return cut_along_generally(exact::exactly(shape.polygon), polylines_in_body);
 }
 
 Ring disc_polygon(Point centre, double radius, double sagitta) {

@@ -66,6 +66,10 @@ CutOutcome cut_by_polygons(const Shape& shape, const std::vector<Polygon>& tools
 /// the shape fully; what dangles inside the ice does not separate and is ignored.
 CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_body);
 
+/// The same along several polylines together. They may cross, touch and end on each other: what they enclose between
+/// them is a piece, whatever their order.
+CutOutcome cut_along_all(const Shape& shape, const std::vector<std::vector<Point>>& polylines_in_body);
+
 /// A regular polygon inscribed in a circle, with as many vertices as keep its sagitta within `sagitta` [m].
 /// Counter-clockwise. Throws nothing; radius and sagitta must be > 0.
 Ring disc_polygon(Point centre, double radius, double sagitta);

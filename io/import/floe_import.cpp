@@ -1,20 +1,16 @@
 #include "io/import/floe_import.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <map>
 #include <set>
-#include <system_error>
 
 #include <fmt/format.h>
 
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
-#include "geometry/shape/angle.hpp"
 #include "geometry/shape/outline.hpp"
-#include "io/text/child_process.hpp"
+#include "io/import/join.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/problem.hpp"
 #include "simulation/world/limits.hpp"
@@ -49,6 +45,8 @@ class FloeImport {
     outcome_.plane = std::move(plane);
     outcome_.totals.read = sources_.size();
     drawn_.reserve(sources_.size());
+    for (const SourceFloe& floe : sources_) drawn_.push_back(geometry::normalised(floe.polygon));
+    if (settings_.join > 0) join_parts();
     for (std::size_t i = 0; i < sources_.size(); ++i) take(i);
     if (settings_.simplify > 0) simplify();
     trim();
@@ -63,10 +61,62 @@ class FloeImport {
     return one;
   }
 
+  /// Floes that may be parts of one: polygons of a feature, and those at longitude 180 with equal properties.
+  std::vector<std::size_t> groups() const {
+    std::vector<std::size_t> groups(sources_.size());
+    std::map<std::size_t, std::size_t> of_feature;
+    for (std::size_t i = 0; i < sources_.size(); ++i)
+      groups[i] = sources_[i].feature ? of_feature.emplace(*sources_[i].feature, i).first->second : i;
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+      const auto is_part_of = [&](std::size_t k) {
+        return sources_[k].is_at_180 && sources_[k].properties == sources_[i].properties;
+      };
+      if (!sources_[i].is_at_180 || groups[i] != i) continue;
+      for (std::size_t k = 0; k < i; ++k) {
+        if (!is_part_of(k)) continue;
+        const std::size_t mine = groups[i];
+        for (std::size_t& group : groups)
+          if (group == mine) group = groups[k];
+        break;
+      }
+    }
+    return groups;
+  }
+
+  void join_parts() {
+    std::vector<Polygon> parts = drawn_;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (!sources_[i].refused.empty()) parts[i] = {};
+    Sum before, after;
+    joined_ = join(parts, groups(), settings_.join);
+    for (const Joined& one : joined_) {
+      const std::size_t first = one.members.front();
+      Sum before_one;
+      for (const std::size_t member : one.members) {
+        before_one.push_back(&drawn_[member]);
+        joined_to_[member] = &one;
+        if (member == first) continue;
+        item(member).joined_to = first;
+        item(first).joined.push_back(member);
+        ++outcome_.totals.joined;
+      }
+      item(first).is_closed = one.members.size() == 1;
+      item(first).joined_area = geometry::exact_balance(sum_of(one.polygons), before_one, {});
+      for (const Polygon& polygon : one.polygons) after.push_back(&polygon);
+      before.insert(before.end(), before_one.begin(), before_one.end());
+    }
+    outcome_.totals.area_joined = geometry::exact_balance(after, before, {});
+  }
+
   void take(std::size_t i) {
-    drawn_.push_back(geometry::normalised(sources_[i].polygon));
-    const Polygon& polygon = drawn_.back();
+    const Polygon& polygon = drawn_[i];
     if (!sources_[i].refused.empty()) return refuse(i, sources_[i].refused);
+    if (const auto joined = joined_to_.find(i); joined != joined_to_.end()) {
+      read_.push_back(i);
+      if (joined->second->members.front() != i) return;
+      for (const Polygon& whole : joined->second->polygons) outcome_.floes.push_back({whole, i});
+      return;
+    }
     const auto defect = geometry::find_defect(polygon);
     if (!defect) {
       read_.push_back(i);
@@ -177,7 +227,7 @@ class FloeImport {
     for (const std::size_t i : read_) {
       if (const auto found = items_.find(i); found != items_.end())
         found->second.area_before = geometry::exact_area(drawn_[i]);
-      if (pieces[i] == 0 && items_[i].refused.empty()) ++totals.dropped;
+      if (pieces[i] == 0 && items_[i].refused.empty() && !items_[i].joined_to) ++totals.dropped;
     }
     totals.written = outcome_.floes.size();
     totals.area_read = area_of(read);
@@ -194,90 +244,24 @@ class FloeImport {
   const ImportSettings& settings_;
   std::vector<Polygon> drawn_;     ///< as read, in the plane and in house notation
   std::vector<std::size_t> read_;  ///< those not refused
+  std::vector<Joined> joined_;
+  std::map<std::size_t, const Joined*> joined_to_;  ///< by source
   std::vector<Polygon> dropped_;
   std::map<std::size_t, ImportItem> items_;
   ImportOutcome outcome_;
 };
 
-constexpr const char* kConverter = "ogr2ogr";
-
-/// GDAL's reason among its warnings: the first line that is one, without the list of drivers it tried.
-std::string reason_in(std::string_view text) {
-  std::string_view reason = text.substr(0, text.find('\n'));
-  bool is_found = false;
-  for_pieces(text, '\n', [&](std::string_view line, std::size_t) {
-    if (is_found || !(line.starts_with("ERROR") || line.starts_with("Unable"))) return;
-    reason = line.substr(0, line.find(" with the following"));
-    is_found = true;
-  });
-  return std::string(reason);
-}
-
-Result<ChildOutput> convert(const std::filesystem::path& file, std::string_view format, const std::string& layer,
-                            bool to_degrees, std::size_t longest) {
-  std::vector<std::string> words{kConverter, "-f", "GeoJSON", "-lco", "RFC7946=NO", "-lco", "COORDINATE_PRECISION=15",
-                                 "-dim",     "XY"};
-  if (to_degrees) words.insert(words.end(), {"-t_srs", "OGC:CRS84"});
-  words.insert(words.end(), {"/vsistdout/", std::filesystem::absolute(file).string()});
-  if (!layer.empty()) words.push_back(layer);
-  auto output = run_child(words, longest);
-  if (output) return output;
-  if (output.error().starts_with(std::string(kConverter) + " wrote")) return output;
-  return fail(
-      fmt::format("a {} is read by GDAL's ogr2ogr, which is not there ({}): apt-get install gdal-bin, "
-                  "or convert the file to GeoJSON elsewhere",
-                  format, output.error()));
-}
-
-/// The format of a file by how it begins; empty where it is none of these, or cannot be read.
-std::string_view foreign_format(const std::filesystem::path& file) {
-  std::array<char, 16> bytes{};
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return {};  // opening a pipe would wait for its writer
-  std::FILE* const stream = std::fopen(file.c_str(), "rb");
-  if (!stream) return {};
-  const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), stream);
-  std::fclose(stream);
-  const std::string_view begin(bytes.data(), count);
-  using namespace std::string_view_literals;
-  if (begin.starts_with("\x00\x00\x27\x0a"sv)) return "shapefile";
-  if (begin.starts_with("SQLite format 3"sv)) return "GeoPackage";
-  if (begin.starts_with("fgb\x03"sv)) return "FlatGeobuf file";
-  return {};
-}
-
 }  // namespace
 
-std::optional<Result<std::string>> read_foreign_file(const std::filesystem::path& file, const std::string& layer,
-                                                     std::size_t longest) {
-  const std::string_view format = foreign_format(file);
-  if (format.empty()) return {};
-  auto output = convert(file, format, layer, false, longest);
-  if (!output) return fail(output.error());
-  if (output->code != 0 || output->out.empty()) {
-    const std::string reason = reason_in(output->err);
-    return fail(fmt::format("ogr2ogr could not read it: {}",
-                            reason.empty() ? fmt::format("it ended with code {}", output->code) : reason));
-  }
-  // ogr2ogr writes no system that has no code, and of a GeoPackage not WGS 84 either: where the layer has
-  // one, it can convert from it. Without one it fails.
-  const std::string_view head = std::string_view(output->out).substr(0, output->out.find("\"features\":"));
-  if (head.find("\"crs\":") != std::string_view::npos) return std::move(output->out);
-  auto in_degrees = convert(file, format, layer, true, longest);
-  if (!in_degrees || in_degrees->code != 0 || in_degrees->out.empty()) return std::move(output->out);
-  std::string& text = in_degrees->out;
-  if (text.substr(0, text.find("\"features\":")).find("\"crs\":") == std::string::npos)
-    text.insert(text.find('{') + 1, R"("crs": {"type": "name", "properties": {"name": "OGC:CRS84"}},)");
-  return std::move(text);
-}
-
-FloesOfText floes_of(const FloeText& text, const PropertyNames& names) {
+FloesOfText floes_of(const FloeText& text, const PropertyRules& rules) {
   FloesOfText read;
-  NearMisses near_misses(names);
+  PropertyReader reader(rules);
+  NearMisses near_misses(rules.names);
   bool are_of_run = text.time.has_value();
   for (const FloeEntry& entry : text.entries) {
     SourceFloe& floe = read.floes.emplace_back();
     floe.polygon = entry.polygon;
+    floe.feature = entry.feature;
     if (!entry.refusal.empty()) {
       floe.refused = entry.refusal + (entry.detail.empty() ? "" : ": " + entry.detail);
       continue;
@@ -285,21 +269,24 @@ FloesOfText floes_of(const FloeText& text, const PropertyNames& names) {
     bool was_born = false;
     if (entry.properties) {
       const JsonValue properties = parse_json("{" + *entry.properties + "}").root;
-      floe.properties = read_floe_properties(properties, names, floe.refused);
+      floe.properties = reader.read(properties, floe.refused);
       near_misses.add(properties, floe.properties);
       was_born = properties.find("born_s") != nullptr;
     }
-    if (entry.floe_id) floe.properties.floe_id = entry.floe_id;
+    if (entry.floe_id && !rules.names.contains("floe_id")) floe.properties.floe_id = entry.floe_id;
     are_of_run = are_of_run && entry.floe_id && was_born;
   }
   read.near_misses = near_misses.found();
+  read.notes = reader.notes();
   if (are_of_run) read.run_time = text.time;
   return read;
 }
 
-tl::expected<ImportOutcome, PlaneError> import_floes(std::vector<SourceFloe>& floes, const std::string& crs,
+tl::expected<ImportOutcome, PlaneError> import_floes(std::vector<SourceFloe>& floes, const FilePlace& place,
                                                      const ImportSettings& settings) {
-  auto plane = bring_to_plane(floes, crs, settings.plane);
+  PlaneSettings of_plane = settings.plane;
+  of_plane.marks_180 = settings.join > 0;
+  auto plane = bring_to_plane(floes, place, of_plane);
   if (!plane) return tl::unexpected(std::move(plane.error()));
   return FloeImport(floes, settings).run(std::move(*plane));
 }
@@ -307,29 +294,6 @@ tl::expected<ImportOutcome, PlaneError> import_floes(std::vector<SourceFloe>& fl
 namespace {
 
 constexpr std::size_t kMostYields = 3;  ///< floes named in a message
-
-/// The floes' own ids where every one has one of its own, else their numbers; further pieces of a floe are
-/// numbered on.
-std::vector<std::int64_t> ids_of(const ImportOutcome& imported, const std::vector<SourceFloe>& sources) {
-  std::set<std::int64_t> own;
-  std::set<std::size_t> used;
-  for (const ImportedFloe& floe : imported.floes) {
-    if (!used.insert(floe.source).second) continue;
-    if (const auto id = sources[floe.source].properties.floe_id) own.insert(*id);
-  }
-  const bool are_own = own.size() == used.size();
-  std::int64_t next = are_own && !own.empty() ? *own.rbegin() + 1 : std::ssize(used);
-  std::vector<std::int64_t> ids;
-  std::int64_t number = 0;
-  used.clear();
-  for (const ImportedFloe& floe : imported.floes) {
-    if (!used.insert(floe.source).second)
-      ids.push_back(next++);
-    else
-      ids.push_back(are_own ? *sources[floe.source].properties.floe_id : number++);
-  }
-  return ids;
-}
 
 /// A feature's other properties, as members of JSON.
 std::string others_of(const FloeEntry& entry) {
@@ -348,13 +312,11 @@ std::string others_of(const FloeEntry& entry) {
   return others;
 }
 
-void write_plane(JsonWriter& json, const PlaneReport& plane) {
-  if (plane.origin) {
-    json.key("origin").open('{').key("latitude_deg").value(geometry::kDegreesPerRadian * plane.origin->latitude);
-    json.key("longitude_deg").value(geometry::kDegreesPerRadian * plane.origin->longitude);
-    json.key("heading_deg").value(geometry::kDegreesPerRadian * plane.origin->heading).close('}');
-  }
-  if (plane.shift != geometry::Vector{}) json.key("shift_m").value(plane.shift);
+StatedPlace place_of(const PlaneReport& plane) {
+  return {.origin = plane.origin,
+          .shifted_crs = plane.origin || plane.shift == geometry::Vector{} ? "" : plane.target,
+          .shift = plane.shift,
+          .wrong = {}};
 }
 
 void write_properties(JsonWriter& json, const FloeProperties& properties) {
@@ -369,6 +331,15 @@ void write_item(JsonWriter& json, const ImportItem& item, const std::vector<Floe
   json.key("area_before_m2").value(item.area_before).key("area_after_m2").value(item.area_after);
   json.key("pieces").value(item.pieces);
   if (!item.refused.empty()) json.key("refused").value(item.refused);
+  if (item.joined_to) json.key("joined_to_feature").value(entries[*item.joined_to].feature);
+  if (!item.joined.empty() || item.is_closed)
+    json.key("joined")
+        .open('{')
+        .key("polygons")
+        .value(1 + item.joined.size())
+        .key("area_m2")
+        .value(item.joined_area)
+        .close('}');
   if (!item.defect.empty())
     json.key("repaired").open('{').key("defect").value(item.defect).key("area_m2").value(item.repaired).close('}');
   if (item.vertices_after != item.vertices_before) {
@@ -388,10 +359,12 @@ void write_item(JsonWriter& json, const ImportItem& item, const std::vector<Floe
 
 void write_totals(JsonWriter& json, const ImportTotals& totals) {
   json.key("floes").open('{').key("read").value(totals.read).key("refused").value(totals.refused);
+  json.key("joined").value(totals.joined);
   json.key("repaired").value(totals.repaired).key("simplified").value(totals.simplified);
   json.key("trimmed").value(totals.trimmed).key("dropped").value(totals.dropped);
   json.key("written").value(totals.written).key("with_thickness").value(totals.with_thickness).close('}');
   json.key("area_m2").open('{').key("read").value(totals.area_read);
+  json.key("joined").value(totals.area_joined);
   json.key("repaired").value(totals.area_repaired).key("simplified").value(totals.area_simplified);
   json.key("trimmed").value(-totals.area_trimmed).key("dropped").value(-totals.area_dropped);
   json.key("written").value(totals.area_written).key("change").value(totals.area_change).close('}');
@@ -405,22 +378,54 @@ std::string term(double area, const char* what) {
 
 }  // namespace
 
+/// The floes' own ids where every one has one of its own, else their numbers; further pieces of a floe are
+/// numbered on.
+ImportedIds ids_of(const ImportOutcome& imported, const std::vector<SourceFloe>& floes,
+                   const std::vector<FloeEntry>& entries) {
+  std::vector<GivenId> given;
+  const auto id_of = [&](std::size_t source) {
+    GivenId id{floes[source].properties.floe_id, entries[source].other_id};
+    if (id.number) id.other = {};
+    return id;
+  };
+  std::vector<bool> is_first;
+  std::set<std::size_t> used;
+  for (const ImportedFloe& floe : imported.floes) {
+    is_first.push_back(used.insert(floe.source).second);
+    if (is_first.back()) given.push_back(id_of(floe.source));
+  }
+  ImportedIds result{.ids = {}, .other = {}, .key = source_id_key(entries), .note = {}};
+  const bool are_own = are_usable(given);
+  if (const std::string why = why_ids_are_replaced(given); !why.empty())
+    result.note = replaced_in_words(why, result.key);
+  std::int64_t next = std::ssize(used), number = 0;
+  for (const GivenId& id : given)
+    if (are_own) next = std::max(next, *id.number + 1);
+  for (std::size_t i = 0; i < imported.floes.size(); ++i) {
+    const GivenId id = id_of(imported.floes[i].source);
+    const bool keeps = are_own && is_first[i];
+    result.ids.push_back(keeps ? *id.number : is_first[i] ? number++ : next++);
+    result.other.push_back(keeps || !id.is_given() ? std::nullopt : std::optional(id.as_json()));
+  }
+  return result;
+}
+
 std::string to_geojson(const ImportOutcome& imported, const std::vector<SourceFloe>& floes,
-                       const std::vector<FloeEntry>& entries) {
+                       const std::vector<FloeEntry>& entries, const ImportedIds& ids) {
   return json_object([&](JsonWriter& json) {
     json.key("type").value("FeatureCollection");
     if (!imported.plane.target.empty() && imported.plane.shift == geometry::Vector{}) {
       json.key("crs").open('{').key("type").value("name").key("properties").open('{');
       json.key("name").value(imported.plane.target).close('}').close('}');
     }
-    write_plane(json, imported.plane);
+    write_place(json, place_of(imported.plane));
     json.key("features").open('[');
-    const std::vector<std::int64_t> ids = ids_of(imported, floes);
     for (std::size_t i = 0; i < imported.floes.size(); ++i) {
       const ImportedFloe& floe = imported.floes[i];
       json.start_line();
-      json.open('{').key("type").value("Feature").key("properties").open('{').key("floe_id").value(ids[i]);
+      json.open('{').key("type").value("Feature").key("properties").open('{').key("floe_id").value(ids.ids[i]);
       json.key("area_m2").value(geometry::measure(floe.polygon).area);
+      if (ids.other[i]) json.key(ids.key).json(*ids.other[i]);
       write_properties(json, floes[floe.source].properties);
       if (const std::string others = others_of(entries[floe.source]); !others.empty()) json.json(others);
       json.close('}').key("geometry").polygon(floe.polygon).close('}');
@@ -430,16 +435,21 @@ std::string to_geojson(const ImportOutcome& imported, const std::vector<SourceFl
 }
 
 std::string to_json_text(const ImportOutcome& imported, const std::string& file, const std::vector<FloeEntry>& entries,
-                         const std::vector<NearMiss>& near_misses) {
+                         const FloesOfText& read, const std::vector<std::string>& notes) {
   return json_object([&](JsonWriter& json) {
     json.key("file").value(file);
     json.key("system").value(imported.plane.system);
     if (!imported.plane.target.empty()) json.key("plane").value(imported.plane.target);
-    write_plane(json, imported.plane);
+    if (imported.plane.added_points > 0) json.key("points_added_to_edges").value(imported.plane.added_points);
+    write_place(json, place_of(imported.plane));
     json.start_line();
     write_totals(json, imported.totals);
     json.start_line();
-    json.key("near_misses").objects(near_misses, [&](const NearMiss& miss) {
+    json.key("notes").open('[');
+    for (const std::string& note : notes) json.value(note);
+    json.close(']');
+    json.start_line();
+    json.key("near_misses").objects(read.near_misses, [&](const NearMiss& miss) {
       json.key("property").value(miss.key).key("meant").value(miss.meant);
       json.key("factor").value(miss.factor).key("floes").value(miss.floes);
     });
@@ -450,7 +460,8 @@ std::string to_json_text(const ImportOutcome& imported, const std::string& file,
 
 std::string counts_in_words(const ImportTotals& totals) {
   std::string words = counted(totals.read, "floe") + " read";
-  for (const auto& [count, what] : {std::pair{totals.repaired, "repaired"},
+  for (const auto& [count, what] : {std::pair{totals.joined, "joined to others"},
+                                    {totals.repaired, "repaired"},
                                     {totals.simplified, "simplified"},
                                     {totals.trimmed, "trimmed"},
                                     {totals.dropped, "dropped"},
@@ -470,22 +481,27 @@ std::string thickness_in_words(std::size_t with_thickness, std::size_t floes) {
 }
 
 std::string areas_in_words(const ImportTotals& totals) {
-  return fmt::format("{:.12g} m2 read{}{}{}{} = {:.12g} m2 written", totals.area_read,
-                     term(totals.area_repaired, "repaired"), term(totals.area_simplified, "simplified"),
-                     term(-totals.area_trimmed, "trimmed"), term(-totals.area_dropped, "dropped"), totals.area_written);
+  return fmt::format("{:.12g} m2 read{}{}{}{}{} = {:.12g} m2 written", totals.area_read,
+                     term(totals.area_joined, "joined"), term(totals.area_repaired, "repaired"),
+                     term(totals.area_simplified, "simplified"), term(-totals.area_trimmed, "trimmed"),
+                     term(-totals.area_dropped, "dropped"), totals.area_written);
 }
 
 std::string plane_in_words(const PlaneReport& plane) {
   std::string words = plane.system.empty() ? "metres of the plane" : plane.system;
   if (plane.origin && !plane.system.empty()) {
-    words += fmt::format(", projected about {:.9g}, {:.9g}", geometry::kDegreesPerRadian * plane.origin->latitude,
-                         geometry::kDegreesPerRadian * plane.origin->longitude);
+    words += fmt::format(", projected about {:.9g}, {:.9g}", degrees_in_file(plane.origin->latitude),
+                         degrees_in_file(plane.origin->longitude));
     if (plane.is_origin_chosen) words += " (the floes' middle: give it as the scene's origin)";
+  } else if (plane.origin) {
+    words += fmt::format(" about {:.9g}, {:.9g}", degrees_in_file(plane.origin->latitude),
+                         degrees_in_file(plane.origin->longitude));
   } else if (!plane.target.empty()) {
     words += fmt::format(", in the plane of {}", plane.target);
   }
   if (plane.shift != geometry::Vector{})
     words += fmt::format(", shifted by ({:.12g}, {:.12g}) m", plane.shift.x, plane.shift.y);
+  if (plane.added_points > 0) words += fmt::format("; {} added to edges", counted(plane.added_points, "point"));
   return words;
 }
 
@@ -493,6 +509,10 @@ std::string item_in_words(const ImportItem& item, const std::vector<FloeEntry>& 
   if (!item.refused.empty()) return "refused: " + item.refused;
   std::string words;
   const auto add = [&](const std::string& more) { words += (words.empty() ? "" : "; ") + more; };
+  if (item.joined_to) return fmt::format("joined to feature {}", entries[*item.joined_to].feature);
+  if (!item.joined.empty())
+    add(fmt::format("joined with {}, {:+.3g} m2", counted(item.joined.size(), "polygon"), item.joined_area));
+  if (item.is_closed) add(fmt::format("a slit in it was closed, {:+.3g} m2", item.joined_area));
   if (!item.defect.empty()) add(fmt::format("{}, repaired, {:+.9g} m2", item.defect, item.repaired));
   if (!item.yields.empty()) {
     std::string others;

@@ -32,22 +32,34 @@ constexpr FloeProperty kProperties[] = {
     {"angular_velocity_deg_per_s", "°/s", -360, 360, &FloeProperties::angular_velocity},
     {"under_hull_path_m", "m", -1000, 1e5, &FloeProperties::under_hull_path}};
 
-/// Where the file has a property, and by what its values are multiplied.
-struct Place {
-  const JsonValue* value = nullptr;  ///< null: it has none
-  std::string key;
-  double factor = 1;
-};
+/// The whole of a text as a finite number.
+std::optional<double> as_number(std::string_view text) {
+  text = trimmed(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || text.empty() || !std::isfinite(number)) return {};
+  return number;
+}
 
-Place place_of(std::string_view key, const JsonValue& properties, const PropertyNames& names) {
-  Place place{nullptr, std::string(key), 1};
-  if (const auto named = names.find(key); named != names.end()) {
-    place.key = named->second.name;
-    place.factor = named->second.factor;
-  }
-  const JsonValue* value = properties.find(place.key);
-  if (value && !value->is_null()) place.value = value;
-  return place;
+std::optional<double> as_number(const JsonValue& value) {
+  if (value.is(JsonKind::kNumber)) return value.number();
+  return value.is(JsonKind::kText) ? as_number(value.text()) : std::nullopt;
+}
+
+/// Whether a value is that code: the same number, or the same text.
+bool is_code(const JsonValue& value, const std::string& code) {
+  const auto number = as_number(value), listed = as_number(code);
+  if (number && listed) return *number == *listed;
+  return value.is(JsonKind::kText) && trimmed(value.text()) == code;
+}
+
+/// Whether it looks like a number that stands for no value: -9, -99, -9999.
+bool looks_like_no_data(const JsonValue& value) {
+  const auto number = as_number(value);
+  if (!number || *number > -9) return false;
+  const std::string digits = fmt::format("{}", -*number);
+  return digits.find_first_not_of('9') == std::string::npos;
 }
 
 /// Units in a property's name, and what they are of the SI's.
@@ -117,6 +129,31 @@ void append_ice(JsonWriter& json, const Ice& ice) {
   for (const FloeProperty& property : floe_ice_properties()) json.key(property.key).value(ice.*property.ice);
 }
 
+namespace {
+
+/// Takes "[91:0.95 93:1.6]" from the end of a name: the values of codes. Brackets without a colon are of the name.
+Result<> take_codes(std::string_view words, PropertyName& name) {
+  const std::size_t open = name.name.rfind('[');
+  if (open == std::string::npos || !name.name.ends_with(']') || name.name.find(':', open) == std::string::npos)
+    return {};
+  const std::string list = name.name.substr(open + 1, name.name.size() - open - 2);
+  std::string wrong;
+  for_pieces(list, ' ', [&](std::string_view pair, std::size_t) {
+    if (pair.empty()) return;
+    const std::size_t colon = pair.rfind(':');
+    const auto value = colon == std::string_view::npos ? std::nullopt : as_number(pair.substr(colon + 1));
+    if (!value || colon == 0)
+      wrong = pair;
+    else
+      name.codes.emplace_back(pair.substr(0, colon), *value);
+  });
+  if (!wrong.empty()) return fail(fmt::format("\"{}\": {} is not CODE:VALUE, as 93:1.6", words, wrong));
+  name.name.resize(open);
+  return {};
+}
+
+}  // namespace
+
 Result<> add_property_name(std::string_view words, PropertyNames& names) {
   const std::size_t equals = words.find('=');
   if (equals == std::string_view::npos)
@@ -130,12 +167,11 @@ Result<> add_property_name(std::string_view words, PropertyNames& names) {
                             meant.empty() ? "" : fmt::format("; did you mean {}?", meant)));
   }
   PropertyName name{std::string(words.substr(equals + 1)), 1};
+  if (auto codes = take_codes(words, name); !codes) return codes;
   if (const std::size_t star = name.name.rfind('*'); star != std::string::npos) {
-    const std::string factor = name.name.substr(star + 1);
-    const char* const end = factor.data() + factor.size();
-    const auto [stop, error] = std::from_chars(factor.data(), end, name.factor);
-    if (error != std::errc() || stop != end || !std::isfinite(name.factor) || name.factor == 0)
-      return fail(fmt::format("\"{}\": {} is no factor", words, factor));
+    const auto factor = as_number(std::string_view(name.name).substr(star + 1));
+    if (!factor || *factor == 0) return fail(fmt::format("\"{}\": {} is no factor", words, name.name.substr(star + 1)));
+    name.factor = *factor;
     name.name.resize(star);
   }
   if (name.name.empty()) return fail(fmt::format("\"{}\" names no property of the file", words));
@@ -143,39 +179,96 @@ Result<> add_property_name(std::string_view words, PropertyNames& names) {
   return {};
 }
 
-FloeProperties read_floe_properties(const JsonValue& properties, const PropertyNames& names, std::string& wrong) {
+FloeProperties PropertyReader::read(const JsonValue& properties, std::string& wrong) {
   FloeProperties result;
-  /// `take` returns whether it is what is allowed.
-  const auto read = [&](std::string_view key, std::string_view allowed, auto take) {
-    const Place place = place_of(key, properties, names);
-    if (!place.value || take(*place.value, place.factor)) return;
-    const bool is_scaled = place.factor != 1 && place.value->is(JsonKind::kNumber) && key != kFloeId;
-    wrong +=
-        fmt::format("{}property {}: found {}{}, allowed: {}", wrong.empty() ? "" : "; ", place.key, show(*place.value),
-                    is_scaled ? fmt::format(", which is {:.9g}", place.factor * place.value->number()) : "", allowed);
+  const auto value_of = [&](const PropertyName& name) -> const JsonValue* {
+    const JsonValue* value = properties.find(name.name);
+    const bool is_none = !value || value->is_null() || (value->is(JsonKind::kText) && trimmed(value->text()).empty());
+    return is_none ? nullptr : value;
   };
-  read(kFastIce, "true or false", [&](const JsonValue& value, double) {
-    if (value.is(JsonKind::kBoolean)) result.is_fast = value.boolean();
-    return result.is_fast.has_value();
-  });
-  read(kUnderHullOf, "the name of a ship", [&](const JsonValue& value, double) {
-    if (value.is(JsonKind::kText)) result.under_hull_of = value.text();
-    return result.under_hull_of.has_value();
-  });
-  read(kFloeId, "a whole number ≥ 0", [&](const JsonValue& value, double) {
-    const double id = value.is(JsonKind::kNumber) ? value.number() : -1;
-    if (id >= 0 && id <= kLargestId && id == std::floor(id)) result.floe_id = static_cast<std::int64_t>(id);
-    return result.floe_id.has_value();
-  });
+  const auto name_of = [&](std::string_view key) {
+    const auto named = rules_.names.find(key);
+    return named != rules_.names.end() ? named->second : PropertyName{std::string(key)};
+  };
+  const auto refuse = [&](std::string_view name, const std::string& found, std::string_view allowed) {
+    wrong += fmt::format("{}property {}: found {}, allowed: {}", wrong.empty() ? "" : "; ", name, found, allowed);
+  };
+  if (const JsonValue* fast = value_of({std::string(kFastIce)}); fast && fast->is(JsonKind::kBoolean))
+    result.is_fast = fast->boolean();
+  else if (fast)
+    refuse(kFastIce, show(*fast), "true or false");
+  if (const JsonValue* ship = value_of({std::string(kUnderHullOf)}); ship && ship->is(JsonKind::kText))
+    result.under_hull_of = ship->text();
+  else if (ship)
+    refuse(kUnderHullOf, show(*ship), "the name of a ship");
+  if (const JsonValue* id = value_of(name_of(kFloeId)); id && id->is(JsonKind::kNumber)) {
+    const double number = id->number();
+    if (number >= 0 && number <= kLargestId && number == std::floor(number))
+      result.floe_id = static_cast<std::int64_t>(number);
+  }
   for (const FloeProperty& property : kProperties) {
-    const auto allowed = fmt::format("a number from {:g} to {:g} [{}]", property.low, property.high, property.unit);
-    read(property.key, allowed, [&](const JsonValue& value, double factor) {
-      const double number = value.is(JsonKind::kNumber) ? factor * value.number() : std::nan("");
-      if (number >= property.low && number <= property.high) result.*property.member = number;
-      return (result.*property.member).has_value();
-    });
+    const PropertyName name = name_of(property.key);
+    const JsonValue* value = value_of(name);
+    if (!value) continue;
+    bool is_wrong = false;
+    const auto number = number_in(property.key, name, *value, is_wrong);
+    if (number && *number >= property.low && *number <= property.high) {
+      result.*property.member = *number;
+    } else if (number || is_wrong) {
+      const bool is_scaled = number && (name.factor != 1 || !name.codes.empty());
+      refuse(name.name, show(*value) + (is_scaled ? fmt::format(", which is {:.9g}", *number) : ""),
+             fmt::format("a number from {:g} to {:g} [{}]{}", property.low, property.high, property.unit,
+                         looks_like_no_data(*value)
+                             ? fmt::format("; if that stands for no value: {}",
+                                           fmt::format(fmt::runtime(rules_.no_data_in_words), *as_number(*value)))
+                             : ""));
+    }
   }
   return result;
+}
+
+/// The number that a value stands for; none where it stands for no value, or where it is wrong.
+std::optional<double> PropertyReader::number_in(std::string_view key, const PropertyName& name, const JsonValue& value,
+                                                bool& is_wrong) {
+  const auto number = as_number(value);
+  if (number && std::ranges::find(rules_.no_data, *number) != rules_.no_data.end()) {
+    note(key, name.name, Reading::kNoData, value);
+    return {};
+  }
+  if (!name.codes.empty()) {
+    const auto code = std::ranges::find_if(name.codes, [&](const auto& one) { return is_code(value, one.first); });
+    if (code != name.codes.end()) return code->second;
+    note(key, name.name, Reading::kUnlistedCode, value);
+    return {};
+  }
+  is_wrong = !number;
+  if (!number) return {};
+  if (value.is(JsonKind::kText)) note(key, name.name, Reading::kText, value);
+  return name.factor * *number;
+}
+
+void PropertyReader::note(std::string_view key, const std::string& name, Reading reading, const JsonValue& value) {
+  const auto is_it = [&](const Note& one) { return one.key == key && one.reading == reading; };
+  auto found = std::ranges::find_if(notes_, is_it);
+  if (found == notes_.end()) found = notes_.insert(notes_.end(), {std::string(key), name, reading, show(value), 0});
+  ++found->floes;
+}
+
+std::vector<std::string> PropertyReader::notes() const {
+  std::vector<std::string> words;
+  for (const Note& one : notes_) {
+    const std::string floes = counted(one.floes, "floe");
+    if (one.reading == Reading::kText)
+      words.push_back(
+          fmt::format("property \"{}\" of {} is text, {}: it was read as a number", one.name, floes, one.example));
+    else if (one.reading == Reading::kNoData)
+      words.push_back(fmt::format("property \"{}\" of {} is {}, which stands for no value: no {} was read", one.name,
+                                  floes, one.example, one.key));
+    else
+      words.push_back(fmt::format("property \"{}\" of {} is a code that is not listed, {}: no {} was read", one.name,
+                                  floes, one.example, one.key));
+  }
+  return words;
 }
 
 void NearMisses::add(const JsonValue& properties, const FloeProperties& read) {

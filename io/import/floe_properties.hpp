@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "fracture/materials.hpp"
@@ -30,6 +31,7 @@ struct FloeProperties {
   std::optional<bool> is_fast;                 ///< held at its velocity
   std::optional<std::string> under_hull_of;    ///< the ship that it is under
   std::optional<double> under_hull_path;       ///< then how far that has come over it [m]
+  friend bool operator==(const FloeProperties&, const FloeProperties&) = default;
 };
 
 /// A number among the properties. The names and ranges are those of the scene's keys.
@@ -57,15 +59,51 @@ void append_ice(JsonWriter& json, const fracture::Ice& ice);
 struct PropertyName {
   std::string name;   ///< in the file
   double factor = 1;  ///< of its values
+  /// Values of codes, where the file has codes: {"93", 1.6}. A code that is not among them stands for no value.
+  std::vector<std::pair<std::string, double>> codes = {};
 };
 using PropertyNames = std::map<std::string, PropertyName, std::less<>>;  ///< by Polynya's key
 
-/// "thickness_m=THICK_CM*0.01": a property's key, the file's name for it, and a factor where one is needed.
+/// How the properties of a file are read.
+struct PropertyRules {
+  PropertyNames names;
+  std::vector<double> no_data = {};              ///< numbers that stand for no value: -9, -9999
+  std::string no_data_in_words = "--nodata {}";  ///< how a user names one, in messages
+};
+
+/// Adds a property's key, the file's name for it, and a factor or codes where there are any: "thickness_m=CM*0.01",
+/// "thickness_m=SA[91:0.95 93:1.6]".
 Result<> add_property_name(std::string_view words, PropertyNames& names);
 
-/// Reads the properties of a feature; null is none. What a floe cannot have is appended to `wrong`: "property
-/// thickness_m: found -0.4, allowed: a number from 0.001 to 20 [m]".
-FloeProperties read_floe_properties(const JsonValue& properties, const PropertyNames& names, std::string& wrong);
+/// Reads the properties of many features. A text that is a number is read as one.
+class PropertyReader {
+ public:
+  explicit PropertyReader(PropertyRules rules) : rules_(std::move(rules)) {}
+
+  /// Reads the properties of a feature; null and a blank text are none. What a floe cannot have is appended to `wrong`:
+  /// "property thickness_m: found -0.4, allowed: a number from 0.001 to 20 [m]". An id that is no whole number is no
+  /// fault: floe_id is then none.
+  FloeProperties read(const JsonValue& properties, std::string& wrong);
+
+  /// What was read otherwise than it stands in the file, in words, once for each property and kind.
+  std::vector<std::string> notes() const;
+
+ private:
+  enum class Reading { kText, kNoData, kUnlistedCode };
+  struct Note {
+    std::string key;   ///< Polynya's
+    std::string name;  ///< the file's
+    Reading reading;
+    std::string example;
+    std::size_t floes = 0;
+  };
+  std::optional<double> number_in(std::string_view key, const PropertyName& name, const JsonValue& value,
+                                  bool& is_wrong);
+  void note(std::string_view key, const std::string& name, Reading reading, const JsonValue& value);
+
+  PropertyRules rules_;
+  std::vector<Note> notes_;
+};
 
 /// A property that is not read, though its name is near that of one that is.
 struct NearMiss {

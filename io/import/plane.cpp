@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <numbers>
 #include <span>
 
-#include <dlfcn.h>
 #include <fmt/format.h>
-#include <proj.h>
 
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/angle.hpp"
-#include "io/text/floe_text.hpp"
+#include "io/import/gdal.hpp"
+#include "io/import/projected_lines.hpp"
 
 namespace polynya::io {
 namespace {
@@ -23,164 +21,6 @@ using geometry::Point;
 using geometry::Ring;
 using geometry::Vector;
 
-constexpr const char* kDegreesByProj = "+proj=longlat +datum=WGS84 +no_defs +type=crs";
-
-/// PROJ, loaded when it is first asked: it brings 37 libraries along, which each command would wait for and
-/// carry otherwise. POLYNYA_PROJ is the name of the one that this was built with.
-class Proj {
- public:
-  void* const library = dlopen(POLYNYA_PROJ, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-
-#define POLYNYA_OF_PROJ(name) decltype(&::name) const name = find<decltype(&::name)>(#name)
-  POLYNYA_OF_PROJ(proj_context_create);
-  POLYNYA_OF_PROJ(proj_context_destroy);
-  POLYNYA_OF_PROJ(proj_context_set_enable_network);
-  POLYNYA_OF_PROJ(proj_log_level);
-  POLYNYA_OF_PROJ(proj_create);
-  POLYNYA_OF_PROJ(proj_create_crs_to_crs);
-  POLYNYA_OF_PROJ(proj_normalize_for_visualization);
-  POLYNYA_OF_PROJ(proj_destroy);
-  POLYNYA_OF_PROJ(proj_is_crs);
-  POLYNYA_OF_PROJ(proj_get_name);
-  POLYNYA_OF_PROJ(proj_get_type);
-  POLYNYA_OF_PROJ(proj_get_source_crs);
-  POLYNYA_OF_PROJ(proj_crs_get_sub_crs);
-  POLYNYA_OF_PROJ(proj_crs_get_coordinate_system);
-  POLYNYA_OF_PROJ(proj_cs_get_axis_info);
-  POLYNYA_OF_PROJ(proj_trans);
-#undef POLYNYA_OF_PROJ
-
- private:
-  template <class Function>
-  Function find(const char* name) const {
-    return library != nullptr ? reinterpret_cast<Function>(dlsym(library, name)) : nullptr;
-  }
-};
-
-const Proj& proj() {
-  static const Proj loaded;
-  return loaded;
-}
-
-bool has_proj() {
-  return proj().library != nullptr;
-}
-constexpr const char* kNoProj = POLYNYA_PROJ " cannot be loaded: ./setup.sh, or apt-get install libproj25";
-
-/// A context that reads PROJ's own files alone, and prints nothing.
-pj_ctx* quiet_context() {
-  pj_ctx* const context = proj().proj_context_create();
-  proj().proj_log_level(context, PJ_LOG_NONE);
-  proj().proj_context_set_enable_network(context, 0);
-  return context;
-}
-
-/// Whether a system's first axis is in metres.
-bool is_metric(pj_ctx* context, const PJ* crs) {
-  PJ* const axes = proj().proj_crs_get_coordinate_system(context, crs);
-  double metres = 0;
-  const bool has_axis = axes != nullptr && proj().proj_cs_get_axis_info(context, axes, 0, nullptr, nullptr, nullptr,
-                                                                        &metres, nullptr, nullptr, nullptr) == 1;
-  proj().proj_destroy(axes);
-  return has_axis && metres == 1;
-}
-
-void transform_all(PJ* steps, PJ_DIRECTION direction, std::vector<Point>& points) {
-  for (Point& p : points) {
-    PJ_COORD place{};
-    place.xy = {p.x, p.y};
-    const PJ_COORD at = proj().proj_trans(steps, direction, place);
-    p = {at.xy.x, at.xy.y};
-    if (!std::isfinite(p.x) || !std::isfinite(p.y))  // PROJ gives HUGE_VAL
-      p.x = p.y = std::numeric_limits<double>::quiet_NaN();
-  }
-}
-
-}  // namespace
-
-void Projection::Free::operator()(PJconsts* object) const {
-  proj().proj_destroy(object);
-}
-void Projection::Free::operator()(pj_ctx* context) const {
-  proj().proj_context_destroy(context);
-}
-
-Result<Crs> find_crs(const std::string& definition) {
-  if (!has_proj()) return fail(kNoProj);
-  const std::unique_ptr<pj_ctx, Projection::Free> context(quiet_context());
-  std::unique_ptr<PJ, Projection::Free> crs(proj().proj_create(context.get(), definition.c_str()));
-  if (!crs || proj().proj_is_crs(crs.get()) == 0)
-    return fail(fmt::format("PROJ knows no coordinate system \"{}\", allowed: EPSG:n, OGC:CRS84, a PROJ string, WKT",
-                            definition));
-  Crs found;
-  if (const char* name = proj().proj_get_name(crs.get())) found.name = name;
-  PJ_TYPE type = proj().proj_get_type(crs.get());
-  if (type == PJ_TYPE_BOUND_CRS || type == PJ_TYPE_COMPOUND_CRS) {
-    crs.reset(type == PJ_TYPE_BOUND_CRS ? proj().proj_get_source_crs(context.get(), crs.get())
-                                        : proj().proj_crs_get_sub_crs(context.get(), crs.get(), 0));
-    if (!crs) return fail(fmt::format("\"{}\" has no horizontal system", definition));
-    type = proj().proj_get_type(crs.get());
-  }
-  found.is_geographic = type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_GEOGRAPHIC_3D_CRS;
-  found.is_projected = type == PJ_TYPE_PROJECTED_CRS || type == PJ_TYPE_ENGINEERING_CRS;
-  found.is_metric = found.is_projected && is_metric(context.get(), crs.get());
-  return found;
-}
-
-Result<Projection> Projection::between(const std::string& from, const std::string& to) {
-  if (!has_proj()) return fail(kNoProj);
-  Projection projection;
-  projection.context_.reset(quiet_context());
-  pj_ctx* const context = projection.context_.get();
-  const std::unique_ptr<PJ, Free> steps(proj().proj_create_crs_to_crs(context, from.c_str(), to.c_str(), nullptr));
-  if (!steps) return fail(fmt::format(R"(PROJ has no way from "{}" to "{}")", from, to));
-  projection.steps_.reset(proj().proj_normalize_for_visualization(context, steps.get()));
-  if (!projection.steps_) return fail(fmt::format(R"(PROJ has no way from "{}" to "{}")", from, to));
-  return projection;
-}
-
-void Projection::apply(std::vector<Point>& points) const {
-  transform_all(steps_.get(), PJ_FWD, points);
-}
-void Projection::apply_inverse(std::vector<Point>& points) const {
-  transform_all(steps_.get(), PJ_INV, points);
-}
-
-std::string GeographicPlane::system(const simulation::GeographicOrigin& origin) {
-  return fmt::format("+proj=aeqd +lat_0={} +lon_0={} +datum=WGS84 +units=m +no_defs +type=crs",
-                     geometry::kDegreesPerRadian * origin.latitude, geometry::kDegreesPerRadian * origin.longitude);
-}
-
-Result<GeographicPlane> GeographicPlane::about(const simulation::GeographicOrigin& origin) {
-  auto from_degrees = Projection::between(kDegreesByProj, system(origin));
-  if (!from_degrees) return fail(from_degrees.error());
-  return GeographicPlane(origin, std::move(*from_degrees));
-}
-
-Geographic GeographicPlane::geographic_of(Point point) const {
-  // The x axis heads `heading` clockwise from north; y is 90° to port of it.
-  const double sin_h = std::sin(origin_.heading), cos_h = std::cos(origin_.heading);
-  std::vector<Point> at{{point.x * sin_h - point.y * cos_h, point.x * cos_h + point.y * sin_h}};
-  from_degrees_.apply_inverse(at);
-  const double origin_longitude = geometry::kDegreesPerRadian * origin_.longitude;
-  const double longitude = origin_longitude + std::remainder(at[0].x - origin_longitude, 360);
-  return {at[0].y / geometry::kDegreesPerRadian, longitude / geometry::kDegreesPerRadian};
-}
-
-void GeographicPlane::place(std::vector<Point>& degrees) const {
-  from_degrees_.apply(degrees);
-  turn(degrees);
-}
-
-void GeographicPlane::turn(std::vector<Point>& east_north) const {
-  const double sin_h = std::sin(origin_.heading), cos_h = std::cos(origin_.heading);
-  for (Point& p : east_north) p = {p.x * sin_h + p.y * cos_h, p.y * sin_h - p.x * cos_h};
-}
-
-namespace {
-
-constexpr const char* kDegreesByOgc = "OGC:CRS84";
-
 [[noreturn]] void refuse(std::string words, std::optional<std::size_t> floe = {}) {
   throw PlaneError{floe, std::move(words)};
 }
@@ -189,10 +29,6 @@ template <class Value>
 Value or_refuse(Result<Value> found) {
   if (!found) refuse(std::move(found.error()));
   return *std::move(found);
-}
-
-bool is_finite(Point p) {
-  return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
 /// Calls use(ring) for each ring of each floe.
@@ -216,7 +52,7 @@ std::optional<Point> find_point(const geometry::Polygon& polygon, Condition is_i
 }
 
 /// "75.1° S, 16° E", of longitude and latitude in degrees.
-std::string place_in_words(Point at) {
+std::string place_in_degrees(Point at) {
   const double longitude = std::remainder(at.x, 360);
   return fmt::format("{:.6g}° {}, {:.6g}° {}", std::abs(at.y), at.y < 0 ? "S" : "N", std::abs(longitude),
                      longitude < 0 ? "W" : "E");
@@ -249,17 +85,41 @@ struct MisplacedFloe {
   Point point;
 };
 
+/// Likewise, with the image of the point.
+struct MisplacedLinePoint : MisplacedFloe {
+  MisplacedLinePoint(std::size_t number, Point at, Point to) : MisplacedFloe{number, at}, image(to) {}
+  Point image;
+};
+
+/// Whether a ring in degrees has an edge along the meridian of longitude 180, where polygons are cut.
+bool has_edge_at_180(const Ring& ring) {
+  constexpr double kNear = 1e-6;  // [°]; others cut a little beside it
+  const auto is_on = [](Point p) { return 180 - std::abs(std::remainder(p.x, 360)) <= kNear; };
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point next = ring[(i + 1) % ring.size()];
+    if (is_on(ring[i]) && is_on(next) && ring[i].y != next.y) return true;
+  }
+  return false;
+}
+
+bool is_one_system(const std::string& a, const std::string& b) {
+  const auto first = find_crs(a), second = find_crs(b);
+  return first && second && !first->code.empty() && first->code == second->code;
+}
+
 /// Brings one file's floes to the plane, step by step.
 class PlaneImport {
  public:
   PlaneImport(std::vector<SourceFloe>& floes, const PlaneSettings& settings) : floes_(floes), settings_(settings) {}
 
   /// Throws PlaneError.
-  PlaneReport run(const std::string& crs) {
-    const std::string system = system_of(crs);
+  PlaneReport run(const FilePlace& place) {
+    if (!place.stated.wrong.empty()) refuse(place.stated.wrong);
     check_numbers();
-    if (!system.empty())
-      project(system, !crs.empty());
+    if (place.stated.is_stated())
+      keep_or_move(place.stated);
+    else if (const std::string system = system_of(place.system); !system.empty())
+      project(system, !place.system.empty());
     else if (settings_.origin)
       report_.origin = settings_.origin;
     if (settings_.is_shifted) shift();
@@ -285,26 +145,27 @@ class PlaneImport {
 
   /// Refuses floes one by one; the file where they are more of it than `share`, or all. words_of(floe,
   /// others) is why: `others` are how many more there are where the file is refused, none where the floe is.
-  template <class Words>
-  void refuse_floes(const std::vector<MisplacedFloe>& misplaced, Words words_of, double share = 1) {
+  template <class Misplaced, class Words>
+  void refuse_floes(const std::vector<Misplaced>& misplaced, Words words_of, double share = 1) {
     if (misplaced.empty()) return;
     const auto kept = static_cast<std::size_t>(std::ranges::count_if(floes_, is_kept));
     const auto count = static_cast<double>(misplaced.size());
     if (misplaced.size() == kept || count > share * static_cast<double>(kept))
       refuse(words_of(misplaced.front(), Others(misplaced.size() - 1)), misplaced.front().floe);
-    for (const MisplacedFloe& one : misplaced) floes_[one.floe].refused = words_of(one, Others());
+    for (const Misplaced& one : misplaced) floes_[one.floe].refused = words_of(one, Others());
   }
 
   /// The system that the coordinates are in; empty where they are metres of the plane already.
   std::string system_of(const std::string& crs) const {
-    if (!crs.empty() && !settings_.source.empty() && crs != settings_.source)
-      refuse(fmt::format("the file names its own coordinate system, {}, where {} is given", crs, settings_.source));
+    if (!crs.empty() && !settings_.source.empty() && crs != settings_.source && !is_one_system(crs, settings_.source))
+      refuse(fmt::format("the file names its own coordinate system, {}, where {} is given", name_of_system(crs),
+                         name_of_system(settings_.source)));
     if (!crs.empty() || !settings_.source.empty()) return crs.empty() ? settings_.source : crs;
     CoordinateEvidence evidence;
     for (const SourceFloe& floe : floes_) evidence.add(floe.polygon);
     const bool is_projected = settings_.origin || !settings_.target.empty();
     if (!settings_.are_metres && (evidence.look_like_degrees() || (settings_.origin && lie_about_origin()))) {
-      if (is_projected) return kDegreesByOgc;
+      if (is_projected) return kDegreesOnEarth;
       const Point middle = middle_of_degrees();
       refuse(fmt::format(
           "these look like longitude and latitude, and the file names no coordinate system: {} "
@@ -378,20 +239,68 @@ class PlaneImport {
       check_degrees();
     else if (!crs->is_projected)
       refuse(fmt::format("{} is neither longitude and latitude nor a plane", crs->name));
-    if (!settings_.target.empty()) return project_to_target(system);
+    const CoordinateFrame from{.system = system, .is_in_degrees = crs->is_geographic, .is_metric = crs->is_metric};
+    if (settings_.marks_180) mark_180(from);
+    if (!settings_.target.empty()) return project_to_target(from);
     std::optional<simulation::GeographicOrigin> origin = settings_.origin;
     if (!origin && crs->is_geographic) {
       const Point middle = middle_of_degrees();
       if (!settings_.chooses_origin)
         refuse(fmt::format("longitude and latitude ({}), and no origin to project them about: {}", crs->name,
                            settings_.origin_in_words(middle.y, middle.x)));
-      origin = {middle.y / geometry::kDegreesPerRadian, middle.x / geometry::kDegreesPerRadian, std::numbers::pi / 2};
+      origin = {middle.y * geometry::kRadiansPerDegree, middle.x * geometry::kRadiansPerDegree, std::numbers::pi / 2};
       report_.is_origin_chosen = true;
     }
-    if (origin) return project_about(*origin, system, crs->is_geographic);
+    if (origin) return project_about(*origin, from);
     if (!crs->is_metric)
       refuse(fmt::format("{} is not in metres: an origin, or a projected system in metres, is needed", crs->name));
-    report_.target = system;
+    const bool is_wkt = system.find('[') != std::string::npos;
+    report_.target = is_wkt && !crs->code.empty() ? crs->code : system;
+  }
+
+  /// Marks floes that may have been cut at longitude 180.
+  void mark_180(const CoordinateFrame& from) {
+    std::vector<Point> points;
+    for (const SourceFloe& floe : floes_)
+      points.insert(points.end(), floe.polygon.outer.begin(), floe.polygon.outer.end());
+    if (!from.is_in_degrees) points = or_refuse(io::project(points, from, in_degrees()));
+    auto next = points.begin();
+    for (SourceFloe& floe : floes_) {
+      const auto end = next + std::ssize(floe.polygon.outer);
+      floe.is_at_180 = has_edge_at_180({next, end});
+      next = end;
+    }
+  }
+
+  /// The floes of a file that Polynya wrote, which states its plane.
+  void keep_or_move(const StatedPlace& stated) {
+    if (!settings_.source.empty())
+      refuse(fmt::format("the file states its own place, {}, where {} is given", in_words(stated), settings_.source));
+    CoordinateFrame from;
+    if (stated.origin)
+      from = frame_about(*stated.origin);
+    else
+      from = {.system = stated.shifted_crs, .is_metric = true};
+    from.shift = stated.shift;
+    if (!settings_.target.empty()) return project_to_target(from);
+    if (settings_.origin) {
+      report_.system = in_words(stated);
+      if (!stated.origin || !are_one(*settings_.origin, *stated.origin)) return project_about(*settings_.origin, from);
+      report_.origin = settings_.origin;
+      if (stated.shift != Vector{}) move_all(-stated.shift);
+      return;
+    }
+    report_.origin = stated.origin;
+    report_.target = stated.shifted_crs;
+    report_.shift = stated.shift;
+  }
+
+  static std::string in_words(const StatedPlace& stated) {
+    PlaneReport plane;
+    plane.origin = stated.origin;
+    plane.target = stated.shifted_crs;
+    plane.shift = stated.shift;
+    return place_in_words(plane);
   }
 
   void check_numbers() {
@@ -416,75 +325,116 @@ class PlaneImport {
     });
   }
 
-  void project_to_target(const std::string& system) {
+  void project_to_target(const CoordinateFrame& from) {
     const Crs target = or_refuse(find_crs(settings_.target));
     if (!target.is_metric) refuse(fmt::format("{} ({}) is not a plane in metres", settings_.target, target.name));
-    const Projection steps = or_refuse(Projection::between(system, settings_.target));
     report_.target = settings_.target;
-    apply([&](std::vector<Point>& points) { steps.apply(points); });
+    const CoordinateFrame to{.system = settings_.target, .is_metric = true};
+    std::vector<ProjectedLine> lines = lines_of(from, to);
+    finish(lines, from, to);
   }
 
-  void project_about(const simulation::GeographicOrigin& origin, const std::string& system, bool is_geographic) {
-    const Projection steps = or_refuse(Projection::between(system, GeographicPlane::system(origin)));
+  void project_about(const simulation::GeographicOrigin& origin, const CoordinateFrame& from) {
     report_.origin = origin;
-    const GeographicPlane plane = or_refuse(GeographicPlane::about(origin));
-    std::vector<SourceFloe> as_read;
-    if (is_geographic) as_read = floes_;
-    apply([&](std::vector<Point>& points) {
-      steps.apply(points);
-      plane.turn(points);
-    });
-    check_hemisphere(plane, as_read);
+    const CoordinateFrame to = frame_about(origin);
+    std::vector<ProjectedLine> lines = lines_of(from, to);
+    check_hemisphere(lines, from, to);
+    finish(lines, from, to);
   }
 
-  /// Projects all rings, and turns velocities as their axes turn there.
-  template <class Steps>
-  void apply(Steps steps) {
-    std::vector<MisplacedFloe> lost;
-    for (std::size_t i = 0; i < floes_.size(); ++i) {
-      if (!is_kept(floes_[i])) continue;
-      turn_velocity(floes_[i], steps);
-      std::optional<Point> without_image;
-      for_rings(floes_[i], [&](Ring& ring) {
-        const Ring before = ring;
-        steps(ring);
-        for (std::size_t k = 0; k < ring.size(); ++k)
-          if (!is_finite(ring[k])) without_image = before[k];
-      });
-      if (without_image) lost.push_back({i, *without_image});
+  /// The rings of all floes that are kept, in their order, with the images of their vertices. Refuses floes without.
+  std::vector<ProjectedLine> lines_of(const CoordinateFrame& from, const CoordinateFrame& to) {
+    turn_velocities(from, to);
+    std::vector<ProjectedLine> lines;
+    for (SourceFloe& floe : floes_)
+      if (is_kept(floe)) for_rings(floe, [&](Ring& ring) { lines.push_back(line_in(from, ring, true)); });
+    if (auto projected = project_vertices(lines, from, to); !projected) refuse(projected.error());
+    refuse_lines(
+        lines, [](Point, Point image) { return !is_finite(image); },
+        [](const MisplacedLinePoint& one, Others) {
+          return fmt::format("[{}, {}] has no image in that plane", one.point.x, one.point.y);
+        });
+    return lines;
+  }
+
+  /// Adds points to the edges that bend, and gives the floes their images.
+  void finish(std::vector<ProjectedLine>& lines, const CoordinateFrame& from, const CoordinateFrame& to) {
+    const auto count_points = [&] {
+      std::size_t count = 0;
+      for (const ProjectedLine& line : lines) count += line.to.size();
+      return count;
+    };
+    const std::size_t before = count_points();
+    if (auto added = add_points(lines, from, to, settings_.tolerance); !added) refuse(added.error());
+    report_.added_points = count_points() - before;
+    auto next = lines.begin();
+    for (SourceFloe& floe : floes_)
+      if (is_kept(floe)) for_rings(floe, [&](Ring& ring) { ring = image_of(*next++); });
+  }
+
+  /// Turns velocities as the axes turn at the first vertex of their floe.
+  void turn_velocities(const CoordinateFrame& from, const CoordinateFrame& to) {
+    std::vector<Point> points;
+    const auto moves = [](const SourceFloe& floe) {
+      const FloeProperties& p = floe.properties;
+      return is_kept(floe) && (p.velocity_x || p.velocity_y) && !floe.polygon.outer.empty();
+    };
+    for (const SourceFloe& floe : floes_) {
+      if (!moves(floe)) continue;
+      const Point at = floe.polygon.outer.front();
+      const double step =
+          from.is_in_degrees ? 1e-4 : 10;  // some metres: PROJ makes one point of less than a millimetre
+      // Towards the equator, since there is nothing beyond a pole.
+      const double step_y = from.is_in_degrees && at.y > 0 ? -step : step;
+      for (const Point p : {at, Point{at.x + step, at.y}, Point{at.x, at.y + step_y}}) points.push_back(p);
     }
-    refuse_floes(lost, [](const MisplacedFloe& one, Others) {
-      return fmt::format("[{}, {}] has no image in that plane", one.point.x, one.point.y);
-    });
+    const std::vector<Point> images = or_refuse(io::project(points, from, to));
+    auto next = images.begin();
+    for (SourceFloe& floe : floes_) {
+      if (!moves(floe)) continue;
+      FloeProperties& p = floe.properties;
+      Vector first = next[1] - next[0], second = next[2] - next[0];
+      if (from.is_in_degrees && floe.polygon.outer.front().y > 0) second = -second;
+      next += 3;
+      const Vector v =
+          (p.velocity_x.value_or(0) / length(first)) * first + (p.velocity_y.value_or(0) / length(second)) * second;
+      p.velocity_x = v.x;
+      p.velocity_y = v.y;
+    }
   }
 
-  template <class Steps>
-  static void turn_velocity(SourceFloe& floe, Steps steps) {
-    FloeProperties& p = floe.properties;
-    if ((!p.velocity_x && !p.velocity_y) || floe.polygon.outer.empty()) return;
-    const Point at = floe.polygon.outer.front();
-    const double step = 1e-4 * std::max(1.0, 1e-3 * (std::abs(at.x) + std::abs(at.y)));
-    std::vector<Point> frame{at, {at.x + step, at.y}, {at.x, at.y + step}};
-    steps(frame);
-    const Vector first = frame[1] - frame[0];
-    const Vector second = frame[2] - frame[0];
-    const Vector v =
-        (p.velocity_x.value_or(0) / length(first)) * first + (p.velocity_y.value_or(0) / length(second)) * second;
-    p.velocity_x = v.x;
-    p.velocity_y = v.y;
+  /// Refuses floes that have a vertex of which it is true: is_it(point in the file, image). Their lines are left out.
+  template <class Condition, class Words>
+  void refuse_lines(std::vector<ProjectedLine>& lines, Condition is_it, Words words_of) {
+    std::vector<MisplacedLinePoint> found;
+    std::vector<std::size_t> floe_of;
+    for (std::size_t i = 0; i < floes_.size(); ++i)
+      if (is_kept(floes_[i])) floe_of.insert(floe_of.end(), 1 + floes_[i].polygon.holes.size(), i);
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      if (!found.empty() && found.back().floe == floe_of[k]) continue;
+      for (std::size_t v = 0; v < lines[k].to.size(); ++v) {
+        if (!is_it(lines[k].from[v], lines[k].to[v])) continue;
+        found.push_back({floe_of[k], lines[k].from[v], lines[k].to[v]});
+        break;
+      }
+    }
+    refuse_floes(found, words_of);
+    std::size_t k = 0;
+    std::erase_if(lines, [&](const ProjectedLine&) { return !is_kept(floes_[floe_of[k++]]); });
   }
 
   /// Floes beyond the plane's reach from the origin, named by where they are on the Earth.
-  void check_hemisphere(const GeographicPlane& plane, const std::vector<SourceFloe>& as_read) {
-    const auto far = find_floes([](Point p) { return length(p - Point{}) > kFarthestFloe; });
-    refuse_floes(far, [&](const MisplacedFloe& one, Others others) {
-      const Point origin = degrees_of(*report_.origin), at = degrees_of(plane.geographic_of(one.point));
+  void check_hemisphere(std::vector<ProjectedLine>& lines, const CoordinateFrame& from, const CoordinateFrame& to) {
+    const auto is_far = [](Point, Point image) { return length(image - Point{}) > kFarthestFloe; };
+    refuse_lines(lines, is_far, [&](const MisplacedLinePoint& one, Others others) {
+      const Point origin = degrees_of(*report_.origin);
+      const Point at = from.is_in_degrees ? one.point : or_refuse(io::project({one.point}, from, in_degrees())).front();
       std::string words = fmt::format("{} lies {:.0f} km from the origin at {}{}{}, allowed: up to {:g} km",
-                                      place_in_words(at), length(one.point - Point{}) / 1000, place_in_words(origin),
-                                      at.y * origin.y < 0 ? ", in the other hemisphere" : "", more_in_words(others),
-                                      kFarthestFloe / 1000);
-      const std::span<const SourceFloe> all(as_read);
-      if (are_swapped(plane, others || all.empty() ? all : all.subspan(one.floe, 1)))
+                                      place_in_degrees(at), length(one.image - Point{}) / 1000,
+                                      place_in_degrees(origin), at.y * origin.y < 0 ? ", in the other hemisphere" : "",
+                                      more_in_words(others), kFarthestFloe / 1000);
+      const std::span<const SourceFloe> all(floes_);
+      if (from.is_in_degrees && are_swapped(to, others ? all : all.subspan(one.floe, 1)))
         return words + ". With latitude and longitude exchanged it lies near it: GeoJSON has [longitude, latitude]";
       if (others) words += ": " + settings_.origin_in_words(at.y, std::remainder(at.x, 360));
       return words;
@@ -492,15 +442,16 @@ class PlaneImport {
   }
 
   /// Whether degrees with latitude first lie near the origin.
-  static bool are_swapped(const GeographicPlane& plane, std::span<const SourceFloe> as_read) {
+  static bool are_swapped(const CoordinateFrame& to, std::span<const SourceFloe> floes) {
     std::vector<Point> exchanged;
-    for (const SourceFloe& floe : as_read) {
+    for (const SourceFloe& floe : floes) {
+      if (!is_kept(floe)) continue;
       for (const Point p : floe.polygon.outer)
         if (is_finite(p)) exchanged.push_back({p.y, p.x});
     }
     if (exchanged.empty()) return false;
-    plane.place(exchanged);
-    return std::ranges::all_of(exchanged, [](Point p) { return length(p - Point{}) <= kFarthestFloe; });
+    const auto images = or_refuse(io::project(exchanged, in_degrees(), to));
+    return std::ranges::all_of(images, [](Point p) { return length(p - Point{}) <= kFarthestFloe; });
   }
 
   /// Floes far from most others, by a wrong number, do not count.
@@ -519,10 +470,15 @@ class PlaneImport {
     for (const Point p : points)
       if (length(p - centre) <= 2 * kFarthestFloe) extend(box, {p, p});
     const Point middle = midpoint(box.low, box.high);
-    report_.shift = {-std::round(middle.x), -std::round(middle.y)};
+    const Vector by{-std::round(middle.x), -std::round(middle.y)};
+    report_.shift += by;
+    move_all(by);
+  }
+
+  void move_all(Vector by) {
     for (SourceFloe& floe : floes_) {
       for_rings(floe, [&](Ring& ring) {
-        for (Point& p : ring) p += report_.shift;
+        for (Point& p : ring) p += by;
       });
     }
   }
@@ -549,13 +505,33 @@ class PlaneImport {
 
 }  // namespace
 
-tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes, const std::string& crs,
+tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes, const FilePlace& place,
                                                      const PlaneSettings& settings) {
   try {
-    return PlaneImport(floes, settings).run(crs);
+    return PlaneImport(floes, settings).run(place);
   } catch (PlaneError& error) {
     return tl::unexpected(std::move(error));
   }
+}
+
+bool are_one(const simulation::GeographicOrigin& a, const simulation::GeographicOrigin& b) {
+  constexpr double kSame = 1e-12;  // [rad]; 6 micrometres on the Earth
+  const auto are_near = [](double first, double second) {
+    return std::abs(std::remainder(first - second, 2 * std::numbers::pi)) <= kSame;
+  };
+  return are_near(a.latitude, b.latitude) && are_near(a.longitude, b.longitude) && are_near(a.heading, b.heading);
+}
+
+std::string place_in_words(const PlaneReport& plane) {
+  std::string words;
+  if (plane.origin)
+    words = fmt::format("the plane about {}, x along {:.9g}°", place_in_degrees(degrees_of(*plane.origin)),
+                        degrees_in_file(plane.origin->heading));
+  else if (!plane.target.empty())
+    words = "the plane of " + plane.target;
+  if (!words.empty() && plane.shift != Vector{})
+    words += fmt::format(", shifted by ({:.12g}, {:.12g}) m", plane.shift.x, plane.shift.y);
+  return words;
 }
 
 }  // namespace polynya::io

@@ -11,6 +11,7 @@
 #include "geometry/shape/angle.hpp"
 #include "io/import/floe_properties.hpp"
 #include "io/run/run_folder.hpp"
+#include "io/text/floe_text.hpp"
 #include "io/text/shape_parts.hpp"
 
 namespace polynya::io {
@@ -462,8 +463,9 @@ void append_birth(std::string& text, const simulation::Birth& birth, const geome
   text += '\n';
 }
 
-std::string to_geojson(const std::vector<simulation::FloeState>& floes, double time) {
-  GeojsonLayer layer(time);
+std::string to_geojson(const std::vector<simulation::FloeState>& floes, double time,
+                       const std::optional<simulation::GeographicOrigin>& origin) {
+  GeojsonLayer layer(time, place_members(origin));
   for (const simulation::FloeState& floe : floes) append_floe(layer, floe);
   return layer.finish();
 }

@@ -189,7 +189,8 @@ void append_birth(std::string& text, const simulation::Birth& birth, const geome
                   const simulation::Scene* scene = nullptr);
 
 /// All floes as a GeoJSON FeatureCollection in world coordinates [m].
-std::string to_geojson(const std::vector<simulation::FloeState>& floes, double time);
+std::string to_geojson(const std::vector<simulation::FloeState>& floes, double time,
+                       const std::optional<simulation::GeographicOrigin>& origin = {});
 /// One floe of them.
 void append_floe(GeojsonLayer& layer, const simulation::FloeState& floe);
 

@@ -10,6 +10,7 @@
 #include "geometry/shape/pose.hpp"
 #include "io/run/checkpoint.hpp"
 #include "io/run/event_records.hpp"
+#include "io/text/floe_text.hpp"
 #include "io/text/json_writer.hpp"
 
 namespace polynya::io {
@@ -25,9 +26,10 @@ Motion motion_of(const simulation::FloeState& floe, geometry::Point centroid_in_
 }
 
 /// final.geojson in parts: of a million floes it is a gigabyte.
-void write_floes(const simulation::Simulation& simulation, const WritePart& write) {
+void write_floes(const simulation::Simulation& simulation, const std::optional<simulation::GeographicOrigin>& origin,
+                 const WritePart& write) {
   constexpr std::size_t kPart = std::size_t{256} << 10;  // [bytes]
-  GeojsonLayer layer(simulation.time());
+  GeojsonLayer layer(simulation.time(), place_members(origin));
   simulation.for_each_floe(simulation::Living::kFloating, [&](const simulation::FloeState& floe) {
     append_floe(layer, floe);
     if (layer.size() > kPart) write(layer.take());
@@ -314,7 +316,9 @@ Result<> RunWriter::finish(const RunSummary& summary, const simulation::Simulati
     if (written) written = std::move(done);
   };
   const auto write_ice = [&] {
-    if (simulation) write(run_file::kFinalGeojson, [&](const WritePart& part) { write_floes(*simulation, part); });
+    if (simulation)
+      write(run_file::kFinalGeojson,
+            [&](const WritePart& part) { write_floes(*simulation, scene_->scene.origin, part); });
   };
   // A summary with "finished": true comes last, when all is there, and on the disk. Of a run that stopped it
   // comes first: where space is short it matters more than the ice.

@@ -103,6 +103,10 @@ const Description<FileImport> kImport{
             &FileImport::settings, &ImportSettings::plane, &PlaneSettings::target),
      member("shift", "", {}, "moves the middle of the floes' box to (0, 0), by whole metres", &FileImport::settings,
             &ImportSettings::plane, &PlaneSettings::is_shifted),
+     member("join_m", "m", from(0, 1e3),
+            "joins polygons of one feature, and those on both sides of longitude 180, whose boundaries run along each "
+            "other within this distance, and closes slits that are narrower; 0: none",
+            &FileImport::settings, &ImportSettings::join),
      choice<Repair>(
          "repair", "what becomes of outlines that are not valid: refused, or made of what a rule fills",
          {{"refuse", Repair{}}, {"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}},
@@ -113,10 +117,19 @@ const Description<FileImport> kImport{
             &ImportSettings::least_area),
      member("gap_m", "m", from(0, 1000), "least distance between floes: the smaller of two is trimmed to it",
             &FileImport::settings, &ImportSettings::gap),
-     member("layer", "", {}, "of a file with several", &FileImport::layer),
+     member("tolerance_m", "m", from(0, 1e5),
+            "edges that are not straight in the plane get points until they are this near to it; 0: none",
+            &FileImport::settings, &ImportSettings::plane, &PlaneSettings::tolerance),
+     member("layer", "", {}, "the layer, of a file with several", &FileImport::selection, &Selection::layer),
+     member("where", "", {},
+            "takes only features whose properties meet this condition, as ogr2ogr does: POLY_TYPE = 'I'",
+            &FileImport::selection, &Selection::where),
      member("properties", "", {},
-            "the file's names for properties, with factors for units: thickness_m=CM*0.01, floe_id=FID",
-            &FileImport::properties)}};
+            "the file's names for properties, with factors for units or values for codes: thickness_m=CM*0.01, "
+            "floe_id=FID, thickness_m=SA[91:0.95 93:1.6]",
+            &FileImport::properties),
+     member("nodata", "", from(-1e300, 1e300), "numbers that stand for no value in a property: [-9, -9999]",
+            &FileImport::no_data)}};
 
 using fracture::ScatterKind;
 
@@ -184,7 +197,7 @@ const Description<FloeGroup> kFloesDescription{
      of("file", required(member("file", "", {},
                                 "a floe file in the scene's folder or below: GeoJSON in metres, in longitude and "
                                 "latitude or with "
-                                "a crs; shapefile, GeoPackage, FlatGeobuf; a run's final.geojson (docs/import.md)",
+                                "a crs; any format that GDAL's ogr2ogr reads; a run's final.geojson (docs/import.md)",
                                 &FloeGroup::form, &FileInput::name))),
      of("file", object("import", kImport, "repairs, simplifies and trims the file's floes as `polynya import` does",
                        &FloeGroup::form, &FileInput::import)),

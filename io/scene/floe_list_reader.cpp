@@ -12,6 +12,7 @@
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/pose.hpp"
 #include "io/scene/scene_check.hpp"
+#include "io/text/floe_ids.hpp"
 #include "io/text/floe_text.hpp"
 #include "simulation/world/setup.hpp"
 
@@ -305,32 +306,77 @@ class FloeFileReader {
     const std::size_t before = problems_.count();
     if (origin && !import_.settings.plane.target.empty())
       report_entry("import.crs in a scene that has an origin", "one of the two: the scene has one plane");
-    auto text = text_of(file);
-    if (!text) {
-      report_entry("\"" + file.string() + "\": " + text.error(),
+    if (origin && import_.settings.plane.is_shifted)
+      report_entry("import.shift in a scene that has an origin",
+                   "one of the two: floes lie about the scene's origin where they lie on the Earth");
+    auto read_text = text_of(file);
+    if (!read_text) {
+      report_entry("\"" + file.string() + "\": " + read_text.error(),
                    fmt::format("a floe file of at most {} bytes", kLongestFloesFile));
       return {};
     }
-    result_.source = problems_.add_source({file.string(), std::move(*text)});
-    PropertyNames names;
+    result_.source = problems_.add_source({file.string(), std::move(*read_text)});
+    PropertyRules rules{
+        .names = {}, .no_data = import_.no_data, .no_data_in_words = R"("nodata": [{}] in its "import")"};
     for (const std::string_view words : words_of(import_.properties))
-      if (auto added = add_property_name(words, names); !added)
+      if (auto added = add_property_name(words, rules.names); !added)
         report_entry(added.error(), "KEY=NAME, as thickness_m=THICK or thickness_m=CM*0.01");
     auto read = read_floe_text(problems_.source(result_.source).text);
     if (!read) report_entry(fmt::format("\"{}\":{}", file.string(), read.error()), "a floe file (docs/import.md)");
     if (problems_.count() > before) return {};
     text_ = *std::move(read);
-    FloesOfText floes = floes_of(text_, names);
-    result_.report = {.run_time = floes.run_time, .near_misses = std::move(floes.near_misses), .offset = offset_};
+    place_ = {is_foreign_ ? system_ : system_of(text_), text_.place};
+    select();
+    FloesOfText floes = floes_of(text_, rules);
+    result_.report = {.run_time = floes.run_time,
+                      .near_misses = std::move(floes.near_misses),
+                      .notes = std::move(notes_),
+                      .offset = offset_};
+    std::ranges::copy(floes.notes, std::back_inserter(result_.report.notes));
+    note_ids(floes.floes);
     place(floes.floes, plane_of(origin));
     if (problems_.count() > before) return {};
     return std::move(result_);
   }
 
  private:
-  Result<std::string> text_of(const std::filesystem::path& file) const {
-    auto foreign = read_foreign_file(file, import_.layer, kLongestFloesFile);
-    return foreign ? *std::move(foreign) : read_text_file(file, kLongestFloesFile);
+  Result<std::string> text_of(const std::filesystem::path& file) {
+    Selection selection = import_.selection;
+    selection.layer_in_words = R"("layer": NAME in its "import")";
+    auto foreign = read_foreign_file(file, selection, kLongestFloesFile);
+    if (!foreign) return read_text_file(file, kLongestFloesFile);
+    if (!*foreign) return fail(foreign->error());
+    is_foreign_ = true;
+    system_ = (*foreign)->system;
+    notes_ = (*foreign)->notes;
+    return std::move((*foreign)->geojson);
+  }
+
+  /// Takes the features that the entry selects, where GDAL has not done so.
+  void select() {
+    if (is_foreign_) return;
+    const Selection& selection = import_.selection;
+    if (!selection.layer.empty())
+      report_entry(fmt::format("import.layer \"{}\"", selection.layer), "no layer of GeoJSON, NDJSON and WKT");
+    if (selection.where.empty()) return;
+    auto taken = select_features(text_, selection.where);
+    if (taken)
+      notes_.push_back(*std::move(taken));
+    else
+      report_entry("import.where: " + taken.error(), "a condition on the features' properties: POLY_TYPE = 'I'");
+  }
+
+  /// In a scene floes go by numbers alone.
+  void note_ids(const std::vector<SourceFloe>& floes) {
+    std::vector<GivenId> ids;
+    for (std::size_t i = 0; i < floes.size(); ++i) {
+      GivenId id{floes[i].properties.floe_id, text_.entries[i].other_id};
+      if (id.number) id.other = {};
+      ids.push_back(std::move(id));
+    }
+    if (const std::string why = why_ids_are_replaced(ids); !why.empty())
+      result_.report.notes.push_back(fmt::format(
+          "floe_id: {}; the run knows floes by their own numbers, polynya import keeps such ids as source_id", why));
   }
 
   /// Where the features' area_m2 are those of their coordinates, these are metres, however small.
@@ -352,10 +398,9 @@ class FloeFileReader {
   }
 
   void place(std::vector<SourceFloe>& floes, PlaneSettings plane) {
-    const std::string crs = crs_name(text_.crs);
     const auto offset_of = [&](std::size_t floe) { return text_.entries[floe].offset; };
     if (!is_imported_) {
-      auto placed = bring_to_plane(floes, crs, plane);
+      auto placed = bring_to_plane(floes, place_, plane);
       if (!placed) return report(placed.error());
       for (std::size_t i = 0; i < floes.size(); ++i) {
         if (!floes[i].refused.empty()) report({i, floes[i].refused});
@@ -366,7 +411,7 @@ class FloeFileReader {
     }
     ImportSettings settings = import_.settings;
     settings.plane = std::move(plane);
-    auto imported = import_floes(floes, crs, settings);
+    auto imported = import_floes(floes, place_, settings);
     if (!imported) return report(imported.error());
     for (const ImportItem& item : imported->items) {
       if (item.refused.empty()) continue;
@@ -396,6 +441,10 @@ class FloeFileReader {
   std::uint32_t offset_;
   ProblemCollector& problems_;
   FloeText text_;
+  FilePlace place_;
+  bool is_foreign_ = false;  ///< GDAL has read it
+  std::string system_;       ///< then its coordinate system
+  std::vector<std::string> notes_;
   FloeFile result_;
 };
 
@@ -500,6 +549,8 @@ void FloeListReader::add_floes(const FileInput& input) {
   auto file = FloeFileReader(input.import, path, name, problems_).read(*found, draft_.scene.origin);
   if (!file || !has_room_for(file->floes.size(), path)) return;
   FileReport& came = file->report;
+  came.place = place_in_words(came.plane);
+  check_places(came, name);
   came.group = index_;
   came.floes = file->floes.size();
   const auto is_fast = [](const FileFloe& floe) { return floe.properties.is_fast.value_or(false); };
@@ -518,6 +569,18 @@ void FloeListReader::add_floes(const FileInput& input) {
     if (floe.properties.thickness) ++came.with_thickness;
   }
   loaded_.files.push_back(std::move(came));
+}
+
+/// Files whose metres are of different planes do not lie beside each other as their coordinates say.
+void FloeListReader::check_places(const FileReport& came, std::uint32_t offset) {
+  if (draft_.scene.origin || came.place.empty()) return;
+  const auto other = std::ranges::find_if(
+      loaded_.files, [&](const FileReport& file) { return !file.place.empty() && file.place != came.place; });
+  if (other == loaded_.files.end()) return;
+  problems_.report(0, offset, path_ + ".file", "metres of " + came.place,
+                   fmt::format("those of floes[{}].file, which are of {}; with an \"origin\" in the scene each file "
+                               "is brought to its plane",
+                               other->group, other->place));
 }
 
 /// The entry that a floe of a file is in the resolved scene: what the file states of it stands there instead

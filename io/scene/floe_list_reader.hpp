@@ -71,6 +71,7 @@ class FloeListReader {
   void add_floes(const FileInput& file);
   /// Floes that the entry stands for in the resolved scene too.
   void add_all(std::vector<geometry::Polygon> floes, bool are_known_valid);
+  void check_places(const FileReport& came, std::uint32_t offset);
   FloeGroup spelled_out(FileFloe& floe, bool is_of_run) const;
   void add_floe(const FloeGroup& group, geometry::Polygon polygon, const FloeProperties& given, Origin origin);
   void check_fast_ice(bool is_fast);

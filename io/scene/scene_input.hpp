@@ -11,6 +11,7 @@
 #include "geometry/shape/polygon.hpp"
 #include "io/import/floe_import.hpp"
 #include "io/import/floe_properties.hpp"
+#include "io/import/gdal.hpp"
 #include "io/scene/record.hpp"
 #include "simulation/field/floe_field.hpp"
 #include "simulation/world/scene.hpp"
@@ -130,8 +131,9 @@ struct FieldInput {
 /// How the floes of a file come to the scene.
 struct FileImport {
   ImportSettings settings;  ///< without the plane's origin and words
-  std::string layer;        ///< of a file with several; or empty
-  std::string properties;   ///< "thickness_m=CM*0.01, floe_id=FID"
+  Selection selection;
+  std::string properties;       ///< "thickness_m=CM*0.01, floe_id=FID"
+  std::vector<double> no_data;  ///< numbers that stand for no value in a property
 };
 struct FileInput {
   std::string name;  ///< in the scene's folder

@@ -367,6 +367,11 @@ class SceneReader {
                                           as_property_name(miss), is_thickness ? "; " + thickness : ""));
       is_partial = is_partial && !is_thickness;
     }
+    for (const std::string& note : file.notes) add(Severity::kHint, note);
+    if (!file.place.empty() && !draft_.scene.origin)
+      add(Severity::kHint, fmt::format("its metres are of {}, and the scene has no \"origin\": the run does not know "
+                                       "where it lies on the Earth",
+                                       file.place));
     if (is_partial) add(Severity::kHint, thickness + "; the others have that of the scene");
   }
 

@@ -40,7 +40,9 @@ struct FileReport {
   std::size_t floes = 0;                    ///< that it gave
   std::size_t with_thickness = 0;           ///< of their own
   std::vector<NearMiss> near_misses = {};
-  std::uint32_t offset = 0;  ///< of its name in the scene
+  std::vector<std::string> notes = {};  ///< what was read otherwise than it stands in the file, in words
+  std::string place = {};               ///< where on the Earth the file's metres lie, in words; empty: it does not say
+  std::uint32_t offset = 0;             ///< of its name in the scene
 };
 
 /// How a property of the floes of one entry came out that was drawn.

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <memory>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -17,14 +16,14 @@ namespace {
 /// A file without a name, into which a child writes.
 using NamelessFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-int spawn(std::vector<std::string> words, int out, int err, pid_t& child) {
+int spawn(std::vector<std::string> words, int in, int out, int err, pid_t& child) {
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, in, 0);
   posix_spawn_file_actions_adddup2(&actions, out, 1);
   posix_spawn_file_actions_adddup2(&actions, err, 2);
   const int error = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
@@ -44,20 +43,28 @@ Result<std::string> text_in(std::FILE* file, std::size_t longest) {
 
 }  // namespace
 
-Result<ChildOutput> run_child(const std::vector<std::string>& words, std::size_t longest) {
-  const NamelessFile out(std::tmpfile(), std::fclose), err(std::tmpfile(), std::fclose);
-  if (!out || !err) return fail(fmt::format("no temporary file: {}", std::strerror(errno)));
+tl::expected<ChildOutput, ChildFailure> run_child(const std::vector<std::string>& words, std::size_t longest,
+                                                  std::string_view input) {
+  const auto failed = [&](std::string why, bool is_missing = false) {
+    return tl::unexpected(ChildFailure{is_missing, std::move(why)});
+  };
+  const NamelessFile in(std::tmpfile(), std::fclose), out(std::tmpfile(), std::fclose),
+      err(std::tmpfile(), std::fclose);
+  if (!in || !out || !err) return failed(fmt::format("no temporary file: {}", std::strerror(errno)));
+  if (std::fwrite(input.data(), 1, input.size(), in.get()) != input.size() || std::fflush(in.get()) != 0)
+    return failed(fmt::format("a temporary file: {}", std::strerror(errno)));
+  if (lseek(fileno(in.get()), 0, SEEK_SET) != 0) return failed(std::strerror(errno));
   pid_t child = 0;
-  if (const int error = spawn(words, fileno(out.get()), fileno(err.get()), child); error != 0)
-    return fail(fmt::format("{}: {}", words[0], std::strerror(error)));
+  if (const int error = spawn(words, fileno(in.get()), fileno(out.get()), fileno(err.get()), child); error != 0)
+    return failed(fmt::format("{}: {}", words[0], std::strerror(error)), true);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  if (code == 127) return fail(fmt::format("{}: not found", words[0]));
+  if (code == 127) return failed(fmt::format("{}: not found", words[0]), true);
   auto text = text_in(out.get(), longest), messages = text_in(err.get(), longest);
   if (!text || !messages)
-    return fail(fmt::format("what {} wrote: {}", words[0], text ? messages.error() : text.error()));
+    return failed(fmt::format("what {} wrote: {}", words[0], text ? messages.error() : text.error()));
   return ChildOutput{*std::move(text), *std::move(messages), code};
 }
 

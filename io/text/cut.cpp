@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
-#include <set>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
+#include "io/text/floe_ids.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 #include "io/text/problem.hpp"
@@ -109,6 +109,7 @@ ToolOutcome<CutOp> read_op(const JsonValue& value, const CutDefaults& defaults) 
   Keep keep = defaults.keep;
   bool must_cut = false;
   double sagitta = defaults.sagitta;
+  std::optional<double> snap = defaults.snap;
   for (const JsonMember& member : value.members()) {
     if (member.key == "keep") {
       const auto read = read_keep(member.value);
@@ -121,12 +122,16 @@ ToolOutcome<CutOp> read_op(const JsonValue& value, const CutDefaults& defaults) 
       if (!member.value.is(JsonKind::kNumber) || !(member.value.number() > 0))
         return malformed("sagitta_m: expected a number > 0");
       sagitta = member.value.number();
+    } else if (member.key == "snap_m") {
+      if (!member.value.is(JsonKind::kNumber) || !(member.value.number() >= 0))
+        return malformed("snap_m: expected a number ≥ 0");
+      snap = member.value.number();
     } else if (member.key == "disc" || member.key == "crack" || member.key == "line" || member.key == "polygon") {
       if (tool) return malformed(fmt::format(R"("{}" and "{}" in one: {})", tool->key, member.key, kForm));
       tool = &member;
     } else {
       const std::string meant =
-          nearest(member.key, {"disc", "crack", "line", "polygon", "keep", "must_cut", "sagitta_m"});
+          nearest(member.key, {"disc", "crack", "line", "polygon", "keep", "must_cut", "sagitta_m", "snap_m"});
       return malformed(fmt::format("unknown key \"{}\"{}", member.key.substr(0, 40),
                                    meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant)));
     }
@@ -136,6 +141,7 @@ ToolOutcome<CutOp> read_op(const JsonValue& value, const CutDefaults& defaults) 
   if (op) {
     op->keep = keep;
     op->must_cut = must_cut;
+    if (auto* line = std::get_if<LineTool>(&op->tool)) line->snap = snap;
   } else {
     op.error().words = fmt::format("{}: {}", tool->key, op.error().words);
   }
@@ -202,12 +208,20 @@ void write_crs(JsonWriter& json, const std::string& crs) {
   if (!crs.empty()) json.key("crs").json(crs);
 }
 
-void write_feature(JsonWriter& json, const std::string& crs, const CutFloe& floe, const CutPiece& piece) {
+/// Where the coordinates lie.
+void write_frame(JsonWriter& json, const CutReport& report) {
+  write_crs(json, report.crs);
+  write_place(json, report.place);
+}
+
+void write_feature(JsonWriter& json, const CutReport& report, bool has_frame, const CutFloe& floe,
+                   const CutPiece& piece) {
   json.open('{').key("type").value("Feature");
-  write_crs(json, crs);
+  if (has_frame) write_frame(json, report);
   json.key("properties").open('{');
   json.key("floe_id").value(piece.floe_id).key("parent_id").value(floe.floe_id);
   json.key("area_m2").value(piece.area).key("part").value(name_of(piece.part));
+  if (floe.source_id) json.key(report.source_id_key).json(*floe.source_id);
   if (floe.properties) json.json(*floe.properties);
   json.close('}').key("geometry").polygon(piece.polygon).close('}');
 }
@@ -226,6 +240,7 @@ void write_tool(JsonWriter& json, const CrackTool& crack) {
 }
 void write_tool(JsonWriter& json, const LineTool& line) {
   json.key("line").value(line.path);
+  if (line.snap) json.key("snap_m").value(*line.snap);
 }
 
 void write_op(JsonWriter& json, const CutOp& op) {
@@ -326,11 +341,11 @@ std::string to_floe_text(const CutReport& report, FloeFormat format) {
   if (format == FloeFormat::kGeojson) {
     return json_object([&](JsonWriter& json) {
       json.key("type").value("FeatureCollection");
-      write_crs(json, report.crs);
+      write_frame(json, report);
       json.key("features").open('[');
       for_pieces([&](const CutFloe& floe, const CutPiece& piece) {
         json.start_line();
-        write_feature(json, "", floe, piece);
+        write_feature(json, report, false, floe, piece);
       });
       json.close(']');
     });
@@ -338,7 +353,7 @@ std::string to_floe_text(const CutReport& report, FloeFormat format) {
   for_pieces([&](const CutFloe& floe, const CutPiece& piece) {
     if (format == FloeFormat::kNdjson) {
       JsonWriter json(text);
-      write_feature(json, report.crs, floe, piece);
+      write_feature(json, report, true, floe, piece);
     } else {
       append_wkt(text, piece.polygon);
     }
@@ -354,43 +369,6 @@ using geometry::Piece;
 using geometry::Point;
 using geometry::Polygon;
 using geometry::Shape;
-
-/// Floes go by their own ids where every one has one of its own, else by their number in the text.
-std::vector<std::int64_t> ids_of(const std::vector<FloeEntry>& entries) {
-  std::set<std::int64_t> own;
-  for (const FloeEntry& entry : entries) {
-    if (entry.floe_id) own.insert(*entry.floe_id);
-  }
-  std::vector<std::int64_t> ids;
-  ids.reserve(entries.size());
-  for (const FloeEntry& entry : entries) ids.push_back(own.size() == entries.size() ? *entry.floe_id : std::ssize(ids));
-  return ids;
-}
-
-/// cos and sin, exact at whole quarter turns and equal between them.
-geometry::Vector direction_of(double angle_deg) {
-  constexpr double kDiagonal = 1 / std::numbers::sqrt2;
-  constexpr geometry::Vector kEighths[] = {{1, 0}, {kDiagonal, kDiagonal}, {0, 1}, {-kDiagonal, kDiagonal}, {-1, 0}};
-  const double angle = std::remainder(angle_deg, 360);  // exact, from −180 to 180
-  const double eighths = std::abs(angle) / 45;
-  if (eighths == std::floor(eighths)) {
-    const geometry::Vector up = kEighths[static_cast<int>(eighths)];
-    return {up.x, angle < 0 ? -up.y : up.y};
-  }
-  return {std::cos(angle * std::numbers::pi / 180), std::sin(angle * std::numbers::pi / 180)};
-}
-
-/// The crack's line from beyond the box to beyond it. The reach is a power of two, so that floes about as far
-/// from the point share the very same line.
-std::vector<Point> across(const CrackTool& crack, const geometry::Box& box) {
-  double farthest = 0;
-  for (const double x : {box.low.x, box.high.x}) {
-    for (const double y : {box.low.y, box.high.y}) farthest = std::max(farthest, distance(crack.point, {x, y}));
-  }
-  const double reach = std::ldexp(1.0, std::ilogb(std::max(farthest, 1e-300)) + 2);
-  const geometry::Vector arm = reach * direction_of(crack.angle_deg);
-  return {crack.point - arm, crack.point + arm};
-}
 
 /// One floe on its way through all cuts.
 class FloeCutter {
@@ -411,20 +389,18 @@ class FloeCutter {
     return true;
   }
 
-  void apply(const CutOp& op, std::size_t number) {
-    std::vector<Piece> before = std::exchange(pieces_, {});
-    for (Piece& piece : before) {
-      auto outcome = std::visit([&](const auto& tool) { return cut(piece.shape, tool); }, op.tool);
-      if (!outcome) {
-        put_uncut(op, number, std::move(piece), outcome.error());
-        continue;
-      }
-      count(outcome->ledger);
-      floe_.dangling_length += outcome->ledger.dangling_length;
-      for (Piece& child : outcome->pieces) {
-        if (!is_area(op)) child.part = piece.part;
-        put(op, std::move(child));
-      }
+  /// Applies all cuts in their order. Lines and cracks that follow each other are one tool.
+  void apply_all(const std::vector<CutOp>& ops) {
+    for (std::size_t i = 0; i < ops.size();) {
+      std::size_t end = i + 1;
+      if (may_be_together(ops[i]))
+        while (end < ops.size() && may_be_together(ops[end])) ++end;
+      const std::span<const CutOp> together = std::span(ops).subspan(i, end - i);
+      if (end - i > 1 && ends_within(paths_of(together), box_))
+        apply_together(together, i);
+      else
+        for (std::size_t k = i; k < end; ++k) apply(ops[k], k);
+      i = end;
     }
   }
 
@@ -478,6 +454,59 @@ class FloeCutter {
       floe_.removed += measure(piece.shape.polygon).area;
   }
 
+  void apply(const CutOp& op, std::size_t number) {
+    std::vector<Piece> before = std::exchange(pieces_, {});
+    for (Piece& piece : before) {
+      auto outcome = std::visit([&](const auto& tool) { return cut(piece.shape, tool); }, op.tool);
+      put_outcome(op, number, std::move(piece), std::move(outcome));
+    }
+  }
+
+  static bool may_be_together(const CutOp& op) { return !is_area(op) && !op.must_cut; }
+
+  std::vector<CutPath> paths_of(std::span<const CutOp> ops) const {
+    std::vector<CutPath> paths;
+    for (const CutOp& op : ops) {
+      const auto* crack = std::get_if<CrackTool>(&op.tool);
+      paths.push_back(crack ? path_across(crack->point, crack->angle_deg, box_) : std::get<LineTool>(op.tool).path);
+    }
+    return paths;
+  }
+
+  void apply_together(std::span<const CutOp> ops, std::size_t number) {
+    const std::vector<CutPath> paths = paths_of(ops);
+    std::optional<double> snap;
+    for (const CutOp& op : ops)
+      if (const auto* line = std::get_if<LineTool>(&op.tool); line && line->snap)
+        snap = std::max(snap.value_or(0), *line->snap);
+    std::vector<Piece> before = std::exchange(pieces_, {});
+    for (Piece& piece : before) {
+      auto outcome = cut_along_paths(piece.shape, paths, snap);
+      put_outcome(ops.front(), number, std::move(piece), std::move(outcome));
+    }
+  }
+
+  /// What ends of paths were continued by is no crack that dangles.
+  static geometry::CutOutcome cut_along_paths(const Shape& shape, const std::vector<CutPath>& paths,
+                                              std::optional<double> snap) {
+    const double rounding = default_snap(shape.polygon, paths);
+    geometry::CutOutcome outcome = cut_along_all(shape, continued(paths, shape.polygon, snap.value_or(rounding)));
+    const double least = 4 * rounding * static_cast<double>(paths.size());
+    double& dangling = outcome ? outcome->ledger.dangling_length : outcome.error().dangling_length;
+    if (dangling <= least) dangling = 0;
+    return outcome;
+  }
+
+  void put_outcome(const CutOp& op, std::size_t number, Piece piece, geometry::CutOutcome outcome) {
+    if (!outcome) return put_uncut(op, number, std::move(piece), outcome.error());
+    count(outcome->ledger);
+    floe_.dangling_length += outcome->ledger.dangling_length;
+    for (Piece& child : outcome->pieces) {
+      if (!is_area(op)) child.part = piece.part;
+      put(op, std::move(child));
+    }
+  }
+
   void put_uncut(const CutOp& op, std::size_t number, Piece piece, const geometry::CutError& error) {
     const bool is_left_whole =
         error.reason == geometry::CutFailure::kMisses || error.reason == geometry::CutFailure::kDoesNotSeparate;
@@ -498,9 +527,11 @@ class FloeCutter {
   static geometry::CutOutcome cut(const Shape& shape, const PolygonTool& tool) {
     return cut_by_polygons(shape, tool.polygons);
   }
-  static geometry::CutOutcome cut(const Shape& shape, const LineTool& line) { return cut_along(shape, line.path); }
+  static geometry::CutOutcome cut(const Shape& shape, const LineTool& line) {
+    return cut_along_paths(shape, {line.path}, line.snap);
+  }
   geometry::CutOutcome cut(const Shape& shape, const CrackTool& crack) const {
-    return cut_along(shape, across(crack, box_));
+    return cut_along(shape, path_across(crack.point, crack.angle_deg, box_));
   }
 
   void count(const geometry::CutLedger& ledger) {
@@ -523,13 +554,21 @@ class FloeCutter {
 
 CutReport cut_floes(const std::vector<FloeEntry>& entries, std::vector<CutOp> ops,
                     std::optional<geometry::FillRule> repair_rule) {
-  CutReport report{std::move(ops), {}, {}};
-  const std::vector<std::int64_t> ids = ids_of(entries);
-  std::int64_t next_id = ids.empty() ? 0 : 1 + *std::ranges::max_element(ids);
+  CutReport report;
+  report.ops = std::move(ops);
+  std::vector<GivenId> given;
+  for (const FloeEntry& entry : entries) given.push_back(given_id(entry));
+  const bool are_own = are_usable(given);
+  report.ids_replaced = why_ids_are_replaced(given);
+  report.source_id_key = source_id_key(entries);
+  std::int64_t next_id = std::ssize(entries);
+  for (const GivenId& id : given)
+    if (are_own) next_id = std::max(next_id, *id.number + 1);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const FloeEntry& entry = entries[i];
     CutFloe& floe = report.floes.emplace_back();
-    floe.floe_id = ids[i];
+    floe.floe_id = are_own ? *given[i].number : static_cast<std::int64_t>(i);
+    if (!are_own && given[i].is_given()) floe.source_id = given[i].as_json();
     floe.feature = entry.feature;
     floe.member = entry.member;
     floe.line = entry.line;
@@ -540,7 +579,7 @@ CutReport cut_floes(const std::vector<FloeEntry>& entries, std::vector<CutOp> op
     }
     FloeCutter cutter(floe);
     if (!cutter.take(entry.polygon, repair_rule)) continue;
-    for (std::size_t number = 0; number < report.ops.size(); ++number) cutter.apply(report.ops[number], number);
+    cutter.apply_all(report.ops);
     cutter.finish(next_id);
   }
   return report;

@@ -10,6 +10,7 @@
 
 #include "geometry/cut/cut.hpp"
 #include "geometry/shape/polygon.hpp"
+#include "io/text/cut_lines.hpp"
 #include "io/text/floe_text.hpp"
 #include "io/text/source_text.hpp"
 
@@ -37,7 +38,8 @@ struct CrackTool {
 };
 /// A path from its first point to its last.
 struct LineTool {
-  std::vector<geometry::Point> path;
+  CutPath path;
+  std::optional<double> snap = {};  ///< how far its ends may lie before what they meet [m]; none: default_snap()
 };
 
 /// One cut, of all pieces there are.
@@ -50,7 +52,8 @@ struct CutOp {
 /// Defaults of all cuts.
 struct CutDefaults {
   Keep keep = Keep::kOutside;
-  double sagitta = 0;  ///< [m]; 0: default_sagitta() of the radius
+  double sagitta = 0;               ///< [m]; 0: default_sagitta() of the radius
+  std::optional<double> snap = {};  ///< of lines [m]; none: default_snap()
 };
 
 /// Why there is no tool. A polygon that is not valid is another matter than a list that is not one.
@@ -75,7 +78,7 @@ ToolOutcome<LineTool> line_tool(std::vector<geometry::Point> path);
 ToolOutcome<PolygonTool> polygon_tool(std::string text);
 
 /// A JSON list of cuts (docs/cut.md):
-///   [{"disc": [x, y, r], "sagitta_m": s}, {"crack": [x, y, angle_deg]}, {"line": [x0, y0, x1, y1]},
+///   [{"disc": [x, y, r], "sagitta_m": s}, {"crack": [x, y, angle_deg]}, {"line": [x0, y0, x1, y1], "snap_m": s},
 ///    {"polygon": GeoJSON}], each with an optional "keep" and "must_cut".
 ToolOutcome<std::vector<CutOp>> read_cut_ops(const std::string& text, const CutDefaults& defaults);
 
@@ -120,17 +123,21 @@ struct CutFloe {
   std::optional<Rejection> rejected;
   std::optional<RepairNote> repair;
   std::shared_ptr<const std::string> properties;  ///< for its pieces, as in FloeEntry
+  std::optional<std::string> source_id;           ///< what the text calls it, where floes are numbered: JSON
 };
 
 struct CutReport {
   std::vector<CutOp> ops;
   std::vector<CutFloe> floes;  ///< in the order of the text
   std::string crs;             ///< of the text, JSON, for the pieces; or empty
+  StatedPlace place;           ///< likewise, of a text that Polynya wrote
+  std::string ids_replaced;    ///< why floes are numbered though the text has ids (io/text/floe_ids.hpp); or empty
+  std::string source_id_key;   ///< the property of a piece that then has what the text calls its floe
 };
 
 /// Cuts every floe by all cuts in order. A polygon that is not valid is refused, or repaired where a rule is
 /// given; a floe that a cut does not meet stays whole; a floe that geometry fails to cut stays as it was
-/// before that cut.
+/// before that cut. Lines and cracks that follow each other cut together, so that their order does not matter.
 CutReport cut_floes(const std::vector<FloeEntry>& entries, std::vector<CutOp> ops,
                     std::optional<geometry::FillRule> repair_rule);
 

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "geometry/exact/measures.hpp"
+#include "geometry/shape/angle.hpp"
 #include "io/text/json_writer.hpp"
 
 namespace polynya::io {
@@ -35,6 +36,7 @@ class GeojsonEntries {
   /// Everything in a GeoJSON value, as one feature after the other from `feature` on.
   void read(const JsonValue& value, std::size_t feature) {
     note_crs(value);
+    note_place(value);
     if (const JsonValue* time = value.find("t_s", JsonKind::kNumber)) floes_.time = time->number();
     if (value.has("type", "FeatureCollection")) {
       const JsonValue* features = value.find("features", JsonKind::kArray);
@@ -55,6 +57,9 @@ class GeojsonEntries {
     entry.member = member_++;
     entry.offset = value.offset;
     entry.floe_id = floe_id_;
+    entry.other_id = other_id_;
+    entry.properties = properties_;
+    entry.own_properties = own_properties_;
     return entry;
   }
 
@@ -68,17 +73,21 @@ class GeojsonEntries {
     feature_ = feature;
     member_ = 0;
     floe_id_ = {};
-    properties_ = nullptr;
+    other_id_ = {};
+    properties_ = own_properties_ = nullptr;
     const JsonValue* geometry = &value;
     if (value.has("type", "Feature")) {
       note_crs(value);
       geometry = value.find("geometry");
       if (const JsonValue* properties = value.find("properties")) {
         floe_id_ = floe_id_in(*properties, "floe_id");
-        properties_ = kept_of(*properties);
+        if (!floe_id_) note_other_id(*properties, "floe_id");
+        properties_ = members_of(*properties, false);
+        own_properties_ = members_of(*properties, true);
         if (const JsonValue* area = properties->find("area_m2", JsonKind::kNumber))
           floes_.stated_area += area->number();
       }
+      if (!floe_id_ && !other_id_) note_other_id(value, "id");
       if (!geometry || geometry->is_null()) return refuse(value, "no-geometry", "a feature without geometry");
     }
     attempt(*geometry, [&] { read_geometry(*geometry); });
@@ -102,12 +111,45 @@ class GeojsonEntries {
     floes_.has_other_crs = floes_.has_other_crs || found != floes_.crs;
   }
 
-  /// A feature's properties without those that Polynya writes itself.
-  std::shared_ptr<const std::string> kept_of(const JsonValue& properties) const {
+  /// The place of a file that Polynya wrote. An "origin" of others is no object with a latitude.
+  void note_place(const JsonValue& value) {
+    StatedPlace& place = floes_.place;
+    const auto is_within = [](const JsonValue* number, double least, double most) {
+      return number && number->is(JsonKind::kNumber) && number->number() >= least && number->number() <= most;
+    };
+    if (const JsonValue* origin = value.find("origin"); origin && origin->find("latitude_deg")) {
+      const JsonValue *latitude = origin->find("latitude_deg"), *longitude = origin->find("longitude_deg");
+      const JsonValue* heading = origin->find("heading_deg");
+      if (is_within(latitude, -90, 90) && is_within(longitude, -360, 360) &&
+          (!heading || is_within(heading, -360, 360)))
+        place.origin = {latitude->number() * geometry::kRadiansPerDegree,
+                        longitude->number() * geometry::kRadiansPerDegree,
+                        (heading ? heading->number() : 90) * geometry::kRadiansPerDegree};
+      else
+        place.wrong = "its \"origin\" is not latitude_deg, longitude_deg and heading_deg in degrees";
+    }
+    if (const JsonValue* crs = value.find("shifted_crs", JsonKind::kText)) place.shifted_crs = crs->text();
+    if (const JsonValue* shift = value.find("shift_m")) {
+      const bool is_shift = shift->is(JsonKind::kArray) && shift->items().size() == 2 &&
+                            is_within(&shift->items()[0], -1e8, 1e8) && is_within(&shift->items()[1], -1e8, 1e8);
+      if (is_shift)
+        place.shift = {shift->items()[0].number(), shift->items()[1].number()};
+      else
+        place.wrong = "its \"shift_m\" is not [x, y] in metres";
+    }
+  }
+
+  void note_other_id(const JsonValue& object, std::string_view key) {
+    const JsonValue* id = object.find(key);
+    if (id && !id->is_null() && !text_.empty()) other_id_ = compact_json(text_, id->offset);
+  }
+
+  /// A feature's properties: those that Polynya writes itself, or the others.
+  std::shared_ptr<const std::string> members_of(const JsonValue& properties, bool are_own) const {
     if (!properties.is(JsonKind::kObject) || text_.empty()) return nullptr;
     std::string kept;
     for (const JsonMember& member : properties.members()) {
-      if (std::ranges::find(kOwnProperties, member.key) != std::end(kOwnProperties)) continue;
+      if ((std::ranges::find(kOwnProperties, member.key) != std::end(kOwnProperties)) != are_own) continue;
       if (!kept.empty()) kept += ',';
       append_text(kept, member.key);
       kept += ':' + compact_json(text_, member.value.offset);
@@ -142,7 +184,6 @@ class GeojsonEntries {
   void add(const JsonValue& value, geometry::Polygon polygon) {
     FloeEntry& entry = add_entry(value);
     entry.polygon = std::move(polygon);
-    entry.properties = properties_;
   }
 
   static const JsonValue::Array& list(const JsonValue& value, const char* expected) {
@@ -188,7 +229,8 @@ class GeojsonEntries {
   std::size_t feature_ = 0;
   std::size_t member_ = 0;
   std::optional<std::int64_t> floe_id_;
-  std::shared_ptr<const std::string> properties_;
+  std::optional<std::string> other_id_;
+  std::shared_ptr<const std::string> properties_, own_properties_;
 };
 
 void add_syntax_error(FloeText& floes, std::size_t feature, std::size_t offset, std::string detail) {
@@ -248,15 +290,21 @@ class WktReader {
     skip_blanks();
     while (take(';')) skip_blanks();
   }
-  /// "SRID=…;" is passed over.
+  /// Takes "SRID=…;" for the system of the text.
   void skip_srid(FloeText& floes) {
     const std::size_t begin = at_;
     if (take_word() != "SRID") {
       at_ = begin;
       return;
     }
+    const std::size_t end = std::min(text_.find_first_of(";\n", at_), text_.size());
+    std::string_view number = trimmed(text_.substr(at_, end - at_));
+    if (number.starts_with('=')) number = trimmed(number.substr(1));
+    const std::string system = number == "0" ? "" : fmt::format("EPSG:{}", number);  // 0 is none
+    floes.has_other_crs = floes.has_other_crs || (floes.has_srid && floes.srid != system);
     floes.has_srid = true;
-    at_ = std::min(text_.find_first_of(";\n", at_), text_.size());
+    floes.srid = system;
+    at_ = end;
     if (!take(';')) fail("';'");
   }
   bool take(char expected) {
@@ -477,6 +525,33 @@ Result<FloeText> read_kind(std::string& text) {
 
 }  // namespace
 
+double degrees_in_file(double radians) {
+  constexpr double kParts = 1e12;  // of a degree
+  return std::round(geometry::kDegreesPerRadian * radians * kParts) / kParts;
+}
+
+void write_place(JsonWriter& json, const StatedPlace& place) {
+  if (place.origin) {
+    json.key("origin").open('{').key("latitude_deg").value(degrees_in_file(place.origin->latitude));
+    json.key("longitude_deg").value(degrees_in_file(place.origin->longitude));
+    json.key("heading_deg").value(degrees_in_file(place.origin->heading)).close('}');
+  }
+  if (!place.shifted_crs.empty()) json.key("shifted_crs").value(place.shifted_crs);
+  if (place.shift != geometry::Vector{}) json.key("shift_m").value(place.shift);
+}
+
+std::string place_members(const std::optional<simulation::GeographicOrigin>& origin) {
+  std::string members;
+  JsonWriter json(members);
+  write_place(json, {.origin = origin, .shifted_crs = {}, .shift = {}, .wrong = {}});
+  return members;
+}
+
+bool may_be_floe_text(std::string_view text) {
+  const std::string_view first = trimmed(count_lines(text).first_line);
+  return first.empty() || first.front() == '{' || first.front() == '[' || begins_wkt(first);
+}
+
 std::optional<std::int64_t> floe_id_in(const JsonValue& object, std::string_view key) {
   const JsonValue* id = object.find(key, JsonValue::Kind::kNumber);
   if (!id) return {};
@@ -523,6 +598,10 @@ std::string crs_name(const std::string& crs) {
     if (name && name->is(JsonValue::Kind::kNumber)) return fmt::format("EPSG:{}", name->number());
   }
   return "";
+}
+
+std::string system_of(const FloeText& text) {
+  return text.crs.empty() ? text.srid : crs_name(text.crs);
 }
 
 bool is_in_degrees(geometry::Point point) {

@@ -206,8 +206,10 @@ using geometry::Point;
 using geometry::Polygon;
 using geometry::Ring;
 
-GeojsonLayer::GeojsonLayer(double time, Project project) : project_(std::move(project)), json_(text_) {
-  json_.open('{').key("type").value("FeatureCollection").key("t_s").value(time).key("features").open('[');
+GeojsonLayer::GeojsonLayer(double time, std::string_view members) : json_(text_) {
+  json_.open('{').key("type").value("FeatureCollection").key("t_s").value(time);
+  if (!members.empty()) json_.json(members);
+  json_.key("features").open('[');
 }
 
 JsonWriter& GeojsonLayer::start() {
@@ -219,34 +221,22 @@ JsonWriter& GeojsonLayer::open_geometry(const char* type) {
   return json_.close('}').key("geometry").open('{').key("type").value(type).key("coordinates");
 }
 
-Ring GeojsonLayer::projected(Ring points) const {
-  if (!project_) return points;
-  for (Point& p : points) p = project_(p);
-  return points;
-}
-
-Polygon GeojsonLayer::projected(Polygon polygon) const {
-  polygon.outer = projected(std::move(polygon.outer));
-  for (Ring& hole : polygon.holes) hole = projected(std::move(hole));
-  return polygon;
-}
-
 void GeojsonLayer::end_with(const Polygon& polygon) {
-  open_geometry("Polygon").value(projected(polygon)).close('}').close('}');
+  open_geometry("Polygon").value(polygon).close('}').close('}');
 }
 
 void GeojsonLayer::end_with(const std::vector<Polygon>& polygons) {
   open_geometry("MultiPolygon").open('[');
-  for (const Polygon& polygon : polygons) json_.value(projected(polygon));
+  for (const Polygon& polygon : polygons) json_.value(polygon);
   json_.close(']').close('}').close('}');
 }
 
 void GeojsonLayer::end_with(const Ring& line) {
-  open_geometry("LineString").value(projected(line)).close('}').close('}');
+  open_geometry("LineString").value(line).close('}').close('}');
 }
 
 void GeojsonLayer::end_with(Point point) {
-  open_geometry("Point").value(project_ ? project_(point) : point).close('}').close('}');
+  open_geometry("Point").value(point).close('}').close('}');
 }
 
 std::string GeojsonLayer::finish() {

@@ -3,7 +3,6 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -131,14 +130,12 @@ std::string json_object(Write write, JsonWriter::Layout layout = JsonWriter::Lay
 /// A value as indented JSON; lists of numbers (and lists of points) stay on one line. Deterministic.
 std::string to_json_text(const JsonValue& value);
 
-/// From the scene's plane to the coordinates of a layer.
-using Project = std::function<geometry::Point(geometry::Point)>;
-
 /// A GeoJSON FeatureCollection of one instant while it is written, a feature a line: start() opens the
 /// properties, end_with() closes them and writes the geometry.
 class GeojsonLayer {
  public:
-  explicit GeojsonLayer(double time, Project project = {});
+  /// `members`: further members of the collection, as JSON; or empty.
+  explicit GeojsonLayer(double time, std::string_view members = {});
 
   JsonWriter& start();
   void end_with(const geometry::Polygon& polygon);
@@ -152,10 +149,7 @@ class GeojsonLayer {
 
  private:
   JsonWriter& open_geometry(const char* type);
-  geometry::Ring projected(geometry::Ring points) const;
-  geometry::Polygon projected(geometry::Polygon polygon) const;
 
-  Project project_;  ///< empty: none
   std::string text_;
   JsonWriter json_;
 };

@@ -5,7 +5,7 @@
 
 The wheel has the package, its compiled module and the program `polynya` as bin/polynya of the package, which the
 console script starts (polynya/program.py), with manual page, completion and scenes. The module and the program need
-the shared libraries of the machine (GMP, MPFR, TBB, PROJ): the wheel's tag is linux_*, not manylinux_*.
+the shared libraries of the machine (GMP, MPFR, TBB): the wheel's tag is linux_*, not manylinux_*.
 """
 import base64
 import hashlib

@@ -1,5 +1,6 @@
 // `polynya cut`: the ledger and the pieces of every tool, what is refused, and what is kept of a file's formats.
 #include <cmath>
+#include <random>
 
 #include "program.hpp"
 #include <fmt/format.h>
@@ -447,6 +448,57 @@ TEST(RejectedCut, IsAnInputOfPolynyaCutThatComesToTheSame) {
   one_too_many.input.number = io::kMostRejectedCuts + 1;
   EXPECT_TRUE(io::write_rejected_cut(folder.path(), 0, one_too_many).has_value());
   EXPECT_FALSE(std::filesystem::exists(folder / "rejected-cuts/000101.geojson"));
+}
+
+/// A line that ends on another one was computed to do so: its end lies beside it by rounding. Whatever the order, it
+/// separates.
+TEST_F(CutCommand, LinesThatEndOnEachOtherSeparateInAnyOrder) {
+  std::mt19937 dice(3);
+  std::uniform_real_distribution<double> draw(0.5, 9.5);
+  for (const double scale : {1.0, 1e-3, 1e5}) {
+    write("floes.geojson",
+          fmt::format(R"({{"type":"Polygon","coordinates":[[[0,0],[{0},0],[{0},{0}],[0,{0}],[0,0]]]}})", 10 * scale));
+    for (int trial = 0; trial < 60; ++trial) {
+      const double left = draw(dice), right = draw(dice), at = draw(dice), top = draw(dice);
+      const double x0 = -1, y0 = left - (right - left) / 10, x1 = 11, y1 = right + (right - left) / 10;
+      const double share = (at - x0) / (x1 - x0);
+      const std::string across =
+          fmt::format(R"({{"line":[{},{},{},{}]}})", scale * x0, scale * y0, scale * x1, scale * y1);
+      const std::string upon = fmt::format(R"({{"line":[{},{},{},{}]}})", scale * (x0 + share * (x1 - x0)),
+                                           scale * (y0 + share * (y1 - y0)), scale * top, scale * 12);
+      for (const std::string& ops : {across + "," + upon, upon + "," + across}) {
+        write("ops.json", "[" + ops + "]");
+        const json ledger = ledger_of(cut("--ops ops.json --out pieces.geojson"));
+        EXPECT_EQ(ledger["totals"]["pieces"], 3) << ops;
+        EXPECT_EQ(ledger["totals"]["dangling_length_m"], 0) << ops;
+      }
+      // One after the other, by two commands.
+      write("one.json", "[" + across + "]");
+      write("two.json", "[" + upon + "]");
+      ledger_of(cut("--ops one.json --out first.geojson"));
+      EXPECT_EQ(ledger_of(cut("--ops two.json --out pieces.geojson", "first.geojson"))["totals"]["pieces"], 3) << upon;
+    }
+  }
+}
+
+TEST_F(CutCommand, LinesTogetherSeparateWhatNoOneOfThemDoes) {
+  // Three lines about a triangle, none of which reaches the edge.
+  write("ops.json", R"([{"line":[2,2,8,2.5]},{"line":[7,2,5,8]},{"line":[5.5,8,2.5,1.5]}])");
+  const json ledger = ledger_of(cut("--ops ops.json --out pieces.geojson"));
+  EXPECT_EQ(ledger["floes"][0]["pieces"], 2);
+  EXPECT_GT(ledger["totals"]["dangling_length_m"], 0.5);
+  // A disc between them keeps them apart.
+  write("ops.json",
+        R"([{"line":[2,2,8,2.5]},{"disc":[50,50,1]},{"line":[7,2,5,8]},{"disc":[50,50,1]},{"line":[5.5,8,2.5,1.5]}])");
+  EXPECT_EQ(ledger_of(cut("--ops ops.json --out pieces.geojson"))["floes"][0]["pieces"], 1);
+}
+
+TEST_F(CutCommand, ASnapContinuesEndsThatStopShort) {
+  for (const auto& [snap, pieces] : {std::pair{"", 1}, {" --snap 0.1", 1}, {" --snap 0.3", 2}})
+    EXPECT_EQ(ledger_of(cut(Words(std::string("--line 5,-1,5,9.8 --out pieces.geojson") + snap)))["floes"][0]["pieces"],
+              pieces);
+  write("ops.json", R"([{"line":[5,-1,5,9.8],"snap_m":0.3}])");
+  EXPECT_EQ(ledger_of(cut("--ops ops.json --out pieces.geojson"))["floes"][0]["pieces"], 2);
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST(Hazards, GarbagePastTheChecksIsAValueNotACrash) {
     const Ring shape = without_repeats(ring);
     if (shape.size() < 3) continue;
     static_cast<void>(cut_by_polygons_generally(exact::exactly(Polygon{shape, {}}), {{kSquareOfSix, {}}}));
-    static_cast<void>(cut_along_generally(exact::exactly(Polygon{shape, {}}), {{-1, 2}, {7, 3}}));
+    static_cast<void>(cut_along_generally(exact::exactly(Polygon{shape, {}}), {{{-1, 2}, {7, 3}}}));
     static_cast<void>(cut_by_polygon(Shape{{shape, {}}, true}, {disc_polygon({2, 2}, 1.5, 0.1), {}}));
     static_cast<void>(cut_along(Shape{{shape, {}}, true}, {{-1, 2}, {7, 3}}));
     static_cast<void>(cut_by_polygons(Shape{{shape, {}}, true},

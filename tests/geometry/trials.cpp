@@ -126,12 +126,12 @@ CutOutcome cut(const Shape& shape, const ManyKnives& knives) {
 CutOutcome cut_generally(const Shape& shape, const Knife& knife) {
   const exact::Polygon exact_shape = exact::exactly(shape.polygon);
   return knife.is_ring ? cut_by_polygons_generally(exact_shape, {{knife.points, {}}})
-                       : cut_along_generally(exact_shape, knife.points);
+                       : cut_along_generally(exact_shape, {knife.points});
 }
 
 CutOutcome cut_generally(const Shape& shape, const ManyKnives& knives) {
   const exact::Polygon exact_shape = exact::exactly(shape.polygon);
-  return knives.is_crack ? cut_along_generally(exact_shape, knives.crack)
+  return knives.is_crack ? cut_along_generally(exact_shape, {knives.crack})
                          : cut_by_polygons_generally(exact_shape, knives.polygons);
 }
 

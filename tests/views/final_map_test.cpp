@@ -130,7 +130,7 @@ TEST(FinalMap, IceUnderAHullIsNeitherFloatingIceNorAFracture) {
 
 TEST(FinalMap, IceUnderAHullHasALayerOfItsOwn) {
   const io::Run run = run_with_ice_under_a_hull();
-  const auto layers = geojson_layers(run, 10, {});
+  const auto layers = tests::checked(geojson_layers(run, 10, {})).value();
   ASSERT_EQ(layers.size(), 6U);
   EXPECT_EQ(count_of(layers[0].second, "\"floe_id\""), 4U);
   EXPECT_EQ(count_of(layers[0].second, "\"came_up\":true"), 1U);
@@ -138,7 +138,7 @@ TEST(FinalMap, IceUnderAHullHasALayerOfItsOwn) {
   EXPECT_EQ(layers[5].first, "under-hull.geojson");
   EXPECT_EQ(count_of(layers[5].second, "\"floe_id\""), 1U);
   EXPECT_EQ(count_of(layers[5].second, "\"went_under_s\":5"), 1U);
-  EXPECT_EQ(geojson_layers(run_with_floes("plain"), 10, {}).size(), 5U);
+  EXPECT_EQ(geojson_layers(run_with_floes("plain"), 10, {})->size(), 5U);
 }
 
 TEST(FinalMap, IceUnderAHullIsAPartOfTheVtkExport) {

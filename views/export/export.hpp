@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/import/plane.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
 
@@ -50,13 +51,18 @@ struct VtkExport {
 io::Result<VtkExport> export_vtk(const io::Run& run, const io::FrameSelection& selection,
                                  const std::filesystem::path& folder);
 
-/// From the scene's plane about a place to longitude and latitude [°]. Fails where PROJ cannot be loaded.
-io::Result<io::Project> degrees_about(const simulation::GeographicOrigin& origin);
+/// In which coordinates the layers of a run are written.
+struct LayerPlane {
+  std::string system;  ///< a coordinate system, "OGC:CRS84" or "EPSG:3413"; empty: metres of the scene's plane
+  double tolerance = io::kEdgeTolerance;  ///< as in an import (io/import/plane.hpp) [m]
+};
 
 /// The layers of a run at a time as GeoJSON FeatureCollections: floes, fractures up to then, and for each ship its
-/// track and its hull; metres in the scene's plane unless a projection is given. Names of files with their text.
-std::vector<std::pair<std::string, std::string>> geojson_layers(const io::Run& run, double time,
-                                                                const io::Project& project);
+/// track and its hull. Returns the names of files with their text. In a system, which the scene needs an origin for,
+/// edges get points where they are not straight there; in degrees longitudes run on past 180, so that no floe is torn,
+/// and a floe over a pole has a seam to it (io/import/degrees.hpp).
+io::Result<std::vector<std::pair<std::string, std::string>>> geojson_layers(const io::Run& run, double time,
+                                                                            const LayerPlane& plane);
 
 /// A scene that continues a run from one of its instants.
 struct ContinuedScene {

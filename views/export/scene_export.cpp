@@ -95,7 +95,7 @@ std::string floes_text(const io::Run& run, const io::MotionIndex& motions, const
     state.polygon_in_body = floe.polygon_in_body.get();
     if (run.is_under(birth.floe, time)) add_hull(run, motions, time, state);
   }
-  return io::to_geojson(states, time);
+  return io::to_geojson(states, time, run.scene.scene.origin);
 }
 
 /// Adds the features of one collection to those of another.

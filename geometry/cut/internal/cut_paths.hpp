@@ -32,7 +32,7 @@ auto guarded(Work work) -> decltype(work()) {
 /// The general path: the whole shape and the tool overlaid exactly by CGAL. Covers every valid input; costs
 /// tens of milliseconds at thousands of vertices. Arguments are valid (checked by the caller); never throws.
 CutOutcome cut_by_polygons_generally(const exact::Polygon& shape, const std::vector<Polygon>& tools_in_body);
-CutOutcome cut_along_generally(const exact::Polygon& shape, const std::vector<Point>& polyline_in_body);
+CutOutcome cut_along_generally(const exact::Polygon& shape, const std::vector<std::vector<Point>>& polylines_in_body);
 
 /// The cutting tool of a local cut: a simple counter-clockwise ring, or a simple open polyline.
 struct Tool {
