@@ -109,4 +109,28 @@ CrushingShares crushing_shares(double hull_angle, double friction, double approa
   return shares;
 }
 
+CrushingShares crushing_shares_around(std::span<const HullFacet> facets, double hull_angle, double friction,
+                                      geometry::Vector velocity) {
+  CrushingShares shares = crushing_shares(hull_angle, friction, velocity.x, velocity.y);
+  double swept = 0, pressed = 0;  // Σ L_i ⟨u_i⟩, and the width across the normal of the facets that press
+  double down = 0, along = 0;
+  for (const HullFacet& facet : facets) {
+    const double approach = dot(velocity, facet.normal);
+    if (approach <= 0) continue;
+    const double cosine = std::cos(facet.angle);
+    const geometry::Vector slip = velocity - approach * cosine * cosine * facet.normal;
+    const double speed = std::hypot(length(slip), approach * cosine * std::sin(facet.angle));
+    const double share = speed > 0 ? approach * cosine / speed : 0;
+    swept += facet.length * approach;
+    pressed += facet.length * facet.normal.x;
+    down += facet.length * approach * share;
+    along += speed > 0 ? facet.length / cosine * slip.y / speed : 0;
+  }
+  const double sine = std::sin(hull_angle);
+  if (swept <= 0 || pressed <= 0 || sine == 0) return shares;
+  shares.vertical = sine * (1 - friction * down / swept);
+  shares.tangential = friction * std::min(1.0, std::abs(along) * std::cos(hull_angle) / pressed);
+  return shares;
+}
+
 }  // namespace polynya::fracture

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 
 #include "fracture/materials.hpp"
+#include "geometry/shape/point.hpp"
 
 namespace polynya::fracture {
 
@@ -67,6 +69,25 @@ struct CrushingShares {
 /// inclined facet. approach_speed v_n and slip_speed v_t along the hull [m/s]. Deviation: at θ_s = 0 all
 /// friction is tangential, as for any vertical wall.
 CrushingShares crushing_shares(double hull_angle, double friction, double approach_speed, double slip_speed);
+
+/// A stretch of a hull's side in a contact that bends around it, in the contact's frame: x along its normal, y along
+/// its line.
+struct HullFacet {
+  double length = 0;        ///< along the waterline [m]
+  geometry::Vector normal;  ///< in plan, out of the hull; unit
+  double angle = 0;         ///< θ_i, from the vertical [rad]
+};
+
+/// The shares of a contact with several facets, as about a stem, which ice slides along in directions of their own:
+///
+///   V = F_n sin θ_s (1 − μ Σ a_i u_i cos θ_i / |t_i|),   t_i² = v² − (u_i cos θ_i)²,
+///
+/// with v the speed of the hull against the ice, u_i its part along a facet's normal in plan and a_i ∝ L_i ⟨u_i⟩ the
+/// facet's share of the overlap that the motion makes. H is that of crushing_shares, which has the whole of μ F_n down
+/// the slope; along the line acts what friction leaves there of all facets. Of one facet that is crushing_shares.
+/// `velocity` is that of the hull against the ice in the contact's frame [m/s]. Own law.
+CrushingShares crushing_shares_around(std::span<const HullFacet> facets, double hull_angle, double friction,
+                                      geometry::Vector velocity);
 
 /// F_n = σ_c A_c [N]. Eq. (1) of [Sawamura2017].
 inline double crushing_force(const Ice& ice, double area) {

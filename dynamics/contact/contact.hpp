@@ -68,14 +68,17 @@ struct PersistentContact {
 struct Contact {
   BodyIndex a = 0;
   BodyIndex b = 0;
-  geometry::Point ends[2];              ///< the ends of the contact line [m]
-  geometry::Point tip_of_b;             ///< the point of b farthest inside a [m]
-  geometry::Point tip_of_a;             ///< the corner of a farthest inside b; the line's middle where none is [m]
-  geometry::Vector normal;              ///< unit
-  double width = 0;                     ///< of the contact line [m]
-  double depth = 0;                     ///< of the overlap along the normal [m]
-  double area = 0;                      ///< of the overlap [m²]
-  double paid_depth = 0;                ///< the depth to which the overlap is paid, at the start of the step [m]
+  geometry::Point ends[2];   ///< the ends of the contact line [m]
+  geometry::Point tip_of_b;  ///< the point of b farthest inside a [m]
+  geometry::Point tip_of_a;  ///< the corner of a farthest inside b; the line's middle where none is [m]
+  geometry::Vector normal;   ///< unit
+  double width = 0;          ///< of the contact line [m]
+  double depth = 0;          ///< of the overlap along the normal [m]
+  double area = 0;           ///< of the overlap [m²]
+  double paid_depth = 0;     ///< the depth to which the overlap is paid, at the start of the step [m]
+  /// Length of the contact line once the two have closed at approach_speed for the step, to a thousandth, and at least
+  /// its width; 0 where they do not come beyond what is paid [m].
+  double width_ahead = 0;
   double approach_speed = 0;            ///< v_n at the middle, positive when approaching [m/s]
   double slip_speed = 0;                ///< along the contact line [m/s]
   std::uint32_t tip_edge_of_b = 0;      ///< the edge of b that starts at the tip, or that the tip is on

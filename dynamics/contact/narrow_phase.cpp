@@ -150,6 +150,52 @@ bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRu
   return false;
 }
 
+/// By how much the width of a contact line may have changed at the end of a step before it is looked for [-].
+constexpr double kWidthKept = 1e-3;
+
+/// Whether a contact's line may be another one once the two have closed by a way [m]: by the power law of its measures,
+/// w grows as ξ^(p - 1).
+bool may_widen(const Contact& c, double way) {
+  return (c.depth * c.width / c.area - 1) * way > kWidthKept * c.depth;
+}
+
+/// How long the line of a contact is once the two have closed by a way along its normal [m]. Of the overlaps there, the
+/// nearest is its own.
+double width_after(const Bodies& bodies, const Pair& pair, const Pose& pose, const Contact& c, double way,
+                   PairScratch& scratch) {
+  const Pose water_from_a = water_from_body(bodies, pair.a);
+  Pose moved = a_from_b(bodies, pair.a, pair.b, pose);
+  moved.position = moved.position - way * rotate_back(water_from_a.rotation, c.normal);
+  scratch.manifolds_ahead.clear();
+  find_manifolds({*bodies.boundary[pair.a], *bodies.boundary[pair.b], moved}, pair.parts->edges, scratch.crossings,
+                 scratch.manifolds_ahead);
+  const geometry::Point middle = inverse_transform(water_from_a, c.middle());
+  const auto is_nearer = [&](const geometry::ContactManifold& m, const geometry::ContactManifold& n) {
+    return distance(midpoint(m.ends[0], m.ends[1]), middle) < distance(midpoint(n.ends[0], n.ends[1]), middle);
+  };
+  const auto own = std::ranges::min_element(scratch.manifolds_ahead, is_nearer);
+  return own == scratch.manifolds_ahead.end() ? c.width : std::max(c.width, own->width);
+}
+
+/// By the law of crushing ice, which carries the force at the start of a step on through it: a face that comes down
+/// flat, but for an angle, is all on the ice within a step, and its line grows no more.
+void look_ahead(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule, double dt,
+                PairScratch& scratch, std::span<Contact> contacts) {
+  if (!rule.is_depth_bounded) return;
+  for (Contact& c : contacts) {
+    const double way = c.approach_speed * dt;
+    if (c.depth + std::max(0.0, way) <= c.paid_depth || way <= 0) continue;
+    c.width_ahead = c.width;
+    if (!may_widen(c, way)) continue;
+    if (clearance_left(bodies, pair.b, pose, pair.near) < way + kRounding) {
+      find_near(bodies, pair, pose, rule, scratch);
+      pair.near_bound =
+          bodies.travel[pair.a] + bodies.travel[pair.b] + clearance_left(bodies, pair.b, pose, pair.near) - kRounding;
+    }
+    c.width_ahead = width_after(bodies, pair, pose, c, way, scratch);
+  }
+}
+
 }  // namespace
 
 std::pair<geometry::Covered, geometry::Covered> CoverCache::of(const Bodies& bodies, BodyIndex a, BodyIndex b,
@@ -220,7 +266,9 @@ double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const Co
   const std::size_t first = contacts.size();
   const bool is_apart = collect(bodies, pair, pose, rule, scratch, contacts);
   if (!is_apart) {
-    tracker_of(pair.parts->records).update(std::span(contacts).subspan(first), scratch.manifolds, bodies);
+    const std::span<Contact> found = std::span(contacts).subspan(first);
+    tracker_of(pair.parts->records).update(found, scratch.manifolds, bodies);
+    look_ahead(bodies, pair, pose, rule, dt, scratch, found);
     pair.apart.distance = -1;
     pair.is_outside = false;
     return -1;

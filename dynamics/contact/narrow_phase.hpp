@@ -101,6 +101,7 @@ struct PairScratch {
   std::vector<geometry::NearPair> near_circles;
   geometry::NearEdges near_edges;
   std::vector<geometry::ContactManifold> manifolds;
+  std::vector<geometry::ContactManifold> manifolds_ahead;  ///< where the bodies would be at the end of a step
   geometry::ManifoldScratch crossings;
   std::vector<PersistentContact> records;  ///< of the pair at hand, being updated
   std::vector<BlindOverlap> blind;         ///< found so far

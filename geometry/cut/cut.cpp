@@ -187,7 +187,7 @@ CutOutcome cut_along_all(const Shape& shape, const std::vector<std::vector<Point
   return cut_along_generally(exact::exactly(shape.polygon), polylines_in_body);
 }
 
-Ring disc_polygon(Point centre, double radius, double sagitta) {
+Ring disc_polygon(Point centre, double radius, double sagitta, Vector axis) {
   // A chord subtending an angle 2π/n leaves the circle by r(1 − cos(π/n)).
   constexpr int kFewest = 8;   // fewer, and a cusp's area is less by more than a tenth of the disc's
   constexpr int kMost = 4096;  // more, and a mistyped sagitta makes rings that no step can carry
@@ -198,7 +198,7 @@ Ring disc_polygon(Point centre, double radius, double sagitta) {
   ring.reserve(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
     const double angle = 2 * std::numbers::pi * i / n;
-    ring.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
+    ring.push_back(centre + radius * rotate({axis.x, axis.y}, Vector{std::cos(angle), std::sin(angle)}));
   }
   return ring;
 }

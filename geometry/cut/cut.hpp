@@ -71,8 +71,9 @@ CutOutcome cut_along(const Shape& shape, const std::vector<Point>& polyline_in_b
 CutOutcome cut_along_all(const Shape& shape, const std::vector<std::vector<Point>>& polylines_in_body);
 
 /// A regular polygon inscribed in a circle, with as many vertices as keep its sagitta within `sagitta` [m].
-/// Counter-clockwise. Throws nothing; radius and sagitta must be > 0.
-Ring disc_polygon(Point centre, double radius, double sagitta);
+/// Counter-clockwise, from a vertex along `axis`, a unit vector, to both sides of which it is the same. Throws nothing;
+/// radius and sagitta must be > 0.
+Ring disc_polygon(Point centre, double radius, double sagitta, Vector axis = {1, 0});
 
 // ---- repair
 

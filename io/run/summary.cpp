@@ -198,14 +198,13 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
        "broke more ice in each of their parts than a hull takes apart in a step: loads depend on the step; give a "
        "shorter "
        "time.step_s");
-  warn(counts.database_out_of_range, "bending load",
+  warn(counts.database_out_of_range, "cusp",
        simulation.scene().fracture.bending == simulation::BendingModelKind::kFsiDatabase
-           ? "outside the database's range: the force at which the ice broke and the cusp's radius are those "
-             "at "
-             "the range's nearest edge, of an error that is not known (docs/database.md, \"Outside of the "
+           ? "broke under a load outside the database's range: the force at which the ice broke and the cusp's radius "
+             "are those at the range's nearest edge, of an error that is not known (docs/database.md, \"Outside of the "
              "table\"); polynya database query gives the ranges"
-           : "outside the range of fracture.bending.model: the force at which the ice broke and the cusp's "
-             "radius are the formula's, beyond where it is known to hold (docs/theory/bending.md)");
+           : "broke under a load outside the range of fracture.bending.model: the force at which the ice broke and the "
+             "cusp's radius are the formula's, beyond where it is known to hold (docs/theory/bending.md)");
   if (const simulation::PeakCounts& peaks = simulation.world().accounts.load_peaks.counts; peaks.beyond > 0)
     warnings.push_back(
         fmt::format("contacts.csv has the first {} peaks of contacts' forces: {} came later, the "

@@ -15,16 +15,27 @@ namespace {
 using dynamics::Contact;
 using geometry::Vector;
 
-/// Enters the most that the ice of a contact bears, along the longest line that its two bodies can have, where its
-/// force could grow to that in the step: an overlap that is found when it is shallow may grow to many times its depth,
-/// and its measures do not tell how wide it will be. `line_load` is the force per metre of contact line [N/m].
-void limit_growth(const Step& step, const dynamics::Bodies& bodies, double line_load, Contact& c) {
+/// Whether a force could grow in the step beyond what the ice bears along a line [N].
+bool could_exceed(const Step& step, double line_bears, const Contact& c) {
   constexpr double kUnforeseen = 1;  // by how much other bodies may make the two close faster in the step [m/s]
   const double closing = std::max(0.0, c.approach_speed) + kUnforeseen;
-  const double grown = c.crushing_force + c.crushing_stiffness * step.length * closing;
+  return c.crushing_force + c.crushing_stiffness * step.length * closing > line_bears;
+}
+
+/// Enters the most that the ice of a contact bears where its force could grow to that in the step: an overlap that is
+/// found when it is shallow may grow to many times its depth, and its measures do not tell how wide it will be. It
+/// bears as much as along the line that the contact comes to have, where that is known, or the longest one that its two
+/// bodies can have. What the ice bears on its way there, where a narrow line closes a wide overlap, is no growth.
+/// `line_load` is the force per metre of contact line [N/m].
+void limit_growth(const Step& step, const dynamics::Bodies& bodies, double line_load, Contact& c) {
+  if (c.width_ahead > 0) {
+    const double borne_now = c.paid_depth > c.depth ? 0 : c.crushing_force;
+    c.most_force = std::max(line_load * c.width_ahead, borne_now);
+    return;
+  }
   const BodyIndex smaller = bodies.bounding_radius[c.a] < bodies.bounding_radius[c.b] ? c.a : c.b;
   const double least_extent = bodies.area[smaller] / (2 * bodies.bounding_radius[smaller]);
-  if (grown > line_load * least_extent) c.most_force = line_load * longest_line(bodies, c);
+  if (could_exceed(step, line_load * least_extent, c)) c.most_force = line_load * longest_line(bodies, c);
 }
 
 /// Enters the impulse that a contact has missed which is found for the first time. It has pressed while its bodies came
@@ -72,34 +83,33 @@ fracture::BendingCapacity capacity_where_it_breaks(const Setup& setup, const Ste
   return there;
 }
 
-/// Enters V_b and the cusp.
+/// Enters V_b and the cusp, and whether the model holds for the load.
 void enter_capacity(const HullContactLoad& load, fracture::BendingCapacity capacity, PendingFracture& pending) {
   pending.criteria.bending_capacity = capacity.vertical_force;
   pending.criteria.flexural_strength = load.ice.flexural_strength;
   pending.cusp_radius = capacity.cusp_radius;
+  pending.is_in_range = capacity.is_in_range;
 }
 
 /// By the law of crushing ice: V_b, the cusp, and V_b as V, since the solver finds whether the load reaches it. Where
-/// thrust keeps every section closed it never does. Returns whether the model answered for the load itself.
-bool measure_bending_by_crushing(const Setup& setup, const Step& step, const HullContactLoad& load,
+/// thrust keeps every section closed it never does.
+void measure_bending_by_crushing(const Setup& setup, const Step& step, const HullContactLoad& load,
                                  PendingFracture& pending) {
   const fracture::BendingCapacity capacity = capacity_where_it_breaks(setup, step, load);
   enter_capacity(load, capacity, pending);
   const double most = pending.criteria.bending_capacity;
   pending.criteria.vertical_force = std::isfinite(most) ? most : 0;
-  return capacity.is_in_range;
 }
 
 /// By the law of impulses: V_b, the cusp, and V. The contact crushes with all of F_n only where the bodies' inertia can
-/// press that hard within the step. Returns whether the model answered for the load itself.
-bool measure_bending_by_collision(const Setup& setup, const Step& step, const HullContactLoad& load,
+/// press that hard within the step.
+void measure_bending_by_collision(const Setup& setup, const Step& step, const HullContactLoad& load,
                                   PendingFracture& pending) {
   const fracture::BendingCapacity capacity = setup.bending->capacity(bending_load(setup, load));
   enter_capacity(load, capacity, pending);
   const double crushing_impulse = load.shares.horizontal * load.normal_force * step.length;
   const double pressed = crushing_impulse > 0 ? std::min(1.0, load.impulse / crushing_impulse) : 0;
   pending.criteria.vertical_force = pressed * load.shares.vertical * load.normal_force;
-  return capacity.is_in_range;
 }
 
 /// By the law of crushing ice. The hull slides the edge down at v_n/tan θ_s; what did not crush of its way the edge has
@@ -119,7 +129,7 @@ EdgePush push_of(const HullContactLoad& load) {
 /// Whether and how the ice of a contact breaks. `measure_bending(pending)` enters V, V_b and the cusp.
 template <class MeasureBending>
 PendingFracture evaluate(const Setup& setup, const Population& population, const HullContactLoad& load,
-                         MeasureBending measure_bending, Counts& counts) {
+                         MeasureBending measure_bending) {
   const Contact& c = load.contact;
   PendingFracture pending;
   if (c.approach_speed <= 0) return pending;
@@ -135,10 +145,7 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
     if (criteria.crack_length > 0 && criteria.collision_force > criteria.splitting_force)
       measure_crack_and_sides(setup, population, c.b, pending.crack_in_body, criteria);
   }
-  if (load.shares.vertical > 0) {
-    const bool is_in_range = measure_bending(pending);
-    if (!is_in_range && criteria.vertical_force >= criteria.bending_capacity) ++counts.database_out_of_range;
-  }
+  if (load.shares.vertical > 0) measure_bending(pending);
   pending.failure = fracture::decide(criteria);
   pending.ship = c.a;
   pending.floe = population.floe_of(c.b);
@@ -184,8 +191,7 @@ bool breaks(const PendingFracture& pending, const Contact& c) {
 }
 
 /// A ship's contact with ice by the law of crushing ice: also at which force the ice bends.
-void crush_at_hull(const Setup& setup, const Step& step, const Population& population, Contact& c, StepData& data,
-                   Counts& counts) {
+void crush_at_hull(const Setup& setup, const Step& step, const Population& population, Contact& c, StepData& data) {
   HullContactLoad load = crushing_load_of(setup, population, c);
   press_prescribed(setup, step, population, load);
   close_prescribed_gap(step, population.bodies, c);
@@ -197,13 +203,12 @@ void crush_at_hull(const Setup& setup, const Step& step, const Population& popul
   limit_growth(step, population.bodies,
                load.ice.compressive_strength * load.ice.thickness * (1 + load.ice.friction * std::tan(load.hull_angle)),
                c);
-  const auto measure = [&](PendingFracture& pending) {
-    return measure_bending_by_crushing(setup, step, load, pending);
-  };
-  PendingFracture pending = evaluate(setup, population, load, measure, counts);
+  const auto measure = [&](PendingFracture& pending) { measure_bending_by_crushing(setup, step, load, pending); };
+  PendingFracture pending = evaluate(setup, population, load, measure);
   if (!breaks(pending, c)) return;
   if (pending.failure == fracture::Failure::kBend) {
     pending.push = push_of(load);
+    pending.cusp_axis_in_body = rotate_back(population.bodies.rotation[c.b], c.normal);
     pending.passes_to_pieces = true;
     break_at(c, pending.criteria.bending_capacity * horizontal / load.shares.vertical);
   }
@@ -211,15 +216,12 @@ void crush_at_hull(const Setup& setup, const Step& step, const Population& popul
 }
 
 /// A ship's contact with ice by the law of impulses: also whether the ice breaks.
-void collide_with_hull(const Setup& setup, const Step& step, const Population& population, Contact& c, StepData& data,
-                       Counts& counts) {
+void collide_with_hull(const Setup& setup, const Step& step, const Population& population, Contact& c, StepData& data) {
   const HullContactLoad load = collision_load_of(setup, population, c);
   enter_hull_contact(setup, population, load, c, data);
   c.crushing_force = load.shares.horizontal * load.normal_force;
-  const auto measure = [&](PendingFracture& pending) {
-    return measure_bending_by_collision(setup, step, load, pending);
-  };
-  const PendingFracture pending = evaluate(setup, population, load, measure, counts);
+  const auto measure = [&](PendingFracture& pending) { measure_bending_by_collision(setup, step, load, pending); };
+  const PendingFracture pending = evaluate(setup, population, load, measure);
   if (breaks(pending, c)) data.fractures.push_back(pending);
 }
 
@@ -244,20 +246,18 @@ void decide(const Setup& setup, const Step& step, const Population& population, 
 
 }  // namespace
 
-void decide_by_crushing(const Setup& setup, const Step& step, const Population& population, StepData& data,
-                        Counts& counts) {
+void decide_by_crushing(const Setup& setup, const Step& step, const Population& population, StepData& data) {
   decide(
       setup, step, population, data, [&](Contact& c) { crush_between_floes(setup, step, population, c); },
-      [&](Contact& c) { crush_at_hull(setup, step, population, c, data, counts); });
+      [&](Contact& c) { crush_at_hull(setup, step, population, c, data); });
 }
 
-void decide_by_collision(const Setup& setup, const Step& step, const Population& population, StepData& data,
-                         Counts& counts) {
+void decide_by_collision(const Setup& setup, const Step& step, const Population& population, StepData& data) {
   const auto between_floes = [&](Contact& c) {
     c.crushing_force = crushing_force(crushed_between(setup, population, c), c, 0);
   };
   decide(setup, step, population, data, between_floes,
-         [&](Contact& c) { collide_with_hull(setup, step, population, c, data, counts); });
+         [&](Contact& c) { collide_with_hull(setup, step, population, c, data); });
 }
 
 void drop_unbroken(StepData& data) {

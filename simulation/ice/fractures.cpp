@@ -13,7 +13,8 @@ namespace polynya::simulation {
 namespace {
 
 geometry::Ring cusp_of(const Setup& setup, const PendingFracture& pending) {
-  return geometry::disc_polygon(pending.first_touch_in_body, pending.cusp_radius, setup.scene.fracture.cusp_sagitta);
+  return geometry::disc_polygon(pending.first_touch_in_body, pending.cusp_radius, setup.scene.fracture.cusp_sagitta,
+                                pending.cusp_axis_in_body);
 }
 
 geometry::CutOutcome cut(const Setup& setup, const geometry::Shape& shape, const PendingFracture& pending) {
@@ -127,8 +128,10 @@ void apply_fractures(const Setup& setup, const Step& step, StepData& data, Popul
     if (outcome) {
       const FloeId first = population.floe_count();
       const Breakage breakage = breakage_of(setup, step.end, pending, *outcome);
+      const bool is_bend = pending.failure == fracture::Failure::kBend;
+      if (is_bend && !pending.is_in_range) ++books.accounts.counts.database_out_of_range;
       if (breakage.inside == InsideFate::kUnderHull)
-        turn_cusp(setup, pending, *outcome, population, {data.loads[pending.ship], books.accounts.audit});
+        turn_cusp(setup, step, pending, *outcome, population, {data.loads[pending.ship], books.accounts.audit});
       replace_by_pieces(setup, step.end, breakage, population, books);
       if (pending.passes_to_pieces) pass_bends(pending.floe, first, std::span(fractures).subspan(i + 1), population);
     } else {

@@ -40,9 +40,12 @@ double crushing_line_load(const fracture::Ice& ice) {
   return ice.compressive_strength * ice.thickness;
 }
 
-geometry::Polygon outline_of(const Population& population, const Setup& setup, BodyIndex body) {
-  if (population.is_hull(body)) return {hull_of(setup.scene, body).hull.waterline, {}};
-  return population.floes[population.floe_of(body)].shape.polygon;
+/// The outline by which a body cuts.
+geometry::Polygon tool_of(const Population& population, const Setup& setup, BodyIndex body) {
+  const geometry::Polygon outline = population.is_hull(body)
+                                        ? geometry::Polygon{hull_of(setup.scene, body).hull.waterline, {}}
+                                        : population.floes[population.floe_of(body)].shape.polygon;
+  return with_clearance(outline, population.bodies.centroid[body]);
 }
 
 /// A kind of event with what all that happens to overlaps has.
@@ -95,7 +98,7 @@ bool cut_overlap(const Setup& setup, const Instant& now, const OverlapCut& overl
                  Books books) {
   const BodyIndex ground = ground_of(setup, population, overlap.a, overlap.b);
   const BodyIndex by = ground == overlap.a ? overlap.b : overlap.a;
-  const geometry::Polygon outline = outline_of(population, setup, by);
+  const geometry::Polygon outline = tool_of(population, setup, by);
   std::vector<geometry::Polygon> tools;
   for (const geometry::Pose& a_from_b : overlap.a_from_b)
     tools.push_back(transform(ground == overlap.a ? a_from_b : geometry::inverse(a_from_b), outline));

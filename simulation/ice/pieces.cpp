@@ -128,6 +128,16 @@ void replace_by_pieces(const Setup& setup, const Instant& now, Breakage breakage
   for (Event& submersion : submersions) books.journal.events.push_back(std::move(submersion));
 }
 
+geometry::Polygon with_clearance(geometry::Polygon outline, geometry::Point centre) {
+  constexpr double kClearance = 1e-6;
+  const auto widen = [&](geometry::Ring& ring) {
+    for (geometry::Point& p : ring) p = centre + (1 + kClearance) * (p - centre);
+  };
+  widen(outline.outer);
+  for (geometry::Ring& hole : outline.holes) widen(hole);
+  return outline;
+}
+
 RejectedCut rejected_grind(const GrindCriterion& criterion, const geometry::Polygon& floe, geometry::Ring tool,
                            const geometry::CutError& error, Accounts& accounts) {
   RejectedCut rejected;

@@ -21,6 +21,11 @@ struct Breakage {
 /// submerged ice and brash. Records the event and enters areas, motion and counts.
 void replace_by_pieces(const Setup& setup, const Instant& now, Breakage breakage, Population& population, Books books);
 
+/// The outline of a body [m] as it cuts ice that it has crushed: wider about a centre by a millionth. That is far more
+/// than what cuts round, so that the sides of the notch do not touch the body that made it, and far less than any
+/// overlap matters.
+geometry::Polygon with_clearance(geometry::Polygon outline, geometry::Point centre);
+
 /// A cut of ground ice that geometry refused: counted, with its input.
 RejectedCut rejected_grind(const GrindCriterion& criterion, const geometry::Polygon& floe, geometry::Ring tool,
                            const geometry::CutError& error, Accounts& accounts);

@@ -19,10 +19,6 @@ using geometry::Pose;
 constexpr double kShareOfRadius = 0.05;
 constexpr double kMostGrowth = 0.25;  // [m]
 
-/// The outline that carves is wider than the hull by this share: far more than what cuts round, so that the
-/// sides of a channel do not touch the hull that made it; far less than any overlap matters.
-constexpr double kClearance = 1e-6;
-
 /// A load is a numerical failure from this many times what ice bears on. Loads of crushing ice stay below
 /// once that; a pierced body has several contact lines in one.
 constexpr double kOverloadFactor = 4;
@@ -54,10 +50,9 @@ Pose pose_ago(const dynamics::Bodies& bodies, BodyIndex i, double time) {
 }
 
 geometry::Polygon tool_of(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c, double time_ago) {
-  geometry::Ring outline = hull_of(setup.scene, c.a).hull.waterline;
-  for (geometry::Point& p : outline) p = {(1 + kClearance) * p.x, (1 + kClearance) * p.y};
+  const geometry::Polygon outline = with_clearance({hull_of(setup.scene, c.a).hull.waterline, {}}, {});
   const Pose floe_from_hull = relative_pose(pose_ago(bodies, c.b, time_ago), pose_ago(bodies, c.a, time_ago));
-  return transform(floe_from_hull, geometry::Polygon{std::move(outline), {}});
+  return transform(floe_from_hull, outline);
 }
 
 /// The hulls that have come on far enough, one by one. What is left of an overlap is the step's own way and,

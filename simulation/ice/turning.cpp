@@ -150,10 +150,25 @@ void press(const Setup& setup, const Step& step, PressedDeck& pressed, dynamics:
   brake({ship, arm, slowed > speed ? (speed / slowed) * impulse : impulse}, bodies, books);
 }
 
+/// Gives a cusp's edge what it may take of its impulse in a step, and brakes the hull by it.
+void press(const Step& step, StartedCusp& cusp, dynamics::Bodies& bodies, HullBooks books) {
+  const geometry::Rotation of_ship = bodies.rotation[cusp.ship];
+  const Vector arm = rotate(of_ship, cusp.arm_in_ship);
+  const double given = std::min(cusp.left, cusp.most * step.length);
+  cusp.left -= given;
+  cusp.way -= step.length *
+              std::max(0.0, dot(rotate(of_ship, cusp.normal_in_ship), dynamics::velocity_at(bodies, cusp.ship, arm)));
+  brake({cusp.ship, arm, -given * rotate(of_ship, cusp.horizontal_in_ship)}, bodies, books);
+}
+
+bool is_started(const StartedCusp& cusp) {
+  return cusp.left <= 0 || cusp.way <= 0;
+}
+
 }  // namespace
 
-void turn_cusp(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut, Population& population,
-               HullBooks books) {
+void turn_cusp(const Setup& setup, const Step& step, const PendingFracture& bend, const geometry::CutResult& cut,
+               Population& population, HullBooks books) {
   const EdgePush& edge = bend.push;
   const BodyIndex ship = bend.ship;
   if (edge.speed <= 0) return;
@@ -163,8 +178,23 @@ void turn_cusp(const Setup& setup, const PendingFracture& bend, const geometry::
   // The hull slows down by what it gives: the two move on together.
   const double slowed = edge.speed_per_approach * speed_by(bodies, ship, arm, bend.normal, edge.horizontal);
   const double given = mass * edge.speed / (1 + mass * std::max(0.0, slowed));  // down on the edge
-  brake({ship, arm, -given * edge.horizontal}, bodies, books);
+  const geometry::Rotation of_ship = bodies.rotation[ship];
+  StartedCusp cusp{.ship = ship,
+                   .arm_in_ship = rotate_back(of_ship, arm),
+                   .normal_in_ship = rotate_back(of_ship, bend.normal),
+                   .horizontal_in_ship = rotate_back(of_ship, edge.horizontal),
+                   .left = given,
+                   .most = bend.criteria.bending_capacity,
+                   .way = bend.cusp_radius};
+  press(step, cusp, bodies, books);
+  if (!is_started(cusp)) population.started.push_back(cusp);
   if (setup.has_flooding_decks) add_decks(setup, bend, cut, population);
+}
+
+void press_started(const Step& step, Population& population, std::vector<HullLoads>& loads, AuditSums& audit) {
+  for (StartedCusp& cusp : population.started)
+    press(step, cusp, population.bodies, {loads[static_cast<std::size_t>(cusp.ship)], audit});
+  std::erase_if(population.started, is_started);
 }
 
 void press_decks(const Setup& setup, const Step& step, Population& population, std::vector<HullLoads>& loads,

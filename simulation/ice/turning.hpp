@@ -1,6 +1,7 @@
 #pragma once
 
 #include "geometry/cut/cut.hpp"
+#include "simulation/world/clock.hpp"
 #include "simulation/world/world.hpp"
 
 namespace polynya::simulation {
@@ -12,10 +13,14 @@ struct HullBooks {
 };
 
 /// By the law of crushing ice: the impulse with which a hull sets in motion the cusp that a bend breaks off and that
-/// goes under it (`InsideFate::kUnderHull`). Brakes the hull, and enters it in its loads and in the accounts. Keeps the
-/// cusp's deck, where water floods decks (`has_flooding_decks`).
-void turn_cusp(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut, Population& population,
-               HullBooks books);
+/// goes under it (`InsideFate::kUnderHull`). It is given with no more than the force at which the ice broke, so that it
+/// may last for some steps: press_started() gives the rest. Brakes the hull, and enters it in its loads and in the
+/// accounts. Keeps the cusp's deck, where water floods decks (`has_flooding_decks`).
+void turn_cusp(const Setup& setup, const Step& step, const PendingFracture& bend, const geometry::CutResult& cut,
+               Population& population, HullBooks books);
+
+/// Goes on to set in motion the cusps that have not all of their edge's speed yet. Those that the hull has passed end.
+void press_started(const Step& step, Population& population, std::vector<HullLoads>& loads, AuditSums& audit);
 
 /// Presses the decks on that hulls press down, by the way of a step, and lets water onto them: brakes the hulls by the
 /// pressure of the water that is missing there. Those that lie along the hull end.

@@ -10,6 +10,7 @@
 #include "fracture/characteristic_length.hpp"
 #include "fracture/crushing.hpp"
 #include "simulation/ice/ice_scatter.hpp"
+#include "simulation/ship/waterline.hpp"
 #include "simulation/world/scene.hpp"
 
 namespace polynya::simulation {
@@ -28,6 +29,47 @@ double hull_angle_at(const Hull& hull, const dynamics::Bodies& bodies, const dyn
   const auto [edge, along, point] = nearest_place(hull.waterline, inverse_transform(pose, c.middle()));
   const std::vector<double>& angles = hull.angles_from_vertical;
   return (1 - along) * angles[edge] + along * angles[(edge + 1) % angles.size()];
+}
+
+/// θ_s in the middle of a part of an edge of the waterline, whose outward normal has the forward component `sine`
+/// [rad].
+double hull_angle_on(const Hull& hull, const EdgePart& part, double sine) {
+  if (hull.angles_from_vertical.empty()) return fracture::hull_angle_from_vertical(sine, hull.stem_angle);
+  const double along = 0.5 * (part.from + part.to);
+  const std::vector<double>& angles = hull.angles_from_vertical;
+  return (1 - along) * angles[part.edge] + along * angles[(part.edge + 1) % angles.size()];
+}
+
+/// The facets of the hull's side that is in the ice at a contact: from one end of its line to the other.
+std::vector<fracture::HullFacet> facets_of(const Hull& hull, const dynamics::Bodies& bodies, const Contact& c) {
+  const geometry::Pose pose = dynamics::water_from_body(bodies, c.a);
+  const geometry::Vector normal = rotate_back(pose.rotation, c.normal);
+  const bool is_in_order = dot(c.ends[1] - c.ends[0], perpendicular(c.normal)) > 0;
+  const auto place_of = [&](int end) { return nearest_place(hull.waterline, inverse_transform(pose, c.ends[end])); };
+  const auto parts = edges_between(hull.waterline, place_of(is_in_order ? 0 : 1), place_of(is_in_order ? 1 : 0));
+  std::vector<fracture::HullFacet> facets;
+  for (const EdgePart& part : parts) {
+    const geometry::Ring& ring = hull.waterline;
+    const geometry::Vector edge = ring[(part.edge + 1) % ring.size()] - ring[part.edge];
+    const geometry::Vector out = -(1 / length(edge)) * perpendicular(edge);
+    facets.push_back({(part.to - part.from) * length(edge),
+                      {dot(out, normal), dot(out, perpendicular(normal))},
+                      hull_angle_on(hull, part, out.x)});
+  }
+  return facets;
+}
+
+/// The shares of a hull's contact by the law of crushing ice. A pierced body has its sides in several stretches: then
+/// they are those of its contact line.
+fracture::CrushingShares shares_of(const Hull& hull, const dynamics::Bodies& bodies, const Contact& c,
+                                   const HullContactLoad& load) {
+  if (load.hull_angle > 0 && !c.record->is_pierced) {
+    const std::vector<fracture::HullFacet> facets = facets_of(hull, bodies, c);
+    const geometry::Vector hull_against_ice{c.approach_speed, -c.slip_speed};
+    if (facets.size() > 1)
+      return fracture::crushing_shares_around(facets, load.hull_angle, load.ice.friction, hull_against_ice);
+  }
+  return load.shares;
 }
 
 /// The cusp is expected about this many characteristic lengths away; the wedge is measured over that length.
@@ -150,6 +192,7 @@ bool can_break(const Setup& setup, const Population& population, const Contact& 
 HullContactLoad crushing_load_of(const Setup& setup, const Population& population, const Contact& c) {
   const bool is_breakable = can_break(setup, population, c);
   HullContactLoad load = common_load_of(setup, population, c, is_breakable);
+  load.shares = shares_of(hull_of(setup.scene, c.a).hull, population.bodies, c, load);
   load.opening_angle = std::max(load.wedge.front + load.wedge.back, 2 * fracture::kSmallestHalfAngle);
   if (is_breakable && setup.scene.fracture.outline == fracture::EdgeOutline::kSections)
     load.openings = openings_at(setup, population.bodies, load);

@@ -31,6 +31,14 @@ NearestPlace nearest_place(const geometry::Ring& ring, Point point) {
   return place;
 }
 
+std::vector<EdgePart> edges_between(const geometry::Ring& ring, const NearestPlace& from, const NearestPlace& to) {
+  if (from.edge == to.edge && from.along <= to.along) return {{from.edge, from.along, to.along}};
+  std::vector<EdgePart> parts{{from.edge, from.along, 1}};
+  for (std::size_t i = after(ring, from.edge); i != to.edge; i = after(ring, i)) parts.push_back({i, 0, 1});
+  parts.push_back({to.edge, 0, to.along});
+  return parts;
+}
+
 Waterline waterline_of(const geometry::Ring& ring) {
   Waterline line;
   line.ring = ring;

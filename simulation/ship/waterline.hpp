@@ -24,6 +24,14 @@ struct NearestPlace {
 };
 NearestPlace nearest_place(const geometry::Ring& ring, geometry::Point point);
 
+/// A part of one edge of a ring, from one share of it to another.
+struct EdgePart {
+  std::size_t edge = 0;
+  double from = 0, to = 0;
+};
+/// The edges of a ring from one of its places to another, in its order.
+std::vector<EdgePart> edges_between(const geometry::Ring& ring, const NearestPlace& from, const NearestPlace& to);
+
 Waterline waterline_of(const geometry::Ring& counter_clockwise);
 
 /// Of the waterline's point nearest to one of the hull's frame, from the stem, to port, to starboard negative:

@@ -54,7 +54,7 @@ void write(Archive& archive, const World& world, const std::vector<dynamics::Pai
     if (floe.parent != kNoFloe) archive(floe.shape.polygon);  // else the scene's
     motion_fields(archive, population.bodies, population.body_of(id));
   }
-  archive(population.tilted, population.submerged);
+  archive(population.tilted, population.submerged, population.started);
   if (world.setup.has_flooding_decks) archive(population.decks);
   archive(pairs);
   archive(members(pairs, &dynamics::PersistentContact::crushed));
@@ -289,7 +289,16 @@ class StateLoader {
       is_submerged[static_cast<std::size_t>(submerged.floe)] = true;
       submerged.area = population_.floes[submerged.floe].area;
     }
+    load_started();
     if (world_.setup.has_flooding_decks) load_decks();
+  }
+
+  void load_started() {
+    bytes_(population_.started);
+    for (const StartedCusp& cusp : population_.started) {
+      bytes_.require(can_take_ice(cusp.ship), "a cusp before a hull that there is not");
+      bytes_.require(cusp.left > 0 && cusp.most > 0 && cusp.way > 0, "a cusp that a hull does not press");
+    }
   }
 
   void load_decks() {

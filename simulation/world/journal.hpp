@@ -207,8 +207,8 @@ struct Counts {
   std::int64_t floated_cusps = 0;   ///< number of pieces of cusps that float as floes (CuspFate::kFloat)
   std::int64_t brash_pieces = 0;    ///< number of pieces that became brash
   std::int64_t snap_rounded = 0;    ///< number of pieces whose nearest doubles did not form a valid polygon
-  /// Number of loads outside the range of the bending model's data for which V_b was computed, counted in every step.
-  /// By the law of impulses, a load counts only if it reached V_b.
+  /// Number of cusps that broke under a load outside the range of the bending model's data. Loads that did not reach
+  /// V_b are not counted.
   std::int64_t database_out_of_range = 0;
   /// Number of ticks with kMostParts parts in which the running mean of bends in a part exceeded kCrowded, so that
   /// loads depend on the step (parts.hpp).

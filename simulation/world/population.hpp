@@ -49,6 +49,18 @@ struct SubmergedPiece {
   double area = 0;      ///< copy of Floe::area, kept here for fast access and not stored in saved states [m²]
 };
 
+/// A cusp that broke off under a ship's hull and whose edge the hull has not given all of its speed yet. Members named
+/// `_in_ship` are in the ship's frame.
+struct StartedCusp {
+  int ship = 0;                         ///< number of the ship
+  geometry::Vector arm_in_ship;         ///< vector from the ship's centre to the contact that broke the cusp [m]
+  geometry::Vector normal_in_ship;      ///< unit normal of that contact, out of the hull
+  geometry::Vector horizontal_in_ship;  ///< horizontal force on the ice per downward force on it [-]
+  double left = 0;                      ///< downward impulse that the edge has not been given yet [N s]
+  double most = 0;                      ///< downward force with which the ice broke, with which the hull goes on [N]
+  double way = 0;                       ///< way of the hull along the normal until it has passed the cusp [m]
+};
+
 /// A cusp that broke off under a ship's hull and turns until it lies along the hull. Members named `_in_ship` are in
 /// the ship's frame.
 struct PressedDeck {
@@ -88,6 +100,7 @@ struct Population {
   dynamics::BroadPhase pairs;             ///< pairs of bodies that may touch, with the memory of their contacts
   std::vector<TiltedFloe> tilted;         ///< floes pressed down by hulls, ordered by (ship, floe)
   std::vector<SubmergedPiece> submerged;  ///< pieces under hulls, in the order in which they went under
+  std::vector<StartedCusp> started;       ///< cusps that hulls set in motion, in the order in which they broke off
   std::vector<PressedDeck> decks;         ///< turning cusps, in the order in which they broke off
 
   FloeId floe_count() const { return static_cast<FloeId>(floes.size()); }

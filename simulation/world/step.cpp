@@ -191,10 +191,9 @@ constexpr Stage kFindPairs{"find pairs", [](World& w, const Step& s) { find_pair
 constexpr Stage kFindContacts{
     "find contacts", [](World& w, const Step& s) { find_contacts(s, w.population, w.data, w.accounts.counts); }};
 constexpr Stage kDecideByCrushing{
-    "decide", [](World& w, const Step& s) { decide_by_crushing(w.setup, s, w.population, w.data, w.accounts.counts); }};
-constexpr Stage kDecideByCollision{"decide", [](World& w, const Step& s) {
-                                     decide_by_collision(w.setup, s, w.population, w.data, w.accounts.counts);
-                                   }};
+    "decide", [](World& w, const Step& s) { decide_by_crushing(w.setup, s, w.population, w.data); }};
+constexpr Stage kDecideByCollision{
+    "decide", [](World& w, const Step& s) { decide_by_collision(w.setup, s, w.population, w.data); }};
 constexpr Stage kLimitByTilt{"limit by tilt",
                              [](World& w, const Step& s) { limit_by_tilt(w.setup, s, w.population, w.data); }};
 constexpr Stage kSolveCrushing{
@@ -223,6 +222,7 @@ constexpr Stage kThrust{"thrust",
                         [](World& w, const Step& s) { push_ships(w.setup, s, w.population, w.accounts.audit); }};
 constexpr Stage kSubmergedIce{"pull of submerged ice", [](World& w, const Step& s) {
                                 pull_of_submerged_ice(w.setup, s, w.population, w.data.loads, w.accounts.audit);
+                                press_started(s, w.population, w.data.loads, w.accounts.audit);
                                 press_decks(w.setup, s, w.population, w.data.loads, w.accounts.audit);
                               }};
 constexpr Stage kSail{"sail", [](World& w, const Step& s) { sail(w.setup, s, w.data, w.population, w.accounts); }};

@@ -39,12 +39,10 @@ void find_pairs(const Step& step, Population& population);
 void find_contacts(const Step& step, Population& population, StepData& data, Counts& counts);
 
 /// Law of crushing ice: finds what each contact can bear, and at which force its ice bends.
-void decide_by_crushing(const Setup& setup, const Step& step, const Population& population, StepData& data,
-                        Counts& counts);
+void decide_by_crushing(const Setup& setup, const Step& step, const Population& population, StepData& data);
 
 /// Law of impulses: finds what each contact can bear, and whether its ice breaks by the collision force j/τ_c.
-void decide_by_collision(const Setup& setup, const Step& step, const Population& population, StepData& data,
-                         Counts& counts);
+void decide_by_collision(const Setup& setup, const Step& step, const Population& population, StepData& data);
 
 /// Reduces what contacts bear to what the floes that they press down resist.
 void limit_by_tilt(const Setup& setup, const Step& step, const Population& population, StepData& data);

@@ -72,9 +72,12 @@ struct PendingFracture {
   geometry::Vector normal;              ///< from the hull into the ice, water frame
   double penetration = 0;               ///< [m]
   double cusp_radius = 0;               ///< [m]
-  EdgePush push;                        ///< for bends by the law of crushing ice
-  bool passes_to_pieces = false;        ///< if its floe bends elsewhere in the same step, it breaks a piece of it
-  geometry::CrackPath crack_in_body;    ///< path of a split
+  /// Unit vector; the cusp's polygon is the same to both sides of it.
+  geometry::Vector cusp_axis_in_body{1, 0};
+  EdgePush push;                      ///< for bends by the law of crushing ice
+  bool is_in_range = true;            ///< the bending model holds for this load
+  bool passes_to_pieces = false;      ///< if its floe bends elsewhere in the same step, it breaks a piece of it
+  geometry::CrackPath crack_in_body;  ///< path of a split
   fracture::FailureCriteria criteria;
   dynamics::PersistentContact* record = nullptr;  ///< the contact that breaks it; valid during the step
 };

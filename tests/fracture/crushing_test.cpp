@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -111,6 +112,73 @@ TEST(CrushingShares, AVerticalWallTakesAllFrictionAlongItself) {
   EXPECT_EQ(shares.horizontal, 1);
   EXPECT_LE(shares.vertical, 0);
   EXPECT_EQ(shares.tangential, 0.2);
+}
+
+// ---- contacts that bend around a stem
+
+/// A stem of two flanks at an angle from the centreline, whose waterlines are `port` and `starboard` long, in the frame
+/// of a contact with its normal ahead.
+std::vector<HullFacet> stem(double waterline_angle, double stem_angle, double port, double starboard) {
+  const double sine = std::sin(waterline_angle), cosine = std::cos(waterline_angle);
+  const double angle = hull_angle_from_vertical(sine, stem_angle);
+  return {{starboard, {sine, -cosine}, angle}, {port, {sine, cosine}, angle}};
+}
+
+TEST(CrushingShares, OfOneFacetAreThoseOfItsContact) {
+  for (const double angle : {0.05, 0.6, 1.3}) {
+    for (const double slip : {-2.0, 0.0, 0.3}) {
+      const HullFacet facet{2, {1, 0}, angle};
+      const CrushingShares of_facet = crushing_shares_around({&facet, 1}, angle, 0.2, {0.7, slip});
+      const CrushingShares of_contact = crushing_shares(angle, 0.2, 0.7, slip);
+      EXPECT_EQ(of_facet.horizontal, of_contact.horizontal);
+      EXPECT_NEAR(of_facet.vertical, of_contact.vertical, 1e-14);
+      EXPECT_NEAR(of_facet.tangential, of_contact.tangential, 1e-14);
+    }
+  }
+}
+
+/// V of both flanks, each crushed over its half of the overlap S by its own shares, is V of the stem: S/sin θ is the
+/// area of a facet of the plan area S.
+TEST(CrushingShares, OfAStemAreThoseOfItsTwoFlanks) {
+  const double friction = 0.2;
+  for (const double waterline : {10 * kDegree, 27 * kDegree, 70 * kDegree}) {
+    for (const double stem_angle : {20 * kDegree, 60 * kDegree, 85 * kDegree, 89.5 * kDegree}) {
+      const double flank = hull_angle_from_vertical(std::sin(waterline), stem_angle);
+      const CrushingShares of_flank = crushing_shares(flank, friction, std::sin(waterline), std::cos(waterline));
+      const double at_stem = hull_angle_from_vertical(1, stem_angle);
+      const auto facets = stem(waterline, stem_angle, 3, 3);
+      const CrushingShares shares = crushing_shares_around(facets, at_stem, friction, {1, 0});
+      EXPECT_NEAR(shares.vertical / std::sin(at_stem) / (of_flank.vertical / std::sin(flank)), 1, 1e-12);
+      EXPECT_NEAR(shares.tangential, 0, 1e-14) << "the flanks' friction along the line cancels";
+    }
+  }
+}
+
+/// Ice slides down along a flank that it meets at more than the angle of friction from its normal, however steep: a
+/// stem's flanks press it down up to 90°. Head on, a facet steeper than 90° - atan μ holds it up.
+TEST(CrushingShares, AStemPressesDownWhereItsFlanksDo) {
+  const double friction = 0.2;
+  const double widest = std::atan(1 / friction);  // of a vertical flank from the centreline, at which ice sticks
+  for (double degrees = 5; degrees < 90; degrees += 1) {
+    const double waterline = degrees * kDegree;
+    if (std::abs(waterline - widest) < 0.5 * kDegree) continue;
+    const double stem_angle = 89.9 * kDegree;
+    const auto facets = stem(waterline, stem_angle, 1, 1);
+    const double at_stem = hull_angle_from_vertical(1, stem_angle);
+    EXPECT_EQ(crushing_shares_around(facets, at_stem, friction, {1, 0}).vertical > 0, waterline < widest) << degrees;
+  }
+}
+
+TEST(CrushingShares, AFacetThatTheHullDrawsAwayFromTakesNoPart) {
+  const double at_stem = hull_angle_from_vertical(1, 40 * kDegree);
+  std::vector<HullFacet> facets = stem(27 * kDegree, 40 * kDegree, 2, 3);
+  const CrushingShares before = crushing_shares_around(facets, at_stem, 0.2, {1, 0.1});
+  facets.push_back({5, {0, 1}, 0});
+  facets.push_back({5, {-1, 0}, 0});
+  const CrushingShares after = crushing_shares_around(facets, at_stem, 0.2, {1, -0.0});
+  facets.resize(2);
+  EXPECT_EQ(after.vertical, crushing_shares_around(facets, at_stem, 0.2, {1, -0.0}).vertical);
+  EXPECT_LT(before.vertical, std::sin(at_stem));
 }
 
 // ---- overlaps other than wedges, against closed forms
