@@ -148,7 +148,16 @@ std::string with_time(const io::Peak& peak) {
 std::string measure_of(const io::ForceColumn& column, const simulation::Scene& scene) {
   if (column.curve == "paper") return "j/τ_c of the paper";
   return column.over == io::Over::kMean ? fmt::format("mean over {:.6g} s", recording_interval(scene))
-                                        : fmt::format("single step of {:.6g} s", scene.time.step);
+                                        : "single step; depends on the step";
+}
+
+/// The largest peak of one contact's force with ice.
+std::string contact_peak_line(const io::ShipPeaks& peaks, const simulation::Scene& scene) {
+  if (peaks.of_contact.value == 0) return "";
+  const double response = scene.record.peak_response;
+  return fmt::format(
+      "ice peak    {}: {} (largest of one contact, {})\n", peaks.ship, with_time(peaks.of_contact),
+      response > 0 ? fmt::format("by a gauge of {:g} s", response) : "in a single step; depends on the step");
 }
 
 /// The largest loads on each ship and structure (docs/theory/forces.md): of ice, then of other ships
@@ -164,6 +173,7 @@ std::string force_lines(const io::RunSummary& summary, const simulation::Scene& 
       const io::Peak& surge = peaks.of_column[i];
       const io::Peak& sway = peaks.of_column[i + 1];
       if (surge.value == 0 && sway.value == 0) continue;
+      if (columns[i]->name == "surge_max_N") text += contact_peak_line(peaks, scene);
       is_free = false;
       text += fmt::format("{:<12}{}: surge {}, sway {} (largest {})\n", is_by_ice ? "ice force" : "ship force",
                           peaks.ship, with_time(surge), with_time(sway), measure_of(*columns[i], scene));

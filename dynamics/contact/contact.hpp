@@ -55,6 +55,7 @@ struct PersistentContact {
   double reach = 0;                  ///< of the contact from last_point_in_b, at the last step [m]
   std::int64_t load_track = 0;       ///< of what follows its force from step to step; 0: nothing does
   RestitutionMemory restitution;
+  double stored_energy = 0;  ///< that compression took and restitution has not given back; by the law of impulses [J]
   CrushedIce crushed;
   Booked booked;
   bool has_crushed = false;
@@ -102,6 +103,7 @@ struct Contact {
   double normal_impulse[2] = {0, 0};  ///< on b along the normal, at each end [N s]
   double normal_work = 0;             ///< of the normal impulses on the two bodies together [J]
   double slip_work = 0;               ///< of the slip impulse [J]
+  double restored_work = 0;           ///< of the normal impulses by which restitution gave back what was stored [J]
   double depth_after = 0;             ///< expected of the overlap at the end of the step [m]
   double paid_depth_after = 0;        ///< the depth to which work has paid it then [m]
   double paying_work = 0;             ///< of the contact's work in the step, what paid [J]

@@ -263,6 +263,41 @@ void ContactSolver::finish(const Island& island, const Law& law, int threads) {
   });
 }
 
+/// Adds what compression took from the bodies of an island to what its contacts store, in proportion to what each took.
+/// A contact that only passes on what others press may have given energy; the others store less by that. Returns what
+/// all of them store [J].
+double ContactSolver::store_energy(const Island& island) {
+  auto& states = std::get<States<RestitutionLaw>>(states_);
+  const ContactRange range = island.all();
+  double taken_by_all = 0, taken_by_some = 0;
+  for (std::uint32_t k = range.begin; k < range.end; ++k) {
+    const double taken = energy_taken(sums_[k].before, speeds_at(constraints_[k], solver_bodies_), constraints_[k]);
+    states[k].taken_energy = std::max(0.0, taken);
+    taken_by_all += taken;
+    taken_by_some += states[k].taken_energy;
+  }
+  const double share = taken_by_all > 0 ? taken_by_all / taken_by_some : 0;
+  double stored = 0;
+  for (std::uint32_t k = range.begin; k < range.end; ++k)
+    stored += states[k].stored_energy += share * states[k].taken_energy;
+  return stored;
+}
+
+/// Gives back what the contacts of an island owe, as far as what all of them store lasts. Returns whether any impulse
+/// was given.
+bool ContactSolver::restore(const Island& island, const RestitutionLaw& law, bool is_converged) {
+  auto& states = std::get<States<RestitutionLaw>>(states_);
+  const ContactRange range = island.all();
+  const double stored = store_energy(island);
+  double left = stored;
+  bool has_given = false;
+  for (std::uint32_t k = range.begin; k < range.end; ++k)
+    has_given |= dynamics::restore(law, is_converged, left, states[k], constraints_[k], solver_bodies_);
+  const double share_left = stored > 0 ? left / stored : 0;
+  for (std::uint32_t k = range.begin; k < range.end; ++k) states[k].stored_energy *= share_left;
+  return has_given;
+}
+
 template <class Law>
 double ContactSolver::solve_island(const Island& island, const Law& law, const SolverSettings& settings) {
   double residual = 0;
@@ -271,9 +306,7 @@ double ContactSolver::solve_island(const Island& island, const Law& law, const S
     residual = std::max(residual, sweep(island, law, settings));
     if constexpr (Law::kRestores) {
       const bool is_converged = residual <= settings.tolerance;
-      bool has_given = false;
-      for (std::uint32_t k = island.first; k < island.first + island.count; ++k)
-        has_given |= restore(law, is_converged, std::get<States<Law>>(states_)[k], constraints_[k], solver_bodies_);
+      const bool has_given = restore(island, law, is_converged);
       if (has_given) residual = std::max(residual, sweep(island, law, settings));
     }
     finish(island, law, settings.threads);

@@ -101,6 +101,8 @@ class ContactSolver {
   void give_memories(const std::vector<Contact>& contacts);
   double missed_speed(const Island& island, const CrushLaw& law) const;
   void solve_jam(const Island& island, const SolverSettings& settings, double residual);
+  double store_energy(const Island& island);
+  bool restore(const Island& island, const RestitutionLaw& law, bool is_converged);
   template <class Law>
   void finish(const Island& island, const Law& law, int threads);
   template <class Law>

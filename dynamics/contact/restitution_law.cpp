@@ -36,8 +36,43 @@ void begin_substep(const RestitutionLaw& law, const ConstraintSpeeds& before, bo
   limit = std::max(limit, kFrictionSlack * law.restitution * isolated_impulse(constraint, before));
 }
 
-bool restore(const RestitutionLaw& law, bool is_converged, RestitutionLaw::State& state, ContactConstraint& constraint,
-             std::span<SolverBody> solver_bodies) {
+double energy_taken(const ConstraintSpeeds& before, const ConstraintSpeeds& after,
+                    const ContactConstraint& constraint) {
+  double work = 0.5 * constraint.slip_impulse * (before.slip + after.slip);
+  for (int end = 0; end < 2; ++end)
+    work += 0.5 * constraint.normal_impulse[end] * (before.apart[end] + after.apart[end]);
+  return -work;
+}
+
+namespace {
+
+/// The work of normal impulses on two bodies, share² · square + share · rate of a share of them [J].
+struct WorkOfShare {
+  double square, rate;
+
+  double of(double share) const { return share * (share * square + rate); }
+  /// The largest share up to 1 whose work is no more than `most`, ≥ 0 [J].
+  double largest_within(double most) const {
+    if (of(1) <= most) return 1;
+    // It rises from 0, or falls first, and is above `most` at 1: the greater root. Written without a difference of
+    // nearly equal numbers where `most` is small.
+    const double root = std::sqrt(rate * rate + 4 * square * most);
+    return rate > 0 ? 2 * most / (rate + root) : (root - rate) / (2 * square);
+  }
+};
+
+WorkOfShare work_of(const ContactConstraint& k, const double (&given)[2], std::span<const SolverBody> solver_bodies) {
+  const std::array<double, 2> apart = apart_at(k, solver_bodies[k.a], solver_bodies[k.b]);
+  const double square =
+      0.5 * (given[0] * given[0] * k.inverse_mass_at[0] + given[1] * given[1] * k.inverse_mass_at[1]) +
+      given[0] * given[1] * k.inverse_mass_between;
+  return {square, given[0] * apart[0] + given[1] * apart[1]};
+}
+
+}  // namespace
+
+bool restore(const RestitutionLaw& law, bool is_converged, double& stored, RestitutionLaw::State& state,
+             ContactConstraint& constraint, std::span<SolverBody> solver_bodies) {
   PersistentContact* const record = state.record;
   const double compression = constraint.normal_impulse[0] + constraint.normal_impulse[1];
   double owed = law.restitution * compression;
@@ -47,20 +82,28 @@ bool restore(const RestitutionLaw& law, bool is_converged, RestitutionLaw::State
     remember_compression(constraint, is_converged, *record);
   }
   if (owed <= 0) return false;
-  double given[2];
+  double most[2], given[2];
   double still_owed = 0;
   const double owed_per_compression = compression > 0 ? owed / compression : 0;
   for (int end = 0; end < 2; ++end) {
     const double share = compression > 0 ? owed_per_compression * constraint.normal_impulse[end] : 0.5 * owed;
-    constraint.least[end] = std::min(constraint.normal_impulse[end] + share, constraint.limit);
-    given[end] = constraint.least[end] - constraint.normal_impulse[end];
+    most[end] = std::min(constraint.normal_impulse[end] + share, constraint.limit);
+    given[end] = most[end] - constraint.normal_impulse[end];
     still_owed += share - given[end];
-    constraint.normal_impulse[end] = constraint.least[end];
   }
+  const WorkOfShare work = work_of(constraint, given, solver_bodies);
+  const double share = work.largest_within(std::max(0.0, stored));
+  if (share < 1) still_owed = 0;  // all that was stored is given back
+  for (int end = 0; end < 2; ++end) {
+    if (share < 1) most[end] = constraint.normal_impulse[end] + (given[end] *= share);
+    constraint.least[end] = constraint.normal_impulse[end] = most[end];
+  }
+  state.restored_work = work.of(share);
+  stored -= state.restored_work;
   apply_impulses(constraint, given[0], given[1], 0, solver_bodies);
   if (record != nullptr) {
     record->restitution.owed_impulse = still_owed;
-    record->restitution.given_impulse += owed - still_owed;
+    record->restitution.given_impulse += share < 1 ? given[0] + given[1] : owed - still_owed;
   }
   return given[0] > 0 || given[1] > 0;
 }

@@ -33,7 +33,9 @@ inline double collision_impulse(double approach_speed, double restitution, doubl
 ///   2. Restitution, as Poisson's share of the compression: ε times the impulse that compressed the contact.
 ///      One that is not limited leaves with v⁺ = −ε v⁻ in one step as Eq. (5) says; one that crushes, over as
 ///      many steps as the ice needs. Never more than twice ε times what would end the approach of its two
-///      bodies alone, so that a squeeze from elsewhere does not charge it.
+///      bodies alone, so that a squeeze from elsewhere does not charge it, and never more energy than compression took
+///      from the bodies of its island: over several steps the bodies turn, and the same impulse at other arms does
+///      other work.
 ///   3. Compression again, of what restitution pushed together.
 struct RestitutionLaw {
   double restitution = 0.1;  ///< ε of Eq. (5) [-]
@@ -43,6 +45,9 @@ struct RestitutionLaw {
   struct State {
     PersistentContact* record;  ///< null: nothing is kept from step to step
     double crushing_impulse;    ///< F Δt, infinite where nothing crushes [N s]
+    double stored_energy;       ///< that restitution may give back [J]
+    double taken_energy = 0;    ///< by the compression of this step, 0 where that gave energy [J]
+    double restored_work = 0;   ///< that it has given back in this step [J]
   };
 };
 
@@ -51,7 +56,8 @@ constexpr int substeps_of(const RestitutionLaw& /*law*/) {
   return 1;
 }
 inline RestitutionLaw::State state_of(const RestitutionLaw& law, const Contact& contact) {
-  return {contact.record, contact.crushing_force * law.step};
+  PersistentContact* const record = contact.record;
+  return {record, contact.crushing_force * law.step, record != nullptr ? record->stored_energy : 0};
 }
 void begin_substep(const RestitutionLaw& law, const ConstraintSpeeds& before, bool is_first,
                    RestitutionLaw::State& state, ContactConstraint& constraint);
@@ -67,15 +73,20 @@ inline double solve_block(const RestitutionLaw& /*law*/, RestitutionLaw::State& 
                           ContactConstraint& constraint, std::span<SolverBody> solver_bodies) {
   return solve_constraint(constraint, solver_bodies);
 }
-/// Gives back what a compression owes. Returns whether it gave any impulse, after which compression goes on.
-bool restore(const RestitutionLaw& law, bool is_converged, RestitutionLaw::State& state, ContactConstraint& constraint,
-             std::span<SolverBody> solver_bodies);
+/// The energy that the impulses of a contact have taken from its bodies, by the speeds before and after them [J].
+double energy_taken(const ConstraintSpeeds& before, const ConstraintSpeeds& after, const ContactConstraint& constraint);
+/// Gives back what a compression owes, as far as the energy lasts that the contacts of its island store [J]; what it
+/// gives back is taken from that. Returns whether it gave any impulse, after which compression goes on.
+bool restore(const RestitutionLaw& law, bool is_converged, double& stored, RestitutionLaw::State& state,
+             ContactConstraint& constraint, std::span<SolverBody> solver_bodies);
 inline void end_substep(const RestitutionLaw& /*law*/, const ConstraintSpeeds& /*before*/,
                         const ConstraintSpeeds& /*after*/, const ContactConstraint& /*constraint*/,
                         RestitutionLaw::State& /*state*/) {}
 inline void write_back(const RestitutionLaw& /*law*/, const RestitutionLaw::State& state,
                        const ContactConstraint& /*constraint*/, Contact& contact) {
   contact.is_at_limit = contact.total_normal_impulse() >= state.crushing_impulse * (1 - 1e-9);
+  contact.restored_work = state.restored_work;
+  if (state.record != nullptr) state.record->stored_energy = state.stored_energy;
 }
 
 struct SeparationSettings {

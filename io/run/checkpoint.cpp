@@ -20,7 +20,7 @@ void fields(Archive& archive, Is<Peak> auto& p) {
 }
 template <class Archive>
 void fields(Archive& archive, Is<ShipPeaks> auto& p) {
-  archive(p.ship, p.of_column);
+  archive(p.ship, p.of_column, p.of_contact);
 }
 template <class Archive>
 void fields(Archive& archive, Is<RecordedMotion> auto& r) {

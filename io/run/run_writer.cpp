@@ -199,8 +199,10 @@ void RunWriter::record(simulation::Journal& journal) {
     std::vector<Peak>& peaks = peaks_[static_cast<std::size_t>(sample.ship)].of_column;
     for (std::size_t i = 0; i < peaks.size(); ++i) peaks[i].include(peak_columns_[i]->read(sample), sample.time);
   }
-  for (const simulation::LoadPeak& peak : journal.peaks)
+  for (const simulation::LoadPeak& peak : journal.peaks) {
     append(kContacts, [&](std::string& line) { append_contact(line, peak.time, peak.state, scene_->scene); });
+    peaks_[static_cast<std::size_t>(peak.state.on.ship)].of_contact.include(peak.state.normal_force(), peak.time);
+  }
   for (const simulation::PanelSample& sample : journal.panels)
     append(kPanels, [&](std::string& line) { append_panel(line, sample, scene_->scene); });
   journal.clear();

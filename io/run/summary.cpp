@@ -22,12 +22,12 @@ namespace {
 using simulation::Simulation;
 
 void append(JsonWriter& json, const ShipPeaks& peaks, const std::vector<const ForceColumn*>& columns) {
+  const auto add = [&](std::string_view name, const Peak& peak) {
+    json.key(name).open('{').key("value").value(peak.value).key("t_s").value(peak.time).close('}');
+  };
   json.key("ship").value(peaks.ship);
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const Peak& peak = peaks.of_column[i];
-    json.key(columns[i]->name).open('{').key("value").value(peak.value);
-    json.key("t_s").value(peak.time).close('}');
-  }
+  add("contact_peak_N", peaks.of_contact);
+  for (std::size_t i = 0; i < columns.size(); ++i) add(columns[i]->name, peaks.of_column[i]);
 }
 
 void append_places(JsonWriter& json, const simulation::IceLedger& ledger, const std::string& amount) {
@@ -136,6 +136,7 @@ void append(JsonWriter& json, const simulation::Counts& counts) {
   json.key("snap_rounded").value(counts.snap_rounded);
   json.key("crowded_ticks").value(counts.crowded_ticks).key("body_steps").value(counts.body_steps);
   json.key("unresolved_splits").value(counts.unresolved_splits);
+  json.key("passing_steps").value(counts.passing_steps);
   json.key("unconverged_steps").value(counts.unconverged_steps);
   json.key("largest_left_over_m_per_s").value(counts.largest_residual);
   json.key("energy_created_J").value(counts.energy_created);
@@ -193,6 +194,10 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
   warn(counts.rejected_cuts, "rejected cut", "in events.ndjson, each with its reason");
   warn(counts.unresolved_splits, "split",
        "did not run: their contacts could not be stopped at the force that splits (unresolved_splits)");
+  warn(
+      counts.passing_steps, "step",
+      "in which more than half of a body lay within another: rigid impulses crush ice and do not remove it, at no step "
+      "(contact.law crush removes it); polynya inspect --check names the bodies");
   warn(counts.unconverged_steps, "step", "used all sweeps of the contact solver (contact.iterations)");
   warn(counts.crowded_ticks, "tick",
        "broke more ice in each of their parts than a hull takes apart in a step: loads depend on the step; give a "

@@ -33,6 +33,7 @@ struct Peak {
 struct ShipPeaks {
   std::string ship;
   std::vector<Peak> of_column;  ///< of each of peak_columns()
+  Peak of_contact;              ///< of one contact with ice along its normal, by the gauge [N]
 };
 
 /// Number of fractures: bends and splits. Ground overlaps and refused cuts are not counted.

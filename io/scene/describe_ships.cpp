@@ -37,7 +37,7 @@ const Description<ShipInput> kHull{
                   {{"lindqvist", true}, {"none", false}}, &ShipInput::spec, &Ship::hull, &Hull::has_speed_factor)}};
 
 const Description<EngineInput> kEngine{
-    {required(member("open_water_speed_m_per_s", "m/s", above(0, 30),
+    {required(member("open_water_speed_m_per_s", "m/s", from(0.1, 30),
                      "v_ow, full ahead in open water: the net thrust is nil there", &EngineInput::engine,
                      &Engine::open_water_speed)),
      left_out(member("bollard_pull_kN", "kN", above(0, 1e5),
@@ -45,7 +45,7 @@ const Description<EngineInput> kEngine{
                      &EngineInput::engine, &Engine::bollard_pull)),
      left_out(member("power_MW", "MW", above(0, 1000), "installed, of all propellers", &EngineInput::engine,
                      &Engine::power)),
-     left_out(member("propeller_diameter_m", "m", above(0, 50),
+     left_out(member("propeller_diameter_m", "m", from(0.1, 50),
                      "of each; if not given, .65 of the draught, for the race on the rudder",
                      &EngineInput::propeller_diameter)),
      member("propellers", "", from(1, 3), "how many", &EngineInput::propellers),

@@ -16,6 +16,14 @@ namespace {
 
 using JsonKind = JsonValue::Kind;
 
+/// Numbers that are not 0 are at least as large [in any unit]. Squares and cubes of smaller ones, and quotients by
+/// them, leave the range of doubles; a larger bound could refuse coordinates that differ from 0 by rounding alone.
+constexpr double kLeastMagnitude = 1e-100;
+
+bool is_tiny(const JsonValue& value) {
+  return value.is(JsonKind::kNumber) && value.number() != 0 && std::abs(value.number()) < kLeastMagnitude;
+}
+
 bool is_in(const Range& range, double value) {
   const bool low_ok = range.is_low_excluded ? value > range.low : value >= range.low;
   const bool high_ok = range.is_high_excluded ? value < range.high : value <= range.high;
@@ -49,7 +57,8 @@ std::string describe_range(const Field& field) {
 /// The innermost wrong part of a number, or of lists of numbers of these lengths; or null.
 const JsonValue* first_wrong_number(const Range& range, std::span<const Length> lengths, const JsonValue& value) {
   if (lengths.empty()) {
-    const bool is_right = value.is(JsonKind::kNumber) && std::isfinite(value.number()) && is_in(range, value.number());
+    const bool is_right =
+        value.is(JsonKind::kNumber) && std::isfinite(value.number()) && is_in(range, value.number()) && !is_tiny(value);
     return is_right ? nullptr : &value;
   }
   const auto [least, most] = lengths.front();
@@ -222,7 +231,8 @@ bool RecordReader::checked(const Field& field, const JsonValue& value, const std
 
 bool RecordReader::leaf(const Field& field, const JsonValue& value, const std::string& path, void* record) {
   if (const JsonValue* wrong = first_wrong(field, value)) {
-    report(wrong->offset, path, show(*wrong), describe_allowed(field),
+    const std::string size = is_tiny(*wrong) ? fmt::format(", 0 or at least {:g} in size", kLeastMagnitude) : "";
+    report(wrong->offset, path, show(*wrong), describe_allowed(field) + size,
            wrong->is(JsonKind::kText) ? nearest(wrong->text(), field.choices) : "");
     return false;
   }

@@ -20,6 +20,9 @@ using geometry::Polygon;
 using simulation::BodyKind;
 
 constexpr double kMostSteps = 1e9;
+/// Largest acceleration that a thrust may give a ship [m/s²]. Icebreakers have some 0.1. With a larger value, scenes
+/// are accepted whose ships exceed all speeds within a few steps.
+constexpr double kMostAcceleration = 10;
 constexpr std::size_t kMostOverlaps = 200;
 
 void check_water_and_time(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
@@ -31,6 +34,30 @@ void check_water_and_time(const SceneDraft& draft, const JsonValue& given, Probl
   if (scene.time.until / scene.time.step > kMostSteps)
     report("time.until_s", fmt::format("{:.3g} steps", scene.time.until / scene.time.step),
            fmt::format("at most {:g} steps", kMostSteps));
+}
+
+/// Rules between the keys of `contact`.
+void check_contact(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
+  const simulation::ContactSettings& contact = draft.scene.contact;
+  if (contact.normal == simulation::ContactNormal::kCircleCentres && contact.law == simulation::ContactLaw::kCrush)
+    ReportAt{problems, given, ""}(
+        "contact.normal",
+        "circle-centres with law crush, which needs the overlap of the bodies and not of their circles",
+        "boundary, or circle-centres with contact.law impulse");
+}
+
+/// Reports ships where a sheared current is faster than a run allows: the water takes them along.
+void check_currents_at_ships(const SceneDraft& draft, ProblemCollector& problems) {
+  const dynamics::ShearCurrent current = simulation::current_of(draft.scene.water.shear);
+  for (std::size_t i = 0; i < draft.scene.ships.size(); ++i) {
+    const double speed = length(current.velocity_at(draft.scene.ships[i].position_in_world));
+    if (speed < simulation::kRunawaySpeed) continue;
+    const Origin& origin = draft.hull_origins[i];
+    problems.report(origin.source, origin.offset, hull_path(draft, i),
+                    fmt::format("a ship in a current of {:.4g} m/s: water.shear grows with the distance", speed),
+                    fmt::format("a place where it is slower than {:g} m/s, or a smaller water.shear.rate_per_s",
+                                simulation::kRunawaySpeed));
+  }
 }
 
 /// The first floe of each entry whose own ice sinks.
@@ -118,6 +145,31 @@ void check_flow(const std::vector<dynamics::FlowRow>& rows, geometry::Vector con
              fmt::format("a time after that of the row before, {:g} [s]", rows[i - 1].time));
   if (!rows.empty() && constant != geometry::Vector{})
     report(keys.constant, "a velocity, and a table", "one of the two");
+}
+
+/// Reports thrusts that no ship has: by the acceleration, and by the speed at the end where no water slows the ship.
+void check_thrusts(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
+  const simulation::Scene& scene = draft.scene;
+  for (std::size_t i = 0; i < scene.ships.size(); ++i) {
+    const simulation::Ship& ship = scene.ships[i];
+    const double acceleration = std::abs(thrust_of(ship)) / ship.mass;
+    const auto report = [&](std::string found, std::string allowed) {
+      const std::string path = hull_path(draft, i) + ".propulsion";
+      problems.report(0, nearest_offset(given, path), path, std::move(found), std::move(allowed));
+    };
+    if (acceleration > kMostAcceleration) {
+      report(fmt::format("a thrust that accelerates the ship by {:.3g} m/s²", acceleration),
+             fmt::format("at most {:g} m/s²: a smaller thrust, or a larger mass_kg", kMostAcceleration));
+      continue;
+    }
+    const bool is_slowed = ship.water.acts || std::holds_alternative<simulation::Engine>(ship.propulsion);
+    const double speed = std::abs(ship.speed) + acceleration * scene.time.until;
+    if (!is_slowed && speed >= simulation::kRunawaySpeed)
+      report(fmt::format("a thrust that takes the ship to {:.3g} m/s by {:g} s, since no water slows it", speed,
+                         scene.time.until),
+             fmt::format("less than {:g} m/s: a smaller thrust, an earlier time.until_s, or water.model manoeuvring",
+                         simulation::kRunawaySpeed));
+  }
 }
 
 void check_speeds_of_ships(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
@@ -357,12 +409,15 @@ Polygon waterline_in_world(const simulation::PlacedHull& hull) {
 
 void check_without_ice(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
   check_water_and_time(draft, given, problems);
+  check_contact(draft, given, problems);
+  check_currents_at_ships(draft, problems);
   const simulation::Scene& scene = draft.scene;
   check_flow(scene.water.drift_rows, scene.water.drift, {"water.drift_table", "water.drift_m_per_s"}, given, problems);
   check_flow(scene.wind.rows, scene.wind.velocity, {"wind.table", "wind.velocity_m_per_s"}, given, problems);
   check_walls(draft, given, problems);
   check_hulls(draft, problems);
   check_speeds_of_ships(draft, given, problems);
+  check_thrusts(draft, given, problems);
 }
 
 void check_ice(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {

@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 
 #include "geometry/cut/overlap.hpp"
 #include "io/scene/gone_keys.hpp"
 #include "io/scene/scene_check.hpp"
+#include "simulation/ship/sailing.hpp"
+#include "simulation/world/default_tick.hpp"
 #include "simulation/world/parts.hpp"
 #include "simulation/world/population.hpp"
 
@@ -23,10 +26,15 @@ using simulation::Wall;
 constexpr double kSlenderBlock = 0.4, kFullBlock = 0.9;                        // [-]
 constexpr double kLeastDraughtOfBeam = 1 / 8.0, kMostDraughtOfBeam = 2 / 3.0;  // [-]
 constexpr double kMassError = 0.05;                                            ///< of what the hull displaces [-]
-constexpr double kFastestShip = 12;       ///< icebreakers reach 11 m/s in open water [m/s]
-constexpr double kFastestIce = 3;         ///< ice drifts at 1 m/s in a storm, at 3 m/s in tidal straits [m/s]
-constexpr double kThinnestIce = 0.01;     ///< thinner ice is grease and slush [m]
-constexpr double kThickestIce = 4;        ///< level ice grows no thicker; ridges are no plates [m]
+constexpr double kFastestShip = 12;    ///< icebreakers reach 11 m/s in open water [m/s]
+constexpr double kFastestIce = 3;      ///< ice drifts at 1 m/s in a storm, at 3 m/s in tidal straits [m/s]
+constexpr double kThinnestIce = 0.01;  ///< thinner ice is grease and slush [m]
+constexpr double kThickestIce = 4;     ///< level ice grows no thicker; ridges are no plates [m]
+/// Ticks in the period of a mooring from which its period is right to 0.2 %: by the midpoint rule it is too long by
+/// (ωΔt)²/12 [-]. More would warn of moorings that are right enough.
+constexpr double kLeastTicksInPeriod = 40;
+/// How many times shorter intervals of records may make a tick without a hint [-]. Below 2 they make it no shorter.
+constexpr double kShortenedTick = 2.5;
 constexpr double kKnots = 3600 / 1852.0;  ///< [kn / (m/s)]
 
 Vector ahead_of(const PlacedHull& hull) {
@@ -51,6 +59,7 @@ class SceneHints {
     for (std::size_t i = 0; i < scene_.ships.size(); ++i) {
       hint_at_mass(i);
       hint_at_mooring(i);
+      hint_at_period(i);
       hint_at_speed(i);
       hint_at_course(i);
     }
@@ -59,6 +68,7 @@ class SceneHints {
     hint_at_crossings();
     hint_at_drift();
     hint_at_step();
+    hint_at_intervals();
   }
 
  private:
@@ -109,6 +119,33 @@ class SceneHints {
       return;
     add(Severity::kWarning, i, "mooring",
         "all its stiffnesses and dampings are 0: it holds nothing; give surge_stiffness_N_per_m");
+  }
+
+  /// A mooring whose period is so short against the tick that its period comes out too long (docs/theory/ship.md).
+  void hint_at_period(std::size_t i) {
+    const Ship& ship = scene_.ships[i];
+    if (!ship.mooring || scene_.time.until <= scene_.time.step) return;
+    const simulation::Sailing sailing = simulation::sailing_of(ship, scene_.water.water.density);
+    const auto& added = sailing.hull.added_mass.rows;
+    const struct {
+      const char* way;
+      double stiffness, inertia;
+    } ways[] = {{"in surge", ship.mooring->surge_stiffness, ship.mass + added[0].surge},
+                {"in sway", ship.mooring->sway_stiffness, ship.mass + added[1].sway},
+                {"in yaw", ship.mooring->yaw_stiffness, ship.moment_of_inertia + added[2].yaw}};
+    const auto* stiffest =
+        std::ranges::max_element(ways, {}, [](const auto& way) { return way.stiffness / way.inertia; });
+    if (stiffest->stiffness == 0) return;
+    const double frequency = std::sqrt(stiffest->stiffness / stiffest->inertia);
+    const double period = 2 * std::numbers::pi / frequency, tick = scene_.time.step;
+    if (period >= kLeastTicksInPeriod * tick) return;
+    const double half_turn = 0.5 * frequency * tick;
+    add(Severity::kWarning, i, "mooring",
+        fmt::format(
+            "it swings {} with a period of {:.3g} s, which is {:.2g} ticks of {:g} s: the period comes out {:.2g} "
+            "times as long; give time.step_s {:.2g} s or less, or softer springs",
+            stiffest->way, period, period / tick, tick, half_turn / std::atan(half_turn),
+            period / kLeastTicksInPeriod));
   }
 
   void hint_at_speed(std::size_t i) {
@@ -225,9 +262,11 @@ class SceneHints {
       way = own;
       thickness = ice;
     };
-    for (const Ship& ship : scene_.ships) consider(std::abs(ship.speed), true);
+    const double drift = scene_.water.fastest_drift();  // speed of ice towards bodies that stand
+    for (const Ship& ship : scene_.ships) consider(std::max(std::abs(ship.speed), ship.mooring ? drift : 0), true);
+    if (!scene_.structures.empty()) consider(drift, true);
     for (const Wall& wall : scene_.walls)
-      consider(wall.pressure ? wall.pressure->closing_speed : length(wall.velocity), true);
+      consider(wall.pressure ? wall.pressure->closing_speed : std::max(length(wall.velocity), drift), true);
     for (const simulation::FloeSpec& floe : scene_.floes) consider(length(floe.velocity), false);
     const double most = way_in(thickness);
     if (way <= 1.005 * most) return;  // what the sentence below gives, rounded, will do
@@ -235,6 +274,28 @@ class SceneHints {
         fmt::format("at {:.3g} m/s bodies move {:.2g} m in a step, more than {}: loads depend on the step; "
                     "give {:.3g} s or less",
                     speed, way, most_way_as_text(thickness), most * scene_.time.step / way));
+  }
+
+  /// The chosen tick is much shorter than the motion of bodies needs, because it must fit into intervals of records.
+  void hint_at_intervals() {
+    const JsonValue* time = given_.find("time", JsonValue::Kind::kObject);
+    if (time != nullptr && time->find("step_s") != nullptr) return;
+    const double tick = scene_.time.step, longest = simulation::tick_for_any_interval(scene_);
+    if (longest < kShortenedTick * tick) return;
+    const struct {
+      const char* key;
+      double interval;
+    } intervals[] = {{"record.forces_interval_s", scene_.record.forces_interval},
+                     {"record.frames_interval_s", scene_.record.frames_interval}};
+    for (const auto& [key, interval] : intervals) {
+      const double ticks = std::max(1.0, std::round(interval / longest));
+      if (std::abs(interval / longest - ticks) < 1e-6 * ticks) continue;
+      add(Severity::kHint, key,
+          fmt::format(
+              "{:g} s is no whole number of ticks of {:g} s: the tick is therefore {:g} s and the run takes {:.3g} "
+              "times as many; give {:g} s, or time.step_s",
+              interval, longest, tick, longest / tick, ticks * longest));
+    }
   }
 
   const simulation::Scene& scene_;

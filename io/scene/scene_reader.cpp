@@ -331,10 +331,28 @@ class SceneReader {
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       if (!inputs[i]) continue;
       const JsonValue& item = items_of(given, list)[i];
+      const std::size_t problems = problems_.count();
       complete(*inputs[i], item, fmt::format("{}[{}]", list, i));
       if (draft_.hull_origins.size() < hull_count(draft_.scene))
         draft_.hull_origins.push_back({.offset = item.offset, .group = i, .kind = kind});
-      resolved_.find(list)->items().push_back(write(description, *inputs[i]));
+      JsonValue written = write(description, *inputs[i]);
+      if (problems_.count() == problems) check_completed(description, written, item, fmt::format("{}[{}]", list, i));
+      resolved_.find(list)->items().push_back(std::move(written));
+    }
+  }
+
+  /// Reports what follows from other particulars and is outside the range of its key, so that a run could not read its
+  /// own scene.json.
+  template <class Input>
+  void check_completed(const Description<Input>& description, const JsonValue& written, const JsonValue& given,
+                       const std::string& path) {
+    ProblemCollector found{SourceText{}};
+    Input again;
+    RecordReader(found).read(description, written, path, again);
+    for (const Problem& problem : found.take()) {
+      const std::string key = problem.path.substr(std::min(problem.path.size(), path.size() + 1));
+      ReportAt{problems_, given, path}(key, problem.found + ", which follows from what is given",
+                                       problem.allowed + "; give it, or change what it follows from");
     }
   }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/exact/measures.hpp"
+
 namespace polynya::simulation {
 namespace {
 
@@ -42,6 +44,7 @@ std::vector<EdgePart> edges_between(const geometry::Ring& ring, const NearestPla
 Waterline waterline_of(const geometry::Ring& ring) {
   Waterline line;
   line.ring = ring;
+  line.area = geometry::measure({ring, {}}).area;
   std::size_t foremost = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     line.arc.push_back(line.length);

@@ -12,6 +12,7 @@ struct Waterline {
   geometry::Ring ring;      ///< counter-clockwise, in the hull's frame [m]
   std::vector<double> arc;  ///< of each vertex from the first one [m]
   double length = 0;        ///< of all of it [m]
+  double area = 0;          ///< within it [m²]
   double stem_arc = 0;      ///< of the stem from the first vertex [m]
   double stem_x = 0;        ///< [m]
 };

@@ -28,7 +28,7 @@ Restraint restraint_of(const Population& population, FloeId id) {
   return population.floes[id].is_under ? Restraint::kUnderHull : Restraint::kFree;
 }
 
-/// A member of all records, in their order. Only the law of crushing ice has these.
+/// A member of all records, in their order, which only one of the two laws has.
 template <class Member>
 std::vector<Member> members(const std::vector<dynamics::PairState>& pairs,
                             Member dynamics::PersistentContact::*member) {
@@ -58,6 +58,7 @@ void write(Archive& archive, const World& world, const std::vector<dynamics::Pai
   if (world.setup.has_flooding_decks) archive(population.decks);
   archive(pairs);
   archive(members(pairs, &dynamics::PersistentContact::crushed));
+  if (has_restitution(world.setup)) archive(members(pairs, &dynamics::PersistentContact::stored_energy));
 }
 
 }  // namespace
@@ -122,7 +123,7 @@ class StateLoader {
     if (bytes_.is_well()) load_pairs();
     tail_fields(bytes_, world_);
     const Counts& counts = world_.accounts.counts;
-    for (const std::int64_t steps : {counts.steps_taken, counts.most_parts, counts.body_steps})
+    for (const std::int64_t steps : {counts.steps_taken, counts.most_parts, counts.body_steps, counts.passing_steps})
       bytes_.require(steps >= 0 && steps <= kMostCounted, "a number of steps that cannot be");
     const std::int64_t sampled_at = world_.accounts.sampled_at;
     bytes_.require(sampled_at >= 0 && sampled_at <= world_.clock.ticks, "a sample of a time to come");
@@ -348,6 +349,12 @@ class StateLoader {
     });
   }
 
+  void load_stored_energy(std::vector<dynamics::PairState>& pairs) {
+    constexpr auto kOther = "another number of stored energies than of contacts";
+    load_members(pairs, &dynamics::PersistentContact::stored_energy, kOther,
+                 [this](double energy) { bytes_.require(energy >= 0, "a negative energy of a contact"); });
+  }
+
   void load_booked(std::vector<dynamics::PairState>& pairs) {
     constexpr auto kOther = "another number of booked overlaps than of contacts";
     load_members(pairs, &dynamics::PersistentContact::booked, kOther, [this](const dynamics::Booked& b) {
@@ -360,6 +367,7 @@ class StateLoader {
     std::vector<double> separation_bound;
     bytes_(pairs);
     load_crushed_ice(pairs);
+    if (has_restitution(world_.setup)) load_stored_energy(pairs);
     bytes_(separation_bound);
     load_booked(pairs);
     bytes_.require(pairs.size() == separation_bound.size(), "another number of separation bounds than of pairs");

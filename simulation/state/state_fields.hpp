@@ -23,6 +23,11 @@ inline bool has_mooring(const Setup& setup, std::int32_t body) {
   return is_sailing(setup, body) && setup.scene.ships[body].mooring.has_value();
 }
 
+/// Whether contacts store energy that they give back, by the law of impulses.
+inline bool has_restitution(const Setup& setup) {
+  return setup.scene.contact.law == ContactLaw::kImpulse;
+}
+
 inline bool manages_ice(const Setup& setup, std::int32_t body) {
   return is_sailing(setup, body) && std::holds_alternative<ManagingPilot>(setup.scene.ships[body].pilot);
 }
@@ -184,8 +189,8 @@ void hull_fields(auto& archive, Is<World> auto& world, std::int32_t hull) {
 /// is alike.
 void tail_fields(auto& archive, Is<World> auto& world) {
   auto& counts = world.accounts.counts;
-  archive(world.accounts.masses, counts.unresolved_splits, counts.crowded_ticks, counts.steps_taken, counts.most_parts,
-          counts.body_steps, world.accounts.sampled_at);
+  archive(world.accounts.masses, counts.unresolved_splits, counts.passing_steps, counts.crowded_ticks,
+          counts.steps_taken, counts.most_parts, counts.body_steps, world.accounts.sampled_at);
   auto& audit = world.accounts.audit;
   archive(audit.moorings, audit.exchanged, audit.initial_momenta);
 }

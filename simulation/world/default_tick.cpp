@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
@@ -87,24 +88,38 @@ double thin_ice(const Scene& scene) {
   return found == ice.end() ? ice.back().first : found->first;
 }
 
-}  // namespace
-
-double default_tick(const Scene& scene) {
+/// Returns the longest tick in which no body moves too far [s].
+double longest_tick(const Scene& scene) {
   const double radius = scene.contact.circle_radius;
   const double way = most_way(scene.contact, thin_ice(scene));
   const double parts = scene.contact.law == ContactLaw::kCrush ? kPartsAtFullSpeed : 1;
-  const double longest = std::min(
+  return std::min(
       {parts * way / fastest_meeting(scene), way / fastest_floe(scene), kWayOverCircle * radius / fastest_rim(scene)});
+}
+
+/// Returns the longest of the choices that is no longer than a time and goes whole into each interval [s]; where none
+/// does, the longest that is no longer than that time, or the shortest choice.
+double chosen_tick(double longest, std::initializer_list<double> intervals) {
   const auto goes_into = [](double tick, double interval) {
     const double times = std::round(interval / tick);
     return times >= 1 && std::abs(interval / tick - times) < 1e-6 * times;
   };
   const auto fits = [&](double tick) { return tick <= longest * (1 + 1e-9); };
   for (const double tick : kTickChoices)
-    if (fits(tick) && goes_into(tick, scene.record.forces_interval) && goes_into(tick, scene.record.frames_interval))
+    if (fits(tick) && std::ranges::all_of(intervals, [&](double interval) { return goes_into(tick, interval); }))
       return tick;
   const auto* found = std::ranges::find_if(kTickChoices, fits);
   return found == kTickChoices.end() ? kTickChoices.back() : *found;
+}
+
+}  // namespace
+
+double default_tick(const Scene& scene) {
+  return chosen_tick(longest_tick(scene), {scene.record.forces_interval, scene.record.frames_interval});
+}
+
+double tick_for_any_interval(const Scene& scene) {
+  return chosen_tick(longest_tick(scene), {});
 }
 
 }  // namespace polynya::simulation

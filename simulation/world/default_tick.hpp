@@ -11,4 +11,7 @@ namespace polynya::simulation {
 /// hull stays within most_way() (parts.hpp) in a tick.
 double default_tick(const Scene& scene);
 
+/// Returns the same for records of any interval [s]: default_tick() is shorter only where an interval asks for it.
+double tick_for_any_interval(const Scene& scene);
+
 }  // namespace polynya::simulation

@@ -111,6 +111,9 @@ struct ContactState {
   double pressure = 0;                ///< nominal pressure: normal force / (width × height); 0 if two hulls touch [Pa]
   double thickness = 0;               ///< thickness of the ice, of two floes the smaller one; 0 if two hulls touch [m]
   PeakEnd ended_by = PeakEnd::kNone;  ///< cause that ended the peak; kNone for a contact that is not a peak
+
+  /// Returns the force along the contact's normal [N]; 0 if two hulls touch.
+  double normal_force() const { return pressure * width * height; }
 };
 
 /// A peak of the force of a contact between a hull and ice: the largest force between two times at which the force was
@@ -216,6 +219,9 @@ struct Counts {
   /// Number of splits that were given up because their contacts could not be stopped at the force that splits the floe
   /// (ice/split_instant.hpp).
   std::int64_t unresolved_splits = 0;
+  /// Number of time steps of the law of impulses in which an overlap was larger than half of the smaller of its two
+  /// bodies: rigid impulses crush ice and do not remove it, so that one body passes through the other.
+  std::int64_t passing_steps = 0;
   std::int64_t unconverged_steps = 0;  ///< number of time steps in which the contact solver used all its sweeps
   /// Largest residual of the contact solver after the last sweep of a step: speed by which a contact violates its law
   /// [m/s].

@@ -31,9 +31,10 @@ void enter_contacts(const dynamics::Bodies& bodies, std::vector<dynamics::Contac
   EnergyFlows& energy = accounts.audit.energy;
   double given = 0;
   for (dynamics::Contact& c : contacts) {
-    (c.is_at_limit ? energy.crushing : energy.restitution) -= c.normal_work;
+    (c.is_at_limit ? energy.crushing : energy.restitution) -= c.normal_work - c.restored_work;
+    energy.restitution -= c.restored_work;
     energy.friction -= c.slip_work;
-    given += c.normal_work + c.slip_work;
+    given += c.normal_work + c.slip_work - c.restored_work;
     if (bodies.inverse_mass[c.a] == 0 || bodies.inverse_mass[c.b] == 0)
       enter_prescribed_work(bodies, c, accounts.audit);
     if (!c.is_at_limit || c.approach_speed <= 0) continue;
@@ -57,6 +58,15 @@ void wake_pressed(const std::vector<dynamics::Contact>& contacts, Population& po
     wake(c.a, population);
     wake(c.b, population);
   }
+}
+
+/// Returns true if more than half of the smaller body of a contact lies within the other.
+bool is_passing(const Setup& setup, const Population& population, const dynamics::Contact& c) {
+  const auto area_of = [&](BodyIndex body) {
+    return population.is_hull(body) ? setup.waterlines[static_cast<std::size_t>(body)].area
+                                    : population.floes[static_cast<std::size_t>(population.floe_of(body))].area;
+  };
+  return c.area > 0.5 * std::min(area_of(c.a), area_of(c.b));
 }
 
 /// Adds the work and impulse of the water to the accounts.
@@ -119,6 +129,8 @@ void solve_collisions(const Setup& setup, const Step& step, Population& populati
   count(data.solver.solve(population.bodies, data.contacts, law, settings), accounts.counts);
   find_splits(setup, step, population, data.contacts, data.splits);
   dynamics::for_contacts(data.contacts, step.threads, [&](dynamics::Contact& c, std::size_t) { settle_collision(c); });
+  const auto passes = [&](const dynamics::Contact& c) { return is_passing(setup, population, c); };
+  accounts.counts.passing_steps += std::ranges::any_of(data.contacts, passes) ? 1 : 0;
   enter_contacts(population.bodies, data.contacts, accounts);
   wake_pressed(data.contacts, population);
 }

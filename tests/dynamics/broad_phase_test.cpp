@@ -321,5 +321,26 @@ TEST(HashGrid, PiecesOfAPlateHaveCellsOfTheirSize) {
   EXPECT_EQ(near(grid, box(-2000, 300, 5)), (std::set<BodyIndex>{}));
 }
 
+/// A wedge of 90° in a notch of the same angle: the overlap is a thin band along both flanks, 2 m deep along the normal
+/// and 0.2 m thick on average.
+TEST(DepthOfAContact, InANotchIsTheMeanThicknessOfTheOverlap) {
+  const geometry::Polygon notched{{{-6, -4}, {0, -4}, {0, -2}, {-2, 0}, {0, 2}, {0, 4}, {-6, 4}}, {}};
+  const geometry::Polygon wedge{{{-2.2, 0}, {-0.4, -1.8}, {6, -1.8}, {6, 1.8}, {-0.4, 1.8}}, {}};
+  for (const bool is_bounded : {true, false}) {
+    Bodies bodies;
+    for (const geometry::Polygon& floe : {notched, wedge}) add_floe(bodies, floe, geometry::measure(floe).centroid);
+    BroadPhase finder({.is_depth_bounded = is_bounded}, 20);
+    for (const BodyIndex i : all_of(bodies)) finder.add(bodies, i);
+    for (const BodyIndex i : all_of(bodies)) finder.wake(bodies, i);
+    finder.update(bodies, all_of(bodies));
+    std::vector<Contact> contacts;
+    finder.find_contacts(bodies, 0.01, contacts);
+    const Contact& contact = only(contacts);
+    EXPECT_NEAR(contact.width, 3.6, 1e-9);
+    EXPECT_NEAR(contact.area, 0.72, 1e-9);
+    EXPECT_NEAR(contact.depth, is_bounded ? 0.2 : 2.0, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace polynya::dynamics

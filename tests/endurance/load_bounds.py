@@ -285,17 +285,18 @@ def check_contacts(run, hulls, headings, floes, scene, verdict):
 
 
 def check_accounts(summary, law, verdict):
-    """The audit is closed, and no energy comes from contacts: altogether, and by law crush in no step."""
+    """The audit is closed, and no energy comes from contacts: altogether, and in no step. By law impulse a step gives
+    energy where its contacts give more than they and restitution have stored (`energy_created_J`)."""
     if summary["audit_closed"] is not True:
         verdict.faults.append(("audit", f"not closed: energy is off by {summary['energy']['imbalance_J']:.3g} J of "
                                         f"{summary['energy']['turnover_J']:.3g} J"))
     energy = summary["energy"]
     allowed = ENERGY_SHARE * energy["turnover_J"] + 1e-9
     created = summary["counts"]["energy_created_J"]
-    if law == "crush":  # rigid impulses give back later what they took: a single step may give
-        # Overlap that is not paid is pushed apart, which gives some energy (docs/theory/contact.md).
-        verdict.add("energy gained", created, PUSHED_APART_SHARE * energy["turnover_J"] + 1e-9,
-                    f"steps whose contacts gave more than they took: {created:.3g} J of {energy['turnover_J']:.3g} J")
+    # Overlap that is not paid is pushed apart by law crush, which gives some energy (docs/theory/contact.md).
+    share = PUSHED_APART_SHARE if law == "crush" else UNSOLVED_SHARE
+    verdict.add("energy gained", created, share * energy["turnover_J"] + 1e-9,
+                f"steps whose contacts gave more than they took: {created:.3g} J of {energy['turnover_J']:.3g} J")
     taken = energy["friction_J"] + energy["crushing_J"] + energy["restitution_J"]
     verdict.add("energy gained", -taken, allowed, f"contacts gave {-taken:.3g} J altogether")
 

@@ -82,6 +82,18 @@ TEST(Beam, OnTwoSupportsBendsByAQuarter) {
   EXPECT_NEAR(section_stress(ice, kWidth, load) / ice.flexural_strength, 1, 1e-12);
 }
 
+/// The elastic stress at a corner of a rectangular section: by N over h w, by M about the upright axis, 6 M/(h w²), by
+/// M_v about the level one, 6 M_v/(w h²).
+TEST(Beam, StressOfASectionIsThatOfEachLoadByItsOwnModulus) {
+  const Ice ice{.thickness = 0.8};
+  const double h = ice.thickness, w = kWidth;
+  EXPECT_DOUBLE_EQ(section_stress(ice, w, {kForce, 0, 0}), kForce / (h * w));
+  EXPECT_DOUBLE_EQ(section_stress(ice, w, {0, -kForce, 0}), 6 * kForce / (h * w * w));
+  EXPECT_DOUBLE_EQ(section_stress(ice, w, {0, 0, -kForce}), 6 * kForce / (w * h * h));
+  EXPECT_DOUBLE_EQ(section_stress(ice, w, {-kForce, kForce, kForce}),
+                   -kForce / (h * w) + 6 * kForce / (h * w * w) + 6 * kForce / (w * h * h));
+}
+
 TEST(Beam, ThatIsPushedAtItsEndIsPressedAlongIt) {
   const SectionLoad load = load_at(0, {{{-12, 0}, {kForce, 0}, 0}});
   EXPECT_NEAR(load.tension, -kForce / 2, 1e-6);

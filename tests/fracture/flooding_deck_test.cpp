@@ -153,6 +153,96 @@ TEST(FloodingDeck, DoesNotDependOnTheStepOfItsHull) {
   EXPECT_NEAR(work(deck, 4, nullptr, 20).sum() / work(deck, 4).sum(), 1, 0.1);
 }
 
+// ---- the numbers of docs/theory/bow.md, "Water on the deck of a turning cusp", by its closed forms
+
+/// The way of the hull at which a deck has turned by ψ: √(R² + h²) cos(ψ + θ_s − β) = x_w cos θ_s + h sin θ_s.
+double way_at_turn(const Deck& deck, double turn) {
+  const double r = deck.depth, h = deck.thickness, theta = deck.hull_angle;
+  return r - (std::hypot(r, h) * std::cos(turn + theta - std::atan2(h, r)) - h * std::sin(theta)) / std::cos(theta);
+}
+
+/// A deck at a turn ψ, strip by strip.
+struct Turned {
+  const Deck& deck;
+  double turn;
+
+  double at(int k) const { return (k + 0.5) * deck.depth / Deck::kStrips; }
+  double x(double r) const { return r * std::cos(turn) + deck.thickness * std::sin(turn); }
+  double z(double r) const { return r * std::sin(turn) + deck.thickness * (1 - std::cos(turn)) - deck.freeboard; }
+  double hull_depth(double r) const {
+    const double waterline = deck.depth - way_at_turn(deck, turn);
+    return std::max(0.0, (x(r) - waterline) / std::tan(deck.hull_angle) - deck.freeboard);
+  }
+  double deepest() const { return z(at(Deck::kStrips - 1)); }
+  /// Volume of a pool whose surface is that far below the water level [m³].
+  double pool(double surface) const {
+    double volume = 0;
+    for (int k = 0; k < Deck::kStrips; ++k) {
+      const double r = at(k);
+      volume += deck.strips[static_cast<std::size_t>(k)].width *
+                std::max(0.0, std::max(0.0, z(r)) - std::max(surface, hull_depth(r)));
+    }
+    return std::cos(turn) * deck.depth / Deck::kStrips * volume;
+  }
+};
+
+/// Inflow into a deck at that turn, measured over a time in which nothing else changes [m³/s].
+double inflow_at(const Deck& deck, double turn, double pool = 0) {
+  constexpr double kShort = 1e-9;  // [s]
+  DeckState state{way_at_turn(deck, turn), pool};
+  turn_deck(deck, kSea, {1, 0, kShort}, state);
+  return (state.pool - pool) / kShort;
+}
+
+TEST(FloodingDeck, AnArcThatOpensFloodsAsASharpEdgedOrifice) {
+  const Deck deck = rectangle(Beside::kSheet);
+  for (const double turn : {0.05, 0.1}) {  // r sin ψ < h at all strips
+    const Turned turned{deck, turn};
+    double flow = 0;
+    for (int k = 0; k < Deck::kStrips; ++k) {
+      const double r = turned.at(k), head = turned.z(r);
+      const double opening = r * (1 - std::cos(turn)) * deck.strips[static_cast<std::size_t>(k)].sheet_across;
+      if (head > 0) flow += 0.6 * opening * std::sqrt(2 * kGravity * head);
+    }
+    ASSERT_GT(flow, 0);
+    EXPECT_NEAR(inflow_at(deck, turn) / flow, 1, 1e-6) << turn;
+  }
+}
+
+TEST(FloodingDeck, AnEdgeOnOpenWaterFloodsOverItsCrestAndLessWhereThePoolBacksUp) {
+  const Deck deck = apart_from_sheet(rectangle(Beside::kWater));
+  const Turned turned{deck, 0.3};
+  for (const double surface : {turned.deepest(), 0.5 * turned.deepest(), 0.2 * turned.deepest()}) {
+    double flow = 0;
+    for (int k = 0; k < Deck::kStrips; ++k) {
+      const double head = turned.z(turned.at(k));
+      if (head <= 0) continue;
+      const double behind = std::max(0.0, head - surface) / head;
+      flow += deck.strips[static_cast<std::size_t>(k)].water * std::pow(2. / 3, 1.5) *
+              std::sqrt(kGravity * head * head * head) * std::pow(1 - std::pow(behind, 1.5), 0.385);
+    }
+    ASSERT_GT(flow, 0);
+    EXPECT_NEAR(inflow_at(deck, turned.turn, turned.pool(surface)) / flow, 1, 2e-3) << surface;
+  }
+}
+
+TEST(FloodingDeck, PressesAtALeverOfNotLessThanATenthOfItsDepth) {
+  Deck deck = rectangle(Beside::kSheet);
+  deck.freeboard = 0;
+  const double turn = 0.02;
+  const Turned turned{deck, turn};
+  const auto down = [&](double thrust) {
+    DeckState state{way_at_turn(deck, turn), 0};
+    return turn_deck(deck, kSea, {thrust, 0, 1e-9}, state).down;
+  };
+  const double up = deck.depth * std::sin(turn) - deck.thickness * std::cos(turn);  // negative: thrust takes it away
+  const double level = turned.x(deck.depth);
+  const auto thrust_for = [&](double lever) { return (lever - level) / up; };
+  for (const double share : {0.6, 0.3, 0.15})
+    EXPECT_NEAR(down(0) * level / (down(thrust_for(share * deck.depth)) * share * deck.depth), 1, 1e-9) << share;
+  EXPECT_NEAR(down(0) * level / (down(thrust_for(0.02 * deck.depth)) * 0.1 * deck.depth), 1, 1e-9) << "it jams";
+}
+
 // ---- the mass at the edge of a cusp that turns as it breaks off
 
 TEST(TurningCusp, WeighsAThirdOfItsIceAndHalfOfAPlatesWaterWhereItIsWide) {

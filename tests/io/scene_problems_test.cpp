@@ -69,7 +69,7 @@ TEST(SceneProblems, WhatNoFieldAloneCanTell) {
       {scene({R"("time": {"step_s": 0.005})",
               list("floes", {square(0, 0, 200, R"("angular_velocity_deg_per_s": 100)")})}),
        "time.step_s", "0.005: floes[0] moves 1.23 m in one step at 247 m/s"},
-      {scene({R"("time": {"step_s": 0.9})", list("ships", {small_ship})}), "time.step_s",
+      {scene({R"("time": {"step_s": 0.9, "until_s": 100})", list("ships", {small_ship})}), "time.step_s",
        "1.62 m in one step at 1.8 m/s"},
       {scene({list("ships", {ship(), ship()})}), "ships[1]", "an overlap with ships[0]"},
       {"{}", "", "neither ships nor floes"},
@@ -89,6 +89,32 @@ TEST(SceneProblems, WhatNoFieldAloneCanTell) {
       {scene_of_ship(ship(R"("calibration": {"load_factor": 1, "cusp_radius_factor": 0.7})")), "ships[0].calibration",
        "calibration factors were removed"},
   });
+}
+
+TEST(SceneProblems, WhatARunCouldNotReadBackOrEnd) {
+  const auto light = [](const std::string& members) {
+    return scene_of_ship(R"({"hull": {"length_m": 0.1, "beam_m": 0.1, "entrance_angle_deg": 45, "draught_m": 0.01,
+        "block_coefficient": 0.5}, "propulsion": {"constant_speed_m_per_s": 0})" +
+                         members + "}");
+  };
+  const std::string sheared = R"("water": {"shear": {"rate_per_s": 0.005}})";
+  expect_problems(
+      {{light(""), "ships[0].mass_kg", "0.05, which follows from what is given, allowed: a number ≥ 1", 2},
+       {light(R"(, "mass_kg": 1)"), "ships[0].moment_of_inertia_kg_m2", "which follows from what is given"},
+       {scene({R"("time": {"until_s": 1e-320})", list("floes", {square(0, 0, 9)})}), "time.until_s",
+        "0 or at least 1e-100 in size"},
+       {scene({list("floes", {square(1e-300, 0, 9)})}), "floes[0].rectangle.corner_m", "0 or at least 1e-100 in size"},
+       {scene({sheared, list("ships", {ship(R"("position_m": [0, 999999])")})}), "ships[0]",
+        "a ship in a current of 5000 m/s"},
+       {scene_of_ship(ship(R"("propulsion": {"thrust_N": 2e8})")), "ships[0].propulsion",
+        "accelerates the ship by 20 m/s², allowed: at most 10 m/s²"},
+       {scene({R"("time": {"until_s": 2000})", list("ships", {ship(R"("propulsion": {"thrust_N": -6e6})")})}),
+        "ships[0].propulsion", "to 1.2e+03 m/s by 2000 s, since no water slows it"},
+       {scene({R"("contact": {"normal": "circle-centres"})", list("floes", {square(0, 0, 9)})}), "contact.normal",
+        "boundary, or circle-centres with contact.law impulse"}});
+  load(light(R"(, "mass_kg": 1, "moment_of_inertia_kg_m2": 0.01)"));
+  load(scene({sheared, list("ships", {ship(R"("position_m": [0, 9999])")})}));
+  load(scene({R"("contact": {"normal": "circle-centres", "law": "impulse"})", list("floes", {square(0, 0, 9)})}));
 }
 
 /// A scene that is given something, and where that is.
@@ -394,7 +420,21 @@ TEST(SceneHints, HaveAPlaceASeverityAndNumbers) {
             "3: hint: ships[0].propulsion: ",
             {"18 m/s (35 kn)", "12 m/s"}},
         Row{{{"1e4}", "2e5}"}}, "4: hint: ships[1].propulsion: ", {"21 m/s by 100 s"}},
-        Row{{{"[0.1, 0]", "[0, 6]"}}, "1: hint: water.drift_m_per_s: ", {"6 m/s", "3 m/s"}}}) {
+        Row{{{"[0.1, 0]", "[0, 6]"}}, "1: hint: water.drift_m_per_s: ", {"6 m/s", "3 m/s"}},
+        Row{{{"[0.1, 0]", "[0, 2.9]"}, {"100}", R"(100, "step_s": 0.03}, "contact": {"law": "impulse"})"}},
+            "1: warning: time.step_s: ",
+            {"at 2.9 m/s", "give 0.0259 s or less"}},
+        Row{{{"100}", R"(100}, "record": {"forces_interval_s": 0.286})"}},
+            "1: hint: record.forces_interval_s: ",
+            {"0.286 s is no whole number of ticks of 0.1 s", "the tick is therefore 0.002 s", "50 times as many",
+             "give 0.3 s, or time.step_s"}},
+        Row{{{"100}", R"(100}, "record": {"frames_interval_s": 0.007})"}},
+            "1: hint: record.frames_interval_s: ",
+            {"the tick is therefore 0.001 s", "give 0.1 s"}},
+        Row{{{"1e4}", R"(1e4}, "mooring": {"sway_stiffness_N_per_m": 1e7})"}},
+            "4: warning: ships[1].mooring: ",
+            {"in sway with a period of 1.99 s", "20 ticks of 0.1 s", "1.008 times as long",
+             "give time.step_s 0.05 s"}}}) {
     const std::vector<Problem> hints = hints_of(changes);
     ASSERT_EQ(hints.size(), 1U) << begin;
     std::string text = to_string(hints[0]);
@@ -411,7 +451,10 @@ TEST(SceneHints, AreSilentWhereTheSceneMayMeanIt) {
   for (const Changes& changes :
        {Changes{}, Changes{{"[0.1, 0]", "[-2.5, 0]"}, kTurned},
         Changes{{"200]}}]", "200]}, \"velocity_m_per_s\": [-1, 0]}]"}, kTurned}, Changes{{"[50, -200]", "[50, -18]"}},
-        Changes{{"[50, -200]", "[200, 0]"}, {"[80, -50]", "[300, -50]"}}})
+        Changes{{"[50, -200]", "[200, 0]"}, {"[80, -50]", "[300, -50]"}},
+        Changes{{"100}", R"(100}, "record": {"forces_interval_s": 0.25})"}},
+        Changes{{"100}", R"(100, "step_s": 0.1}, "record": {"forces_interval_s": 0.286})"}},
+        Changes{{"1e4}", R"(1e4}, "mooring": {"sway_stiffness_N_per_m": 1e5})"}}})
     EXPECT_EQ(in_words(hints_of(changes)), "");
 }
 

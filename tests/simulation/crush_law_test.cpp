@@ -295,5 +295,26 @@ TEST(CrushingCollision, ByCircleCentresIsFeltLaterByAShareOfTheRadius) {
   EXPECT_NEAR(std::log(lags.front() / lags.back()) / std::log(32), 1, 0.3) << "its order";
 }
 
+/// A corner of 90° that comes onto a wall has F = 2 σ_c h ξ, so that it has given σ_c h ξ²/v at the depth ξ, wherever
+/// within a step it touches the wall.
+TEST(CrushLaw, ACornerHasGivenTheImpulseOfItsDepthThoughItIsFoundLate) {
+  const double speed = 0.5, step = 0.05, half = 60;
+  for (const double share : {0.1, 0.5, 0.9}) {  // of the way of a step, at which the contact is found
+    const double gap = (2 - share) * speed * step;
+    const geometry::Polygon corner{{{-gap, 0}, {-gap - half, half}, {-gap - 2 * half, 0}, {-gap - half, -half}}, {}};
+    Build scene = Build().step(step).without_drag().without_splits().unbreakable().floe(corner, {speed, 0});
+    scene.structure({{0, -5}, {10, -5}, {10, 5}, {0, 5}});
+    scene.ice.friction = 0;
+    Simulation simulation(scene);
+    const FloeState before = simulation.floe_states()[0];
+    while (simulation.floe_states()[0].velocity.x == before.velocity.x && simulation.time() < 1) skip(simulation);
+    const FloeState after = simulation.floe_states()[0];
+    const double depth = after.world_from_body.position.x - before.world_from_body.position.x - gap;
+    ASSERT_GT(depth, 0);
+    const double expected = scene.ice.compressive_strength * scene.ice.thickness * depth * depth / speed;
+    EXPECT_NEAR(before.mass * (before.velocity.x - after.velocity.x) / expected, 1, 0.01) << share;
+  }
+}
+
 }  // namespace
 }  // namespace polynya::simulation

@@ -94,6 +94,12 @@ TEST(Parts, ATickIsChosenBySpeedThicknessAndWhatIsRecorded) {
   EXPECT_EQ(tick(0.5, 2, [&](Scene& s) { s.floes.push_back(spinning); }), 0.01);           // 0.25 / (1 × 14.1) = 0.018
 }
 
+TEST(Parts, ATickThatAnIntervalShortensIsKnownWithoutIt) {
+  Scene scene = in_level_ice(0.5, 2, 0.005).recorded_every(0.286);
+  EXPECT_EQ(default_tick(scene), 0.002);
+  EXPECT_EQ(tick_for_any_interval(scene), 0.1);
+}
+
 TEST(Parts, AFewThinFloesDoNotChooseTheTick) {
   Build scene = in_level_ice(0.5, 8, 0.005).recorded_every(0.1);
   const double tick = default_tick(scene);

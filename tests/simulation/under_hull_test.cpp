@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "fracture/turning_cusp.hpp"
 #include "geometry/cut/cut.hpp"
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/measures.hpp"
+#include "simulation/ice/turning.hpp"
 #include "simulation/world/step.hpp"
 #include "tests/simulation/scenes.hpp"
 
@@ -339,6 +341,31 @@ TEST(Tilted, NoFloeStaysOneThatAHullHasCutInTwo) {
 TEST(Tilted, IsBookedAlikeWhereARunIsResumed) {
   EXPECT_FALSE(
       expect_resumes(floes_before_the_stem(24.5 * kDegree), 0.7, 1.5, 2).simulation.crushed_overlaps().empty());
+}
+
+/// A light ship that sets a heavy cusp in motion slows down by what she gives: afterwards the edge moves as fast as the
+/// hull slides it down.
+TEST(TurningCusp, MovesOnWithTheHullThatItSlows) {
+  const double speed = 2, slope = 0.8;
+  Ship light = with_draught(icebreaker({0, 0}, ConstantThrust{0}, speed));
+  light.mass = 2e4, light.moment_of_inertia = 1e7;
+  Build scene = Build().cusps(CuspFate::kUnderHull).ship(light).floe(rectangle(0.1, -50, 100, 50));
+  scene.fracture.floods_decks = false;
+  World world(scene);
+  PendingFracture bend;
+  bend.normal = {1, 0};
+  bend.push = {.speed = slope * speed, .speed_per_approach = slope, .horizontal = {0.9, 0}, .hull_angle = 0.7};
+  const dynamics::Bodies& bodies = world.population.bodies;
+  geometry::CutResult cut;
+  cut.pieces.push_back({{rectangle(0.1, -6, 6.1, 6)}, geometry::Part::kInside});
+  const fracture::Ice ice;
+  const double mass = fracture::edge_mass(ice, world.setup.scene.water.water, {72, 6, 12 * 6. * 6 * 6 / 3});
+  HullLoads loads;
+  turn_cusp(world.setup, bend, cut, world.population, {loads, world.accounts.audit});
+  const double given = (speed - bodies.velocity[0].x) * light.mass / 0.9;  // down on the edge [N s]
+  EXPECT_NEAR(given / mass, slope * bodies.velocity[0].x, 1e-9 * speed);
+  EXPECT_LT(bodies.velocity[0].x, 0.6 * speed) << "the cusp should weigh as much as the ship";
+  EXPECT_GT(bodies.velocity[0].x, 0);
 }
 
 }  // namespace

@@ -98,7 +98,8 @@ function stackedQuantities({ info: { force_causes: causes, ships }, forces }) {
 /** The quantities a run can show, by the first of their columns; those that not every run has come last, where they are
  * not 0. */
 function plotQuantities({ info, forces }) {
-  const labels = { mean: `${info.forces_interval_s} s mean`, max: "step maximum", paper: "j/\u03c4c (paper)" };
+  const labels = { mean: `${info.forces_interval_s} s mean`, max: "step maximum (depends on the step)",
+    paper: "j/\u03c4c (paper)" };
   const isShown = ({ name, is_optional }) => !is_optional || forces.some((rows) => rows[name].some(Boolean));
   const plots = new Map([false, true].flatMap((is_optional) =>
     info.force_columns.filter((column) => column.is_optional === is_optional).map(({ plot }) => [plot, []])));

@@ -31,7 +31,7 @@ def chosen(run, choice):
     scene = run.scene
     step = scene["time"]["step_s"]
     interval = max(1, round(scene["record"]["forces_interval_s"] / step)) * step
-    mean, largest = f"mean over {interval:.6g} s", f"largest single step of {step:.6g} s"
+    mean, largest = f"mean over {interval:.6g} s", "largest single step (depends on the step)"
     found = {"mean": [Load("", mean)], "max": [Load("_max", largest)]}
     found["true"] = found["mean"] + found["max"]
     if len(run.ship_names) > 1:
