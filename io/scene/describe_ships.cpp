@@ -49,8 +49,10 @@ const Description<EngineInput> kEngine{
                      "of each; if not given, .65 of the draught, for the race on the rudder",
                      &EngineInput::propeller_diameter)),
      member("propellers", "", from(1, 3), "how many", &EngineInput::propellers),
-     member("nozzles", "", {}, "true: ducted propellers, whose bollard pull by power is 1.4 times as much",
-            &EngineInput::has_nozzles),
+     member(
+         "nozzles", "", {},
+         "true: ducted propellers, whose bollard pull by power is 1.4 times as much and whose race does not contract",
+         &EngineInput::has_nozzles),
      member("astern_share", "", from(0, 1), "of the bollard pull, full astern", &EngineInput::engine,
             &Engine::astern_share),
      member("lever_rate_per_s", "1/s", above(0, 10), "of the thrust lever; 1 is full ahead", &EngineInput::engine,
@@ -80,9 +82,14 @@ const Description<HullWaterSettings> kHullWater{
             &HullWaterSettings::resistance_coefficient)}};
 
 const Description<RudderSettings> kRudder{
-    {left_out(member("area_m2", "m²", above(0, 1000), "A_R; if not given, .018 of length times draught",
+    {left_out(member("area_m2", "m²", above(0, 1000),
+                     "A_R, of all rudders together; if not given, .018 of length times draught",
                      &RudderSettings::area)),
-     member("aspect_ratio", "", from(0.1, 10), "Λ, height over chord", &RudderSettings::aspect_ratio),
+     left_out(member("count", "", from(1, 3),
+                     "number of rudders; if not given, one behind each propeller. A single rudder of a ship with two "
+                     "propellers stands between their races",
+                     &RudderSettings::count)),
+     member("aspect_ratio", "", from(0.1, 10), "Λ, height over chord of each", &RudderSettings::aspect_ratio),
      member("rate_deg_per_s", "°/s", above(0, 360), "by which it is laid", &RudderSettings::rate),
      member("max_deg", "°", from(0, 90), "to either side", &RudderSettings::most)}};
 
@@ -92,7 +99,7 @@ const Description<AzimuthSettings> kAzimuth{
      member("max_deg", "°", from(0, 180), "to either side", &AzimuthSettings::most)}};
 
 const Description<Steering> kSteering{
-    {of("rudder", required(object<Steering>("rudder", kRudder, "at the stern, in the race of the propellers"))),
+    {of("rudder", required(object<Steering>("rudder", kRudder, "at the stern, each in the race of a propeller"))),
      of("azimuth", required(object<Steering>("azimuth", kAzimuth, "thrusters at the stern that turn all thrust")))}};
 
 FieldOf<MooringInput> stiffness(std::string_view key, std::string_view unit, std::string_view meaning,
@@ -162,9 +169,12 @@ const Description<RammingPilot> kRam{
     {heading(&RammingPilot::heading),
      member("lever_ahead", "", above(0, 1), "when it charges", &RammingPilot::lever_ahead),
      member("lever_astern", "", below(-1, 0), "when it backs", &RammingPilot::lever_astern),
-     member("stuck_speed_m_per_s", "m/s", above(0, 20), "slower over ground is stuck", &RammingPilot::stuck_speed),
+     member("stuck_speed_m_per_s", "m/s", above(0, 20),
+            "slower than this over ground, ahead and astern, with the lever where it was ordered, is stuck",
+            &RammingPilot::stuck_speed),
      member("stuck_s", "s", above(0, 1e5), "for so long", &RammingPilot::stuck_time),
-     left_out(member("back_m", "m", above(0, 1e5), "how far it backs; if not given, its own length",
+     left_out(member("back_m", "m", above(0, 1e5),
+                     "how far it goes astern before the engine is turned ahead; if not given, its own length",
                      &RammingPilot::back_distance))}};
 
 const Description<FollowingPilot> kFollow{

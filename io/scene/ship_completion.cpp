@@ -114,10 +114,11 @@ class Completion {
     const std::string key = "propulsion.engine";
     const double diameter =
         input.propeller_diameter > 0 ? input.propeller_diameter : dynamics::kPropellerOfDraught * ship_.hull.draught;
+    engine.propellers = input.propellers;
+    engine.has_nozzles = input.has_nozzles.value_or(false);
     engine.propeller_area = input.propellers * 0.25 * std::numbers::pi * diameter * diameter;
     if (engine.bollard_pull == 0 && engine.power > 0 && input.propeller_diameter > 0)
-      engine.bollard_pull =
-          dynamics::bollard_pull(engine.power, diameter, input.propellers, input.has_nozzles.value_or(false));
+      engine.bollard_pull = dynamics::bollard_pull(engine.power, diameter, input.propellers, engine.has_nozzles);
     if (engine.bollard_pull == 0)
       return report_(key, "neither bollard_pull_kN nor power_MW with propeller_diameter_m",
                      "bollard_pull_kN, or power_MW and propeller_diameter_m");
@@ -163,6 +164,10 @@ class Completion {
       return report_("steering", "a rudder or thrusters without an engine", "propulsion.engine, or no steering");
     auto* rudder = std::get_if<simulation::RudderSettings>(&ship_.steering);
     if (!rudder) return;
+    const int propellers = std::get<simulation::Engine>(ship_.propulsion).propellers;
+    if (rudder->count > propellers)
+      return report_("steering.rudder.count", fmt::format("{}", rudder->count),
+                     fmt::format("at most one for each of propulsion.engine.propellers, {}", propellers));
     const auto d = dimensions();
     const double most = kLargestRudder * d.length * d.draught;
     if (rudder->area > 0 && most > 0 && rudder->area > most)

@@ -128,33 +128,8 @@ Command steer(const TablePilot& pilot, const PilotView& view, PilotMemory&) {
           from.steering_angle + share * (after->steering_angle - from.steering_angle)};
 }
 
-/// Whether the ship has been slower than that for so long in the direction it is to go.
-bool is_stuck(const RammingPilot& pilot, double speed, const PilotView& view, PilotMemory& memory) {
-  if (speed > pilot.stuck_speed) memory.slow_since = view.time;
-  return view.time - memory.slow_since >= pilot.stuck_time;
-}
-
 Command steer(const RammingPilot& pilot, const PilotView& view, PilotMemory& memory) {
-  const Point here = view.own().position_in_world;
-  const double heading = chosen(pilot.heading, memory);
-  if (memory.is_backing) {
-    const double back = pilot.back_distance > 0 ? pilot.back_distance : view.own().length;
-    const bool is_far = dot(memory.stuck_at - here, unit(heading)) >= back;
-    if (is_far || is_stuck(pilot, -view.speed_over_ground, view, memory)) {
-      memory.is_backing = false;
-      memory.slow_since = view.time;
-      ++memory.rams;
-    }
-  } else if (is_stuck(pilot, view.speed_over_ground, view, memory) && view.lever >= 0.99 * pilot.lever_ahead) {
-    memory.is_backing = true;
-    memory.slow_since = view.time;
-    memory.stuck_at = here;
-    if (memory.rams == 0) memory.first_stuck_at = here;
-  }
-  if (memory.rams > 0)
-    memory.distance_gained = std::max(memory.distance_gained, dot(here - memory.first_stuck_at, unit(heading)));
-  if (memory.is_backing) return {pilot.lever_astern, 0};
-  return {pilot.lever_ahead, steering_to_hold(heading, view)};
+  return ram(pilot, chosen(pilot.heading, memory), view, memory);
 }
 
 /// To where the leader's stern is, as fast as the leader and by the error of the distance.

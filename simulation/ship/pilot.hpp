@@ -77,9 +77,9 @@ struct PilotMemory {
   double drift_angle = 0;     ///< of the course over ground from the heading, smoothed [rad]
   std::int32_t waypoint = 0;  ///< the next one
   geometry::Point from;       ///< where the present leg begins [m]
-  bool is_backing = false;
-  double slow_since = 0;     ///< when the ship became slow [s]
-  geometry::Point stuck_at;  ///< where it was last stuck [m]
+  bool is_backing = false;    ///< the engine is ordered astern, to ram again
+  double slow_since = 0;      ///< since when the ship stands with the lever where it was ordered to [s]
+  geometry::Point stuck_at;   ///< where it was last stuck [m]
   geometry::Point first_stuck_at;
   std::int32_t rams = 0;       ///< charges after the first
   double distance_gained = 0;  ///< along the heading from where it was first stuck [m]
@@ -107,6 +107,9 @@ double lever_to_hold(double speed, const PilotView& view, PilotMemory& memory);
 
 /// Holds a heading: proportional to the error, damped by what the steering can do at the moment.
 double steering_to_hold(double heading, const PilotView& view);
+
+/// Rams along a heading [rad] (ram.cpp), and counts rams and metres gained.
+Command ram(const RammingPilot& pilot, double heading, const PilotView& view, PilotMemory& memory);
 
 /// Ice management (manage.cpp).
 Command steer(const ManagingPilot& pilot, const PilotView& view, PilotMemory& memory);

@@ -254,6 +254,19 @@ dynamics::HullInWater hull_in_water(const Ship& ship, const dynamics::Engine* en
   return hull;
 }
 
+/// The rudders of a ship. One of two propellers stands on the centreline, between their races.
+dynamics::Rudder rudder_of(const RudderSettings& settings, const Engine* engine, double position) {
+  const int propellers = engine ? engine->propellers : 1;
+  dynamics::Rudder rudder{.area = settings.area, .aspect_ratio = settings.aspect_ratio, .position = position};
+  rudder.count = settings.count > 0 ? settings.count : propellers;
+  const bool has_race = engine && !(rudder.count == 1 && propellers == 2);
+  if (!has_race) return rudder;
+  rudder.propeller_area = engine->propeller_area / propellers;
+  rudder.thrust_share = 1.0 / propellers;
+  rudder.has_nozzle = engine->has_nozzles;
+  return rudder;
+}
+
 }  // namespace
 
 Sailing sailing_of(const Ship& ship, double water_density) {
@@ -265,10 +278,7 @@ Sailing sailing_of(const Ship& ship, double water_density) {
   sailing.stern = sailing.hull.aft;
   if (engine) sailing.engine = *engine;
   if (const auto* rudder = std::get_if<RudderSettings>(&ship.steering)) {
-    sailing.rudder = dynamics::Rudder{.area = rudder->area,
-                                      .aspect_ratio = rudder->aspect_ratio,
-                                      .position = sailing.stern,
-                                      .race_area = engine ? engine->propeller_area : 0};
+    sailing.rudder = rudder_of(*rudder, engine, sailing.stern);
     sailing.steering_rate = rudder->rate;
     sailing.steering_most = rudder->most;
   }

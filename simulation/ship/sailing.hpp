@@ -4,6 +4,7 @@
 
 #include "dynamics/ship/manoeuvring.hpp"
 #include "dynamics/ship/propulsion.hpp"
+#include "dynamics/ship/rudder.hpp"
 #include "simulation/world/scene.hpp"
 
 namespace polynya::simulation {

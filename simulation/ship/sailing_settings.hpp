@@ -25,12 +25,13 @@ struct HullWaterSettings {
 struct NoSteering {
   friend bool operator==(const NoSteering&, const NoSteering&) = default;
 };
-/// A rudder at the stern, in the race of the propellers.
+/// Rudders at the stern.
 struct RudderSettings {
-  double area = 0;                            ///< A_R [m²]
-  double aspect_ratio = 1.5;                  ///< Λ [-]
+  double area = 0;                            ///< A_R, of all together [m²]
+  double aspect_ratio = 1.5;                  ///< Λ of each [-]
   double rate = 3 * std::numbers::pi / 180;   ///< [rad/s]
   double most = 35 * std::numbers::pi / 180;  ///< to either side [rad]
+  int count = 0;                              ///< number of rudders; 0: one behind each propeller [-]
   friend bool operator==(const RudderSettings&, const RudderSettings&) = default;
 };
 /// Thrusters at the stern that turn about the vertical.

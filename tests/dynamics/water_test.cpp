@@ -200,7 +200,7 @@ TEST(WaterDrag, AFreeFloeSlowsAndStopsItsSpinAsTheClosedForms) {
   }
 }
 
-// ---- the water around a hull, propellers, rudders
+// ---- the water around a hull, propellers
 
 /// The reference ship of the project's physics notes.
 constexpr MainDimensions kShip{120, 24, 6, 0.579};
@@ -317,40 +317,7 @@ TEST(Propulsion, ASettingGoesToTheWantedOneAtItsRate) {
   EXPECT_DOUBLE_EQ(approach(0.95, 1, 0.05, 2), 1);
 }
 
-TEST(Rudder, TurnsAShipToTheSideItIsLaidTo) {
-  const Rudder rudder{.area = 13, .position = -60};
-  const Planar to_port = rudder_force(rudder, 0.3, {6, 0, 0}, 0, 1000);
-  EXPECT_LT(to_port.surge, 0);
-  EXPECT_LT(to_port.sway, 0) << "the stern goes to starboard";
-  EXPECT_GT(to_port.yaw, 0);
-  const Planar to_starboard = rudder_force(rudder, -0.3, {6, 0, 0}, 0, 1000);
-  EXPECT_DOUBLE_EQ(to_starboard.yaw, -to_port.yaw);
-  EXPECT_LT(rudder_force(rudder, 0.3, {-2, 0, 0}, 0, 1000).yaw, 0) << "astern it turns her the other way";
-}
-
-TEST(Rudder, HasTheNormalForceOfAFoil) {
-  const Rudder rudder{.area = 10, .aspect_ratio = 2, .position = -60, .wake_fraction = 0, .hull_factor = 0};
-  const double normal = 0.5 * 1000 * 10 * 6.13 * 2 / 4.25 * 25 * std::sin(0.2);
-  expect_near(rudder_force(rudder, 0.2, {5, 0, 0}, 0, 1000),
-              {-normal * std::sin(0.2), -normal * std::cos(0.2), 60 * normal * std::cos(0.2)}, {1e-6, 1e-6, 1e-4});
-}
-
-TEST(Rudder, TheRaceTurnsAShipAtRest) {
-  Rudder rudder{.area = 13, .position = -60};
-  EXPECT_EQ(rudder_force(rudder, 0.5, {}, 5e5, 1000).yaw, 0);
-  rudder.race_area = 15;
-  EXPECT_GT(rudder_force(rudder, 0.5, {}, 5e5, 1000).yaw, 1e6);
-  EXPECT_EQ(rudder_force(rudder, 0.5, {}, -5e5, 1000).yaw, 0) << "the race of a propeller astern goes ahead";
-}
-
-TEST(Rudder, AmidshipsItDampsTheTurn) {
-  const Rudder rudder{.area = 13, .position = -60, .race_area = 15};
-  const Planar turning{4, 0.1, 0.02};
-  EXPECT_LT(dot(turning, rudder_force(rudder, 0, turning, 3e5, 1000)), 0);
-  EXPECT_LT(rudder_force(rudder, 0, {4, 0, 0.02}, 3e5, 1000).yaw, 0);
-}
-
-TEST(Rudder, ThrustersTurnTheirThrust) {
+TEST(Propulsion, ThrustersTurnTheirThrust) {
   EXPECT_EQ(turned_thrust(1e6, 0, -50), (Planar{1e6, 0, 0}));
   expect_near(turned_thrust(1e6, M_PI / 2, -50), {0, -1e6, 5e7}, {1e-9, 1e-6, 1e-4});
 }

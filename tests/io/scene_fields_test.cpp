@@ -44,7 +44,8 @@ const std::string kFourth = scene({list(
     "ships",
     {sailing_ship(
          R"("propulsion": {"engine": {"power_MW": 15, "propeller_diameter_m": 4, "propellers": 2, "nozzles": true,
-       "open_water_speed_m_per_s": 8}}, "steering": {"rudder": {"area_m2": 12}}, "pilot": {"constant": {}})"),
+       "open_water_speed_m_per_s": 8}}, "steering": {"rudder": {"area_m2": 12, "count": 1}},
+       "pilot": {"constant": {}})"),
      ship(
          R"("hull": {"draught_m": 6}, "mass_kg": 7e6, "position_m": [0, 500], "steering": {"azimuth": {"max_deg": 90}},
        "propulsion": {"engine": {"bollard_pull_kN": 900, "open_water_speed_m_per_s": 7}},

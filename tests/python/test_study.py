@@ -13,6 +13,7 @@ import time
 import pytest
 
 from program import rows, started
+from polynya.study import measures
 from study_command import OF_PYTHON, files_of, folder, gathered, planned, study, write_study
 
 
@@ -228,6 +229,17 @@ def test_measures_are_those_of_the_run(folder):
     assert float(row["time_to_far_s"]) == pytest.approx(20, abs=0.11)
     # What holds the ship to its speed is what the ice takes from it.
     assert float(row["energy_per_km_J"]) == pytest.approx(1000 * float(row["resistance_mean_N"]), rel=1e-6)
+
+
+def test_rams_are_measured_from_one_charge_to_the_next():
+    columns = {"t_s": [1, 2, 3, 4, 5, 6], "heading_deg": [0] * 6, "vy_m_per_s": [0] * 6,
+               "vx_m_per_s": [0, -1, 5, 3, -1, 9], "rams": [0, 1, 1, 1, 2, 2], "gained_m": [0, 0, 4, 6, 6, 6]}
+    found = measures.of_rams(columns)
+    assert (found["rams"], found["gained_m"]) == (2, 6)
+    assert (found["ram_gain_m"], found["ram_time_s"], found["ram_speed_m_per_s"]) == (6, 3, 5)
+    few = measures.of_rams(columns | {"rams": [0, 1, 1, 1, 1, 1]})
+    assert few["rams"] == 1 and few["ram_gain_m"] is None
+    assert measures.of_rams({"t_s": [1]}) == {}
 
 
 def names_in(folder):

@@ -248,14 +248,34 @@ TEST(Sailing, TurningCirclesAreThoseOfShips) {
     EXPECT_GT(value, low);
     EXPECT_LT(value, high);
   };
-  // A prototype of these laws had these ranges over C_d .4 to .8. The IMO asks of ships a tactical diameter of 5 and an
-  // advance of 4.5 (MSC.137(76)).
-  expect_within(turn(10).steady_diameter, 8.1, 9.7);
-  expect_within(turn(20).steady_diameter, 4.4, 5.4);
-  expect_within(full.steady_diameter, 2.2, 2.8);
-  expect_within(full.tactical_diameter, 3.1, 3.8);
-  expect_within(full.advance, 2.6, 2.9);
-  expect_within(full.speed_kept, 0.36, 0.45);
+  // docs/validation.md has the values. The IMO asks of ships a tactical diameter of 5 and an advance of 4.5
+  // (MSC.137(76)).
+  expect_within(turn(10).steady_diameter, 8.4, 10.0);
+  expect_within(turn(20).steady_diameter, 4.8, 5.7);
+  expect_within(full.steady_diameter, 2.6, 3.2);
+  expect_within(full.tactical_diameter, 3.4, 4.2);
+  expect_within(full.advance, 2.8, 3.4);
+  expect_within(full.speed_kept, 0.45, 0.55);
+}
+
+/// No steady lever ahead and rudder angle make a ship go astern, or faster than at full power straight on.
+TEST(Sailing, NoSteadyCommandMakesAShipGoAsternOrTooFast) {
+  const RudderSettings single{.area = 0.018 * kLength * 6, .most = M_PI / 2};
+  const RudderSettings large{.area = 0.07 * kLength * 6, .most = M_PI / 2};
+  Engine twin = engine();
+  twin.propellers = 2;
+  for (const auto& [engine, rudder] : {std::pair{engine(), single}, {twin, single}, {twin, large}})
+    for (const double lever : {0.2, 1.0})
+      for (const double degrees : {0, 20, 35, 45, 60, 70, 80, 90}) {
+        Scene scene = in_water(engine, 0, 0.2).recorded_every(10);
+        scene.ships[0].steering = rudder;
+        scene.ships[0].pilot = ConstantPilot{lever, degrees * kDegree};
+        for (const HullSample& s : sail(scene, 900)) {
+          ASSERT_GE(dot(s.velocity_in_world, geometry::Vector{std::cos(s.heading), std::sin(s.heading)}), 0)
+              << lever << ", " << degrees << "°, " << s.time << " s";
+          ASSERT_LT(length(s.velocity_in_world), 8) << lever << ", " << degrees << "°, " << s.time << " s";
+        }
+      }
 }
 
 // ---- pilots
@@ -332,24 +352,6 @@ TEST(Pilot, MakesGoodADriftAcrossItsRoute) {
   for (const HullSample& s : sail(piloted(RoutePilot{{{{4000, 0}, 4}}}).drift({0, 0.5}), 900))
     if (s.position_in_world.x < 3800) last = s.position_in_world.y;
   EXPECT_NEAR(last, 0, 4);
-}
-
-TEST(Pilot, RamsThickIceAndCountsIt) {
-  const std::vector<HullSample> samples = sail(piloted(RammingPilot{.stuck_time = 5, .back_distance = 60}, 3)
-                                                   .unbreakable()
-                                                   .step(0.02)
-                                                   .thickness(3)
-                                                   .floe(rectangle(100, -800, 1500, 800)),
-                                               500);
-  const HullSample& last = samples.back();
-  EXPECT_GE(last.rams, 2);
-  EXPECT_GT(last.distance_gained, 0);
-  double farthest = 0, first = 0;
-  for (const HullSample& s : samples) {
-    farthest = std::max(farthest, s.position_in_world.x);
-    if (s.rams == 0) first = std::max(first, s.position_in_world.x);
-  }
-  EXPECT_NEAR(last.distance_gained, farthest - first, 0.1);
 }
 
 TEST(Pilot, FollowsAShipAtADistance) {

@@ -78,6 +78,7 @@ def measures_of_ship(columns, collect):
         if f"{name}_max_{unit}" in columns:
             found[f"{name}_step_peak_{unit}"] = max((abs(value) for value in of(f"{name}_max_{unit}")), default=None)
     found.update(of_motion(columns, kept, collect))
+    found.update(of_rams(columns))
     for name, target in collect.get("time_to", {}).items():
         found[f"time_to_{name}_s"] = time_to(columns, target)
     return found
@@ -133,6 +134,25 @@ def of_motion(columns, kept, collect):
         "final_y_m": columns["y_m"][-1],
         "final_heading_deg": columns["heading_deg"][-1],
     }
+
+
+def of_rams(columns):
+    """Of a ship that rams: how often it charged after its first charge, and the mean of the charges from one begin to
+    the next: the way gained, the time, and the largest speed ahead. A charge begins where `rams` grows."""
+    if "rams" not in columns:
+        return {}
+    rams, gained, times = columns["rams"], columns["gained_m"], columns["t_s"]
+    begins = [i for i in range(1, len(rams)) if rams[i] > rams[i - 1]]
+    found = {"rams": rams[-1], "gained_m": gained[-1]}
+    found |= {"ram_gain_m": None, "ram_time_s": None, "ram_speed_m_per_s": None}
+    if len(begins) < 2:
+        return found
+    charges = len(begins) - 1
+    fastest = [max(forward_speed(columns, i) for i in range(a, b)) for a, b in zip(begins, begins[1:])]
+    found["ram_gain_m"] = (gained[begins[-1]] - gained[begins[0]]) / charges
+    found["ram_time_s"] = (times[begins[-1]] - times[begins[0]]) / charges
+    found["ram_speed_m_per_s"] = math.fsum(fastest) / charges
+    return found
 
 
 def forward_speed(columns, i):
