@@ -58,7 +58,7 @@ if is_asked micro; then
   tables+=(micro="$out/micro.csv")
 fi
 if is_asked million; then
-  python3 tools/million_floes.py build/bench/app/polynya --until $([ ${#quick[@]} -gt 0 ] && echo 1 || echo 10) |
+  python3 bench/million_floes.py build/bench/app/polynya --until $([ ${#quick[@]} -gt 0 ] && echo 1 || echo 10) |
     tee "$out/million.md"
   tables+=(million="$out/million.md")
 fi

@@ -12,7 +12,7 @@ known. It may be interrupted: a label's runs that FILE has are not repeated. `--
 A place is one of seven shifts of the ship, or of the structure where there is no ship, 3.1 m apart to its side. The
 next seven places have the same shifts and the next seed of the scene, and so on. Level ice is the same at all shifts.
 So in level-brash and level-plate the thickness differs as well, by up to 3 %, and the mean surge is brought back to the
-scene's thickness by h^1.8, as tools/step_ensemble.py does.
+scene's thickness by h^1.8.
 
 The mean surge is that by contact of the first ship, after 15 s and after a tenth of the run; of a structure it is the
 length of the mean force. The processor's time is that of the run in user and system mode, start-up and all, without

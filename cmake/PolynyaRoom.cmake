@@ -29,7 +29,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86
 endif()
 
 # Headers of the standard library and of fmt are compiled once for all rooms instead of in every source: a third of the
-# time. Sources include what they use all the same (`./test -L odr` compiles each without this).
+# time. Sources include what they use all the same (`./test -L fuzz` compiles each by itself).
 set(POLYNYA_HEADERS <algorithm> <array> <charconv> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map>
   <memory> <numbers> <numeric> <optional> <ranges> <set> <span> <sstream> <string> <string_view> <system_error>
   <unordered_map> <utility> <variant> <vector> <fmt/format.h> <fmt/ranges.h> <tl/expected.hpp>)

@@ -2,9 +2,10 @@
 
     python3 cmake/check_odr.py SOURCE WORK      objects go to WORK
 
-Compiles every source of the libraries, the program and the Python module without optimisation, for the link-time
-optimiser, and links all of them at once. First it does so with two sources of its own that declare one name as two
-types: a compiler that does not report those checks nothing. Objects are kept: only what changed is compiled again.
+Compiles the libraries, the program and the Python module without optimisation, for the link-time optimiser, and links
+all of it at once. Sources that are built together are compiled together: a type that two of these have is an error of
+the compiler. First it does so with two sources of its own that declare one name as two types: a compiler that does not
+report those checks nothing. Objects are kept: only what changed is compiled again.
 """
 import concurrent.futures
 import json
@@ -15,7 +16,7 @@ import shlex
 import subprocess
 import sys
 
-ROOMS = ["geometry", "dynamics", "fracture", "simulation", "io", "analysis", "views", "app", "python"]
+ROOMS = ["geometry", "dynamics", "fracture", "simulation", "io", "analysis", "views", "app", "python_module"]
 PLANTED = {
     "planted_a.cpp": "namespace polynya { struct Planted { int a; }; int use(Planted p) { return p.a; } }",
     "planted_b.cpp": "namespace polynya { struct Planted { double b; }; int use(Planted* p) { return p->b > 0; } }",
@@ -76,20 +77,26 @@ def find_planted(cxx, work):
     return any("Planted" in line for line in found)
 
 
-def entries(source, build):
-    """(words, file, folder) of each source of the product, once."""
-    seen = set()
-    for entry in json.loads((build / "compile_commands.json").read_text()):
+def entries(source, tree):
+    """(words, file, folder, name) of each compilation of the product."""
+    for entry in json.loads((tree / "compile_commands.json").read_text()):
         file = pathlib.Path(entry["file"])
-        within = file.relative_to(source).parts if file.is_relative_to(source) else ()
-        if within and within[0] in ROOMS and file not in seen:
-            seen.add(file)
-            yield compiler(entry["command"]), file, entry["directory"]
+        name = file.relative_to(tree if file.is_relative_to(tree) else source)
+        if name.parts[0] in ROOMS:
+            yield compiler(entry["command"]), file, entry["directory"], "-".join(name.parts)
+
+
+def make_sources(tree, files):
+    """Those that the build makes and these include."""
+    included = {name for file in files for name in re.findall(r'^#include "(/.*)"', file.read_text(), re.MULTILINE)}
+    made = sorted(name for name in included if not pathlib.Path(name).exists())
+    if made:
+        subprocess.run(["cmake", "--build", tree, "--target", *made], stdout=subprocess.DEVNULL, check=True)
 
 
 def main(source, work):
     tree = work / "tree"
-    configure = ["cmake", "--preset", "sources", "-S", source, "-B", tree, "-DPOLYNYA_BUILD_TESTS=OFF"]
+    configure = ["cmake", "--preset", "dev", "-S", source, "-B", tree, "-DPOLYNYA_BUILD_TESTS=OFF"]
     subprocess.run(configure, cwd=source, stdout=subprocess.DEVNULL, check=True)
     sources = list(entries(source, tree))
     if not sources:
@@ -97,14 +104,15 @@ def main(source, work):
     cxx = sources[0][0][0]
     if not find_planted(cxx, work):
         raise SystemExit(f"check_odr: {cxx} does not report two planted types of one name: nothing is checked")
-    objects = [work / (str(file.relative_to(source)).replace("/", "-") + ".o") for _, file, _ in sources]
+    make_sources(tree, [file for _, file, _, _ in sources])
+    objects = [work / f"{name}.o" for *_, name in sources]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         made = pool.map(lambda entry, out: compile_one(entry[0], entry[1], out, entry[2]), sources, objects)
-        for (_, file, _), failure in zip(sources, made):
+        for (_, file, *_), failure in zip(sources, made):
             if failure:
                 raise SystemExit(f"check_odr: {file} does not compile:\n{failure[-3000:]}")
     found, text = reports_of_link(cxx, objects, work)
-    print(text if found else f"{len(objects)} sources, no name with two types; two planted ones were found")
+    print(text if found else f"{len(objects)} compilations, no name with two types; two planted ones were found")
     return 1 if found else 0
 
 

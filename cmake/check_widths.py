@@ -11,7 +11,8 @@ import re
 import sys
 
 MOST_COLUMNS = 120
-SKIPPED_FOLDERS = {".git", "build", "node_modules", "__pycache__", "runs", "studies", "vendor", "images"}
+SKIPPED_FOLDERS = {".git", "build", "node_modules", "__pycache__", "runs", "vendor", "images"}
+STUDIES_KEPT = {"benches", "scenes"}  # in studies/, where `polynya study` makes folders, too
 # Data, written by programs or kept as they came.
 DATA = re.compile(r"\.(csv|geojson|svg|png|gif|ico)$|_corpus/|^tests/geometry/.*\.txt$|^tests/passing/.*\.json$|"
                   r"^tests/mutation/.*\.ndjson$|^fracture/bending/default_database\.txt$|"
@@ -22,6 +23,8 @@ JSON_STRING = re.compile(r'\s*"\w+": "[^"]*",?$')
 def texts(root):
     for folder, folders, files in os.walk(root):
         folders[:] = sorted(set(folders) - SKIPPED_FOLDERS)
+        if pathlib.Path(folder) == pathlib.Path(root, "studies"):
+            folders[:] = [kept for kept in folders if kept in STUDIES_KEPT]
         for name in sorted(files):
             path = pathlib.Path(folder, name).relative_to(root).as_posix()
             if DATA.search(path):

@@ -44,7 +44,7 @@ inline bool leaves_strip(double length, double left_area, double right_area) {
 }
 
 /// How a crack turns that begins beside a free edge, at a distance b from it: by the largest hoop stress, in
-/// finite elements (tools/crack_plate.py, docs/theory/splitting.md). Two straight legs stand for its path:
+/// finite elements (studies/benches/crack_plate.py, docs/theory/splitting.md). Two straight legs stand for its path:
 /// end and area are right within 1 %, and nowhere is it more than 0.1 b off.
 struct TurningCrack {
   double peak = 0.35;      ///< its length where the force is largest, of b [-]

@@ -1,10 +1,8 @@
 #include "simulation/state/state.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 #include <utility>
 #include <vector>
@@ -90,7 +88,6 @@ namespace {
 constexpr double kFarthestPosition = 1e9;           ///< from the origin that a body can have gone [m]
 constexpr double kFastestBody = 8 * kRunawaySpeed;  ///< pieces of a fracture may turn faster for one step [m/s]
 constexpr double kMostTurned = 1e9;                 ///< by a body [rad]
-constexpr double kLongestCusp = 1e4;                ///< [m]
 constexpr double kOutside = 1e-3;  ///< rounded vertices may stand outside the scene's ice by less than that [m]
 
 /// Where the ice of a scene was at the start: its floes' frames, in which their pieces stay.
@@ -101,7 +98,8 @@ geometry::Box ice_box(std::span<const FloeSpec> floes) {
   return geometry::grown(box, kOutside);
 }
 
-/// Fills an empty world from bytes, checking each value.
+/// Fills an empty world from bytes. What is checked here is what the next value or a container needs: numbers of
+/// bodies, shapes and places. Whether the values make a world is for validate_world.
 class StateLoader {
  public:
   StateLoader(World& world, std::string_view bytes)
@@ -122,11 +120,6 @@ class StateLoader {
     if (bytes_.is_well()) load_ice_at_hulls();
     if (bytes_.is_well()) load_pairs();
     tail_fields(bytes_, world_);
-    const Counts& counts = world_.accounts.counts;
-    for (const std::int64_t steps : {counts.steps_taken, counts.most_parts, counts.body_steps, counts.passing_steps})
-      bytes_.require(steps >= 0 && steps <= kMostCounted, "a number of steps that cannot be");
-    const std::int64_t sampled_at = world_.accounts.sampled_at;
-    bytes_.require(sampled_at >= 0 && sampled_at <= world_.clock.ticks, "a sample of a time to come");
     load_peaks();
     load_panels();
     bytes_.require(bytes_.is_at_end(), "more bytes than it should have");
@@ -138,30 +131,14 @@ class StateLoader {
   }
 
  private:
-  static constexpr std::int64_t kMostSteps = 1'000'000'000;            // 58 days of the default step: more is damage
-  static constexpr std::int64_t kMostCounted = std::int64_t{1} << 60;  // two of them can be added
-
   void load_accounts() {
     head_fields(bytes_, world_);
-    const Counts& c = world_.accounts.counts;
-    for (const std::int64_t count :
-         {c.floes_initial, c.bends, c.splits, c.ground, c.crush_contacts, c.rejected_cuts, c.floated_cusps,
-          c.tilted_under, c.went_under, c.came_up, c.stayed_under, c.brash_pieces, c.snap_rounded,
-          c.database_out_of_range, c.unconverged_steps, c.unpaired_stretches, c.peak_contacts, c.peak_awake})
-      bytes_.require(count >= 0 && count <= kMostCounted, "a count that cannot be");
-    bytes_.require(c.largest_residual >= 0 && c.energy_created >= 0, "a negative residual");
     bytes_.require(world_.accounts.loads.size() == hull_count(scene_), "loads of other ships");
     for (const Event& contact : world_.accounts.hull_contacts) {
       const int other = std::get<HullContact>(contact.what).other;
       bytes_.require(contact.ship >= 0 && contact.ship < other && other < population_.hull_count,
                      "a contact of no two ships");
     }
-    const std::int64_t steps = world_.clock.ticks;
-    bytes_.require(steps >= 0 && steps <= kMostSteps, "a number of steps that cannot be");
-    const auto [finer, bends] = world_.pace;
-    bytes_.require(finer >= 1 && finer <= kMostParts && std::has_single_bit(static_cast<unsigned>(finer)),
-                   "parts of a tick that cannot be");
-    bytes_.require(bends >= 0 && bends <= kMostCounted, "a number of bends that cannot be");
   }
 
   /// Of a body that has been added, and puts it into the contact world.
@@ -199,9 +176,6 @@ class StateLoader {
     bytes_.require(floe.parent >= kNoFloe && floe.parent < id, "a floe older than its parent");
     bytes_.require((floe.parent == kNoFloe) == is_of_scene, "a floe without a parent");
     if (!bytes_.is_well()) return;
-    const int generation = is_of_scene ? 0 : population_.floes[floe.parent].generation + 1;
-    bytes_.require(floe.generation == generation, "a generation that does not follow the parent's");
-    bytes_.require(is_of_scene || !population_.is_alive(floe.parent), "a parent that has not broken");
     bytes_.require(restraint <= Restraint::kFast, "a restraint that there is not");
     bytes_.require(is_alive || restraint != Restraint::kUnderHull, "a broken floe under a hull");
     const bool is_fast = restraint == Restraint::kFast;
@@ -271,23 +245,11 @@ class StateLoader {
     const auto is_floe = [&](FloeId floe) {
       return floe >= 0 && floe < population_.floe_count() && population_.is_alive(floe);
     };
-    std::pair<int, FloeId> last{-1, kNoFloe};
-    for (const TiltedFloe& tilted : population_.tilted) {
-      bytes_.require(can_take_ice(tilted.ship) && is_floe(tilted.floe) && population_.is_floating(tilted.floe),
-                     "a tilted floe that there is not");
-      bytes_.require(tilted.edge.deflection >= 0, "an edge above the water");
-      bytes_.require(last < std::pair(tilted.ship, tilted.floe), "tilted floes out of their order");
-      last = {tilted.ship, tilted.floe};
-    }
-    std::vector<bool> is_submerged(population_.floes.size());
+    for (const TiltedFloe& tilted : population_.tilted)
+      bytes_.require(can_take_ice(tilted.ship) && is_floe(tilted.floe), "a tilted floe that there is not");
     for (SubmergedPiece& submerged : population_.submerged) {
-      bytes_.require(
-          can_take_ice(submerged.ship) && is_floe(submerged.floe) && population_.floes[submerged.floe].is_under,
-          "ice under a hull that there is not");
+      bytes_.require(can_take_ice(submerged.ship) && is_floe(submerged.floe), "ice under a hull that there is not");
       if (!bytes_.is_well()) return;
-      bytes_.require(!is_submerged[static_cast<std::size_t>(submerged.floe)], "ice under two hulls");
-      bytes_.require(submerged.weight >= 0 && submerged.waited >= 0, "a negative weight or wait");
-      is_submerged[static_cast<std::size_t>(submerged.floe)] = true;
       submerged.area = population_.floes[submerged.floe].area;
     }
     load_started();
@@ -296,34 +258,20 @@ class StateLoader {
 
   void load_started() {
     bytes_(population_.started);
-    for (const StartedCusp& cusp : population_.started) {
+    for (const StartedCusp& cusp : population_.started)
       bytes_.require(can_take_ice(cusp.ship), "a cusp before a hull that there is not");
-      bytes_.require(cusp.left > 0 && cusp.most > 0 && cusp.way > 0, "a cusp that a hull does not press");
-    }
   }
 
   void load_decks() {
     bytes_(population_.decks);
-    for (const PressedDeck& pressed : population_.decks) {
-      const fracture::Deck& deck = pressed.deck;
+    for (const PressedDeck& pressed : population_.decks)
       bytes_.require(can_take_ice(pressed.ship), "a deck under a hull that there is not");
-      bytes_.require(deck.depth > 0 && deck.depth < kLongestCusp && deck.thickness > 0 && deck.freeboard >= 0,
-                     "a deck of no size");
-      bytes_.require(deck.hull_angle > 0 && deck.hull_angle < std::numbers::pi / 2, "a hull of another slope");
-      bytes_.require(pressed.state.way >= 0 && pressed.state.way < way_to_lie_along(deck) && pressed.state.pool >= 0,
-                     "a deck that has turned too far");
-      for (const fracture::DeckStrip& s : deck.strips) {
-        bytes_.require(s.width >= 0 && s.sheet >= 0 && s.sheet_across >= 0 && s.water >= 0, "a deck of negative width");
-        for (const fracture::DeckSide& side : s.sides)
-          bytes_.require(side.length >= 0 && side.depth >= 0, "a side of negative length");
-      }
-    }
   }
 
-  /// A member of all records, in their order, each by a rule that it has to meet.
-  template <class Member, class Rule>
+  /// A member of all records, in their order.
+  template <class Member>
   void load_members(std::vector<dynamics::PairState>& pairs, Member dynamics::PersistentContact::*member,
-                    const char* of_another_number, Rule require_rule) {
+                    const char* of_another_number) {
     std::vector<Member> loaded;
     bytes_(loaded);
     std::size_t next = 0;
@@ -331,45 +279,21 @@ class StateLoader {
       for (dynamics::PersistentContact& record : pair.records) {
         if (next < loaded.size()) record.*member = loaded[next];
         ++next;
-        require_rule(record.*member);
       }
     }
     bytes_.require(next == loaded.size(), of_another_number);
-  }
-
-  void load_crushed_ice(std::vector<dynamics::PairState>& pairs) {
-    constexpr auto kOther = "another number of crushed overlaps than of contacts";
-    load_members(pairs, &dynamics::PersistentContact::crushed, kOther, [this](const dynamics::CrushedIce& crushed) {
-      const geometry::Pose& pose = crushed.a_from_b;
-      const geometry::Rotation r = pose.rotation;
-      bytes_.require(crushed.area >= 0, "a negative area of crushed ice");
-      bytes_.require(std::max(std::abs(pose.position.x), std::abs(pose.position.y)) <= kFarthestPosition &&
-                         std::abs(r.cosine * r.cosine + r.sine * r.sine - 1) < 1e-6,
-                     "crushed ice beyond the world");
-    });
-  }
-
-  void load_stored_energy(std::vector<dynamics::PairState>& pairs) {
-    constexpr auto kOther = "another number of stored energies than of contacts";
-    load_members(pairs, &dynamics::PersistentContact::stored_energy, kOther,
-                 [this](double energy) { bytes_.require(energy >= 0, "a negative energy of a contact"); });
-  }
-
-  void load_booked(std::vector<dynamics::PairState>& pairs) {
-    constexpr auto kOther = "another number of booked overlaps than of contacts";
-    load_members(pairs, &dynamics::PersistentContact::booked, kOther, [this](const dynamics::Booked& b) {
-      bytes_.require(std::min({b.crushed, b.tilted, b.volume}) >= 0, "a negative area of paid overlap");
-    });
   }
 
   void load_pairs() {
     std::vector<dynamics::PairState> pairs;
     std::vector<double> separation_bound;
     bytes_(pairs);
-    load_crushed_ice(pairs);
-    if (has_restitution(world_.setup)) load_stored_energy(pairs);
+    load_members(pairs, &dynamics::PersistentContact::crushed, "another number of crushed overlaps than of contacts");
+    if (has_restitution(world_.setup))
+      load_members(pairs, &dynamics::PersistentContact::stored_energy,
+                   "another number of stored energies than of contacts");
     bytes_(separation_bound);
-    load_booked(pairs);
+    load_members(pairs, &dynamics::PersistentContact::booked, "another number of booked overlaps than of contacts");
     bytes_.require(pairs.size() == separation_bound.size(), "another number of separation bounds than of pairs");
     const dynamics::Bodies& bodies = population_.bodies;
     for (std::size_t i = 0; i < pairs.size() && bytes_.is_well(); ++i) {
@@ -390,23 +314,14 @@ class StateLoader {
   }
 
   void load_peaks() {
-    LoadPeaks& peaks = world_.accounts.load_peaks;
-    bytes_(peaks);
-    std::int64_t last = 0;
-    for (const LoadTrack& track : peaks.tracks) {
+    bytes_(world_.accounts.load_peaks);
+    for (const LoadTrack& track : world_.accounts.load_peaks.tracks) {
       const ContactState& s = track.at_largest;
-      bytes_.require(track.id > last && track.id <= peaks.tracks_so_far, "loads out of their order");
-      bytes_.require(track.ending <= PeakEnd::kTilt && track.ending != PeakEnd::kNone, "an end that there is not");
       const bool has_bodies = s.on.ship >= 0 && s.on.ship < population_.hull_count && s.by.floe >= 0 &&
                               s.by.floe < population_.floe_count();
       bytes_.require(has_bodies || track.largest == 0, "a load of no hull and floe");
-      bytes_.require(std::min({track.least, track.largest, s.width, s.height, s.pressure, s.thickness}) >= 0,
-                     "a negative load");
-      last = track.id;
+      bytes_.require(track.ending <= PeakEnd::kTilt && track.ending != PeakEnd::kNone, "an end that there is not");
     }
-    for (const std::int64_t count :
-         {peaks.tracks_so_far, peaks.counts.recorded, peaks.counts.below, peaks.counts.beyond})
-      bytes_.require(count >= 0 && count <= kMostCounted, "a count of peaks that cannot be");
   }
 
   /// With the numbers of the loads that contacts' records follow.
@@ -416,8 +331,7 @@ class StateLoader {
     const std::vector<HullPanels>& of_scene = world_.accounts.panels;
     bytes_.require(std::ranges::equal(panels, of_scene, {}, &HullPanels::size, &HullPanels::size), "other panels");
     if (bytes_.is_well()) world_.accounts.panels = std::move(panels);
-    load_members(pairs_, &dynamics::PersistentContact::load_track, "another number of loads than of contacts",
-                 [](std::int64_t) {});
+    load_members(pairs_, &dynamics::PersistentContact::load_track, "another number of loads than of contacts");
   }
 
   const Scene& scene_;

@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
 #include "geometry/exact/measures.hpp"
 #include "simulation/state/state.hpp"
+#include "simulation/world/parts.hpp"
 
 namespace polynya::simulation {
 namespace {
@@ -39,6 +42,85 @@ Defect check_helms(const World& world) {
     if (helm.memory.waypoint < 0) return fmt::format("ship {} goes to no waypoint", i);
     if (helm.is_adrift && !world.setup.scene.ships[i].mooring)
       return fmt::format("ship {} is adrift and was not moored", i);
+  }
+  return {};
+}
+
+constexpr std::int64_t kMostSteps = 1'000'000'000;            // 58 days of the default step: more is damage
+constexpr std::int64_t kMostCounted = std::int64_t{1} << 60;  // two of them can be added
+
+bool is_count(std::int64_t count) {
+  return count >= 0 && count <= kMostCounted;
+}
+
+Defect check_accounts(const World& world) {
+  const Counts& c = world.accounts.counts;
+  for (const std::int64_t count : {c.floes_initial,
+                                   c.bends,
+                                   c.splits,
+                                   c.ground,
+                                   c.crush_contacts,
+                                   c.rejected_cuts,
+                                   c.floated_cusps,
+                                   c.tilted_under,
+                                   c.went_under,
+                                   c.came_up,
+                                   c.stayed_under,
+                                   c.brash_pieces,
+                                   c.snap_rounded,
+                                   c.database_out_of_range,
+                                   c.unconverged_steps,
+                                   c.unpaired_stretches,
+                                   c.peak_contacts,
+                                   c.peak_awake,
+                                   c.steps_taken,
+                                   c.most_parts,
+                                   c.body_steps,
+                                   c.passing_steps,
+                                   c.unresolved_splits,
+                                   c.crowded_ticks})
+    if (!is_count(count)) return fmt::format("a count of {}", count);
+  if (c.largest_residual < 0 || c.energy_created < 0) return "a negative residual";
+  if (world.clock.ticks < 0 || world.clock.ticks > kMostSteps) return fmt::format("{} ticks", world.clock.ticks);
+  if (world.accounts.sampled_at < 0 || world.accounts.sampled_at > world.clock.ticks)
+    return "a sample of a time to come";
+  const auto [finer, bends] = world.pace;
+  if (finer < 1 || finer > kMostParts || !std::has_single_bit(static_cast<unsigned>(finer)) ||
+      !(bends >= 0 && bends <= static_cast<double>(kMostCounted)))
+    return fmt::format("a pace of {} parts and {} bends", finer, bends);
+  return {};
+}
+
+Defect check_loads(const LoadPeaks& peaks) {
+  std::int64_t last = 0;
+  for (const LoadTrack& track : peaks.tracks) {
+    const ContactState& s = track.at_largest;
+    if (track.id <= last || track.id > peaks.tracks_so_far) return fmt::format("load {} out of its order", track.id);
+    if (std::min({track.least, track.largest, s.width, s.height, s.pressure, s.thickness}) < 0)
+      return fmt::format("load {} is negative", track.id);
+    last = track.id;
+  }
+  for (const std::int64_t count : {peaks.tracks_so_far, peaks.counts.recorded, peaks.counts.below, peaks.counts.beyond})
+    if (!is_count(count)) return fmt::format("a count of {} peaks", count);
+  return {};
+}
+
+Defect check_cusps(const Population& population) {
+  for (const StartedCusp& cusp : population.started)
+    if (!(cusp.left > 0 && cusp.most > 0 && cusp.way > 0)) return "a cusp that no hull presses";
+  constexpr double kLongestCusp = 1e4;  // [m]
+  for (const PressedDeck& pressed : population.decks) {
+    const fracture::Deck& deck = pressed.deck;
+    if (!(deck.depth > 0 && deck.depth < kLongestCusp && deck.thickness > 0 && deck.freeboard >= 0))
+      return "a deck of no size";
+    if (!(deck.hull_angle > 0 && deck.hull_angle < std::numbers::pi / 2)) return "a deck under a hull of no slope";
+    if (!(pressed.state.way >= 0 && pressed.state.way < way_to_lie_along(deck) && pressed.state.pool >= 0))
+      return "a deck that has turned too far";
+    for (const fracture::DeckStrip& s : deck.strips) {
+      if (std::min({s.width, s.sheet, s.sheet_across, s.water}) < 0) return "a deck of negative width";
+      for (const fracture::DeckSide& side : s.sides)
+        if (side.length < 0 || side.depth < 0) return "a deck with a side of negative length";
+    }
   }
   return {};
 }
@@ -99,9 +181,24 @@ Defect check_floe(const Population& population, const Setup& setup, FloeId id) {
   return {};
 }
 
+Defect check_overlaps(const dynamics::PairState& pair) {
+  for (const dynamics::PersistentContact& record : pair.records) {
+    if (record.stored_energy < 0) return fmt::format("a negative energy in the contact of {} and {}", pair.a, pair.b);
+    const geometry::Rotation r = record.crushed.a_from_b.rotation;
+    const geometry::Point at = record.crushed.a_from_b.position;
+    if (record.crushed.area < 0 || std::min({record.booked.crushed, record.booked.tilted, record.booked.volume}) < 0)
+      return fmt::format("a negative overlap of {} and {}", pair.a, pair.b);
+    if (!(std::max(std::abs(at.x), std::abs(at.y)) <= 1e9 &&
+          std::abs(r.cosine * r.cosine + r.sine * r.sine - 1) < 1e-6))
+      return fmt::format("crushed ice of {} and {} beyond the world", pair.a, pair.b);
+  }
+  return {};
+}
+
 Defect check_pairs(const Population& population) {
   const dynamics::Bodies& b = population.bodies;
   for (const dynamics::PairState& pair : population.pairs.pair_states()) {
+    if (auto defect = check_overlaps(pair)) return defect;
     if (b.is_alive[pair.a] == 0 || b.is_alive[pair.b] == 0)
       return fmt::format("a pair of {} and {}, one broken", pair.a, pair.b);
     if (b.is_awake[pair.a] == 0 && b.is_awake[pair.b] == 0)
@@ -120,11 +217,22 @@ Defect check_sums(const World& world) {
   }
   if (under != population.submerged.size())
     return fmt::format("{} floes are under hulls, {} are listed", under, population.submerged.size());
+  std::vector<bool> is_submerged(population.floes.size());
   for (const SubmergedPiece& submerged : population.submerged) {
+    if (is_submerged[static_cast<std::size_t>(submerged.floe)])
+      return fmt::format("floe {} is under two hulls", submerged.floe);
+    is_submerged[static_cast<std::size_t>(submerged.floe)] = true;
+    if (submerged.weight < 0 || submerged.waited < 0)
+      return fmt::format("floe {} has a negative weight or wait", submerged.floe);
     if (!population.is_alive(submerged.floe) || !population.floes[submerged.floe].is_under)
       return fmt::format("floe {} is submerged and not under a hull", submerged.floe);
   }
+  std::pair<int, FloeId> last{-1, kNoFloe};
   for (const TiltedFloe& tilted : population.tilted) {
+    if (tilted.edge.deflection < 0) return fmt::format("floe {} has its edge above the water", tilted.floe);
+    if (last >= std::pair(tilted.ship, tilted.floe))
+      return fmt::format("floe {} is tilted out of its order", tilted.floe);
+    last = {tilted.ship, tilted.floe};
     if (!population.is_floating(tilted.floe)) return fmt::format("floe {} is tilted and does not float", tilted.floe);
   }
   for (const auto& [ledger, unit] : {std::pair(area_ledger(world), "m²"), std::pair(mass_ledger(world), "kg")})
@@ -141,6 +249,9 @@ std::optional<std::string> validate_world(const World& world) {
   const Population& population = world.population;
   if (auto defect = check_columns(world)) return defect;
   if (auto defect = check_helms(world)) return defect;
+  if (auto defect = check_accounts(world)) return defect;
+  if (auto defect = check_loads(world.accounts.load_peaks)) return defect;
+  if (auto defect = check_cusps(population)) return defect;
   if (auto defect = check_awake(population)) return defect;
   if (auto defect = check_sums(world)) return defect;
   if (auto defect = check_pairs(population)) return defect;

@@ -46,7 +46,7 @@ TEST(Splitting, PiecesNarrowerOrSmallerThanTheLeastAreSlivers) {
 }
 
 TEST(Splitting, OfAnArmBesideAFreeEdgeJoinsTheTableWithinWhatOneArmIsStiffer) {
-  // tools/crack_plate.py paths: 0.293 h K √b; the table's rule has 0.187 √(2b), of two arms.
+  // studies/benches/crack_plate.py paths: 0.293 h K √b; the table's rule has 0.187 √(2b), of two arms.
   const Ice ice;
   for (const double b : {1.0, 20.0, 300.0}) {
     const double force = turning_crack_force(ice, b);

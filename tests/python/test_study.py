@@ -240,6 +240,13 @@ def test_rams_are_measured_from_one_charge_to_the_next():
     few = measures.of_rams(columns | {"rams": [0, 1, 1, 1, 1, 1]})
     assert few["rams"] == 1 and few["ram_gain_m"] is None
     assert measures.of_rams({"t_s": [1]}) == {}
+def test_what_is_measured_begins_where_the_ship_has_gone_so_far(folder):
+    planned(folder, set={"time.until_s": 30, "fracture.splitting.model": "none"}, collect={"from_m": 12.05})
+    (row,), run = gathered(folder / "studies/s"), folder / "studies/s/cases/000000/run"
+    forces = [{k: float(v) for k, v in r.items() if k != "ship"} for r in rows(run / "forces.csv")]
+    kept = [-(r["surge_N"] + r["surge_from_submerged_ice_N"]) for r in forces if r["t_s"] > 12.1 + 1e-9]
+    assert float(row["resistance_mean_N"]) == pytest.approx(sum(kept) / len(kept))
+    assert float(row["distance_m"]) == pytest.approx(17.9, abs=0.11)
 
 
 def names_in(folder):

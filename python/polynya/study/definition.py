@@ -28,7 +28,8 @@ KEYS = (
     "archive",
     "report",
 )
-COLLECT_KEYS = ("ship", "from_s", "loads", "quantiles", "stop_speed_m_per_s", "channel", "time_to", "management")
+COLLECT_KEYS = ("ship", "from_s", "from_m", "loads", "quantiles", "stop_speed_m_per_s", "channel", "time_to",
+                "management")
 MANAGEMENT_KEYS = ("body", "upstream_m", "near_m", "width_m", "size_m", "from_s")
 TARGETS = ({"x_m"}, {"y_m"}, {"distance_m"}, {"point_m", "within_m"})  # of collect.time_to
 REPORT_KEYS = ("against", "means", "exceedance", "group_by", "map", "channels")
@@ -223,7 +224,7 @@ class Reader:
     def collect(self, study):
         collect = self.member(study, "collect", dict, {})
         self.unknown_keys(collect, COLLECT_KEYS, ["collect"])
-        for key in ("from_s", "stop_speed_m_per_s"):
+        for key in ("from_s", "from_m", "stop_speed_m_per_s"):
             if not draws.is_number(collect.get(key, 0)) or collect.get(key, 0) < 0:
                 self.report(["collect", key], f"found {shown(collect[key])}, allowed: a number ≥ 0")
         loads = self.member(collect, "loads", list, [], ["collect"])

@@ -25,7 +25,8 @@ def measure(run, collect, program):
     found.update(
         {
             name: counts[name]
-            for name in ("bends", "splits", "rejected_cuts", "unconverged_steps", "floes_initial", "floes_final")
+            for name in ("bends", "splits", "tilted_under", "rejected_cuts", "unconverged_steps", "floes_initial",
+                         "floes_final")
         }
     )
     if len(ships) > 1:
@@ -58,7 +59,8 @@ def rows_by_ship(path):
 
 
 def measures_of_ship(columns, collect):
-    kept = [i for i, t in enumerate(columns["t_s"]) if t > collect.get("from_s", 0)]
+    start = max(collect.get("from_s", 0), time_to(columns, {"distance_m": collect.get("from_m", 0)}, math.inf))
+    kept = [i for i, t in enumerate(columns["t_s"]) if t > start]
 
     def of(name):
         if name not in columns:
@@ -160,22 +162,24 @@ def forward_speed(columns, i):
     return columns["vx_m_per_s"][i] * math.cos(heading) + columns["vy_m_per_s"][i] * math.sin(heading)
 
 
-def time_to(columns, target):
-    """When the ship first comes to where the target is; None where it does not."""
+def time_to(columns, target, never=None):
+    """When the ship first comes to where the target is, or `never` if it does not [s]."""
     times, xs, ys = columns["t_s"], columns["x_m"], columns["y_m"]
     if "distance_m" in target:
         gone, before = 0.0, 0.0
+        if target["distance_m"] == 0:
+            return before
         for t, speed in zip(times, columns["speed_m_per_s"]):
             gone, before = gone + speed * (t - before), t
             if gone >= target["distance_m"]:
                 return t
-        return None
+        return never
     if "point_m" in target:
         x, y = target["point_m"]
-        return next((t for t, a, b in zip(times, xs, ys) if math.hypot(a - x, b - y) <= target["within_m"]), None)
+        return next((t for t, a, b in zip(times, xs, ys) if math.hypot(a - x, b - y) <= target["within_m"]), never)
     values, line = (xs, target["x_m"]) if "x_m" in target else (ys, target["y_m"])
     side = values[0] < line
-    return next((t for t, value in zip(times, values) if (value < line) != side), None)
+    return next((t for t, value in zip(times, values) if (value < line) != side), never)
 
 
 def outcome(found, columns, collect):

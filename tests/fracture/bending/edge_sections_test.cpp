@@ -239,7 +239,7 @@ TEST(EdgeSections, ChangeLittleWithTheOutline) {
 }
 
 /// Elements of edges at a shoulder, whose thrust is large, and of notches at a stem, whose parts crack again
-/// (docs/theory/bow.md; tools/bow_stem.py).
+/// (docs/theory/bow.md; studies/benches/bow_stem.py).
 TEST(EdgeSections, BreakWhenTheirPartsCrack) {
   struct Row {
     double l, distance, thrust, lever, facet, force;
