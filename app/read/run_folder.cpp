@@ -208,7 +208,8 @@ std::string unknown_floe(const io::Run& run, FloeId id) {
 int print_floe(const io::Run& run, const InspectOptions& options) {
   const io::RunFloe* floe = run.floe(*options.floe);
   if (!floe) return fail(kUsage, unknown_floe(run, *options.floe));
-  analysis::ShapeView view{floe->birth, ice_of(run.scene.scene, floe->birth.own_ice), *run.shape(*options.floe), {}, run.scene.scene.origin};
+  analysis::ShapeView view{
+      floe->birth, ice_of(run.scene.scene, floe->birth.own_ice), *run.shape(*options.floe), {}, run.scene.scene.origin};
   if (options.at) {
     if (!run.is_alive(floe->birth.floe, *options.at)) {
       const std::string end = floe->death_event ? fmt::format("to {:g} s", floe->died) : std::string("to the end");
