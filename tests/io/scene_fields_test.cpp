@@ -160,6 +160,7 @@ bool is_bound(const std::string& path, const LoadedScene& base, const std::strin
   if (path == ".ships.speed_m_per_s")  // said twice in a resolved scene, and changed in both places
     return tree.find("ships")->items()[0].find("propulsion")->find("constant_speed_m_per_s") != nullptr;
   if (path == ".water.drift_m_per_s" || path == ".wind.velocity_m_per_s") return text == kFifth;  // it has tables
+  if (path == ".floes.fast_ice") return base.scene.contact.law == simulation::ContactLaw::kImpulse;
   if (path == ".contact.normal") return base.scene.contact.law == simulation::ContactLaw::kCrush;
   if (path == ".contact.law") return text == kThird;                       // its wall presses
   if (path == ".ships.name") return text == fleet() || text == kSecond;    // named elsewhere too
