@@ -293,7 +293,7 @@ bool ContactSolver::restore(const Island& island, const RestitutionLaw& law, boo
   bool has_given = false;
   for (std::uint32_t k = range.begin; k < range.end; ++k)
     has_given |= dynamics::restore(law, is_converged, left, states[k], constraints_[k], solver_bodies_);
-  const double share_left = stored > 0 ? left / stored : 0;
+  const double share_left = stored > 0 ? std::max(0.0, left / stored) : 0;  // below 0 by rounding
   for (std::uint32_t k = range.begin; k < range.end; ++k) states[k].stored_energy *= share_left;
   return has_given;
 }
