@@ -39,10 +39,11 @@ TEST(RigidImpulses, LetAFloePassThroughAPileAtAnyStepAndCountIt) {
 /// Two floes that spin, without friction: 1.2 % of energy came from their collision when restitution gave back impulses
 /// alone.
 TEST(RigidImpulses, GiveBackNoMoreThanTheyTookAndCrushNoNegativeWork) {
-  for (const auto& [restitution, step] : {std::pair{0.0, 0.05}, {0.5, 0.05}, {1.0, 0.05}, {1.0, 0.1}, {1.0, 0.2}}) {
-    Build scene = Build(Laws::kPaper).step(step).without_drag().restitution(restitution);
+  for (int k = 0; k < 60; ++k) {
+    const double restitution = 0.5 * (k % 3);
+    Build scene = Build(Laws::kPaper).step(0.05).without_drag().restitution(restitution);
     scene.ice.friction = 0;
-    const geometry::Pose turned{{25, -1.9852835619899993}, geometry::Rotation::by(44.46312111964577 * kDegree)};
+    const geometry::Pose turned{{25, -1.9852835619899993}, geometry::Rotation::by((44.46312111964577 + k) * kDegree)};
     geometry::Polygon second = rectangle(0, 0, 4.385577229137644, 6.426607373336808);
     second.outer = transform(turned, second.outer);
     scene.floe(rectangle(0, 0, 10, 3.4501189066657707), {1.4244319324419155, 0})
