@@ -12,24 +12,25 @@ using geometry::Box;
 using geometry::Point;
 using geometry::Pose;
 
-/// Boxes are grown by this much, and computed again after that much travel [m]. It decides only how often
-/// pairs are sought (smaller: more often) against how many are kept (greater: more).
+/// Margin by which boxes are grown; they are computed again after that much travel [m]. Smaller: pairs are searched
+/// more often. Larger: more pairs are kept. Results do not change.
 constexpr double kBoxMargin = 2.0;
-/// Bodies that leave their boxes, for one thread at a time.
+/// Number of bodies out of their boxes that one thread takes at a time. Results do not change.
 constexpr std::size_t kMovedPerChunk = 16;
 
-/// Fragments' vertices are rounded by far less than that [m]. Smaller than the rounding, fragments that touch
-/// may be taken for apart.
+/// Upper limit for the rounding of fragments' vertices, which is far smaller [m]. If it were smaller than the rounding,
+/// fragments that touch could be taken as apart.
 constexpr double kPieceRounding = 1e-6;
 
-/// How far a body that breaks can move without touching the pair's other one, 0 where that is not known [m].
+/// Returns how far a body that breaks can move without touching the other body of the pair; 0 if that is not known [m].
 double clearance_of(const Bodies& bodies, const Pair& pair) {
   const Pose pose = centre_a_from_b(bodies, pair.a, pair.b);
   return std::max(0.0, clearance_left(bodies, pair.b, pose, pair.apart) - kPieceRounding);
 }
 
-/// Not two bodies of prescribed motion, which no impulse moves, but for a hull in fast ice: that crushes. Nor
-/// two walls, which stand for ice far away and may cross at their ends.
+/// Returns true if two bodies may press each other. Two bodies with prescribed motion do not, since no impulse moves
+/// them; the exception is a hull in fast ice, which it crushes. Two walls do not either: they represent ice far away
+/// and may cross at their ends.
 bool can_press(const Bodies& bodies, BodyIndex a, BodyIndex b, bool presses_prescribed) {
   if (is_grounded(bodies.kind[a]) && is_grounded(bodies.kind[b])) return false;
   if (bodies.inverse_mass[a] != 0 || bodies.inverse_mass[b] != 0) return true;
@@ -131,8 +132,8 @@ void BroadPhase::add_pairs_of(const Bodies& bodies, BodyIndex body) {
                    [&](BodyIndex other) { add_pair(bodies, std::min(body, other), std::max(body, other)); });
 }
 
-/// Calls use(other) for each body that meets this one's box and may press it, of which there is no pair yet: more than
-/// once for those in several cells, unless `use` adds the pair.
+/// Calls use(other) for each body that overlaps this one's box, may press it, and has no pair with it yet. A body in
+/// several cells is passed more than once, unless `use` adds the pair.
 template <class Use>
 void BroadPhase::for_new_partners(const Bodies& bodies, BodyIndex body, Use use) const {
   const Box box = entries_[body].box;
@@ -199,7 +200,7 @@ void BroadPhase::erase_dropped(std::vector<ActivePair>& list) {
   });
 }
 
-/// Sorts new pairs into the lists. The long list is changed only when enough pairs have accumulated.
+/// Sorts new pairs into the lists. The long list changes only when enough new pairs have accumulated.
 void BroadPhase::merge_new() {
   const auto merge = [](std::vector<ActivePair>& list, std::vector<ActivePair>& more) {
     if (list.empty()) return list.swap(more);
@@ -225,7 +226,7 @@ void BroadPhase::merge_new() {
 void BroadPhase::update(const Bodies& bodies, const std::vector<BodyIndex>& awake, double ahead, int threads) {
   moved_.clear();
   for (const BodyIndex body : awake) {
-    if (!rule_.is_culling) break;  // every pair is there already
+    if (!rule_.is_culling) break;  // every pair exists already
     if (bodies.travel[body] + ahead * bodies.rim_speed[body] > travel_limits_[body]) moved_.push_back(body);
   }
   boxes_.resize(moved_.size());
@@ -258,8 +259,8 @@ void BroadPhase::update(const Bodies& bodies, const std::vector<BodyIndex>& awak
   if (!new_.empty() || dropped_ > 0) merge_new();
 }
 
-/// The pairs that may touch by now, by (a, b): of the active ones from begin to end, and of the recent ones
-/// that belong between these. Returns how many.
+/// Finds the pairs that may touch now, ordered by (a, b): among the active ones from begin to end, and among the recent
+/// ones that belong between these. Returns their number.
 std::size_t BroadPhase::find_pending(const Bodies& bodies, std::size_t begin, std::size_t end,
                                      std::vector<ActivePair*>& pending) {
   const auto recent_from = [&](std::size_t i) {
@@ -273,7 +274,7 @@ std::size_t BroadPhase::find_pending(const Bodies& bodies, std::size_t begin, st
   ActivePair** next = pending.data();
   const auto consider = [&](ActivePair& active) {
     const bool is_apart = travel[active.a] + travel[active.b] <= active.separation_bound;
-    *next = &active;  // without a branch: which pairs may touch is unpredictable
+    *next = &active;  // branch-free, because it is unpredictable which pairs may touch
     next += static_cast<int>(!(is_apart & rule_.is_culling));
   };
   for (std::size_t i = begin; i < end; ++i) {
@@ -296,7 +297,7 @@ void BroadPhase::collide(const Bodies& bodies, ActivePair& active, double dt, Pa
   active.separation_bound = travelled + std::max(0.0, clearance - kRounding);
 }
 
-/// All that may touch by now, by (a, b). Valid until the next call.
+/// Returns all pairs that may touch now, ordered by (a, b). Valid until the next call.
 std::span<BroadPhase::ActivePair* const> BroadPhase::find_all_pending(const Bodies& bodies, int threads) {
   constexpr std::size_t chunk = 4096;
   const std::size_t chunks = std::max<std::size_t>(1, chunk_count(active_.size(), chunk));
@@ -332,8 +333,8 @@ void BroadPhase::collide_share(const Bodies& bodies, std::span<ActivePair* const
 }
 
 void BroadPhase::find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads) {
-  constexpr std::size_t kLeastShare = 16;  // of pairs that may touch: fewer are not worth another thread
-  constexpr std::size_t kMostShares = 64;  // more take memory
+  constexpr std::size_t kLeastShare = 16;  // smallest number of pairs that is worth another thread
+  constexpr std::size_t kMostShares = 64;  // more shares take more memory
   if (!new_.empty() || dropped_ > 0) merge_new();
   const std::span<ActivePair* const> pending = find_all_pending(bodies, threads);
   const std::size_t share = std::max(kLeastShare, chunk_count(pending.size(), kMostShares));
@@ -377,7 +378,7 @@ std::int64_t BroadPhase::take_unpaired_stretches() {
   return unpaired;
 }
 
-/// Makes and keeps the cover of a body that another comes near, unless those kept are many.
+/// Makes and keeps the cover of a body that another one approaches, unless too many covers are kept already.
 void BroadPhase::keep_cover(const Bodies& bodies, BodyIndex body) {
   geometry::Boundary& boundary = *bodies.boundary[body];
   if (boundary.is_ready()) return;
@@ -389,7 +390,7 @@ void BroadPhase::keep_cover(const Bodies& bodies, BodyIndex body) {
   kept_pieces_ += entries_[body].kept_pieces;
 }
 
-// Contact memory of a body that breaks, and of what a saved run keeps of pairs.
+// Contact memory of a body that breaks, and the data about pairs in a saved run.
 
 ContactMemory BroadPhase::contact_memory_of(const Bodies& bodies, BodyIndex parent) const {
   ContactMemory memory;
@@ -414,7 +415,7 @@ ContactMemory BroadPhase::contact_memory_of(const Bodies& bodies, BodyIndex pare
 }
 
 void BroadPhase::note_paid(BodyIndex body) {
-  constexpr double kAnyArea = 1e18;  // more than any overlap has [m²]
+  constexpr double kAnyArea = 1e18;  // larger than any overlap [m²]
   PersistentContact record;
   record.paid_area = record.area = kAnyArea;
   record.is_inherited = true;
@@ -474,7 +475,7 @@ void BroadPhase::restore(const Bodies& bodies, const std::vector<PairState>& pai
     new_.back().separation_bound = pair.separation_bound;
     if (!pair.records.empty()) pairs_[new_.back().slot].own_parts().records = pair.records;
   }
-  // The boxes are new, so some may meet that did not before.
+  // The boxes are new, so boxes may overlap that did not before.
   for (BodyIndex body = 0; body < bodies.size(); ++body) {
     if (bodies.is_awake[body] == 0) continue;
     enter_mover(bodies, body);

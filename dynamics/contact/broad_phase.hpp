@@ -9,7 +9,7 @@
 
 namespace polynya::dynamics {
 
-/// What a saved run keeps of a pair of bodies. a < b.
+/// The data about a pair of bodies in a saved run. a < b.
 struct PairState {
   BodyIndex a = 0;
   BodyIndex b = 0;
@@ -17,75 +17,77 @@ struct PairState {
   std::vector<PersistentContact> records;
 };
 
-/// The overlaps of a body that breaks with another one, together.
+/// The sum of the overlaps of a body that breaks with another body.
 struct OverlapMemory {
   BodyIndex other = 0;
-  double paid_area = 0;  ///< [m²]
-  double area = 0;       ///< [m²]
-  CrushedIce crushed;    ///< the largest; its pose is that of the other's frame in the broken body's
+  double paid_area = 0;  ///< sum of the paid areas [m²]
+  double area = 0;       ///< sum of the areas [m²]
+  CrushedIce crushed;    ///< largest one; its pose is the other body's frame in the frame of the broken body
   Booked booked;
 };
 
-/// A body that one that breaks does not touch, neither inside the other.
+/// A body that a breaking body does not touch; neither is inside the other.
 struct Outside {
   BodyIndex other = 0;
   double clearance = 0;  ///< how far the two can move without touching [m]
 };
 
-/// What a floe that breaks passes on to its fragments.
+/// The data about contacts that a breaking floe passes on to its fragments.
 struct ContactMemory {
   std::vector<OverlapMemory> overlaps;
-  std::vector<Outside> outside;  ///< by other
+  std::vector<Outside> outside;  ///< ordered by the other body
 };
 
-/// A box about a body where it is: the tightest of bodies of few edges, else that of its bounding circle.
+/// Returns a box around a body at its present place: the tightest one for bodies with few edges, otherwise the box of
+/// its bounding circle.
 geometry::Box box_in_water(const Bodies& bodies, BodyIndex i);
 
-/// Finds which bodies overlap. A grid finds the pairs whose grown boxes meet; each pair keeps the edges that
-/// are near each other until the bodies have moved so far relative to each other that others might be. All
-/// bounds are conservative: what is culled cannot touch, so the contacts are those of a search over
-/// everything.
+/// Finds which bodies overlap. A grid finds the pairs whose grown boxes overlap. Each pair keeps the edges that are
+/// near each other, until the bodies have moved so far relative to each other that other edges might be near. All
+/// bounds are conservative: culled pairs cannot touch, so the contacts are the same as in a search over everything.
 class BroadPhase {
  public:
   BroadPhase(const ContactRule& rule, double grid_cell);
 
-  /// Makes room for so many bodies in all.
+  /// Reserves memory for this number of bodies in total.
   void reserve(std::size_t bodies) {
     entries_.reserve(bodies);
     travel_limits_.reserve(bodies);
   }
-  /// Adds a body, asleep.
+  /// Adds a body, which is asleep.
   void add(const Bodies& bodies, BodyIndex body);
   /// Removes a body and its pairs.
   void remove(BodyIndex body);
-  /// The overlaps of a floe that breaks with other bodies, and the bodies that are outside it.
+  /// Returns the overlaps of a breaking floe with other bodies, and the bodies that lie outside of it.
   ContactMemory contact_memory_of(const Bodies& bodies, BodyIndex parent) const;
-  /// Passes it on to a fragment that was added and woken.
+  /// Passes this memory on to a fragment that was added and woken.
   void pass_contact_memory(const Bodies& bodies, BodyIndex fragment, const ContactMemory& memory);
-  /// Notes that all overlaps of a body where it is are paid: their ice is gone. For a body that was woken.
+  /// Marks all present overlaps of a body as paid, because their ice is gone. The body must have been woken.
   void note_paid(BodyIndex body);
-  /// Pairs are kept only where one of the two is awake and may move: ice that is held where the water stands
-  /// meets only what comes to it, though a fast plate has a thousand pieces at rest in its box.
+  /// Wakes a body. Pairs are kept only if one of the two bodies is awake and may move. Ice that is held in place
+  /// therefore has pairs only with approaching bodies, although a fast plate may have a thousand resting pieces in its
+  /// box.
   void wake(const Bodies& bodies, BodyIndex body);
   void sleep(const Bodies& bodies, BodyIndex body);
 
-  /// Updates boxes and pairs of those bodies that have travelled out of their grown boxes, or will have by their
-  /// rim speed in a time [s].
+  /// Updates the boxes and pairs of bodies that have left their grown boxes, or may leave them within the time `ahead`
+  /// [s] at their rim speed.
   void update(const Bodies& bodies, const std::vector<BodyIndex>& awake, double ahead = 0, int threads = 1);
 
-  /// All contacts of the present positions, ordered by (a, b, place), the same on any number of threads.
-  /// Contact records are kept over the steps.
+  /// Finds all contacts at the present positions, ordered by (a, b, place); the result does not depend on the number of
+  /// threads. Contact records are kept over the steps.
   void find_contacts(const Bodies& bodies, double dt, std::vector<Contact>& contacts, int threads = 1);
 
-  /// The pairs, by (a, b): together with the bodies, all that decides which contacts the next steps find.
+  /// Returns the pairs, ordered by (a, b). Together with the bodies they determine the contacts that the next steps
+  /// find.
   std::vector<PairState> pair_states() const;
-  /// Those of them that touch: the others are only near, and found again.
+  /// Returns the pairs that touch. The other pairs are only near and are found again.
   std::vector<PairState> touching_states() const;
 
-  /// Adds saved pairs, after all bodies have been added. Their caches are filled again as they are used.
+  /// Adds saved pairs, after all bodies have been added. Their caches are filled as they are used.
   void restore(const Bodies& bodies, const std::vector<PairState>& pairs);
 
-  /// Calls use(body) for each body whose box may meet the box, more than once where it is large.
+  /// Calls use(body) for each body whose box may overlap the box; large bodies may be passed more than once.
   template <class Use>
   void for_bodies_near(const geometry::Box& box, Use use) const {
     grid_.for_each_near(box, [&](BodyIndex body) {
@@ -93,9 +95,10 @@ class BroadPhase {
     });
   }
 
-  /// Calls use(other) for each body of a pair with this one for which matters(other) is true, and whose box meets this
-  /// body's box where they are now, grown by reach(other) [m]. That does not depend on which more distant pairs are
-  /// kept, which may differ after a resume; `reach` must be within the margin of the pairs' boxes (update's `ahead`).
+  /// Calls use(other) for each body that has a pair with this one, for which matters(other) is true, and whose box
+  /// overlaps this body's box at their present places when it is grown by reach(other) [m]. The result does not depend
+  /// on which more distant pairs are kept, which may differ after a resume. `reach` must not exceed the margin of the
+  /// pairs' boxes (`ahead` of update()).
   template <class Matters, class Reach, class Use>
   void for_bodies_at(const Bodies& bodies, BodyIndex body, Matters matters, Reach reach, Use use) const {
     std::optional<geometry::Box> box;
@@ -107,11 +110,11 @@ class BroadPhase {
     }
   }
 
-  /// The pairs, in no order, and what is_dropped among them: those are none.
+  /// The pairs, in no particular order. Pairs with is_dropped do not count.
   std::span<const Pair> pairs() const { return pairs_; }
 
-  /// Calls use(a, b, paid, unpaid, booked) for each pair whose bodies overlap, in no order: the paid area of the
-  /// overlap [m²], the area that is not paid and presses the two apart [m²], and what became of the paid area.
+  /// Calls use(a, b, paid, unpaid, booked) for each pair whose bodies overlap, in no particular order: the paid area of
+  /// the overlap [m²], the area that is not paid and presses the two apart [m²], and the account of the paid area.
   template <class Use>
   void for_overlaps(Use use) const {
     for (const Pair& pair : pairs_) {
@@ -127,27 +130,28 @@ class BroadPhase {
     }
   }
 
-  /// What find_contacts found blind since the last call, ordered by (a, b).
+  /// Returns the blind overlaps that find_contacts found since the last call, ordered by (a, b).
   void take_blind_overlaps(std::vector<BlindOverlap>& overlaps);
 
-  /// The contacts that find_contacts found ended since the last call, ordered by (a, b).
+  /// Returns the contacts that find_contacts found to have ended since the last call, ordered by (a, b).
   void take_parted(std::vector<PartedContact>& parted);
 
-  /// Contact stretches whose crossings did not pair up (see geometry::find_manifolds), since the last call.
+  /// Returns the number of contact stretches since the last call whose crossings did not pair up (see
+  /// geometry::find_manifolds).
   std::int64_t take_unpaired_stretches();
 
  private:
-  struct Entry {        // one body
+  struct Entry {        // data of one body
     geometry::Box box;  // grown
     std::vector<std::uint32_t> pairs;
-    std::uint32_t kept_pieces = 0;  // of its cover
+    std::uint32_t kept_pieces = 0;  // pieces of its cover that are kept
     bool is_in = false;
     std::int32_t mover = kNoMover;  // place in movers_
   };
   static constexpr std::int32_t kNoMover = -1;
   struct ActivePair {
     BodyIndex a, b;
-    double separation_bound;  // the two cannot touch until they have travelled this far together [m]
+    double separation_bound;  // the two cannot touch until their travel exceeds this [m]
     std::uint32_t slot;
     friend bool operator<(const ActivePair& p, const ActivePair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; }
   };
@@ -178,34 +182,34 @@ class BroadPhase {
   ContactRule rule_;
   HashGrid grid_;
   std::vector<Entry> entries_;
-  std::vector<BodyIndex> movers_;      // those awake that may move, in no order
-  std::vector<double> travel_limits_;  // of bodies: the grown box contains one until it has travelled this far
-  std::vector<Pair> pairs_;            // slots
+  std::vector<BodyIndex> movers_;      // awake bodies that may move, in no particular order
+  std::vector<double> travel_limits_;  // of bodies: the grown box contains a body until its travel exceeds this
+  std::vector<Pair> pairs_;            // slots; some are free
   std::vector<std::uint32_t> free_pairs_;
-  std::vector<ActivePair> active_;  // pairs in use, by (a, b), dropped ones included
+  std::vector<ActivePair> active_;  // pairs in use, ordered by (a, b), including dropped ones
   std::vector<ActivePair> recent_;  // the same; merged into active_ when there are many
   std::vector<ActivePair> new_;     // not sorted yet
-  std::size_t dropped_ = 0;         // of all three
-  double kept_pieces_ = 0;          // of all bodies' covers
+  std::size_t dropped_ = 0;         // dropped pairs in all three lists
+  double kept_pieces_ = 0;          // pieces of all covers that are kept
   struct Pending {
-    std::vector<ActivePair*> pairs;  // and room for more
+    std::vector<ActivePair*> pairs;  // with room for more
     std::size_t count = 0;
   };
-  std::vector<Pending> pending_;          // that may touch in this step, of chunks of the pairs in use
-  std::vector<ActivePair*> all_pending_;  // where they are several
-  struct Share {                          // of those that may touch, for one thread at a time
+  std::vector<Pending> pending_;          // pairs that may touch in this step, from chunks of the pairs in use
+  std::vector<ActivePair*> all_pending_;  // all of them, if there are several chunks
+  struct Share {                          // a share of these pairs, for one thread at a time
     PairScratch scratch;
     std::vector<Contact> contacts;
-    std::size_t first = 0;  // of these, among all
+    std::size_t first = 0;  // place of its first pair among all
   };
   std::vector<Share> shares_;
-  std::vector<std::uint32_t> own_pairs_;  // of a body, while some of them are dropped
-  struct Moved {                          // out of their boxes, of some bodies
-    std::vector<std::uint32_t> parted;    // pairs, some twice
+  std::vector<std::uint32_t> own_pairs_;  // pairs of a body, while some of them are dropped
+  struct Moved {                          // some bodies that have left their boxes
+    std::vector<std::uint32_t> parted;    // pairs to drop, some twice
     std::vector<std::array<BodyIndex, 2>> met;
   };
   std::vector<BodyIndex> moved_;
-  std::vector<geometry::Box> boxes_;  // of these
+  std::vector<geometry::Box> boxes_;  // their new boxes
   std::vector<Moved> moved_some_;
 };
 

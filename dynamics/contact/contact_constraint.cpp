@@ -8,13 +8,13 @@ namespace {
 
 using geometry::Vector;
 
-/// Below this share of the product of its diagonal, det K counts as 0 and the ends are solved one by one.
-/// Where it is much smaller, the inverse magnifies rounding errors to impulses that turn the bodies; where it
-/// is much greater, sound lines are solved end by end, in more sweeps.
+/// Limit below which det K counts as 0, as a fraction of the product of K's diagonal [-]; the two ends are then solved
+/// one by one. Much smaller: the inverse magnifies rounding errors to impulses that turn the bodies. Much larger:
+/// well-conditioned lines are solved end by end too, in more sweeps.
 constexpr double kSingular = 1e-9;
-/// Stands for that of two bodies of prescribed motion, which nothing moves, so that the impulse is the law's
-/// at their speeds. Times the impulse of a step, up to some 1e6 N s, it has to stay far below the creep
-/// speed, or the impulse falls short of the law's [1/kg].
+/// Inverse mass that replaces the zero inverse mass of two bodies with prescribed motion, so that the impulse is the
+/// law's impulse at their speeds [1/kg]. Multiplied by the impulse of a step, up to about 1e6 N s, it must stay far
+/// below the creep speed; otherwise the impulse is smaller than the law's.
 constexpr double kHeldInverseMass = 1e-13;
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace polynya::dynamics {
 
-/// A body in the contact solver. In a cache line of its own: its neighbour may be another thread's.
+/// A body in the contact solver. It has a cache line to itself, since its neighbour may belong to another thread.
 struct alignas(64) SolverBody {
   geometry::Vector velocity;  ///< of the centre of mass [m/s]
   double angular_velocity;    ///< [rad/s]
@@ -18,43 +18,43 @@ struct alignas(64) SolverBody {
   double inverse_moment;      ///< 0: prescribed motion [1/(kg m²)]
 };
 
-/// Those that touch, and the velocities found for them.
+/// Copies the touching bodies to the solver; give_back_bodies copies the velocities that were found back.
 void take_bodies(const Bodies& bodies, std::span<const BodyIndex> touched, std::span<SolverBody> solver_bodies);
 void give_back_bodies(std::span<const SolverBody> solver_bodies, std::span<const BodyIndex> touched, Bodies& bodies);
 
-/// The constraint of one contact line, with the impulses found so far; [0] and [1] are its ends. J and K are
-/// those of contact_solver.hpp; K is singular where both ends turn the bodies alike.
+/// The constraint of one contact line, with the impulses found so far; the indices 0 and 1 are its ends. J and K are
+/// defined in contact_solver.hpp; K is singular if both ends turn the bodies alike.
 struct ContactConstraint {
   std::int32_t a, b;  ///< indices of the solver bodies
   geometry::Vector normal;
   double arm_cross_normal_a[2], arm_cross_normal_b[2];  ///< r × n [m]
   double arm_cross_tangent_a, arm_cross_tangent_b;      ///< r × perpendicular(n), the same at both ends [m]
   double inverse_mass_at[2];                            ///< the diagonal of K [1/kg]
-  double inverse_mass_between;                          ///< its other element [1/kg]
+  double inverse_mass_between;                          ///< off-diagonal element of K [1/kg]
   double inverse_determinant;                           ///< 1 / det K; 0 where K is nearly singular [kg²]
-  double inverse_slip_mass, slip_mass;                  ///< speed along the line per impulse [1/kg], and its inverse
-  double least[2];                                      ///< of the normal impulse: what restitution has added [N s]
-  double limit;                                         ///< of the normal impulse at each end [N s]
-  double friction;                                      ///< most slip impulse per normal impulse [-]
-  double normal_impulse[2];                             ///< [N s]
-  double slip_impulse;                                  ///< [N s]
+  double inverse_slip_mass, slip_mass;  ///< speed along the line per slip impulse [1/kg], and its inverse
+  double least[2];                      ///< smallest normal impulse: what restitution has added [N s]
+  double limit;                         ///< largest normal impulse at each end [N s]
+  double friction;                      ///< largest slip impulse per normal impulse [-]
+  double normal_impulse[2];             ///< [N s]
+  double slip_impulse;                  ///< [N s]
 };
 
-/// Velocity of b relative to a at a contact line [m/s].
+/// The velocity of b relative to a at a contact line [m/s].
 struct ConstraintSpeeds {
-  std::array<double, 2> apart;  ///< at each end, along the normal
-  double slip;                  ///< along the line
+  std::array<double, 2> apart;  ///< separating speed at each end, along the normal
+  double slip;                  ///< speed along the line
 };
 
-/// The constraint of a contact between two solver bodies, without impulses.
+/// Returns the constraint of a contact between two solver bodies, without impulses.
 ContactConstraint make_constraint(const Bodies& bodies, const Contact& contact, std::int32_t a, std::int32_t b,
                                   std::span<const SolverBody> solver_bodies);
 
-/// The sum of the impulses p ≥ 0 that would bring both ends to rest without other contacts, K p = approach
-/// speeds [N s].
+/// Returns the sum of the impulses p ≥ 0 that would bring both ends to rest if there were no other contacts, K p =
+/// approach speeds [N s].
 double isolated_impulse(const ContactConstraint& constraint, const ConstraintSpeeds& speeds);
 
-/// The work of a body of prescribed motion on the other one, by the contact's impulses [J].
+/// Returns the work that a body with prescribed motion does on the other one through the contact's impulses [J].
 double prescribed_work(const ContactConstraint& constraint, std::span<const SolverBody> solver_bodies,
                        const Bodies& bodies, const Contact& contact);
 
@@ -72,13 +72,13 @@ inline ConstraintSpeeds speeds_at(const ContactConstraint& k, std::span<const So
                                  a.angular_velocity * k.arm_cross_tangent_a};
 }
 
-/// Changes the velocities by impulses on b, and their opposites on a.
+/// Changes the velocities by impulses on b, and by the opposite impulses on a.
 [[gnu::always_inline]] inline void apply_impulses(const ContactConstraint& k, double impulse_0, double impulse_1,
                                                   double slip_impulse, std::span<SolverBody> solver_bodies) {
   SolverBody& a = solver_bodies[k.a];
   SolverBody& b = solver_bodies[k.b];
   const geometry::Vector impulse = (impulse_0 + impulse_1) * k.normal + slip_impulse * perpendicular(k.normal);
-  // A body of prescribed motion is shared by islands on several threads: it is never written.
+  // A body with prescribed motion is shared by islands on several threads, so it is never written.
   if (a.inverse_mass != 0) {
     a.velocity -= a.inverse_mass * impulse;
     a.angular_velocity -=
@@ -93,7 +93,7 @@ inline ConstraintSpeeds speeds_at(const ContactConstraint& k, std::span<const So
   }
 }
 
-/// The normal impulses that bring ends of these separating speeds to rest, within their bounds.
+/// Returns the normal impulses, within their bounds, that bring ends with these separating speeds to rest [N s].
 inline std::array<double, 2> impulses_to_rest(const ContactConstraint& k, const std::array<double, 2>& apart) {
   const double before_0 = k.normal_impulse[0];
   const double before_1 = k.normal_impulse[1];
@@ -101,15 +101,15 @@ inline std::array<double, 2> impulses_to_rest(const ContactConstraint& k, const 
   double p1 = before_1 - (k.inverse_mass_at[0] * apart[1] - k.inverse_mass_between * apart[0]) * k.inverse_determinant;
   const bool is_within = p0 >= k.least[0] && p1 >= k.least[1] && p0 <= k.limit && p1 <= k.limit;
   const bool is_beyond = (p0 > k.limit && p1 > k.limit) || (p0 < k.least[0] && p1 < k.least[1]);
-  if (k.inverse_determinant == 0 || !(is_within || is_beyond)) {  // the one end at its bound decides the other
+  if (k.inverse_determinant == 0 || !(is_within || is_beyond)) {  // the end that is at its bound decides the other one
     p0 = std::clamp(before_0 - apart[0] / k.inverse_mass_at[0], k.least[0], k.limit);
     p1 = before_1 - (apart[1] + k.inverse_mass_between * (p0 - before_0)) / k.inverse_mass_at[1];
   }
   return {std::clamp(p0, k.least[0], k.limit), std::clamp(p1, k.least[1], k.limit)};
 }
 
-/// The slip impulse that brings a contact line's slip to rest, within the Coulomb cone of its normal
-/// impulses, whose last changes the bodies do not have yet [N s].
+/// Returns the slip impulse that brings the slip of a contact line to rest, within the Coulomb cone of its normal
+/// impulses [N s]. The last changes of the normal impulses, `change_0` and `change_1`, are not yet in the bodies.
 inline double slip_to_rest(const ContactConstraint& k, const SolverBody& a, const SolverBody& b, double change_0,
                            double change_1) {
   const double omega_a =
@@ -122,8 +122,8 @@ inline double slip_to_rest(const ContactConstraint& k, const SolverBody& a, cons
   return std::clamp(k.slip_impulse - slip * k.slip_mass, -most, most);
 }
 
-/// Brings both ends of a contact line to rest within their bounds, then its slip within the Coulomb cone.
-/// Returns the largest change of a velocity at the contact [m/s].
+/// Brings both ends of a contact line to rest within their bounds, and then its slip within the Coulomb cone. Returns
+/// the largest change of a speed at the contact [m/s].
 inline double solve_constraint(ContactConstraint& k, std::span<SolverBody> solver_bodies) {
   const SolverBody& a = solver_bodies[k.a];
   const SolverBody& b = solver_bodies[k.b];

@@ -6,7 +6,8 @@
 namespace polynya::dynamics {
 namespace {
 
-/// Contacts of an island that is solved by halves. Fewer: to hand the halves over takes as long as solving them.
+/// Smallest number of contacts of an island that is solved in halves. Fewer: handing the halves to threads takes as
+/// long as solving them.
 constexpr std::uint32_t kLeastDivided = 192;
 
 }  // namespace
@@ -26,7 +27,7 @@ inline std::int32_t ContactIslands::root_of(std::int32_t place) {
   return place;
 }
 
-/// By a line across its longer side, with as many contacts on both sides.
+/// Divides an island by a line across its longer side, with the same number of contacts on both sides.
 void ContactIslands::divide(const Bodies& bodies, const std::vector<Contact>& contacts, Island& island) {
   const std::span own = std::span(order_).subspan(island.first, island.count);
   geometry::Box box{contacts[own[0]].ends[0], contacts[own[0]].ends[0]};

@@ -7,18 +7,19 @@
 
 namespace polynya::dynamics {
 
-/// Contacts of the order.
+/// A range of contacts in the order of the islands.
 struct ContactRange {
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
 };
 
-/// Contacts [first, first + count) of the order: those of bodies that touch, directly or through others. A large island
-/// has two halves that share no body that moves, then the contacts between them; of others the first half is all.
+/// Contacts [first, first + count) of the order: contacts of bodies that touch each other, directly or through others.
+/// A large island has two halves that share no moving body, and then the contacts between them. In other islands the
+/// first half contains all contacts.
 struct Island {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
-  std::uint32_t halves[2] = {0, 0};  ///< contacts in each
+  std::uint32_t halves[2] = {0, 0};  ///< contacts in each half
 
   ContactRange all() const { return {first, first + count}; }
   ContactRange first_half() const { return {first, first + halves[0]}; }
@@ -27,15 +28,16 @@ struct Island {
   bool is_divided() const { return halves[0] < count; }
 };
 
-/// The contacts of one step, island by island. A body of prescribed motion connects nothing.
+/// The contacts of one step, grouped into islands. A body with prescribed motion does not connect islands.
 class ContactIslands {
  public:
-  /// Islands come in the order of their first contact, and contacts keep their order within each part of one.
+  /// Finds the islands, in the order of their first contact. Contacts keep their order within each part of an island.
   void find(const Bodies& bodies, const std::vector<Contact>& contacts);
 
   const std::vector<Island>& islands() const { return islands_; }
   const std::vector<std::uint32_t>& order() const { return order_; }  ///< contacts, island by island
-  /// The bodies that touch, each once, and where contact i's two are among them.
+  /// The bodies that touch others, each once; place_of_a and place_of_b give the places of contact i's bodies in this
+  /// list.
   const std::vector<BodyIndex>& bodies_touched() const { return touched_; }
   std::int32_t place_of_a(std::size_t contact) const { return places_[2 * contact]; }
   std::int32_t place_of_b(std::size_t contact) const { return places_[2 * contact + 1]; }
@@ -49,11 +51,11 @@ class ContactIslands {
   std::vector<std::int32_t> places_;         // two for each contact
   std::vector<std::int32_t> place_of_body_;  // −1 between the calls
   std::vector<std::int32_t> parent_;         // union-find over the touched
-  std::vector<std::int32_t> island_of_;      // by root
+  std::vector<std::int32_t> island_of_;      // by root of union-find
   std::vector<std::int32_t> island_of_contact_;
   std::vector<std::uint32_t> order_;
   std::vector<Island> islands_;
-  std::vector<double> coordinates_;  // of an island's contacts, sorted to their median
+  std::vector<double> coordinates_;  // coordinates of an island's contacts, sorted up to their median
 };
 
 }  // namespace polynya::dynamics

@@ -10,39 +10,39 @@
 namespace polynya::dynamics {
 namespace {
 
-/// Sweeps before the acceleration. Most islands need no more; with fewer, search directions are those of
+/// Number of sweeps before the acceleration starts. Most islands need no more. Fewer: the search directions include
 /// contacts that still open and close.
 constexpr int kPlainSweeps = 4;
 
-/// Of the tolerance: the slip speed within which friction grows to its bound in jams. At 1 and more, friction
-/// that sticks slips by more than the tolerance; far smaller, Newton's method finds fewer jams.
+/// Slip speed within which friction grows to its bound in jams, as a fraction of the tolerance [-]. At 1 and more,
+/// sticking contacts slip by more than the tolerance. Far smaller: Newton's method solves fewer jams.
 constexpr double kSlipShare = 0.5;
 
-/// Contacts of an island whose memory of jams is kept for the next step. Fewer: to find the shape of a matrix again
-/// takes as long as to find the memory.
+/// Smallest number of contacts of an island whose memory of jams is kept for the next step. Fewer: finding the
+/// structure of a matrix again takes as long as finding the memory.
 constexpr std::uint32_t kLeastKept = 24;
 
-/// Contacts of an island whose friction starts where the last step left it. A jam that does not change much needs a
-/// quarter of Newton's steps then. Fewer: of few floes in a row, what the residual left is carried from step to step,
-/// and they turn by it.
+/// Returns true if the friction of an island starts from its impulses of the last step. A jam that changes little then
+/// needs a quarter of the Newton steps. With a smaller limit, rows of few floes would carry the residual from step to
+/// step and turn because of it.
 constexpr bool is_large(const Island& island) {
   return island.count > 64;
 }
 
-/// An island that needs more sweeps is jammed: Newton's method, now and again. Most small ones come to their
-/// solution by some more.
+/// Number of sweeps after which an island counts as jammed and is solved by Newton's method, again after each further
+/// such number. Most small islands converge with somewhat more sweeps, so their number is larger.
 constexpr int sweeps_to_jam(const Island& island) {
   return is_large(island) ? 24 : 48;
 }
 
-/// Room for that many: steps with few contacts come between those with many.
+/// Grows a list to at least `count` elements and never shrinks it, since steps with few contacts alternate with others.
 template <class T>
 void grow(std::vector<T>& list, std::size_t count) {
   if (list.size() < count) list.resize(count);
 }
 
-/// Calls use(part, range) for each part of an island: for its two halves, 0 and 1, side by side, then for what is
-/// between, 2.
+/// Calls use(part, range) for each part of an island: for its two halves, 0 and 1, in parallel, then for the contacts
+/// between them, 2.
 template <class Use>
 void for_parts(const Island& island, int threads, Use use) {
   if (!island.is_divided()) return use(std::size_t{0}, island.all());
@@ -69,7 +69,7 @@ void ContactSolver::fill(const Bodies& bodies, const std::vector<Contact>& conta
   for_chunks(contacts.size(), kContactsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t i = islands_.order()[k];
-      // Made in their places: copying them costs as much as making them.
+      // Constructed in place: copying them costs as much as making them.
       new (&constraints_[k]) ContactConstraint(
           make_constraint(bodies, contacts[i], islands_.place_of_a(i), islands_.place_of_b(i), solver_bodies_));
       new (&states[k]) typename Law::State(state_of(law, contacts[i]));
@@ -78,7 +78,7 @@ void ContactSolver::fill(const Bodies& bodies, const std::vector<Contact>& conta
   });
 }
 
-/// Starts a substep: bounds of the impulses, and those to start from.
+/// Starts a substep: sets the bounds of the impulses and their starting values.
 template <class Law>
 void ContactSolver::start(const Island& island, const Law& law, bool is_first, int threads) {
   auto& states = std::get<States<Law>>(states_);
@@ -101,7 +101,7 @@ void ContactSolver::start(const Island& island, const Law& law, bool is_first, i
   });
 }
 
-/// Sweeps over an island until it is solved or the sweeps are used up. Returns the residual [m/s].
+/// Sweeps over an island until it is solved or all sweeps are used. Returns the residual [m/s].
 template <class Law>
 double ContactSolver::sweep(const Island& island, const Law& law, const SolverSettings& settings) {
   const int to_jam = sweeps_to_jam(island);
@@ -116,7 +116,7 @@ double ContactSolver::sweep(const Island& island, const Law& law, const SolverSe
     if (Law::kHasJams && round % to_jam == to_jam - 1) {
       if constexpr (Law::kHasJams) {
         solve_jam(island, settings, residual);
-        // A sweep would add up what single contacts miss: its residual is of the way that it goes.
+        // A sweep would add up the deviations of single contacts: its residual depends on the path of the sweep.
         const double missed = missed_speed(island, law);
         if (missed <= settings.tolerance) return missed;
       }
@@ -128,7 +128,7 @@ double ContactSolver::sweep(const Island& island, const Law& law, const SolverSe
   return residual;
 }
 
-/// One sweep, from the impulses extrapolated if that is due.
+/// Makes one sweep, from extrapolated impulses if an extrapolation is due.
 template <class Law>
 ContactSolver::Swept ContactSolver::sweep_once(const Island& island, const Law& law, const Search& search,
                                                bool is_plain, int threads) {
@@ -159,7 +159,7 @@ ContactSolver::Swept ContactSolver::sweep_range(ContactRange range, const Law& l
   return swept;
 }
 
-/// By how much an island's contacts miss the law, all at the speeds that they are at now [m/s].
+/// Returns by how much the contacts of an island deviate from the law, all at their present speeds [m/s].
 double ContactSolver::missed_speed(const Island& island, const CrushLaw& law) const {
   const auto& states = std::get<States<CrushLaw>>(states_);
   double largest = 0;
@@ -184,7 +184,7 @@ void ContactSolver::solve_jam(const Island& island, const SolverSettings& settin
                       settings.threads);
 }
 
-/// Large islands find the memory that they had in the step before: by their first contact.
+/// Gives large islands the memory that they had in the step before, which is recognised by their first contact.
 void ContactSolver::give_memories(const std::vector<Contact>& contacts) {
   const std::vector<Island>& islands = islands_.islands();
   memory_of_island_.assign(islands.size(), -1);
@@ -207,7 +207,7 @@ void ContactSolver::give_memories(const std::vector<Contact>& contacts) {
   give([](const KeptMemory&, const Contact&) { return true; });
 }
 
-/// After a sweep whose changes have that squared size.
+/// Continues the search after a sweep whose changes have this squared size.
 void ContactSolver::Search::follow(double change) {
   const bool is_first = sweeps++ == 0;
   const bool has_grown = change > last_change * (1 + 1e-6);
@@ -216,7 +216,7 @@ void ContactSolver::Search::follow(double change) {
   is_due = true;
 }
 
-/// Extrapolates impulses along their search direction, within their bounds. Jammed floes need it, whose impulses grow
+/// Extrapolates impulses along their search direction, within their bounds. Jams need this, because their impulses grow
 /// by little in each sweep.
 void ContactSolver::extrapolate(ContactRange range, const Search& search) {
   const bool is_first = search.sweeps == 1;
@@ -236,13 +236,13 @@ void ContactSolver::extrapolate(ContactRange range, const Search& search) {
     const double most = c.friction * (c.normal_impulse[0] + c.normal_impulse[1]);
     c.slip_impulse = std::clamp(extrapolated[2], -most, most);
     const double change[3] = {c.normal_impulse[0] - p[0], c.normal_impulse[1] - p[1], c.slip_impulse - p[2]};
-    if (change[0] == 0 && change[1] == 0 && change[2] == 0) continue;  // most contacts of a jam carry nothing
+    if (change[0] == 0 && change[1] == 0 && change[2] == 0) continue;  // most contacts of a jam carry no force
     apply_impulses(c, change[0], change[1], change[2], solver_bodies_);
   }
 }
 
-/// Ends a substep: its impulses and their work. Impulses together change the kinetic energy by each one times
-/// the mean of the speeds before and after.
+/// Ends a substep: sums up its impulses and their work. Together the impulses change the kinetic energy by each impulse
+/// times the mean of its speeds before and after.
 template <class Law>
 void ContactSolver::finish(const Island& island, const Law& law, int threads) {
   auto& states = std::get<States<Law>>(states_);
@@ -263,9 +263,9 @@ void ContactSolver::finish(const Island& island, const Law& law, int threads) {
   });
 }
 
-/// Adds what compression took from the bodies of an island to what its contacts store, in proportion to what each took.
-/// A contact that only passes on what others press may have given energy; the others store less by that. Returns what
-/// all of them store [J].
+/// Adds the energy that compression took from the bodies of an island to the stored energy of its contacts, in
+/// proportion to what each took. A contact that only passes on the pressure of others may have given energy; the others
+/// then store less by that amount. Returns the stored energy of all contacts [J].
 double ContactSolver::store_energy(const Island& island) {
   auto& states = std::get<States<RestitutionLaw>>(states_);
   const ContactRange range = island.all();
@@ -283,8 +283,8 @@ double ContactSolver::store_energy(const Island& island) {
   return stored;
 }
 
-/// Gives back what the contacts of an island owe, as far as what all of them store lasts. Returns whether any impulse
-/// was given.
+/// Gives back the impulses that the contacts of an island owe, as far as the stored energy of all of them lasts.
+/// Returns true if any impulse was given.
 bool ContactSolver::restore(const Island& island, const RestitutionLaw& law, bool is_converged) {
   auto& states = std::get<States<RestitutionLaw>>(states_);
   const ContactRange range = island.all();

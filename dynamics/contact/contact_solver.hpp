@@ -11,18 +11,18 @@
 
 namespace polynya::dynamics {
 
-/// How bodies push each other apart.
+/// The law by which bodies in contact push each other apart.
 using ResponseLaw = std::variant<CrushLaw, RestitutionLaw>;
 
 struct SolverSettings {
-  int max_iterations = 30;  ///< sweeps over an island, each substep
+  int max_iterations = 30;  ///< largest number of sweeps over an island in each substep
   double tolerance = 1e-7;  ///< residual at which an island is solved [m/s]
-  int threads = 1;          ///< for islands side by side
+  int threads = 1;          ///< number of threads, which solve islands in parallel
 };
 
 struct SolverResult {
-  int unconverged = 0;  ///< islands that used all sweeps
-  double residual = 0;  ///< largest of all islands [m/s]
+  int unconverged = 0;  ///< number of islands that used all sweeps
+  double residual = 0;  ///< largest residual of all islands [m/s]
   bool is_converged() const { return unconverged == 0; }
 };
 
@@ -40,46 +40,46 @@ struct SolverResult {
 ///   λ_t           the slip impulse on b along perpendicular(n), |λ_t| ≤ μ (λ_0 + λ_1) [N s]
 ///   τ             a substep [s]
 ///
-/// The law gives λ = λ(û − K λ) of one contact, both ends together. Islands of bodies that touch are solved
-/// each on its own, in a sweep contact by contact: projected Gauss–Seidel [Catto2005]. Its residual is the
-/// largest change of a speed at a contact, max(|Δλ_e| K_ee, |Δλ_t| K_t); an island is solved where it is
-/// within the tolerance. After the first sweeps, each is extrapolated along the search direction of the
-/// nonsmooth nonlinear conjugate gradients of [Silcowitz2010]; jams of crushing ice are solved by Newton's
-/// method (jam_solver.hpp). Islands are solved side by side, and a large one is swept by halves, then between them.
+/// The law gives λ = λ(û − K λ) of one contact, both ends together. Islands of touching bodies are solved separately,
+/// by sweeps over their contacts: projected Gauss–Seidel [Catto2005]. The residual of a sweep is the largest change of
+/// a speed at a contact, max(|Δλ_e| K_ee, |Δλ_t| K_t); an island is solved when it is within the tolerance. After the
+/// first sweeps, each sweep is extrapolated along the search direction of the nonsmooth nonlinear conjugate gradients
+/// of [Silcowitz2010]. Jams of crushing ice are solved by Newton's method (jam_solver.hpp). Islands are solved in
+/// parallel. A large island is swept in two halves, in parallel, and then between them.
 ///
-/// A response law L is a value with L::State for what it keeps of a contact within a step, and the functions
-/// that crush_law.hpp and restitution_law.hpp declare: substeps_of, state_of, begin_substep (bounds of λ),
-/// start_impulse, start_slip, solve_block (one contact), end_substep, write_back (what it leaves in contact and
-/// record). One that kRestores gives impulses after the compression; of one that kHasJams, State has is_rigid and ends.
+/// A response law L is a value with L::State for what it keeps of a contact within a step, and with the functions that
+/// crush_law.hpp and restitution_law.hpp declare: substeps_of, state_of, begin_substep (bounds of λ), start_impulse,
+/// start_slip, solve_block (one contact), end_substep, and write_back (results for contact and record). A law with
+/// kRestores gives impulses after the compression. The State of a law with kHasJams has the members is_rigid and ends.
 class ContactSolver {
  public:
   SolverResult solve(Bodies& bodies, std::vector<Contact>& contacts, const ResponseLaw& law,
                      const SolverSettings& settings);
 
  private:
-  struct Direction {   // of a constraint's impulses: two normal, one of slip
+  struct Direction {   // of a constraint's impulses: two normal ones and the slip impulse
     double before[3];  // at the start of the sweep
     double along[3];   // the search direction
   };
   struct Search {
     double last_change = 0;  // squared size of the last sweep's changes
-    int sweeps = 0;          // since the search started
-    double share = 0;        // of the last direction that the next one keeps
-    bool is_due = false;     // impulses are to be extrapolated
+    int sweeps = 0;          // sweeps since the search started
+    double share = 0;        // fraction of the last direction that the next one keeps
+    bool is_due = false;     // impulses are to be extrapolated before the next sweep
     void follow(double change);
   };
   struct Swept {
     double residual = 0;  // [m/s]
-    double change = 0;    // squared size of the changes, as kinetic energy has it
+    double change = 0;    // squared size of the changes, measured as kinetic energy
   };
-  struct Sums {  // of one contact over the substeps
+  struct Sums {  // of one contact, over the substeps
     ConstraintSpeeds before;
     double impulse[2], slip_impulse;  // [N s]
     double normal_work, slip_work;    // [J]
   };
   struct KeptMemory {
-    BodyIndex a = -1, b = -1;  // of the first contact of the island that had it last
-    bool is_taken = false;     // in this step
+    BodyIndex a = -1, b = -1;  // first contact of the island that had the memory last
+    bool is_taken = false;     // taken in this step
     JamMemory memory;
   };
   template <class Law>
@@ -110,13 +110,13 @@ class ContactSolver {
 
   ContactIslands islands_;
   std::vector<SolverBody> solver_bodies_;       // by their places in the islands
-  std::vector<ContactConstraint> constraints_;  // in the islands' order, as all that follows
+  std::vector<ContactConstraint> constraints_;  // in the order of the islands, as all that follows
   std::tuple<States<CrushLaw>, States<RestitutionLaw>> states_;
   std::vector<Sums> sums_;
   std::vector<Direction> directions_;
-  std::vector<double> residuals_;  // of the islands
+  std::vector<double> residuals_;  // residual of each island
   std::vector<KeptMemory> jam_memories_;
-  std::vector<std::int32_t> memory_of_island_;  // among them; −1: it has none that is kept
+  std::vector<std::int32_t> memory_of_island_;  // index of each island's memory among them; −1: none is kept
 };
 
 }  // namespace polynya::dynamics

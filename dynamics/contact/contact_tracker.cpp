@@ -50,7 +50,8 @@ void ContactTracker::update(std::span<Contact> contacts, std::span<const Contact
   }
 }
 
-/// Updates the record of a pair that has had one contact and has it still, as nearly all do. Returns whether it is one.
+/// Updates the record of a pair that had one contact and still has one, which is the usual case. Returns true if it is
+/// such a pair.
 bool ContactTracker::continues_one(std::span<Contact> contacts, std::span<const ContactManifold> manifolds,
                                    const Bodies& bodies) {
   if (contacts.size() != 1 || records_.size() != 1 || records_[0].is_inherited) return false;
@@ -75,14 +76,14 @@ void ContactTracker::update_several(std::span<Contact> contacts, std::span<const
   std::swap(records_, updated_);
 }
 
-/// How far a contact may be from where its record was [m]. Where a body is or was pierced, line and middle
-/// may move through all of the overlap in a step.
+/// Returns how far a contact may be from the place of its record [m]. If a body is or was pierced, line and middle may
+/// move through the whole overlap in one step.
 double ContactTracker::reach_of(const PersistentContact& record, const Patch& patch) const {
   const bool is_pierced = patch.is_pierced || record.is_pierced;
   return tolerance_ + (is_pierced ? std::max(patch.reach, record.reach) : patch.reach);
 }
 
-/// The nearest record that may be the contact's; else a new one, whose age is 0.
+/// Returns the nearest record that may belong to the contact, or a new one with age 0.
 PersistentContact ContactTracker::record_of(const Contact& c, const Patch& patch, const Bodies& bodies) {
   PersistentContact* old = nullptr;
   double nearest = std::numeric_limits<double>::infinity();
@@ -100,7 +101,7 @@ PersistentContact ContactTracker::record_of(const Contact& c, const Patch& patch
 
 namespace {
 
-/// Moves what is paid of an overlap to one that was a part of it: that part's share, as far as it is available [m²].
+/// Moves paid area of an overlap to one that was a part of it: its share by area, as far as it is available [m²].
 void give_part(double available, double area_of_part, PersistentContact& from, PersistentContact& to) {
   if (!(available > 0)) return;
   const double share_paid = std::min(1.0, from.paid_area / std::max(from.paid_area, from.area));
@@ -116,8 +117,8 @@ void give_part(double available, double area_of_part, PersistentContact& from, P
 
 }  // namespace
 
-/// A contact without a record of its own is a part of an overlap that was there: of one that ended or was inherited, or
-/// of one that goes on and of which more is paid than it has left.
+/// Gives a contact without a record its part of the paid area. The contact is a part of an earlier overlap: of one that
+/// ended or was inherited, or of one that continues and has more paid area than its remaining area.
 void ContactTracker::take_parts(std::span<const Contact> contacts, std::size_t part) {
   PersistentContact& record = updated_[part];
   const double area = contacts[part].area;
@@ -125,7 +126,7 @@ void ContactTracker::take_parts(std::span<const Contact> contacts, std::size_t p
     if (old.is_continued) continue;
     if (old.area > 0) record.area = area;
     give_part(old.paid_area, area - record.paid_area, old, record);
-    // It is cut off with the part that took it over, and not again where its own record ends.
+    // This ice is cut off with the part that took it over, and not again when its own record ends.
     if (old.crushed.area > 0 && !old.is_inherited && record.crushed.area >= old.crushed.area) old.crushed = {};
   }
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -134,7 +135,7 @@ void ContactTracker::take_parts(std::span<const Contact> contacts, std::size_t p
   }
 }
 
-/// Records without a contact whose overlap has become part of another.
+/// Adds up the paid areas where the overlap of a record without a contact has become part of another overlap.
 void ContactTracker::join_left_over(std::span<Contact> contacts, std::span<const ContactManifold> manifolds,
                                     const Bodies& bodies) {
   for (const PersistentContact& old : records_) {
@@ -171,7 +172,7 @@ void ContactTracker::advance(PersistentContact& record, const Contact& c, const 
   record.approach += std::max(0.0, c.approach_speed) * dt_;
   record.is_pierced = patch.is_pierced;
   if (patch.is_pierced) {
-    // It was crushed, or the bodies would not be in each other so far: nothing separates it by the law of impulses.
+    // The ice was crushed, or the bodies would not overlap so far: the law of impulses does not separate it.
     record.crushed_depth = c.depth;
   } else {
     record.crushed_depth = std::min(record.crushed_depth, c.depth);

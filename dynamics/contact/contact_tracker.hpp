@@ -9,12 +9,12 @@
 
 namespace polynya::dynamics {
 
-/// Updates the records of a pair's contacts. A record passes to the nearest contact that may be the same; one
-/// without a contact is dropped. What is paid of an overlap (paid_overlap.hpp) never grows here: overlaps that join add
-/// up what is paid of them, and where one becomes several, each takes its part.
+/// Updates the records of a pair's contacts. A record passes to the nearest contact that may be the same one; a record
+/// without a contact is dropped. The paid area of overlaps (paid_overlap.hpp) never grows here: if overlaps join, their
+/// paid areas are added, and if one becomes several, each takes its part.
 class ContactTracker {
  public:
-  /// Of the pair a, b. Contacts that end with ice that they crushed are added to `parted`.
+  /// Tracks the contacts of the pair a, b. Contacts that end with ice that they crushed are added to `parted`.
   ContactTracker(BodyIndex a, BodyIndex b, std::vector<PersistentContact>& records,
                  std::vector<PersistentContact>& scratch, std::vector<PartedContact>& parted, double circle_radius,
                  double dt)
@@ -26,14 +26,15 @@ class ContactTracker {
         tolerance_(0.25 * circle_radius),
         dt_(dt) {}
 
-  /// `manifolds` are those of the contacts, one each. There may be none: edges that meet need not overlap.
+  /// Updates the records. `manifolds` has one manifold for each contact. There may be none, since edges that meet need
+  /// not overlap.
   void update(std::span<Contact> contacts, std::span<const geometry::ContactManifold> manifolds, const Bodies& bodies);
 
-  /// Ends all contacts: the pair does not touch any more.
+  /// Ends all contacts, because the pair no longer touches.
   void end(const Bodies& bodies);
 
  private:
-  struct Patch {             ///< a contact's, in b's frame
+  struct Patch {             ///< place of a contact, in b's frame
     geometry::Point middle;  ///< of the contact line, or of the overlap of a pierced body [m]
     geometry::Vector normal;
     double half_width, depth, reach;  ///< [m]
@@ -57,7 +58,7 @@ class ContactTracker {
   std::vector<PersistentContact>& records_;
   std::vector<PersistentContact>& updated_;
   std::vector<PartedContact>& parted_;
-  double tolerance_;  // of a contact's displacement in a step, beside half its width [m]
+  double tolerance_;  // of a contact's displacement in a step, in addition to half its width [m]
   double dt_;
 };
 

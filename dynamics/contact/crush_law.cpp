@@ -7,11 +7,11 @@
 namespace polynya::dynamics {
 namespace {
 
-/// Newton's tries at the branches of both ends before all pairs are tried. It seldom needs three; fewer tries
-/// cost time, not accuracy.
+/// Number of Newton steps on the branches of both ends before all pairs of branches are tried. More than three are
+/// rarely needed. Fewer cost time, not accuracy.
 constexpr int kMostTries = 8;
 
-/// The two ends of one contact line and what slows them.
+/// The two ends of one contact line, with their laws and their mobility.
 class EndPair {
  public:
   EndPair(const std::array<CrushResponse, 2>& ends, const std::array<CrushKinks, 2>& kinks,
@@ -22,7 +22,7 @@ class EndPair {
     return {free_[0] - mobility_.at[0] * impulse[0] - mobility_.between * impulse[1],
             free_[1] - mobility_.between * impulse[0] - mobility_.at[1] * impulse[1]};
   }
-  /// The branches nearest to impulses and the speeds that they leave.
+  /// Returns the branches nearest to the given impulses and the speeds that follow from them.
   ActiveBranches branches_near(const std::array<double, 2>& impulse) const {
     const auto speed = speeds(impulse);
     return {{branch_near(ends_[0], kinks_[0], speed[0], impulse[0], mobility_.at[0]),
@@ -40,7 +40,7 @@ class EndPair {
     const double determinant = m00 * m11 - m01 * m10;  // ≥ 1: K is positive semidefinite
     return {(m11 * right_0 - m01 * right_1) / determinant, (m00 * right_1 - m10 * right_0) / determinant};
   }
-  /// By how much impulses miss the law [N s].
+  /// Returns by how much impulses deviate from the law [N s].
   double violation(const std::array<double, 2>& impulse) const {
     const auto u = speeds(impulse);
     return std::max(std::abs(impulse[0] - crush_impulse(ends_[0], u[0])),
@@ -86,7 +86,7 @@ EndsLine line_on(const CrushLaw::State& c, const EndsMobility& mobility) {
   return line;
 }
 
-/// crush_impulses, on the line of the last solution where that is on its branches still.
+/// Returns what crush_impulses returns, but uses the line of the last solution if its branches still hold.
 std::array<double, 2> impulses_of(CrushLaw::State& c, const EndsMobility& mobility,
                                   const std::array<double, 2>& closing_speed) {
   if (c.line) {
@@ -103,7 +103,7 @@ std::array<double, 2> impulses_of(CrushLaw::State& c, const EndsMobility& mobili
   return impulse;
 }
 
-/// v_g, by how fast the gap to the paid depth is closed [m/s].
+/// Returns v_g, the speed at which the gap to the paid depth is closed [m/s].
 double gap_speed_of(const CrushLaw& law, const CrushLaw::State& c) {
   const double gap = c.paid - c.depth;
   if (gap >= 0) return gap * law.substeps / law.step;
@@ -118,14 +118,14 @@ CrushingForce force_of(const CrushLaw::State& c) {
   return {c.force, c.exponent, std::max(c.depth, c.paid)};
 }
 
-/// k while the bodies close as they do now for a time τ, once the gap is closed [N/m].
+/// Returns the stiffness k for bodies that close at their present speeds for a time τ, after the gap is closed [N/m].
 double stiffness_in(const CrushLaw::State& c, const ConstraintSpeeds& speeds, double tau) {
   const double gap = std::max(0.0, c.paid - c.depth);
   return stiffness_over(force_of(c), std::max(0.0, tau * closing_speed_of(speeds) - gap));
 }
 
-/// The most impulse that the ice gives in a time τ before it breaks: where the force grows to the breaking
-/// force sooner, at the speed of closing now, all until then [N s].
+/// Returns the largest impulse of the ice in a time τ before it breaks [N s]. If the force, growing at the present
+/// closing speed, reaches the breaking force within τ, this is the impulse up to then.
 double impulse_to_breaking(const CrushLaw::State& c, const ConstraintSpeeds& speeds, double tau) {
   if (!std::isfinite(c.breaking_force)) return c.breaking_force;
   const double growth = closing_speed_of(speeds) * stiffness_in(c, speeds, tau);  // [N/s]
@@ -207,7 +207,7 @@ void begin_substep(const CrushLaw& law, const ConstraintSpeeds& before, bool is_
                    ContactConstraint& constraint) {
   if (state.is_rigid) return;
   const double tau = law.step / law.substeps;
-  // The force at the overlap now, by the law's slope where it was found.
+  // The force at the present overlap, extrapolated with the slope of the law from where it was found.
   CrushResponse& end = state.ends[0];
   const double missed = is_first ? state.missed : 0;
   end.impulse_of_force = 0.5 * (tau * state.force + missed);
@@ -259,9 +259,9 @@ double missed_speed(const CrushLaw& law, const CrushLaw::State& state, const Con
 void end_substep(const CrushLaw& law, const ConstraintSpeeds& before, const ConstraintSpeeds& after,
                  const ContactConstraint& constraint, CrushLaw::State& state) {
   double closing = 0;
-  double work = -0.5 * constraint.slip_impulse * (before.slip + after.slip);  // wears ice off, too
+  double work = -0.5 * constraint.slip_impulse * (before.slip + after.slip);  // slip wears ice off, too
   for (std::size_t end = 0; end < 2; ++end) {
-    closing -= 0.5 * after.apart[end];  // as the bodies are moved, by their new speeds
+    closing -= 0.5 * after.apart[end];  // the bodies are moved with their new speeds
     work -= 0.5 * constraint.normal_impulse[end] * (before.apart[end] + after.apart[end]);
     if (!state.is_rigid && state.breaks_at_cap && branch_at(state.ends[end], -after.apart[end]) == CrushBranch::kBroken)
       state.is_broken = true;

@@ -11,9 +11,9 @@
 
 namespace polynya::dynamics {
 
-/// Square cells over the water, each with the bodies whose boxes touch it. Unbounded: cells are hashed.
-/// Bodies that are much smaller than a cell are in grids of finer cells, or a plate's broken pieces would all
-/// be in the one cell that the plate had.
+/// Square cells over the water; each has the bodies whose boxes touch it. The grid is unbounded, since cells are
+/// hashed. Bodies that are much smaller than a cell are in grids with finer cells. Otherwise all pieces of a broken
+/// plate would be in the one cell that the plate had.
 class HashGrid {
  public:
   explicit HashGrid(double cell) {
@@ -41,7 +41,7 @@ class HashGrid {
     for_cells(level.cell, box, [&](std::int64_t key) { erase(level.cells[key]); });
   }
 
-  /// A body whose box has moved: mostly within the same cells.
+  /// Updates a body whose box has moved; it usually stays within the same cells.
   void move(BodyIndex body, const geometry::Box& from, const geometry::Box& to) {
     if (!is_wide(from) && !is_wide(to) && &level_of(from) == &level_of(to)) {
       const double cell = level_of(to).cell;
@@ -52,7 +52,7 @@ class HashGrid {
     insert(body, to);
   }
 
-  /// Calls function(other) for each body in the cells of the box, once per common cell.
+  /// Calls function(other) for each body in the cells of the box, once for each common cell.
   template <typename Function>
   void for_each_near(const geometry::Box& box, Function function) const {
     for (const BodyIndex other : wide_) function(other);
@@ -61,14 +61,14 @@ class HashGrid {
 
  private:
   struct Level {
-    double cell = 0;  ///< [m]
+    double cell = 0;  ///< side of the cells [m]
     std::unordered_map<std::int64_t, std::vector<BodyIndex>> cells;
   };
-  static constexpr double kFiner = 8;          ///< a level's cells against the next one's
-  static constexpr double kFewCells = 64;      ///< that many are always looked up one by one
-  static constexpr double kMostCells = 65536;  ///< a body that spans more is in no cell but near all bodies
+  static constexpr double kFiner = 8;          ///< side of the cells of the next level over the side of these [-]
+  static constexpr double kFewCells = 64;      ///< number of cells up to which each is looked up
+  static constexpr double kMostCells = 65536;  ///< a body that spans more cells is in none, and near all bodies
 
-  /// Column and row.
+  /// Column and row of a point's cell.
   static std::array<std::int64_t, 2> cell_of(geometry::Point p, double cell) {
     return {static_cast<std::int64_t>(std::floor(p.x / cell)), static_cast<std::int64_t>(std::floor(p.y / cell))};
   }
@@ -100,13 +100,13 @@ class HashGrid {
     });
   }
 
-  /// About how many cells a box touches, at least one.
+  /// About how many cells a box touches; at least one.
   static double cells_of(double cell, const geometry::Box& box) {
     return ((box.high.x - box.low.x) / cell + 1) * ((box.high.y - box.low.y) / cell + 1);
   }
   bool is_wide(const geometry::Box& box) const { return cells_of(levels_.front().cell, box) > kMostCells; }
 
-  /// The finest whose cells are no smaller than the box: there it is in four of them at most.
+  /// Returns the finest level whose cells are not smaller than the box; the box is then in at most four cells.
   Level& level_of(const geometry::Box& box) {
     const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
     std::size_t i = 0;

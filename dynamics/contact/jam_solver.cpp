@@ -11,26 +11,30 @@
 namespace polynya::dynamics {
 namespace {
 
-/// Newton steps; half a dozen is common. Fewer: more jams are left to the sweeps, which converge slowly.
+/// Largest number of Newton steps for a jam; half a dozen is common. Fewer: more jams are left to the sweeps, which
+/// converge slowly.
 constexpr int kMostSteps = 60;
-/// After them half of what would change, an end's branch or a contact's slip, waits in each step, but what misses its
-/// branch by most: that ends cycles. Fewer: every jam takes more steps; many more: those that cycle are not solved
-/// within kMostSteps.
+/// Number of Newton steps that change all branches. After them a random half of the changes (branches of ends, slip of
+/// contacts) is postponed in each step, except for the change that is farthest beyond its branch. This ends cycles.
+/// Fewer: every jam takes more steps. Many more: jams that cycle are not solved within kMostSteps.
 constexpr int kWholeSteps = 4;
-/// After them only half of how the bound of what slips changes follows within the step: where all of it does, the
-/// matrix may be nearly singular, and speeds jump. Sooner: every jam takes more steps; later: a few are never solved.
+/// Number of Newton steps in which the friction bound of a slipping contact follows the normal impulses completely.
+/// After them it follows only by half, because the matrix may be nearly singular with the complete derivative, and
+/// speeds then jump. Fewer: every jam takes more steps. More: a few jams are never solved.
 constexpr int kWholeBoundSteps = 16;
-/// What friction's bound may still change the slip by, in slip speeds. Greater: the slip impulses found miss
-/// Coulomb's law by that share.
+/// Largest change of slip by the friction bound at which the bound counts as found, as a fraction of the slip speed
+/// [-]. Larger: the slip impulses deviate from Coulomb's law by that fraction.
 constexpr double kBoundFound = 0.05;
-/// The slope of what sticks, in bounds per slip speed: where it starts, and how far it stays while the bound changes.
-/// Less far: more rows of the matrix are factorized again. Steeper: Newton's method finds fewer jams.
+/// Slope of a sticking contact, in units of the friction bound per slip speed [-]: the value at which it starts, and
+/// the largest value that is kept while the bound changes. A smaller range: more rows of the matrix are factorized
+/// again. A steeper start: Newton's method solves fewer jams.
 constexpr double kStickStart = 1.4, kStickRange = 2;
-/// Impulse per speed of rigid ends, in masses. Smaller: steel sinks into steel at a visible speed; far
-/// greater: the masses are lost to rounding beside it, and the matrix is singular.
+/// Impulse per speed of a rigid end, in units of the effective mass there [-]. Smaller: steel visibly sinks into steel.
+/// Far larger: the masses are lost in rounding, and the matrix becomes singular.
 constexpr double kRigid = 1e6;
 
-/// Contacts for one thread at a time: in each of Newton's steps all are gone through, some 10 µs of them.
+/// Number of contacts that one thread takes at a time: about 10 µs of work in each Newton step. Does not change
+/// results.
 constexpr std::size_t kPerChunk = 48;
 
 JamRows rows_of(const ContactConstraint& c, int a, int b) {
@@ -46,7 +50,8 @@ JamRows rows_of(const ContactConstraint& c, int a, int b) {
           .b = b};
 }
 
-/// Which half of all branches waits in a step, without any pattern that a cycle could follow.
+/// Returns true if a change of this branch is postponed in this step: a pseudo-random half of all branches, without a
+/// pattern that a cycle could follow.
 bool waits(std::size_t branch, int step) {
   std::uint64_t x = branch * 0x9E3779B97F4A7C15U + static_cast<std::uint64_t>(step) * 0xBF58476D1CE4E5B9U;
   x = (x ^ (x >> 31U)) * 0x94D049BB133111EBU;
@@ -56,41 +61,42 @@ bool waits(std::size_t branch, int step) {
 }  // namespace
 
 struct JamMemory::Parts {
-  using Speeds = std::array<double, 3>;  ///< of one contact: apart at both ends, along the line [m/s]
-  /// The branches that a contact is on: of its ends, and whether it slips to a side (−1, 1) or sticks (0).
+  using Speeds = std::array<double, 3>;  ///< speeds of one contact: separation at both ends, slip along the line [m/s]
+  /// Branches of the two ends of a contact, and whether it slips to one side (−1 or 1) or sticks (0).
   struct ActiveSet {
     ActiveBranches ends;
     int slip = 0;
     friend bool operator==(const ActiveSet&, const ActiveSet&) = default;
   };
-  /// The lines of an end's branch and where the branch begins and ends, as places (branch_near).
+  /// Straight line of an end's branch, and the places (see branch_near) at which the branch begins and ends.
   struct Line {
     double at_rest, slope;  ///< [N s], [N s per m/s]
     double after, to;       ///< [m/s]
   };
-  /// Where a contact would leave its branches: for which others, and by how much it is beyond those at hand [m/s].
+  /// A contact that would leave its branches, the branches to which it would change, and how far it is beyond the
+  /// present ones [m/s].
   struct Change {
     std::size_t contact;
     ActiveSet to;
-    std::array<double, 3> by;  ///< of its ends, and of its slip
+    std::array<double, 3> by;  ///< for its two ends and its slip [m/s]
   };
   JamMatrix matrix;
   std::vector<Change> changes;
   std::vector<std::vector<Change>> changes_of_chunk;
-  std::vector<double> normal;                             ///< impulse of a contact by itself [N s]
-  std::vector<std::array<double, 3>> impulses_before;     ///< of the constraints
-  std::vector<SolverBody> bodies_before, bodies_without;  ///< those free to move; without any impulses
-  std::vector<std::int32_t> number_of;                    ///< of the solver's bodies that a jam has had
-  std::vector<std::int32_t> body_of;                      ///< those free to move, three unknowns each
+  std::vector<double> normal;  ///< sum of the normal impulses of each contact, by its law alone [N s]
+  std::vector<std::array<double, 3>> impulses_before;     ///< impulses of the constraints at the start
+  std::vector<SolverBody> bodies_before, bodies_without;  ///< free bodies at the start, and without any impulses
+  std::vector<std::int32_t> number_of;  ///< unknown of each of the solver's bodies; −1: prescribed motion
+  std::vector<std::int32_t> body_of;    ///< solver body of each unknown; each has three components
   std::vector<JamRows> rows;
   std::vector<Speeds> speeds;
-  std::vector<JamLoad> loads;  ///< by the speeds, on the branches; the impulses need not obey their laws
+  std::vector<JamLoad> loads;  ///< linearised at the present speeds and branches; the impulses may violate their laws
   std::vector<ActiveSet> active_sets;
-  std::vector<std::array<CrushKinks, 2>> kinks;  ///< of the laws
-  std::vector<std::array<Line, 2>> lines;        ///< of the branches
-  std::vector<double> slip_bound;                ///< [N s]
-  std::vector<double> stick_slope;               ///< slip impulse by slip where it sticks [N s per m/s]
-  JamVector mass, velocity, without;             ///< now, and without any impulses; one more for prescribed motion
+  std::vector<std::array<CrushKinks, 2>> kinks;  ///< kinks of the laws
+  std::vector<std::array<Line, 2>> lines;        ///< lines of the branches
+  std::vector<double> slip_bound;                ///< largest slip impulse by Coulomb's law [N s]
+  std::vector<double> stick_slope;               ///< slip impulse per slip speed of a sticking contact [N s per m/s]
+  JamVector mass, velocity, without;             ///< now, and without impulses; a last element for prescribed motion
   JamVector direction;
 };
 
@@ -134,7 +140,7 @@ class Jam {
     active_sets_.assign(rows_.size(), {});
     stick_slope_.assign(rows_.size(), 0);
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    constexpr Line kNone{.at_rest = 0, .slope = 0, .after = kInfinity, .to = kInfinity};  // the impulses are on none
+    constexpr Line kNone{.at_rest = 0, .slope = 0, .after = kInfinity, .to = kInfinity};  // no branch yet
     lines_.assign(rows_.size(), {kNone, kNone});
     normal_.resize(rows_.size());
   }
@@ -156,13 +162,13 @@ class Jam {
 
  private:
   struct Choice {
-    bool are_sets_found = true;    ///< no contact would leave its own
-    bool are_bounds_found = true;  ///< of friction
+    bool are_sets_found = true;    ///< no contact would leave its branches
+    bool are_bounds_found = true;  ///< no friction bound would change
   };
 
   static std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-  /// In the order in which the contacts have them.
+  /// Numbers the free bodies in the order in which the contacts name them.
   void number_unknowns() {
     body_of_.clear();
     std::vector<std::int32_t>& number = memory_.number_of;
@@ -224,7 +230,8 @@ class Jam {
     }
     return choice;
   }
-  /// After prepare(begin, end) of some contacts their changes are found, side by side; in the contacts' order.
+  /// Calls prepare(begin, end) for chunks of contacts in parallel and finds their changes, which are listed in the
+  /// order of the contacts.
   template <class Prepare>
   void find_changes(Prepare prepare) {
     auto& of_chunk = memory_.changes_of_chunk;
@@ -246,7 +253,7 @@ class Jam {
     normal_[k] = beyond[0] <= 0 && beyond[1] <= 0 ? normal_within_law(k) : find_branches(k, set.ends);
     const double slipping = c.inverse_slip_mass * loads_[k].impulse[2] - speeds_[k][2];
     const double most = c.inverse_slip_mass * slip_bound_[k] + stick_speed(k);
-    // Within the bound so far: within the new one, stick and slip may follow each other for ever.
+    // The bound of the last step is used here: with the new one, stick and slip may alternate forever.
     set.slip = std::abs(slipping) <= most ? 0 : slipping > 0 ? 1 : -1;
     if (set == active_sets_[k]) return;
     const auto by = [&](auto from, auto to, double beyond_it) { return from != to ? beyond_it : 0; };
@@ -256,15 +263,15 @@ class Jam {
                        {by(now.ends.of[0], set.ends.of[0], beyond[0]), by(now.ends.of[1], set.ends.of[1], beyond[1]),
                         by(now.slip, set.slip, std::abs(std::abs(slipping) - most))}});
   }
-  /// By how much an end's impulse, on the line of its branch, is beyond where the branch is the nearest [m/s].
+  /// Returns how far an end is beyond the range in which its branch is the nearest one; negative inside [m/s].
   double beyond_branch(std::size_t k, std::size_t end) const {
     const Line& line = lines_[k][end];
     const double place =
         -speeds_[k][end] - laws_[k][end].gap_speed + constraints_[k].inverse_mass_at[end] * loads_[k].impulse[end];
     return std::max(line.after - place, place - line.to);
   }
-  /// The branches that a contact's ends would be on by themselves, were its bodies free but for the impulses of the
-  /// others. Returns both ends' impulses then [N s].
+  /// Finds the branches that solve the law of a contact alone, with the impulses of all other contacts fixed. Returns
+  /// the sum of the normal impulses of both ends [N s].
   double find_branches(std::size_t k, ActiveBranches& branches) const {
     const EndsMobility mobility = mobility_of(constraints_[k]);
     const auto trial = trial_speeds(mobility, {speeds_[k][0], speeds_[k][1]}, loads_[k].impulse);
@@ -279,12 +286,13 @@ class Jam {
       lines_[k][end] = {line.at_rest, line.slope, after, to};
     }
   }
-  /// The slip at which what sticks comes to its bound [m/s].
+  /// Returns the slip speed at which a sticking contact reaches its friction bound [m/s].
   double stick_speed(std::size_t k) const {
     return stick_slope_[k] > 0 ? slip_bound_[k] / stick_slope_[k] : slip_speed_;
   }
-  /// By the speeds now, on the branches as if they had no ends. The bound of what slips follows the normal
-  /// impulses within the step: the exact derivative of Coulomb's law, which is not symmetric.
+  /// Linearises a contact at the present speeds, on its branches extended without ends. The friction bound of a
+  /// slipping contact follows the normal impulses within the step: this is the exact derivative of Coulomb's law, which
+  /// is not symmetric.
   void find_load(std::size_t k) {
     JamLoad& load = loads_[k];
     for (std::size_t end = 0; end < 2; ++end) {
@@ -306,12 +314,13 @@ class Jam {
     load.slope[2] = stick_slope_[k];
     load.impulse[2] = -load.slope[2] * speeds_[k][2];
   }
-  /// The slope of what sticks stays while its bound does not change much: with it the matrix's rows do.
+  /// Updates the slope of a sticking contact. It is kept while the friction bound changes little, so that the rows of
+  /// the matrix are kept too.
   void find_stick_slope(std::size_t k) {
     const double most = slip_bound_[k] / slip_speed_;
     if (stick_slope_[k] < most || stick_slope_[k] > kStickRange * most) stick_slope_[k] = kStickStart * most;
   }
-  /// The momenta that are missed.
+  /// Finds the momenta that are missing for equilibrium.
   void find_imbalance() {
     JamVector& missed = memory_.direction;
     missed.resize(mass_.size());
@@ -324,7 +333,7 @@ class Jam {
     }
     missed.back() = {};
   }
-  /// Changes the velocities, and with them speeds and impulses.
+  /// Changes the velocities by the Newton direction, and with them speeds and impulses.
   void advance() {
     for (std::size_t i = 0; i < velocity_.size(); ++i) {
       for (std::size_t j = 0; j < 4; ++j) velocity_[i][j] += memory_.direction[i][j];
@@ -334,7 +343,7 @@ class Jam {
       add_speeds(std::span(rows_).subspan(begin, count), memory_.direction, std::span(speeds_).subspan(begin, count));
       for (std::size_t k = begin; k < end; ++k) {
         find_load(k);
-        if (active_sets_[k].slip == 0) continue;  // by impulses within their laws: others would turn the slip round
+        if (active_sets_[k].slip == 0) continue;  // impulses within their laws: others would reverse the slip
         slip_bound_[k] = constraints_[k].friction * normal_within_law(k);
         loads_[k].impulse[2] = active_sets_[k].slip * slip_bound_[k];
       }
@@ -345,8 +354,7 @@ class Jam {
     for (std::size_t end = 0; end < 2; ++end) normal += std::clamp(loads_[k].impulse[end], 0.0, laws_[k][end].cap);
     return normal;
   }
-  /// Returns by how much the impulses, which obey their bounds once entered, give other speeds than they were found at
-  /// [m/s].
+  /// Enters the impulses, limited to their bounds, into the constraints and the bodies. Returns missed_speed() [m/s].
   double enter() {
     put(bodies_without_);
     enter_impulses();
@@ -363,8 +371,9 @@ class Jam {
     }
   }
 
-  /// By how much the impulses entered, which obey their bounds, give other speeds than those they were found
-  /// at: short of the minimum, or where masses differ by more than doubles bear [m/s].
+  /// Returns the largest difference between the speeds after the entered (limited) impulses and the speeds for which
+  /// they were computed [m/s]. It is large before the minimum is reached, and where masses differ by more than double
+  /// precision can resolve.
   double missed_speed() const {
     double largest = 0;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
@@ -397,9 +406,9 @@ class Jam {
   std::span<const EndLaws> laws_;
   std::span<SolverBody> bodies_;
   double slip_speed_;
-  double residual_;  ///< of the sweeps before [m/s]
+  double residual_;  ///< residual of the sweeps before [m/s]
   int threads_;
-  double share_that_follows_ = 1;  ///< of the bound of what slips
+  double share_that_follows_ = 1;  ///< fraction of a change of the friction bound that is followed within a step
   JamMemory::Parts& memory_;
   std::vector<std::array<double, 3>>& impulses_before_ = memory_.impulses_before;
   std::vector<SolverBody>& bodies_before_ = memory_.bodies_before;

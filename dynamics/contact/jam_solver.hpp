@@ -9,12 +9,12 @@
 
 namespace polynya::dynamics {
 
-/// The law of steel on steel at one end: rigid, but for a speed of a millionth of the approach.
-/// `inverse_mass`: of the end, K's diagonal [1/kg].
+/// Returns the law of a steel-on-steel end. It is rigid, except for a speed of a millionth of the approach.
+/// `inverse_mass` is the diagonal element of K for this end [1/kg].
 CrushResponse rigid_law(double inverse_mass);
 
-/// What solving jams takes beside them. It keeps the shape of a jam's matrix for the next one between the same bodies;
-/// what is found does not depend on it.
+/// Memory that the solution of jams reuses: it keeps the structure of a jam's matrix for the next jam between the same
+/// bodies. Results do not depend on it.
 class JamMemory {
  public:
   JamMemory();
@@ -28,25 +28,28 @@ class JamMemory {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Finds the impulses of one jammed island by Newton's method, where sweeps over its contacts converge
-/// slowly: the new velocities v minimise
+/// Finds the impulses of one jammed island by Newton's method. It is used where sweeps over the contacts converge
+/// slowly. The new velocities v minimise
 ///
 ///   ½ (v − v⁰)ᵀ M (v − v⁰) + Σ Φ_i(u_i(v)) + Σ Ψ_c(s_c(v)),   Φ_i' = λ_i,
 ///
-/// strictly convex and piecewise quadratic (docs/theory/contact.md): v⁰ are the velocities without
-/// impulses, M the masses, u_i the closing speed of an end, s_c the slip of a contact, λ their impulses by
-/// the law. Each Newton step solves the equations of the branches at hand, a sparse system of 3 unknowns a
-/// body. The active set of the next one are the branches of λ = λ(û − K λ), solved for each contact alone, û
-/// = u + K λ its trial closing speeds and K its mobility (primal-dual active sets, [Hintermueller2003]).
-/// After some steps half of the contacts wait in each, which ends cycles. Ψ is friction: the slip impulse
-/// grows to its bound, μ times the normal impulses, within `slip_speed` [m/s] or less. The bound of what slips
-/// follows within the step: the exact derivative of Coulomb's law, not symmetric [Alart1991]. Starts from the
-/// constraints' impulses and the bodies' velocities.
+/// which is strictly convex and piecewise quadratic (docs/theory/solver.md). v⁰ are the velocities without impulses, M
+/// the masses, u_i the closing speed of an end, s_c the slip of a contact, and λ_i their impulses by the law. Ψ is
+/// friction: the slip impulse grows to its bound, μ times the normal impulses, within a slip of at most `slip_speed`
+/// [m/s].
 ///
-/// Enters the impulses into the constraints and the velocities into the bodies and returns true where no
-/// contact would leave its branches. Else returns false; what it came to is entered where that misses its speeds by
-/// less than `residual`, that of the start [m/s], and sweeps go on from there; or both stay as they were. Bodies of
-/// prescribed motion are never changed. The same by any number of threads.
+/// Each Newton step solves the equations of the present branches, a sparse system with 3 unknowns per body. The
+/// branches (active set) of the next step follow from λ = λ(û − K λ), solved for each contact alone, where û = u + K λ
+/// are its trial closing speeds and K is its mobility (primal-dual active sets, [Hintermueller2003]). After some steps
+/// half of the changes are postponed in each step, which ends cycles. The bound of a slipping contact follows within
+/// the step: this is the exact derivative of Coulomb's law, and it is not symmetric [Alart1991]. The method starts from
+/// the constraints' impulses and the bodies' velocities.
+///
+/// Returns true if no contact would leave its branches; impulses and velocities are then entered into the constraints
+/// and the bodies. Otherwise it returns false. Its last result is then entered if it deviates from its speeds by less
+/// than `residual` [m/s], the residual of the sweeps before, so that sweeps can continue from there; if not,
+/// constraints and bodies keep their values. Bodies with prescribed motion are never changed. The result does not
+/// depend on the number of threads.
 bool solve_jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws, std::span<SolverBody> bodies,
                double slip_speed, double residual, JamMemory& memory, int threads = 1);
 inline bool solve_jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws,

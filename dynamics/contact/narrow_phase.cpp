@@ -11,25 +11,27 @@ using geometry::Pose;
 using geometry::Rotation;
 using geometry::Vector;
 
-/// Bounding circles within this distance are kept with a pair [m]. It decides only how often they are sought
-/// again (smaller: more often) against how many are compared in each step (greater: more).
+/// Distance up to which bounding circles are kept with a pair [m]. Smaller: near circles are searched again more often.
+/// Larger: more circles are compared in each step. Results do not change.
 constexpr double kNearMargin = 0.75;
 
-/// A body's neighbours in a field, and some of the next one's. Fewer: covers are made again more often.
+/// Number of covers that are kept for second bodies: enough for a body's neighbours in a field and some of the next
+/// body's. Fewer: covers are made again more often.
 constexpr std::size_t kSecond = 32;
 
-/// Most power of the power law of an overlap, d w / S. Beyond it the extent shows the notch that a body lies
-/// in rather than the overlap, which is thin: its mean thickness is its depth.
+/// Largest exponent of the power law of an overlap, d w / S [-]. Beyond it the extent of the overlap describes the
+/// notch in which a body lies, but not the overlap, which is thin. Its mean thickness is then taken as its depth.
 constexpr double kMostPower = 3;
 double bounded_depth(const geometry::ContactManifold& m) {
   return m.depth * m.width > kMostPower * m.area ? m.area / m.width : m.depth;
 }
 
-/// By the law of crushing ice, the depth up to which an overlap is taken as a rectangle on its contact line: its
-/// measures are differences of coordinates that are rounded at 1e-12 m or so, and its shape would be rounding [m].
+/// Depth up to which an overlap is treated as a rectangle on its contact line, with the law of crushing ice [m]. Its
+/// measures are differences of coordinates that are rounded at about 1e-12 m, so its shape would be rounding error.
 constexpr double kShapeless = 1e-6;
 
-/// Not where nothing moves the two: what they crush is carved out by a rule of its own, which needs the extent.
+/// Returns true if the depth is limited by the rule above. It is not if both motions are prescribed: such ice is carved
+/// out by another rule, which needs the extent.
 bool is_bounded(const ContactRule& rule, const Bodies& bodies, const Pair& pair) {
   return rule.is_depth_bounded && (bodies.inverse_mass[pair.a] != 0 || bodies.inverse_mass[pair.b] != 0);
 }
@@ -38,8 +40,8 @@ geometry::CircleRule circle_rule(const ContactRule& rule) {
   return {rule.circle_radius, rule.is_circle_centres};
 }
 
-/// Finds the circles and edges of a pair that are near each other. Returns a lower bound of the bodies'
-/// distance, 0 where some are near [m].
+/// Finds the circles and edges of a pair that are near each other. Returns a lower bound of the distance between the
+/// bodies; 0 if some are near [m].
 double near_parts(const Bodies& bodies, const Pair& pair, const Pose& a_from_b, const ContactRule& rule,
                   PairScratch& scratch) {
   if (!need_covers(bodies, pair.a, pair.b, rule))
@@ -57,7 +59,7 @@ void find_near(const Bodies& bodies, Pair& pair, const Pose& pose, const Contact
   const double distance = near_parts(bodies, pair, a_from_b, rule, scratch);
   const bool is_any_near = !scratch.near_edges.pairs.empty();
   if (is_any_near) {
-    pair.own_parts().edges = scratch.near_edges;  // a copy is no larger than it has to be
+    pair.own_parts().edges = scratch.near_edges;  // a copy has no spare capacity
     if (rule.is_circle_centres) pair.parts->circles = scratch.near_circles;
   } else if (pair.parts != nullptr) {
     pair.parts->edges.pairs.clear();
@@ -71,7 +73,7 @@ void forget_near(Pair& pair) {
   pair.near_bound = -1;
 }
 
-/// Notes the manifolds that are blind and removes those that have no direction to part the bodies in.
+/// Records the manifolds that are blind, and removes those that have no direction in which to separate the bodies.
 void take_blind(const Pair& pair, const Pose& water_from_a, PairScratch& scratch) {
   BlindOverlap blind{pair.a, pair.b, false, 0, 0, 0, {}};
   double largest = 0;
@@ -89,7 +91,7 @@ void take_blind(const Pair& pair, const Pose& water_from_a, PairScratch& scratch
                 [](const geometry::ContactManifold& m) { return m.is_pierced && m.width <= geometry::kNoWidth; });
 }
 
-/// Two bodies whose boundaries do not cross: notes where one is inside the other.
+/// Records whether one body is inside the other, for two bodies whose boundaries do not cross.
 void take_inside(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule, PairScratch& scratch) {
   if (pair.is_outside) return;
   const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
@@ -104,7 +106,7 @@ void take_inside(const Bodies& bodies, Pair& pair, const Pose& pose, const Conta
   scratch.blind.push_back({pair.a, pair.b, true, 0, 0, 0, bodies.position[inner]});
 }
 
-/// Appends the contacts of a pair among its near edges. Returns whether the two are apart.
+/// Appends the contacts of a pair, which are found among its near edges. Returns true if the two bodies are apart.
 bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule, PairScratch& scratch,
              std::vector<Contact>& contacts) {
   const geometry::Boundary& a = *bodies.boundary[pair.a];
@@ -150,17 +152,18 @@ bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRu
   return false;
 }
 
-/// By how much the width of a contact line may have changed at the end of a step before it is looked for [-].
+/// Relative change of the width of a contact line during a step above which the width at its end is computed [-].
+/// Larger: forces of faces that come down flat are limited too early.
 constexpr double kWidthKept = 1e-3;
 
-/// Whether a contact's line may be another one once the two have closed by a way [m]: by the power law of its measures,
-/// w grows as ξ^(p - 1).
+/// Returns true if a contact line may have another length after the two bodies have closed by `way` [m]. By the power
+/// law of its measures, w grows as ξ^(p - 1).
 bool may_widen(const Contact& c, double way) {
   return (c.depth * c.width / c.area - 1) * way > kWidthKept * c.depth;
 }
 
-/// How long the line of a contact is once the two have closed by a way along its normal [m]. Of the overlaps there, the
-/// nearest is its own.
+/// Returns the length of a contact line after the two bodies have closed by `way` along its normal [m]. Of several
+/// overlaps there, the nearest one belongs to the contact.
 double width_after(const Bodies& bodies, const Pair& pair, const Pose& pose, const Contact& c, double way,
                    PairScratch& scratch) {
   const Pose water_from_a = water_from_body(bodies, pair.a);
@@ -177,8 +180,9 @@ double width_after(const Bodies& bodies, const Pair& pair, const Pose& pose, con
   return own == scratch.manifolds_ahead.end() ? c.width : std::max(c.width, own->width);
 }
 
-/// By the law of crushing ice, which carries the force at the start of a step on through it: a face that comes down
-/// flat, but for an angle, is all on the ice within a step, and its line grows no more.
+/// Finds the width of each contact line at the end of the step, for the law of crushing ice, which extrapolates the
+/// force from the start of the step. A face that comes down almost parallel to the ice lies on it completely within a
+/// step, and its contact line then grows no more.
 void look_ahead(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule, double dt,
                 PairScratch& scratch, std::span<Contact> contacts) {
   if (!rule.is_depth_bounded) return;
@@ -214,7 +218,7 @@ void CoverCache::clear() {
 const geometry::Cover& CoverCache::first(const geometry::Boundary& boundary, BodyIndex body,
                                          const geometry::CircleRule& rule) {
   if (first_.body == body) return first_.cover;
-  if (!second_.empty()) {  // pairs are ordered by their first body: most have been the second one before
+  if (!second_.empty()) {  // pairs are ordered by their first body: it was mostly a second body before
     Entry& entry = second_[static_cast<std::size_t>(body) % kSecond];
     if (entry.body == body) {
       std::swap(first_, entry);
@@ -241,7 +245,8 @@ const geometry::Cover& CoverCache::second(const geometry::Boundary& boundary, Bo
 double clearance_left(const Bodies& bodies, BodyIndex b, const Pose& pose, const Clearance& clearance) {
   if (clearance.distance < 0) return clearance.distance;
   const Rotation before = clearance.a_from_b.rotation;
-  const Vector turn{pose.rotation.cosine - before.cosine, pose.rotation.sine - before.sine};  // as a chord
+  const Vector turn{pose.rotation.cosine - before.cosine,
+                    pose.rotation.sine - before.sine};  // as a chord of the unit circle
   return clearance.distance - distance(pose.position, clearance.a_from_b.position) -
          length(turn) * bodies.bounding_radius[b];
 }
@@ -273,7 +278,7 @@ double collide_pair(const Bodies& bodies, Pair& pair, const Pose& pose, const Co
     pair.is_outside = false;
     return -1;
   }
-  // Circles lie inside the ice: no two can overlap while the boundaries are apart.
+  // Circles lie inside the ice, so none can overlap while the boundaries are apart.
   const double gap = least_distance(a_from_b(bodies, pair.a, pair.b, pose), pair.parts->edges);
   tracker_of(pair.parts->records).end(bodies);
   pair.apart = {pose, std::min(gap, clearance_left(bodies, pair.b, pose, pair.near)) - kRounding};

@@ -10,32 +10,32 @@
 
 namespace polynya::dynamics {
 
-/// How far two bodies can move from a relative pose before a statement about them may fail: it holds while no
-/// point of one has moved farther than `distance` in the frame of the other.
+/// Distance by which two bodies can move from a relative pose before a statement about them may fail. The statement
+/// holds while no point of one body has moved farther than `distance` in the frame of the other.
 struct Clearance {
-  geometry::Pose a_from_b;  ///< of b's centre of mass and axes in a's, where the statement was found
+  geometry::Pose a_from_b;  ///< b's centre of mass and axes in a's, when the statement was made
   double distance = -1;     ///< [m]; negative: the statement does not hold
 };
 
-/// What is near each other of two bodies, and of their contacts.
+/// The parts of two bodies that are near each other, and the records of their contacts.
 struct NearParts {
-  geometry::NearEdges edges;  ///< of the near circles
+  geometry::NearEdges edges;  ///< near edges of the near circles
   std::vector<PersistentContact> records;
-  std::vector<geometry::NearPair> circles;  ///< that are near each other; of ContactRule::is_circle_centres
+  std::vector<geometry::NearPair> circles;  ///< circles that are near each other; with ContactRule::is_circle_centres
 };
 
-/// Two bodies whose grown boxes meet, with what is known of their distance. a < b. What most steps need of a
-/// pair that does not touch is in its first cache line.
+/// Two bodies whose grown boxes overlap, with the known bounds of their distance. a < b. The first cache line contains
+/// the data that most steps need of a pair that does not touch.
 struct alignas(64) Pair {
   BodyIndex a = 0;
   BodyIndex b = 0;
-  std::unique_ptr<NearParts> parts;  ///< null: none is near, and there is no record
-  Clearance apart;                   ///< statement: they do not touch
+  std::unique_ptr<NearParts> parts;  ///< null: no parts are near, and there is no record
+  Clearance apart;                   ///< statement: the bodies do not touch
   bool is_dropped = false;           ///< its slot is freed when the lists of pairs are cleaned up
-  bool is_outside = false;           ///< neither is inside the other: so it stays until they touch
-  // The first line ends here.
-  double near_bound = -1;  ///< `near` holds at least until the two have travelled this far together [m]
-  Clearance near;          ///< statement: only the near circles and edges can meet
+  bool is_outside = false;           ///< neither is inside the other; this stays so until they touch
+  // The first cache line ends here.
+  double near_bound = -1;  ///< `near` holds at least until the travel of both exceeds this [m]
+  Clearance near;          ///< statement: only the near circles and edges can touch
 
   bool has_near_edges() const { return parts != nullptr && !parts->edges.pairs.empty(); }
   std::span<const PersistentContact> records() const {
@@ -48,38 +48,39 @@ struct alignas(64) Pair {
 };
 static_assert(sizeof(Pair) == 128, "of a million floes there are some millions");
 
-/// A cover of more pieces is always kept: to make it again would take long. Greater, hulls and plates are
-/// covered again in every step where covers are many; smaller, memory grows.
+/// Covers with more pieces than this are always kept, because making them takes long. Larger: hulls and plates are
+/// covered again in every step when there are many covers. Smaller: more memory is used.
 inline constexpr double kManyPieces = 512;
 
-/// How contacts are found.
+/// Settings for finding contacts.
 struct ContactRule {
-  double circle_radius = 1.0;       ///< [m]
-  bool is_circle_centres = false;   ///< the paper's own normals, instead of those of the boundary
-  bool is_culling = true;           ///< false: every step collides all pairs with one awake (tests)
-  bool presses_prescribed = false;  ///< a hull presses ice though both motions are prescribed
-  bool is_depth_bounded = false;    ///< along a notch the depth is no more than its area and width allow
-  /// Covers are kept until they have this many pieces in all, of 64 bytes each: those of some 50 000 floes of
-  /// 20 m. Of more bodies they are made again where they are needed, for the same contacts.
+  double circle_radius = 1.0;       ///< radius of the contact circles [m]
+  bool is_circle_centres = false;   ///< the paper's normals instead of the boundary's
+  bool is_culling = true;           ///< false: every step collides all pairs with one awake body (for tests)
+  bool presses_prescribed = false;  ///< a hull presses ice even if both motions are prescribed
+  bool is_depth_bounded = false;    ///< in a notch the depth is limited to what area and width allow
+  /// Number of cover pieces up to which covers are kept, at 64 bytes each; enough for about 50 000 floes of 20 m.
+  /// Covers of further bodies are made again when they are needed, with the same contacts.
   double most_kept_pieces = 4'194'304;
-  /// Of more pairs, near edges (about half a kilobyte a pair) are kept where bodies are within `kept_gap`; of
-  /// others they are found again, for the same contacts.
+  /// Number of pairs up to which all near edges (about half a kilobyte per pair) are kept. With more pairs they are
+  /// kept only if the bodies are within `kept_gap`, and found again otherwise, with the same contacts.
   double most_pairs_with_edges = 1'048'576;
   double kept_gap = 0.1;  ///< [m]
 };
 
-/// Whether what is near of two bodies is found by their covers: few edges are compared without.
+/// Returns true if the near parts of two bodies are found by their covers. If there are few edges, they are compared
+/// without covers.
 inline bool need_covers(const Bodies& bodies, BodyIndex a, BodyIndex b, const ContactRule& rule) {
   return rule.is_circle_centres || !have_few_edges(bodies.boundary[a]->edges, bodies.boundary[b]->edges);
 }
 
-/// Covers of boundaries that keep none, made as they are needed: the last few of them.
+/// Covers of boundaries that do not keep their own, made as they are needed. The last few are kept.
 class CoverCache {
  public:
-  /// Two bodies' boundaries with their covers, valid until the next call.
+  /// Returns the boundaries of two bodies with their covers, valid until the next call.
   std::pair<geometry::Covered, geometry::Covered> of(const Bodies& bodies, BodyIndex a, BodyIndex b,
                                                      const geometry::CircleRule& rule);
-  /// Frees them all.
+  /// Frees all covers.
   void clear();
 
  private:
@@ -94,7 +95,7 @@ class CoverCache {
   std::vector<Entry> second_;  ///< by body; empty until one is needed
 };
 
-/// Reusable memory of collide_pair.
+/// Memory that collide_pair reuses.
 struct PairScratch {
   bool keeps_distant_edges = true;
   CoverCache covers;
@@ -103,22 +104,22 @@ struct PairScratch {
   std::vector<geometry::ContactManifold> manifolds;
   std::vector<geometry::ContactManifold> manifolds_ahead;  ///< where the bodies would be at the end of a step
   geometry::ManifoldScratch crossings;
-  std::vector<PersistentContact> records;  ///< of the pair at hand, being updated
-  std::vector<BlindOverlap> blind;         ///< found so far
-  std::vector<PartedContact> parted;       ///< found so far
-  std::int64_t unpaired = 0;               ///< contact stretches whose crossings did not pair up, counted on
+  std::vector<PersistentContact> records;  ///< records of the present pair, while they are updated
+  std::vector<BlindOverlap> blind;         ///< blind overlaps found so far
+  std::vector<PartedContact> parted;       ///< contacts that ended, found so far
+  std::int64_t unpaired = 0;               ///< number of contact stretches so far whose crossings did not pair up
 };
 
-/// How far the two can still move within a clearance [m]; `pose` is that of b's centre of mass in a's frame.
+/// Returns how far the two bodies can still move within a clearance [m]; `pose` is b's centre of mass in a's frame.
 double clearance_left(const Bodies& bodies, BodyIndex b, const geometry::Pose& pose, const Clearance& clearance);
 
-/// Appends the contacts of a pair and updates their records. Returns how far the two can move from here
-/// without touching, negative where they touch [m].
+/// Appends the contacts of a pair and updates their records. Returns how far the two bodies can move from here without
+/// touching; negative if they touch [m].
 double collide_pair(const Bodies& bodies, Pair& pair, const geometry::Pose& pose, const ContactRule& rule, double dt,
                     PairScratch& scratch, std::vector<Contact>& contacts);
 
-/// Far more than the rounding errors of positions and distances. Smaller, bodies that touch may be
-/// taken for apart [m].
+/// Distance that is far larger than the rounding errors of positions and distances [m]. Smaller: bodies that touch may
+/// be taken as apart.
 inline constexpr double kRounding = 1e-9;
 
 }  // namespace polynya::dynamics

@@ -6,11 +6,11 @@
 namespace polynya::dynamics {
 namespace {
 
-/// An overlap is kept to be cut off once this share of it is paid. Greater: the last bit of a deep overlap would delay
-/// the cut for ever. Smaller: ice is cut off that nothing has paid.
+/// Fraction of an overlap that must be paid before the overlap is recorded for cutting [-]. Larger: the unpaid rest of
+/// a deep overlap would delay the cut forever. Smaller: ice is cut off that no work has paid.
 constexpr double kPaidShareOfCut = 0.9;
 
-/// p of the power law, within the bounds that fracture::Overlap has for it [-].
+/// Returns the exponent p of the power law, within the limits that fracture::Overlap has for it [-].
 double power_of(const Contact& c) {
   return std::clamp(c.depth * c.width / c.area, 1.0 / 3, 3.0);
 }
@@ -39,7 +39,7 @@ double force_at(const CrushingForce& law, double depth) {
 }
 
 double stiffness_over(const CrushingForce& law, double further) {
-  constexpr double kSmallGrowth = 0.01;  // of the depth: the mean differs from dF/dξ by less than half of it [-]
+  constexpr double kSmallGrowth = 0.01;  // of the depth: the mean differs from dF/dξ by less than half of this [-]
   if (law.exponent == 0 || !(law.depth > 0)) return 0;
   if (law.exponent >= 1 || further <= kSmallGrowth * law.depth) return law.exponent * law.force / law.depth;
   return (force_at(law, law.depth + further) - law.force) / further;
@@ -65,8 +65,8 @@ void settle(bool are_prescribed, Contact& c) {
   record.area = area_at(c, c.depth_after);
   if (c.is_rigid() || !has_shape(c)) return;
   if (c.paid_depth_after > c.paid_depth) {
-    // Work of a force that is a fraction of the crushing force has crushed that fraction of the ice that it let in. The
-    // floe's edge has given way for the rest.
+    // If the force is a fraction of the crushing force, its work has crushed the same fraction of the ice that it let
+    // in. For the rest the floe's edge has given way.
     const double let_in = std::max(0.0, area_at(c, c.paid_depth_after) - record.paid_area);
     c.paid_by_work = c.crushing_share * let_in;
     c.paid_by_giving_way = let_in - c.paid_by_work;

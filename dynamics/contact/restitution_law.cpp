@@ -5,17 +5,17 @@ namespace {
 
 using geometry::Vector;
 
-/// Friction while sliding can raise the impulse that ends an approach above the frictionless one; seldom to
-/// twice it. Smaller, sliding contacts give back less than ε; greater, a squeeze from elsewhere charges
-/// contacts that it then drives apart.
+/// Largest ratio of the impulse that ends an approach with sliding friction to the frictionless one [-]; friction
+/// seldom doubles it. Smaller: sliding contacts give back less than ε. Larger: pressure from elsewhere charges
+/// contacts, which it then drives apart.
 constexpr double kFrictionSlack = 2;
 
-/// How much of an unconverged step's impulses the next one starts from: a wrong start must decay, not grow.
-/// From 1 on it does not decay.
+/// Fraction of the impulses of an unconverged step from which the next step starts [-]. A wrong start must decay, so it
+/// must be below 1.
 constexpr double kTrustUnconverged = 0.5;
 
-/// Keeps the compression, and predicts that of the next step: steady or falling in proportion, never more
-/// than the last two.
+/// Stores the compression and predicts the compression of the next step: constant, or falling in proportion, and never
+/// more than in the last two steps.
 void remember_compression(const ContactConstraint& constraint, bool is_converged, PersistentContact& record) {
   for (int end = 0; end < 2; ++end) {
     const double last = record.last_impulse[end];
@@ -46,16 +46,16 @@ double energy_taken(const ConstraintSpeeds& before, const ConstraintSpeeds& afte
 
 namespace {
 
-/// The work of normal impulses on two bodies, share² · square + share · rate of a share of them [J].
+/// Work of a fraction `share` of given normal impulses on two bodies, share² · square + share · rate [J].
 struct WorkOfShare {
   double square, rate;
 
   double of(double share) const { return share * (share * square + rate); }
-  /// The largest share up to 1 whose work is no more than `most`, ≥ 0 [J].
+  /// Returns the largest share up to 1 whose work is at most `most`, ≥ 0 [J].
   double largest_within(double most) const {
     if (of(1) <= most) return 1;
-    // It rises from 0, or falls first, and is above `most` at 1: the greater root. Written without a difference of
-    // nearly equal numbers where `most` is small.
+    // The work rises from 0, or falls first, and exceeds `most` at 1: the larger root. This form avoids a difference
+    // of nearly equal numbers if `most` is small.
     const double root = std::sqrt(rate * rate + 4 * square * most);
     return rate > 0 ? 2 * most / (rate + root) : (root - rate) / (2 * square);
   }
@@ -93,7 +93,7 @@ bool restore(const RestitutionLaw& law, bool is_converged, double& stored, Resti
   }
   const WorkOfShare work = work_of(constraint, given, solver_bodies);
   const double share = work.largest_within(std::max(0.0, stored));
-  if (share < 1) still_owed = 0;  // all that was stored is given back
+  if (share < 1) still_owed = 0;  // all stored energy is given back
   for (int end = 0; end < 2; ++end) {
     if (share < 1) most[end] = constraint.normal_impulse[end] + (given[end] *= share);
     constraint.least[end] = constraint.normal_impulse[end] = most[end];
@@ -109,8 +109,8 @@ bool restore(const RestitutionLaw& law, bool is_converged, double& stored, Resti
 }
 
 int separate(Bodies& bodies, const std::vector<Contact>& contacts, const SeparationSettings& settings, double dt) {
-  // Each contact moves its own bodies by its own share, one after the other: a relaxation, not a solution,
-  // since this overlap is a few centimetres that may take a second to decay.
+  // Each contact moves its own bodies by its own share, one after the other. This is a relaxation, not a solution,
+  // which is enough because this overlap is a few centimetres that may take a second to decay.
   int moved = 0;
   const double share = std::min(1.0, dt / settings.time);
   for (const Contact& c : contacts) {
@@ -120,7 +120,7 @@ int separate(Bodies& bodies, const std::vector<Contact>& contacts, const Separat
     const Vector arm_b = c.middle() - bodies.position[c.b];
     const Mobility a{bodies.inverse_mass[c.a], bodies.inverse_moment[c.a], arm_a};
     const Mobility b{bodies.inverse_mass[c.b], bodies.inverse_moment[c.b], arm_b};
-    const double p = share * excess * effective_mass(a, b, c.normal);  // [kg m]: an impulse times a second
+    const double p = share * excess * effective_mass(a, b, c.normal);  // an impulse times a second [kg m]
     move_body(bodies, c.a, -p * a.inverse_mass * c.normal, -p * a.inverse_moment * cross(arm_a, c.normal));
     move_body(bodies, c.b, p * b.inverse_mass * c.normal, p * b.inverse_moment * cross(arm_b, c.normal));
     ++moved;

@@ -4,16 +4,15 @@
 
 namespace polynya::dynamics {
 
-/// Two bodies at a point of contact, as Eq. (5) sees them. Prescribed motion: inverse mass and moment are 0.
+/// A body at a contact point, as in Eq. (5). Inverse mass and moment are 0 for prescribed motion.
 struct Mobility {
   double inverse_mass = 0;    ///< [1/kg]
   double inverse_moment = 0;  ///< [1/(kg m²)]
   geometry::Vector arm;       ///< from the centre of mass to the contact point [m]
 };
 
-/// 1 / [1/m_i + 1/m_k + (r_i × n)²/I_i + (r_k × n)²/I_k]: the effective mass against an impulse along n at
-/// the contact [kg]. Eq. (5) of [Sawamura2017]. Deviation: as printed r_i and r_k are crossed; that reading
-/// gains energy.
+/// Returns 1 / [1/m_i + 1/m_k + (r_i × n)²/I_i + (r_k × n)²/I_k], the effective mass for an impulse along n at the
+/// contact [kg]. Eq. (5) of [Sawamura2017]. Deviation: as printed, r_i and r_k are crossed, which gains energy.
 inline double effective_mass(const Mobility& i, const Mobility& k, geometry::Vector direction) {
   const double arm_cross_i = cross(i.arm, direction);
   const double arm_cross_k = cross(k.arm, direction);
@@ -21,37 +20,37 @@ inline double effective_mass(const Mobility& i, const Mobility& k, geometry::Vec
               arm_cross_k * arm_cross_k * k.inverse_moment);
 }
 
-/// j = (1 + ε) v_n m_eff [N s] for an approach speed v_n > 0 [m/s], 0 otherwise. Eq. (5) of [Sawamura2017].
+/// Returns j = (1 + ε) v_n m_eff for an approach speed v_n > 0 [m/s], and 0 otherwise [N s]. Eq. (5) of [Sawamura2017].
 inline double collision_impulse(double approach_speed, double restitution, double effective_mass) {
   return approach_speed > 0 ? (1 + restitution) * approach_speed * effective_mass : 0;
 }
 
-/// The paper's response law (contact_solver.hpp), Eq. (5) corrected at each end of a contact line, normal
-/// impulses within [0, limit/2], limit = F Δt what crushing ice carries in the step:
-///   1. Compression: impulses that end every approach, started from what the last two steps predict (a steady
+/// The paper's response law (contact_solver.hpp), Eq. (5), corrected at each end of a contact line. Normal impulses are
+/// limited to [0, limit/2], where limit = F Δt is the impulse of crushing ice in the step. It has three stages:
+///   1. Compression: impulses that end every approach. They start from a prediction by the last two steps (a steady
 ///      push continues, a blow does not).
-///   2. Restitution, as Poisson's share of the compression: ε times the impulse that compressed the contact.
-///      One that is not limited leaves with v⁺ = −ε v⁻ in one step as Eq. (5) says; one that crushes, over as
-///      many steps as the ice needs. Never more than twice ε times what would end the approach of its two
-///      bodies alone, so that a squeeze from elsewhere does not charge it, and never more energy than compression took
-///      from the bodies of its island: over several steps the bodies turn, and the same impulse at other arms does
-///      other work.
-///   3. Compression again, of what restitution pushed together.
+///   2. Restitution, as Poisson's share of the compression: ε times the impulse that compressed the contact. A contact
+///      that is not limited separates with v⁺ = −ε v⁻ in one step, as Eq. (5) states. A contact that crushes takes as
+///      many steps as the ice needs. Restitution never exceeds twice ε times the impulse that would end the approach of
+///      the two bodies alone, so that pressure from elsewhere does not charge it. It never gives more energy than
+///      compression took from the bodies of the island: over several steps the bodies turn, and the same impulse with
+///      other lever arms does different work.
+///   3. Compression again, of contacts that restitution pushed together.
 struct RestitutionLaw {
   double restitution = 0.1;  ///< ε of Eq. (5) [-]
   double step = 1;           ///< Δt [s]
   static constexpr bool kHasJams = false, kRestores = true;
 
   struct State {
-    PersistentContact* record;  ///< null: nothing is kept from step to step
-    double crushing_impulse;    ///< F Δt, infinite where nothing crushes [N s]
-    double stored_energy;       ///< that restitution may give back [J]
-    double taken_energy = 0;    ///< by the compression of this step, 0 where that gave energy [J]
-    double restored_work = 0;   ///< that it has given back in this step [J]
+    PersistentContact* record;  ///< null: no data are kept from step to step
+    double crushing_impulse;    ///< F Δt; infinite if the contact does not crush [N s]
+    double stored_energy;       ///< energy that restitution may give back [J]
+    double taken_energy = 0;    ///< energy taken by the compression of this step; 0 if it gave energy [J]
+    double restored_work = 0;   ///< energy that it has given back in this step [J]
   };
 };
 
-/// Poisson's share is of a whole step's compression.
+/// One substep: Poisson's share refers to the compression of a whole step.
 constexpr int substeps_of(const RestitutionLaw& /*law*/) {
   return 1;
 }
@@ -73,10 +72,12 @@ inline double solve_block(const RestitutionLaw& /*law*/, RestitutionLaw::State& 
                           ContactConstraint& constraint, std::span<SolverBody> solver_bodies) {
   return solve_constraint(constraint, solver_bodies);
 }
-/// The energy that the impulses of a contact have taken from its bodies, by the speeds before and after them [J].
+/// Returns the energy that the impulses of a contact have taken from its bodies, from the speeds before and after them
+/// [J].
 double energy_taken(const ConstraintSpeeds& before, const ConstraintSpeeds& after, const ContactConstraint& constraint);
-/// Gives back what a compression owes, as far as the energy lasts that the contacts of its island store [J]; what it
-/// gives back is taken from that. Returns whether it gave any impulse, after which compression goes on.
+/// Gives back the impulses that a compression owes, as far as `stored` lasts, the energy that the contacts of its
+/// island store [J]; the energy given back is subtracted from it. Returns true if any impulse was given; compression
+/// then follows again.
 bool restore(const RestitutionLaw& law, bool is_converged, double& stored, RestitutionLaw::State& state,
              ContactConstraint& constraint, std::span<SolverBody> solver_bodies);
 inline void end_substep(const RestitutionLaw& /*law*/, const ConstraintSpeeds& /*before*/,
@@ -90,13 +91,13 @@ inline void write_back(const RestitutionLaw& /*law*/, const RestitutionLaw::Stat
 }
 
 struct SeparationSettings {
-  double time = 1.0;   ///< decay time of overlap that nothing presses together any more [s]
+  double time = 1.0;   ///< decay time of overlap that no force presses together any more [s]
   double slop = 1e-4;  ///< overlap that is allowed [m]
 };
 
-/// Moves overlapping bodies apart without giving them speed (split impulse): along the normals, in
-/// proportion to their inverse masses, the overlap beyond what crushing made decays over the settings' time.
-/// Returns how many contacts it moved.
+/// Separates overlapping bodies without giving them speed (split impulse). The overlap beyond what crushing made decays
+/// within the settings' time; bodies move along the normals, in proportion to their inverse masses. Returns the number
+/// of contacts that it moved.
 int separate(Bodies& bodies, const std::vector<Contact>& contacts, const SeparationSettings& settings, double dt);
 
 }  // namespace polynya::dynamics

@@ -12,33 +12,35 @@
 namespace polynya::dynamics {
 namespace {
 
-/// Branches of the elimination tree have at most one in so many of its work, and at least one in twice as many. Fewer:
-/// the longest one has others wait; more: the trunk, which one thread works on, grows.
+/// Limits on the work of the branches of the elimination tree: a branch has at most 1/kBranches of all work, and
+/// usually at least half of that [-]. Fewer: threads wait for the longest branch. More: the trunk, on which one
+/// thread works, grows.
 constexpr double kBranches = 8;
-/// Bodies of a matrix that has branches. Fewer: to hand them over takes as long as working on them.
+/// Smallest number of bodies of a matrix that is divided into branches. Fewer: handing branches to threads takes as
+/// long as the work on them.
 constexpr int kLeastBranched = 96;
 
-/// Of what clones for AVX2 call: else it is compiled for other processors.
+/// Marks functions that the clones for AVX2 call. They must be inlined, or they are compiled for other processors.
 #define POLYNYA_IN_CLONE [[gnu::always_inline]] inline
 
 using Rows = double[3][4];
-using Three = std::array<double, 4>;  // and a lane, 0
+using Three = std::array<double, 4>;  // and a lane that is 0
 
-/// to += block
+/// Computes to += block.
 POLYNYA_IN_CLONE void add(Rows& to, const Rows& block) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 4; ++j) to[i][j] += block[i][j];
   }
 }
 
-/// to = pᵀ w
+/// Computes to = pᵀ w.
 POLYNYA_IN_CLONE void product(Rows& to, const Rows& p, const Rows& w) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 4; ++j) to[i][j] = p[0][i] * w[0][j] + p[1][i] * w[1][j] + p[2][i] * w[2][j];
   }
 }
 
-/// w = S q, of one contact.
+/// Computes w = S q for one contact.
 POLYNYA_IN_CLONE void slopes_times(const JamLoad& load, const Rows& q, Rows& w) {
   for (int j = 0; j < 4; ++j) {
     w[0][j] = load.slope[0] * q[0][j];
@@ -47,15 +49,15 @@ POLYNYA_IN_CLONE void slopes_times(const JamLoad& load, const Rows& q, Rows& w) 
   }
 }
 
-/// to −= pᵀ u
+/// Computes to −= pᵀ u.
 POLYNYA_IN_CLONE void subtract_product(Rows& to, const Rows& p, const Rows& u) {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 4; ++j) to[i][j] -= p[0][i] * u[0][j] + p[1][i] * u[1][j] + p[2][i] * u[2][j];
   }
 }
 
-/// L U in the block's place, of its rows in the order found, the largest first, with the inverses of U's
-/// diagonal. Returns whether it is regular.
+/// Replaces a block by its factors L U, with the inverses of U's diagonal. Rows are taken in the order `row`, which is
+/// chosen with the largest pivot first. Returns true if the block is regular.
 POLYNYA_IN_CLONE bool factorize_own(Rows& d, int (&row)[3]) {
   for (int k = 0; k < 3; ++k) row[k] = k;
   for (int k = 0; k < 3; ++k) {
@@ -77,7 +79,7 @@ POLYNYA_IN_CLONE bool factorize_own(Rows& d, int (&row)[3]) {
   return true;
 }
 
-/// u = L⁻¹ u, of the rows in their order; l = l U⁻¹, l transposed
+/// Computes u = L⁻¹ u, with the rows in their order, and l = l U⁻¹, where l is transposed.
 POLYNYA_IN_CLONE void divide(Rows& u, Rows& l, const Rows& d, const int (&row)[3]) {
   Rows was;
   std::copy_n(&u[0][0], 12, &was[0][0]);
@@ -91,7 +93,7 @@ POLYNYA_IN_CLONE void divide(Rows& u, Rows& l, const Rows& d, const int (&row)[3
   }
 }
 
-/// L⁻¹ x, of the rows in their order.
+/// Computes L⁻¹ x, with the rows in their order.
 POLYNYA_IN_CLONE void solve_lower(const Rows& d, const int (&row)[3], Three& x) {
   const Three was = x;
   x[0] = was[row[0]];
@@ -99,19 +101,19 @@ POLYNYA_IN_CLONE void solve_lower(const Rows& d, const int (&row)[3], Three& x) 
   x[2] = was[row[2]] - d[2][0] * x[0] - d[2][1] * x[1];
 }
 
-/// U⁻¹ x
+/// Computes U⁻¹ x.
 POLYNYA_IN_CLONE void solve_upper(const Rows& d, Three& x) {
   x[2] *= d[2][2];
   x[1] = (x[1] - d[1][2] * x[2]) * d[1][1];
   x[0] = (x[0] - d[0][1] * x[1] - d[0][2] * x[2]) * d[0][0];
 }
 
-/// x −= m y
+/// Computes x −= m y.
 POLYNYA_IN_CLONE void subtract(Three& x, const Rows& m, const Three& y) {
   for (int i = 0; i < 3; ++i) x[i] -= m[i][0] * y[0] + m[i][1] * y[1] + m[i][2] * y[2];
 }
 
-/// x −= mᵀ y
+/// Computes x −= mᵀ y.
 POLYNYA_IN_CLONE void subtract_transposed(Three& x, const Rows& m, const Three& y) {
   for (int i = 0; i < 4; ++i) x[i] -= m[0][i] * y[0] + m[1][i] * y[1] + m[2][i] * y[2];
 }
@@ -173,7 +175,7 @@ void JamMatrix::take(int bodies, std::span<const JamRows> rows) {
   find_contacts();
 }
 
-/// An order in which few blocks fill in.
+/// Orders the bodies so that few blocks fill in.
 void JamMatrix::order_bodies(std::span<const JamRows> rows) {
   const int bodies = static_cast<int>(place_of_.size());
   std::vector<Eigen::Triplet<double>> entries;
@@ -193,8 +195,8 @@ void JamMatrix::order_bodies(std::span<const JamRows> rows) {
   for (int i = 0; i < bodies; ++i) body_at_[place_of_[i]] = i;
 }
 
-/// A body's pairs are those of its contacts, and those of the bodies that it is the first later one of
-/// [Davis2006].
+/// Finds the pairs of each body. They are the pairs of its contacts, and the pairs of the bodies of which it is the
+/// first later neighbour [Davis2006].
 void JamMatrix::find_pairs(std::span<const JamRows> rows) {
   const std::size_t bodies = place_of_.size();
   std::vector<std::vector<int>>& later = later_of_;
@@ -221,11 +223,12 @@ void JamMatrix::find_pairs(std::span<const JamRows> rows) {
   find_branches();
 }
 
-/// Branches are subtrees of the elimination tree, in which the parent of a body is the first later one of its pairs.
+/// Divides the elimination tree into branches, which are subtrees. The parent of a body in the tree is the first later
+/// body among its pairs.
 void JamMatrix::find_branches() {
-  constexpr double kOwnWork = 4;  // of a row, in products of blocks
+  constexpr double kOwnWork = 4;  // work of a row itself, in products of blocks
   const int bodies = static_cast<int>(place_of_.size());
-  std::vector<double> work(place_of_.size(), kOwnWork);  // of subtrees
+  std::vector<double> work(place_of_.size(), kOwnWork);  // work of each subtree
   const auto parent = [&](int i) { return first_[i] < first_[i + 1] ? later_[first_[i]] : -1; };
   for (int i = 0; i < bodies; ++i) {
     for (int e = first_earlier_[i]; e < first_earlier_[i + 1]; ++e)
@@ -234,8 +237,8 @@ void JamMatrix::find_branches() {
   }
   double all = 0;
   for (int i = 0; i < bodies; ++i) all += parent(i) < 0 ? work[i] : 0;
-  const double most = bodies < kLeastBranched ? 0 : all / kBranches;  // above it is the trunk
-  std::vector<int> branch_of(place_of_.size(), -1);                   // -1: the trunk
+  const double most = bodies < kLeastBranched ? 0 : all / kBranches;  // a subtree with more work belongs to the trunk
+  std::vector<int> branch_of(place_of_.size(), -1);                   // −1: the trunk
   int branches = 0;
   double of_branch = 0;
   for (int i = bodies; i-- > 0;) {
@@ -257,7 +260,7 @@ void JamMatrix::find_branches() {
   for (int i = 0; i < bodies; ++i) by_branch_[next[branch_of[i] < 0 ? branches : branch_of[i]]++] = i;
 }
 
-/// Calls work(branch, places) for each branch, side by side.
+/// Calls work(branch, places) for each branch, in parallel.
 template <class Work>
 void JamMatrix::for_branches(int threads, Work work) const {
   for_chunks(first_of_branch_.size() - 1, 1, threads, [&](std::size_t k, std::size_t, std::size_t) {
@@ -333,8 +336,8 @@ void JamMatrix::find_blocks(const Places& place, const JamRows& rows, const JamL
   product(found.pair.lower.at, is_a_earlier ? by_a : by_b, is_a_earlier ? rows.of_b : rows.of_a);
 }
 
-/// A body's own block and its pairs, by its mass and its contacts. Most contacts of a jam carry nothing: their blocks
-/// are left out.
+/// Sums up a body's own block and its pairs from its mass and its contacts. Most contacts of a jam carry no force;
+/// their blocks are left out.
 void JamMatrix::add_up(int body, const double* mass) {
   Own& own = own_[body];
   own = {};
@@ -357,7 +360,7 @@ void JamMatrix::add_up(int body, const double* mass) {
   }
 }
 
-/// Takes from a body's blocks what those eliminated before it contribute.
+/// Subtracts from a body's blocks the contributions of the bodies eliminated before it.
 void JamMatrix::take_earlier(int body) {
   for (int e = first_earlier_[body]; e < first_earlier_[body + 1]; ++e) {
     const int p = earlier_[e].pair;
@@ -397,7 +400,7 @@ bool JamMatrix::factorize(const JamVector& mass, std::span<const JamRows> rows, 
                           int threads) {
   mark_changed(rows, loads);
   for (std::size_t i = 0; i < own_.size(); ++i) {
-    // The next one that it fills has the others that it fills among its own.
+    // The next body that this one fills also receives the other bodies that this one fills.
     if (is_changed_[i] != 0 && first_[i] < first_[i + 1]) is_changed_[later_[first_[i]]] = 1;
   }
   std::vector<std::uint8_t> is_regular(first_of_branch_.size(), 1);
