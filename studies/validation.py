@@ -45,7 +45,7 @@ def presets_hull(ship):
     """Hull of a preset, and her mass with the water that goes with it ahead (5 %) [kg]."""
     done = subprocess.run([os.environ["POLYNYA_PROGRAM"], "ships", ship, "--json", "--for-performance"],
                           stdout=subprocess.PIPE, text=True, check=True)
-    settings = json.loads(done.stdout)
+    settings = json.loads(done.stdout)["ship"]
     hull = settings["hull"]
     angles = (math.radians(hull[key]) for key in ("stem_angle_deg", "entrance_angle_deg"))
     return formulas.Hull(hull["length_m"], hull["beam_m"], hull["draught_m"], *angles), 1.05 * settings["mass_kg"]
