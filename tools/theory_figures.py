@@ -2,8 +2,8 @@
 """The figures of docs/theory, drawn from the laws that they show. Needs matplotlib (Debian's python3).
 
     /usr/bin/python3 tools/theory_figures.py [NAME...]          into theory-NAME.svg of docs/images
-    /usr/bin/python3 tools/theory_figures.py --check            compares the files with what it draws: exit code 1 if one
-                                                                differs, 77 if another matplotlib drew them
+    /usr/bin/python3 tools/theory_figures.py --check            compares the files with what it draws
+Exit code of --check: 1 if a file differs, 77 if another version of matplotlib drew it.
 """
 import io
 import pathlib
