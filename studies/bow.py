@@ -14,7 +14,7 @@ import numpy as np
 
 import tables
 from tables import REFERENCE, Table, mean_and_error
-from benches import bow_edges, bow_speed
+from benches import bow_edges, bow_speed, steep_stems
 
 PAGE = "docs/theory/bow.md"
 SPEED = "ships[0].propulsion.constant_speed_m_per_s"
@@ -145,7 +145,8 @@ def switches(runs):
 TABLES = {"edges": lambda runs: bow_edges.edges(runs.study("bow-edges.json"), runs.folder),
           "law": lambda runs: bow_edges.law(runs.study("bow-edges.json"), runs.folder),
           "wedges": lambda _: bow_edges.wedges(), "switches": switches, "parts": parts, "places": places,
-          "models": models, "speed": lambda runs: bow_speed.table(runs.study("bow-speed.json"))}
+          "models": models, "stems": steep_stems.stems, "shoulders": steep_stems.shoulders,
+          "speed": lambda runs: bow_speed.table(runs.study("bow-speed.json"))}
 
 if __name__ == "__main__":
     sys.exit(tables.run_page(PAGE, TABLES, __doc__))

@@ -2,7 +2,10 @@
 """The figures of docs/theory, drawn from the laws that they show. Needs matplotlib (Debian's python3).
 
     /usr/bin/python3 tools/theory_figures.py [NAME...]          into theory-NAME.svg of docs/images
+    /usr/bin/python3 tools/theory_figures.py --check            compares the files with what it draws
+Exit code of --check: 1 if a file differs, 77 if another version of matplotlib drew it.
 """
+import io
 import pathlib
 import sys
 
@@ -302,11 +305,30 @@ FIGURES = {"contact": contact, "wedge": wedge, "radial": radial, "arms": arms, "
            "steps": steps, "step": step, "cut": cut}
 
 
+def drawn(name):
+    """The text of a figure's file."""
+    figure, text = FIGURES[name](), io.StringIO()
+    figure.savefig(text, format="svg", bbox_inches="tight", pad_inches=.05, metadata={"Date": None})
+    plt.close(figure)
+    return text.getvalue()
+
+
+def check():
+    found = [name for name in FIGURES if (IMAGES / f"theory-{name}.svg").read_text(encoding="utf-8") != drawn(name)]
+    for name in found:
+        text = (IMAGES / f"theory-{name}.svg").read_text(encoding="utf-8")
+        if f"Matplotlib v{matplotlib.__version__}," not in text:
+            print(f"skipped: matplotlib {matplotlib.__version__} did not draw theory-{name}.svg")
+            return 77
+        print(f"docs/images/theory-{name}.svg is not what tools/theory_figures.py draws: run it")
+    return 1 if found else 0
+
+
 def main(*names):
+    if names == ("--check",):
+        return check()
     for name in names or FIGURES:
-        figure = FIGURES[name]()
-        figure.savefig(IMAGES / f"theory-{name}.svg", bbox_inches="tight", pad_inches=.05, metadata={"Date": None})
-        plt.close(figure)
+        (IMAGES / f"theory-{name}.svg").write_text(drawn(name), encoding="utf-8")
     return 0
 
 
