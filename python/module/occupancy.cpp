@@ -28,24 +28,34 @@ simulation::ImageFrame checked_frame(std::pair<int, int> shape, double cell, dou
   return {static_cast<std::size_t>(rows), static_cast<std::size_t>(columns), cell, ahead};
 }
 
+/// Draws what covers each cell: floating ice, and hulls other than the ship's own.
+void draw(const simulation::Simulation& simulation, std::size_t own, const simulation::ImageFrame& frame, float* ice,
+          float* others) {
+  const std::vector<simulation::HullState> ships = simulation.ship_states();
+  const geometry::Pose world_from_ship = ships[own].world_from_ship;
+  simulation::CoverImage of_ice(frame), of_others(frame);
+  add_floes(simulation.world(), world_from_ship, frame, of_ice);
+  for (std::size_t i = 0; i < ships.size(); ++i) {
+    if (i == own) continue;
+    of_others.add({hull_of(simulation.scene(), i).hull.waterline, {}},
+                  relative_pose(world_from_ship, ships[i].world_from_ship));
+  }
+  of_ice.write(ice);
+  of_others.write(others);
+}
+
 py::array_t<float> occupancy(const Simulation& python, const py::object& ship, std::pair<int, int> shape, double cell,
                              double ahead) {
   const simulation::Simulation& simulation = python.between_steps();
   const simulation::ImageFrame frame = checked_frame(shape, cell, ahead);
   const std::size_t own = python.index_of(ship, "occupancy");
-  const std::vector<simulation::HullState> ships = simulation.ship_states();
-  const geometry::Pose world_from_ship = ships[own].world_from_ship;
-  simulation::CoverImage ice(frame), others(frame);
-  add_floes(simulation.world(), world_from_ship, frame, ice);
-  for (std::size_t i = 0; i < ships.size(); ++i) {
-    if (i == own) continue;
-    others.add({hull_of(simulation.scene(), i).hull.waterline, {}},
-               relative_pose(world_from_ship, ships[i].world_from_ship));
-  }
   const auto rows = static_cast<py::ssize_t>(frame.rows), columns = static_cast<py::ssize_t>(frame.columns);
   py::array_t<float> cells({py::ssize_t{2}, rows, columns});
-  ice.write(cells.mutable_data(0, 0, 0));
-  others.write(cells.mutable_data(1, 0, 0));
+  float* const ice = cells.mutable_data(0, 0, 0);
+  float* const others = cells.mutable_data(1, 0, 0);
+  const Simulation::Reading reading(python);
+  const py::gil_scoped_release release;
+  draw(simulation, own, frame, ice, others);
   return cells;
 }
 
