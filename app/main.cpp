@@ -14,7 +14,7 @@ namespace {
 Commands add_commands(CommandLine& app) {
   Commands commands;  // in the order of the help
   for (const auto add : {add_run, add_resume, add_validate, add_schema, add_ships, add_init, add_view, add_channel,
-                         add_export, add_inspect, add_cut, add_import, add_database})
+                         add_export, add_inspect, add_cut, add_import, add_database, add_fmu})
     commands.push_back(add(app));
   add_python_commands(app, commands);
   commands.push_back(add_read_json(app));
@@ -34,6 +34,7 @@ constexpr auto kExamples =
     "  polynya export runs/my-scene --vtk paraview    for ParaView; --geojson for QGIS\n"
     "  polynya cut floes.geojson --disc 10,5,3        cut floes outside any simulation\n"
     "  polynya import mapped.shp --origin 78.2,15.6 --out floes.geojson   mapped ice as a floe file\n"
+    "  polynya fmu scene.json --out ship.fmu          a co-simulation unit for other simulators\n"
     "  polynya study plan study.json                  many runs of one scene, on this machine or a cluster\n"
     "\n"
     "Polynya simulates an icebreaker in pack ice: floes are pushed, plates break by bending and splitting.\n";

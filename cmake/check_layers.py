@@ -33,6 +33,8 @@ FLOORS = {
     "views/map": 15,
     "views/player": 16,
     "views/export": 16,
+    "cosim": 15,
+    "cosim/unit": 16,
     "app/command_line": 17,
     "app/run": 18,
     "app/ice": 18,
@@ -57,7 +59,7 @@ PACKAGES = {
     r"boost/crc": ["io/text/"],
     r"nlohmann/": ["io/text/"],
     r"CLI/": ["app/command_line/command_line.cpp"],
-    r"fmt/": ["simulation/", "io/", "analysis/", "views/", "app/", "python/module/"],
+    r"fmt/": ["simulation/", "io/", "analysis/", "views/", "cosim/", "app/", "python/module/"],
     r"pybind11/": ["python/module/"],
     r"tl/expected": [""],
 }

@@ -9,7 +9,6 @@ namespace polynya::dynamics {
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
-  ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;
   ThreadLimit& operator=(const ThreadLimit&) = delete;
 
@@ -17,8 +16,7 @@ class ThreadLimit {
   void execute(const std::function<void()>& function);
 
  private:
-  struct Arena;
-  std::unique_ptr<Arena> arena_;
+  std::shared_ptr<void> arena_;  ///< oneTBB's; null in a program without threads
 };
 
 }  // namespace polynya::dynamics

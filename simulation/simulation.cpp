@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <stdexcept>
 #include <tuple>
 
 #include "dynamics/thread_limit.hpp"
@@ -41,6 +42,23 @@ void Simulation::set_threads(int threads) {
 void Simulation::set_pilot(int ship, ExternalPilot pilot) {
   world_->pilots.resize(world_->setup.scene.ships.size());
   world_->pilots.at(static_cast<std::size_t>(ship)) = std::move(pilot);
+}
+
+void Simulation::set_external_force(int ship, dynamics::Planar force) {
+  world_->external_forces.resize(world_->setup.scene.ships.size());
+  world_->external_forces.at(static_cast<std::size_t>(ship)) = force;
+}
+
+void Simulation::set_prescribed_motion(int ship, Vector velocity, double yaw_rate) {
+  dynamics::Bodies& bodies = world_->population.bodies;
+  if (bodies.inverse_mass.at(static_cast<std::size_t>(ship)) != 0)
+    throw std::invalid_argument("the motion of this ship is not prescribed");
+  bodies.velocity[ship] = velocity - world_->population.water_velocity;
+  bodies.angular_velocity[ship] = yaw_rate;
+}
+
+void Simulation::sample_loads() {
+  simulation::sample_loads(world_->setup, world_->clock, world_->population, {world_->accounts, world_->journal});
 }
 
 namespace {

@@ -89,6 +89,18 @@ class Simulation {
   /// outside pilot remembers is not in state().
   void set_pilot(int ship, ExternalPilot pilot);
 
+  /// Sets the force and moment from outside on a ship, in its frame, until they are set again [N, N m]. They add to the
+  /// ship's own propulsion. They are not in state(). A ship of prescribed motion ignores them.
+  void set_external_force(int ship, dynamics::Planar force);
+
+  /// Sets the motion of a ship of prescribed motion (ConstantSpeed) from now on: velocity over ground [m/s] and yaw
+  /// rate [rad/s]. The motion is in state(). Throws std::invalid_argument for a ship whose motion is not prescribed.
+  void set_prescribed_motion(int ship, geometry::Vector velocity, double yaw_rate);
+
+  /// Appends the loads since the last sample to journal(), as is also done at each RecordSettings::forces_interval.
+  /// There must have been a tick since.
+  void sample_loads();
+
   /// Advances the run by one tick. Appends what happened in it to journal().
   void step();
 

@@ -24,6 +24,7 @@ MEANING = {
     "io": "scenes in, run folders out",
     "analysis": "what is measured in a run",
     "views": "map, player, exports",
+    "cosim": "co-simulation units",
     "app": "the command line",
     "python/module": "polynya._core",
 }

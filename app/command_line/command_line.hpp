@@ -114,6 +114,7 @@ Command add_channel(CommandLine& app);
 Command add_cut(CommandLine& app);
 Command add_database(CommandLine& app);
 Command add_export(CommandLine& app);
+Command add_fmu(CommandLine& app);
 Command add_import(CommandLine& app);
 Command add_init(CommandLine& app);
 Command add_inspect(CommandLine& app);

@@ -80,6 +80,9 @@ void bind_simulation(py::module_& module) {
            "continue.")
       .def("run", &Simulation::run, py::arg("until") = py::none(), py::arg("progress") = py::none(), kRunDoc)
       .def("events", &Simulation::events, kEventsDoc)
+      .def("set_command", &Simulation::set_command, py::arg("ship"), py::arg("lever"), py::arg("steering"),
+           "Gives a ship, by index or name, a command that it follows from now on in place of its pilot's: the lever, "
+           "and the\nsteering angle as a share of the largest, to port positive. set_pilot(ship, None) ends it.")
       .def("set_pilot", &Simulation::set_pilot, py::arg("ship"), py::arg("pilot"), kPilotDoc)
       .def("_record", &Simulation::record, py::arg("folder"), py::arg("overwrite"))
       .def("_end_recording", &Simulation::end_recording, py::arg("stopped_by"))
@@ -96,6 +99,7 @@ void bind_simulation(py::module_& module) {
   bind_arrays(module, type);
   bind_floe_memory(module, type);
   bind_occupancy(type);
+  bind_nearest_floes(type);
 }
 
 }  // namespace polynya::python

@@ -1,8 +1,8 @@
+#include "io/text/cut.hpp"
+
 #include <string>
 
 #include "python/module/simulation.hpp"
-
-#include "io/text/cut.hpp"
 
 namespace polynya::python {
 namespace {

@@ -91,6 +91,7 @@ const simulation::Simulation& Simulation::at_rest() const {
 }
 
 void Simulation::refuse_while_viewed() const {
+  if (readers_ > 0) throw std::runtime_error("another thread reads this simulation; wait for it");
   if (*views_ > 0)
     throw py::buffer_error(
         fmt::format("{} arrays of floe_memory live: a step would move what they show; delete them, or copy "
@@ -225,13 +226,31 @@ std::size_t Simulation::index_of(const py::object& ship, const char* caller) con
   return static_cast<std::size_t>(found);
 }
 
-void Simulation::set_pilot(const py::object& ship, const py::object& pilot) {
+std::size_t Simulation::commanded_ship(const py::object& ship, const char* caller) const {
   refuse_while_stepping();
-  const std::size_t index = index_of(ship, "set_pilot");
+  const std::size_t index = index_of(ship, caller);
   const auto& ships = simulation_.scene().ships;
   if (index >= ships.size() || !std::holds_alternative<simulation::Engine>(ships[index].propulsion))
     throw py::value_error(fmt::format("ship \"{}\" has no engine to command: give it propulsion.engine (docs/scene.md)",
                                       hull_of(simulation_.scene(), index).name));
+  return index;
+}
+
+void Simulation::set_command(const py::object& ship, double lever, double steering_share) {
+  const std::size_t index = commanded_ship(ship, "set_command");
+  if (!std::isfinite(lever) || !std::isfinite(steering_share))
+    throw py::value_error(
+        fmt::format("set_command: lever {} and steering {}, allowed: finite numbers", lever, steering_share));
+  commands_.resize(pilots_.size());
+  commands_[index] = {lever, steering_share};
+  pilots_[index] = py::none();
+  simulation_.set_pilot(static_cast<int>(index), [this, index](const simulation::PilotView& view) {
+    return simulation::Command{commands_[index].lever, commands_[index].steering_angle * view.steering_most};
+  });
+}
+
+void Simulation::set_pilot(const py::object& ship, const py::object& pilot) {
+  const std::size_t index = commanded_ship(ship, "set_pilot");
   if (!pilot.is_none() && !PyCallable_Check(pilot.ptr()))
     throw py::type_error("set_pilot: a pilot is a callable that takes a PilotView, or None");
   pilots_[index] = pilot;

@@ -87,11 +87,11 @@ void blow(Vector stress, Population& population, double dt, AuditSums& audit) {
   audit.impulses += work.impulses;
 }
 
-/// Applies an impulse of thrust [N s] along a ship's heading, and adds its work to the accounts.
-void push_ship(dynamics::Bodies& bodies, BodyIndex ship, double thrust_impulse, AuditSums& audit) {
-  const Vector heading{bodies.rotation[ship].cosine, bodies.rotation[ship].sine};
-  const Vector impulse = thrust_impulse * heading;
-  audit.energy.thrust += push(bodies, ship, impulse);
+/// Applies an impulse in a ship's frame [N s, N m s], and adds its work to the accounts as that of a thrust.
+void push_ship(dynamics::Bodies& bodies, BodyIndex ship, dynamics::Planar in_ship, AuditSums& audit) {
+  if (bodies.inverse_mass[ship] == 0) return;
+  const Vector impulse = rotate(bodies.rotation[ship], {in_ship.surge, in_ship.sway});
+  audit.energy.thrust += push(bodies, ship, impulse, in_ship.yaw);
   audit.momentum.thrust += impulse;
   audit.impulses += length(impulse);
 }
@@ -145,10 +145,14 @@ void apply_forces(const Setup& setup, const Step& step, Population& population, 
               audit);
 }
 
-void push_ships(const Setup& setup, const Step& step, Population& population, AuditSums& audit) {
+void push_ships(const Setup& setup, const Step& step, std::span<const dynamics::Planar> external_forces,
+                Population& population, AuditSums& audit) {
   for (std::size_t ship = 0; ship < setup.scene.ships.size(); ++ship) {
+    const auto body = static_cast<BodyIndex>(ship);
     if (const auto* thrust = std::get_if<ConstantThrust>(&setup.scene.ships[ship].propulsion))
-      push_ship(population.bodies, static_cast<BodyIndex>(ship), step.length * thrust->thrust, audit);
+      push_ship(population.bodies, body, {step.length * thrust->thrust, 0, 0}, audit);
+    if (ship < external_forces.size())
+      push_ship(population.bodies, body, step.length * external_forces[ship], audit);
   }
 }
 
@@ -231,7 +235,7 @@ constexpr Stage kFollowLoads{"follow loads", [](World& w, const Step& s) {
 constexpr Stage kForces{"water and wind",
                         [](World& w, const Step& s) { apply_forces(w.setup, s, w.population, w.accounts.audit); }};
 constexpr Stage kThrust{"thrust",
-                        [](World& w, const Step& s) { push_ships(w.setup, s, w.population, w.accounts.audit); }};
+                        [](World& w, const Step& s) { push_ships(w.setup, s, w.external_forces, w.population, w.accounts.audit); }};
 constexpr Stage kSubmergedIce{"pull of submerged ice", [](World& w, const Step& s) {
                                 pull_of_submerged_ice(w.setup, s, w.population, w.data.loads, w.accounts.audit);
                                 press_started(s, w.population, w.data.loads, w.accounts.audit);

@@ -83,8 +83,9 @@ void tally_loads(const Population& population, const std::vector<dynamics::Conta
 /// Lets water and wind act on all awake bodies.
 void apply_forces(const Setup& setup, const Step& step, Population& population, AuditSums& audit);
 
-/// Gives ships their constant thrust.
-void push_ships(const Setup& setup, const Step& step, Population& population, AuditSums& audit);
+/// Gives ships their constant thrust, and the forces from outside, if any [N, N m].
+void push_ships(const Setup& setup, const Step& step, std::span<const dynamics::Planar> external_forces,
+                Population& population, AuditSums& audit);
 
 /// Brakes ships by the ice under their hulls, and moves that ice along its path.
 void pull_of_submerged_ice(const Setup& setup, const Step& step, Population& population, std::vector<HullLoads>& loads,

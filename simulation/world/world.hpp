@@ -181,6 +181,9 @@ struct World {
   Accounts accounts;
   Journal journal;
   std::vector<ExternalPilot> pilots;   ///< per ship: pilots from outside, if any
+  /// Per ship: force and moment from outside, in the ship's frame [N, N m]. Empty if there are none. Not part of the
+  /// saved state: whoever gives them also remembers them.
+  std::vector<dynamics::Planar> external_forces;
   std::optional<std::string> failure;  ///< why the run cannot continue
 };
 

@@ -165,7 +165,14 @@ def test_it_passes_gymnasiums_own_check():
 
 
 GYMNASIUM = '''
-import numpy
+import importlib, numpy
+registry = {}
+def register(id, entry_point=None, vector_entry_point=None, **kwargs):
+    assert id not in registry
+    registry[id] = entry_point, vector_entry_point
+def make(id, which=0, **kwargs):
+    module, name = registry[id][which].split(":")
+    return getattr(importlib.import_module(module), name)(**kwargs)
 class Env:
     np_random = numpy.random.default_rng()
     def reset(self, *, seed=None, options=None):
@@ -193,6 +200,11 @@ def test_where_gymnasium_is_installed_it_is_one_of_its_environments(tmp_path):
             "env = ShipInIce(json.loads(sys.argv[1]), ship='agent', shape=(8, 8))\n"
             "assert isinstance(env, gymnasium.Env) and isinstance(env.observation_space, gymnasium.spaces.Dict)\n"
             "observation, info = env.reset(seed=2)\n"
+            "assert list(gymnasium.registry) == ['polynya/ShipInIce-v0']\n"
+            "made = gymnasium.make('polynya/ShipInIce-v0', shape=(8, 8))\n"
+            "assert made.reset(seed=1)[0]['image'].shape == (2, 8, 8)\n"
+            "many = gymnasium.make('polynya/ShipInIce-v0', which=1, num_envs=2, floes=4)\n"
+            "assert many.reset(seed=1)[0]['floes'].shape == (2, 4, 7)\n"
             "print(info['scene_seed'], observation['image'].shape == env.observation_space.spaces['image'].shape)\n")
     with_it = {**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ['PYTHONPATH']}"}
     done = subprocess.run([sys.executable, "-c", code, json.dumps(SCENE)], env=with_it,

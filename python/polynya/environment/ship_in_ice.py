@@ -2,17 +2,20 @@
 from __future__ import annotations
 
 import copy
+import math
 import typing
 
 import numpy
 
 import polynya
 
+from .default_scene import default_scene
 from .spaces import Box, Dict, Env
 
 _COLOURS = (143, 184, 208), (255, 255, 255), (122, 92, 46), (43, 43, 43)
 WATER, ICE, OTHERS, OWN = (numpy.array(colour, dtype=float) for colour in _COLOURS)
 MOST_SEED = 2**31
+FLOE_COLUMNS = 7  #: of Simulation.nearest_floes
 
 
 class Change(typing.NamedTuple):
@@ -34,22 +37,24 @@ def metres_less_work(change):
 class ShipInIce(Env):
     """A ship with an engine in a scene, in Gymnasium's convention.
 
-    scene: what polynya.Scene takes, or a callable that makes it of a seed. Of the former reset(seed) replaces the
-    scene's `seed`, which its random fields of floes follow. ship: index or name. goal: x, y [m], reached within
+    scene: what polynya.Scene takes, or a callable that makes it of a seed; default_scene if not given. Of the former
+    reset(seed) replaces the scene's `seed`, which its random fields of floes follow. ship: index or name. goal: x, y [m], reached within
     `goal_radius` (a length of 100 m if not given); without one the ship is to go along its first heading. seconds:
     simulated, a step; a whole number of the scene's ticks (time.step_s). shape, cell_m, ahead_m: of the image, as in
-    Simulation.occupancy. time_limit: simulated [s]; the scene's until_s if not given. reward: a callable of a Change.
+    Simulation.occupancy. floes: a number of floes for an observation of the nearest floes in place of the image.
+    time_limit: simulated [s]; the scene's until_s if not given. reward: a callable of a Change.
 
     Action: lever and steering angle, each from -1 to 1; the angle in shares of the largest, to port positive. Both go
     there as fast as the scene's ship lets them. Observation: "image", 2 x rows x columns, the share of each cell that
-    ice covers, and that other ships and structures cover, ahead on top, port on the left; "ship": speed ahead and to
+    ice covers, and that other ships and structures cover, ahead on top, port on the left, or "floes", floes x 7 numbers
+    of the nearest floes, as Simulation.nearest_floes has them; "ship": speed ahead and to
     port [m/s], yaw rate [rad/s], lever, steering angle in shares, and where the goal is: ahead and to port [m] (0
     without one). `simulation` is the Simulation that is stepped."""
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
 
-    def __init__(self, scene, *, ship=0, goal=None, goal_radius=100.0, seconds=0.5,
-                 shape=(96, 96), cell_m=4.0, ahead_m=0.0, time_limit=None,
+    def __init__(self, scene=default_scene, *, ship=0, goal=None, goal_radius=100.0, seconds=0.5,
+                 shape=(96, 96), cell_m=4.0, ahead_m=0.0, floes=None, time_limit=None,
                  reward=metres_less_work, threads=1, render_mode=None):
         if render_mode not in (None, "rgb_array"):
             raise ValueError(f"render_mode is {render_mode!r}, allowed: None, 'rgb_array'")
@@ -62,10 +67,12 @@ class ShipInIce(Env):
         self.goal_radius, self._time_limit, self._reward, self._threads = goal_radius, time_limit, reward, threads
         self._view = {"shape": tuple(shape), "cell_m": cell_m, "ahead_m": ahead_m}
         self.action_space = Box(-1.0, 1.0, (2,), numpy.float32)
-        self.observation_space = Dict({
-            "image": Box(0.0, 1.0, (2, *self._view["shape"]), numpy.float32),
-            "ship": Box(-numpy.inf, numpy.inf, (7,), numpy.float32),
-        })
+        if floes is not None and (not isinstance(floes, int) or floes < 1):
+            raise ValueError(f"floes is {floes!r}, allowed: None, or a number of floes from 1 on")
+        self._floes = floes
+        ice = {"image": Box(0.0, 1.0, (2, *self._view["shape"]), numpy.float32)} if floes is None else {
+            "floes": Box(-numpy.inf, numpy.inf, (floes, FLOE_COLUMNS), numpy.float32)}
+        self.observation_space = Dict({**ice, "ship": Box(-numpy.inf, numpy.inf, (7,), numpy.float32)})
         self.simulation = None
 
     def reset(self, *, seed=None, options=None):
@@ -86,16 +93,11 @@ class ShipInIce(Env):
         self.simulation = polynya.Simulation(scene, threads=self._threads)
         names = [ship.name for ship in self.simulation.ships]
         self._ship = names.index(self._given_ship) if self._given_ship in names else self._given_ship
-        self._command, self._steering_most = (0.0, 0.0), 0.0
-        self.simulation.set_pilot(self._ship, self._pilot)
+        self.simulation.set_command(self._ship, 0.0, 0.0)
+        self._steering_most = _largest_angle(scene.resolved["ships"][self._ship])
         self._now = self.simulation.ships[self._ship]
         self._waterline, self._course = None, self._now.heading
         return self._observation(), {"scene_seed": self.scene_seed, "time_s": self.simulation.time}
-
-    def _pilot(self, view):
-        self._steering_most = view.steering_most
-        lever, share = self._command
-        return lever, share * view.steering_most
 
     def step(self, action):
         """Observation, reward, whether the goal is reached, whether the time is over, and info: `time_s`, `progress_m`,
@@ -105,7 +107,7 @@ class ShipInIce(Env):
         wanted = numpy.asarray(action, dtype=float)
         if wanted.shape != (2,) or not numpy.isfinite(wanted).all():
             raise ValueError(f"an action is lever and steering, two numbers from -1 to 1, found {action!r}")
-        self._command = tuple(numpy.clip(wanted, -1.0, 1.0).tolist())
+        self.simulation.set_command(self._ship, *numpy.clip(wanted, -1.0, 1.0).tolist())
         before = self._now
         self.simulation.step(self._steps)
         self._now = self.simulation.ships[self._ship]
@@ -134,8 +136,9 @@ class ShipInIce(Env):
         to_goal = (0.0, 0.0) if self.goal is None else _in_ship(self.goal - ship.position, ship.heading)
         share = ship.steering_angle / self._steering_most if self._steering_most else 0.0
         state = (*_in_ship(ship.velocity, ship.heading), ship.yaw_rate, ship.lever, share, *to_goal)
-        return {"image": self.simulation.occupancy(self._ship, **self._view),
-                "ship": numpy.array(state, dtype=numpy.float32)}
+        ice = {"image": self.simulation.occupancy(self._ship, **self._view)} if self._floes is None else {
+            "floes": self.simulation.nearest_floes(self._ship, self._floes)}
+        return {**ice, "ship": numpy.array(state, dtype=numpy.float32)}
 
     def render(self):
         """The image in colours, with the ship: rows x columns x 3 bytes."""
@@ -168,6 +171,11 @@ def _seeded(scene):
     """Makes the scene with another seed."""
     resolved = scene.resolved
     return lambda seed: {**resolved, "seed": seed}
+
+
+def _largest_angle(ship):
+    """Of its rudder or thrusters, to either side; 0 without [rad]."""
+    return math.radians(max((kind["max_deg"] for kind in ship.get("steering", {}).values()), default=0.0))
 
 
 def _in_ship(vector, heading):

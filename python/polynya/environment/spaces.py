@@ -83,3 +83,31 @@ except ImportError:
 
         def __exit__(self, *error):
             self.close()
+
+
+try:
+    from gymnasium.vector import VectorEnv
+    from gymnasium.vector.utils import batch_space
+except ImportError:
+
+    class VectorEnv:
+        """As Gymnasium's."""
+
+        @property
+        def unwrapped(self):
+            return self
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *error):
+            self.close()
+
+    def batch_space(space, n):
+        """The space of n values of a space, along a first axis."""
+        if isinstance(space, Dict):
+            return Dict({name: batch_space(one, n) for name, one in space.spaces.items()})
+        batched = Box(0, 1, (n, *space.shape), space.dtype)
+        batched.low = numpy.broadcast_to(space.low, batched.shape).copy()
+        batched.high = numpy.broadcast_to(space.high, batched.shape).copy()
+        return batched

@@ -13,9 +13,9 @@ from ..formulas import KNOT
 from ..program import program
 from ..runs_kept import RunFailed
 from ..study.case import DONE, FAILED, STOPPED
-from . import sensitivity
+from . import coefficients, sensitivity
 from .curve import BEYOND, THICKER, Curve, mark_of
-from .options import FLEXURAL_STRENGTH, FRICTION, command_line
+from .options import FLEXURAL_STRENGTH, FRICTION, STEP, command_line
 
 INPUT_OUTPUT = 5  # app/command_line/console.hpp
 
@@ -156,9 +156,12 @@ def main():
         flexural_strength=FLEXURAL_STRENGTH if arguments.flexural_strength is None else arguments.flexural_strength,
         friction=FRICTION if arguments.friction is None else arguments.friction,
     )
+    if coefficients.regime_of(arguments):
+        return coefficients.main(arguments, found, ice, fail, (DONE, FAILED, STOPPED))
     folder = arguments.out or os.path.join("runs", f"performance-{found['name']}")
     ship, reported = found["ship"], found["reported"]
-    curve = Curve(ship, hull_of(ship), found["engine"], ice, folder, program(), arguments.error, arguments.step)
+    curve = Curve(ship, hull_of(ship), found["engine"], ice, folder, program(), arguments.error,
+                  arguments.step or STEP)
     wanted = arguments.thickness or ten_thicknesses(curve)
     if arguments.list:
         print_formulas(curve, wanted)

@@ -4,23 +4,50 @@ import os
 from ..arguments import Parser, number, numbers
 
 FLEXURAL_STRENGTH, FRICTION = 500e3, 0.1  # where the command line has none [Pa], [-]
+STEP = 0.01  # of the runs in level ice at full power [s]
 
 EXAMPLES = (
     "performance polaris                       ten thicknesses, on all processors",
     "performance araon --flexural-strength 630e3 --friction 0.1",
     "performance ship.json --thickness 0.4,0.8,1.2 --out runs/our-ship",
     "performance oden --list                   the formulas alone, without a run",
+    "performance polaris --pack                resistance in pack ice, and its fit as JSON for route planners",
+    "performance polaris --channel --speed 2,4 --thickness 0.5,0.8 --cover 0.6,0.8",
 )
 REST = """Each thickness is a run in a plate of fast ice, repeated twice as long until the mean speed's standard error
 and its change between the halves are below the error asked for. Finished runs are kept: a curve that was stopped goes
 on. What a ship's file does not state is estimated where it can be (polynya ships FILE --for-performance lists it), and
 a table shows how far the speed moves with each particular, by the published formulas. Needs Python 3 with numpy, and
 matplotlib for the figure (./setup.sh python).
+
+With --pack, --level or --channel the ship keeps each speed through pack ice, level ice or a channel of brash ice. The
+means of the ice's force over speed, thickness, cover and floe size are a table, and their fit in Colbourne's form (k,
+b, n with errors and scatter) is JSON.
 """
 
 
-def thicknesses(text):
-    return sorted(set(numbers(number(1e-3, 20, "m"))(text)))
+def values(one):
+    """Reads a list of numbers; they are sorted, and each is there once."""
+    return lambda text: sorted(set(numbers(one)(text)))
+
+
+thicknesses = values(number(1e-3, 20, "m"))
+
+
+def add_coefficients(parser):
+    """What the tables of resistance need."""
+    which = parser.add_mutually_exclusive_group()
+    for name, ice in (("--pack", "pack ice"), ("--level", "level ice"), ("--channel", "a channel of brash ice, 1.5 "
+                                                                          "beams wide in fast ice")):
+        which.add_argument(name, help=f"Resistance in {ice} at each speed, instead", action="store_true")
+    meaning = "Speeds of these tables [m/s]; 1,2,4 if not given"
+    parser.add("--speed", meaning, type=values(number(0.05, 20, "m/s")), metavar="LIST")
+    meaning = "Covers of pack ice or a channel; 0.5,0.7,0.85 and 0.5,0.7,0.8 if not given"
+    parser.add("--cover", meaning, type=values(number(0.05, 0.95)), metavar="LIST")
+    meaning = "Floe sizes [m]; 20,40 in pack ice and 4 in a channel if not given"
+    parser.add("--floe-size", meaning, type=values(number(0.5, 1000, "m")), metavar="LIST")
+    meaning = "Random fields a point; 2 if not given"
+    parser.add("--fields", meaning, type=number(1, 1000, kind=int), default=2, metavar="N")
 
 
 def command_line():
@@ -35,10 +62,12 @@ def command_line():
     parser.add("--friction", meaning, type=number(0, 2), metavar="MU")
     meaning = "Largest error of a mean speed, of that speed; 0.03 if not given"
     parser.add("--error", meaning, type=number(0, 1, is_open=True), default=0.03, metavar="SHARE")
-    parser.add("--step", "Time step; 0.01 if not given", type=number(1e-5, 1, "s"), default=0.01, metavar="S")
+    meaning = "Time step; 0.01 if not given, and with --pack, --level and --channel that of a scene without one"
+    parser.add("--step", meaning, type=number(1e-5, 1, "s"), metavar="S")
     meaning = "Folder of the runs, the table and the figure; runs/performance-SHIP if not given"
     parser.add("--out", meaning, metavar="DIR")
     meaning = "Runs at a time; one a processor if not given"
     parser.add("--jobs", meaning, type=number(1, 1024, kind=int), default=os.cpu_count() or 1, metavar="N")
+    add_coefficients(parser)
     parser.add("--list", "Print the formulas' speeds and run nothing", action="store_true")
     return parser

@@ -122,6 +122,12 @@ def gather(options):
     return gathering.gather(open_study(options.study))
 
 
+def evaluate(options):
+    from . import evaluate as evaluation
+
+    return evaluation.evaluate(options)
+
+
 def report(options):
     from . import report as made
 
@@ -137,6 +143,7 @@ def main(words=None):
         "parallel": spread,
         "report": report,
         "gather": gather,
+        "evaluate": evaluate,
     }
     try:
         return actions[options.action](options)

@@ -6,6 +6,7 @@ import pathlib
 import re
 
 from . import draws
+from .design import read_design
 from .expand import repeats_by_seed
 from .located_json import LocatedJson, StudyError, shortened, shown
 
@@ -20,6 +21,7 @@ KEYS = (
     "set",
     "grid",
     "paired",
+    "design",
     "draw",
     "repetitions",
     "seed",
@@ -45,7 +47,8 @@ class Definition:
     scenes: list  # names as the file has them
     fixed: dict
     grid: dict  # path -> values
-    paired: dict  # path -> values, all of one length
+    paired: dict  # path -> values, all of one length; those of the design too
+    design: dict  # path -> values of a CSV file, a row a case
     draw: dict  # path -> (kind, numbers)
     draws: int
     method: str
@@ -59,10 +62,11 @@ class Definition:
     source: LocatedJson  # for problems that a scene's check finds
 
 
-def read_definition(file):
-    """The study of a JSON file; StudyError with everything that is wrong with it."""
+def read_definition(file, design=None):
+    """The study of a JSON file; StudyError with everything that is wrong with it. `design` names a CSV file in place of
+    the study's own design."""
     file = pathlib.Path(file)
-    return Reader(LocatedJson(file)).read(file)
+    return Reader(LocatedJson(file)).read(file, design)
 
 
 class Reader:
@@ -71,7 +75,7 @@ class Reader:
     def __init__(self, source):
         self.source, self.problems = source, []
 
-    def read(self, file):
+    def read(self, file, design=None):
         study = self.source.value
         if not isinstance(study, dict):
             raise StudyError(self.source.problem([], f"found {shown(study)}, allowed: a study (docs/studies.md)"))
@@ -82,6 +86,7 @@ class Reader:
         paired = {
             path: self.values(spec, ["paired", path]) for path, spec in self.member(study, "paired", dict, {}).items()
         }
+        designed = self.design(study, file, design)
         scene = study.get("scene")
         scenes = scene if isinstance(scene, list) else [scene]
         for i, name in enumerate(scenes or [None]):
@@ -95,7 +100,8 @@ class Reader:
             scenes=scenes,
             fixed=self.member(study, "set", dict, {}),
             grid=grid,
-            paired=paired,
+            paired={**paired, **designed},
+            design=designed,
             draw=self.distributions(draw),
             draws=self.whole(draw, "count", 1, 10**8, 1, ["draw"]),
             method=self.choice(draw, "method", ("independent", "latin_hypercube"), ["draw"]),
@@ -113,6 +119,13 @@ class Reader:
         if self.problems:
             raise StudyError(self.problems)
         return definition
+
+    def design(self, study, file, given):
+        """The values of a design by path, of the study's own or of a given file."""
+        named = self.member(study, "design", str, "")
+        if not given and not named:
+            return {}
+        return read_design(given or file.parent / named)
 
     def report(self, path, message):
         self.problems.append(self.source.problem(path, message))
@@ -281,7 +294,7 @@ class Reader:
         lengths = {path: len(values) for path, values in definition.paired.items()}
         if len(set(lengths.values())) > 1:
             self.report(
-                ["paired"],
+                ["design" if definition.design else "paired"],
                 f"found lists of {', '.join(f'{n} ({path})' for path, n in lengths.items())}, allowed: lists of one "
                 f"length",
             )
@@ -299,13 +312,14 @@ class Reader:
         blocks = {
             "set": definition.fixed,
             "grid": definition.grid,
-            "paired": definition.paired,
+            "paired": {path: values for path, values in definition.paired.items() if path not in definition.design},
+            "design": definition.design,
             "draw": definition.draw,
         }
         where, inside = {}, {}  # the block of each path, and a path below each that is part of one
         for block, paths in blocks.items():
             for path in paths:
-                place = [block, path] if block != "draw" else ["draw", "of", path]
+                place = {"draw": ["draw", "of", path], "design": ["design"]}.get(block, [block, path])
                 if path == "scene":
                     self.report(place, 'found "scene", allowed: a list of scenes as "scene" of the study itself')
                 above = [path[: match.start()] for match in re.finditer(r"[.\[]", path)]

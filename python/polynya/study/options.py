@@ -38,6 +38,7 @@ def add_plan(actions):
         "study.json --out /scratch/loads --chunk 100",
     )
     add(plan, "--out", "the study's folder; studies/<name> if not given", metavar="DIR")
+    add(plan, "--design", "a CSV file with a row a case, instead of the study's own design", metavar="FILE")
     meaning = "cases of one task, folder and archive; so that there are at most 1000 tasks if not given"
     add(plan, "--chunk", meaning, type=WHOLE, metavar="N")
     meaning = "instead of the study's own; it may grow later"
@@ -49,6 +50,22 @@ def add_plan(actions):
     add(plan, "--check-seeds", "check also cases that differ in seeds alone, each in full", action="store_true")
     meaning = "for how many cases at a time the time is estimated; one a processor if not given"
     add(plan, "--jobs", meaning, type=WHOLE, default=PROCESSORS, metavar="N")
+
+
+def add_evaluate(actions):
+    evaluate = add_action(
+        actions,
+        "evaluate",
+        "Run the cases of a design, a CSV file with a row a case, and write their measures as CSV",
+        "study.json design.csv measures.csv --jobs 2",
+    )
+    add(evaluate, "design", "a line of scene paths, and a line of values a case", metavar="DESIGN.csv")
+    add(evaluate, "measures", "what is written: a line a case, in the order of the design", metavar="MEASURES.csv")
+    meaning = "where the cases run; studies/<name>-<of the design> if not given"
+    add(evaluate, "--folder", meaning, metavar="DIR")
+    meaning = "how many at a time; one a processor if not given"
+    add(evaluate, "--jobs", meaning, type=WHOLE, default=PROCESSORS, metavar="N")
+    add(evaluate, "--quiet", "do not report how far the study is", action="store_true")
 
 
 def add_run(actions):
@@ -117,6 +134,6 @@ def add_others(actions):
 def command_line():
     parser = Parser("polynya study", "Plan, run and gather many runs of one scene", EXAMPLES, REST)
     actions = parser.add_actions()
-    for add_to in (add_plan, add_run, add_slurm, add_others):
+    for add_to in (add_plan, add_run, add_evaluate, add_slurm, add_others):
         add_to(actions)
     return parser

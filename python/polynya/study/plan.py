@@ -27,7 +27,7 @@ def plan_study(file, options):
     """Plans a study, or finds that it is planned already. Returns it."""
     if pathlib.Path(file).is_dir():
         raise StudyError(f"{file}: a folder; plan takes the study's JSON file", 2)
-    definition = read_definition(file)
+    definition = read_definition(file, options.design)
     if options.repetitions:
         if not repeats_by_seed(definition):
             raise StudyError(f"{file}: it sets the seeds itself; with --repetitions cases would be copies", 2)
@@ -295,6 +295,7 @@ def place_of(definition, path):
     blocks = [
         (["set"], definition.fixed),
         (["grid"], definition.grid),
+        (["design"], definition.design),
         (["paired"], definition.paired),
         (["draw", "of"], definition.draw),
     ]

@@ -6,7 +6,9 @@
 #include "geometry/shape/polygon.hpp"
 #include "geometry/shape/pose.hpp"
 
-namespace polynya::python {
+namespace polynya::simulation {
+
+struct World;
 
 /// An image from above in a ship's frame: its first row is the farthest ahead, its first column to port.
 struct ImageFrame {
@@ -38,4 +40,11 @@ class CoverImage {
   std::vector<double> steps_;  ///< of the share, from each cell of a row to the next; one more than columns
 };
 
-}  // namespace polynya::python
+/// Adds the floes whose circle touches the image. Floes under hulls are not in the way, and are left out.
+void add_floes(const World& world, const geometry::Pose& world_from_ship, const ImageFrame& frame, CoverImage& image);
+
+/// Returns the share of the water ahead of a hull that floating ice covers [-]: of a rectangle as wide as its beam,
+/// from its foremost point to one length ahead.
+double cover_ahead(const World& world, int ship);
+
+}  // namespace polynya::simulation

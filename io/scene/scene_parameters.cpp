@@ -1,0 +1,65 @@
+#include "io/scene/scene_parameters.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "io/scene/scene_input.hpp"
+#include "io/text/json_parser.hpp"
+
+namespace polynya::io {
+namespace {
+
+/// Keys of the scene that do not decide how a run goes, or that have no place in a coupled one.
+constexpr std::array<std::string_view, 6> kLeftOut{"name", "description", "origin", "record", "walls", "until_s"};
+
+/// Largest number of entries of "floes" that are looked at: a scene may list a million floes one by one.
+constexpr std::size_t kMostGroups = 100;
+
+void collect(const Object& object, const JsonValue& value, const std::string& path, std::vector<SceneParameter>& found);
+
+/// The items of a list that have parameters: all ships and structures, and the random fields of floes.
+void collect_items(const Field& field, const JsonValue& list, const std::string& path,
+                   std::vector<SceneParameter>& found) {
+  if (field.key != "ships" && field.key != "structures" && field.key != "floes") return;
+  for (std::size_t i = 0; i < std::min(list.items().size(), kMostGroups); ++i) {
+    const JsonValue& item = list.items()[i];
+    if (field.key == "floes" && !item.find("field")) continue;
+    collect(*field.object, item, fmt::format("{}[{}]", path, i), found);
+  }
+}
+
+void collect_one(const Field& field, const JsonValue& value, const std::string& path,
+                 std::vector<SceneParameter>& found) {
+  const auto add = [&](FieldKind kind, double number) {
+    found.push_back({path, std::string(field.unit), std::string(field.meaning), field.range, kind, number});
+  };
+  using Kind = JsonValue::Kind;
+  if (field.kind == FieldKind::kObject && value.is(Kind::kObject)) return collect(*field.object, value, path, found);
+  if (field.kind == FieldKind::kList && value.is(Kind::kArray)) return collect_items(field, value, path, found);
+  if (field.kind == FieldKind::kBoolean && value.is(Kind::kBoolean))
+    return add(FieldKind::kBoolean, value.boolean() ? 1 : 0);
+  if (!value.is(Kind::kNumber)) return;
+  if (field.kind == FieldKind::kInteger || field.kind == FieldKind::kNumber) add(field.kind, value.number());
+  if (field.kind == FieldKind::kNumberOrLaw) add(FieldKind::kNumber, value.number());
+}
+
+void collect(const Object& object, const JsonValue& value, const std::string& path,
+             std::vector<SceneParameter>& found) {
+  for (const Field& field : object.fields) {
+    if (std::ranges::find(kLeftOut, field.key) != kLeftOut.end()) continue;
+    if (const JsonValue* member = value.find(field.key)) collect_one(field, *member, key_path(path, field.key), found);
+  }
+}
+
+}  // namespace
+
+std::vector<SceneParameter> scene_parameters(const LoadedScene& scene) {
+  std::vector<SceneParameter> found;
+  const JsonDocument document = parse_json(scene.resolved_text);
+  collect(kSceneDescription, document.root, "", found);
+  return found;
+}
+
+}  // namespace polynya::io

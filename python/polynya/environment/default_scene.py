@@ -1,0 +1,23 @@
+"""The scene of an environment that is given none: a ship with rudder and engine before a field of big floes."""
+
+
+def default_scene(seed):
+    """The scene of a seed, as a dict."""
+    return {
+        "name": "ship-in-ice",
+        "seed": seed,
+        "time": {"step_s": 0.05, "until_s": 120},
+        "ice": {"thickness_m": 0.5},
+        "ships": [{
+            "name": "ship",
+            "hull": {"length_m": 80, "beam_m": 18, "entrance_angle_deg": 27, "stem_angle_deg": 30, "draught_m": 6,
+                     "block_coefficient": 0.58},
+            "position_m": [-50, 150],
+            "speed_m_per_s": 4,
+            "propulsion": {"engine": {"power_MW": 10, "propeller_diameter_m": 3.6, "propellers": 2,
+                                      "open_water_speed_m_per_s": 7}},
+            "steering": {"rudder": {"area_m2": 14}},
+        }],
+        "floes": [{"field": {"corner_m": [0, 0], "extent_m": [500, 300], "floe_size_m": 60, "size_spread": 0.3,
+                             "concentration": 0.35}}],
+    }

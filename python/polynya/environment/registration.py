@@ -1,0 +1,14 @@
+"""The environment in Gymnasium's registry, where Gymnasium is installed."""
+ID = "polynya/ShipInIce-v0"  #: by which gymnasium.make finds it
+
+
+def register():
+    """Registers ShipInIce, and ShipsInIce as its vector environment. Does nothing without Gymnasium."""
+    try:
+        import gymnasium
+    except ImportError:
+        return
+    if ID in getattr(gymnasium, "registry", {}):  # the module was imported before, and reloaded
+        return
+    gymnasium.register(id=ID, entry_point="polynya.environment:ShipInIce",
+                       vector_entry_point="polynya.environment:ShipsInIce")

@@ -1,0 +1,113 @@
+"""`polynya performance SHIP --pack`, --level and --channel: resistance as a table, and its fit for route planners."""
+import json
+import math
+import os
+import sys
+
+from ..files import writing
+from ..program import program
+from ..runs_kept import RunFailed
+from . import colbourne, ice_scenes
+from .resistance import VALIDATED, Resistance, points_of
+
+COVERS = {ice_scenes.PACK: (0.5, 0.7, 0.85), ice_scenes.LEVEL: (1.0,), ice_scenes.CHANNEL: (0.5, 0.7, 0.8)}
+SIZES = {ice_scenes.PACK: (20.0, 40.0), ice_scenes.LEVEL: (0.0,), ice_scenes.CHANNEL: (4.0,)}
+SPEEDS, THICKNESSES = (1.0, 2.0, 4.0), (0.3, 0.5, 0.8)
+FIELDS = 2  # seeds a point
+NOTHING = {
+    ice_scenes.CHANNEL: "No measurement or formula was compared with the resistance in a channel.",
+    ice_scenes.PACK: "Compared with published curves only for floes of 15 m, 0.5 m thick, at 1 m/s, covers 0.3 to 0.9 "
+                     "(docs/validation.md, \"Pack ice\"): between Colbourne's slender and blunt ships from cover 0.5 on.",
+    ice_scenes.LEVEL: "Compared with measurements in ice up to 0.5 m thick (docs/validation.md, \"A ship in level ice\").",
+}
+
+
+def regime_of(arguments):
+    """The regime that is asked for, or None."""
+    return next((name for name in (ice_scenes.PACK, ice_scenes.LEVEL, ice_scenes.CHANNEL) if getattr(arguments, name)),
+                None)
+
+
+def wanted_points(regime, arguments):
+    if regime == ice_scenes.LEVEL:
+        covers, sizes = COVERS[regime], SIZES[regime]
+    else:
+        covers, sizes = arguments.cover or COVERS[regime], arguments.floe_size or SIZES[regime]
+    return points_of(arguments.speed or SPEEDS, arguments.thickness or THICKNESSES, covers, sizes)
+
+
+def print_table(rows):
+    print(f"{'V [m/s]':>8}{'h [m]':>8}{'C':>7}{'floes [m]':>11}{'R [kN]':>10}{'± fields':>10}{'contact':>10}"
+          f"{'under hull':>12}{'fit [kN]':>10}")
+    for row in rows:
+        mark = "" if row["is_in_validated_range"] else "*"
+        print(f"{row['speed_m_per_s']:8g}{row['thickness_m']:8g}{row['cover']:7g}{row['floe_size_m']:11g}"
+              f"{row['resistance_N'] / 1e3:10.1f}{row['error_N'] / 1e3:10.1f}{row['contact_N'] / 1e3:10.1f}"
+              f"{row['submerged_N'] / 1e3:12.1f}{row['fit_N'] / 1e3:10.1f} {mark}".rstrip())
+    print("± fields: standard error of the mean over random fields, not the model's error")
+    if any(not row["is_in_validated_range"] for row in rows):
+        print("*: outside of what the model was compared with")
+
+
+def described(name, found, ice, fitted, rows):
+    """The fit as JSON that other programs read."""
+    ranges = {key: [min(row[key] for row in rows), max(row[key] for row in rows)]
+              for key in ("speed_m_per_s", "thickness_m", "cover", "floe_size_m")}
+    return {
+        "ship": found["name"], "title": found["title"], "ice": name, "form": colbourne.FORM,
+        "k": fitted.k, "k_error": fitted.k_error, "b": fitted.b, "b_error": fitted.b_error,
+        "n": fitted.n, "n_error": fitted.n_error, "scatter_factor": fitted.scatter, "points": fitted.points,
+        "points_without_resistance": sum(row["resistance_N"] <= 0 for row in rows),
+        "beam_m": found["ship"]["hull"]["beam_m"], "ice_density_kg_per_m3": ice.density,
+        "flexural_strength_Pa": ice.flexural_strength, "friction": ice.friction,
+        "range": ranges, "validated_range": VALIDATED[name],
+        "not_supported": [
+            "Outside of range the fit extrapolates.", NOTHING[name],
+            "The scatter is that of the points about the fit; the model's own error is not in it.",
+            "Open-water resistance is not in it.",
+        ],
+    }
+
+
+def report_progress(done, total):
+    print(f"{done} of {total} runs", end="\r" if sys.stderr.isatty() and done < total else "\n", file=sys.stderr)
+
+
+def write_files(folder, name, rows, found, ice, fitted):
+    from .__main__ import write_table
+
+    write_table(os.path.join(folder, f"{name}.csv"), rows)
+    path = os.path.join(folder, f"{name}.json")
+    with writing(path) as file:
+        json.dump(described(name, found, ice, fitted, rows), file, indent=2)
+        file.write("\n")
+    print(f"fit     {path}")
+
+
+def main(arguments, found, ice, fail, codes):
+    """`fail` prints a message and returns its code of `codes`: done, failed, stopped."""
+    done, failed, stopped = codes
+    name = regime_of(arguments)
+    folder = arguments.out or os.path.join("runs", f"resistance-{found['name']}")
+    os.makedirs(folder, exist_ok=True)
+    runs = Resistance(name, found["ship"], ice, folder, program(),
+                      1 if name == ice_scenes.LEVEL else arguments.fields, arguments.step)
+    beam = found["ship"]["hull"]["beam_m"]
+    try:
+        rows = runs.rows(wanted_points(name, arguments), arguments.jobs, report_progress)
+        with_resistance = [row for row in rows if row["resistance_N"] > 0]
+        fitted = colbourne.fit(with_resistance, [row["resistance_N"] for row in with_resistance], beam, ice.density)
+    except (RunFailed, colbourne.NotEnough) as error:
+        return fail(failed, error)
+    except KeyboardInterrupt:
+        return fail(stopped, "stopped; the same command goes on with the runs that are left")
+    for row in rows:
+        row["fit_N"] = fitted.resistance(row, beam, ice.density)
+    print_table(rows)
+    of_cover = "" if fitted.n is None else f", n = {fitted.n:.2f} ± {fitted.n_error:.2f}"
+    print(f"{colbourne.FORM}: k = {fitted.k:.3g} ± {fitted.k_error:.2g}, b = {fitted.b:.2f} ± {fitted.b_error:.2f}"
+          f"{of_cover}; a point lies within a factor of {fitted.scatter:.2f} (one standard deviation)")
+    if math.isclose(arguments.fields, 1) and name != ice_scenes.LEVEL:
+        print("one field a point: errors of the means are not known (--fields 4)")
+    write_files(folder, name, rows, found, ice, fitted)
+    return done

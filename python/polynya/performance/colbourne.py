@@ -1,0 +1,61 @@
+"""Resistance of broken ice in Colbourne's form, fitted to points: R = ½ k F⁻ᵇ ρ_i B h V² Cⁿ with F = V / √(g h C)."""
+import dataclasses
+import math
+
+import numpy as np
+
+from ..formulas import G
+
+FORM = "R = 0.5 k F^(-b) rho_i B h V^2 C^n with F = V / sqrt(g h C)"
+FEWEST = 2  # more points than coefficients, for errors
+
+
+class NotEnough(Exception):
+    """The points do not decide the coefficients."""
+
+
+@dataclasses.dataclass
+class Fit:
+    """Coefficients with their standard errors; n is None where all points have one cover."""
+
+    k: float
+    k_error: float
+    b: float
+    b_error: float
+    n: float
+    n_error: float
+    scatter: float  #: factor by which a point lies above or below the fit: e to the residuals' standard deviation
+    points: int
+
+    def resistance(self, point, beam, density):
+        """Of a point by the fit [N]."""
+        return scale(point, beam, density) * self.k * froude(point) ** -self.b * point["cover"] ** (self.n or 0)
+
+
+def froude(point):
+    """The Froude number of pack ice."""
+    return point["speed_m_per_s"] / math.sqrt(G * point["thickness_m"] * point["cover"])
+
+
+def scale(point, beam, density):
+    """½ ρ_i B h V² [N]."""
+    return 0.5 * density * beam * point["thickness_m"] * point["speed_m_per_s"] ** 2
+
+
+def fit(points, resistances, beam, density):
+    """Least squares of the logarithm of the resistance [N]; points are mappings, resistances > 0."""
+    has_covers = len({point["cover"] for point in points}) > 1
+    columns = [np.ones(len(points)), [-math.log(froude(point)) for point in points]]
+    if has_covers:
+        columns.append([math.log(point["cover"]) for point in points])
+    matrix = np.column_stack(columns)
+    if len(points) < matrix.shape[1] + FEWEST or np.linalg.matrix_rank(matrix) < matrix.shape[1]:
+        raise NotEnough(f"{len(points)} points with a resistance do not decide {matrix.shape[1]} coefficients")
+    wanted = np.array([math.log(r / scale(point, beam, density)) for point, r in zip(points, resistances)])
+    found, *_ = np.linalg.lstsq(matrix, wanted, rcond=None)
+    residuals = wanted - matrix @ found
+    variance = residuals @ residuals / (len(points) - matrix.shape[1])
+    errors = np.sqrt(variance * np.diag(np.linalg.inv(matrix.T @ matrix)))
+    k = math.exp(found[0])
+    return Fit(k, k * errors[0], found[1], errors[1], found[2] if has_covers else None,
+               errors[2] if has_covers else None, math.exp(math.sqrt(variance)), len(points))

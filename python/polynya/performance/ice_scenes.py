@@ -1,0 +1,56 @@
+"""Scenes in which a ship keeps a speed through pack ice, level ice or a channel of brash ice, for its resistance."""
+import math
+
+from .level_ice import ENDLESS, OF_THE_START, STRENGTH_SPREAD, ice_keys
+
+PACK, LEVEL, CHANNEL = "pack", "level", "channel"
+LENGTHS = 4  # of the way in the ice, in lengths of the ship
+CHANNEL_WIDTH = 1.5  # of a channel, in beams of the ship
+
+
+def ship_at(ship, speed):
+    """The ship before the ice, which keeps its speed [m/s] and its heading."""
+    gone = (*OF_THE_START, "propulsion", "steering", "mooring")
+    kept = {key: value for key, value in ship.items() if key not in gone}
+    start = {"name": "ship", "position_m": [-0.5 * ship["hull"]["length_m"] - 2, 0], "heading_deg": 0,
+             "speed_m_per_s": speed, "propulsion": {"constant_speed_m_per_s": speed}}
+    return {**kept, **start}
+
+
+def field(corner, extent, point):
+    return {"field": {"corner_m": corner, "extent_m": extent, "floe_size_m": point["floe_size_m"], "size_spread": 0.3,
+                      "concentration": point["cover"]}}
+
+
+def ice_of(regime, hull, way, point):
+    """The entries of the scene's floes, and settings that go with them."""
+    beam = hull["beam_m"]
+    if regime == PACK:
+        width = max(10 * beam, 10 * point["floe_size_m"])
+        return [field([0, -0.5 * width], [way, width], point)], {}
+    if regime == LEVEL:
+        width = 5 * beam
+        return [{"rectangle": {"corner_m": [0, -0.5 * width], "size_m": [way, width]}, "fast_ice": True}], ENDLESS
+    width = CHANNEL_WIDTH * beam
+    banks = [{"rectangle": {"corner_m": [0, y], "size_m": [way, beam]}, "fast_ice": True}
+             for y in (0.5 * width, -0.5 * width - beam)]
+    return [field([0, -0.5 * width], [way, width], point), *banks], ENDLESS
+
+
+def scene(regime, ship, ice, point, seed, step):
+    """The scene of a point: its speed [m/s], thickness [m], cover [-] and floe size [m]."""
+    length, speed = ship["hull"]["length_m"], point["speed_m_per_s"]
+    way = LENGTHS * length
+    floes, settings = ice_of(regime, ship["hull"], way, point)
+    until = math.ceil((way + 2) / speed)
+    return {
+        "name": f"{regime}-resistance",
+        "seed": seed,
+        "time": {"until_s": until, **({} if step is None else {"step_s": step})},
+        "ice": ice_keys(ice),
+        "fracture": {**settings, "bending": {"strength_spread": STRENGTH_SPREAD}},
+        "ships": [ship_at(ship, speed)],
+        "floes": floes,
+        "record": {"forces_interval_s": round(max(0.1, 0.05 * length / speed), 3), "frames_interval_s": until,
+                   "contacts": "none"},
+    }

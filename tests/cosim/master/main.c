@@ -1,0 +1,30 @@
+/* Checks co-simulation units as a master would use them:
+       master CHECK FOLDER [FOLDER]
+   with the folder of an unpacked unit (tests/cosim/unpacked.py), for `two` of two. */
+#include "checks.h"
+#include <stdio.h>
+#include <string.h>
+
+static Unit units[2];
+
+int main(int count, char** words) {
+  if (count < 3 || count > 4) return 2;
+  for (int i = 2; i < count; ++i) load_unit(&units[i - 2], words[i]);
+  const char* check = words[1];
+  if (strcmp(check, "calls") == 0)
+    check_calls(&units[0]);
+  else if (strcmp(check, "values") == 0)
+    check_values(&units[0]);
+  else if (strcmp(check, "steps") == 0)
+    check_steps(&units[0]);
+  else if (strcmp(check, "log") == 0)
+    check_log(&units[0]);
+  else if (strcmp(check, "rollback") == 0)
+    check_rollback(&units[0]);
+  else if (strcmp(check, "two") == 0 && count == 4)
+    check_two(&units[0], &units[1]);
+  else
+    return 2;
+  printf("%s: %d failures\n", check, failures());
+  return failures() == 0 ? 0 : 1;
+}
