@@ -228,9 +228,9 @@ tl::expected<Repaired, CutError> repair_exactly(const std::vector<Ring>& rings, 
   CutOutcome rounded = exact::rounded_pieces(area, pieces);
   if (!rounded) return tl::unexpected(std::move(rounded.error()));
   for (Piece& piece : rounded->pieces) repaired.shapes.push_back(std::move(piece.shape));
-  repaired.area_drawn = exact::nearest_double(abs(drawn));
+  repaired.area_drawn = exact::nearest_double(exact::magnitude(drawn));
   repaired.area = rounded->ledger.area_outside;
-  repaired.area_changed = exact::nearest_double(exact::Rational(area - abs(drawn)));
+  repaired.area_changed = exact::nearest_double(exact::Rational(area - exact::magnitude(drawn)));
   repaired.ledger = std::move(rounded->ledger);
   return repaired;
 }

@@ -246,7 +246,7 @@ tl::expected<Overlap, CutError> overlap(const Shape& a, const Pose& world_from_a
     exact::Rational sum = 0;
     for (const exact::Region& region : exact::overlay(segments, shared, exact::Seams::kDissolve).regions)
       sum += exact::area(region.polygon);
-    return Overlap{exact::nearest_double(sum), sum.get_str()};
+    return Overlap{exact::nearest_double(sum), exact::digits_of(sum)};
   });
 }
 
