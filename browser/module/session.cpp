@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "io/run/available_memory.hpp"
+#include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/text/json_writer.hpp"
@@ -42,6 +44,7 @@ std::string words_of(const io::LoadedScene& scene) {
   json.open('{').key("name").value(scene.scene.name).key("description").value(scene.description);
   json.key("until_s").value(scene.scene.time.until).key("step_s").value(scene.scene.time.step);
   json.key("floes").value(scene.scene.floes.size()).key("memory_bytes").value(memory.all_moving);
+  json.key("limit_bytes").value(io::memory_available().bytes).key("ships").value(scene.scene.ships.size());
   json.key("memory_at_start_bytes").value(memory.at_start).key("hash").value(scene.hash);
   json.key("circle_radius_m").value(scene.scene.contact.circle_radius);
   write_ships(json, scene.scene);
