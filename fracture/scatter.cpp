@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 #include "elementary/elementary.hpp"
 #include "elementary/normal.hpp"
 

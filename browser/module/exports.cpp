@@ -4,6 +4,7 @@
 #include <string>
 
 #include "browser/module/session.hpp"
+
 #include "io/run/summary.hpp"
 #include "io/scene/scene_input.hpp"
 
@@ -75,6 +76,10 @@ extern "C" {
     return answer_of_session(true);
   });
   return progress;
+}
+/// Steps up to a time, also behind the scene's end. Tests compare states there.
+[[clang::export_name("advance_beyond")]] int advance_beyond(double until) {
+  return guarded([&] { return answer_of_session(session().advance_beyond(until)); });
 }
 [[clang::export_name("snapshot")]] int snapshot() {
   return guarded([] {

@@ -118,6 +118,12 @@ Progress Session::advance(double until, double wall) {
   return simulation.steps() >= last ? Progress::kFinished : Progress::kRunning;
 }
 
+bool Session::advance_beyond(double until) {
+  while (run_ && run_->simulation.time() < until - 1e-9)
+    if (!step()) return false;
+  return run_.has_value();
+}
+
 void Session::steer(int ship, simulation::Command command) {
   if (run_) run_->simulation.set_pilot(ship, [command](const simulation::PilotView&) { return command; });
 }

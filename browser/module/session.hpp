@@ -5,6 +5,7 @@
 #include <string>
 
 #include "browser/module/snapshot.hpp"
+
 #include "io/run/run_loop.hpp"
 #include "io/scene/scene_reader.hpp"
 
@@ -31,6 +32,8 @@ class Session {
   bool start();
   /// Steps until a time of the scene [s], and stops earlier where `wall` [s] have passed.
   Progress advance(double until, double wall);
+  /// Steps until a time of the scene [s], also behind its end. Returns false where the run fails.
+  bool advance_beyond(double until);
   /// Gives a ship an order in the place of its pilot's.
   void steer(int ship, simulation::Command command);
   void release(int ship);

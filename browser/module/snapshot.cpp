@@ -86,9 +86,9 @@ void SnapshotMaker::add_places(views::ColumnWriter& columns, const simulation::S
   for (std::size_t i = 0; i < states.size(); ++i) {
     const simulation::HullState& state = states[i];
     const simulation::Helm helm = i < helms.size() ? helms[i] : simulation::Helm{};
-    hulls.insert(hulls.end(), {state.world_from_ship.position.x, state.world_from_ship.position.y, state.heading,
-                               state.velocity.x, state.velocity.y, state.angular_velocity, helm.lever,
-                               helm.steering_angle});
+    hulls.insert(hulls.end(),
+                 {state.world_from_ship.position.x, state.world_from_ship.position.y, state.heading, state.velocity.x,
+                  state.velocity.y, state.angular_velocity, helm.lever, helm.steering_angle});
   }
   columns.add("floe", ids);
   columns.add("place", places);

@@ -25,8 +25,8 @@ class SnapshotMaker {
 
   std::vector<simulation::Birth> births_;
   std::vector<simulation::HullSample> samples_;
-  std::string events_;                       ///< one JSON object a line
-  std::vector<geometry::Point> centroids_;   ///< by floe id, in the body frame [m]
+  std::string events_;                      ///< one JSON object a line
+  std::vector<geometry::Point> centroids_;  ///< by floe id, in the body frame [m]
 };
 
 }  // namespace polynya::browser

@@ -133,7 +133,7 @@ function showNumbers(page, isRunning) {
   page.speed = now > t0 ? (1000 * (run.time - s0)) / (now - t0) : 0;
   page.perSecond = now > t0 ? (1000 * (page.frames.length - 1)) / (now - t0) : 0;
   byId("speed").textContent = isRunning && page.frames.length > 4
-    ? `${fourDigits(Number(page.speed.toPrecision(2)))} × real time, ${Math.round(page.perSecond)} pictures a second` : "";
+    ? `${fourDigits(Number(page.speed.toPrecision(2)))} × real time, ${Math.round(page.perSecond)}/s` : "";
 }
 
 function showLegend(page) {

@@ -53,6 +53,8 @@ async function makeSimulator(compiled) {
       check(state === 0 || state === 1);
       return state === 1;
     },
+    /** Steps up to a time [s], also behind the scene's end. */
+    advanceBeyond: (until) => check(exports.advance_beyond(until)),
     steer: (ship, lever, angle) => exports.steer(ship, lever, angle),
     release: (ship) => exports.release(ship),
     snapshot() {

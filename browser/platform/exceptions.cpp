@@ -30,8 +30,8 @@ using TypeInfo = __cxxabiv1::__shim_type_info;
 struct alignas(16) Thrown {
   const TypeInfo* type = nullptr;
   void* (*destroy)(void*) = nullptr;  ///< a destructor returns its object in WebAssembly
-  void* adjusted = nullptr;  ///< the object as the type that is caught
-  int handlers = 0;          ///< that are in it now
+  void* adjusted = nullptr;           ///< the object as the type that is caught
+  int handlers = 0;                   ///< that are in it now
   bool is_rethrown = false;
   Thrown* next_caught = nullptr;
 };

@@ -144,8 +144,10 @@ path __absolute(const path& p, error_code* error) {
 path __weakly_canonical(const path& p, error_code* error) {
   path result;
   for (const path& part : __absolute(p, error)) {
-    if (part == "..") result = result.parent_path();
-    else if (part != ".") result /= part;
+    if (part == "..")
+      result = result.parent_path();
+    else if (part != ".")
+      result /= part;
   }
   return result;
 }

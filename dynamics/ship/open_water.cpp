@@ -40,7 +40,8 @@ std::optional<Form> form_of(const MainDimensions& hull) {
 /// Friction of the wetted surface with its form factor, and the correlation allowance [N].
 double viscous_resistance(const MainDimensions& hull, const Form& form, double speed, double density) {
   const auto [length, beam, draught, block] = hull;
-  const double factor = 0.93 + 0.487118 * elementary::pow(beam / length, 1.06806) * elementary::pow(draught / length, 0.46106) *
+  const double factor = 0.93 + 0.487118 * elementary::pow(beam / length, 1.06806) *
+                                   elementary::pow(draught / length, 0.46106) *
                                    elementary::pow(length / form.run, 0.121563) *
                                    elementary::pow(elementary::pow(length, 3) / form.volume, 0.36486) *
                                    elementary::pow(1 - form.prismatic, -0.604247);
@@ -61,14 +62,15 @@ double wave_resistance(const MainDimensions& hull, const Form& form, double entr
                       elementary::pow(90 - kDegrees * entrance, -1.37565);
   const double p = form.prismatic;
   const double fullness = p < 0.8 ? 8.07981 * p - 13.8673 * p * p + 6.984388 * p * p * p : 1.73014 - 0.7067 * p;
-  const double m1 =
-      0.0140407 * length / draught - 1.75254 * elementary::cbrt(form.volume) / length - 4.79323 * beam / length - fullness;
+  const double m1 = 0.0140407 * length / draught - 1.75254 * elementary::cbrt(form.volume) / length -
+                    4.79323 * beam / length - fullness;
   const double slenderness = length / elementary::cbrt(form.volume);
   const double c15 = slenderness < 8 ? -1.69385 : std::min(0.0, -1.69385 + (slenderness - 8) / 2.36);
   const double m4 = 0.4 * c15 * elementary::exp(-0.034 * elementary::pow(froude, -3.29));
   const double length_of_waves = 1.446 * p - (length / beam < 12 ? 0.03 * length / beam : 0.36);
   return size * form.volume * density * kGravitationalAcceleration *
-         elementary::exp(m1 * elementary::pow(froude, -0.9) + m4 * elementary::cos(length_of_waves / (froude * froude)));
+         elementary::exp(m1 * elementary::pow(froude, -0.9) +
+                         m4 * elementary::cos(length_of_waves / (froude * froude)));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "elementary/elementary.hpp"
+
 #include "geometry/shape/point.hpp"
 
 namespace polynya::dynamics {
@@ -126,8 +127,9 @@ LiftAndDrag foil_in_endless_flow(double aspect_ratio, double incidence) {
 LiftAndDrag foil_in_race(double aspect_ratio, double incidence) {
   const double from_chord = std::remainder(incidence, kPi);
   const double a = std::abs(from_chord);
-  const double over_momentum = 2 / (kPi * aspect_ratio);                         // ½ V² A over V² π d²/4
-  const double turned = over_momentum * lift_slope(aspect_ratio) * elementary::sin(a);  // sine of the race's angle, below .95
+  const double over_momentum = 2 / (kPi * aspect_ratio);  // ½ V² A over V² π d²/4
+  const double turned =
+      over_momentum * lift_slope(aspect_ratio) * elementary::sin(a);  // sine of the race's angle, below .95
   const LiftAndDrag attached{turned, 1 - std::sqrt(1 - turned * turned)};
   const double normal = std::min(share_met(aspect_ratio, a) * elementary::sin(a), over_momentum * kPlateNormal);
   LiftAndDrag over = mean_of(broken_off(aspect_ratio, a), of_normal_force(normal, a), attached);

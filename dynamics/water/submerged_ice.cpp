@@ -22,8 +22,8 @@ SubmersionPath submersion_path(const HullForm& hull) {
   path.rise = t * (b + t) / (b + 2 * t);
   path.bow = t / tan_phi;
   const double bottom = 0.7 * hull.length - t / tan_phi - b / (4 * tan_alpha);
-  const double sides =
-      t * elementary::cos(hull.stem_angle) * elementary::cos(psi) * std::sqrt(1 / (sin_phi * sin_phi) + 1 / (tan_alpha * tan_alpha));
+  const double sides = t * elementary::cos(hull.stem_angle) * elementary::cos(psi) *
+                       std::sqrt(1 / (sin_phi * sin_phi) + 1 / (tan_alpha * tan_alpha));
   path.sliding = std::max(0.0, bottom + sides);
   return path;
 }

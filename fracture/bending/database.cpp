@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "elementary/elementary.hpp"
+
 #include "fracture/bending/wedge_solver.hpp"
 #include "geometry/shape/angle.hpp"
 
@@ -56,7 +57,8 @@ std::array<Cell, 2> froude_cells(const std::vector<double>& softnesses, const Ce
 
 /// A load's place on the axes.
 std::array<double, 4> axis_coordinates(const WedgeGroups& groups) {
-  return {groups.opening_angle, elementary::log(groups.mass_ratio), elementary::log(groups.softness), elementary::log(groups.froude)};
+  return {groups.opening_angle, elementary::log(groups.mass_ratio), elementary::log(groups.softness),
+          elementary::log(groups.froude)};
 }
 
 /// Rounding at the edge of an axis is not "outside".

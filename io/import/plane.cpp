@@ -6,9 +6,9 @@
 #include <numbers>
 #include <span>
 
+#include "elementary/elementary.hpp"
 #include <fmt/format.h>
 
-#include "elementary/elementary.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/angle.hpp"
 #include "io/import/gdal.hpp"
@@ -63,8 +63,9 @@ std::string place_in_degrees(Point at) {
 double great_circle(Point a, Point b) {
   constexpr double kEarthRadius = 6371e3;  // [m]
   const auto radians = [](double degrees) { return degrees / geometry::kDegreesPerRadian; };
-  const double cosine = elementary::sin(radians(a.y)) * elementary::sin(radians(b.y)) +
-                        elementary::cos(radians(a.y)) * elementary::cos(radians(b.y)) * elementary::cos(radians(a.x) - radians(b.x));
+  const double cosine =
+      elementary::sin(radians(a.y)) * elementary::sin(radians(b.y)) +
+      elementary::cos(radians(a.y)) * elementary::cos(radians(b.y)) * elementary::cos(radians(a.x) - radians(b.x));
   return kEarthRadius * elementary::acos(std::clamp(cosine, -1.0, 1.0));
 }
 

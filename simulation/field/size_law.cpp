@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "elementary/elementary.hpp"
+
 #include "simulation/field/convex.hpp"
 
 namespace polynya::simulation {
@@ -43,7 +44,8 @@ double at(const LognormalSizes& law, double u) {
 double below(const PowerLawSizes& law, double size) {
   if (size <= law.least) return 0;
   if (size >= law.largest) return 1;
-  if (std::abs(law.exponent) < kLogUniform) return elementary::log(size / law.least) / elementary::log(law.largest / law.least);
+  if (std::abs(law.exponent) < kLogUniform)
+    return elementary::log(size / law.least) / elementary::log(law.largest / law.least);
   const double share = elementary::pow(size / law.least, -law.exponent);
   return (1 - share) / (1 - elementary::pow(law.largest / law.least, -law.exponent));
 }

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/chunks.hpp"
 #include "elementary/elementary.hpp"
+
+#include "dynamics/chunks.hpp"
 #include "fracture/splitting.hpp"
 #include "simulation/ice/crack.hpp"
 #include "simulation/ice/prescribed.hpp"
@@ -201,9 +202,10 @@ void crush_at_hull(const Setup& setup, const Step& step, const Population& popul
   c.crushing_force = horizontal * load.normal_force;
   c.crushing_stiffness = horizontal * load.stiffness;
   enter_missed_impulse(step, c);
-  limit_growth(step, population.bodies,
-               load.ice.compressive_strength * load.ice.thickness * (1 + load.ice.friction * elementary::tan(load.hull_angle)),
-               c);
+  limit_growth(
+      step, population.bodies,
+      load.ice.compressive_strength * load.ice.thickness * (1 + load.ice.friction * elementary::tan(load.hull_angle)),
+      c);
   const auto measure = [&](PendingFracture& pending) { measure_bending_by_crushing(setup, step, load, pending); };
   PendingFracture pending = evaluate(setup, population, load, measure);
   if (!breaks(pending, c)) return;

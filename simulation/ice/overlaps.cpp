@@ -2,8 +2,9 @@
 #include <span>
 #include <utility>
 
-#include "dynamics/chunks.hpp"
 #include "elementary/elementary.hpp"
+
+#include "dynamics/chunks.hpp"
 #include "fracture/crushing.hpp"
 #include "geometry/exact/measures.hpp"
 #include "simulation/ice/pieces.hpp"

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "elementary/elementary.hpp"
+
 #include "simulation/ice/pieces.hpp"
 #include "simulation/world/step.hpp"
 
@@ -133,7 +134,8 @@ void press_prescribed(const Setup& setup, const Step& step, const Population& po
     crushed.area = std::min(load.normal_force / load.ice.compressive_strength, line);
     crushed.slope = load.stiffness / load.ice.compressive_strength;
   }
-  const double most = most_that_ice_bears(setup, population, c, elementary::tan(load.hull_angle)) / load.shares.horizontal;
+  const double most =
+      most_that_ice_bears(setup, population, c, elementary::tan(load.hull_angle)) / load.shares.horizontal;
   load.normal_force = std::min(fracture::crushing_force(load.ice, crushed.area), most);
   load.vertical_force = load.shares.vertical * load.normal_force;
   load.shares.tangential *= share_of_friction(c, spans_facet);

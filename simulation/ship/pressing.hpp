@@ -4,8 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/contact/contact.hpp"
 #include "elementary/elementary.hpp"
+
+#include "dynamics/contact/contact.hpp"
 #include "fracture/splitting.hpp"
 #include "simulation/world/world.hpp"
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "elementary/elementary.hpp"
+
 #include "simulation/ship/mooring.hpp"
 #include "simulation/world/step.hpp"
 
@@ -157,7 +158,7 @@ double horizontal_force(const MooringSettings& mooring, const Offset& offset, Pl
   const Vector in_world = rotate(rotation, {damped.surge, damped.sway});
   const Vector in_mooring = rotate_back(geometry::Rotation::by(mooring.heading), in_world);
   return elementary::hypot(in_mooring.x - mooring.surge_stiffness * offset.shift.x,
-                    in_mooring.y - mooring.sway_stiffness * offset.shift.y);
+                           in_mooring.y - mooring.sway_stiffness * offset.shift.y);
 }
 
 /// The mooring breaks at the end of the step where it holds the ship with more than it can. What it stores is lost.

@@ -196,7 +196,8 @@ dynamics::NewBody held_body(const PlacedHull& hull, BodyKind kind, double speed,
 dynamics::NewBody body_of(const Ship& ship, Vector water_drift) {
   const auto* prescribed = std::get_if<ConstantSpeed>(&ship.propulsion);
   dynamics::NewBody body = held_body(ship, BodyKind::kShip, prescribed ? prescribed->speed : ship.speed, water_drift);
-  if (ship.sway_speed != 0) body.velocity += ship.sway_speed * Vector{-elementary::sin(ship.heading), elementary::cos(ship.heading)};
+  if (ship.sway_speed != 0)
+    body.velocity += ship.sway_speed * Vector{-elementary::sin(ship.heading), elementary::cos(ship.heading)};
   body.angular_velocity = ship.yaw_rate;
   body.is_prescribed = prescribed != nullptr;
   body.mass = ship.mass;

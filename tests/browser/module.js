@@ -8,7 +8,7 @@ const vm = require("node:vm");
 const source = path.resolve(__dirname, "../..");
 const parts = ["files.js", "simulator.js"].map((name) =>
   fs.readFileSync(path.join(source, "browser/page", name), "utf8"));
-const context = vm.createContext({ WebAssembly, TextEncoder, TextDecoder, performance, Date, Proxy, Map, Error, console });
+const context = vm.createContext({ WebAssembly, TextEncoder, TextDecoder, performance, console });
 vm.runInContext(`${parts.join("\n")}\nglobalThis.made = { makeSimulator, SimulatorFailure };`, context);
 
 const compile = (wasm) => WebAssembly.compile(fs.readFileSync(wasm));

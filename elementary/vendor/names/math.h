@@ -1,10 +1,7 @@
-/* Included before each of musl's sources (CMakeLists.txt), which are unchanged: their functions get names of our own, so
-   that a program never takes them for those of its C library. Fused multiply-add is left out: the same operations are
-   done on every processor. */
+/* For musl's sources, which are unchanged, in place of the C library's header: their functions get names of our own, so
+   that a program never takes them for those of its C library. */
 #pragma once
-#include <math.h>
-#undef __FP_FAST_FMA
-#define hidden __attribute__((visibility("hidden")))
+#include_next <math.h>
 #define sin polynya_sin
 #define cos polynya_cos
 #define tan polynya_tan
@@ -25,23 +22,12 @@
 #define asinh polynya_asinh
 #define erf polynya_erf
 #define erfc polynya_erfc
-#define __sin polynya_sin_near_0
-#define __cos polynya_cos_near_0
-#define __tan polynya_tan_near_0
-#define __rem_pio2 polynya_rem_pio2
-#define __rem_pio2_large polynya_rem_pio2_large
-#define __sinl polynya_unused_sinl
-#define __cosl polynya_unused_cosl
-#define __tanl polynya_unused_tanl
-#define __expo2 polynya_expo2
-#define __math_divzero polynya_math_divzero
-#define __math_invalid polynya_math_invalid
-#define __math_oflow polynya_math_oflow
-#define __math_uflow polynya_math_uflow
-#define __math_xflow polynya_math_xflow
-#define __exp_data polynya_exp_data
-#define __log_data polynya_log_data
-#define __pow_log_data polynya_pow_log_data
+#define __sin polynya_inner_sin
+#define __cos polynya_inner_cos
+#define __tan polynya_inner_tan
+#define __sinl polynya_inner_sinl
+#define __cosl polynya_inner_cosl
+#define __tanl polynya_inner_tanl
 double polynya_sin(double);
 double polynya_cos(double);
 double polynya_tan(double);
