@@ -62,182 +62,198 @@ function plainName(name) {
 
 const parentOf = (name) => name.slice(0, Math.max(0, name.lastIndexOf("/")));
 
-/** Opens, reads and writes by descriptors. `memory()` is the module's. */
-function descriptorCalls(files, memory, print) {
-  const { entries } = files;
+/** What the calls below share: open descriptors, and the module's memory. */
+function makeHost(files, memory, print) {
   const open = new Map([[0, { name: "" }], [1, { print: true }], [2, { print: true }], [3, { name: "", isRoot: true }]]);
-  let next = 4;
-  const view = () => new DataView(memory().buffer);
-  const bytes = () => new Uint8Array(memory().buffer);
-  const nameAt = (at, length) => plainName(new TextDecoder().decode(bytes().slice(at, at + length)));
-  const pieces = (at, count) => Array.from({ length: count }, (_, i) =>
-    bytes().subarray(view().getUint32(at + 8 * i, true),
-      view().getUint32(at + 8 * i, true) + view().getUint32(at + 8 * i + 4, true)));
-
-  function writeStat(at, name) {
-    const file = entries.get(name);
-    const v = view();
-    for (let k = 0; k < 64; k += 8) v.setBigUint64(at + k, 0n, true);
-    v.setBigUint64(at + 8, BigInt(files.numberOf(file, name)), true);
-    v.setUint8(at + 16, file ? kinds.file : kinds.directory);
-    v.setBigUint64(at + 24, 1n, true);
-    v.setBigUint64(at + 32, BigInt(file?.size ?? 0), true);
-    return errors.SUCCESS;
-  }
-
-  function writeTo(one, piece) {
-    if (one.print) return print(new TextDecoder().decode(piece.slice())), true;
-    const { file } = one;
-    if (!makeRoom(file, one.at + piece.length)) return false;
-    file.bytes.set(piece, one.at);
-    one.at += piece.length;
-    file.size = Math.max(file.size, one.at);
-    return true;
-  }
-
-  const calls = {
-    fd_prestat_get(fd, at) {
-      if (fd !== 3) return errors.BADF;
-      view().setUint32(at, 0, true);
-      view().setUint32(at + 4, 1, true);
+  const host = { files, entries: files.entries, open, next: 4,
+    view: () => new DataView(memory().buffer),
+    bytes: () => new Uint8Array(memory().buffer),
+    nameAt: (at, length) => plainName(new TextDecoder().decode(host.bytes().slice(at, at + length))),
+    /** The parts of memory that a list of addresses and sizes names. */
+    pieces: (at, count) => Array.from({ length: count }, (_, i) => {
+      const from = host.view().getUint32(at + 8 * i, true);
+      return host.bytes().subarray(from, from + host.view().getUint32(at + 8 * i + 4, true));
+    }),
+    writeStat(at, name) {
+      const file = host.entries.get(name);
+      const v = host.view();
+      for (let k = 0; k < 64; k += 8) v.setBigUint64(at + k, 0n, true);
+      v.setBigUint64(at + 8, BigInt(files.numberOf(file, name)), true);
+      v.setUint8(at + 16, file ? kinds.file : kinds.directory);
+      v.setBigUint64(at + 24, 1n, true);
+      v.setBigUint64(at + 32, BigInt(file?.size ?? 0), true);
       return errors.SUCCESS;
     },
-    fd_prestat_dir_name: (fd, at) => (bytes()[at] = 47, errors.SUCCESS), // "/"
-    fd_fdstat_get(fd, at) {
-      const one = open.get(fd);
-      if (!one) return errors.BADF;
-      const v = view();
-      v.setBigUint64(at, 0n, true);
-      v.setUint8(at, one.print ? 2 : one.file ? kinds.file : kinds.directory);
-      v.setUint16(at + 2, one.appends ? 1 : 0, true);
-      v.setBigUint64(at + 8, 0xffffffffffffn, true);
-      v.setBigUint64(at + 16, 0xffffffffffffn, true);
-      return errors.SUCCESS;
+    writeTo(one, piece) {
+      if (one.print) return print(new TextDecoder().decode(piece.slice())), true;
+      const { file } = one;
+      if (!makeRoom(file, one.at + piece.length)) return false;
+      file.bytes.set(piece, one.at);
+      one.at += piece.length;
+      file.size = Math.max(file.size, one.at);
+      return true;
     },
-    fd_fdstat_set_flags: () => errors.SUCCESS,
-    fd_sync: () => errors.SUCCESS,
-    fd_datasync: () => errors.SUCCESS,
-    fd_close: (fd) => (open.delete(fd) ? errors.SUCCESS : errors.BADF),
-    fd_filestat_get(fd, at) {
-      const one = open.get(fd);
-      return one && !one.print ? writeStat(at, one.name) : errors.BADF;
-    },
-    fd_filestat_set_size(fd, size) {
-      const file = open.get(fd)?.file;
-      if (!file) return errors.BADF;
-      if (!makeRoom(file, Number(size))) return errors.NOSPC;
-      file.bytes.fill(0, Math.min(file.size, Number(size)), Number(size));
-      file.size = Number(size);
-      return errors.SUCCESS;
-    },
-    fd_seek(fd, offset, whence, at) {
-      const one = open.get(fd);
-      if (!one?.file) return errors.BADF;
-      one.at = Number(offset) + [0, one.at, one.file.size][whence];
-      view().setBigUint64(at, BigInt(one.at), true);
-      return errors.SUCCESS;
-    },
-    fd_write(fd, at, count, into) {
-      const one = open.get(fd);
-      if (!one?.file && !one?.print) return errors.BADF;
-      let written = 0;
-      for (const piece of pieces(at, count)) {
-        if (!writeTo(one, piece)) return errors.NOSPC;
-        written += piece.length;
-      }
-      view().setUint32(into, written, true);
-      return errors.SUCCESS;
-    },
-    fd_read(fd, at, count, into) {
-      const one = open.get(fd);
-      if (!one?.file) return errors.BADF;
-      let read = 0;
-      for (const piece of pieces(at, count)) {
-        const part = one.file.bytes.subarray(one.at, Math.min(one.file.size, one.at + piece.length));
-        piece.set(part);
-        one.at += part.length;
-        read += part.length;
-      }
-      view().setUint32(into, read, true);
-      return errors.SUCCESS;
-    },
-    fd_readdir(fd, at, length, cookie, into) {
-      const folder = open.get(fd)?.name;
-      const names = [...entries.keys()].filter((name) => name !== "" && parentOf(name) === folder);
-      let used = 0;
-      for (let i = Number(cookie); i < names.length && used < length; ++i) {
-        const name = new TextEncoder().encode(names[i].slice(folder === "" ? 0 : folder.length + 1));
-        const record = new Uint8Array(24 + name.length);
-        const v = new DataView(record.buffer);
-        v.setBigUint64(0, BigInt(i + 1), true);
-        v.setUint32(16, name.length, true);
-        v.setUint8(20, entries.get(names[i]) ? kinds.file : kinds.directory);
-        record.set(name, 24);
-        const part = record.subarray(0, Math.min(record.length, length - used));
-        bytes().set(part, at + used);
-        used += part.length;
-      }
-      view().setUint32(into, used, true);
-      return errors.SUCCESS;
-    },
-    path_open(fd, follow, nameAt_, nameLength, flags, rights, inheriting, fdFlags, into) {
-      const name = nameAt(nameAt_, nameLength);
-      const [creates, isFolder, isNew, cuts] = [1, 2, 4, 8].map((bit) => (flags & bit) !== 0);
-      if (entries.has(name) && creates && isNew) return errors.EXIST;
-      if (!entries.has(name)) {
-        if (!creates || entries.get(parentOf(name)) !== null) return errors.NOENT;
-        entries.set(name, emptyFile());
-      }
-      const file = entries.get(name);
-      if (isFolder && file) return errors.NOTDIR;
-      if (cuts && file) file.size = 0;
-      open.set(next, { name, file, at: (fdFlags & 1) !== 0 && file ? file.size : 0, appends: (fdFlags & 1) !== 0 });
-      view().setUint32(into, next++, true);
-      return errors.SUCCESS;
-    },
-    path_filestat_get(fd, follow, nameAt_, nameLength, at) {
-      const name = nameAt(nameAt_, nameLength);
-      return entries.has(name) ? writeStat(at, name) : errors.NOENT;
-    },
-    path_create_directory(fd, nameAt_, nameLength) {
-      const name = nameAt(nameAt_, nameLength);
-      if (entries.has(name)) return errors.EXIST;
-      if (entries.get(parentOf(name)) !== null) return errors.NOENT;
-      entries.set(name, null);
-      return errors.SUCCESS;
-    },
-    path_unlink_file(fd, nameAt_, nameLength) {
-      const name = nameAt(nameAt_, nameLength);
-      if (!entries.has(name)) return errors.NOENT;
-      if (entries.get(name) === null) return errors.ISDIR;
-      entries.delete(name);
-      return errors.SUCCESS;
-    },
-    path_remove_directory(fd, nameAt_, nameLength) {
-      const name = nameAt(nameAt_, nameLength);
-      if (entries.get(name) !== null || !entries.has(name)) return entries.has(name) ? errors.NOTDIR : errors.NOENT;
-      if ([...entries.keys()].some((other) => other.startsWith(`${name}/`))) return errors.NOTEMPTY;
-      entries.delete(name);
-      return errors.SUCCESS;
-    },
-    path_rename(fd, fromAt, fromLength, toFd, toAt, toLength) {
-      const [from, to] = [nameAt(fromAt, fromLength), nameAt(toAt, toLength)];
-      if (!entries.get(from)) return errors.NOENT;
-      entries.set(to, entries.get(from));
-      entries.delete(from);
-      for (const one of open.values()) if (one.name === from) one.name = to;
-      return errors.SUCCESS;
-    },
-    path_readlink: () => errors.INVAL,
   };
-  return calls;
+  return host;
 }
+
+/** Calls about descriptors. */
+const descriptorCalls = ({ open, view, bytes, writeStat }) => ({
+  fd_prestat_get(fd, at) {
+    if (fd !== 3) return errors.BADF;
+    view().setUint32(at, 0, true);
+    view().setUint32(at + 4, 1, true);
+    return errors.SUCCESS;
+  },
+  fd_prestat_dir_name: (fd, at) => (bytes()[at] = 47, errors.SUCCESS), // "/"
+  fd_fdstat_get(fd, at) {
+    const one = open.get(fd);
+    if (!one) return errors.BADF;
+    const v = view();
+    v.setBigUint64(at, 0n, true);
+    v.setUint8(at, one.print ? 2 : one.file ? kinds.file : kinds.directory);
+    v.setUint16(at + 2, one.appends ? 1 : 0, true);
+    v.setBigUint64(at + 8, 0xffffffffffffn, true);
+    v.setBigUint64(at + 16, 0xffffffffffffn, true);
+    return errors.SUCCESS;
+  },
+  fd_fdstat_set_flags: () => errors.SUCCESS,
+  fd_sync: () => errors.SUCCESS,
+  fd_datasync: () => errors.SUCCESS,
+  fd_close: (fd) => (open.delete(fd) ? errors.SUCCESS : errors.BADF),
+  fd_filestat_get(fd, at) {
+    const one = open.get(fd);
+    return one && !one.print ? writeStat(at, one.name) : errors.BADF;
+  },
+  fd_filestat_set_size(fd, size) {
+    const file = open.get(fd)?.file;
+    if (!file) return errors.BADF;
+    if (!makeRoom(file, Number(size))) return errors.NOSPC;
+    file.bytes.fill(0, Math.min(file.size, Number(size)), Number(size));
+    file.size = Number(size);
+    return errors.SUCCESS;
+  },
+});
+
+/** Reading and writing. */
+const byteCalls = ({ open, view, pieces, writeTo }) => ({
+  fd_seek(fd, offset, whence, at) {
+    const one = open.get(fd);
+    if (!one?.file) return errors.BADF;
+    one.at = Number(offset) + [0, one.at, one.file.size][whence];
+    view().setBigUint64(at, BigInt(one.at), true);
+    return errors.SUCCESS;
+  },
+  fd_write(fd, at, count, into) {
+    const one = open.get(fd);
+    if (!one?.file && !one?.print) return errors.BADF;
+    let written = 0;
+    for (const piece of pieces(at, count)) {
+      if (!writeTo(one, piece)) return errors.NOSPC;
+      written += piece.length;
+    }
+    view().setUint32(into, written, true);
+    return errors.SUCCESS;
+  },
+  fd_read(fd, at, count, into) {
+    const one = open.get(fd);
+    if (!one?.file) return errors.BADF;
+    let read = 0;
+    for (const piece of pieces(at, count)) {
+      const part = one.file.bytes.subarray(one.at, Math.min(one.file.size, one.at + piece.length));
+      piece.set(part);
+      one.at += part.length;
+      read += part.length;
+    }
+    view().setUint32(into, read, true);
+    return errors.SUCCESS;
+  },
+});
+
+/** Opening by a name, and what a folder has. */
+const openingCalls = (host) => ({
+  path_open(fd, follow, nameFrom, nameLength, flags, rights, inheriting, fdFlags, into) {
+    const { entries, open } = host;
+    const name = host.nameAt(nameFrom, nameLength);
+    const [creates, isFolder, isNew, cuts] = [1, 2, 4, 8].map((bit) => (flags & bit) !== 0);
+    if (entries.has(name) && creates && isNew) return errors.EXIST;
+    if (!entries.has(name)) {
+      if (!creates || entries.get(parentOf(name)) !== null) return errors.NOENT;
+      entries.set(name, emptyFile());
+    }
+    const file = entries.get(name);
+    if (isFolder && file) return errors.NOTDIR;
+    if (cuts && file) file.size = 0;
+    const appends = (fdFlags & 1) !== 0;
+    open.set(host.next, { name, file, at: appends && file ? file.size : 0, appends });
+    host.view().setUint32(into, host.next++, true);
+    return errors.SUCCESS;
+  },
+  fd_readdir(fd, at, length, cookie, into) {
+    const { entries, open } = host;
+    const folder = open.get(fd)?.name;
+    const names = [...entries.keys()].filter((name) => name !== "" && parentOf(name) === folder);
+    let used = 0;
+    for (let i = Number(cookie); i < names.length && used < length; ++i) {
+      const name = new TextEncoder().encode(names[i].slice(folder === "" ? 0 : folder.length + 1));
+      const record = new Uint8Array(24 + name.length);
+      const v = new DataView(record.buffer);
+      v.setBigUint64(0, BigInt(i + 1), true);
+      v.setUint32(16, name.length, true);
+      v.setUint8(20, entries.get(names[i]) ? kinds.file : kinds.directory);
+      record.set(name, 24);
+      const part = record.subarray(0, Math.min(record.length, length - used));
+      host.bytes().set(part, at + used);
+      used += part.length;
+    }
+    host.view().setUint32(into, used, true);
+    return errors.SUCCESS;
+  },
+});
+
+/** Making, renaming and removing by names. */
+const nameCalls = ({ entries, open, nameAt, writeStat }) => ({
+  path_filestat_get(fd, follow, nameFrom, nameLength, at) {
+    const name = nameAt(nameFrom, nameLength);
+    return entries.has(name) ? writeStat(at, name) : errors.NOENT;
+  },
+  path_create_directory(fd, nameFrom, nameLength) {
+    const name = nameAt(nameFrom, nameLength);
+    if (entries.has(name)) return errors.EXIST;
+    if (entries.get(parentOf(name)) !== null) return errors.NOENT;
+    entries.set(name, null);
+    return errors.SUCCESS;
+  },
+  path_unlink_file(fd, nameFrom, nameLength) {
+    const name = nameAt(nameFrom, nameLength);
+    if (!entries.has(name)) return errors.NOENT;
+    if (entries.get(name) === null) return errors.ISDIR;
+    entries.delete(name);
+    return errors.SUCCESS;
+  },
+  path_remove_directory(fd, nameFrom, nameLength) {
+    const name = nameAt(nameFrom, nameLength);
+    if (entries.get(name) !== null || !entries.has(name)) return entries.has(name) ? errors.NOTDIR : errors.NOENT;
+    if ([...entries.keys()].some((other) => other.startsWith(`${name}/`))) return errors.NOTEMPTY;
+    entries.delete(name);
+    return errors.SUCCESS;
+  },
+  path_rename(fd, fromAt, fromLength, toFd, toAt, toLength) {
+    const [from, to] = [nameAt(fromAt, fromLength), nameAt(toAt, toLength)];
+    if (!entries.get(from)) return errors.NOENT;
+    entries.set(to, entries.get(from));
+    entries.delete(from);
+    for (const one of open.values()) if (one.name === from) one.name = to;
+    return errors.SUCCESS;
+  },
+  path_readlink: () => errors.INVAL,
+});
 
 /** What a module imports of WASI. `memory()` gives its memory once it has one. */
 function makeSystem(files, memory, print = () => {}) {
-  const view = () => new DataView(memory().buffer);
-  const calls = {
-    ...descriptorCalls(files, memory, print),
+  const host = makeHost(files, memory, print);
+  const { view } = host;
+  const calls = { ...descriptorCalls(host), ...byteCalls(host), ...openingCalls(host), ...nameCalls(host),
     clock_time_get(id, precision, at) {
       const milliseconds = id === 0 ? Date.now() : performance.now();
       view().setBigUint64(at, BigInt(Math.round(milliseconds * 1e6)), true);

@@ -11,7 +11,8 @@ function makeHelm({ order, release }) {
   function show() {
     byId("lever-words").textContent = `${Math.round(100 * lever.value)} %`;
     const angle = Number(rudder.value);
-    byId("rudder-words").textContent = angle === 0 ? "midships" : `${Math.abs(angle)}° ${angle > 0 ? "port" : "starboard"}`;
+    const side = angle > 0 ? "port" : "starboard";
+    byId("rudder-words").textContent = angle === 0 ? "midships" : `${Math.abs(angle)}° ${side}`;
     take.setAttribute("aria-pressed", String(helm.isTaken));
     take.textContent = helm.isTaken ? "Give back to pilot" : "Take the helm";
   }
@@ -47,18 +48,23 @@ function makeHelm({ order, release }) {
     rudder.value = Math.round((hull[7] * 180) / Math.PI);
     show();
   };
+  watchHelm(helm, [lever, rudder], give);
+  return helm;
+}
+
+/** Keys, sliders and buttons of a helm; `give` passes on where the sliders are. */
+function watchHelm(helm, [lever, rudder], give) {
   const nudge = (slider, by) => {
     slider.value = Number(slider.value) + by;
     give();
   };
   helm.keys = { ArrowUp: () => nudge(lever, leverStep), ArrowDown: () => nudge(lever, -leverStep),
-    ArrowLeft: () => nudge(rudder, angleStep), ArrowRight: () => nudge(rudder, -angleStep), 0: () => nudge(rudder,
-      -Number(rudder.value)) };
+    ArrowLeft: () => nudge(rudder, angleStep), ArrowRight: () => nudge(rudder, -angleStep),
+    0: () => nudge(rudder, -Number(rudder.value)) };
   for (const slider of [lever, rudder]) slider.addEventListener("input", give);
-  take.addEventListener("click", () => helm.setTaken(!helm.isTaken));
-  select.addEventListener("change", () => {
+  byId("take-helm").addEventListener("click", () => helm.setTaken(!helm.isTaken));
+  byId("helm-ship").addEventListener("change", () => {
     helm.setTaken(false);
-    helm.ship = Number(select.value);
+    helm.ship = Number(byId("helm-ship").value);
   });
-  return helm;
 }

@@ -16,7 +16,7 @@ PLAYER = SOURCE / "views/player"
 # From the player: what draws ice and ships, and what watches pointers.
 SHARED = ["numbers.js", "motion.js", "map_view.js", "colours.js", "draw_ice.js", "draw_marks.js", "plan.js", "input.js"]
 OWN = ["save.js", "scene_text.js", "live_run.js", "live_map.js", "edit.js", "form.js", "plots.js", "helm.js", "page.js",
-       "start.js"]
+       "answers.js", "map_pointers.js", "live_actions.js", "start.js"]
 WORKER = ["files.js", "simulator.js", "worker.js"]
 SCENES = [("sawamura2017-fig4b", "The paper's voyage: a ship through floes"),
           ("level-plate", "Level ice: a ship breaks a channel by bending"),

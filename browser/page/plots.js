@@ -13,45 +13,43 @@ function liveQuantities(columns) {
 
 const plotHeight = 150; // [px]
 
+/** How a chart of curves {hull, name, unit, isMean, label} looks. */
+function chartOptions(curves, width, colours) {
+  const axis = { stroke: colours.muted, grid: { stroke: colours.line, width: 1 }, ticks: { show: false } };
+  const { unit } = curves[0];
+  return {
+    width, height: plotHeight, cursor: { y: false }, legend: { show: false }, scales: { x: { time: false } },
+    axes: [{ ...axis, values: (_, values) => values.map((value) => `${value} s`) },
+      { ...axis, size: 76, values: (_, values) => values.map((value) => valueWords(value, unit)) }],
+    series: [{}, ...curves.map(({ hull, label, isMean }) => ({ label, stroke: shipColour(colours, hull),
+      width: isMean ? 1.5 : 1, dash: isMean ? [] : [4, 3], points: { show: false } }))],
+  };
+}
+
+/** The curves of a quantity: one a hull and column. */
+function curvesOf({ info: { ships, force_columns: columns } }, quantity) {
+  const several = ships.length > 1;
+  return ships.flatMap(({ name: ship }, hull) => (liveQuantities(columns).get(quantity) ?? []).map(({ name, unit,
+    curve }) => ({ hull, name, unit, isMean: curve === "mean", label: several ? `${ship}: ${curve}` : curve })));
+}
+
 function makeLivePlot(element, select, colours) {
   let chart = null;
   let shown = null; // {run, curves, rows}
-
-  /** The rows of all curves against the times of the first hull, in a unit that suits them. */
-  function data() {
-    const { run, curves } = shown;
-    const times = run.forces.of[0]?.sample_s ?? [];
-    return [times, ...curves.map(({ hull, name }) => run.forces.of[hull][name])];
-  }
+  const width = () => Math.max(100, element.clientWidth);
+  const data = () => [shown.run.forces.of[0]?.sample_s ?? [],
+    ...shown.curves.map(({ hull, name }) => shown.run.forces.of[hull][name])];
 
   function build() {
     chart?.destroy();
     chart = null;
-    if (!shown || shown.curves.length === 0) return;
-    const axis = { stroke: colours().muted, grid: { stroke: colours().line, width: 1 }, ticks: { show: false } };
-    const { unit } = shown.curves[0];
-    chart = new uPlot({
-      width: Math.max(100, element.clientWidth), height: plotHeight, cursor: { y: false }, legend: { show: false },
-      scales: { x: { time: false } },
-      axes: [{ ...axis, values: (_, values) => values.map((value) => `${value} s`) },
-        { ...axis, size: 76, values: (_, values) => values.map((value) => valueWords(value, unit)) }],
-      series: [{}, ...shown.curves.map(({ hull, label, isMean }) => ({ label, stroke: shipColour(colours(), hull),
-        width: isMean ? 1.5 : 1, dash: isMean ? [] : [4, 3], points: { show: false } }))],
-    }, data(), element);
+    if (!shown) return;
+    shown.curves = curvesOf(shown.run, select.value);
+    if (shown.curves.length > 0) chart = new uPlot(chartOptions(shown.curves, width(), colours()), data(), element);
   }
 
-  function choose() {
-    const { run } = shown;
-    const columns = liveQuantities(run.info.force_columns).get(select.value) ?? [];
-    const several = run.info.ships.length > 1;
-    shown.curves = run.info.ships.flatMap(({ name: ship }, hull) => columns.map(({ name, unit, curve }) =>
-      ({ hull, name, unit, isMean: curve === "mean", label: several ? `${ship}: ${curve}` : curve })));
-    build();
-  }
-
-  select.addEventListener("change", () => shown && choose());
-  new ResizeObserver(() => chart?.setSize({ width: Math.max(100, element.clientWidth), height: plotHeight }))
-    .observe(element);
+  select.addEventListener("change", build);
+  new ResizeObserver(() => chart?.setSize({ width: width(), height: plotHeight })).observe(element);
   return {
     show(run) {
       shown = { run, curves: [], rows: 0 };
@@ -60,7 +58,7 @@ function makeLivePlot(element, select, colours) {
       select.replaceChildren(...quantities.map((title) => make("option", {}, title)));
       if (quantities.includes(before)) select.value = before;
       element.closest("section").hidden = run.info.ships.length === 0;
-      choose();
+      build();
     },
     /** Draws rows that have come since the last call. */
     grow() {
@@ -70,6 +68,6 @@ function makeLivePlot(element, select, colours) {
       chart.setData(data());
     },
     rows: () => shown?.rows ?? 0,
-    refresh: () => shown && build(),
+    refresh: build,
   };
 }

@@ -4,62 +4,69 @@
 /** What is wrong with a text as JSON. */
 class TextFault extends Error {}
 
-/** Reads JSON with comments. Gives nodes: {kind, from, to, value | items | members}; from and to are places. */
-function parseText(text) {
-  let at = 0;
-  const fault = (words) => { throw new TextFault(`${words} at character ${at + 1}`); };
-  function skip() {
-    const blank = /(?:\s+|\/\/[^\n]*|\/\*[\s\S]*?\*\/)+/y;
-    blank.lastIndex = at;
-    if (blank.test(text)) at = blank.lastIndex;
-  }
-  function list(open, close, one) {
-    ++at;
-    for (skip(); text[at] !== close; skip()) {
-      one();
-      skip();
-      if (text[at] === ",") ++at;
-      else if (text[at] !== close) fault(`"${close}" or "," is missing`);
-    }
-    ++at;
-  }
-  function leaf() {
-    const word = /"(?:[^"\\]|\\.)*"|[-+\w.]+/y;
-    word.lastIndex = at;
-    const found = word.exec(text);
-    if (!found) fault("a value is missing");
+/** Reads words of a text from a place on. */
+function makeScanner(text) {
+  const scanner = { at: 0 };
+  const match = (pattern) => {
+    pattern.lastIndex = scanner.at;
+    return pattern.exec(text)?.[0];
+  };
+  scanner.fault = (words) => { throw new TextFault(`${words} at character ${scanner.at + 1}`); };
+  /** Passes blanks and comments. */
+  scanner.skip = () => { scanner.at += match(/(?:\s+|\/\/[^\n]*|\/\*[\s\S]*?\*\/)*/y).length; };
+  scanner.take = (character) => {
+    scanner.skip();
+    if (text[scanner.at] !== character) return false;
+    ++scanner.at;
+    return true;
+  };
+  scanner.leaf = () => {
+    const word = match(/"(?:[^"\\]|\\.)*"|[-+\w.]+/y);
+    if (!word) scanner.fault("a value is missing");
     try {
-      const value = JSON.parse(found[0]);
-      at = word.lastIndex;
+      const value = JSON.parse(word);
+      scanner.at += word.length;
       return value;
     } catch {
-      return fault(`"${found[0].slice(0, 20)}" is no JSON`);
+      return scanner.fault(`"${word.slice(0, 20)}" is no JSON`);
     }
+  };
+  return scanner;
+}
+
+/** Reads JSON with comments. Gives nodes: {kind, from, to, value | items | members}; from and to are places. */
+function parseText(text) {
+  const scanner = makeScanner(text);
+  function list(close, one) {
+    while (!scanner.take(close)) {
+      scanner.skip();
+      one();
+      scanner.skip();
+      if (!scanner.take(",") && text[scanner.at] !== close) scanner.fault(`"${close}" or "," is missing`);
+    }
+  }
+  function member() {
+    const key = scanner.leaf();
+    if (!scanner.take(":")) scanner.fault("\":\" is missing");
+    return { key, value: node() };
   }
   function node() {
-    skip();
-    const from = at;
-    if (text[at] === "{") {
-      const members = [];
-      list("{", "}", () => {
-        const keyAt = at;
-        const key = leaf();
-        skip();
-        if (text[at++] !== ":") fault("\":\" is missing");
-        members.push({ key, keyAt, value: node() });
-      });
-      return { kind: "object", from, to: at, members };
+    scanner.skip();
+    const from = scanner.at;
+    const [items, members] = [[], []];
+    if (scanner.take("{")) {
+      list("}", () => members.push(member()));
+      return { kind: "object", from, to: scanner.at, members };
     }
-    if (text[at] === "[") {
-      const items = [];
-      list("[", "]", () => items.push(node()));
-      return { kind: "array", from, to: at, items };
+    if (scanner.take("[")) {
+      list("]", () => items.push(node()));
+      return { kind: "array", from, to: scanner.at, items };
     }
-    return { kind: "leaf", value: leaf(), from, to: at };
+    return { kind: "leaf", value: scanner.leaf(), from, to: scanner.at };
   }
   const root = node();
-  skip();
-  if (at < text.length) fault("there is more behind the scene");
+  scanner.skip();
+  if (scanner.at < text.length) scanner.fault("there is more behind the scene");
   return root;
 }
 

@@ -14,32 +14,28 @@ function columnsOf(table, bytes) {
     [name, new typesOfColumns[type](bytes.buffer, bytes.byteOffset + offset, count)]));
 }
 
-/**
- * Starts a compiled module. Its calls throw SimulatorFailure where a scene or a run fails, and anything else where the
- * module itself has ended: it is then made anew, from the scene's text.
- */
-async function makeSimulator(compiled) {
-  const files = makeFiles();
-  const said = [];
-  let exports = null;
-  const system = makeSystem(files, () => exports.memory, (text) => said.push(text));
-  const instance = await WebAssembly.instantiate(compiled, { wasi_snapshot_preview1: system });
-  exports = instance.exports;
-  exports._initialize();
+/** Texts and columns of a module, by its exports. */
+function makeExchange(exports) {
   const bytesAt = (at, size) => new Uint8Array(exports.memory.buffer, at >>> 0, size >>> 0).slice();
   const output = () => new TextDecoder().decode(bytesAt(exports.output_data(), exports.output_size()));
-  const columns = () => bytesAt(exports.columns_data(), exports.columns_size());
-  function give(text) {
-    const bytes = new TextEncoder().encode(text);
-    const at = exports.input_buffer(bytes.length) >>> 0;
-    new Uint8Array(exports.memory.buffer).set(bytes, at);
-  }
-  function check(isGood) {
-    if (!isGood) throw new SimulatorFailure(output());
-  }
   return {
-    files,
-    said,
+    output,
+    columns: () => bytesAt(exports.columns_data(), exports.columns_size()),
+    give(text) {
+      const bytes = new TextEncoder().encode(text);
+      const at = exports.input_buffer(bytes.length) >>> 0;
+      new Uint8Array(exports.memory.buffer).set(bytes, at);
+    },
+    check(isGood) {
+      if (!isGood) throw new SimulatorFailure(output());
+    },
+  };
+}
+
+/** The calls of a module, with texts and columns. */
+function simulatorCalls(exports) {
+  const { output, columns, give, check } = makeExchange(exports);
+  return {
     /** Reads a scene. Its problems are the text of the failure, as JSON. */
     load(text) {
       give(text);
@@ -47,7 +43,7 @@ async function makeSimulator(compiled) {
       return JSON.parse(output());
     },
     start: () => check(exports.start()),
-    /** Steps up to a time [s], for at most so long by the clock [s]. */
+    /** Steps up to a time [s], for at most so long by the clock [s]. Returns true at the scene's end. */
     advance(until, wall) {
       const state = exports.advance(until, wall);
       check(state === 0 || state === 1);
@@ -76,4 +72,19 @@ async function makeSimulator(compiled) {
     version: () => (exports.version(), output()),
     memoryBytes: () => exports.memory.buffer.byteLength,
   };
+}
+
+/**
+ * Starts a compiled module. Its calls throw SimulatorFailure where a scene or a run fails, and anything else where the
+ * module itself has ended: it is then made anew, from the scene's text.
+ */
+async function makeSimulator(compiled) {
+  const files = makeFiles();
+  const said = [];
+  let exports = null;
+  const system = makeSystem(files, () => exports.memory, (text) => said.push(text));
+  const instance = await WebAssembly.instantiate(compiled, { wasi_snapshot_preview1: system });
+  exports = instance.exports;
+  exports._initialize();
+  return { files, said, ...simulatorCalls(exports) };
 }
