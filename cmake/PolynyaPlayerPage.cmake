@@ -3,6 +3,8 @@
 #
 #   polynya_player_page(FOLDER OUTPUT)
 #
+# The page of one run is also written as OUTPUT.html, for the page that holds the simulator (browser/page/join.py).
+#
 # As a script, `cmake -DFOLDER=… -DOUTPUT=… -P PolynyaPlayerPage.cmake` writes OUTPUT.
 
 # In the order they stand in the page.
@@ -17,7 +19,7 @@ function(polynya_player_page folder output)
     pair.css vendor/uPlot.iife.min.js vendor/uPlot-LICENSE)
   list(TRANSFORM parts PREPEND ${folder}/)
   set(script ${CMAKE_CURRENT_FUNCTION_LIST_FILE})
-  add_custom_command(OUTPUT ${output} DEPENDS ${parts} ${script} VERBATIM
+  add_custom_command(OUTPUT ${output} ${output}.html DEPENDS ${parts} ${script} VERBATIM
     COMMAND ${CMAKE_COMMAND} -DFOLDER=${folder} -DOUTPUT=${output} -P ${script})
 endfunction()
 
@@ -41,6 +43,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
   string(REPLACE "/*{{styles}}*/" "${styles}" page "${page}")
   string(REPLACE "/*{{plot}}*/" "${plot}" page "${page}")
   string(REPLACE "/*{{scripts}}*/" "${scripts}" page "${page}")
+  file(WRITE ${OUTPUT}.html "${page}")
   join_files(pair pair.html)
   join_files(pair_styles player.css pair.css)
   join_files(pair_scripts ${POLYNYA_PAIR_SCRIPTS})

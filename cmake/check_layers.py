@@ -10,6 +10,7 @@ import sys
 
 # Room or sub-room -> floor. An include goes to the same folder or to a lower floor.
 FLOORS = {
+    "elementary": -1,
     "geometry/shape": 0,
     "geometry/exact": 1,
     "geometry/cut": 2,
@@ -35,6 +36,7 @@ FLOORS = {
     "views/export": 16,
     "cosim": 15,
     "cosim/unit": 16,
+    "browser": 17,
     "app/command_line": 17,
     "app/run": 18,
     "app/ice": 18,
@@ -51,21 +53,22 @@ TOGETHER = {"simulation/world", "simulation/ship", "simulation/ice"}
 # Header of a package -> the only folders, or files, that include it.
 PACKAGES = {
     r"CGAL/": ["geometry/"],
-    r"gmp(xx)?\.h": ["geometry/exact/"],
+    r"gmp(xx)?\.h": ["geometry/exact/internal/rational.hpp"],
+    r"boost/multiprecision/": ["browser/platform/"],
     r"(tbb|oneapi)/": ["dynamics/"],
     r"Eigen/": ["fracture/bending/", "dynamics/contact/internal/jam_matrix"],
     r"boost/container/": ["dynamics/"],
-    r"boost/math/": ["fracture/bending/", "fracture/scatter"],
+    r"boost/math/": ["fracture/bending/"],
     r"boost/crc": ["io/text/"],
     r"nlohmann/": ["io/text/"],
     r"CLI/": ["app/command_line/command_line.cpp"],
-    r"fmt/": ["simulation/", "io/", "analysis/", "views/", "cosim/", "app/", "python/module/"],
+    r"fmt/": ["simulation/", "io/", "analysis/", "views/", "cosim/", "browser/module/", "app/", "python/module/"],
     r"pybind11/": ["python/module/"],
     r"tl/expected": [""],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
 STANDARD = re.compile(
-    r"[a-z_0-9]+$|(sys|bits|linux|sanitizer)/[a-z_]+\.h$|(unistd|fcntl|signal|poll|errno|spawn|emmintrin)\.h$")
+    r"[a-z_0-9]+$|(sys|bits|linux|sanitizer)/[a-z_]+\.h$|(unistd|fcntl|dirent|signal|poll|errno|spawn|emmintrin)\.h$")
 
 
 def room_of(path):

@@ -10,7 +10,8 @@ import pathlib
 import re
 import sys
 
-ROOMS = ["geometry", "dynamics", "fracture", "simulation", "io", "analysis", "views", "cosim", "app", "python"]
+ROOMS = ["elementary", "geometry", "dynamics", "fracture", "simulation", "io", "analysis", "views", "cosim", "browser",
+         "app", "python"]
 SUFFIXES = {".cpp", ".hpp", ".js"}
 MOST_LINES_OF_FUNCTION = 50
 MANY_PARAMETERS = 6

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "elementary/elementary.hpp"
+
 namespace polynya::fracture {
 namespace {
 
@@ -58,7 +60,7 @@ PlaneMoments moments_up_to(const geometry::Polygon& polygon, const geometry::Pos
 }
 
 double long_axis(const PlaneMoments& about_centre) {
-  return 0.5 * std::atan2(2 * about_centre.xy, about_centre.xx - about_centre.yy);
+  return 0.5 * elementary::atan2(2 * about_centre.xy, about_centre.xx - about_centre.yy);
 }
 
 SectionLoad section_load(std::span<const BeamLoad> loads, const PlaneMoments& floe, const PlaneMoments& before,
@@ -93,7 +95,7 @@ double elastic_share(const Ice& ice, const Water& water, double length) {
   const double b = length * std::sqrt(std::sqrt(water.density * kGravity / (4 * ice.youngs_modulus * h * h * h / 12)));
   constexpr double kRigid = 1e-2;  // the share is 1 within b⁴/500; the quotient below loses digits
   if (b < kRigid) return 1;
-  return 2 * (std::cosh(b) - std::cos(b)) / (b * (std::sinh(b) + std::sin(b)));
+  return 2 * (elementary::cosh(b) - elementary::cos(b)) / (b * (elementary::sinh(b) + elementary::sin(b)));
 }
 
 double section_stress(const Ice& ice, double width, const SectionLoad& load) {

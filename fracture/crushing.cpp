@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elementary/elementary.hpp"
+
 namespace polynya::fracture {
 namespace {
 
@@ -18,17 +20,17 @@ double power_of(const Overlap& overlap, double least = 1.0 / 3) {
 }  // namespace
 
 double hull_angle_from_vertical(double sine_waterline_angle, double stem_angle) {
-  return std::atan(std::max(0.0, sine_waterline_angle) / std::tan(stem_angle));
+  return elementary::atan(std::max(0.0, sine_waterline_angle) / elementary::tan(stem_angle));
 }
 
 double crushed_overlap_area(const Overlap& overlap, double thickness, double hull_angle) {
   if (overlap.area <= 0 || overlap.depth <= 0) return 0;
   const double p = power_of(overlap, 1);
-  const double reach = thickness * std::tan(hull_angle);
-  const double sine = std::sin(hull_angle);
+  const double reach = thickness * elementary::tan(hull_angle);
+  const double sine = elementary::sin(hull_angle);
   if (sine < kVertical) return overlap.area * p / overlap.depth * thickness;
   if (reach >= overlap.depth) return overlap.area / sine;
-  return overlap.area / sine * -std::expm1(p * std::log1p(-reach / overlap.depth));
+  return overlap.area / sine * -elementary::expm1(p * elementary::log1p(-reach / overlap.depth));
 }
 
 namespace {
@@ -37,21 +39,21 @@ namespace {
 struct HullSlant {
   double sine, tangent;
   explicit HullSlant(double angle)
-      : sine(angle == 0 ? 0 : std::sin(angle)), tangent(angle == 0 ? 0 : std::tan(angle)) {}
+      : sine(angle == 0 ? 0 : elementary::sin(angle)), tangent(angle == 0 ? 0 : elementary::tan(angle)) {}
 };
 
 CrushedArea crushed_at(const Overlap& overlap, double depth, double thickness, const HullSlant& hull) {
   if (overlap.area <= 0 || overlap.depth <= 0 || depth <= 0) return {};
   const double p = power_of(overlap);
   const bool is_its_own = depth == overlap.depth;  // without a power: most contacts that crush
-  const double area = is_its_own ? overlap.area : overlap.area * std::pow(depth / overlap.depth, p);
+  const double area = is_its_own ? overlap.area : overlap.area * elementary::pow(depth / overlap.depth, p);
   const double slope = p * area / depth;
   if (hull.sine < kVertical) return {thickness * slope, std::max(0.0, thickness * (p - 1) * slope / depth)};
   // Differences of powers by expm1: a hull that is vertical but for rounding has an angle of 1e-17 rad.
   const double reach = thickness * hull.tangent / depth;
-  const double log_of_inner = reach < 1 ? std::log1p(-reach) : 0;
-  const double pressed = reach < 1 ? -std::expm1(p * log_of_inner) : 1;
-  const double growing = reach < 1 ? -std::expm1((p - 1) * log_of_inner) : 1;
+  const double log_of_inner = reach < 1 ? elementary::log1p(-reach) : 0;
+  const double pressed = reach < 1 ? -elementary::expm1(p * log_of_inner) : 1;
+  const double growing = reach < 1 ? -elementary::expm1((p - 1) * log_of_inner) : 1;
   return {area * pressed / hull.sine, std::max(0.0, slope * growing / hull.sine)};
 }
 
@@ -65,10 +67,10 @@ double crushed_volume(const Overlap& overlap, double reached_area, double thickn
   if (overlap.area <= 0 || overlap.depth <= 0 || reached_area <= 0) return 0;
   if (hull_angle == 0) return thickness * reached_area;  // between floes: most contacts
   const double p = power_of(overlap);
-  const double depth = overlap.depth * std::pow(reached_area / overlap.area, 1 / p);
-  const double reach = thickness * std::tan(hull_angle) / depth;
+  const double depth = overlap.depth * elementary::pow(reached_area / overlap.area, 1 / p);
+  const double reach = thickness * elementary::tan(hull_angle) / depth;
   if (reach < kVertical) return thickness * reached_area;
-  const double left = reach < 1 ? -std::expm1((p + 1) * std::log1p(-reach)) : 1;
+  const double left = reach < 1 ? -elementary::expm1((p + 1) * elementary::log1p(-reach)) : 1;
   return thickness * reached_area * left / ((p + 1) * reach);
 }
 
@@ -97,10 +99,10 @@ RecedingCrush crushed_receding(const Overlap& overlap, double depth, double thic
 }
 
 CrushingShares crushing_shares(double hull_angle, double friction, double approach_speed, double slip_speed) {
-  const double sine = std::sin(hull_angle);
-  const double cosine = std::cos(hull_angle);
+  const double sine = elementary::sin(hull_angle);
+  const double cosine = elementary::cos(hull_angle);
   const double down_slip = std::max(0.0, approach_speed) * sine;
-  const double slip = std::hypot(down_slip, slip_speed);
+  const double slip = elementary::hypot(down_slip, slip_speed);
   const double down_share = slip > 0 ? down_slip / slip : 1.0;
   CrushingShares shares;
   shares.horizontal = cosine + friction * sine;
@@ -117,19 +119,19 @@ CrushingShares crushing_shares_around(std::span<const HullFacet> facets, double 
   for (const HullFacet& facet : facets) {
     const double approach = dot(velocity, facet.normal);
     if (approach <= 0) continue;
-    const double cosine = std::cos(facet.angle);
+    const double cosine = elementary::cos(facet.angle);
     const geometry::Vector slip = velocity - approach * cosine * cosine * facet.normal;
-    const double speed = std::hypot(length(slip), approach * cosine * std::sin(facet.angle));
+    const double speed = elementary::hypot(length(slip), approach * cosine * elementary::sin(facet.angle));
     const double share = speed > 0 ? approach * cosine / speed : 0;
     swept += facet.length * approach;
     pressed += facet.length * facet.normal.x;
     down += facet.length * approach * share;
     along += speed > 0 ? facet.length / cosine * slip.y / speed : 0;
   }
-  const double sine = std::sin(hull_angle);
+  const double sine = elementary::sin(hull_angle);
   if (swept <= 0 || pressed <= 0 || sine == 0) return shares;
   shares.vertical = sine * (1 - friction * down / swept);
-  shares.tangential = friction * std::min(1.0, std::abs(along) * std::cos(hull_angle) / pressed);
+  shares.tangential = friction * std::min(1.0, std::abs(along) * elementary::cos(hull_angle) / pressed);
   return shares;
 }
 

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/normal.hpp>
+#include "elementary/elementary.hpp"
+#include "elementary/normal.hpp"
 
 namespace polynya::fracture {
 namespace {
-
-using boost::math::normal;
 
 /// The largest double below 1: the quantile of 1 is infinite.
 constexpr double kAlmostOne = 1 - 0x1p-53;
@@ -21,8 +20,8 @@ struct Gauss {
 
 Gauss gauss_of(const ScatterLaw& law) {
   if (law.kind == ScatterKind::kNormal) return {law.mean, law.spread * law.mean};
-  const double variance = std::log1p(law.spread * law.spread);
-  return {std::log(law.mean) - 0.5 * variance, std::sqrt(variance)};
+  const double variance = elementary::log1p(law.spread * law.spread);
+  return {elementary::log(law.mean) - 0.5 * variance, std::sqrt(variance)};
 }
 
 bool is_single_value(const ScatterLaw& law) {
@@ -40,7 +39,7 @@ double unbounded_share(const ScatterLaw& law, double x) {
   if (is_log && x <= 0) return 0;
   if (std::isinf(x)) return x > 0 ? 1 : 0;
   const Gauss gauss = gauss_of(law);
-  return boost::math::cdf(normal(gauss.mean, gauss.deviation), is_log ? std::log(x) : x);
+  return elementary::normal_share(((is_log ? elementary::log(x) : x) - gauss.mean) / gauss.deviation);
 }
 
 }  // namespace
@@ -67,8 +66,8 @@ double quantile(const ScatterLaw& law, double share) {
   const Gauss gauss = gauss_of(law);
   const double unbounded = unbounded_share(law, law.least) + share * share_within_bounds(law);
   if (!(unbounded > 0)) return law.least;
-  const double x = boost::math::quantile(normal(gauss.mean, gauss.deviation), std::min(unbounded, kAlmostOne));
-  return std::clamp(law.kind == ScatterKind::kLogNormal ? std::exp(x) : x, law.least, law.most);
+  const double x = gauss.mean + gauss.deviation * elementary::normal_quantile(std::min(unbounded, kAlmostOne));
+  return std::clamp(law.kind == ScatterKind::kLogNormal ? elementary::exp(x) : x, law.least, law.most);
 }
 
 ScatterMeasures measure(const ScatterLaw& law, std::vector<double> drawn) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "elementary/elementary.hpp"
+
 namespace polynya::fracture {
 
 double edge_mass(const Ice& ice, const Water& water, const TurningCusp& cusp) {
@@ -68,17 +70,17 @@ class Plate {
  public:
   /// The hull's waterline is at x.
   Plate(double depth, double thickness, double hull_angle, double waterline) : thickness_(thickness) {
-    const double beta = std::atan2(thickness, depth);
-    const double sine = std::sin(hull_angle);
-    const double cosine = std::cos(hull_angle);
+    const double beta = elementary::atan2(thickness, depth);
+    const double sine = elementary::sin(hull_angle);
+    const double cosine = elementary::cos(hull_angle);
     const double along = thickness * (1 - sine) / cosine;  // the waterline when the plate lies along the hull
     const double at = std::clamp(waterline, along, std::max(along, depth));  // a short one snaps over
     const double turned =
-        std::acos(std::clamp((at * cosine + thickness * sine) / std::hypot(depth, thickness), -1.0, 1.0));
+        elementary::acos(std::clamp((at * cosine + thickness * sine) / elementary::hypot(depth, thickness), -1.0, 1.0));
     tilt_ = std::clamp(turned + beta - hull_angle, 0.0, 0.5 * std::numbers::pi - hull_angle);
     if (waterline >= depth) tilt_ = 0;
-    cosine_ = std::cos(tilt_);
-    sine_ = std::sin(tilt_);
+    cosine_ = elementary::cos(tilt_);
+    sine_ = elementary::sin(tilt_);
     sunk_ = std::max(0.0, along - waterline) * cosine / sine;
   }
 
@@ -117,7 +119,7 @@ class Turn {
     for (int k = 0; k < Deck::kStrips; ++k) {
       const double r = at(k);
       depth_[k] = std::max(0.0, plate_.z(r) - deck.freeboard);
-      hull_[k] = std::max(0.0, (plate_.x(r) - waterline_) / std::tan(deck.hull_angle) - deck.freeboard);
+      hull_[k] = std::max(0.0, (plate_.x(r) - waterline_) / elementary::tan(deck.hull_angle) - deck.freeboard);
     }
   }
 
@@ -166,7 +168,7 @@ class Turn {
   double ahead(double surface, double density) const {
     double sum = 0;
     for (int k = 0; k < Deck::kStrips; ++k) sum += std::min(hull_[k], surface) * width(k);
-    return density * kGravity * strip() * plate_.cosine() / std::tan(deck_.hull_angle) * sum;
+    return density * kGravity * strip() * plate_.cosine() / elementary::tan(deck_.hull_angle) * sum;
   }
 
   /// Of the force down on the near edge, with that thrust per force, about the axis [m].
@@ -193,12 +195,12 @@ class Turn {
     const double h = deck_.thickness;
     const DeckStrip& s = deck_.strips[k];
     if (r * plate_.sine() < h) return r * (1 - plate_.cosine()) * s.sheet_across;
-    return std::hypot((plate_.x(r) - r) * s.sheet_across, (plate_.z(r) - h) * s.sheet);
+    return elementary::hypot((plate_.x(r) - r) * s.sheet_across, (plate_.z(r) - h) * s.sheet);
   }
   /// Over a metre of a broad crest under that head, with water that high behind it (Villemonte; recall) [m²/s].
   static double over_crest(double head, double behind) {
-    const double critical = std::pow(2. / 3, 1.5) * std::sqrt(kGravity) * std::pow(head, 1.5);
-    return critical * std::pow(std::max(0.0, 1 - std::pow(behind / head, 1.5)), 0.385);
+    const double critical = elementary::pow(2. / 3, 1.5) * std::sqrt(kGravity) * elementary::pow(head, 1.5);
+    return critical * elementary::pow(std::max(0.0, 1 - elementary::pow(behind / head, 1.5)), 0.385);
   }
   double strip() const { return deck_.depth / Deck::kStrips; }
   double at(int k) const { return (k + 0.5) * strip(); }
@@ -214,7 +216,7 @@ class Turn {
 }  // namespace
 
 double way_to_lie_along(const Deck& deck) {
-  return deck.depth - deck.thickness * (1 - std::sin(deck.hull_angle)) / std::cos(deck.hull_angle);
+  return deck.depth - deck.thickness * (1 - elementary::sin(deck.hull_angle)) / elementary::cos(deck.hull_angle);
 }
 
 Deck deck_of(const Ice& ice, const Water& water, double hull_angle, std::span<const geometry::Point> outline,

@@ -1,7 +1,8 @@
 #include "dynamics/contact/paid_overlap.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "elementary/elementary.hpp"
 
 namespace polynya::dynamics {
 namespace {
@@ -24,18 +25,18 @@ bool has_shape(const Contact& c) {
 double depth_at(const Contact& c, double area) {
   if (!(area > 0) || !has_shape(c)) return 0;
   if (area == c.area) return c.depth;
-  return c.depth * std::pow(area / c.area, 1 / power_of(c));
+  return c.depth * elementary::pow(area / c.area, 1 / power_of(c));
 }
 
 double area_at(const Contact& c, double depth) {
   if (!(depth > 0) || !has_shape(c)) return 0;
   if (depth == c.depth) return c.area;
-  return c.area * std::pow(depth / c.depth, power_of(c));
+  return c.area * elementary::pow(depth / c.depth, power_of(c));
 }
 
 double force_at(const CrushingForce& law, double depth) {
   if (law.exponent == 0 || depth == law.depth || !(law.depth > 0)) return law.force;
-  return law.force * std::pow(std::max(0.0, depth) / law.depth, law.exponent);
+  return law.force * elementary::pow(std::max(0.0, depth) / law.depth, law.exponent);
 }
 
 double stiffness_over(const CrushingForce& law, double further) {
@@ -49,11 +50,11 @@ Payment pay(const CrushingForce& law, double paid, double reached, double work) 
   if (!(work > 0 && law.force > 0 && law.depth > 0 && reached > paid)) return {paid, 0};
   const double n = law.exponent;
   const double scale = law.force * law.depth / (n + 1);  // ∫ F dξ from 0 to the depth [J]
-  const auto paid_for = [&](double depth) { return scale * std::pow(depth / law.depth, n + 1); };
+  const auto paid_for = [&](double depth) { return scale * elementary::pow(depth / law.depth, n + 1); };
   const double before = paid_for(paid);
   const double to_reached = paid_for(reached) - before;
   if (work >= to_reached) return {reached, to_reached};
-  return {std::clamp(law.depth * std::pow((before + work) / scale, 1 / (n + 1)), paid, reached), work};
+  return {std::clamp(law.depth * elementary::pow((before + work) / scale, 1 / (n + 1)), paid, reached), work};
 }
 
 void enter_paid_depth(Contact& c) {

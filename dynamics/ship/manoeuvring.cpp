@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "elementary/elementary.hpp"
+
 namespace polynya::dynamics {
 namespace {
 
@@ -58,9 +60,9 @@ double wetted_surface(const MainDimensions& hull) {
 }
 
 PlanarMatrix added_mass_of(const ManoeuvringDerivatives& derivatives, double length, double density, double in_surge) {
-  const double sway = -0.5 * density * std::pow(length, 3) * derivatives.y_v_dot;
-  const double yaw = -0.5 * density * std::pow(length, 5) * derivatives.n_r_dot;
-  const double mean = -0.25 * density * std::pow(length, 4) * (derivatives.y_r_dot + derivatives.n_v_dot);
+  const double sway = -0.5 * density * elementary::pow(length, 3) * derivatives.y_v_dot;
+  const double yaw = -0.5 * density * elementary::pow(length, 5) * derivatives.n_r_dot;
+  const double mean = -0.25 * density * elementary::pow(length, 4) * (derivatives.y_r_dot + derivatives.n_v_dot);
   const double most = 0.99 * std::sqrt(std::max(0.0, sway * yaw));
   const double coupling = std::clamp(mean, -most, most);
   return {{{{in_surge, 0, 0}, {0, sway, coupling}, {0, coupling, yaw}}}};

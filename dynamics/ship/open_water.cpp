@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "elementary/elementary.hpp"
+
 namespace polynya::dynamics {
 namespace {
 
@@ -26,7 +28,7 @@ struct Form {
 std::optional<Form> form_of(const MainDimensions& hull) {
   const double block = hull.block_coefficient;
   Form form;
-  form.midship = 1 / (1 + std::pow(1 - block, 3.5));
+  form.midship = 1 / (1 + elementary::pow(1 - block, 3.5));
   form.waterplane = (1 + 2 * block) / 3;
   form.prismatic = block / form.midship;
   form.volume = block * hull.length * hull.beam * hull.draught;
@@ -38,35 +40,37 @@ std::optional<Form> form_of(const MainDimensions& hull) {
 /// Friction of the wetted surface with its form factor, and the correlation allowance [N].
 double viscous_resistance(const MainDimensions& hull, const Form& form, double speed, double density) {
   const auto [length, beam, draught, block] = hull;
-  const double factor = 0.93 + 0.487118 * std::pow(beam / length, 1.06806) * std::pow(draught / length, 0.46106) *
-                                   std::pow(length / form.run, 0.121563) *
-                                   std::pow(std::pow(length, 3) / form.volume, 0.36486) *
-                                   std::pow(1 - form.prismatic, -0.604247);
+  const double factor = 0.93 + 0.487118 * elementary::pow(beam / length, 1.06806) *
+                                   elementary::pow(draught / length, 0.46106) *
+                                   elementary::pow(length / form.run, 0.121563) *
+                                   elementary::pow(elementary::pow(length, 3) / form.volume, 0.36486) *
+                                   elementary::pow(1 - form.prismatic, -0.604247);
   const double surface =
       length * (2 * draught + beam) * std::sqrt(form.midship) *
       (0.453 + 0.4425 * block - 0.2862 * form.midship - 0.003467 * beam / draught + 0.3696 * form.waterplane);
-  const double friction = 0.075 / std::pow(std::log10(speed * length / kViscosity) - 2, 2);
+  const double friction = 0.075 / elementary::pow(elementary::log10(speed * length / kViscosity) - 2, 2);
   const double slender = std::min(draught / length, 0.04);
-  const double allowance = 0.006 * std::pow(length + 100, -0.16) - 0.00205 +
-                           0.003 * std::sqrt(length / 7.5) * std::pow(block, 4) * (0.04 - slender);
+  const double allowance = 0.006 * elementary::pow(length + 100, -0.16) - 0.00205 +
+                           0.003 * std::sqrt(length / 7.5) * elementary::pow(block, 4) * (0.04 - slender);
   return 0.5 * density * speed * speed * surface * (factor * friction + allowance);
 }
 
 double wave_resistance(const MainDimensions& hull, const Form& form, double entrance, double froude, double density) {
   const auto [length, beam, draught, block] = hull;
   const double width = beam / length > 0.25 ? 0.5 - 0.0625 * length / beam : beam / length;
-  const double size = 2223105 * std::pow(width, 3.78613) * std::pow(draught / beam, 1.07961) *
-                      std::pow(90 - kDegrees * entrance, -1.37565);
+  const double size = 2223105 * elementary::pow(width, 3.78613) * elementary::pow(draught / beam, 1.07961) *
+                      elementary::pow(90 - kDegrees * entrance, -1.37565);
   const double p = form.prismatic;
   const double fullness = p < 0.8 ? 8.07981 * p - 13.8673 * p * p + 6.984388 * p * p * p : 1.73014 - 0.7067 * p;
-  const double m1 =
-      0.0140407 * length / draught - 1.75254 * std::cbrt(form.volume) / length - 4.79323 * beam / length - fullness;
-  const double slenderness = length / std::cbrt(form.volume);
+  const double m1 = 0.0140407 * length / draught - 1.75254 * elementary::cbrt(form.volume) / length -
+                    4.79323 * beam / length - fullness;
+  const double slenderness = length / elementary::cbrt(form.volume);
   const double c15 = slenderness < 8 ? -1.69385 : std::min(0.0, -1.69385 + (slenderness - 8) / 2.36);
-  const double m4 = 0.4 * c15 * std::exp(-0.034 * std::pow(froude, -3.29));
+  const double m4 = 0.4 * c15 * elementary::exp(-0.034 * elementary::pow(froude, -3.29));
   const double length_of_waves = 1.446 * p - (length / beam < 12 ? 0.03 * length / beam : 0.36);
   return size * form.volume * density * kGravitationalAcceleration *
-         std::exp(m1 * std::pow(froude, -0.9) + m4 * std::cos(length_of_waves / (froude * froude)));
+         elementary::exp(m1 * elementary::pow(froude, -0.9) +
+                         m4 * elementary::cos(length_of_waves / (froude * froude)));
 }
 
 }  // namespace
@@ -75,10 +79,10 @@ std::optional<double> usual_entrance_angle(const MainDimensions& hull) {
   const auto form = form_of(hull);
   if (!form) return {};
   const auto [length, beam, draught, block] = hull;
-  const double exponent = std::pow(length / beam, 0.80856) * std::pow(1 - form->waterplane, 0.30484) *
-                          std::pow(1 - form->prismatic, 0.6367) * std::pow(form->run / beam, 0.34574) *
-                          std::pow(100 * form->volume / std::pow(length, 3), 0.16302);
-  return (1 + 89 * std::exp(-exponent)) / kDegrees;
+  const double exponent = elementary::pow(length / beam, 0.80856) * elementary::pow(1 - form->waterplane, 0.30484) *
+                          elementary::pow(1 - form->prismatic, 0.6367) * elementary::pow(form->run / beam, 0.34574) *
+                          elementary::pow(100 * form->volume / elementary::pow(length, 3), 0.16302);
+  return (1 + 89 * elementary::exp(-exponent)) / kDegrees;
 }
 
 double usual_block_coefficient(double length, double beam, double speed) {

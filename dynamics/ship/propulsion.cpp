@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elementary/elementary.hpp"
+
 namespace polynya::dynamics {
 double bollard_pull(double power, double diameter, int propellers, bool has_nozzles) {
   const double k_e = propellers == 1 ? 0.78 : propellers == 2 ? 0.98 : 1.12;
-  const double pull = k_e * std::pow(1e-3 * power * diameter, 2 / 3.0);
+  const double pull = k_e * elementary::pow(1e-3 * power * diameter, 2 / 3.0);
   return 1e3 * (has_nozzles ? 1.4 : 1.0) * pull;
 }
 
 double thrust_at(const Engine& engine, double lever) {
-  const double thrust = engine.bollard_pull * std::pow(std::abs(lever), 2 / 3.0);
+  const double thrust = engine.bollard_pull * elementary::pow(std::abs(lever), 2 / 3.0);
   return lever < 0 ? -engine.astern_share * thrust : thrust;
 }
 
@@ -32,8 +34,8 @@ double approach(double setting, double wanted, double rate, double dt) {
 }
 
 Planar turned_thrust(double thrust, double angle, double x) {
-  const double side = -thrust * std::sin(angle);
-  return {thrust * std::cos(angle), side, x * side};
+  const double side = -thrust * elementary::sin(angle);
+  return {thrust * elementary::cos(angle), side, x * side};
 }
 
 }  // namespace polynya::dynamics

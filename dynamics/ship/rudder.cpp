@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "elementary/elementary.hpp"
+
 #include "geometry/shape/point.hpp"
 
 namespace polynya::dynamics {
@@ -44,16 +46,16 @@ LiftAndDrag mean_of(double share, LiftAndDrag a, LiftAndDrag b) {
 
 /// Lift and drag of a force normal to the blade's chord.
 LiftAndDrag of_normal_force(double normal, double incidence) {
-  return {normal * std::cos(incidence), normal * std::sin(incidence)};
+  return {normal * elementary::cos(incidence), normal * elementary::sin(incidence)};
 }
 
 /// Share of a round race that meets a blade at an incidence; the rest passes ahead of its nose and behind its tail.
 double share_met(double aspect_ratio, double incidence) {
   const auto within = [](double radii) {  // the share of a circle up to a chord that is so far from its centre
     const double x = std::min(radii, 1.0);
-    return 1 - (std::acos(x) - x * std::sqrt(1 - x * x)) / kPi;
+    return 1 - (elementary::acos(x) - x * std::sqrt(1 - x * x)) / kPi;
   };
-  const double reach = 2 * std::sin(incidence) / aspect_ratio;  // of the chord across the race, in its radii
+  const double reach = 2 * elementary::sin(incidence) / aspect_ratio;  // of the chord across the race, in its radii
   return within(kStock * reach) + within((1 - kStock) * reach) - 1;
 }
 
@@ -62,13 +64,13 @@ struct BladeFlow {
   double ahead = 0;   ///< [m/s]
   double across = 0;  ///< to port [m/s]
   double squared() const { return ahead * ahead + across * across; }
-  double direction() const { return std::atan2(across, ahead); }
+  double direction() const { return elementary::atan2(across, ahead); }
 };
 
 /// Force on a blade at an angle δ, in the ship's axes.
 Vector force_in_ship(LiftAndDrag over, double size, const BladeFlow& flow) {
   const double direction = flow.direction();
-  const Vector along{std::cos(direction), std::sin(direction)};
+  const Vector along{elementary::cos(direction), elementary::sin(direction)};
   return -size * (over.drag * along + over.lift * perpendicular(along));
 }
 
@@ -91,9 +93,9 @@ Vector in_endless_flow(double area, const Blade& blade, double angle, const Blad
 Vector in_race(const Blade& blade, double angle, const BladeFlow& race, const BladeFlow& around, double density) {
   const Vector endless = in_endless_flow(blade.chord * blade.in_race, blade, angle, race, density);
   if (race.ahead <= 0) return endless;
-  const double outside = std::pow(std::max(0.0, around.ahead), 2) + around.across * around.across;
+  const double outside = elementary::pow(std::max(0.0, around.ahead), 2) + around.across * around.across;
   const double jet = std::max(0.0, race.squared() - outside) / (race.squared() + outside);
-  const double momentum = density * 0.25 * kPi * std::pow(blade.in_race * race.ahead, 2);
+  const double momentum = density * 0.25 * kPi * elementary::pow(blade.in_race * race.ahead, 2);
   const LiftAndDrag over = foil_in_race(blade.in_race / blade.chord, angle + race.direction());
   return jet * force_in_ship(over, momentum, race) + (1 - jet) * endless;
 }
@@ -113,7 +115,7 @@ Race race_behind(double propeller_area, bool has_nozzle, double thrust, double a
 LiftAndDrag foil_in_endless_flow(double aspect_ratio, double incidence) {
   const double from_chord = std::remainder(incidence, kPi);  // the blade is taken to be alike from both ends
   const double a = std::abs(from_chord);
-  const double s = std::sin(a);
+  const double s = elementary::sin(a);
   LiftAndDrag attached;
   attached.lift = lift_slope(aspect_ratio) * s + kCrossFlow / std::max(1.0, aspect_ratio) * s * s;
   attached.drag = attached.lift * attached.lift / (kOswald * kPi * aspect_ratio);
@@ -125,10 +127,11 @@ LiftAndDrag foil_in_endless_flow(double aspect_ratio, double incidence) {
 LiftAndDrag foil_in_race(double aspect_ratio, double incidence) {
   const double from_chord = std::remainder(incidence, kPi);
   const double a = std::abs(from_chord);
-  const double over_momentum = 2 / (kPi * aspect_ratio);                         // ½ V² A over V² π d²/4
-  const double turned = over_momentum * lift_slope(aspect_ratio) * std::sin(a);  // sine of the race's angle, below .95
+  const double over_momentum = 2 / (kPi * aspect_ratio);  // ½ V² A over V² π d²/4
+  const double turned =
+      over_momentum * lift_slope(aspect_ratio) * elementary::sin(a);  // sine of the race's angle, below .95
   const LiftAndDrag attached{turned, 1 - std::sqrt(1 - turned * turned)};
-  const double normal = std::min(share_met(aspect_ratio, a) * std::sin(a), over_momentum * kPlateNormal);
+  const double normal = std::min(share_met(aspect_ratio, a) * elementary::sin(a), over_momentum * kPlateNormal);
   LiftAndDrag over = mean_of(broken_off(aspect_ratio, a), of_normal_force(normal, a), attached);
   over.lift = std::copysign(over.lift, from_chord);
   return over;

@@ -1,7 +1,8 @@
 #include "dynamics/water/flow.hpp"
 
-#include <cmath>
 #include <numbers>
+
+#include "elementary/elementary.hpp"
 
 namespace polynya::dynamics {
 
@@ -10,7 +11,7 @@ using geometry::Vector;
 namespace {
 
 Vector along(double direction, double ahead, double to_port) {
-  const Vector unit{std::cos(direction), std::sin(direction)};
+  const Vector unit{elementary::cos(direction), elementary::sin(direction)};
   return ahead * unit + to_port * perpendicular(unit);
 }
 
@@ -51,14 +52,14 @@ Vector path_of(std::span<const FlowRow> rows, double time) {
 
 Vector Tide::velocity(double time) const {
   const double angle = angular_frequency(*this) * time + phase;
-  return along(direction, major * std::cos(angle), minor * std::sin(angle));
+  return along(direction, major * elementary::cos(angle), minor * elementary::sin(angle));
 }
 
 Vector Tide::path(double time) const {
   const double omega = angular_frequency(*this);
   const double angle = omega * time + phase;
-  return along(direction, major / omega * (std::sin(angle) - std::sin(phase)),
-               minor / omega * (std::cos(phase) - std::cos(angle)));
+  return along(direction, major / omega * (elementary::sin(angle) - elementary::sin(phase)),
+               minor / omega * (elementary::cos(phase) - elementary::cos(angle)));
 }
 
 WindWork apply_wind(Bodies& bodies, std::span<const BodyIndex> floes, Vector stress, double dt) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "elementary/elementary.hpp"
 #include <boost/container/small_vector.hpp>
 
 #include "dynamics/chunks.hpp"
@@ -114,7 +115,7 @@ double third_moment_of_edge(Vector from, Vector to) {
     const double s = dot(p, along);
     const double r = length(p);
     const double square = d * d;
-    return d * (s * r * r * r / 4 + 0.375 * square * (s * r + square * std::asinh(s / std::abs(d)))) / 5;
+    return d * (s * r * r * r / 4 + 0.375 * square * (s * r + square * elementary::asinh(s / std::abs(d)))) / 5;
   };
   return antiderivative(to) - antiderivative(from);
 }

@@ -4,11 +4,12 @@
 #include <atomic>
 #include <cassert>
 #include <charconv>
-#include <cmath>
 #include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
+
+#include "elementary/elementary.hpp"
 
 #include "fracture/bending/wedge_solver.hpp"
 #include "geometry/shape/angle.hpp"
@@ -56,7 +57,8 @@ std::array<Cell, 2> froude_cells(const std::vector<double>& softnesses, const Ce
 
 /// A load's place on the axes.
 std::array<double, 4> axis_coordinates(const WedgeGroups& groups) {
-  return {groups.opening_angle, std::log(groups.mass_ratio), std::log(groups.softness), std::log(groups.froude)};
+  return {groups.opening_angle, elementary::log(groups.mass_ratio), elementary::log(groups.softness),
+          elementary::log(groups.froude)};
 }
 
 /// Rounding at the edge of an axis is not "outside".
@@ -99,7 +101,7 @@ BendingDatabase::BendingDatabase(SolverSettings settings, DatabaseGrid grid, std
   assert(entries_.size() == grid_.size());
   assert(is_grid_axis(grid_.opening_angles_deg) && is_grid_axis(grid_.mass_ratios) && is_grid_axis(grid_.softnesses) &&
          is_grid_axis(grid_.froude_numbers));
-  const auto logarithm = [](double x) { return std::log(x); };
+  const auto logarithm = [](double x) { return elementary::log(x); };
   coordinates_ = {
       mapped(grid_.opening_angles_deg, [](double degrees) { return degrees * geometry::kRadiansPerDegree; }),
       mapped(grid_.mass_ratios, logarithm), mapped(grid_.softnesses, logarithm),
@@ -111,7 +113,7 @@ BendingDatabase::BendingDatabase(SolverSettings settings, DatabaseGrid grid, std
     const DatabaseEntry& e = entries_[i];
     assert(e.force > 0 && e.cusp_radius > 0);
     const double opening_angle = coordinates_[0][i / strides_[0]];
-    stored_.push_back({std::log(e.force / opening_angle), std::log(e.cusp_radius), e.crack_ratio});
+    stored_.push_back({elementary::log(e.force / opening_angle), elementary::log(e.cusp_radius), e.crack_ratio});
   }
 }
 
@@ -133,8 +135,8 @@ DatabaseAnswer BendingDatabase::look_up(const WedgeGroups& groups) const {
     answer.crack_ratio += weight * e.crack_ratio;
   }
   const std::vector<double>& angles = coordinates_[0];
-  answer.force = std::exp(log_force) * std::clamp(groups.opening_angle, angles.front(), angles.back());
-  answer.cusp_radius = std::exp(log_radius);
+  answer.force = elementary::exp(log_force) * std::clamp(groups.opening_angle, angles.front(), angles.back());
+  answer.cusp_radius = elementary::exp(log_radius);
   return answer;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "elementary/elementary.hpp"
+
 #include "fracture/characteristic_length.hpp"
 #include "geometry/shape/angle.hpp"
 
@@ -45,11 +47,11 @@ Place place_of(double x, const std::array<double, N>& points) {
   if (x >= points.back()) return {N - 2, 1};
   const auto next = std::ranges::upper_bound(points, x);
   const auto i = static_cast<std::size_t>(next - points.begin()) - 1;
-  return {i, std::log(x / points[i]) / std::log(points[i + 1] / points[i])};
+  return {i, elementary::log(x / points[i]) / elementary::log(points[i + 1] / points[i])};
 }
 
 double geometric_mean(double a, double b, double share) {
-  return a * std::pow(b / a, share);
+  return a * elementary::pow(b / a, share);
 }
 
 }  // namespace
@@ -74,7 +76,7 @@ double recession_per_area(const BendingLoad& load, double travel) {
   const double opening_angle =
       load.opening_angle > 0 ? load.opening_angle : load.front_half_angle + load.back_half_angle;
   const double compliance = tip_compliance(opening_angle, duration) / (load.water.density * kGravity * l * l);
-  return std::tan(load.hull_angle) * compliance * load.ice.compressive_strength * load.vertical_to_crushing;
+  return elementary::tan(load.hull_angle) * compliance * load.ice.compressive_strength * load.vertical_to_crushing;
 }
 
 }  // namespace polynya::fracture

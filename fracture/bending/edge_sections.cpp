@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "elementary/elementary.hpp"
+
 #include "fracture/bending/sinking_edge.hpp"
 #include "geometry/shape/angle.hpp"
 
@@ -150,8 +152,8 @@ SectionStresses stresses_of_rims(const EdgeOpenings& openings, const EdgePush& p
     const double lever = kRimOfLever * push.thrust * push.lever * held;
     const double growth = 6 * kRimOfLever * push.thrust * sinking * interpolated(kDrop, place) * std::max(0.0, held);
     const double bears = bearing(6 * (force - lever) - kRimOfThrust * push.thrust, growth, opening_of(openings[i]) * r);
-    const double share = std::min(1.0, std::log(r * half_step / least) / std::log(kSectionStep));
-    stresses[i] = std::pow(share, 1 / kWeibull) / bears;
+    const double share = std::min(1.0, elementary::log(r * half_step / least) / elementary::log(kSectionStep));
+    stresses[i] = elementary::pow(share, 1 / kWeibull) / bears;
   }
   return stresses;
 }
@@ -188,7 +190,7 @@ SectionBreak weakest_section_of_sinking(const EdgeOpenings& openings, const Edge
   const Vertex at = greatest_of(both);
   const double place = cracked > 0 ? std::lerp(greatest_of(whole).place, expected_place(rims), cracked) : at.place;
   return {1 / std::max(at.value, cracked / held_until_next_cracks(widest)),
-          kSectionRadii[0] * std::pow(kSectionStep, place) * push.length};
+          kSectionRadii[0] * elementary::pow(kSectionStep, place) * push.length};
 }
 
 }  // namespace polynya::fracture

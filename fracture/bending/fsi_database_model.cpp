@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "elementary/elementary.hpp"
+
 #include "fracture/bending/database.hpp"
 #include "fracture/bending/edge_deflection.hpp"
 #include "fracture/bending/sinking_edge.hpp"
@@ -91,7 +93,7 @@ EdgePush edge_push(const BendingLoad& load, double length, double effective_leng
   push.distance = load.load_place * depth;
   push.facet = depth;
   push.thrust = load.thrust;
-  push.lever = std::max(0.0, 0.5 - depth / (3 * std::tan(load.hull_angle)));
+  push.lever = std::max(0.0, 0.5 - depth / (3 * elementary::tan(load.hull_angle)));
   return push;
 }
 
@@ -124,13 +126,13 @@ ScaledLoad scaled(const BendingLoad& load) {
       load.opening_angle > 0 ? load.opening_angle : load.front_half_angle + load.back_half_angle;
   result.groups.mass_ratio = ice.density * h / (load.water.density * l);
   result.groups.froude = std::max(load.mean_approach_speed, 0.0) / std::sqrt(kGravity * l);
-  const double tangent_sum = std::tan(load.front_half_angle) + std::tan(load.back_half_angle);
+  const double tangent_sum = elementary::tan(load.front_half_angle) + elementary::tan(load.back_half_angle);
   const double crushing =
-      ice.compressive_strength * load.vertical_to_crushing * tangent_sum / (2 * std::sin(load.hull_angle));
+      ice.compressive_strength * load.vertical_to_crushing * tangent_sum / (2 * elementary::sin(load.hull_angle));
   result.groups.softness = crushing > 0 && std::isfinite(crushing) ? result.force_scale / (crushing * l * l)
                                                                    : std::numeric_limits<double>::infinity();
-  result.full_depth = h * std::tan(load.hull_angle) / l;
-  result.feedback = result.force_scale * std::tan(load.hull_angle) / (load.water.density * kGravity * l * l * l);
+  result.full_depth = h * elementary::tan(load.hull_angle) / l;
+  result.feedback = result.force_scale * elementary::tan(load.hull_angle) / (load.water.density * kGravity * l * l * l);
   return result;
 }
 

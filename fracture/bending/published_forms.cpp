@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "elementary/elementary.hpp"
 #include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
 
 #include "fracture/characteristic_length.hpp"
@@ -29,7 +29,7 @@ constexpr double kSmallestRadiusFactor = 0.2;
 
 double nevel_force(double opening_angle, double load_length_over_l, const Ice& ice) {
   const double a = load_length_over_l;
-  const double width_growth = 2 * std::tan(0.5 * opening_angle);
+  const double width_growth = 2 * elementary::tan(0.5 * opening_angle);
   return (1.05 + 2 * a + 0.5 * a * a * a) * width_growth * ice.flexural_strength * ice.thickness * ice.thickness / 6;
 }
 
@@ -38,7 +38,7 @@ double nevel_cusp_radius_over_l(double load_length_over_l) {
   static const boost::math::interpolators::cardinal_cubic_b_spline<double> kRatio(
       kRadiusOverRoot.begin(), kRadiusOverRoot.end(), 0.0, kStep, kFirstSlope, kLastSlope);
   constexpr double kLast = kStep * (kRadiusOverRoot.size() - 1);
-  const double root = std::cbrt(std::max(load_length_over_l, 0.0));
+  const double root = elementary::cbrt(std::max(load_length_over_l, 0.0));
   return kRatio(std::min(root, kLast)) * root;
 }
 

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "elementary/elementary.hpp"
+
 #include "geometry/exact/predicates.hpp"
 #include "geometry/shape/box_tree.hpp"
 #include "geometry/shape/segments.hpp"
@@ -58,7 +60,7 @@ void measure_run(const EdgeList& edges, const std::vector<double>& lengths, Boun
 
 /// How far the piece goes from a point on the perpendicular of its middle [m].
 double reach_from(const EdgeList& edges, const BoundaryPiece& piece, Point centre) {
-  if (piece.edges == 1) return std::hypot(distance(centre, piece.middle), piece.reach);
+  if (piece.edges == 1) return elementary::hypot(distance(centre, piece.middle), piece.reach);
   std::uint32_t e = piece.first_edge;
   double reach = distance(centre, edges.from(e));
   for (std::uint32_t k = 0; k < piece.edges; ++k, e = edges.next[e])

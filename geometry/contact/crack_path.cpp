@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "elementary/elementary.hpp"
+
 namespace polynya::geometry {
 namespace {
 
@@ -54,7 +56,7 @@ void wedge_angles(const EdgeList& edges, const WedgeTip& wedge_tip, Vector inwar
         continue;
       }
       const Point at = is_round && from != tip ? from : exit_point(from, end_of(e), tip, lengths[i]);
-      angles[i].*angle = std::atan2(std::abs(cross(inward, at - tip)), dot(inward, at - tip));
+      angles[i].*angle = elementary::atan2(std::abs(cross(inward, at - tip)), dot(inward, at - tip));
     }
   };
   measure([&](std::uint32_t e) { return edges.to(e); }, [&](std::uint32_t e) { return edges.next[e]; },

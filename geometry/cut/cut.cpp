@@ -5,6 +5,8 @@
 #include <iterator>
 #include <numbers>
 
+#include "elementary/elementary.hpp"
+
 #include "geometry/cut/internal/arrangement.hpp"
 #include "geometry/cut/internal/cut_paths.hpp"
 #include "geometry/cut/internal/snap_rounding.hpp"
@@ -191,14 +193,14 @@ Ring disc_polygon(Point centre, double radius, double sagitta, Vector axis) {
   // A chord subtending an angle 2π/n leaves the circle by r(1 − cos(π/n)).
   constexpr int kFewest = 8;   // fewer, and a cusp's area is less by more than a tenth of the disc's
   constexpr int kMost = 4096;  // more, and a mistyped sagitta makes rings that no step can carry
-  const double half_angle = std::acos(std::clamp(1 - sagitta / radius, -1.0, 1.0));
+  const double half_angle = elementary::acos(std::clamp(1 - sagitta / radius, -1.0, 1.0));
   const double wanted = half_angle > 0 ? std::ceil(std::numbers::pi / half_angle) : kMost;
   const int n = static_cast<int>(std::clamp(wanted, double{kFewest}, double{kMost}));
   Ring ring;
   ring.reserve(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
     const double angle = 2 * std::numbers::pi * i / n;
-    ring.push_back(centre + radius * rotate({axis.x, axis.y}, Vector{std::cos(angle), std::sin(angle)}));
+    ring.push_back(centre + radius * rotate({axis.x, axis.y}, Vector{elementary::cos(angle), elementary::sin(angle)}));
   }
   return ring;
 }
@@ -228,9 +230,9 @@ tl::expected<Repaired, CutError> repair_exactly(const std::vector<Ring>& rings, 
   CutOutcome rounded = exact::rounded_pieces(area, pieces);
   if (!rounded) return tl::unexpected(std::move(rounded.error()));
   for (Piece& piece : rounded->pieces) repaired.shapes.push_back(std::move(piece.shape));
-  repaired.area_drawn = exact::nearest_double(abs(drawn));
+  repaired.area_drawn = exact::nearest_double(exact::magnitude(drawn));
   repaired.area = rounded->ledger.area_outside;
-  repaired.area_changed = exact::nearest_double(exact::Rational(area - abs(drawn)));
+  repaired.area_changed = exact::nearest_double(exact::Rational(area - exact::magnitude(drawn)));
   repaired.ledger = std::move(rounded->ledger);
   return repaired;
 }

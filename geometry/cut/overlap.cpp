@@ -6,6 +6,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "elementary/elementary.hpp"
+
 #include "geometry/cut/internal/arrangement.hpp"
 #include "geometry/cut/internal/cut_paths.hpp"
 #include "geometry/exact/measures.hpp"
@@ -145,11 +147,11 @@ bool cut_off(const Polygon& tool, double least_area, Trimmed& trimmed) {
 
 /// A polygon that contains every point nearer to the edge than the gap.
 Polygon around_edge(Point a, Point b, double gap) {
-  const double reach = gap * (1 + 1e-9) / std::cos(std::numbers::pi / kDiscSides);
+  const double reach = gap * (1 + 1e-9) / elementary::cos(std::numbers::pi / kDiscSides);
   std::vector<Point> corners;
   for (int i = 0; i < kDiscSides; ++i) {
     const double angle = 2 * std::numbers::pi * (i + 0.5) / kDiscSides;
-    const Vector arm{reach * std::cos(angle), reach * std::sin(angle)};
+    const Vector arm{reach * elementary::cos(angle), reach * elementary::sin(angle)};
     corners.push_back(a + arm);
     corners.push_back(b + arm);
   }
@@ -246,7 +248,7 @@ tl::expected<Overlap, CutError> overlap(const Shape& a, const Pose& world_from_a
     exact::Rational sum = 0;
     for (const exact::Region& region : exact::overlay(segments, shared, exact::Seams::kDissolve).regions)
       sum += exact::area(region.polygon);
-    return Overlap{exact::nearest_double(sum), sum.get_str()};
+    return Overlap{exact::nearest_double(sum), exact::digits_of(sum)};
   });
 }
 

@@ -56,7 +56,7 @@ int cross_sign_slow(Point a, Point b, Point c, Point d) {
   const Rational uy = Rational(b.y) - Rational(a.y);
   const Rational vx = Rational(d.x) - Rational(c.x);
   const Rational vy = Rational(d.y) - Rational(c.y);
-  return sgn(Rational(ux * vy - uy * vx));
+  return exact::sign(Rational(ux * vy - uy * vx));
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ int dot_sign(Point a, Point b, Point c, Point d) {
   using exact::Rational;
   const Rational xs = (Rational(b.x) - Rational(a.x)) * (Rational(d.x) - Rational(c.x));
   const Rational ys = (Rational(b.y) - Rational(a.y)) * (Rational(d.y) - Rational(c.y));
-  return sgn(Rational(xs + ys));
+  return exact::sign(Rational(xs + ys));
 }
 
 int area_sign(const Ring& ring) {
@@ -102,7 +102,7 @@ int area_sign(const Ring& ring) {
   const double bound = (static_cast<double>(ring.size()) + 8) * 2 * kEps * magnitude + kUnderflow;
   if (sum > bound) return 1;
   if (-sum > bound) return -1;
-  return sgn(exact::area(ring));
+  return exact::sign(exact::area(ring));
 }
 
 namespace {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "elementary/elementary.hpp"
+
 #include "geometry/shape/angle.hpp"
 #include "geometry/shape/segments.hpp"
 
@@ -105,7 +107,7 @@ void follow_material_at_poles(Ring& ring) {
 /// A place on the plane that touches the Earth at a pole, for comparing distances near it [°].
 Point about_pole(Point degrees) {
   const double colatitude = 90 - std::abs(degrees.y), longitude = degrees.x * geometry::kRadiansPerDegree;
-  return {colatitude * std::cos(longitude), colatitude * std::sin(longitude)};
+  return {colatitude * elementary::cos(longitude), colatitude * elementary::sin(longitude)};
 }
 
 /// A place on a ring: on the edge from the vertex of that index, at that part of its length.

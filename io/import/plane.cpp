@@ -6,6 +6,7 @@
 #include <numbers>
 #include <span>
 
+#include "elementary/elementary.hpp"
 #include <fmt/format.h>
 
 #include "geometry/exact/measures.hpp"
@@ -62,9 +63,10 @@ std::string place_in_degrees(Point at) {
 double great_circle(Point a, Point b) {
   constexpr double kEarthRadius = 6371e3;  // [m]
   const auto radians = [](double degrees) { return degrees / geometry::kDegreesPerRadian; };
-  const double cosine = std::sin(radians(a.y)) * std::sin(radians(b.y)) +
-                        std::cos(radians(a.y)) * std::cos(radians(b.y)) * std::cos(radians(a.x) - radians(b.x));
-  return kEarthRadius * std::acos(std::clamp(cosine, -1.0, 1.0));
+  const double cosine =
+      elementary::sin(radians(a.y)) * elementary::sin(radians(b.y)) +
+      elementary::cos(radians(a.y)) * elementary::cos(radians(b.y)) * elementary::cos(radians(a.x) - radians(b.x));
+  return kEarthRadius * elementary::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
 /// Longitude and latitude [°].
@@ -222,13 +224,13 @@ class PlaneImport {
     double x = 0, y = 0, z = 0;
     for (const Point p : points) {
       if (!are_all && !is_near(p)) continue;
-      x += std::cos(p.y / geometry::kDegreesPerRadian) * std::cos(p.x / geometry::kDegreesPerRadian);
-      y += std::cos(p.y / geometry::kDegreesPerRadian) * std::sin(p.x / geometry::kDegreesPerRadian);
-      z += std::sin(p.y / geometry::kDegreesPerRadian);
+      x += elementary::cos(p.y / geometry::kDegreesPerRadian) * elementary::cos(p.x / geometry::kDegreesPerRadian);
+      y += elementary::cos(p.y / geometry::kDegreesPerRadian) * elementary::sin(p.x / geometry::kDegreesPerRadian);
+      z += elementary::sin(p.y / geometry::kDegreesPerRadian);
     }
     const auto to_thousandths = [](double value) { return std::round(1000 * value) / 1000; };
-    return {to_thousandths(geometry::kDegreesPerRadian * std::atan2(y, x)),
-            to_thousandths(geometry::kDegreesPerRadian * std::atan2(z, std::hypot(x, y)))};
+    return {to_thousandths(geometry::kDegreesPerRadian * elementary::atan2(y, x)),
+            to_thousandths(geometry::kDegreesPerRadian * elementary::atan2(z, elementary::hypot(x, y)))};
   }
 
   void project(const std::string& system, bool is_of_file) {

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "elementary/elementary.hpp"
 #include <fmt/format.h>
 
 #include "geometry/shape/angle.hpp"
@@ -26,7 +27,7 @@ constexpr double kMetresPerDegree = 111195;  ///< along a meridian of a sphere o
 constexpr int kMostHalvings = 20;
 
 Vector turned(Vector v, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
+  const double c = elementary::cos(angle), s = elementary::sin(angle);
   return {v.x * c - v.y * s, v.x * s + v.y * c};
 }
 Point to_system(Point p, const CoordinateFrame& frame) {
@@ -156,7 +157,7 @@ class Densification {
     constexpr double kEarthRadius = 6371e3;  // [m]
     const double latitude = std::max(std::abs(part.from.first.y), std::abs(part.from.second.y));
     if (latitude > 89.9) return true;
-    return length_of_image * length_of_image * (0.01 + std::tan(latitude * geometry::kRadiansPerDegree)) >
+    return length_of_image * length_of_image * (0.01 + elementary::tan(latitude * geometry::kRadiansPerDegree)) >
            tolerance_ * kEarthRadius;
   }
 
@@ -214,7 +215,7 @@ class Densification {
       chord.second.x = is_pole(chord.second) ? chord.first.x : longitude_near(chord.second.x, chord.first.x);
       if (std::abs(chord.second.x - chord.first.x) > 90) return std::numeric_limits<double>::infinity();
       const double latitude = (chord.first.y + chord.second.y) / 2;
-      scale = {kMetresPerDegree * std::cos(latitude * geometry::kRadiansPerDegree), kMetresPerDegree};
+      scale = {kMetresPerDegree * elementary::cos(latitude * geometry::kRadiansPerDegree), kMetresPerDegree};
     } else if (!to_.is_metric) {
       // The scene's metres are those of `from`, since systems may be in feet.
       const double length_to = distance(chord.first, chord.second);

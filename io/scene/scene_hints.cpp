@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 
+#include "elementary/elementary.hpp"
 #include <fmt/format.h>
 
 #include "geometry/cut/overlap.hpp"
@@ -38,7 +39,7 @@ constexpr double kShortenedTick = 2.5;
 constexpr double kKnots = 3600 / 1852.0;  ///< [kn / (m/s)]
 
 Vector ahead_of(const PlacedHull& hull) {
-  return {std::cos(hull.heading), std::sin(hull.heading)};
+  return {elementary::cos(hull.heading), elementary::sin(hull.heading)};
 }
 
 bool is_steered(const Ship& ship) {
@@ -144,7 +145,7 @@ class SceneHints {
         fmt::format(
             "it swings {} with a period of {:.3g} s, which is {:.2g} ticks of {:g} s: the period comes out {:.4g} "
             "times as long; give time.step_s {:.2g} s or less, or softer springs",
-            stiffest->way, period, period / tick, tick, half_turn / std::atan(half_turn),
+            stiffest->way, period, period / tick, tick, half_turn / elementary::atan(half_turn),
             period / kLeastTicksInPeriod));
   }
 

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "elementary/elementary.hpp"
 #include <fmt/format.h>
 
 #include "dynamics/ship/open_water.hpp"
@@ -98,7 +99,7 @@ class Completion {
     const auto d = dimensions();
     if (has_form && ship_.mass == 0) ship_.mass = density_ * d.block_coefficient * d.length * d.beam * d.draught;
     if (has_form && ship_.moment_of_inertia == 0)
-      ship_.moment_of_inertia = ship_.mass * std::pow(kGyrationOfLength * d.length, 2);
+      ship_.moment_of_inertia = ship_.mass * elementary::pow(kGyrationOfLength * d.length, 2);
     const std::string from_form = ", or hull.draught_m and hull.block_coefficient, from which it follows";
     if (ship_.mass == 0) report_("mass_kg", "nothing", "a number ≥ 1, ≤ 1e+12 [kg]" + from_form);
     if (ship_.moment_of_inertia == 0)
@@ -187,7 +188,7 @@ class Completion {
       return report_("mooring", "a mooring of a ship whose speed is prescribed", "thrust_N or an engine");
     const geometry::Vector off =
         rotate_back(geometry::Rotation::by(mooring.heading), ship_.position_in_world - mooring.position_in_world);
-    const double load = std::hypot(mooring.surge_stiffness * off.x, mooring.sway_stiffness * off.y);
+    const double load = elementary::hypot(mooring.surge_stiffness * off.x, mooring.sway_stiffness * off.y);
     if (mooring.break_load > 0 && load > mooring.break_load)
       report_("mooring.break_load_N",
               fmt::format("{:g}: the mooring is broken at the start, where it pulls with {:.4g} N", mooring.break_load,
@@ -265,7 +266,7 @@ class PilotCheck {
 
   void check(const simulation::RoutePilot& pilot) {
     if (!has_steering("pilot.route") || pilot.waypoints.empty()) return;
-    const Vector ahead{std::cos(ship_.heading), std::sin(ship_.heading)};
+    const Vector ahead{elementary::cos(ship_.heading), elementary::sin(ship_.heading)};
     const Vector way = pilot.waypoints.front().position_in_world - ship_.position_in_world;
     if (dot(way, ahead) <= 0)
       report_("pilot.route.waypoints[0].position_m",

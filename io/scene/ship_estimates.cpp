@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "elementary/elementary.hpp"
 #include <fmt/format.h>
 
 #include "dynamics/ship/open_water.hpp"
@@ -60,7 +61,7 @@ class Estimator {
   void add(std::string_view object, std::string_view key, double value, Range allowed, std::string by) {
     JsonValue* const holder = at_path(ship_, object);
     if (!holder || !holder->is(JsonKind::kObject) || !std::isfinite(value)) return;
-    const double scale = std::pow(10, 2 - std::floor(std::log10(value)));
+    const double scale = elementary::pow(10, 2 - std::floor(elementary::log10(value)));
     const double rounded = std::round(value * scale) / scale;
     if (rounded < allowed.least || rounded > allowed.most) return;
     holder->set(key, rounded);
@@ -111,7 +112,7 @@ class Estimator {
     const JsonValue* nozzles = at_path(std::as_const(ship_), fmt::format("{}.nozzles", kEngineKey));
     const bool has_nozzles = nozzles && nozzles->is(JsonKind::kBoolean) && nozzles->boolean();
     const int propellers = static_cast<int>(std::clamp(of_engine("propellers").value_or(1), 1.0, 3.0));
-    return 1e6 * std::pow(1e3 * *pull / dynamics::bollard_pull(1e6, diameter, propellers, has_nozzles), 1.5);
+    return 1e6 * elementary::pow(1e3 * *pull / dynamics::bollard_pull(1e6, diameter, propellers, has_nozzles), 1.5);
   }
 
   void add_open_water_speed() {

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <optional>
 
+#include "elementary/elementary.hpp"
+
 #include "geometry/exact/predicates.hpp"
 
 namespace polynya::io {
@@ -31,7 +33,7 @@ Vector direction_of(double angle_deg) {
     const Vector up = kEighths[static_cast<int>(eighths)];
     return {up.x, angle < 0 ? -up.y : up.y};
   }
-  return {std::cos(angle * std::numbers::pi / 180), std::sin(angle * std::numbers::pi / 180)};
+  return {elementary::cos(angle * std::numbers::pi / 180), elementary::sin(angle * std::numbers::pi / 180)};
 }
 
 /// Continues the ends of paths.

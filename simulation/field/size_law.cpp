@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elementary/elementary.hpp"
+
 #include "simulation/field/convex.hpp"
 
 namespace polynya::simulation {
@@ -28,8 +30,8 @@ double below(const LognormalSizes& law, double size) {
   if (law.spread == 0) return size < law.mean ? 0 : 1;
   if (size <= 0) return 0;
   const double sigma = sigma_of(law);
-  const double z = (std::log(size / law.mean) + 0.5 * sigma * sigma) / sigma;
-  const double p = 0.5 * std::erfc(-z / std::numbers::sqrt2);
+  const double z = (elementary::log(size / law.mean) + 0.5 * sigma * sigma) / sigma;
+  const double p = 0.5 * elementary::erfc(-z / std::numbers::sqrt2);
   return std::clamp((p - kBeyondFarthest) / (1 - 2 * kBeyondFarthest), 0.0, 1.0);
 }
 double at(const LognormalSizes& law, double u) {
@@ -42,9 +44,10 @@ double at(const LognormalSizes& law, double u) {
 double below(const PowerLawSizes& law, double size) {
   if (size <= law.least) return 0;
   if (size >= law.largest) return 1;
-  if (std::abs(law.exponent) < kLogUniform) return std::log(size / law.least) / std::log(law.largest / law.least);
-  const double share = std::pow(size / law.least, -law.exponent);
-  return (1 - share) / (1 - std::pow(law.largest / law.least, -law.exponent));
+  if (std::abs(law.exponent) < kLogUniform)
+    return elementary::log(size / law.least) / elementary::log(law.largest / law.least);
+  const double share = elementary::pow(size / law.least, -law.exponent);
+  return (1 - share) / (1 - elementary::pow(law.largest / law.least, -law.exponent));
 }
 double at(const PowerLawSizes& law, double u) {
   const double ratio = law.largest / law.least;
@@ -78,16 +81,16 @@ double area_of(const PowerLawSizes& law) {
 double mean_logarithm(double exponent, double range) {
   const double x = exponent * range;
   if (std::abs(x) < 1e-5) return range * (0.5 - x / 12);
-  return 1 / exponent - range / std::expm1(x);
+  return 1 / exponent - range / elementary::expm1(x);
 }
 
 LognormalSizes likeliest_lognormal(const std::vector<double>& sizes) {
   const auto count = static_cast<double>(sizes.size());
   double mean = 0;
-  for (const double size : sizes) mean += std::log(size) / count;
+  for (const double size : sizes) mean += elementary::log(size) / count;
   double variance = 0;
-  for (const double size : sizes) variance += (std::log(size) - mean) * (std::log(size) - mean) / count;
-  return {std::exp(mean + 0.5 * variance), std::sqrt(std::expm1(variance))};
+  for (const double size : sizes) variance += (elementary::log(size) - mean) * (elementary::log(size) - mean) / count;
+  return {elementary::exp(mean + 0.5 * variance), std::sqrt(elementary::expm1(variance))};
 }
 
 }  // namespace
@@ -124,10 +127,10 @@ double kolmogorov_smirnov(const SizeLaw& law, const std::vector<double>& sizes) 
 }
 
 double likeliest_exponent(const PowerLawSizes& law, const std::vector<double>& sizes) {
-  const double range = std::log(law.largest / law.least);
+  const double range = elementary::log(law.largest / law.least);
   double mean = 0;
   for (const double size : sizes)
-    mean += std::clamp(std::log(size / law.least), 0.0, range) / static_cast<double>(sizes.size());
+    mean += std::clamp(elementary::log(size / law.least), 0.0, range) / static_cast<double>(sizes.size());
   double low = -50;
   double high = 50;
   for (int i = 0; i < 60; ++i) {

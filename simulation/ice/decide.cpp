@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elementary/elementary.hpp"
+
 #include "dynamics/chunks.hpp"
 #include "fracture/splitting.hpp"
 #include "simulation/ice/crack.hpp"
@@ -70,14 +72,14 @@ fracture::BendingCapacity capacity_where_it_breaks(const Setup& setup, const Ste
   const double n = load.stiffness * load.contact.depth / load.normal_force;
   if (n < kLeastExponent) return here;
   const double ratio = here.vertical_force / load.vertical_force;
-  const double share = std::max(kLeastDepthShare, std::pow(ratio, 1 / n));
+  const double share = std::max(kLeastDepthShare, elementary::pow(ratio, 1 / n));
   if (share == 1 || share > 1 + load.contact.approach_speed * step.length / load.contact.depth) return here;
   bending.penetration *= share;
   bending.vertical_force = here.vertical_force;
   fracture::BendingCapacity there = setup.bending->capacity(bending);
   if (!std::isfinite(there.vertical_force)) return here;
-  const double e = std::log(there.vertical_force / here.vertical_force) / std::log(share);
-  if (n - e >= kLeastExponent) there.vertical_force = here.vertical_force * std::pow(ratio, e / (n - e));
+  const double e = elementary::log(there.vertical_force / here.vertical_force) / elementary::log(share);
+  if (n - e >= kLeastExponent) there.vertical_force = here.vertical_force * elementary::pow(ratio, e / (n - e));
   // V has passed V_b already: the ice has broken, however far the powers hold.
   if (ratio < 1) there.vertical_force = std::min(there.vertical_force, load.vertical_force);
   return there;
@@ -117,7 +119,7 @@ void measure_bending_by_collision(const Setup& setup, const Step& step, const Hu
 EdgePush push_of(const HullContactLoad& load) {
   const Contact& c = load.contact;
   EdgePush push;
-  push.speed_per_approach = load.crushed_share / std::tan(load.hull_angle);
+  push.speed_per_approach = load.crushed_share / elementary::tan(load.hull_angle);
   push.speed = push.speed_per_approach * c.approach_speed;
   push.hull_angle = load.hull_angle;
   const double slip = c.slip_speed > 0 ? -1 : c.slip_speed < 0 ? 1 : 0;
@@ -179,7 +181,7 @@ void enter_hull_contact(const Setup& setup, const Population& population, const 
   data.loads[c.a].collision += planar_of(population.bodies, c.a, c.middle(), -collision_force * c.normal);
   const double horizontal = load.shares.horizontal;
   c.friction = load.shares.tangential / horizontal;
-  const double tangent = std::tan(load.hull_angle);
+  const double tangent = elementary::tan(load.hull_angle);
   // An inclined hull crushes the edge from its top corner down.
   const double height = tangent > 0 ? std::min(load.ice.thickness, load.penetration / tangent) : load.ice.thickness;
   data.slopes.back() = {load.shares.vertical / horizontal, tangent, load.crushed_share, height};
@@ -200,9 +202,10 @@ void crush_at_hull(const Setup& setup, const Step& step, const Population& popul
   c.crushing_force = horizontal * load.normal_force;
   c.crushing_stiffness = horizontal * load.stiffness;
   enter_missed_impulse(step, c);
-  limit_growth(step, population.bodies,
-               load.ice.compressive_strength * load.ice.thickness * (1 + load.ice.friction * std::tan(load.hull_angle)),
-               c);
+  limit_growth(
+      step, population.bodies,
+      load.ice.compressive_strength * load.ice.thickness * (1 + load.ice.friction * elementary::tan(load.hull_angle)),
+      c);
   const auto measure = [&](PendingFracture& pending) { measure_bending_by_crushing(setup, step, load, pending); };
   PendingFracture pending = evaluate(setup, population, load, measure);
   if (!breaks(pending, c)) return;

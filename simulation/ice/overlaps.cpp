@@ -1,7 +1,8 @@
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <utility>
+
+#include "elementary/elementary.hpp"
 
 #include "dynamics/chunks.hpp"
 #include "fracture/crushing.hpp"
@@ -138,7 +139,7 @@ void book(double thickness, double friction, const HullSlope& hull, const Contac
   dynamics::Booked& booked = c.record->booked;
   const double crushed = hull.crushed_share * c.paid_by_work;
   const fracture::Overlap overlap{c.width, c.depth, c.area};
-  const double angle = hull.tangent == 0 ? 0 : std::atan(hull.tangent);
+  const double angle = hull.tangent == 0 ? 0 : elementary::atan(hull.tangent);
   const auto volume_of = [&](double area) { return fracture::crushed_volume(overlap, area, thickness, angle); };
   if (crushed > 0) booked.volume += volume_of(booked.crushed + crushed) - volume_of(booked.crushed);
   booked.crushed += crushed;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "elementary/elementary.hpp"
+
 #include "simulation/ice/pieces.hpp"
 #include "simulation/world/step.hpp"
 
@@ -94,7 +96,7 @@ Event event_of_carving(const Instant& now, const Carving& carving, Kind kind) {
 double share_of_friction(const Contact& c, bool is_crescent) {
   const double slip = std::abs(c.slip_speed);
   if (slip == 0) return 0;
-  return is_crescent ? slip / std::hypot(slip, c.approach_speed) : std::min(1.0, slip / dynamics::kCreepSpeed);
+  return is_crescent ? slip / elementary::hypot(slip, c.approach_speed) : std::min(1.0, slip / dynamics::kCreepSpeed);
 }
 
 }  // namespace
@@ -123,16 +125,17 @@ double most_that_ice_bears(const Setup& setup, const Population& population, con
 void press_prescribed(const Setup& setup, const Step& step, const Population& population, HullContactLoad& load) {
   const Contact& c = load.contact;
   if (!are_prescribed(population.bodies, c.a, c.b)) return;
-  const double line = load.ice.thickness * c.width / std::cos(load.hull_angle);
+  const double line = load.ice.thickness * c.width / elementary::cos(load.hull_angle);
   fracture::CrushedArea crushed{line, 0};
   const bool is_crescent = c.depth * c.width > kCrescent * c.area;
-  const double facet = load.ice.thickness * std::tan(load.hull_angle);
+  const double facet = load.ice.thickness * elementary::tan(load.hull_angle);
   const bool spans_facet = is_crescent && c.area >= c.width * facet;  // as where ice was carved out
   if (load.hull_angle > kVertical && !spans_facet) {
     crushed.area = std::min(load.normal_force / load.ice.compressive_strength, line);
     crushed.slope = load.stiffness / load.ice.compressive_strength;
   }
-  const double most = most_that_ice_bears(setup, population, c, std::tan(load.hull_angle)) / load.shares.horizontal;
+  const double most =
+      most_that_ice_bears(setup, population, c, elementary::tan(load.hull_angle)) / load.shares.horizontal;
   load.normal_force = std::min(fracture::crushing_force(load.ice, crushed.area), most);
   load.vertical_force = load.shares.vertical * load.normal_force;
   load.shares.tangential *= share_of_friction(c, spans_facet);

@@ -1,6 +1,7 @@
 #include <algorithm>
-#include <cmath>
 #include <iterator>
+
+#include "elementary/elementary.hpp"
 
 #include "geometry/cut/overlap.hpp"
 #include "simulation/world/step.hpp"
@@ -50,7 +51,7 @@ void record_hull_contacts(const Setup& setup, const Step& step, const Population
   for (const dynamics::Contact& c : data.contacts) {
     if (!population.is_hull(c.b) || is_known(known_contacts, c.a, c.b)) continue;
     enter({step.end.time, c.a, c.middle() + step.end.drift,
-           HullContact{c.b, c.approach_speed, std::hypot(c.approach_speed, c.slip_speed), false}});
+           HullContact{c.b, c.approach_speed, elementary::hypot(c.approach_speed, c.slip_speed), false}});
   }
   for (BodyIndex ship = 0; ship < population.hull_count; ++ship) {
     for (BodyIndex other = ship + 1; other < population.hull_count; ++other) {

@@ -1,7 +1,8 @@
 #include "simulation/ship/load_peaks.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "elementary/elementary.hpp"
 
 #include "simulation/world/world.hpp"
 
@@ -61,7 +62,7 @@ void record_peak(const Setup& setup, const LoadTrack& track, LoadPeaks& peaks, J
 /// Of a gauge's way to a force that stays for a step, dF/dt = (force - F)/τ: the share that it goes.
 double response_in(const Setup& setup, const Step& step) {
   const double time_constant = setup.scene.record.peak_response;
-  return time_constant > 0 ? -std::expm1(-step.length / time_constant) : 1;
+  return time_constant > 0 ? -elementary::expm1(-step.length / time_constant) : 1;
 }
 
 /// Enters the force of a step into a track. Returns whether what the gauge has is the largest.

@@ -3,6 +3,8 @@
 #include <limits>
 #include <numbers>
 
+#include "elementary/elementary.hpp"
+
 #include "simulation/ship/pattern.hpp"
 #include "simulation/ship/pilot.hpp"
 
@@ -28,7 +30,7 @@ struct ArcSpan {
 void add_arc(Point centre, Vector half_axes, const ArcSpan& arc, geometry::Ring& ring) {
   for (int i = 0; i <= arc.legs; ++i) {
     const double angle = arc.from + (arc.to - arc.from) * i / arc.legs;
-    ring.push_back(centre + Vector{half_axes.x * std::cos(angle), half_axes.y * std::sin(angle)});
+    ring.push_back(centre + Vector{half_axes.x * elementary::cos(angle), half_axes.y * elementary::sin(angle)});
   }
 }
 
@@ -264,8 +266,8 @@ Vector clear_of(const SeenHull& other, bool stands, double distance, const Pilot
   const double speed = length(relative);
   if (far <= distance) return velocity + (std::max(closing, 0.0) + 0.5 * speed) * -towards;
   if (closing <= 0 || far > distance + kHorizon * speed) return velocity;
-  const double passes = std::asin(std::min(1.0, distance / far));
-  const double off = std::atan2(cross(towards, relative), closing);
+  const double passes = elementary::asin(std::min(1.0, distance / far));
+  const double off = elementary::atan2(cross(towards, relative), closing);
   if (std::abs(off) >= passes) return velocity;
   const double side = stands && off > 0 ? 1 : -1;
   return other.velocity + speed * unit(angle_of(towards) + side * passes);

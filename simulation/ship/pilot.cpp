@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "elementary/elementary.hpp"
+
 namespace polynya::simulation {
 namespace {
 
@@ -23,7 +25,7 @@ constexpr double kGapTime = 60;          ///< of closing an error of distance to
 double lever_for(const dynamics::Engine& engine, double thrust) {
   const double most = thrust < 0 ? engine.astern_share * engine.bollard_pull : engine.bollard_pull;
   if (most <= 0) return 0;
-  return std::copysign(std::min(1.0, std::pow(std::abs(thrust) / most, 1.5)), thrust);
+  return std::copysign(std::min(1.0, elementary::pow(std::abs(thrust) / most, 1.5)), thrust);
 }
 
 }  // namespace
@@ -32,10 +34,10 @@ double wrapped(double angle) {
   return std::remainder(angle, 2 * std::numbers::pi);
 }
 Vector unit(double angle) {
-  return {std::cos(angle), std::sin(angle)};
+  return {elementary::cos(angle), elementary::sin(angle)};
 }
 double angle_of(Vector v) {
-  return std::atan2(v.y, v.x);
+  return elementary::atan2(v.y, v.x);
 }
 
 double lever_to_hold(double speed, const PilotView& view, PilotMemory& memory) {
@@ -114,7 +116,7 @@ Command steer(const RoutePilot& pilot, const PilotView& view, PilotMemory& memor
   const double ahead = pilot.look_ahead * view.own().length;
   const double offset = cross(unit(course), view.own().position_in_world - memory.from);
   memory.heading = course;
-  const double wanted = course - std::atan2(offset, ahead) - drift_angle(view, memory);
+  const double wanted = course - elementary::atan2(offset, ahead) - drift_angle(view, memory);
   return {lever_to_hold(to.speed, view, memory), steering_to_hold(wanted, view)};
 }
 

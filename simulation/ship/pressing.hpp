@@ -4,6 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "elementary/elementary.hpp"
+
 #include "dynamics/contact/contact.hpp"
 #include "fracture/splitting.hpp"
 #include "simulation/world/world.hpp"
@@ -53,7 +55,7 @@ inline void break_at(dynamics::Contact& c, double force) {
   if (c.missed_impulse == 0 || most <= force) return;
   const double exponent = c.crushing_stiffness * c.depth / c.crushing_force;
   const double share_of_force = force / most;
-  c.missed_impulse *= share_of_force * (exponent > 0 ? std::pow(share_of_force, 1 / exponent) : 1);
+  c.missed_impulse *= share_of_force * (exponent > 0 ? elementary::pow(share_of_force, 1 / exponent) : 1);
 }
 
 /// The force of a contact in the step; where its ice broke within the step, that at which it did [N].

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elementary/elementary.hpp"
+
 #include "simulation/ship/pilot.hpp"
 
 namespace polynya::simulation {
@@ -34,7 +36,7 @@ double heading_on_line(double heading, const PilotView& view, const PilotMemory&
   if (memory.is_backing) return heading;
   const geometry::Point on_line = memory.rams > 0 ? memory.stuck_at : memory.from;
   const double offset = cross(unit(heading), view.own().position_in_world - on_line);
-  return heading - std::atan2(offset, kLookAheadOnLine * view.own().length);
+  return heading - elementary::atan2(offset, kLookAheadOnLine * view.own().length);
 }
 
 }  // namespace

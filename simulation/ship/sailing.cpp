@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "elementary/elementary.hpp"
+
 #include "simulation/ship/mooring.hpp"
 #include "simulation/world/step.hpp"
 
@@ -74,7 +76,7 @@ Forces forces_on(const Setup& setup, const Step& step, const Population& populat
   double thrust = 0;
   if (sailing.engine) {
     const Vector at_stern{through_water.surge, through_water.sway + sailing.stern * through_water.yaw};
-    const double speed = std::cos(turned) * at_stern.x - std::sin(turned) * at_stern.y;
+    const double speed = elementary::cos(turned) * at_stern.x - elementary::sin(turned) * at_stern.y;
     thrust = dynamics::propeller_thrust(*sailing.engine, helm.lever, speed);
   }
   forces.engine = dynamics::turned_thrust(thrust, turned, sailing.stern);
@@ -155,8 +157,8 @@ double horizontal_force(const MooringSettings& mooring, const Offset& offset, Pl
                         geometry::Rotation rotation) {
   const Vector in_world = rotate(rotation, {damped.surge, damped.sway});
   const Vector in_mooring = rotate_back(geometry::Rotation::by(mooring.heading), in_world);
-  return std::hypot(in_mooring.x - mooring.surge_stiffness * offset.shift.x,
-                    in_mooring.y - mooring.sway_stiffness * offset.shift.y);
+  return elementary::hypot(in_mooring.x - mooring.surge_stiffness * offset.shift.x,
+                           in_mooring.y - mooring.sway_stiffness * offset.shift.y);
 }
 
 /// The mooring breaks at the end of the step where it holds the ship with more than it can. What it stores is lost.

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "elementary/elementary.hpp"
+
 #include "geometry/exact/measures.hpp"
 #include "simulation/world/parts.hpp"
 
@@ -27,7 +29,7 @@ constexpr double kMostIce = 0.95;
 /// Returns the greatest speed of a ship [m/s]: the speed at the start, or the open-water speed of its engine or the
 /// speed assumed of a constant thrust, if that is greater.
 double full_speed(const Ship& ship) {
-  const double start = std::hypot(ship.speed, ship.sway_speed);
+  const double start = elementary::hypot(ship.speed, ship.sway_speed);
   if (const auto* engine = std::get_if<Engine>(&ship.propulsion)) return std::max(start, engine->open_water_speed);
   const auto* constant = std::get_if<ConstantThrust>(&ship.propulsion);
   return constant && constant->thrust != 0 ? std::max(start, kUnderThrust) : start;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "elementary/elementary.hpp"
+
 namespace polynya::simulation {
 namespace {
 
@@ -181,7 +183,7 @@ dynamics::NewBody held_body(const PlacedHull& hull, BodyKind kind, double speed,
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   return {.position = hull.position_in_world,
           .angle = hull.heading,
-          .velocity = speed * Vector{std::cos(hull.heading), std::sin(hull.heading)} - water_drift,
+          .velocity = speed * Vector{elementary::cos(hull.heading), elementary::sin(hull.heading)} - water_drift,
           .mass = kInfinite,
           .moment = kInfinite,
           .is_prescribed = true,
@@ -194,7 +196,8 @@ dynamics::NewBody held_body(const PlacedHull& hull, BodyKind kind, double speed,
 dynamics::NewBody body_of(const Ship& ship, Vector water_drift) {
   const auto* prescribed = std::get_if<ConstantSpeed>(&ship.propulsion);
   dynamics::NewBody body = held_body(ship, BodyKind::kShip, prescribed ? prescribed->speed : ship.speed, water_drift);
-  if (ship.sway_speed != 0) body.velocity += ship.sway_speed * Vector{-std::sin(ship.heading), std::cos(ship.heading)};
+  if (ship.sway_speed != 0)
+    body.velocity += ship.sway_speed * Vector{-elementary::sin(ship.heading), elementary::cos(ship.heading)};
   body.angular_velocity = ship.yaw_rate;
   body.is_prescribed = prescribed != nullptr;
   body.mass = ship.mass;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elementary/elementary.hpp"
+
 namespace polynya::simulation {
 geometry::Ring wedge_bow_waterline(double length, double beam, double entrance_angle) {
-  const double bow = 0.5 * beam / std::tan(entrance_angle);
+  const double bow = 0.5 * beam / elementary::tan(entrance_angle);
   return {{0.5 * length, 0},
           {0.5 * length - bow, 0.5 * beam},
           {-0.5 * length, 0.5 * beam},
@@ -50,7 +52,7 @@ geometry::Vector WaterSettings::drift_path(double time) const {
 double WaterSettings::fastest_drift() const {
   double fastest = length(drift);
   for (const dynamics::FlowRow& row : drift_rows) fastest = std::max(fastest, row.speed);
-  return tide ? fastest + std::hypot(tide->major, tide->minor) : fastest;
+  return tide ? fastest + elementary::hypot(tide->major, tide->minor) : fastest;
 }
 
 geometry::Vector free_drift(const Scene& scene, double time) {
@@ -87,7 +89,7 @@ Wall wall_between(geometry::Point from, geometry::Point to, double depth) {
   Wall wall;
   wall.length = distance(from, to);
   wall.position_in_world = midpoint(from, to);
-  wall.heading = std::atan2(normal.y, normal.x);
+  wall.heading = elementary::atan2(normal.y, normal.x);
   const double half = 0.5 * wall.length;
   wall.hull.waterline = {{0, -half}, {0, half}, {-depth, half}, {-depth, -half}};
   wall.hull.angles_from_vertical.assign(4, 0.0);
@@ -97,12 +99,12 @@ Wall wall_between(geometry::Point from, geometry::Point to, double depth) {
 geometry::Ring cylinder_waterline(double radius) {
   // Largest distance of the polygon from the circle [m]. Smaller values give more corners, which cost time.
   constexpr double kSagitta = 0.01;
-  const double half_turn = std::acos(std::max(-1.0, 1 - kSagitta / radius));
+  const double half_turn = elementary::acos(std::max(-1.0, 1 - kSagitta / radius));
   const int corners = std::max(24, static_cast<int>(std::ceil(std::numbers::pi / half_turn)));
   geometry::Ring ring;
   for (int i = 0; i < corners; ++i) {
     const double angle = 2 * std::numbers::pi * i / corners;
-    ring.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    ring.push_back({radius * elementary::cos(angle), radius * elementary::sin(angle)});
   }
   return ring;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "elementary/elementary.hpp"
+
 #include "fracture/bending/fsi_database_model.hpp"
 #include "fracture/bending/published_forms.hpp"
 #include "fracture/characteristic_length.hpp"
@@ -90,14 +92,14 @@ Underwater underwater_of(const Hull& hull) {
                      .beam = 2 * half_beam,
                      .draught = hull.draught,
                      .stem_angle = hull.stem_angle,
-                     .entrance_angle = std::atan2(half_beam, box.high.x - widest)};
+                     .entrance_angle = elementary::atan2(half_beam, box.high.x - widest)};
   underwater.can_take_ice = hull.draught > 0;
   if (underwater.can_take_ice) underwater.path = dynamics::submersion_path(underwater.form);
   return underwater;
 }
 
 dynamics::ShearCurrent current_of(const ShearSettings& shear) {
-  return {{std::cos(shear.direction), std::sin(shear.direction)}, shear.rate, shear.origin};
+  return {{elementary::cos(shear.direction), elementary::sin(shear.direction)}, shear.rate, shear.origin};
 }
 
 }  // namespace polynya::simulation

@@ -92,6 +92,10 @@ struct ShownRun {
 /// One HTML file that shows two runs side by side, with one clock (docs/view.md).
 std::string pair_page(const std::array<ShownRun, 2>& runs);
 
+/// What a page of a scene that has not run shows beside ice and hulls, as its options: routes of ships, wind, and the
+/// warnings of `polynya validate`.
+std::string scene_plan(const io::LoadedScene& scene, const std::string& stamp, const std::string& stamp_file);
+
 /// One HTML file that shows a scene that has not run (docs/view.md). `stamp` is of this page: the script `stamp_file`
 /// beside it, where one is named, has that of the newest (`--watch`).
 io::Result<std::string> scene_page(const io::LoadedScene& scene, const std::string& stamp,

@@ -9,6 +9,14 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include <CGAL/Number_types/internal/Exact_type_selector.h>
+
+/// CGAL's exact numbers are those of the other exact computations, whichever library they are of.
+template <>
+struct CGAL::internal::Exact_field_selector<double> {
+  using Type = polynya::geometry::exact::Rational;
+};
+
 #include <CGAL/Arr_consolidated_curve_data_traits_2.h>
 #include <CGAL/Arr_segment_traits_2.h>
 #include <CGAL/Arrangement_2.h>
@@ -243,7 +251,7 @@ class Tracer {
       const Halfedge out = edges[i + 1 == edges.size() ? 0 : i + 1];
       if (is_corner(edges[i], out)) ring.push_back(from_cgal(edges[i]->target()->point()));
     }
-    const int turn = sgn(area(ring));
+    const int turn = sign(area(ring));
     if (turn < 0) {
       polygon.holes.push_back(std::move(ring));
     } else if (turn > 0 && polygon.outer.empty()) {

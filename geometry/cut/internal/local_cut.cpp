@@ -134,7 +134,7 @@ int turn_of(const LocalCut& cut, const PieceRing& ring) {
   const double clear = ring.area.doubt + 2 * ring.area.step_area;
   if (ring.area.area > clear) return 1;
   if (-ring.area.area > clear) return -1;
-  return sgn(exact::area(write_exactly(cut, ring)));
+  return exact::sign(exact::area(write_exactly(cut, ring)));
 }
 
 // More than rounding can have moved the ends of the edge.

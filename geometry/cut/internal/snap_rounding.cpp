@@ -17,17 +17,6 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-// value · 2^exponent
-Rational scaled(const Rational& value, int exponent) {
-  Rational result;
-  if (exponent < 0) {
-    mpq_div_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
-  } else {
-    mpq_mul_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
-  }
-  return result;
-}
-
 double farthest(const Polygon& polygon) {
   double size = 0;
   const auto include = [&size](const Ring& ring) {
@@ -49,7 +38,7 @@ struct Stretch {
 
   // Keeps what of from + t·along is in the cell.
   void clip(const Rational& from, const Rational& along, const Cell& cell) {
-    const int direction = sgn(along);
+    const int direction = sign(along);
     if (direction == 0) {
       const bool is_in =
           (cell.has_low ? from >= cell.low : from > cell.low) && (cell.has_high ? from <= cell.high : from < cell.high);
@@ -198,10 +187,7 @@ Lattice Lattice::spanning(const Polygon& polygon) {
 
 double Lattice::nearest(const Rational& value) const {
   if (is_of_doubles_) return nearest_double(value);
-  const Rational shifted = scaled(value, -exponent_) + Rational(1, 2);
-  mpz_class steps;
-  mpz_fdiv_q(steps.get_mpz_t(), shifted.get_num_mpz_t(), shifted.get_den_mpz_t());
-  return std::ldexp(steps.get_d(), exponent_);
+  return std::ldexp(whole_below(Rational(scaled(value, -exponent_) + Rational(1, 2))), exponent_);
 }
 
 Cell Lattice::cell(double centre) const {
@@ -247,7 +233,7 @@ double moved_area(const Ring& ring, const geometry::Ring& rounded_ring) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Rational dx = ring[i].x - Rational(rounded_ring[i].x);
     const Rational dy = ring[i].y - Rational(rounded_ring[i].y);
-    moved.push_back(std::abs(dx.get_d()) + std::abs(dy.get_d()));
+    moved.push_back(std::abs(nearest_double(dx)) + std::abs(nearest_double(dy)));
   }
   double sum = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -276,7 +262,7 @@ class Rounding {
       return true;
     }
     // A piece of no more area than rounding moves has no width that doubles can express.
-    if (exact_area.get_d() <= moved_area(piece.polygon, nearest)) {
+    if (nearest_double(exact_area) <= moved_area(piece.polygon, nearest)) {
       add_sliver(exact_area);
       return true;
     }
@@ -342,7 +328,7 @@ CutOutcome rounded_pieces(const Rational& area_before, const std::vector<ExactPi
   Rational sum = 0;
   for (const ExactPiece& piece : pieces) sum += area(piece.polygon);
   const Rational defect = sum - area_before;
-  if (defect != 0) return refuse(CutFailure::kInternal, "exact piece areas are off by " + defect.get_str());
+  if (defect != 0) return refuse(CutFailure::kInternal, "exact piece areas are off by " + digits_of(defect));
   Rounding rounding;
   for (const ExactPiece& piece : pieces) {
     if (!rounding.add(piece))
@@ -350,7 +336,7 @@ CutOutcome rounded_pieces(const Rational& area_before, const std::vector<ExactPi
   }
   CutResult result = std::move(rounding).result();
   result.ledger.area_before = nearest_double(area_before);
-  result.ledger.exact_defect = defect.get_str();
+  result.ledger.exact_defect = digits_of(defect);
   return result;
 }
 

@@ -40,16 +40,16 @@ Rational shoelace_sum(const Ring& ring, std::size_t first, std::size_t last) {
 }  // namespace
 
 double nearest_double(const Rational& value) {
-  const double truncated = value.get_d();
+  const double truncated = nearby_double(value);
   if (!std::isfinite(truncated)) return truncated;
   const Rational remainder = value - Rational(truncated);
-  const int side = sgn(remainder);
+  const int side = sign(remainder);
   if (side == 0) return truncated;
   const double next = std::nextafter(
       truncated, side > 0 ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity());
   if (!std::isfinite(next)) return truncated;
   const Rational gap = Rational(next) - Rational(truncated);
-  const int nearer = cmp(abs(Rational(2 * remainder)), abs(gap));
+  const int nearer = sign(Rational(magnitude(Rational(2 * remainder)) - magnitude(gap)));
   if (nearer != 0) return nearer < 0 ? truncated : next;
   const bool is_even = std::bit_cast<std::uint64_t>(truncated) % 2 == 0;
   return is_even ? truncated : next;
@@ -89,22 +89,20 @@ Rational area(const geometry::Ring& ring) {
   const auto in_units = [unit](double value) {
     int exponent = 0;
     const double digits = std::ldexp(std::frexp(value, &exponent), kDigits);
-    const mpz_class whole(digits);
-    return value == 0 ? whole : mpz_class(whole << static_cast<unsigned>(exponent - kDigits - unit));
+    const Integer whole(digits);
+    return value == 0 ? whole : shifted(whole, static_cast<unsigned>(exponent - kDigits - unit));
   };
   const std::size_t n = ring.size();
-  mpz_class twice = 0;
-  mpz_class before = in_units(ring[n - 1].y);
-  mpz_class here = in_units(ring[0].y);
+  Integer twice = 0;
+  Integer before = in_units(ring[n - 1].y);
+  Integer here = in_units(ring[0].y);
   for (std::size_t i = 0; i < n; ++i) {
-    mpz_class after = in_units(ring[i + 1 == n ? 0 : i + 1].y);
+    Integer after = in_units(ring[i + 1 == n ? 0 : i + 1].y);
     twice += in_units(ring[i].x) * (after - before);
     before = std::move(here);
     here = std::move(after);
   }
-  const Rational sum(twice);
-  const int shift = 2 * unit - 1;
-  return shift < 0 ? Rational(sum >> static_cast<unsigned>(-shift)) : Rational(sum << static_cast<unsigned>(shift));
+  return scaled(Rational(twice), 2 * unit - 1);
 }
 Rational area(const geometry::Polygon& polygon) {
   return sum_of_areas(polygon);

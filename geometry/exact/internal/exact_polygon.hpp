@@ -2,8 +2,7 @@
 
 #include <vector>
 
-#include <gmpxx.h>
-
+#include "geometry/exact/internal/rational.hpp"
 #include "geometry/shape/polygon.hpp"
 
 namespace polynya::geometry {
@@ -91,9 +90,6 @@ double nearest_area(const Polygon& polygon);
 
 namespace polynya::geometry::exact {
 
-/// Plain rationals: no lazy expression trees, so no depth limit and no hidden evaluation.
-using Rational = mpq_class;
-
 /// A point with rational coordinates [m].
 struct Point {
   Rational x;
@@ -105,7 +101,7 @@ inline Point exactly(geometry::Point p) {
   return {Rational(p.x), Rational(p.y)};
 }
 
-/// The double nearest to a rational (ties to even). GMP's own conversion truncates.
+/// The double nearest to a rational (ties to even).
 double nearest_double(const Rational& value);
 
 /// Both coordinates rounded to nearest, each once.
@@ -120,7 +116,7 @@ inline Rational shoelace_term(const Point& a, const Point& b) {
 
 /// Sign of (b − a) × (c − a): +1 where a, b, c turn left.
 inline int orientation(const Point& a, const Point& b, const Point& c) {
-  return sgn(Rational((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)));
+  return sign(Rational((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)));
 }
 
 using Ring = std::vector<Point>;

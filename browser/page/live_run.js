@@ -1,0 +1,118 @@
+// A run that grows: what the player's drawing functions ask of a run, filled by snapshots of the worker.
+
+/** A column of numbers that grows. */
+function makeGrowing(Type) {
+  const column = { values: new Type(1024), count: 0 };
+  column.reserve = (count) => {
+    if (count <= column.values.length) return;
+    const grown = new Type(Math.max(count, 2 * column.values.length));
+    grown.set(column.values.subarray(0, column.count));
+    column.values = grown;
+  };
+  column.append = (added) => {
+    column.reserve(column.count + added.length);
+    column.values.set(added, column.count);
+    column.count += added.length;
+  };
+  return column;
+}
+
+/** The floes of a growing run, as draw_ice.js reads them: columns by floe. */
+function makeLiveFloes() {
+  const columns = { parent: makeGrowing(Int32Array), generation: makeGrowing(Int32Array), area: makeGrowing(Float64Array),
+    cx: makeGrowing(Float64Array), cy: makeGrowing(Float64Array), reach: makeGrowing(Float64Array),
+    ringsOf: makeGrowing(Int32Array), ringEnds: makeGrowing(Int32Array), pointsOf: makeGrowing(Int32Array),
+    points: makeGrowing(Float64Array), oldest: makeGrowing(Int32Array) };
+  columns.ringsOf.append([0]);
+  columns.pointsOf.append([0]);
+  const floes = { count: 0,
+    shape: (id) => floes.points.subarray(2 * floes.pointsOf[id], 2 * floes.pointsOf[id + 1]) };
+  const show = () => Object.entries(columns).forEach(([name, { values }]) => { floes[name] = values; });
+
+  /** Appends floes, which come in the order of their ids. */
+  floes.append = (born) => {
+    columns.points.append(born.points_m);
+    for (const [to, from] of [["parent", "born_parent"], ["generation", "born_generation"], ["area", "born_area_m2"],
+      ["cx", "born_x_m"], ["cy", "born_y_m"]]) columns[to].append(born[from]);
+    let ring = 0;
+    let at = columns.pointsOf.values[columns.pointsOf.count - 1];
+    born.born_floe.forEach((id, k) => {
+      let size = 0;
+      const ends = [];
+      for (let r = 0; r < born.born_rings[k]; ++r) ends.push(size += born.ring_sizes[ring++]);
+      columns.ringEnds.append(ends);
+      columns.ringsOf.append([columns.ringEnds.count]);
+      let reach = 0;
+      for (let p = at; p < at + size; ++p) reach = Math.max(reach, Math.hypot(columns.points.values[2 * p]
+        - born.born_x_m[k], columns.points.values[2 * p + 1] - born.born_y_m[k]));
+      at += size;
+      columns.pointsOf.append([at]);
+      columns.reach.append([reach]);
+      const parent = born.born_parent[k];
+      columns.oldest.append([parent >= 0 ? columns.oldest.values[parent] : id]);
+    });
+    floes.count += born.born_floe.length;
+    show();
+  };
+  show();
+  return floes;
+}
+
+/** Where the floes of the last snapshot are, by id. */
+function makeLivePlaces() {
+  const names = ["x", "y", "cos", "sin", "vx", "vy"];
+  const places = { count: 0, living: new Int32Array(0), under: [] };
+  for (const name of names) places[name] = new Float64Array(1024);
+  places.set = ({ floe, place, floating }, floes) => {
+    if (places.x.length < floes.count)
+      for (const name of names) places[name] = new Float64Array(2 * floes.count);
+    floe.forEach((id, k) => names.forEach((name, column) => { places[name][id] = place[6 * k + column]; }));
+    places.living = floe.subarray(0, floating[0]);
+    places.count = floating[0];
+    places.under = Array.from(floe.subarray(floating[0]));
+  };
+  places.isAlive = (id) => places.living.includes(id);
+  return places;
+}
+
+/** The loads so far, a column a hull: rows grow. */
+function makeLiveForces(hulls, columns) {
+  const names = ["sample_s", ...columns.map(({ name }) => name)];
+  const forces = hulls.map(() => Object.fromEntries(names.map((name) => [name, []])));
+  return { of: forces, append(added) {
+    added.sample_hull.forEach((hull, row) => {
+      for (const name of names) forces[hull][name].push(added[name][row]);
+    });
+  } };
+}
+
+/** A run of a scene that the module has read. */
+function makeLiveRun(words) {
+  const floes = makeLiveFloes();
+  const hulls = words.hulls.map(() => new Float64Array(8));
+  const ships = words.hulls.map(({ name, waterline_m, can_be_steered: canBeSteered }, k) =>
+    ({ name, waterline_m, canBeSteered, is_fixed: k >= words.ships }));
+  const run = {
+    words, floes, time: 0, counts: { bends: 0, splits: 0, ground: 0 }, events: [], tracks: ships.map(() => []),
+    info: { ships, patterns: [], force_columns: words.force_columns },
+    places: makeLivePlaces(), forces: makeLiveForces(words.hulls, words.force_columns),
+    motions: { ship: (index) => hulls[index] }, hasPlaces: false,
+  };
+  run.outline = makeOutlines(run);
+  run.take = ({ words: at, columns }) => {
+    run.time = at.t_s;
+    run.counts = at;
+    floes.append(columns);
+    run.places.set(columns, floes);
+    hulls.forEach((hull, k) => hull.set(columns.hull.subarray(8 * k, 8 * k + 8)));
+    run.tracks.forEach((track, k) => {
+      const [x, y] = hulls[k];
+      const last = track.at(-1);
+      if (!last || Math.hypot(x - last[0], y - last[1]) > 1) track.push([x, y]);
+    });
+    run.forces.append(columns);
+    for (const line of new TextDecoder().decode(columns.events).split("\n")) if (line) run.events.push(JSON.parse(line));
+    run.hasPlaces = true;
+  };
+  return run;
+}

@@ -1,0 +1,121 @@
+// The scene's text: JSON with comments, of which one value at a time is changed where it stands, so that comments and
+// the order of keys stay.
+
+/** What is wrong with a text as JSON. */
+class TextFault extends Error {}
+
+/** Reads words of a text from a place on. */
+function makeScanner(text) {
+  const scanner = { at: 0 };
+  const match = (pattern) => {
+    pattern.lastIndex = scanner.at;
+    return pattern.exec(text)?.[0];
+  };
+  scanner.fault = (words) => { throw new TextFault(`${words} at character ${scanner.at + 1}`); };
+  /** Passes blanks and comments. */
+  scanner.skip = () => { scanner.at += match(/(?:\s+|\/\/[^\n]*|\/\*[\s\S]*?\*\/)*/y).length; };
+  scanner.take = (character) => {
+    scanner.skip();
+    if (text[scanner.at] !== character) return false;
+    ++scanner.at;
+    return true;
+  };
+  scanner.leaf = () => {
+    const word = match(/"(?:[^"\\]|\\.)*"|[-+\w.]+/y);
+    if (!word) scanner.fault("a value is missing");
+    try {
+      const value = JSON.parse(word);
+      scanner.at += word.length;
+      return value;
+    } catch {
+      return scanner.fault(`"${word.slice(0, 20)}" is no JSON`);
+    }
+  };
+  return scanner;
+}
+
+/** Reads JSON with comments. Gives nodes: {kind, from, to, value | items | members}; from and to are places. */
+function parseText(text) {
+  const scanner = makeScanner(text);
+  function list(close, one) {
+    while (!scanner.take(close)) {
+      scanner.skip();
+      one();
+      scanner.skip();
+      if (!scanner.take(",") && text[scanner.at] !== close) scanner.fault(`"${close}" or "," is missing`);
+    }
+  }
+  function member() {
+    const key = scanner.leaf();
+    if (!scanner.take(":")) scanner.fault("\":\" is missing");
+    return { key, value: node() };
+  }
+  function node() {
+    scanner.skip();
+    const from = scanner.at;
+    const [items, members] = [[], []];
+    if (scanner.take("{")) {
+      list("}", () => members.push(member()));
+      return { kind: "object", from, to: scanner.at, members };
+    }
+    if (scanner.take("[")) {
+      list("]", () => items.push(node()));
+      return { kind: "array", from, to: scanner.at, items };
+    }
+    return { kind: "leaf", value: scanner.leaf(), from, to: scanner.at };
+  }
+  const root = node();
+  scanner.skip();
+  if (scanner.at < text.length) scanner.fault("there is more behind the scene");
+  return root;
+}
+
+/** The node at a path as ["ships", 0, "position_m"]; undefined where there is none. */
+function nodeAt(root, path) {
+  return path.reduce((node, step) => (typeof step === "number" ? node?.items?.[step]
+    : node?.members?.find(({ key }) => key === step)?.value), root);
+}
+
+/** A node as a value. */
+function valueOf(node) {
+  if (node.kind === "array") return node.items.map(valueOf);
+  if (node.kind === "object") return Object.fromEntries(node.members.map(({ key, value }) => [key, valueOf(value)]));
+  return node.value;
+}
+
+const readValue = (text, path) => {
+  const node = nodeAt(parseText(text), path);
+  return node && valueOf(node);
+};
+
+const written = (value) => JSON.stringify(value).replaceAll(/,(?=\S)/g, ", ").replaceAll(/":(?=\S)/g, "\": ");
+
+/** The text with another value at a path; missing objects are made, and an item behind a list's last is appended. */
+function withValue(text, path, value) {
+  const root = parseText(text);
+  const there = nodeAt(root, path);
+  const splice = (from, to, words) => text.slice(0, from) + words + text.slice(to);
+  if (there) return splice(there.from, there.to, written(value));
+  const known = path.findLastIndex((_, k) => nodeAt(root, path.slice(0, k)));
+  const parent = nodeAt(root, path.slice(0, known));
+  const made = path.slice(known + 1).reduceRight((inner, step) =>
+    (typeof step === "number" ? [inner] : { [step]: inner }), value);
+  const isList = parent.kind === "array";
+  const last = (isList ? parent.items.at(-1) : parent.members?.at(-1)?.value)?.to;
+  const words = isList ? written(made) : `${JSON.stringify(path[known])}: ${written(made)}`;
+  if (parent.kind === "leaf") return text;
+  if (last === undefined) return splice(parent.from + 1, parent.from + 1, words);
+  const indent = isList ? "\n    " : "\n".padEnd(2 * known + 3, " ");
+  return splice(last, last, `,${indent}${words}`);
+}
+
+/** The text without an item of a list. */
+function withoutItem(text, path) {
+  const list = nodeAt(parseText(text), path.slice(0, -1));
+  const index = path.at(-1);
+  const item = list.items[index];
+  const next = list.items[index + 1];
+  const before = list.items[index - 1];
+  if (next) return text.slice(0, item.from) + text.slice(next.from);
+  return text.slice(0, before ? before.to : item.from) + text.slice(item.to);
+}

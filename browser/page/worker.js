@@ -1,0 +1,120 @@
+// The simulator in its worker: it steps between messages of the page, so that the page never waits.
+
+/* global makeSimulator, SimulatorFailure */
+
+const longestSlice = 0.016; // [s] by the clock between two looks at messages
+let simulator = null;
+let pace = { rate: 1, from: 0, since: 0 }; // the run is at `from` [s] when the clock is at `since` [ms]
+let isRunning = false;
+let isPictureWanted = true;
+let hasEnded = false;
+let byHand = false;
+
+const say = (kind, words = {}, given = []) => postMessage({ kind, ...words }, given);
+
+function sendSnapshot() {
+  isPictureWanted = false;
+  const { words, columns } = simulator.snapshot();
+  say("snapshot", { words, columns, memory: simulator.memoryBytes() }, [Object.values(columns)[0].buffer]);
+  return words.t_s;
+}
+
+function end(reason, kind, words) {
+  isRunning = false;
+  hasEnded = true;
+  sendSnapshot();
+  simulator.finish(reason);
+  say(kind, { words });
+}
+
+/** Steps for a slice, then lets messages in. */
+function slice() {
+  if (!isRunning) return;
+  const wanted = pace.rate === Infinity ? Infinity : pace.from + (pace.rate * (performance.now() - pace.since)) / 1000;
+  try {
+    if (simulator.advance(wanted, longestSlice))
+      return end(byHand ? "steered by hand in a page" : "", "finished", simulator.stateHash());
+    if (isPictureWanted) sendSnapshot();
+  } catch (failure) {
+    if (!(failure instanceof SimulatorFailure)) throw failure;
+    return end(failure.message, "failed", failure.message);
+  }
+  turn.port2.postMessage(null);
+}
+
+// Lets messages in between two slices; timers would wait for some milliseconds each time.
+const turn = new MessageChannel();
+turn.port1.onmessage = slice;
+
+/** Keeps pace from the present time of the run on. */
+const keepPace = (rate, from) => { pace = { rate, from, since: performance.now() }; };
+
+const orders = {
+  async open({ compiled }) {
+    simulator = await makeSimulator(compiled);
+    say("ready", { schema: simulator.schema(), version: simulator.version() });
+  },
+  /** Reads a scene and takes it to its start. */
+  load({ text, files, number }) {
+    isRunning = hasEnded = byHand = false;
+    for (const [name, bytes] of files ?? []) simulator.files.write(name, bytes);
+    const words = simulator.load(text);
+    say("read", { number, words });
+    if (words.memory_at_start_bytes > words.limit_bytes) return;
+    simulator.start();
+    say("started", { number });
+    sendSnapshot();
+  },
+  run({ rate, from }) {
+    if (hasEnded || isRunning) return;
+    keepPace(rate, from);
+    isRunning = true;
+    slice();
+  },
+  pause() {
+    isRunning = false;
+    sendSnapshot();
+    say("paused");
+  },
+  pace: ({ rate, from }) => keepPace(rate, from),
+  step() {
+    if (hasEnded) return;
+    isRunning = false;
+    const { t_s: before } = simulator.snapshot().words;
+    if (simulator.advance(before + 1e-6, 1)) return end(byHand ? "steered by hand in a page" : "", "finished",
+      simulator.stateHash());
+    sendSnapshot();
+  },
+  more() {
+    isPictureWanted = true;
+  },
+  steer({ ship, lever, angle }) {
+    byHand = true;
+    simulator.steer(ship, lever, angle);
+  },
+  release: ({ ship }) => simulator.release(ship),
+  /** The run so far as files, and as the player reads it. */
+  read_back({ number }) {
+    isRunning = false;
+    if (!hasEnded) simulator.finish("stopped in a page");
+    hasEnded = true;
+    const { info, bytes } = simulator.readBack();
+    say("run", { number, info, bytes }, [bytes.buffer]);
+  },
+  folder({ number }) {
+    isRunning = false;
+    if (!hasEnded) simulator.finish("stopped in a page");
+    hasEnded = true;
+    say("folder", { number, files: simulator.files.below("run").map(([name, bytes]) => [name, bytes.slice()]) });
+  },
+};
+
+onmessage = async ({ data }) => {
+  try {
+    await orders[data.order](data);
+  } catch (failure) {
+    const isOfScene = failure instanceof SimulatorFailure;
+    if (isOfScene) say("refused", { order: data.order, number: data.number, words: failure.message });
+    else say("broken", { order: data.order, number: data.number, words: String(failure) });
+  }
+};

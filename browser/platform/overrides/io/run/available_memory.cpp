@@ -1,0 +1,10 @@
+#include "io/run/available_memory.hpp"
+
+namespace polynya::io {
+
+/// WebAssembly addresses 4 GiB; a browser's tab gets half of them without being stopped.
+MemoryAvailable memory_available(const std::filesystem::path&) {
+  return {2.0 * 1024 * 1024 * 1024, "what a browser's tab has"};
+}
+
+}  // namespace polynya::io

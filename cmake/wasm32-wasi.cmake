@@ -1,0 +1,13 @@
+# Builds for WebAssembly with Debian's packages alone: ./setup.sh browser.
+set(CMAKE_SYSTEM_NAME WASI)
+set(CMAKE_SYSTEM_PROCESSOR wasm32)
+set(CMAKE_CXX_COMPILER clang++-16)
+set(CMAKE_C_COMPILER clang-16)
+set(CMAKE_AR llvm-ar-16)
+set(CMAKE_RANLIB llvm-ranlib-16)
+set(CMAKE_CXX_COMPILER_TARGET wasm32-wasi)
+set(CMAKE_C_COMPILER_TARGET wasm32-wasi)
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+# Headers and libraries of the machine that builds are none of WebAssembly's: PolynyaBrowserPackages.cmake links those
+# that have no more than headers.
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY NEVER)

@@ -1,0 +1,65 @@
+#include <charconv>
+
+#include "io/text/json_writer.hpp"
+#include "views/player/player_page.hpp"
+
+namespace polynya::views {
+namespace {
+
+using geometry::Point;
+
+/// The index in "ships[2].speed", where the path is of that list.
+std::optional<std::size_t> index_in(std::string_view path, std::string_view list) {
+  if (!path.starts_with(list) || path.substr(list.size()).substr(0, 1) != "[") return {};
+  std::size_t index = 0;
+  const char* const digits = path.data() + list.size() + 1;
+  if (std::from_chars(digits, path.data() + path.size(), index).ec != std::errc()) return {};
+  return index;
+}
+
+/// Where the body is that a problem is of; none of ice, whose entries may be many floes.
+std::optional<Point> place_of(const io::Problem& problem, const simulation::Scene& scene) {
+  std::size_t before = 0;
+  for (const auto& [list, count] : {std::pair{"ships", scene.ships.size()},
+                                    {"structures", scene.structures.size()},
+                                    {"walls", scene.walls.size()}}) {
+    const auto index = index_in(problem.path, list);
+    if (index && *index < count) return hull_of(scene, before + *index).position_in_world;
+    before += count;
+  }
+  return {};
+}
+
+void write_routes(io::JsonWriter& json, const simulation::Scene& scene) {
+  json.key("routes").open('[');
+  for (const simulation::Ship& ship : scene.ships) {
+    const auto* route = std::get_if<simulation::RoutePilot>(&ship.pilot);
+    if (!route) continue;
+    json.open('{').key("points_m").open('[').value(ship.position_in_world);
+    for (const simulation::Waypoint& waypoint : route->waypoints) json.value(waypoint.position_in_world);
+    json.close(']').key("speeds_m_per_s").open('[');
+    for (const simulation::Waypoint& waypoint : route->waypoints) json.value(waypoint.speed);
+    json.close(']').close('}');
+  }
+  json.close(']');
+}
+
+}  // namespace
+
+std::string scene_plan(const io::LoadedScene& scene, const std::string& stamp, const std::string& stamp_file) {
+  std::string text;
+  io::JsonWriter json(text);
+  json.open('{').key("plan").open('{').key("stamp").value(stamp).key("stamp_file").value(stamp_file);
+  const geometry::Vector wind = scene.scene.wind.velocity_at(0);
+  json.key("wind_m_per_s").value(Point{wind.x, wind.y});
+  write_routes(json, scene.scene);
+  json.key("problems").objects(scene.hints, [&](const io::Problem& problem) {
+    json.key("severity").value(name_of(problem.severity)).key("path").value(problem.path);
+    json.key("words").value(message_of(problem)).key("line").value(problem.line);
+    if (const auto place = place_of(problem, scene.scene)) json.key("point_m").value(*place);
+  });
+  json.close('}').close('}');
+  return text;
+}
+
+}  // namespace polynya::views
