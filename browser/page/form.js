@@ -51,7 +51,7 @@ function groupOf(path) {
 }
 
 function numberField(path, part, schema, value, change) {
-  const range = numberSchema(schema.items ?? schema) ?? {};
+  const range = numberSchema(part === null ? schema : schema.items) ?? {};
   const input = make("input", { type: "number", step: range.type === "integer" ? "1" : "any" });
   if (range.minimum !== undefined) input.min = range.minimum;
   if (range.maximum !== undefined) input.max = range.maximum;
@@ -61,9 +61,9 @@ function numberField(path, part, schema, value, change) {
 }
 
 function choiceField(path, schema, value, change) {
-  if (typeof value === "boolean") {
+  if (schema.type === "boolean") {
     const box = make("input", { type: "checkbox" });
-    box.checked = value;
+    box.checked = value === true;
     box.addEventListener("change", () => change(path, null, box.checked));
     return box;
   }
@@ -73,16 +73,26 @@ function choiceField(path, schema, value, change) {
   return select;
 }
 
-/** One field with its label: a list of two numbers has two inputs. */
-function formRow(path, schema, given, change) {
+const isPair = (value) => Array.isArray(value) && value.length === 2;
+
+/** The inputs of one field by what its schema allows: a choice, two numbers or one; none where it is something else,
+ * whatever the text has there. */
+function fieldsOf(path, schema, given, change) {
   const value = given ?? schema.default;
+  if (schema.enum || schema.type === "boolean") return [choiceField(path, schema, value, change)];
+  const list = [schema, ...(schema.oneOf ?? [])].find(({ type }) => type === "array");
+  if (list && isPair(value)) return value.map((_, k) => numberField(path, k, list, value[k], change));
+  return numberSchema(schema) ? [numberField(path, null, schema, value, change)] : [];
+}
+
+/** One field with its label: a list of two numbers has two inputs. Nothing where the form has no field for it. */
+function formRow(path, schema, given, change) {
   const label = labelOf(path, schema);
-  const isList = Array.isArray(value);
-  const hasNumber = isList || typeof value === "number" || (value === undefined && numberSchema(schema));
-  const fields = isList ? value.map((_, k) => numberField(path, k, schema, value[k], change))
-    : [hasNumber ? numberField(path, null, schema, value, change) : choiceField(path, schema, value, change)];
-  fields.forEach((field, k) => field.setAttribute("aria-label", `${groupOf(path)}: ${label}${isList ? ` ${"xy"[k]}` : ""}`));
-  return make("label", { title: `${path.join(".")}: ${schema.description ?? ""}` }, make("span", {}, label), ...fields);
+  const fields = fieldsOf(path, schema, given, change);
+  const partOf = (k) => (fields.length > 1 ? ` ${"xy"[k]}` : "");
+  fields.forEach((field, k) => field.setAttribute("aria-label", `${groupOf(path)}: ${label}${partOf(k)}`));
+  const title = `${path.join(".")}: ${schema.description ?? ""}`;
+  return fields.length > 0 ? [make("label", { title }, make("span", {}, label), ...fields)] : [];
 }
 
 /** Fills the form from the text. `change(path, value)` is called where a field was changed. */
@@ -90,7 +100,8 @@ function fillForm(form, text, schema, change) {
   const root = parseText(text);
   const changed = (path, part, value) => {
     if (part === null) return change(path, value);
-    const list = [...(nodeAt(root, path) ? valueOf(nodeAt(root, path)) : schemaAt(schema, path).default)];
+    const node = nodeAt(root, path);
+    const list = [...(node ? valueOf(node) : schemaAt(schema, path).default)];
     list[part] = value;
     return change(path, list);
   };
@@ -99,7 +110,8 @@ function fillForm(form, text, schema, change) {
     const node = nodeAt(root, path);
     const group = groupOf(path);
     if (!groups.has(group)) groups.set(group, []);
-    groups.get(group).push(formRow(path, schemaAt(schema, path), node && valueOf(node), changed));
+    groups.get(group).push(...formRow(path, schemaAt(schema, path), node && valueOf(node), changed));
   }
-  form.replaceChildren(...[...groups].map(([group, rows]) => make("fieldset", {}, make("legend", {}, group), ...rows)));
+  const filled = [...groups].filter(([, rows]) => rows.length > 0);
+  form.replaceChildren(...filled.map(([group, rows]) => make("fieldset", {}, make("legend", {}, group), ...rows)));
 }

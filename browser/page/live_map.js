@@ -35,6 +35,7 @@ function liveExtent(run) {
   for (const { points_m: points } of run.words.options.plan.routes)
     for (const point of points) includePoint(box, ...point);
   if (!(box.right > box.left)) return { left: -50, right: 50, bottom: -50, top: 50 };
+  box.right += 0.07 * (box.right - box.left); // the buttons stand there
   return box;
 }
 

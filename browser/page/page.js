@@ -37,7 +37,8 @@ function makePage() {
   page.view = makeMapView(byId("stage"), [canvas]);
   page.context = canvas.getContext("2d", { alpha: false });
   page.plot = makeLivePlot(byId("plot"), byId("quantity"), () => page.colours);
-  page.isEditable = () => page.phase === "ready" && page.run?.hasPlaces && page.run.time === 0;
+  // A scene that is refused too: what is wrong may be where something stands.
+  page.isEditable = () => ["ready", "refused"].includes(page.phase) && page.run?.hasPlaces && page.run.time === 0;
   return page;
 }
 
@@ -153,7 +154,7 @@ function startDrawing(page, worker, helm) {
     requestAnimationFrame(tick);
     if (!page.isDirty) return;
     page.isDirty = false;
-    const isPlan = page.isEditable() || page.phase === "refused";
+    const isPlan = page.isEditable();
     const handles = isPlan && page.run ? page.run.info.ships.flatMap((ship, k) => (k < page.run.words.ships ? [k] : []))
       : [];
     drawLive(page.context, page.view, page.run, { by: page.by, colours: page.colours, isPlan,

@@ -4,6 +4,8 @@
 /** What is wrong with a text as JSON. */
 class TextFault extends Error {}
 
+const deepest = 64; // levels of lists and objects in each other
+
 /** Reads words of a text from a place on. */
 function makeScanner(text) {
   const scanner = { at: 0 };
@@ -45,26 +47,27 @@ function parseText(text) {
       if (!scanner.take(",") && text[scanner.at] !== close) scanner.fault(`"${close}" or "," is missing`);
     }
   }
-  function member() {
+  function member(depth) {
     const key = scanner.leaf();
     if (!scanner.take(":")) scanner.fault("\":\" is missing");
-    return { key, value: node() };
+    return { key, value: node(depth) };
   }
-  function node() {
+  function node(depth) {
+    if (depth > deepest) scanner.fault("the nesting is too deep");
     scanner.skip();
     const from = scanner.at;
     const [items, members] = [[], []];
     if (scanner.take("{")) {
-      list("}", () => members.push(member()));
+      list("}", () => members.push(member(depth + 1)));
       return { kind: "object", from, to: scanner.at, members };
     }
     if (scanner.take("[")) {
-      list("]", () => items.push(node()));
+      list("]", () => items.push(node(depth + 1)));
       return { kind: "array", from, to: scanner.at, items };
     }
     return { kind: "leaf", value: scanner.leaf(), from, to: scanner.at };
   }
-  const root = node();
+  const root = node(0);
   scanner.skip();
   if (scanner.at < text.length) scanner.fault("there is more behind the scene");
   return root;

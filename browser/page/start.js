@@ -17,7 +17,7 @@ function makeSceneSetter(page, parts) {
   }
   return function setScene(text, { isNew = false, keepsText = false, delay = 0 } = {}) {
     if (!isNew && text === page.text) return;
-    if (isNew) page.undo = [], page.redo = [];
+    if (isNew) page.undo = [], page.redo = [], showProblems([]);
     else page.undo.push(page.text), page.redo = [];
     page.text = text;
     page.isFitted = page.isFitted || isNew;

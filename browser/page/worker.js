@@ -62,8 +62,8 @@ const orders = {
     say("read", { number, words });
     if (words.memory_at_start_bytes > words.limit_bytes) return;
     simulator.start();
-    say("started", { number });
     sendSnapshot();
+    say("started", { number });
   },
   run({ rate, from }) {
     if (hasEnded || isRunning) return;

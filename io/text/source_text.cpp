@@ -98,7 +98,7 @@ std::string shortened(std::string_view text, std::size_t most) {
   return fmt::format("{}…", text.substr(0, end));
 }
 
-Result<std::string> read_text_file(const std::filesystem::path& path, std::size_t longest) {
+Result<std::string> read_text_file(const std::filesystem::path& path, std::uint64_t longest) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) return fail("no such file");

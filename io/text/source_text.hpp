@@ -102,6 +102,6 @@ std::string printable(std::string_view text);
 std::string shortened(std::string_view text, std::size_t most);
 
 /// The whole of a regular file, or what is wrong with it in words. Longer files are refused, not read.
-Result<std::string> read_text_file(const std::filesystem::path& path, std::size_t longest);
+Result<std::string> read_text_file(const std::filesystem::path& path, std::uint64_t longest);
 
 }  // namespace polynya::io
