@@ -17,6 +17,7 @@ from check_layers import FLOORS, room_of  # noqa: E402
 
 PICTURE = ROOT / "docs/images/rooms.svg"
 MEANING = {
+    "elementary": "sin, exp and the like, to the bit",
     "geometry": "shape and place, exact cuts",
     "dynamics": "mass, force, time",
     "fracture": "when and where ice fails",
@@ -25,6 +26,7 @@ MEANING = {
     "analysis": "what is measured in a run",
     "views": "map, player, exports",
     "cosim": "co-simulation units",
+    "browser": "the simulator in a page",
     "app": "the command line",
     "python/module": "polynya._core",
 }

@@ -184,7 +184,9 @@ void enter_hull_contact(const Setup& setup, const Population& population, const 
   const double tangent = elementary::tan(load.hull_angle);
   // An inclined hull crushes the edge from its top corner down.
   const double height = tangent > 0 ? std::min(load.ice.thickness, load.penetration / tangent) : load.ice.thickness;
-  data.slopes.back() = {load.shares.vertical / horizontal, tangent, load.crushed_share, height};
+  const double deepest = std::max(c.depth, c.paid_depth);
+  const double penetration_share = deepest > 0 ? std::min(1.0, load.penetration / deepest) : 1;
+  data.slopes.back() = {load.shares.vertical / horizontal, tangent, load.crushed_share, penetration_share, height};
 }
 
 bool breaks(const PendingFracture& pending, const Contact& c) {

@@ -5,6 +5,7 @@
 #include "elementary/elementary.hpp"
 
 #include "dynamics/chunks.hpp"
+#include "dynamics/contact/paid_overlap.hpp"
 #include "fracture/crushing.hpp"
 #include "geometry/exact/measures.hpp"
 #include "simulation/ice/pieces.hpp"
@@ -132,16 +133,38 @@ bool cut_overlap(const Setup& setup, const Instant& now, const OverlapCut& overl
 
 namespace {
 
+/// What of an overlap's growth in the step was crushed.
+struct CrushedGrowth {
+  double share = 0;   ///< of the growth's area [-]
+  double height = 0;  ///< mean height of the ice that was crushed: its volume over its area [m]
+};
+
+/// Where the ice edge bends away from the hull, the crushed part of the overlap is as deep as the hull has penetrated
+/// the edge, and as narrow as the overlap is at that depth.
+CrushedGrowth crushed_growth(double thickness, const HullSlope& hull, const Contact& c) {
+  const double after = c.record->paid_area, before = after - c.paid_by_work - c.paid_by_giving_way;
+  const double deepest = std::max(c.depth, c.paid_depth);
+  const auto crushed_area_at = [&](double area) {
+    const double further = dynamics::depth_at(c, area) - deepest;
+    return dynamics::area_at(c, std::max(0.0, hull.penetration_share * deepest + hull.crushed_share * further));
+  };
+  const double from = crushed_area_at(before), to = crushed_area_at(after);
+  if (!(to > from && after > before)) return {hull.crushed_share, thickness};
+  if (hull.tangent == 0) return {(to - from) / (after - before), thickness};
+  const fracture::Overlap overlap{c.width, c.depth, c.area};
+  const double angle = elementary::atan(hull.tangent);
+  const auto volume_of = [&](double area) { return fracture::crushed_volume(overlap, area, thickness, angle); };
+  return {std::min(1.0, (to - from) / (after - before)), (volume_of(to) - volume_of(from)) / (to - from)};
+}
+
 /// Books by what the paid area of a contact has grown in the step: crushed as far as work has paid it and the ice edge
 /// stood still, else tilted. The work is that of the normal force alone: friction along an inclined hull has the share
 /// μ tan θ_s of it.
 void book(double thickness, double friction, const HullSlope& hull, const Contact& c) {
   dynamics::Booked& booked = c.record->booked;
-  const double crushed = hull.crushed_share * c.paid_by_work;
-  const fracture::Overlap overlap{c.width, c.depth, c.area};
-  const double angle = hull.tangent == 0 ? 0 : elementary::atan(hull.tangent);
-  const auto volume_of = [&](double area) { return fracture::crushed_volume(overlap, area, thickness, angle); };
-  if (crushed > 0) booked.volume += volume_of(booked.crushed + crushed) - volume_of(booked.crushed);
+  const CrushedGrowth growth = crushed_growth(thickness, hull, c);
+  const double crushed = growth.share * c.paid_by_work;
+  booked.volume += growth.height * crushed;
   booked.crushed += crushed;
   booked.tilted += c.paid_by_work - crushed + c.paid_by_giving_way;
   booked.work += hull.crushed_share * c.paying_work / (1 + friction * hull.tangent);

@@ -88,6 +88,8 @@ struct HullSlope {
   double tangent = 0;         ///< tan θ_s
   /// Fraction of the overlap's growth in the step that is crushed [-]. In the rest the ice edge bent or tilted down.
   double crushed_share = 1;
+  /// Crushed depth as a fraction of the depth of the overlap [-]. By the rest, the ice edge has bent away so far.
+  double penetration_share = 1;
   double height = 0;  ///< height of the ice that the hull presses on [m]
 };
 
