@@ -35,7 +35,7 @@ std::optional<Form> form_of(const MainDimensions& hull) {
   return form;
 }
 
-/// Friction of the wetted surface with its form factor, and the correlation allowance [N].
+/// Returns the friction of the wetted surface with its form factor, and the correlation allowance [N].
 double viscous_resistance(const MainDimensions& hull, const Form& form, double speed, double density) {
   const auto [length, beam, draught, block] = hull;
   const double factor = 0.93 + 0.487118 * std::pow(beam / length, 1.06806) * std::pow(draught / length, 0.46106) *
