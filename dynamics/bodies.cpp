@@ -62,7 +62,7 @@ double integrate(Bodies& bodies, const std::vector<BodyIndex>& awake, double dt,
   boost::container::small_vector<double, 16> fastest(chunk_count(awake.size(), kBodiesPerChunk));
   const auto is_faster = [](double rim, double than) { return rim > than || rim != rim; };
   for_chunks(awake.size(), kBodiesPerChunk, threads, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    // Without checks of each index.
+    // Pointers avoid the checks of each index.
     const geometry::Vector* velocity = bodies.velocity.data();
     const double* angular_velocity = bodies.angular_velocity.data();
     const double* radius = bodies.bounding_radius.data();

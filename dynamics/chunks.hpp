@@ -8,17 +8,17 @@
 
 namespace polynya::dynamics {
 
-/// What one thread takes at a time of a step's contacts, with the islands that begin among them: fewer are not worth
-/// another thread.
+/// Number of contacts of a step that one thread takes at a time, with the islands that begin among them; fewer are not
+/// worth another thread. Results do not change.
 inline constexpr std::size_t kContactsPerChunk = 128;
 
 inline std::size_t chunk_count(std::size_t count, std::size_t chunk) {
   return (count + chunk - 1) / chunk;
 }
 
-/// Calls work(chunk, begin, end) for every chunk of `chunk` indices of [0, count), on that many threads. The
-/// chunks depend on `chunk` alone, so that what each writes is the same on any number of threads; sums must
-/// be formed per chunk and added in the chunks' order.
+/// Calls work(chunk, begin, end) for every chunk of `chunk` indices of [0, count), on the given number of threads. The
+/// chunks depend only on `chunk`, so the values that each chunk writes are the same for any number of threads. Sums
+/// must be formed per chunk and added in the order of the chunks.
 template <typename Work>
 void for_chunks(std::size_t count, std::size_t chunk, int threads, Work work) {
   const std::size_t chunks = chunk_count(count, chunk);
@@ -30,7 +30,7 @@ void for_chunks(std::size_t count, std::size_t chunk, int threads, Work work) {
   }
 }
 
-/// Calls work(contact, place) for each of a step's contacts, on that many threads.
+/// Calls work(contact, place) for each contact of a step, on the given number of threads.
 template <typename Contacts, typename Work>
 void for_contacts(Contacts& contacts, int threads, Work work) {
   for_chunks(contacts.size(), kContactsPerChunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {

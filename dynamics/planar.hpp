@@ -4,8 +4,8 @@
 
 namespace polynya::dynamics {
 
-/// Surge, sway and yaw in a ship's axes (x forward, y to port, yaw counter-clockwise): velocities
-/// [m/s, m/s, rad/s], forces [N, N, N m] or impulses [N s, N s, N m s].
+/// Surge, sway and yaw in a ship's axes (x forward, y to port, yaw counter-clockwise): velocities [m/s, m/s, rad/s],
+/// forces [N, N, N m] or impulses [N s, N s, N m s].
 struct Planar {
   double surge = 0;
   double sway = 0;
@@ -25,14 +25,14 @@ constexpr Planar operator*(double s, Planar a) {
 constexpr Planar& operator+=(Planar& a, Planar b) {
   return a = a + b;
 }
-/// Power of a force at a velocity, or the work of an impulse at the mean velocity [W, J].
+/// Returns the power of a force at a velocity [W], or the work of an impulse at the mean velocity [J].
 constexpr double dot(Planar a, Planar b) {
   return a.surge * b.surge + a.sway * b.sway + a.yaw * b.yaw;
 }
 
 /// A matrix from velocities to forces or impulses.
 struct PlanarMatrix {
-  std::array<Planar, 3> rows{};  ///< that give surge, sway and yaw
+  std::array<Planar, 3> rows{};  ///< rows that give surge, sway and yaw
 
   friend constexpr PlanarMatrix operator+(const PlanarMatrix& a, const PlanarMatrix& b) {
     return {{a.rows[0] + b.rows[0], a.rows[1] + b.rows[1], a.rows[2] + b.rows[2]}};
@@ -45,7 +45,7 @@ struct PlanarMatrix {
   }
 };
 
-/// x of a x = b, by elimination without a search for pivots: the symmetric part of `a` is positive definite.
+/// Returns x of a x = b, by elimination without pivoting. The symmetric part of `a` must be positive definite.
 Planar solve(PlanarMatrix a, Planar b);
 
 }  // namespace polynya::dynamics

@@ -5,14 +5,14 @@
 
 namespace polynya::dynamics {
 
-/// Makes parallel loops use a number of threads, also where there are fewer cores, for as long as it lives.
+/// Makes parallel loops use a given number of threads while it lives, even if there are fewer cores.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
   ThreadLimit(const ThreadLimit&) = delete;
   ThreadLimit& operator=(const ThreadLimit&) = delete;
 
-  /// Calls a function whose parallel loops are to use these threads.
+  /// Calls a function whose parallel loops use these threads.
   void execute(const std::function<void()>& function);
 
  private:

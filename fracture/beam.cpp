@@ -11,7 +11,7 @@ namespace {
 using geometry::Point;
 using geometry::Vector;
 
-/// Adds the triangle from the origin to p and q, positive where it runs counter-clockwise.
+/// Adds the moments of the triangle from the origin to p and q; positive if it runs counter-clockwise.
 void add_triangle(Point p, Point q, PlaneMoments& sum) {
   const double twice = p.x * q.y - q.x * p.y;
   sum.area += twice / 2;
@@ -22,8 +22,8 @@ void add_triangle(Point p, Point q, PlaneMoments& sum) {
   sum.xy += twice / 24 * (2 * p.x * p.y + p.x * q.y + q.x * p.y + 2 * q.x * q.y);
 }
 
-/// Adds a ring's part at x ≤ most. Where the ring is not convex the clipped one runs along the section to and
-/// fro, which adds nothing.
+/// Adds the part of a ring at x ≤ most. If the ring is not convex, the clipped ring runs back and forth along the
+/// section, which adds nothing.
 void add_ring(const geometry::Ring& ring, const geometry::Pose& frame_from_body, double most, PlaneMoments& sum) {
   Point first{}, last{};
   bool has_any = false;
@@ -79,12 +79,12 @@ SectionLoad section_load(std::span<const BeamLoad> loads, const PlaneMoments& fl
     load.moment += cross(arm, on.force);
     load.vertical_moment -= arm.x * on.down;
   }
-  const Vector a = (1 / floe.area) * force;  // times the mass per area, as the next
+  const Vector a = (1 / floe.area) * force;  // times the mass per area, like `spin`
   const double spin = turning / (floe.xx + floe.yy);
   load.tension = a.x * before.area - spin * before.y - force_before.x;
   load.moment -= a.y * (before.x - section.x * before.area) + spin * (before.xx - section.x * before.x) -
                  a.x * (before.y - section.middle * before.area) + spin * (before.yy - section.middle * before.y);
-  const double lift = down / floe.area;  // of the water, on each m² at the middle
+  const double lift = down / floe.area;  // lift of the water per area at the middle
   const double slope = pitching / floe.xx;
   load.vertical_moment -= lift * (section.x * before.area - before.x) + slope * (section.x * before.x - before.xx);
   return load;
@@ -93,7 +93,8 @@ SectionLoad section_load(std::span<const BeamLoad> loads, const PlaneMoments& fl
 double elastic_share(const Ice& ice, const Water& water, double length) {
   const double h = ice.thickness;
   const double b = length * std::sqrt(std::sqrt(water.density * kGravity / (4 * ice.youngs_modulus * h * h * h / 12)));
-  constexpr double kRigid = 1e-2;  // the share is 1 within b⁴/500; the quotient below loses digits
+  constexpr double kRigid =
+      1e-2;  // b below which the ratio is taken as 1, within b⁴/500; the quotient below loses digits
   if (b < kRigid) return 1;
   return 2 * (elementary::cosh(b) - elementary::cos(b)) / (b * (elementary::sinh(b) + elementary::sin(b)));
 }

@@ -8,73 +8,77 @@
 
 namespace polynya::fracture {
 
-// A slender floe breaks across as a beam, free in the water and under the forces on its edge (docs/theory/beams.md):
-// what those forces do to a part of it, less what moves that part, bends the section where the part ends. Lengths are
-// in a frame whose origin is the floe's centre of mass, with x along its length.
+// A slender floe breaks across as a beam. It floats freely under the forces on its edge (docs/theory/beams.md). In the
+// section where a part of the floe ends, the moment balances the forces on the part and the part's inertia.
+// Lengths are in a frame whose origin is the floe's centre of mass, with x along the length of the floe.
 
-/// From this ratio of length to width on a floe is a beam: below, plane sections do not stay plane [-].
+/// Smallest ratio of length to width at which a floe counts as a beam [-]. Smaller: plane sections would not stay
+/// plane.
 inline constexpr double kLeastSlenderness = 4;
 
-/// Of the mean width: a narrower section is the floe's tip [-].
+/// Smallest width of a section that is checked, as a fraction of the floe's mean width [-]. Narrower sections are the
+/// tips of the floe.
 inline constexpr double kLeastSection = 0.5;
 
-/// Whether a floe is as slender as a rectangle of that ratio, by its area [m²] and its polar radius of
-/// gyration squared [m²].
+/// Returns true if a floe is at least as slender as a rectangle of that ratio, judged by its area [m²] and its polar
+/// radius of gyration squared [m²].
 constexpr bool is_beam(double area, double gyration_squared) {
   return 12 * gyration_squared >= (kLeastSlenderness + 1 / kLeastSlenderness) * area;
 }
 
-/// ∫ 1, x, y, x², xy, y² dA of a part of a floe.
+/// The integrals ∫ 1, x, y, x², xy, y² dA over a part of a floe.
 struct PlaneMoments {
   double area = 0;
   double x = 0, y = 0;
   double xx = 0, xy = 0, yy = 0;
 };
 
-/// Of a polygon, as it lies in the frame that `frame_from_body` leads to.
+/// Returns the moments of a polygon in the frame to which `frame_from_body` leads.
 PlaneMoments moments_of(const geometry::Polygon& polygon, const geometry::Pose& frame_from_body);
 
-/// Of the part of it at x ≤ `x` [m].
+/// Returns the moments of the part of a polygon at x ≤ `x` [m].
 PlaneMoments moments_up_to(const geometry::Polygon& polygon, const geometry::Pose& frame_from_body, double x);
 
-/// The angle of the axis along which a region is longest, by its moments about its centre [rad].
+/// Returns the angle of the axis along which a region is longest, from its moments about its centre [rad].
 double long_axis(const PlaneMoments& about_centre);
 
 /// A force on the edge of a floe.
 struct BeamLoad {
   geometry::Point at;      ///< [m]
   geometry::Vector force;  ///< in plan [N]
-  double down = 0;         ///< that presses the floe down there [N]
+  double down = 0;         ///< vertical force that presses the floe down there [N]
 };
 
 /// A section across a floe, along y.
 struct BeamSection {
   double x = 0;       ///< [m]
-  double middle = 0;  ///< its y [m]
+  double middle = 0;  ///< y of its middle [m]
   double width = 0;   ///< [m]
 };
 
-/// What a section carries.
+/// The forces and moments in a section.
 struct SectionLoad {
-  double tension = 0;          ///< N along the floe [N]
-  double moment = 0;           ///< M in plan; > 0: it pulls at the greater y [N m]
-  double vertical_moment = 0;  ///< M_v by what presses the floe down, rigid on the water [N m]
+  double tension = 0;  ///< N along the floe [N]
+  double moment = 0;   ///< M in plan; positive: tension at the larger y [N m]
+  double vertical_moment =
+      0;  ///< M_v by the forces that press the floe down, for a floe that is rigid on the water [N m]
 };
 
-/// Newton's law of the part of the floe before the section: in plan its share of the inertia of a rigid body
-/// answers the loads, and below it water that lifts in proportion to heave and pitch.
+/// Returns the load of a section by Newton's law for the part of the floe before it. In plan the loads are balanced by
+/// the inertia of the part, which moves with the rigid floe. Vertically they are balanced by the lift of the water,
+/// which is proportional to heave and pitch.
 SectionLoad section_load(std::span<const BeamLoad> loads, const PlaneMoments& floe, const PlaneMoments& before,
                          const BeamSection& section);
 
-/// M_v of an elastic beam of that length [m] pressed down at its middle, over V Λ/8 of a rigid one:
-/// 2 (cosh b − cos b)/(b (sinh b + sin b)), b = Λ (ρ_w g/(4 E h³/12))^¼. After [Hetenyi1946] (*recall*).
+/// Returns the ratio of M_v of an elastic beam of this length [m], pressed down at its middle, to V Λ/8 of a rigid one:
+/// 2 (cosh b − cos b)/(b (sinh b + sin b)) with b = Λ (ρ_w g/(4 E h³/12))^¼. [Hetenyi1946] (*recall*).
 double elastic_share(const Ice& ice, const Water& water, double length);
 
-/// The greatest tension at a corner of the section, N/(h w) + 6 |M|/(h w²) + 6 |M_v|/(w h²) [Pa].
+/// Returns the largest tensile stress at a corner of the section, N/(h w) + 6 |M|/(h w²) + 6 |M_v|/(w h²) [Pa].
 double section_stress(const Ice& ice, double width, const SectionLoad& load);
 
-/// No section of a floe of that length, at least so wide [m], has a greater stress by forces of that sum and
-/// weight [N]: no load bends a free beam by more than ¼ F Λ [Pa].
+/// Returns an upper bound of the stress in any section of a floe with this length and at least this width [m], for
+/// horizontal and vertical forces with these sums [N]: no load bends a free beam by more than ¼ F Λ [Pa].
 double most_section_stress(const Ice& ice, double least_width, double length, double force, double down);
 
 }  // namespace polynya::fracture

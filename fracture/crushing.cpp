@@ -8,11 +8,11 @@
 namespace polynya::fracture {
 namespace {
 
-/// A hull angle from the vertical whose sine would overflow a quotient is taken as 0 [-].
+/// Hull angles from the vertical whose sine is smaller count as 0, because quotients would overflow [-].
 constexpr double kVertical = 1e-100;
 
-/// p of the power law of an overlap, S(ξ') = S (ξ'/ξ)^p [-]. Greater and smaller ones are those of shapes that one
-/// depth and one width do not describe.
+/// Returns p of the power law of an overlap, S(ξ') = S (ξ'/ξ)^p [-]. Values outside of the limits belong to shapes that
+/// one depth and one width do not describe.
 double power_of(const Overlap& overlap, double least = 1.0 / 3) {
   return std::clamp(overlap.depth * overlap.width / overlap.area, least, 3.0);
 }
@@ -35,7 +35,7 @@ double crushed_overlap_area(const Overlap& overlap, double thickness, double hul
 
 namespace {
 
-/// A hull's inclination from the vertical.
+/// The sine and tangent of a hull's inclination from the vertical.
 struct HullSlant {
   double sine, tangent;
   explicit HullSlant(double angle)
@@ -45,11 +45,11 @@ struct HullSlant {
 CrushedArea crushed_at(const Overlap& overlap, double depth, double thickness, const HullSlant& hull) {
   if (overlap.area <= 0 || overlap.depth <= 0 || depth <= 0) return {};
   const double p = power_of(overlap);
-  const bool is_its_own = depth == overlap.depth;  // without a power: most contacts that crush
+  const bool is_its_own = depth == overlap.depth;  // no power is needed for most contacts that crush
   const double area = is_its_own ? overlap.area : overlap.area * elementary::pow(depth / overlap.depth, p);
   const double slope = p * area / depth;
   if (hull.sine < kVertical) return {thickness * slope, std::max(0.0, thickness * (p - 1) * slope / depth)};
-  // Differences of powers by expm1: a hull that is vertical but for rounding has an angle of 1e-17 rad.
+  // Differences of powers by expm1, because a hull that is vertical except for rounding has an angle of 1e-17 rad.
   const double reach = thickness * hull.tangent / depth;
   const double log_of_inner = reach < 1 ? elementary::log1p(-reach) : 0;
   const double pressed = reach < 1 ? -elementary::expm1(p * log_of_inner) : 1;
@@ -65,7 +65,7 @@ CrushedArea crushed_overlap_at(const Overlap& overlap, double depth, double thic
 
 double crushed_volume(const Overlap& overlap, double reached_area, double thickness, double hull_angle) {
   if (overlap.area <= 0 || overlap.depth <= 0 || reached_area <= 0) return 0;
-  if (hull_angle == 0) return thickness * reached_area;  // between floes: most contacts
+  if (hull_angle == 0) return thickness * reached_area;  // most contacts are between floes
   const double p = power_of(overlap);
   const double depth = overlap.depth * elementary::pow(reached_area / overlap.area, 1 / p);
   const double reach = thickness * elementary::tan(hull_angle) / depth;
@@ -79,10 +79,10 @@ RecedingCrush crushed_receding(const Overlap& overlap, double depth, double thic
   const HullSlant hull(hull_angle);
   RecedingCrush result{depth, crushed_at(overlap, depth, thickness, hull)};
   if (recession <= 0 || depth <= 0) return result;
-  // ξ + r A_c(ξ) grows, and is convex but where the facet comes to span the thickness: Newton's method,
+  // ξ + r A_c(ξ) grows with ξ, and is convex except where the facet reaches the full thickness: Newton's method
   // within a bracket.
-  constexpr int kMostTries = 60;        // bisection alone comes to the last bit in 53
-  constexpr double kTolerance = 1e-12;  // of the depth: coarser, and the law's force steps between two depths
+  constexpr int kMostTries = 60;        // bisection alone reaches the last bit in 53
+  constexpr double kTolerance = 1e-12;  // of the depth; coarser: the law's force jumps between two depths
   double shallow = 0, deep = depth;
   for (int i = 0; i < kMostTries; ++i) {
     const double excess = result.penetration + recession * result.crushed.area - depth;
@@ -114,7 +114,7 @@ CrushingShares crushing_shares(double hull_angle, double friction, double approa
 CrushingShares crushing_shares_around(std::span<const HullFacet> facets, double hull_angle, double friction,
                                       geometry::Vector velocity) {
   CrushingShares shares = crushing_shares(hull_angle, friction, velocity.x, velocity.y);
-  double swept = 0, pressed = 0;  // Σ L_i ⟨u_i⟩, and the width across the normal of the facets that press
+  double swept = 0, pressed = 0;  // Σ L_i ⟨u_i⟩, and the width, across the normal, of the facets that press
   double down = 0, along = 0;
   for (const HullFacet& facet : facets) {
     const double approach = dot(velocity, facet.normal);

@@ -2,7 +2,7 @@
 
 namespace polynya::fracture {
 
-/// Ice as the fracture laws need it. Defaults are the paper's ice [Sawamura2017]; the paper gives no ν.
+/// Ice properties that the fracture laws need. Defaults are the paper's ice [Sawamura2017]; the paper gives no ν.
 struct Ice {
   double thickness = 0.5;               ///< h [m]
   double density = 900;                 ///< ρ_i [kg/m³]
@@ -23,7 +23,7 @@ struct Water {
 
 inline constexpr double kGravity = 9.81;  ///< g [m/s²]
 
-/// Flexural rigidity of the plate, D = E h³ / 12(1 − ν²) [N m].
+/// Returns the flexural rigidity of a plate, D = E h³ / 12(1 − ν²) [N m].
 inline double flexural_rigidity(const Ice& ice) {
   return ice.youngs_modulus * ice.thickness * ice.thickness * ice.thickness /
          (12 * (1 - ice.poisson_ratio * ice.poisson_ratio));

@@ -9,10 +9,10 @@
 namespace polynya::fracture {
 namespace {
 
-/// The largest double below 1: the quantile of 1 is infinite.
+/// The largest double below 1, used because the quantile of 1 is infinite.
 constexpr double kAlmostOne = 1 - 0x1p-53;
 
-/// Of log-normal laws, the logarithm's.
+/// Mean and deviation of a normal law; for log-normal laws those are of the logarithm.
 struct Gauss {
   double mean = 0;
   double deviation = 0;
@@ -26,14 +26,14 @@ Gauss gauss_of(const ScatterLaw& law) {
 
 bool is_single_value(const ScatterLaw& law) {
   if (law.kind == ScatterKind::kUniform) return law.least == law.most;
-  return law.kind == ScatterKind::kConstant || gauss_of(law).deviation == 0;  // also where its square underflows
+  return law.kind == ScatterKind::kConstant || gauss_of(law).deviation == 0;  // also if its square underflows
 }
 
 double single_value(const ScatterLaw& law) {
   return law.kind == ScatterKind::kUniform ? law.least : law.mean;
 }
 
-/// Without the bounds.
+/// Returns the cumulative fraction of a law without bounds.
 double unbounded_share(const ScatterLaw& law, double x) {
   const bool is_log = law.kind == ScatterKind::kLogNormal;
   if (is_log && x <= 0) return 0;

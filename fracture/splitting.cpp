@@ -5,7 +5,7 @@ namespace polynya::fracture {
 using geometry::Vector;
 
 std::optional<std::array<Push, 2>> wedge_pushes(Vector force, const std::array<Face, 2>& faces, double friction) {
-  constexpr double kLeastAngle = 1e-6;  // between the faces' forces [rad]
+  constexpr double kLeastAngle = 1e-6;  // between the forces of the faces [rad]
   if (std::max(faces[0].leaving, faces[1].leaving) > kFullSlip) return std::nullopt;
   const auto direction = [&](const Face& face) {
     return face.normal + friction * std::clamp(face.slip / kFullSlip, -1.0, 1.0) * perpendicular(face.normal);

@@ -19,12 +19,13 @@ double edge_mass(const Ice& ice, const Water& water, const TurningCusp& cusp) {
 
 namespace {
 
-constexpr double kDischarge = 0.6;  ///< C_d of sharp-edged openings (recall)
-constexpr int kHalvings = 14;       ///< to find the pool's surface: within 1e-4 of its depth
+constexpr double kDischarge = 0.6;  ///< C_d of openings with sharp edges [-] (recall)
+constexpr int kHalvings = 14;       ///< bisections to find the pool's surface, within 1e-4 of its depth
 constexpr int kStepsOfATurn = 40;
-constexpr double kLeastLever = 0.1;  ///< of the cusp's depth, where it jams between sheet and hull
+constexpr double kLeastLever =
+    0.1;  ///< smallest lever over the depth of the cusp, where it jams between sheet and hull [-]
 
-/// The part of an edge within a strip of the deck, a share of the edge.
+/// The part of an edge within a strip of the deck, as an interval of fractions of the edge.
 struct Within {
   double from = 0, to = 0;
 };
@@ -64,17 +65,17 @@ void add_edge(Deck& deck, double farthest, geometry::Point from, geometry::Point
   }
 }
 
-/// A plate of ice that a plane hull has pressed down about the lower corner of its far edge: in the plane of the hull's
-/// normal, x from that edge towards the hull, z down from the sheet's upper side.
+/// A plate of ice that a plane hull has pressed down about the lower corner of its far edge, in the plane of the hull's
+/// normal. x runs from that edge towards the hull, z down from the upper side of the sheet.
 class Plate {
  public:
-  /// The hull's waterline is at x.
+  /// The waterline of the hull is at x = `waterline`.
   Plate(double depth, double thickness, double hull_angle, double waterline) : thickness_(thickness) {
     const double beta = elementary::atan2(thickness, depth);
     const double sine = elementary::sin(hull_angle);
     const double cosine = elementary::cos(hull_angle);
-    const double along = thickness * (1 - sine) / cosine;  // the waterline when the plate lies along the hull
-    const double at = std::clamp(waterline, along, std::max(along, depth));  // a short one snaps over
+    const double along = thickness * (1 - sine) / cosine;  // waterline at which the plate lies along the hull
+    const double at = std::clamp(waterline, along, std::max(along, depth));  // a short plate snaps over
     const double turned =
         elementary::acos(std::clamp((at * cosine + thickness * sine) / elementary::hypot(depth, thickness), -1.0, 1.0));
     tilt_ = std::clamp(turned + beta - hull_angle, 0.0, 0.5 * std::numbers::pi - hull_angle);
@@ -86,18 +87,18 @@ class Plate {
 
   double cosine() const { return cosine_; }
   double sine() const { return sine_; }
-  /// Of the plate's upper side, that far from its far edge.
+  /// Returns the coordinates of the point of the plate's upper side at the distance r from its far edge.
   double x(double r) const { return r * cosine_ + thickness_ * sine_; }
   double z(double r) const { return r * sine_ + thickness_ * (1 - cosine_) + sunk_; }
 
  private:
   double thickness_ = 0, tilt_ = 0, cosine_ = 1, sine_ = 0;
-  double sunk_ = 0;  ///< that it has slid down along the hull [m]
+  double sunk_ = 0;  ///< distance that it has slid down along the hull [m]
 };
 
-/// What stands open between a side of a turning plate at r and the plate of an older cusp [m²].
+/// Returns the open area between a side of a turning plate at r and the plate of an older cusp [m²].
 double open_area(const DeckSide& side, double r, const Plate& plate, const Plate& older, double thickness) {
-  // From the side's upper corner to both corners of the older cusp's face, along the deck and across it.
+  // Distances from the upper corner of the side to both corners of the older cusp's face, along and across the deck.
   const double x = side.axis + older.x(r - side.axis) - plate.x(r);
   const double z = older.z(r - side.axis) - plate.z(r);
   const auto along =
@@ -111,7 +112,7 @@ double open_area(const DeckSide& side, double r, const Plate& plate, const Plate
   return std::max({0.0, apart * std::abs(side.facing), below * side.length});
 }
 
-/// A deck at an instant of its turn.
+/// A deck at one instant of its rotation.
 class Turn {
  public:
   Turn(const Deck& deck, double way)
@@ -125,14 +126,14 @@ class Turn {
 
   double deepest() const { return depth_[Deck::kStrips - 1]; }
 
-  /// Of a pool whose surface is that far below the water level [m³].
+  /// Returns the volume of a pool whose surface is at this depth below the water level [m³].
   double pool_below(double surface) const {
     double volume = 0;
     for (int k = 0; k < Deck::kStrips; ++k) volume += width(k) * std::max(0.0, depth_[k] - std::max(surface, hull_[k]));
     return plate_.cosine() * strip() * volume;
   }
 
-  /// How far below the water level a pool's surface is [m].
+  /// Returns the depth of a pool's surface below the water level [m].
   double surface_of(double pool) const {
     if (pool >= pool_below(0)) return 0;
     double low = 0;
@@ -144,7 +145,7 @@ class Turn {
     return 0.5 * (low + high);
   }
 
-  /// Into a pool with that surface [m³/s].
+  /// Returns the inflow into a pool with this surface [m³/s].
   double inflow(double surface) const {
     double flow = 0;
     if (surface <= 0) return flow;
@@ -157,21 +158,21 @@ class Turn {
     return flow;
   }
 
-  /// Of the pressure that is missing on the deck, M [N m].
+  /// Returns the moment M of the missing pressure on the deck [N m].
   double moment(double surface, double density) const {
     double sum = 0;
     for (int k = 0; k < Deck::kStrips; ++k) sum += std::min(depth_[k], surface) * at(k) * width(k);
     return density * kGravity * strip() * sum;
   }
 
-  /// Of the pressure that is missing on the hull's face, along its normal [N].
+  /// Returns the force of the missing pressure on the hull's face, along its normal [N].
   double ahead(double surface, double density) const {
     double sum = 0;
     for (int k = 0; k < Deck::kStrips; ++k) sum += std::min(hull_[k], surface) * width(k);
     return density * kGravity * strip() * plate_.cosine() / elementary::tan(deck_.hull_angle) * sum;
   }
 
-  /// Of the force down on the near edge, with that thrust per force, about the axis [m].
+  /// Returns the lever, about the axis, of a force down on the near edge with this thrust per force [m].
   double lever(double thrust) const {
     const double h = deck_.thickness;
     const double up = deck_.depth * plate_.sine() - h * plate_.cosine();
@@ -179,7 +180,7 @@ class Turn {
   }
 
  private:
-  /// What stands open towards ice [m²].
+  /// Returns the open area next to ice [m²].
   double open_at(int k) const {
     double open = beside_sheet(k);
     for (const DeckSide& side : deck_.strips[k].sides) {
@@ -189,7 +190,7 @@ class Turn {
     }
     return open;
   }
-  /// What stands open between the strip's far edge and the sheet's lower corner [m²].
+  /// Returns the open area between the strip's far edge and the lower corner of the sheet [m²].
   double beside_sheet(int k) const {
     const double r = at(k);
     const double h = deck_.thickness;
@@ -197,7 +198,8 @@ class Turn {
     if (r * plate_.sine() < h) return r * (1 - plate_.cosine()) * s.sheet_across;
     return elementary::hypot((plate_.x(r) - r) * s.sheet_across, (plate_.z(r) - h) * s.sheet);
   }
-  /// Over a metre of a broad crest under that head, with water that high behind it (Villemonte; recall) [m²/s].
+  /// Returns the flow per metre of a broad crest at this head, with water of the depth `behind` behind it (Villemonte;
+  /// recall) [m²/s].
   static double over_crest(double head, double behind) {
     const double critical = elementary::pow(2. / 3, 1.5) * std::sqrt(kGravity) * elementary::pow(head, 1.5);
     return critical * elementary::pow(std::max(0.0, 1 - elementary::pow(behind / head, 1.5)), 0.385);
@@ -207,10 +209,10 @@ class Turn {
   double width(int k) const { return deck_.strips[k].width; }
 
   const Deck& deck_;
-  double waterline_ = 0;  ///< x_w, of the hull at the sheet's upper side [m]
+  double waterline_ = 0;  ///< x_w of the hull at the upper side of the sheet [m]
   Plate plate_;
-  std::array<double, Deck::kStrips> depth_{};  ///< of the deck below the water level [m]
-  std::array<double, Deck::kStrips> hull_{};   ///< of the hull above it, below the water level [m]
+  std::array<double, Deck::kStrips> depth_{};  ///< depth of the deck below the water level [m]
+  std::array<double, Deck::kStrips> hull_{};   ///< depth, below the water level, of the hull above the deck [m]
 };
 
 }  // namespace
@@ -245,7 +247,7 @@ DeckForces turn_deck(const Deck& deck, const Water& water, const HullAdvance& ad
     const double surface = turn.surface_of(state.pool);
     sum.down += turn.moment(surface, water.density) / turn.lever(thrust) / steps;
     sum.ahead += turn.ahead(surface, water.density) / steps;
-    // What no longer has room leaves.
+    // Water that no longer has room flows off.
     state.pool = std::min(turn.pool_below(0), state.pool + turn.inflow(surface) * dt / steps);
   }
   return sum;

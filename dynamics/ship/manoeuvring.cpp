@@ -10,7 +10,7 @@
 namespace polynya::dynamics {
 namespace {
 
-/// ∫|v + x r| xᵏ dx from `aft` to `fore` for k = 0, 1, 2 [m/s · m^(k+1)].
+/// Returns ∫|v + x r| xᵏ dx from `aft` to `fore` for k = 0, 1, 2 [m/s · m^(k+1)].
 std::array<double, 3> cross_flow_moments(double v, double r, double aft, double fore) {
   const auto part = [&](double from, double to) {
     std::array<double, 3> sums{};
@@ -25,7 +25,7 @@ std::array<double, 3> cross_flow_moments(double v, double r, double aft, double 
       for (double& sum : sums) sum = -sum;
     return sums;
   };
-  const double pivot = r != 0 ? std::clamp(-v / r, aft, fore) : fore;  // where the flow across changes side
+  const double pivot = r != 0 ? std::clamp(-v / r, aft, fore) : fore;  // where the cross flow changes its direction
   std::array<double, 3> moments = part(aft, pivot);
   const std::array<double, 3> rest = part(pivot, fore);
   for (std::size_t k = 0; k < 3; ++k) moments[k] += rest[k];

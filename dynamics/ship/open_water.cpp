@@ -37,7 +37,7 @@ std::optional<Form> form_of(const MainDimensions& hull) {
   return form;
 }
 
-/// Friction of the wetted surface with its form factor, and the correlation allowance [N].
+/// Returns the friction of the wetted surface with its form factor, and the correlation allowance [N].
 double viscous_resistance(const MainDimensions& hull, const Form& form, double speed, double density) {
   const auto [length, beam, draught, block] = hull;
   const double factor = 0.93 + 0.487118 * elementary::pow(beam / length, 1.06806) *

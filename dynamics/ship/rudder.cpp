@@ -14,7 +14,8 @@ namespace {
 using geometry::Vector;
 
 constexpr double kPi = std::numbers::pi;
-/// Effective over geometric aspect ratio of a blade below a hull: 2 where the hull is a mirror, 1 where it is far off.
+/// Ratio of effective to geometric aspect ratio of a blade below a hull [-]: 2 if the hull acts as a mirror, 1 if it is
+/// far off.
 constexpr double kHullMirror = 1.5;
 constexpr double kCrossFlow = 0.8;     ///< C_Dc of the flow round the tips [WhickerFehlner1958] (recall) [-]
 constexpr double kOswald = 0.9;        ///< share of the ideal induced drag's aspect ratio (same source) [-]
@@ -44,18 +45,20 @@ LiftAndDrag mean_of(double share, LiftAndDrag a, LiftAndDrag b) {
   return {share * a.lift + (1 - share) * b.lift, share * a.drag + (1 - share) * b.drag};
 }
 
-/// Lift and drag of a force normal to the blade's chord.
+/// Returns the lift and drag of a force that is normal to the blade's chord.
 LiftAndDrag of_normal_force(double normal, double incidence) {
   return {normal * elementary::cos(incidence), normal * elementary::sin(incidence)};
 }
 
-/// Share of a round race that meets a blade at an incidence; the rest passes ahead of its nose and behind its tail.
+/// Returns the fraction of a round race that hits a blade at an incidence; the rest passes ahead of its nose and behind
+/// its tail.
 double share_met(double aspect_ratio, double incidence) {
-  const auto within = [](double radii) {  // the share of a circle up to a chord that is so far from its centre
+  const auto within = [](double radii) {  // fraction of a circle up to a chord at this distance from its centre
     const double x = std::min(radii, 1.0);
     return 1 - (elementary::acos(x) - x * std::sqrt(1 - x * x)) / kPi;
   };
-  const double reach = 2 * elementary::sin(incidence) / aspect_ratio;  // of the chord across the race, in its radii
+  const double reach =
+      2 * elementary::sin(incidence) / aspect_ratio;  // extent of the chord across the race, in the race's radii
   return within(kStock * reach) + within((1 - kStock) * reach) - 1;
 }
 
@@ -74,7 +77,7 @@ Vector force_in_ship(LiftAndDrag over, double size, const BladeFlow& flow) {
   return -size * (over.drag * along + over.lift * perpendicular(along));
 }
 
-/// One blade, and what of it stands in the race.
+/// One blade, and the part of it in the race.
 struct Blade {
   double area = 0;          ///< [m²]
   double aspect_ratio = 0;  ///< [-]
@@ -87,9 +90,9 @@ Vector in_endless_flow(double area, const Blade& blade, double angle, const Blad
   return force_in_ship(over, 0.5 * density * area * flow.squared(), flow);
 }
 
-/// Force on the part of a blade in the race. A race that is much faster than the water around it is turned; in one as
-/// slow as that the blade is in an endless flow. Between them the force is weighted by the strength of the images of a
-/// lifting line in a round jet, (V² − U²)/(V² + U²) [Koning1935].
+/// Returns the force on the part of a blade in the race. A race that is much faster than the water around it is turned;
+/// in a race as slow as the water around it the blade is in an endless flow. Between them the force is weighted by the
+/// strength of the images of a lifting line in a round jet, (V² − U²)/(V² + U²) [Koning1935].
 Vector in_race(const Blade& blade, double angle, const BladeFlow& race, const BladeFlow& around, double density) {
   const Vector endless = in_endless_flow(blade.chord * blade.in_race, blade, angle, race, density);
   if (race.ahead <= 0) return endless;
@@ -113,7 +116,7 @@ Race race_behind(double propeller_area, bool has_nozzle, double thrust, double a
 }
 
 LiftAndDrag foil_in_endless_flow(double aspect_ratio, double incidence) {
-  const double from_chord = std::remainder(incidence, kPi);  // the blade is taken to be alike from both ends
+  const double from_chord = std::remainder(incidence, kPi);  // both ends of the blade are treated alike
   const double a = std::abs(from_chord);
   const double s = elementary::sin(a);
   LiftAndDrag attached;
@@ -129,7 +132,7 @@ LiftAndDrag foil_in_race(double aspect_ratio, double incidence) {
   const double a = std::abs(from_chord);
   const double over_momentum = 2 / (kPi * aspect_ratio);  // ½ V² A over V² π d²/4
   const double turned =
-      over_momentum * lift_slope(aspect_ratio) * elementary::sin(a);  // sine of the race's angle, below .95
+      over_momentum * lift_slope(aspect_ratio) * elementary::sin(a);  // sine of the race's angle, below 0.95
   const LiftAndDrag attached{turned, 1 - std::sqrt(1 - turned * turned)};
   const double normal = std::min(share_met(aspect_ratio, a) * elementary::sin(a), over_momentum * kPlateNormal);
   LiftAndDrag over = mean_of(broken_off(aspect_ratio, a), of_normal_force(normal, a), attached);

@@ -12,10 +12,10 @@ struct Rudder {
   double aspect_ratio = 1.5;        ///< Λ, height over chord of a blade [-]
   double position = 0;              ///< x_R of the blades from the centre of gravity [m]
   double propeller_area = 0;        ///< A_P, disc of the propeller ahead of each blade; 0: there is none [m²]
-  double thrust_share = 1;          ///< share of the ship's thrust that this propeller has [-]
+  double thrust_share = 1;          ///< fraction of the ship's thrust that this propeller has [-]
   bool has_nozzle = false;          ///< the propeller is ducted: its race does not contract
-  double wake_fraction = 0.2;       ///< w: the hull carries this share of its speed along [-]
-  double flow_straightening = 0.6;  ///< γ: share of the cross velocity at the stern that reaches the blades [-]
+  double wake_fraction = 0.2;       ///< w: the hull drags water along with this fraction of its speed [-]
+  double flow_straightening = 0.6;  ///< γ: fraction of the cross velocity at the stern that reaches the blades [-]
   double hull_factor = 0.3;         ///< a_H: side force on the hull over that on the blade, in the hull's flow [-]
 };
 
@@ -48,7 +48,7 @@ LiftAndDrag foil_in_endless_flow(double aspect_ratio, double incidence);
 /// @param aspect_ratio d over the chord [-].
 LiftAndDrag foil_in_race(double aspect_ratio, double incidence);
 
-/// Returns the force of all blades on the ship, with what the hull answers to them.
+/// Returns the force of all blades on the ship, including the reaction of the hull.
 /// @param angle δ of the blades [rad].
 /// @param through_water velocity of the ship through the water [m/s, rad/s].
 /// @param thrust of all propellers, ahead [N]. Propellers that push astern have no race on the rudder.

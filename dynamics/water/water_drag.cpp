@@ -15,21 +15,21 @@ namespace polynya::dynamics {
 using geometry::Point;
 using geometry::Vector;
 
-// ---- what of a shape meets the water
+// ---- drag shapes
 
 namespace {
 
 constexpr int kDirections = DragShape::kDirections;
-constexpr int kAround = 2 * kDirections;  // the directions of a whole turn; k + kDirections is opposite to k
+constexpr int kAround = 2 * kDirections;  // directions of a whole turn; k + kDirections is opposite to k
 
-/// drag_place() among the directions of a whole turn, from [0, kAround).
+/// Returns drag_place() among the directions of a whole turn, in [0, kAround).
 double place_around(Vector d) {
   return d.y >= 0 ? drag_place(d) : kAround - drag_place({d.x, -d.y});
 }
 
 struct UnitAcross {
   Vector across;     // unit vector, perpendicular to drag_direction(k)
-  double share = 0;  // of the mean over directions
+  double share = 0;  // weight in the mean over directions
 };
 
 std::array<UnitAcross, kDirections> make_units() {
@@ -37,8 +37,7 @@ std::array<UnitAcross, kDirections> make_units() {
   for (int k = 0; k < kDirections; ++k) {
     const Vector along = drag_direction(k);
     units[k].across = perpendicular(along) / length(along);
-    // The known directions are not evenly spaced in angle: each stands for dθ = |d'| / |d|² of the diamond's
-    // edge.
+    // The directions are not evenly spaced in angle: each represents dθ = |d'| / |d|² of the diamond's edge.
     units[k].share = (2.0 / kDirections) / squared_length(along) / std::numbers::pi;
   }
   return units;
@@ -49,18 +48,18 @@ const std::array<UnitAcross, kDirections>& units_across() {
   return units;
 }
 
-/// The unit vector across a direction of a whole turn.
+/// Returns the unit vector across a direction of a whole turn.
 Vector out_at(const std::array<UnitAcross, kDirections>& units, int at) {
   return at < kDirections ? units[at].across : -units[at - kDirections].across;
 }
 
-/// A corner is farthest out of a ring only for directions between the normals of its two edges, and of many
-/// corners most are for none. Calls use(corner, first, last) with those directions, which may be a turn on.
+/// Calls use(corner, first, last) for each corner and the directions in which it is the farthest one of the ring. These
+/// are the directions between the normals of its two edges; most of many corners have none. `last` may be one turn on.
 template <class Use>
 void for_outward_corners(std::span<const Point> ring, Use use) {
-  constexpr double kSlack = 1e-9;  // of the places, far more than rounding can be
+  constexpr double kSlack = 1e-9;  // in directions, far more than rounding errors
   const std::size_t count = ring.size();
-  const auto normal_place = [&](std::size_t i) {  // along, that is: across is a quarter turn on
+  const auto normal_place = [&](std::size_t i) {  // along the edge: `across` is a quarter turn further
     return place_around(-(ring[i + 1 < count ? i + 1 : 0] - ring[i]));
   };
   double before = normal_place(count - 1);
@@ -76,8 +75,8 @@ void for_outward_corners(std::span<const Point> ring, Use use) {
   }
 }
 
-/// How far a ring reaches from a centre within its hull, along the unit vectors across all directions of a
-/// whole turn [m].
+/// Returns how far a ring reaches from a centre within its convex hull, along the unit vectors across all directions of
+/// a whole turn [m].
 std::array<double, kAround> reaches(std::span<const Point> ring, Point centre,
                                     const std::array<UnitAcross, kDirections>& units) {
   std::array<double, kAround> reach{};
@@ -102,9 +101,10 @@ DragShape edge_shape(const geometry::Polygon& polygon, Point centroid) {
   return shape;
 }
 
-/// ∫ r³ dA over the triangle of the centre and an edge [m⁵], negative where the edge runs clockwise about it.
-/// In polar coordinates about the centre, d from the edge's line and s along it from the nearest point:
-/// ∫ r⁵/5 dθ, r = d / cos θ, whose antiderivative is (d s r³/4 + ⅜ d³ s r + ⅜ d⁵ asinh(s/d)) / 5.
+/// Returns ∫ r³ dA over the triangle of the centre and an edge [m⁵]; negative if the edge runs clockwise about the
+/// centre. In polar coordinates about the centre, with the distance d of the edge's line and s along it from the
+/// nearest point, the integral is ∫ r⁵/5 dθ with r = d / cos θ. Its antiderivative is (d s r³/4 + ⅜ d³ s r + ⅜ d⁵
+/// asinh(s/d)) / 5.
 double third_moment_of_edge(Vector from, Vector to) {
   const double edge = length(to - from);
   if (edge == 0) return 0;
@@ -126,7 +126,7 @@ double third_moment(const geometry::Ring& ring, Point centroid) {
   return sum;
 }
 
-/// Holes run clockwise.
+/// Returns ∫ r³ dA of a polygon about its centroid [m⁵]. Holes run clockwise.
 double third_moment(const geometry::Polygon& polygon, Point centroid) {
   double sum = third_moment(polygon.outer, centroid);
   for (const geometry::Ring& hole : polygon.holes) sum += third_moment(hole, centroid);
@@ -170,24 +170,24 @@ Vector drag_direction(int k) {
   return t < 1 ? Vector{1 - t, t} : Vector{1 - t, 2 - t};
 }
 
-// ---- what the water does to bodies
+// ---- forces on bodies
 
 namespace {
 
-/// Some bodies side by side, for loops that the compiler turns into vector instructions. Plain arrays: it
-/// does not of those that check their indices.
+/// Some bodies side by side, for loops that the compiler turns into vector instructions. The arrays are plain, because
+/// the compiler does not vectorise arrays that check their indices.
 struct Lanes {
-  // So many that the arrays stay in the first cache. No result changes.
+  // This number keeps the arrays in the first cache. Results do not depend on it.
   static constexpr std::size_t kMost = 32;
-  std::size_t count = 0;  ///< bodies that are in the lanes
+  std::size_t count = 0;  ///< number of bodies in the lanes
   BodyIndex body[kMost];
-  // The motion through the water, and what changes it.
+  // Motion through the water, and the values that change it.
   double ux[kMost], uy[kMost], speed[kMost], cosine[kMost], sine[kMost], place[kMost], width[kMost];
   double rate[kMost], skin[kMost], skin_turning[kMost], inverse_mass[kMost], mass[kMost];
   double omega[kMost], rotational[kMost], inverse_moment[kMost], moment[kMost];
-  // The motion after the step is the water's and this.
+  // Motion after the step, relative to the water.
   double ux_after[kMost], uy_after[kMost], omega_after[kMost];
-  // What the water did.
+  // Work and impulses of the water.
   double slowing[kMost], lost[kMost], lost_turning[kMost], turning_slowing[kMost];
 };
 
@@ -247,7 +247,7 @@ struct Columns {
   const std::shared_ptr<geometry::Boundary>* boundary;
 };
 
-/// The widths across the k-th direction and the next.
+/// Returns the widths across the k-th direction and the next one.
 DragSpan span_at(const Columns& bodies, BodyIndex i, int k) {
   const DragShape& shape = *bodies.drag[i];
   if (shape.same_width) return {*shape.same_width, *shape.same_width, shape.rotational, k};
@@ -255,7 +255,7 @@ DragSpan span_at(const Columns& bodies, BodyIndex i, int k) {
   return {width, next_width, shape.rotational, k};
 }
 
-/// The width across a place between two known directions.
+/// Returns the width across a place between two known directions.
 double width_at(const Columns& bodies, BodyIndex i, double place) {
   DragSpan& span = bodies.span[i];
   const int k = std::min(static_cast<int>(place), DragShape::kDirections - 1);
@@ -273,7 +273,7 @@ struct DragRates {
   bool is_plan = false;
 };
 
-/// Writes what changes the motion of the bodies into the lanes.
+/// Writes the values that change the motion of the bodies into the lanes.
 void gather(const Columns& bodies, Lanes& l, std::size_t count, const DragRates& rates, const ShearCurrent& current) {
   const double turning = current.is_still() ? 0 : current.angular_velocity();
   for (std::size_t k = 0; k < count; ++k) {
@@ -294,7 +294,7 @@ void gather(const Columns& bodies, Lanes& l, std::size_t count, const DragRates&
   }
 }
 
-/// Writes the lanes' motion back and adds what the water did, body by body.
+/// Writes the motion of the lanes back, and adds the work of the water body by body.
 void scatter(const Columns& bodies, const Lanes& l, std::size_t count, const ShearCurrent& current, WaterWork& work) {
   const bool is_still = current.is_still();
   const double turning = is_still ? 0 : current.angular_velocity();
@@ -317,7 +317,7 @@ void scatter(const Columns& bodies, const Lanes& l, std::size_t count, const She
   }
 }
 
-/// Brakes the lanes' bodies over the step.
+/// Brakes the bodies of the lanes over the step.
 void brake(const Columns& bodies, Lanes& l, const WaterDrag& water, double dt, WaterWork& work) {
   const std::size_t count = l.count;
   const DragRates rates{0.5 * water.drag_coefficient * water.density * dt,

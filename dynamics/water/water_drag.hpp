@@ -10,24 +10,25 @@
 
 namespace polynya::dynamics {
 
-/// What the "projected area" A of Eq. (6) is read as.
+/// The readings of "projected area" A in Eq. (6).
 enum class DragArea {
-  kEdge,  ///< thickness × width across the motion: the floe's edge meets the water
+  kEdge,  ///< thickness × width across the motion: the drag acts on the floe's edge
   kPlan,  ///< the floe's area in plan
 };
 
-/// By edge: the rotational drag integral of a shape about `centroid` in its frame [m⁴]. By plan: the area in place of
-/// its widths [m²], and ∫ r³ dA, exact for the polygon [m⁵]. `has_skin`: with ∫ r³ dA for the skin drag too.
+/// Makes the drag shape of a polygon about `centroid` in its frame. With kEdge it has the rotational drag integral
+/// [m⁴]. With kPlan it has the area instead of widths [m²], and ∫ r³ dA, exact for the polygon [m⁵]. With `has_skin` it
+/// also has ∫ r³ dA for the skin drag.
 DragShape make_drag_shape(const geometry::Polygon& polygon, geometry::Point centroid, DragArea area = DragArea::kEdge,
                           bool has_skin = false);
 
-/// The k-th of the 128 directions over half a turn at which widths are found, and interpolated between them: evenly
-/// around a diamond, since that needs no arctangent to find a direction's place among them. Not of unit length.
-/// Widths are so within 2e-4 for a square, and within aspect/64 of the width of a slender piece where its kink falls
-/// between two.
+/// Returns the k-th of the 128 directions over half a turn for which widths are computed; between them widths are
+/// interpolated. The directions are spaced evenly around a diamond, because their index then follows without an
+/// arctangent. They are not of unit length. Interpolated widths are accurate within 2e-4 for a square, and within
+/// aspect/64 of the width of a slender piece whose kink lies between two directions.
 geometry::Vector drag_direction(int k);
 
-/// Where a direction (of any length > 0) is among them, from [0, 128]: the inverse of drag_direction().
+/// Returns the place of a direction (of any length > 0) among them, in [0, 128]: the inverse of drag_direction().
 inline double drag_place(geometry::Vector d) {
   const bool is_behind = d.y < 0;
   const double x = is_behind ? -d.x : d.x;
@@ -36,14 +37,14 @@ inline double drag_place(geometry::Vector d) {
   return (x >= 0 ? from_axis : 2 - from_axis) * (0.5 * DragShape::kDirections);
 }
 
-/// The widths of an outline of these corners across drag_direction(k) and the next [m], 0 ≤ k < 128.
+/// Returns the widths of an outline with these corners across drag_direction(k) and the next one [m], 0 ≤ k < 128.
 std::array<double, 2> widths_of_outline(std::span<const geometry::Point> corners, geometry::Point centroid, int k);
 
-/// A current that grows linearly across its direction, in the water frame (which drifts with the uniform
-/// part).
+/// A current that grows linearly across its direction, in the water frame (which drifts with the uniform part of the
+/// current).
 struct ShearCurrent {
   geometry::Vector along{1, 0};  ///< unit direction of the current
-  double rate = 0;               ///< per distance to port of `along` from the origin [1/s]
+  double rate = 0;               ///< growth per distance to port of `along` from the origin [1/s]
   geometry::Point origin;        ///< [m]
 
   bool is_still() const { return rate == 0; }
@@ -55,29 +56,28 @@ struct WaterDrag {
   double drag_coefficient = 0.5;  ///< C_D [-]
   double density = 1000;          ///< ρ_w [kg/m³]
   ShearCurrent current;
-  DragArea area = DragArea::kEdge;  ///< A, as the bodies' drag shapes have it
-  double skin_coefficient = 0;      ///< C_w, of the floe's area in plan, on top [-]
+  DragArea area = DragArea::kEdge;  ///< reading of A, the same as in the bodies' drag shapes
+  double skin_coefficient = 0;      ///< C_w of the skin drag on the floe's area in plan, in addition [-]
 };
 
-/// What the water did to the bodies over a step.
+/// The effect of the water on the bodies over a step.
 struct WaterWork {
-  double lost = 0;           ///< energy of the motion relative to the water around [J]
-  double by_current = 0;     ///< energy from a current [J]
-  geometry::Vector impulse;  ///< on them all together [N s]
-  double impulses = 0;       ///< sum of the impulses' sizes [N s]
+  double lost = 0;           ///< energy lost by the motion relative to the surrounding water [J]
+  double by_current = 0;     ///< energy gained from a current [J]
+  geometry::Vector impulse;  ///< sum of the impulses on all bodies [N s]
+  double impulses = 0;       ///< sum of the magnitudes of the impulses [N s]
 };
 
 /// Applies the drag of the water to every awake body over dt [s]. Eq. (6) of [Sawamura2017]:
 ///   F = −½ C_D ρ_w A |u| u,   A = h × width across u (DragArea::kEdge) or the area in plan (kPlan),
-/// with u relative to the water at the centre of mass, and the same law for the rotation, ω relative to half
-/// the water's vorticity, each strip at distance s from the centre moving at ω s through the water:
-/// M = −½ C_D ρ_w h K |ω| ω, K = ∫|s|³ ds over the width, averaged over directions; in plan
-/// M = −½ C_D ρ_w ∫r³ dA |ω| ω. The effect of a current's strain on rotation is left out: a long floe would
-/// not turn evenly. Deviation: the paper prints the floe's own velocity for u; a drifting floe would be
-/// braked by its own current. Skin drag on the area in plan S adds −½ C_w ρ_w S |u| u and
-/// −½ C_w ρ_w ∫r³ dA |ω| ω, which is exact for a floe that only turns. Solved exactly over the step for
-/// constant A, v⁺ = v / (1 + c |v| dt): stable for any step. The bodies' kinetic energy changes by by_current
-/// − lost.
+/// with u relative to the water at the centre of mass. The same law holds for the rotation, with ω relative to half the
+/// vorticity of the water. Each strip at the distance s from the centre moves at ω s through the water, which gives M =
+/// −½ C_D ρ_w h K |ω| ω with K = ∫|s|³ ds over the width, averaged over directions; in plan M = −½ C_D ρ_w ∫r³ dA |ω|
+/// ω. The effect of a current's strain on rotation is left out; with it a long floe would not turn evenly. Deviation:
+/// the paper prints the floe's own velocity for u, with which a drifting floe would be braked by its own current. Skin
+/// drag on the area in plan S adds −½ C_w ρ_w S |u| u and −½ C_w ρ_w ∫r³ dA |ω| ω, which is exact for a floe that only
+/// turns. The equations are solved exactly over the step for constant A, v⁺ = v / (1 + c |v| dt), which is stable for
+/// any step. The kinetic energy of the bodies changes by by_current − lost.
 WaterWork apply_water_drag(Bodies& bodies, const std::vector<BodyIndex>& awake, const WaterDrag& water, double dt,
                            int threads = 1);
 

@@ -15,42 +15,44 @@ struct BendingLoad {
   double back_half_angle = 0.7854;   ///< θ_wb, from the inward normal to the other [rad]
   double hull_angle = 0.7854;        ///< θ_s, the hull's inclination from the vertical [rad]
   double mean_approach_speed = 0;    ///< mean v_n since first contact [m/s]
-  double penetration = 0;            ///< ξ, so far crushed along the plan normal [m]
-  double vertical_to_crushing = 1;   ///< c_V = V / F_n of section 2 [-]
-  /// 2α as measured, where the edges lie beyond the largest half-angles [rad]; 0: the sum of the half-angles.
-  /// A hull that has broken its way in meets the ice at the bottom of a notch, 2α > π.
+  double penetration = 0;            ///< ξ, crushed so far along the plan normal [m]
+  double vertical_to_crushing = 1;   ///< c_V = V / F_n (docs/theory/bending.md) [-]
+  /// 2α as measured, if the edges lie beyond the largest half-angles [rad]; 0: the sum of the half-angles. A hull that
+  /// has broken its way in touches the ice at the bottom of a notch, 2α > π.
   double opening_angle = 0;
-  /// V of the contact at that penetration [N]; 0 where it is not known: then V follows from the wedge's
-  /// angles, Eq. (2).
+  /// V of the contact at that penetration [N]; 0 if it is not known: V then follows from the wedge's angles, Eq. (2).
   double vertical_force = 0;
   double thrust = 0;  ///< H / V of the contact, inwards over down [-]
-  /// Of the load between the first touch (0) and ξ (1): 2/3 of ice that ends in a corner, 1/3 of a hull's corner.
+  /// Place of the load between the first touch (0) and ξ (1) [-]: 2/3 if the ice ends in a corner, 1/3 at a corner of
+  /// the hull.
   double load_place = 2.0 / 3;
-  /// The edge's true outline; none: an infinite wedge of 2α.
+  /// True outline of the edge; nullopt: an infinite wedge of 2α.
   std::optional<EdgeOpenings> openings;
 };
 
-/// What the wedge bears before its cusp breaks off.
+/// The force that the wedge carries before its cusp breaks off, and the size of the cusp.
 struct BendingCapacity {
-  double vertical_force = 0;        ///< V_b [N]
-  double cusp_radius = 0;           ///< R [m]
-  bool is_in_range = true;          ///< false where a tabulated model had to clamp the load to its table
-  bool radial_crack_first = false;  ///< a radial crack opens before the cusp breaks, where the model has one
+  double vertical_force = 0;  ///< V_b [N]
+  double cusp_radius = 0;     ///< R [m]
+  bool is_in_range = true;    ///< false if a tabulated model had to limit the load to its table
+  bool radial_crack_first =
+      false;  ///< a radial crack opens before the cusp breaks, if the model includes radial cracks
 };
 
-/// What the crack does that opens in the bottom fibre, along the bisector, before the cusp breaks off.
+/// The effect of the radial crack that opens in the bottom fibre, along the bisector, before the cusp breaks off.
 enum class RadialCracks {
-  kIgnored,     ///< the edge breaks as if it were whole
-  kSplitWedge,  ///< it runs through: a wedge splits, the sections of an edge hold as cracked ones (docs/theory/bow.md)
+  kIgnored,     ///< none: the edge breaks as if it were whole
+  kSplitWedge,  ///< it runs through: a wedge splits, and the sections of an edge carry as cracked ones
+                ///< (docs/theory/bow.md)
 };
 
-/// What of the ice's outline decides where it breaks.
+/// The description of the ice's outline that decides where it breaks.
 enum class EdgeOutline {
-  kSections,  ///< its width at each distance from the first touch
-  kWedge,     ///< the wedge that it makes over 0.3 l
+  kSections,  ///< width of the ice at each distance from the first touch
+  kWedge,     ///< wedge that the ice forms within 0.3 l
 };
 
-/// When a plate breaks by bending, and how large the cusp is. Without state of a run.
+/// Computes when a plate breaks by bending, and how large the cusp is. Models keep no state of a run.
 class BendingModel {
  public:
   virtual ~BendingModel() = default;

@@ -24,7 +24,7 @@ std::vector<double> mapped(std::vector<double> values, Map map) {
   return values;
 }
 
-/// An interval of one axis and where in it a coordinate lies, 0..1.
+/// An interval of one axis, and the place of a coordinate in it, 0 to 1.
 struct Cell {
   std::size_t lower = 0;
   double fraction = 0;
@@ -38,13 +38,13 @@ Cell cell_at(const std::vector<double>& axis, double x) {
   return {upper - 1, std::clamp((x - axis[upper - 1]) / (axis[upper] - axis[upper - 1]), 0.0, 1.0)};
 }
 
-/// How far the interpolation between two softnesses follows pushes of equal duration: with the exponent ½ of
-/// Fr ∝ Π^½ the time to the break, τ_b = √(Π V̂)/Fr, is the same at both but for V̂.
+/// Exponent with which the interpolation between two softnesses follows pushes of equal duration, Fr ∝ Π^½ [-]: the
+/// time to the break, τ_b = √(Π V̂)/Fr, is then the same at both except for V̂.
 constexpr double kEqualDuration = 0.5;
 
-/// Where to read the table at the softness cell's lower and upper value. What inertia does to the break
-/// depends on how long the push lasts, so that the table is far smoother along Fr ∝ Π^½ than along Π alone.
-/// Near the ends of the Froude axis the exponent shrinks to what both softnesses have.
+/// Returns where to read the table at the lower and the upper value of the softness cell. The effect of inertia on the
+/// break depends on the duration of the push, so the table is far smoother along Fr ∝ Π^½ than along Π alone. Near the
+/// ends of the Froude axis the exponent shrinks to one that both softnesses allow.
 std::array<Cell, 2> froude_cells(const std::vector<double>& softnesses, const Cell& softness,
                                  const std::vector<double>& froudes, double log_froude) {
   const double x = std::clamp(log_froude, froudes.front(), froudes.back());
@@ -55,17 +55,17 @@ std::array<Cell, 2> froude_cells(const std::vector<double>& softnesses, const Ce
   return {cell_at(froudes, x - exponent * below), cell_at(froudes, x + exponent * above)};
 }
 
-/// A load's place on the axes.
+/// Returns the coordinates of a load on the axes.
 std::array<double, 4> axis_coordinates(const WedgeGroups& groups) {
   return {groups.opening_angle, elementary::log(groups.mass_ratio), elementary::log(groups.softness),
           elementary::log(groups.froude)};
 }
 
-/// Rounding at the edge of an axis is not "outside".
+/// Tolerance at the edge of an axis, so that rounding does not count as outside [-].
 constexpr double kEdgeTolerance = 1e-9;
 
-/// One bit per group that lies outside its axis, NaN included. A Froude number below the least does not: the
-/// wedge is only more at rest.
+/// Returns one bit per group that lies outside of its axis, NaN included. A Froude number below the smallest does not
+/// count as outside: the wedge is only closer to rest.
 std::uint8_t outside_bits(const std::array<std::vector<double>, 4>& axes, const std::array<double, 4>& x) {
   unsigned bits = 0;
   for (std::size_t axis = 0; axis < axes.size(); ++axis) {
@@ -86,8 +86,8 @@ bool is_grid_axis(const std::vector<double>& values) {
   return true;
 }
 
-/// Chosen by `polynya_bench_wedges accuracy`: closer in Fr where inertia overshoots, and in Π where the
-/// loaded patch is no longer small.
+/// Chosen with `polynya_bench_wedges accuracy`: finer in Fr where inertia overshoots, and in Π where the loaded patch
+/// is no longer small.
 DatabaseGrid default_grid() {
   return {{20, 29, 40, 51, 63, 76, 90, 104, 118, 132, 145, 156, 165, 173, 180},
           {0.02, 0.05, 0.1},
@@ -153,12 +153,12 @@ std::vector<OutsideRange> BendingDatabase::outside(const WedgeGroups& groups) co
   return ranges;
 }
 
-// ---- solving all of it
+// ---- solution of the whole grid
 
 namespace {
 
-/// To six significant digits: far finer than the solution, and the same on machines whose mathematical
-/// functions differ in the last bit.
+/// Rounds to six significant digits. This is far finer than the solution, and gives the same digits on machines whose
+/// mathematical functions differ in the last bit.
 double rounded(double x) {
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific, 5).ptr;
@@ -172,7 +172,7 @@ struct Wedge {
   double mass_ratio;
 };
 
-/// All pushes on one wedge; nothing where one of them does not break it.
+/// Returns the entries of all pushes on one wedge; nullopt if one of the pushes does not break it.
 std::optional<std::vector<DatabaseEntry>> solve_wedge(const Wedge& wedge, const SolverSettings& settings,
                                                       const DatabaseGrid& grid) {
   const WedgeSolver solver(wedge.opening_angle_deg * geometry::kRadiansPerDegree, wedge.mass_ratio, settings);
@@ -229,13 +229,13 @@ tl::expected<BendingDatabase, DatabaseError> build_database(const SolverSettings
   return BendingDatabase(settings, grid, std::move(entries));
 }
 
-// ---- as text
+// ---- text
 
 namespace {
 
 constexpr std::string_view kTitle = "polynya-bending-database 1";
 constexpr std::string_view kColumns = "columns force radius crack";
-constexpr std::size_t kMostGridValues = 64;  ///< of an axis: a damaged count must not reserve memory
+constexpr std::size_t kMostGridValues = 64;  ///< of an axis, so that a damaged count cannot reserve much memory
 
 struct FluidName {
   FluidModel fluid;
@@ -246,7 +246,7 @@ constexpr std::array<FluidName, 4> kFluidNames = {{{FluidModel::kWinkler, "winkl
                                                    {FluidModel::kPotential, "potential"},
                                                    {FluidModel::kFreeSurface, "free-surface"}}};
 
-/// A numeric setting, by its name in the file, with the values that the reader accepts.
+/// A numeric setting: its name in the file and the values that the reader accepts.
 template <typename Number>
 struct Setting {
   std::string_view name;
@@ -282,7 +282,7 @@ void append(std::string& text, Number value) {
   text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
 }
 
-/// FNV-1a, 64 bits [Fowler2019]: against accidents, not against malice.
+/// Returns the FNV-1a hash, 64 bits [Fowler2019]. It protects against accidents, not against malice.
 std::string hash_of(std::string_view text) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
@@ -328,7 +328,7 @@ std::string body(const BendingDatabase& database) {
 
 // ---- reading
 
-/// The lines of a text, one at a time, and what is wrong with them.
+/// Reads the lines of a text, one at a time, and keeps the first error.
 class Reader {
  public:
   explicit Reader(std::string_view text) : text_(text) {}
@@ -342,7 +342,7 @@ class Reader {
     if (!error_) error_ = DatabaseError{line_, std::move(message)};
   }
 
-  /// The next line without its newline; empty after a failure.
+  /// Returns the next line without its newline; empty after an error.
   std::string_view line() {
     if (error_) return {};
     ++line_;
@@ -361,7 +361,7 @@ class Reader {
     if (found != wanted) fail("expected '" + std::string(wanted) + "', found '" + excerpt(found) + "'");
   }
 
-  /// What follows "name " on the next line.
+  /// Returns the text that follows "name " on the next line.
   std::string_view item(std::string_view name) {
     const std::string_view found = line();
     if (found.size() > name.size() + 1 && found.substr(0, name.size()) == name && found[name.size()] == ' ')

@@ -14,10 +14,10 @@ namespace polynya::fracture {
 namespace {
 
 constexpr std::array<double, 8> kAngles = {20, 30, 40, 60, 90, 120, 150, 180};  // 2α [°]
-/// [t0]; the last row is that of a wedge at rest.
+/// Durations of the columns [t0]; the last column is for a wedge at rest.
 constexpr std::array<double, 15> kDurations = {0.02, 0.04, 0.08, 0.15, 0.25, 0.4, 0.6, 0.9,
                                                1.3,  1.8,  2.4,  3.2,  4.2,  6,   12};
-// tests/fracture/bending/edge_deflection_test.cpp computes these from the modes.
+// Rows by angle; tests/fracture/bending/edge_deflection_test.cpp computes the values from the modes.
 constexpr double kCompliance[kAngles.size()][kDurations.size()] = {
     {0.15667, 0.30679, 0.59054, 1.0521, 1.6578, 2.4725, 3.4051, 4.5028, 5.4769, 6.0947, 6.3157, 6.3339, 6.3911, 6.4079,
      6.4381},
@@ -36,7 +36,7 @@ constexpr double kCompliance[kAngles.size()][kDurations.size()] = {
     {0.0081893, 0.0152, 0.027813, 0.047613, 0.073128, 0.10767, 0.14896, 0.20314, 0.26342, 0.32254, 0.37374, 0.41669,
      0.43931, 0.45296, 0.45811}};
 
-/// Where x lies among ascending points: the interval and the share of it, by logarithms; held at the ends.
+/// The place of x among ascending points: the interval, and the fraction of it by logarithms, limited to the ends.
 struct Place {
   std::size_t first = 0;
   double share = 0;
@@ -64,7 +64,7 @@ double tip_compliance(double opening_angle, double duration) {
     return geometric_mean(kCompliance[i][time.first], kCompliance[i][time.first + 1], time.share);
   };
   const double compliance = geometric_mean(at_angle(angle.first), at_angle(angle.first + 1), angle.share);
-  // Before the table's first time it grows in proportion to the time, as it does there.
+  // The compliance before the first time of the table is proportional to the time, as it is at that time.
   return compliance * std::min(1.0, duration / kDurations.front());
 }
 

@@ -17,9 +17,8 @@
 namespace polynya::fracture {
 namespace {
 
-/// The groups to look up where the contact's force at its penetration is known: the softness is that of the
-/// push κ ξ² that has this force there. The hull need not be flat, nor the ice as wide as its wedge, where
-/// they touch.
+/// Returns the groups to look up if the contact's force at its penetration is known. The softness belongs to the push κ
+/// ξ² with this force there. The hull need not be flat at the contact, nor the ice as wide as its wedge.
 WedgeGroups measured_groups(const ScaledLoad& scaled_load, const BendingLoad& load) {
   WedgeGroups groups = scaled_load.groups;
   const double depth = load.penetration / scaled_load.length_scale;
@@ -27,7 +26,7 @@ WedgeGroups measured_groups(const ScaledLoad& scaled_load, const BendingLoad& lo
   return groups;
 }
 
-/// The groups to look up for a load that has come so deep [m]: the softness is that of the push κ ξ² with the
+/// Returns the groups to look up for a load with this penetration [m]. The softness belongs to the push κ ξ² with the
 /// true push's force at this penetration.
 WedgeGroups looked_up_groups(const ScaledLoad& load, double penetration) {
   WedgeGroups groups = load.groups;
@@ -47,11 +46,11 @@ BendingCapacity to_capacity(const DatabaseAnswer& answer, const ScaledLoad& load
   return capacity;
 }
 
-/// What the parts of a wedge bear that radial cracks have split into 2, 4, … alike: each crack opens along
-/// the bisector of a part where its bottom fibre fails before its top fibre does. The parts bear V in equal
-/// shares; where they bear less than the load that opened the last crack, they break under that one.
+/// Returns the force of a wedge that radial cracks have split into 2, 4, … equal parts. Each crack opens along the
+/// bisector of a part if its bottom fibre fails before its top fibre does. The parts carry equal shares of V. If they
+/// carry less than the load that opened the last crack, they break under that load.
 DatabaseAnswer with_radial_cracks(const BendingDatabase& database, const WedgeGroups& whole) {
-  constexpr int kMostParts = 16;  // of a half plane: 11° each, narrower than the table's least wedge
+  constexpr int kMostParts = 16;  // of a half plane: 11° each, narrower than the table's smallest wedge
   const double crack_ratio = database.look_up(whole).crack_ratio;
   double at_crack = 0;
   for (int parts = 1;; parts *= 2) {
@@ -70,11 +69,11 @@ DatabaseAnswer with_radial_cracks(const BendingDatabase& database, const WedgeGr
   }
 }
 
-/// The length over which a push is held up, in l: by the water alone at rest; of a fast push by the inertia of ice and
-/// water too. It is that with which a narrow wedge has the database's R: R ∝ λ^½ between the tip's load and λ
-/// gives it within 10 % up to 3 m/s (test FollowTheDatabaseWithSpeed).
+/// Returns the length over which a push is supported, in l: by the water alone at rest, and also by the inertia of ice
+/// and water if the push is fast. It is the length with which a narrow wedge has the database's R. R ∝ λ^½, between the
+/// load at the tip and λ, gives it within 10 % up to 3 m/s (test FollowTheDatabaseWithSpeed).
 double effective_length(const BendingDatabase& database, const WedgeGroups& whole) {
-  constexpr double kNarrow = 60 * geometry::kRadiansPerDegree;  // such parts do not crack
+  constexpr double kNarrow = 60 * geometry::kRadiansPerDegree;  // parts this narrow do not crack
   WedgeGroups part = whole;
   part.softness *= std::max(1.0, whole.opening_angle / kNarrow);
   part.opening_angle = kNarrow;
@@ -84,7 +83,8 @@ double effective_length(const BendingDatabase& database, const WedgeGroups& whol
   return ratio * ratio;
 }
 
-/// The hull's push on the edge at its penetration: on the upper part of the edge, a third of it below the top.
+/// Returns the hull's push on the edge at its penetration. It acts on the upper part of the edge, at a third of it
+/// below the top.
 EdgePush edge_push(const BendingLoad& load, double length, double effective_length) {
   const double depth = load.penetration / load.ice.thickness;
   EdgePush push;
@@ -97,7 +97,7 @@ EdgePush edge_push(const BendingLoad& load, double length, double effective_leng
   return push;
 }
 
-/// How far the tip sinks in thicknesses, per V / (σ_f h²).
+/// Returns by how much the tip sinks, in thicknesses, per V / (σ_f h²).
 double sinking_of(const BendingLoad& load, const ScaledLoad& scaled_load, double opening_angle) {
   const double duration = load.mean_approach_speed > 0
                               ? load.penetration / load.mean_approach_speed / scaled_load.time_scale
@@ -108,7 +108,7 @@ double sinking_of(const BendingLoad& load, const ScaledLoad& scaled_load, double
 }
 
 bool has_poisson_ratio_of(const BendingDatabase& database, const BendingLoad& load) {
-  constexpr double kTolerance = 1e-9;  // of rounding: exact equality would count every other load as outside
+  constexpr double kTolerance = 1e-9;  // for rounding: exact equality would count every other load as outside
   return std::abs(load.ice.poisson_ratio - database.settings().poisson_ratio) <= kTolerance;
 }
 
@@ -142,7 +142,7 @@ WedgePush push_of(const ScaledLoad& load, Feedback feedback) {
 }
 
 FsiDatabaseModel::FsiDatabaseModel(RadialCracks radial_cracks)
-    // The shipped database lives as long as the program: nothing to delete.
+    // The shipped database lives as long as the program, so there is nothing to delete.
     : database_(std::shared_ptr<const BendingDatabase>(), &default_database()), radial_cracks_(radial_cracks) {}
 
 FsiDatabaseModel::FsiDatabaseModel(std::shared_ptr<const BendingDatabase> database) : database_(std::move(database)) {
@@ -168,8 +168,8 @@ BendingCapacity FsiDatabaseModel::capacity(const BendingLoad& load) const {
 BendingForecast FsiDatabaseModel::forecast(const BendingLoad& load) const {
   const ScaledLoad scaled_load = scaled(load);
   const WedgePush push = push_of(scaled_load, Feedback::kIgnored);
-  // Where the contact crushes through the thickness before it breaks, force and penetration decide each
-  // other; the force depends weakly on the penetration, so that a few rounds find both.
+  // If the contact crushes through the thickness before it breaks, force and penetration depend on each other. The
+  // force depends weakly on the penetration, so a few rounds find both.
   constexpr int kRounds = 20;
   BendingForecast forecast;
   WedgeGroups groups;

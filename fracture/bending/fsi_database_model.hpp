@@ -9,15 +9,14 @@
 
 namespace polynya::fracture {
 
-/// A physical load as the dimensionless problem of the wedge solver, and the scales of its answer. With l =
-/// (D / ρ_w g)^¼ and t0 = √(l/g):
+/// A physical load as the dimensionless problem of the wedge solver, with the scales of the result. With l = (D / ρ_w
+/// g)^¼ and t0 = √(l/g):
 ///   2α = θ_wf + θ_wb, m̂ = ρ_i h / (ρ_w l), Fr = v_n / √(g l), Π = σ_f h² / (κ l²)
 ///   κ = σ_c c_V T / (2 sin θ_s), T = tan θ_wf + tan θ_wb: V = κ [ξ² − ⟨ξ − h tan θ_s⟩²], Eqs. (1), (2) of
 ///   [Sawamura2017]
-/// Edges of unequal angles crush as they are, through T, and bend as the symmetric wedge of the same opening
-/// 2α.
+/// Edges of unequal angles crush as they are, through T, and bend as the symmetric wedge of the same opening 2α.
 struct ScaledLoad {
-  WedgeGroups groups;       ///< softness is infinite where the hull cannot press the ice down, c_V ≤ 0 or θ_s = 0
+  WedgeGroups groups;       ///< softness is infinite if the hull cannot press the ice down: c_V ≤ 0 or θ_s = 0
   double full_depth = 0;    ///< h tan θ_s / l
   double feedback = 0;      ///< χ = σ_f h² tan θ_s / (ρ_w g l³)
   double length_scale = 0;  ///< l [m]
@@ -27,39 +26,38 @@ struct ScaledLoad {
 
 ScaledLoad scaled(const BendingLoad& load);
 
-/// The load's push from first contact on; whether the ice's own deflection slows the penetration is the
-/// caller's choice.
+/// Returns the push of a load from first contact on. The caller chooses whether the deflection of the ice slows the
+/// penetration.
 enum class Feedback { kIgnored, kCoupled };
 WedgePush push_of(const ScaledLoad& load, Feedback feedback);
 
-/// A whole push at constant speed, from first contact to the break.
+/// A complete push at constant speed, from first contact to the break.
 struct BendingForecast {
   BendingCapacity capacity;
   double normal_force = 0;  ///< F_n = V_b / c_V on the crushed facet at the break [N]
   double penetration = 0;   ///< ξ_b [m]
   double time = 0;          ///< from first contact to the break [s]; infinite at rest
-  /// Π of the push κ ξ² that has the force of this one at its penetration: the load's own softness unless the
-  /// contact crushes through the thickness before the break.
+  /// Π of the push κ ξ² that has the same force at the same penetration: the load's own softness, unless the contact
+  /// crushes through the thickness before the break.
   double equivalent_softness = 0;
-  std::vector<OutsideRange> outside;  ///< what of the load lies outside the table; empty in range
+  std::vector<OutsideRange> outside;  ///< groups of the load outside of the table; empty if all are in range
 };
 
-/// The paper's bending model: the icebreaking database of a fluid–structure solution, looked up with the
-/// load's dimensionless groups. [Sawamura2017, "Plate Ice Breaking"] The table covers contacts that have not
-/// crushed through the thickness, V = κ ξ². Where the load's penetration is deeper than h tan θ_s, the Π of
-/// the κ ξ² push with the same force at the same penetration is taken instead; so it is where the contact's
-/// own force is given. Deviation: none known; the paper does not print its database. Its speed is the mean
-/// v_n since first contact.
+/// The paper's bending model: the icebreaking database of a fluid–structure solution, looked up with the dimensionless
+/// groups of the load [Sawamura2017, "Plate Ice Breaking"]. The table covers contacts that have not crushed through the
+/// thickness, V = κ ξ². If the load's penetration is deeper than h tan θ_s, the Π of the push κ ξ² with the same force
+/// at the same penetration is used instead; the same holds if the contact's own force is given. Deviation: none known,
+/// since the paper does not print its database. The speed is the mean v_n since first contact.
 class FsiDatabaseModel final : public BendingModel {
  public:
-  /// The shipped database.
+  /// Uses the shipped database.
   explicit FsiDatabaseModel(RadialCracks radial_cracks = RadialCracks::kIgnored);
   explicit FsiDatabaseModel(std::shared_ptr<const BendingDatabase> database);
 
   BendingCapacity capacity(const BendingLoad& load) const override;
 
-  /// The break of a push at the load's speed from first contact; the load's penetration is not used,
-  /// nor are radial cracks.
+  /// Returns the break of a push from first contact at the load's speed. The load's penetration and radial cracks are
+  /// not used.
   BendingForecast forecast(const BendingLoad& load) const;
 
   const BendingDatabase& database() const { return *database_; }

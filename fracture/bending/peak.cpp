@@ -10,8 +10,8 @@
 namespace polynya::fracture {
 namespace {
 
-/// Maximum of the weighted quartic around `centre`, in t = ln(place / centre) / ln(reach); nothing outside
-/// |t| ≤ 1.
+/// Returns the maximum of the weighted polynomial of fourth degree around `centre`, in t = ln(place / centre) /
+/// ln(reach); nullopt if it lies outside of |t| ≤ 1.
 std::optional<double> quartic_peak(std::span<const double> places, std::span<const double> values, double centre) {
   using Vector5 = Eigen::Matrix<double, 5, 1>;
   Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();

@@ -10,17 +10,18 @@ struct Peak {
   double value = 0;
 };
 
-/// Greatest sample, refined by the parabola through it and its two neighbours. places ascending, at least
-/// one.
+/// Returns the largest sample, refined by the parabola through it and its two neighbours. `places` is ascending and has
+/// at least one element.
 Peak find_peak(std::span<const double> places, std::span<const double> values);
 
-/// Place of a flat maximum under slightly uneven samples: of the quartic in ln(place) that fits them best
-/// around it, in least squares with weights that taper to zero at a factor kFlatPeakReach on either side,
-/// centred on the answer. places ascending and positive. Falls back on find_peak() where the quartic has no
-/// maximum inside its reach.
+/// Returns the place of a flat maximum under slightly uneven samples. It is the maximum of the polynomial of fourth
+/// degree in ln(place) that fits the samples around it best, by least squares with weights that taper to zero at a
+/// factor kFlatPeakReach on either side and are centred on the result. `places` is ascending and positive. Uses
+/// find_peak() if the polynomial has no maximum inside its reach.
 double find_flat_peak(std::span<const double> places, std::span<const double> values);
 
-/// Narrower, and the unevenness of samples moves the place; wider, and a quartic no longer fits the maximum.
+/// Factor on either side of a flat maximum within which samples are fitted [-]. Smaller: the unevenness of samples
+/// moves the place. Larger: a polynomial of fourth degree no longer fits the maximum.
 inline constexpr double kFlatPeakReach = 2.5;
 
 }  // namespace polynya::fracture

@@ -12,14 +12,14 @@ namespace polynya::fracture {
 namespace {
 
 constexpr double kStep = 0.1;  // of s = (a/l)^⅓
-// (r/l) / s at s = 0, 0.1, … 1.5: a small load's peak stress lies at r ∝ a^⅓, so this ratio is smooth.
-// Converged values of solve_floating_beam in extended precision (800 elements); at s = 0 the limit (2 /
-// w(0))^⅓.
+// (r/l) / s at s = 0, 0.1, … 1.5. The peak stress of a small load lies at r ∝ a^⅓, so this ratio is smooth. Converged
+// values of solve_floating_beam in extended precision (800 elements); at s = 0 the limit (2 / w(0))^⅓.
 constexpr std::array<double, 16> kRadiusOverRoot = {0.97064, 0.99147, 1.01525, 1.04320, 1.07673, 1.11757,
                                                     1.16793, 1.23077, 1.31008, 1.41128, 1.54147, 1.70922,
                                                     1.92252, 2.18336, 2.48096, 2.79479};
 
-/// 1 + C_v v of Kashtelyan's radius, and its floor. Without the floor R is negative from 7 m/s on.
+/// Returns the factor 1 + C_v v of Kashtelyan's radius, with a lower limit. Without the limit R is negative from 7 m/s
+/// on.
 double radius_factor(double approach_speed) {
   return 1 - 0.144 * approach_speed;
 }

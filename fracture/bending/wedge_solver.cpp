@@ -10,13 +10,13 @@
 namespace polynya::fracture {
 namespace {
 
-constexpr double kDeepest = 3;      ///< penetration that this solver can follow, in l
-constexpr int kMostSteps = 100000;  ///< a bound, far beyond what a push to kDeepest needs
+constexpr double kDeepest = 3;      ///< largest penetration that this solver can follow, in l
+constexpr int kMostSteps = 100000;  ///< far more than a push to kDeepest needs
 
-/// Stress is 6 M / h², so that a moment of σ_f h² / 6 breaks the plate: in σ_f h²,
+/// Moment at which the plate breaks, in σ_f h²: the stress is 6 M / h².
 constexpr double kBreakingMoment = 1.0 / 6;
 
-/// Moments on the bisector at one instant of a march [σ_f h²].
+/// Moments on the bisector at one instant [σ_f h²].
 struct BisectorState {
   Eigen::VectorXd radial;  ///< top-fibre radial tension
   Eigen::VectorXd hoop;    ///< bottom-fibre hoop tension
@@ -26,18 +26,18 @@ BisectorState bisector_state(const WedgeModes& modes, const Eigen::VectorXd& amp
   return {modes.radial_moment * amplitudes, modes.hoop_moment * amplitudes};
 }
 
-/// Greatest top-fibre tension: where it reaches kBreakingMoment the cusp breaks off.
+/// Returns the largest top-fibre tension; at kBreakingMoment the cusp breaks off.
 double peak_radial(const WedgeModes& modes, const BisectorState& state) {
   return find_peak(modes.radii, {state.radial.data(), modes.radii.size()}).value;
 }
 
-/// Greatest bottom-fibre hoop tension: where it reaches kBreakingMoment a crack opens along the bisector.
+/// Returns the largest bottom-fibre hoop tension; at kBreakingMoment a crack opens along the bisector.
 double peak_hoop(const WedgeModes& modes, const BisectorState& state) {
   return find_peak(modes.hoop_radii, {state.hoop.data(), modes.hoop_radii.size()}).value;
 }
 
-/// Distance from the tip to the greatest top-fibre tension: where the cusp breaks off. That maximum is flat,
-/// 0.1 % of stress spans 10 % of radius, hence the fit.
+/// Returns the distance from the tip to the largest top-fibre tension, where the cusp breaks off. A fit is used because
+/// that maximum is flat: 0.1 % of stress spans 10 % of radius.
 double cusp_radius(const WedgeModes& modes, const BisectorState& state) {
   return find_flat_peak(modes.radii, {state.radial.data(), modes.radii.size()});
 }
@@ -83,7 +83,8 @@ Eigen::ArrayXd modal_load(const WedgeModes& modes, const WedgePush& push, double
   return push_force(push, penetration) * static_amplitudes(modes, penetration).array();
 }
 
-/// One time step. Coupled, bisection solves ξ + χ w_tip(ξ) = Fr τ, whose left side grows with ξ.
+/// Returns the state after one time step. If coupled, bisection solves ξ + χ w_tip(ξ) = Fr τ, whose left side grows
+/// with ξ.
 MarchState next_state(const WedgeModes& modes, const WedgePush& push, const ModalStep& step, double time,
                       const MarchState& from) {
   const double free_depth = push.froude * time;
@@ -101,7 +102,7 @@ MarchState next_state(const WedgeModes& modes, const WedgePush& push, const Moda
     return penetration + push.feedback * modes.tip.dot(trial.amplitude.matrix()) - free_depth;
   };
   double shallow = from.penetration, deep = std::max(free_depth, from.penetration);
-  if (excess(shallow) >= 0) return stepped_to(shallow);  // the ice recedes faster
+  if (excess(shallow) >= 0) return stepped_to(shallow);  // the ice recedes faster than the hull advances
   while (deep - shallow > 1e-9 * deep) {
     const double middle = 0.5 * (shallow + deep);
     (excess(middle) < 0 ? shallow : deep) = middle;
@@ -109,7 +110,7 @@ MarchState next_state(const WedgeModes& modes, const WedgePush& push, const Moda
   return stepped_to(deep);
 }
 
-/// Penetration at which a slow push breaks the wedge: where the static peak moment reaches the strength.
+/// Returns the penetration at which a slow push breaks the wedge: the static peak moment reaches the strength.
 std::optional<double> static_failure_depth(const WedgeModes& modes, const WedgePush& push) {
   const auto breaks = [&](double depth) {
     const BisectorState state = {modes.radial_moment * modal_load(modes, push, depth).matrix(), {}};
@@ -128,23 +129,23 @@ std::optional<double> static_failure_depth(const WedgeModes& modes, const WedgeP
   return broken;
 }
 
-/// The part of a step after which a peak that grows linearly from `before` to `after` reaches the strength.
+/// Returns the fraction of a step after which a peak that grows linearly from `before` to `after` reaches the strength.
 double crossing(double before, double after) {
   return after > before ? std::clamp((kBreakingMoment - before) / (after - before), 0.0, 1.0) : 1.0;
 }
 
-/// A march at one instant, with the state of the bisector.
+/// One instant of a solution, with the state of the bisector.
 struct Instant {
   MarchState state;
   BisectorState bisector;
 };
 
-/// The bisector between two states, linearly.
+/// Interpolates the state of the bisector linearly between two states.
 BisectorState between(const BisectorState& a, const BisectorState& b, double share) {
   return {a.radial + share * (b.radial - a.radial), a.hoop + share * (b.hoop - a.hoop)};
 }
 
-/// The break between two instants, by linear interpolation of the bisector's state.
+/// Returns the break between two instants, by linear interpolation of the bisector's state.
 WedgeFailure failure_between(const WedgeModes& modes, const WedgePush& push, const Instant& whole,
                              const Instant& broken) {
   const double s = crossing(peak_radial(modes, whole.bisector), peak_radial(modes, broken.bisector));
@@ -158,7 +159,7 @@ WedgeFailure failure_between(const WedgeModes& modes, const WedgePush& push, con
   return failure;
 }
 
-/// Steps of duration / steps until the wedge breaks, however long that takes.
+/// Takes steps of duration / steps until the wedge breaks, even if that takes longer than `duration`.
 std::optional<WedgeFailure> march(const WedgeModes& modes, const WedgePush& push, double duration, int steps) {
   const ModalStep step(modes.inertia, duration / steps);
   const Eigen::ArrayXd rest = Eigen::ArrayXd::Zero(modes.inertia.size());

@@ -12,10 +12,10 @@
 namespace polynya::geometry {
 namespace {
 
-/// The largest circle up to `radius` that touches the boundary at `touch` from inside and holds no boundary
-/// point: shrink the circle onto the nearest boundary point inside it until there is none.
+/// Returns the radius of the largest circle, up to `radius`, that touches the boundary at `touch` from inside and
+/// contains no boundary point. The circle is shrunk onto the nearest boundary point inside it until there is none.
 double inscribed_radius(const EdgeList& edges, const BoxTree& tree, Point touch, Vector inward, double radius) {
-  constexpr int kMostShrinks = 64;  // a few are the rule; very sharp corners took up to twenty
+  constexpr int kMostShrinks = 64;  // a few are usual; very sharp corners took up to twenty
   for (int shrink = 0; shrink < kMostShrinks; ++shrink) {
     const Point centre = touch + radius * inward;
     const double inside = radius * (1 - 1e-9);
@@ -26,7 +26,7 @@ double inscribed_radius(const EdgeList& edges, const BoxTree& tree, Point touch,
       const auto e = static_cast<std::uint32_t>(i);
       const Point q = nearest_on_segment(edges.from(e), edges.to(e), centre);
       const double d = squared_length(q - centre);
-      // A point level with the touching point lies on its own edge: no smaller circle avoids it.
+      // A point level with the touching point lies on the same edge: a smaller circle does not avoid it.
       if (d < nearest && dot(q - touch, inward) > 1e-12 * radius) {
         nearest = d;
         intruder = q;
@@ -40,7 +40,7 @@ double inscribed_radius(const EdgeList& edges, const BoxTree& tree, Point touch,
   return radius;
 }
 
-/// Sets the middle and the reach of a run of whole edges of these lengths, and of this length in all [m].
+/// Sets the middle and the reach of a run of whole edges with these lengths and this total length [m].
 void measure_run(const EdgeList& edges, const std::vector<double>& lengths, BoundaryPiece& piece, double total) {
   double before = 0;
   std::uint32_t e = piece.first_edge;
@@ -55,10 +55,10 @@ void measure_run(const EdgeList& edges, const std::vector<double>& lengths, Boun
     piece.middle_edge = e;
     break;
   }
-  piece.reach = 0.5 * total * (1 + 1e-12);  // no chord is longer than its way
+  piece.reach = 0.5 * total * (1 + 1e-12);  // no chord is longer than its path
 }
 
-/// How far the piece goes from a point on the perpendicular of its middle [m].
+/// Returns the largest distance of the piece from a point on the perpendicular of its middle [m].
 double reach_from(const EdgeList& edges, const BoundaryPiece& piece, Point centre) {
   if (piece.edges == 1) return elementary::hypot(distance(centre, piece.middle), piece.reach);
   std::uint32_t e = piece.first_edge;
@@ -74,7 +74,7 @@ ContactCircle circle_for(const EdgeList& edges, const BoxTree& tree, const Bound
   ContactCircle circle;
   circle.radius = inscribed_radius(edges, tree, piece.middle, inward, radius);
   circle.centre = piece.middle + circle.radius * inward;
-  circle.reach = reach_from(edges, piece, circle.centre) * (1 + 1e-12);  // the rounding of the distances
+  circle.reach = reach_from(edges, piece, circle.centre) * (1 + 1e-12);  // a margin for the rounding of the distances
   return circle;
 }
 
@@ -107,7 +107,7 @@ std::vector<BoundaryPiece> boundary_pieces(const EdgeList& edges, double radius,
   pieces.reserve(static_cast<std::size_t>(std::min<double>(count, 2 * total_length / radius)) + 1);
   for (std::uint32_t e = 0; e < count; ++e) {
     const double l = lengths[e];
-    if (l > radius) {  // a long edge carries several
+    if (l > radius) {  // a long edge has several pieces
       const double parts = std::min(std::ceil(l / radius), most);
       const Vector step = (edges.to(e) - edges.from(e)) / parts;
       const double reach = 0.5 * l / parts * (1 + 1e-12);
@@ -115,7 +115,7 @@ std::vector<BoundaryPiece> boundary_pieces(const EdgeList& edges, double radius,
         pieces.push_back({{e, 1}, edges.from(e) + (k + 0.5) * step, reach, e});
       continue;
     }
-    BoundaryPiece piece{{e, 1}, {}, 0, e};  // short edges share one
+    BoundaryPiece piece{{e, 1}, {}, 0, e};  // short edges share one piece
     double total = l;
     while (edges.next[e] == e + 1) {
       const double more = lengths[e + 1];
@@ -146,19 +146,19 @@ std::vector<ContactCircle> sample_contact_circles(const EdgeList& edges, const s
 
 namespace {
 
-/// Bounding circles of a leaf. More are compared one by one, fewer make a larger tree.
+/// Number of bounding circles in a leaf. More: they are compared one by one. Fewer: the tree is larger.
 constexpr std::uint32_t kLeafCircles = 4;
-/// Pieces of an edge: every metre of a ship's side, not of a plate's. More take memory, 64 bytes each; fewer
-/// make more of a long edge near, and contacts slower.
+/// Largest number of pieces of an edge: one for each metre of a ship's side, but not of a plate's. More: more memory,
+/// 64 bytes each. Fewer: larger parts of a long edge count as near, and contacts are found more slowly.
 constexpr double kMostPieces = 128;
 
 /// Centres and radii of some bounding circles.
 struct Extent {
   Box centres;
-  double reach = 0;  ///< the largest
+  double reach = 0;  ///< largest radius
 };
 
-/// The least reach of a leaf that covers its circles, or of another node that covers its children's.
+/// Returns the smallest reach of a leaf that covers its circles, or of another node that covers its children's.
 double covering_reach(const Cover& cover, std::size_t index, const CircleNode& node) {
   double reach = 0;
   const auto include = [&](const auto& circle) {
@@ -217,7 +217,8 @@ double pieces_of(const EdgeList& edges, double circle_radius) {
 }
 
 void make_cover(const EdgeList& edges, const CircleRule& rule, Cover& cover) {
-  // Contact circles have their size; what only bounds may be coarse where a plate's rim is long and straight.
+  // Contact circles have their given size. Circles that only bound may be coarse where a plate's rim is long and
+  // straight.
   const std::vector<BoundaryPiece> pieces = rule.has_circles ? boundary_pieces(edges, rule.circle_radius)
                                                              : boundary_pieces(edges, rule.circle_radius, kMostPieces);
   cover.pieces.assign(pieces.begin(), pieces.end());
@@ -245,7 +246,7 @@ double near_circles(const Covered& a, const Covered& b, const Pose& a_from_b, do
                     std::vector<NearPair>& circle_pairs) {
   double bound = std::numeric_limits<double>::infinity();
   const std::size_t before = circle_pairs.size();
-  NearPair stack[128];  // depth of both trees: a boundary of 2^60 circles would fit
+  NearPair stack[128];  // depth of both trees; enough for a boundary of 2^60 circles
   int top = 0;
   stack[top++] = {0, 0};
   while (top > 0) {
@@ -286,8 +287,8 @@ double near_circles(const Covered& a, const Covered& b, const Pose& a_from_b, do
 
 namespace {
 
-/// Each edge of a with each piece of b that one of its own pieces is near, once and in order. Pieces have
-/// consecutive edges, in the order of pieces: by these pairs the edges' own come sorted.
+/// Returns each edge of a with each piece of b to which one of its own pieces is near, once and in order. The pieces of
+/// an edge are consecutive, in the order of pieces, so these pairs are sorted by edge.
 std::vector<NearPair> edges_near_pieces(const Covered& a, const std::vector<NearPair>& circle_pairs) {
   std::vector<NearPair> near;
   near.reserve(circle_pairs.size());
@@ -301,7 +302,7 @@ std::vector<NearPair> edges_near_pieces(const Covered& a, const std::vector<Near
   return near;
 }
 
-/// Puts the ends of the pairs' edges beside them. Plain pointers: there may be thousands.
+/// Stores the ends of the pairs' edges beside them. Plain pointers are used, since there may be thousands.
 void fill_ends(const EdgeList& a, const EdgeList& b, NearEdges& edges) {
   const std::size_t count = edges.pairs.size();
   const std::size_t stride = edges.stride = (count + 3) / 4 * 4;
@@ -310,7 +311,7 @@ void fill_ends(const EdgeList& a, const EdgeList& b, NearEdges& edges) {
   const Point* const of_b = b.vertices.data();
   double* const ends = edges.ends.data();
   for (std::size_t i = 0; i < stride; ++i) {
-    const bool is_pair = i < count;  // else what fills the last lanes
+    const bool is_pair = i < count;  // otherwise a filler of the last lanes
     const NearPair pair = is_pair ? edges.pairs[i] : NearPair{};
     const Point points[4] = {of_a[pair.a], of_a[a.next[pair.a]], of_b[pair.b], of_b[b.next[pair.b]]};
     for (std::size_t k = 0; k < 4; ++k) {
@@ -320,7 +321,7 @@ void fill_ends(const EdgeList& a, const EdgeList& b, NearEdges& edges) {
   }
 }
 
-/// Square of the distance of two segments, 0 where they cross or touch [m²].
+/// Returns the square of the distance of two segments; 0 if they cross or touch [m²].
 double squared_gap(Point a0, Point a1, Point b0, Point b1) {
   return are_across(a0, a1, b0, b1) ? 0 : squared_distance_of_ends(a0, a1, b0, b1);
 }
@@ -410,18 +411,18 @@ bool is_one_inside(const Covered& a, const Covered& b, const Pose& a_from_b) {
 }
 
 bool is_one_inside(const EdgeList& a, const EdgeList& b, const Pose& a_from_b) {
-  // All vertices: where two only touch, rounding may find one of them inside.
+  // All vertices are tested: if two bodies only touch, rounding may find one vertex inside.
   return std::ranges::all_of(b.vertices, [&](Point p) { return is_inside(a, transform(a_from_b, p)); }) ||
          std::ranges::all_of(a.vertices, [&](Point p) { return is_inside(b, inverse_transform(a_from_b, p)); });
 }
 
 namespace {
 
-/// Far more than what circles miss of their edges by rounding [m]. Without it an edge may be overlooked, and
-/// bodies that overlap are clear; larger only costs time.
+/// Margin that is far larger than the distance by which circles miss their edges through rounding [m]. Without it an
+/// edge may be overlooked, and bodies that overlap count as clear. Larger: only more time.
 constexpr double kSlack = 1e-6;
 
-/// As is_inside of all edges: no other edge is to the right of the point.
+/// Returns what is_inside returns for all edges. Edges that are not found here are not to the right of the point.
 bool is_inside_boundary(const Boundary& boundary, Point p) {
   const auto is_to_the_right = [&](const BoundingCircle& circle) {
     const double reach = circle.reach + kSlack;
@@ -434,7 +435,7 @@ bool is_inside_boundary(const Boundary& boundary, Point p) {
   return inside;
 }
 
-/// Whether an edge of a meets one of b, which is within the box, in a's frame.
+/// Returns true if an edge of a crosses or touches one of b, which lies within the box, in a's frame.
 bool do_edges_meet(const Boundary& a, const EdgeList& b, const Ring& b_in_a, const Box& box_of_b) {
   const Point centre = midpoint(box_of_b.low, box_of_b.high);
   const double radius = distance(centre, box_of_b.high) + kSlack;
@@ -461,7 +462,7 @@ bool is_clear(const Boundary& a, const Boundary& b, const Pose& a_from_b) {
   b_in_a.reserve(b.edges.size());
   for (const Point p : b.edges.vertices) b_in_a.push_back(transform(a_from_b, p));
   if (do_edges_meet(a, b.edges, b_in_a, bounding_box(b_in_a))) return false;
-  // Where no edges meet, one vertex stands for all of its body.
+  // If no edges cross or touch, one vertex decides for all of its body.
   return !is_inside_boundary(a, b_in_a.front()) &&
          !is_inside(b.edges, inverse_transform(a_from_b, a.edges.vertices.front()));
 }

@@ -9,7 +9,7 @@
 namespace polynya::geometry {
 namespace {
 
-/// Where the segment from a (inside the circle) to b (outside) leaves it.
+/// Returns the point at which the segment from a (inside the circle) to b (outside) leaves the circle.
 Point exit_point(Point a, Point b, Point centre, double radius) {
   const Vector d = b - a;
   const Vector f = a - centre;
@@ -22,7 +22,7 @@ Point exit_point(Point a, Point b, Point centre, double radius) {
 
 std::uint32_t previous_edge(const EdgeList& edges, std::uint32_t edge) {
   if (edge > 0 && edges.next[edge - 1] == edge) return edge - 1;
-  while (edges.next[edge] == edge + 1) ++edge;  // the ring's first edge: its last one leads back to it
+  while (edges.next[edge] == edge + 1) ++edge;  // back to the ring's last edge, which leads to its first one
   return edge;
 }
 
@@ -36,9 +36,9 @@ WedgeAngles wedge_angles(const EdgeList& edges, const WedgeTip& tip, Vector inwa
 
 void wedge_angles(const EdgeList& edges, const WedgeTip& wedge_tip, Vector inward, std::span<const double> lengths,
                   std::span<WedgeAngles> angles) {
-  const std::uint32_t tip_edge = wedge_tip.edge;  // no structured binding: clang 14 captures none in a lambda
+  const std::uint32_t tip_edge = wedge_tip.edge;  // clang 14 cannot capture structured bindings in a lambda
   const Point tip = wedge_tip.at;
-  // Along the boundary one way: `end_of` is the end of an edge that is farther on, `after` the edge beyond it.
+  // Follows the boundary one way: `end_of` is the farther end of an edge, `after` the edge beyond it.
   const auto measure = [&](auto end_of, auto after, double WedgeAngles::*angle) {
     Point from = tip;
     std::uint32_t e = tip_edge;
@@ -50,7 +50,7 @@ void wedge_angles(const EdgeList& edges, const WedgeTip& wedge_tip, Vector inwar
         e = after(e);
         is_round = e == tip_edge;
       }
-      const bool is_along_edge = from == tip && e == before;  // chords of one direction
+      const bool is_along_edge = from == tip && e == before;  // then both chords have one direction
       if (i > 0 && is_along_edge) {
         angles[i].*angle = angles[i - 1].*angle;
         continue;
@@ -68,7 +68,7 @@ void wedge_angles(const EdgeList& edges, const WedgeTip& wedge_tip, Vector inwar
 std::vector<LineCrossing> crossings_of_line(const Boundary& boundary, Point point, Vector direction) {
   const EdgeList& edges = boundary.edges;
   std::vector<LineCrossing> crossings;
-  constexpr double kRounding = 1e-9;  // of the distances, far more than it can be [m]
+  constexpr double kRounding = 1e-9;  // of the distances, far larger than rounding errors [m]
   const auto is_near = [&](const auto& circle) {
     return std::abs(cross(direction, circle.centre - point)) <= circle.reach + kRounding;
   };
@@ -91,13 +91,13 @@ std::vector<Point> CrackPath::points() const {
 CrackPath crack_path(const Boundary& boundary, Point point, Vector direction, double margin, CrackReach reach) {
   const std::vector<LineCrossing> crossings = crossings_of_line(boundary, point, direction);
   CrackPath path{point - margin * direction, point + margin * direction};
-  // The line is in ice between crossings 0–1, 2–3, …: an even count, since every ring is closed.
+  // The line is in ice between crossings 0–1, 2–3, …: their number is even, since every ring is closed.
   double start = -margin;
   for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
     const auto [enter, first_edge] = crossings[i];
     const auto [leave, last_edge] = crossings[i + 1];
     if (leave <= 0) continue;
-    // The point lies in this stretch of ice, or in the water before it: begin at its edge.
+    // The point lies in this stretch of ice, or in the water before it: the path begins at the stretch's edge.
     if (enter <= 0 || (reach == CrackReach::kFirstEdge && path.length_in_ice == 0)) start = enter - margin;
     if (path.length_in_ice == 0) path.first_edge = first_edge;
     path.last_edge = last_edge;
@@ -155,7 +155,7 @@ CrackSides sides_of_crack(const Boundary& boundary, const CrackPath& path) {
   const auto doubled = [&](Point p, Point q) { return cross(p - end, q - end); };
   double all = 0;
   for (std::uint32_t e = 0; e < edges.size() && edges.ring[e] == 0; ++e) all += doubled(edges.from(e), edges.to(e));
-  // The left side: from the crack's end around the ice, counter-clockwise, to its start.
+  // The left side lies from the crack's end around the ice, counter-clockwise, to its start.
   double left = 0;
   for (std::uint32_t e = edges.next[path.last_edge]; e != path.first_edge; e = edges.next[e])
     left += doubled(edges.from(e), edges.to(e));
@@ -165,7 +165,7 @@ CrackSides sides_of_crack(const Boundary& boundary, const CrackPath& path) {
 }
 
 std::optional<Arm> arm_beside(const Boundary& boundary, Point first_ice, Vector direction, double share) {
-  constexpr int kMostSteps = 20;      // each makes the width right to some tenth where the edge is not even
+  constexpr int kMostSteps = 20;      // each makes the width accurate to about a tenth where the edge is uneven
   constexpr double kAccuracy = 1e-3;  // of the width
   const Vector across = perpendicular(direction);
   const auto nearest_at = [&](double along) {
@@ -174,7 +174,7 @@ std::optional<Arm> arm_beside(const Boundary& boundary, Point first_ice, Vector 
       if (std::abs(crossing.at) < std::abs(nearest)) nearest = crossing.at;
     return nearest;
   };
-  double along = 1e-3;  // within the ice
+  double along = 1e-3;  // a little inside the ice
   for (int step = 0; step < kMostSteps; ++step) {
     const double nearest = nearest_at(along);
     if (!std::isfinite(nearest)) return std::nullopt;
@@ -186,7 +186,7 @@ std::optional<Arm> arm_beside(const Boundary& boundary, Point first_ice, Vector 
 }
 
 Passage passage_through(const Boundary& body, Point point, Vector direction) {
-  constexpr double kRounding = 1e-6;  // of where two boundaries cross [m]
+  constexpr double kRounding = 1e-6;  // of the place where two boundaries cross [m]
   Passage passage{0, 0, std::numeric_limits<double>::infinity()};
   const std::vector<LineCrossing> crossings = crossings_of_line(body, point, direction);
   for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {

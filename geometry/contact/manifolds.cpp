@@ -15,27 +15,27 @@ namespace {
 
 using Crossing = ManifoldScratch::Crossing;
 
-// ---- where boundaries cross
+// ---- crossings of boundaries
 
-/// Some pairs of edges side by side, for a loop that the compiler turns into vector instructions. Plain
-/// arrays: it does not of those that check their indices.
+/// Some pairs of edges side by side, for a loop that the compiler turns into vector instructions. The arrays are plain,
+/// because the compiler does not vectorise arrays that check their indices.
 struct EdgeLanes {
-  // Four vector instructions of four doubles. Fewer leave their time to the loop, more to lanes that are not used.
+  // Four vector instructions of four doubles. Fewer: more time in the loop itself. More: more unused lanes.
   static constexpr std::size_t kMost = 16;
-  double along_a[kMost], along_b[kMost];  // where their lines meet, as shares of the edges
+  double along_a[kMost], along_b[kMost];  // place at which their lines cross, as fractions of the edges
   double starts_inside[kMost];            // 1 or 0
 };
-/// A bit for each lane.
+/// One bit for each lane.
 constexpr std::array<std::uint64_t, EdgeLanes::kMost> kLaneBits = [] {
   std::array<std::uint64_t, EdgeLanes::kMost> bits{};
   for (std::size_t i = 0; i < bits.size(); ++i) bits[i] = std::uint64_t{1} << i;
   return bits;
 }();
 
-/// Brings b's edges into a's frame and finds which pairs cross: the bits of their lanes. Which side of an edge along d
-/// a point is on is decided by the sign of its turn, left where it is positive. A zero is decided as if all of b were
-/// moved by (ε, ε²), ε → 0: the same tie-break on both boundaries makes crossings alternate between entering and
-/// leaving.
+/// Transforms b's edges to a's frame and finds the pairs that cross; returns the bits of their lanes. The side of an
+/// edge along d on which a point lies follows from the sign of the cross product; positive is left. A zero is decided
+/// as if all of b were moved by (ε, ε²), ε → 0. The same tie-break on both boundaries makes crossings alternate between
+/// entering and leaving.
 POLYNYA_AVX2_CLONE std::uint64_t find_crossing_lanes(const double* __restrict ends, std::size_t stride,
                                                      std::size_t count, const Pose& a_from_b, EdgeLanes& __restrict l) {
   const Pose pose = a_from_b;
@@ -67,11 +67,12 @@ POLYNYA_AVX2_CLONE std::uint64_t find_crossing_lanes(const double* __restrict en
   return which;
 }
 
-/// Along an edge, as a share of it [-]. Far smaller, crossings that rounding swapped are not put in turn, and
-/// their overlap is left out for a step; far larger, crossings of different corners are swapped.
+/// Distance along an edge, as a fraction of it, within which crossings count as being at one place [-]. Far smaller:
+/// crossings that rounding has swapped are not put in order, and their overlap is left out for a step. Far larger:
+/// crossings of different corners are swapped.
 constexpr double kSamePlace = 1e-9;
 
-/// One of the two boundaries, as crossings have their places on it.
+/// One of the two boundaries, on which crossings have their places.
 struct Side {
   std::uint32_t Crossing::*edge;
   double Crossing::*along;
@@ -83,15 +84,15 @@ bool is_before(const Crossing& p, const Crossing& q, Side on) {
   return p.*on.edge != q.*on.edge ? p.*on.edge < q.*on.edge : p.*on.along < q.*on.along;
 }
 
-/// Sorts crossings along a boundary. Those at one place of an edge come in either order by rounding; along a
-/// ring they must enter and leave in turn. `ring` is the boundary's ring of each edge.
+/// Sorts crossings along a boundary. Crossings at one place of an edge may be in either order through rounding; along a
+/// ring they must enter and leave alternately. `ring` is the boundary's ring of each edge.
 void order_along(Side on, const std::vector<std::uint32_t>& ring, std::vector<Crossing>& order) {
   std::sort(order.begin(), order.end(), [on](const Crossing& p, const Crossing& q) { return is_before(p, q, on); });
   const auto ring_of = [&](std::size_t i) { return ring[order[i].*on.edge]; };
   for (std::size_t i = 0; i + 1 < order.size(); ++i) {
     const std::uint32_t own = ring_of(i);
     std::size_t before = i - 1;
-    if (i == 0 || ring_of(i - 1) != own) {  // the ring's first crossing follows its last
+    if (i == 0 || ring_of(i - 1) != own) {  // the ring's first crossing follows its last one
       before = i;
       while (before + 1 < order.size() && ring_of(before + 1) == own) ++before;
     }
@@ -107,8 +108,8 @@ void order_along(Side on, const std::vector<std::uint32_t>& ring, std::vector<Cr
   }
 }
 
-/// Appends where near edges of two boundaries cross, in the frame of a. Touching counts as if b were moved by
-/// (ε, ε²), ε → 0, so that along each ring crossings enter and leave in turn.
+/// Appends the crossings of near edges of two boundaries, in the frame of a. A touch counts as if b were moved by (ε,
+/// ε²), ε → 0, so that along each ring crossings enter and leave alternately.
 void find_crossings(const Pose& a_from_b, const NearEdges& edges, std::vector<Crossing>& crossings) {
   EdgeLanes lanes;
   for (std::size_t first = 0; first < edges.pairs.size(); first += EdgeLanes::kMost) {
@@ -127,7 +128,7 @@ void find_crossings(const Pose& a_from_b, const NearEdges& edges, std::vector<Cr
   }
 }
 
-/// The crossing that follows number i along its ring, in an order of crossings.
+/// Returns the crossing that follows number i along its ring, in an order of crossings.
 std::size_t next_on_ring(const std::vector<Crossing>& order, std::size_t i, const std::vector<std::uint32_t>& ring,
                          Side on) {
   const std::uint32_t own = ring[order[i].*on.edge];
@@ -138,8 +139,9 @@ std::size_t next_on_ring(const std::vector<Crossing>& order, std::size_t i, cons
 
 // ---- overlaps of boundaries that cross more than twice
 
-/// Calls use(edge) for the vertices, where edges start, after a point on edge `first` up to one on edge
-/// `last`. `wraps`: all around the ring, where both are on one edge. Returns whether `last` was arrived at.
+/// Calls use(edge) for the vertices, at which edges start, after a point on edge `first` and up to a point on edge
+/// `last`. If both points are on one edge, `wraps` is true to go around the whole ring. Returns true if `last` was
+/// reached.
 template <typename Use>
 bool for_vertices_between(const EdgeList& edges, std::uint32_t first, std::uint32_t last, bool wraps, Use use) {
   std::uint32_t edge = first;
@@ -159,7 +161,7 @@ void write_points(const BoundaryPair& pair, ManifoldScratch& scratch, OverlapLoo
     const Crossing& enter = scratch.crossings[stretch.enter];
     const Crossing& leave = scratch.crossings[stretch.leave];
     const Crossing& next = scratch.crossings[stretch.next];
-    // Where two crossings are on one edge, their order decides, not their places: these may be the same.
+    // If two crossings are on one edge, their order decides instead of their places, which may be equal.
     const bool wraps_a = enter.edge_a == leave.edge_a && stretch.leave < stretch.enter;
     const bool wraps_b =
         leave.edge_b == next.edge_b && scratch.place_on_b[stretch.next] < scratch.place_on_b[stretch.leave];
@@ -175,7 +177,7 @@ void write_points(const BoundaryPair& pair, ManifoldScratch& scratch, OverlapLoo
   loop.points = static_cast<std::uint32_t>(points.size()) - loop.first_point;
 }
 
-/// Area, and its first moments about an origin.
+/// The area of an overlap and its first moments about an origin.
 struct OverlapMoments {
   Point origin;
   double area = 0;  ///< [m²]
@@ -211,7 +213,7 @@ bool is_hole_of(const ManifoldScratch& scratch, std::size_t hole, std::size_t ou
          is_inside(points_of(scratch, scratch.loops[outer]), points_of(scratch, scratch.loops[hole])[0].point);
 }
 
-/// Takes out of an overlap the holes of one body that lie in it whole, without a crossing.
+/// Subtracts from an overlap the holes of one body that lie completely in it, without a crossing.
 template <typename InFrame, typename IsCrossed>
 void add_whole_holes(const EdgeList& edges, InFrame in_frame, IsCrossed is_crossed, std::span<const OverlapPoint> outer,
                      OverlapMoments& moments) {
@@ -257,8 +259,8 @@ void for_loops_of(const ManifoldScratch& scratch, const OverlapLoop& outer, Use 
   }
 }
 
-/// Traces the boundaries of all overlaps of two bodies, from the scratch's crossings in their orders, into
-/// the scratch's loops: by the first crossing of each along a. One that does not close is marked so.
+/// Traces the boundaries of all overlaps of two bodies from the scratch's ordered crossings into the scratch's loops,
+/// sorted by their first crossing along a. A loop that does not close is marked.
 void trace_loops(const Boundary& a, const Boundary& b, ManifoldScratch& scratch) {
   const std::vector<Crossing>& by_a = scratch.crossings;
   const std::vector<Crossing>& by_b = scratch.by_b;
@@ -288,8 +290,8 @@ void trace_loops(const Boundary& a, const Boundary& b, ManifoldScratch& scratch)
   }
 }
 
-/// Writes each loop's points and finds which loops are holes of which: only where a body has holes, or where
-/// a loop has several stretches of a boundary.
+/// Writes the points of each loop and finds which loops are holes of which others. This is done only if a body has
+/// holes, or if a loop has several stretches of a boundary.
 void measure_loops(const BoundaryPair& pair, ManifoldScratch& scratch) {
   const bool has_holes = pair.a.edges.has_holes() || pair.b.edges.has_holes();
   scratch.loop_points.clear();
@@ -311,7 +313,7 @@ void measure_loops(const BoundaryPair& pair, ManifoldScratch& scratch) {
   }
 }
 
-/// Of a loop's overlap with one stretch: the area of the bodies' holes that lie in it whole [m²].
+/// Returns the area of the bodies' holes that lie completely in the overlap of a loop with one stretch [m²].
 double area_of_whole_holes(const BoundaryPair& pair, const ManifoldScratch& scratch, const OverlapLoop& loop) {
   if (loop.points == 0) return 0;  // no body has holes
   OverlapMoments moments{scratch.loop_points[loop.first_point].point, 0, {}};
@@ -319,8 +321,8 @@ double area_of_whole_holes(const BoundaryPair& pair, const ManifoldScratch& scra
   return -moments.area;
 }
 
-/// The manifold of a connected overlap with any number of stretches, by the gradient of its area
-/// (docs/theory/contact.md). `outer` is its outer loop. Area is 0 where it has none.
+/// Returns the manifold of a connected overlap with any number of stretches, from the gradient of its area
+/// (docs/theory/contact.md). `outer` is its outer loop. The area is 0 if there is none.
 ContactManifold gradient_manifold(const BoundaryPair& pair, const ManifoldScratch& scratch, const OverlapLoop& outer) {
   ContactManifold manifold;
   manifold.is_pierced = true;
@@ -359,7 +361,7 @@ ContactManifold gradient_manifold(const BoundaryPair& pair, const ManifoldScratc
   }
   manifold.depth = off_line.extent();
   manifold.extent = std::max(manifold.depth, on_line.extent());
-  // Where the gradient is small its line of action may lie far off: crushing acts within the overlap.
+  // If the gradient is small, its line of action may lie far away, but crushing acts within the overlap.
   const double room = std::max(0.0, on_line.extent() - manifold.width);
   const double lever = manifold.width > kNoWidth ? turned / manifold.width : 0;
   const double low = on_line.low + 0.5 * (on_line.extent() - room);
@@ -372,27 +374,28 @@ ContactManifold gradient_manifold(const BoundaryPair& pair, const ManifoldScratc
 
 // ---- overlaps of one stretch of each boundary
 
-/// What a chain of vertices adds to a manifold: area between chain and contact line, and how far it reaches off it.
+/// The contribution of a chain of vertices to a manifold: the area between chain and contact line, and the largest
+/// distance from the line.
 struct ChainExtent {
   double area = 0;
   double depth = 0;
   Point tip;
   std::uint32_t tip_edge = 0;
-  bool is_closed = false;  ///< the chain did arrive
+  bool is_closed = false;  ///< the chain reached its end
 };
 
-/// A part of a boundary: from a point on one edge to a point on another or on the same one.
+/// A part of a boundary, from a point on one edge to a point on another or on the same edge.
 struct Chain {
   const EdgeList& edges;
   std::uint32_t first = 0;  ///< edge of the first point
   Point from;
   std::uint32_t last = 0;  ///< edge of the last point
   Point to;
-  bool wraps = false;  ///< true if it goes all around the ring, where both points are on one edge
+  bool wraps = false;  ///< true if it runs around the whole ring, when both points are on one edge
 };
 
-/// Walks along a chain, measuring off the contact line, which has that width, along `outward`. Writes the chain's
-/// points as (along the line, off the line) into `profile`.
+/// Walks along a chain and measures its distances from the contact line, which has this width, along `outward`. Writes
+/// the chain's points as (along the line, off the line) into `profile`.
 template <typename InFrame>
 ChainExtent walk(const Chain& chain, double width, Vector outward, InFrame in_frame, std::vector<Point>& profile) {
   ChainExtent extent;
@@ -418,7 +421,7 @@ ChainExtent walk(const Chain& chain, double width, Vector outward, InFrame in_fr
   return extent;
 }
 
-/// How far a profile reaches off the line at a place along it, at most.
+/// Returns the largest distance of a profile from the line at a place along it.
 double off_at(const std::vector<Point>& profile, double along) {
   double off = 0;
   for (std::size_t i = 1; i < profile.size(); ++i) {
@@ -430,11 +433,13 @@ double off_at(const std::vector<Point>& profile, double along) {
   return off;
 }
 
-/// Greatest thickness of the overlap across the contact line: it is at a vertex of either side. The sides' greatest
-/// extents do not simply add: two faces shifted along each other reach farthest at opposite ends of the line.
+/// Returns the largest thickness of the overlap across the contact line, which is at a vertex of either side. The
+/// largest distances of the two sides cannot simply be added: two faces that are shifted along each other are farthest
+/// at opposite ends of the line.
 double thickness_of(const std::vector<Point>& a_side, const std::vector<Point>& b_side, double line) {
-  // Of the sides' corners. Beyond, the sum of both extents stands for the thickness, which is too large where faces are
-  // shifted along each other: bodies that lie deep in each other. More costs the product, in every step.
+  // Limit on the product of the numbers of corners. Beyond it, which means that bodies lie deep in each other, the sum
+  // of both distances is used instead of the thickness. It is too large if faces are shifted along each other. A larger
+  // limit costs the product in every step.
   constexpr std::size_t kMostProduct = 4096;
   double most = 0;
   double sum = 0;
@@ -502,7 +507,7 @@ bool add_manifold(const BoundaryPair& pair, const Stretch& stretch, ManifoldScra
   return false;
 }
 
-/// The manifolds of boundaries that cross more than twice.
+/// Finds the manifolds of boundaries that cross more than twice.
 int find_several(const BoundaryPair& pair, ManifoldScratch& scratch, std::vector<ContactManifold>& manifolds) {
   order_along(kOnA, pair.a.edges.ring, scratch.crossings);
   for (std::uint32_t i = 0; i < scratch.crossings.size(); ++i) scratch.crossings[i].place_on_a = i;
@@ -543,7 +548,7 @@ int find_manifolds(const BoundaryPair& pair, const NearEdges& edges, ManifoldScr
   if (by_a.empty()) return 0;
   const bool is_simple = by_a.size() == 2 && by_a[0].is_entering != by_a[1].is_entering && !pair.a.edges.has_holes() &&
                          !pair.b.edges.has_holes();
-  if (is_simple) {  // nearly all contacts: no order to find
+  if (is_simple) {  // nearly all contacts: no order is needed
     const bool is_first = by_a[0].is_entering;
     const Stretch stretch{by_a[is_first ? 0 : 1], by_a[is_first ? 1 : 0], true};
     return add_manifold(pair, stretch, scratch, manifolds) ? 0 : 1;
@@ -563,7 +568,7 @@ void find_circle_manifolds(const Covered& a, const Covered& b, const Pose& a_fro
     ContactManifold manifold;
     manifold.normal = line / centres;
     manifold.depth = depth;
-    // Half the lens's chord: c² = r_a² − x², with x the chord's distance from a's centre.
+    // Half of the lens's chord: c² = r_a² − x², with the distance x of the chord from a's centre.
     const double x = (centres * centres + ca.radius * ca.radius - cb.radius * cb.radius) / (2 * centres);
     const double half_chord = std::sqrt(std::max(0.0, ca.radius * ca.radius - x * x));
     const Point middle = ca.centre + (ca.radius - 0.5 * depth) * manifold.normal;

@@ -18,7 +18,7 @@
 namespace polynya::geometry {
 namespace {
 
-// Strictly convex, counter-clockwise and once around: then nothing else can be wrong with a ring.
+// Returns true if a ring is strictly convex, counter-clockwise and goes around once: it then has no other defect.
 bool is_convex(const Ring& ring) {
   const std::size_t n = ring.size();
   if (n < 3 || !are_usable(ring)) return false;
@@ -38,7 +38,7 @@ std::optional<DefectAt> find_tool_defect(const Polygon& tool) {
   return find_defect(tool);
 }
 
-// Does the polyline neither cross nor touch itself? (Ends that meet count as touching.)
+// Returns true if the polyline neither crosses nor touches itself; ends in one point count as touching.
 bool is_simple(const std::vector<Point>& polyline) {
   if (polyline.size() == 2) return true;
   std::vector<Edge> edges;
@@ -52,7 +52,7 @@ bool is_simple(const std::vector<Point>& polyline) {
 }
 
 // Returns nullopt if the local path does not handle this configuration; the caller then uses the general path. The
-// local path overlays segments only to round them, which CGAL may refuse.
+// local path overlays segments only in order to round them, which CGAL may refuse.
 std::optional<CutOutcome> try_locally(const Shape& shape, const Tool& tool) {
   try {
     return cut_locally(shape.polygon, tool);
@@ -61,7 +61,7 @@ std::optional<CutOutcome> try_locally(const Shape& shape, const Tool& tool) {
   }
 }
 
-// Cuts a valid shape by valid tools: by the first path that covers the case.
+// Cuts a valid shape by valid tools, with the first path that handles the case.
 CutOutcome cut_by_valid(const Shape& shape, const std::vector<Polygon>& tools) {
   if (tools.size() == 1 && tools.front().holes.empty()) {
     if (auto outcome = try_locally(shape, {tools.front().outer, true})) return *std::move(outcome);
@@ -69,7 +69,8 @@ CutOutcome cut_by_valid(const Shape& shape, const std::vector<Polygon>& tools) {
   return cut_by_polygons_generally(exact::exactly(shape.polygon), tools);
 }
 
-// A tool's rings that are nowhere near the shape cut nothing of it, and without them the local path may do.
+// Returns the tool without rings that are nowhere near the shape and cut nothing of it; the local path may then
+// suffice.
 std::vector<Polygon> near_tools(const Shape& shape, const std::vector<Polygon>& tools) {
   const Box box = bounding_box(shape.polygon.outer);
   std::vector<Polygon> near;
@@ -190,9 +191,9 @@ CutOutcome cut_along_all(const Shape& shape, const std::vector<std::vector<Point
 }
 
 Ring disc_polygon(Point centre, double radius, double sagitta, Vector axis) {
-  // A chord subtending an angle 2π/n leaves the circle by r(1 − cos(π/n)).
-  constexpr int kFewest = 8;   // fewer, and a cusp's area is less by more than a tenth of the disc's
-  constexpr int kMost = 4096;  // more, and a mistyped sagitta makes rings that no step can carry
+  // A chord that subtends an angle 2π/n deviates from the circle by r(1 − cos(π/n)).
+  constexpr int kFewest = 8;   // fewer: the area of a cusp is smaller than the disc's by more than a tenth
+  constexpr int kMost = 4096;  // more: a mistyped sagitta makes rings that no step can handle
   const double half_angle = elementary::acos(std::clamp(1 - sagitta / radius, -1.0, 1.0));
   const double wanted = half_angle > 0 ? std::ceil(std::numbers::pi / half_angle) : kMost;
   const int n = static_cast<int>(std::clamp(wanted, double{kFewest}, double{kMost}));
@@ -280,7 +281,7 @@ Ring without_repeats(const Ring& ring) {
 }
 
 Polygon normalised(const Polygon& polygon) {
-  // A ring that is not finite has no orientation; find_defect will name it.
+  // A ring that is not finite has no orientation; find_defect names it.
   const auto turned = [&](const Ring& ring, int turn) {
     return are_usable(ring) ? oriented(without_repeats(ring), turn) : ring;
   };

@@ -43,14 +43,14 @@ bool is_usable_at(const Shape& shape, const Pose& world_from_body) {
          std::ranges::all_of(shape.polygon.holes, [](const Ring& hole) { return are_usable(hole); });
 }
 
-// The outer ring's box in the world, with room for the rounding of its own arithmetic.
+// Returns the outer ring's box in the world, with a margin for the rounding of its own arithmetic.
 Box box_in_world(const Shape& shape, const Pose& world_from_body) {
   const Box box = bounding_box(transform(world_from_body, shape.polygon.outer));
   const double size = length(box.high - box.low) + length(box.low - Point{}) + length(box.high - Point{});
   return grown(box, 1e-12 * size);
 }
 
-// b's outer ring in a's frame, in doubles, and how far it may be off there.
+// b's outer ring in a's frame, in doubles, and its largest error there.
 struct RingInFrame {
   Ring ring;
   Box box;
@@ -66,8 +66,8 @@ RingInFrame ring_in_frame(const Pose& world_from_a, const Polygon& b, const Pose
   return in_a;
 }
 
-// Whether `a` has an edge with all of `a` on its left and all of `b` on its right. Vertices of `a` may lie beyond it by
-// so much, those of `b` by so much [m]; a negative one keeps them off it.
+// Returns true if `a` has an edge with all of `a` on its left and all of `b` on its right. Vertices of `a` may lie
+// beyond the edge by `most_of_a`, those of `b` by `most_of_b` [m]; a negative value keeps them away from it.
 bool has_separating_edge(const Ring& a, const Ring& b, double most_of_a, double most_of_b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Point from = a[i];
@@ -82,7 +82,8 @@ bool has_separating_edge(const Ring& a, const Ring& b, double most_of_a, double 
   return false;
 }
 
-// Whether an edge of one leaves the other so far aside that rounding cannot have done it: they share nothing.
+// Returns true if an edge of one ring leaves the other ring so far aside that rounding cannot be the reason: they share
+// no point.
 bool are_apart(const Ring& a, const RingInFrame& b) {
   double size = 0;
   for (const Point p : a) size = std::max({size, std::abs(p.x), std::abs(p.y)});
@@ -92,7 +93,7 @@ bool are_apart(const Ring& a, const RingInFrame& b) {
   return has_separating_edge(a, b.ring, off, -4 * off) || has_separating_edge(b.ring, a, off, -4 * off);
 }
 
-// Beyond which sides of the box a point is, a bit each.
+// Returns one bit for each side of the box beyond which a point lies.
 unsigned sides_beyond(Point p, const Box& box) {
   return (p.x < box.low.x ? 1U : 0U) | (p.x > box.high.x ? 2U : 0U) | (p.y < box.low.y ? 4U : 0U) |
          (p.y > box.high.y ? 8U : 0U);
@@ -103,14 +104,15 @@ bool overlap_deeply(const Box& a, const Box& b) {
          std::min(a.high.y, b.high.y) - std::max(a.low.y, b.low.y) > kTouchingDepth;
 }
 
-/// Of the polygon about a disc of the gap: its corners reach 1/cos(15°), 4 % beyond it. More make floes'
-/// corners rounder and cuts slower.
+/// Number of sides of the polygon that is drawn about a disc of the gap: its corners are 1/cos(15°), 4 % beyond the
+/// disc. More: the corners of floes are rounder, and cuts are slower.
 constexpr int kDiscSides = 12;
-/// What a gap takes less of is rounding [m²]. With 0 floes that are a gap apart already are cut again and again.
+/// Smallest area that a gap cuts off [m²]; less is rounding. With 0, floes that already are a gap apart are cut again
+/// and again.
 constexpr double kLeastStrip = 1e-9;
 
-/// Cuts a tool off a piece, where it takes more than that area; what is left is added to `left`. False where the piece
-/// stays as it is.
+/// Cuts a tool off a piece if more than `least_area` would be removed, and adds the remaining pieces to `left`. Returns
+/// false if the piece is unchanged.
 bool cut_off_piece(const Polygon& piece, const Polygon& tool, double least_area, Trimmed& trimmed,
                    std::vector<Polygon>& left) {
   CutOutcome cut = cut_by_polygon({.polygon = piece, .known_valid = true}, tool);
@@ -128,7 +130,7 @@ bool cut_off_piece(const Polygon& piece, const Polygon& tool, double least_area,
   return true;
 }
 
-/// Cuts a tool off what is left of a polygon. Whether it was cut.
+/// Cuts a tool off the remaining pieces of a polygon. Returns true if any was cut.
 bool cut_off(const Polygon& tool, double least_area, Trimmed& trimmed) {
   const Box box = bounding_box(tool.outer);
   bool is_cut = false;
@@ -145,7 +147,7 @@ bool cut_off(const Polygon& tool, double least_area, Trimmed& trimmed) {
   return is_cut;
 }
 
-/// A polygon that contains every point nearer to the edge than the gap.
+/// Returns a polygon that contains every point closer to the edge than the gap.
 Polygon around_edge(Point a, Point b, double gap) {
   const double reach = gap * (1 + 1e-9) / elementary::cos(std::numbers::pi / kDiscSides);
   std::vector<Point> corners;
@@ -164,7 +166,7 @@ Box box_of(const std::vector<Polygon>& pieces) {
   return box;
 }
 
-/// Cuts a strip of the gap along a ring off a polygon, where the two are near each other.
+/// Cuts a strip of the width of the gap along a ring off a polygon, where the two are near each other.
 bool cut_off_strip(const Ring& ring, double gap, Trimmed& trimmed) {
   bool is_cut = false;
   for_ring_edges(ring, [&](Point a, Point b) {
@@ -174,7 +176,7 @@ bool cut_off_strip(const Ring& ring, double gap, Trimmed& trimmed) {
   return is_cut;
 }
 
-/// The larger first, of equal ones the first.
+/// Returns the indices ordered by area, the largest first; of equal ones the first.
 std::vector<std::size_t> by_area(const std::vector<Polygon>& polygons) {
   std::vector<double> areas;
   areas.reserve(polygons.size());
@@ -185,12 +187,14 @@ std::vector<std::size_t> by_area(const std::vector<Polygon>& polygons) {
   return order;
 }
 
-/// Of an edge's length: a vertex that meets the edge's end meets it. Without it two corners may pass each other.
+/// Tolerance, as a fraction of an edge's length, within which a vertex touches the end of the edge [-]. Without it two
+/// corners may pass each other.
 constexpr double kEndSlack = 1e-9;
-/// After so much of the way a touch has become an overlap [m]. Larger, thin tips pass through and their touch
-/// is found; smaller, the overlap is less than kLeastShared (their ratio is a contact 1 µm wide).
+/// Further displacement after which a touch must have become an overlap [m]. Larger: thin tips pass through and their
+/// touch is not confirmed. Smaller: the overlap is below kLeastShared (their ratio is a contact 1 µm wide).
 constexpr double kFurtherOn = 1e-3;
-/// Less is the rounding of outlines that slide along each other [m²]: with 0 these touch at once.
+/// Smallest area that counts as shared [m²]; less is the rounding of outlines that slide along each other. With 0 these
+/// would touch at once.
 constexpr double kLeastShared = 1e-9;
 
 Vector outward_of(const Ring& ring, std::size_t edge) {
@@ -198,7 +202,7 @@ Vector outward_of(const Ring& ring, std::size_t edge) {
   return -perpendicular(along) / length(along);
 }
 
-/// When a vertex moving at `velocity` meets an edge of a counter-clockwise ring from outside, if it does [s].
+/// Returns when a vertex moving at `velocity` reaches an edge of a counter-clockwise ring from outside, if ever [s].
 std::optional<double> entry_time(Point vertex, Vector velocity, const Ring& ring, std::size_t edge) {
   const Point start = ring[edge];
   const Vector outward = outward_of(ring, edge);
@@ -211,7 +215,7 @@ std::optional<double> entry_time(Point vertex, Vector velocity, const Ring& ring
   return time;
 }
 
-/// Every vertex of one ring on every edge of the other.
+/// Returns the contacts of every vertex of one ring with every edge of the other.
 std::vector<FirstContact> meetings(const Ring& a, const Ring& b, Vector velocity, double from, double until) {
   std::vector<FirstContact> found;
   const auto collect = [&](const Ring& moving, const Ring& resting, Vector relative, bool is_b_resting) {
@@ -237,7 +241,7 @@ std::vector<FirstContact> meetings(const Ring& a, const Ring& b, Vector velocity
 tl::expected<Overlap, CutError> overlap(const Shape& a, const Pose& world_from_a, const Shape& b,
                                         const Pose& world_from_b) {
   if (!overlaps(box_in_world(a, world_from_a), box_in_world(b, world_from_b))) return Overlap{0, "0"};
-  // CGAL leaks memory where it finds out itself.
+  // This is checked here, because CGAL leaks memory if it detects it itself.
   if (!is_usable_at(a, world_from_a) || !is_usable_at(b, world_from_b))
     return refuse(CutFailure::kInvalidShape, Defect::kNotFinite);
   return guarded([&]() -> tl::expected<Overlap, CutError> {
@@ -262,7 +266,7 @@ tl::expected<double, CutError> shared_area(const Polygon& a, const Pose& world_f
   for (const Ring& hole : a.holes) {
     if (Ring part = near_part(hole, box); part.size() > 2) near.holes.push_back(std::move(part));
   }
-  // The near part may cross itself, as overlap allows. Where it winds differently from the whole, b does not
+  // The near part may cross itself, which overlap() allows. Where its winding differs from the whole ring's, b does not
   // wind at all.
   return overlap({.polygon = std::move(near)}, world_from_a, {.polygon = b}, world_from_b).map(&Overlap::area);
 }
@@ -270,7 +274,7 @@ tl::expected<double, CutError> shared_area(const Polygon& a, const Pose& world_f
 Ring near_part(const Ring& ring, const Box& box) {
   if (ring.empty()) return {};
   Ring kept{ring.front()};
-  Point last = ring.front();  // of the run that starts at kept.back()
+  Point last = ring.front();  // last point of the run that starts at kept.back()
   unsigned run = sides_beyond(last, box);
   for (std::size_t i = 1; i < ring.size(); ++i) {
     const unsigned sides = sides_beyond(ring[i], box);
@@ -315,7 +319,7 @@ std::vector<Trimmed> make_disjoint(const std::vector<Polygon>& polygons, double 
   const std::vector<std::size_t> order = by_area(polygons);
   std::vector<std::size_t> rank(polygons.size());
   for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = i;
-  std::vector<std::vector<std::size_t>> larger(polygons.size());  // those whose boxes meet, by polygon
+  std::vector<std::vector<std::size_t>> larger(polygons.size());  // larger polygons whose boxes overlap, by polygon
   for (const auto& [a, b] : pairs_of_boxes(boxes_of(polygons, grown_box))) {
     const bool is_a_larger = rank[a] < rank[b];
     larger[is_a_larger ? b : a].push_back(is_a_larger ? a : b);

@@ -15,7 +15,7 @@ namespace {
 
 using exact::Rational;
 
-constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;  // of rounding, u
+constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;  // unit roundoff u
 
 // Twice an area: |value + low − exact| is below doubt.
 struct TwiceArea {
@@ -31,16 +31,16 @@ struct TwiceArea {
   }
 };
 
-// A coordinate difference: high + low exactly, and high in halves.
+// A difference of coordinates: exactly high + low, with high also split in halves.
 struct Difference {
   Difference(double a, double b) : both(two_difference(a, b)), halves(both.high) {}
   TwoDoubles both;
   SplitDouble halves;
 };
 
-// Shoelace sum about the first vertex, in twice the digits of a double: products and sums keep their errors, which go
-// to `low`. With R the product of the farthest |x| and |y| and V the largest partial sum, one edge adds at most u(8R +
-// V) to `low`, and what adding that up n times loses, with the products of two tails, is below (n + 8)²u²(8R + V).
+// Shoelace sum about the first vertex, with twice the digits of a double: the errors of products and sums are kept in
+// `low`. Let R be the product of the farthest |x| and |y|, and V the largest partial sum. One edge adds at most
+// u(8R + V) to `low`. The loss by adding that n times, and by the products of two tails, is below (n + 8)²u²(8R + V).
 TwiceArea twice_area(const Ring& ring) {
   TwiceArea sum;
   if (ring.size() < 3) return sum;
@@ -67,17 +67,17 @@ TwiceArea twice_area(const Ring& ring) {
     ux = vx;
     uy = vy;
   }
-  constexpr double kEdgeUnderflow = 1e-300;  // of one edge's products, and more
+  constexpr double kEdgeUnderflow = 1e-300;  // of one edge's products, with a margin
   const double edges = static_cast<double>(ring.size()) + 8;
   const double steps = edges * kUnit;
   sum.doubt = 2 * steps * steps * (8 * reach_x * reach_y + largest) + edges * kEdgeUnderflow;
   return sum;
 }
 
-// Half of it as the nearest double, where the doubt leaves no other.
+// Returns half of the sum as the nearest double, or nullopt if the doubt allows several.
 std::optional<double> nearest_half(const TwiceArea& twice) {
   const TwoDoubles sum = two_sum(twice.value, twice.low);
-  const double gap = std::abs(sum.high) - std::nextafter(std::abs(sum.high), 0);  // to the closer neighbour
+  const double gap = std::abs(sum.high) - std::nextafter(std::abs(sum.high), 0);  // distance to the closer neighbour
   if (std::abs(sum.low) + twice.doubt < gap / 2) return sum.high / 2;
   return {};
 }
@@ -106,10 +106,10 @@ RingArea ring_area(const Ring& ring) {
   const std::size_t n = ring.size();
   if (n < 3) return {};
   const Point origin = ring.front();
-  // Two sums side by side: one alone waits for its own last addition.
+  // Two sums are computed side by side, since one alone would wait for its own last addition.
   CompensatedSum even;
   CompensatedSum odd;
-  double reach_x = 0;  // of all vertices from the origin
+  double reach_x = 0;  // largest |x| of all vertices from the origin
   double reach_y = 0;
   Vector u{0, 0};
   const auto term_to = [&](Point p) {
@@ -125,12 +125,12 @@ RingArea ring_area(const Ring& ring) {
     even += term_to(ring[i]);
     odd += term_to(ring[i + 1]);
   }
-  if (i < n) even += term_to(ring[i]);  // the closing edge ends in the origin: its term is zero
+  if (i < n) even += term_to(ring[i]);  // the closing edge ends at the origin: its term is zero
   const double twice = (even.value + odd.value) + (even.lost + odd.lost);
   const double largest = std::max(std::abs(origin.x) + reach_x, std::abs(origin.y) + reach_y);
   const double step = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
   const auto edges = static_cast<double>(n);
-  // Each term errs by at most 4ε of its two products, the compensated sums by next to nothing.
+  // Each term has an error of at most 4ε of its two products; the compensated sums have practically none.
   constexpr double kSumUnderflow = 1e-280;
   return {twice / 2, 8 * std::numeric_limits<double>::epsilon() * edges * 2 * reach_x * reach_y + kSumUnderflow,
           4 * edges * (reach_x + reach_y) * step};
@@ -142,7 +142,7 @@ double area_of(const Polygon& polygon, const std::vector<RingArea>& rings) {
     sum.area += ring.area;
     sum.doubt += ring.doubt;
   }
-  constexpr double kWorstDoubt = 1e-6;  // of the area; more, and thin pieces weigh too much or too little
+  constexpr double kWorstDoubt = 1e-6;  // of the area; larger: thin pieces could weigh too much or too little
   return sum.doubt > kWorstDoubt * std::abs(sum.area) ? nearest_area(polygon) : sum.area;
 }
 
@@ -174,7 +174,7 @@ double exact_balance(std::span<const Polygon* const> after, std::span<const Poly
 
 namespace {
 
-// Integrals over a region: of 1, of the position and of its square, each by a factor that Green's theorem leaves.
+// Integrals over a region of 1, of the position and of its square, without the constant factors of Green's theorem.
 struct RegionMoments {
   Rational twice_area = 0;
   Rational six_first_x = 0;
@@ -182,7 +182,7 @@ struct RegionMoments {
   Rational twelve_second = 0;
 };
 
-// About the frame's origin: rationals lose no digits far from it.
+// Taken about the frame's origin, since rationals lose no digits far from it.
 void add(RegionMoments& moments, const Ring& ring) {
   if (ring.size() < 3) return;
   exact::Point u = exact::exactly(ring.back());
@@ -197,7 +197,7 @@ void add(RegionMoments& moments, const Ring& ring) {
   }
 }
 
-// Measures of a valid polygon computed in rationals and rounded once: for slivers, whose moments in doubles are noise.
+// Measures of a valid polygon, computed in rationals and rounded once: for slivers, whose moments in doubles are noise.
 Measures exact_measures(const Polygon& polygon) {
   RegionMoments moments;
   add(moments, polygon.outer);
@@ -209,8 +209,8 @@ Measures exact_measures(const Polygon& polygon) {
   return {exact::nearest_double(area), exact::rounded(centroid), exact::nearest_double(second)};
 }
 
-// Calls visit(u, v, w) for each edge a→b with u = a − origin, v = b − origin, w = u × v. Taking vertices from
-// a nearby origin first is what keeps the digits of a polygon far from its frame's origin.
+// Calls visit(u, v, w) for each edge a→b with u = a − origin, v = b − origin, w = u × v. Vertices are taken from a
+// nearby origin first, which keeps the digits of a polygon that is far from its frame's origin.
 template <typename Visit>
 void for_each_edge(const Ring& ring, Point origin, Visit visit) {
   if (ring.empty()) return;
@@ -234,7 +234,7 @@ double ring_length(const Ring& ring) {
   return sum.total();
 }
 
-/// Signed area between an edge and the x axis, of its part below y = `limit`; above it the edge counts as
+/// Returns the signed area between an edge and the x axis, of the part below y = `limit`; above it the edge counts as
 /// drawn along that line: ∫ min(y, limit) dx along the edge [m²].
 double area_below(Point from, Point to, double limit) {
   const double dx = to.x - from.x;

@@ -9,15 +9,15 @@ namespace polynya::geometry {
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon() / 2;
-// [Shewchuk1997] orient2d's bound A, (3 + 16ε)ε, holds for differences of any two pairs of points. Smaller,
-// signs of nearly degenerate points would be those of rounding; larger only costs time.
+// [Shewchuk1997] orient2d's bound A, (3 + 16ε)ε, holds for differences of any two pairs of points. Smaller: the signs
+// of nearly degenerate points would be signs of rounding errors. Larger: only more time.
 constexpr double kBound = (3 + 16 * kEps) * kEps;
-// Products below this may have lost bits to underflow (2⁻¹⁰²² = 2e-308, less 53 bits): the bound does not
-// cover them, and without this term signs of points 1e-150 m apart would be wrong. [m²]
+// Products below this may have lost bits to underflow (2⁻¹⁰²² = 2e-308, minus 53 bits), which the bound does not cover
+// [m²]. Without this term the signs of points 1e-150 m apart would be wrong.
 constexpr double kUnderflow = 1e-280;
 
-// May a product of two such factors, and its error, be formed in doubles? Beyond 1e±150 one of them over- or
-// underflows, and two_product is not error-free.
+// Returns true if a product of two such factors, and its error, can be formed in doubles. Beyond 1e±150 one of them
+// over- or underflows, and two_product is not error-free.
 bool safe_factor(double v) {
   return v == 0 || (std::abs(v) > 1e-130 && std::abs(v) < 1e130);
 }
@@ -26,11 +26,11 @@ int sign(double v) {
   return (v > 0) - (v < 0);
 }
 
-// Sign of ux·vy ∓ uy·vx with exact factors.
+// Returns the sign of ux·vy ∓ uy·vx with exact factors.
 int sign_of_products(double left_a, double left_b, double right_a, double right_b) {
   const TwoDoubles left = two_product(left_a, left_b);
   const TwoDoubles right = two_product(right_a, right_b);
-  // Rounding is monotone: where the rounded products differ, so do the products, and in the same order.
+  // Rounding is monotone: if the rounded products differ, the products differ in the same order.
   if (left.high != right.high) return left.high > right.high ? 1 : -1;
   return sign(left.low - right.low);
 }
@@ -72,7 +72,7 @@ int cross_sign(Point a, Point b, Point c, Point d) {
 }
 
 int dot_sign(Point a, Point b, Point c, Point d) {
-  // u · v = u × (v turned back by 90°): the same bound holds.
+  // u · v = u × (v rotated back by 90°), so the same bound holds.
   const double left = (b.x - a.x) * (d.x - c.x);
   const double right = (b.y - a.y) * (d.y - c.y);
   const double sum = left + right;
@@ -98,7 +98,7 @@ int area_sign(const Ring& ring) {
     sum += cross(u, v);
     magnitude += std::abs(u.x * v.y) + std::abs(u.y * v.x);
   });
-  // Each term errs by at most 4ε of its magnitude, the running sums by nε of theirs.
+  // Each term has an error of at most 4ε of its magnitude, and the running sums of nε of theirs.
   const double bound = (static_cast<double>(ring.size()) + 8) * 2 * kEps * magnitude + kUnderflow;
   if (sum > bound) return 1;
   if (-sum > bound) return -1;
@@ -107,7 +107,7 @@ int area_sign(const Ring& ring) {
 
 namespace {
 
-// In plain doubles: for messages only.
+// Computed in plain doubles, for messages only.
 Point approximate_crossing(Point a, Point b, Point c, Point d) {
   const double denominator = cross(b - a, d - c);
   if (denominator == 0) return midpoint(a, b);

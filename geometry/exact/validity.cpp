@@ -15,7 +15,7 @@ namespace {
 
 using Found = std::optional<DefectAt>;
 
-// Two rings that meet in a point, and the edges they were found by.
+// Two rings that touch in a point, and the edges by which they were found.
 struct Touch {
   Point at;
   std::size_t edge_i;
@@ -50,7 +50,7 @@ bool are_neighbours(const Polygon& polygon, const Edge& e, const Edge& f) {
   return gap == 1 || gap == last;
 }
 
-// Every pair of edges near each other: a defect, or the points in which different rings touch.
+// Finds a defect among every pair of edges near each other, or the points at which different rings touch.
 Found find_edge_defect(const Polygon& polygon, const std::vector<Edge>& edges, std::vector<Touch>& touches) {
   Found found;
   BoxTree(edges).for_each_pair([&](std::size_t i, std::size_t j) {
@@ -70,13 +70,13 @@ Found find_edge_defect(const Polygon& polygon, const std::vector<Edge>& edges, s
     } else {
       touches.push_back({meeting.at, i, j});
     }
-    // A touch may prove to be the end of an overlap, which is the better name.
+    // A touch may turn out to be the end of an overlap, which is the better name.
     return !found || meeting.kind == Meeting::kTouch;
   });
   return found;
 }
 
-// The two rays by which a ring leaves one of its points: on along it and back along it.
+// The two rays along which a ring leaves one of its points: forward and backward.
 struct Wedge {
   Ray on;
   Ray back;
@@ -102,7 +102,7 @@ Found find_crossing_touch(const Polygon& polygon, const std::vector<Edge>& edges
   return {};
 }
 
-// Which side of `ring` the other ring is on: that of its first vertex off it, 0 if it has none.
+// Returns the side of `ring` on which the other ring lies: that of its first vertex off the ring; 0 if it has none.
 int side_of(const Ring& other, const Ring& ring) {
   for (const Point p : other) {
     if (const int side = side_of_ring(ring, p); side != 0) return side;
@@ -123,9 +123,9 @@ Found find_misplaced_hole(const Polygon& polygon) {
   return {};
 }
 
-// Rings and the points they touch in make a graph; the interior is in one piece where that graph has no cycle.
+// Rings and the points at which they touch form a graph. The interior is connected if this graph has no cycle.
 Found find_disconnection(const Polygon& polygon, const std::vector<Edge>& edges, const std::vector<Touch>& touches) {
-  std::set<std::tuple<double, double, int>> incidences;  // a point, and a ring that touches another there
+  std::set<std::tuple<double, double, int>> incidences;  // a point, and a ring that touches another ring there
   for (const Touch& touch : touches) {
     for (const std::size_t edge : {touch.edge_i, touch.edge_j})
       incidences.emplace(touch.at.x, touch.at.y, edges[edge].ring);
@@ -136,7 +136,7 @@ Found find_disconnection(const Polygon& polygon, const std::vector<Edge>& edges,
     while (parent[n] != n) n = parent[n] = parent[parent[n]];
     return n;
   };
-  // All rings through one point hang on the first of them: joining two that hang together already closes a cycle.
+  // All rings through one point are connected to the first of them; connecting two that already are closes a cycle.
   std::optional<Point> before;
   int first = 0;
   for (const auto& [x, y, ring] : incidences) {

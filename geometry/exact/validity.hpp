@@ -8,7 +8,7 @@
 
 namespace polynya::geometry {
 
-/// Why a polygon is not valid by OGC Simple Features. Decided exactly. In the order of name_of().
+/// The reasons why a polygon is not valid by OGC Simple Features. Decided exactly. In the order of name_of().
 enum class Defect {
   kTooFewPoints,      ///< fewer than three distinct points in a ring
   kNotFinite,         ///< a coordinate that is NaN, infinite or beyond 1e70 m
@@ -23,7 +23,7 @@ enum class Defect {
   kDisconnected,      ///< holes that touch cut the interior apart
 };
 
-/// A short name people can search for: "self-crossing".
+/// Returns a short name that people can search for, such as "self-crossing".
 std::string_view name_of(Defect defect);
 
 struct DefectAt {
@@ -31,7 +31,7 @@ struct DefectAt {
   std::vector<Point> places;  ///< the offending vertices or crossing points, nearest doubles [m]
 };
 
-/// The first defect found, or none where the polygon is valid.
+/// Returns the first defect found; nullopt if the polygon is valid.
 std::optional<DefectAt> find_defect(const Polygon& polygon);
 
 }  // namespace polynya::geometry

@@ -9,11 +9,11 @@
 
 namespace polynya::geometry {
 
-/// One edge of a polygon, with where it comes from.
+/// One edge of a polygon, with its ring and its place in the ring.
 struct Edge {
   Point a;
   Point b;
-  int ring = 0;   ///< 0 the outer ring, 1 + i hole i
+  int ring = 0;   ///< 0: the outer ring; 1 + i: hole i
   int index = 0;  ///< the edge starts at this vertex of its ring
 };
 
@@ -23,7 +23,7 @@ inline Box box_of(const Edge& e) {
   return box_around(e.a, e.b);
 }
 
-/// The boxes of things, in their order.
+/// Returns the boxes of items, in their order.
 template <class Items, class BoxOf>
 std::vector<Box> boxes_of(const Items& items, BoxOf box_of_item) {
   std::vector<Box> boxes;
@@ -32,10 +32,10 @@ std::vector<Box> boxes_of(const Items& items, BoxOf box_of_item) {
   return boxes;
 }
 
-/// The search for edges and other things in a row in one frame: boxes over runs of them, halved down to a few.
-/// They are not sorted: edges that follow each other along a ring lie near each other. Boxes that touch meet.
-/// (Bodies and places are searched in grids: dynamics/contact/hash_grid.hpp, power_diagram.cpp; boundaries in two
-/// turned frames by circles: contact/boundary.hpp.)
+/// A search tree for edges or other items that are given in a row in one frame. It has boxes over runs of items, halved
+/// down to a few. Items are not sorted, since consecutive edges of a ring lie near each other. Boxes that touch count
+/// as overlapping. (Bodies and places are searched in grids: dynamics/contact/hash_grid.hpp, power_diagram.cpp.
+/// Boundaries in two rotated frames are searched by circles: contact/boundary.hpp.)
 class BoxTree {
  public:
   explicit BoxTree(std::vector<Box> boxes);
@@ -43,13 +43,13 @@ class BoxTree {
   explicit BoxTree(const std::vector<Item>& items)
       : BoxTree(boxes_of(items, [](const Item& item) { return box_of(item); })) {}
 
-  /// Calls visit(i, j), i < j, for every pair of boxes that meet, until it returns false.
+  /// Calls visit(i, j), i < j, for every pair of boxes that overlap, until it returns false.
   template <typename Visit>
   bool for_each_pair(Visit visit) const {
     return nodes_.empty() || join_self(0, visit);
   }
 
-  /// Calls visit(i) for every box that meets this one, i ascending, until it returns false.
+  /// Calls visit(i) for every box that overlaps this one, i ascending, until it returns false.
   template <typename Visit>
   bool for_each_near(const Box& box, Visit visit) const {
     return nodes_.empty() || query(0, box, visit);
@@ -61,7 +61,8 @@ class BoxTree {
     std::uint32_t first, last;
     std::uint32_t left = 0, right = 0;  ///< children; 0 in a leaf
   };
-  /// Boxes of a leaf. More make pairs cost their square, fewer make more nodes; 3 to 8 take the same time.
+  /// Number of boxes in a leaf. More: pairs in a leaf cost its square. Fewer: the tree has more nodes. 3 to 8 take the
+  /// same time.
   static constexpr std::uint32_t kLeaf = 4;
 
   std::uint32_t build(std::uint32_t first, std::uint32_t last);
@@ -113,8 +114,8 @@ class BoxTree {
   std::vector<Node> nodes_;
 };
 
-/// Which boxes meet, by their indices: the lower first, ascending. Boxes that lie about in any order are swept
-/// along the longer side of what they span.
+/// Returns the pairs of boxes that overlap, by their indices: the lower one first, in ascending order. For boxes in any
+/// order; they are swept along the longer side of their common box.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_of_boxes(const std::vector<Box>& boxes);
 
 }  // namespace polynya::geometry

@@ -21,8 +21,8 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 namespace PS = CGAL::Polyline_simplification_2;
-/// Constraints do not cross: rings are valid. A vertex has its number, a face how many rings lie around it; what only
-/// simplification needs a vertex has too, so that one triangulation is compiled.
+/// Rings are valid, so constraints do not cross. A vertex stores its number, a face the number of rings around it. A
+/// vertex also stores data that only the simplification needs, so that only one kind of triangulation is compiled.
 using VertexBase = PS::Vertex_base_2<Kernel, CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>>;
 using FaceBase =
     CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Triangulation_face_base_with_info_2<int, Kernel>>;
@@ -51,7 +51,7 @@ void insert(Triangulation& triangulation, const Ring& ring, std::uint32_t first)
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const std::size_t before = triangulation.number_of_vertices();
     const auto vertex = triangulation.insert(Kernel::Point_2(ring[i].x, ring[i].y));
-    // Rings may touch at a corner: its first number stays.
+    // Rings may touch at a corner, which then keeps its first number.
     if (triangulation.number_of_vertices() > before) vertex->info() = first + static_cast<std::uint32_t>(i);
     vertices.push_back(vertex);
   }
@@ -118,7 +118,7 @@ std::vector<Triangle> triangulate(const Polygon& polygon) {
       insert(triangulation, hole, first);
       first += static_cast<std::uint32_t>(hole.size());
     }
-    if (triangulation.dimension() < 2) return {};  // all on one line: there is no face to count from
+    if (triangulation.dimension() < 2) return {};  // all points on one line: there is no face from which to count
     count_rings(triangulation);
     for (const auto face : triangulation.finite_face_handles()) {
       if (face->info() % 2 == 1)

@@ -8,22 +8,22 @@
 
 namespace polynya::geometry {
 
-// What CGAL makes of outlines.
+// Operations on outlines that CGAL provides.
 
-/// The convex hull of points, counter-clockwise from the lowest one, without points on its edges. Exact, by CGAL.
+/// Returns the convex hull of points, counter-clockwise from the lowest one, without points on its edges. Exact.
 Ring convex_hull(const std::vector<Point>& points);
 
-/// A valid polygon with vertices left out: each one given lies within `tolerance` [m] of the boundary that is
-/// left. The vertices kept are among those given, and no ring crosses itself or another. By CGAL's polyline
-/// simplification, which keeps the topology; the polygon as it is where CGAL refuses it.
+/// Returns a valid polygon with vertices left out: each given vertex lies within `tolerance` [m] of the new boundary.
+/// The vertices that are kept are among the given ones, and no ring crosses itself or another. Uses CGAL's polyline
+/// simplification, which keeps the topology; returns the polygon unchanged if CGAL refuses it.
 Polygon simplified(const Polygon& polygon, double tolerance);
 
-/// Triangles by their corners' numbers, counted over the outer ring and then the holes, in order.
+/// A triangle as the numbers of its corners, counted over the outer ring and then the holes, in order.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// The constrained Delaunay triangulation of a valid polygon with holes, counter-clockwise triangles, no new
-/// corners. Decided exactly. Empty where the polygon is not valid enough to be triangulated so (rings that
-/// cross themselves, or have all their points on a line).
+/// Returns the constrained Delaunay triangulation of a valid polygon with holes: counter-clockwise triangles without
+/// new corners, decided exactly. Empty if the polygon cannot be triangulated in this way (rings that cross themselves,
+/// or have all points on one line).
 std::vector<Triangle> triangulate(const Polygon& polygon);
 
 }  // namespace polynya::geometry

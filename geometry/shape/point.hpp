@@ -5,14 +5,14 @@
 
 namespace polynya::geometry {
 
-/// A displacement, direction or velocity in the plane. Units are those of its use, [m] where none are named.
+/// A displacement, direction or velocity in the plane. Its unit depends on its use; [m] if none is named.
 struct Vector {
   double x = 0;
   double y = 0;
   friend bool operator==(const Vector&, const Vector&) = default;
 };
 
-/// A position in the plane [m]. The variable's name states its frame.
+/// A position in the plane [m]. The name of the variable states its frame.
 struct Point {
   double x = 0;
   double y = 0;
@@ -60,15 +60,15 @@ constexpr Point& operator+=(Point& a, Vector b) {
 constexpr double dot(Vector a, Vector b) {
   return a.x * b.x + a.y * b.y;
 }
-/// z component of a × b.
+/// Returns the z component of a × b.
 constexpr double cross(Vector a, Vector b) {
   return a.x * b.y - a.y * b.x;
 }
-/// ω × r for an angular velocity ω about z [rad/s].
+/// Returns ω × r for an angular velocity ω about z [rad/s].
 constexpr Vector cross(double omega, Vector r) {
   return {-omega * r.y, omega * r.x};
 }
-/// The vector turned by +90°.
+/// Returns the vector rotated by +90°.
 constexpr Vector perpendicular(Vector a) {
   return {-a.y, a.x};
 }
@@ -88,8 +88,7 @@ constexpr bool precedes(Point a, Point b) {
 constexpr Point midpoint(Point a, Point b) {
   return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
 }
-/// How far along the segment from a (0) to b (1) its point nearest to p is; 0 where the segment has no
-/// length.
+/// Returns the place, along the segment from a (0) to b (1), of its point nearest to p; 0 if the segment has no length.
 constexpr double nearest_part(Point a, Point b, Point p) {
   const Vector d = b - a;
   const double squared = squared_length(d);

@@ -7,7 +7,7 @@
 
 namespace polynya::geometry {
 
-/// A closed boundary: its vertices in order [m], the first one not repeated at the end.
+/// A closed boundary: its vertices in order [m]; the first one is not repeated at the end.
 using Ring = std::vector<Point>;
 
 /// A region with holes. In a valid polygon (validity.hpp) the outer ring runs counter-clockwise, holes
@@ -18,10 +18,10 @@ struct Polygon {
   friend bool operator==(const Polygon&, const Polygon&) = default;
 };
 
-/// A floe's shape at rest in its body frame. Every double is a rational: these are its exact coordinates.
+/// The shape of a floe at rest in its body frame. Every double is a rational number: these coordinates are exact.
 struct Shape {
   Polygon polygon;
-  /// Set by the cuts on their pieces, which are valid: the next cut does not validate them again. Clear it
+  /// Set by the cuts on their pieces, which are valid, so that the next cut does not validate them again. Clear it
   /// after editing `polygon`.
   bool known_valid = false;
 };
@@ -38,7 +38,7 @@ void for_ring_edges(const Points& ring, Use use) {
   for (std::size_t i = 0; i < ring.size(); ++i) use(ring[i], ring[i + 1 < ring.size() ? i + 1 : 0]);
 }
 
-/// An outline of frame b, in frame a.
+/// Returns an outline of frame b, in frame a.
 inline Ring transform(const Pose& a_from_b, Ring ring) {
   for (Point& p : ring) p = transform(a_from_b, p);
   return ring;

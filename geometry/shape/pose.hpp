@@ -7,15 +7,15 @@
 
 namespace polynya::geometry {
 
-/// A rotation by an angle kept as its cosine and sine.
+/// A rotation, stored as the cosine and sine of its angle.
 struct Rotation {
   double cosine = 1;
   double sine = 0;
 
-  /// Cosine and sine of an angle of up to 1.6e6 rad, each within 1.2e-16. They are computed by + − × alone, without a
-  /// library's functions, so that they are the same bits on every machine. The angle is reduced by multiples of π/2,
-  /// which is taken in three parts as in fdlibm [Cody1980]; of what is left, at most π/4, the Taylor series has an
-  /// error below 1e-19.
+  /// Returns the rotation by an angle of up to 1.6e6 rad, with cosine and sine accurate within 1.2e-16. Only + − × are
+  /// used, without library functions, so that the bits are the same on every machine. The angle is reduced by multiples
+  /// of π/2, which is stored in three parts as in fdlibm [Cody1980]. For the remaining angle, at most π/4, the Taylor
+  /// series has an error below 1e-19.
   static Rotation by(double angle_rad) {
     constexpr double kQuarter = 1.57079632673412561417e+00;  // the first 33 bits of π/2: its multiples are exact
     constexpr double kRest = 6.07710050630396597660e-11;     // the next 33 bits
@@ -38,7 +38,7 @@ struct Rotation {
                   z * (-1. / 720 + z * (1. / 40320 + z * (-1. / 3628800 +
                                                           z * (1. / 479001600 + z * (-1. / 87178291200 +
                                                                                      z * (1. / 20922789888000))))))));
-    const double of_turn = quarters - 4 * std::floor(quarters / 4);  // without a cast: an angle may be no number
+    const double of_turn = quarters - 4 * std::floor(quarters / 4);  // no cast, because the angle may be NaN
     if (of_turn == 0) return {cosine, sine};
     if (of_turn == 1) return {-sine, cosine};
     if (of_turn == 2) return {-cosine, -sine};
@@ -53,29 +53,29 @@ constexpr Vector rotate_back(Rotation r, Vector v) {
   return {r.cosine * v.x + r.sine * v.y, -r.sine * v.x + r.cosine * v.y};
 }
 
-/// A rigid placement of a body frame in the world: world = position + rotation · body.
-/// Poses carry shapes; a shape's own coordinates are never moved (docs/architecture.md, exactness contract).
+/// The placement of a body frame in the world: world = position + rotation · body. Poses move shapes; the coordinates
+/// of a shape itself are never moved (docs/architecture.md, exactness contract).
 struct Pose {
-  Point position;     ///< the body frame's origin in the world [m]
+  Point position;     ///< origin of the body frame in the world [m]
   Rotation rotation;  ///< from the body's axes to the world's
 };
 
-/// The point of frame b, in frame a.
+/// Returns a point of frame b in frame a.
 constexpr Point transform(const Pose& a_from_b, Point point_in_b) {
   return a_from_b.position + rotate(a_from_b.rotation, point_in_b - Point{});
 }
-/// The point of frame a, in frame b.
+/// Returns a point of frame a in frame b.
 constexpr Point inverse_transform(const Pose& a_from_b, Point point_in_a) {
   return Point{} + rotate_back(a_from_b.rotation, point_in_a - a_from_b.position);
 }
-/// The pose of frame b in frame a, from both in the world.
+/// Returns the pose of frame b in frame a, from the poses of both in the world.
 constexpr Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) {
   const Rotation ra = world_from_a.rotation;
   const Rotation rb = world_from_b.rotation;
   return {inverse_transform(world_from_a, world_from_b.position),
           {ra.cosine * rb.cosine + ra.sine * rb.sine, ra.cosine * rb.sine - ra.sine * rb.cosine}};
 }
-/// The pose of frame a in frame b.
+/// Returns the pose of frame a in frame b.
 constexpr Pose inverse(const Pose& a_from_b) {
   return relative_pose(a_from_b, {});
 }

@@ -7,13 +7,13 @@
 namespace polynya::geometry {
 namespace {
 
-/// Of weight. Fewer, and a heavy site widens the search of all in its class; more, and each search has more
-/// grids to go through.
+/// Largest number of weight classes. Fewer: a heavy site widens the search of all sites in its class. More: each search
+/// has more grids to go through. Results do not change.
 constexpr int kMostClasses = 16;
 
-/// The grid for places that stay: sites in square bins over a box, about one a bin. (The grid for bodies,
-/// which come and go over water without bounds, is dynamics' hashed one: with hashed cells fields take a
-/// quarter longer, docs/decisions/2026-11-23-spatial-searches.md.)
+/// A grid for fixed sites: square bins over a box, about one site per bin. (The grid for bodies, which are added and
+/// removed over unbounded water, is the hashed one of dynamics. With hashed cells the making of fields takes a quarter
+/// longer, docs/decisions/2026-11-23-spatial-searches.md.)
 class SiteBins {
  public:
   SiteBins(const std::vector<Site>& sites, const std::vector<std::uint32_t>& chosen, const Box& box) : low_(box.low) {
@@ -61,7 +61,7 @@ class SiteBins {
   double side_ = 1;
   int columns_ = 1;
   int rows_ = 1;
-  std::vector<std::uint32_t> first_;  // of each bin among the members, and the end
+  std::vector<std::uint32_t> first_;  // first member of each bin, and the end
   std::vector<std::uint32_t> members_;
 };
 
@@ -71,8 +71,8 @@ struct WeightClass {
   SiteBins bins;
 };
 
-/// The classes of weight, each four times as heavy as the one before, counted from the lightest site in units
-/// of the mean area of a cell.
+/// Classes of weight. Each is four times as heavy as the one before, counted from the lightest site in units of the
+/// mean area of a cell.
 class WeightClasses {
  public:
   WeightClasses(const std::vector<Site>& sites, const Box& box, int most_classes) : class_of_(sites.size()) {
@@ -98,7 +98,7 @@ class WeightClasses {
     for (std::uint8_t& k : class_of_) k = static_cast<std::uint8_t>(number[k]);
   }
 
-  /// Calls visit(class) for a site's own class and then for those nearest to it in weight.
+  /// Calls visit(class) for a site's own class, and then for the classes in order of their distance in weight.
   template <class Visit>
   void from(std::size_t site, Visit visit) const {
     const std::ptrdiff_t own = class_of_[site];
@@ -115,7 +115,7 @@ class WeightClasses {
   std::vector<std::uint8_t> class_of_;
 };
 
-/// A cell in the making.
+/// A cell that is being cut.
 struct Clipped {
   Ring ring;
   std::vector<std::uint32_t> beyond;
@@ -127,7 +127,7 @@ struct Clipped {
     beyond_scratch.push_back(across);
   }
 
-  /// Leaves what lies within dot(normal, x − origin) ≤ offset; beyond the new edge lies `site`.
+  /// Keeps the part with dot(normal, x − origin) ≤ offset; `site` lies beyond the new edge.
   void clip(Point origin, Vector normal, double offset, std::uint32_t site) {
     ring_scratch.clear();
     beyond_scratch.clear();
@@ -159,7 +159,7 @@ struct Clipped {
   }
 };
 
-/// Makes the cells, one after the other.
+/// Makes the cells one after the other.
 class Cutter {
  public:
   Cutter(const std::vector<Site>& sites, const Ring& region, int most_classes)
@@ -183,7 +183,7 @@ class Cutter {
     const Site& own = sites_[own_];
     const SiteBins& bins = other.bins;
     for (int ring = 0; ring <= bins.most_rings() && !cell_.ring.empty(); ++ring) {
-      // A site at distance d bounds the cell at (d² + w_i − w_j) / 2d: not within its reach R unless
+      // A site at the distance d bounds the cell at (d² + w_i − w_j) / 2d. That is not within the cell's reach R unless
       // (d − R)² < R² + w_j − w_i.
       const double square = reach2_ + other.heaviest - own.weight;
       if (square < 0) return;
@@ -198,12 +198,12 @@ class Cutter {
     const Vector to = sites_[j].point - own.point;
     const double offset = 0.5 * (squared_length(to) + own.weight - sites_[j].weight);
     if (offset >= 0 && offset * offset >= squared_length(to) * reach2_) {
-      if (!(to == Vector{} && offset == 0 && j < own_)) return;  // of two in one place, one has the cell
+      if (!(to == Vector{} && offset == 0 && j < own_)) return;  // of two sites in one place, one has the cell
       cell_.clip(own.point, to, -1, j);
       return;
     }
     if (has_guess_ && std::find(cell_.beyond.begin(), cell_.beyond.end(), j) != cell_.beyond.end())
-      return;  // the guess had it
+      return;  // the guess contained it
     cell_.clip(own.point, to, offset, j);
     reach2_ = cell_.squared_reach(own.point);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include <fmt/format.h>
@@ -420,6 +421,32 @@ void check_without_ice(const SceneDraft& draft, const JsonValue& given, ProblemC
   check_thrusts(draft, given, problems);
 }
 
+/// Reports fast ice that runs onto other fast ice before the end: nothing can resist there, since the motion of both is
+/// prescribed, and the ice in which they overlap would be there twice. Compares boxes, swept by the relative motion.
+void check_fast_ice(const SceneDraft& draft, ProblemCollector& problems) {
+  const std::vector<simulation::FloeSpec>& floes = draft.scene.floes;
+  std::vector<std::size_t> fast;
+  for (std::size_t i = 0; i < floes.size(); ++i)
+    if (floes[i].is_fast) fast.push_back(i);
+  const auto velocity = [&](std::size_t i) { return floes[i].velocity; };
+  if (std::ranges::adjacent_find(fast, std::not_equal_to{}, velocity) == fast.end()) return;
+  const auto box = [&](std::size_t i) { return bounding_box(floes[i].polygon_in_world.outer); };
+  for (std::size_t k = 1; k < fast.size(); ++k) {
+    for (std::size_t other = 0; other < k; ++other) {
+      const geometry::Vector way = draft.scene.time.until * (velocity(fast[k]) - velocity(fast[other]));
+      geometry::Box swept = box(fast[k]);
+      extend(swept, swept.low + way);
+      extend(swept, swept.high + way);
+      if (way == geometry::Vector{} || !overlaps(swept, box(fast[other]))) continue;
+      const Origin& origin = draft.floe_origins[fast[k]];
+      problems.report(origin.source, origin.offset, floe_path(draft, fast[k]),
+                      fmt::format("fast ice that can reach the fast ice of {} before the end, by another velocity",
+                                  floe_path(draft, fast[other])),
+                      "the same velocity_m_per_s for both, or fast ice that does not meet");
+    }
+  }
+}
+
 void check_ice(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
   if (draft.hull_origins.empty() && draft.scene.floes.empty() && problems.count() == 0)
     problems.add(0, given.offset, {.found = "neither ships nor floes", .allowed = "at least one ship or floe"});
@@ -430,6 +457,7 @@ void check_ice(const SceneDraft& draft, const JsonValue& given, ProblemCollector
   add_valid_hulls(draft, named, outlines);
   check_floes(draft, problems, named, outlines);
   check_speeds_of_floes(draft, given, problems);
+  check_fast_ice(draft, problems);
   check_overlaps(draft, named, outlines, problems);
 }
 

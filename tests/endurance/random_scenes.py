@@ -196,6 +196,14 @@ def given_step(dice, setting, duration_s):
     return min(0.1, longest) * dice.uniform(0.5, 1)
 
 
+def let_fast_ice_stand(floes):
+    """Takes its velocity from all fast ice where one entry is driven and another is not: both could meet."""
+    fast = [entry for entry in floes if entry.get("fast_ice")]
+    if len({tuple(entry.get("velocity_m_per_s", (0.0, 0.0))) for entry in fast}) > 1:
+        for entry in fast:
+            entry.pop("velocity_m_per_s", None)
+
+
 def build(seed, law, time_scale=1.0):
     """The scene of a seed, and the floe files beside it by name. A time scale below 1 shortens the run."""
     dice = Dice(seed)
@@ -208,6 +216,7 @@ def build(seed, law, time_scale=1.0):
     bands = random_ice.lay_bands(dice, setting)
     setting.length_m = bands[-1].x1_m
     floes = [entry for band in bands for entry in random_ice.entries_of(dice, setting, band)]
+    let_fast_ice_stand(floes)
     setting.room_m = [room for band in bands for room in band.room_m]
     scene = {"name": f"random-{law}-{seed}", "seed": dice.randint(1, 10**6), "floes": floes,
              "structures": random_structures.structures(dice, setting),

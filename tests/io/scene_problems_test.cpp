@@ -98,6 +98,11 @@ TEST(SceneProblems, WhatARunCouldNotReadBackOrEnd) {
                          members + "}");
   };
   const std::string sheared = R"("water": {"shear": {"rate_per_s": 0.005}})";
+  const auto fast_for = [](const std::string& seconds) {  // 9.5 m apart, at 1 m/s
+    return R"("time": {"until_s": )" + seconds + "}, " +
+           list("floes", {square(0, 0, 9, R"("fast_ice": true)"),
+                          square(18.5, 0, 9, R"("fast_ice": true, "velocity_m_per_s": [-1, 0])")});
+  };
   expect_problems(
       {{light(""), "ships[0].mass_kg", "0.05, which follows from what is given, allowed: a number ≥ 1", 2},
        {light(R"(, "mass_kg": 1)"), "ships[0].moment_of_inertia_kg_m2", "which follows from what is given"},
@@ -111,7 +116,9 @@ TEST(SceneProblems, WhatARunCouldNotReadBackOrEnd) {
        {scene({R"("time": {"until_s": 2000})", list("ships", {ship(R"("propulsion": {"thrust_N": -6e6})")})}),
         "ships[0].propulsion", "to 1.2e+03 m/s by 2000 s, since no water slows it"},
        {scene({R"("contact": {"normal": "circle-centres"})", list("floes", {square(0, 0, 9)})}), "contact.normal",
-        "boundary, or circle-centres with contact.law impulse"}});
+        "boundary, or circle-centres with contact.law impulse"},
+       {scene({fast_for("10")}), "floes[1]", "can reach the fast ice of floes[0] before the end"}});
+  load(scene({fast_for("9")}));
   load(light(R"(, "mass_kg": 1, "moment_of_inertia_kg_m2": 0.01)"));
   load(scene({sheared, list("ships", {ship(R"("position_m": [0, 9999])")})}));
   load(scene({R"("contact": {"normal": "circle-centres", "law": "impulse"})", list("floes", {square(0, 0, 9)})}));

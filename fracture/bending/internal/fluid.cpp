@@ -13,23 +13,23 @@ double cross(const Point& a, const Point& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// 4π times the velocity in z at a point of the plane by a straight vortex of unit strength from `start` to
-/// `end`; written so that a point on the line but beyond the segment gets its limit, zero.
+/// Returns 4π times the velocity in z at a point of the plane by a straight vortex of unit strength from `start` to
+/// `end`. The formula gives the limit, zero, for a point on the line but beyond the segment.
 double vortex_segment(const Point& point, const Point& start, const Point& end) {
   const Point a = start - point, b = end - point;
   const double la = a.norm(), lb = b.norm();
   return cross(a, b) * (la + lb) / (la * lb * (la * lb + a.dot(b)));
 }
 
-/// The border of a panel, counter-clockwise; its two arcs as chords.
+/// The border of a panel, counter-clockwise, with its two arcs as chords.
 using Border = std::vector<Point>;
 
-/// Chords per arc, the same for all panels so that neighbours share their borders: their sagitta stays within
-/// this share of the panels' depth along the radius.
+/// Largest sagitta of the chords of an arc, as a fraction of the panel's depth along the radius [-]. The number of
+/// chords per arc is the same for all panels, so that neighbours share their borders.
 constexpr double kSagitta = 0.005;
 
 int chords_per_arc(const PanelMesh& mesh) {
-  double shortest = 1, widest = 0;  // the first relative to the ring's radius
+  double shortest = 1, widest = 0;  // the first is relative to the ring's radius
   for (std::size_t i = 0; i + 1 < mesh.rings.size(); ++i)
     shortest = std::min(shortest, 1 - mesh.rings[i] / mesh.rings[i + 1]);
   for (std::size_t j = 0; j + 1 < mesh.rays.size(); ++j) widest = std::max(widest, mesh.rays[j + 1] - mesh.rays[j]);
@@ -38,8 +38,8 @@ int chords_per_arc(const PanelMesh& mesh) {
 
 Border border(const PanelMesh& mesh, std::size_t ring, std::size_t column, int chords) {
   const double first = mesh.rays[column], step = (mesh.rays[column + 1] - first) / chords;
-  // Corners a little outside the arc, so that the chords lie on it in the mean: a chord's mean depth is r
-  // step² / 12.
+  // The corners lie slightly outside of the arc, so that the chords lie on it in the mean: the mean depth of a chord is
+  // r step² / 12.
   const double outward = 1 + step * step / 12;
   const auto at = [&](double r, int k) {
     return Point(r * outward * std::cos(first + step * k), r * outward * std::sin(first + step * k));

@@ -14,7 +14,7 @@ std::vector<double> fluid_rings(const SolverSettings& settings) {
   return graded_radii(settings.inner_radius, settings.outer_radius, 2 * settings.panel_rings);
 }
 
-/// F = Wᵀ (added mass of the panels) W, with W the plate's deflection at the panels' control points.
+/// Returns F = Wᵀ (added mass of the panels) W, with the plate's deflection W at the panels' control points.
 Eigen::MatrixXd potential_added_mass(const PlateMesh& mesh, const SolverSettings& settings) {
   const PanelMesh panels =
       make_panel_mesh(fluid_rings(settings), rays_towards_edge(0, mesh.half_angle, settings.panel_columns));
@@ -22,8 +22,8 @@ Eigen::MatrixXd potential_added_mass(const PlateMesh& mesh, const SolverSettings
   return deflection.transpose() * added_mass(panels) * deflection;
 }
 
-/// As above with the open water beside the wedge panelled too: its elevations are unknowns that carry the
-/// fluid's mass and the stiffness of their own weight, which is φ_t + g η = 0 on the open water.
+/// Returns the matrices with panels on the open water beside the wedge too. Their elevations are unknowns that have the
+/// mass of the fluid and the stiffness of their own weight, which is φ_t + g η = 0 on the open water.
 WedgeMatrices with_free_surface(const PlateMesh& mesh, const WedgeMatrices& plate, const SolverSettings& settings) {
   std::vector<double> rays = rays_towards_edge(0, mesh.half_angle, settings.panel_columns);
   const std::vector<double> open = rays_towards_edge(std::numbers::pi, mesh.half_angle, settings.free_surface_columns);

@@ -9,21 +9,22 @@
 
 namespace polynya::fracture {
 
-/// Top fibres nearer the tip than this many inner radii are not evaluated: the mesh's free inner edge
-/// disturbs them.
+/// Distance from the tip, in inner radii, up to which top fibres are not evaluated [-], because the free inner edge of
+/// the mesh disturbs them.
 inline constexpr double kFirstTopRadius = 5;
 
-/// Nor are bottom fibres nearer than this many l. The hoop stress under the tip's load grows without bound as
-/// the loaded patch shrinks; within a fraction of the thickness a plate's bending stress is not the ice's.
+/// Distance from the tip, in l, up to which bottom fibres are not evaluated [-]. The hoop stress under the load of the
+/// tip grows without bound as the loaded patch shrinks; within a fraction of the thickness the bending stress of a
+/// plate does not describe the ice.
 inline constexpr double kFirstBottomRadius = 0.01;
 
-/// Nor are those beyond this many l, where there are only ripples.
+/// Distance from the tip, in l, beyond which fibres are not evaluated [-]: there are only ripples.
 inline constexpr double kLastRadius = 4;
 
-/// A wedge of ice on its water as independent oscillators: with x = Σ X_k q_k,
+/// A wedge of ice on its water, decomposed into independent oscillators: with x = Σ X_k q_k,
 ///   (m̂ A + F) ẍ + (B + A) x = load   becomes   μ_k q̈_k + q_k = X_kᵀ load,   X_jᵀ (B + A) X_k = δ_jk
-/// B bending, A area, F the water's added mass. μ_k = 1/ω_k²: a mode without mass has μ = 0 and follows its
-/// load at once. Time in t0 = √(l/g).
+/// with the matrices B of bending, A of area, and F of the water's added mass. μ_k = 1/ω_k²; a mode without mass has μ
+/// = 0 and follows its load at once. Time is in t0 = √(l/g).
 struct WedgeModes {
   PlateMesh mesh;
   Eigen::VectorXd inertia;         ///< μ ≥ 0, ascending
@@ -35,19 +36,19 @@ struct WedgeModes {
   Eigen::VectorXd tip;             ///< deflection of the tip per unit of each mode
 };
 
-/// Mass and stiffness of a wedge on its water. The unknowns are the plate's,
-/// then, with FluidModel::kFreeSurface, the elevations of the panels of open water.
+/// Mass and stiffness of a wedge on its water. The unknowns are the unknowns of the plate and then, with
+/// FluidModel::kFreeSurface, the elevations of the panels of open water.
 struct WedgeMatrices {
   Eigen::MatrixXd mass;
   Eigen::MatrixXd stiffness;
 };
 
-/// half_angle α in (0, π] [rad], mass_ratio m̂ = ρ_i h / (ρ_w l) > 0.
+/// Assembles the matrices. `half_angle` is α in (0, π] [rad], `mass_ratio` is m̂ = ρ_i h / (ρ_w l) > 0.
 WedgeMatrices assemble_wedge(const PlateMesh& mesh, double mass_ratio, const SolverSettings& settings);
 
 WedgeModes wedge_modes(double half_angle, double mass_ratio, const SolverSettings& settings);
 
-/// Modal amplitudes when a unit tip load rests: the static solution.
+/// Returns the modal amplitudes of the static solution for a unit load on the tip.
 Eigen::VectorXd static_amplitudes(const WedgeModes& modes, double patch_radius);
 
 }  // namespace polynya::fracture

@@ -8,14 +8,14 @@
 namespace polynya::fracture {
 namespace {
 
-constexpr double kEvenRadius = 2;  ///< in l: the radius where the spacing turns from geometric to even
+constexpr double kEvenRadius = 2;  ///< radius at which the spacing turns from geometric to even, in l
 
 /// An even Legendre polynomial P_2j(x) and its derivatives.
 struct Legendre {
   double value, first, second;
 };
 
-/// By the recurrences n P_n = (2n−1) x P_{n−1} − (n−1) P_{n−2} and P'_n = P'_{n−2} + (2n−1) P_{n−1}.
+/// Computed by the recurrences n P_n = (2n−1) x P_{n−1} − (n−1) P_{n−2} and P'_n = P'_{n−2} + (2n−1) P_{n−1}.
 std::vector<Legendre> even_legendre(double x, int terms) {
   std::vector<Legendre> all = {{1, 0, 0}, {x, 1, 0}};
   for (int n = 2; n < 2 * terms; ++n) {
@@ -30,8 +30,8 @@ std::vector<Legendre> even_legendre(double x, int terms) {
   return even;
 }
 
-/// The half 0 < x < 1 of the Gauss–Legendre rule of 2n points on [-1, 1]: exact for even integrands of degree
-/// 4n − 1 at most.
+/// Returns the half 0 < x < 1 of the Gauss–Legendre rule of 2n points on [-1, 1], exact for even integrands up to
+/// degree 4n − 1.
 std::vector<GaussPoint> even_gauss_rule(int n) {
   std::vector<GaussPoint> rule;
   for (const double x : boost::math::legendre_p_zeros<double>(2 * n)) {
@@ -135,8 +135,8 @@ Eigen::VectorXd tip_load(const PlateMesh& mesh, double patch_radius) {
   const auto nodes_inside = std::upper_bound(mesh.radii.begin(), mesh.radii.end(), patch_radius) - mesh.radii.begin();
   const auto loaded_nodes = std::min(nodes_inside + 1, static_cast<std::ptrdiff_t>(mesh.radii.size()));
   Eigen::VectorXd load = Eigen::VectorXd::Zero(2 * loaded_nodes);
-  // The tip inside the inner radius r0 continues the mesh along straight rays, w(r) = w(r0) − (r0 − r)
-  // w'(r0): what it carries is a force and a moment on the innermost node.
+  // The tip inside of the inner radius r0 continues the mesh along straight rays, w(r) = w(r0) − (r0 − r) w'(r0). Its
+  // load is a force and a moment on the innermost node.
   const double inner = mesh.radii.front(), reach = std::min(inner, patch_radius);
   const double inside = (reach / patch_radius) * (reach / patch_radius);  // of the unit force
   const double centroid = 2 * reach / 3;

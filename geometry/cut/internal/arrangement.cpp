@@ -33,7 +33,7 @@ using Vertex = Arrangement::Vertex_const_handle;
 using Halfedge = Arrangement::Halfedge_const_handle;
 using Face = Arrangement::Face_const_handle;
 
-// CGAL reports a broken precondition by an exception, which the cut turns into a value; no message to stderr.
+// CGAL reports a broken precondition by an exception, which the cut converts to a value, without a message to stderr.
 void make_cgal_throw_quietly() {
   static const bool kDone = [] {
     CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
@@ -65,7 +65,7 @@ std::unique_ptr<const Arrangement> arrange(const std::vector<SourceSegment>& seg
   return arrangement;
 }
 
-// Faces, their windings and classes, and the regions they join into.
+// Finds the faces, their windings and classes, and the regions that they form.
 class Tracer {
  public:
   Tracer(const Arrangement& arrangement, const std::vector<SourceSegment>& segments, const Classifier& classify,
@@ -94,7 +94,7 @@ class Tracer {
     return regions;
   }
 
-  // How the tool's segments lie in the shape's interior.
+  // Finds how the tool's segments lie in the shape's interior.
   void find_tool_inside(Overlay& result) const {
     for (auto e = arrangement_.edges_begin(); e != arrangement_.edges_end(); ++e) {
       const std::size_t left = face_of(e);
@@ -121,7 +121,7 @@ class Tracer {
     }
   }
 
-  // What crossing e from right to left adds to the winding.
+  // Returns the change of the winding when e is crossed from right to left.
   Winding step_over(Halfedge e) const {
     Winding step;
     const bool rightward = e->direction() == CGAL::ARR_LEFT_TO_RIGHT;
@@ -165,7 +165,8 @@ class Tracer {
     for (auto c = face->inner_ccbs_begin(); c != face->inner_ccbs_end(); ++c) walk(*c);
   }
 
-  // Does a region end at this edge? An edge with one face on both sides (a dangle, a bridge) bounds nothing.
+  // Returns true if a region ends at this edge. An edge with one face on both sides (a dangle, a bridge) bounds
+  // nothing.
   bool is_boundary(Halfedge e) const {
     const std::size_t left = face_of(e);
     const std::size_t right = face_of(e->twin());
@@ -185,7 +186,7 @@ class Tracer {
     for (std::size_t face = 0; face < parent_.size(); ++face) parent_[face] = root_of(face);
   }
 
-  // The region's next boundary edge, turning within the region's own wedge: where two parts touch in a point
+  // Returns the next boundary edge of the region, turning within the region's own wedge. If two parts touch in a point,
   // the walk stays in its part.
   Halfedge next_boundary(Halfedge e) const {
     Halfedge next = e->next();
@@ -193,8 +194,8 @@ class Tracer {
     return next;
   }
 
-  // Only where one segment passes straight through a point that bounds no third region is that point no
-  // corner. Where the tool runs along the shape, the shape's segments decide: its own vertices stay.
+  // Returns false only for a point through which one segment passes straight and that bounds no third region. Where the
+  // tool runs along the shape, the shape's segments decide, so its own vertices stay.
   bool is_corner(Halfedge in, Halfedge out) const {
     const int source = std::min(first_source(in), first_source(out));
     for (const std::size_t s : in->curve().data()) {
@@ -212,7 +213,7 @@ class Tracer {
     return source;
   }
 
-  // How many regions meet in a vertex, all that is left out counting as one.
+  // Returns the number of regions that touch in a vertex; everything that is left out counts as one region.
   std::size_t regions_around(Vertex v) const {
     std::set<std::size_t> roots;
     auto e = v->incident_halfedges();
@@ -226,14 +227,14 @@ class Tracer {
 
   void trace(Halfedge start, std::unordered_set<const void*>& visited, Polygon& polygon) const {
     std::vector<Halfedge> walk;
-    std::unordered_map<const void*, std::size_t> place;  // of each vertex: the edge of the walk that ends there
+    std::unordered_map<const void*, std::size_t> place;  // for each vertex: the edge of the walk that ends there
     Halfedge e = start;
     do {
       visited.insert(&*e);
       walk.push_back(e);
       const auto [seen, is_new] = place.try_emplace(&*e->target(), walk.size() - 1);
       if (!is_new) {
-        // The walk came back to a vertex: what lies between is a ring of its own that touches here.
+        // The walk has returned to a vertex: the part between is a separate ring that touches here.
         const std::size_t from = seen->second + 1;
         for (std::size_t i = from; i + 1 < walk.size(); ++i) place.erase(&*walk[i]->target());
         add_ring({walk.begin() + static_cast<std::ptrdiff_t>(from), walk.end()}, polygon);

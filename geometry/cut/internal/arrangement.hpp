@@ -18,7 +18,7 @@ struct SourceSegment {
 void append_segments(std::vector<SourceSegment>& segments, const Ring& ring, int source);
 void append_segments(std::vector<SourceSegment>& segments, const Polygon& polygon, int source);
 
-/// How often each source's closed curves wind around the points of a face.
+/// The winding numbers of the closed curves of each source around the points of a face.
 struct Winding {
   int shape = 0;
   int tool = 0;
@@ -27,32 +27,32 @@ struct Winding {
 /// A maximal connected region of one class: a valid polygon by OGC (pinches retraced), not yet rounded.
 struct Region {
   Polygon polygon;
-  int label = 0;  ///< the classifier's
+  int label = 0;  ///< label from the classifier
 };
 
-/// Gives a face its class; faces of a negative class are left out.
+/// Returns the class of a face; faces with a negative class are left out.
 using Classifier = std::function<int(Winding)>;
 
-/// What separates two faces of one class.
+/// Treatment of segments that separate two faces of one class.
 enum class Seams {
-  kDissolve,  ///< nothing: they are one region
-  kKeep,      ///< the segments between them (a crack)
+  kDissolve,  ///< ignored: the faces form one region
+  kKeep,      ///< kept: the segments between them separate (a crack)
 };
 
 struct Overlay {
   std::vector<Region> regions;
-  bool tool_meets_interior = false;  ///< some tool segment runs where the shape winds on both sides
-  double dangling_length = 0;        ///< of those that have one face on both sides: dangles and bridges [m]
+  bool tool_meets_interior = false;  ///< a tool segment runs where the shape winds on both sides
+  double dangling_length = 0;        ///< length of these segments with one face on both sides: dangles and bridges [m]
 };
 
-/// An overlay that cannot be computed: a precondition of CGAL that does not hold, or a region without an outer ring.
+/// An overlay cannot be computed: a precondition of CGAL does not hold, or a region has no outer ring.
 struct OverlayFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The exact overlay of all segments, by CGAL's arrangement: the general path and the oracle of the local
-/// one. Segments may cross, touch, overlap and repeat. Open polylines separate nothing and wind around
-/// nothing. Throws OverlayFailure if CGAL refuses the segments or their regions do not follow from them.
+/// Returns the exact overlay of all segments by CGAL's arrangement. It is used by the general path, and as the
+/// reference for tests of the local path. Segments may cross, touch, overlap and repeat. Open polylines separate
+/// nothing and wind around nothing. Throws OverlayFailure if CGAL refuses the segments or no regions follow from them.
 Overlay overlay(const std::vector<SourceSegment>& segments, const Classifier& classify, Seams seams);
 
 }  // namespace polynya::geometry::exact

@@ -14,7 +14,7 @@ namespace polynya::geometry {
 
 namespace {
 
-// Which of the box's four sides a point is beyond. Two points beyond one side have nothing of the box between them.
+// The sides of the box beyond which a point lies. A segment between two points beyond one side does not touch the box.
 #ifdef __SSE2__
 class Sides {
  public:
@@ -42,7 +42,7 @@ class Sides {
 };
 #endif
 
-// a + t (b − a) with t = ((c − a) × (d − c)) / ((b − a) × (d − c)), in rationals.
+// Returns a + t (b − a) with t = ((c − a) × (d − c)) / ((b − a) × (d − c)), in rationals.
 exact::Point crossing_point(Point a, Point b, Point c, Point d) {
   using exact::Rational;
   const Rational ax(a.x);
@@ -108,7 +108,7 @@ class Collector {
     nodes_.push_back(std::move(node));
   }
 
-  /// Where a point on an edge from `from` to `to`, of a ring of that size, is: at one of its ends or between.
+  /// Returns the place of a point on an edge from `from` to `to` of a ring of this size: at one of its ends or between.
   static Place place(const Place& on_edge, int size, Point at, Point from, Point to) {
     if (at == from) return {on_edge.ring, on_edge.edge, true};
     if (at == to) return {on_edge.ring, on_edge.edge + 1 == size ? 0 : on_edge.edge + 1, true};
@@ -131,8 +131,8 @@ class Collector {
   std::vector<Node> nodes_;
 };
 
-// Does p come before q along the directed edge a→b, on which both lie? Rounding keeps order, so the rounded
-// points decide wherever they differ.
+// Returns true if p comes before q along the directed edge a→b on which both lie. Rounding keeps the order, so the
+// rounded points decide if they differ.
 bool comes_before(Point a, Point b, const Node& p, const Node& q) {
   const bool by_x = a.x != b.x;
   const Node& low = precedes(a, b) ? p : q;
@@ -142,7 +142,7 @@ bool comes_before(Point a, Point b, const Node& p, const Node& q) {
   return by_x ? exact_point(low).x < exact_point(high).x : exact_point(low).y < exact_point(high).y;
 }
 
-// Order of places along a ring; `from` and `to` give the ends of an edge.
+// The order of places along a ring; `ends` gives the end points of an edge.
 template <typename EndsOfEdge>
 bool precedes(const Place& p, const Node& node_p, const Place& q, const Node& node_q, EndsOfEdge ends) {
   if (p.ring != q.ring) return p.ring < q.ring;
@@ -203,7 +203,7 @@ std::optional<std::vector<Node>> find_nodes(const Rings& rings, const Tool& tool
 
 namespace {
 
-// The nodes' indices in order along the tool.
+// Returns the nodes' indices in their order along the tool.
 std::vector<int> order_along_tool(const std::vector<Node>& nodes, const Tool& tool) {
   std::vector<int> order(nodes.size());
   std::iota(order.begin(), order.end(), 0);
@@ -234,7 +234,8 @@ bool same_direction(const Ray& u, const Ray& v) {
   return cross_sign(u, v) == 0 && dot_sign(u.tail, u.head, v.tail, v.head) > 0;
 }
 
-// Vertices strictly after `from` and strictly before `to`; `wraps` where the run passes the ring's first vertex.
+// Returns the vertices strictly after `from` and before `to`; `wraps` is true if the run passes the ring's first
+// vertex.
 Run run_between(const Place& from, const Place& to, bool wraps, int size) {
   const int first = from.edge + 1;
   const int last = to.at_vertex ? to.edge - 1 : to.edge;
@@ -273,7 +274,7 @@ class Faces {
     return directions_at(node(n).on_tool, [&](int i) { return tool_.point(i); });
   }
 
-  // Does the ray lead from the node into the shape's interior? (Not where it runs along the boundary.)
+  // Returns true if the ray leads from the node into the shape's interior, and not along the boundary.
   bool leads_inside(int n, const Ray& ray) {
     const Directions shape = shape_at(n);
     if (same_direction(ray, shape.on) || same_direction(ray, shape.back)) return false;
@@ -289,8 +290,8 @@ class Faces {
     walk();
   }
 
-  // A chord with one face on both sides joins two rings and separates nothing. Taking all of them away leaves
-  // the faces as they are. (In a face's boundary, both sides of such a chord are in one walk.)
+  // A chord with one face on both sides joins two rings and separates nothing. Removing all of them does not change the
+  // faces. (In a face's boundary both sides of such a chord are in one walk.)
   bool drop_bridges() {
     std::vector<int> walk_of(graph_.half_edges.size(), -1);
     for (std::size_t w = 0; w < graph_.walks.size(); ++w) {
@@ -371,7 +372,7 @@ class Faces {
     }
   }
 
-  // The directions of a half-edge at its first node, and back along it at its last.
+  // The direction of a half-edge at its first node, and the one back along it at its last node.
   Ray leaving(const HalfEdge& e) {
     if (!e.is_chord) return shape_at(e.from).on;
     return e.is_forward ? tool_at(e.from).on : tool_at(e.from).back;
@@ -381,8 +382,8 @@ class Faces {
     return e.is_forward ? tool_at(e.to).back : tool_at(e.to).on;
   }
 
-  // The face on the left of an arriving half-edge lies clockwise of it: its boundary continues along the
-  // first half-edge met clockwise, which is the last one met counter-clockwise.
+  // The face on the left of an arriving half-edge lies clockwise of it. Its boundary continues along the first
+  // half-edge in clockwise direction, which is the last one counter-clockwise.
   void link() {
     const int count = static_cast<int>(graph_.half_edges.size());
     std::vector<std::vector<int>> leaving_node(nodes_.size());
@@ -401,16 +402,16 @@ class Faces {
     }
   }
 
-  // A walk that comes back to a node it has left before closes a loop there.
+  // A walk that returns to a node that it has left before closes a loop there.
   void walk() {
     const std::size_t count = graph_.half_edges.size();
     constexpr int kNowhere = -1;
     std::vector<char> visited(count, 0);
-    std::vector<int> place(nodes_.size(), kNowhere);  // in `open`, of the half-edge that leaves the node
+    std::vector<int> place(nodes_.size(), kNowhere);  // place in `open` of the half-edge that leaves the node
     for (int start = 0; start < static_cast<int>(count); ++start) {
       if (visited[start] != 0) continue;
       Walk walk;
-      Loop open;  // the chain so far, its loops taken off
+      Loop open;  // the chain so far, without its loops
       for (int h = start; visited[h] == 0; h = next_[h]) {
         visited[h] = 1;
         const HalfEdge& e = half_edge(h);

@@ -8,10 +8,10 @@
 
 namespace polynya::geometry {
 
-// The first stages of a local cut: nodes, where the tool meets the shape, and faces, which the chains between
-// them bound.
+// The first stages of a local cut: nodes, at which the tool touches or crosses the shape's boundary, and faces, which
+// the chains between nodes bound.
 
-/// Where a point lies on a ring or polyline: at its vertex `edge`, or inside the edge that starts there.
+/// The place of a point on a ring or polyline: at the vertex `edge`, or inside the edge that starts there.
 struct Place {
   int ring = 0;
   int edge = 0;
@@ -19,11 +19,11 @@ struct Place {
   friend bool operator==(const Place&, const Place&) = default;
 };
 
-/// A point in which the tool meets the shape's boundary.
+/// A point in which the tool touches or crosses the shape's boundary.
 struct Node {
   Point at;                 ///< the nearest doubles
-  bool is_rounded = false;  ///< `at` is not the point itself
-  exact::Point exactly_at;  ///< the point itself, where `is_rounded`
+  bool is_rounded = false;  ///< true if `at` is not the exact point
+  exact::Point exactly_at;  ///< the exact point, if `is_rounded`
   Place on_shape;
   Place on_tool;
   bool is_active = false;  ///< a chord ends here
@@ -52,56 +52,57 @@ struct EdgeId {
   int index = 0;
 };
 
-/// The shape's edges whose boxes overlap the box: a straight scan over all vertices.
+/// Returns the shape's edges whose boxes overlap the box, by a scan over all vertices.
 std::vector<EdgeId> edges_near(const Rings& rings, const Box& box);
 
-/// All points in which the tool meets the shape, each once, in order along the shape; none where some point is met
-/// twice by the shape or by the tool (rings that touch each other there): the local cut does not cover that.
+/// Returns all points in which the tool touches or crosses the shape's boundary, each once, in order along the shape.
+/// Returns nullopt if the shape or the tool passes a point twice (rings that touch each other there); the local cut
+/// does not handle that.
 std::optional<std::vector<Node>> find_nodes(const Rings& rings, const Tool& tool, const std::vector<EdgeId>& near);
 
-/// The exact point of a node.
+/// Returns the exact point of a node.
 exact::Point exact_point(const Node& node);
 
-/// A run of consecutive vertices between two places of a ring or polyline, ends left out.
+/// Consecutive vertices between two places of a ring or polyline, without its ends.
 struct Run {
   int first = 0;  ///< its first vertex
-  int count = 0;  ///< how many; they wrap around the ring
+  int count = 0;  ///< number of vertices; they wrap around the ring
 };
 
-/// A directed stretch of boundary between two active nodes, a face of the cut shape on its left.
+/// A directed stretch of boundary between two active nodes, with a face of the cut shape on its left.
 struct HalfEdge {
   int from = 0;            ///< node
   int to = 0;              ///< node
-  bool is_chord = false;   ///< along the tool through the ice, else along the shape
+  bool is_chord = false;   ///< along the tool through the ice; otherwise along the shape
   bool is_forward = true;  ///< chords are used once in each direction
-  int ring = 0;            ///< of the shape, where it is no chord
+  int ring = 0;            ///< ring of the shape, if it is no chord
   Run run;                 ///< vertices strictly between the nodes, in the ring's or tool's own order
 };
 
 /// A simple closed chain of half-edges.
 using Loop = std::vector<int>;
 
-/// One closed walk along a face's boundary, split at the nodes it visits twice.
+/// One closed walk along a face's boundary, split at the nodes that it visits twice.
 struct Walk {
   std::vector<Loop> loops;
   Part part = Part::kOutside;
 };
 
-/// The cut as a planar graph of chains: only nodes and chains, never single edges.
+/// The cut as a planar graph of chains: it contains only nodes and chains, no single edges.
 struct CutGraph {
   std::vector<HalfEdge> half_edges;  ///< all shape chains, then each chord forward and backward
   std::vector<Walk> walks;
   std::vector<HalfEdge> bridges;  ///< stretches of the tool from ring to ring that separate nothing
-  int rings_met = 0;              ///< how many rings of the shape chords and bridges end on
-  std::vector<char> ring_is_cut;  ///< per ring of the shape: has it active nodes?
+  int rings_met = 0;              ///< number of the shape's rings on which chords and bridges end
+  std::vector<char> ring_is_cut;  ///< for each ring of the shape: it has active nodes
   bool is_consistent = true;      ///< false only if the shape or the tool is not valid
-  int first_node = -1;            ///< along the tool
+  int first_node = -1;            ///< first node along the tool
   int last_node = -1;
-  bool starts_inside = false;  ///< an open tool comes to its first node through the shape's interior
-  bool ends_inside = false;    ///< and leaves its last one into it
+  bool starts_inside = false;  ///< an open tool reaches its first node through the shape's interior
+  bool ends_inside = false;    ///< it leaves its last node into the interior
 };
 
-/// Which stretches of the tool are chords, and which faces they and the shape's chains bound. Marks active nodes.
+/// Finds which stretches of the tool are chords, and which faces they and the shape's chains bound. Marks active nodes.
 CutGraph trace_faces(const Rings& rings, const Tool& tool, std::vector<Node>& nodes);
 
 }  // namespace polynya::geometry

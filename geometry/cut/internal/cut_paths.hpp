@@ -18,8 +18,8 @@ inline tl::unexpected<CutError> refuse(CutFailure reason, Defect defect) {
   return refuse(reason, std::string(name_of(defect)));
 }
 
-/// Calls work() and returns its result, or the error kInternal if it throws OverlayFailure. Other exceptions, as of a
-/// lack of memory or of a defect in the program, are not caught.
+/// Calls work() and returns its result, or the error kInternal if it throws OverlayFailure. Other exceptions, such as
+/// those from a lack of memory or a defect in the program, are not caught.
 template <typename Work>
 auto guarded(Work work) -> decltype(work()) {
   try {
@@ -29,8 +29,8 @@ auto guarded(Work work) -> decltype(work()) {
   }
 }
 
-/// The general path: the whole shape and the tool overlaid exactly by CGAL. Covers every valid input; costs
-/// tens of milliseconds at thousands of vertices. Arguments are valid (checked by the caller); never throws.
+/// The general path: CGAL overlays the whole shape and the tool exactly. It handles every valid input and takes tens of
+/// milliseconds for thousands of vertices. The caller has checked that the arguments are valid. Never throws.
 CutOutcome cut_by_polygons_generally(const exact::Polygon& shape, const std::vector<Polygon>& tools_in_body);
 CutOutcome cut_along_generally(const exact::Polygon& shape, const std::vector<std::vector<Point>>& polylines_in_body);
 
@@ -46,10 +46,11 @@ struct Tool {
   }
 };
 
-/// The local path: finds where the tool meets the boundary by exact predicates, rebuilds only the chains between those
-/// nodes, rounds only the nodes, and validates only the edges that end in one. Equal to the general path wherever it
-/// answers; none where it does not cover the case (rings that touch each other where they are cut or in a floe of which
-/// several rings are cut). The shape is valid; the tool is a simple counter-clockwise ring or a simple open polyline.
+/// The local path. It finds where the tool touches or crosses the boundary by exact predicates, rebuilds only the
+/// chains between these nodes, rounds only the nodes, and validates only the edges that end in a rounded node. Its
+/// result equals the result of the general path. Returns nullopt if it does not handle the case (rings that touch each
+/// other where they are cut, or in a floe of which several rings are cut). The shape must be valid; the tool must be a
+/// simple counter-clockwise ring or a simple open polyline.
 std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool);
 
 }  // namespace polynya::geometry

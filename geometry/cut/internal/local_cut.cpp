@@ -25,13 +25,13 @@ Box box_of(const Segment& s) {
   return box_around(s.from, s.to);
 }
 
-/// One ring of a piece: a loop of the graph, a ring of the shape the cut left alone, or the whole tool.
+/// One ring of a piece: a loop of the graph, a ring of the shape that the cut does not touch, or the whole tool.
 struct PieceRing {
   PieceRing(Ring written, Loop of_loop, int ring_of_shape)
       : points(std::move(written)), loop(std::move(of_loop)), shape_ring(ring_of_shape), area(ring_area(points)) {}
-  Ring points;     ///< written out, new vertices rounded
+  Ring points;     ///< its points, with new vertices rounded
   Loop loop;       ///< empty for a whole ring
-  int shape_ring;  ///< −1 where it is none of the shape's
+  int shape_ring;  ///< −1: it is not a ring of the shape
   RingArea area;   ///< of `points`
 };
 
@@ -50,10 +50,10 @@ struct LocalCut {
   std::vector<Segment> placed;   ///< the other new edges: along the tool, and parts of the shape's edges
 };
 
-// ---- pieces: which rings bound what
+// ---- pieces: the rings that bound them
 
-// Calls on_node(node, half-edge) and on_run(first, last, half-edge) for a loop's vertices in order; the
-// half-edge is the one along which the loop leaves them, [first, last) are iterators over points.
+// Calls on_node(node, half-edge) and on_run(first, last, half-edge) for a loop's vertices in order. The half-edge is
+// the one along which the loop leaves them; [first, last) are iterators over points.
 template <typename OnNode, typename OnRun>
 void for_each_stretch(const LocalCut& cut, const Loop& loop, OnNode on_node, OnRun on_run) {
   for (const int h : loop) {
@@ -73,7 +73,7 @@ void for_each_stretch(const LocalCut& cut, const Loop& loop, OnNode on_node, OnR
   }
 }
 
-// Writes a loop's vertices, noting on the way the edges that are new; those of a chord once, on its forward side.
+// Writes a loop's vertices and records the new edges; edges of a chord are recorded once, on its forward side.
 Ring write_loop(LocalCut& cut, const Loop& loop) {
   struct Vertex {
     bool is_node = false;
@@ -129,7 +129,7 @@ exact::Ring write_exactly(const LocalCut& cut, const PieceRing& ring) {
   return points;
 }
 
-// Which way the exact loop turns: as the rounded one wherever its area is clear of all errors.
+// Returns the sense in which the exact loop turns: as the rounded one, if its area is clear of all errors.
 int turn_of(const LocalCut& cut, const PieceRing& ring) {
   const double clear = ring.area.doubt + 2 * ring.area.step_area;
   if (ring.area.area > clear) return 1;
@@ -137,19 +137,19 @@ int turn_of(const LocalCut& cut, const PieceRing& ring) {
   return exact::sign(exact::area(write_exactly(cut, ring)));
 }
 
-// More than rounding can have moved the ends of the edge.
+// Returns more than the distance by which rounding can have moved the ends of the edge.
 double reach(const Segment& s) {
   const double size = std::max({std::abs(s.from.x), std::abs(s.from.y), std::abs(s.to.x), std::abs(s.to.y)});
   return 4 * (std::nextafter(size, std::numeric_limits<double>::infinity()) - size);
 }
 
-// A box that holds the edge before and after its ends were rounded.
+// Returns a box that contains the edge before and after its ends were rounded.
 Box swept_box(const Segment& s) {
   return grown(box_of(s), reach(s));
 }
 
-// Within reach of an edge of the shell whose ends were rounded? (An edge that ends in p itself is not the
-// shell's: p is off it.) The threshold is well above the errors of the product.
+// Returns true if a point is within reach of an edge of the shell whose ends were rounded. (An edge that ends in p
+// itself does not belong to the shell, since p is off it.) The threshold is well above the errors of the product.
 bool is_doubtful(const LocalCut& cut, Point p) {
   return std::ranges::any_of(cut.changed, [&](const Segment& s) {
     if (p == s.from || p == s.to || !overlaps(swept_box(s), {p, p})) return false;
@@ -158,8 +158,8 @@ bool is_doubtful(const LocalCut& cut, Point p) {
   });
 }
 
-// By a vertex of the hole far from all changed edges: the rounded and the exact rings agree there. None where that is
-// in doubt.
+// Returns whether a hole lies inside a shell. It tests a vertex of the hole far from all changed edges, where the
+// rounded and the exact rings agree. Returns nullopt if that is in doubt.
 std::optional<bool> is_inside(const LocalCut& cut, const Ring& hole, const Ring& shell) {
   bool all_on_shell = true;
   for (const Point p : hole) {
@@ -167,12 +167,12 @@ std::optional<bool> is_inside(const LocalCut& cut, const Ring& hole, const Ring&
     all_on_shell = all_on_shell && side == 0;
     if (side != 0 && !is_doubtful(cut, p)) return side > 0;
   }
-  // A hole all of whose vertices are the shell's is that shell seen from the other side.
+  // A hole all of whose vertices belong to the shell is that shell seen from the other side.
   if (all_on_shell) return false;
   return {};
 }
 
-// Gives each hole to the smallest piece around it; false where one finds none, or in doubt.
+// Gives each hole to the smallest piece around it. Returns false if a hole finds no piece, or if that is in doubt.
 bool place_holes(const LocalCut& cut, std::vector<PieceRing>& holes, std::vector<PiecePlan>& plans) {
   std::vector<std::size_t> by_area(plans.size());
   std::iota(by_area.begin(), by_area.end(), std::size_t{0});
@@ -191,7 +191,7 @@ bool place_holes(const LocalCut& cut, std::vector<PieceRing>& holes, std::vector
   return true;
 }
 
-// The loops of one walk: one outer ring and its touching holes, or holes only.
+// Plans the loops of one walk: one outer ring and its touching holes, or only holes.
 bool plan_walk(LocalCut& cut, const Walk& walk, std::vector<PiecePlan>& plans, std::vector<PieceRing>& free_holes) {
   PiecePlan plan{{}, walk.part};
   std::vector<PieceRing> holes;
@@ -206,7 +206,7 @@ bool plan_walk(LocalCut& cut, const Walk& walk, std::vector<PiecePlan>& plans, s
   return true;
 }
 
-// Writes out all rings and finds which bound which piece. None where that is in doubt.
+// Writes all rings and finds the piece that each bounds. Returns nullopt if that is in doubt.
 std::optional<std::vector<PiecePlan>> plan_pieces(LocalCut& cut) {
   std::vector<PiecePlan> plans;
   std::vector<PieceRing> free_holes;  // holes whose shell is not known yet
@@ -234,7 +234,7 @@ std::optional<std::vector<PiecePlan>> plan_pieces(LocalCut& cut) {
   return plans;
 }
 
-// A piece before rounding.
+// Returns a piece before rounding.
 exact::Polygon write_exactly(const LocalCut& cut, const PiecePlan& plan) {
   exact::Polygon polygon;
   for (const PieceRing& ring : plan.rings)
@@ -242,7 +242,7 @@ exact::Polygon write_exactly(const LocalCut& cut, const PiecePlan& plan) {
   return polygon;
 }
 
-// Could rounding the changed edges have carried one of them across a whole ring of the piece?
+// Returns true if rounding the changed edges may have moved one of them across a whole ring of the piece.
 bool may_have_swept_a_ring(const LocalCut& cut, const PiecePlan& plan) {
   if (plan.rings.size() < 2) return false;
   return std::any_of(plan.rings.begin(), plan.rings.end(), [&](const PieceRing& ring) {
@@ -252,7 +252,7 @@ bool may_have_swept_a_ring(const LocalCut& cut, const PiecePlan& plan) {
   });
 }
 
-// ---- the check that rounding broke nothing
+// ---- the check that rounding has broken nothing
 
 enum class End { kNone, kExact, kRounded };
 
@@ -262,8 +262,8 @@ End end_at(const Segment& s, Point p) {
   return End::kNone;
 }
 
-// Two edges of a subdivision may share an end, and nothing else. A rounded node that came to lie on some
-// other vertex is not an end they share.
+// Returns true if two edges share at most an end, as edges of a subdivision do. A rounded node that has moved onto
+// another vertex is not a shared end.
 bool are_apart(const Segment& s, const Segment& t) {
   const SegmentMeeting meeting = meet(s.from, s.to, t.from, t.to);
   if (meeting.kind == Meeting::kNone) return true;
@@ -271,7 +271,7 @@ bool are_apart(const Segment& s, const Segment& t) {
   return meeting.kind == Meeting::kTouch && end != End::kNone && end == end_at(t, meeting.at);
 }
 
-// No two rounded nodes in one point?
+// Returns true if no two rounded nodes are in one point.
 bool are_rounded_apart(const std::vector<Node>& nodes) {
   std::vector<Point> points;
   for (const Node& node : nodes) {
@@ -281,7 +281,7 @@ bool are_rounded_apart(const std::vector<Node>& nodes) {
   return std::ranges::adjacent_find(points) == points.end();
 }
 
-// The nodes come in order along the shape.
+// Returns true if a node splits the edge. Nodes are in order along the shape.
 bool is_split(const LocalCut& cut, EdgeId e) {
   const auto key = [](const Place& p) { return std::tuple(p.ring, p.edge, !p.at_vertex); };
   const Place inside{e.ring, e.index, false};
@@ -293,7 +293,7 @@ bool is_split(const LocalCut& cut, EdgeId e) {
   return false;
 }
 
-// Has every edge a length, and do they meet in shared ends only?
+// Returns true if every edge has a length and the edges touch each other only in shared ends.
 bool are_apart(const std::vector<Segment>& changed) {
   const auto has_no_length = [](const Segment& s) { return s.from == s.to; };
   if (std::any_of(changed.begin(), changed.end(), has_no_length)) return false;
@@ -301,7 +301,7 @@ bool are_apart(const std::vector<Segment>& changed) {
       [&](std::size_t i, std::size_t j) { return are_apart(changed[i], changed[j]); });
 }
 
-// Do the changed edges meet these others in shared ends only?
+// Returns true if the changed edges touch the other edges only in shared ends.
 bool are_clear_of(const std::vector<Segment>& changed, const std::vector<Segment>& others) {
   const BoxTree tree(changed);
   return std::all_of(others.begin(), others.end(), [&](const Segment& t) {
@@ -309,8 +309,8 @@ bool are_clear_of(const std::vector<Segment>& changed, const std::vector<Segment
   });
 }
 
-// Only edges that end in a rounded node can have come to meet another: all others lie as they did in the
-// exact subdivision, where edges meet in nodes only. So only these are checked, against all edges near them.
+// Only edges that end in a rounded node can have moved onto another edge. All others lie as in the exact subdivision,
+// where edges touch only in nodes. Therefore only these edges are checked, against all edges near them.
 bool changed_edges_are_apart(const LocalCut& cut, const Box& tool_box, const std::vector<EdgeId>& near_tool) {
   if (cut.changed.empty()) return true;
   if (!are_rounded_apart(cut.nodes) || !are_apart(cut.changed)) return false;
@@ -332,7 +332,7 @@ bool changed_edges_are_apart(const LocalCut& cut, const Box& tool_box, const std
 
 using exact::Rational;
 
-// Do two different rings of a valid polygon meet in a point? Exact.
+// Returns true if two different rings of a valid polygon touch in a point. Exact.
 bool has_touching_rings(const Polygon& polygon) {
   if (polygon.holes.empty()) return false;
   const std::vector<Edge> edges = edges_of(polygon);
@@ -343,8 +343,8 @@ bool has_touching_rings(const Polygon& polygon) {
   });
 }
 
-// Twice the area between the straight edge that starts at `a` and the chain of points it was split into, with
-// the edge's own end last: zero where all points lie on it.
+// Returns twice the area between the straight edge that starts at `a` and the chain of points into which it was split,
+// with the edge's own end last: zero if all points lie on it.
 Rational twice_area_between(const exact::Point& a, const std::vector<exact::Point>& chain) {
   Rational sum = 0;
   for (std::size_t i = 1; i < chain.size(); ++i) {
@@ -355,10 +355,10 @@ Rational twice_area_between(const exact::Point& a, const std::vector<exact::Poin
   return sum;
 }
 
-// Σ pieces − shape, in shoelace terms: every chain of the shape is in the pieces once, every chord once in each
-// direction, where its terms cancel; untouched rings are carried over. What is left is each split edge against the
-// sub-edges it became, and that is summed here in rationals: before rounding it must be zero for every edge by itself.
-// Returns twice the area that rounding the nodes adds; none where a sum is not zero.
+// Checks Σ pieces − shape, in shoelace terms. Every chain of the shape is in the pieces once. Every chord is there once
+// in each direction, so that its terms cancel. Untouched rings are carried over. The rest is each split edge against
+// the parts into which it was split, summed here in rationals: before rounding it must be zero for every edge
+// separately. Returns twice the area that rounding the nodes adds; nullopt if a sum is not zero.
 std::optional<Rational> check_split_edges(const LocalCut& cut) {
   Rational rounding = 0;
   for (std::size_t begin = 0; begin < cut.nodes.size();) {
@@ -384,7 +384,7 @@ std::optional<Rational> check_split_edges(const LocalCut& cut) {
   return rounding;
 }
 
-// The pieces as planned, where rounding broke none of them.
+// Returns the pieces as planned, if rounding has broken none of them.
 CutResult take_as_planned(std::vector<PiecePlan> plans, double area_before, const Rational& rounding) {
   CutResult result;
   CutLedger& ledger = result.ledger;
@@ -406,7 +406,7 @@ CutResult take_as_planned(std::vector<PiecePlan> plans, double area_before, cons
   return result;
 }
 
-// The pieces rounded from their exact shapes, where it did.
+// Returns the pieces rounded from their exact shapes, if it has.
 CutOutcome round_exactly(const LocalCut& cut, const std::vector<PiecePlan>& plans, const Polygon& shape) {
   std::vector<exact::ExactPiece> pieces;
   pieces.reserve(plans.size());
@@ -414,7 +414,7 @@ CutOutcome round_exactly(const LocalCut& cut, const std::vector<PiecePlan>& plan
   return exact::rounded_pieces(exact::area(shape), pieces);
 }
 
-// Is every half-edge in the written pieces exactly once, and every ring of the shape?
+// Returns true if the written pieces contain every half-edge and every untouched ring of the shape exactly once.
 bool uses_all_once(const LocalCut& cut, const std::vector<PiecePlan>& plans) {
   std::vector<int> uses(cut.graph.half_edges.size(), 0);
   std::vector<int> ring_uses(cut.graph.ring_is_cut.begin(), cut.graph.ring_is_cut.end());
@@ -434,8 +434,8 @@ double length_along(const Tool& tool, int first, int last) {
   return sum;
 }
 
-// An open tool that does not touch itself separates all the way between its nodes, bridges apart: only those
-// and what comes before the first and after the last dangle.
+// Returns the length of the tool that separates nothing. An open tool that does not touch itself separates everywhere
+// between its nodes, except for bridges; only those and the parts before the first and after the last node dangle.
 double dangling_length(const LocalCut& cut, const Polygon& shape) {
   const int last_vertex = static_cast<int>(cut.tool.points.size()) - 1;
   if (cut.nodes.empty()) {
@@ -463,7 +463,7 @@ double dangling_length(const LocalCut& cut, const Polygon& shape) {
   return sum;
 }
 
-// No chord: the tool runs past the ice, ends in it, or one lies within the other.
+// The cases without a chord: the tool runs beside the ice, ends in it, or one lies within the other.
 enum class Apart { kUncovered, kMisses, kToolInShape, kShapeInTool, kEndsInside };
 
 Apart relate_apart(const LocalCut& cut, const Polygon& shape) {
@@ -477,7 +477,8 @@ Apart relate_apart(const LocalCut& cut, const Polygon& shape) {
     if (contains_strictly(shape, cut.tool.points.front())) return Apart::kToolInShape;
     return side_of_ring(cut.tool.points, shape.outer.front()) > 0 ? Apart::kShapeInTool : Apart::kMisses;
   }
-  // Touching: a vertex of the shape that is off the tool's boundary decides; without one, the general path.
+  // If they touch, a vertex of the shape that is off the tool's boundary decides; without one, the general path is
+  // used.
   for (const Point p : shape.outer) {
     const int side = side_of_ring(cut.tool.points, p);
     if (side != 0) return side > 0 ? Apart::kShapeInTool : Apart::kMisses;
@@ -516,8 +517,8 @@ std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
   if (!nodes) return {};
   LocalCut cut{rings, tool, std::move(*nodes), {}, {}, {}};
   cut.graph = trace_faces(rings, tool, cut.nodes);
-  // A chord between two rings makes one boundary of both, and where they touched already that boundary touches itself,
-  // away from all nodes.
+  // A chord between two rings makes one boundary of both. If they touched before, that boundary touches itself away
+  // from all nodes.
   if (!cut.graph.is_consistent || (cut.graph.rings_met > 1 && has_touching_rings(shape))) return {};
   if (cut.graph.walks.empty()) {
     switch (relate_apart(cut, shape)) {

@@ -17,6 +17,17 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
+// Returns value · 2^exponent.
+Rational scaled(const Rational& value, int exponent) {
+  Rational result;
+  if (exponent < 0) {
+    mpq_div_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+  } else {
+    mpq_mul_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+  }
+  return result;
+}
+
 double farthest(const Polygon& polygon) {
   double size = 0;
   const auto include = [&size](const Ring& ring) {
@@ -27,7 +38,7 @@ double farthest(const Polygon& polygon) {
   return size;
 }
 
-// The part of an edge that lies in a cell: from `first` to `last` along it, of 0 to 1.
+// The part of an edge that lies in a cell: from `first` to `last` along it, as fractions of the edge.
 struct Stretch {
   Rational first = 0;
   Rational last = 1;
@@ -36,7 +47,7 @@ struct Stretch {
 
   bool is_empty() const { return first > last || (first == last && !(has_first && has_last)); }
 
-  // Keeps what of from + t·along is in the cell.
+  // Keeps the part of from + t·along that is in the cell.
   void clip(const Rational& from, const Rational& along, const Cell& cell) {
     const int direction = sign(along);
     if (direction == 0) {
@@ -66,13 +77,13 @@ struct Stretch {
   }
 };
 
-// A cell between an edge's ends that the edge passes through.
+// A cell, between an edge's ends, through which the edge passes.
 struct Bend {
   Stretch stretch;
   geometry::Point at;
 };
 
-// Farther from the line than cells reach, in doubles with room for their errors?
+// Returns true if a point is farther from the line than cells reach, in doubles with a margin for their errors.
 bool is_far(const Edge& e, geometry::Point p, const Lattice& lattice) {
   const double width = lattice.width(std::max({std::abs(e.a.x), std::abs(e.a.y), std::abs(e.b.x), std::abs(e.b.y)}));
   const Vector along = e.b - e.a;
@@ -112,7 +123,7 @@ class Snapping {
     for (std::size_t i = first; i < edges_.size(); ++i) edges_[i].b = edges_[i + 1 == edges_.size() ? first : i + 1].a;
   }
 
-  // Rounding keeps order: an edge's points round to points in the box of its rounded ends.
+  // Rounding keeps the order: points of an edge round to points in the box of its rounded ends.
   void find_bends() {
     geometry::Ring centres;
     for (const Edge& e : edges_) centres.push_back(e.a);
@@ -137,9 +148,9 @@ class Snapping {
   }
 
   const Lattice& lattice_;
-  std::vector<const Point*> starts_;  // of each edge
+  std::vector<const Point*> starts_;  // start of each edge
   std::vector<const Point*> ends_;
-  std::vector<Edge> edges_;  // with rounded ends
+  std::vector<Edge> edges_;  // edges with rounded ends
   std::vector<std::vector<Bend>> bends_;
 };
 
@@ -153,7 +164,7 @@ geometry::Ring welded(const geometry::Ring& ring) {
       kept.push_back(p);
     }
   }
-  while (kept.size() > 1) {  // the same where the ring closes
+  while (kept.size() > 1) {  // also where the ring closes
     if (kept.front() == kept.back() || kept[kept.size() - 2] == kept.front()) {
       kept.pop_back();
     } else if (kept[1] == kept.back()) {
@@ -166,8 +177,9 @@ geometry::Ring welded(const geometry::Ring& ring) {
   return kept;
 }
 
-// The polygon without what rounding can leave in a ring and encloses nothing: equal neighbours and spikes, edges folded
-// back on the one before. Rings that enclose nothing at all are dropped; an outer one leaves an empty ring.
+// Returns the polygon without parts that rounding can leave in a ring and that enclose nothing: equal neighbours and
+// spikes, which are edges folded back on the one before. Rings that enclose nothing are dropped; an outer one becomes
+// empty.
 geometry::Polygon welded(const geometry::Polygon& polygon) {
   geometry::Polygon result{welded(polygon.outer), {}};
   for (const geometry::Ring& hole : polygon.holes) {
@@ -225,8 +237,8 @@ std::optional<std::vector<geometry::Polygon>> snapped(const Polygon& polygon, co
 
 namespace {
 
-// The most area that rounding can have moved across the ring: every edge, at its longest, by the farther step
-// of its two ends.
+// Returns the largest area that rounding can have moved across the ring: every edge at its longest, times the larger
+// displacement of its two ends.
 double moved_area(const Ring& ring, const geometry::Ring& rounded_ring) {
   std::vector<double> moved;
   moved.reserve(ring.size());
@@ -261,8 +273,8 @@ class Rounding {
       add(std::move(kept), piece.part);
       return true;
     }
-    // A piece of no more area than rounding moves has no width that doubles can express.
-    if (nearest_double(exact_area) <= moved_area(piece.polygon, nearest)) {
+    // A piece whose area is at most the area that rounding moves has no width that doubles can express.
+    if (exact_area.get_d() <= moved_area(piece.polygon, nearest)) {
       add_sliver(exact_area);
       return true;
     }
@@ -306,7 +318,7 @@ class Rounding {
 }  // namespace
 
 void sort_pieces(std::vector<Piece>& pieces) {
-  if (pieces.size() == 2 && pieces[0].part != pieces[1].part) {  // the common cut: the parts decide
+  if (pieces.size() == 2 && pieces[0].part != pieces[1].part) {  // the usual cut: the parts decide
     if (pieces[1].part < pieces[0].part) std::swap(pieces[0], pieces[1]);
     return;
   }

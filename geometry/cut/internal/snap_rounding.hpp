@@ -12,22 +12,23 @@ namespace polynya::geometry::exact {
 struct Cell {
   Rational low;
   Rational high;
-  bool has_low = true;  ///< are the ends themselves among them?
+  bool has_low = true;  ///< the ends themselves are among them
   bool has_high = true;
 };
 
-/// Doubles to which coordinates are rounded: all of them, or evenly spaced ones. Cells are disjoint and cover the line.
+/// The doubles to which coordinates are rounded: all doubles, or evenly spaced ones. Cells are disjoint and cover the
+/// line.
 class Lattice {
  public:
-  /// All doubles: the nearest, ties to even. Steps shrink towards zero.
+  /// All doubles: coordinates round to the nearest one, ties to even. Steps shrink towards zero.
   static Lattice of_doubles() { return Lattice(true, 0); }
-  /// Multiples of the step between doubles at the farthest coordinate of the polygon, all of which are doubles.
+  /// Multiples of the step between doubles at the farthest coordinate of the polygon; all of them are doubles.
   static Lattice spanning(const Polygon& polygon);
 
   double nearest(const Rational& value) const;
   geometry::Point nearest(const Point& p) const { return {nearest(p.x), nearest(p.y)}; }
   Cell cell(double centre) const;
-  /// At least the width of the cells as far out as `size`.
+  /// Returns at least the width of the cells at the distance `size` from zero.
   double width(double size) const;
 
  private:
@@ -36,13 +37,13 @@ class Lattice {
   int exponent_;  // of the even step, 2^exponent
 };
 
-/// Snap rounding [Hobby1999; GuibasMarimont1998]: every vertex of a valid polygon moves to the point of the
-/// lattice whose cell it lies in, and every edge that passes through such a cell bends to its point too. What
-/// lies closer together than a cell becomes one, and no edge crosses another: on evenly spaced lattices that
-/// is a theorem, on all doubles, whose cells differ in size, it may fail.
+/// Snap rounding [Hobby1999; GuibasMarimont1998]: every vertex of a valid polygon moves to the lattice point in whose
+/// cell it lies, and every edge that passes through such a cell bends to its lattice point too. Points closer together
+/// than a cell are merged, and no edge crosses another. On evenly spaced lattices that is a theorem; on all doubles,
+/// whose cells have different sizes, it may fail.
 ///
-/// Returns what the rings then enclose, as valid polygons: several where a neck closed, none where nothing is
-/// left. No value where they are not valid.
+/// Returns the areas that the rings then enclose, as valid polygons: several if a neck has closed, none if nothing is
+/// left. Returns nullopt if they are not valid.
 std::optional<std::vector<geometry::Polygon>> snapped(const Polygon& polygon, const Lattice& lattice);
 
 /// A piece of a cut before rounding.
@@ -51,12 +52,12 @@ struct ExactPiece {
   Part part = Part::kOutside;
 };
 
-/// Checks Σ pieces = parent in rationals and rounds every piece to valid polygons of doubles: each vertex
-/// once, to nearest, where that is valid; by snap rounding where it is not; slivers are removed into the
-/// ledger. Fails (kInternal) only where a piece is not a valid polygon to begin with.
+/// Checks Σ pieces = parent in rationals, and rounds every piece to valid polygons of doubles: each vertex once, to
+/// nearest, if the result is valid; otherwise by snap rounding. Slivers are removed and recorded in the ledger. Fails
+/// (kInternal) only if a piece is invalid before rounding.
 CutOutcome rounded_pieces(const Rational& area_before, const std::vector<ExactPiece>& pieces);
 
-/// Pieces in the order a result promises: by part, then by lowest vertex.
+/// Sorts pieces into the order that results have: by part, then by lowest vertex.
 void sort_pieces(std::vector<Piece>& pieces);
 
 }  // namespace polynya::geometry::exact

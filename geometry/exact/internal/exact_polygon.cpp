@@ -10,7 +10,7 @@
 namespace polynya::geometry::exact {
 namespace {
 
-/// A polygon with every vertex converted.
+/// Returns a polygon with every vertex converted.
 template <typename Result, typename AnyPolygon, typename Convert>
 Result converted(const AnyPolygon& polygon, Convert convert) {
   Result result;
@@ -30,7 +30,7 @@ Rational sum_of_areas(const AnyPolygon& polygon) {
   return sum;
 }
 
-// A pairwise sum: the terms that meet are of like size, so the numbers stay short.
+// A pairwise sum: the terms that are added have similar sizes, so the numbers stay short.
 Rational shoelace_sum(const Ring& ring, std::size_t first, std::size_t last) {
   if (last - first == 1) return shoelace_term(ring[first], ring[(first + 1) % ring.size()]);
   const std::size_t middle = first + (last - first) / 2;
@@ -72,10 +72,10 @@ Rational area(const Ring& ring) {
 Rational area(const Polygon& polygon) {
   return sum_of_areas(polygon);
 }
-// Doubles are whole multiples of one power of two: integers are enough, and an order of magnitude faster.
+// Doubles are whole multiples of one power of two, so integers are enough; they are an order of magnitude faster.
 Rational area(const geometry::Ring& ring) {
   constexpr int kDigits = std::numeric_limits<double>::digits;
-  int unit = std::numeric_limits<int>::max();  // the power of two of which all coordinates are multiples
+  int unit = std::numeric_limits<int>::max();  // largest power of two of which all coordinates are multiples
   const auto include = [&unit](double value) {
     int exponent = 0;
     std::frexp(value, &exponent);

@@ -7,13 +7,13 @@
 
 namespace polynya::geometry {
 
-/// An unevaluated sum: high is the nearest double of it.
+/// An unevaluated sum; `high` is the nearest double to it.
 struct TwoDoubles {
   double high;
   double low;
 };
 
-/// A double as the sum of two of 26 bits, whose products are exact (Veltkamp). No overflow below 1e300.
+/// A double as the sum of two numbers of 26 bits, whose products are exact (Veltkamp). No overflow below 1e300.
 struct SplitDouble {
   explicit SplitDouble(double value) {
     constexpr double kSplitter = 134217729.0;  // 2^27 + 1
@@ -25,7 +25,7 @@ struct SplitDouble {
   double low;
 };
 
-/// high + low = a·b exactly, if nothing over- or underflows (Dekker).
+/// Returns high + low = a·b exactly, if nothing over- or underflows (Dekker).
 inline TwoDoubles two_product(double a, const SplitDouble& split_a, double b, const SplitDouble& split_b) {
   const double p = a * b;
   return {p, split_a.low * split_b.low -
@@ -35,7 +35,7 @@ inline TwoDoubles two_product(double a, double b) {
   return two_product(a, SplitDouble(a), b, SplitDouble(b));
 }
 
-/// high + low = a + b exactly (Knuth).
+/// Returns high + low = a + b exactly (Knuth).
 inline TwoDoubles two_sum(double a, double b) {
   const double x = a + b;
   const double b_virtual = x - a;
@@ -43,7 +43,7 @@ inline TwoDoubles two_sum(double a, double b) {
   return {x, (a - a_virtual) + (b - b_virtual)};
 }
 
-/// high + low = a − b exactly.
+/// Returns high + low = a − b exactly.
 inline TwoDoubles two_difference(double a, double b) {
   const double x = a - b;
   const double b_virtual = a - x;
@@ -51,8 +51,8 @@ inline TwoDoubles two_difference(double a, double b) {
   return {x, (a - a_virtual) + (b_virtual - b)};
 }
 
-/// A sum that keeps the exact error of its additions (Knuth's two-sum, which needs no branch): the error does
-/// not grow with the number of terms.
+/// A sum that keeps the exact error of its additions (Knuth's two-sum, without a branch): its error does not grow with
+/// the number of terms.
 struct CompensatedSum {
   double value = 0;
   double lost = 0;
@@ -65,30 +65,33 @@ struct CompensatedSum {
   double total() const { return value + lost; }
 };
 
-// ---- areas in such sums
+// ---- areas by such sums
 
-/// A ring's signed area with generous bounds on its errors: within them, decide in rationals.
+/// A ring's signed area with generous error bounds; decisions within these bounds must be made in rationals.
 struct RingArea {
   double area = 0;       ///< compensated sum about the ring's first vertex [m²]
   double doubt = 0;      ///< |area − exact area of these vertices| is below this [m²]
-  double step_area = 0;  ///< area by which moving every vertex by one step between doubles can change it [m²]
+  double step_area = 0;  ///< largest change of the area if every vertex moves by one step between doubles [m²]
 };
 
-/// One pass over the vertices.
+/// Computes the area in one pass over the vertices.
 RingArea ring_area(const Ring& ring);
 
-/// The polygon's area by its rings' [m²]: within 1e-6 of the exact one as a bound, within some 1e-15 as a
-/// rule; the nearest double where the bounds leave that open.
+/// Returns the polygon's area from its rings' areas [m²]: guaranteed within 1e-6 of the exact one, usually within about
+/// 1e-15; the nearest double if the bounds leave that open.
 double area_of(const Polygon& polygon, const std::vector<RingArea>& rings);
 double area_of(const Polygon& polygon);
 
-/// The double nearest to the exact area of a polygon [m²], its holes (which run clockwise) taken off. NaN where a
+/// Returns the double nearest to the exact area of a polygon without its holes, which run clockwise [m²]; NaN if a
 /// coordinate is not finite.
 double nearest_area(const Polygon& polygon);
 
 }  // namespace polynya::geometry
 
 namespace polynya::geometry::exact {
+
+/// Plain rationals without lazy expression trees, so there is no depth limit and no hidden evaluation.
+using Rational = mpq_class;
 
 /// A point with rational coordinates [m].
 struct Point {
@@ -101,20 +104,20 @@ inline Point exactly(geometry::Point p) {
   return {Rational(p.x), Rational(p.y)};
 }
 
-/// The double nearest to a rational (ties to even).
+/// Returns the double nearest to a rational (ties to even). GMP's own conversion truncates.
 double nearest_double(const Rational& value);
 
-/// Both coordinates rounded to nearest, each once.
+/// Returns the point with both coordinates rounded to nearest, each once.
 inline geometry::Point rounded(const Point& p) {
   return {nearest_double(p.x), nearest_double(p.y)};
 }
 
-/// Twice the signed area of the triangle (origin, a, b): the term of the shoelace sum.
+/// Returns twice the signed area of the triangle (origin, a, b): the term of the shoelace sum.
 inline Rational shoelace_term(const Point& a, const Point& b) {
   return a.x * b.y - a.y * b.x;
 }
 
-/// Sign of (b − a) × (c − a): +1 where a, b, c turn left.
+/// Returns the sign of (b − a) × (c − a): +1 if a, b, c turn left.
 inline int orientation(const Point& a, const Point& b, const Point& c) {
   return sign(Rational((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)));
 }
@@ -130,12 +133,13 @@ struct Polygon {
 Ring exactly(const geometry::Ring& ring);
 Polygon exactly(const geometry::Polygon& polygon);
 
-/// Every vertex to its nearest doubles. Nothing is welded: the result may be invalid.
+/// Returns the polygon with every vertex rounded to the nearest doubles. Vertices are not merged, so the result may be
+/// invalid.
 geometry::Polygon rounded(const Polygon& polygon);
 
-/// Signed area: positive where the ring runs counter-clockwise [m²].
+/// Returns the signed area, positive if the ring runs counter-clockwise [m²].
 Rational area(const Ring& ring);
-/// Area with the holes (which run clockwise) taken off [m²].
+/// Returns the area without the holes, which run clockwise [m²].
 Rational area(const Polygon& polygon);
 Rational area(const geometry::Ring& ring);
 Rational area(const geometry::Polygon& polygon);
