@@ -51,21 +51,46 @@ def presets_hull(ship):
     return formulas.Hull(hull["length_m"], hull["beam_m"], hull["draught_m"], *angles), 1.05 * settings["mass_kg"]
 
 
+def mean_backing(columns):
+    """How far the ship backs between two charges, mean of a run [m]. It is stuck where the lever begins to fall."""
+    falls = np.diff(columns["lever"]) < 0
+    stuck = np.flatnonzero(falls[1:] & ~falls[:-1]) + 1
+    x = columns["x_m"]
+    return np.mean([x[begin] - x[begin:end].min() for begin, end in zip(stuck, stuck[1:])])
+
+
 def ramming(runs):
     """Means of the charges of a run; kinetic energy at the largest speed over Lindqvist's resistance at half of it."""
     study, rows = runs.study("ramming.json"), []
     of = lambda name, case: float(study.table[name][case])
     for case, (ship, h) in enumerate(zip(study.table["ships[0].ship"], study.table["ice.thickness_m"])):
         if not of("rams", case) >= 3:
-            rows.append([ship, f"{float(h):g}", "none", "", "", "", ""])
+            rows.append([ship, f"{float(h):g}", "none", "", "", "", "", ""])
             continue
         hull, mass = presets_hull(ship)
         speed = of("ram_speed_m_per_s", case)
         way = 0.5 * mass * speed**2 / sum(formulas.lindqvist(hull, formulas.Ice(float(h)), 0.5 * speed))
-        rows.append([ship, f"{float(h):g}", f"{of('rams', case):.0f}", f"{of('ram_gain_m', case):.0f}",
+        rows.append([ship, f"{float(h):g}", f"{of('rams', case):.0f}",
+                     f"{mean_backing(study.run(case).force_columns):.0f}", f"{of('ram_gain_m', case):.0f}",
                      f"{of('ram_time_s', case) / 60:.1f}", f"{speed:.1f}", f"{way:.0f}"])
-    return Table(["ship", "h [m]", "charges after the first", "gain of a charge [m]", "minutes of a charge",
+    return Table(["ship", "h [m]", "charges after the first", "backs [m]", "gain of a charge [m]", "minutes of a charge",
                   "largest speed [m/s]", "½ m v²/R [m]"], rows, within=0.1)
+
+
+def turning(runs):
+    """Means over the 20 s before the rudder is laid, and from 200 s on."""
+    study, rows = runs.study("turning-in-ice.json"), []
+    for case, h in enumerate(study.table["ice.thickness_m"]):
+        columns = study.run(case).force_columns
+        before = (columns["t_s"] > 20) & (columns["t_s"] <= 40)
+        hard_over = columns["t_s"] > 200
+        mean = lambda name, of: columns[name][of].mean()
+        moment = lambda cause: f"{1e-6 * mean(f'yaw_{cause}Nm', hard_over):z.1f}".replace("-", "−")
+        turned = columns["heading_deg"][-1] - columns["heading_deg"][before][-1]
+        rows.append([f"{float(h):g}", f"{mean('speed_m_per_s', before):.1f}", f"{mean('speed_m_per_s', hard_over):.1f}",
+                     f"{turned:.1f}", moment("from_rudder_"), moment(""), moment("from_water_")])
+    return Table(["h [m]", "speed amidships [m/s]", "speed hard over [m/s]", "turned by 240 s [°]",
+                  "moment of the rudder [MN m]", "of the ice", "of the water"], rows, within=0.15)
 
 
 def keinonen(h, v):
@@ -373,7 +398,7 @@ TABLES = {"resistance": resistance, "smooth": smooth, "exponents": exponents, "s
           "speed-error": speed_error, "uikku": lambda runs: uikku.table(runs, "stated"),
           "uikku-other-angles": lambda runs: uikku.table(runs, "inverted"), "pack": pack, "shapes": shapes,
           "settings": settings, "gauge": gauge, "splitting": splitting, "crossover-forces": crossover_forces,
-          "crossover": crossover, "ramming": ramming,
+          "crossover": crossover, "ramming": ramming, "turning": turning,
           "three-measures": three_measures, "step": step, "circles": circles, "scatter": scatter,
           "crack-trials": crack_trials.table, "step-cliff": lambda runs: step_cliff.table(runs, places=3),
           "crack-arms": lambda _: crack_plate.arms(), "crack-paths": lambda _: crack_plate.paths()}

@@ -174,7 +174,8 @@ const Description<RammingPilot> kRam{
             &RammingPilot::stuck_speed),
      member("stuck_s", "s", above(0, 1e5), "for so long", &RammingPilot::stuck_time),
      left_out(member("back_m", "m", above(0, 1e5),
-                     "how far it goes astern before the engine is turned ahead; if not given, its own length",
+                     "how far it goes astern before it charges; the engine is turned ahead in time to stop there in "
+                     "open water; if not given, its own length",
                      &RammingPilot::back_distance))}};
 
 const Description<FollowingPilot> kFollow{

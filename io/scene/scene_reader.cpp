@@ -81,8 +81,11 @@ JsonValue* place_of(JsonValue& scene, std::string_view path, std::uint32_t offse
       if (path[begin] == '.' && begin > 0) ++begin;
       const std::string_view key = path.substr(begin, end - begin);
       if (key.empty() || key[0] == '.' || key[0] == '[') return report.no_path();
-      if (!at->is(JsonKind::kObject))
-        return report(path.substr(0, begin - 1), show(*at), fmt::format("an object, to have \"{}\"", key));
+      if (!at->is(JsonKind::kObject)) {
+        const std::string_view of = path.substr(0, begin - 1);
+        const bool is_item = at->is(JsonKind::kArray) && key.find_first_not_of("0123456789") == std::string_view::npos;
+        return report(of, show(*at), is_item ? items_of(*at, of) : fmt::format("an object, to have \"{}\"", key));
+      }
       JsonValue* there = at->find(key);
       if (!there && end < path.size() && path[end] == '[')
         return report(so_far, "nothing", "a list that the scene has");

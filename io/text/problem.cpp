@@ -114,8 +114,16 @@ void ProblemCollector::add_faults(std::size_t source, const std::vector<JsonFaul
 
 namespace {
 
-/// Converts a number that is not JSON (.05, 0,7, 5., +3, 007, 12 m) to JSON. Returns an empty text if it is no number.
-std::string as_json_number(std::string_view text) {
+/// Returns the unit in brackets at the end of what is allowed, such as m of "a number > 0 [m]"; empty if there is none.
+std::string_view unit_of(std::string_view allowed) {
+  const std::size_t begin = allowed.rfind('[');
+  const bool has_unit = begin != std::string_view::npos && allowed.ends_with(']') && begin > 0;
+  return has_unit ? allowed.substr(begin + 1, allowed.size() - begin - 2) : std::string_view{};
+}
+
+/// Converts a number that is not JSON (.05, 0,7, 5., +3, 007, 12 m) to JSON. Returns an empty text if it is no number,
+/// or has another unit than the one that is allowed.
+std::string as_json_number(std::string_view text, std::string_view unit_allowed) {
   std::string plain(trimmed(text));
   if (plain.starts_with('+')) plain.erase(0, 1);
   if (std::ranges::count(plain, ',') == 1 && plain.find('.') == std::string::npos)
@@ -124,22 +132,21 @@ std::string as_json_number(std::string_view text) {
   const auto read = std::from_chars(plain.data(), plain.data() + plain.size(), value);
   const std::string_view unit =
       trimmed(std::string_view(plain).substr(static_cast<std::size_t>(read.ptr - plain.data())));
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '/'; };
-  if (read.ec != std::errc{} || !std::isfinite(value) || !std::ranges::all_of(unit, is_letter)) return "";
+  if (read.ec != std::errc{} || !std::isfinite(value) || (!unit.empty() && unit != unit_allowed)) return "";
   std::string json;
   append_number(json, value);
   return json;
 }
 
 /// Converts a list of numbers that is not JSON, such as 1,2 or (1 2), to JSON. Returns an empty text if it is no list.
-std::string as_json_list(std::string_view text) {
+std::string as_json_list(std::string_view text, std::string_view unit_allowed) {
   std::string plain(text), json;
   const auto is_between = [](char c) { return std::string_view("()[],; ").find(c) != std::string_view::npos; };
   std::ranges::replace_if(plain, is_between, ' ');
   std::string_view left = trimmed(plain);
   while (!left.empty()) {
     const std::string_view word = left.substr(0, left.find(' '));
-    const std::string number = as_json_number(word);
+    const std::string number = as_json_number(word, unit_allowed);
     if (number.empty()) return "";
     json += (json.empty() ? "[" : ", ") + number;
     left = trimmed(left.substr(word.size()));
@@ -159,7 +166,9 @@ std::string meant_by(std::string_view text, std::string_view allowed) {
       if (bare == no) return "false";
     return "";
   }
-  return allowed.starts_with("[") || allowed.starts_with("a list") ? as_json_list(bare) : as_json_number(bare);
+  const std::string_view unit = unit_of(allowed);
+  return allowed.starts_with("[") || allowed.starts_with("a list") ? as_json_list(bare, unit)
+                                                                   : as_json_number(bare, unit);
 }
 
 /// Adds to a problem that the value on the command line is not JSON, and what to write instead.

@@ -24,6 +24,29 @@ void turn_astern(const PilotView& view, PilotMemory& memory) {
   if (memory.rams == 0) memory.first_stuck_at = memory.stuck_at;
 }
 
+/// Returns the distance that the ship still goes astern if the engine is ordered ahead now [m]. The lever moves at its
+/// rate, and the thrust and the resistance of open water stop the ship. Returns 0 if the engine or the mass is unknown.
+double distance_to_stop(const PilotView& view, double lever_ahead) {
+  constexpr double kStep = 0.5;      // of the prediction [s]; larger: the ship backs by up to a step's way more or less
+  constexpr double kLongest = 1200;  // prediction [s], for an engine that hardly pushes
+  const dynamics::Engine& engine = view.engine;
+  if (view.mass <= 0 || engine.bollard_pull <= 0 || engine.open_water_speed <= 0) return 0;
+  double speed = view.speed_over_ground, lever = view.lever, distance = 0;
+  for (double time = 0; time < kLongest && speed < 0; time += kStep) {
+    lever = dynamics::approach(lever, lever_ahead, engine.lever_rate, kStep);
+    speed += kStep * dynamics::net_thrust(engine, lever, speed) / view.mass;
+    distance -= kStep * std::min(speed, 0.0);
+  }
+  return distance;
+}
+
+/// Returns true if the ship, ordered ahead now, stops where it has backed far enough.
+bool has_backed(const RammingPilot& pilot, double heading, const PilotView& view, const PilotMemory& memory) {
+  const double wanted = pilot.back_distance > 0 ? pilot.back_distance : view.own().length;
+  const double backed = dot(memory.stuck_at - view.own().position_in_world, unit(heading));
+  return backed + distance_to_stop(view, pilot.lever_ahead) >= wanted;
+}
+
 void turn_ahead(PilotMemory& memory) {
   memory.is_backing = false;
   ++memory.rams;
@@ -45,10 +68,9 @@ Command ram(const RammingPilot& pilot, double heading, const PilotView& view, Pi
   const geometry::Point here = view.own().position_in_world;
   const double ordered = memory.is_backing ? pilot.lever_astern : pilot.lever_ahead;
   const bool stuck = is_stuck(pilot, ordered, view, memory);
-  const double length_to_back = pilot.back_distance > 0 ? pilot.back_distance : view.own().length;
   if (!memory.is_backing && stuck) {
     turn_astern(view, memory);
-  } else if (memory.is_backing && (stuck || dot(memory.stuck_at - here, unit(heading)) >= length_to_back)) {
+  } else if (memory.is_backing && (stuck || has_backed(pilot, heading, view, memory))) {
     turn_ahead(memory);
   }
   if (memory.rams > 0)

@@ -30,8 +30,10 @@ struct Bridge {
   double lever_rate = 1 / 30.0;  ///< [1/s]
   std::array<SeenHull, 1> own{ship_at({})};
   PilotMemory memory;
-  double time = 0;   ///< [s]
-  double lever = 1;  ///< where it is
+  dynamics::Engine engine;  ///< unknown unless a test gives one
+  double mass = 0;          ///< [kg]
+  double time = 0;          ///< [s]
+  double lever = 1;         ///< where it is
   double ordered = 1;
 
   /// Goes on for so long at a speed ahead [m/s].
@@ -44,6 +46,8 @@ struct Bridge {
       view.hulls = own;
       view.speed_over_ground = speed;
       view.lever = lever;
+      view.engine = engine;
+      view.mass = mass;
       ordered = ram(pilot, 0, view, memory).lever;
       lever = dynamics::approach(lever, ordered, lever_rate, kStep);
       own[0].position_in_world.x += kStep * speed;
@@ -78,6 +82,22 @@ TEST(RammingOrders, StayAsternWhileTheLeverIsOnItsWay) {
 }
 
 /// A ship that still runs astern while the engine pushes ahead is not stuck.
+/// The lever needs a minute from full astern to full ahead, so the order is given before the ship is a length astern.
+TEST(RammingOrders, AreAheadInTimeToStopALengthAstern) {
+  Bridge bridge;
+  bridge.engine = {.bollard_pull = 1.2e6, .open_water_speed = 8, .lever_rate = 1 / 30.0};
+  bridge.mass = 1.1e7;
+  bridge.go(11 + 60, 0);
+  ASSERT_EQ(bridge.ordered, -1);
+  double speed = 0;
+  while (bridge.ordered < 0 || speed < 0) {
+    speed += 0.1 * net_thrust(bridge.engine, bridge.lever, speed) / bridge.mass;
+    bridge.go(0.1, speed);
+    ASSERT_LT(bridge.time, 600);
+  }
+  EXPECT_NEAR(bridge.own[0].position_in_world.x, -kHullLength, 3);
+}
+
 TEST(RammingOrders, StayAheadWhileTheShipStillMovesAstern) {
   Bridge bridge;
   bridge.lever_rate = 1;
@@ -167,31 +187,34 @@ Build before_ice(double thickness, double lever_rate) {
 }
 
 /// Backs a length, stops, charges, and gains, again and again: a pilot that stays stuck has no charges or gains
-/// nothing, one that runs away backs farther and farther.
-void expect_rams(double thickness, double lever_rate, double until, double farthest) {
+/// nothing, one that runs away backs farther and farther. In a channel of its own width the ship may once be stuck
+/// astern, too.
+void expect_rams(double thickness, double lever_rate, double until) {
   const Trial done = run(before_ice(thickness, lever_rate).under_hulls(false), until);
   const std::vector<Ram> rams = rams_of(done.story.samples);
-  ASSERT_GE(rams.size(), 3U) << lever_rate;
+  ASSERT_GE(rams.size(), 5U) << lever_rate;
   double gained = 0;
+  int stuck_astern = 0;
   for (const Ram& ram : rams) {
     EXPECT_EQ(ram.least_lever, -1);
-    EXPECT_GE(ram.backed, kHullLength - 1);
-    EXPECT_LE(ram.backed, farthest);
+    EXPECT_LE(ram.backed, 1.05 * kHullLength);
+    stuck_astern += ram.backed < 0.85 * kHullLength ? 1 : 0;
     EXPECT_GE(ram.gained, -1) << "a charge comes to where the one before ended";
     gained += ram.gained;
   }
-  EXPECT_GT(gained / static_cast<double>(rams.size()), 1) << "metres a ram";
+  EXPECT_LE(stuck_astern, 1);
+  EXPECT_GT(gained / static_cast<double>(rams.size()), 5) << "metres a ram";
   const HullSample& last = done.story.samples.back();
   EXPECT_GE(last.rams, std::ssize(rams));
   EXPECT_GE(last.distance_gained, gained - 1);
 }
 
 TEST(Ramming, BacksALengthStopsChargesAndGains) {
-  expect_rams(2, 1 / 30.0, 1800, 3 * kHullLength);
+  expect_rams(2, 1 / 30.0, 1800);
 }
 
 TEST(Ramming, GainsAlsoWithAQuickLever) {
-  expect_rams(2, 0.5, 1200, 2 * kHullLength);
+  expect_rams(2, 0.5, 1200);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 """One case: run, resumed or found finished, in its own folder."""
 import ctypes
+import errno
 import fcntl
 import json
 import os
@@ -112,13 +113,19 @@ def case_in_words(study, number):
 def failed(study, number, folder, code, words):
     """Records a failure that another try would repeat. What the machine is to blame for, a full disk or too little
     memory, leaves the case unfinished."""
-    words = words.strip()[-KEPT_WORDS:] or f"exit code {code}"
+    words = words.strip()[-KEPT_WORDS:] or without_words(folder, code)
     is_killed = code > 0 and summary_of(folder / RUN).get("stopped_by") == KILLED
     if code == INPUT_OUTPUT or is_killed:
         return code, f"case {number}: {gist(words)}"
     result = {"state": "failed", **case_in_words(study, number), "exit_code": code, "message": words}
     write_atomically(folder / RESULT, json.dumps(result) + "\n")
     return code, f"case {number}: {gist(words)}"
+
+
+def without_words(folder, code):
+    """What is known of a run that left no message. A full disk keeps the run's message from being written, too."""
+    is_full = os.statvfs(folder).f_bavail == 0
+    return f"exit code {code}" + (f"; {folder}: {os.strerror(errno.ENOSPC)}" if is_full else "")
 
 
 def gist(words):
