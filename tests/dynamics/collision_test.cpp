@@ -389,23 +389,26 @@ std::vector<Contact> two_contacts(double first, double second) {
   return contacts;
 }
 
-/// Of what floes inherit, each contact takes its part, wherever it is; together they take what was paid.
+/// Of what floes inherit, each contact takes the share of its area, wherever it is, also where a part of the overlap
+/// has no contact any more.
 TEST(Tracker, ContactsOfFragmentsTakeTheShareThatWasPaid) {
   const Bodies bodies = two_floes(0, 3);
-  std::vector<PersistentContact> records(1), scratch;
-  records[0].is_inherited = true;
-  records[0].area = 0.5;
-  records[0].paid_area = 0.3;
-  records[0].booked.crushed = 0.2;
-  std::vector<PartedContact> parted;
-  std::vector<Contact> contacts = two_contacts(0.1, 0.4);
-  const std::vector<geometry::ContactManifold> manifolds(2);
-  ContactTracker(0, 1, records, scratch, parted, 1, 0.01).update(contacts, manifolds, bodies);
-  ASSERT_EQ(records.size(), 2U);
-  EXPECT_NEAR(records[0].paid_area, 0.06, 1e-12);
-  EXPECT_NEAR(records[1].paid_area, 0.24, 1e-12);
-  EXPECT_NEAR(records[0].booked.crushed, 0.04, 1e-12);
-  EXPECT_NEAR(records[1].booked.crushed, 0.16, 1e-12);
+  for (const double second : {0.4, 0.2}) {
+    std::vector<PersistentContact> records(1), scratch;
+    records[0].is_inherited = true;
+    records[0].area = 0.5;
+    records[0].paid_area = 0.3;
+    records[0].booked.crushed = 0.2;
+    std::vector<PartedContact> parted;
+    std::vector<Contact> contacts = two_contacts(0.1, second);
+    const std::vector<geometry::ContactManifold> manifolds(2);
+    ContactTracker(0, 1, records, scratch, parted, 1, 0.01).update(contacts, manifolds, bodies);
+    ASSERT_EQ(records.size(), 2U);
+    EXPECT_NEAR(records[0].paid_area, 0.06, 1e-12);
+    EXPECT_NEAR(records[1].paid_area, 0.6 * second, 1e-12);
+    EXPECT_NEAR(records[0].booked.crushed, 0.04, 1e-12);
+    EXPECT_NEAR(records[1].booked.crushed, 0.4 * second, 1e-12);
+  }
 }
 
 /// The overlap of a floe that broke was there before, though nothing of it was paid: it is pressed apart, and no

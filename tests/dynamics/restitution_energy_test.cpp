@@ -68,6 +68,24 @@ Bodies two_random_floes(Random& random) {
   return bodies;
 }
 
+/// Poisson's share is that of each end of a contact line: what compressed one end more is given back there.
+TEST(Restitution, EachEndGivesBackAShareOfItsOwnCompression) {
+  const RestitutionLaw law{.restitution = 0.5};
+  RestitutionLaw::State state{.record = nullptr, .crushing_impulse = 1e9, .stored_energy = 1e9};
+  ContactConstraint constraint{};
+  constraint.a = 0, constraint.b = 1;
+  constraint.normal = {1, 0};
+  constraint.inverse_mass_at[0] = constraint.inverse_mass_at[1] = 0.01;
+  constraint.limit = 1e9;
+  constraint.normal_impulse[0] = 30, constraint.normal_impulse[1] = 10;
+  std::vector<SolverBody> bodies(2, {{}, 0, 0.005, 0});
+  double stored = 1e9;
+  EXPECT_TRUE(restore(law, true, stored, state, constraint, bodies));
+  EXPECT_DOUBLE_EQ(constraint.normal_impulse[0], 45);
+  EXPECT_DOUBLE_EQ(constraint.normal_impulse[1], 15);
+  EXPECT_DOUBLE_EQ(bodies[1].velocity.x - bodies[0].velocity.x, 0.01 * 20);
+}
+
 TEST(Restitution, NoTwoFloesGainEnergyInACollision) {
   Random random(kSeed);
   int met = 0;

@@ -22,6 +22,21 @@ using geometry::Polygon;
 using geometry::Ring;
 using geometry::Vector;
 
+/// A corner is cut off at the same distance on both of its edges, by less than half of the shorter one, so that the
+/// ring stays convex and keeps its other corners.
+TEST(Convex, CornersAreCutOffByAShareOfTheShorterEdge) {
+  for (int least = 5; least <= 8; ++least) {
+    Ring ring = shapes::rectangle(12, 1).outer;
+    add_corners(ring, least);
+    ASSERT_EQ(ring.size(), static_cast<std::size_t>(least));
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point p = ring[i], q = ring[(i + 1) % ring.size()], r = ring[(i + 2) % ring.size()];
+      EXPECT_GT(cross(q - p, r - q), 0) << least << " corners, at " << i;
+    }
+    if (least == 5) EXPECT_NEAR(measure_convex(ring).area, 12 - 0.5 * 0.3 * 0.3, 1e-12);
+  }
+}
+
 FloeField field_in_square(double side, double concentration) {
   FloeField field;
   field.region = shapes::square({-20, 30}, side).outer;

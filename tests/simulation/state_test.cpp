@@ -2,6 +2,7 @@
 // explains, sleep.
 #include "simulation/state/state.hpp"
 
+#include <array>
 #include <bit>
 
 #include <gtest/gtest.h>
@@ -85,6 +86,31 @@ TEST(State, DamageIsRefusedOrIsAnotherState) {
       ++refused;
   }
   EXPECT_GT(refused, 20);
+}
+
+/// A place or a velocity that no run comes to is refused, whichever of its two components it is.
+TEST(State, ABodyBeyondTheWorldOrFasterThanAnyIsRefused) {
+  const Scene scene = Build().floe(rectangle(0, 0, 10, 10), {0.123, 0.321}).floe(rectangle(50, 70, 62, 84));
+  const Simulation whole(scene);
+  const Point place = whole.world().population.bodies.position[1];
+  const std::string state = whole.state();
+  const auto is_read_with = [&](double was, double is) {
+    std::string changed = state;
+    const auto bytes = std::bit_cast<std::array<char, sizeof was>>(was);
+    const std::size_t at = changed.find({bytes.data(), bytes.size()});
+    EXPECT_NE(at, std::string::npos) << was;
+    const auto others = std::bit_cast<std::array<char, sizeof is>>(is);
+    changed.replace(at, others.size(), others.data(), others.size());
+    return Simulation::resumed(scene, changed).has_value();
+  };
+  for (const double velocity : {0.123, 0.321}) {
+    EXPECT_TRUE(is_read_with(velocity, 0.2)) << velocity;
+    EXPECT_FALSE(is_read_with(velocity, -1e7)) << velocity;
+  }
+  for (const double coordinate : {place.x, place.y}) {
+    EXPECT_TRUE(is_read_with(coordinate, coordinate + 0.5)) << coordinate;
+    EXPECT_FALSE(is_read_with(coordinate, -1e10)) << coordinate;
+  }
 }
 
 TEST(State, AStateOfAnotherSceneIsRefused) {
