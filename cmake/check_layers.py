@@ -68,7 +68,8 @@ PACKAGES = {
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
 STANDARD = re.compile(
-    r"[a-z_0-9]+$|(sys|bits|linux|sanitizer)/[a-z_]+\.h$|(unistd|fcntl|dirent|signal|poll|errno|spawn|emmintrin)\.h$")
+    r"[a-z_0-9]+$|(sys|bits|linux|sanitizer)/[a-z_]+\.h$|"
+    r"(unistd|fcntl|dirent|signal|poll|errno|spawn|emmintrin|link)\.h$")
 
 
 def room_of(path):

@@ -176,12 +176,13 @@ def main():
         apart = numpy.abs(coupled[0] / alone[0] - 1).max()
         print(f"open water: speeds differ by at most {100 * apart:.2f} %, ways by "
               f"{100 * abs((coupled[1][-1] + 45) / (alone[1][-1] + 45) - 1):.3f} %")
-        ways = numpy.array([(sail_alone(seed, True, until)[1][-1] + 45, sail_coupled(seed, True, until, folder)[1][-1] + 45)
-                            for seed in range(1, fields + 1)])
+        ways = 45 + numpy.array([(sail_alone(seed, True, until)[1][-1], sail_coupled(seed, True, until, folder)[1][-1])
+                                 for seed in range(1, fields + 1)])
     difference = ways[:, 1] - ways[:, 0]
     error = difference.std(ddof=1) / numpy.sqrt(fields)
-    print(f"{fields} fields, {until} s: {ways[:, 0].mean():.2f} m with the engine in the scene, {ways[:, 1].mean():.2f} "
-          f"m coupled; coupled less other {difference.mean():+.3f} m, standard error {error:.3f} m")
+    print(f"{fields} fields, {until} s: {ways[:, 0].mean():.2f} m with the engine in the scene, "
+          f"{ways[:, 1].mean():.2f} m coupled; coupled less other {difference.mean():+.3f} m, standard error "
+          f"{error:.3f} m")
     draw((alone[0], coupled[0]), ways, options.out / "couple-by-fmu.png")
     print(options.out / "couple-by-fmu.png")
 

@@ -94,7 +94,8 @@ def evolve(many, seconds, generations):
         spread = 0.7 * spread + 0.3 * numpy.sqrt(weights @ (chosen - mean) ** 2)
         mean = mean + 0.7 * (weights @ chosen - mean)
         history.append(rewards.mean())
-        print(f"generation {generation + 1:2d}: mean reward {rewards.mean():7.1f}, best {rewards.max():7.1f}", flush=True)
+        print(f"generation {generation + 1:2d}: mean reward {rewards.mean():7.1f}, best {rewards.max():7.1f}",
+              flush=True)
         if time.monotonic() - start > seconds:
             break
     return mean, history
@@ -119,8 +120,8 @@ def main():
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     held_out = range(1, 5) if options.short else HELD_OUT
-    many = ShipsInIce(8, scene=scene, goal=GOAL, seconds=SECONDS, time_limit=LIMIT + 1, shape=(ROWS, COLUMNS), cell_m=CELL,
-                      ahead_m=AHEAD)
+    many = ShipsInIce(8, scene=scene, goal=GOAL, seconds=SECONDS, time_limit=LIMIT + 1, shape=(ROWS, COLUMNS),
+                      cell_m=CELL, ahead_m=AHEAD)
     trained, history = evolve(many, 60 * options.minutes, 1 if options.short else 1000)
     straight, steered = returns(many, [STRAIGHT, trained], held_out)
     many.close()

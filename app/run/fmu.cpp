@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr auto kFmuExamples =
     "Examples:\n"
-    "  polynya fmu scenes/ice-basin-tow.json --out ship.fmu     a unit for FMI 2.0 co-simulation, on linux64\n"
+    "  polynya fmu scenes/route-in-ice.json --out ship.fmu      a unit for FMI 2.0 co-simulation, on linux64\n"
     "  polynya fmu my-scene.json --out ship.fmu --set ice.thickness_m=0.8\n"
     "\n"
     "docs/couple.md explains its inputs and outputs.\n"

@@ -5,7 +5,7 @@
 namespace polynya::io {
 namespace {
 
-constexpr std::uint16_t kVersion = 20;                    ///< of the format that a reader needs: 2.0
+constexpr std::uint16_t kZipVersion = 20;                 ///< of the format that a reader needs: 2.0
 constexpr std::uint16_t kUtf8Names = 1 << 11;             ///< flag
 constexpr std::uint16_t kDate = (0 << 9) | (1 << 5) | 1;  ///< 1 January 1980
 constexpr std::uint16_t kMadeOnUnix = 3 << 8;
@@ -20,7 +20,7 @@ void put(std::string& bytes, Number number) {
 
 /// The fields that a member's header and its directory entry have in common.
 void put_common(std::string& bytes, std::string_view name, const Checksum& checksum) {
-  put(bytes, kVersion);
+  put(bytes, kZipVersion);
   put(bytes, kUtf8Names);
   put(bytes, std::uint16_t{0});  // stored
   put(bytes, std::uint16_t{0});  // time
@@ -42,7 +42,7 @@ void ZipArchive::add(std::string_view name, std::string_view bytes) {
   members_.append(name).append(bytes);
 
   put(directory_, std::uint32_t{0x02014b50});
-  put(directory_, static_cast<std::uint16_t>(kMadeOnUnix | kVersion));
+  put(directory_, static_cast<std::uint16_t>(kMadeOnUnix | kZipVersion));
   put_common(directory_, name, checksum);
   put(directory_, std::uint16_t{0});  // no comment
   put(directory_, std::uint16_t{0});  // disk

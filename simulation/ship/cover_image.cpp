@@ -98,10 +98,10 @@ void add_floes(const World& world, const geometry::Pose& world_from_ship, const 
 double cover_ahead(const World& world, int ship) {
   const geometry::Box hull = bounding_box(hull_of(world.setup.scene, static_cast<std::size_t>(ship)).hull.waterline);
   const double length = hull.high.x - hull.low.x, beam = hull.high.y - hull.low.y;
-  constexpr double kColumns = 8;  ///< across the beam; the image is exact along each of its lines
+  constexpr double kAcross = 8;  ///< across the beam; the image is exact along each of its lines
   ImageFrame frame;
-  frame.cell = beam / kColumns;
-  frame.columns = static_cast<std::size_t>(kColumns);
+  frame.cell = beam / kAcross;
+  frame.columns = static_cast<std::size_t>(kAcross);
   frame.rows = static_cast<std::size_t>(std::max(1.0, std::round(length / frame.cell)));
   frame.ahead = hull.high.x + 0.5 * frame.cell * static_cast<double>(frame.rows);
   CoverImage image(frame);

@@ -151,8 +151,7 @@ void push_ships(const Setup& setup, const Step& step, std::span<const dynamics::
     const auto body = static_cast<BodyIndex>(ship);
     if (const auto* thrust = std::get_if<ConstantThrust>(&setup.scene.ships[ship].propulsion))
       push_ship(population.bodies, body, {step.length * thrust->thrust, 0, 0}, audit);
-    if (ship < external_forces.size())
-      push_ship(population.bodies, body, step.length * external_forces[ship], audit);
+    if (ship < external_forces.size()) push_ship(population.bodies, body, step.length * external_forces[ship], audit);
   }
 }
 
@@ -234,8 +233,9 @@ constexpr Stage kFollowLoads{"follow loads", [](World& w, const Step& s) {
                              }};
 constexpr Stage kForces{"water and wind",
                         [](World& w, const Step& s) { apply_forces(w.setup, s, w.population, w.accounts.audit); }};
-constexpr Stage kThrust{"thrust",
-                        [](World& w, const Step& s) { push_ships(w.setup, s, w.external_forces, w.population, w.accounts.audit); }};
+constexpr Stage kThrust{"thrust", [](World& w, const Step& s) {
+                          push_ships(w.setup, s, w.external_forces, w.population, w.accounts.audit);
+                        }};
 constexpr Stage kSubmergedIce{"pull of submerged ice", [](World& w, const Step& s) {
                                 pull_of_submerged_ice(w.setup, s, w.population, w.data.loads, w.accounts.audit);
                                 press_started(s, w.population, w.data.loads, w.accounts.audit);

@@ -24,6 +24,7 @@ TEST_F(Usage, ErrorsNameTheCommandTheFaultAndWhatWasMeant) {
   const Words query = "database query --thickness 1 --speed 1 --hull-angle 60";
   const std::string commands =
       "commands: run, resume, validate, schema, ships, init, view, channel, export, inspect, cut, import, database, "
+      "fmu, "
       "performance, figures, loads, management, movie, study\n";
   const std::string tools = "one of --disc, --crack, --line, --polygon, --ops is needed, ";
   std::vector<Refusal> rows{

@@ -2,8 +2,8 @@
 
     master_test.py POLYNYA MASTER SCRATCH CHECK
 
-The master runs without any variable of this environment, in another folder, and the units lie in a folder whose name has
-a blank: they bring all that they need.
+The master runs without any variable of this environment, in another folder, and the units lie in a folder whose name
+has a blank: they bring all that they need.
 """
 import pathlib
 import subprocess

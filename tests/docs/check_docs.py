@@ -102,7 +102,7 @@ def problems_of_example(root):
 
 
 def sources(root):
-    folders = "geometry dynamics fracture simulation io analysis views app bench scenes python tests tools cmake"
+    folders = "geometry dynamics fracture simulation io analysis views cosim app bench scenes python tests tools cmake"
     for folder in [*folders.split(), "examples"]:
         for path in sorted((root / folder).rglob("*")):
             if path.suffix in {".cpp", ".hpp", ".js", ".json", ".py", ".txt"} and "vendor" not in path.parts:

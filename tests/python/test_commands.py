@@ -117,7 +117,7 @@ def test_wrong_words_are_answered_as_by_the_commands_in_c():
         ("figures", "figures: RUN is missing: The run folders\n"),
         ("movie x --from", "movie: --from needs a value\n"),
         ("movie x --speed -inf", "movie: --speed: found -inf, allowed: a number > 0\n"),
-        ("study", "study: a command is missing\ncommands: plan, run, slurm, parallel, gather, report\n"),
+        ("study", "study: a command is missing\ncommands: plan, run, evaluate, slurm, parallel, gather, report\n"),
         ("study pln x", "study: no such command: pln; did you mean plan?\n"),
         ("study run x --job 2", "; did you mean --jobs?\npolynya study run --help explains its options\n"),
         ("performance araon --friction -1", "performance: --friction: found -1, allowed: a number ≥ 0, ≤ 2\n"),

@@ -6,7 +6,8 @@ import re
 PARTS = {
     "Start": ["start", "tutorial", "gallery", "cite"],
     "How to": ["view", "figures", "loads", "movie", "channel", "inspect", "why-it-split", "export", "ships",
-               "management", "import", "cut", "database", "studies", "python", "environment"],
+               "management", "import", "cut", "database", "studies", "python", "environment",
+               "couple"],
     "Reference": ["glossary", "scene", "run-folder", "reference/commands", "reference/python", "reference/cpp",
                   "references"],
     "Theory": ["theory/index", "geometry"],

@@ -38,11 +38,11 @@ class ShipInIce(Env):
     """A ship with an engine in a scene, in Gymnasium's convention.
 
     scene: what polynya.Scene takes, or a callable that makes it of a seed; default_scene if not given. Of the former
-    reset(seed) replaces the scene's `seed`, which its random fields of floes follow. ship: index or name. goal: x, y [m], reached within
-    `goal_radius` (a length of 100 m if not given); without one the ship is to go along its first heading. seconds:
-    simulated, a step; a whole number of the scene's ticks (time.step_s). shape, cell_m, ahead_m: of the image, as in
-    Simulation.occupancy. floes: a number of floes for an observation of the nearest floes in place of the image.
-    time_limit: simulated [s]; the scene's until_s if not given. reward: a callable of a Change.
+    reset(seed) replaces the scene's `seed`, which its random fields of floes follow. ship: index or name. goal: x, y
+    [m], reached within `goal_radius` (a length of 100 m if not given); without one the ship is to go along its first
+    heading. seconds: simulated, a step; a whole number of the scene's ticks (time.step_s). shape, cell_m, ahead_m: of
+    the image, as in Simulation.occupancy. floes: a number of floes for an observation of the nearest floes in place of
+    the image. time_limit: simulated [s]; the scene's until_s if not given. reward: a callable of a Change.
 
     Action: lever and steering angle, each from -1 to 1; the angle in shares of the largest, to port positive. Both go
     there as fast as the scene's ship lets them. Observation: "image", 2 x rows x columns, the share of each cell that

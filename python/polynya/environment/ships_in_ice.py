@@ -1,4 +1,4 @@
-"""Many ships in ice at a time, each in a simulation of its own, in the convention of Gymnasium's vector environments."""
+"""Many ships in ice at a time, each in its own simulation, in the convention of Gymnasium's vector environments."""
 from __future__ import annotations
 
 import concurrent.futures

@@ -13,12 +13,13 @@ from .resistance import VALIDATED, Resistance, points_of
 COVERS = {ice_scenes.PACK: (0.5, 0.7, 0.85), ice_scenes.LEVEL: (1.0,), ice_scenes.CHANNEL: (0.5, 0.7, 0.8)}
 SIZES = {ice_scenes.PACK: (20.0, 40.0), ice_scenes.LEVEL: (0.0,), ice_scenes.CHANNEL: (4.0,)}
 SPEEDS, THICKNESSES = (1.0, 2.0, 4.0), (0.3, 0.5, 0.8)
-FIELDS = 2  # seeds a point
 NOTHING = {
     ice_scenes.CHANNEL: "No measurement or formula was compared with the resistance in a channel.",
-    ice_scenes.PACK: "Compared with published curves only for floes of 15 m, 0.5 m thick, at 1 m/s, covers 0.3 to 0.9 "
-                     "(docs/validation.md, \"Pack ice\"): between Colbourne's slender and blunt ships from cover 0.5 on.",
-    ice_scenes.LEVEL: "Compared with measurements in ice up to 0.5 m thick (docs/validation.md, \"A ship in level ice\").",
+    ice_scenes.PACK: "Compared with published curves only for floes of 15 m, 0.5 m thick, at 1 m/s, covers 0.3 to "
+                     "0.9 (docs/validation.md, \"Pack ice\"): between Colbourne's slender and blunt ships from cover "
+                     "0.5 on.",
+    ice_scenes.LEVEL: "Compared with measurements in ice up to 0.5 m thick (docs/validation.md, \"A ship in level "
+                      "ice\").",
 }
 
 

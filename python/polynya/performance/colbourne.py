@@ -57,5 +57,6 @@ def fit(points, resistances, beam, density):
     variance = residuals @ residuals / (len(points) - matrix.shape[1])
     errors = np.sqrt(variance * np.diag(np.linalg.inv(matrix.T @ matrix)))
     k = math.exp(found[0])
-    return Fit(k, k * errors[0], found[1], errors[1], found[2] if has_covers else None,
-               errors[2] if has_covers else None, math.exp(math.sqrt(variance)), len(points))
+    found, errors = found.tolist(), errors.tolist()
+    n, n_error = (found[2], errors[2]) if has_covers else (None, None)
+    return Fit(k, k * errors[0], found[1], errors[1], n, n_error, math.exp(math.sqrt(variance)), len(points))

@@ -15,8 +15,8 @@ FULL = 1.2  # lengths of the way that are left out at its start: the hull is not
 # What validation.md, "Pack ice", compares with: floes of 15 m, 0.5 m thick, at 1 m/s, covers from 0.3 to 0.9; and
 # "A ship in level ice": up to 0.5 m.
 VALIDATED = {
-    ice_scenes.PACK: {"speed_m_per_s": (0.5, 1.5), "thickness_m": (0.3, 0.5), "cover": (0.3, 0.9),
-                      "floe_size_m": (10, 25)},
+    ice_scenes.PACK: {"speed_m_per_s": (1, 1), "thickness_m": (0.5, 0.5), "cover": (0.3, 0.9),
+                      "floe_size_m": (15, 15)},
     ice_scenes.LEVEL: {"thickness_m": (0, 0.5)},
     ice_scenes.CHANNEL: None,  # nothing
 }
@@ -62,9 +62,9 @@ class Resistance:
         """A row of the table, of a point's runs."""
         contact, submerged = np.array(runs).T
         sums = contact + submerged
-        error = sums.std(ddof=1) / math.sqrt(len(sums)) if len(sums) > 1 else math.nan
-        return {**point, "resistance_N": sums.mean(), "error_N": error, "contact_N": contact.mean(),
-                "submerged_N": submerged.mean(), "runs": len(sums),
+        error = float(sums.std(ddof=1)) / math.sqrt(len(sums)) if len(sums) > 1 else math.nan
+        return {**point, "resistance_N": float(sums.mean()), "error_N": error, "contact_N": float(contact.mean()),
+                "submerged_N": float(submerged.mean()), "runs": len(sums),
                 "is_in_validated_range": is_validated(self.regime, point)}
 
     def rows(self, points, jobs, report):
