@@ -207,8 +207,11 @@ class ChannelMeasure {
       const Vector chord = joints[std::min(i + 1, count)].point - joints[i == 0 ? 0 : i - 1].point;
       across.push_back(perpendicular(length(chord) > 0 ? chord / length(chord) : Vector{1, 0}));
     }
+    // The joints at both ends have the direction of their only cell: from there to its other joint it makes half its
+    // turn.
     const auto turn_in_cell = [&](std::size_t i) {
-      return std::atan2(cross(across[i], across[i + 1]), dot(across[i], across[i + 1]));
+      const double between = std::atan2(cross(across[i], across[i + 1]), dot(across[i], across[i + 1]));
+      return i == 0 || i + 1 == count ? 2 * between : between;
     };
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t before = channel_.stations.size();

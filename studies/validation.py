@@ -10,6 +10,8 @@ Needs numpy (./setup.sh python) and a release build. All of it takes some hours 
 import csv
 import json
 import math
+import os
+import subprocess
 import sys
 
 import numpy as np
@@ -37,6 +39,33 @@ def level_ice(runs):
         parts = of("surge_mean_N"), of("surge_from_submerged_ice_mean_N")
         found[key] = (parts[0].mean(), parts[1].mean(), *mean_and_error(parts[0] + parts[1]))
     return found
+
+
+def presets_hull(ship):
+    """Hull of a preset, and her mass with the water that goes with it ahead (5 %) [kg]."""
+    done = subprocess.run([os.environ["POLYNYA_PROGRAM"], "ships", ship, "--json", "--for-performance"],
+                          stdout=subprocess.PIPE, text=True, check=True)
+    settings = json.loads(done.stdout)
+    hull = settings["hull"]
+    angles = (math.radians(hull[key]) for key in ("stem_angle_deg", "entrance_angle_deg"))
+    return formulas.Hull(hull["length_m"], hull["beam_m"], hull["draught_m"], *angles), 1.05 * settings["mass_kg"]
+
+
+def ramming(runs):
+    """Means of the charges of a run; kinetic energy at the largest speed over Lindqvist's resistance at half of it."""
+    study, rows = runs.study("ramming.json"), []
+    of = lambda name, case: float(study.table[name][case])
+    for case, (ship, h) in enumerate(zip(study.table["ships[0].ship"], study.table["ice.thickness_m"])):
+        if not of("rams", case) >= 3:
+            rows.append([ship, f"{float(h):g}", "none", "", "", "", ""])
+            continue
+        hull, mass = presets_hull(ship)
+        speed = of("ram_speed_m_per_s", case)
+        way = 0.5 * mass * speed**2 / sum(formulas.lindqvist(hull, formulas.Ice(float(h)), 0.5 * speed))
+        rows.append([ship, f"{float(h):g}", f"{of('rams', case):.0f}", f"{of('ram_gain_m', case):.0f}",
+                     f"{of('ram_time_s', case) / 60:.1f}", f"{speed:.1f}", f"{way:.0f}"])
+    return Table(["ship", "h [m]", "charges after the first", "gain of a charge [m]", "minutes of a charge",
+                  "largest speed [m/s]", "½ m v²/R [m]"], rows, within=0.1)
 
 
 def keinonen(h, v):
@@ -344,7 +373,7 @@ TABLES = {"resistance": resistance, "smooth": smooth, "exponents": exponents, "s
           "speed-error": speed_error, "uikku": lambda runs: uikku.table(runs, "stated"),
           "uikku-other-angles": lambda runs: uikku.table(runs, "inverted"), "pack": pack, "shapes": shapes,
           "settings": settings, "gauge": gauge, "splitting": splitting, "crossover-forces": crossover_forces,
-          "crossover": crossover,
+          "crossover": crossover, "ramming": ramming,
           "three-measures": three_measures, "step": step, "circles": circles, "scatter": scatter,
           "crack-trials": crack_trials.table, "step-cliff": lambda runs: step_cliff.table(runs, places=3),
           "crack-arms": lambda _: crack_plate.arms(), "crack-paths": lambda _: crack_plate.paths()}

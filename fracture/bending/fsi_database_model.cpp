@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "elementary/elementary.hpp"
-
 #include "fracture/bending/database.hpp"
 #include "fracture/bending/edge_deflection.hpp"
 #include "fracture/bending/sinking_edge.hpp"

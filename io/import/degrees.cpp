@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "elementary/elementary.hpp"
-
 #include "geometry/shape/angle.hpp"
 #include "geometry/shape/segments.hpp"
 

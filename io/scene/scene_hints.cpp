@@ -143,7 +143,7 @@ class SceneHints {
     const double half_turn = 0.5 * frequency * tick;
     add(Severity::kWarning, i, "mooring",
         fmt::format(
-            "it swings {} with a period of {:.3g} s, which is {:.2g} ticks of {:g} s: the period comes out {:.2g} "
+            "it swings {} with a period of {:.3g} s, which is {:.2g} ticks of {:g} s: the period comes out {:.4g} "
             "times as long; give time.step_s {:.2g} s or less, or softer springs",
             stiffest->way, period, period / tick, tick, half_turn / elementary::atan(half_turn),
             period / kLeastTicksInPeriod));

@@ -54,12 +54,16 @@ class Estimator {
   std::optional<double> of_engine(std::string_view key) const { return number(fmt::format("{}.{}", kEngineKey, key)); }
   bool has(std::string_view path) const { return at_path(std::as_const(ship_), path) != nullptr; }
 
-  void add(std::string_view object, std::string_view key, double value, double least, double most, std::string by) {
+  struct Range {
+    double least, most;
+  };
+  /// Enters a value into the ship where it lies in the range that its key allows.
+  void add(std::string_view object, std::string_view key, double value, Range allowed, std::string by) {
     JsonValue* const holder = at_path(ship_, object);
     if (!holder || !holder->is(JsonKind::kObject) || !std::isfinite(value)) return;
     const double scale = elementary::pow(10, 2 - std::floor(elementary::log10(value)));
     const double rounded = std::round(value * scale) / scale;
-    if (rounded < least || rounded > most) return;
+    if (rounded < allowed.least || rounded > allowed.most) return;
     holder->set(key, rounded);
     estimates_.push_back({fmt::format("{}.{}", object, key), rounded, std::move(by)});
   }
@@ -76,10 +80,10 @@ class Estimator {
     const auto hull = dimensions();
     const auto mass = number("mass_kg"), speed = of_engine("open_water_speed_m_per_s");
     if (hull && mass)
-      return add("hull", "block_coefficient", *mass / (density_ * hull->length * hull->beam * hull->draught), 0.2, 1,
+      return add("hull", "block_coefficient", *mass / (density_ * hull->length * hull->beam * hull->draught), {0.2, 1},
                  "mass_kg over the mass of the water in length, beam and draught");
     if (hull && !has("mass_kg") && speed)
-      add("hull", "block_coefficient", dynamics::usual_block_coefficient(hull->length, hull->beam, *speed), 0.2, 1,
+      add("hull", "block_coefficient", dynamics::usual_block_coefficient(hull->length, hull->beam, *speed), {0.2, 1},
           "0.14/Fn (L/B + 20)/26 at the open-water speed, within 0.48 to 0.85, [Schneekluth1998]");
   }
 
@@ -87,7 +91,7 @@ class Estimator {
     const auto hull = dimensions();
     if (has("hull.entrance_angle_deg") || has("hull.waterline_m") || !hull || !(hull->block_coefficient > 0)) return;
     if (const auto angle = dynamics::usual_entrance_angle(*hull))
-      add("hull", "entrance_angle_deg", geometry::kDegreesPerRadian * *angle, 1, 89,
+      add("hull", "entrance_angle_deg", geometry::kDegreesPerRadian * *angle, {1, 89},
           "half angle of entrance of ordinary hulls, [Holtrop1984]");
   }
 
@@ -95,7 +99,7 @@ class Estimator {
     const auto draught = number("hull.draught_m");
     if (of_engine("bollard_pull_kN") || !of_engine("power_MW") || !draught) return;
     if (has(fmt::format("{}.propeller_diameter_m", kEngineKey))) return;
-    add(kEngineKey, "propeller_diameter_m", dynamics::kPropellerOfDraught * *draught, 1e-3, 50,
+    add(kEngineKey, "propeller_diameter_m", dynamics::kPropellerOfDraught * *draught, {1e-3, 50},
         fmt::format("{:g} of the draught (recall)", dynamics::kPropellerOfDraught));
   }
 
@@ -119,7 +123,7 @@ class Estimator {
     const double angle = *entrance / geometry::kDegreesPerRadian;
     const auto speed = dynamics::usual_open_water_speed(*hull, angle, *watts, density_);
     if (!speed) return;
-    add(kEngineKey, "open_water_speed_m_per_s", *speed, 1e-3, 30,
+    add(kEngineKey, "open_water_speed_m_per_s", *speed, {1e-3, 30},
         fmt::format("{:g} of {}{:.3g} MW goes into the resistance by [Holtrop1984]; six known ships are within 12 %",
                     dynamics::kPowerIntoResistance,
                     of_engine("power_MW") ? "" : "the power that the bollard pull takes, ", 1e-6 * *watts));

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "elementary/elementary.hpp"
-
 #include "geometry/exact/predicates.hpp"
 
 namespace polynya::io {
@@ -56,8 +55,9 @@ class Continuation {
  private:
   /// The end of a path whose last segment comes from `before`.
   Point end_of(std::size_t path, Point before, Point end) const {
-    if (before == end) return end;
-    const Vector direction = (end - before) / length(end - before);
+    const double way = length(end - before);
+    if (!(way > 0 && std::isfinite(way))) return end;
+    const Vector direction = (end - before) / way;
     const Point reach = end + snap_ * direction;
     if (reach == end) return end;
     std::optional<double> nearest;
@@ -74,8 +74,10 @@ class Continuation {
     };
     look_along(floe_.outer);
     std::ranges::for_each(floe_.holes, look_along);
-    for (std::size_t k = 0; k < paths_.size(); ++k)
-      for (std::size_t i = 1; k != path && i < paths_[k].size(); ++i) look_at(paths_[k][i - 1], paths_[k][i]);
+    for (std::size_t k = 0; k < paths_.size(); ++k) {
+      if (k == path || !geometry::are_usable(paths_[k])) continue;
+      for (std::size_t i = 1; i < paths_[k].size(); ++i) look_at(paths_[k][i - 1], paths_[k][i]);
+    }
     return nearest ? end + (*nearest + rounding_) * direction : end;
   }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "elementary/elementary.hpp"
-
 #include "simulation/field/convex.hpp"
 
 namespace polynya::simulation {

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "elementary/elementary.hpp"
-
 #include "dynamics/chunks.hpp"
 #include "fracture/splitting.hpp"
 #include "simulation/ice/crack.hpp"

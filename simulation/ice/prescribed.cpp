@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "elementary/elementary.hpp"
-
 #include "simulation/ice/pieces.hpp"
 #include "simulation/world/step.hpp"
 

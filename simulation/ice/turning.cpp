@@ -28,19 +28,6 @@ Vector ahead_of(const Population& population, const PendingFracture& bend) {
   return rotate_back(population.bodies.rotation[population.body_of(bend.floe)], bend.normal);
 }
 
-/// What the cut's cusps weigh at the edge that the hull presses down [kg].
-double pressed_mass(const Setup& setup, const Population& population, const PendingFracture& bend,
-                    const geometry::CutResult& cut) {
-  const fracture::Ice& ice = ice_of_floe(setup, population, bend.floe);
-  const Vector ahead = ahead_of(population, bend);
-  double mass = 0;
-  for (const geometry::Piece& piece : cut.pieces) {
-    if (piece.part != geometry::Part::kInside) continue;
-    mass += fracture::edge_mass(ice, setup.scene.water.water, turning(piece.shape.polygon, ahead));
-  }
-  return mass;
-}
-
 /// An impulse on a hull, at an arm from its centre of mass.
 struct HullImpulse {
   BodyIndex ship = 0;
@@ -115,23 +102,6 @@ fracture::Deck deck_of(const Setup& setup, const Population& population, const P
                            outline, edges);
 }
 
-/// Decks of the cut's cusps, which the hull presses down from now on.
-void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut,
-               Population& population) {
-  const dynamics::Bodies& bodies = population.bodies;
-  const geometry::Rotation of_ship = bodies.rotation[bend.ship];
-  for (const geometry::Piece& piece : cut.pieces) {
-    if (piece.part != geometry::Part::kInside) continue;
-    PressedDeck pressed{.ship = bend.ship,
-                        .arm_in_ship = rotate_back(of_ship, bend.point_in_water - bodies.position[bend.ship]),
-                        .normal_in_ship = rotate_back(of_ship, bend.normal),
-                        .horizontal_in_ship = rotate_back(of_ship, bend.push.horizontal),
-                        .deck = deck_of(setup, population, bend, piece.shape.polygon.outer),
-                        .state = {}};
-    if (fracture::way_to_lie_along(pressed.deck) > 0) population.decks.push_back(pressed);
-  }
-}
-
 /// Presses a deck on over a step.
 void press(const Setup& setup, const Step& step, PressedDeck& pressed, dynamics::Bodies& bodies, HullBooks books) {
   const BodyIndex ship = pressed.ship;
@@ -167,14 +137,24 @@ bool is_started(const StartedCusp& cusp) {
 
 }  // namespace
 
-void turn_cusp(const Setup& setup, const Step& step, const PendingFracture& bend, const geometry::CutResult& cut,
-               Population& population, HullBooks books) {
+double pressed_mass(const Setup& setup, const Population& population, const PendingFracture& bend,
+                    const geometry::CutResult& cut) {
+  const fracture::Ice& ice = ice_of_floe(setup, population, bend.floe);
+  const Vector ahead = ahead_of(population, bend);
+  double mass = 0;
+  for (const geometry::Piece& piece : cut.pieces) {
+    if (piece.part != geometry::Part::kInside) continue;
+    mass += fracture::edge_mass(ice, setup.scene.water.water, turning(piece.shape.polygon, ahead));
+  }
+  return mass;
+}
+
+void turn_cusp(const Step& step, const PendingFracture& bend, double mass, Population& population, HullBooks books) {
   const EdgePush& edge = bend.push;
   const BodyIndex ship = bend.ship;
   if (edge.speed <= 0) return;
   dynamics::Bodies& bodies = population.bodies;
   const Vector arm = bend.point_in_water - bodies.position[ship];
-  const double mass = pressed_mass(setup, population, bend, cut);
   // The hull slows down by what it gives: the two move on together.
   const double slowed = edge.speed_per_approach * speed_by(bodies, ship, arm, bend.normal, edge.horizontal);
   const double given = mass * edge.speed / (1 + mass * std::max(0.0, slowed));  // down on the edge
@@ -188,7 +168,23 @@ void turn_cusp(const Setup& setup, const Step& step, const PendingFracture& bend
                    .way = bend.cusp_radius};
   press(step, cusp, bodies, books);
   if (!is_started(cusp)) population.started.push_back(cusp);
-  if (setup.has_flooding_decks) add_decks(setup, bend, cut, population);
+}
+
+void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut,
+               Population& population) {
+  if (!setup.has_flooding_decks || bend.push.speed <= 0) return;
+  const dynamics::Bodies& bodies = population.bodies;
+  const geometry::Rotation of_ship = bodies.rotation[bend.ship];
+  for (const geometry::Piece& piece : cut.pieces) {
+    if (piece.part != geometry::Part::kInside) continue;
+    PressedDeck pressed{.ship = bend.ship,
+                        .arm_in_ship = rotate_back(of_ship, bend.point_in_water - bodies.position[bend.ship]),
+                        .normal_in_ship = rotate_back(of_ship, bend.normal),
+                        .horizontal_in_ship = rotate_back(of_ship, bend.push.horizontal),
+                        .deck = deck_of(setup, population, bend, piece.shape.polygon.outer),
+                        .state = {}};
+    if (fracture::way_to_lie_along(pressed.deck) > 0) population.decks.push_back(pressed);
+  }
 }
 
 void press_started(const Step& step, Population& population, std::vector<HullLoads>& loads, AuditSums& audit) {

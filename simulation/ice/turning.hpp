@@ -15,9 +15,18 @@ struct HullBooks {
 /// By the law of crushing ice: the impulse with which a hull sets in motion the cusp that a bend breaks off and that
 /// goes under it (`InsideFate::kUnderHull`). It is given with no more than the force at which the ice broke, so that it
 /// may last for some steps: press_started() gives the rest. Brakes the hull, and enters it in its loads and in the
-/// accounts. Keeps the cusp's deck, where water floods decks (`has_flooding_decks`).
-void turn_cusp(const Setup& setup, const Step& step, const PendingFracture& bend, const geometry::CutResult& cut,
-               Population& population, HullBooks books);
+/// accounts.
+/// `mass` is what the cut's cusps weigh at the edge that the hull presses down [kg] (pressed_mass()).
+void turn_cusp(const Step& step, const PendingFracture& bend, double mass, Population& population, HullBooks books);
+
+/// Returns what the cusps of a cut weigh at the edge that the hull presses down, with the water that moves with them
+/// [kg].
+double pressed_mass(const Setup& setup, const Population& population, const PendingFracture& bend,
+                    const geometry::CutResult& cut);
+
+/// Keeps the decks of the cut's cusps, which the hull presses down from now on, where water floods decks
+/// (`has_flooding_decks`).
+void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut, Population& population);
 
 /// Goes on to set in motion the cusps that have not all of their edge's speed yet. Those that the hull has passed end.
 void press_started(const Step& step, Population& population, std::vector<HullLoads>& loads, AuditSums& audit);

@@ -2,7 +2,6 @@
 #include <iterator>
 
 #include "elementary/elementary.hpp"
-
 #include "geometry/cut/overlap.hpp"
 #include "simulation/world/step.hpp"
 

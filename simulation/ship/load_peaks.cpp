@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "elementary/elementary.hpp"
-
 #include "simulation/world/world.hpp"
 
 namespace polynya::simulation {

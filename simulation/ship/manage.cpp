@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "elementary/elementary.hpp"
-
 #include "simulation/ship/pattern.hpp"
 #include "simulation/ship/pilot.hpp"
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "elementary/elementary.hpp"
-
 #include "simulation/ship/pilot.hpp"
 
 namespace polynya::simulation {
@@ -32,11 +31,11 @@ void turn_ahead(PilotMemory& memory) {
 /// Returns the heading that leads back to the line on which the ship was last stuck, so that it charges in the channel
 /// that it has broken. Astern it is the line's own.
 double heading_on_line(double heading, const PilotView& view, const PilotMemory& memory) {
-  constexpr double kLookAhead = 1.5;  // along the line, of the ship's length; less: it turns sharply to the line
+  constexpr double kLookAheadOnLine = 1.5;  // along the line, of the ship's length; less: it turns sharply to the line
   if (memory.is_backing) return heading;
   const geometry::Point on_line = memory.rams > 0 ? memory.stuck_at : memory.from;
   const double offset = cross(unit(heading), view.own().position_in_world - on_line);
-  return heading - elementary::atan2(offset, kLookAhead * view.own().length);
+  return heading - elementary::atan2(offset, kLookAheadOnLine * view.own().length);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "elementary/elementary.hpp"
-
 #include "simulation/ship/mooring.hpp"
 #include "simulation/world/step.hpp"
 

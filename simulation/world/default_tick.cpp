@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "elementary/elementary.hpp"
-
 #include "geometry/exact/measures.hpp"
 #include "simulation/world/parts.hpp"
 

@@ -332,10 +332,14 @@ void end_tick(World& w) {
 
 namespace {
 
+bool takes_parts(const Setup& setup) {
+  return setup.scene.contact.law == ContactLaw::kCrush && setup.shortcuts.takes_parts;
+}
+
 /// Returns the number of parts of the next tick, and updates the pairs of bodies for the whole tick.
 int next_parts(World& world) {
   const Setup& setup = world.setup;
-  if (setup.scene.contact.law == ContactLaw::kImpulse || !setup.shortcuts.takes_parts) return 1;
+  if (!takes_parts(setup)) return 1;
   Population& population = world.population;
   population.pairs.update(population.bodies, population.awake, world.clock.tick, world.threads);
   return parts_of_tick(setup, world.pace, population);
@@ -360,7 +364,7 @@ void step(World& world) {
   counts.steps_taken += parts;
   counts.most_parts = std::max<std::int64_t>(counts.most_parts, parts);
   end_tick(world);
-  counts.crowded_ticks += follow_bends(parts, counts.bends - bends, world.pace) ? 1 : 0;
+  if (takes_parts(world.setup)) counts.crowded_ticks += follow_bends(parts, counts.bends - bends, world.pace) ? 1 : 0;
 }
 
 }  // namespace polynya::simulation

@@ -201,8 +201,9 @@ TEST(InspectSplit, TheLineageAndThePlayerStateBothSidesOfASplitByTrueForces) {
   const TemporaryFolder folder;
   write_file(folder.path() / "square.json",
              R"({"time": {"step_s": 0.005, "until_s": 1}, "fracture": {"splitting": {"model": "lefm"}},
-        "ships": [{"hull": {"length_m": 60, "beam_m": 16, "entrance_angle_deg": 30}, "mass_kg": 3e6,
-          "moment_of_inertia_kg_m2": 8e8, "position_m": [-30.01, 0], "propulsion": {"constant_speed_m_per_s": 1}}],
+        "ships": [{"hull": {"length_m": 60, "beam_m": 16, "entrance_angle_deg": 30, "stem_angle_deg": 60},
+          "mass_kg": 3e6, "moment_of_inertia_kg_m2": 8e8, "position_m": [-30.01, 0],
+          "propulsion": {"constant_speed_m_per_s": 1}}],
         "floes": [{"rectangle": {"corner_m": [0, -8], "size_m": [16, 16]}}]})");
   ASSERT_EQ(polynya("run square.json --out run", folder).code, 0);
   const std::string tree = polynya("inspect run --lineage 1", folder).out;

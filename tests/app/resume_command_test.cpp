@@ -133,7 +133,7 @@ TEST_F(Resume, AKilledRunMayEndElsewhere) {
 /// And leaves a folder that is whole and says that it is not finished.
 TEST_F(Resume, ASignalStopsWithACheckpointAndNobodyElseMayWriteMeanwhile) {
   write_file(folder_ / "scene.json", crash_scene("100"));
-  write_file(folder_ / "long.json", crash_scene("1e5"));
+  write_file(folder_ / "long.json", crash_scene("4500"));
   for (const auto& [signal, name] : {std::pair{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}}) {
     fs::remove_all(folder_ / "run");
     const pid_t child = start_polynya("run long.json --out run --checkpoint-every 1", start_);
@@ -175,7 +175,8 @@ TEST_F(Resume, AfterAFullDiskTheRunGoesOn) {
 TEST_F(Resume, AFailureIsDumpedAndRepeated) {
   write_file(folder_ / "scene.json", R"({"time": {"step_s": 0.01, "until_s": 60},
     "ships": [{"hull": {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27, "stem_angle_deg": 30},
-      "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9, "position_m": [-62, 0], "propulsion": {"thrust_N": 9e8}}],
+      "mass_kg": 1e7, "moment_of_inertia_kg_m2": 5e9, "position_m": [-62, 0], "propulsion": {"thrust_N": 0},
+      "mooring": {"position_m": [2000, 0], "surge_stiffness_N_per_m": 5e6}}],
     "floes": [{"rectangle": {"corner_m": [0, -30], "size_m": [40, 60]}}]})");
   EXPECT_HAS(expect_code(4, polynya("run scene.json --out run --checkpoint-every 4", start_)).err, "--from-failure");
   const std::string states = read_file(folder_ / "run/states.csv");

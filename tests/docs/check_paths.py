@@ -67,8 +67,11 @@ class Tree:
         """The paths in a text that are not there."""
         for named in self.path.findall(text):
             yield from (path for path in alternatives(named) if not self.has(path))
+        made = re.findall(r"^```\w+ (\S+)$", text, re.MULTILINE)  # blocks that a page says to save as a file
         for name in NAME.findall(text):
-            if name not in PROGRAMS and not name.startswith(ELSEWHERE) and not self.has_end(name):
+            if name in made or name in PROGRAMS or name.startswith(ELSEWHERE):
+                continue
+            if not self.has_end(name):
                 yield name
 
 

@@ -13,7 +13,7 @@ namespace {
 
 using shapes::kDegree;
 
-constexpr double kWater = 1000;
+constexpr double kSeaDensity = 1000;
 constexpr double kThrust = 1.2e6;
 
 /// The rudder of the reference ship, behind a propeller of .65 of the draught.
@@ -49,8 +49,9 @@ TEST(RudderFoil, HasTheLiftAndDragOfPublishedRudders) {
     }
   EXPECT_NEAR(foil_in_endless_flow(1, 33.8 * kDegree).lift, 1.06, 0.06) << "NACA 0015, [Thieme1962], from memory";
   // The normal force of [Fujii1960] over a blade's own aspect ratio, below a hull.
-  const Planar force = rudder_force({.area = 10, .wake_fraction = 0, .hull_factor = 0}, 0.05, {5, 0, 0}, 0, kWater);
-  const double fujii = 0.5 * kWater * 10 * 25 * 6.13 * 1.5 / (1.5 + 2.25) * std::sin(0.05);
+  const Planar force =
+      rudder_force({.area = 10, .wake_fraction = 0, .hull_factor = 0}, 0.05, {5, 0, 0}, 0, kSeaDensity);
+  const double fujii = 0.5 * kSeaDensity * 10 * 25 * 6.13 * 1.5 / (1.5 + 2.25) * std::sin(0.05);
   EXPECT_NEAR(std::hypot(force.surge, force.sway) / fujii, 1, 0.1);
 }
 
@@ -108,13 +109,13 @@ TEST(RudderFoil, LosesLiftBeyondStall) {
 TEST(Race, HasTheMomentumOfTheThrust) {
   for (const bool has_nozzle : {false, true})
     for (const double advance : {0.0, 0.5, 3.0, 8.0}) {
-      const Race race = race_behind(11.95, has_nozzle, kThrust, advance, kWater);
+      const Race race = race_behind(11.95, has_nozzle, kThrust, advance, kSeaDensity);
       const double area = 0.25 * M_PI * race.diameter * race.diameter;
-      EXPECT_NEAR(kWater * area * race.speed * (race.speed - advance), kThrust, 1e-6 * kThrust);
+      EXPECT_NEAR(kSeaDensity * area * race.speed * (race.speed - advance), kThrust, 1e-6 * kThrust);
       EXPECT_LE(area, 11.95 * (1 + 1e-12));
     }
-  EXPECT_NEAR(race_behind(11.95, false, 0, 5, kWater).speed, 5, 1e-12) << "no thrust, no race";
-  EXPECT_LT(race_behind(11.95, false, 1e3, -5, kWater).speed, 0) << "a ship that goes astern outruns a weak race";
+  EXPECT_NEAR(race_behind(11.95, false, 0, 5, kSeaDensity).speed, 5, 1e-12) << "no thrust, no race";
+  EXPECT_LT(race_behind(11.95, false, 1e3, -5, kSeaDensity).speed, 0) << "a ship that goes astern outruns a weak race";
 }
 
 /// The water never leaves the blade with more momentum than the race had, whatever the blade's form and angle.
@@ -139,13 +140,13 @@ TEST(Race, ImpingesOnALargePlateAsAJetDoes) {
 // ---- the rudder behind its propeller
 
 TEST(Rudder, TurnsAShipToTheSideItIsLaidTo) {
-  const Planar to_port = rudder_force(kRudder, 0.3, {6, 0, 0}, 0, kWater);
+  const Planar to_port = rudder_force(kRudder, 0.3, {6, 0, 0}, 0, kSeaDensity);
   EXPECT_LT(to_port.surge, 0);
   EXPECT_LT(to_port.sway, 0) << "the stern goes to starboard";
   EXPECT_GT(to_port.yaw, 0);
-  const Planar to_starboard = rudder_force(kRudder, -0.3, {6, 0, 0}, 0, kWater);
+  const Planar to_starboard = rudder_force(kRudder, -0.3, {6, 0, 0}, 0, kSeaDensity);
   EXPECT_NEAR(to_starboard.yaw, -to_port.yaw, 1e-9 * to_port.yaw);
-  EXPECT_LT(rudder_force(kRudder, 0.3, {-2, 0, 0}, 0, kWater).yaw, 0) << "astern it turns her the other way";
+  EXPECT_LT(rudder_force(kRudder, 0.3, {-2, 0, 0}, 0, kSeaDensity).yaw, 0) << "astern it turns her the other way";
 }
 
 /// At rest thrust and rudder leave a ship with a force no larger than the thrust, and never astern.
@@ -159,7 +160,7 @@ TEST(Rudder, AtRestTurnsTheThrustAtMost) {
                               .position = -60,
                               .propeller_area = 11.95,
                               .has_nozzle = has_nozzle};
-          const Planar force = rudder_force(rudder, degrees * kDegree, {}, kThrust, kWater);
+          const Planar force = rudder_force(rudder, degrees * kDegree, {}, kThrust, kSeaDensity);
           ASSERT_LE(std::hypot(kThrust + force.surge, force.sway), kThrust * (1 + 1e-12)) << area << ", " << degrees;
           ASSERT_GE(kThrust + force.surge, -1e-6) << area << ", " << degrees;
         }
@@ -169,7 +170,7 @@ TEST(Rudder, AtRestTurnsTheThrustAtMost) {
 TEST(Rudder, AtRestTurnsTheRaceByAlmostItsAngle) {
   const double contracted = std::sqrt(4 / M_PI * 0.5 * 11.95), chord = std::sqrt(12.96 / 1.5);
   const double sine = 3.6 / (1.8 + std::hypot(contracted / chord, 2)) * std::sin(35 * kDegree);
-  const Planar force = rudder_force(kRudder, 35 * kDegree, {}, kThrust, kWater);
+  const Planar force = rudder_force(kRudder, 35 * kDegree, {}, kThrust, kSeaDensity);
   EXPECT_NEAR(force.sway / kThrust, -sine, 1e-9);
   EXPECT_NEAR(force.surge / kThrust, std::sqrt(1 - sine * sine) - 1, 1e-9);
   EXPECT_NEAR(sine, 0.515, 0.001);
@@ -184,10 +185,10 @@ TEST(Rudder, AtRestHasTheForcesThatItsPageStates) {
                                                                       {45, -0.30, 0.50, -0.33, 0.41},
                                                                       {70, -0.71, 0.26, -0.67, 0.24}}) {
     constexpr double kHalfDigit = 0.0051;
-    const Planar force = rudder_force(kRudder, degrees * kDegree, {}, kThrust, kWater);
+    const Planar force = rudder_force(kRudder, degrees * kDegree, {}, kThrust, kSeaDensity);
     EXPECT_NEAR(force.surge / kThrust, ahead, kHalfDigit) << degrees;
     EXPECT_NEAR(-force.sway / kThrust, aside, kHalfDigit) << degrees;
-    const Planar of_oden = rudder_force(oden, degrees * kDegree, {}, kThrust, kWater);
+    const Planar of_oden = rudder_force(oden, degrees * kDegree, {}, kThrust, kSeaDensity);
     EXPECT_NEAR(of_oden.surge / kThrust, oden_ahead, kHalfDigit) << degrees;
     EXPECT_NEAR(-of_oden.sway / kThrust, oden_aside, kHalfDigit) << degrees;
   }
@@ -197,11 +198,11 @@ TEST(Rudder, OnlyTheShareOfABladeInTheRaceBearsAtRest) {
   Rudder tall = kRudder;  // twice as high, of the same chord
   tall.area *= 2;
   tall.aspect_ratio *= 2;
-  EXPECT_NEAR(rudder_force(tall, 0.4, {}, kThrust, kWater).sway, rudder_force(kRudder, 0.4, {}, kThrust, kWater).sway,
-              1e-6);
-  EXPECT_GT(size(rudder_force(tall, 0.4, {5, 0, 0}, 0, kWater)),
-            1.9 * size(rudder_force(kRudder, 0.4, {5, 0, 0}, 0, kWater)));
-  EXPECT_EQ(size(rudder_force(without_race(), 0.4, {}, kThrust, kWater)), 0);
+  EXPECT_NEAR(rudder_force(tall, 0.4, {}, kThrust, kSeaDensity).sway,
+              rudder_force(kRudder, 0.4, {}, kThrust, kSeaDensity).sway, 1e-6);
+  EXPECT_GT(size(rudder_force(tall, 0.4, {5, 0, 0}, 0, kSeaDensity)),
+            1.9 * size(rudder_force(kRudder, 0.4, {5, 0, 0}, 0, kSeaDensity)));
+  EXPECT_EQ(size(rudder_force(without_race(), 0.4, {}, kThrust, kSeaDensity)), 0);
 }
 
 TEST(Rudder, TwinRuddersShareThrustAndArea) {
@@ -209,8 +210,8 @@ TEST(Rudder, TwinRuddersShareThrustAndArea) {
   twin.area *= 2;
   twin.count = 2;
   twin.thrust_share = 0.5;
-  const Planar both = rudder_force(twin, 0.4, {3, 0.2, 0.01}, 2 * kThrust, kWater);
-  const Planar one = rudder_force(kRudder, 0.4, {3, 0.2, 0.01}, kThrust, kWater);
+  const Planar both = rudder_force(twin, 0.4, {3, 0.2, 0.01}, 2 * kThrust, kSeaDensity);
+  const Planar one = rudder_force(kRudder, 0.4, {3, 0.2, 0.01}, kThrust, kSeaDensity);
   EXPECT_NEAR(both.surge, 2 * one.surge, 1e-6);
   EXPECT_NEAR(both.sway, 2 * one.sway, 1e-6);
 }
@@ -218,9 +219,9 @@ TEST(Rudder, TwinRuddersShareThrustAndArea) {
 /// A race as slow as the water around it is none.
 TEST(Rudder, BehindAPropellerWithoutThrustIsAFoilInTheHullsFlow) {
   for (const Planar& motion : {Planar{6, 0, 0}, {2, 0.5, 0.02}, {-3, 0.1, 0.01}}) {
-    const Planar expected = rudder_force(without_race(), 0.3, motion, 0, kWater);
+    const Planar expected = rudder_force(without_race(), 0.3, motion, 0, kSeaDensity);
     for (const double thrust : {-kThrust, 0.0, 1.0}) {
-      const Planar found = rudder_force(kRudder, 0.3, motion, thrust, kWater);
+      const Planar found = rudder_force(kRudder, 0.3, motion, thrust, kSeaDensity);
       EXPECT_NEAR(found.surge, expected.surge, 1e-3 * size(expected));
       EXPECT_NEAR(found.sway, expected.sway, 1e-3 * size(expected));
     }
@@ -235,7 +236,7 @@ TEST(Rudder, HasNoJumps) {
       for (const double across : {-1.0, 0.0, 0.4})
         for (double degrees = -90; degrees <= 90; degrees += 5) {
           const auto at = [&](double u, double t) {
-            return rudder_force(kRudder, degrees * kDegree, {u, across, 0}, t, kWater);
+            return rudder_force(kRudder, degrees * kDegree, {u, across, 0}, t, kSeaDensity);
           };
           const Planar here = at(speed, thrust);
           ASSERT_LT(size(at(speed + kSmall, thrust) - here), 1e3) << thrust << ", " << speed << ", " << degrees;
@@ -246,8 +247,8 @@ TEST(Rudder, HasNoJumps) {
 
 TEST(Rudder, AmidshipsItDampsTheTurn) {
   const Planar turning{4, 0.1, 0.02};
-  EXPECT_LT(dot(turning, rudder_force(kRudder, 0, turning, 3e5, kWater)), 0);
-  EXPECT_LT(rudder_force(kRudder, 0, {4, 0, 0.02}, 3e5, kWater).yaw, 0);
+  EXPECT_LT(dot(turning, rudder_force(kRudder, 0, turning, 3e5, kSeaDensity)), 0);
+  EXPECT_LT(rudder_force(kRudder, 0, {4, 0, 0.02}, 3e5, kSeaDensity).yaw, 0);
 }
 
 }  // namespace

@@ -205,7 +205,7 @@ TEST(FloodingDeck, AnArcThatOpensFloodsAsASharpEdgedOrifice) {
       if (head > 0) flow += 0.6 * opening * std::sqrt(2 * kGravity * head);
     }
     ASSERT_GT(flow, 0);
-    EXPECT_NEAR(inflow_at(deck, turn) / flow, 1, 1e-6) << turn;
+    EXPECT_NEAR(inflow_at(deck, turn) / flow, 1, 2e-5) << turn;  // the pool is found by 16 halvings
   }
 }
 

@@ -109,8 +109,9 @@ TEST(RunLoop, AnEarlierEndLeavesNoTraceInALongerRun) {
 TEST(RunLoop, ANumericalFailureAndALostFolderAreResults) {
   const TemporaryFolder folder;
   const LoadedScene small = small_scene();
-  const LoadedScene runaway = load(scene(
-      {R"("time": {"step_s": 0.01, "until_s": 60})", list("ships", {ship(R"("propulsion": {"thrust_N": 9e8})")})}));
+  const std::string mooring = R"("mooring": {"position_m": [2000, 0], "surge_stiffness_N_per_m": 5e6})";
+  const LoadedScene runaway = load(scene({R"("time": {"step_s": 0.01, "until_s": 60})",
+                                          list("ships", {ship(R"("propulsion": {"thrust_N": 0}, )" + mooring)})}));
   auto broken = checked(start_run(folder / "broken", runaway));
   const RunResult failed = run_to_end(*broken);
   EXPECT_EQ(failed.end, RunEnd::kNumericalFailure);

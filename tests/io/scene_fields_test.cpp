@@ -72,6 +72,10 @@ const std::string kFifth = scene(
                     field_of_law(R"("centreline_m": [[-300, 0], [-200, 30]], "width_m": 40, "concentration": 0.7)",
                                  R"({"size_m": 5})")})});
 
+/// A floe by the law of the paper, which alone allows normals from circles.
+const std::string kSixth =
+    scene({R"("contact": {"law": "impulse", "restitution": 0.1})", list("floes", {square(100, 0, 10)})});
+
 /// One ship for each other pilot.
 std::string fleet() {
   std::vector<std::string> ships;
@@ -144,7 +148,7 @@ std::set<std::string> all_leaves(const Object& table, const std::string& path) {
 }
 
 TEST(SceneFields, TheResolvedSceneReadsBackToTheSameSceneAndText) {
-  for (const std::string& text : {kFirst, kSecond, kThird, kFourth, kFifth, fleet(), commented_scene()})
+  for (const std::string& text : {kFirst, kSecond, kThird, kFourth, kFifth, kSixth, fleet(), commented_scene()})
     expect_reads_back(load(text));
 }
 
@@ -156,15 +160,17 @@ bool is_bound(const std::string& path, const LoadedScene& base, const std::strin
   if (path == ".ships.speed_m_per_s")  // said twice in a resolved scene, and changed in both places
     return tree.find("ships")->items()[0].find("propulsion")->find("constant_speed_m_per_s") != nullptr;
   if (path == ".water.drift_m_per_s" || path == ".wind.velocity_m_per_s") return text == kFifth;  // it has tables
-  if (path == ".contact.law") return text == kThird;                                              // its wall presses
-  if (path == ".ships.name") return text == fleet() || text == kSecond;                           // named elsewhere too
-  return path == ".ships.water.model" && !base.scene.ships[0].water.acts;                         // it needs a draught
+  if (path == ".floes.fast_ice") return base.scene.contact.law == simulation::ContactLaw::kImpulse;
+  if (path == ".contact.normal") return base.scene.contact.law == simulation::ContactLaw::kCrush;
+  if (path == ".contact.law") return text == kThird;                       // its wall presses
+  if (path == ".ships.name") return text == fleet() || text == kSecond;    // named elsewhere too
+  return path == ".ships.water.model" && !base.scene.ships[0].water.acts;  // it needs a draught
 }
 
 /// Every field of the table reaches the scene: changing it alone changes the scene, and survives the resolved text.
 TEST(SceneFields, EveryFieldRoundTripsAndReachesTheScene) {
   std::set<std::string> seen;
-  for (const std::string& base_text : {kFirst, kSecond, kThird, kFourth, kFifth, fleet()}) {
+  for (const std::string& base_text : {kFirst, kSecond, kThird, kFourth, kFifth, kSixth, fleet()}) {
     const LoadedScene base = load(base_text);
     JsonValue tree = parse_json(base.resolved_text).root;
     walk(kSceneDescription, tree, "", [&](const Field& field, JsonValue& value, const std::string& path) {

@@ -175,7 +175,8 @@ double mean_load_in_level_ice(double step, int substeps) {
 }
 
 TEST(CrushLaw, TheLoadInLevelIceIsNotTheSteps) {
-  const double fine = mean_load_in_level_ice(0.005, 1);  // docs/validation.md, "step", has finer ones
+  // docs/validation.md, "Contact, step and radius", has finer ones.
+  const double fine = mean_load_in_level_ice(0.005, 1);
   EXPECT_NEAR(mean_load_in_level_ice(0.02, 1) / fine, 1, 0.10);
   EXPECT_NEAR(mean_load_in_level_ice(0.02, 4) / fine, 1, 0.05);
   EXPECT_GT(fine, 2e4);

@@ -19,8 +19,9 @@ namespace {
 using namespace scenes;
 using geometry::Polygon;
 
-constexpr double kLineLoad = 2.8e6 * 0.5;  // σ_c h of the default ice [N/m]
-constexpr double kAllowed = 2e-3;  // a line is foreseen to a thousandth, and is longer by 1/cos where faces are askew [-]
+constexpr double kFaceLineLoad = 2.8e6 * 0.5;  // σ_c h of the default ice [N/m]
+constexpr double kAllowed =
+    2e-3;  // a line is foreseen to a thousandth, and is longer by 1/cos where faces are askew [-]
 
 /// How a body meets ice.
 struct Approach {
@@ -66,8 +67,7 @@ Largest largest_of(const Impact& impact, const Approach& a) {
   });
   EXPECT_FALSE(done.simulation.numerical_failure().has_value());
   for (const HullSample& sample : done.story.samples)
-    most.recorded =
-        std::max({most.recorded, std::abs(sample.from_ice_largest.surge), std::abs(sample.from_ice.surge)});
+    most.recorded = std::max({most.recorded, std::abs(sample.from_ice_largest.surge), std::abs(sample.from_ice.surge)});
   return most;
 }
 
@@ -78,14 +78,14 @@ Build bare(const Approach& a) {
 }
 
 std::function<double(double)> flat(double width) {
-  return [width](double) { return kLineLoad * width; };
+  return [width](double) { return kFaceLineLoad * width; };
 }
 
 /// A flat face and a circle of a radius: the chord at the depth.
 std::function<double(double)> chord(double radius) {
   return [radius](double depth) {
     const double inside = std::min(depth, radius);
-    return kLineLoad * 2 * std::sqrt(inside * (2 * radius - inside));
+    return kFaceLineLoad * 2 * std::sqrt(inside * (2 * radius - inside));
   };
 }
 
@@ -110,7 +110,7 @@ Impact stern_onto_edge(const Approach& a) {
   const geometry::Pose pose = coming(a, 24);
   ship.position_in_world = transform(pose, {-60, 0});
   ship.heading = std::numbers::pi + a.tilt;
-  return {bare(a).ship(ship).floe(fast(kPlate)), 1e7, flat(24), 24 * kLineLoad};
+  return {bare(a).ship(ship).floe(fast(kPlate)), 1e7, flat(24), 24 * kFaceLineLoad};
 }
 
 Ship coming_barge(const Approach& a) {
@@ -121,22 +121,23 @@ Ship coming_barge(const Approach& a) {
 }
 
 Impact box_onto_edge(const Approach& a) {
-  return {bare(a).ship(coming_barge(a)).floe(fast(kPlate)), 1e7, flat(24), 24 * kLineLoad};
+  return {bare(a).ship(coming_barge(a)).floe(fast(kPlate)), 1e7, flat(24), 24 * kFaceLineLoad};
 }
 
 Impact floe_onto_box(const Approach& a) {
   return {bare(a).structure(rectangle(0, -10, 20, 10).outer).floe(floe_with_face(a, 200, 150)), mass_of(200, 150),
-          flat(20), 20 * kLineLoad};
+          flat(20), 20 * kFaceLineLoad};
 }
 
 Impact floe_onto_edge(const Approach& a) {
-  return {bare(a).floe(fast(kPlate)).floe(floe_with_face(a, 2000, 20)), mass_of(2000, 20), flat(20), 20 * kLineLoad};
+  return {bare(a).floe(fast(kPlate)).floe(floe_with_face(a, 2000, 20)), mass_of(2000, 20), flat(20),
+          20 * kFaceLineLoad};
 }
 
 /// Its walls lean: the facet grows to h / cos θ.
 Impact floe_onto_leaning_box(const Approach& a) {
   constexpr double kLean = 10 * kDegree;
-  const double most = 20 * kLineLoad * (1 + 0.2 * std::tan(kLean));
+  const double most = 20 * kFaceLineLoad * (1 + 0.2 * std::tan(kLean));
   const auto force_at = [most](double depth) { return most * std::min(1.0, depth / (0.5 * std::tan(kLean))); };
   return {bare(a).structure(rectangle(0, -10, 20, 10).outer, {}, kLean).floe(floe_with_face(a, 200, 150)),
           mass_of(200, 150), force_at, most};
@@ -148,18 +149,18 @@ Polygon round_ice(double x) {
 }
 
 Impact box_onto_round_ice(const Approach& a) {
-  return {bare(a).ship(coming_barge(a)).floe(fast(round_ice(kRound))), 1e7, chord(kRound), 24 * kLineLoad};
+  return {bare(a).ship(coming_barge(a)).floe(fast(round_ice(kRound))), 1e7, chord(kRound), 24 * kFaceLineLoad};
 }
 
 Impact round_floe_onto_edge(const Approach& a) {
   return {bare(a).floe(fast(kPlate)).floe(round_ice(-a.gap - kRound), {a.speed, 0}),
-          900 * 0.5 * std::numbers::pi * kRound * kRound, chord(kRound), 2 * kRound * kLineLoad};
+          900 * 0.5 * std::numbers::pi * kRound * kRound, chord(kRound), 2 * kRound * kFaceLineLoad};
 }
 
 Impact floe_onto_pile(const Approach& a) {
   constexpr double kPile = 5;
   return {bare(a).structure(shapes::regular(400, kPile).outer, {kPile, 0}).floe(floe_with_face(a, 200, 150)),
-          mass_of(200, 150), chord(kPile), 2 * kPile * kLineLoad};
+          mass_of(200, 150), chord(kPile), 2 * kPile * kFaceLineLoad};
 }
 
 using Make = Impact (*)(const Approach&);

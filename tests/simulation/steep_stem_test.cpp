@@ -11,8 +11,8 @@ namespace {
 
 using namespace scenes;
 
-constexpr double kLineLoad = 2.8e6 * 0.5;  // σ_c h [N/m]
-constexpr double kBeam = 24;               // [m]
+constexpr double kIceLineLoad = 2.8e6 * 0.5;  // σ_c h [N/m]
+constexpr double kBeam = 24;                  // [m]
 
 struct Passage {
   double mean = 0, largest = 0;  ///< [N]
@@ -48,7 +48,7 @@ TEST(SteepStems, LoadRisesWithoutAStep) {
     EXPECT_GT(found.bends, 0);
     EXPECT_LT(found.mean, 2.5 * last);
     EXPECT_GT(found.mean, 0.5 * last);
-    EXPECT_LT(found.largest, 0.5 * kLineLoad * kBeam);
+    EXPECT_LT(found.largest, 0.5 * kIceLineLoad * kBeam);
     last = found.mean;
   }
 }
@@ -57,7 +57,7 @@ TEST(SteepStems, LoadRisesWithoutAStep) {
 TEST(SteepStems, CrushWhatTheyCannotBend) {
   const Passage found = passage(89.95);
   EXPECT_EQ(found.bends, 0);
-  EXPECT_NEAR(found.mean / (kLineLoad * kBeam), 1, 0.01);
+  EXPECT_NEAR(found.mean / (kIceLineLoad * kBeam), 1, 0.01);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ Scene into_level_ice(double turn, double slant = 0.02) {
 
 /// Until rounding has grown, every cusp is the same: when and where it breaks, under which load, and its shape.
 TEST(TurnedScene, BreaksTheSameCusps) {
-  constexpr double kUntil = 7;  // [s]
+  constexpr double kUntil = 14;  // [s]
   const std::vector<Event> straight = run(into_level_ice(0), kUntil).story.bends();
   ASSERT_GT(straight.size(), 4u);
   for (const double turn : kTurns) {
