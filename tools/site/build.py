@@ -83,6 +83,10 @@ def write_sources(source, polynya, version):
             old.unlink()
     shutil.copytree(ROOT / "docs/images", source / "images", dirs_exist_ok=True)
     shutil.copytree(ROOT / "tools/site/static", source / "static", dirs_exist_ok=True)
+    live = ROOT / "build/browser/polynya.html"  # the page that holds the simulator, where it is built
+    if live.exists():
+        (source / "static").mkdir(parents=True, exist_ok=True)
+        shutil.copy(live, source / "static/try.html")
     shutil.copytree(KATEX, source / "static/katex", dirs_exist_ok=True,
                     ignore=shutil.ignore_patterns("contrib", "*.mjs"))
 
