@@ -16,7 +16,8 @@ import shlex
 import subprocess
 import sys
 
-ROOMS = ["elementary", "geometry", "dynamics", "fracture", "simulation", "io", "analysis", "views", "app", "python_module"]
+ROOMS = ["elementary", "geometry", "dynamics", "fracture", "simulation", "io", "analysis", "views", "app",
+         "python_module"]
 PLANTED = {
     "planted_a.cpp": "namespace polynya { struct Planted { int a; }; int use(Planted p) { return p.a; } }",
     "planted_b.cpp": "namespace polynya { struct Planted { double b; }; int use(Planted* p) { return p->b > 0; } }",

@@ -17,6 +17,7 @@ from check_layers import FLOORS, room_of  # noqa: E402
 
 PICTURE = ROOT / "docs/images/rooms.svg"
 MEANING = {
+    "elementary": "sine, exponential and the like, the same to the bit everywhere",
     "geometry": "shape and place, exact cuts",
     "dynamics": "mass, force, time",
     "fracture": "when and where ice fails",
@@ -24,6 +25,7 @@ MEANING = {
     "io": "scenes in, run folders out",
     "analysis": "what is measured in a run",
     "views": "map, player, exports",
+    "browser": "the simulator in a page",
     "app": "the command line",
     "python/module": "polynya._core",
 }
