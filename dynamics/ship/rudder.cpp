@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "elementary/elementary.hpp"
+
 #include "geometry/shape/point.hpp"
 
 namespace polynya::dynamics {

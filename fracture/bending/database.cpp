@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "elementary/elementary.hpp"
+
 #include "fracture/bending/wedge_solver.hpp"
 #include "geometry/shape/angle.hpp"
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "elementary/elementary.hpp"
+
 #include "fracture/characteristic_length.hpp"
 #include "geometry/shape/angle.hpp"
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "elementary/elementary.hpp"
+
 #include "fracture/bending/sinking_edge.hpp"
 #include "geometry/shape/angle.hpp"
 

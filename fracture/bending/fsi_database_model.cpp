@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "elementary/elementary.hpp"
+
 #include "fracture/bending/database.hpp"
 #include "fracture/bending/edge_deflection.hpp"
 #include "fracture/bending/sinking_edge.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "elementary/elementary.hpp"
+
 #include "geometry/exact/predicates.hpp"
 #include "geometry/shape/box_tree.hpp"
 #include "geometry/shape/segments.hpp"

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "elementary/elementary.hpp"
+
 #include "geometry/shape/angle.hpp"
 #include "geometry/shape/segments.hpp"
 

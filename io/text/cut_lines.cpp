@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "elementary/elementary.hpp"
+
 #include "geometry/exact/predicates.hpp"
 
 namespace polynya::io {

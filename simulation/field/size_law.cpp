@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "elementary/elementary.hpp"
+
 #include "simulation/field/convex.hpp"
 
 namespace polynya::simulation {

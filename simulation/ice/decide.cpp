@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "elementary/elementary.hpp"
+
 #include "dynamics/chunks.hpp"
 #include "fracture/splitting.hpp"
 #include "simulation/ice/crack.hpp"

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "elementary/elementary.hpp"
+
 #include "dynamics/chunks.hpp"
 #include "fracture/crushing.hpp"
 #include "geometry/exact/measures.hpp"

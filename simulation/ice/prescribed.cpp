@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "elementary/elementary.hpp"
+
 #include "simulation/ice/pieces.hpp"
 #include "simulation/world/step.hpp"
 

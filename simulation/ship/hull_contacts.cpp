@@ -2,6 +2,7 @@
 #include <iterator>
 
 #include "elementary/elementary.hpp"
+
 #include "geometry/cut/overlap.hpp"
 #include "simulation/world/step.hpp"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "elementary/elementary.hpp"
+
 #include "simulation/world/world.hpp"
 
 namespace polynya::simulation {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "elementary/elementary.hpp"
+
 #include "simulation/ship/pattern.hpp"
 #include "simulation/ship/pilot.hpp"
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "elementary/elementary.hpp"
+
 #include "dynamics/contact/contact.hpp"
 #include "fracture/splitting.hpp"
 #include "simulation/world/world.hpp"

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "elementary/elementary.hpp"
+
 #include "simulation/ship/pilot.hpp"
 
 namespace polynya::simulation {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "elementary/elementary.hpp"
+
 #include "simulation/ship/mooring.hpp"
 #include "simulation/world/step.hpp"
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "elementary/elementary.hpp"
+
 #include "geometry/exact/measures.hpp"
 #include "simulation/world/parts.hpp"
 
