@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what Polynya needs from Debian's packages, and nothing else. Asks nothing.
 # Usage: ./setup.sh [group...]   groups: build (default), module (Python's), test, python, bench, view, export, site,
-#                                slurm, package
+#                                slurm, package, browser (also configures build/browser: cmake --build --preset browser)
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -16,6 +16,10 @@ declare -A packages=(
   [package]="lintian mmdebstrap"
   [site]="python3-sphinx furo python3-myst-parser python3-sphinx-copybutton python3-numpy
            doxygen libjs-katex node-normalize.css"
+  [browser]="clang-16 lld-16 llvm-16 libc++-16-dev-wasm32 libc++abi-16-dev-wasm32 wasi-libc
+           libclang-rt-16-dev-wasm32 cmake ninja-build libcgal-dev libeigen3-dev libboost-dev nlohmann-json3-dev
+           libfmt-dev libexpected-dev python3"clang-16 lld-16 llvm-16 libc++-16-dev-wasm32 libc++abi-16-dev-wasm32 wasi-libc
+           libclang-rt-16-dev-wasm32 cmake ninja-build libcgal-dev libeigen3-dev libboost-dev nlohmann-json3-dev libfmt-dev libexpected-dev python3"
   [slurm]="slurmctld slurmd slurm-client munge"
   [export]="python3-vtk9 python3-pandas python3-shapely"
   [bench]="libbenchmark-dev libbox2d-dev libchipmunk-dev libgeos-dev libpolyclipping-dev"
@@ -36,7 +40,13 @@ for group in "${@:-build}"; do
     is_installed "$package" || missing+=("$package")
   done
 done
-[ ${#missing[@]} -gt 0 ] || exit 0
+# What the group browser is for is built by one command more.
+configure() {
+  case " ${*:-build} " in *" browser "*) ;; *) return 0 ;; esac
+  mkdir -p build
+  cmake --preset browser >build/configure-browser.log 2>&1 || { cat build/configure-browser.log >&2; return 1; }
+}
+[ ${#missing[@]} -gt 0 ] || { configure "$@"; exit; }
 
 command -v apt-get >/dev/null || {
   echo "setup.sh: this machine has no apt-get; please install by hand: ${missing[*]}" >&2; exit 1; }
@@ -54,3 +64,4 @@ run() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive "$@" >>"$log" 2>&1; }
 run apt-get update || true # an unreachable extra source must not stop us; the install below tells
 run apt-get install -y --no-install-recommends "${missing[@]}" || {
   tail -n 25 "$log" >&2; echo "setup.sh: the installation failed; its last lines are above" >&2; exit 1; }
+configure "$@"

@@ -10,6 +10,7 @@
 
 #include <malloc.h>
 
+#include "io/scene/scene_file.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "simulation/world/default_tick.hpp"
 #include "simulation/world/world.hpp"

@@ -66,6 +66,15 @@ PACKAGES = {
     r"pybind11/": ["python/module/"],
     r"tl/expected": [""],
 }
+# Headers of what a browser lacks -> the only folders, or files, that include them: files, programs, threads. Whatever
+# else needs a file is given its text, or a function that gives it (io/scene/floe_files.hpp).
+SYSTEM = {
+    r"(filesystem|fstream|(fcntl|unistd|dirent|spawn)\.h|sys/(stat|file|wait|resource)\.h)$":
+        ["io/text/source_text", "io/text/output_file", "io/text/child_process", "io/import/", "io/scene/scene_file",
+         "io/run/", "analysis/", "views/", "browser/platform/", "app/", "python/module/"],
+    r"(thread|mutex|condition_variable|future|shared_mutex)$": ["dynamics/", "fracture/bending/database.cpp",
+                                                                "browser/platform/", "app/", "python/module/"],
+}
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
 STANDARD = re.compile(
     r"[a-z_0-9]+$|(sys|bits|linux|sanitizer)/[a-z_]+\.h$|"
@@ -93,6 +102,9 @@ def problems_of_own(path, room, target):
 
 
 def problems_of_foreign(path, target):
+    for header, places in SYSTEM.items():
+        if re.match(header, target) and not any(path.startswith(place) for place in places):
+            yield f"<{target}> may be included only in {places}"
     if STANDARD.match(target):
         return
     for package, places in PACKAGES.items():

@@ -15,9 +15,11 @@
 #include "analysis/run_listing.hpp"
 #include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
+#include "app/read/live_page.hpp"
 #include "io/import/floe_properties.hpp"
 #include "io/import/gdal.hpp"
 #include "io/run/run_reader.hpp"
+#include "io/scene/scene_file.hpp"
 #include "io/text/floe_text.hpp"
 #include "io/text/output_file.hpp"
 #include "views/export/export.hpp"
@@ -295,6 +297,24 @@ int write_once(const std::string& file, const std::string& out, bool watch) {
   return kDone;
 }
 
+/// `polynya view SCENE.json --live`: the page that holds the simulator, with this scene in it. Floe files are read into
+/// it.
+int write_live_view(const std::string& file, const std::string& out) {
+  const std::string to = out.empty() ? fs::path(file).replace_extension(".html").string() : out;
+  const auto scene = io::read_scene_file(file);
+  print_lines(scene ? scene->hints : scene.error());
+  if (!scene) return kSceneInvalid;
+  const auto text = io::read_text_file(file, io::kLongestScene);
+  if (!text) return fail(kInputOutput, fmt::format("{}: {}", file, text.error()));
+  const auto page = live_page(scene->files.empty() ? *text : scene->resolved_text);
+  if (!page) return fail(kInputOutput, page.error());
+  if (const auto written = write_output(to, *page); !written) return fail(kInputOutput, written.error());
+  (is_stdout(to) ? write_err : write_out)(fmt::format("{}  {:.1f} MB, with the simulator; open it in a browser\n", to,
+                                                      static_cast<double>(page->size()) / 1e6));
+  flush_out();
+  return kDone;
+}
+
 /// `polynya view SCENE.json`: the page of a scene that has not run, beside it as SCENE.html if `out` is empty. With
 /// `watch` again each time that the scene's file changes, until a signal.
 int write_scene_view(const std::string& scene, const std::string& out, bool watch) {
@@ -321,6 +341,7 @@ constexpr auto kViewExamples =
     "  polynya view runs/wide --area 0,-200,900,200            only floes that come within 900 x 400 m\n"
     "  polynya view runs/6a runs/6b --out both.html            side by side, with one clock\n"
     "  polynya view scene.json --watch                         a scene before it runs; again when its file is saved\n"
+    "  polynya view scene.json --live                          a page that runs it, with the simulator in it\n"
     "\n"
     "Exit codes: 0 done, 2 usage (also: larger than --limit), 5 input/output.\n";
 
@@ -331,6 +352,7 @@ struct ViewOptions {
   views::PlayerSelection part;
   std::vector<double> area;     ///< x0, y0, x1, y1 [m]; of `part` once it is checked
   bool is_watched = false;      ///< a scene whose page is written again when its file changes
+  bool is_live = false;         ///< a scene in the page that holds the simulator
   double most_megabytes = 100;  ///< a larger page is refused [10⁶ bytes]
 };
 
@@ -409,8 +431,10 @@ std::string contents(const std::vector<ViewedRun>& viewed) {
 
 int write_view(ViewOptions options) {
   const fs::path first = options.runs[0];
-  if (options.runs.size() == 1 && first.extension() == ".json" && !fs::is_directory(first))
-    return write_scene_view(options.runs[0], options.out, options.is_watched);
+  const bool is_scene = options.runs.size() == 1 && first.extension() == ".json" && !fs::is_directory(first);
+  if (options.is_live && !is_scene) return fail(kUsage, "--live: takes a scene, SCENE.json");
+  if (options.is_live) return write_live_view(options.runs[0], options.out);
+  if (is_scene) return write_scene_view(options.runs[0], options.out, options.is_watched);
   if (options.is_watched) return fail(kUsage, "--watch: takes a scene, SCENE.json");
   if (const std::string problem = problem_of(options); !problem.empty()) return fail(kUsage, problem);
   if (const auto& a = options.area; !a.empty()) options.part.area = {{a[0], a[1]}, {a[2], a[3]}};
@@ -517,6 +541,8 @@ Command add_view(CommandLine& app) {
                  "The page; view.html in the run folder, or beside the scene, if not given");
   command.flag("--watch", options->is_watched,
                "Of a scene: write the page again whenever the file is saved, until Ctrl-C");
+  command.flag("--live", options->is_live, "Of a scene: a page that holds the simulator and runs the scene by itself",
+               {.excludes = {"--watch"}});
   command.option("--label", &options->labels, "NAME,NAME", "Names of two runs", {}, {.delimiter = ','});
   command.option("--every", &options->part.frames.every, "N", "Only each N-th frame, and the last", whole(1, 1000000));
   command.option("--from", &options->part.frames.from, "S", "Only from that time on [s]", finite());

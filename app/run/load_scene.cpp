@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/run/run_folder.hpp"
+#include "io/scene/scene_file.hpp"
 #include "simulation/world/memory_estimate.hpp"
 
 namespace polynya::app {

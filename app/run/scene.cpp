@@ -13,6 +13,7 @@
 #include "io/import/floe_import.hpp"
 #include "io/import/floe_properties.hpp"
 #include "io/scene/record.hpp"
+#include "io/scene/scene_file.hpp"
 #include "io/scene/scene_input.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/scene/ship_presets.hpp"

@@ -8,6 +8,7 @@
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_reader.hpp"
+#include "io/scene/scene_file.hpp"
 #include "io/text/json_writer.hpp"
 #include "simulation/world/memory_estimate.hpp"
 #include "simulation/world/world.hpp"

@@ -44,12 +44,12 @@ const sceneAnswers = (page, parts) => ({
     const [needed, limit] = [words.memory_bytes, words.limit_bytes].map(gigabytes);
     if (words.memory_at_start_bytes > words.limit_bytes) {
       page.isReading = false;
-      showMessage(`This scene needs ${gigabytes(words.memory_at_start_bytes)} of memory before its first step, and a page `
-        + `has ${limit}. Make it smaller, or run it with the native program.`);
+      showMessage(`This scene needs ${gigabytes(words.memory_at_start_bytes)} of memory before its first step, and `
+        + `a page has ${limit}. Make it smaller, or run it with the native program.`);
       showPhase(page, "refused");
     } else if (words.memory_bytes > words.limit_bytes)
-      page.warning = `With all ice moving this scene takes ${needed} of memory, and a page has ${limit}: the run may end `
-        + "before its time.";
+      page.warning = `With all ice moving this scene takes ${needed} of memory, and a page has ${limit}: `
+        + "the run may end before its time.";
     else page.warning = "";
   },
   started(message) {
@@ -67,8 +67,8 @@ const sceneAnswers = (page, parts) => ({
     if (problems) {
       showProblems(problems);
       const errors = problems.filter(({ severity }) => severity === "error").length;
-      showMessage(`The scene has ${counted(errors || problems.length, "problem")}; the list beside the map has each with `
-        + "its line.");
+      showMessage(`The scene has ${counted(errors || problems.length, "problem")}; the list beside the map has each `
+        + "with its line.");
     } else showMessage(message.words);
     showPhase(page, message.order === "load" ? "refused" : "ended");
   },
@@ -91,12 +91,13 @@ const runAnswers = (page, parts) => ({
     toast(`The run is at its end; its state's hash is ${words}.`);
   },
   failed({ words }) {
-    showMessage(`The run failed at ${page.run.time.toFixed(2)} s: ${words}. The scene can be changed and started again.`);
+    showMessage(`The run failed at ${page.run.time.toFixed(2)} s: ${words}. The scene can be changed and started `
+      + "again.");
     showPhase(page, "ended");
   },
   broken({ words, order }) {
-    showMessage(`The simulator broke down${order === "load" ? " while it read this scene" : ""} (${words}). It was started `
-      + "anew; change the scene, or choose another.");
+    showMessage(`The simulator broke down${order === "load" ? " while it read this scene" : ""} (${words}). It was `
+      + "started anew; change the scene, or choose another.");
     parts.worker.replace();
     page.isReading = false;
     showPhase(page, "refused");

@@ -74,7 +74,8 @@ function movedText(text, run, view, held, from, to) {
   const shifted = ([x, y]) => placeWords(view, [x + dx, y + dy]);
   if (held.kind === "turn") {
     const [x, y] = run.motions.ship(held.hull);
-    return withValue(text, [...held.path, "heading_deg"], rounded((Math.atan2(to[1] - y, to[0] - x) * 180) / Math.PI, 1));
+    const heading = (Math.atan2(to[1] - y, to[0] - x) * 180) / Math.PI;
+    return withValue(text, [...held.path, "heading_deg"], rounded(heading, 1));
   }
   if (held.kind === "waypoint") return withValue(text, held.path, placeWords(view, to));
   if (held.kind === "hull") {

@@ -64,7 +64,7 @@ const parentOf = (name) => name.slice(0, Math.max(0, name.lastIndexOf("/")));
 
 /** What the calls below share: open descriptors, and the module's memory. */
 function makeHost(files, memory, print) {
-  const open = new Map([[0, { name: "" }], [1, { print: true }], [2, { print: true }], [3, { name: "", isRoot: true }]]);
+  const open = new Map([[0, { name: "" }], [1, { print: true }], [2, { print: true }], [3, { name: "" }]]);
   const host = { files, entries: files.entries, open, next: 4,
     view: () => new DataView(memory().buffer),
     bytes: () => new Uint8Array(memory().buffer),

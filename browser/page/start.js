@@ -83,7 +83,8 @@ function watchPage(page, parts, actions) {
 }
 
 function watchLiveKeys(page, parts, actions) {
-  const keys = { " ": actions.run, ".": actions.step, r: actions.again, "+": actions["zoom-in"], "=": actions["zoom-in"],
+  const keys = { " ": actions.run, ".": actions.step, r: actions.again, "+": actions["zoom-in"],
+    "=": actions["zoom-in"],
     "-": actions["zoom-out"], f: actions.fit, Delete: actions.delete, Escape: () => setTool(page, null) };
   document.addEventListener("keydown", (event) => {
     const isText = event.target.closest("textarea, input[type=number], select");

@@ -11,6 +11,7 @@
 #include "io/run/records.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/summary.hpp"
+#include "io/scene/scene_file.hpp"
 
 namespace polynya::io {
 

@@ -301,7 +301,7 @@ class FloeFileReader {
         problems_(problems) {}
 
   /// None where anything is wrong with it: then there are problems, of the file or of the entry.
-  std::optional<FloeFile> read(const std::filesystem::path& file,
+  std::optional<FloeFile> read(const FloeFiles& files, const std::string& name,
                                const std::optional<simulation::GeographicOrigin>& origin) {
     const std::size_t before = problems_.count();
     if (origin && !import_.settings.plane.target.empty())
@@ -309,20 +309,22 @@ class FloeFileReader {
     if (origin && import_.settings.plane.is_shifted)
       report_entry("import.shift in a scene that has an origin",
                    "one of the two: floes lie about the scene's origin where they lie on the Earth");
-    auto read_text = text_of(file);
-    if (!read_text) {
-      report_entry("\"" + file.string() + "\": " + read_text.error(),
-                   fmt::format("a floe file of at most {} bytes", kLongestFloesFile));
+    auto file = text_of(files, name);
+    if (!file) {
+      const FloeFileFailure& failure = file.error();
+      report_entry(fmt::format("\"{}\": {}", failure.shown, failure.words),
+                   failure.is_name ? std::string("a floe file in the scene's folder or below")
+                                   : fmt::format("a floe file of at most {} bytes", kLongestFloesFile));
       return {};
     }
-    result_.source = problems_.add_source({file.string(), std::move(*read_text)});
+    result_.source = problems_.add_source({file->shown, std::move(file->text)});
     PropertyRules rules{
         .names = {}, .no_data = import_.no_data, .no_data_in_words = R"("nodata": [{}] in its "import")"};
     for (const std::string_view words : words_of(import_.properties))
       if (auto added = add_property_name(words, rules.names); !added)
         report_entry(added.error(), "KEY=NAME, as thickness_m=THICK or thickness_m=CM*0.01");
     auto read = read_floe_text(problems_.source(result_.source).text);
-    if (!read) report_entry(fmt::format("\"{}\":{}", file.string(), read.error()), "a floe file (docs/import.md)");
+    if (!read) report_entry(fmt::format("\"{}\":{}", file->shown, read.error()), "a floe file (docs/import.md)");
     if (problems_.count() > before) return {};
     text_ = *std::move(read);
     place_ = {is_foreign_ ? system_ : system_of(text_), text_.place};
@@ -340,16 +342,15 @@ class FloeFileReader {
   }
 
  private:
-  Result<std::string> text_of(const std::filesystem::path& file) {
+  tl::expected<FloeFileText, FloeFileFailure> text_of(const FloeFiles& files, const std::string& name) {
     Selection selection = import_.selection;
     selection.layer_in_words = R"("layer": NAME in its "import")";
-    auto foreign = read_foreign_file(file, selection, kLongestFloesFile);
-    if (!foreign) return read_text_file(file, kLongestFloesFile);
-    if (!*foreign) return fail(foreign->error());
+    auto file = files(name, selection);
+    if (!file || !file->is_foreign) return file;
     is_foreign_ = true;
-    system_ = (*foreign)->system;
-    notes_ = (*foreign)->notes;
-    return std::move((*foreign)->geojson);
+    system_ = std::move(file->system);
+    notes_ = std::move(file->notes);
+    return file;
   }
 
   /// Takes the features that the entry selects, where GDAL has not done so.
@@ -543,10 +544,7 @@ bool FloeListReader::has_room_for(std::size_t count, const std::string& path) {
 void FloeListReader::add_floes(const FileInput& input) {
   const std::string path = path_ + ".file";
   const std::uint32_t name = nearest_offset(*item_, "file");
-  const auto found = locate(input.name);
-  if (!found)
-    return report("file", show({input.name}) + ": " + found.error(), "a floe file in the scene's folder or below");
-  auto file = FloeFileReader(input.import, path, name, problems_).read(*found, draft_.scene.origin);
+  auto file = FloeFileReader(input.import, path, name, problems_).read(files_, input.name, draft_.scene.origin);
   if (!file || !has_room_for(file->floes.size(), path)) return;
   FileReport& came = file->report;
   came.place = place_in_words(came.plane);
@@ -609,20 +607,6 @@ FloeGroup FloeListReader::spelled_out(FileFloe& floe, bool is_of_run) const {
   if (!entry.source_floe) entry.source_floe = own.floe_id;
   entry.form = std::move(floe.polygon);
   return entry;
-}
-
-/// The path of a file named in the scene, if it stays in the scene's folder, links followed.
-Result<std::filesystem::path> FloeListReader::locate(const std::string& name) const {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  if (name.empty() || fs::path(name).is_absolute()) return fail("not a relative path");
-  const fs::path folder = fs::canonical(folder_.empty() ? "." : folder_, error);
-  if (error) return fail(error.message());
-  const fs::path target = fs::weakly_canonical(folder / name, error);
-  if (error) return fail(error.message());
-  const auto [end, unused] = std::ranges::mismatch(folder, target);
-  if (end != folder.end()) return fail("it leaves the scene's folder");
-  return folder_ / name;
 }
 
 /// The number of the ship under whose hull a floe is; −1, and a report, where there is none with a draught.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,10 +52,9 @@ class GroupIce {
 /// Makes the floes of the scene's list: lattices, fields, files and single floes.
 class FloeListReader {
  public:
-  /// All of these outlive it. `folder` is the scene's.
-  FloeListReader(const std::filesystem::path& folder, SceneDraft& draft, LoadedScene& loaded,
-                 ProblemCollector& problems)
-      : folder_(folder), draft_(draft), loaded_(loaded), problems_(problems) {}
+  /// All of these outlive it. `files` gives the floe files that the scene names.
+  FloeListReader(const FloeFiles& files, SceneDraft& draft, LoadedScene& loaded, ProblemCollector& problems)
+      : files_(files), draft_(draft), loaded_(loaded), problems_(problems) {}
 
   /// Adds the floes of one entry, whose JSON is `item`, to the draft, and how they came to it to the loaded scene.
   void add(std::size_t index, FloeGroup group, const JsonValue& item);
@@ -77,13 +75,12 @@ class FloeListReader {
   void check_fast_ice(bool is_fast);
   int ship_over(const std::string& name, const Origin& origin);
   bool has_room_for(std::size_t count, const std::string& path);
-  Result<std::filesystem::path> locate(const std::string& name) const;
   /// Reports what is wrong with a member of the entry at hand: "lattice.size_m".
   void report(std::string_view key, std::string found, std::string allowed) const {
     ReportAt{problems_, *item_, path_}(key, std::move(found), std::move(allowed));
   }
 
-  const std::filesystem::path& folder_;
+  const FloeFiles& files_;
   SceneDraft& draft_;
   LoadedScene& loaded_;
   ProblemCollector& problems_;

@@ -132,8 +132,8 @@ void assign(JsonValue& scene, const std::vector<Assignment>& assignments, Proble
 /// Reads a scene's text into a draft. One use.
 class SceneReader {
  public:
-  SceneReader(std::string text, const std::string& name, std::filesystem::path folder)
-      : folder_(std::move(folder)), problems_(SourceText{name, std::move(text)}) {}
+  SceneReader(std::string text, const std::string& name, FloeFiles files)
+      : files_(std::move(files)), problems_(SourceText{name, std::move(text)}) {}
 
   SceneOutcome read(const std::string& default_name, const SceneOverrides& overrides, std::size_t longest) {
     JsonDocument document;
@@ -396,13 +396,13 @@ class SceneReader {
     if (is_partial) add(Severity::kHint, thickness + "; the others have that of the scene");
   }
 
-  std::filesystem::path folder_;
+  FloeFiles files_;
   ProblemCollector problems_;
   SceneInput input_;
   JsonValue resolved_;
   SceneDraft draft_;
   LoadedScene loaded_;
-  FloeListReader floes_{folder_, draft_, loaded_, problems_};
+  FloeListReader floes_{files_, draft_, loaded_, problems_};
 };
 
 }  // namespace
@@ -451,23 +451,13 @@ std::string name_from(const std::string& file) {
   return name.empty() || !is_plain(name.front()) ? "scene" : name;
 }
 
-SceneOutcome read_scene(std::string text, const std::string& name, const std::filesystem::path& folder,
+SceneOutcome read_scene(std::string text, const std::string& name, const FloeFiles& files,
                         const SceneOverrides& overrides, std::size_t longest) {
-  return SceneReader(std::move(text), name, folder).read(name_from(name), overrides, longest);
+  return SceneReader(std::move(text), name, files).read(name_from(name), overrides, longest);
 }
 
 tl::expected<LoadedShip, std::vector<Problem>> read_ship(std::string text, const std::string& name, ShipUse use) {
-  return SceneReader(std::move(text), name, {}).read_ship(use);
-}
-
-SceneOutcome read_scene_file(const std::filesystem::path& path, const SceneOverrides& overrides) {
-  auto text = read_text_file(path, kLongestScene);
-  if (!text) {
-    return tl::unexpected(std::vector<Problem>{{.file = path.string(),
-                                                .found = text.error(),
-                                                .allowed = fmt::format("a scene of at most {} bytes", kLongestScene)}});
-  }
-  return read_scene(std::move(*text), path.string(), path.parent_path(), overrides);
+  return SceneReader(std::move(text), name, no_floe_files()).read_ship(use);
 }
 
 }  // namespace polynya::io

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +8,7 @@
 
 #include "fracture/scatter.hpp"
 #include "io/import/floe_import.hpp"
+#include "io/scene/floe_files.hpp"
 #include "io/scene/ship_estimates.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/problem.hpp"
@@ -106,12 +106,10 @@ struct SceneOverrides {
 
 using SceneOutcome = tl::expected<LoadedScene, std::vector<Problem>>;
 
-/// Reads a scene: JSON, comments allowed. All problems at once, each with its place (docs/scene.md).
-SceneOutcome read_scene_file(const std::filesystem::path& path, const SceneOverrides& overrides = {});
-
-/// The same for a text at hand. `name` stands in messages; floe files are searched for in `folder`. A scene
-/// whose resolved text is longer than `longest` [bytes] could not be read back, and is refused.
-SceneOutcome read_scene(std::string text, const std::string& name, const std::filesystem::path& folder,
+/// Reads a scene's text: JSON, comments allowed. All problems at once, each with its place (docs/scene.md). `name`
+/// stands in messages; `files` gives the floe files that the scene names. A scene whose resolved text is longer than
+/// `longest` [bytes] could not be read back, and is refused. Scenes of files are read by io/scene/scene_file.hpp.
+SceneOutcome read_scene(std::string text, const std::string& name, const FloeFiles& files,
                         const SceneOverrides& overrides = {}, std::size_t longest = kLongestScene);
 
 inline constexpr std::size_t kLongestShip = std::size_t{16} << 20;  ///< [bytes]

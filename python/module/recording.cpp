@@ -2,6 +2,8 @@
 
 #include "python/module/scene.hpp"
 
+#include "io/scene/scene_file.hpp"
+
 namespace polynya::python {
 namespace {
 

@@ -4,6 +4,8 @@
 
 #include <pybind11/stl/filesystem.h>
 
+#include "io/scene/scene_file.hpp"
+
 namespace polynya::python {
 namespace {
 

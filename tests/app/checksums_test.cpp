@@ -8,6 +8,8 @@
 #include "interrupted_run.hpp"
 #include <gtest/gtest.h>
 
+#include "io/scene/scene_file.hpp"
+
 namespace polynya::tests {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "io/scene/scene_file.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/scene/ship_presets.hpp"
 #include "simulation/simulation.hpp"

@@ -8,6 +8,7 @@
 #include "io/run/records.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/run/summary.hpp"
+#include "io/scene/scene_file.hpp"
 #include "simulation/world/world.hpp"
 
 namespace polynya::tests {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/exact/measures.hpp"
+#include "io/scene/scene_file.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/json_parser.hpp"
 

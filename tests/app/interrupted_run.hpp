@@ -10,6 +10,7 @@
 #include "io/run/checkpoint.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_writer.hpp"
+#include "io/scene/scene_file.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "simulation/simulation.hpp"
 

@@ -7,6 +7,7 @@
 #include "app/run/load_scene.hpp"
 #include "io/run/run_folder.hpp"
 #include "io/run/run_reader.hpp"
+#include "io/scene/scene_file.hpp"
 #include "io/text/json_parser.hpp"
 #include "simulation/world/memory_estimate.hpp"
 

@@ -24,7 +24,8 @@ const inPhase = (page, ...phases) =>
 
 /** Opens the page, in which nothing may go wrong. `link` is what follows its address. */
 async function openPage({ link = "", ...options } = {}) {
-  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, acceptDownloads: true, ...options });
+  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, acceptDownloads: true,
+    ...options });
   const page = await context.newPage();
   page.errors = [];
   page.requests = [];
@@ -87,7 +88,8 @@ test("it opens from disk without asking the network, and runs to the state of th
   await inPhase(page, "ended");
   const hash = await page.evaluate(() => window.polynyaPage.page.hash);
   fs.writeFileSync(path.join(folder, "small.json"), small);
-  execFileSync(process.env.POLYNYA_BINARY, ["run", path.join(folder, "small.json"), "--out", path.join(folder, "small")]);
+  const [file, run] = ["small.json", "small"].map((name) => path.join(folder, name));
+  execFileSync(process.env.POLYNYA_BINARY, ["run", file, "--out", run]);
   const states = fs.readFileSync(path.join(folder, "small/states.csv"), "utf8").trim().split("\n");
   assert.equal(states.at(-1).split(",")[2], hash);
   assert.ok(await page.evaluate(() => window.polynyaPage.page.plot.rows() > 5), "the plot has grown");

@@ -5,6 +5,7 @@
 #include "fracture/characteristic_length.hpp"
 #include "geometry/cut/cut.hpp"
 #include "io/run/run_loop.hpp"
+#include "io/scene/scene_file.hpp"
 
 namespace {
 

@@ -10,6 +10,7 @@
 
 #include "geometry/exact/validity.hpp"
 #include "io/run/run_reader.hpp"
+#include "io/scene/scene_file.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/cut.hpp"
 #include "io/text/floe_text.hpp"

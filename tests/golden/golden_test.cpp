@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "io/scene/scene_file.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/world/world.hpp"

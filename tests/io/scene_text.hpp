@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "io/scene/scene_file.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/cut/overlap.hpp"
+#include "io/scene/scene_file.hpp"
 #include "io/scene/scene_reader.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/world/world.hpp"

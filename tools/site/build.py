@@ -73,6 +73,10 @@ def write_sources(source, polynya, version):
     unlisted = sorted(page for page in texts if page[:-3] not in listed)
     if unlisted:
         sys.exit(f"tools/site/pages.py: in no part of the site: {', '.join(unlisted)}")
+    live = ROOT / "build/browser/polynya.html"  # the page that holds the simulator, where it is built
+    if live.exists():
+        title, rest = texts["browser.md"].split("\n", 1)
+        texts["browser.md"] = f'{title}\n\n<a href="_static/try.html"><b>Try it</b>: open the page</a>\n{rest}'
     for name, text in {**texts, "index.md": index}.items():
         write(source / name, pages.linked(name, text, texts, places))
     for name, text in made.items():
@@ -83,6 +87,9 @@ def write_sources(source, polynya, version):
             old.unlink()
     shutil.copytree(ROOT / "docs/images", source / "images", dirs_exist_ok=True)
     shutil.copytree(ROOT / "tools/site/static", source / "static", dirs_exist_ok=True)
+    if live.exists():
+        (source / "static").mkdir(parents=True, exist_ok=True)
+        shutil.copy(live, source / "static/try.html")
     shutil.copytree(KATEX, source / "static/katex", dirs_exist_ok=True,
                     ignore=shutil.ignore_patterns("contrib", "*.mjs"))
 

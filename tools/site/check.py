@@ -69,5 +69,6 @@ def problems_of_equations(folder, pages):
 def problems_of(folder):
     """What a reader of the site would miss, a line each."""
     folder = pathlib.Path(folder).resolve()
-    pages = {path: Page(path.read_text()) for path in sorted(folder.rglob("*.html"))}
+    own = folder / "_static/try.html"  # the page with the simulator: a program, not a page of the documentation
+    pages = {path: Page(path.read_text()) for path in sorted(folder.rglob("*.html")) if path != own}
     return sorted(set(problems_of_links(pages))) + problems_of_equations(folder, pages)

@@ -4,7 +4,7 @@ import re
 
 # Caption: pages in their order. Pages of docs/ that no part names are an error.
 PARTS = {
-    "Start": ["start", "tutorial", "gallery", "cite"],
+    "Start": ["browser", "start", "tutorial", "gallery", "cite"],
     "How to": ["view", "figures", "loads", "movie", "channel", "inspect", "why-it-split", "export", "ships",
                "management", "import", "cut", "database", "studies", "python", "environment",
                "couple"],
