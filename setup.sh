@@ -18,8 +18,7 @@ declare -A packages=(
            doxygen libjs-katex node-normalize.css"
   [browser]="clang-16 lld-16 llvm-16 libc++-16-dev-wasm32 libc++abi-16-dev-wasm32 wasi-libc
            libclang-rt-16-dev-wasm32 cmake ninja-build libcgal-dev libeigen3-dev libboost-dev nlohmann-json3-dev
-           libfmt-dev libexpected-dev python3"clang-16 lld-16 llvm-16 libc++-16-dev-wasm32 libc++abi-16-dev-wasm32 wasi-libc
-           libclang-rt-16-dev-wasm32 cmake ninja-build libcgal-dev libeigen3-dev libboost-dev nlohmann-json3-dev libfmt-dev libexpected-dev python3"
+           libfmt-dev libexpected-dev python3"
   [slurm]="slurmctld slurmd slurm-client munge"
   [export]="python3-vtk9 python3-pandas python3-shapely"
   [bench]="libbenchmark-dev libbox2d-dev libchipmunk-dev libgeos-dev libpolyclipping-dev"

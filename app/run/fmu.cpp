@@ -11,6 +11,7 @@
 #include "app/command_line/command_line.hpp"
 #include "app/command_line/console.hpp"
 #include "app/run/load_scene.hpp"
+#include "io/scene/scene_file.hpp"
 
 namespace polynya::app {
 namespace {

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "elementary/elementary.hpp"
+
 #include "simulation/world/world.hpp"
 
 namespace polynya::simulation {
 
 double ImageFrame::radius() const {
-  return 0.5 * cell * std::hypot(static_cast<double>(rows), static_cast<double>(columns));
+  return 0.5 * cell * elementary::hypot(static_cast<double>(rows), static_cast<double>(columns));
 }
 
 CoverImage::CoverImage(const ImageFrame& frame) : frame_(frame), steps_(frame.rows * (frame.columns + 1)) {}
@@ -87,7 +89,7 @@ void add_floes(const World& world, const geometry::Pose& world_from_ship, const 
     const auto body = static_cast<std::size_t>(population.body_of(id));
     if (!population.is_floating(id)) continue;
     const geometry::Vector away = bodies.position[body] - middle;
-    if (std::hypot(away.x, away.y) > frame.radius() + bodies.bounding_radius[body]) continue;
+    if (elementary::hypot(away.x, away.y) > frame.radius() + bodies.bounding_radius[body]) continue;
     geometry::Pose world_from_body = dynamics::water_from_body(bodies, population.body_of(id));
     world_from_body.position += drift;
     image.add(population.floes[static_cast<std::size_t>(id)].shape.polygon,

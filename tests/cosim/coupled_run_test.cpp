@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "io/scene/scene_file.hpp"
 #include "simulation/ship/cover_image.hpp"
 #include "simulation/world/world.hpp"
 

@@ -17,17 +17,6 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-// Returns value · 2^exponent.
-Rational scaled(const Rational& value, int exponent) {
-  Rational result;
-  if (exponent < 0) {
-    mpq_div_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
-  } else {
-    mpq_mul_2exp(result.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
-  }
-  return result;
-}
-
 double farthest(const Polygon& polygon) {
   double size = 0;
   const auto include = [&size](const Ring& ring) {
@@ -274,7 +263,7 @@ class Rounding {
       return true;
     }
     // A piece whose area is at most the area that rounding moves has no width that doubles can express.
-    if (exact_area.get_d() <= moved_area(piece.polygon, nearest)) {
+    if (nearest_double(exact_area) <= moved_area(piece.polygon, nearest)) {
       add_sliver(exact_area);
       return true;
     }

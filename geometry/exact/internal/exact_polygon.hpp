@@ -90,9 +90,6 @@ double nearest_area(const Polygon& polygon);
 
 namespace polynya::geometry::exact {
 
-/// Plain rationals without lazy expression trees, so there is no depth limit and no hidden evaluation.
-using Rational = mpq_class;
-
 /// A point with rational coordinates [m].
 struct Point {
   Rational x;
