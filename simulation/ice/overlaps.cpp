@@ -150,11 +150,12 @@ CrushedGrowth crushed_growth(double thickness, const HullSlope& hull, const Cont
   };
   const double from = crushed_area_at(before), to = crushed_area_at(after);
   if (!(to > from && after > before)) return {hull.crushed_share, thickness};
-  if (hull.tangent == 0) return {(to - from) / (after - before), thickness};
+  const double share = std::min(1.0, (to - from) / (after - before));
+  if (hull.tangent == 0) return {share, thickness};
   const fracture::Overlap overlap{c.width, c.depth, c.area};
   const double angle = elementary::atan(hull.tangent);
   const auto volume_of = [&](double area) { return fracture::crushed_volume(overlap, area, thickness, angle); };
-  return {std::min(1.0, (to - from) / (after - before)), (volume_of(to) - volume_of(from)) / (to - from)};
+  return {share, (volume_of(to) - volume_of(from)) / (to - from)};
 }
 
 /// Books by what the paid area of a contact has grown in the step: crushed as far as work has paid it and the ice edge
