@@ -74,8 +74,7 @@ def ramming(runs):
                      f"{mean_backing(study.run(case).force_columns):.0f}", f"{of('ram_gain_m', case):.0f}",
                      f"{of('ram_time_s', case) / 60:.1f}", f"{speed:.1f}", f"{way:.0f}"])
     return Table(["ship", "h [m]", "charges after the first", "backs [m]", "gain of a charge [m]",
-                  "minutes of a charge",
-                  "largest speed [m/s]", "½ m v²/R [m]"], rows, within=0.1)
+                  "minutes of a charge", "largest speed [m/s]", "½ m v²/R [m]"], rows, within=0.1)
 
 
 def turning(runs):
