@@ -187,6 +187,49 @@ TEST(Splitting, WhatPassesFloesOverIsNoLessThanTheirPushes) {
   EXPECT_GT(corners, 1000);
 }
 
+/// A floe of three to seven corners that drifts on two structures beside each other, piles or wedges.
+Scene on_two_structures(scenery::Random& random) {
+  const double size = random.between(8, 60);
+  Build scene = Build().without_drag().step(random.between(0.02, 0.1)).thickness(random.between(0.3, 1.5));
+  const int corners = 3 + random.below(5);
+  geometry::Polygon polygon;
+  for (int k = 0; k < corners; ++k) {
+    const auto turn = geometry::Rotation::by(2 * std::numbers::pi * (k + random.between(0, 0.4)) / corners);
+    polygon.outer.push_back(Point{0, 0} + size * Vector{turn.cosine, turn.sine});
+  }
+  scene.floe(polygon, {random.between(0.5, 3), 0}, random.between(-0.05, 0.05));
+  const double gap = random.between(0.05, 0.8) * size;
+  for (const double side : {-1.0, 1.0}) {
+    const Point at{1.02 * size + random.between(0, 0.3), side * gap + random.between(-0.1, 0.1) * size};
+    const double width = random.between(0.5, 3);
+    if (random.below(2) == 0)
+      scene.pile(at, width);
+    else
+      scene.structure({{0, 0}, {2 * width, -width}, {2 * width, width}}, at);
+  }
+  return scene;
+}
+
+/// A split runs at the force that it takes, within 5 %, also where several contacts press and some let go as others are
+/// stopped. Less than one of a hundred is not found.
+TEST(Splitting, OfAFloeOnTwoStructuresRunsAtTheForceThatItTakes) {
+  scenery::Random random(20170611);
+  std::int64_t splits = 0, unresolved = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const auto [simulation, story] = run(on_two_structures(random), 10);
+    for (const Event& event : story.splits()) {
+      const fracture::FailureCriteria& c = event.criteria();
+      if (c.section_stress > 0) continue;  // it breaks as a beam
+      EXPECT_GE(c.opening_force, c.opening_capacity * (1 - 1e-9));
+      EXPECT_LE(c.opening_force, c.opening_capacity * 1.051);
+    }
+    splits += std::ssize(story.splits());
+    unresolved += simulation.counts().unresolved_splits;
+  }
+  EXPECT_GT(splits, 500);
+  EXPECT_LT(unresolved, 0.01 * static_cast<double>(splits)) << splits << " splits";
+}
+
 // ---- cracks beside free edges, through holes and at the corners of sterns
 
 const double kCharacteristicLength = fracture::characteristic_length(fracture::Ice{}, fracture::Water{});  // [m]
