@@ -12,7 +12,7 @@ from python_environment import SCENE
 
 from polynya.environment import ShipsInIce
 
-BURSTS, STEPS = 8, 10
+BURSTS, STEPS = 40, 3
 
 
 def rate(count, **settings):

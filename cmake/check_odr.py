@@ -18,6 +18,8 @@ import sys
 
 ROOMS = ["elementary", "geometry", "dynamics", "fracture", "simulation", "io", "analysis", "views", "cosim", "app",
          "python_module"]
+# Defines again, for programs without threads, what dynamics/parallel.cpp and thread_limit.cpp define.
+OTHER_DEFINITIONS = "dynamics/no_threads.cpp"
 PLANTED = {
     "planted_a.cpp": "namespace polynya { struct Planted { int a; }; int use(Planted p) { return p.a; } }",
     "planted_b.cpp": "namespace polynya { struct Planted { double b; }; int use(Planted* p) { return p->b > 0; } }",
@@ -83,7 +85,7 @@ def entries(source, tree):
     for entry in json.loads((tree / "compile_commands.json").read_text()):
         file = pathlib.Path(entry["file"])
         name = file.relative_to(tree if file.is_relative_to(tree) else source)
-        if name.parts[0] in ROOMS:
+        if name.parts[0] in ROOMS and name.as_posix() != OTHER_DEFINITIONS:
             yield compiler(entry["command"]), file, entry["directory"], "-".join(name.parts)
 
 

@@ -23,7 +23,7 @@ using simulation::Ship;
 constexpr double kFastestMotion = 30;
 constexpr double kFastestTurn = 1;
 
-/// Prepares a ship for its control: who gives the motion leaves it no engine and no mooring of its own.
+/// Prepares a ship for its control. A ship whose motion is given loses its engine, steering, pilot and mooring.
 io::Result<> prepare(Control control, Ship& ship) {
   const bool has_engine = std::holds_alternative<Engine>(ship.propulsion);
   if (control == Control::kCommand && !has_engine)

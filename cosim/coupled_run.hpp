@@ -14,7 +14,7 @@
 
 namespace polynya::cosim {
 
-/// What the other side gives for a ship in a communication step. Which members act depends on the ship's Control.
+/// Inputs of a ship for a communication step. The ship's Control decides which members act.
 struct ShipInput {
   double lever = 0;           ///< thrust lever to go to [-]
   double steering_angle = 0;  ///< angle of rudder or thrusters to go to, to port [rad]

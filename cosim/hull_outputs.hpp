@@ -7,7 +7,7 @@
 
 namespace polynya::cosim {
 
-/// What another simulator is told about a ship or structure after a communication step.
+/// Outputs of a ship or structure after a communication step.
 struct HullOutputs {
   simulation::HullSample sample;  ///< motion at the end of the step, and mean loads over it
   double largest_contact = 0;     ///< largest force of one contact with ice in the step, of whole ticks [N]

@@ -123,7 +123,7 @@ std::string units_xml(const Interface& interface) {
   return xml + "  </UnitDefinitions>\n";
 }
 
-/// Outputs, and what is computed when initialization begins, by their numbers from 1 on.
+/// Lists the outputs, and the variables that are computed during initialization, by their numbers from 1 on.
 std::string structure_xml(const Interface& interface) {
   std::string outputs, unknowns;
   for (std::size_t i = 0; i < interface.variables.size(); ++i) {

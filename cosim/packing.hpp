@@ -8,12 +8,12 @@
 
 namespace polynya::cosim {
 
-/// Folder in the archive with the scene, the only file there. The unit's library finds the file by its suffix; its name
-/// is that of the scene.
+/// Folder of the archive that contains the scene as its only file. The file has the scene's name; the unit's library
+/// finds it by its suffix.
 inline constexpr const char* kResources = "resources/";
 
-/// Returns the bytes of a Functional Mock-up Unit (.fmu). `text` is the scene as the unit will read it, `scene` what it
-/// becomes, `libraries` the unit's shared library and those that it needs beside it.
+/// Returns the bytes of a Functional Mock-up Unit (.fmu). `text` is the scene as the unit will read it, and
+/// `scene` is the result of reading it. `libraries` are the unit's shared library and the libraries that it needs.
 io::Result<std::string> pack_unit(const std::string& text, const io::LoadedScene& scene,
                                   const std::vector<std::filesystem::path>& libraries);
 

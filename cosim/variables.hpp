@@ -9,7 +9,7 @@
 
 namespace polynya::cosim {
 
-/// Who moves a ship. The numbers are those of the unit's enumeration.
+/// Side that moves a ship. The unit's enumeration has the same numbers.
 enum class Control {
   kScene = 1,    ///< the scene: its propulsion and its pilot
   kCommand = 2,  ///< the other side, by thrust lever and steering angle; for a ship with an engine
@@ -31,7 +31,7 @@ struct Variable {
   double most = std::numeric_limits<double>::infinity();
 };
 
-/// Where the variables of a ship that the other side sets are in the list.
+/// Places in the list of the inputs of a ship.
 struct ShipInputs {
   std::size_t control = 0;  ///< a Control
   std::size_t command = 0;  ///< lever, steering angle
@@ -46,7 +46,7 @@ struct Interface {
   std::size_t first_parameter = 0;             ///< of `parameters`, which follow one another
   std::vector<io::SceneParameter> parameters;  ///< in the order of their variables
   std::vector<ShipInputs> ships;               ///< a member a ship
-  std::size_t first_output = 0;                ///< of the hulls, each with those of hull_outputs() that apply
+  std::size_t first_output = 0;                ///< place of the first output of the first hull
   std::size_t first_count = 0;                 ///< floes, bends, splits
 };
 

@@ -41,8 +41,8 @@ int add_needed(dl_phdr_info* info, std::size_t, void* list) {
   return 0;
 }
 
-/// The unit's library, which stands beside the program's folder in the build tree and below lib/polynya once installed,
-/// and the libraries that this program runs with and the unit needs too.
+/// Returns the unit's library and the shared libraries of GMP and MPFR with which this program runs. The unit's library
+/// is beside the program's folder in the build tree, and below lib/polynya once installed.
 io::Result<std::vector<fs::path>> unit_libraries() {
   std::error_code error;
   const fs::path above = fs::read_symlink("/proc/self/exe", error).parent_path().parent_path();

@@ -10,7 +10,8 @@
 namespace polynya::cosim {
 
 /// Calls `work` with an instance, as a function of the standard does: the call must be allowed in the instance's mode,
-/// and no exception leaves it. `name` is that of the function. fmi2Error if there is no instance.
+/// and no exception leaves it. `name` is the name of the function. Returns fmi2Error if there
+/// is no instance.
 template <class Work>
 fmi2Status call(fmi2Component component, const char* name, std::initializer_list<Mode> allowed, Work work) {
   auto* const instance = static_cast<Component*>(component);

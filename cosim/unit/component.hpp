@@ -14,7 +14,7 @@
 
 namespace polynya::cosim {
 
-/// Where an instance is in the order of calls that the standard has.
+/// State of an instance in the order of calls of the standard.
 enum class Mode : std::uint8_t { kInstantiated, kInitialization, kStepping, kTerminated, kError, kFatal };
 
 /// One instance of the unit. The functions of the standard (functions.cpp) check the order of calls and then call
@@ -24,14 +24,14 @@ class Component {
   /// Reads the scene of a folder of resources. The error is why there is no instance.
   static io::Result<std::unique_ptr<Component>> make(const std::string& resources, std::string_view guid);
 
-  // What the other side is told.
+  // Messages to the other side.
 
   std::string name;
   fmi2CallbackFunctions callbacks{};
   bool is_logging = false;
   std::set<std::string, std::less<>> categories;  ///< that are logged; empty: all
 
-  /// Tells the other side something. Errors are told always, other categories where they are asked for.
+  /// Sends a message to the other side's logger. Errors are always sent, other categories only if they are asked for.
   void log(fmi2Status status, const char* category, const std::string& message) const;
   /// Logs a call that was refused and changed nothing, and returns fmi2Discard.
   fmi2Status discard(const std::string& message) const;
@@ -52,7 +52,7 @@ class Component {
   // Values.
 
   const std::vector<Variable>& variables() const { return interface_.variables; }
-  /// Builds the run where parameters have changed since. The error is what is wrong with them.
+  /// Builds the run, if parameters have changed since it was built. The error states the problems of the parameters.
   io::Result<> make_ready();
   double value(std::size_t reference) const { return values_[reference]; }
   void set(std::size_t reference, double value);

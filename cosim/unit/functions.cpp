@@ -170,7 +170,7 @@ POLYNYA_EXPORT fmi2Status fmi2GetBooleanStatus(fmi2Component component, fmi2Stat
   return call(component, "fmi2GetBooleanStatus", {Mode::kStepping, Mode::kTerminated}, [&](Component& c) {
     if (value == nullptr) return c.error("fmi2GetBooleanStatus: value is null");
     if (kind != fmi2Terminated) return c.discard("fmi2GetBooleanStatus: there is only fmi2Terminated");
-    *value = fmi2False;  // a run has no end of its own
+    *value = fmi2False;  // a run never ends by itself
     return fmi2OK;
   });
 }

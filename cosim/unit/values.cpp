@@ -15,7 +15,7 @@ using polynya::cosim::VariableType;
 
 namespace {
 
-/// Whether the standard's type of a function's values is that of a variable. Enumerations are read as integers.
+/// Returns true if a variable has the type of a function's values. Enumerations are read as integers.
 bool is_of(VariableType type, fmi2Real) {
   return type == VariableType::kReal;
 }
@@ -50,7 +50,7 @@ void store(double number, Truth& value) {
   value.value = number != 0 ? fmi2True : fmi2False;
 }
 
-/// What is wrong with the references of a call for values of type Value; empty if nothing is.
+/// Returns the problem of the references of a call for values of type Value; empty if there is none.
 template <class Value>
 std::string problem_of(const Component& c, const fmi2ValueReference references[], size_t count) {
   for (size_t i = 0; i < count; ++i) {

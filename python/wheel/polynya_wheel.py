@@ -85,6 +85,7 @@ def files_of_wheel(tree):
     sources = [file for file in sorted(package.rglob("*")) if file.is_file() and "__pycache__" not in file.parts]
     files = [(f"{NAME}/{file.relative_to(package)}", file) for file in sources]
     files += [(f"{NAME}/{module.name}", module), (f"{NAME}/bin/polynya", tree / "app" / "polynya"),
+              (f"{NAME}/cosim_unit/polynya.so", tree / "cosim_unit" / "polynya.so"),
               (f"{NAME}/_written_version.py", tree / "python_core" / "_written_version.py")]
     share = f"{NAME}-{version()}.data/data/share"
     files += [(f"{share}/man/man1/polynya.1", tree / "app" / "polynya.1"),

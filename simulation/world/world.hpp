@@ -182,7 +182,7 @@ struct World {
   StepData data;
   Accounts accounts;
   Journal journal;
-  std::vector<ExternalPilot> pilots;   ///< per ship: pilots from outside, if any
+  std::vector<ExternalPilot> pilots;  ///< per ship: pilots from outside, if any
   /// Per ship: force and moment from outside, in the ship's frame [N, N m]. Empty if there are none. Not part of the
   /// saved state: whoever gives them also remembers them.
   std::vector<dynamics::Planar> external_forces;
