@@ -17,7 +17,8 @@ declare -A packages=(
   [site]="python3-sphinx furo python3-myst-parser python3-sphinx-copybutton python3-numpy
            doxygen libjs-katex node-normalize.css"
   [browser]="clang-16 lld-16 llvm-16 libc++-16-dev-wasm32 libc++abi-16-dev-wasm32 wasi-libc
-           libclang-rt-16-dev-wasm32 cmake ninja-build libcgal-dev libeigen3-dev libboost-dev nlohmann-json3-dev libfmt-dev libexpected-dev python3"
+           libclang-rt-16-dev-wasm32 cmake ninja-build libcgal-dev libeigen3-dev libboost-dev nlohmann-json3-dev
+           libfmt-dev libexpected-dev python3"
   [slurm]="slurmctld slurmd slurm-client munge"
   [export]="python3-vtk9 python3-pandas python3-shapely"
   [bench]="libbenchmark-dev libbox2d-dev libchipmunk-dev libgeos-dev libpolyclipping-dev"

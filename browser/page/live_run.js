@@ -19,10 +19,9 @@ function makeGrowing(Type) {
 
 /** The floes of a growing run, as draw_ice.js reads them: columns by floe. */
 function makeLiveFloes() {
-  const columns = { parent: makeGrowing(Int32Array), generation: makeGrowing(Int32Array),
-    area: makeGrowing(Float64Array), cx: makeGrowing(Float64Array), cy: makeGrowing(Float64Array), reach: makeGrowing(Float64Array),
-    ringsOf: makeGrowing(Int32Array), ringEnds: makeGrowing(Int32Array), pointsOf: makeGrowing(Int32Array),
-    points: makeGrowing(Float64Array), oldest: makeGrowing(Int32Array) };
+  const [whole, real] = [() => makeGrowing(Int32Array), () => makeGrowing(Float64Array)];
+  const columns = { parent: whole(), generation: whole(), area: real(), cx: real(), cy: real(), reach: real(),
+    ringsOf: whole(), ringEnds: whole(), pointsOf: whole(), points: real(), oldest: whole() };
   columns.ringsOf.append([0]);
   columns.pointsOf.append([0]);
   const floes = { count: 0,

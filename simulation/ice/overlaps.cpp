@@ -2,8 +2,8 @@
 #include <span>
 #include <utility>
 
-#include "elementary/elementary.hpp"
 #include "dynamics/chunks.hpp"
+#include "elementary/elementary.hpp"
 #include "fracture/crushing.hpp"
 #include "geometry/exact/measures.hpp"
 #include "simulation/ice/pieces.hpp"
