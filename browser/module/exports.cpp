@@ -4,7 +4,6 @@
 #include <string>
 
 #include "browser/module/session.hpp"
-
 #include "io/run/summary.hpp"
 #include "io/scene/scene_input.hpp"
 

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "browser/module/snapshot.hpp"
-
 #include "io/run/run_loop.hpp"
 #include "io/scene/scene_reader.hpp"
 

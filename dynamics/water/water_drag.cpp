@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <numbers>
 
-#include "elementary/elementary.hpp"
 #include <boost/container/small_vector.hpp>
 
 #include "dynamics/chunks.hpp"
+#include "elementary/elementary.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/avx2_clone.hpp"
 

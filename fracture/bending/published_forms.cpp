@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "elementary/elementary.hpp"
 #include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
 
+#include "elementary/elementary.hpp"
 #include "fracture/characteristic_length.hpp"
 
 namespace polynya::fracture {

@@ -6,9 +6,9 @@
 #include <numbers>
 #include <span>
 
-#include "elementary/elementary.hpp"
 #include <fmt/format.h>
 
+#include "elementary/elementary.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/shape/angle.hpp"
 #include "io/import/gdal.hpp"

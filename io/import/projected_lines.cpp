@@ -8,9 +8,9 @@
 #include <tuple>
 #include <utility>
 
-#include "elementary/elementary.hpp"
 #include <fmt/format.h>
 
+#include "elementary/elementary.hpp"
 #include "geometry/shape/angle.hpp"
 #include "io/import/degrees.hpp"
 #include "io/import/gdal.hpp"

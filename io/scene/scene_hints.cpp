@@ -3,9 +3,9 @@
 #include <limits>
 #include <numbers>
 
-#include "elementary/elementary.hpp"
 #include <fmt/format.h>
 
+#include "elementary/elementary.hpp"
 #include "geometry/cut/overlap.hpp"
 #include "io/scene/gone_keys.hpp"
 #include "io/scene/scene_check.hpp"

@@ -4,10 +4,10 @@
 #include <numbers>
 #include <tuple>
 
-#include "elementary/elementary.hpp"
 #include <fmt/format.h>
 
 #include "dynamics/ship/open_water.hpp"
+#include "elementary/elementary.hpp"
 #include "geometry/shape/angle.hpp"
 #include "geometry/shape/pose.hpp"
 #include "io/scene/floe_list_reader.hpp"

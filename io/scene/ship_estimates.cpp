@@ -5,11 +5,11 @@
 #include <optional>
 #include <string_view>
 
-#include "elementary/elementary.hpp"
 #include <fmt/format.h>
 
 #include "dynamics/ship/open_water.hpp"
 #include "dynamics/ship/propulsion.hpp"
+#include "elementary/elementary.hpp"
 #include "geometry/shape/angle.hpp"
 
 namespace polynya::io {

@@ -1,9 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "elementary/elementary.hpp"
-
 #include "dynamics/chunks.hpp"
+#include "elementary/elementary.hpp"
 #include "fracture/splitting.hpp"
 #include "simulation/ice/crack.hpp"
 #include "simulation/ice/prescribed.hpp"

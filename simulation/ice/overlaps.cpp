@@ -2,10 +2,9 @@
 #include <span>
 #include <utility>
 
-#include "elementary/elementary.hpp"
-
 #include "dynamics/chunks.hpp"
 #include "dynamics/contact/paid_overlap.hpp"
+#include "elementary/elementary.hpp"
 #include "fracture/crushing.hpp"
 #include "geometry/exact/measures.hpp"
 #include "simulation/ice/pieces.hpp"

@@ -4,9 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "elementary/elementary.hpp"
-
 #include "dynamics/contact/contact.hpp"
+#include "elementary/elementary.hpp"
 #include "fracture/splitting.hpp"
 #include "simulation/world/world.hpp"
 

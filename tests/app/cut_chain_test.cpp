@@ -45,8 +45,10 @@ io::CutOp roll_op(std::mt19937& random, const Polygon& polygon) {
   return line ? io::CutOp{*line} : io::CutOp{io::CrackTool{polygon.outer.front(), 60}};
 }
 
-double half_step(double value) {
-  return (std::nextafter(std::abs(value), std::numeric_limits<double>::infinity()) - std::abs(value)) / 2;
+/// The distance to the next larger double. Half of it is the largest error of rounding to nearest; for the least
+/// doubles that half is none itself.
+double step_at(double value) {
+  return std::nextafter(std::abs(value), std::numeric_limits<double>::infinity()) - std::abs(value);
 }
 
 /// Nothing refused; every piece valid, and its area the nearest double; and areas that sum to
@@ -64,7 +66,7 @@ void expect_sound(const io::CutFloe& floe, const Polygon& parent) {
   const Polygon* const before[]{&parent};
   const double terms[]{floe.area_slivers, -floe.rounding_defect};
   const double off = exact_balance(pieces, before, terms);
-  EXPECT_LE(std::abs(off), half_step(floe.area_slivers) + half_step(floe.rounding_defect));
+  EXPECT_LE(2 * std::abs(off), step_at(floe.area_slivers) + step_at(floe.rounding_defect));
 }
 
 /// A text of floes, cut again and again; what comes out of a cut goes back in as it was written.

@@ -234,7 +234,7 @@ double moved_area(const Ring& ring, const geometry::Ring& rounded_ring) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Rational dx = ring[i].x - Rational(rounded_ring[i].x);
     const Rational dy = ring[i].y - Rational(rounded_ring[i].y);
-    moved.push_back(std::abs(nearest_double(dx)) + std::abs(nearest_double(dy)));
+    moved.push_back(std::abs(truncated_double(dx)) + std::abs(truncated_double(dy)));
   }
   double sum = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -263,7 +263,7 @@ class Rounding {
       return true;
     }
     // A piece whose area is at most the area that rounding moves has no width that doubles can express.
-    if (nearest_double(exact_area) <= moved_area(piece.polygon, nearest)) {
+    if (truncated_double(exact_area) <= moved_area(piece.polygon, nearest)) {
       add_sliver(exact_area);
       return true;
     }

@@ -40,7 +40,7 @@ Rational shoelace_sum(const Ring& ring, std::size_t first, std::size_t last) {
 }  // namespace
 
 double nearest_double(const Rational& value) {
-  const double truncated = nearby_double(value);
+  const double truncated = truncated_double(value);
   if (!std::isfinite(truncated)) return truncated;
   const Rational remainder = value - Rational(truncated);
   const int side = sign(remainder);

@@ -20,8 +20,8 @@ inline int sign(const Rational& value) {
 inline Rational magnitude(const Rational& value) {
   return abs(value);
 }
-/// A double next to the value: one of the two that enclose it.
-inline double nearby_double(const Rational& value) {
+/// The value rounded towards 0 to a double.
+inline double truncated_double(const Rational& value) {
   return value.get_d();
 }
 /// value · 2^exponent.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -21,9 +23,17 @@ inline int sign(const Rational& value) {
 inline Rational magnitude(const Rational& value) {
   return value.sign() < 0 ? Rational(-value) : value;
 }
-/// A double next to the value: one of the two that enclose it.
-inline double nearby_double(const Rational& value) {
-  return value.convert_to<double>();
+/// The value rounded towards 0 to a double. Boost's own conversion is near it.
+inline double truncated_double(const Rational& value) {
+  const double far =
+      value.sign() < 0 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+  double rounded = value.convert_to<double>();
+  const Rational size = magnitude(value);
+  while (std::isfinite(rounded) && Rational(std::abs(rounded)) > size) rounded = std::nextafter(rounded, 0.0);
+  for (double next = std::nextafter(rounded, far); std::isfinite(next) && Rational(std::abs(next)) <= size;
+       next = std::nextafter(rounded, far))
+    rounded = next;
+  return rounded;
 }
 /// value · 2^exponent.
 inline Rational scaled(const Rational& value, int exponent) {
