@@ -149,7 +149,8 @@ CrushedGrowth crushed_growth(double thickness, const HullSlope& hull, const Cont
   };
   const double from = crushed_area_at(before), to = crushed_area_at(after);
   if (!(to > from && after > before)) return {hull.crushed_share, thickness};
-  const double share = std::min(1.0, (to - from) / (after - before));
+  const bool edge_stands = hull.crushed_share == 1 && hull.penetration_share == 1;
+  const double share = edge_stands ? 1 : std::min(1.0, (to - from) / (after - before));
   if (hull.tangent == 0) return {share, thickness};
   const fracture::Overlap overlap{c.width, c.depth, c.area};
   const double angle = elementary::atan(hull.tangent);
