@@ -71,7 +71,8 @@ PACKAGES = {
 SYSTEM = {
     r"(filesystem|fstream|(fcntl|unistd|dirent|spawn)\.h|sys/(stat|file|wait|resource)\.h)$":
         ["io/text/source_text", "io/text/output_file", "io/text/child_process", "io/import/", "io/scene/scene_file",
-         "io/run/", "analysis/", "views/", "cosim/packing", "cosim/unit/component", "browser/platform/", "app/", "python/module/"],
+         "io/run/", "analysis/", "views/", "cosim/packing", "cosim/unit/component", "browser/platform/",
+         "app/", "python/module/"],
     r"(thread|mutex|condition_variable|future|shared_mutex)$": ["dynamics/", "fracture/bending/database.cpp",
                                                                 "browser/platform/", "app/", "python/module/"],
 }
