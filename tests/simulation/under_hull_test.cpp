@@ -315,6 +315,18 @@ TEST(Tilted, CrushedIceIsWhatTheWorkCrushes) {
   }
 }
 
+/// An edge that is too strong to break bends away from the hull: of the overlap less is crushed, and exactly what the
+/// work crushes.
+TEST(Tilted, OfAnEdgeThatBendsTheIceIsCrushedThatTheHullHasPenetrated) {
+  Build scene = Build().without_drag().without_splits().step(0.005).pile({0, 0}, 10, 45 * kDegree);
+  scene.ice.flexural_strength = 1e9;
+  const Simulation simulation = run(scene.floe(rectangle(10.001, -100, 210, 100), {-1, 0}), 0.8).simulation;
+  const CrushedOverlap overlap = overlap_with(simulation, 0);
+  EXPECT_EQ(simulation.counts().bends, 0);
+  EXPECT_GT(overlap.tilted, 0.1 * overlap.area);
+  EXPECT_NEAR(overlap.work / (simulation.scene().ice.compressive_strength * overlap.volume), 1, 0.01);
+}
+
 TEST(Tilted, NoFloeFloatsOfWhichAHullCoversMost) {
   for (const double stem_angle : {16 * kDegree, 24.5 * kDegree, 43 * kDegree}) {
     const auto [simulation, story] = run(floes_before_the_stem(stem_angle), 10, [](const Simulation& s) {
