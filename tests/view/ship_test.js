@@ -20,8 +20,11 @@ before(async () => {
 
 const act = (...words) => page.act(...words);
 const state = () => page.player(({ state: { ship: chosen, ruler } }) => ({ chosen, ruler }));
-const facts = () => page.locator("#ship-card dd").evaluateAll((all) => Object.fromEntries(all.map((dd) =>
-  [dd.dataset.fact, { words: dd.textContent, value: dd.dataset.value }])));
+const facts = async () => {
+  await page.drawn(); // a click is answered at once, its card is drawn with the next frame
+  return page.locator("#ship-card dd").evaluateAll((all) => Object.fromEntries(all.map((dd) =>
+    [dd.dataset.fact, { words: dd.textContent, value: dd.dataset.value }])));
+};
 /** Where a point of a ship's frame is in the window. */
 const placeOn = async (index, x, y) => {
   const box = await page.locator("#stage").boundingBox();
