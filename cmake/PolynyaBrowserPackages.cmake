@@ -23,7 +23,7 @@ add_compile_definitions(_WASI_EMULATED_SIGNAL _WASI_EMULATED_MMAN _WASI_EMULATED
   CGAL_ALWAYS_ROUND_TO_NEAREST
   FE_UPWARD=0x800 FE_DOWNWARD=0x400 FE_TOWARDZERO=0xc00 CGAL_HAS_NO_THREADS CGAL_USE_BOOST_MP=1 CGAL_DISABLE_GMP=1
   BOOST_HAS_PRAGMA_ONCE BOOST_AC_DISABLE_THREADS)
-foreach(package CGAL::CGAL Eigen3::Eigen tl::expected fmt::fmt Threads::Threads TBB::tbb nlohmann_json::nlohmann_json
+foreach(package CGAL::CGAL Eigen3::Eigen tl::expected fmt::fmt Threads::Threads nlohmann_json::nlohmann_json
     gmpxx gmp)
   add_library(${package} INTERFACE IMPORTED GLOBAL)
 endforeach()
