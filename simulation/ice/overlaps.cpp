@@ -142,14 +142,16 @@ struct CrushedGrowth {
 /// the edge, and as narrow as the overlap is at that depth.
 CrushedGrowth crushed_growth(double thickness, const HullSlope& hull, const Contact& c) {
   const double after = c.record->paid_area, before = after - c.paid_by_work - c.paid_by_giving_way;
+  if (!(after > before)) return {hull.crushed_share, thickness};
+  const bool edge_stands = hull.crushed_share == 1 && hull.penetration_share == 1;
+  if (edge_stands && hull.tangent == 0) return {1, thickness};  // most contacts: no power is needed
   const double deepest = std::max(c.depth, c.paid_depth);
   const auto crushed_area_at = [&](double area) {
     const double further = dynamics::depth_at(c, area) - deepest;
     return dynamics::area_at(c, std::max(0.0, hull.penetration_share * deepest + hull.crushed_share * further));
   };
   const double from = crushed_area_at(before), to = crushed_area_at(after);
-  if (!(to > from && after > before)) return {hull.crushed_share, thickness};
-  const bool edge_stands = hull.crushed_share == 1 && hull.penetration_share == 1;
+  if (!(to > from)) return {hull.crushed_share, thickness};
   const double share = edge_stands ? 1 : std::min(1.0, (to - from) / (after - before));
   if (hull.tangent == 0) return {share, thickness};
   const fracture::Overlap overlap{c.width, c.depth, c.area};
