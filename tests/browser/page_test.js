@@ -7,7 +7,7 @@ const { execFileSync } = require("node:child_process");
 const fs = require("node:fs");
 const os = require("node:os");
 const path = require("node:path");
-const { startBrowser } = require("../view/browser.js");
+const { newPage, startBrowser } = require("../view/browser.js");
 
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-page-"));
 const source = path.resolve(__dirname, "../..");
@@ -24,14 +24,7 @@ const inPhase = (page, ...phases) =>
 
 /** Opens the page, in which nothing may go wrong. `link` is what follows its address. */
 async function openPage({ link = "", ...options } = {}) {
-  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, acceptDownloads: true,
-    ...options });
-  const page = await context.newPage();
-  page.errors = [];
-  page.requests = [];
-  page.on("pageerror", (error) => page.errors.push(error.stack));
-  page.on("console", (message) => { if (message.type() === "error") page.errors.push(message.text()); });
-  page.on("request", (request) => page.requests.push(request.url()));
+  const page = await newPage(browser, { viewport: { width: 1440, height: 900 }, acceptDownloads: true, ...options });
   await page.goto(`file://${process.env.PAGE}${link}`);
   await inPhase(page, "ready", "refused");
   return page;

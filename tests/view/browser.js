@@ -9,15 +9,20 @@ const flags = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-ru
 exports.startBrowser = () =>
   chromium.launch({ executablePath: process.env.CHROMIUM || "/usr/bin/chromium", headless: true, args: flags });
 
-/** Opens a page written by `polynya view`; errors and requests of the page are collected. */
-exports.openPage = async (browser, file, options = {}) => {
-  const context = await browser.newContext({ viewport: { width: 1360, height: 820 }, ...options });
-  const page = await context.newPage();
+/** An empty page in a context of its own; its errors and requests are collected. */
+exports.newPage = async (browser, options) => {
+  const page = await (await browser.newContext(options)).newPage();
   page.errors = [];
   page.requests = [];
   page.on("pageerror", (error) => page.errors.push(error.stack));
   page.on("console", (message) => { if (message.type() === "error") page.errors.push(message.text()); });
   page.on("request", (request) => page.requests.push(request.url()));
+  return page;
+};
+
+/** Opens a page written by `polynya view`. */
+exports.openPage = async (browser, file, options = {}) => {
+  const page = await exports.newPage(browser, { viewport: { width: 1360, height: 820 }, ...options });
   const start = Date.now();
   await page.goto(`file://${file}`);
   await page.waitForFunction(() => window.polynyaPlayer?.drawn > 0 || window.polynyaPair?.players.every(({ drawn }) =>
