@@ -65,6 +65,31 @@ TEST(Prescribed, ACylinderAndAFlatFaceCrushTheChannelsThatTheyLeave) {
   }
 }
 
+/// A pile with a corner ahead is carved out of the ice again and again. Until the next carving the overlap is a band
+/// along its two flanks. After each step the volume on record has cost what it takes to crush it, but for the step in
+/// which the corner comes in.
+TEST(Prescribed, TheRecordOfACornersContactHasTheVolumeThatItsWorkCrushed) {
+  const geometry::Ring diamond{{0.5, 0}, {0, 0.5}, {-0.5, 0}, {0, -0.5}};
+  for (const double step : {0.1, 0.05}) {
+    const Drift drift{0.1, step};
+    double least = 1e9, most = 0;
+    const double stands_in_ice = 10;  // all of the corner is in the ice from then on [s]
+    const Trial done = run(drifting_onto(diamond, -0.5, drift), 60, [&](const Simulation& simulation) {
+      if (simulation.time() < stands_in_ice) return;
+      for (const dynamics::Contact& c : simulation.world().data.contacts) {
+        if (c.record->booked.volume < 1e-3) continue;  // just carved: rounding
+        const double takes = 2.8e6 * c.record->booked.volume;
+        least = std::min(least, c.record->booked.work / takes);
+        most = std::max(most, c.record->booked.work / takes);
+      }
+    });
+    EXPECT_GT(done.simulation.counts().ground, 50) << "carved often";
+    EXPECT_GT(least, 0.97) << step;
+    EXPECT_LT(most, 1.03) << step;
+    expect_closed(done.simulation);
+  }
+}
+
 TEST(Prescribed, AShipThatKeepsItsSpeedInFastIceDoesAsTheIceThatDriftsOntoIt) {
   const Scene scene = Build()
                           .without_splits()
