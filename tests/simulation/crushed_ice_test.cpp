@@ -101,6 +101,24 @@ TEST(Prescribed, AShipThatKeepsItsSpeedInFastIceDoesAsTheIceThatDriftsOntoIt) {
   EXPECT_NEAR(done.simulation.audit().sums.energy.crushing / (kLineLoad * beam * kWay), 1, 0.02);
 }
 
+/// The flank of a bow slides along the corner of fast ice. Friction is a part of the load, for a ship that keeps her
+/// speed as for one that sails.
+TEST(Prescribed, TheLoadOfAShipThatKeepsItsSpeedHasItsPartByFriction) {
+  for (const double friction : {0.0, 0.1}) {
+    Build build = Build().without_splits().step(0.02).ship(steep_icebreaker({-2, 0}, ConstantSpeed{1}));
+    Scene scene = build.floe(fast(rectangle(0, 3, 100, 60)));
+    scene.ice.friction = friction;
+    double load = 0, by_friction = 0;
+    for (const HullSample& sample : run(scene, 20).story.samples) {
+      load += sample.from_ice.surge;
+      by_friction += sample.friction_of_ice.surge;
+    }
+    EXPECT_LT(load, -1e5);
+    if (friction == 0) EXPECT_EQ(by_friction, 0);
+    if (friction > 0) EXPECT_TRUE(by_friction < 0.02 * load && by_friction > 0.9 * load) << by_friction / load;
+  }
+}
+
 /// Askew, nothing but the direction changes: the chord of the channel's head is across the motion, up to half
 /// of an edge of the polygon that stands for the cylinder.
 TEST(Prescribed, ACylinderIsPushedAlongTheMotionOfTheIce) {
