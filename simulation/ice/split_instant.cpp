@@ -11,15 +11,18 @@ namespace {
 
 using dynamics::Contact;
 
-/// Of F_max: a split with no more is as the solver found it.
+/// Largest opening force, as a fraction of F_max, with which a split is taken as the solver found it [-]. Larger values
+/// record splits with forces that the floe could not have carried. Smaller values take more solutions of the step.
 constexpr double kMostShare = 1.05;
-/// Of F_max: where the contacts of one that has more are stopped. A little more than 1, so that the split has
-/// what it takes where one of several contacts falls short by rounding.
+/// Opening force to which the contacts of a split are limited, as a fraction of F_max [-]. It is a little more than 1,
+/// so that the split still happens if one of several contacts falls short through rounding.
 constexpr double kAimedShare = 1.01;
-/// Stopping the contacts of two bodies changes the forces of others, which may then split, and of one another:
-/// where one is stopped another may let go. Solved again so often at most.
+/// Largest number of times that the step is solved again. Limiting the contacts of two bodies changes the forces of
+/// other contacts, which may then split their floes or be unloaded. More rounds cost time; fewer leave more splits to
+/// Counts::unresolved_splits.
 constexpr int kMostRounds = 8;
 
+/// Stores all that solving changes of the contacts and their bodies.
 void keep_start(const dynamics::Bodies& bodies, const std::vector<Contact>& contacts, int threads,
                 std::vector<SolverStart>& kept) {
   kept.resize(contacts.size());
@@ -31,6 +34,7 @@ void keep_start(const dynamics::Bodies& bodies, const std::vector<Contact>& cont
   });
 }
 
+/// Restores the state before the step was solved.
 void go_back(const std::vector<SolverStart>& kept, const std::vector<Contact>& contacts, dynamics::Bodies& bodies) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& c = contacts[i];
@@ -44,40 +48,43 @@ void go_back(const std::vector<SolverStart>& kept, const std::vector<Contact>& c
   }
 }
 
+/// Returns the opening force of a split over its capacity [-].
 double share_of(const PendingFracture& split) {
   return split.criteria.split_share();
 }
 
-/// A contact of two bodies that was to be stopped, with what it had before.
+/// A contact whose force is limited because of a split, with its values before that.
 struct Stopped {
   std::size_t contact = 0;
-  double force = 0;           ///< normal [N]
+  double force = 0;           ///< normal force that overshot [N]
   double breaking_force = 0;  ///< [N]
   double missed_impulse = 0;  ///< [N s]
 };
 
-/// A split whose force overshot: the step is solved with its contacts stopped.
+/// A split whose force exceeded its capacity. The step is solved again with the forces of its contacts limited.
 struct MetSplit {
-  PendingFracture split;  ///< with the forces that overshot
+  PendingFracture split;  ///< the split, with the forces that overshot
   std::vector<Stopped> stopped;
-  double at = 1;      ///< the share of their forces at which its contacts are stopped
-  double low = 0;     ///< too little
-  double enough = 1;  ///< more than it takes
+  double at = 1;      ///< fraction of their forces to which its contacts are limited
+  double low = 0;     ///< largest fraction known to be too small
+  double enough = 1;  ///< smallest fraction known to be enough
 };
 
-/// The contacts of a solved step that splits stop.
+/// The splits of a step that overshot, and the limits on their contacts.
 class Instants {
  public:
   Instants(std::vector<Contact>& contacts, double dt) : contacts_(contacts), dt_(dt) {}
 
-  /// Stops the contacts of those of the splits that overshoot, and those that were stopped elsewhere where
-  /// their split did not come to what it takes. Returns whether any is.
+  /// Limits the contacts of the splits that overshoot, and adjusts the limits of those found in earlier rounds whose
+  /// opening forces are still too large or too small. Returns true if a limit changed, so that the step must be solved
+  /// again.
   bool stop(const std::vector<PendingFracture>& splits) {
     const std::size_t before = met_.size();
     for (const PendingFracture& split : splits) {
       if (share_of(split) <= kMostShare) continue;
       const Contact& at = contact_of(split);
-      MetSplit* const same = met_at(at);  // both bodies of a pair may split: the one whose crack runs first
+      // both bodies of a pair may overshoot: the split with the larger share happens first
+      MetSplit* const same = met_at(at);
       if (same == nullptr)
         met_.push_back({.split = split, .stopped = {}});
       else if (same >= met_.data() + before && share_of(split) > share_of(same->split))
@@ -91,11 +98,12 @@ class Instants {
 
   bool any() const { return !met_.empty(); }
 
-  /// Replaces the splits of stopped contacts by those that came about, each with the forces at its instant.
+  /// Replaces the splits of limited contacts in the list by those that happened, each with the forces at its instant.
+  /// Counts the splits whose instant was not found.
   void enter(std::vector<PendingFracture>& splits, Counts& counts) {
     std::erase_if(splits, [&](const PendingFracture& split) {
       if (met_at(contact_of(split)) != nullptr) return true;
-      const bool overshoots = share_of(split) > kMostShare;  // the rounds were used up
+      const bool overshoots = share_of(split) > kMostShare;  // all rounds were used
       counts.unresolved_splits += overshoots ? 1 : 0;
       return overshoots;
     });
@@ -109,12 +117,12 @@ class Instants {
       if (share_of(split) >= 1 && share_of(split) <= kMostShare)
         splits.push_back(split);
       else
-        counts.unresolved_splits += is_any_broken(met) ? 1 : 0;  // else the force did not come so far
+        counts.unresolved_splits += is_any_broken(met) ? 1 : 0;  // otherwise the force did not reach its limit
     }
     std::ranges::stable_sort(splits, {}, [&](const PendingFracture& split) { return index_of(split); });
   }
 
-  /// Whether a contact's force stayed below that at which its ice bends, since a split stopped it.
+  /// Returns true if a split limited the force of a contact, so that it stayed below the force at which its ice bends.
   bool stops(const dynamics::PersistentContact* record) const {
     return std::ranges::any_of(met_, [&](const MetSplit& met) {
       return std::ranges::any_of(met.stopped, [&](const Stopped& s) { return contacts_[s.contact].record == record; });
@@ -156,8 +164,8 @@ class Instants {
     }
   }
 
-  /// Stops contacts later, or earlier, where together they came to less than the split takes, since some let
-  /// go as others were stopped, or to more: halves the range of where.
+  /// Adjusts the limits of a split by bisection, if its opening force deviates from the capacity. The force is too
+  /// small if other contacts were unloaded when one was limited. Returns true if the limits changed.
   bool aim(MetSplit& met) {
     const double share = share_of(met.split) * reached(met);
     if (!is_any_broken(met) || (share >= 1 && share <= kMostShare)) return false;
@@ -166,7 +174,7 @@ class Instants {
     return true;
   }
 
-  /// The share of the forces that overshot to which they came now.
+  /// Returns the present sum of the contacts' forces over the sum of the forces that overshot [-].
   double reached(const MetSplit& met) const {
     double before = 0, now = 0;
     for (const Stopped& stopped : met.stopped) {
