@@ -35,7 +35,7 @@ struct FloeState {
   double area = 0;              ///< [m²]
   double mass = 0;              ///< [kg]
   bool is_fast = false;         ///< true for fast ice, whose motion is prescribed
-  /// name of the ship under whose hull the floe is; only set when a run is exported as a scene
+  /// Name of the ship under whose hull the floe is; only set when a run is exported as a scene.
   std::string_view under_hull_of;
   double under_path = 0;               ///< distance that this ship has moved over the floe; likewise [m]
   const fracture::Ice* ice = nullptr;  ///< ice of the floe; valid as long as the simulation exists

@@ -275,7 +275,7 @@ void add_candidate(const FloeField& field, const Item& item, Ring ring, bool is_
   const double cell_area = measure_convex(ring).area;
   Candidate candidate{inset(ring, 0.5 * field.gap), {}, 0, item.area, 0, is_at_boundary};
   if (candidate.ring.empty()) return lose();
-  // moving the edges inwards may have made some of them short
+  // Moving the edges inwards may have made some of them short.
   reduce_corners(candidate.ring, field.most_corners, shortest);
   const double whole = measure_convex(candidate.ring).area;
   add_corners(candidate.ring, field.least_corners);

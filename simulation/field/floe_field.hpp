@@ -13,11 +13,11 @@ namespace polynya::simulation {
 struct FloeField {
   geometry::Ring region;     ///< region that the field fills, counter-clockwise [m]
   bool is_rectangle = true;  ///< true if the region is a rectangle along the axes
-  /// parts of the region that are filled one after the other; empty: the region is filled at once
+  /// Parts of the region that are filled one after the other; empty: the region is filled at once.
   std::vector<geometry::Ring> parts;
   std::optional<SizeLaw> law;  ///< distribution of the sizes; if there is one, floe_size and size_spread are not used
   double aspect = 1;           ///< with a law: mean length over width; cells have about 1.27 at least [-]
-  /// with a law: direction of the floes' lengths from the x axis; none: random directions [rad]
+  /// With a law: direction of the floes' lengths from the x axis; none: random directions [rad].
   std::optional<double> orientation;
   int least_corners = 3;  ///< with a law: smallest number of corners of a floe
   double packing = 0;     ///< with a law: concentration of the packing from which floes are then left out as holes [-]
@@ -39,7 +39,7 @@ struct FloeFieldOutcome {
   double mean_size = 0;                  ///< mean of √area [m]
   double size_spread = 0;                ///< standard deviation of √area / its mean [-]
   int left_out = 0;  ///< number of floes that were left out because of areas kept clear or of the outline
-  /// concentration with every cell filled up to the gap; a smaller one than asked for is refused [-]
+  /// Concentration with every cell filled up to the gap; a smaller one than asked for is refused [-].
   double reachable_concentration = 1;
   double reachable_without_gap = 1;           ///< with a law: the same without the gap [-]
   std::optional<FieldStatistics> statistics;  ///< with a law: statistics of the sizes

@@ -12,7 +12,7 @@ namespace {
 /// Largest deviation of the logarithm of a size, in standard deviations [-]. The next constant belongs to it. Larger: a
 /// few floes are so large that a field has no space for them.
 constexpr double kFarthestDeviation = 3;
-/// probability P(Z > 3) that a normal variable is beyond that deviation [-]
+/// Probability P(Z > 3) that a normal variable is beyond that deviation [-].
 constexpr double kBeyondFarthest = 1.349898031630095e-03;
 constexpr double kLogUniform = 1e-9;  ///< exponents nearer to 0 than this are treated as 0 [-]
 
@@ -61,7 +61,7 @@ double area_of(const EqualSizes& law) {
   return law.size * law.size;
 }
 double area_of(const LognormalSizes& law) {
-  // number of intervals of the sum; another number changes the number of floes, and so every field of a seed
+  // Number of intervals of the sum; another number changes the number of floes, and so every field of a seed.
   constexpr int kParts = 4096;
   double sum = 0;
   for (int i = 0; i < kParts; ++i) {

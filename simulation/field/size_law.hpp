@@ -27,7 +27,7 @@ struct LognormalSizes {
 
 /// Power law between two bounds: the number of floes larger than d is proportional to d^−a [Toyota2006].
 struct PowerLawSizes {
-  /// exponent a of the number of floes; 0 is uniform in the logarithm of d, −1 uniform in d [-]
+  /// Exponent a of the number of floes; 0 is uniform in the logarithm of d, −1 uniform in d [-].
   double exponent = 1.87;
   double least = 10;     ///< smallest size [m]
   double largest = 100;  ///< largest size [m]
@@ -54,8 +54,8 @@ struct FieldStatistics {
   double least_size = 0;       ///< smallest size [m]
   double largest_size = 0;     ///< largest size [m]
   double distance_to_law = 0;  ///< distance of Kolmogorov and Smirnov; for equal sizes the largest deviation / size [-]
-  /// law fitted by maximum likelihood: the exponent of a power law between its bounds, or mean and spread of a
-  /// log-normal law; none for equal sizes
+  /// Law fitted by maximum likelihood: the exponent of a power law between its bounds, or mean and spread of a
+  /// log-normal law; none for equal sizes.
   std::optional<SizeLaw> fitted;
   double mean_aspect = 0;  ///< mean of the floes' aspects (aspect_of) [-]
   /// Mean number of corners of a floe.

@@ -410,7 +410,7 @@ class Relaxation {
   /// Moves the sites to the centroids of their cells, and changes each weight by the error of its own cell alone. This
   /// is stable far from the solution.
   void move() {
-    // factor on the change of a weight [-]; above 1, the weights of neighbours overshoot in turn, and cells vanish
+    // Factor on the change of a weight [-]; above 1, the weights of neighbours overshoot in turn, and cells vanish.
     constexpr double kDamping = 0.6;
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       if (!(found_[i].area > 0)) continue;

@@ -75,7 +75,7 @@ double free_area(const geometry::Ring& region, const std::vector<geometry::Polyg
 
 /// A cell of a tessellation.
 struct FieldCell {
-  /// convex counter-clockwise ring in the plane of the cells [m]; empty if the cell found no space
+  /// Convex counter-clockwise ring in the plane of the cells [m]; empty if the cell found no space.
   geometry::Ring ring;
   bool is_clipped = false;  ///< true if it was cut by a boundary other than the hull's
 };

@@ -19,7 +19,7 @@ using geometry::Vector;
 /// Returns true if the force of a contact could grow in the step beyond the force that the ice carries along a line,
 /// `line_bears` [N].
 bool could_exceed(const Step& step, double line_bears, const Contact& c) {
-  // increase of the closing speed by other bodies in the step that is allowed for [m/s]
+  // Increase of the closing speed by other bodies in the step that is allowed for [m/s].
   constexpr double kUnforeseen = 1;
   const double closing = std::max(0.0, c.approach_speed) + kUnforeseen;
   return c.crushing_force + c.crushing_stiffness * step.length * closing > line_bears;

@@ -14,7 +14,7 @@ struct Breakage {
   Event event;  ///< event, to which replace_by_pieces() adds the children and areas
   const geometry::CutResult& cut;
   InsideFate inside = InsideFate::kFloats;
-  /// flow to which the kinetic energy of ice that leaves the floe list is added
+  /// Flow to which the kinetic energy of ice that leaves the floe list is added.
   double EnergyFlows::*energy_sink = nullptr;
   std::int64_t Counts::*count = nullptr;
 };

@@ -134,7 +134,7 @@ void press_prescribed(const Setup& setup, const Step& step, const Population& po
   fracture::CrushedArea crushed{line, 0};
   const bool is_crescent = c.depth * c.width > kCrescent * c.area;
   const double facet = load.ice.thickness * elementary::tan(load.hull_angle);
-  // the overlap of a hull in a notch that was carved out
+  // The overlap of a hull in a notch that was carved out.
   const bool spans_facet = is_crescent && c.area >= c.width * facet;
   if (load.hull_angle > kVertical && !spans_facet) {
     crushed.area = std::min(load.normal_force / load.ice.compressive_strength, line);
@@ -154,7 +154,7 @@ void close_prescribed_gap(const Step& step, const dynamics::Bodies& bodies, Cont
   if (!are_prescribed(bodies, c.a, c.b)) return;
   c.paid_depth = std::max(c.paid_depth, c.depth);
   if (c.approach_speed <= 0) return;
-  // growth of the area in half of a step [m²]
+  // Growth of the area in half of a step [m²].
   const double half_a_step = 0.5 * c.width * c.approach_speed * step.length;
   if (c.area + half_a_step >= c.record->paid_area) c.paid_depth = c.depth;
 }

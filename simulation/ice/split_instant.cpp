@@ -83,7 +83,7 @@ class Instants {
     for (const PendingFracture& split : splits) {
       if (share_of(split) <= kMostShare) continue;
       const Contact& at = contact_of(split);
-      // both bodies of a pair may overshoot: the split with the larger share happens first
+      // Both bodies of a pair may overshoot: the split with the larger share happens first.
       MetSplit* const same = met_at(at);
       if (same == nullptr)
         met_.push_back({.split = split, .stopped = {}});

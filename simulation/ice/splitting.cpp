@@ -20,7 +20,7 @@ using geometry::Vector;
 /// A crack that a body may open in a floe, with its opening force and capacity.
 struct CrackCandidate {
   CrackMouth mouth;
-  /// place at which the crack begins: the edge of the ice that the body has not crushed, in the water frame [m]
+  /// Place at which the crack begins: the edge of the ice that the body has not crushed, in the water frame [m].
   geometry::Point begins_at;
   geometry::CrackPath path_in_body;
   fracture::FailureCriteria criteria;
@@ -255,7 +255,7 @@ void enter_true_forces(const Setup& setup, const Step& step, const Population& p
     if (!crack) return;
     enter_crack(crack->criteria, criteria);
   } else if (criteria.crack_length > 0) {
-    // measured only here, because most bends that were pending before the solver do not happen
+    // Measured only here, because most bends that were pending before the solver do not happen.
     if (pending.failure == fracture::Failure::kBend)
       measure_crack_and_sides(setup, population, c->b, pending.crack_in_body, criteria);
     const fracture::Opening opening = fracture::opening_of(pressed.pushes, c->middle(), c->normal);

@@ -41,7 +41,7 @@ class CoverImage {
   void add_crossing(std::size_t row, double x, double share);
 
   ImageFrame frame_;
-  /// for each cell, the change of the fraction from the cell before; columns + 1 for each row
+  /// For each cell, the change of the fraction from the cell before; columns + 1 for each row.
   std::vector<double> steps_;
 };
 

@@ -26,7 +26,7 @@ struct HullContactLoad {
   double mean_speed = 0;      ///< mean rate of ξ since first contact [m/s]
   double normal_force = 0;    ///< normal force F_n on the facet while ice crushes [N]
   double stiffness = 0;       ///< dF_n/dξ [N/m]
-  /// fraction of a growth of the depth that is crushed; in the rest the ice edge bends away [-]
+  /// Fraction of a growth of the depth that is crushed; in the rest the ice edge bends away [-].
   double crushed_share = 1;
   /// Horizontal, vertical and tangential force over F_n.
   fracture::CrushingShares shares{};

@@ -57,7 +57,7 @@ void record_hull_contacts(const Setup& setup, const Step& step, const Population
   for (BodyIndex ship = 0; ship < population.hull_count; ++ship) {
     for (BodyIndex other = ship + 1; other < population.hull_count; ++other) {
       if (!are_prescribed(bodies, ship, other)) continue;
-      // structures and walls do not meet each other
+      // Structures and walls do not meet each other.
       if (is_grounded(bodies.kind[ship]) && is_grounded(bodies.kind[other])) continue;
       if (is_known(known_contacts, ship, other)) continue;
       if (const auto contact = prescribed_contact(setup, step, bodies, ship, other)) enter(*contact);

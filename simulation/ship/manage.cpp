@@ -98,7 +98,7 @@ PatternLine line_of(const ManagingPilot& pilot) {
 }
 
 double least_distance(const PatternLine& line, double ahead) {
-  // number of places on a lap that are compared; fewer may miss a near approach between two of them
+  // Number of places on a lap that are compared; fewer may miss a near approach between two of them.
   constexpr int kPlacesOnLap = 360;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kPlacesOnLap; ++i) {

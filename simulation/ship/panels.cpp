@@ -86,7 +86,7 @@ void add_contact(const PanelGrid& grid, const dynamics::Bodies& bodies, const Co
   const double full = grid.waterline.length;
   const std::array<double, 2> arc{arc_at(grid.waterline, inverse_transform(pose, c.ends[0])),
                                   arc_at(grid.waterline, inverse_transform(pose, c.ends[1]))};
-  // the ends from starboard to port; the line may pass the stem or the place farthest from it
+  // The ends from starboard to port; the line may pass the stem or the place farthest from it.
   std::array<int, 2> end{0, 1};
   if ((arc[0] > arc[1]) != (std::abs(arc[0] - arc[1]) > full / 2)) std::swap(end[0], end[1]);
   const double from = arc[end[0]], to = from + std::remainder(arc[end[1]] - from, full);

@@ -11,7 +11,7 @@ namespace {
 /// Returns true if the ship has not moved for so long that another order is needed. A ship that still slows down
 /// from the order before moves, and is not stuck; nor is one whose lever is still on its way to the order.
 bool is_stuck(const RammingPilot& pilot, double ordered, const PilotView& view, PilotMemory& memory) {
-  // difference of the lever from its order that counts as none, because of rounding [-]
+  // Difference of the lever from its order that counts as none, because of rounding [-].
   constexpr double kAtOrder = 1e-6;
   const bool stands = std::abs(view.speed_over_ground) <= pilot.stuck_speed;
   if (!stands || std::abs(view.lever - ordered) > kAtOrder) memory.slow_since = view.time;
@@ -28,10 +28,10 @@ void turn_astern(const PilotView& view, PilotMemory& memory) {
 /// Returns the distance that the ship still goes astern if the engine is ordered ahead now [m]. The lever moves at its
 /// rate, and the thrust and the resistance of open water stop the ship. Returns 0 if the engine or the mass is unknown.
 double distance_to_stop(const PilotView& view, double lever_ahead) {
-  // time step of the prediction [s]; with a larger one the ship may back by up to a step's distance too far or too
-  // little
+  // Time step of the prediction [s]; with a larger one the ship may back by up to a step's distance too far or too
+  // little.
   constexpr double kStep = 0.5;
-  // longest time of the prediction [s], which ends it for an engine that hardly pushes
+  // Longest time of the prediction [s], which ends it for an engine that hardly pushes.
   constexpr double kLongest = 1200;
   const dynamics::Engine& engine = view.engine;
   if (view.mass <= 0 || engine.bollard_pull <= 0 || engine.open_water_speed <= 0) return 0;
@@ -60,8 +60,8 @@ void turn_ahead(PilotMemory& memory) {
 /// Returns the heading that leads back to the line on which the ship was last stuck, so that it charges in the channel
 /// that it has broken. Astern it is the line's own.
 double heading_on_line(double heading, const PilotView& view, const PilotMemory& memory) {
-  // distance ahead on the line towards which the ship steers, in ship lengths [-]; with a smaller one it turns sharply
-  // to the line
+  // Distance ahead on the line towards which the ship steers, in ship lengths [-]; with a smaller one it turns sharply
+  // to the line.
   constexpr double kLookAheadOnLine = 1.5;
   if (memory.is_backing) return heading;
   const geometry::Point on_line = memory.rams > 0 ? memory.stuck_at : memory.from;

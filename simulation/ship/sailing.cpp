@@ -25,8 +25,8 @@ struct ShipInStep {
   double moment = 0;  ///< [kg m²]
   Planar now;         ///< velocity ν after the step's other impulses, in the water frame [m/s, rad/s]
   Planar start;       ///< velocity at the start of the step, before these impulses [m/s, rad/s]
-  /// velocity at the start, in the ship's axes of the previous step, in which the momentum of the added mass was
-  /// computed [m/s, rad/s]
+  /// Velocity at the start, in the ship's axes of the previous step, in which the momentum of the added mass was
+  /// computed [m/s, rad/s].
   Planar before_turn;
   Planar of_current;  ///< velocity of the current around the ship [m/s, rad/s]
   Planar of_ground;   ///< velocity of the ground in the water frame [m/s, rad/s]

@@ -44,7 +44,7 @@ using Steering = std::variant<NoSteering, RudderSettings, AzimuthSettings>;
 
 /// A linear mooring about a place over ground. Stiffness and damping are along the axes of the moored heading.
 struct MooringSettings {
-  /// position of the ship's centre of gravity at which the mooring does not pull [m]
+  /// Position of the ship's centre of gravity at which the mooring does not pull [m].
   geometry::Point position_in_world = {};
   double heading = 0;          ///< moored heading [rad]
   double surge_stiffness = 0;  ///< force per displacement along the moored heading [N/m]
@@ -147,12 +147,12 @@ struct ManagingPilot {
   double distance = 0;  ///< distance of the pattern's middle upstream of the body [m]
   double width = 0;     ///< width of the pattern across the drift [m]
   double depth = 0;     ///< depth of the pattern along the drift [m]
-  /// true if the pattern drifts with the ice from the start of each lap; false if it stays with the body
+  /// True if the pattern drifts with the ice from the start of each lap; false if it stays with the body.
   bool drifts_with_ice = false;
   double speed = 0;  ///< speed along the pattern in its frame; 0: the lever sets the speed [m/s]
   double lever = 1;
   double phase = 0;  ///< place on the pattern at which the ship begins, as a fraction of a lap [-]
-  /// smallest distance between centres to the body and other ships; 0: the sum of both lengths [m]
+  /// Smallest distance between centres to the body and other ships; 0: the sum of both lengths [m].
   double safety_radius = 0;
   double least_floe = 0;  ///< area below which floes are left alone [m²]
   std::vector<PatternPartner> partners;

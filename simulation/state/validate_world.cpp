@@ -46,8 +46,8 @@ Defect check_helms(const World& world) {
   return {};
 }
 
-constexpr std::int64_t kMostSteps = 1'000'000'000;            // 58 days of the default step: more is damage
-constexpr std::int64_t kMostCounted = std::int64_t{1} << 60;  // two of them can be added
+constexpr std::int64_t kMostSteps = 1'000'000'000;  // 58 days of the default step; a larger number means damage
+constexpr std::int64_t kMostCounted = std::int64_t{1} << 60;  // two such counts can still be added
 
 bool is_count(std::int64_t count) {
   return count >= 0 && count <= kMostCounted;
@@ -108,7 +108,7 @@ Defect check_loads(const LoadPeaks& peaks) {
 Defect check_cusps(const Population& population) {
   for (const StartedCusp& cusp : population.started)
     if (!(cusp.left > 0 && cusp.most > 0 && cusp.way > 0)) return "a cusp that no hull presses";
-  constexpr double kLongestCusp = 1e4;  // [m]
+  constexpr double kLongestCusp = 1e4;  // largest depth of a cusp; a larger value means damage [m]
   for (const PressedDeck& pressed : population.decks) {
     const fracture::Deck& deck = pressed.deck;
     if (!(deck.depth > 0 && deck.depth < kLongestCusp && deck.thickness > 0 && deck.freeboard >= 0))
