@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "elementary/elementary.hpp"
-
 #include "geometry/exact/measures.hpp"
 #include "simulation/world/parts.hpp"
 
@@ -20,10 +19,12 @@ constexpr std::array kTickChoices{0.1, 0.05, 0.025, 0.02, 0.01, 0.005, 0.0025, 0
 /// Number of parts that a tick needs for the fastest hull at its full speed [-]. More would leave too few parts for ice
 /// that breaks faster than that; fewer would make ticks short where a ship is slower than she can be.
 constexpr double kPartsAtFullSpeed = 8;
-/// Speed in ice that is assumed of a ship under constant thrust [m/s], because the scene does not state it.
+/// Speed in ice that is assumed of a ship with a constant thrust [m/s], because the scene does not give it. A larger
+/// value makes ticks shorter; with a smaller one, ticks of faster ships need more parts.
 constexpr double kUnderThrust = 4;
-/// Fraction of the scene's ice by area that is at least as thick as its "thin ice" [-]. Ticks get more parts where a
-/// hull meets the few thinner floes.
+/// Fraction of the scene's ice, by area, that is at least as thick as the ice for which the tick is chosen [-]. Where a
+/// hull meets the few thinner floes, ticks are divided into more parts. A larger value makes ticks shorter for a few
+/// thin floes.
 constexpr double kMostIce = 0.95;
 
 /// Returns the greatest speed of a ship [m/s]: the speed at the start, or the open-water speed of its engine or the

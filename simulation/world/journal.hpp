@@ -43,7 +43,9 @@ struct HullSample {
   double time = 0;            ///< end of the interval [s]
   int ship = 0;               ///< number of the hull in the scene
   dynamics::Planar from_ice;  ///< force of the ice around the hull: impulse / interval [N, N m]
-  dynamics::Planar carried;   ///< impulse of that ice that is booked in later intervals (CarriedLoad) [N s, N m s]
+  /// Impulse of that ice that was missed before contacts were found and is booked in later intervals (CarriedLoad) [N
+  /// s, N m s].
+  dynamics::Planar carried;
   /// Largest force of the ice around the hull in a single step, by magnitude and for each component [N, N m].
   dynamics::Planar from_ice_largest;
   /// Largest collision force j/τ_c of the paper, of the contacts with ice, in a single step, by magnitude and for each
