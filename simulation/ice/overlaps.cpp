@@ -13,7 +13,7 @@
 
 namespace polynya::simulation {
 
-// ---- what two bodies share is cut off
+// ---- overlaps are cut off
 
 namespace {
 
@@ -131,7 +131,7 @@ bool cut_overlap(const Setup& setup, const Instant& now, const OverlapCut& overl
 
 }  // namespace
 
-// ---- what contacts paid is booked
+// ---- growth of paid overlaps is added to the accounts of contacts
 
 namespace {
 

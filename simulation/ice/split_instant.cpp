@@ -98,8 +98,8 @@ class Instants {
 
   bool any() const { return !met_.empty(); }
 
-  /// Replaces the splits of limited contacts in the list by those that happened, each with the forces at its instant.
-  /// Counts the splits whose instant was not found.
+  /// Replaces the splits of limited contacts in the list by the splits that happened, each with the forces at its
+  /// instant. Counts the splits whose instant was not found.
   void enter(std::vector<PendingFracture>& splits, Counts& counts) {
     std::erase_if(splits, [&](const PendingFracture& split) {
       if (met_at(contact_of(split)) != nullptr) return true;

@@ -54,7 +54,7 @@ double steering_gain(const Sailing& sailing, const PilotView& view, double momen
   return (yaw_at(kAngle) - yaw_at(-kAngle)) / (2 * kAngle * inertia);
 }
 
-/// Returns what the pilot of ship i is told in the step.
+/// Returns the data that the pilot of ship i receives in the step.
 PilotView view_of(const Setup& setup, const Step& step, const Population& population, std::span<const SeenHull> hulls,
                   BodyIndex i) {
   const dynamics::Bodies& bodies = population.bodies;

@@ -125,7 +125,7 @@ void follow_loads(const Setup& setup, const Step& step, const Population& popula
     LoadTrack& track = track_at(peaks, *c.record);
     track.is_seen = true;
     if (rises(force, response, track)) {
-      // What the gauge shows over the whole force of the contact in this step.
+      // Force that the gauge shows / whole force of the contact in this step.
       const double share = c.steady_share * track.force / force;
       track.largest = track.force;
       track.time = step.end.time;

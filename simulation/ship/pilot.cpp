@@ -119,7 +119,7 @@ double drift_angle(const PilotView& view, PilotMemory& memory) {
 Command steer(const RoutePilot& pilot, const PilotView& view, PilotMemory& memory) {
   const Point leg_from = memory.from;
   go_on(pilot, view, memory);
-  // After the last waypoint the ship stops on its course.
+  // The ship stops on its course after the last waypoint.
   if (memory.waypoint >= static_cast<std::int32_t>(pilot.waypoints.size())) {
     const double course = angle_of(memory.from - leg_from);
     if (memory.from != leg_from) memory.heading = course;

@@ -35,11 +35,11 @@ struct SeenHull {
   FloeId target_floe = kNoFloe;
 };
 
-/// All that a pilot is told about its ship and the surroundings in a step.
+/// Data about its ship and the surroundings that a pilot receives in each step.
 struct PilotView {
   double time = 0;  ///< time at the start of the step [s]
   double step = 0;  ///< time until the next command [s]
-  int ship = 0;     ///< number of its own ship in `hulls`
+  int ship = 0;     ///< number of the pilot's ship in `hulls`
   std::span<const SeenHull> hulls;
   dynamics::Planar through_water;  ///< velocity through the water in the ship's frame [m/s, rad/s]
   double speed_over_ground = 0;    ///< speed ahead over ground [m/s]

@@ -123,7 +123,7 @@ void fields(auto& archive, Is<BoundaryFlows> auto& b) {
 void fields(auto& archive, Is<MooringFlows> auto& m) {
   archive(m.initial, m.taken_up, m.given_back, m.ground, m.damping, m.breaking, m.separation);
 }
-/// Without `boundaries`, which only states of scenes with wind or pressing walls contain. Without moorings and scales,
+/// Leaves out `boundaries`, which only states of scenes with wind or pressing walls contain, and moorings and scales,
 /// which do not influence the run and are in checkpoints only (tail_fields).
 void fields(auto& archive, Is<AuditSums> auto& a) {
   archive(a.initial_energy, a.initial_momentum, a.impulses, a.energy, a.momentum);
@@ -143,8 +143,8 @@ void fields(auto& archive, Is<dynamics::Booked> auto& b) {
 void fields(auto& archive, Is<dynamics::CrushedIce> auto& c) {
   archive(c.a_from_b, c.area);
 }
-/// Without separation_bound, a cache that may differ between runs with the same motion. It is saved separately and not
-/// hashed.
+/// Leaves out separation_bound, a cache that may differ between runs with the same motion. It is saved separately and
+/// not hashed.
 void fields(auto& archive, Is<dynamics::PairState> auto& p) {
   archive(p.a, p.b, p.records);
 }
@@ -167,7 +167,7 @@ void fields(auto& archive, Is<PanelLoads> auto& p) {
   archive(p.impulse, p.normal, p.largest, p.loaded, p.carried.impulse, p.carried.level, p.carried_load);
 }
 
-/// Without peaks and panels, which do not influence the run. They are saved separately and not hashed (state.cpp).
+/// Leaves out peaks and panels, which do not influence the run. They are saved separately and not hashed (state.cpp).
 void fields(auto& archive, Is<Accounts> auto& a) {
   archive(a.areas, a.audit, a.counts, a.loads, a.hull_contacts, a.refused_grinds);
 }

@@ -111,7 +111,7 @@ void separate_overlaps(const Setup& setup, const Step& step, const StepData& dat
 /// Moves all awake bodies. Returns a reason to end the run if a body has no finite speed below kRunawaySpeed.
 std::optional<std::string> integrate_motion(const Step& step, Population& population);
 
-// ---- what happens to the ice
+// ---- changes of the ice
 
 /// Breaks the floes whose fractures were decided in the step. Ships are braked by the cusps that they accelerate.
 void apply_fractures(const Setup& setup, const Step& step, StepData& data, Population& population, Books books);
@@ -137,7 +137,7 @@ void apply_submersions(const Setup& setup, const Step& step, const StepData& dat
 /// Lets ice that ships have passed surface, in the order in which it went under.
 void come_up(const Setup& setup, const Step& step, Population& population, Books books);
 
-// ---- what is recorded
+// ---- records
 
 /// Records the first contact of each two hulls, and the moorings that broke.
 void record_hull_contacts(const Setup& setup, const Step& step, const Population& population, const StepData& data,
