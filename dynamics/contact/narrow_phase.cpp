@@ -15,13 +15,16 @@ using geometry::Vector;
 /// Larger: more circles are compared in each step. Results do not change.
 constexpr double kNearMargin = 0.75;
 
-/// Number of covers that are kept for second bodies: enough for a body's neighbours in a field and some of the next
-/// body's. Fewer: covers are made again more often.
+/// Number of covers that are kept for the second bodies of pairs. It is enough for the neighbours of one body in a
+/// field and some of the next body. Fewer: covers are made again more often. Results do not change.
 constexpr std::size_t kSecond = 32;
 
 /// Largest exponent of the power law of an overlap, d w / S [-]. Beyond it the extent of the overlap describes the
-/// notch in which a body lies, but not the overlap, which is thin. Its mean thickness is then taken as its depth.
+/// notch in which a body lies, and not the overlap, which is thin; its mean thickness is then taken as its depth.
+/// Larger values overestimate the force in notches.
 constexpr double kMostPower = 3;
+/// Returns the depth of an overlap: its extent along the normal, or its mean thickness if the extent describes the
+/// notch [m].
 double bounded_depth(const geometry::ContactManifold& m) {
   return m.depth * m.width > kMostPower * m.area ? m.area / m.width : m.depth;
 }
@@ -30,8 +33,8 @@ double bounded_depth(const geometry::ContactManifold& m) {
 /// measures are differences of coordinates that are rounded at about 1e-12 m, so its shape would be rounding error.
 constexpr double kShapeless = 1e-6;
 
-/// Returns true if the depth is limited by the rule above. It is not if both motions are prescribed: such ice is carved
-/// out by another rule, which needs the extent.
+/// Returns true if the depth is limited by bounded_depth(). It is not limited if both motions are prescribed, because
+/// the simulation cuts such ice out (carve_channels) and needs the extent for it.
 bool is_bounded(const ContactRule& rule, const Bodies& bodies, const Pair& pair) {
   return rule.is_depth_bounded && (bodies.inverse_mass[pair.a] != 0 || bodies.inverse_mass[pair.b] != 0);
 }

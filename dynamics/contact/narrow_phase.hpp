@@ -34,8 +34,9 @@ struct alignas(64) Pair {
   bool is_dropped = false;           ///< its slot is freed when the lists of pairs are cleaned up
   bool is_outside = false;           ///< neither is inside the other; this stays so until they touch
   // The first cache line ends here.
-  double near_bound = -1;  ///< `near` holds at least until the travel of both exceeds this [m]
-  Clearance near;          ///< statement: only the near circles and edges can touch
+  /// Value of travel[a] + travel[b] up to which the statement `near` is known to hold, without further computation [m].
+  double near_bound = -1;
+  Clearance near;  ///< statement: only the near circles and edges can touch
 
   bool has_near_edges() const { return parts != nullptr && !parts->edges.pairs.empty(); }
   std::span<const PersistentContact> records() const {
@@ -97,6 +98,8 @@ class CoverCache {
 
 /// Memory that collide_pair reuses.
 struct PairScratch {
+  /// False if there are so many pairs that near edges of distant bodies are not kept
+  /// (ContactRule::most_pairs_with_edges).
   bool keeps_distant_edges = true;
   CoverCache covers;
   std::vector<geometry::NearPair> near_circles;

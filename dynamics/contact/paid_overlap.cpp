@@ -16,6 +16,7 @@ double power_of(const Contact& c) {
   return std::clamp(c.depth * c.width / c.area, 1.0 / 3, 3.0);
 }
 
+/// Returns true if a contact has an area and a depth, so that the power law is defined.
 bool has_shape(const Contact& c) {
   return c.area > 0 && c.depth > 0;
 }

@@ -26,8 +26,8 @@ struct ScaledLoad {
 
 ScaledLoad scaled(const BendingLoad& load);
 
-/// Returns the push of a load from first contact on. The caller chooses whether the deflection of the ice slows the
-/// penetration.
+/// Returns the motion and stiffness of a load from first contact on, for the wedge solver. `feedback` states whether
+/// the deflection of the ice slows the penetration.
 enum class Feedback { kIgnored, kCoupled };
 WedgePush push_of(const ScaledLoad& load, Feedback feedback);
 
