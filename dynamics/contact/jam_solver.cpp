@@ -52,7 +52,7 @@ JamRows rows_of(const ContactConstraint& c, int a, int b) {
 
 /// Returns true if a change of a branch is postponed to a later Newton step: a pseudo-random half of all branches in
 /// each step, without a pattern that a cycle could follow.
-bool waits(std::size_t branch, int step) {
+bool is_postponed(std::size_t branch, int step) {
   std::uint64_t x = branch * 0x9E3779B97F4A7C15U + static_cast<std::uint64_t>(step) * 0xBF58476D1CE4E5B9U;
   x = (x ^ (x >> 31U)) * 0x94D049BB133111EBU;
   return (x >> 40U & 1U) != 0;
@@ -207,7 +207,7 @@ class Jam {
     for (const Change& change : changes_) {
       const std::size_t k = change.contact;
       const auto take = [&](auto& from, auto to, std::size_t place) {
-        if (step < kWholeSteps || !waits(3 * k + place, step) || change.by[place] == most) from = to;
+        if (step < kWholeSteps || !is_postponed(3 * k + place, step) || change.by[place] == most) from = to;
       };
       take(active_sets_[k].ends.of[0], change.to.ends.of[0], 0);
       take(active_sets_[k].ends.of[1], change.to.ends.of[1], 1);
