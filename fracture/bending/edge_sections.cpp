@@ -23,9 +23,9 @@ constexpr std::array<double, 21> kOfMoment = {1,       0.99803, 0.98673, 0.96184
 
 /// Deflection of the tip relative to a section, 1 − w(ρ)/w(0), under a force on the tip, at the same ρ. It is the part
 /// of the tip's sinking by which the thrust's lever above the section decreases.
-constexpr std::array<double, 21> kDrop = {0,       0.16033, 0.30268, 0.42768, 0.53628, 0.62963, 0.70901,
-                                          0.77576, 0.83124, 0.87678, 0.91365, 0.94305, 0.96609, 0.98377,
-                                          0.99699, 1.00656, 1.01316, 1.01740, 1.01978, 1.02073, 1.02061};
+constexpr std::array<double, 21> kRelativeSinking = {0,       0.16033, 0.30268, 0.42768, 0.53628, 0.62963, 0.70901,
+                                                     0.77576, 0.83124, 0.87678, 0.91365, 0.94305, 0.96609, 0.98377,
+                                                     0.99699, 1.00656, 1.01316, 1.01740, 1.01978, 1.02073, 1.02061};
 
 /// Stress at the rims of cracked sections / mean bending stress [-]. All constants are from finite elements of 195
 /// edges of runs (docs/theory/bow.md). kRimOfForce is the ratio under V for l = 15 h, an opening of 2 rad, and sections
@@ -49,7 +49,7 @@ double interpolated(const std::array<double, 21>& table, double at) {
 
 /// Returns the force V at which a section breaks: the positive root of growth V² + pull V = capacity. `pull` is the
 /// tension per force, and `growth` its increase per force because the sinking tip lowers the thrust.
-double bearing(double pull, double growth, double capacity) {
+double force_at_break(double pull, double growth, double capacity) {
   if (growth <= 0) return pull > 0 ? capacity / pull : std::numeric_limits<double>::infinity();
   return 2 * capacity / (pull + std::sqrt(pull * pull + 4 * growth * capacity));
 }
@@ -117,7 +117,7 @@ double crack_share(double widest) {
 /// Returns the force V / (σ_f h²) at which each half of a cracked edge cracks radially too. The parts then break off at
 /// once, so it limits the force of a cracked edge. In a notch, which is wider than 180°, the edge carries more until
 /// the third crack. The thrust, which compresses the sections, has no influence.
-double held_until_next_cracks(double widest) {
+double force_at_next_cracks(double widest) {
   /// Force at which the halves crack [-], from finite elements of edges wider than 150°.
   constexpr double kSecondCracks = 0.585;
   return kSecondCracks * (1 + std::max(0.0, widest - 180 * geometry::kRadiansPerDegree));
@@ -130,12 +130,13 @@ SectionStresses stresses_of_whole(const EdgeOpenings& openings, const EdgePush& 
   for (std::size_t i = 0; i < kSectionCount; ++i) {
     const double r = kSectionRadii[i] * push.length;
     const double place = r / push.effective_length;
-    const double held = moment_of_moment(place);
+    const double lever_moment = moment_of_moment(place);
     const double moment =
-        push.effective_length * moment_of_force(place) - (push.distance + push.thrust * push.lever) * held;
-    const double growth = 6 * push.thrust * sinking * interpolated(kDrop, place) * std::max(0.0, held);
-    stresses[i] = 1 / bearing(6 * moment - push.thrust, growth,
-                              hold_of_whole(opening_of(openings[i])) * opening_of(openings[i]) * r);
+        push.effective_length * moment_of_force(place) - (push.distance + push.thrust * push.lever) * lever_moment;
+    const double growth =
+        6 * push.thrust * sinking * interpolated(kRelativeSinking, place) * std::max(0.0, lever_moment);
+    stresses[i] = 1 / force_at_break(6 * moment - push.thrust, growth,
+                                     whole_edge_factor(opening_of(openings[i])) * opening_of(openings[i]) * r);
   }
   return stresses;
 }
@@ -164,14 +165,16 @@ SectionStresses stresses_of_rims(const EdgeOpenings& openings, const EdgePush& p
     const double r = kSectionRadii[i] * push.length;
     if (r * half_step <= least) continue;
     const double place = r / push.effective_length;
-    const double held = moment_of_moment(place);
+    const double lever_moment = moment_of_moment(place);
     const double force = rim_of_force(openings, push.length, i) *
-                         (push.effective_length * moment_of_force(place) - push.distance * held);
-    const double lever = kRimOfLever * push.thrust * push.lever * held;
-    const double growth = 6 * kRimOfLever * push.thrust * sinking * interpolated(kDrop, place) * std::max(0.0, held);
-    const double bears = bearing(6 * (force - lever) - kRimOfThrust * push.thrust, growth, opening_of(openings[i]) * r);
+                         (push.effective_length * moment_of_force(place) - push.distance * lever_moment);
+    const double lever = kRimOfLever * push.thrust * push.lever * lever_moment;
+    const double growth =
+        6 * kRimOfLever * push.thrust * sinking * interpolated(kRelativeSinking, place) * std::max(0.0, lever_moment);
+    const double breaking_force =
+        force_at_break(6 * (force - lever) - kRimOfThrust * push.thrust, growth, opening_of(openings[i]) * r);
     const double share = std::min(1.0, elementary::log(r * half_step / least) / elementary::log(kSectionStep));
-    stresses[i] = elementary::pow(share, 1 / kWeibull) / bears;
+    stresses[i] = elementary::pow(share, 1 / kWeibull) / breaking_force;
   }
   return stresses;
 }
@@ -186,7 +189,7 @@ double moment_of_moment(double distance) {
   return interpolated(kOfMoment, distance);
 }
 
-double hold_of_whole(double opening) {
+double whole_edge_factor(double opening) {
   /// Opening below which a wedge bends as a beam, without the factor [rad].
   constexpr double kBeam = 45 * geometry::kRadiansPerDegree;
   constexpr double kGrowth = 0.18;  ///< growth of the factor with the opening [1/rad]
@@ -208,7 +211,7 @@ SectionBreak weakest_section_of_sinking(const EdgeOpenings& openings, const Edge
   for (std::size_t i = 0; i < kSectionCount; ++i) both[i] = std::lerp(whole[i], rims[i], cracked);
   const Vertex at = greatest_of(both);
   const double place = cracked > 0 ? std::lerp(greatest_of(whole).place, expected_place(rims), cracked) : at.place;
-  return {1 / std::max(at.value, cracked / held_until_next_cracks(widest)),
+  return {1 / std::max(at.value, cracked / force_at_next_cracks(widest)),
           kSectionRadii[0] * elementary::pow(kSectionStep, place) * push.length};
 }
 

@@ -52,7 +52,7 @@ double moment_of_moment(double distance);
 /// Returns the factor by which an edge without radial cracks carries more than the bending of its sections alone [-],
 /// because the ice also bends across the sections. `opening` is the angle of the section that breaks [rad]. The factor
 /// was found with three-dimensional finite elements of wedges (docs/theory/bow.md).
-double hold_of_whole(double opening);
+double whole_edge_factor(double opening);
 
 /// Finds the section at which an edge breaks, and the force at which it does (docs/theory/bow.md, "Where an edge
 /// breaks").
