@@ -125,17 +125,17 @@ double force_at_next_cracks(double widest) {
 
 /// Returns the stresses of all sections of an edge without a radial crack. `sinking` is as in
 /// weakest_section_of_sinking().
-SectionStresses stresses_of_whole(const EdgeOpenings& openings, const EdgePush& push, double sinking) {
+SectionStresses stresses_of_whole(const EdgeOpenings& openings, const EdgeLoad& load, double sinking) {
   SectionStresses stresses{};
   for (std::size_t i = 0; i < kSectionCount; ++i) {
-    const double r = kSectionRadii[i] * push.length;
-    const double place = r / push.effective_length;
+    const double r = kSectionRadii[i] * load.length;
+    const double place = r / load.effective_length;
     const double lever_moment = moment_of_moment(place);
     const double moment =
-        push.effective_length * moment_of_force(place) - (push.distance + push.thrust * push.lever) * lever_moment;
+        load.effective_length * moment_of_force(place) - (load.distance + load.thrust * load.lever) * lever_moment;
     const double growth =
-        6 * push.thrust * sinking * interpolated(kRelativeSinking, place) * std::max(0.0, lever_moment);
-    stresses[i] = 1 / force_at_break(6 * moment - push.thrust, growth,
+        6 * load.thrust * sinking * interpolated(kRelativeSinking, place) * std::max(0.0, lever_moment);
+    stresses[i] = 1 / force_at_break(6 * moment - load.thrust, growth,
                                      whole_edge_factor(opening_of(openings[i])) * opening_of(openings[i]) * r);
   }
   return stresses;
@@ -154,25 +154,25 @@ double rim_of_force(const EdgeOpenings& openings, double length, std::size_t i) 
 /// Returns the stresses at the rims of all sections of an edge with a radial crack. Sections closer to the crushed
 /// facet than kGap h do not count, because the load spreads into the ice there. Of a section across that limit only the
 /// part of ln r beyond it counts.
-SectionStresses stresses_of_rims(const EdgeOpenings& openings, const EdgePush& push, double sinking) {
+SectionStresses stresses_of_rims(const EdgeOpenings& openings, const EdgeLoad& load, double sinking) {
   /// Distance from the crushed facet within which sections do not count, in thicknesses [-]. Smaller values find high
   /// stresses at narrow sections near the load, where the formula does not hold.
   constexpr double kGap = 1;
-  const double least = push.facet + kGap;
+  const double least = load.facet + kGap;
   const double half_step = std::sqrt(kSectionStep);
   SectionStresses stresses{};
   for (std::size_t i = 0; i < kSectionCount; ++i) {
-    const double r = kSectionRadii[i] * push.length;
+    const double r = kSectionRadii[i] * load.length;
     if (r * half_step <= least) continue;
-    const double place = r / push.effective_length;
+    const double place = r / load.effective_length;
     const double lever_moment = moment_of_moment(place);
-    const double force = rim_of_force(openings, push.length, i) *
-                         (push.effective_length * moment_of_force(place) - push.distance * lever_moment);
-    const double lever = kRimOfLever * push.thrust * push.lever * lever_moment;
+    const double force = rim_of_force(openings, load.length, i) *
+                         (load.effective_length * moment_of_force(place) - load.distance * lever_moment);
+    const double lever = kRimOfLever * load.thrust * load.lever * lever_moment;
     const double growth =
-        6 * kRimOfLever * push.thrust * sinking * interpolated(kRelativeSinking, place) * std::max(0.0, lever_moment);
+        6 * kRimOfLever * load.thrust * sinking * interpolated(kRelativeSinking, place) * std::max(0.0, lever_moment);
     const double breaking_force =
-        force_at_break(6 * (force - lever) - kRimOfThrust * push.thrust, growth, opening_of(openings[i]) * r);
+        force_at_break(6 * (force - lever) - kRimOfThrust * load.thrust, growth, opening_of(openings[i]) * r);
     const double share = std::min(1.0, elementary::log(r * half_step / least) / elementary::log(kSectionStep));
     stresses[i] = elementary::pow(share, 1 / kWeibull) / breaking_force;
   }
@@ -196,23 +196,23 @@ double whole_edge_factor(double opening) {
   return 1 + kGrowth * std::max(0.0, opening - kBeam);
 }
 
-SectionBreak weakest_section(const EdgeOpenings& openings, const EdgePush& push) {
-  return weakest_section_of_sinking(openings, push, 0);
+SectionBreak weakest_section(const EdgeOpenings& openings, const EdgeLoad& load) {
+  return weakest_section_of_sinking(openings, load, 0);
 }
 
-SectionBreak weakest_section_of_sinking(const EdgeOpenings& openings, const EdgePush& push, double sinking,
+SectionBreak weakest_section_of_sinking(const EdgeOpenings& openings, const EdgeLoad& load, double sinking,
                                         bool has_radial_cracks) {
   const double widest = widest_near(openings);
   const double cracked = has_radial_cracks ? crack_share(widest) : 0;
   // Stresses are for V = σ_f h²; the section with the largest stress breaks first.
   SectionStresses whole{}, rims{}, both{};
-  if (cracked < 1) whole = stresses_of_whole(openings, push, sinking);
-  if (cracked > 0) rims = stresses_of_rims(openings, push, sinking);
+  if (cracked < 1) whole = stresses_of_whole(openings, load, sinking);
+  if (cracked > 0) rims = stresses_of_rims(openings, load, sinking);
   for (std::size_t i = 0; i < kSectionCount; ++i) both[i] = std::lerp(whole[i], rims[i], cracked);
   const Vertex at = greatest_of(both);
   const double place = cracked > 0 ? std::lerp(greatest_of(whole).place, expected_place(rims), cracked) : at.place;
   return {1 / std::max(at.value, cracked / force_at_next_cracks(widest)),
-          kSectionRadii[0] * elementary::pow(kSectionStep, place) * push.length};
+          kSectionRadii[0] * elementary::pow(kSectionStep, place) * load.length};
 }
 
 }  // namespace polynya::fracture

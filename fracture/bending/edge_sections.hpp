@@ -26,7 +26,7 @@ inline constexpr std::array<double, kSectionCount> kSectionRadii = [] {
 using EdgeOpenings = std::array<geometry::WedgeAngles, kSectionCount>;
 
 /// Load of a hull on an edge of ice. All lengths are divided by the thickness h.
-struct EdgePush {
+struct EdgeLoad {
   double length = 0;  ///< l / h
   /// Λ / h: length over which the load is supported; l / h at rest, shorter if the inertia of ice and water supports
   /// the edge.
@@ -73,6 +73,6 @@ double whole_edge_factor(double opening);
 /// Compared with finite elements of 120 other edges, V deviates by at most 12 % and R by at most 24 % (90th
 /// percentiles) in the range l/h 10 to 21 and η 1.3 to 3.9. At the stem, which is outside of that range, V is 0.57 to
 /// 0.82 and R 0.84 to 1.46 times the values of the elements.
-SectionBreak weakest_section(const EdgeOpenings& openings, const EdgePush& push);
+SectionBreak weakest_section(const EdgeOpenings& openings, const EdgeLoad& load);
 
 }  // namespace polynya::fracture

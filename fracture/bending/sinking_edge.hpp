@@ -9,7 +9,7 @@ namespace polynya::fracture {
 /// negative. Therefore ice also breaks that the thrust alone would keep under compression. `sinking` is the deflection
 /// w(0)/h of the tip per V/(σ_f h²) [-]; with 0 the result is weakest_section(). With `has_radial_cracks` false, a wide
 /// edge carries the force of an edge without cracks.
-SectionBreak weakest_section_of_sinking(const EdgeOpenings& openings, const EdgePush& push, double sinking,
+SectionBreak weakest_section_of_sinking(const EdgeOpenings& openings, const EdgeLoad& load, double sinking,
                                         bool has_radial_cracks = true);
 
 }  // namespace polynya::fracture
