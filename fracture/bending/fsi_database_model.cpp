@@ -135,7 +135,7 @@ ScaledLoad scaled(const BendingLoad& load) {
   return result;
 }
 
-WedgePush push_of(const ScaledLoad& load, Feedback feedback) {
+WedgePush wedge_push_of(const ScaledLoad& load, Feedback feedback) {
   return {load.groups.froude, load.groups.softness, load.full_depth,
           feedback == Feedback::kCoupled ? load.feedback : 0};
 }
@@ -166,7 +166,7 @@ BendingCapacity FsiDatabaseModel::capacity(const BendingLoad& load) const {
 
 BendingForecast FsiDatabaseModel::forecast(const BendingLoad& load) const {
   const ScaledLoad scaled_load = scaled(load);
-  const WedgePush push = push_of(scaled_load, Feedback::kIgnored);
+  const WedgePush push = wedge_push_of(scaled_load, Feedback::kIgnored);
   // If the contact crushes through the thickness before it breaks, force and penetration depend on each other. The
   // force depends weakly on the penetration, so a few rounds find both.
   constexpr int kRounds = 20;
