@@ -125,16 +125,16 @@ void measure_bending_by_collision(const Setup& setup, const Step& step, const Hu
 /// Returns how a hull moves the edge of the cusp that it breaks off, by the law of crushing ice. The hull slides the
 /// edge down at v_n/tan θ_s. The part of the hull's displacement that did not crush ice has already moved the edge. It
 /// is not called for vertical walls, which press no ice down.
-EdgePush push_of(const HullContactLoad& load) {
+DrivenEdge driven_edge_of(const HullContactLoad& load) {
   const Contact& c = load.contact;
-  EdgePush push;
-  push.speed_per_approach = load.crushed_share / elementary::tan(load.hull_angle);
-  push.speed = push.speed_per_approach * c.approach_speed;
-  push.hull_angle = load.hull_angle;
+  DrivenEdge edge;
+  edge.speed_per_approach = load.crushed_share / elementary::tan(load.hull_angle);
+  edge.speed = edge.speed_per_approach * c.approach_speed;
+  edge.hull_angle = load.hull_angle;
   const double slip = c.slip_speed > 0 ? -1 : c.slip_speed < 0 ? 1 : 0;
-  push.horizontal = (load.shares.horizontal / load.shares.vertical) * c.normal +
+  edge.horizontal = (load.shares.horizontal / load.shares.vertical) * c.normal +
                     (slip * load.shares.tangential / load.shares.vertical) * perpendicular(c.normal);
-  return push;
+  return edge;
 }
 
 /// Returns whether and how the ice of a contact breaks, by the paper's criteria. `measure_bending(pending)` sets V, V_b
@@ -227,7 +227,7 @@ void crush_at_hull(const Setup& setup, const Step& step, const Population& popul
   PendingFracture pending = evaluate(setup, population, load, measure);
   if (!breaks(pending, c)) return;
   if (pending.failure == fracture::Failure::kBend) {
-    pending.push = push_of(load);
+    pending.driven_edge = driven_edge_of(load);
     pending.cusp_axis_in_body = rotate_back(population.bodies.rotation[c.b], c.normal);
     pending.passes_to_pieces = true;
     break_at(c, pending.criteria.bending_capacity * horizontal / load.shares.vertical);

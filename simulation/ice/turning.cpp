@@ -107,8 +107,8 @@ fracture::Deck deck_of(const Setup& setup, const Population& population, const P
     outline.push_back(Point{} + rotate(ahead_from_body, piece[i] - Point{}));
     edges.push_back(deck_edge(setup, population, bend, piece[i], piece[i + 1 < piece.size() ? i + 1 : 0]));
   }
-  return fracture::deck_of(ice_of_floe(setup, population, bend.floe), setup.scene.water.water, bend.push.hull_angle,
-                           outline, edges);
+  return fracture::deck_of(ice_of_floe(setup, population, bend.floe), setup.scene.water.water,
+                           bend.driven_edge.hull_angle, outline, edges);
 }
 
 /// Turns a cusp further by the displacement of its hull in the step, and applies the force of the missing water to the
@@ -162,7 +162,7 @@ double pressed_mass(const Setup& setup, const Population& population, const Pend
 }
 
 void turn_cusp(const Step& step, const PendingFracture& bend, double mass, Population& population, HullBooks books) {
-  const EdgePush& edge = bend.push;
+  const DrivenEdge& edge = bend.driven_edge;
   const BodyIndex ship = bend.ship;
   if (edge.speed <= 0) return;
   dynamics::Bodies& bodies = population.bodies;
@@ -184,7 +184,7 @@ void turn_cusp(const Step& step, const PendingFracture& bend, double mass, Popul
 
 void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut,
                Population& population) {
-  if (!setup.has_flooding_decks || bend.push.speed <= 0) return;
+  if (!setup.has_flooding_decks || bend.driven_edge.speed <= 0) return;
   const dynamics::Bodies& bodies = population.bodies;
   const geometry::Rotation of_ship = bodies.rotation[bend.ship];
   for (const geometry::Piece& piece : cut.pieces) {
@@ -192,7 +192,7 @@ void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::
     PressedDeck pressed{.ship = bend.ship,
                         .arm_in_ship = rotate_back(of_ship, bend.point_in_water - bodies.position[bend.ship]),
                         .normal_in_ship = rotate_back(of_ship, bend.normal),
-                        .horizontal_in_ship = rotate_back(of_ship, bend.push.horizontal),
+                        .horizontal_in_ship = rotate_back(of_ship, bend.driven_edge.horizontal),
                         .deck = deck_of(setup, population, bend, piece.shape.polygon.outer),
                         .state = {}};
     if (fracture::way_to_lie_along(pressed.deck) > 0) population.decks.push_back(pressed);

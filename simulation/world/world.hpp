@@ -57,7 +57,7 @@ struct SailingLoads {
 };
 
 /// The motion that a hull gives to the edge of a cusp that it breaks off.
-struct EdgePush {
+struct DrivenEdge {
   double speed = 0;               ///< downward speed of the edge; 0 if the hull does not move it [m/s]
   double speed_per_approach = 0;  ///< downward speed of the edge / speed of the hull along the contact's normal [-]
   geometry::Vector horizontal;    ///< horizontal force on the ice / downward force on it, in the water frame [-]
@@ -77,7 +77,7 @@ struct PendingFracture {
   double cusp_radius = 0;               ///< radius of the cusp [m]
   /// Axis of symmetry of the cusp's polygon: unit vector in the body frame of the floe.
   geometry::Vector cusp_axis_in_body{1, 0};
-  EdgePush push;            ///< motion of the cusp's edge; set for bends by the law of crushing ice
+  DrivenEdge driven_edge;   ///< motion of the cusp's edge; set for bends by the law of crushing ice
   bool is_in_range = true;  ///< true if the load is in the range of the bending model's data
   /// True if the fracture is assigned to a piece of its floe if the floe breaks in the same step before it.
   bool passes_to_pieces = false;
