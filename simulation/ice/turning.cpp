@@ -132,19 +132,19 @@ void press(const Setup& setup, const Step& step, PressedDeck& pressed, dynamics:
 
 /// Gives the edge of a cusp as much of its remaining impulse as the largest force allows in a step, and brakes the hull
 /// by it.
-void press(const Step& step, StartedCusp& cusp, dynamics::Bodies& bodies, HullBooks books) {
+void press(const Step& step, AcceleratingCusp& cusp, dynamics::Bodies& bodies, HullBooks books) {
   const geometry::Rotation of_ship = bodies.rotation[cusp.ship];
   const Vector arm = rotate(of_ship, cusp.arm_in_ship);
-  const double given = std::min(cusp.left, cusp.most * step.length);
-  cusp.left -= given;
-  cusp.way -= step.length *
-              std::max(0.0, dot(rotate(of_ship, cusp.normal_in_ship), dynamics::velocity_at(bodies, cusp.ship, arm)));
+  const double given = std::min(cusp.impulse_left, cusp.largest_force * step.length);
+  cusp.impulse_left -= given;
+  cusp.distance_left -= step.length * std::max(0.0, dot(rotate(of_ship, cusp.normal_in_ship),
+                                                        dynamics::velocity_at(bodies, cusp.ship, arm)));
   brake({cusp.ship, arm, -given * rotate(of_ship, cusp.horizontal_in_ship)}, bodies, books);
 }
 
 /// Returns true if the edge has reached the hull's speed, or if the hull has passed the cusp.
-bool is_started(const StartedCusp& cusp) {
-  return cusp.left <= 0 || cusp.way <= 0;
+bool is_finished(const AcceleratingCusp& cusp) {
+  return cusp.impulse_left <= 0 || cusp.distance_left <= 0;
 }
 
 }  // namespace
@@ -161,7 +161,7 @@ double pressed_mass(const Setup& setup, const Population& population, const Pend
   return mass;
 }
 
-void turn_cusp(const Step& step, const PendingFracture& bend, double mass, Population& population, HullBooks books) {
+void start_cusp(const Step& step, const PendingFracture& bend, double mass, Population& population, HullBooks books) {
   const DrivenEdge& edge = bend.driven_edge;
   const BodyIndex ship = bend.ship;
   if (edge.speed <= 0) return;
@@ -171,15 +171,15 @@ void turn_cusp(const Step& step, const PendingFracture& bend, double mass, Popul
   const double slowed = edge.speed_per_approach * speed_by(bodies, ship, arm, bend.normal, edge.horizontal);
   const double given = mass * edge.speed / (1 + mass * std::max(0.0, slowed));  // impulse down on the edge [N s]
   const geometry::Rotation of_ship = bodies.rotation[ship];
-  StartedCusp cusp{.ship = ship,
-                   .arm_in_ship = rotate_back(of_ship, arm),
-                   .normal_in_ship = rotate_back(of_ship, bend.normal),
-                   .horizontal_in_ship = rotate_back(of_ship, edge.horizontal),
-                   .left = given,
-                   .most = bend.criteria.bending_capacity,
-                   .way = bend.cusp_radius};
+  AcceleratingCusp cusp{.ship = ship,
+                        .arm_in_ship = rotate_back(of_ship, arm),
+                        .normal_in_ship = rotate_back(of_ship, bend.normal),
+                        .horizontal_in_ship = rotate_back(of_ship, edge.horizontal),
+                        .impulse_left = given,
+                        .largest_force = bend.criteria.bending_capacity,
+                        .distance_left = bend.cusp_radius};
   press(step, cusp, bodies, books);
-  if (!is_started(cusp)) population.started.push_back(cusp);
+  if (!is_finished(cusp)) population.accelerating_cusps.push_back(cusp);
 }
 
 void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut,
@@ -199,10 +199,10 @@ void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::
   }
 }
 
-void press_started(const Step& step, Population& population, std::vector<HullLoads>& loads, AuditSums& audit) {
-  for (StartedCusp& cusp : population.started)
+void accelerate_cusps(const Step& step, Population& population, std::vector<HullLoads>& loads, AuditSums& audit) {
+  for (AcceleratingCusp& cusp : population.accelerating_cusps)
     press(step, cusp, population.bodies, {loads[static_cast<std::size_t>(cusp.ship)], audit});
-  std::erase_if(population.started, is_started);
+  std::erase_if(population.accelerating_cusps, is_finished);
 }
 
 void press_decks(const Setup& setup, const Step& step, Population& population, std::vector<HullLoads>& loads,

@@ -15,9 +15,9 @@ struct HullBooks {
 /// Law of crushing ice: accelerates a cusp that a bend breaks off and that goes under the hull
 /// (`InsideFate::kUnderHull`). The edge of the cusp must reach the speed that the slope of the hull gives it, and the
 /// impulse for this brakes the hull. The force never exceeds the one at which the ice broke, so the impulse may take
-/// several steps; press_started() gives the rest of it. The impulse is added to the loads of the hull and to the
+/// several steps; accelerate_cusps() gives the rest of it. The impulse is added to the loads of the hull and to the
 /// accounts. `mass` is the effective mass of the cusps at the edge that the hull presses down [kg] (pressed_mass()).
-void turn_cusp(const Step& step, const PendingFracture& bend, double mass, Population& population, HullBooks books);
+void start_cusp(const Step& step, const PendingFracture& bend, double mass, Population& population, HullBooks books);
 
 /// Returns the effective mass of a cut's cusps at the edge that the hull presses down, including the water that moves
 /// with them [kg].
@@ -30,7 +30,7 @@ void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::
 
 /// Continues to accelerate the cusps whose edges have not reached the hull's speed yet. A cusp is removed from the list
 /// when it has reached it, or when the hull has passed it.
-void press_started(const Step& step, Population& population, std::vector<HullLoads>& loads, AuditSums& audit);
+void accelerate_cusps(const Step& step, Population& population, std::vector<HullLoads>& loads, AuditSums& audit);
 
 /// Turns the cusps under hulls further by the displacement of their hull in the step, and lets water flow onto their
 /// decks. The hulls are braked by the pressure of the water that is missing there. A cusp that lies along the hull is

@@ -54,7 +54,7 @@ void write(Archive& archive, const World& world, const std::vector<dynamics::Pai
     if (floe.parent != kNoFloe) archive(floe.shape.polygon);  // otherwise the shape is the scene's
     motion_fields(archive, population.bodies, population.body_of(id));
   }
-  archive(population.tilted, population.submerged, population.started);
+  archive(population.tilted, population.submerged, population.accelerating_cusps);
   if (world.setup.has_flooding_decks) archive(population.decks);
   archive(pairs);
   archive(members(pairs, &dynamics::PersistentContact::crushed));
@@ -258,13 +258,13 @@ class StateLoader {
       if (!bytes_.is_well()) return;
       submerged.area = population_.floes[submerged.floe].area;
     }
-    load_started();
+    load_accelerating_cusps();
     if (world_.setup.has_flooding_decks) load_decks();
   }
 
-  void load_started() {
-    bytes_(population_.started);
-    for (const StartedCusp& cusp : population_.started)
+  void load_accelerating_cusps() {
+    bytes_(population_.accelerating_cusps);
+    for (const AcceleratingCusp& cusp : population_.accelerating_cusps)
       bytes_.require(can_take_ice(cusp.ship), "a cusp before a hull that there is not");
   }
 

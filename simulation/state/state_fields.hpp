@@ -55,8 +55,9 @@ void fields(auto& archive, Is<TiltedFloe> auto& t) {
 void fields(auto& archive, Is<SubmergedPiece> auto& t) {
   archive(t.floe, t.ship, t.path, t.weight, t.next_try, t.waited);
 }
-void fields(auto& archive, Is<StartedCusp> auto& c) {
-  archive(c.ship, c.arm_in_ship, c.normal_in_ship, c.horizontal_in_ship, c.left, c.most, c.way);
+void fields(auto& archive, Is<AcceleratingCusp> auto& c) {
+  archive(c.ship, c.arm_in_ship, c.normal_in_ship, c.horizontal_in_ship, c.impulse_left, c.largest_force,
+          c.distance_left);
 }
 void fields(auto& archive, Is<fracture::DeckStrip> auto& s) {
   archive(s.width, s.sheet, s.sheet_across, s.water);

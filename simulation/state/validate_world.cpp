@@ -106,8 +106,9 @@ Defect check_loads(const LoadPeaks& peaks) {
 }
 
 Defect check_cusps(const Population& population) {
-  for (const StartedCusp& cusp : population.started)
-    if (!(cusp.left > 0 && cusp.most > 0 && cusp.way > 0)) return "a cusp that no hull presses";
+  for (const AcceleratingCusp& cusp : population.accelerating_cusps)
+    if (!(cusp.impulse_left > 0 && cusp.largest_force > 0 && cusp.distance_left > 0))
+      return "a cusp that no hull presses";
   constexpr double kLongestCusp = 1e4;  // largest depth of a cusp; a larger value means damage [m]
   for (const PressedDeck& pressed : population.decks) {
     const fracture::Deck& deck = pressed.deck;

@@ -51,14 +51,14 @@ struct SubmergedPiece {
 
 /// A cusp that broke off under a ship's hull and whose edge has not reached the speed yet that the slope of the hull
 /// gives it. Members named `_in_ship` are in the ship's frame.
-struct StartedCusp {
+struct AcceleratingCusp {
   int ship = 0;                         ///< number of the ship
   geometry::Vector arm_in_ship;         ///< vector from the ship's centre to the contact that broke the cusp [m]
   geometry::Vector normal_in_ship;      ///< unit normal of that contact, out of the hull
   geometry::Vector horizontal_in_ship;  ///< horizontal force on the ice per downward force on it [-]
-  double left = 0;                      ///< downward impulse that is still needed to give the edge its speed [N s]
-  double most = 0;  ///< largest downward force of the hull on the edge: the one with which the ice broke [N]
-  double way = 0;   ///< distance that the hull moves along the normal until it has passed the cusp [m]
+  double impulse_left = 0;              ///< downward impulse that is still needed to give the edge its speed [N s]
+  double largest_force = 0;  ///< largest downward force of the hull on the edge: the one with which the ice broke [N]
+  double distance_left = 0;  ///< distance that the hull moves along the normal until it has passed the cusp [m]
 };
 
 /// A cusp that broke off under a ship's hull and turns until it lies along the hull. Members named `_in_ship` are in
@@ -101,8 +101,9 @@ struct Population {
   dynamics::BroadPhase pairs;             ///< pairs of bodies that may touch, with the memory of their contacts
   std::vector<TiltedFloe> tilted;         ///< floes pressed down by hulls, ordered by (ship, floe)
   std::vector<SubmergedPiece> submerged;  ///< pieces under hulls, in the order in which they went under
-  std::vector<StartedCusp> started;       ///< cusps that hulls set in motion, in the order in which they broke off
-  std::vector<PressedDeck> decks;         ///< turning cusps, in the order in which they broke off
+  /// Cusps that hulls accelerate, in the order in which they broke off.
+  std::vector<AcceleratingCusp> accelerating_cusps;
+  std::vector<PressedDeck> decks;  ///< turning cusps, in the order in which they broke off
 
   FloeId floe_count() const { return static_cast<FloeId>(floes.size()); }
   BodyKind kind(BodyIndex body) const { return bodies.kind[body]; }

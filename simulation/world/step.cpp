@@ -238,7 +238,7 @@ constexpr Stage kThrust{"thrust", [](World& w, const Step& s) {
                         }};
 constexpr Stage kSubmergedIce{"pull of submerged ice", [](World& w, const Step& s) {
                                 pull_of_submerged_ice(w.setup, s, w.population, w.data.loads, w.accounts.audit);
-                                press_started(s, w.population, w.data.loads, w.accounts.audit);
+                                accelerate_cusps(s, w.population, w.data.loads, w.accounts.audit);
                                 press_decks(w.setup, s, w.population, w.data.loads, w.accounts.audit);
                               }};
 constexpr Stage kSail{"sail", [](World& w, const Step& s) { sail(w.setup, s, w.data, w.population, w.accounts); }};

@@ -376,8 +376,8 @@ TEST(TurningCusp, MovesOnWithTheHullThatItSlows) {
   bend.criteria.bending_capacity = 1e12;  // all of it in one step
   Step step;
   step.length = 0.01;
-  turn_cusp(step, bend, pressed_mass(world.setup, world.population, bend, cut), world.population,
-            {loads, world.accounts.audit});
+  start_cusp(step, bend, pressed_mass(world.setup, world.population, bend, cut), world.population,
+             {loads, world.accounts.audit});
   const double given = (speed - bodies.velocity[0].x) * light.mass / 0.9;  // down on the edge [N s]
   EXPECT_NEAR(given / mass, slope * bodies.velocity[0].x, 1e-9 * speed);
   EXPECT_LT(bodies.velocity[0].x, 0.6 * speed) << "the cusp should weigh as much as the ship";
