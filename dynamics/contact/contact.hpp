@@ -134,13 +134,13 @@ struct Contact {
 
 /// Two bodies that are inside each other while the gradient of the overlap's area does not show it. No contact can
 /// separate them.
-struct BlindOverlap {
+struct InseparableOverlap {
   BodyIndex a = 0;
   BodyIndex b = 0;
   bool is_inside = false;  ///< one lies completely inside the other, without a crossing
-  double area = 0;         ///< area of the pair's blind overlaps; 0 if is_inside [m²]
+  double area = 0;         ///< area of the pair's inseparable overlaps; 0 if is_inside [m²]
   double width = 0;        ///< |R| of the largest of them [m]
-  double least_width = 0;  ///< width below which the overlap is blind [m]
+  double least_width = 0;  ///< width below which the overlap is inseparable [m]
   geometry::Point middle;  ///< middle of the largest, in the water frame [m]
 };
 

@@ -76,20 +76,21 @@ void forget_near(Pair& pair) {
   pair.near_bound = -1;
 }
 
-/// Records the manifolds that are blind, and removes those that have no direction in which to separate the bodies.
-void take_blind(const Pair& pair, const Pose& water_from_a, PairScratch& scratch) {
-  BlindOverlap blind{pair.a, pair.b, false, 0, 0, 0, {}};
+/// Records the manifolds that are inseparable, and removes those that have no direction in which to separate the
+/// bodies.
+void take_inseparable(const Pair& pair, const Pose& water_from_a, PairScratch& scratch) {
+  InseparableOverlap inseparable{pair.a, pair.b, false, 0, 0, 0, {}};
   double largest = 0;
   for (const geometry::ContactManifold& m : scratch.manifolds) {
-    if (!m.is_pierced || !geometry::is_blind(m.width, m.area, m.extent)) continue;
-    blind.area += m.area;
+    if (!m.is_pierced || !geometry::is_inseparable(m.width, m.area, m.extent)) continue;
+    inseparable.area += m.area;
     if (m.area <= largest) continue;
     largest = m.area;
-    blind.width = m.width;
-    blind.least_width = geometry::kBlindShare * m.area / m.extent;
-    blind.middle = transform(water_from_a, m.centroid);
+    inseparable.width = m.width;
+    inseparable.least_width = geometry::kInseparableShare * m.area / m.extent;
+    inseparable.middle = transform(water_from_a, m.centroid);
   }
-  if (blind.area > 0) scratch.blind.push_back(blind);
+  if (inseparable.area > 0) scratch.inseparable.push_back(inseparable);
   std::erase_if(scratch.manifolds,
                 [](const geometry::ContactManifold& m) { return m.is_pierced && m.width <= geometry::kNoWidth; });
 }
@@ -106,7 +107,7 @@ void take_inside(const Bodies& bodies, Pair& pair, const Pose& pose, const Conta
   }
   if (pair.is_outside) return;
   const BodyIndex inner = bodies.bounding_radius[pair.a] < bodies.bounding_radius[pair.b] ? pair.a : pair.b;
-  scratch.blind.push_back({pair.a, pair.b, true, 0, 0, 0, bodies.position[inner]});
+  scratch.inseparable.push_back({pair.a, pair.b, true, 0, 0, 0, bodies.position[inner]});
 }
 
 /// Appends the contacts of a pair, which are found among its near edges. Returns true if the two bodies are apart.
@@ -131,7 +132,7 @@ bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRu
   }
   const Pose water_from_a = water_from_body(bodies, pair.a);
   if (std::ranges::any_of(scratch.manifolds, &geometry::ContactManifold::is_pierced))
-    take_blind(pair, water_from_a, scratch);
+    take_inseparable(pair, water_from_a, scratch);
   std::uint32_t number = 0;
   for (const geometry::ContactManifold& manifold : scratch.manifolds) {
     Contact& c = contacts.emplace_back();

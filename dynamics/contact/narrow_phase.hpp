@@ -107,10 +107,10 @@ struct PairScratch {
   std::vector<geometry::ContactManifold> manifolds;
   std::vector<geometry::ContactManifold> manifolds_ahead;  ///< where the bodies would be at the end of a step
   geometry::ManifoldScratch crossings;
-  std::vector<PersistentContact> records;  ///< records of the present pair, while they are updated
-  std::vector<BlindOverlap> blind;         ///< blind overlaps found so far
-  std::vector<PartedContact> parted;       ///< contacts that ended, found so far
-  std::int64_t unpaired = 0;               ///< number of contact stretches so far whose crossings did not pair up
+  std::vector<PersistentContact> records;       ///< records of the present pair, while they are updated
+  std::vector<InseparableOverlap> inseparable;  ///< inseparable overlaps found so far
+  std::vector<PartedContact> parted;            ///< contacts that ended, found so far
+  std::int64_t unpaired = 0;                    ///< number of contact stretches so far whose crossings did not pair up
 };
 
 /// Returns how far the two bodies can still move within a clearance [m]; `pose` is b's centre of mass in a's frame.

@@ -17,8 +17,8 @@ namespace polynya::simulation {
 
 namespace {
 
-using dynamics::BlindOverlap;
 using dynamics::Contact;
+using dynamics::InseparableOverlap;
 
 /// Condition under which an overlap is cut off.
 enum class CutWhen {
@@ -190,33 +190,33 @@ void book_overlaps(const Setup& setup, const Step& step, const Population& popul
   });
 }
 
-// ---- blind overlaps are ground
+// ---- inseparable overlaps are ground
 
 namespace {
 
-/// Smallest blind overlap that is ground, as a fraction of the area of the smaller body [-]. Larger values leave more
-/// overlap that nothing removes. Smaller values cut floes for overlaps that separate soon by themselves.
-constexpr double kLeastBlindShare = 0.005;
+/// Smallest inseparable overlap that is ground, as a fraction of the area of the smaller body [-]. Larger values leave
+/// more overlap that nothing removes. Smaller values cut floes for overlaps that separate soon by themselves.
+constexpr double kLeastInseparableShare = 0.005;
 
-/// Returns the criterion by which a blind overlap is ground.
-GrindCriterion criterion_of(const Population& population, const BlindOverlap& overlap) {
+/// Returns the criterion by which an inseparable overlap is ground.
+GrindCriterion criterion_of(const Population& population, const InseparableOverlap& overlap) {
   const dynamics::Bodies& bodies = population.bodies;
   const double smaller = smaller_area(population, overlap.a, overlap.b);
-  GrindCriterion criterion{overlap.area, kLeastBlindShare * smaller, overlap.width, overlap.least_width};
+  GrindCriterion criterion{overlap.area, kLeastInseparableShare * smaller, overlap.width, overlap.least_width};
   if (overlap.is_inside) {
     const double radius =
         bodies.bounding_radius[bodies.area[overlap.a] < bodies.area[overlap.b] ? overlap.a : overlap.b];
     criterion.overlap_area = smaller;
-    criterion.least_width = geometry::kBlindShare * smaller / (2 * radius);
+    criterion.least_width = geometry::kInseparableShare * smaller / (2 * radius);
   }
   return criterion;
 }
 
 }  // namespace
 
-void grind_blind_overlaps(const Setup& setup, const Step& step, const StepData& data, Population& population,
-                          Books books) {
-  for (const BlindOverlap& overlap : data.blind_overlaps) {
+void grind_inseparable_overlaps(const Setup& setup, const Step& step, const StepData& data, Population& population,
+                                Books books) {
+  for (const InseparableOverlap& overlap : data.inseparable_overlaps) {
     if (!can_cut(population, books.accounts, overlap.a, overlap.b)) continue;
     const GrindCriterion criterion = criterion_of(population, overlap);
     if (criterion.overlap_area < criterion.least_area) continue;

@@ -107,7 +107,7 @@ void find_contacts(const Step& step, Population& population, StepData& data, Cou
   population.pairs.find_contacts(population.bodies, step.length, contacts, step.threads);
   counts.unpaired_stretches += population.pairs.take_unpaired_stretches();
   counts.peak_contacts = std::max(counts.peak_contacts, static_cast<std::int64_t>(contacts.size()));
-  population.pairs.take_blind_overlaps(data.blind_overlaps);
+  population.pairs.take_inseparable_overlaps(data.inseparable_overlaps);
   population.pairs.take_parted(data.parted);
 }
 
@@ -249,7 +249,7 @@ constexpr Stage kApplyFractures{"apply fractures", [](World& w, const Step& s) {
                                   apply_fractures(w.setup, s, w.data, w.population, {w.accounts, w.journal});
                                 }};
 constexpr Stage kGrind{"grind", [](World& w, const Step& s) {
-                         grind_blind_overlaps(w.setup, s, w.data, w.population, {w.accounts, w.journal});
+                         grind_inseparable_overlaps(w.setup, s, w.data, w.population, {w.accounts, w.journal});
                        }};
 constexpr Stage kCarve{"carve channels", [](World& w, const Step& s) {
                          carve_channels(w.setup, s, w.data, w.population, {w.accounts, w.journal});

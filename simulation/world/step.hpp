@@ -117,8 +117,8 @@ std::optional<std::string> integrate_motion(const Step& step, Population& popula
 void apply_fractures(const Setup& setup, const Step& step, StepData& data, Population& population, Books books);
 
 /// Cuts off overlaps that no contact can part, and makes them brash.
-void grind_blind_overlaps(const Setup& setup, const Step& step, const StepData& data, Population& population,
-                          Books books);
+void grind_inseparable_overlaps(const Setup& setup, const Step& step, const StepData& data, Population& population,
+                                Books books);
 
 /// Law of crushing ice: cuts the outlines of hulls of prescribed motion out of fast ice. The ice becomes brash.
 void carve_channels(const Setup& setup, const Step& step, const StepData& data, Population& population, Books books);

@@ -128,7 +128,7 @@ struct SolverStart {
 /// The results of the stages of one step. Between two steps they are those of the last step.
 struct StepData {
   std::vector<dynamics::Contact> contacts;
-  std::vector<dynamics::BlindOverlap> blind_overlaps;
+  std::vector<dynamics::InseparableOverlap> inseparable_overlaps;
   std::vector<dynamics::PartedContact> parted;
   std::vector<HullSlope> slopes;  ///< slopes of the hulls at their contacts, which are the first contacts of the list
   std::vector<PendingFracture> fractures;
