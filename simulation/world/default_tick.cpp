@@ -21,11 +21,11 @@ constexpr std::array kTickChoices{0.1, 0.05, 0.025, 0.02, 0.01, 0.005, 0.0025, 0
 constexpr double kPartsAtFullSpeed = 8;
 /// Speed in ice that is assumed of a ship with a constant thrust [m/s], because the scene does not give it. A larger
 /// value makes ticks shorter; with a smaller one, ticks of faster ships need more parts.
-constexpr double kUnderThrust = 4;
+constexpr double kSpeedUnderThrust = 4;
 /// Fraction of the scene's ice, by area, that is at least as thick as the ice for which the tick is chosen [-]. Where a
 /// hull meets the few thinner floes, ticks are divided into more parts. A larger value makes ticks shorter for a few
 /// thin floes.
-constexpr double kMostIce = 0.95;
+constexpr double kShareOfThickerIce = 0.95;
 
 /// Returns the greatest speed of a ship [m/s]: the speed at the start, or the open-water speed of its engine or the
 /// speed assumed of a constant thrust, if that is greater.
@@ -33,7 +33,7 @@ double full_speed(const Ship& ship) {
   const double start = elementary::hypot(ship.speed, ship.sway_speed);
   if (const auto* engine = std::get_if<Engine>(&ship.propulsion)) return std::max(start, engine->open_water_speed);
   const auto* constant = std::get_if<ConstantThrust>(&ship.propulsion);
-  return constant && constant->thrust != 0 ? std::max(start, kUnderThrust) : start;
+  return constant && constant->thrust != 0 ? std::max(start, kSpeedUnderThrust) : start;
 }
 
 /// Returns the greatest speed at which the wind drives ice through the water [m/s].
@@ -76,15 +76,15 @@ double fastest_rim(const Scene& scene) {
   return fastest;
 }
 
-/// Returns the thickness of the scene's "thin ice": the fraction kMostIce of the ice, by area, is at least as thick
-/// [m].
+/// Returns the thickness of the scene's "thin ice": the fraction kShareOfThickerIce of the ice, by area, is at least as
+/// thick [m].
 double thin_ice(const Scene& scene) {
   if (scene.own_ice.empty() || scene.floes.empty()) return scene.ice.thickness;
   std::vector<std::pair<double, double>> ice;  // thickness [m] and area [m²] of each floe
   double rest = 0;
   for (const FloeSpec& floe : scene.floes) {
     ice.emplace_back(ice_of(scene, floe.own_ice).thickness, geometry::measure(floe.polygon_in_world).area);
-    rest += (1 - kMostIce) * ice.back().second;
+    rest += (1 - kShareOfThickerIce) * ice.back().second;
   }
   std::ranges::sort(ice);
   const auto found = std::ranges::find_if(ice, [&](const auto& of) { return (rest -= of.second) < 0; });
@@ -94,10 +94,10 @@ double thin_ice(const Scene& scene) {
 /// Returns the longest tick in which no body moves too far [s].
 double longest_tick(const Scene& scene) {
   const double radius = scene.contact.circle_radius;
-  const double way = most_way(scene.contact, thin_ice(scene));
+  const double displacement = allowed_displacement(scene.contact, thin_ice(scene));
   const double parts = scene.contact.law == ContactLaw::kCrush ? kPartsAtFullSpeed : 1;
-  return std::min(
-      {parts * way / fastest_meeting(scene), way / fastest_floe(scene), kWayOverCircle * radius / fastest_rim(scene)});
+  return std::min({parts * displacement / fastest_meeting(scene), displacement / fastest_floe(scene),
+                   kDisplacementOverRadius * radius / fastest_rim(scene)});
 }
 
 /// Returns the longest of the choices that is no longer than a time and goes whole into each interval [s]; where none

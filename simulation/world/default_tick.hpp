@@ -7,8 +7,8 @@ namespace polynya::simulation {
 /// Returns the tick of a scene that does not give one [s]. It is the longest of a list of round numbers that satisfies
 /// three conditions. It divides the intervals of the records into whole numbers of ticks. No hull at full speed in the
 /// thinnest ice needs more than a quarter of kMostParts parts; with the law of impulses, which has no parts, a hull
-/// stays within most_way() (parts.hpp) in a tick. No floe moves too far in a step at its initial speed. The tick does
-/// not depend on the end of the run, so that a run that is ended early and resumed is the same run.
+/// stays within allowed_displacement() (parts.hpp) in a tick. No floe moves too far in a step at its initial speed. The
+/// tick does not depend on the end of the run, so that a run that is ended early and resumed is the same run.
 double default_tick(const Scene& scene);
 
 /// Returns the tick without the condition on the intervals of the records [s]. It is longer than default_tick() only if

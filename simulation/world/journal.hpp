@@ -215,7 +215,7 @@ struct Counts {
   /// Number of cusps that broke under a load outside the range of the bending model's data. Loads that did not reach
   /// V_b are not counted.
   std::int64_t database_out_of_range = 0;
-  /// Number of ticks with kMostParts parts in which the running mean of bends in a part exceeded kCrowded, so that
+  /// Number of ticks with kMostParts parts in which the running mean of bends in a part exceeded kCrowdedBends, so that
   /// loads depend on the step (parts.hpp).
   std::int64_t crowded_ticks = 0;
   /// Number of splits that were given up because their contacts could not be stopped at the force that splits the floe

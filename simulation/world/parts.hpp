@@ -15,17 +15,17 @@ inline constexpr int kMostParts = 32;
 /// Largest displacement of a hull relative to ice in one step, as a fraction of the ice thickness [-]. The crushing
 /// force grows to the force at which ice bends within some tenths of the thickness. Larger values find contacts too
 /// late, and loads become too small; smaller values cost time.
-inline constexpr double kWayOverThickness = 0.15;
+inline constexpr double kDisplacementOverThickness = 0.15;
 /// Largest displacement of a hull relative to ice in one step, times the ice thickness [m²]. It is the stricter limit
 /// for ice thicker than 0.5 m. Thick ice breaks in a few large cusps, and the order in which they break determines
 /// where the next ones form. Larger values change that order.
-inline constexpr double kWayTimesThickness = 0.0375;
+inline constexpr double kDisplacementTimesThickness = 0.0375;
 /// Largest displacement of a hull relative to ice in one step, as a fraction of the radius of contact circles [-].
 /// Larger values lose contacts from one step to the next.
-inline constexpr double kWayOverCircle = 0.25;
+inline constexpr double kDisplacementOverRadius = 0.25;
 /// Factor by which a hull may exceed the allowed displacement before a tick is divided further [-]. With 1, a ship
 /// whose displacement in a tick is just the allowed one would need two parts wherever ice moves towards it.
-inline constexpr double kWayExceeded = 1.1;
+inline constexpr double kToleratedExcess = 1.1;
 
 /// Longest step of a scene with walls that press [s]. Jams between walls need more sweeps of the solver in longer
 /// steps, and some are not solved.
@@ -34,23 +34,23 @@ inline constexpr double kStepUnderPressure = 0.025;
 /// Mean number of bends in a step above which ticks are divided into twice as many parts [-]. A contact can bend its
 /// ice only once in a step. If a hull advances by more than one cusp in a step, overlaps along it join, and the hull
 /// passes through ice without breaking it. Larger values make loads depend on the step; smaller values cost time.
-inline constexpr double kMostBends = 0.75;
+inline constexpr double kManyBends = 0.75;
 /// Mean number of bends in a step below which the number of parts is halved again [-]. It must be less than half of
-/// kMostBends; otherwise the number of parts would change in every other tick.
+/// kManyBends; otherwise the number of parts would change in every other tick.
 inline constexpr double kFewBends = 0.25;
 /// Mean number of bends in a step above which loads depend on the step, if the tick already has kMostParts parts [-].
 /// Such ticks are counted in Counts::crowded_ticks. A larger value would not warn of loads that are too small.
-inline constexpr double kCrowded = 2;
+inline constexpr double kCrowdedBends = 2;
 /// Weight of the last tick in the running mean of bends [-]. With 1, two bends that happen to fall into one step in
 /// thick ice would change the number of parts. Smaller values adapt the number of parts more slowly.
-inline constexpr double kLastTick = 0.125;
+inline constexpr double kWeightOfLastTick = 0.125;
 
 /// Returns the largest displacement of a hull relative to ice of a thickness [m] in one step [m].
-double most_way(const ContactSettings& contact, double thickness);
+double allowed_displacement(const ContactSettings& contact, double thickness);
 
 /// Returns the number of equal parts of the next tick, from 1 to kMostParts. It is the smallest number with which every
-/// hull stays within most_way() relative to the ice that it may reach in the tick, and with which steps are no longer
-/// than Setup::longest_step_by_walls; this number is multiplied by Pace::finer.
+/// hull stays within allowed_displacement() relative to the ice that it may reach in the tick, and with which steps are
+/// no longer than Setup::longest_step_by_walls; this number is multiplied by Pace::finer.
 int parts_of_tick(const Setup& setup, const Pace& pace, const Population& population);
 
 /// Updates the pace after a tick with the given numbers of parts and of bends. Returns true if loads depend on the step

@@ -89,7 +89,7 @@ struct ContactSettings {
   /// solution does not depend on it.
   bool is_warm_started = true;
   /// Radius of the contact circles that cover the boundaries of bodies [m]. Smaller circles need more memory and, at
-  /// hulls, shorter steps (kWayOverCircle).
+  /// hulls, shorter steps (kDisplacementOverRadius).
   double circle_radius = 1.0;
   ContactNormal normal = ContactNormal::kBoundary;
   /// Coefficient of restitution ε of Eq. (5) [-]. For kCrush it affects only the collision force j/τ_c.
