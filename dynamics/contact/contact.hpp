@@ -112,9 +112,9 @@ struct Contact {
   double paid_by_giving_way = 0;      ///< growth of the paid area in the step, for ice that broke or tilted [m²]
   bool is_at_limit = false;           ///< the contact pressed with the full force of crushing ice
   bool is_broken = false;             ///< the force reached breaking_force
-  double steady_share = 1;            ///< fraction of the impulses that is not missed_impulse [-]
-  double prescribed_work = 0;         ///< work of a body with prescribed motion on the other one [J]
-  double slip_impulse = 0;            ///< impulse on b along perpendicular(normal), anywhere on the line [N s]
+  double step_share = 1;       ///< fraction of the impulses that belongs to this step; the rest is missed_impulse [-]
+  double prescribed_work = 0;  ///< work of a body with prescribed motion on the other one [J]
+  double slip_impulse = 0;     ///< impulse on b along perpendicular(normal), anywhere on the line [N s]
 
   bool gives_way = false;  ///< the floe tilts instead of carrying the force that crushes it
 

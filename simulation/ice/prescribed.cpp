@@ -189,7 +189,7 @@ std::optional<std::string> overload_of(const Setup& setup, const Step& step, con
   for (std::size_t i = 0; i < data.contacts.size(); ++i) {
     const Contact& c = data.contacts[i];
     if (c.is_rigid() || c.total_normal_impulse() <= 0) continue;
-    const double force = c.steady_share * c.total_normal_impulse() / dt;
+    const double force = c.step_share * c.total_normal_impulse() / dt;
     const double most = most_that_ice_bears(setup, population, c, tangent_of(data, i));
     if (!(force > kOverloadFactor * most)) continue;
     return "bodies " + std::to_string(c.a) + " and " + std::to_string(c.b) + " press each other with " +

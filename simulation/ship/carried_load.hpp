@@ -14,18 +14,18 @@ struct CarriedLoad {
   double impulse = 0;  ///< impulse that is not booked yet [N s, N m s]
   double level = 0;    ///< load up to which it is booked in later steps, ≥ 0 [N, N m]
 
-  /// Returns the impulse to book for a step of length dt [s]. `steady` is the impulse that contacts gave in the step,
+  /// Returns the impulse to book for a step of length dt [s]. `of_step` is the impulse that contacts gave in the step,
   /// and `missed` the impulse for the time before they were found [N s, N m s].
-  double book(double steady, double missed, double dt) {
-    if (missed != 0) level = std::max(level, std::abs(steady) / dt);
+  double book(double of_step, double missed, double dt) {
+    if (missed != 0) level = std::max(level, std::abs(of_step) / dt);
     impulse += missed;
-    if (impulse == 0) return steady;
+    if (impulse == 0) return of_step;
     const double most = level * dt;
     const double given =
-        impulse > 0 ? std::clamp(most - steady, 0.0, impulse) : -std::clamp(most + steady, 0.0, -impulse);
+        impulse > 0 ? std::clamp(most - of_step, 0.0, impulse) : -std::clamp(most + of_step, 0.0, -impulse);
     impulse -= given;
     if (impulse == 0) level = 0;
-    return steady + given;
+    return of_step + given;
   }
 };
 

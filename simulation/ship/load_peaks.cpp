@@ -120,13 +120,13 @@ void follow_loads(const Setup& setup, const Step& step, const Population& popula
   const double response = response_in(setup, step);
   for (std::size_t i = 0; i < data.slopes.size(); ++i) {
     const Contact& c = data.contacts[i];
-    const double force = c.steady_share * c.total_normal_impulse() / step.length;
+    const double force = c.step_share * c.total_normal_impulse() / step.length;
     if (population.is_hull(c.b) || (force == 0 && c.record->load_track == 0)) continue;
     LoadTrack& track = track_at(peaks, *c.record);
     track.is_seen = true;
     if (rises(force, response, track)) {
       // Force that the gauge shows / whole force of the contact in this step.
-      const double share = c.steady_share * track.force / force;
+      const double share = c.step_share * track.force / force;
       track.largest = track.force;
       track.time = step.end.time;
       track.at_largest = state_of(setup, step, population, c, &data.slopes[i]);

@@ -100,10 +100,10 @@ void add_contact(const PanelGrid& grid, const dynamics::Bodies& bodies, const Co
     for_columns(grid, half == 0 ? from : middle, half == 0 ? middle : to, [&](int column, double along) {
       for_rows_of(grid, ice, [&](int row, double up) {
         PanelLoads& panel = panels[grid.first_of(column) + static_cast<std::size_t>(row)];
-        panel.impulse += along * up * c.steady_share * load;
-        panel.carried_load += along * up * (1 - c.steady_share) * load;
-        panel.step += along * up * c.steady_share * normal;
-        panel.step_missed += along * up * (1 - c.steady_share) * normal;
+        panel.impulse += along * up * c.step_share * load;
+        panel.carried_load += along * up * (1 - c.step_share) * load;
+        panel.step += along * up * c.step_share * normal;
+        panel.step_missed += along * up * (1 - c.step_share) * normal;
       });
     });
   }

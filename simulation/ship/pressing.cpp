@@ -67,7 +67,7 @@ void add_mouth_between(const PressedContact& p, const PressedContact& q, std::ve
 }  // namespace
 
 Vector force_on(const Contact& c, BodyIndex floe, double dt) {
-  Vector force = (c.steady_share / dt) * c.impulse_on_b();
+  Vector force = (c.step_share / dt) * c.impulse_on_b();
   if (c.is_broken) {
     const double total = c.total_normal_impulse();
     const double slip = total > 0 ? c.slip_impulse / total : 0;

@@ -46,7 +46,7 @@ inline geometry::Vector into_floe(const dynamics::Contact& c, BodyIndex floe) {
 /// Returns the normal force of a contact in a step of length dt [s]; if its ice broke within the step, the force at
 /// which it broke [N].
 inline double normal_force_of(const dynamics::Contact& c, double dt) {
-  return c.is_broken ? c.breaking_force : c.steady_share / dt * c.total_normal_impulse();
+  return c.is_broken ? c.breaking_force : c.step_share / dt * c.total_normal_impulse();
 }
 
 /// Limits the force of a contact to the force at which its ice breaks, unless a smaller limit was set before [N]. If

@@ -24,7 +24,7 @@ namespace polynya::simulation {
 struct ContactLoads {
   dynamics::Planar impulse;  ///< impulse on the hull [N s, N m s]
   /// Impulse in the present step, without the impulses that were missed before contacts were found [N s, N m s].
-  dynamics::Planar steady_impulse;
+  dynamics::Planar step_impulse;
   dynamics::Planar largest;   ///< largest booked force of a single step, component by component [N, N m]
   dynamics::Planar friction;  ///< part of the impulse of the present step that is due to friction [N s, N m s]
   /// Missed impulses in surge, sway and yaw that are booked in later steps, also in later recording intervals.
