@@ -284,7 +284,7 @@ class Resurfacing {
     if (now_.time < submerged.next_try) return;
     if (!settings_.is_enabled && !is_ahead) return stay_under(submerged);
     submerged.next_try = now_.time + settings_.retry;
-    try_to_come_up(submerged);
+    try_to_surface(submerged);
   }
 
  private:
@@ -299,7 +299,7 @@ class Resurfacing {
     journal_.events.push_back(std::move(event));
   }
 
-  void try_to_come_up(SubmergedPiece& submerged) {
+  void try_to_surface(SubmergedPiece& submerged) {
     const BodyIndex body = population_.body_of(submerged.floe);
     const Floe& floe = population_.floes[submerged.floe];
     const geometry::Polygon polygon = shrunk(floe.shape.polygon, population_.bodies.centroid[body], settings_.rim_loss);
@@ -314,13 +314,13 @@ class Resurfacing {
       if (!has_room(population_, boundary, place.water_from_body)) continue;
       const Point centre = transform(place.water_from_body, population_.bodies.centroid[body]);
       if (share > 0 && is_over_another(population_, submerged, boundary, place.water_from_body, centre)) continue;
-      return come_up(submerged, polygon, place);
+      return surface(submerged, polygon, place);
     }
     if (submerged.waited >= settings_.give_up) return stay_under(submerged);
     submerged.waited += settings_.retry;
   }
 
-  void come_up(const SubmergedPiece& submerged, const geometry::Polygon& polygon, const Place& place) {
+  void surface(const SubmergedPiece& submerged, const geometry::Polygon& polygon, const Place& place) {
     Resurface up;
     const geometry::Measures measures = geometry::measure(polygon);
     const double area_before = population_.floes[submerged.floe].area;
@@ -378,7 +378,7 @@ class Resurfacing {
 
 }  // namespace
 
-void come_up(const Setup& setup, const Step& step, Population& population, Books books) {
+void surface_ice(const Setup& setup, const Step& step, Population& population, Books books) {
   Resurfacing resurfacing(setup, step, population, books);
   for (SubmergedPiece& submerged : population.submerged) resurfacing.go_on(submerged);
   std::erase_if(population.submerged,

@@ -263,9 +263,9 @@ constexpr Stage kCutThrough{"cut through floes", [](World& w, const Step& s) {
 constexpr Stage kGoUnder{"go under", [](World& w, const Step& s) {
                            apply_submersions(w.setup, s, w.data, w.population, {w.accounts, w.journal});
                          }};
-constexpr Stage kComeUp{"come up", [](World& w, const Step& s) {
-                          come_up(w.setup, s, w.population, {w.accounts, w.journal});
-                        }};
+constexpr Stage kSurface{"surface", [](World& w, const Step& s) {
+                           surface_ice(w.setup, s, w.population, {w.accounts, w.journal});
+                         }};
 constexpr Stage kHullContacts{"record ship events", [](World& w, const Step& s) {
                                 record_hull_contacts(w.setup, s, w.population, w.data, {w.accounts, w.journal});
                               }};
@@ -280,13 +280,13 @@ constexpr std::array kCrushStages{kFollowWater,  kSteer,          kPressWalls,
                                   kFollowLoads,  kSubmergedIce,   kSail,
                                   kIntegrate,    kApplyFractures, kGrind,
                                   kCarve,        kShed,           kGoUnder,
-                                  kComeUp,       kHullContacts,   kSumLoads};
+                                  kSurface,      kHullContacts,   kSumLoads};
 
 constexpr std::array kImpulseStages{
     kFollowWater, kSteer,           kPressWalls,   kKeepMotion,   kFindPairs, kFindContacts, kDecideByCollision,
     kLimitByTilt, kSolveCollisions, kHoldWalls,    kEnterSplits,  kTiltFloes, kTallyLoads,   kFollowLoads,
     kForces,      kThrust,          kSubmergedIce, kSail,         kSeparate,  kIntegrate,    kApplyFractures,
-    kGrind,       kGoUnder,         kComeUp,       kHullContacts, kSumLoads};
+    kGrind,       kGoUnder,         kSurface,      kHullContacts, kSumLoads};
 
 /// Interval at which floes pierced by hulls are examined for a cut [s]. With longer intervals, a floe stays one piece
 /// for longer although a hull has come through it. Shorter intervals cost more trial cuts of large plates that still

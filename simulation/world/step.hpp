@@ -10,8 +10,8 @@ namespace polynya::simulation {
 // One tick of a run, and the stages of a time step. Every stage is called with the same step and with the parts of the
 // world that it needs: a parameter that is a reference to const is only read, and any other reference is changed. The
 // stages before integrate_motion() see the bodies at step.begin, the later ones at step.end. Only the stages from
-// apply_fractures() to come_up() create and remove floes; they run on one thread, in an order that does not depend on
-// the number of threads.
+// apply_fractures() to surface_ice() create and remove floes; they run on one thread, in an order that does not depend
+// on the number of threads.
 
 // ---- before the contacts
 
@@ -135,7 +135,7 @@ void cut_through_floes(const Setup& setup, const Step& step, const StepData& dat
 void apply_submersions(const Setup& setup, const Step& step, const StepData& data, Population& population, Books books);
 
 /// Lets ice that ships have passed surface, in the order in which it went under.
-void come_up(const Setup& setup, const Step& step, Population& population, Books books);
+void surface_ice(const Setup& setup, const Step& step, Population& population, Books books);
 
 // ---- records
 
