@@ -102,7 +102,8 @@ void enter_capacity(const HullContactLoad& load, fracture::BendingCapacity capac
 }
 
 /// Law of crushing ice: sets V_b and the cusp. V is set to V_b, because the solver finds whether the load reaches it
-/// (drop_unbroken). If the thrust keeps every section closed, V_b is infinite and V is set to 0: the ice does not bend.
+/// (drop_unreached_bends). If the thrust keeps every section closed, V_b is infinite and V is set to 0: the ice does
+/// not bend.
 void measure_bending_by_crushing(const Setup& setup, const Step& step, const HullContactLoad& load,
                                  PendingFracture& pending) {
   const fracture::BendingCapacity capacity = capacity_where_it_breaks(setup, step, load);
@@ -281,7 +282,7 @@ void decide_by_collision(const Setup& setup, const Step& step, const Population&
          [&](Contact& c) { collide_with_hull(setup, step, population, c, data); });
 }
 
-void drop_unbroken(StepData& data) {
+void drop_unreached_bends(StepData& data) {
   std::erase_if(data.fractures, [&](const PendingFracture& pending) {
     if (pending.failure != fracture::Failure::kBend) return false;
     return std::ranges::none_of(data.contacts,

@@ -101,7 +101,7 @@ Command commanded(const Setup& setup, const PilotView& view, const std::vector<E
 
 }  // namespace
 
-void take_helms(const Setup& setup, const Step& step, Population& population) {
+void initialize_helms(const Setup& setup, const Step& step, Population& population) {
   population.helms.resize(setup.scene.ships.size());
   const std::vector<SeenHull> hulls = seen_hulls(setup, step, population);
   for (BodyIndex i = 0; i < std::ssize(population.helms); ++i) {

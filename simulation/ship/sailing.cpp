@@ -308,7 +308,7 @@ Sailing sailing_of(const Ship& ship, double water_density) {
   return sailing;
 }
 
-void keep_motion(const Population& population, StepData& data) {
+void store_motion(const Population& population, StepData& data) {
   data.start.resize(population.helms.size());
   for (std::size_t ship = 0; ship < data.start.size(); ++ship)
     data.start[ship] = {population.bodies.velocity[ship], population.bodies.angular_velocity[ship]};

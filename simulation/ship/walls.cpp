@@ -66,7 +66,7 @@ void press_walls(const Setup& setup, const Step& step, Population& population, A
   });
 }
 
-void hold_walls(const Setup& setup, Population& population, AuditSums& audit) {
+void constrain_walls(const Setup& setup, Population& population, AuditSums& audit) {
   for_pressing(setup, population, [&](const PressingWall& p) {
     const Vector over_ground = population.bodies.velocity[p.body] + population.water_velocity;
     const Vector held = dot(over_ground, p.normal) * p.normal - population.water_velocity;

@@ -201,7 +201,7 @@ constexpr Stage kFollowWater{"follow the water",
 constexpr Stage kSteer{"steer", [](World& w, const Step& s) { steer(w.setup, s, w.pilots, w.population); }};
 constexpr Stage kPressWalls{"press walls",
                             [](World& w, const Step& s) { press_walls(w.setup, s, w.population, w.accounts.audit); }};
-constexpr Stage kKeepMotion{"keep motion", [](World& w, const Step&) { keep_motion(w.population, w.data); }};
+constexpr Stage kStoreMotion{"store motion", [](World& w, const Step&) { store_motion(w.population, w.data); }};
 constexpr Stage kFindPairs{"find pairs", [](World& w, const Step& s) { find_pairs(s, w.population); }};
 constexpr Stage kFindContacts{
     "find contacts", [](World& w, const Step& s) { find_contacts(s, w.population, w.data, w.accounts.counts); }};
@@ -215,9 +215,10 @@ constexpr Stage kSolveCrushing{
     "solve impulses", [](World& w, const Step& s) { solve_crushing(w.setup, s, w.population, w.data, w.accounts); }};
 constexpr Stage kSolveCollisions{
     "solve impulses", [](World& w, const Step& s) { solve_collisions(w.setup, s, w.population, w.data, w.accounts); }};
-constexpr Stage kHoldWalls{"hold walls",
-                           [](World& w, const Step&) { hold_walls(w.setup, w.population, w.accounts.audit); }};
-constexpr Stage kDropUnbroken{"drop unbroken", [](World& w, const Step&) { drop_unbroken(w.data); }};
+constexpr Stage kConstrainWalls{
+    "constrain walls", [](World& w, const Step&) { constrain_walls(w.setup, w.population, w.accounts.audit); }};
+constexpr Stage kDropUnreachedBends{"drop unreached bends",
+                                    [](World& w, const Step&) { drop_unreached_bends(w.data); }};
 constexpr Stage kEnterSplits{"enter splits",
                              [](World& w, const Step& s) { enter_splits(w.setup, s, w.population, w.data); }};
 constexpr Stage kOverload{"overload",
@@ -271,22 +272,42 @@ constexpr Stage kHullContacts{"record ship events", [](World& w, const Step& s) 
                               }};
 constexpr Stage kSumLoads{"sum loads", [](World& w, const Step& s) { sum_loads(w.setup, s, w.data, w.accounts); }};
 
-constexpr std::array kCrushStages{kFollowWater,  kSteer,          kPressWalls,
-                                  kKeepMotion,   kForces,         kThrust,
-                                  kFindPairs,    kFindContacts,   kDecideByCrushing,
-                                  kLimitByTilt,  kSolveCrushing,  kHoldWalls,
-                                  kDropUnbroken, kEnterSplits,    kOverload,
-                                  kTiltFloes,    kBookOverlaps,   kTallyLoads,
-                                  kFollowLoads,  kSubmergedIce,   kSail,
-                                  kIntegrate,    kApplyFractures, kGrind,
-                                  kCarve,        kShed,           kGoUnder,
-                                  kSurface,      kHullContacts,   kSumLoads};
+constexpr std::array kCrushStages{kFollowWater,
+                                  kSteer,
+                                  kPressWalls,
+                                  kStoreMotion,
+                                  kForces,
+                                  kThrust,
+                                  kFindPairs,
+                                  kFindContacts,
+                                  kDecideByCrushing,
+                                  kLimitByTilt,
+                                  kSolveCrushing,
+                                  kConstrainWalls,
+                                  kDropUnreachedBends,
+                                  kEnterSplits,
+                                  kOverload,
+                                  kTiltFloes,
+                                  kBookOverlaps,
+                                  kTallyLoads,
+                                  kFollowLoads,
+                                  kSubmergedIce,
+                                  kSail,
+                                  kIntegrate,
+                                  kApplyFractures,
+                                  kGrind,
+                                  kCarve,
+                                  kShed,
+                                  kGoUnder,
+                                  kSurface,
+                                  kHullContacts,
+                                  kSumLoads};
 
 constexpr std::array kImpulseStages{
-    kFollowWater, kSteer,           kPressWalls,   kKeepMotion,   kFindPairs, kFindContacts, kDecideByCollision,
-    kLimitByTilt, kSolveCollisions, kHoldWalls,    kEnterSplits,  kTiltFloes, kTallyLoads,   kFollowLoads,
-    kForces,      kThrust,          kSubmergedIce, kSail,         kSeparate,  kIntegrate,    kApplyFractures,
-    kGrind,       kGoUnder,         kSurface,      kHullContacts, kSumLoads};
+    kFollowWater, kSteer,           kPressWalls,     kStoreMotion,  kFindPairs, kFindContacts, kDecideByCollision,
+    kLimitByTilt, kSolveCollisions, kConstrainWalls, kEnterSplits,  kTiltFloes, kTallyLoads,   kFollowLoads,
+    kForces,      kThrust,          kSubmergedIce,   kSail,         kSeparate,  kIntegrate,    kApplyFractures,
+    kGrind,       kGoUnder,         kSurface,        kHullContacts, kSumLoads};
 
 /// Interval at which floes pierced by hulls are examined for a cut [s]. With longer intervals, a floe stays one piece
 /// for longer although a hull has come through it. Shorter intervals cost more trial cuts of large plates that still

@@ -17,7 +17,7 @@ namespace polynya::simulation {
 
 /// Sets levers and steering to the commands of the pilots at the start of a run, and initializes the memory of the
 /// pilots.
-void take_helms(const Setup& setup, const Step& step, Population& population);
+void initialize_helms(const Setup& setup, const Step& step, Population& population);
 
 /// Gives the water frame its mean velocity over the step. The frame is accelerated when the drift changes. Bodies of
 /// prescribed motion and walls keep their velocity over ground. Free bodies keep their velocity in the water frame,
@@ -32,7 +32,7 @@ void steer(const Setup& setup, const Step& step, const std::vector<ExternalPilot
 void press_walls(const Setup& setup, const Step& step, Population& population, AuditSums& audit);
 
 /// Stores the ships' motion before the step's impulses, and the places of all hulls.
-void keep_motion(const Population& population, StepData& data);
+void store_motion(const Population& population, StepData& data);
 
 // ---- contacts and their impulses
 
@@ -61,10 +61,10 @@ void solve_crushing(const Setup& setup, const Step& step, Population& population
 void solve_collisions(const Setup& setup, const Step& step, Population& population, StepData& data, Accounts& accounts);
 
 /// Removes all velocity of walls that press that is not along their normals.
-void hold_walls(const Setup& setup, Population& population, AuditSums& audit);
+void constrain_walls(const Setup& setup, Population& population, AuditSums& audit);
 
 /// Law of crushing ice: removes the bends whose contacts were not loaded up to V_b.
-void drop_unbroken(StepData& data);
+void drop_unreached_bends(StepData& data);
 
 /// Adds the splits by the true forces of the step to its fractures, and enters the true forces into the criteria of its
 /// other fractures for the records.
