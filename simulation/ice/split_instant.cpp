@@ -54,7 +54,7 @@ double share_of(const PendingFracture& split) {
 }
 
 /// A contact whose force is limited because of a split, with its values before that.
-struct Stopped {
+struct StoppedContact {
   std::size_t contact = 0;
   double force = 0;           ///< normal force that overshot [N]
   double breaking_force = 0;  ///< [N]
@@ -62,54 +62,54 @@ struct Stopped {
 };
 
 /// A split whose force exceeded its capacity. The step is solved again with the forces of its contacts limited.
-struct MetSplit {
-  PendingFracture split;  ///< the split, with the forces that overshot
-  std::vector<Stopped> stopped;
-  double at = 1;      ///< fraction of their forces to which its contacts are limited
-  double low = 0;     ///< largest fraction known to be too small
-  double enough = 1;  ///< smallest fraction known to be enough
+struct StoppedSplit {
+  PendingFracture split;                 ///< the split, with the forces that overshot
+  std::vector<StoppedContact> contacts;  ///< its contacts, with their values before
+  double share = 1;                      ///< fraction of their forces to which its contacts are limited
+  double too_small = 0;                  ///< largest fraction known to be too small
+  double enough = 1;                     ///< smallest fraction known to be enough
 };
 
 /// The splits of a step that overshot, and the limits on their contacts.
-class Instants {
+class SplitInstants {
  public:
-  Instants(std::vector<Contact>& contacts, double dt) : contacts_(contacts), dt_(dt) {}
+  SplitInstants(std::vector<Contact>& contacts, double dt) : contacts_(contacts), dt_(dt) {}
 
   /// Limits the contacts of the splits that overshoot, and adjusts the limits of those found in earlier rounds whose
   /// opening forces are still too large or too small. Returns true if a limit changed, so that the step must be solved
   /// again.
   bool stop(const std::vector<PendingFracture>& splits) {
-    const std::size_t before = met_.size();
+    const std::size_t before = stopped_.size();
     for (const PendingFracture& split : splits) {
       if (share_of(split) <= kMostShare) continue;
       const Contact& at = contact_of(split);
       // Both bodies of a pair may overshoot: the split with the larger share happens first.
-      MetSplit* const same = met_at(at);
+      StoppedSplit* const same = stopped_at(at);
       if (same == nullptr)
-        met_.push_back({.split = split, .stopped = {}});
-      else if (same >= met_.data() + before && share_of(split) > share_of(same->split))
+        stopped_.push_back({.split = split, .contacts = {}});
+      else if (same >= stopped_.data() + before && share_of(split) > share_of(same->split))
         same->split = split;
     }
-    bool is_changed = met_.size() > before;
-    for (std::size_t k = 0; k < before; ++k) is_changed = aim(met_[k]) || is_changed;
-    for (std::size_t k = before; k < met_.size(); ++k) stop_contacts(met_[k]);
+    bool is_changed = stopped_.size() > before;
+    for (std::size_t k = 0; k < before; ++k) is_changed = bisect(stopped_[k]) || is_changed;
+    for (std::size_t k = before; k < stopped_.size(); ++k) stop_contacts(stopped_[k]);
     return is_changed;
   }
 
-  bool any() const { return !met_.empty(); }
+  bool any() const { return !stopped_.empty(); }
 
   /// Replaces the splits of limited contacts in the list by the splits that happened, each with the forces at its
   /// instant. Counts the splits whose instant was not found.
   void enter(std::vector<PendingFracture>& splits, Counts& counts) {
     std::erase_if(splits, [&](const PendingFracture& split) {
-      if (met_at(contact_of(split)) != nullptr) return true;
+      if (stopped_at(contact_of(split)) != nullptr) return true;
       const bool overshoots = share_of(split) > kMostShare;  // all rounds were used
       counts.unresolved_splits += overshoots ? 1 : 0;
       return overshoots;
     });
-    for (const MetSplit& met : met_) {
-      PendingFracture split = met.split;
-      const double scale = reached(met);
+    for (const StoppedSplit& stopped : stopped_) {
+      PendingFracture split = stopped.split;
+      const double scale = reached(stopped);
       fracture::FailureCriteria& c = split.criteria;
       for (double* load :
            {&c.contact_force, &c.flank_forces[0], &c.flank_forces[1], &c.opening_force, &c.section_stress})
@@ -117,15 +117,16 @@ class Instants {
       if (share_of(split) >= 1 && share_of(split) <= kMostShare)
         splits.push_back(split);
       else
-        counts.unresolved_splits += is_any_broken(met) ? 1 : 0;  // otherwise the force did not reach its limit
+        counts.unresolved_splits += is_any_broken(stopped) ? 1 : 0;  // otherwise the force did not reach its limit
     }
     std::ranges::stable_sort(splits, {}, [&](const PendingFracture& split) { return index_of(split); });
   }
 
   /// Returns true if a split limited the force of a contact, so that it stayed below the force at which its ice bends.
   bool stops(const dynamics::PersistentContact* record) const {
-    return std::ranges::any_of(met_, [&](const MetSplit& met) {
-      return std::ranges::any_of(met.stopped, [&](const Stopped& s) { return contacts_[s.contact].record == record; });
+    return std::ranges::any_of(stopped_, [&](const StoppedSplit& stopped) {
+      return std::ranges::any_of(stopped.contacts,
+                                 [&](const StoppedContact& s) { return contacts_[s.contact].record == record; });
     });
   }
 
@@ -135,62 +136,63 @@ class Instants {
   }
   const Contact& contact_of(const PendingFracture& split) const { return contacts_[index_of(split)]; }
 
-  MetSplit* met_at(const Contact& at) {
-    const auto met = std::ranges::find_if(met_, [&](const MetSplit& m) {
+  StoppedSplit* stopped_at(const Contact& at) {
+    const auto found = std::ranges::find_if(stopped_, [&](const StoppedSplit& m) {
       const Contact& c = contact_of(m.split);
       return c.a == at.a && c.b == at.b;
     });
-    return met == met_.end() ? nullptr : &*met;
+    return found == stopped_.end() ? nullptr : &*found;
   }
 
-  void stop_contacts(MetSplit& met) {
-    const Contact& at = contact_of(met.split);
+  void stop_contacts(StoppedSplit& stopped) {
+    const Contact& at = contact_of(stopped.split);
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       Contact& c = contacts_[i];
       const double force = normal_force_of(c, dt_);
       if (c.a != at.a || c.b != at.b || !(force > 0)) continue;
-      met.stopped.push_back({i, force, c.breaking_force, c.missed_impulse});
+      stopped.contacts.push_back({i, force, c.breaking_force, c.missed_impulse});
     }
-    stop_at(met, kAimedShare / share_of(met.split));
+    stop_at(stopped, kAimedShare / share_of(stopped.split));
   }
 
-  void stop_at(MetSplit& met, double share) {
-    met.at = share;
-    for (const Stopped& stopped : met.stopped) {
-      Contact& c = contacts_[stopped.contact];
-      c.breaking_force = stopped.breaking_force;
-      c.missed_impulse = stopped.missed_impulse;
-      break_at(c, share * stopped.force);
+  void stop_at(StoppedSplit& stopped, double share) {
+    stopped.share = share;
+    for (const StoppedContact& limited : stopped.contacts) {
+      Contact& c = contacts_[limited.contact];
+      c.breaking_force = limited.breaking_force;
+      c.missed_impulse = limited.missed_impulse;
+      break_at(c, share * limited.force);
     }
   }
 
   /// Adjusts the limits of a split by bisection, if its opening force deviates from the capacity. The force is too
   /// small if other contacts were unloaded when one was limited. Returns true if the limits changed.
-  bool aim(MetSplit& met) {
-    const double share = share_of(met.split) * reached(met);
-    if (!is_any_broken(met) || (share >= 1 && share <= kMostShare)) return false;
-    (share < 1 ? met.low : met.enough) = met.at;
-    stop_at(met, 0.5 * (met.low + met.enough));
+  bool bisect(StoppedSplit& stopped) {
+    const double share = share_of(stopped.split) * reached(stopped);
+    if (!is_any_broken(stopped) || (share >= 1 && share <= kMostShare)) return false;
+    (share < 1 ? stopped.too_small : stopped.enough) = stopped.share;
+    stop_at(stopped, 0.5 * (stopped.too_small + stopped.enough));
     return true;
   }
 
   /// Returns the present sum of the contacts' forces over the sum of the forces that overshot [-].
-  double reached(const MetSplit& met) const {
+  double reached(const StoppedSplit& stopped) const {
     double before = 0, now = 0;
-    for (const Stopped& stopped : met.stopped) {
-      before += stopped.force;
-      now += std::min(normal_force_of(contacts_[stopped.contact], dt_), contacts_[stopped.contact].breaking_force);
+    for (const StoppedContact& limited : stopped.contacts) {
+      before += limited.force;
+      now += std::min(normal_force_of(contacts_[limited.contact], dt_), contacts_[limited.contact].breaking_force);
     }
     return now / before;
   }
 
-  bool is_any_broken(const MetSplit& met) const {
-    return std::ranges::any_of(met.stopped, [&](const Stopped& s) { return contacts_[s.contact].is_broken; });
+  bool is_any_broken(const StoppedSplit& stopped) const {
+    return std::ranges::any_of(stopped.contacts,
+                               [&](const StoppedContact& s) { return contacts_[s.contact].is_broken; });
   }
 
   std::vector<Contact>& contacts_;
   double dt_;
-  std::vector<MetSplit> met_;
+  std::vector<StoppedSplit> stopped_;
 };
 
 }  // namespace
@@ -210,7 +212,7 @@ dynamics::SolverResult solve_to_splits(const Setup& setup, const Step& step, Pop
     find_broken_beams(setup, step, population, data);
   };
   keep_start(bodies, data.contacts, step.threads, data.solver_start);
-  Instants instants(data.contacts, step.length);
+  SplitInstants instants(data.contacts, step.length);
   dynamics::SolverResult result = solve();
   find();
   for (int round = 0; round < kMostRounds && instants.stop(data.splits); ++round) {
