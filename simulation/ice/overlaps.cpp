@@ -87,7 +87,7 @@ bool can_cut(const Population& population, const Accounts& accounts, BodyIndex a
 
 /// Returns the body that loses the ice of an overlap: the floe if the other body is a hull; of two floes the weaker
 /// one, or the smaller one if they are equally strong.
-BodyIndex ground_of(const Setup& setup, const Population& population, BodyIndex a, BodyIndex b) {
+BodyIndex body_losing_ice(const Setup& setup, const Population& population, BodyIndex a, BodyIndex b) {
   if (population.is_hull(a)) return b;
   const double stronger =
       crushing_line_load(ice_of_body(setup, population, a)) - crushing_line_load(ice_of_body(setup, population, b));
@@ -100,7 +100,7 @@ BodyIndex ground_of(const Setup& setup, const Population& population, BodyIndex 
 /// and does not. Returns true if the floe was cut. A cut that geometry refuses is recorded and not tried again.
 bool cut_overlap(const Setup& setup, const Instant& now, const OverlapCut& overlap, Population& population,
                  Books books) {
-  const BodyIndex ground = ground_of(setup, population, overlap.a, overlap.b);
+  const BodyIndex ground = body_losing_ice(setup, population, overlap.a, overlap.b);
   const BodyIndex by = ground == overlap.a ? overlap.b : overlap.a;
   const geometry::Polygon outline = tool_of(population, setup, by);
   std::vector<geometry::Polygon> tools;
@@ -258,7 +258,7 @@ constexpr double kLeastCrushedShare = 0.005;
 
 /// Returns the smallest crushed overlap that is cut off after a contact has ended [m²].
 double least_parted(const Setup& setup, const Population& population, BodyIndex a, BodyIndex b) {
-  const double h = ice_of_body(setup, population, ground_of(setup, population, a, b)).thickness;
+  const double h = ice_of_body(setup, population, body_losing_ice(setup, population, a, b)).thickness;
   return std::min(kLeastCrushedShare * smaller_area(population, a, b), h * h);
 }
 
