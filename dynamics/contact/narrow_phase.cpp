@@ -17,7 +17,7 @@ constexpr double kNearMargin = 0.75;
 
 /// Number of covers that are kept for the second bodies of pairs. It is enough for the neighbours of one body in a
 /// field and some of the next body. Fewer: covers are made again more often. Results do not change.
-constexpr std::size_t kSecond = 32;
+constexpr std::size_t kKeptSecondCovers = 32;
 
 /// Largest exponent of the power law of an overlap, d w / S [-]. Beyond it the extent of the overlap describes the
 /// notch in which a body lies, and not the overlap, which is thin; its mean thickness is then taken as its depth.
@@ -223,7 +223,7 @@ const geometry::Cover& CoverCache::first(const geometry::Boundary& boundary, Bod
                                          const geometry::CircleRule& rule) {
   if (first_.body == body) return first_.cover;
   if (!second_.empty()) {  // pairs are ordered by their first body: it was mostly a second body before
-    Entry& entry = second_[static_cast<std::size_t>(body) % kSecond];
+    Entry& entry = second_[static_cast<std::size_t>(body) % kKeptSecondCovers];
     if (entry.body == body) {
       std::swap(first_, entry);
       return first_.cover;
@@ -237,8 +237,8 @@ const geometry::Cover& CoverCache::first(const geometry::Boundary& boundary, Bod
 
 const geometry::Cover& CoverCache::second(const geometry::Boundary& boundary, BodyIndex body,
                                           const geometry::CircleRule& rule) {
-  if (second_.empty()) second_.resize(kSecond);
-  Entry& entry = second_[static_cast<std::size_t>(body) % kSecond];
+  if (second_.empty()) second_.resize(kKeptSecondCovers);
+  Entry& entry = second_[static_cast<std::size_t>(body) % kKeptSecondCovers];
   if (entry.body == body) return entry.cover;
   entry.body = -1;
   make_cover(boundary.edges, rule, entry.cover);

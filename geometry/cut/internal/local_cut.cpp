@@ -131,7 +131,7 @@ exact::Ring write_exactly(const LocalCut& cut, const PieceRing& ring) {
 
 // Returns 1 if the exact loop runs counter-clockwise, −1 if clockwise, 0 if it has no area. The area of the rounded
 // loop decides if it exceeds all rounding errors; otherwise the exact area is computed.
-int turn_of(const LocalCut& cut, const PieceRing& ring) {
+int orientation_of(const LocalCut& cut, const PieceRing& ring) {
   const double clear = ring.area.doubt + 2 * ring.area.step_area;
   if (ring.area.area > clear) return 1;
   if (-ring.area.area > clear) return -1;
@@ -200,9 +200,9 @@ bool plan_walk(LocalCut& cut, const Walk& walk, std::vector<PiecePlan>& plans, s
   std::vector<PieceRing> holes;
   for (const Loop& loop : walk.loops) {
     PieceRing ring(write_loop(cut, loop), loop, -1);
-    const int turn = turn_of(cut, ring);
-    if (turn == 0 || (turn > 0 && !plan.rings.empty())) return false;
-    (turn > 0 ? plan.rings : holes).push_back(std::move(ring));
+    const int orientation = orientation_of(cut, ring);
+    if (orientation == 0 || (orientation > 0 && !plan.rings.empty())) return false;
+    (orientation > 0 ? plan.rings : holes).push_back(std::move(ring));
   }
   std::ranges::move(holes, std::back_inserter(plan.rings.empty() ? free_holes : plan.rings));
   if (!plan.rings.empty()) plans.push_back(std::move(plan));
