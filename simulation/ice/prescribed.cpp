@@ -119,7 +119,7 @@ double longest_line(const dynamics::Bodies& bodies, const Contact& c) {
   return most - least;
 }
 
-double most_that_ice_bears(const Setup& setup, const Population& population, const Contact& c, double slope_tangent) {
+double largest_ice_force(const Setup& setup, const Population& population, const Contact& c, double slope_tangent) {
   const dynamics::Bodies& bodies = population.bodies;
   const fracture::Ice& of_b = ice_of_body(setup, population, c.b);
   const fracture::Ice ice =
@@ -141,7 +141,7 @@ void press_prescribed(const Setup& setup, const Step& step, const Population& po
     crushed.slope = load.stiffness / load.ice.compressive_strength;
   }
   const double most =
-      most_that_ice_bears(setup, population, c, elementary::tan(load.hull_angle)) / load.shares.horizontal;
+      largest_ice_force(setup, population, c, elementary::tan(load.hull_angle)) / load.shares.horizontal;
   load.normal_force = std::min(fracture::crushing_force(load.ice, crushed.area), most);
   load.vertical_force = load.shares.vertical * load.normal_force;
   load.shares.tangential *= share_of_friction(c, spans_facet);
@@ -190,7 +190,7 @@ std::optional<std::string> overload_of(const Setup& setup, const Step& step, con
     const Contact& c = data.contacts[i];
     if (c.is_rigid() || c.total_normal_impulse() <= 0) continue;
     const double force = c.step_share * c.total_normal_impulse() / dt;
-    const double most = most_that_ice_bears(setup, population, c, tangent_of(data, i));
+    const double most = largest_ice_force(setup, population, c, tangent_of(data, i));
     if (!(force > kOverloadFactor * most)) continue;
     return "bodies " + std::to_string(c.a) + " and " + std::to_string(c.b) + " press each other with " +
            std::to_string(1e-6 * force) + " MN, their ice bears " + std::to_string(1e-6 * most) +

@@ -10,8 +10,8 @@ double longest_line(const dynamics::Bodies& bodies, const dynamics::Contact& c);
 
 /// Returns the largest horizontal force that the ice at a contact can carry: σ_c h W (1 + μ tan θ_s) with the length W
 /// of the longest line [N]. `slope_tangent` is tan θ_s of the hull, 0 between floes.
-double most_that_ice_bears(const Setup& setup, const Population& population, const dynamics::Contact& c,
-                           double slope_tangent);
+double largest_ice_force(const Setup& setup, const Population& population, const dynamics::Contact& c,
+                         double slope_tangent);
 
 /// Sets the load of a hull in fast ice if the motion of both is prescribed; otherwise leaves the load unchanged. As the
 /// area of the overlap grows by w per metre, the ice on a line of length w crushes, whatever the shape of the overlap
