@@ -217,7 +217,7 @@ class Turn {
 
 }  // namespace
 
-double way_to_lie_along(const Deck& deck) {
+double distance_to_lie_along(const Deck& deck) {
   return deck.depth - deck.thickness * (1 - elementary::sin(deck.hull_angle)) / elementary::cos(deck.hull_angle);
 }
 
@@ -238,7 +238,7 @@ Deck deck_of(const Ice& ice, const Water& water, double hull_angle, std::span<co
 
 DeckForces turn_deck(const Deck& deck, const Water& water, const HullAdvance& advance, DeckState& state) {
   const auto [thrust, way, dt] = advance;
-  const double end = way_to_lie_along(deck);
+  const double end = distance_to_lie_along(deck);
   const int steps = std::clamp(static_cast<int>(std::ceil(kStepsOfATurn * way / deck.depth)), 1, kStepsOfATurn);
   DeckForces sum;
   for (int i = 0; i < steps; ++i) {

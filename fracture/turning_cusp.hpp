@@ -69,7 +69,7 @@ struct Deck {
 
 /// Returns the distance that the hull moves along its normal until the cusp lies along it, R − h(1 − sin θ_s)/cos θ_s;
 /// 0 or negative if the cusp is too short to turn [m].
-double way_to_lie_along(const Deck& deck);
+double distance_to_lie_along(const Deck& deck);
 
 /// Returns the deck of a cusp from its outline, which runs counter-clockwise in a frame whose x axis is the hull's
 /// normal. `edges` has the edge after each point.

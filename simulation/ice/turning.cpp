@@ -195,7 +195,7 @@ void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::
                         .horizontal_in_ship = rotate_back(of_ship, bend.driven_edge.horizontal),
                         .deck = deck_of(setup, population, bend, piece.shape.polygon.outer),
                         .state = {}};
-    if (fracture::way_to_lie_along(pressed.deck) > 0) population.decks.push_back(pressed);
+    if (fracture::distance_to_lie_along(pressed.deck) > 0) population.decks.push_back(pressed);
   }
 }
 
@@ -209,7 +209,7 @@ void press_decks(const Setup& setup, const Step& step, Population& population, s
                  AuditSums& audit) {
   for (PressedDeck& pressed : population.decks)
     press(setup, step, pressed, population.bodies, {loads[static_cast<std::size_t>(pressed.ship)], audit});
-  std::erase_if(population.decks, [](const PressedDeck& p) { return p.state.way >= way_to_lie_along(p.deck); });
+  std::erase_if(population.decks, [](const PressedDeck& p) { return p.state.way >= distance_to_lie_along(p.deck); });
 }
 
 }  // namespace polynya::simulation
