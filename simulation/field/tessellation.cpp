@@ -161,7 +161,7 @@ constexpr int kMostExtras = 6;
 constexpr int kIterations = 12;
 
 /// Returns at least `count` points in the free area: one at random in each cell of a grid.
-std::vector<Point> strew(const FreeArea& free, double count, Random& random) {
+std::vector<Point> scatter_points(const FreeArea& free, double count, Random& random) {
   const Box box = bounding_box(free.hull());
   const Vector extent = box.high - box.low;
   std::vector<Point> points;
@@ -184,20 +184,20 @@ std::vector<Point> strew(const FreeArea& free, double count, Random& random) {
 }
 
 /// Distributes points among sites in proportion to their areas, and places each site in the middle of its points.
-class Dealer {
+class PointDistributor {
  public:
-  Dealer(const std::vector<double>& areas, std::vector<Point> points)
+  PointDistributor(const std::vector<double>& areas, std::vector<Point> points)
       : points_(std::move(points)), sum_before_(areas.size() + 1, 0), sites_(areas.size()) {
     for (std::size_t i = 0; i < areas.size(); ++i) sum_before_[i + 1] = sum_before_[i] + areas[i];
   }
 
-  std::vector<Site> deal() {
-    if (points_.size() >= sites_.size()) deal(0, sites_.size(), points_);
+  std::vector<Site> distribute() {
+    if (points_.size() >= sites_.size()) distribute(0, sites_.size(), points_);
     return std::move(sites_);
   }
 
  private:
-  void deal(std::size_t first, std::size_t end, std::span<Point> points) {
+  void distribute(std::size_t first, std::size_t end, std::span<Point> points) {
     Box box{points.front(), points.front()};
     for (const Point p : points) extend(box, p);
     if (end - first == 1) {
@@ -218,8 +218,8 @@ class Dealer {
                        if (is_wide) return a.x < b.x || (a.x == b.x && a.y < b.y);
                        return a.y < b.y || (a.y == b.y && a.x < b.x);
                      });
-    deal(first, middle, points.first(left));
-    deal(middle, end, points.subspan(left));
+    distribute(first, middle, points.first(left));
+    distribute(middle, end, points.subspan(left));
   }
 
   std::vector<Point> points_;
@@ -344,13 +344,13 @@ class Relaxation {
     for (int pass = 0; pass < kMoves; ++pass) {
       measure();
       move();
-      revive();
+      move_lost_sites();
     }
     bool is_whole = false;
     for (int pass = 0; pass < kSettles + (is_whole ? 0 : kMostExtras); ++pass) {
       measure();
       balance(std::min(1.0, 0.2 * (pass + 2)));
-      is_whole = !revive();
+      is_whole = !move_lost_sites();
     }
     std::vector<FieldCell> cells(sites_.size());
     const auto keep = [&](const PowerCell& cell) {
@@ -405,7 +405,9 @@ class Relaxation {
   }
 
   /// Returns the area that a cell lacks; a cell that is too large loses at most 70 % of its area at once [m²].
-  double lack(std::size_t i) const { return std::max(share_ * areas_[i] - found_[i].area, -0.7 * found_[i].area); }
+  double missing_area(std::size_t i) const {
+    return std::max(share_ * areas_[i] - found_[i].area, -0.7 * found_[i].area);
+  }
 
   /// Moves the sites to the centroids of their cells, and changes each weight by the error of its own cell alone. This
   /// is stable far from the solution.
@@ -414,18 +416,18 @@ class Relaxation {
     constexpr double kDamping = 0.6;
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       if (!(found_[i].area > 0)) continue;
-      sites_[i].weight += kDamping * lack(i) / std::max(couplings_.growth(i), 0.5);
+      sites_[i].weight += kDamping * missing_area(i) / std::max(couplings_.growth(i), 0.5);
       sites_[i].point = found_[i].centroid;
     }
   }
 
   /// Changes all weights together, by a fraction of Newton's step.
   void balance(double part) {
-    std::vector<double> lacks(sites_.size(), 0);
+    std::vector<double> missing(sites_.size(), 0);
     for (std::size_t i = 0; i < sites_.size(); ++i) {
-      if (found_[i].area > 0) lacks[i] = lack(i);
+      if (found_[i].area > 0) missing[i] = missing_area(i);
     }
-    const std::vector<double> changes = couplings_.solve(lacks, kIterations);
+    const std::vector<double> changes = couplings_.solve(missing, kIterations);
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       if (found_[i].area > 0) sites_[i].weight += part * changes[i];
     }
@@ -433,7 +435,7 @@ class Relaxation {
 
   /// Moves sites without a cell to the farthest corners of cells that are too large. Returns false if all sites have
   /// cells.
-  bool revive() {
+  bool move_lost_sites() {
     std::vector<std::size_t> lost;
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       if (!(found_[i].area > 0)) lost.push_back(i);
@@ -471,8 +473,8 @@ class Relaxation {
 
 std::vector<FieldCell> tessellate(const FreeArea& free, const std::vector<double>& areas, Random& random) {
   const auto count = static_cast<double>(areas.size());
-  Dealer dealer(areas, strew(free, kPointsPerSite * count, random));
-  return Relaxation(free, areas, dealer.deal()).relax();
+  PointDistributor distributor(areas, scatter_points(free, kPointsPerSite * count, random));
+  return Relaxation(free, areas, distributor.distribute()).relax();
 }
 
 }  // namespace polynya::simulation
