@@ -67,17 +67,17 @@ geometry::Ring corners_of(const ManagingPilot& pilot) {
 }  // namespace
 
 std::size_t PatternLine::leg_at(double place) const {
-  const auto after = std::upper_bound(way.begin() + 1, way.end() - 1, place);
-  return static_cast<std::size_t>(after - way.begin()) - 1;
+  const auto after = std::upper_bound(arc_length.begin() + 1, arc_length.end() - 1, place);
+  return static_cast<std::size_t>(after - arc_length.begin()) - 1;
 }
 
 Point PatternLine::at(double place) const {
   const std::size_t leg = leg_at(place);
-  return corners[leg] + (place - way[leg]) * direction(leg);
+  return corners[leg] + (place - arc_length[leg]) * direction(leg);
 }
 
 Vector PatternLine::direction(std::size_t leg) const {
-  return (corners[next(leg)] - corners[leg]) / (way[leg + 1] - way[leg]);
+  return (corners[next(leg)] - corners[leg]) / (arc_length[leg + 1] - arc_length[leg]);
 }
 
 bool PatternLine::is_sharp_after(std::size_t leg) const {
@@ -91,9 +91,9 @@ PatternLine line_of(const ManagingPilot& pilot) {
     if (line.corners.empty() || distance(line.corners.back(), corner) > kShortest) line.corners.push_back(corner);
   while (line.corners.size() > 2 && distance(line.corners.back(), line.corners.front()) <= kShortest)
     line.corners.pop_back();
-  line.way.push_back(0);
+  line.arc_length.push_back(0);
   for (std::size_t i = 0; i < line.corners.size(); ++i)
-    line.way.push_back(line.way.back() + distance(line.corners[i], line.corners[line.next(i)]));
+    line.arc_length.push_back(line.arc_length.back() + distance(line.corners[i], line.corners[line.next(i)]));
   return line;
 }
 
@@ -170,14 +170,14 @@ Frame frame_of(const ManagingPilot& pilot, const PilotView& view, PatternMemory&
 void go_on(const PatternLine& line, Point ship, double own_length, double& place) {
   for (std::size_t legs = 0; legs < line.corners.size(); ++legs) {
     const std::size_t leg = line.leg_at(place);
-    const double length = line.way[leg + 1] - line.way[leg];
+    const double length = line.arc_length[leg + 1] - line.arc_length[leg];
     const double along = dot(ship - line.corners[leg], line.direction(leg));
     const double before = line.is_sharp_after(leg) ? std::min(kTurnBefore * own_length, 0.5 * length) : 0;
     if (along < length - before) {
-      place = std::max(place, line.way[leg] + along);
+      place = std::max(place, line.arc_length[leg] + along);
       return;
     }
-    place = leg + 1 < line.corners.size() ? line.way[leg + 1] : 0;
+    place = leg + 1 < line.corners.size() ? line.arc_length[leg + 1] : 0;
     if (place == 0) return;
   }
 }
@@ -186,11 +186,11 @@ void go_on(const PatternLine& line, Point ship, double own_length, double& place
 /// the leg is extended straight.
 Point point_ahead(const PatternLine& line, double place, double ahead) {
   std::size_t leg = line.leg_at(place);
-  double left = line.way[leg + 1] - place;
+  double left = line.arc_length[leg + 1] - place;
   while (ahead > left && !line.is_sharp_after(leg)) {
     ahead -= left;
     leg = line.next(leg);
-    left = line.way[leg + 1] - line.way[leg];
+    left = line.arc_length[leg + 1] - line.arc_length[leg];
   }
   return line.corners[line.next(leg)] + (ahead - left) * line.direction(leg);
 }
@@ -233,8 +233,9 @@ Vector on_pattern(const ManagingPilot& pilot, const PilotView& view, Frame& fram
     }
     memory.carried += view.step * view.ice_drift;
   }
-  const Vector way = point_ahead(line, place, kLookAhead * view.own().length) - ship();
-  return along(frame.over_ground(way / std::max(length(way), 1e-9)), pace(pilot, view, share), pilot, view, frame);
+  const Vector course = point_ahead(line, place, kLookAhead * view.own().length) - ship();
+  return along(frame.over_ground(course / std::max(length(course), 1e-9)), pace(pilot, view, share), pilot, view,
+               frame);
 }
 
 /// Returns true if another ship sails to a floe.
@@ -274,11 +275,11 @@ Vector to_largest_floe(const ManagingPilot& pilot, const PilotView& view, const 
   }
   const bool is_waiting = memory.target == kNoFloe;
   const Point station = frame.body + pilot.distance * frame.upstream;
-  const Vector way = (is_waiting ? station : memory.target_at) - view.own().position_in_world;
-  const double far = length(way);
+  const Vector course = (is_waiting ? station : memory.target_at) - view.own().position_in_world;
+  const double far = length(course);
   const double speed = pilot.speed > 0 ? pilot.speed : std::max(view.through_water.surge, kLeastWayThrough);
   const double share = is_waiting ? std::min(1.0, far / (kStationTime * speed)) : 1;
-  return along(way / std::max(far, 1e-9), share, pilot, view, frame);
+  return along(course / std::max(far, 1e-9), share, pilot, view, frame);
 }
 
 /// Returns a velocity over ground that passes another hull at a distance of at least `distance` [m], turned as little

@@ -12,9 +12,9 @@ namespace polynya::simulation {
 /// each.
 struct PatternLine {
   geometry::Ring corners;
-  std::vector<double> way;  ///< distance to each corner; the last element is the length of the whole lap [m]
+  std::vector<double> arc_length;  ///< distance to each corner; the last element is the length of the whole lap [m]
 
-  double lap() const { return way.back(); }
+  double lap() const { return arc_length.back(); }
   std::size_t next(std::size_t corner) const { return (corner + 1) % corners.size(); }
   /// Returns the number of the leg that contains a place on the lap, 0 ≤ place < lap [m]. Leg i runs from corner i to
   /// the next.
