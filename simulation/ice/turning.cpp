@@ -209,7 +209,8 @@ void press_decks(const Setup& setup, const Step& step, Population& population, s
                  AuditSums& audit) {
   for (PressedDeck& pressed : population.decks)
     press(setup, step, pressed, population.bodies, {loads[static_cast<std::size_t>(pressed.ship)], audit});
-  std::erase_if(population.decks, [](const PressedDeck& p) { return p.state.way >= distance_to_lie_along(p.deck); });
+  std::erase_if(population.decks,
+                [](const PressedDeck& p) { return p.state.displacement >= distance_to_lie_along(p.deck); });
 }
 
 }  // namespace polynya::simulation

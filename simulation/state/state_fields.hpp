@@ -66,7 +66,7 @@ void fields(auto& archive, Is<fracture::DeckStrip> auto& s) {
 /// Includes the members of the deck that follow from ice and hull, because the parent floe may be gone.
 void fields(auto& archive, Is<PressedDeck> auto& p) {
   archive(p.ship, p.arm_in_ship, p.normal_in_ship, p.horizontal_in_ship, p.deck.depth, p.deck.thickness,
-          p.deck.freeboard, p.deck.hull_angle, p.state.way, p.state.pool);
+          p.deck.freeboard, p.deck.hull_angle, p.state.displacement, p.state.pool);
   for (auto& strip : p.deck.strips) archive(strip);
 }
 void fields(auto& archive, Is<SubmergedLoads> auto& l) {

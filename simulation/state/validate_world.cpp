@@ -115,7 +115,8 @@ Defect check_cusps(const Population& population) {
     if (!(deck.depth > 0 && deck.depth < kLongestCusp && deck.thickness > 0 && deck.freeboard >= 0))
       return "a deck of no size";
     if (!(deck.hull_angle > 0 && deck.hull_angle < std::numbers::pi / 2)) return "a deck under a hull of no slope";
-    if (!(pressed.state.way >= 0 && pressed.state.way < distance_to_lie_along(deck) && pressed.state.pool >= 0))
+    if (!(pressed.state.displacement >= 0 && pressed.state.displacement < distance_to_lie_along(deck) &&
+          pressed.state.pool >= 0))
       return "a deck that has turned too far";
     for (const fracture::DeckStrip& s : deck.strips) {
       if (std::min({s.width, s.sheet, s.sheet_across, s.water}) < 0) return "a deck of negative width";

@@ -144,7 +144,7 @@ TEST(FloodingDeck, HoldsNoMoreThanThereIsRoomBetweenDeckAndHull) {
   DeckState end;
   const Deck deck = rectangle(Beside::kWater);
   work(deck, 40, &end);
-  EXPECT_NEAR(end.way, distance_to_lie_along(deck), 1e-9);
+  EXPECT_NEAR(end.displacement, distance_to_lie_along(deck), 1e-9);
   EXPECT_NEAR(end.pool, 0, 1e-3 * kCuspWidth * kCuspDepth * kCuspDepth) << "the hull has come to the axis";
 }
 
