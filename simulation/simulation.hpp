@@ -32,7 +32,7 @@ struct FloeState {
   double angle = 0;             ///< angle of world_from_body [rad]
   geometry::Vector velocity;    ///< velocity of the centre of mass over ground [m/s]
   double angular_velocity = 0;  ///< [rad/s]
-  double area = 0;              ///< [m²]
+  double area = 0;              ///< area in plan [m²]
   double mass = 0;              ///< [kg]
   bool is_fast = false;         ///< true for fast ice, whose motion is prescribed
   /// Name of the ship under whose hull the floe is; only set when a run is exported as a scene.
@@ -51,7 +51,7 @@ enum class Living {
 /// Position and motion of a hull.
 struct HullState {
   geometry::Pose world_from_ship;
-  double heading = 0;           ///< [rad]
+  double heading = 0;           ///< heading, counter-clockwise from the x axis [rad]
   geometry::Vector velocity;    ///< velocity over ground [m/s]
   double angular_velocity = 0;  ///< [rad/s]
 };

@@ -183,7 +183,7 @@ constexpr std::array kAspectOfStrips{1.27, 1.97, 2.9, 3.85, 4.83, 5.8};
 
 /// A floe or a hole of the drawn packing.
 struct Item {
-  double area = 0;  ///< [m²]
+  double area = 0;  ///< area that it should have [m²]
   bool is_floe = true;
 };
 
@@ -360,7 +360,7 @@ class Obstacles {
 
  private:
   const FloeField& field_;
-  double gap_;  ///< [m]
+  double gap_;  ///< smallest distance from areas kept clear [m]
   std::vector<Box> boxes_;
 };
 

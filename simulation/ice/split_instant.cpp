@@ -57,8 +57,8 @@ double share_of(const PendingFracture& split) {
 struct StoppedContact {
   std::size_t contact = 0;
   double force = 0;           ///< normal force that overshot [N]
-  double breaking_force = 0;  ///< [N]
-  double missed_impulse = 0;  ///< [N s]
+  double breaking_force = 0;  ///< Contact::breaking_force [N]
+  double missed_impulse = 0;  ///< Contact::missed_impulse [N s]
 };
 
 /// A split whose force exceeded its capacity. The step is solved again with the forces of its contacts limited.

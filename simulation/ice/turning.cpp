@@ -34,8 +34,8 @@ Vector ahead_of(const Population& population, const PendingFracture& bend) {
 /// An impulse on a hull, and its arm from the hull's centre of mass, both in the water frame.
 struct HullImpulse {
   BodyIndex ship = 0;
-  Vector arm;      ///< [m]
-  Vector impulse;  ///< [N s]
+  Vector arm;      ///< vector from the hull's centre of mass to the point of the impulse [m]
+  Vector impulse;  ///< impulse on the hull [N s]
 };
 
 /// Applies an impulse to a hull that presses ice down, and adds it to the loads of the hull and to the accounts. A hull

@@ -21,8 +21,8 @@ constexpr int kCorners = 32;  ///< number of legs of a full turn; fewer make arc
 
 /// Range of angles of an arc, and the number of its legs.
 struct ArcSpan {
-  double from = 0;  ///< [rad]
-  double to = 0;    ///< [rad]
+  double from = 0;  ///< angle of the first corner from the x axis [rad]
+  double to = 0;    ///< angle of the last corner [rad]
   int legs = kCorners;
 };
 

@@ -25,8 +25,8 @@ struct Offset {
 /// A moored ship at the start of a step.
 struct MooredShip {
   geometry::Rotation rotation;  ///< rotation of the ship
-  double mass = 0;              ///< [kg]
-  double moment = 0;            ///< [kg m²]
+  double mass = 0;              ///< mass of the ship [kg]
+  double moment = 0;            ///< moment of inertia of the ship [kg m²]
   dynamics::Planar now;         ///< velocity ν after the step's other impulses, in the water frame [m/s, rad/s]
   dynamics::Planar of_ground;   ///< velocity u of the ground in the water frame [m/s, rad/s]
 };

@@ -13,7 +13,7 @@ namespace polynya::simulation {
 
 /// A place where a crack may start, with the direction in which it would run.
 struct CrackMouth {
-  geometry::Point point;       ///< [m]
+  geometry::Point point;       ///< place in the water frame [m]
   geometry::Vector direction;  ///< unit vector into the ice
   const dynamics::Contact* contact = nullptr;
 };

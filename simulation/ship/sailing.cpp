@@ -21,8 +21,8 @@ Planar in_ship(geometry::Rotation rotation, Vector velocity, double angular_velo
 
 /// A ship in a step, in the ship's axes at the start of the step, which do not turn while impulses act.
 struct ShipInStep {
-  double mass = 0;    ///< [kg]
-  double moment = 0;  ///< [kg m²]
+  double mass = 0;    ///< mass of the ship [kg]
+  double moment = 0;  ///< moment of inertia of the ship [kg m²]
   Planar now;         ///< velocity ν after the step's other impulses, in the water frame [m/s, rad/s]
   Planar start;       ///< velocity at the start of the step, before these impulses [m/s, rad/s]
   /// Velocity at the start, in the ship's axes of the previous step, in which the momentum of the added mass was

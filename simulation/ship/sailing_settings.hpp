@@ -98,7 +98,7 @@ struct RoutePilot {
 };
 /// Lever and steering at a time.
 struct TableRow {
-  double time = 0;  ///< [s]
+  double time = 0;  ///< time since the start of the run [s]
   double lever = 0;
   double steering_angle = 0;
   friend bool operator==(const TableRow&, const TableRow&) = default;

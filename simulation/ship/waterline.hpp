@@ -21,7 +21,7 @@ struct Waterline {
 struct NearestPlace {
   std::size_t edge = 0;
   double along = 0;       ///< place on the edge, from 0 at its start to 1 at its end
-  geometry::Point point;  ///< [m]
+  geometry::Point point;  ///< the point, in the frame of the ring [m]
 };
 /// Returns the point of a ring that is nearest to `point`.
 NearestPlace nearest_place(const geometry::Ring& ring, geometry::Point point);

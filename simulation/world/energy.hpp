@@ -94,9 +94,9 @@ struct AuditSums {
 /// Energy and momentum at one instant, in the water frame, of all bodies that exist and whose motion is not prescribed,
 /// and of moorings.
 struct Holdings {
-  double kinetic_energy = 0;  ///< [J]
-  double stored_energy = 0;   ///< in moorings [J]
-  geometry::Vector momentum;  ///< [N s]
+  double kinetic_energy = 0;  ///< kinetic energy [J]
+  double stored_energy = 0;   ///< energy stored in moorings [J]
+  geometry::Vector momentum;  ///< sum of the bodies' momenta [N s]
   double momenta = 0;         ///< sum of the magnitudes of the bodies' momenta [N s]
 };
 
