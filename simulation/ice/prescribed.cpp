@@ -32,7 +32,7 @@ constexpr double kVertical = 1e-6;
 /// thickness [-]. The power law of overlaps ends there (fracture::Overlap).
 constexpr double kCrescent = 3;
 
-/// Returns tan θ_s of the hull at a contact; 0 between floes and at walls that lean outwards.
+/// Returns tan θ_s of the hull at a contact; 0 between floes.
 double tangent_of(const StepData& data, std::size_t i) {
   return i < data.slopes.size() ? std::max(0.0, data.slopes[i].tangent) : 0;
 }

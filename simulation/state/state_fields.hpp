@@ -63,7 +63,7 @@ void fields(auto& archive, Is<fracture::DeckStrip> auto& s) {
   archive(s.width, s.sheet, s.sheet_across, s.water);
   for (auto& side : s.sides) archive(side.facing, side.length, side.axis, side.depth);
 }
-/// Includes the members of the deck that follow from ice and hull, because the parent floe may be gone.
+/// Includes the members of the deck that follow from ice and hull.
 void fields(auto& archive, Is<PressedDeck> auto& p) {
   archive(p.ship, p.arm_in_ship, p.normal_in_ship, p.horizontal_in_ship, p.deck.depth, p.deck.thickness,
           p.deck.freeboard, p.deck.hull_angle, p.state.displacement, p.state.pool);
@@ -190,8 +190,8 @@ void hull_fields(auto& archive, Is<World> auto& world, std::int32_t hull) {
   if (has_mooring(world.setup, hull)) archive(world.population.helms[hull].last_turn);
   if (manages_ice(world.setup, hull)) archive(world.population.helms[hull].memory.pattern);
 }
-/// The part of a checkpoint after the contacts, which is not hashed. It contains the masses, which follow from the
-/// areas where all ice is the same, and counts that were added later.
+/// The part of a checkpoint after the contacts, which is not hashed: the masses, which follow from the areas where all
+/// ice is the same, and counts and sums that do not influence the run.
 void tail_fields(auto& archive, Is<World> auto& world) {
   auto& counts = world.accounts.counts;
   archive(world.accounts.masses, counts.unresolved_splits, counts.passing_steps, counts.crowded_ticks,

@@ -50,7 +50,8 @@ void decide_by_crushing(const Setup& setup, const Step& step, const Population& 
 /// breaks.
 void decide_by_collision(const Setup& setup, const Step& step, const Population& population, StepData& data);
 
-/// Reduces the forces of contacts that press floes down to the force that the floes resist without tilting further.
+/// Reduces the forces of contacts that press floes down to the largest force with which the floes resist while the
+/// slope of the hull slides their edges down.
 void limit_by_tilt(const Setup& setup, const Step& step, const Population& population, StepData& data);
 
 /// Law of crushing ice: computes the impulses of all contacts, and finds the floes that split. If the forces exceed
@@ -70,8 +71,8 @@ void drop_unreached_bends(StepData& data);
 /// other fractures for the records.
 void enter_splits(const Setup& setup, const Step& step, const Population& population, StepData& data);
 
-/// Law of crushing ice: returns a reason to end the run if a load of the step exceeds the largest force that its ice
-/// can carry, which is a numerical failure.
+/// Law of crushing ice: returns a reason to end the run if a load of the step is several times the largest force that
+/// its ice can carry, which is a numerical failure.
 std::optional<std::string> overload_of(const Setup& setup, const Step& step, const Population& population,
                                        const StepData& data);
 

@@ -38,12 +38,14 @@ struct SubmergedLoads {
   double area = 0;           ///< area of the ice under the hull in the last step [m²]
 };
 
-/// All loads on a hull over a step or a recording interval, in the hull's frame.
+/// All loads on a hull in a step, or their sums over a recording interval, in the hull's frame.
 struct HullLoads {
   ContactLoads ice;
   ContactLoads hulls;  ///< loads of other ships, structures and walls
   SubmergedLoads submerged;
-  dynamics::Planar collision;  ///< largest collision force j/τ_c of contacts with ice, component by component [N, N m]
+  /// Collision force j/τ_c of contacts with ice: their sum in a step; over an interval the largest of these sums,
+  /// component by component [N, N m].
+  dynamics::Planar collision;
 };
 
 /// Impulses on a ship that sails, over a recording interval, in the ship's frame. Those of ice and other hulls are in
