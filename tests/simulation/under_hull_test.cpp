@@ -366,7 +366,7 @@ TEST(TurningCusp, MovesOnWithTheHullThatItSlows) {
   World world(scene);
   PendingFracture bend;
   bend.normal = {1, 0};
-  bend.push = {.speed = slope * speed, .speed_per_approach = slope, .horizontal = {0.9, 0}, .hull_angle = 0.7};
+  bend.driven_edge = {.speed = slope * speed, .speed_per_approach = slope, .horizontal = {0.9, 0}, .hull_angle = 0.7};
   const dynamics::Bodies& bodies = world.population.bodies;
   geometry::CutResult cut;
   cut.pieces.push_back({{rectangle(0.1, -6, 6.1, 6)}, geometry::Part::kInside});
