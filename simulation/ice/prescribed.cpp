@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "dynamics/contact/paid_overlap.hpp"
 #include "elementary/elementary.hpp"
 #include "simulation/ice/pieces.hpp"
 #include "simulation/world/step.hpp"
@@ -27,10 +28,6 @@ constexpr double kOverloadFactor = 4;
 
 /// Angle from the vertical above which a hull counts as inclined [rad]. It is far below the angle of any real hull.
 constexpr double kVertical = 1e-6;
-
-/// Value of depth × width / area above which an overlap is a crescent, whose depth along the normal is not its
-/// thickness [-]. The power law of overlaps ends there (fracture::Overlap).
-constexpr double kCrescent = 3;
 
 /// Returns tan θ_s of the hull at a contact; 0 between floes.
 double tangent_of(const StepData& data, std::size_t i) {
@@ -132,7 +129,7 @@ void press_prescribed(const Setup& setup, const Step& step, const Population& po
   if (!are_prescribed(population.bodies, c.a, c.b)) return;
   const double line = load.ice.thickness * c.width / elementary::cos(load.hull_angle);
   fracture::CrushedArea crushed{line, 0};
-  const bool is_crescent = c.depth * c.width > kCrescent * c.area;
+  const bool is_crescent = dynamics::is_crescent(c);
   const double facet = load.ice.thickness * elementary::tan(load.hull_angle);
   // The overlap of a hull in a notch that was carved out.
   const bool spans_facet = is_crescent && c.area >= c.width * facet;

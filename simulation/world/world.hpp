@@ -26,7 +26,7 @@ struct ContactLoads {
   /// Impulse in the present step, without the impulses that were missed before contacts were found [N s, N m s].
   dynamics::Planar step_impulse;
   dynamics::Planar largest;   ///< largest booked force of a single step, component by component [N, N m]
-  dynamics::Planar friction;  ///< part of the impulse of the present step that is due to friction [N s, N m s]
+  dynamics::Planar friction;  ///< part of the impulse that is due to friction [N s, N m s]
   /// Missed impulses in surge, sway and yaw that are booked in later steps, also in later recording intervals.
   CarriedLoad carried[3];
   int contacts = 0;  ///< number of contacts in the last step
@@ -51,11 +51,10 @@ struct HullLoads {
 /// Impulses on a ship that sails, over a recording interval, in the ship's frame. Those of ice and other hulls are in
 /// HullLoads.
 struct SailingLoads {
-  dynamics::Planar water;         ///< impulse of the water, with the inertia of the added mass [N s, N m s]
-  dynamics::Planar engine;        ///< impulse of the propellers [N s, N m s]
-  dynamics::Planar rudder;        ///< impulse of the rudders [N s, N m s]
-  dynamics::Planar mooring;       ///< impulse of the mooring [N s, N m s]
-  dynamics::Planar ice_friction;  ///< part of the impulse of the ice that is due to friction [N s, N m s]
+  dynamics::Planar water;    ///< impulse of the water, with the inertia of the added mass [N s, N m s]
+  dynamics::Planar engine;   ///< impulse of the propellers [N s, N m s]
+  dynamics::Planar rudder;   ///< impulse of the rudders [N s, N m s]
+  dynamics::Planar mooring;  ///< impulse of the mooring [N s, N m s]
 };
 
 /// The motion that a hull gives to the edge of a cusp that it breaks off.
