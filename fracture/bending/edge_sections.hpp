@@ -28,7 +28,7 @@ using EdgeOpenings = std::array<geometry::WedgeAngles, kSectionCount>;
 /// Load of a hull on an edge of ice. All lengths are divided by the thickness h.
 struct EdgeLoad {
   double length = 0;  ///< l / h
-  /// Λ / h: length over which the load is supported; l / h at rest, shorter if the inertia of ice and water supports
+  /// λ / h: length over which the load is supported; l / h at rest, shorter if the inertia of ice and water supports
   /// the edge.
   double effective_length = 0;
   double distance = 0;  ///< x̄ / h: distance of the load from the point of first touch
