@@ -47,8 +47,8 @@ using Edit = std::function<void(simulation::Scene&)>;
 simulation::Scene load(const std::string& file, const Edit& edit = {});
 
 /// Gives the scene the fine step: the longest round number of seconds in which no hull moves farther than loads allow
-/// (most_way in simulation/world/parts.hpp), so that no tick needs parts for the way of a hull. The peers take that
-/// step.
+/// (allowed_displacement in simulation/world/parts.hpp), so that no tick needs parts for the way of a hull. The peers
+/// take that step.
 void take_fine_step(simulation::Scene& scene);
 
 /// Ticks without parts: each tick is one time step, as in the peers.

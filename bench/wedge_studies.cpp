@@ -75,7 +75,7 @@ WedgeSolver wedge_of(const BendingLoad& load, SolverSettings settings) {
 std::optional<BendingForecast> direct_forecast(const WedgeSolver& solver, const BendingLoad& load, Feedback feedback) {
   const ScaledLoad scaled_load = scaled(load);
   if (!(scaled_load.groups.froude > 0) || !std::isfinite(scaled_load.groups.softness)) return std::nullopt;
-  const std::optional<WedgeFailure> failure = solver.failure(push_of(scaled_load, feedback));
+  const std::optional<WedgeFailure> failure = solver.failure(wedge_push_of(scaled_load, feedback));
   if (!failure) return std::nullopt;
   BendingForecast forecast;
   forecast.capacity.vertical_force = failure->force * scaled_load.force_scale;

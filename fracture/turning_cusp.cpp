@@ -115,8 +115,10 @@ double open_area(const DeckSide& side, double r, const Plate& plate, const Plate
 /// A deck at one instant of its rotation.
 class Turn {
  public:
-  Turn(const Deck& deck, double way)
-      : deck_(deck), waterline_(deck.depth - way), plate_(deck.depth, deck.thickness, deck.hull_angle, waterline_) {
+  Turn(const Deck& deck, double displacement)
+      : deck_(deck),
+        waterline_(deck.depth - displacement),
+        plate_(deck.depth, deck.thickness, deck.hull_angle, waterline_) {
     for (int k = 0; k < Deck::kStrips; ++k) {
       const double r = at(k);
       depth_[k] = std::max(0.0, plate_.z(r) - deck.freeboard);
@@ -217,7 +219,7 @@ class Turn {
 
 }  // namespace
 
-double way_to_lie_along(const Deck& deck) {
+double distance_to_lie_along(const Deck& deck) {
   return deck.depth - deck.thickness * (1 - elementary::sin(deck.hull_angle)) / elementary::cos(deck.hull_angle);
 }
 
@@ -237,13 +239,13 @@ Deck deck_of(const Ice& ice, const Water& water, double hull_angle, std::span<co
 }
 
 DeckForces turn_deck(const Deck& deck, const Water& water, const HullAdvance& advance, DeckState& state) {
-  const auto [thrust, way, dt] = advance;
-  const double end = way_to_lie_along(deck);
-  const int steps = std::clamp(static_cast<int>(std::ceil(kStepsOfATurn * way / deck.depth)), 1, kStepsOfATurn);
+  const auto [thrust, distance, dt] = advance;
+  const double end = distance_to_lie_along(deck);
+  const int steps = std::clamp(static_cast<int>(std::ceil(kStepsOfATurn * distance / deck.depth)), 1, kStepsOfATurn);
   DeckForces sum;
   for (int i = 0; i < steps; ++i) {
-    state.way = std::min(end, state.way + way / steps);
-    const Turn turn(deck, state.way);
+    state.displacement = std::min(end, state.displacement + distance / steps);
+    const Turn turn(deck, state.displacement);
     const double surface = turn.surface_of(state.pool);
     sum.down += turn.moment(surface, water.density) / turn.lever(thrust) / steps;
     sum.ahead += turn.ahead(surface, water.density) / steps;

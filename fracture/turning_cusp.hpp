@@ -69,7 +69,7 @@ struct Deck {
 
 /// Returns the distance that the hull moves along its normal until the cusp lies along it, R − h(1 − sin θ_s)/cos θ_s;
 /// 0 or negative if the cusp is too short to turn [m].
-double way_to_lie_along(const Deck& deck);
+double distance_to_lie_along(const Deck& deck);
 
 /// Returns the deck of a cusp from its outline, which runs counter-clockwise in a frame whose x axis is the hull's
 /// normal. `edges` has the edge after each point.
@@ -78,8 +78,8 @@ Deck deck_of(const Ice& ice, const Water& water, double hull_angle, std::span<co
 
 /// How far a cusp has turned, and the water on its deck.
 struct DeckState {
-  double way = 0;   ///< s, displacement of the hull along its normal since the cusp broke off [m]
-  double pool = 0;  ///< Q, volume of water on the deck [m³]
+  double displacement = 0;  ///< s, displacement of the hull along its normal since the cusp broke off [m]
+  double pool = 0;          ///< Q, volume of water on the deck [m³]
 };
 
 /// The forces that follow from the missing water between deck and hull.
@@ -91,7 +91,7 @@ struct DeckForces {
 /// The motion of a hull against a cusp in a step.
 struct HullAdvance {
   double thrust = 0;    ///< force along the hull's normal over its force down [-]
-  double way = 0;       ///< distance along its normal [m]
+  double distance = 0;  ///< distance along its normal [m]
   double duration = 0;  ///< [s]
 };
 

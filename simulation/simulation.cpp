@@ -63,7 +63,7 @@ void Simulation::sample_loads() {
 
 namespace {
 
-/// Validates the world, in builds with assertions.
+/// Checks the world in builds with assertions. Ends the program if it has a defect.
 void validate([[maybe_unused]] const World& world) {
 #ifndef NDEBUG
   if (world.failure) return;
@@ -79,7 +79,7 @@ bool is_recorded(const World& world, const dynamics::Contact& contact) {
     case RecordedContacts::kNone:
       return false;
     case RecordedContacts::kShips:
-      return world.population.is_hull(contact.a);  // hulls come first: the first body is one if any is
+      return world.population.is_hull(contact.a);  // hulls come first, so the first body is a hull if any is
     case RecordedContacts::kAll:
       return true;
   }
@@ -140,7 +140,8 @@ Counts Simulation::counts() const {
 
 namespace {
 
-/// `drift` is that of the water frame by now, one for all floes: it may be that of a long table.
+/// Returns the state of a floe. `drift` is the present displacement of the water frame [m]; it is computed once for all
+/// floes, because it may be interpolated in a long table.
 FloeState state_of(const World& world, Vector drift, FloeId id) {
   const dynamics::Bodies& bodies = world.population.bodies;
   const BodyIndex body = world.population.body_of(id);
@@ -155,7 +156,7 @@ FloeState state_of(const World& world, Vector drift, FloeId id) {
   state.angle = bodies.angle[body];
   state.velocity = bodies.velocity[body] + world.population.water_velocity;
   state.angular_velocity = bodies.angular_velocity[body];
-  if (floe.is_under && !world.setup.current.is_still()) {  // it goes with the water
+  if (floe.is_under && !world.setup.current.is_still()) {  // a piece under a hull moves with the water
     state.velocity += world.setup.current.velocity_at(bodies.position[body]);
     state.angular_velocity = world.setup.current.angular_velocity();
   }
@@ -190,7 +191,7 @@ std::vector<CrushedOverlap> Simulation::crushed_overlaps() const {
   population.pairs.for_overlaps(
       [&](BodyIndex a, BodyIndex b, double paid, double unpaid, const dynamics::Booked& booked) {
         const double smaller = std::min(bodies.area[a], bodies.area[b]);
-        paid = std::min(paid, smaller);  // a floe that came up has all of its overlaps paid, without their area
+        paid = std::min(paid, smaller);  // the overlaps of a floe that surfaced are all paid, without their areas
         pairs.emplace_back(a, b,
                            CrushedOverlap{.on = contact_body(population, a),
                                           .by = contact_body(population, b),

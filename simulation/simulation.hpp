@@ -22,71 +22,76 @@ namespace polynya::simulation {
 
 struct World;
 
-/// Where one floe is that has not broken. Frames and pictures are made of these.
+/// State of one floe that has not broken. Frames and pictures are made from these states.
 struct FloeState {
   FloeId floe = 0;
   FloeId parent = kNoFloe;
-  double born = 0;  ///< [s]
+  double born = 0;  ///< time of creation [s]
   int generation = 0;
   geometry::Pose world_from_body;
-  double angle = 0;                                    ///< of world_from_body [rad]
-  geometry::Vector velocity;                           ///< of the centre of mass over ground [m/s]
-  double angular_velocity = 0;                         ///< [rad/s]
-  double area = 0;                                     ///< [m²]
-  double mass = 0;                                     ///< [kg]
-  bool is_fast = false;                                ///< held at its velocity
-  std::string_view under_hull_of;                      ///< of scenes that go on from a run: the ship's name, or none
-  double under_path = 0;                               ///< then how far that ship has come over it [m]
-  const fracture::Ice* ice = nullptr;                  ///< valid as long as the simulation
-  const geometry::Polygon* polygon_in_body = nullptr;  ///< valid as long as the floe
+  double angle = 0;             ///< angle of world_from_body [rad]
+  geometry::Vector velocity;    ///< velocity of the centre of mass over ground [m/s]
+  double angular_velocity = 0;  ///< [rad/s]
+  double area = 0;              ///< area in plan [m²]
+  double mass = 0;              ///< [kg]
+  bool is_fast = false;         ///< true for fast ice, whose motion is prescribed
+  /// Name of the ship under whose hull the floe is; only set when a run is exported as a scene.
+  std::string_view under_hull_of;
+  double under_path = 0;               ///< distance that this ship has moved over the floe; likewise [m]
+  const fracture::Ice* ice = nullptr;  ///< ice of the floe; valid as long as the simulation exists
+  const geometry::Polygon* polygon_in_body = nullptr;  ///< outline; valid as long as the floe exists [m]
 };
 
-/// Which of the floes that have not broken.
+/// Selection among the floes that have not broken.
 enum class Living {
   kFloating,
-  kAll,  ///< also those under hulls
+  kAll,  ///< floating floes and pieces under hulls
 };
 
+/// Position and motion of a hull.
 struct HullState {
   geometry::Pose world_from_ship;
-  double heading = 0;           ///< [rad]
-  geometry::Vector velocity;    ///< over ground [m/s]
+  double heading = 0;           ///< heading, counter-clockwise from the x axis [rad]
+  geometry::Vector velocity;    ///< velocity over ground [m/s]
   double angular_velocity = 0;  ///< [rad/s]
 };
 
-/// Two bodies with an overlap: ice that was crushed there or gave way, and ice that is not paid yet.
+/// The overlap of two bodies: ice that was crushed there or gave way, and overlap that is not paid yet.
 struct CrushedOverlap {
   ContactState::Body on;
   ContactState::Body by;
-  double area = 0;    ///< crushed [m²]
-  double share = 0;   ///< the whole overlap as a fraction of the smaller of the two bodies
-  double tilted = 0;  ///< where the ice edge tilted or bent down under a hull [m²]
-  double unpaid = 0;  ///< in contact and not paid: it presses the two bodies apart [m²]
-  double volume = 0;  ///< of the ice that the work crushed; under an inclined hull a wedge of the area's [m³]
-  double work = 0;    ///< that crushed it, friction aside [J]
+  double area = 0;    ///< area of ice that was crushed [m²]
+  double share = 0;   ///< whole overlap / area of the smaller of the two bodies [-]
+  double tilted = 0;  ///< area where the ice edge tilted or bent down under a hull [m²]
+  double unpaid = 0;  ///< area that is not paid and presses the two bodies apart [m²]
+  double volume = 0;  ///< volume of the crushed ice; under an inclined hull it is a wedge [m³]
+  double work = 0;    ///< work that crushed it, without friction [J]
 };
 
-/// A run in progress: the scene's world, stepped.
+/// A run in progress.
 class Simulation {
  public:
+  /// Starts a run of a scene, which must be valid (io/scene checks scenes).
   explicit Simulation(Scene scene, Shortcuts shortcuts = {});
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// Continues from the state() of a run of the same scene. The error states what is wrong with the bytes.
+  /// Continues from the state() of a run of the same scene. On failure the error states what is wrong with the bytes.
   static tl::expected<Simulation, std::string> resumed(Scene scene, std::string_view state);
 
-  /// All that decides how the run continues, beside the scene. Taken between steps, after the journal.
+  /// Returns all data that decide how the run continues, except for the scene. Must be called between steps, after the
+  /// journal was written.
   std::string state() const;
-  /// A hash of it, the same wherever the same bits were computed (docs/reliability.md).
+  /// Returns a hash of the state. It is the same on every machine on which the run computed the same bits
+  /// (docs/reliability.md).
   std::uint64_t state_hash() const;
 
-  /// The number of threads to step on from now on. Results do not depend on it.
+  /// Sets the number of threads for the next steps. Results do not depend on it.
   void set_threads(int threads);
 
-  /// Puts a pilot from outside in the place of a ship's own; none gives the ship back to its own. What an
-  /// outside pilot remembers is not in state().
+  /// Replaces a ship's own pilot by one from outside. An empty pilot gives the ship back to its own. The memory of an
+  /// outside pilot is not in state(). Throws std::out_of_range if there is no such ship.
   void set_pilot(int ship, ExternalPilot pilot);
 
   /// Sets the force and moment from outside on a ship, in its frame, until they are set again [N, N m]. They add to the
@@ -97,32 +102,34 @@ class Simulation {
   /// rate [rad/s]. The motion is in state(). Throws std::invalid_argument for a ship whose motion is not prescribed.
   void set_prescribed_motion(int ship, geometry::Vector velocity, double yaw_rate);
 
-  /// Appends the loads since the last sample to journal(), as is also done at each RecordSettings::forces_interval.
-  /// There must have been a tick since.
+  /// Appends the mean loads since the last sample to journal(), as is also done at each
+  /// RecordSettings::forces_interval. At least one tick must have passed since then.
   void sample_loads();
 
-  /// Advances the run by one tick. Appends what happened in it to journal().
+  /// Advances the run by one tick and appends the events, births, deaths and samples of the tick to journal().
   void step();
 
-  /// Why the run cannot continue (NaN, runaway speed); checked every step.
+  /// Returns why the run cannot continue: a speed that is not finite or above kRunawaySpeed, or an overload. Returns
+  /// nullopt if the run can continue. It is checked in every step.
   std::optional<std::string> numerical_failure() const;
 
-  double time() const;         ///< [s]
-  std::int64_t steps() const;  ///< ticks so far
-  const Scene& scene() const;  ///< without its floes: the simulation has taken them
+  double time() const;         ///< time that the run has reached [s]
+  std::int64_t steps() const;  ///< number of ticks so far
+  const Scene& scene() const;  ///< scene without its floes, which the simulation has taken over
   Journal& journal();
   IceLedger area_ledger() const;
   IceLedger mass_ledger() const;
-  Audit audit() const;  ///< of energy and momentum
+  Audit audit() const;  ///< balance of energy and momentum
   Counts counts() const;
-  std::vector<FloeState> floe_states(Living which = Living::kFloating) const;  ///< in id order
-  /// Calls use(state) for each of floe_states(), one at a time: all of a million floes' take 140 MB.
+  std::vector<FloeState> floe_states(Living which = Living::kFloating) const;  ///< states in the order of floe ids
+  /// Calls use(state) for each of floe_states(), one at a time. The states of a million floes together would take 140
+  /// MB.
   void for_each_floe(Living which, const std::function<void(const FloeState&)>& use) const;
   std::vector<HullState> ship_states() const;
-  /// Those contacts of the last step that the scene has recorded, ships' first, in the order of their
-  /// bodies. None before the first step and right after a resume.
+  /// Returns the contacts of the last step that the scene records (RecordSettings::contacts), those of hulls first, in
+  /// the order of their bodies. Returns none before the first step and directly after a resume.
   std::vector<ContactState> contact_states() const;
-  /// Those of a ship or structure with a floe first, in the order of their bodies.
+  /// Returns the overlaps of all pairs, those of hulls first, in the order of their bodies.
   std::vector<CrushedOverlap> crushed_overlaps() const;
   const World& world() const;
 

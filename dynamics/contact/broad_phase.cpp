@@ -356,11 +356,11 @@ void BroadPhase::find_contacts(const Bodies& bodies, double dt, std::vector<Cont
   });
 }
 
-void BroadPhase::take_blind_overlaps(std::vector<BlindOverlap>& overlaps) {
+void BroadPhase::take_inseparable_overlaps(std::vector<InseparableOverlap>& overlaps) {
   overlaps.clear();
   for (Share& share : shares_) {
-    overlaps.insert(overlaps.end(), share.scratch.blind.begin(), share.scratch.blind.end());
-    share.scratch.blind.clear();
+    overlaps.insert(overlaps.end(), share.scratch.inseparable.begin(), share.scratch.inseparable.end());
+    share.scratch.inseparable.clear();
   }
 }
 

@@ -130,8 +130,8 @@ class BroadPhase {
     }
   }
 
-  /// Returns the blind overlaps that find_contacts found since the last call, ordered by (a, b).
-  void take_blind_overlaps(std::vector<BlindOverlap>& overlaps);
+  /// Returns the inseparable overlaps that find_contacts found since the last call, ordered by (a, b).
+  void take_inseparable_overlaps(std::vector<InseparableOverlap>& overlaps);
 
   /// Returns the contacts that find_contacts found to have ended since the last call, ordered by (a, b).
   void take_parted(std::vector<PartedContact>& parted);

@@ -112,9 +112,9 @@ struct Contact {
   double paid_by_giving_way = 0;      ///< growth of the paid area in the step, for ice that broke or tilted [m²]
   bool is_at_limit = false;           ///< the contact pressed with the full force of crushing ice
   bool is_broken = false;             ///< the force reached breaking_force
-  double steady_share = 1;            ///< fraction of the impulses that is not missed_impulse [-]
-  double prescribed_work = 0;         ///< work of a body with prescribed motion on the other one [J]
-  double slip_impulse = 0;            ///< impulse on b along perpendicular(normal), anywhere on the line [N s]
+  double step_share = 1;       ///< fraction of the impulses that belongs to this step; the rest is missed_impulse [-]
+  double prescribed_work = 0;  ///< work of a body with prescribed motion on the other one [J]
+  double slip_impulse = 0;     ///< impulse on b along perpendicular(normal), anywhere on the line [N s]
 
   bool gives_way = false;  ///< the floe tilts instead of carrying the force that crushes it
 
@@ -134,13 +134,13 @@ struct Contact {
 
 /// Two bodies that are inside each other while the gradient of the overlap's area does not show it. No contact can
 /// separate them.
-struct BlindOverlap {
+struct InseparableOverlap {
   BodyIndex a = 0;
   BodyIndex b = 0;
   bool is_inside = false;  ///< one lies completely inside the other, without a crossing
-  double area = 0;         ///< area of the pair's blind overlaps; 0 if is_inside [m²]
+  double area = 0;         ///< area of the pair's inseparable overlaps; 0 if is_inside [m²]
   double width = 0;        ///< |R| of the largest of them [m]
-  double least_width = 0;  ///< width below which the overlap is blind [m]
+  double least_width = 0;  ///< width below which the overlap is inseparable [m]
   geometry::Point middle;  ///< middle of the largest, in the water frame [m]
 };
 

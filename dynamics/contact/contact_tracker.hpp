@@ -34,11 +34,15 @@ class ContactTracker {
   void end(const Bodies& bodies);
 
  private:
-  struct Patch {             ///< place of a contact, in b's frame
-    geometry::Point middle;  ///< of the contact line, or of the overlap of a pierced body [m]
-    geometry::Vector normal;
-    double half_width, depth, reach;  ///< [m]
-    bool is_pierced;
+  /// Place and extent of a contact in b's frame.
+  struct Patch {
+    geometry::Point middle;   ///< middle of the contact line; of a pierced body the centroid of the overlap [m]
+    geometry::Vector normal;  ///< normal of the contact, from a into b
+    double half_width;        ///< half length of the contact line [m]
+    double depth;             ///< depth of the overlap [m]
+    double reach;             ///< largest distance of the contact's points from `middle` [m]
+    bool is_pierced;          ///< true if one body pierces the other
+    /// Returns true if a point of b lies in the overlap.
     bool holds(geometry::Point point_in_b) const;
   };
   static Patch patch_of(const Contact& contact, const geometry::ContactManifold& manifold, const Bodies& bodies);
@@ -58,7 +62,8 @@ class ContactTracker {
   std::vector<PersistentContact>& records_;
   std::vector<PersistentContact>& updated_;
   std::vector<PartedContact>& parted_;
-  double tolerance_;  // of a contact's displacement in a step, in addition to half its width [m]
+  // Distance that a contact may move in a step and still be the same one, in addition to its extent [m].
+  double tolerance_;
   double dt_;
 };
 

@@ -285,8 +285,8 @@ void write_back(const CrushLaw& law, const CrushLaw::State& state, const Contact
   contact.depth_after = state.depth;
   contact.paid_depth_after = state.paid;
   contact.paying_work = state.paying_work;
-  const double steady = law.step * contact.crushing_force;
-  contact.steady_share = state.missed > 0 ? steady / (steady + state.missed) : 1;
+  const double of_step = law.step * contact.crushing_force;
+  contact.step_share = state.missed > 0 ? of_step / (of_step + state.missed) : 1;
 }
 
 }  // namespace polynya::dynamics

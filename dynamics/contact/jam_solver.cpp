@@ -50,9 +50,9 @@ JamRows rows_of(const ContactConstraint& c, int a, int b) {
           .b = b};
 }
 
-/// Returns true if a change of this branch is postponed in this step: a pseudo-random half of all branches, without a
-/// pattern that a cycle could follow.
-bool waits(std::size_t branch, int step) {
+/// Returns true if a change of a branch is postponed to a later Newton step: a pseudo-random half of all branches in
+/// each step, without a pattern that a cycle could follow.
+bool is_postponed(std::size_t branch, int step) {
   std::uint64_t x = branch * 0x9E3779B97F4A7C15U + static_cast<std::uint64_t>(step) * 0xBF58476D1CE4E5B9U;
   x = (x ^ (x >> 31U)) * 0x94D049BB133111EBU;
   return (x >> 40U & 1U) != 0;
@@ -68,10 +68,11 @@ struct JamMemory::Parts {
     int slip = 0;
     friend bool operator==(const ActiveSet&, const ActiveSet&) = default;
   };
-  /// Straight line of an end's branch, and the places (see branch_near) at which the branch begins and ends.
+  /// Straight line of the branch of an end's law, impulse = at_rest − slope × speed, and the range in which it is the
+  /// nearest branch (see branch_near).
   struct Line {
-    double at_rest, slope;  ///< [N s], [N s per m/s]
-    double after, to;       ///< [m/s]
+    double at_rest, slope;  ///< impulse at a speed of 0 [N s], and its decrease per speed [N s per m/s]
+    double after, to;       ///< places at which the branch begins and ends [m/s]
   };
   /// A contact that would leave its branches, the branches to which it would change, and how far it is beyond the
   /// present ones [m/s].
@@ -206,7 +207,7 @@ class Jam {
     for (const Change& change : changes_) {
       const std::size_t k = change.contact;
       const auto take = [&](auto& from, auto to, std::size_t place) {
-        if (step < kWholeSteps || !waits(3 * k + place, step) || change.by[place] == most) from = to;
+        if (step < kWholeSteps || !is_postponed(3 * k + place, step) || change.by[place] == most) from = to;
       };
       take(active_sets_[k].ends.of[0], change.to.ends.of[0], 0);
       take(active_sets_[k].ends.of[1], change.to.ends.of[1], 1);
@@ -230,8 +231,8 @@ class Jam {
     }
     return choice;
   }
-  /// Calls prepare(begin, end) for chunks of contacts in parallel and finds their changes, which are listed in the
-  /// order of the contacts.
+  /// Calls prepare(begin, end) for chunks of contacts in parallel, and then finds their changes of branches, which are
+  /// listed in the order of the contacts.
   template <class Prepare>
   void find_changes(Prepare prepare) {
     auto& of_chunk = memory_.changes_of_chunk;
@@ -246,6 +247,7 @@ class Jam {
     for (const auto& some : std::span(of_chunk).first(chunks))
       changes_.insert(changes_.end(), some.begin(), some.end());
   }
+  /// Adds a change to the list if contact k would leave its branches at the present speeds and impulses.
   void find_change(std::size_t k, std::vector<Change>& changes) {
     const ContactConstraint& c = constraints_[k];
     const std::array<double, 2> beyond{beyond_branch(k, 0), beyond_branch(k, 1)};
@@ -278,6 +280,7 @@ class Jam {
     const std::array<double, 2> ends = crush_impulses(laws_[k], kinks_[k], mobility, trial, branches);
     return ends[0] + ends[1];
   }
+  /// Computes the lines of the branches of contact k.
   void find_lines(std::size_t k) {
     for (std::size_t end = 0; end < 2; ++end) {
       const CrushBranch branch = active_sets_[k].ends.of[end];
@@ -302,6 +305,7 @@ class Jam {
     }
     find_slip_load(k);
   }
+  /// Linearises the slip impulse of contact k.
   void find_slip_load(std::size_t k) {
     JamLoad& load = loads_[k];
     const double friction = share_that_follows_ * active_sets_[k].slip * constraints_[k].friction;
@@ -349,6 +353,7 @@ class Jam {
       }
     });
   }
+  /// Returns the sum of the normal impulses of both ends, each limited by its law [N s].
   double normal_within_law(std::size_t k) const {
     double normal = 0;
     for (std::size_t end = 0; end < 2; ++end) normal += std::clamp(loads_[k].impulse[end], 0.0, laws_[k][end].cap);
@@ -386,6 +391,7 @@ class Jam {
     }
     return largest;
   }
+  /// Restores the impulses and bodies from before the solution.
   void restore() {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       ContactConstraint& c = constraints_[k];

@@ -15,13 +15,16 @@ using geometry::Vector;
 /// Larger: more circles are compared in each step. Results do not change.
 constexpr double kNearMargin = 0.75;
 
-/// Number of covers that are kept for second bodies: enough for a body's neighbours in a field and some of the next
-/// body's. Fewer: covers are made again more often.
-constexpr std::size_t kSecond = 32;
+/// Number of covers that are kept for the second bodies of pairs. It is enough for the neighbours of one body in a
+/// field and some of the next body. Fewer: covers are made again more often. Results do not change.
+constexpr std::size_t kKeptSecondCovers = 32;
 
 /// Largest exponent of the power law of an overlap, d w / S [-]. Beyond it the extent of the overlap describes the
-/// notch in which a body lies, but not the overlap, which is thin. Its mean thickness is then taken as its depth.
+/// notch in which a body lies, and not the overlap, which is thin; its mean thickness is then taken as its depth.
+/// Larger values overestimate the force in notches.
 constexpr double kMostPower = 3;
+/// Returns the depth of an overlap: its extent along the normal, or its mean thickness if the extent describes the
+/// notch [m].
 double bounded_depth(const geometry::ContactManifold& m) {
   return m.depth * m.width > kMostPower * m.area ? m.area / m.width : m.depth;
 }
@@ -30,8 +33,8 @@ double bounded_depth(const geometry::ContactManifold& m) {
 /// measures are differences of coordinates that are rounded at about 1e-12 m, so its shape would be rounding error.
 constexpr double kShapeless = 1e-6;
 
-/// Returns true if the depth is limited by the rule above. It is not if both motions are prescribed: such ice is carved
-/// out by another rule, which needs the extent.
+/// Returns true if the depth is limited by bounded_depth(). It is not limited if both motions are prescribed, because
+/// the simulation cuts such ice out (carve_channels) and needs the extent for it.
 bool is_bounded(const ContactRule& rule, const Bodies& bodies, const Pair& pair) {
   return rule.is_depth_bounded && (bodies.inverse_mass[pair.a] != 0 || bodies.inverse_mass[pair.b] != 0);
 }
@@ -73,20 +76,21 @@ void forget_near(Pair& pair) {
   pair.near_bound = -1;
 }
 
-/// Records the manifolds that are blind, and removes those that have no direction in which to separate the bodies.
-void take_blind(const Pair& pair, const Pose& water_from_a, PairScratch& scratch) {
-  BlindOverlap blind{pair.a, pair.b, false, 0, 0, 0, {}};
+/// Records the manifolds that are inseparable, and removes those that have no direction in which to separate the
+/// bodies.
+void take_inseparable(const Pair& pair, const Pose& water_from_a, PairScratch& scratch) {
+  InseparableOverlap inseparable{pair.a, pair.b, false, 0, 0, 0, {}};
   double largest = 0;
   for (const geometry::ContactManifold& m : scratch.manifolds) {
-    if (!m.is_pierced || !geometry::is_blind(m.width, m.area, m.extent)) continue;
-    blind.area += m.area;
+    if (!m.is_pierced || !geometry::is_inseparable(m.width, m.area, m.extent)) continue;
+    inseparable.area += m.area;
     if (m.area <= largest) continue;
     largest = m.area;
-    blind.width = m.width;
-    blind.least_width = geometry::kBlindShare * m.area / m.extent;
-    blind.middle = transform(water_from_a, m.centroid);
+    inseparable.width = m.width;
+    inseparable.least_width = geometry::kInseparableShare * m.area / m.extent;
+    inseparable.middle = transform(water_from_a, m.centroid);
   }
-  if (blind.area > 0) scratch.blind.push_back(blind);
+  if (inseparable.area > 0) scratch.inseparable.push_back(inseparable);
   std::erase_if(scratch.manifolds,
                 [](const geometry::ContactManifold& m) { return m.is_pierced && m.width <= geometry::kNoWidth; });
 }
@@ -103,7 +107,7 @@ void take_inside(const Bodies& bodies, Pair& pair, const Pose& pose, const Conta
   }
   if (pair.is_outside) return;
   const BodyIndex inner = bodies.bounding_radius[pair.a] < bodies.bounding_radius[pair.b] ? pair.a : pair.b;
-  scratch.blind.push_back({pair.a, pair.b, true, 0, 0, 0, bodies.position[inner]});
+  scratch.inseparable.push_back({pair.a, pair.b, true, 0, 0, 0, bodies.position[inner]});
 }
 
 /// Appends the contacts of a pair, which are found among its near edges. Returns true if the two bodies are apart.
@@ -128,7 +132,7 @@ bool collect(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRu
   }
   const Pose water_from_a = water_from_body(bodies, pair.a);
   if (std::ranges::any_of(scratch.manifolds, &geometry::ContactManifold::is_pierced))
-    take_blind(pair, water_from_a, scratch);
+    take_inseparable(pair, water_from_a, scratch);
   std::uint32_t number = 0;
   for (const geometry::ContactManifold& manifold : scratch.manifolds) {
     Contact& c = contacts.emplace_back();
@@ -219,7 +223,7 @@ const geometry::Cover& CoverCache::first(const geometry::Boundary& boundary, Bod
                                          const geometry::CircleRule& rule) {
   if (first_.body == body) return first_.cover;
   if (!second_.empty()) {  // pairs are ordered by their first body: it was mostly a second body before
-    Entry& entry = second_[static_cast<std::size_t>(body) % kSecond];
+    Entry& entry = second_[static_cast<std::size_t>(body) % kKeptSecondCovers];
     if (entry.body == body) {
       std::swap(first_, entry);
       return first_.cover;
@@ -233,8 +237,8 @@ const geometry::Cover& CoverCache::first(const geometry::Boundary& boundary, Bod
 
 const geometry::Cover& CoverCache::second(const geometry::Boundary& boundary, BodyIndex body,
                                           const geometry::CircleRule& rule) {
-  if (second_.empty()) second_.resize(kSecond);
-  Entry& entry = second_[static_cast<std::size_t>(body) % kSecond];
+  if (second_.empty()) second_.resize(kKeptSecondCovers);
+  Entry& entry = second_[static_cast<std::size_t>(body) % kKeptSecondCovers];
   if (entry.body == body) return entry.cover;
   entry.body = -1;
   make_cover(boundary.edges, rule, entry.cover);

@@ -34,8 +34,9 @@ struct alignas(64) Pair {
   bool is_dropped = false;           ///< its slot is freed when the lists of pairs are cleaned up
   bool is_outside = false;           ///< neither is inside the other; this stays so until they touch
   // The first cache line ends here.
-  double near_bound = -1;  ///< `near` holds at least until the travel of both exceeds this [m]
-  Clearance near;          ///< statement: only the near circles and edges can touch
+  /// Value of travel[a] + travel[b] up to which the statement `near` is known to hold, without further computation [m].
+  double near_bound = -1;
+  Clearance near;  ///< statement: only the near circles and edges can touch
 
   bool has_near_edges() const { return parts != nullptr && !parts->edges.pairs.empty(); }
   std::span<const PersistentContact> records() const {
@@ -97,6 +98,8 @@ class CoverCache {
 
 /// Memory that collide_pair reuses.
 struct PairScratch {
+  /// False if there are so many pairs that near edges of distant bodies are not kept
+  /// (ContactRule::most_pairs_with_edges).
   bool keeps_distant_edges = true;
   CoverCache covers;
   std::vector<geometry::NearPair> near_circles;
@@ -104,10 +107,10 @@ struct PairScratch {
   std::vector<geometry::ContactManifold> manifolds;
   std::vector<geometry::ContactManifold> manifolds_ahead;  ///< where the bodies would be at the end of a step
   geometry::ManifoldScratch crossings;
-  std::vector<PersistentContact> records;  ///< records of the present pair, while they are updated
-  std::vector<BlindOverlap> blind;         ///< blind overlaps found so far
-  std::vector<PartedContact> parted;       ///< contacts that ended, found so far
-  std::int64_t unpaired = 0;               ///< number of contact stretches so far whose crossings did not pair up
+  std::vector<PersistentContact> records;       ///< records of the present pair, while they are updated
+  std::vector<InseparableOverlap> inseparable;  ///< inseparable overlaps found so far
+  std::vector<PartedContact> parted;            ///< contacts that ended, found so far
+  std::int64_t unpaired = 0;                    ///< number of contact stretches so far whose crossings did not pair up
 };
 
 /// Returns how far the two bodies can still move within a clearance [m]; `pose` is b's centre of mass in a's frame.

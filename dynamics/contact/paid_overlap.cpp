@@ -19,6 +19,7 @@ double power_of(const Contact& c) {
   return std::clamp(c.depth * c.width / c.area, 1.0 / 3, kLargestPower);
 }
 
+/// Returns true if a contact has an area and a depth, so that the power law is defined.
 bool has_shape(const Contact& c) {
   return c.area > 0 && c.depth > 0;
 }

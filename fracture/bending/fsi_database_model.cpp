@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "elementary/elementary.hpp"
-
 #include "fracture/bending/database.hpp"
 #include "fracture/bending/edge_deflection.hpp"
 #include "fracture/bending/sinking_edge.hpp"
@@ -83,18 +82,18 @@ double effective_length(const BendingDatabase& database, const WedgeGroups& whol
   return ratio * ratio;
 }
 
-/// Returns the hull's push on the edge at its penetration. It acts on the upper part of the edge, at a third of it
-/// below the top.
-EdgePush edge_push(const BendingLoad& load, double length, double effective_length) {
+/// Returns the load of the hull on the edge at its penetration. The thrust acts on the crushed facet, at a third of its
+/// height below the top of the ice.
+EdgeLoad edge_load(const BendingLoad& load, double length, double effective_length) {
   const double depth = load.penetration / load.ice.thickness;
-  EdgePush push;
-  push.length = length / load.ice.thickness;
-  push.effective_length = effective_length * push.length;
-  push.distance = load.load_place * depth;
-  push.facet = depth;
-  push.thrust = load.thrust;
-  push.lever = std::max(0.0, 0.5 - depth / (3 * elementary::tan(load.hull_angle)));
-  return push;
+  EdgeLoad edge;
+  edge.length = length / load.ice.thickness;
+  edge.effective_length = effective_length * edge.length;
+  edge.distance = load.load_place * depth;
+  edge.facet = depth;
+  edge.thrust = load.thrust;
+  edge.lever = std::max(0.0, 0.5 - depth / (3 * elementary::tan(load.hull_angle)));
+  return edge;
 }
 
 /// Returns by how much the tip sinks, in thicknesses, per V / (σ_f h²).
@@ -136,7 +135,7 @@ ScaledLoad scaled(const BendingLoad& load) {
   return result;
 }
 
-WedgePush push_of(const ScaledLoad& load, Feedback feedback) {
+WedgePush wedge_push_of(const ScaledLoad& load, Feedback feedback) {
   return {load.groups.froude, load.groups.softness, load.full_depth,
           feedback == Feedback::kCoupled ? load.feedback : 0};
 }
@@ -158,7 +157,7 @@ BendingCapacity FsiDatabaseModel::capacity(const BendingLoad& load) const {
   BendingCapacity capacity = to_capacity(answer, scaled_load, has_poisson_ratio_of(*database_, load));
   if (!load.openings) return capacity;
   const SectionBreak found = weakest_section_of_sinking(
-      *load.openings, edge_push(load, scaled_load.length_scale, effective_length(*database_, groups)),
+      *load.openings, edge_load(load, scaled_load.length_scale, effective_length(*database_, groups)),
       sinking_of(load, scaled_load, groups.opening_angle), radial_cracks_ == RadialCracks::kSplitWedge);
   capacity.vertical_force = found.force * scaled_load.force_scale;
   capacity.cusp_radius = found.distance * load.ice.thickness;
@@ -167,7 +166,7 @@ BendingCapacity FsiDatabaseModel::capacity(const BendingLoad& load) const {
 
 BendingForecast FsiDatabaseModel::forecast(const BendingLoad& load) const {
   const ScaledLoad scaled_load = scaled(load);
-  const WedgePush push = push_of(scaled_load, Feedback::kIgnored);
+  const WedgePush push = wedge_push_of(scaled_load, Feedback::kIgnored);
   // If the contact crushes through the thickness before it breaks, force and penetration depend on each other. The
   // force depends weakly on the penetration, so a few rounds find both.
   constexpr int kRounds = 20;

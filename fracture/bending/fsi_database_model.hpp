@@ -26,10 +26,10 @@ struct ScaledLoad {
 
 ScaledLoad scaled(const BendingLoad& load);
 
-/// Returns the push of a load from first contact on. The caller chooses whether the deflection of the ice slows the
-/// penetration.
+/// Returns the motion and stiffness of a load from first contact on, for the wedge solver. `feedback` states whether
+/// the deflection of the ice slows the penetration.
 enum class Feedback { kIgnored, kCoupled };
-WedgePush push_of(const ScaledLoad& load, Feedback feedback);
+WedgePush wedge_push_of(const ScaledLoad& load, Feedback feedback);
 
 /// A complete push at constant speed, from first contact to the break.
 struct BendingForecast {

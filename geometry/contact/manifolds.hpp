@@ -91,15 +91,15 @@ struct ManifoldScratch {
 int find_manifolds(const BoundaryPair& pair, const NearEdges& edges, ManifoldScratch& scratch,
                    std::vector<ContactManifold>& manifolds);
 
-/// Width of a contact line below which its overlap is blind, as a fraction of the overlap's mean width, area / extent
-/// [-]. Larger: healthy contacts of wedges (one half) are ground off. Smaller: bodies lie in each other without a force
-/// that separates them.
-inline constexpr double kBlindShare = 0.25;
+/// Width of a contact line below which its overlap is inseparable, as a fraction of the overlap's mean width, area /
+/// extent [-]. Larger: contacts of wedges, which have one half, are ground off. Smaller: bodies lie in each other
+/// without a force that separates them.
+inline constexpr double kInseparableShare = 0.25;
 
 /// Returns true if the gradient of an overlap's area does not show the overlap: in whatever direction the bodies
 /// separate, the area decreases by less than a quarter of its mean width per metre.
-inline bool is_blind(double width, double area, double extent) {
-  return width * extent < kBlindShare * area;
+inline bool is_inseparable(double width, double area, double extent) {
+  return width * extent < kInseparableShare * area;
 }
 
 /// The paper's own rule: every pair of overlapping contact circles is a contact, with its normal along the line of

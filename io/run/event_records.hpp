@@ -89,11 +89,12 @@ void criterion(Line& line, Is<simulation::ResurfaceCriterion> auto& c, bool come
 
 template <class Line>
 void criterion(Line& line, Is<simulation::GrindCriterion> auto& c, bool) {
-  const bool is_blind = c.least_width > 0;
-  line("kind", std::string_view(is_blind ? "overlap width < least width" : "crushed overlap >= least area"), kRule);
-  line("width_m", c.width, optional(is_blind, {"m", "by which the overlap's area falls per metre of motion"}));
+  const bool is_inseparable = c.least_width > 0;
+  line("kind", std::string_view(is_inseparable ? "overlap width < least width" : "crushed overlap >= least area"),
+       kRule);
+  line("width_m", c.width, optional(is_inseparable, {"m", "by which the overlap's area falls per metre of motion"}));
   line("least_width_m", c.least_width,
-       optional(is_blind, {"m", "from which a contact parts the overlap; left out where it was crushed", {}, 0}));
+       optional(is_inseparable, {"m", "from which a contact parts the overlap; left out where it was crushed", {}, 0}));
   line("overlap_area_m2", c.overlap_area, {"m²", "of the overlap, exactly", "overlap ground", 0});
   line("least_area_m2", c.least_area, {"m²", "a smaller overlap is left", {}, 0});
 }

@@ -238,19 +238,20 @@ class SceneHints {
 
   /// The longest way in a step (simulation/world/parts.hpp), and which bound it is.
   std::string most_way_as_text(double thickness) const {
-    const double way = simulation::most_way(scene_.contact, thickness);
-    if (way == simulation::kWayOverThickness * thickness)
-      return fmt::format("{:g} of the ice's thickness of {:g} m", simulation::kWayOverThickness, thickness);
-    if (way == simulation::kWayTimesThickness / thickness)
-      return fmt::format("{:g} m² over the ice's thickness of {:g} m", simulation::kWayTimesThickness, thickness);
-    return fmt::format("{:g} of contact.circle_radius_m {:g}", simulation::kWayOverCircle,
+    const double way = simulation::allowed_displacement(scene_.contact, thickness);
+    if (way == simulation::kDisplacementOverThickness * thickness)
+      return fmt::format("{:g} of the ice's thickness of {:g} m", simulation::kDisplacementOverThickness, thickness);
+    if (way == simulation::kDisplacementTimesThickness / thickness)
+      return fmt::format("{:g} m² over the ice's thickness of {:g} m", simulation::kDisplacementTimesThickness,
+                         thickness);
+    return fmt::format("{:g} of contact.circle_radius_m {:g}", simulation::kDisplacementOverRadius,
                        scene_.contact.circle_radius);
   }
 
   void hint_at_step() {
     if (scene_.floes.empty()) return;
     const auto thickness_of = [&](const simulation::FloeSpec& floe) { return ice_of(scene_, floe.own_ice).thickness; };
-    const auto way_in = [&](double thickness) { return simulation::most_way(scene_.contact, thickness); };
+    const auto way_in = [&](double thickness) { return simulation::allowed_displacement(scene_.contact, thickness); };
     const auto thinnest_and_thickest = std::ranges::minmax_element(scene_.floes, {}, thickness_of);
     const double thin = thickness_of(*thinnest_and_thickest.min);
     const double thick = thickness_of(*thinnest_and_thickest.max);

@@ -12,12 +12,13 @@ using geometry::Point;
 using geometry::Ring;
 using geometry::Vector;
 
+/// Returns the area of the triangle that is lost if corner i is removed [m²].
 double corner_area(const Ring& ring, std::size_t i) {
   const std::size_t n = ring.size();
   return 0.5 * cross(ring[i] - ring[(i + n - 1) % n], ring[(i + 1) % n] - ring[i]);
 }
 
-/// Leaves what lies where dot(normal, x − origin) ≥ offset.
+/// Keeps the part of a ring where dot(normal, x − origin) ≥ offset.
 void clip_beyond(Ring& ring, Point origin, Vector normal, double offset) {
   Ring left;
   left.reserve(ring.size() + 1);
@@ -109,7 +110,7 @@ void reduce_corners(Ring& ring, int most, double shortest) {
 }
 
 void add_corners(Ring& ring, int least) {
-  constexpr double kCutOff = 0.3;  // of the shorter of a corner's edges
+  constexpr double kCutOff = 0.3;  // length of the cut along either edge, as a fraction of the shorter one [-]
   for (std::size_t n = ring.size(); n >= 3 && n < static_cast<std::size_t>(least); n = ring.size()) {
     std::size_t sharpest = 0;
     double most = -2;

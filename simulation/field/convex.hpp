@@ -6,40 +6,45 @@
 
 namespace polynya::simulation {
 
-// What is done to the convex counter-clockwise rings of a field's cells. Only + − × ÷ and √ are used.
+// Operations on the convex counter-clockwise rings of a field's cells. They use only + − × ÷ and √, which give the same
+// bits on every machine.
 
+/// Area and centroid of a ring.
 struct CellMeasures {
   double area = 0;  ///< [m²]
   geometry::Point centroid;
 };
 
-/// From its first corner: cheaper than geometry::measure, and precise far from the origin.
+/// Returns the measures of a convex ring. Coordinates are taken relative to its first corner, so they are precise far
+/// from the origin, and the function is cheaper than geometry::measure.
 CellMeasures measure_convex(const geometry::Ring& ring);
 
-/// √ of the ratio of the principal second moments of area, ≥ 1: an ellipse's length over its width [-].
+/// Returns the aspect of a ring: the square root of the ratio of the principal second moments of area, ≥ 1 [-]. For an
+/// ellipse it is length over width.
 double aspect_of(const geometry::Ring& ring);
 
-/// Leaves what lies to the left of the line; nothing of the ring may be left.
+/// Cuts off the part of a ring to the right of the line through two points. The ring is empty if nothing is left.
 void clip_to_left(geometry::Ring& ring, geometry::Point from, geometry::Point to);
 
-/// The ring with all its edges moved inwards [m]; nothing may be left.
+/// Returns a ring with all its edges moved inwards by a distance [m]; empty if nothing is left.
 geometry::Ring inset(const geometry::Ring& ring, double distance);
 
-/// The ring by a factor larger about a point.
+/// Returns a ring enlarged by a factor about a point.
 geometry::Ring scaled(const geometry::Ring& ring, geometry::Point centre, double factor);
 
-/// Removes corners, those of least area first, until there are few enough and no edge is very short [m].
-/// The result lies within the ring.
+/// Removes corners, beginning with the one that cuts off the least area, until there are at most `most` of them and no
+/// edge is shorter than `shortest` [m]. The result lies inside the ring.
 void reduce_corners(geometry::Ring& ring, int most, double shortest);
 
-/// Cuts off corners, the sharpest first, until there are as many. The result lies within the ring.
+/// Cuts off corners, beginning with the sharpest, until there are at least `least` corners. The result lies inside the
+/// ring.
 void add_corners(geometry::Ring& ring, int least);
 
-/// Cuts the ring across a direction into strips whose areas are in proportion to `shares`.
+/// Cuts a ring across a direction into strips whose areas are in proportion to `shares`.
 std::vector<geometry::Ring> strips_of(const geometry::Ring& ring, geometry::Vector direction,
                                       const std::vector<double>& shares);
 
-/// Whether a ring comes nearer than the gap [m] to the boundary of another, which may be concave.
+/// Returns true if a convex ring comes nearer than `gap` [m] to the boundary of another ring, which may be concave.
 bool is_near_ring(const geometry::Ring& floe, const geometry::Ring& ring, double gap);
 
 }  // namespace polynya::simulation

@@ -22,39 +22,45 @@ using geometry::Ring;
 using geometry::Site;
 using geometry::Vector;
 
-/// A floe in the making.
+/// A cell from which a floe is made.
 struct Candidate {
-  geometry::Ring ring;  ///< of its cell, its corners reduced, counter-clockwise [m]
+  geometry::Ring ring;  ///< ring of the cell with its corners reduced, counter-clockwise [m]
   geometry::Point centroid;
-  double area = 0;               ///< of the ring [m²]
-  double wanted = 0;             ///< before all floes grow or shrink alike [m²]
-  double room = 0;               ///< the most it can have [m²]
-  bool may_be_forbidden = true;  ///< the scaled ring may reach into what is kept clear, or across the outline
+  double area = 0;               ///< area of the ring [m²]
+  double wanted = 0;             ///< area of the floe before all floes are scaled by a common factor [m²]
+  double room = 0;               ///< largest area that the floe can have [m²]
+  bool may_be_forbidden = true;  ///< true if the scaled ring may reach into areas kept clear or across the outline
 };
 
-/// Cells, and what they were made for.
+/// The cells of a field, and the areas that they cover.
 struct FieldLayout {
   std::vector<Candidate> candidates;
-  double tiled_area = 0;   ///< that the cells tile, and of which the floes cover the concentration [m²]
-  double region_area = 0;  ///< of it in the region and not kept clear [m²]
-  double cell_area = 0;    ///< of the candidates, before the gap is taken off [m²]
-  int left_out = 0;        ///< floes whose cells found no room
+  double tiled_area = 0;   ///< area that the cells tile; the floes cover the concentration of it [m²]
+  double region_area = 0;  ///< part of it in the region and not kept clear [m²]
+  double cell_area = 0;    ///< area of the candidates before the gap is taken off [m²]
+  int left_out = 0;        ///< number of floes whose cells found no space
 };
 
 // ---- cells of fields without a size law
 
-// Every one of these changes all fields without a size law, to the bit.
-constexpr double kFarthestCellDeviation = 2.5;  ///< of the logarithm of a floe's size, in standard deviations
-constexpr int kRelaxations = 12;                ///< fewer leave cells slender and off their areas
-constexpr double kShortestCellEdge = 0.1;       ///< of a floe, in sizes of its cell; smaller leaves slivers of edges
+// Each of these constants determines all fields without a size law, to the bit.
+/// Largest deviation of the logarithm of a floe's size, in standard deviations [-]. Larger: single floes may be too
+/// large for the region.
+constexpr double kFarthestCellDeviation = 2.5;
+/// Number of passes that move the sites. Fewer leave cells slender and their areas inaccurate.
+constexpr int kRelaxations = 12;
+/// Shortest edge of a floe, as a fraction of √(area of its cell) [-]. Smaller values leave very short edges.
+constexpr double kShortestCellEdge = 0.1;
 
-/// e^x for moderate x, without a library's: (1 + x/2²⁰)^(2²⁰), to 1e-6.
+/// Returns e^x as (1 + x/2²⁰)^(2²⁰), accurate to 1e-6 for |x| ≲ 1. It uses only multiplication and addition, so that
+/// fields do not depend on the C library. It is kept beside portable_exponential() because existing fields must not
+/// change.
 double exponential(double x) {
   double power = 1 + x * 0x1p-20;
   for (int i = 0; i < 20; ++i) power *= power;
   return power;
 }
-/// ln(1 + x) for 0 ≤ x ≤ 1, likewise: 2 artanh(x / (2 + x)).
+/// Returns ln(1 + x) for 0 ≤ x ≤ 1 as 2 artanh(x / (2 + x)), for the same reason.
 double logarithm_of_one_plus(double x) {
   const double y = x / (2 + x);
   double sum = 0;
@@ -66,7 +72,7 @@ double logarithm_of_one_plus(double x) {
   return 2 * sum;
 }
 
-/// Lognormal floe areas [m²].
+/// Returns the areas of floes with log-normal sizes [m²].
 std::vector<double> draw_areas(const FloeField& field, std::size_t count, Random& random) {
   const double variance = logarithm_of_one_plus(field.size_spread * field.size_spread);
   const double sigma = std::sqrt(variance);
@@ -79,7 +85,7 @@ std::vector<double> draw_areas(const FloeField& field, std::size_t count, Random
   return areas;
 }
 
-/// As many points as there are areas, in rows of a shaken lattice.
+/// Returns one site for each area: a lattice with random displacements, in rows.
 std::vector<Site> first_sites(const Box& box, const std::vector<double>& areas, Random& random) {
   const Vector extent = box.high - box.low;
   const auto count = static_cast<double>(areas.size());
@@ -98,16 +104,16 @@ std::vector<Site> first_sites(const Box& box, const std::vector<double>& areas, 
   return sites;
 }
 
-/// Cells whose areas approach `targets` [m²]: sites move to their centroids while weights follow the areas'
-/// errors.
+/// Returns cells whose areas approach `targets` [m²]. In each pass the sites move to the centroids of their cells, and
+/// the weights follow the errors of the areas.
 std::vector<Ring> relaxed_cells(std::vector<Site> sites, const std::vector<double>& targets, const Box& box) {
   std::vector<Ring> cells = power_diagram(sites, box);
   for (int pass = 0; pass < kRelaxations; ++pass) {
     for (std::size_t i = 0; i < sites.size(); ++i) {
       const CellMeasures cell = cells[i].empty() ? CellMeasures{} : measure_convex(cells[i]);
       if (cell.area > 0) sites[i].point = cell.centroid;
-      // A hexagon's area grows by √3 per unit of weight while its neighbours stay. Weights wait until the
-      // sites have spread: too early, they would leave close sites without a cell.
+      // The area of a hexagon grows by √3 per unit of weight while its neighbours keep theirs. Weights do not change in
+      // the first pass, because sites that are still close to each other could lose their cells.
       if (pass > 0) sites[i].weight += 0.3 * (targets[i] - cell.area);
     }
     cells = power_diagram(sites, box);
@@ -115,6 +121,7 @@ std::vector<Ring> relaxed_cells(std::vector<Site> sites, const std::vector<doubl
   return cells;
 }
 
+/// Returns the smallest distance of a point inside a convex ring from the lines of its edges [m].
 double least_distance_to_edges(const Ring& ring, Point inside) {
   double least = INFINITY;
   for_ring_edges(ring, [&](Point from, Point to) {
@@ -123,13 +130,14 @@ double least_distance_to_edges(const Ring& ring, Point inside) {
   return least;
 }
 
-/// Of a field without a size law. Sizes are drawn from a lognormal distribution (cut off at 2.5 deviations of
-/// the logarithm); a power diagram of as many sites, relaxed so that each cell's area goes with its floe's
-/// [Balzer2009, deGoes2012], tiles the region's box. Sites without a cell are lost: none in 1000 up to a
-/// spread of 0.3, 4 in 100 at 0.5, where the smallest floes are smaller than drawn.
+/// Returns the cells of a field without a size law. Sizes are drawn from a log-normal distribution, limited to 2.5
+/// standard deviations of the logarithm. A power diagram with one site for each size tiles the bounding box of the
+/// region; it is relaxed until the area of each cell is in proportion to that of its floe [Balzer2009, deGoes2012].
+/// Sites without a cell are lost: none in 1000 up to a spread of 0.3, and 4 in 100 at 0.5, where the smallest floes
+/// become smaller than drawn.
 FieldLayout lattice_cells(const FloeField& field) {
   const Box box = bounding_box(field.region);
-  // Consecutive seeds must not give shifted copies of one sequence.
+  // Consecutive seeds must not give shifted copies of the same sequence.
   Random random(Random(field.seed).next());
   const auto count = static_cast<std::size_t>(std::max(1.0, floe_count(field)));
   std::vector<double> areas = draw_areas(field, count, random);
@@ -152,7 +160,8 @@ FieldLayout lattice_cells(const FloeField& field) {
     cell.centroid = measures.centroid;
     cell.area = measures.area;
     cell.wanted = field.concentration * areas[i];
-    // Shrunk by s about a point at distance d from an edge, the edge moves in by (1 − s) d.
+    // If a ring shrinks by the factor s about a point at the distance d from an edge, the edge moves inwards by (1 − s)
+    // d.
     const double s = 1 - 0.5 * field.gap / least_distance_to_edges(cell.ring, cell.centroid);
     if (s > 0) cell.room = s * s * cell.area;
     if (cell.room > 0) layout.candidates.push_back(std::move(cell));
@@ -162,21 +171,24 @@ FieldLayout lattice_cells(const FloeField& field) {
 
 // ---- cells of fields with a size law
 
-constexpr double kShortestFloeEdge = 0.03;  ///< of a floe, in sizes; smaller leaves slivers of edges
-/// Of a floe's area that its cell must have room for. Smaller, and floes far off the law stand at boundaries;
-/// larger, and boundaries are left bare.
+/// Shortest edge of a floe, as a fraction of its size [-]. Smaller values leave very short edges.
+constexpr double kShortestFloeEdge = 0.03;
+/// Smallest area of a cell, as a fraction of the area of its floe [-]. Smaller values leave floes at boundaries that
+/// deviate much from the law. Larger values leave the boundaries without floes.
 constexpr double kLeastAreaShare = 0.25;
 
-/// Of floes one, two, three … of which share a round cell, cut across a random direction: measured.
+/// Mean aspect of floes of which one, two, three … share a round cell that is cut across a random direction [-]. These
+/// values were measured.
 constexpr std::array kAspectOfStrips{1.27, 1.97, 2.9, 3.85, 4.83, 5.8};
 
-/// A floe that was drawn, or a hole.
+/// A floe or a hole of the drawn packing.
 struct Item {
-  double area = 0;  ///< [m²]
+  double area = 0;  ///< area that it should have [m²]
   bool is_floe = true;
 };
 
-/// Along the longest edge, so that a slanting channel's box is not much larger than the channel.
+/// Returns a plane along the longest edge of a region, so that the bounding box of a slanting channel is not much
+/// larger than the channel.
 Plane plane_along(const Ring& region) {
   Vector longest;
   for_ring_edges(region, [&](Point from, Point to) {
@@ -185,6 +197,7 @@ Plane plane_along(const Ring& region) {
   return {longest / length(longest), 1};
 }
 
+/// Returns the plane in which the cells of a field are made.
 Plane plane_of(const FloeField& field, const Ring& region) {
   if (!field.orientation || !(field.aspect > 1)) return field.is_rectangle ? Plane{} : plane_along(region);
   const double turns = *field.orientation / (2 * std::numbers::pi);
@@ -192,7 +205,8 @@ Plane plane_of(const FloeField& field, const Ring& region) {
   return {{x, y}, field.aspect};
 }
 
-/// Floes and holes, ascending in area. The floes cover what is asked for.
+/// Draws the floes and holes of a field, in ascending order of area. The floes cover the concentration of the free area
+/// [m²].
 std::vector<Item> draw_items(const FloeField& field, double free_area, Random& random) {
   const double wanted = field.concentration * free_area;
   const double packing = std::max(field.packing, field.concentration);
@@ -212,7 +226,7 @@ std::vector<Item> draw_items(const FloeField& field, double free_area, Random& r
   return items;
 }
 
-/// Runs of the items that share a cell: all of one, or of as many as give the aspect on average.
+/// Draws how many items share each cell: a number or the next larger one, so that the mean aspect is the field's.
 std::vector<std::size_t> run_lengths(const FloeField& field, std::size_t count, Random& random) {
   std::size_t few = 1;
   double share_of_more = 0;
@@ -221,7 +235,7 @@ std::vector<std::size_t> run_lengths(const FloeField& field, std::size_t count, 
     const double low = kAspectOfStrips[few - 1];
     share_of_more = std::clamp((field.aspect - low) / (kAspectOfStrips[few] - low), 0.0, 1.0);
   }
-  // The share is of floes, and runs of more hold more of them.
+  // The fraction counts floes; longer runs contain more of them.
   const double runs_of_more =
       share_of_more * static_cast<double>(few) /
       (share_of_more * static_cast<double>(few) + (1 - share_of_more) * static_cast<double>(few + 1));
@@ -233,12 +247,13 @@ std::vector<std::size_t> run_lengths(const FloeField& field, std::size_t count, 
   return lengths;
 }
 
-/// Items that share a cell.
+/// Consecutive items that share a cell.
 struct Run {
   std::size_t first = 0;
   std::size_t count = 1;
 };
 
+/// Returns the runs of a number of items in random order.
 std::vector<Run> shuffled_runs(const FloeField& field, std::size_t count, Random& random) {
   std::vector<Run> runs;
   std::size_t first = 0;
@@ -251,6 +266,7 @@ std::vector<Run> shuffled_runs(const FloeField& field, std::size_t count, Random
   return runs;
 }
 
+/// Adds the floe of a cell, moved inwards by half of the gap, unless the cell is too small for it.
 void add_candidate(const FloeField& field, const Item& item, Ring ring, bool is_at_boundary, FieldLayout& layout) {
   const auto lose = [&layout] { ++layout.left_out; };
   if (ring.empty()) return lose();
@@ -259,7 +275,8 @@ void add_candidate(const FloeField& field, const Item& item, Ring ring, bool is_
   const double cell_area = measure_convex(ring).area;
   Candidate candidate{inset(ring, 0.5 * field.gap), {}, 0, item.area, 0, is_at_boundary};
   if (candidate.ring.empty()) return lose();
-  reduce_corners(candidate.ring, field.most_corners, shortest);  // edges that the gap made short
+  // Moving the edges inwards may have made some of them short.
+  reduce_corners(candidate.ring, field.most_corners, shortest);
   const double whole = measure_convex(candidate.ring).area;
   add_corners(candidate.ring, field.least_corners);
   const CellMeasures measures = measure_convex(candidate.ring);
@@ -270,7 +287,7 @@ void add_candidate(const FloeField& field, const Item& item, Ring ring, bool is_
   layout.candidates.push_back(std::move(candidate));
 }
 
-/// Adds the floes of one part of the region.
+/// Adds the floes of one part of a field's region.
 void fill(const FloeField& field, const Ring& region, Random& random, FieldLayout& layout) {
   const double area = free_area(region, field.kept_clear);
   layout.region_area += area;
@@ -304,10 +321,10 @@ void fill(const FloeField& field, const Ring& region, Random& random, FieldLayou
   }
 }
 
-/// Of a field with a size law. Cells for the floes drawn, and for as many holes as the packing asks for, tile
-/// the free area (tessellation.hpp); with an aspect and no orientation, cells of two and more floes are cut
-/// across a random direction. Each floe's cell, its corners reduced or cut off, is moved inwards by half the
-/// gap. Holes are drawn from the same law as floes, so that no size is favoured.
+/// Returns the cells of a field with a size law. Cells for the drawn floes, and for as many holes as the packing
+/// requires, tile the free area (tessellation.hpp). If the field has an aspect and no orientation, cells of two and
+/// more floes are cut across a random direction. The corners of each floe's cell are reduced or cut off, and its edges
+/// are moved inwards by half of the gap. Holes are drawn from the same law as floes, so that no size is preferred.
 FieldLayout packed_cells(const FloeField& field) {
   Random random(Random(field.seed).next());
   FieldLayout layout;
@@ -317,9 +334,9 @@ FieldLayout packed_cells(const FloeField& field) {
   return layout;
 }
 
-// ---- the floes that grow in them
+// ---- the floes in the cells
 
-/// Where floes may not be: nearer than the gap to what is kept clear, and across an outline.
+/// Areas in which floes may not be: nearer than the gap to areas kept clear, and across the outline of the region.
 class Obstacles {
  public:
   Obstacles(const FloeField& field, double gap) : field_(field), gap_(gap) {
@@ -343,24 +360,25 @@ class Obstacles {
 
  private:
   const FloeField& field_;
-  double gap_;  ///< [m]
+  double gap_;  ///< smallest distance from areas kept clear [m]
   std::vector<Box> boxes_;
 };
 
-/// How floes give way to what forbids them.
+/// Rules by which floes shrink where they are forbidden.
 struct GivingWay {
-  int tries = 1;        ///< sizes that a floe is tried in, each 3 % shorter, before it is left out
-  int rounds = 1;       ///< in which the others make up for what floes lost
-  double rounding = 0;  ///< by so much less than the gap may floes be apart [m]
+  int tries = 1;        ///< number of sizes in which a floe is tried, each 3 % shorter, before it is left out
+  int rounds = 1;       ///< number of rounds in which the other floes grow to replace the lost area
+  double rounding = 0;  ///< distance by which floes may be nearer than the gap, because of rounding [m]
 };
 
-/// Cells with straight cuts at the boundary are rounded there: floes shrink a little, and the others make up.
-/// The cells of a field without a law take no notice of boundaries, and what lies across one is left out.
+/// Returns the rules of a field. With a law, cells are cut along boundaries, and rounding may place their edges across
+/// them: floes shrink a little, and the others grow. Without a law, cells ignore boundaries, and floes across one are
+/// left out.
 GivingWay giving_way_of(const FloeField& field) {
   return field.law ? GivingWay{12, 4, 1e-9} : GivingWay{};
 }
 
-/// λ with Σ min(λ wanted, room) = total, by bisection [-].
+/// Returns the factor λ with Σ min(λ wanted, room) = total, found by bisection [-].
 double common_factor(const std::vector<Candidate>& candidates, double total) {
   double low = 0;
   double high = 64;
@@ -373,8 +391,8 @@ double common_factor(const std::vector<Candidate>& candidates, double total) {
   return 0.5 * (low + high);
 }
 
-/// The candidate at a factor, or a little smaller where it would be forbidden. Nothing where that does not
-/// help.
+/// Returns the ring of a candidate scaled by a factor, or by a slightly smaller one if it would be forbidden. Returns
+/// an empty ring if none of the tried sizes is permitted.
 Ring permitted(const Obstacles& obstacles, const Candidate& candidate, double factor, int tries) {
   for (; tries > 0; --tries) {
     Ring floe = scaled(candidate.ring, candidate.centroid, factor);
@@ -384,8 +402,8 @@ Ring permitted(const Obstacles& obstacles, const Candidate& candidate, double fa
   return {};
 }
 
-/// The floes at a common factor. A candidate that had to be smaller, or left out, has no more room than that
-/// from now on; true where there was one.
+/// Makes the floes for a common factor. A candidate that had to be smaller, or was left out, is limited to that area
+/// from now on. Returns true if there was such a candidate.
 bool shrink_candidates(const Obstacles& obstacles, double factor, int tries, std::vector<Candidate>& candidates,
                        std::vector<Ring>& floes) {
   bool was_any = false;
@@ -403,8 +421,7 @@ bool shrink_candidates(const Obstacles& obstacles, double factor, int tries, std
   return was_any;
 }
 
-/// Adds the floes that the cells' candidates become, with their number and the mean and spread of their
-/// sizes.
+/// Makes the floes from the candidates, and computes their number and the mean and spread of their sizes.
 void add_floes(const FloeField& field, FieldLayout& layout, FloeFieldOutcome& outcome) {
   const GivingWay way = giving_way_of(field);
   const Obstacles obstacles(field, std::max(0.0, field.gap - way.rounding));

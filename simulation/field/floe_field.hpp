@@ -9,49 +9,52 @@
 
 namespace polynya::simulation {
 
-/// A random field of convex floes, as a scene asks for it. The size of a floe is √area.
+/// Settings of a random field of convex floes. The size of a floe is √area.
 struct FloeField {
-  geometry::Ring region;                      ///< counter-clockwise [m]
-  bool is_rectangle = true;                   ///< the region is a rectangle along the axes
-  std::vector<geometry::Ring> parts;          ///< of the region, filled one after the other; empty: all at once
-  std::optional<SizeLaw> law;                 ///< then floe_size and size_spread do not count
-  double aspect = 1;                          ///< of a law: mean length over width; no less than cells' own [-]
-  std::optional<double> orientation;          ///< of a law: of the floes' length, from the x axis; none: any [rad]
-  int least_corners = 3;                      ///< of a law
-  double packing = 0;                         ///< of a law: concentration before holes are left [-]
-  double floe_size = 15;                      ///< mean of √area [m]
+  geometry::Ring region;     ///< region that the field fills, counter-clockwise [m]
+  bool is_rectangle = true;  ///< true if the region is a rectangle along the axes
+  /// Parts of the region that are filled one after the other; empty: the region is filled at once.
+  std::vector<geometry::Ring> parts;
+  std::optional<SizeLaw> law;  ///< distribution of the sizes; if there is one, floe_size and size_spread are not used
+  double aspect = 1;           ///< with a law: mean length over width; cells have about 1.27 at least [-]
+  /// With a law: direction of the floes' lengths from the x axis; none: random directions [rad].
+  std::optional<double> orientation;
+  int least_corners = 3;  ///< with a law: smallest number of corners of a floe
+  double packing = 0;     ///< with a law: concentration of the packing from which floes are then left out as holes [-]
+  double floe_size = 15;  ///< mean of √area [m]
   double size_spread = 0.25;                  ///< standard deviation of √area / its mean [-]
-  double concentration = 0.5;                 ///< ice-covered share of the region [-]
-  double gap = 0.05;                          ///< least distance between floes [m]
-  int most_corners = 8;                       ///< of a floe
-  std::uint64_t seed = 0;                     ///< of the scene and of the field together
-  std::vector<geometry::Polygon> kept_clear;  ///< no floe comes nearer to these than the gap [m]
+  double concentration = 0.5;                 ///< fraction of the region that ice covers [-]
+  double gap = 0.05;                          ///< smallest distance between floes [m]
+  int most_corners = 8;                       ///< largest number of corners of a floe
+  std::uint64_t seed = 0;                     ///< seed, which combines those of the scene and of the field
+  std::vector<geometry::Polygon> kept_clear;  ///< areas to which no floe comes nearer than the gap [m]
 };
 
-/// The field that was made, and its measures.
+/// A field of floes and its measures.
 struct FloeFieldOutcome {
-  std::vector<geometry::Polygon> floes;       ///< valid and at least the gap apart [m]
-  int count = 0;                              ///< of the floes
-  double region_area = 0;                     ///< of a law: less what is kept clear [m²]
-  double floe_area = 0;                       ///< [m²]
-  double mean_size = 0;                       ///< of √area [m]
-  double size_spread = 0;                     ///< of √area [-]
-  int left_out = 0;                           ///< floes that would be in what is kept clear, or across the outline
-  double reachable_concentration = 1;         ///< with every cell filled up to the gap; less than asked: refused [-]
-  double reachable_without_gap = 1;           ///< of a law [-]
-  std::optional<FieldStatistics> statistics;  ///< of a law
+  std::vector<geometry::Polygon> floes;  ///< floes: valid polygons that are at least the gap apart [m]
+  int count = 0;                         ///< number of floes
+  double region_area = 0;                ///< area of the region; with a law without the areas that are kept clear [m²]
+  double floe_area = 0;                  ///< total area of the floes [m²]
+  double mean_size = 0;                  ///< mean of √area [m]
+  double size_spread = 0;                ///< standard deviation of √area / its mean [-]
+  int left_out = 0;  ///< number of floes that were left out because of areas kept clear or of the outline
+  /// Concentration with every cell filled up to the gap; a smaller one than asked for is refused [-].
+  double reachable_concentration = 1;
+  double reachable_without_gap = 1;           ///< with a law: the same without the gap [-]
+  std::optional<FieldStatistics> statistics;  ///< with a law: statistics of the sizes
 
   double concentration() const { return region_area > 0 ? floe_area / region_area : 0; }
 };
 
-/// How many floes a field has before some are left out: concentration · area / mean floe area, over the
-/// region's bounding box.
+/// Returns the number of floes of a field before any are left out: concentration × area / mean floe area, with the area
+/// of the region, or of its bounding box without a law.
 double floe_count(const FloeField& field);
 
-/// Fills the region with floes. Cells tile it, by the field's law or its mean and spread;
-/// each is shrunk about its centroid to its floe's area, or to where the gap is reached, and the others then
-/// make up for it. Floes are at least the gap apart by construction, at any concentration up to what the gap
-/// leaves. The same numbers on every machine.
+/// Fills a region with floes. Cells tile the region; their areas follow the field's law, or its mean and spread. Each
+/// cell is shrunk about its centroid to the area of its floe, or to the place where the gap is reached; the other floes
+/// then grow to keep the concentration. Floes are always at least the gap apart, at any concentration that the gap
+/// allows. The same settings give the same numbers on every machine.
 FloeFieldOutcome make_floe_field(const FloeField& field);
 
 }  // namespace polynya::simulation

@@ -6,10 +6,11 @@
 
 namespace polynya::simulation {
 
-// Functions that are the same to the bit on every machine: made of + − × ÷ and √, which IEEE 754 rounds in
-// one way, where libraries' own differ in the last digits. Good to 1e-14 of the value.
+// Functions that give the same bits on every machine. They use only + − × ÷ and √, which IEEE 754 rounds uniquely,
+// whereas functions of C libraries differ in their last digits. They are accurate to 1e-14 of the value unless stated
+// otherwise.
 
-/// e^x for |x| < 700.
+/// Returns e^x for |x| < 700.
 inline double portable_exponential(double x) {
   const double k = std::floor(x / std::numbers::ln2 + 0.5);
   const double r = x - k * std::numbers::ln2;
@@ -19,7 +20,7 @@ inline double portable_exponential(double x) {
   return std::ldexp(sum, static_cast<int>(k));
 }
 
-/// ln x for x > 0.
+/// Returns ln x for x > 0.
 inline double portable_logarithm(double x) {
   int exponent = 0;
   double m = std::frexp(x, &exponent);
@@ -37,16 +38,17 @@ inline double portable_logarithm(double x) {
   return 2 * sum + exponent * std::numbers::ln2;
 }
 
-/// x^p for x > 0.
+/// Returns x^p for x > 0.
 inline double portable_power(double x, double p) {
   return portable_exponential(p * portable_logarithm(x));
 }
 
-/// cos and sin of 2π u for 0 ≤ u < 1, by the series of an eighth of a turn.
+/// A unit vector.
 struct UnitVector {
   double x = 1;
   double y = 0;
 };
+/// Returns cos and sin of 2π u for 0 ≤ u < 1, by the series for an eighth of a turn.
 inline UnitVector portable_direction(double u) {
   const double eighths = std::floor(8 * u);
   const auto turned = static_cast<int>(eighths);
@@ -65,7 +67,8 @@ inline UnitVector portable_direction(double u) {
   return v;
 }
 
-/// z with P(Z < z) = p for Z normal, 0 < p < 1: Acklam's rational approximation, to 1.2e-9 of z [Acklam2003].
+/// Returns z with P(Z < z) = p for a standard normal variable Z, 0 < p < 1. It is Acklam's rational approximation,
+/// accurate to 1.2e-9 of z [Acklam2003].
 inline double portable_normal_quantile(double p) {
   if (p > 0.5) return -portable_normal_quantile(1 - p);
   if (p < 0.02425) {
@@ -96,7 +99,7 @@ inline double portable_normal_quantile(double p) {
           1);
 }
 
-/// Random numbers that are the same on every machine and with every library (splitmix64 [Steele2014]).
+/// Random numbers (splitmix64 [Steele2014]) that are the same on every machine and with every library.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -107,11 +110,11 @@ class Random {
     z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
     return z ^ (z >> 31);
   }
-  /// Evenly in [0, 1).
+  /// Returns a number that is evenly distributed in [0, 1).
   double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
   double between(double low, double high) { return low + (high - low) * uniform(); }
-  /// Nearly normal, mean 0 and deviation 1: the sum of twelve uniform numbers, less six. No library's
-  /// logarithm is in it.
+  /// Returns a nearly normal number with mean 0 and standard deviation 1: the sum of twelve uniform numbers minus six.
+  /// It needs no logarithm.
   double normal() {
     double sum = -6;
     for (int i = 0; i < 12; ++i) sum += uniform();

@@ -4,17 +4,17 @@
 #include <cmath>
 
 #include "elementary/elementary.hpp"
-
 #include "simulation/field/convex.hpp"
 
 namespace polynya::simulation {
 namespace {
 
-/// Of log-normal sizes, in standard deviations; the next constant belongs to it. Larger: a few floes are so large that
-/// a field has no room for them.
+/// Largest deviation of the logarithm of a size, in standard deviations [-]. The next constant belongs to it. Larger: a
+/// few floes are so large that a field has no space for them.
 constexpr double kFarthestDeviation = 3;
-constexpr double kBeyondFarthest = 1.349898031630095e-03;  ///< P(Z > 3)
-constexpr double kLogUniform = 1e-9;                       ///< exponents nearer to 0 than this
+/// Probability P(Z > 3) that a normal variable is beyond that deviation [-].
+constexpr double kBeyondFarthest = 1.349898031630095e-03;
+constexpr double kLogUniform = 1e-9;  ///< exponents nearer to 0 than this are treated as 0 [-]
 
 double below(const EqualSizes& law, double size) {
   return size < law.size ? 0 : 1;
@@ -23,6 +23,7 @@ double at(const EqualSizes& law, double) {
   return law.size;
 }
 
+/// Returns the standard deviation of the logarithm of the size [-].
 double sigma_of(const LognormalSizes& law) {
   return std::sqrt(portable_logarithm(1 + law.spread * law.spread));
 }
@@ -60,7 +61,8 @@ double area_of(const EqualSizes& law) {
   return law.size * law.size;
 }
 double area_of(const LognormalSizes& law) {
-  constexpr int kParts = 4096;  // fewer change how many floes a field gets, and so every field of a seed
+  // Number of intervals of the sum; another number changes the number of floes, and so every field of a seed.
+  constexpr int kParts = 4096;
   double sum = 0;
   for (int i = 0; i < kParts; ++i) {
     const double size = at(law, (i + 0.5) / kParts);
@@ -77,13 +79,14 @@ double area_of(const PowerLawSizes& law) {
   return law.least * law.least * integral(2 - law.exponent) / integral(-law.exponent);
 }
 
-/// Mean of ln(d / least) of a power law over T = ln(largest / least).
+/// Returns the mean of ln(d / least) of a power law, where `range` is ln(largest / least) [-].
 double mean_logarithm(double exponent, double range) {
   const double x = exponent * range;
   if (std::abs(x) < 1e-5) return range * (0.5 - x / 12);
   return 1 / exponent - range / elementary::expm1(x);
 }
 
+/// Returns the log-normal law that fits sizes [m] with maximum likelihood.
 LognormalSizes likeliest_lognormal(const std::vector<double>& sizes) {
   const auto count = static_cast<double>(sizes.size());
   double mean = 0;

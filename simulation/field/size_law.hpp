@@ -10,60 +10,67 @@
 
 namespace polynya::simulation {
 
-// How the sizes of a field's floes are distributed. The size of a floe is √area, as for the limit κ l; a disc
-// of its area has a diameter of 1.128 sizes. Exponents do not depend on which of them is meant.
+// Distributions of the sizes of a field's floes. The size of a floe is √area, as in the limit κ l. A disc has a
+// diameter of 1.128 times its size. Exponents are the same for both measures.
 
+/// All floes have the same size.
 struct EqualSizes {
-  double size = 15;  ///< [m]
+  double size = 15;  ///< size of all floes [m]
 };
 
-/// The logarithm is normal, cut off at three deviations; mean and spread are those before it is cut off.
+/// Log-normal sizes, limited to three standard deviations of the logarithm. Mean and spread are those of the
+/// distribution without the limit.
 struct LognormalSizes {
-  double mean = 15;     ///< [m]
-  double spread = 0.3;  ///< deviation / mean [-]
+  double mean = 15;     ///< mean size [m]
+  double spread = 0.3;  ///< standard deviation / mean [-]
 };
 
-/// N(> d) ∝ d^−a between two bounds, and nothing outside of them [Toyota2006].
+/// Power law between two bounds: the number of floes larger than d is proportional to d^−a [Toyota2006].
 struct PowerLawSizes {
-  double exponent = 1.87;  ///< a of the number of floes; 0 is even in the logarithm, −1 even in d
-  double least = 10;       ///< [m]
-  double largest = 100;    ///< [m]
+  /// Exponent a of the number of floes; 0 is uniform in the logarithm of d, −1 uniform in d [-].
+  double exponent = 1.87;
+  double least = 10;     ///< smallest size [m]
+  double largest = 100;  ///< largest size [m]
 };
 
 using SizeLaw = std::variant<EqualSizes, LognormalSizes, PowerLawSizes>;
 
-/// The size that a share u of the floes stays below, 0 < u < 1 [m]. The same on every machine.
+/// Returns the size below which a fraction u of the floes lies, 0 < u < 1 [m]. It is the same on every machine.
 double size_at(const SizeLaw& law, double u);
 
-/// The share of the floes that is smaller [-].
+/// Returns the fraction of the floes that are smaller than a size [-].
 double share_below(const SizeLaw& law, double size);
 
-/// Of a floe [m²].
+/// Returns the mean area of a floe [m²].
 double mean_area(const SizeLaw& law);
 
-/// So many areas, ascending [m²]: one at random in each of as many equal parts of the law's probability, so
-/// that a small field too has the law's small and large floes in their proportion.
+/// Draws areas of floes in ascending order [m²]: one at random in each of `count` intervals of equal probability. A
+/// small field therefore also has the small and large floes of the law in proportion.
 std::vector<double> draw_areas(const SizeLaw& law, std::size_t count, Random& random);
 
-/// What came of a size law, over the floes of a field.
+/// Comparison of the floes of a field with their size law.
 struct FieldStatistics {
-  SizeLaw law;                    ///< asked for
-  double least_size = 0;          ///< [m]
-  double largest_size = 0;        ///< [m]
-  double distance_to_law = 0;     ///< Kolmogorov and Smirnov's; of equal sizes, the largest deviation / size
-  std::optional<SizeLaw> fitted;  ///< by maximum likelihood, of the power law's exponent between its bounds
-                                  ///< or the log-normal law's mean and spread; none of equal sizes
-  double mean_aspect = 0;         ///< √ of the ratio of the principal second moments [-]
+  SizeLaw law;                 ///< law that the scene asks for
+  double least_size = 0;       ///< smallest size [m]
+  double largest_size = 0;     ///< largest size [m]
+  double distance_to_law = 0;  ///< distance of Kolmogorov and Smirnov; for equal sizes the largest deviation / size [-]
+  /// Law fitted by maximum likelihood: the exponent of a power law between its bounds, or mean and spread of a
+  /// log-normal law; none for equal sizes.
+  std::optional<SizeLaw> fitted;
+  double mean_aspect = 0;  ///< mean of the floes' aspects (aspect_of) [-]
+  /// Mean number of corners of a floe.
   double mean_corners = 0;
 };
 
-/// Of the largest difference between the law and the share of floes below a size [-]. `sizes` ascend.
+/// Returns the largest difference between the law and the fraction of floes below a size [-]. `sizes` must be in
+/// ascending order [m].
 double kolmogorov_smirnov(const SizeLaw& law, const std::vector<double>& sizes);
 
-/// The exponent of a power law between bounds that makes the sizes likeliest: found by halving, since the
-/// mean of ln d falls steadily with it. Sizes beyond a bound count as at it.
+/// Returns the exponent of a power law between given bounds that fits sizes [m] with maximum likelihood. It is found by
+/// bisection, because the mean of ln d decreases steadily with it. Sizes beyond a bound count as at the bound.
 double likeliest_exponent(const PowerLawSizes& law, const std::vector<double>& sizes);
 
+/// Returns the statistics of the sizes of floes.
 FieldStatistics statistics_of(const SizeLaw& law, const std::vector<geometry::Polygon>& floes);
 
 }  // namespace polynya::simulation

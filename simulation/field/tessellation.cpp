@@ -23,6 +23,7 @@ using geometry::Vector;
 
 // ---- the free area
 
+/// Returns true if a ring has no concave corner.
 bool is_convex(const Ring& ring) {
   const std::size_t n = ring.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -31,7 +32,7 @@ bool is_convex(const Ring& ring) {
   return true;
 }
 
-/// Whether a segment runs through a convex ring, deeper than rounding.
+/// Returns true if a segment runs through a convex ring at a depth of more than `depth` [m] below its edges.
 bool runs_through(Point from, Point to, const Ring& ring, double depth) {
   double enter = 0;
   double leave = 1;
@@ -69,7 +70,7 @@ FreeArea::FreeArea(const Ring& region, const std::vector<Polygon>& kept_clear, d
   tree_ = geometry::BoxTree(edges_);
 }
 
-/// Edges moved to their free side, and made longer at both ends, by the margin.
+/// Adds the edges of a ring, moved to their free side by a margin and extended at both ends by it [m].
 void FreeArea::add_edges(const Ring& in_world, bool is_free_inside, double margin, const Plane& plane) {
   for_ring_edges(in_world, [&](Point from, Point to) {
     if (!is_free_inside) std::swap(from, to);
@@ -128,7 +129,7 @@ double free_area(const Ring& region, const std::vector<Polygon>& kept_clear) {
     for (geometry::Shape& piece : pieces) {
       auto cut = geometry::cut_by_polygon(piece, clear);
       if (!cut) {
-        left.push_back(std::move(piece));  // it does not meet the clearing
+        left.push_back(std::move(piece));  // the piece does not meet the clearing
         continue;
       }
       for (geometry::Piece& part : cut->pieces) {
@@ -142,24 +143,29 @@ double free_area(const Ring& region, const std::vector<Polygon>& kept_clear) {
   return area;
 }
 
-// ---- its cells
+// ---- the cells of the free area
 
 namespace {
 
-// Every one of these changes all fields with a size law, to the bit: their goldens and pinned hashes go with
-// them.
-constexpr double kPointsPerSite = 4;  ///< fewer, and sites start where others' floes are to lie
-constexpr int kMoves = 11;            ///< passes in which sites move to their centroids; fewer leave slender cells
-constexpr int kSettles = 5;      ///< passes after them in which weights alone change; fewer miss areas by above 1 %
-constexpr int kMostExtras = 6;   ///< more of these while sites are without a cell; fewer lose floes
-constexpr int kIterations = 12;  ///< of a settling pass's system of equations; as kSettles
+// Each of these constants determines all fields with a size law, to the bit. If one is changed, goldens and pinned
+// hashes must be renewed.
+/// Number of random points per site [-]. Fewer: sites may start in places that belong to other floes.
+constexpr double kPointsPerSite = 4;
+/// Number of passes in which sites move to the centroids of their cells. Fewer leave slender cells.
+constexpr int kMoves = 11;
+/// Number of passes after them in which only weights change. Fewer leave errors of the areas above 1 %.
+constexpr int kSettles = 5;
+/// Largest number of further such passes while sites are without a cell. Fewer lose floes.
+constexpr int kMostExtras = 6;
+/// Number of conjugate-gradient iterations in each of these passes. Fewer leave errors of the areas above 1 %.
+constexpr int kIterations = 12;
 
-/// Points in the free area, one at random in each of the cells of a grid.
-std::vector<Point> strew(const FreeArea& free, double count, Random& random) {
+/// Returns at least `count` points in the free area: one at random in each cell of a grid.
+std::vector<Point> scatter_points(const FreeArea& free, double count, Random& random) {
   const Box box = bounding_box(free.hull());
   const Vector extent = box.high - box.low;
   std::vector<Point> points;
-  // Until there are enough: the free area may be a small part of the box.
+  // The grid is refined until there are enough points, because the free area may be a small part of the box.
   for (double wanted = count; static_cast<double>(points.size()) < count && wanted < 1e9; wanted *= 2) {
     points.clear();
     const double side = std::sqrt(extent.x * extent.y / wanted);
@@ -177,21 +183,21 @@ std::vector<Point> strew(const FreeArea& free, double count, Random& random) {
   return points;
 }
 
-/// Deals the points out to the sites, and puts each site amid its own.
-class Dealer {
+/// Distributes points among sites in proportion to their areas, and places each site in the middle of its points.
+class PointDistributor {
  public:
-  Dealer(const std::vector<double>& areas, std::vector<Point> points)
+  PointDistributor(const std::vector<double>& areas, std::vector<Point> points)
       : points_(std::move(points)), sum_before_(areas.size() + 1, 0), sites_(areas.size()) {
     for (std::size_t i = 0; i < areas.size(); ++i) sum_before_[i + 1] = sum_before_[i] + areas[i];
   }
 
-  std::vector<Site> deal() {
-    if (points_.size() >= sites_.size()) deal(0, sites_.size(), points_);
+  std::vector<Site> distribute() {
+    if (points_.size() >= sites_.size()) distribute(0, sites_.size(), points_);
     return std::move(sites_);
   }
 
  private:
-  void deal(std::size_t first, std::size_t end, std::span<Point> points) {
+  void distribute(std::size_t first, std::size_t end, std::span<Point> points) {
     Box box{points.front(), points.front()};
     for (const Point p : points) extend(box, p);
     if (end - first == 1) {
@@ -212,8 +218,8 @@ class Dealer {
                        if (is_wide) return a.x < b.x || (a.x == b.x && a.y < b.y);
                        return a.y < b.y || (a.y == b.y && a.x < b.x);
                      });
-    deal(first, middle, points.first(left));
-    deal(middle, end, points.subspan(left));
+    distribute(first, middle, points.first(left));
+    distribute(middle, end, points.subspan(left));
   }
 
   std::vector<Point> points_;
@@ -221,23 +227,24 @@ class Dealer {
   std::vector<Site> sites_;
 };
 
-/// How the areas of a power diagram's cells answer to the weights of its sites: a cell gains l / 2d from each
-/// neighbour per unit by which its own weight is raised above the neighbour's, l the length of their common
-/// edge and d the distance of their sites.
+/// Derivatives of the areas of a power diagram's cells with respect to the weights of their sites. If the weight of a
+/// cell is raised above that of a neighbour, the cell gains l / 2d of area per unit of weight from it, where l is the
+/// length of their common edge and d the distance of their sites.
 class CellCouplings {
  public:
   void begin(std::size_t cells);
-  /// Cells come in their order, each with its neighbours, and then the end.
+  /// Starts the next cell. Cells are added in their order, each followed by its neighbours; end() is called last.
   void begin_cell();
   void add(std::uint32_t neighbour, double gain);
   void end() { neighbours_.first.push_back(gains_.size()); }
   const geometry::NeighbourGuess& neighbours() const { return neighbours_; }
 
-  /// Σ l / 2d of a cell.
+  /// Returns Σ l / 2d of a cell.
   double growth(std::size_t cell) const { return growth_[cell]; }
 
-  /// Changes of all weights that bring about these changes of the areas [m²], to first order: by so many
-  /// iterations of conjugate gradients, which do not go far from 0 where the changes do not add up to 0.
+  /// Returns changes of all weights that cause given changes of the areas [m²], to first order. They are found by a
+  /// number of iterations of the conjugate gradient method, which keeps them small even if the changes of the areas do
+  /// not add up to 0.
   std::vector<double> solve(const std::vector<double>& changes, int iterations) const;
 
  private:
@@ -245,7 +252,7 @@ class CellCouplings {
   double diagonal(std::size_t cell) const;
 
   geometry::NeighbourGuess neighbours_;
-  std::vector<double> gains_;  ///< one for each of the neighbours
+  std::vector<double> gains_;  ///< l / 2d for each of the neighbours
   std::vector<double> growth_;
 };
 
@@ -275,7 +282,8 @@ void CellCouplings::add(std::uint32_t neighbour, double gain) {
   growth_.back() += gain;
 }
 
-/// A cell without neighbours keeps its weight. The hundredth keeps the matrix from being singular.
+/// Returns the diagonal element of a cell. The smallest value 0.1 belongs to cells without neighbours, whose weights
+/// hardly change. The factor 1.01 keeps the matrix from being singular.
 double CellCouplings::diagonal(std::size_t cell) const {
   return 1.01 * std::max(growth_[cell], 0.1);
 }
@@ -316,11 +324,11 @@ std::vector<double> CellCouplings::solve(const std::vector<double>& changes, int
   return solution;
 }
 
-/// What a pass found of a cell.
+/// Measures of a cell in a pass.
 struct Found {
   double area = 0;
   Point centroid;
-  Point farthest;  ///< corner from the site
+  Point farthest;  ///< corner of the cell that is farthest from its site
 };
 
 class Relaxation {
@@ -336,13 +344,13 @@ class Relaxation {
     for (int pass = 0; pass < kMoves; ++pass) {
       measure();
       move();
-      revive();
+      move_lost_sites();
     }
     bool is_whole = false;
     for (int pass = 0; pass < kSettles + (is_whole ? 0 : kMostExtras); ++pass) {
       measure();
       balance(std::min(1.0, 0.2 * (pass + 2)));
-      is_whole = !revive();
+      is_whole = !move_lost_sites();
     }
     std::vector<FieldCell> cells(sites_.size());
     const auto keep = [&](const PowerCell& cell) {
@@ -396,35 +404,38 @@ class Relaxation {
     found.centroid = measures.centroid;
   }
 
-  /// What a cell's area lacks, of which it loses no more than a part at once [m²].
-  double lack(std::size_t i) const { return std::max(share_ * areas_[i] - found_[i].area, -0.7 * found_[i].area); }
+  /// Returns the area that a cell lacks; a cell that is too large loses at most 70 % of its area at once [m²].
+  double missing_area(std::size_t i) const {
+    return std::max(share_ * areas_[i] - found_[i].area, -0.7 * found_[i].area);
+  }
 
-  /// Sites to their cells' centroids, and each weight by its own cell's error alone, which is safe far from
-  /// the end.
+  /// Moves the sites to the centroids of their cells, and changes each weight by the error of its own cell alone. This
+  /// is stable far from the solution.
   void move() {
-    constexpr double kDamping = 0.6;  // above 1, weights of neighbours overshoot in turn and cells vanish
+    // Factor on the change of a weight [-]; above 1, the weights of neighbours overshoot in turn, and cells vanish.
+    constexpr double kDamping = 0.6;
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       if (!(found_[i].area > 0)) continue;
-      sites_[i].weight += kDamping * lack(i) / std::max(couplings_.growth(i), 0.5);
+      sites_[i].weight += kDamping * missing_area(i) / std::max(couplings_.growth(i), 0.5);
       sites_[i].point = found_[i].centroid;
     }
   }
 
-  /// All weights together, by a part of Newton's step.
+  /// Changes all weights together, by a fraction of Newton's step.
   void balance(double part) {
-    std::vector<double> lacks(sites_.size(), 0);
+    std::vector<double> missing(sites_.size(), 0);
     for (std::size_t i = 0; i < sites_.size(); ++i) {
-      if (found_[i].area > 0) lacks[i] = lack(i);
+      if (found_[i].area > 0) missing[i] = missing_area(i);
     }
-    const std::vector<double> changes = couplings_.solve(lacks, kIterations);
+    const std::vector<double> changes = couplings_.solve(missing, kIterations);
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       if (found_[i].area > 0) sites_[i].weight += part * changes[i];
     }
   }
 
-  /// Puts sites without a cell at far corners of cells that are larger than they should be. False: there were
-  /// none.
-  bool revive() {
+  /// Moves sites without a cell to the farthest corners of cells that are too large. Returns false if all sites have
+  /// cells.
+  bool move_lost_sites() {
     std::vector<std::size_t> lost;
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       if (!(found_[i].area > 0)) lost.push_back(i);
@@ -450,20 +461,20 @@ class Relaxation {
 
   const FreeArea& free_;
   const std::vector<double>& areas_;
-  double sum_ = 0;    ///< of the areas [m²]
-  double share_ = 1;  ///< of the cells' areas / the areas asked for [-]
+  double sum_ = 0;    ///< sum of the areas asked for [m²]
+  double share_ = 1;  ///< area of all cells / sum of the areas asked for [-]
   std::vector<Site> sites_;
   std::vector<Found> found_;
   CellCouplings couplings_;
-  CellCouplings before_;  ///< those of the pass before
+  CellCouplings before_;  ///< couplings of the previous pass
 };
 
 }  // namespace
 
 std::vector<FieldCell> tessellate(const FreeArea& free, const std::vector<double>& areas, Random& random) {
   const auto count = static_cast<double>(areas.size());
-  Dealer dealer(areas, strew(free, kPointsPerSite * count, random));
-  return Relaxation(free, areas, dealer.deal()).relax();
+  PointDistributor distributor(areas, scatter_points(free, kPointsPerSite * count, random));
+  return Relaxation(free, areas, distributor.distribute()).relax();
 }
 
 }  // namespace polynya::simulation

@@ -8,11 +8,11 @@
 
 namespace polynya::simulation {
 
-/// The plane in which a field's floes are roundish: turned by `along`, and shrunk along it by as much as it
-/// is stretched across. Areas are the same as in the world.
+/// The plane in which cells are made. It is the world turned to the direction `along`, and shrunk along it and
+/// stretched across it by √stretch, so that long floes of the world become round. Areas are the same as in the world.
 struct Plane {
   geometry::Vector along{1, 0};  ///< unit vector in the world
-  double stretch = 1;            ///< of a floe along that direction over its width, ≥ 1
+  double stretch = 1;            ///< length over width of a floe in that direction, ≥ 1 [-]
 
   geometry::Point from_world(geometry::Point p) const {
     const geometry::Vector v = p - geometry::Point{};
@@ -38,51 +38,57 @@ struct Plane {
   bool is_world() const { return stretch == 1 && along == geometry::Vector{1, 0}; }
 };
 
-/// Where a field's floes may be: a region less what is kept clear, in the field's plane.
+/// The area in which a field's floes may lie: a region without the areas that are kept clear, in the plane of the
+/// cells.
 class FreeArea {
  public:
-  /// Rings in the world, counter-clockwise and simple. Cells stay half the gap away from what is kept clear.
+  /// All rings are in the world frame, counter-clockwise and simple. Cells stay half of the gap away from areas kept
+  /// clear.
   FreeArea(const geometry::Ring& region, const std::vector<geometry::Polygon>& kept_clear, double gap,
            const Plane& plane);
 
-  /// Convex, counter-clockwise, around all of it: the region itself where that is convex.
+  /// Returns a convex counter-clockwise ring around the whole area: the region itself if it is convex, and otherwise
+  /// its bounding box.
   const geometry::Ring& hull() const { return hull_; }
-  /// Whether that is all there is to it.
+  /// Returns true if the area is exactly that ring.
   bool is_hull() const { return edges_.empty(); }
+  /// Returns true if a point is in the area.
   bool holds(geometry::Point p) const;
-  /// Of a convex ring, leaves a convex part that is free, nearly the largest; nothing where none is. True
-  /// where the ring met a boundary.
+  /// Reduces a convex ring to a convex part of it that is free, nearly the largest one; empty if there is none. Returns
+  /// true if the ring met a boundary.
   bool clip(geometry::Ring& ring) const;
 
  private:
   void add_edges(const geometry::Ring& in_world, bool is_free_inside, double margin, const Plane& plane);
 
   geometry::Ring hull_;
-  geometry::Ring region_;  ///< empty where it is the hull
+  geometry::Ring region_;  ///< region in the plane; empty if it equals the hull
   std::vector<geometry::Ring> clear_;
   std::vector<geometry::Box> clear_boxes_;
-  std::vector<geometry::Edge> edges_;  ///< the free side is to their left
-  geometry::BoxTree tree_{edges_};     ///< of them
+  std::vector<geometry::Edge> edges_;  ///< edges of region and clearings, with the free side to their left
+  geometry::BoxTree tree_{edges_};     ///< search tree of edges_
 };
 
-/// Area of the region that is not kept clear, exactly found [m²]. Rings are valid and counter-clockwise.
+/// Returns the area of a region that is not kept clear, computed by exact cuts [m²]. Rings must be valid and
+/// counter-clockwise.
 double free_area(const geometry::Ring& region, const std::vector<geometry::Polygon>& kept_clear);
 
+/// A cell of a tessellation.
 struct FieldCell {
-  geometry::Ring ring;      ///< convex, counter-clockwise, in the field's plane [m]; empty where no room was found
-  bool is_clipped = false;  ///< by a boundary other than the hull's
+  /// Convex counter-clockwise ring in the plane of the cells [m]; empty if the cell found no space.
+  geometry::Ring ring;
+  bool is_clipped = false;  ///< true if it was cut by a boundary other than the hull's
 };
 
-/// Convex cells that tile the free area but for narrow corners at what is kept clear, cell i with an area in
-/// proportion to areas[i] as nearly as the passes bring it (mostly within 1 %). A cell that found no room is
-/// empty.
+/// Returns convex cells that tile the free area, except for narrow corners at areas kept clear. The area of cell i is
+/// in proportion to areas[i], mostly within 1 %. A cell that found no space is empty.
 ///
-/// The areas lie in the plane as they stand in the list: points strewn evenly over the free area are halved
-/// again and again, across the longer side of what they span, in proportion to the areas that are to lie
-/// there. So every site starts amid about the area it needs, beside however large a neighbour. Weights start
-/// as those of discs of the areas. Sites then move to their cells' centroids while each weight follows its
-/// cell's error; at last sites stay, and all weights change together by parts of Newton's step [Balzer2009,
-/// deGoes2012].
+/// Neighbouring areas of the list lie near each other in the plane. Points that are distributed evenly over the free
+/// area are divided into halves again and again, across the longer side of their bounding box, in proportion to the
+/// areas of either half of the list. So each site starts in the middle of about the area that it needs, however large
+/// its neighbours are. The weights of the power diagram start as the squared radii of discs with these areas. Then
+/// sites move to the centroids of their cells while each weight follows the error of its cell. Finally the sites stay,
+/// and all weights change together by fractions of Newton's step [Balzer2009, deGoes2012].
 std::vector<FieldCell> tessellate(const FreeArea& free, const std::vector<double>& areas, Random& random);
 
 }  // namespace polynya::simulation

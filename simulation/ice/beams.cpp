@@ -18,20 +18,24 @@ using dynamics::Contact;
 using geometry::Point;
 using geometry::Vector;
 
-/// Sections between a beam's ends, beside those at its loads: the moment peaks at a load, or where no shear
-/// is, and is flat there.
+/// Number of intervals between the sections at equal distances along a beam. Sections at the loads are added. The
+/// bending moment has its peaks at a load or where the shear force is 0; there it changes slowly, so few sections are
+/// enough. More sections cost time.
 constexpr int kSections = 24;
 
-/// Of the greatest stress at any section, no less than this is found at those between the ends.
+/// Lower bound of the largest stress at the equally spaced sections, as a fraction of the largest stress at any section
+/// [-]. If even this fraction of the flexural strength is not reached there, the sections at the loads are not
+/// examined. Larger values would miss breaks at loads.
 constexpr double kShareBetween = 0.5;
 
 /// A contact that presses a beam.
 struct OnBeam {
   BodyIndex floe = 0;
   std::size_t contact = 0;
-  double down = 0;  ///< that the hull presses it down with [N]
+  double down = 0;  ///< force with which a hull presses the floe down [N]
 };
 
+/// Returns true if a body is a free slender floe that is too small to bend or split and may break as a beam.
 bool may_break(const Setup& setup, const Population& population, BodyIndex body) {
   const dynamics::Bodies& bodies = population.bodies;
   if (population.is_hull(body) || bodies.inverse_mass[body] == 0) return false;
@@ -40,7 +44,7 @@ bool may_break(const Setup& setup, const Population& population, BodyIndex body)
   return limits.breaks_beams && floe_size(population, body) < limits.breakable_size;
 }
 
-/// By floe, and by contact within it.
+/// Returns the contacts that press slender floes, ordered by floe, then by contact.
 std::vector<OnBeam> contacts_of_beams(const Setup& setup, const Step& step, const Population& population,
                                       const StepData& data) {
   std::vector<OnBeam> found;
@@ -56,7 +60,8 @@ std::vector<OnBeam> contacts_of_beams(const Setup& setup, const Step& step, cons
   return found;
 }
 
-/// The section at x; none where the beam is narrow there, not in one piece, or leaves a piece that is none.
+/// Returns the section at x along a beam. Returns nullopt if the beam is too narrow there, not in one piece, or would
+/// lose a piece that is too small to be a floe.
 std::optional<BeamPart> part_at(const Setup& setup, const Population& population, BodyIndex floe, const BeamShape& beam,
                                 double x) {
   const dynamics::Bodies& bodies = population.bodies;
@@ -80,6 +85,7 @@ std::optional<BeamPart> part_at(const Setup& setup, const Population& population
   return part;
 }
 
+/// Returns a floe as a beam.
 BeamShape shape_of(const Setup& setup, const Population& population, BodyIndex floe) {
   const dynamics::Bodies& bodies = population.bodies;
   const geometry::Polygon& polygon = population.floes[population.floe_of(floe)].shape.polygon;
@@ -103,7 +109,8 @@ BeamShape shape_of(const Setup& setup, const Population& population, BodyIndex f
   return beam;
 }
 
-/// The shape of a floe, made once. Those of floes that broke go when there are twice as many.
+/// Returns the beam of a floe, which is computed at the first call. The beams of floes that broke are removed each time
+/// the number of beams reaches a power of 2.
 const BeamShape& shape_among(const Setup& setup, const Population& population, BodyIndex floe,
                              std::unordered_map<FloeId, BeamShape>& shapes) {
   const FloeId id = population.floe_of(floe);
@@ -114,6 +121,7 @@ const BeamShape& shape_among(const Setup& setup, const Population& population, B
   return shapes.emplace(id, shape_of(setup, population, floe)).first->second;
 }
 
+/// Returns the loads on a beam in its frame: a force in the plane and a force down at each contact.
 std::vector<fracture::BeamLoad> loads_on(const Step& step, const dynamics::Bodies& bodies,
                                          const std::vector<Contact>& contacts, std::span<const OnBeam> on,
                                          const BeamShape& beam) {
@@ -130,13 +138,14 @@ std::vector<fracture::BeamLoad> loads_on(const Step& step, const dynamics::Bodie
   return loads;
 }
 
-/// A section with its stress.
+/// A section of a beam with its stress.
 struct LoadedSection {
-  double stress = 0;          ///< [Pa]
-  bool pulls_at_end = false;  ///< of the path, else at its start
-  geometry::CrackPath path;   ///< in the floe's frame
+  double stress = 0;          ///< largest tensile stress [Pa]
+  bool pulls_at_end = false;  ///< true if tension is largest at the end of the path, false if at its start
+  geometry::CrackPath path;   ///< crack along the section, in the floe's body frame
 };
 
+/// Replaces `worst` by a section if its stress is larger.
 void consider(const fracture::Ice& ice, const BeamShape& beam, std::span<const fracture::BeamLoad> loads,
               const BeamPart& part, LoadedSection& worst) {
   fracture::SectionLoad load = fracture::section_load(loads, beam.moments, part.before, part.section);
@@ -145,7 +154,7 @@ void consider(const fracture::Ice& ice, const BeamShape& beam, std::span<const f
   if (stress > worst.stress) worst = {stress, load.moment > 0, part.path};
 }
 
-/// The break at a section of a beam; `split` has what its contact gives (split_by).
+/// Returns the break of a beam at a section. `split` has the members that follow from the strongest contact (split_by).
 PendingFracture break_of(const Setup& setup, const Population& population, BodyIndex floe, const LoadedSection& section,
                          PendingFracture split) {
   const geometry::Pose water_from_body = dynamics::water_from_body(population.bodies, floe);
@@ -157,13 +166,14 @@ PendingFracture break_of(const Setup& setup, const Population& population, BodyI
   return split;
 }
 
-/// The contact that presses a beam most, and the sums over all.
+/// The contact with the largest force on a beam, and the sums over all contacts.
 struct BeamForces {
   const Contact* strongest = nullptr;
-  double force = 0;  ///< [N]
-  double down = 0;   ///< [N]
+  double force = 0;  ///< sum of the magnitudes of the forces in the plane [N]
+  double down = 0;   ///< sum of the forces down [N]
 };
 
+/// Returns the forces of all contacts on a beam. dt is the length of the step [s].
 BeamForces forces_on_beam(const std::vector<Contact>& contacts, std::span<const OnBeam> on, double dt) {
   BeamForces sum;
   double most = 0;
@@ -177,7 +187,9 @@ BeamForces forces_on_beam(const std::vector<Contact>& contacts, std::span<const 
   return sum;
 }
 
-/// The break of one beam, by what presses it most.
+/// Returns the break of one floe across as a beam, or nullopt if its stress stays below its flexural strength. Upper
+/// bounds of the stress are tested first, because the shape of the beam takes longer. The break is attributed to the
+/// contact with the largest force.
 std::optional<PendingFracture> break_of_beam(const Setup& setup, const Step& step, const Population& population,
                                              StepData& data, std::span<const OnBeam> on) {
   const dynamics::Bodies& bodies = population.bodies;

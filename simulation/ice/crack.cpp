@@ -7,8 +7,9 @@
 namespace polynya::simulation {
 namespace {
 
-/// The force that a crack takes is largest here on its way: at 0.05–0.175 of it, 0.15 of a square's. Beyond,
-/// it runs whatever is there.
+/// Place along a crack, as a fraction of its length, at which its width is measured [-]. The force that is needed to
+/// extend a crack is largest when 0.05 to 0.175 of it have run, for a square plate at 0.15; beyond that place the crack
+/// runs on. Another value would measure the width where it does not decide.
 constexpr double kPeak = 0.15;
 
 }  // namespace

@@ -16,18 +16,21 @@ namespace {
 using dynamics::Contact;
 using geometry::Vector;
 
-/// Whether a force could grow in the step beyond what the ice bears along a line [N].
+/// Returns true if the force of a contact could grow in the step beyond the force that the ice carries along a line,
+/// `line_bears` [N].
 bool could_exceed(const Step& step, double line_bears, const Contact& c) {
-  constexpr double kUnforeseen = 1;  // by how much other bodies may make the two close faster in the step [m/s]
+  // Increase of the closing speed by other bodies in the step that is allowed for [m/s].
+  constexpr double kUnforeseen = 1;
   const double closing = std::max(0.0, c.approach_speed) + kUnforeseen;
   return c.crushing_force + c.crushing_stiffness * step.length * closing > line_bears;
 }
 
-/// Enters the most that the ice of a contact bears where its force could grow to that in the step: an overlap that is
-/// found when it is shallow may grow to many times its depth, and its measures do not tell how wide it will be. It
-/// bears as much as along the line that the contact comes to have, where that is known, or the longest one that its two
-/// bodies can have. What the ice bears on its way there, where a narrow line closes a wide overlap, is no growth.
-/// `line_load` is the force per metre of contact line [N/m].
+/// Limits the force of a contact to the largest force that its ice can carry, if the force could grow to it in the
+/// step. An overlap that is found when it is shallow may become many times as deep in the step, and its measures do not
+/// show how wide it will be. If the contact line at the end of the step is known, the limit is the force along it, but
+/// at least the present force, which may be larger where a narrow line closes a wide overlap. Otherwise the limit is
+/// the force along the longest line that the two bodies can have. `line_load` is the force per metre of contact line
+/// [N/m].
 void limit_growth(const Step& step, const dynamics::Bodies& bodies, double line_load, Contact& c) {
   if (c.width_ahead > 0) {
     const double borne_now = c.paid_depth > c.depth ? 0 : c.crushing_force;
@@ -39,16 +42,17 @@ void limit_growth(const Step& step, const dynamics::Bodies& bodies, double line_
   if (could_exceed(step, line_load * least_extent, c)) c.most_force = line_load * longest_line(bodies, c);
 }
 
-/// Enters the impulse that a contact has missed which is found for the first time. It has pressed while its bodies came
-/// to overlap so far: with F ∝ ξ^n, n = k ξ / F, it has given F ξ / ((1 + n) v).
+/// Sets the impulse that a contact has missed before it was found. The contact pressed while its bodies came to the
+/// present overlap. With F ∝ ξ^n, n = k ξ / F, the missed impulse is F ξ / ((1 + n) v), limited to the length of a
+/// step.
 void enter_missed_impulse(const Step& step, Contact& c) {
   if (!c.is_new || c.crushing_force <= 0 || c.approach_speed <= 0) return;
   const double exponent = c.crushing_stiffness * c.depth / c.crushing_force;
   c.missed_impulse = std::min(step.length, c.depth / c.approach_speed) * c.crushing_force / (1 + exponent);
 }
 
-/// By the paper's rule: the crack that would start at the contact, along the hull's normal through all ice
-/// ahead, and the force that it takes.
+/// Sets the crack of the paper's rule, which runs from the contact along the hull's normal through all ice ahead, and
+/// its splitting force.
 void find_crack(const Setup& setup, const dynamics::Bodies& bodies, const HullContactLoad& load,
                 PendingFracture& pending) {
   const Contact& c = load.contact;
@@ -59,12 +63,16 @@ void find_crack(const Setup& setup, const dynamics::Bodies& bodies, const HullCo
       fracture::michel_splitting_force(load.ice, length, setup.scene.fracture.splitting_shape_factor);
 }
 
-/// V_b and the cusp, by the law of crushing ice where the load comes to V_b: within the step or, of a contact that is
-/// found late, before it. V ∝ ξ^n by its slope and V_b ∝ ξ^e by its value at one more depth, where V would come to the
-/// V_b of the depth at hand; R is that of this depth.
+/// Returns the bending capacity V_b and the cusp radius R of a contact, by the law of crushing ice. They are those at
+/// the depth at which the load reaches V_b: a depth that is reached later in the step, or that was passed before the
+/// contact was found. The vertical force is extrapolated by V ∝ ξ^n, with n from its slope. V_b is extrapolated by V_b
+/// ∝ ξ^e, with e from its value at one other depth: the depth at which V would reach the V_b of the present depth. R is
+/// the one of that depth.
 fracture::BendingCapacity capacity_where_it_breaks(const Setup& setup, const Step& step, const HullContactLoad& load) {
-  constexpr double kLeastExponent = 0.5;     // of n and n - e: below it V and V_b need not meet anywhere near
-  constexpr double kLeastDepthShare = 0.25;  // of the depth: farther back the powers do not hold
+  // Smallest n and n − e [-]. Below it V and V_b may be equal only far from the present depth, or nowhere.
+  constexpr double kLeastExponent = 0.5;
+  // Smallest depth as a fraction of the present one [-]. Farther back the power laws do not hold.
+  constexpr double kLeastDepthShare = 0.25;
   fracture::BendingLoad bending = bending_load(setup, load);
   const fracture::BendingCapacity here = setup.bending->capacity(bending);
   if (load.vertical_force <= 0 || !std::isfinite(here.vertical_force)) return here;
@@ -79,12 +87,13 @@ fracture::BendingCapacity capacity_where_it_breaks(const Setup& setup, const Ste
   if (!std::isfinite(there.vertical_force)) return here;
   const double e = elementary::log(there.vertical_force / here.vertical_force) / elementary::log(share);
   if (n - e >= kLeastExponent) there.vertical_force = here.vertical_force * elementary::pow(ratio, e / (n - e));
-  // V has passed V_b already: the ice has broken, however far the powers hold.
+  // V has already exceeded V_b, so the ice has broken at no more than V.
   if (ratio < 1) there.vertical_force = std::min(there.vertical_force, load.vertical_force);
   return there;
 }
 
-/// Enters V_b and the cusp, and whether the model holds for the load.
+/// Sets V_b, the flexural strength and the cusp radius, and whether the load is in the range of the bending model's
+/// data.
 void enter_capacity(const HullContactLoad& load, fracture::BendingCapacity capacity, PendingFracture& pending) {
   pending.criteria.bending_capacity = capacity.vertical_force;
   pending.criteria.flexural_strength = load.ice.flexural_strength;
@@ -92,8 +101,9 @@ void enter_capacity(const HullContactLoad& load, fracture::BendingCapacity capac
   pending.is_in_range = capacity.is_in_range;
 }
 
-/// By the law of crushing ice: V_b, the cusp, and V_b as V, since the solver finds whether the load reaches it. Where
-/// thrust keeps every section closed it never does.
+/// Law of crushing ice: sets V_b and the cusp. V is set to V_b, because the solver finds whether the load reaches it
+/// (drop_unreached_bends). If the thrust keeps every section closed, V_b is infinite and V is set to 0: the ice does
+/// not bend.
 void measure_bending_by_crushing(const Setup& setup, const Step& step, const HullContactLoad& load,
                                  PendingFracture& pending) {
   const fracture::BendingCapacity capacity = capacity_where_it_breaks(setup, step, load);
@@ -102,8 +112,8 @@ void measure_bending_by_crushing(const Setup& setup, const Step& step, const Hul
   pending.criteria.vertical_force = std::isfinite(most) ? most : 0;
 }
 
-/// By the law of impulses: V_b, the cusp, and V. The contact crushes with all of F_n only where the bodies' inertia can
-/// press that hard within the step.
+/// Law of impulses: sets V_b, the cusp, and V. The contact presses with the full crushing force F_n only if the inertia
+/// of the bodies can do so within the step; otherwise V is reduced in proportion to the impulse.
 void measure_bending_by_collision(const Setup& setup, const Step& step, const HullContactLoad& load,
                                   PendingFracture& pending) {
   const fracture::BendingCapacity capacity = setup.bending->capacity(bending_load(setup, load));
@@ -113,21 +123,23 @@ void measure_bending_by_collision(const Setup& setup, const Step& step, const Hu
   pending.criteria.vertical_force = pressed * load.shares.vertical * load.normal_force;
 }
 
-/// By the law of crushing ice. The hull slides the edge down at v_n/tan θ_s; what did not crush of its way the edge has
-/// gone already. A wall that is as good as vertical presses down no ice (shares).
-EdgePush push_of(const HullContactLoad& load) {
+/// Returns how a hull moves the edge of the cusp that it breaks off, by the law of crushing ice. The hull slides the
+/// edge down at v_n/tan θ_s. The part of the hull's displacement that did not crush ice has already moved the edge. It
+/// is not called for vertical walls, which press no ice down.
+DrivenEdge driven_edge_of(const HullContactLoad& load) {
   const Contact& c = load.contact;
-  EdgePush push;
-  push.speed_per_approach = load.crushed_share / elementary::tan(load.hull_angle);
-  push.speed = push.speed_per_approach * c.approach_speed;
-  push.hull_angle = load.hull_angle;
+  DrivenEdge edge;
+  edge.speed_per_approach = load.crushed_share / elementary::tan(load.hull_angle);
+  edge.speed = edge.speed_per_approach * c.approach_speed;
+  edge.hull_angle = load.hull_angle;
   const double slip = c.slip_speed > 0 ? -1 : c.slip_speed < 0 ? 1 : 0;
-  push.horizontal = (load.shares.horizontal / load.shares.vertical) * c.normal +
+  edge.horizontal = (load.shares.horizontal / load.shares.vertical) * c.normal +
                     (slip * load.shares.tangential / load.shares.vertical) * perpendicular(c.normal);
-  return push;
+  return edge;
 }
 
-/// Whether and how the ice of a contact breaks. `measure_bending(pending)` enters V, V_b and the cusp.
+/// Returns whether and how the ice of a contact breaks, by the paper's criteria. `measure_bending(pending)` sets V, V_b
+/// and the cusp. Splits by the true forces are found after the solver (splitting.cpp).
 template <class MeasureBending>
 PendingFracture evaluate(const Setup& setup, const Population& population, const HullContactLoad& load,
                          MeasureBending measure_bending) {
@@ -141,7 +153,7 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
   if (criteria.floe_size < criteria.breakable_size) return pending;
 
   const bool is_michel = setup.scene.fracture.splitting == fracture::SplittingModel::kMichel;
-  if (is_michel) {  // by true forces it is decided after the solver
+  if (is_michel) {  // splits by the true forces are decided after the solver
     find_crack(setup, population.bodies, load, pending);
     if (criteria.crack_length > 0 && criteria.collision_force > criteria.splitting_force)
       measure_crack_and_sides(setup, population, c.b, pending.crack_in_body, criteria);
@@ -158,11 +170,13 @@ PendingFracture evaluate(const Setup& setup, const Population& population, const
   return pending;
 }
 
+/// Returns the ice that crushes at a contact of two floes.
 fracture::Ice crushed_between(const Setup& setup, const Population& population, const Contact& c) {
   return fracture::crushed_between(ice_of_body(setup, population, c.a), ice_of_body(setup, population, c.b));
 }
 
-/// Floe against floe by the law of crushing ice: vertical walls, F_n at the depth of the overlap or the paid depth.
+/// Sets the crushing force and stiffness of a contact between two floes, by the law of crushing ice. Edges of floes are
+/// vertical. The force is the one at the depth of the overlap or at the paid depth, whichever is larger.
 void crush_between_floes(const Setup& setup, const Step& step, const Population& population, Contact& c) {
   const fracture::Ice ice = crushed_between(setup, population, c);
   const fracture::CrushedArea crushed =
@@ -173,7 +187,8 @@ void crush_between_floes(const Setup& setup, const Step& step, const Population&
   limit_growth(step, population.bodies, ice.compressive_strength * ice.thickness, c);
 }
 
-/// Enters what both laws take of a ship's contact with ice: the collision force j/τ_c, friction, and the hull's slope.
+/// Sets what both laws need of a contact between a hull and ice: the collision force j/τ_c, the friction, and the slope
+/// of the hull (StepData::slopes).
 void enter_hull_contact(const Setup& setup, const Population& population, const HullContactLoad& load, Contact& c,
                         StepData& data) {
   const double collision_force = load.impulse / setup.scene.contact.contact_time;
@@ -181,19 +196,21 @@ void enter_hull_contact(const Setup& setup, const Population& population, const 
   const double horizontal = load.shares.horizontal;
   c.friction = load.shares.tangential / horizontal;
   const double tangent = elementary::tan(load.hull_angle);
-  // An inclined hull crushes the edge from its top corner down.
+  // An inclined hull crushes the edge from its upper corner down.
   const double height = tangent > 0 ? std::min(load.ice.thickness, load.penetration / tangent) : load.ice.thickness;
   const double deepest = std::max(c.depth, c.paid_depth);
   const double penetration_share = deepest > 0 ? std::min(1.0, load.penetration / deepest) : 1;
   data.slopes.back() = {load.shares.vertical / horizontal, tangent, load.crushed_share, penetration_share, height};
 }
 
+/// Returns true if the ice bends or splits, and geometry has not refused a fracture at this contact before.
 bool breaks(const PendingFracture& pending, const Contact& c) {
   const bool fails = pending.failure == fracture::Failure::kBend || pending.failure == fracture::Failure::kSplit;
   return fails && !c.record->was_refused;
 }
 
-/// A ship's contact with ice by the law of crushing ice: also at which force the ice bends.
+/// Sets the forces of a contact between a hull and ice by the law of crushing ice, and the force at which the ice
+/// bends. A fracture that may happen in the step is added to StepData::fractures.
 void crush_at_hull(const Setup& setup, const Step& step, const Population& population, Contact& c, StepData& data) {
   HullContactLoad load = crushing_load_of(setup, population, c);
   press_prescribed(setup, step, population, load);
@@ -211,7 +228,7 @@ void crush_at_hull(const Setup& setup, const Step& step, const Population& popul
   PendingFracture pending = evaluate(setup, population, load, measure);
   if (!breaks(pending, c)) return;
   if (pending.failure == fracture::Failure::kBend) {
-    pending.push = push_of(load);
+    pending.driven_edge = driven_edge_of(load);
     pending.cusp_axis_in_body = rotate_back(population.bodies.rotation[c.b], c.normal);
     pending.passes_to_pieces = true;
     break_at(c, pending.criteria.bending_capacity * horizontal / load.shares.vertical);
@@ -219,7 +236,8 @@ void crush_at_hull(const Setup& setup, const Step& step, const Population& popul
   data.fractures.push_back(pending);
 }
 
-/// A ship's contact with ice by the law of impulses: also whether the ice breaks.
+/// Sets the force limit of a contact between a hull and ice by the law of impulses. If the ice breaks, the fracture is
+/// added to StepData::fractures.
 void collide_with_hull(const Setup& setup, const Step& step, const Population& population, Contact& c, StepData& data) {
   const HullContactLoad load = collision_load_of(setup, population, c);
   enter_hull_contact(setup, population, load, c, data);
@@ -229,8 +247,8 @@ void collide_with_hull(const Setup& setup, const Step& step, const Population& p
   if (breaks(pending, c)) data.fractures.push_back(pending);
 }
 
-/// Calls between_floes(c) for all contacts of two floes, side by side, and at_hull(c) for those of a hull and a floe,
-/// in their order.
+/// Calls between_floes(c) for all contacts of two floes, in parallel, and then at_hull(c) for those of a hull and a
+/// floe, one after the other in their order.
 template <class BetweenFloes, class AtHull>
 void decide(const Setup& setup, const Step& step, const Population& population, StepData& data,
             BetweenFloes between_floes, AtHull at_hull) {
@@ -241,7 +259,7 @@ void decide(const Setup& setup, const Step& step, const Population& population, 
     c.friction = setup.scene.ice.friction;
     if (!population.is_hull(c.a)) between_floes(c);
   });
-  for (Contact& c : data.contacts) {  // by (a, b): those of hulls come first
+  for (Contact& c : data.contacts) {  // contacts are ordered by (a, b), so those of hulls come first
     if (!population.is_hull(c.a)) break;
     data.slopes.emplace_back();
     if (!population.is_hull(c.b)) at_hull(c);
@@ -264,7 +282,7 @@ void decide_by_collision(const Setup& setup, const Step& step, const Population&
          [&](Contact& c) { collide_with_hull(setup, step, population, c, data); });
 }
 
-void drop_unbroken(StepData& data) {
+void drop_unreached_bends(StepData& data) {
   std::erase_if(data.fractures, [&](const PendingFracture& pending) {
     if (pending.failure != fracture::Failure::kBend) return false;
     return std::ranges::none_of(data.contacts,

@@ -12,29 +12,33 @@
 namespace polynya::simulation {
 namespace {
 
+/// Returns the outline of a cusp in the body frame of its floe: a disc about the point of first contact.
 geometry::Ring cusp_of(const Setup& setup, const PendingFracture& pending) {
   return geometry::disc_polygon(pending.first_touch_in_body, pending.cusp_radius, setup.scene.fracture.cusp_sagitta,
                                 pending.cusp_axis_in_body);
 }
 
+/// Cuts a floe by its cusp if it bends, or along its crack if it splits.
 geometry::CutOutcome cut(const Setup& setup, const geometry::Shape& shape, const PendingFracture& pending) {
   if (pending.failure == fracture::Failure::kBend)
     return geometry::cut_by_polygon(shape, {cusp_of(setup, pending), {}});
   return geometry::cut_along(shape, pending.crack_in_body.points());
 }
 
-/// Whether the ice where the hull first touched has broken off with other cusps since: a fast ship goes
-/// metres between two cusps of thin ice.
+/// Returns true if the disc of a cusp misses the floe, because the ice at the point of first contact has broken off
+/// with other cusps since. A fast ship moves metres between two cusps of thin ice.
 bool misses_its_cusp(const geometry::CutOutcome& outcome, const PendingFracture& pending) {
   return !outcome && outcome.error().reason == geometry::CutFailure::kMisses &&
          pending.failure == fracture::Failure::kBend;
 }
 
-/// Of a contact's middle from its ice, in radii of its cusp: farther off, the contact is not with this ice.
+/// Largest distance between a contact and the ice at which a cusp is centred again, as a multiple of its radius [-]. A
+/// contact farther from the floe does not touch this ice any more. Larger values break ice far from the contact;
+/// smaller values leave bends without a cut.
 constexpr double kFarthestIce = 10;
 
-/// Centres a cusp at the ice nearest to the contact, on the floe's boundary, if that is within the
-/// penetration. The middle of a contact line may lie between two spikes.
+/// Centres a cusp at the place on the floe's boundary that is nearest to the contact, unless that place is farther away
+/// than kFarthestIce radii. The middle of a contact line may lie between two spikes of ice.
 void recentre(const Population& population, PendingFracture& pending) {
   const geometry::Pose pose = dynamics::water_from_body(population.bodies, population.body_of(pending.floe));
   const geometry::Point contact = inverse_transform(pose, pending.point_in_water);
@@ -47,6 +51,7 @@ void recentre(const Population& population, PendingFracture& pending) {
   if (distance(nearest, contact) <= kFarthestIce * pending.cusp_radius) pending.first_touch_in_body = nearest;
 }
 
+/// Returns the event of a fracture, as a kind of event with `criterion`.
 template <class Kind>
 Event event_of(const Instant& now, const PendingFracture& pending) {
   Kind kind;
@@ -60,7 +65,7 @@ Event event_of(const Instant& now, const PendingFracture& pending) {
   return {now.time, pending.ship, pending.point_in_water + now.drift, std::move(kind)};
 }
 
-/// The event of a fracture whose cut geometry refused, without its number.
+/// Returns the event of a fracture whose cut geometry refused. The caller sets its number.
 Event rejected_fracture(const Setup& setup, const Instant& now, const PendingFracture& pending,
                         const geometry::Shape& shape, const geometry::CutError& error) {
   Event event = event_of<RejectedCut>(now, pending);
@@ -72,6 +77,7 @@ Event rejected_fracture(const Setup& setup, const Instant& now, const PendingFra
   return event;
 }
 
+/// Returns the fate of a cusp at a hull. A hull without a draught cannot take ice, so the cusp goes under for good.
 InsideFate fate_of_cusp(const Setup& setup, int ship) {
   switch (setup.scene.fracture.cusp_fate) {
     case CuspFate::kFloat:
@@ -84,7 +90,7 @@ InsideFate fate_of_cusp(const Setup& setup, int ship) {
   return InsideFate::kSubmerged;
 }
 
-/// What becomes of the floe's pieces.
+/// Returns how the pieces of a floe are handled, by the kind of its fracture.
 Breakage breakage_of(const Setup& setup, const Instant& now, const PendingFracture& pending,
                      const geometry::CutResult& cut) {
   if (pending.failure != fracture::Failure::kBend)
@@ -92,9 +98,10 @@ Breakage breakage_of(const Setup& setup, const Instant& now, const PendingFractu
   return {event_of<Bend>(now, pending), cut, fate_of_cusp(setup, pending.ship), &EnergyFlows::bending, &Counts::bends};
 }
 
-/// Passes the other bends of a floe that bent to the pieces, from `first` on, in which their contacts are: a hull
-/// breaks more than one cusp of a plate in a step. Put off to the next step, a bow in even ice would break it on one
-/// side first, which depends on the step. A piece too small to break takes none.
+/// Assigns the other bends of a floe that has just bent to the pieces that contain their contacts. `first` is the id of
+/// the first piece. A hull may break more than one cusp off a plate in a step; if the second bend were put off to the
+/// next step, a bow in uniform ice would break it on one side first, which depends on the step. A piece that is too
+/// small to break takes no bend.
 void pass_bends(FloeId bent, FloeId first, std::span<PendingFracture> others, const Population& population) {
   for (PendingFracture& pending : others) {
     if (pending.floe != bent || !pending.passes_to_pieces) continue;
@@ -118,7 +125,7 @@ void apply_fractures(const Setup& setup, const Step& step, StepData& data, Popul
   for (std::size_t i = 0; i < fractures.size(); ++i) {
     PendingFracture& pending = fractures[i];
     if (!population.is_floating(pending.floe))
-      continue;  // it broke in this step already; its pieces may break in the next
+      continue;  // it has already broken in this step; its pieces may break in the next step
     const geometry::Shape& shape = population.floes[pending.floe].shape;
     geometry::CutOutcome outcome = cut(setup, shape, pending);
     if (misses_its_cusp(outcome, pending)) {
@@ -131,8 +138,8 @@ void apply_fractures(const Setup& setup, const Step& step, StepData& data, Popul
       const bool is_bend = pending.failure == fracture::Failure::kBend;
       if (is_bend && !pending.is_in_range) ++books.accounts.counts.database_out_of_range;
       if (breakage.inside == InsideFate::kUnderHull) {
-        turn_cusp(step, pending, pressed_mass(setup, population, pending, *outcome), population,
-                  {data.loads[pending.ship], books.accounts.audit});
+        start_cusp(step, pending, pressed_mass(setup, population, pending, *outcome), population,
+                   {data.loads[pending.ship], books.accounts.audit});
         add_decks(setup, pending, *outcome, population);
       }
       replace_by_pieces(setup, step.end, breakage, population, books);

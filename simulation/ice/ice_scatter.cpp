@@ -7,13 +7,13 @@
 namespace polynya::simulation {
 namespace {
 
-/// Keeps the draws of floes and those of bending events apart.
+/// First key of a draw. It keeps the draws for floes and for bending events independent.
 enum class Stream : std::uint64_t { kFloe = 1, kBending = 2 };
 
 std::uint64_t key_of(Stream stream) {
   return static_cast<std::uint64_t>(stream);
 }
-/// Of −0 as of 0.
+/// Returns the key of a coordinate. Adding 0 gives −0 the same key as 0.
 std::uint64_t key_of(double coordinate) {
   return std::bit_cast<std::uint64_t>(coordinate + 0.0);
 }

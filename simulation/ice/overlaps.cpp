@@ -13,35 +13,35 @@
 
 namespace polynya::simulation {
 
-// ---- what two bodies share is cut off
+// ---- overlaps are cut off
 
 namespace {
 
-using dynamics::BlindOverlap;
 using dynamics::Contact;
+using dynamics::InseparableOverlap;
 
-/// Which overlaps are cut off.
+/// Condition under which an overlap is cut off.
 enum class CutWhen {
   kAlways,
-  kParts,  ///< where two floes or more are left
+  kParts,  ///< only if two floes or more are left
 };
 
-/// What a floe loses to another body that is in it.
+/// An overlap of two bodies that is to be cut off a floe.
 struct OverlapCut {
-  BodyIndex a = 0;  ///< the pair
+  BodyIndex a = 0;  ///< the pair of bodies, a < b
   BodyIndex b = 0;
-  std::vector<geometry::Pose> a_from_b;  ///< of the two bodies' frames, where what they share is cut off
-  geometry::Point middle;                ///< of the overlap, in the water frame [m]
-  GrindCriterion criterion;              ///< the exact area is entered into it
+  std::vector<geometry::Pose> a_from_b;  ///< relative poses of the two body frames at which the overlap is cut off
+  geometry::Point middle;                ///< middle of the overlap, in the water frame [m]
+  GrindCriterion criterion;              ///< criterion; the exact area of the cut is entered into it
   CutWhen when = CutWhen::kAlways;
 };
 
-/// What a floe's edge bears per metre before it crushes, σ_c h [N/m].
+/// Returns the force per metre at which the edge of a floe crushes, σ_c h [N/m].
 double crushing_line_load(const fracture::Ice& ice) {
   return ice.compressive_strength * ice.thickness;
 }
 
-/// The outline by which a body cuts.
+/// Returns the outline with which a body cuts a floe, in its own body frame [m].
 geometry::Polygon tool_of(const Population& population, const Setup& setup, BodyIndex body) {
   const geometry::Polygon outline = population.is_hull(body)
                                         ? geometry::Polygon{hull_of(setup.scene, body).hull.waterline, {}}
@@ -49,7 +49,7 @@ geometry::Polygon tool_of(const Population& population, const Setup& setup, Body
   return with_clearance(outline, population.bodies.centroid[body]);
 }
 
-/// A kind of event with what all that happens to overlaps has.
+/// Returns the event of a cut. `kind` has the members that differ between kinds of events.
 template <class Kind>
 Event event_of(const Population& population, const Instant& now, const OverlapCut& overlap, BodyIndex ground,
                Kind kind) {
@@ -59,7 +59,7 @@ Event event_of(const Population& population, const Instant& now, const OverlapCu
   return {now.time, population.hull_or_none(by), overlap.middle + now.drift, std::move(kind)};
 }
 
-/// Whether a cut leaves two floes or more, slivers and what would be brash aside.
+/// Returns true if a cut leaves two floes or more. Slivers and pieces that would become brash do not count.
 bool is_parted(const Setup& setup, const geometry::CutResult& cut) {
   int floes = 0;
   for (const geometry::Piece& piece : cut.pieces) {
@@ -70,11 +70,13 @@ bool is_parted(const Setup& setup, const geometry::CutResult& cut) {
   return floes > 1;
 }
 
+/// Returns the area of the smaller of two bodies [m²].
 double smaller_area(const Population& population, BodyIndex a, BodyIndex b) {
   return std::min(population.bodies.area[a], population.bodies.area[b]);
 }
 
-/// Whether both bodies can still be cut: they are in the world, and geometry has not refused it.
+/// Returns true if the overlap of two bodies can still be cut: both exist and float, and geometry has not refused to
+/// cut them.
 bool can_cut(const Population& population, const Accounts& accounts, BodyIndex a, BodyIndex b) {
   const dynamics::Bodies& bodies = population.bodies;
   if (!bodies.is_alive[a] || !bodies.is_alive[b]) return false;  // broken in this step
@@ -83,8 +85,9 @@ bool can_cut(const Population& population, const Accounts& accounts, BodyIndex a
   return !is_refused(accounts, a, b);
 }
 
-/// Which of two bodies loses ice: the floe in a hull; of two floes the weaker, or the smaller.
-BodyIndex ground_of(const Setup& setup, const Population& population, BodyIndex a, BodyIndex b) {
+/// Returns the body that loses the ice of an overlap: the floe if the other body is a hull; of two floes the weaker
+/// one, or the smaller one if they are equally strong.
+BodyIndex body_losing_ice(const Setup& setup, const Population& population, BodyIndex a, BodyIndex b) {
   if (population.is_hull(a)) return b;
   const double stronger =
       crushing_line_load(ice_of_body(setup, population, a)) - crushing_line_load(ice_of_body(setup, population, b));
@@ -92,12 +95,12 @@ BodyIndex ground_of(const Setup& setup, const Population& population, BodyIndex 
   return population.bodies.area[a] < population.bodies.area[b] ? a : b;
 }
 
-/// Cuts what the two share from the floe that is ground, by the other's outline, and makes it brash: event
-/// `grind`. Nothing where that is less than the criterion's least area, or leaves no two floes that it is to
-/// leave: returns whether it was cut.
+/// Cuts an overlap from the floe that loses it, along the outline of the other body, and makes it brash (event
+/// `grind`). Does nothing if the overlap is smaller than the criterion's least area, or if it should leave two floes
+/// and does not. Returns true if the floe was cut. A cut that geometry refuses is recorded and not tried again.
 bool cut_overlap(const Setup& setup, const Instant& now, const OverlapCut& overlap, Population& population,
                  Books books) {
-  const BodyIndex ground = ground_of(setup, population, overlap.a, overlap.b);
+  const BodyIndex ground = body_losing_ice(setup, population, overlap.a, overlap.b);
   const BodyIndex by = ground == overlap.a ? overlap.b : overlap.a;
   const geometry::Polygon outline = tool_of(population, setup, by);
   std::vector<geometry::Polygon> tools;
@@ -117,7 +120,7 @@ bool cut_overlap(const Setup& setup, const Instant& now, const OverlapCut& overl
                       population, books);
     return true;
   }
-  if (outcome.error().reason != geometry::CutFailure::kMisses) {  // else they have parted
+  if (outcome.error().reason != geometry::CutFailure::kMisses) {  // otherwise the bodies have separated
     RejectedCut rejected =
         rejected_grind(criterion, shape.polygon, tools.front().outer, outcome.error(), books.accounts);
     books.journal.events.push_back(event_of(population, now, overlap, ground, std::move(rejected)));
@@ -128,23 +131,24 @@ bool cut_overlap(const Setup& setup, const Instant& now, const OverlapCut& overl
 
 }  // namespace
 
-// ---- what contacts paid is booked
+// ---- growth of paid overlaps is added to the accounts of contacts
 
 namespace {
 
-/// What of an overlap's growth in the step was crushed.
+/// The crushed part of an overlap's growth in a step.
 struct CrushedGrowth {
-  double share = 0;   ///< of the growth's area [-]
+  double share = 0;   ///< crushed area as a fraction of the growth [-]
   double height = 0;  ///< mean height of the ice that was crushed: its volume over its area [m]
 };
 
-/// Where the ice edge bends away from the hull, the crushed part of the overlap is as deep as the hull has penetrated
-/// the edge, and as narrow as the overlap is at that depth.
+/// Returns the crushed part of the growth of a contact's paid area. `thickness` is that of the ice [m]. If the ice edge
+/// bends away from the hull, the crushed part of the overlap is as deep as the hull has penetrated the edge, and as
+/// narrow as the overlap is at that depth.
 CrushedGrowth crushed_growth(double thickness, const HullSlope& hull, const Contact& c) {
   const double after = c.record->paid_area, before = after - c.paid_by_work - c.paid_by_giving_way;
   if (!(after > before)) return {hull.crushed_share, thickness};
   const bool edge_stands = hull.crushed_share == 1 && hull.penetration_share == 1;
-  if (edge_stands && hull.tangent == 0) return {1, thickness};  // most contacts: no power is needed
+  if (edge_stands && hull.tangent == 0) return {1, thickness};  // most contacts: the power law is not needed
   const double deepest = std::max(c.depth, c.paid_depth);
   const auto crushed_area_at = [&](double area) {
     const double further = dynamics::depth_at(c, area) - deepest;
@@ -160,9 +164,9 @@ CrushedGrowth crushed_growth(double thickness, const HullSlope& hull, const Cont
   return {share, (volume_of(to) - volume_of(from)) / (to - from)};
 }
 
-/// Books by what the paid area of a contact has grown in the step: crushed as far as work has paid it and the ice edge
-/// stood still, else tilted. The work is that of the normal force alone: friction along an inclined hull has the share
-/// μ tan θ_s of it.
+/// Adds the growth of a contact's paid area in the step to its account. The area counts as crushed as far as work has
+/// paid it and the ice edge stood still, and otherwise as tilted. The work is that of the normal force alone; friction
+/// along an inclined hull does μ tan θ_s times that work.
 void book(double thickness, double friction, const HullSlope& hull, const Contact& c) {
   dynamics::Booked& booked = c.record->booked;
   const CrushedGrowth growth = crushed_growth(thickness, hull, c);
@@ -186,32 +190,33 @@ void book_overlaps(const Setup& setup, const Step& step, const Population& popul
   });
 }
 
-// ---- blind overlaps are ground
+// ---- inseparable overlaps are ground
 
 namespace {
 
-/// Blind overlaps smaller than this share of the smaller body are left: what contacts part soon.
-constexpr double kLeastBlindShare = 0.005;
+/// Smallest inseparable overlap that is ground, as a fraction of the area of the smaller body [-]. Larger values leave
+/// more overlap that nothing removes. Smaller values cut floes for overlaps that separate soon by themselves.
+constexpr double kLeastInseparableShare = 0.005;
 
-/// Both sides of what decides.
-GrindCriterion criterion_of(const Population& population, const BlindOverlap& overlap) {
+/// Returns the criterion by which an inseparable overlap is ground.
+GrindCriterion criterion_of(const Population& population, const InseparableOverlap& overlap) {
   const dynamics::Bodies& bodies = population.bodies;
   const double smaller = smaller_area(population, overlap.a, overlap.b);
-  GrindCriterion criterion{overlap.area, kLeastBlindShare * smaller, overlap.width, overlap.least_width};
+  GrindCriterion criterion{overlap.area, kLeastInseparableShare * smaller, overlap.width, overlap.least_width};
   if (overlap.is_inside) {
     const double radius =
         bodies.bounding_radius[bodies.area[overlap.a] < bodies.area[overlap.b] ? overlap.a : overlap.b];
     criterion.overlap_area = smaller;
-    criterion.least_width = geometry::kBlindShare * smaller / (2 * radius);
+    criterion.least_width = geometry::kInseparableShare * smaller / (2 * radius);
   }
   return criterion;
 }
 
 }  // namespace
 
-void grind_blind_overlaps(const Setup& setup, const Step& step, const StepData& data, Population& population,
-                          Books books) {
-  for (const BlindOverlap& overlap : data.blind_overlaps) {
+void grind_inseparable_overlaps(const Setup& setup, const Step& step, const StepData& data, Population& population,
+                                Books books) {
+  for (const InseparableOverlap& overlap : data.inseparable_overlaps) {
     if (!can_cut(population, books.accounts, overlap.a, overlap.b)) continue;
     const GrindCriterion criterion = criterion_of(population, overlap);
     if (criterion.overlap_area < criterion.least_area) continue;
@@ -224,8 +229,8 @@ void grind_blind_overlaps(const Setup& setup, const Step& step, const StepData& 
 
 namespace {
 
-/// Whether a hull may have come through a floe: a hull that has not carves an overlap of one stretch of each
-/// boundary. Where nothing moves the two, carve_channels() cuts.
+/// Returns true if a hull may have come through the floe of a contact. An overlap whose boundaries have a single
+/// stretch each cannot divide the floe. Bodies of prescribed motion are left to carve_channels().
 bool may_part(const Population& population, const Contact& c) {
   return !population.is_hull(c.b) && !are_prescribed(population.bodies, c.a, c.b) && c.record->is_pierced;
 }
@@ -246,31 +251,32 @@ void cut_through_floes(const Setup& setup, const Step& step, const StepData& dat
 
 namespace {
 
-/// What a contact crushed is cut off from this share of the smaller body on; when it has parted also from h²
-/// on. Smaller, floes become new ones at every touch; greater, bodies share more than 1 % of the smaller when
-/// they part.
+/// Smallest crushed overlap that is cut off a floe while the contact lasts, as a fraction of the area of the smaller
+/// body [-]. After the contact has ended, h² is the limit if it is smaller. Smaller values replace floes by new ones at
+/// every touch. Larger values leave bodies with an overlap of more than 1 % of the smaller one when they separate.
 constexpr double kLeastCrushedShare = 0.005;
 
-/// From which area on what a contact crushed that has parted is cut off [m²].
+/// Returns the smallest crushed overlap that is cut off after a contact has ended [m²].
 double least_parted(const Setup& setup, const Population& population, BodyIndex a, BodyIndex b) {
-  const double h = ice_of_body(setup, population, ground_of(setup, population, a, b)).thickness;
+  const double h = ice_of_body(setup, population, body_losing_ice(setup, population, a, b)).thickness;
   return std::min(kLeastCrushedShare * smaller_area(population, a, b), h * h);
 }
 
 /// All contacts of a pair.
 struct Touching {
   std::span<const Contact> contacts;
-  std::span<const HullSlope> slopes;  ///< none of two floes
+  std::span<const HullSlope> slopes;  ///< slopes of the hull; empty for two floes
 
   bool is_pressing() const {
     return std::ranges::any_of(contacts, [](const Contact& c) { return c.total_normal_impulse() > 0; });
   }
-  /// Against vertical walls the force depends on the contact's width alone. A hull that leans crushes a
-  /// wedge: a new edge would take it from the start.
+  /// Returns true if the hull is vertical at all contacts. The force then depends on the width of the contact alone,
+  /// and ice may be cut off while the bodies press. An inclined hull crushes a wedge, and a new edge would be crushed
+  /// from its upper corner again.
   bool is_vertical() const {
     return std::ranges::all_of(slopes, [](const HullSlope& slope) { return slope.tangent == 0; });
   }
-  double crushed_area() const {  ///< of the overlap now [m²]
+  double crushed_area() const {  ///< crushed area of the present overlaps [m²]
     double area = 0;
     for (const Contact& c : contacts) area += c.record->crushed.area > 0 ? std::min(c.area, c.record->paid_area) : 0;
     return area;
@@ -294,8 +300,9 @@ void for_touching(const StepData& data, Use use) {
   }
 }
 
-/// Where what a pair crushed is cut off: where the most of it pressed, and where they are, unless they press:
-/// then what they come to share in the step goes on being their contact.
+/// Returns the relative poses at which the crushed ice of a pair is cut off: the pose at which the largest overlap
+/// pressed, and the present one unless the bodies press each other. In that case the overlap that the step adds stays
+/// their contact.
 std::vector<geometry::Pose> poses_of(const dynamics::Bodies& bodies, const Touching& touching) {
   const Contact& c = touching.largest();
   std::vector<geometry::Pose> poses{c.record->crushed.a_from_b};
@@ -303,18 +310,21 @@ std::vector<geometry::Pose> poses_of(const dynamics::Bodies& bodies, const Touch
   return poses;
 }
 
-/// Whether that is most of a floe: a hull that takes no ice, as a cone, has come over it and crushed it.
+/// Returns true if an area is most of a floe. A hull that takes no ice under it, such as a cone, has then moved over
+/// the floe and crushed it.
 bool is_most(const Population& population, const Contact& c, double area) {
   return area > 0.5 * population.bodies.area[c.b];
 }
 
+/// Returns true if a ship presses the edge of a floe down.
 bool is_tilted(const Population& population, BodyIndex ship, BodyIndex floe) {
   return std::ranges::any_of(population.tilted, [&](const TiltedFloe& tilted) {
     return tilted.ship == ship && population.body_of(tilted.floe) == floe;
   });
 }
 
-/// A body, or what it broke into in this step: its pieces have its frame.
+/// Returns a body, or the pieces into which it broke in this step, in ascending order. Pieces have the body frame of
+/// their parent.
 std::vector<BodyIndex> left_of(const Population& population, const Instant& now, BodyIndex body) {
   if (population.bodies.is_alive[body]) return {body};
   const FloeId first = population.floe_of(body);
@@ -328,15 +338,15 @@ std::vector<BodyIndex> left_of(const Population& population, const Instant& now,
   return left;
 }
 
-/// Cuts off what a contact crushed that has parted.
+/// Cuts off the crushed ice of a contact that has ended.
 void shed_parted(const Setup& setup, const Instant& now, const dynamics::PartedContact& parted, Population& population,
                  Books books) {
   for (const BodyIndex a : left_of(population, now, parted.a)) {
     for (const BodyIndex b : left_of(population, now, parted.b)) {
-      const bool is_in_order = a < b;  // pieces have numbers of their own
+      const bool is_in_order = a < b;  // pieces have other indices than their parents
       const BodyIndex low = is_in_order ? a : b;
       const BodyIndex high = is_in_order ? b : a;
-      // Of prescribed bodies carve_channels() takes what they crush.
+      // carve_channels() cuts the overlaps of bodies of prescribed motion.
       if (are_prescribed(population.bodies, low, high) || !can_cut(population, books.accounts, low, high)) continue;
       const double least = least_parted(setup, population, low, high);
       if (parted.crushed.area < least) continue;
@@ -349,12 +359,13 @@ void shed_parted(const Setup& setup, const Instant& now, const dynamics::PartedC
   }
 }
 
-/// Cuts off what contacts crushed that last, where it is much.
+/// Cuts off the crushed ice of the contacts of a pair that still touches, if it is large enough.
 void shed_touching(const Setup& setup, const Instant& now, const Touching& touching, Population& population,
                    Books books) {
   const Contact& c = touching.contacts.front();
   const dynamics::Bodies& bodies = population.bodies;
-  if (!bodies.is_alive[c.a] || !bodies.is_alive[c.b]) return;  // their records may be gone
+  // a body has broken, and the records of its contacts may not exist any more
+  if (!bodies.is_alive[c.a] || !bodies.is_alive[c.b]) return;
   const double crushed = touching.crushed_area();
   if (crushed == 0 || are_prescribed(bodies, c.a, c.b) || !can_cut(population, books.accounts, c.a, c.b)) return;
   const double least = kLeastCrushedShare * smaller_area(population, c.a, c.b);
@@ -362,7 +373,7 @@ void shed_touching(const Setup& setup, const Instant& now, const Touching& touch
     return;
   if (population.is_hull(c.a) && is_tilted(population, c.a, c.b)) return;
   const OverlapCut cut{c.a, c.b, poses_of(population.bodies, touching), touching.largest().middle(), {crushed, least}};
-  std::vector<dynamics::CrushedIce> kept;  // the pieces inherit none of it
+  std::vector<dynamics::CrushedIce> kept;  // cleared first, so that the pieces do not inherit it
   for (const Contact& contact : touching.contacts) kept.push_back(std::exchange(contact.record->crushed, {}));
   if (cut_overlap(setup, now, cut, population, books)) return;
   for (std::size_t i = 0; i < kept.size(); ++i) touching.contacts[i].record->crushed = kept[i];

@@ -9,8 +9,8 @@
 namespace polynya::simulation {
 namespace {
 
-/// What all pieces of a floe have in common: they move on as the parts of the body they were, v + ω × r, the
-/// same ω.
+/// Returns the members that all pieces of a floe have in common. The pieces move on as parts of the body that they
+/// were: velocity v + ω × r, with the same ω.
 NewFloe child_of(const Population& population, FloeId parent) {
   const dynamics::Bodies& bodies = population.bodies;
   const BodyIndex body = population.body_of(parent);
@@ -25,8 +25,10 @@ NewFloe child_of(const Population& population, FloeId parent) {
   return child;
 }
 
-/// Which piece of fast ice stays fast: the largest of those that float. The others are free. None: kNoPiece.
+/// Index that means "no piece".
 constexpr std::size_t kNoPiece = SIZE_MAX;
+/// Returns the index of the piece of fast ice that stays fast: the largest piece that floats. The others are free.
+/// Returns kNoPiece if the floe was not fast or no piece floats.
 std::size_t still_fast(const Population& population, const Breakage& breakage,
                        const std::vector<geometry::Measures>& measures) {
   const geometry::CutResult& cut = breakage.cut;
@@ -49,7 +51,7 @@ std::vector<geometry::Measures> measures_of(const geometry::CutResult& cut) {
   return measures;
 }
 
-/// Enters the motion of ice that leaves the floe list with its parent's motion.
+/// Adds the kinetic energy and momentum of a piece that leaves the floe list with its parent's motion to the accounts.
 void enter_removed(const NewFloe& piece, const geometry::Measures& measures, double mass_per_area, double& energy_sink,
                    AuditSums& audit) {
   const geometry::Vector arm = transform(piece.water_from_body, measures.centroid) - piece.water_from_body.position;
@@ -61,7 +63,7 @@ void enter_removed(const NewFloe& piece, const geometry::Measures& measures, dou
   audit.impulses += length(carried);
 }
 
-/// Enters what the cut left out beside its pieces into the event, and the event's areas into the accounts.
+/// Adds the slivers and the rounding of a cut to the event, and the event's areas and masses to the accounts.
 void enter_areas(IceEvent& event, const geometry::CutLedger& cut, double mass_per_area, Accounts& accounts) {
   event.brash_area += cut.area_slivers;
   event.rounding_defect = cut.rounding_defect;
@@ -89,7 +91,7 @@ void replace_by_pieces(const Setup& setup, const Instant& now, Breakage breakage
   const dynamics::ContactMemory memory =
       population.pairs.contact_memory_of(population.bodies, population.body_of(event.floe));
   retire_floe(event.floe, population, books.journal);
-  std::vector<Event> submersions;  // of pieces that go under the hull
+  std::vector<Event> submersions;  // events of pieces that go under the hull
   double& energy_sink = books.accounts.audit.energy.*breakage.energy_sink;
   for (std::size_t i = 0; i < cut.pieces.size(); ++i) {
     const geometry::Piece& piece = cut.pieces[i];
@@ -109,7 +111,7 @@ void replace_by_pieces(const Setup& setup, const Instant& now, Breakage breakage
     child.is_fast = i == fast;
     const FloeId id = add_floe(setup, now, child, population, books.journal);
     event.children.push_back(id);
-    if (was_fast && !child.is_fast)  // the fast ice gave it, as bodies of prescribed motion do
+    if (was_fast && !child.is_fast)  // the momentum came from the fast ice, a body of prescribed motion
       enter_motion(population.bodies, population.body_of(id), books.accounts.audit.energy.thrust,
                    books.accounts.audit.momentum.held, books.accounts.audit);
     if (is_inside && breakage.inside == InsideFate::kUnderHull) {
@@ -129,6 +131,7 @@ void replace_by_pieces(const Setup& setup, const Instant& now, Breakage breakage
 }
 
 geometry::Polygon with_clearance(geometry::Polygon outline, geometry::Point centre) {
+  /// Enlargement of the outline as a fraction of the distance from the centre [-]; see the header.
   constexpr double kClearance = 1e-6;
   const auto widen = [&](geometry::Ring& ring) {
     for (geometry::Point& p : ring) p = centre + (1 + kClearance) * (p - centre);

@@ -15,46 +15,50 @@ namespace {
 using dynamics::Contact;
 using geometry::Pose;
 
-/// A hull is carved out of the ice each time it has come on by this share of its radius, or so far. Greater:
-/// the contact line of a round hull is shorter than the hull is wide (at x times its radius by x²/8);
-/// smaller: more cuts.
+/// Distance that a hull advances before its outline is cut out of the ice: the smaller of a fraction of the hull's
+/// radius [-] and a length [m]. Larger values make the contact line of a round hull shorter than the hull is wide (by
+/// x²/8 of it at x times its radius), so loads are too small. Smaller values make more cuts, which cost time.
 constexpr double kShareOfRadius = 0.05;
-constexpr double kMostGrowth = 0.25;  // [m]
+constexpr double kMostGrowth = 0.25;
 
-/// A load is a numerical failure from this many times what ice bears on. Loads of crushing ice stay below
-/// once that; a pierced body has several contact lines in one.
+/// Force of a contact at which the run ends as a numerical failure, as a multiple of the largest force that its ice can
+/// carry [-]. Forces of crushing ice stay below 1; a body that pierces another has several contact lines in one
+/// contact. Larger values detect wrong loads later.
 constexpr double kOverloadFactor = 4;
 
-/// From here on a hull is inclined [rad].
+/// Angle from the vertical above which a hull counts as inclined [rad]. It is far below the angle of any real hull.
 constexpr double kVertical = 1e-6;
 
+/// Returns tan θ_s of the hull at a contact; 0 between floes.
 double tangent_of(const StepData& data, std::size_t i) {
   return i < data.slopes.size() ? std::max(0.0, data.slopes[i].tangent) : 0;
 }
 
-/// A hull that is due to be carved out of a floe.
+/// A cut by which the outline of a hull is carved out of a floe.
 struct Carving {
   FloeId floe = 0;
   const Contact* contact = nullptr;
-  geometry::Polygon tool;  ///< in the floe's frame
+  geometry::Polygon tool;  ///< outline of the hull in the floe's body frame [m]
   GrindCriterion criterion;
 };
 
-/// Where a body was some time ago.
+/// Returns the pose of a body's frame a time ago, if its velocities were the same since [s].
 Pose pose_ago(const dynamics::Bodies& bodies, BodyIndex i, double time) {
   const geometry::Rotation rotation = geometry::Rotation::by(bodies.angle[i] - time * bodies.angular_velocity[i]);
   const geometry::Point centre = bodies.position[i] - time * bodies.velocity[i];
   return {centre - rotate(rotation, bodies.centroid[i] - geometry::Point{}), rotation};
 }
 
+/// Returns the outline of a hull in the body frame of the floe, at the place that the hull had a time ago [s].
 geometry::Polygon tool_of(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c, double time_ago) {
   const geometry::Polygon outline = with_clearance({hull_of(setup.scene, c.a).hull.waterline, {}}, {});
   const Pose floe_from_hull = relative_pose(pose_ago(bodies, c.b, time_ago), pose_ago(bodies, c.a, time_ago));
   return transform(floe_from_hull, outline);
 }
 
-/// The hulls that have come on far enough, one by one. What is left of an overlap is the step's own way and,
-/// under an inclined hull, all that it crushes below the waterline.
+/// Returns the cuts of all hulls that have advanced far enough, at most one for each hull and floe, ordered by floe. A
+/// cut leaves the part of an overlap that the hull has gained in the last step. Under an inclined hull it also leaves
+/// the strip that the hull crushes below the waterline.
 std::vector<Carving> due_carvings(const Setup& setup, const Step& step, const Population& population,
                                   const StepData& data, const Accounts& accounts) {
   const dynamics::Bodies& bodies = population.bodies;
@@ -77,6 +81,7 @@ std::vector<Carving> due_carvings(const Setup& setup, const Step& step, const Po
   return due;
 }
 
+/// Returns the event of a cut. `kind` has the members that differ between kinds of events.
 template <class Kind>
 Event event_of_carving(const Instant& now, const Carving& carving, Kind kind) {
   const Contact& c = *carving.contact;
@@ -86,9 +91,10 @@ Event event_of_carving(const Instant& now, const Carving& carving, Kind kind) {
   return {now.time, c.a, c.middle() + now.drift, std::move(kind)};
 }
 
-/// The share of friction that a contact of prescribed bodies has. Nothing stops their slip: friction that is
-/// all there at any would turn with its sign in rounding. It grows as crushing does from rest; along the
-/// chord of a crescent, whose two flanks slip apart, as the slip is of the motion.
+/// Returns the fraction of the full friction that acts at a contact between bodies of prescribed motion [-]. Nothing
+/// stops the slip of such bodies. Friction with its full value at any slip would change its sign with rounding errors.
+/// Therefore it grows with the slip speed as crushing does with the closing speed. Along the chord of a crescent, whose
+/// two flanks slip in opposite directions, it is the slip speed's fraction of the relative speed.
 double share_of_friction(const Contact& c, bool is_crescent) {
   const double slip = std::abs(c.slip_speed);
   if (slip == 0) return 0;
@@ -110,7 +116,7 @@ double longest_line(const dynamics::Bodies& bodies, const Contact& c) {
   return most - least;
 }
 
-double most_that_ice_bears(const Setup& setup, const Population& population, const Contact& c, double slope_tangent) {
+double largest_ice_force(const Setup& setup, const Population& population, const Contact& c, double slope_tangent) {
   const dynamics::Bodies& bodies = population.bodies;
   const fracture::Ice& of_b = ice_of_body(setup, population, c.b);
   const fracture::Ice ice =
@@ -125,13 +131,14 @@ void press_prescribed(const Setup& setup, const Step& step, const Population& po
   fracture::CrushedArea crushed{line, 0};
   const bool is_crescent = dynamics::is_crescent(c);
   const double facet = load.ice.thickness * elementary::tan(load.hull_angle);
-  const bool spans_facet = is_crescent && c.area >= c.width * facet;  // as where ice was carved out
+  // The overlap of a hull in a notch that was carved out.
+  const bool spans_facet = is_crescent && c.area >= c.width * facet;
   if (load.hull_angle > kVertical && !spans_facet) {
     crushed.area = std::min(load.normal_force / load.ice.compressive_strength, line);
     crushed.slope = load.stiffness / load.ice.compressive_strength;
   }
   const double most =
-      most_that_ice_bears(setup, population, c, elementary::tan(load.hull_angle)) / load.shares.horizontal;
+      largest_ice_force(setup, population, c, elementary::tan(load.hull_angle)) / load.shares.horizontal;
   load.normal_force = std::min(fracture::crushing_force(load.ice, crushed.area), most);
   load.vertical_force = load.shares.vertical * load.normal_force;
   load.shares.tangential *= share_of_friction(c, spans_facet);
@@ -144,7 +151,8 @@ void close_prescribed_gap(const Step& step, const dynamics::Bodies& bodies, Cont
   if (!are_prescribed(bodies, c.a, c.b)) return;
   c.paid_depth = std::max(c.paid_depth, c.depth);
   if (c.approach_speed <= 0) return;
-  const double half_a_step = 0.5 * c.width * c.approach_speed * step.length;  // of area
+  // Growth of the area in half of a step [m²].
+  const double half_a_step = 0.5 * c.width * c.approach_speed * step.length;
   if (c.area + half_a_step >= c.record->paid_area) c.paid_depth = c.depth;
 }
 
@@ -178,8 +186,8 @@ std::optional<std::string> overload_of(const Setup& setup, const Step& step, con
   for (std::size_t i = 0; i < data.contacts.size(); ++i) {
     const Contact& c = data.contacts[i];
     if (c.is_rigid() || c.total_normal_impulse() <= 0) continue;
-    const double force = c.steady_share * c.total_normal_impulse() / dt;
-    const double most = most_that_ice_bears(setup, population, c, tangent_of(data, i));
+    const double force = c.step_share * c.total_normal_impulse() / dt;
+    const double most = largest_ice_force(setup, population, c, tangent_of(data, i));
     if (!(force > kOverloadFactor * most)) continue;
     return "bodies " + std::to_string(c.a) + " and " + std::to_string(c.b) + " press each other with " +
            std::to_string(1e-6 * force) + " MN, their ice bears " + std::to_string(1e-6 * most) +

@@ -11,15 +11,18 @@ namespace {
 
 using dynamics::Contact;
 
-/// Of F_max: a split with no more is as the solver found it.
+/// Largest opening force, as a fraction of F_max, with which a split is taken as the solver found it [-]. Larger values
+/// record splits with forces that the floe could not have carried. Smaller values take more solutions of the step.
 constexpr double kMostShare = 1.05;
-/// Of F_max: where the contacts of one that has more are stopped. A little more than 1, so that the split has
-/// what it takes where one of several contacts falls short by rounding.
+/// Opening force to which the contacts of a split are limited, as a fraction of F_max [-]. It is a little more than 1,
+/// so that the split still happens if one of several contacts falls short through rounding.
 constexpr double kAimedShare = 1.01;
-/// Stopping the contacts of two bodies changes the forces of others, which may then split, and of one another:
-/// where one is stopped another may let go. Solved again so often at most.
+/// Largest number of times that the step is solved again. Limiting the contacts of two bodies changes the forces of
+/// other contacts, which may then split their floes or be unloaded. More rounds cost time; fewer leave more splits to
+/// Counts::unresolved_splits.
 constexpr int kMostRounds = 8;
 
+/// Stores all that solving changes of the contacts and their bodies.
 void keep_start(const dynamics::Bodies& bodies, const std::vector<Contact>& contacts, int threads,
                 std::vector<SolverStart>& kept) {
   kept.resize(contacts.size());
@@ -31,6 +34,7 @@ void keep_start(const dynamics::Bodies& bodies, const std::vector<Contact>& cont
   });
 }
 
+/// Restores the state before the step was solved.
 void go_back(const std::vector<SolverStart>& kept, const std::vector<Contact>& contacts, dynamics::Bodies& bodies) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& c = contacts[i];
@@ -44,64 +48,68 @@ void go_back(const std::vector<SolverStart>& kept, const std::vector<Contact>& c
   }
 }
 
+/// Returns the opening force of a split over its capacity [-].
 double share_of(const PendingFracture& split) {
   return split.criteria.split_share();
 }
 
-/// A contact of two bodies that was to be stopped, with what it had before.
-struct Stopped {
+/// A contact whose force is limited because of a split, with its values before that.
+struct StoppedContact {
   std::size_t contact = 0;
-  double force = 0;           ///< normal [N]
-  double breaking_force = 0;  ///< [N]
-  double missed_impulse = 0;  ///< [N s]
+  double force = 0;           ///< normal force that overshot [N]
+  double breaking_force = 0;  ///< Contact::breaking_force [N]
+  double missed_impulse = 0;  ///< Contact::missed_impulse [N s]
 };
 
-/// A split whose force overshot: the step is solved with its contacts stopped.
-struct MetSplit {
-  PendingFracture split;  ///< with the forces that overshot
-  std::vector<Stopped> stopped;
-  double at = 1;      ///< the share of their forces at which its contacts are stopped
-  double low = 0;     ///< too little
-  double enough = 1;  ///< more than it takes
+/// A split whose force exceeded its capacity. The step is solved again with the forces of its contacts limited.
+struct StoppedSplit {
+  PendingFracture split;                 ///< the split, with the forces that overshot
+  std::vector<StoppedContact> contacts;  ///< its contacts, with their values before
+  double share = 1;                      ///< fraction of their forces to which its contacts are limited
+  double too_small = 0;                  ///< largest fraction known to be too small
+  double enough = 1;                     ///< smallest fraction known to be enough
 };
 
-/// The contacts of a solved step that splits stop.
-class Instants {
+/// The splits of a step that overshot, and the limits on their contacts.
+class SplitInstants {
  public:
-  Instants(std::vector<Contact>& contacts, double dt) : contacts_(contacts), dt_(dt) {}
+  SplitInstants(std::vector<Contact>& contacts, double dt) : contacts_(contacts), dt_(dt) {}
 
-  /// Stops the contacts of those of the splits that overshoot, and those that were stopped elsewhere where
-  /// their split did not come to what it takes. Returns whether any is.
+  /// Limits the contacts of the splits that overshoot, and adjusts the limits of those found in earlier rounds whose
+  /// opening forces are still too large or too small. Returns true if a limit changed, so that the step must be solved
+  /// again.
   bool stop(const std::vector<PendingFracture>& splits) {
-    const std::size_t before = met_.size();
+    const std::size_t before = stopped_.size();
     for (const PendingFracture& split : splits) {
       if (share_of(split) <= kMostShare) continue;
       const Contact& at = contact_of(split);
-      MetSplit* const same = met_at(at);  // both bodies of a pair may split: the one whose crack runs first
+      // Both bodies of a pair may overshoot: the split with the larger share happens first.
+      StoppedSplit* const same = stopped_at(at);
       if (same == nullptr)
-        met_.push_back({.split = split, .stopped = {}});
-      else if (same >= met_.data() + before && share_of(split) > share_of(same->split))
+        stopped_.push_back({.split = split, .contacts = {}});
+      else if (same >= stopped_.data() + before && share_of(split) > share_of(same->split))
         same->split = split;
     }
-    bool is_changed = met_.size() > before;
-    for (std::size_t k = 0; k < before; ++k) is_changed = aim(met_[k]) || is_changed;
-    for (std::size_t k = before; k < met_.size(); ++k) stop_contacts(met_[k]);
+    bool is_changed = stopped_.size() > before;
+    for (std::size_t k = 0; k < before; ++k) is_changed = bisect(stopped_[k]) || is_changed;
+    for (std::size_t k = before; k < stopped_.size(); ++k) stop_contacts(stopped_[k]);
     return is_changed;
   }
 
-  bool any() const { return !met_.empty(); }
+  bool any() const { return !stopped_.empty(); }
 
-  /// Replaces the splits of stopped contacts by those that came about, each with the forces at its instant.
+  /// Replaces the splits of limited contacts in the list by the splits that happened, each with the forces at its
+  /// instant. Counts the splits whose instant was not found.
   void enter(std::vector<PendingFracture>& splits, Counts& counts) {
     std::erase_if(splits, [&](const PendingFracture& split) {
-      if (met_at(contact_of(split)) != nullptr) return true;
-      const bool overshoots = share_of(split) > kMostShare;  // the rounds were used up
+      if (stopped_at(contact_of(split)) != nullptr) return true;
+      const bool overshoots = share_of(split) > kMostShare;  // all rounds were used
       counts.unresolved_splits += overshoots ? 1 : 0;
       return overshoots;
     });
-    for (const MetSplit& met : met_) {
-      PendingFracture split = met.split;
-      const double scale = reached(met);
+    for (const StoppedSplit& stopped : stopped_) {
+      PendingFracture split = stopped.split;
+      const double scale = reached(stopped);
       fracture::FailureCriteria& c = split.criteria;
       for (double* load :
            {&c.contact_force, &c.flank_forces[0], &c.flank_forces[1], &c.opening_force, &c.section_stress})
@@ -109,15 +117,16 @@ class Instants {
       if (share_of(split) >= 1 && share_of(split) <= kMostShare)
         splits.push_back(split);
       else
-        counts.unresolved_splits += is_any_broken(met) ? 1 : 0;  // else the force did not come so far
+        counts.unresolved_splits += is_any_broken(stopped) ? 1 : 0;  // otherwise the force did not reach its limit
     }
     std::ranges::stable_sort(splits, {}, [&](const PendingFracture& split) { return index_of(split); });
   }
 
-  /// Whether a contact's force stayed below that at which its ice bends, since a split stopped it.
+  /// Returns true if a split limited the force of a contact, so that it stayed below the force at which its ice bends.
   bool stops(const dynamics::PersistentContact* record) const {
-    return std::ranges::any_of(met_, [&](const MetSplit& met) {
-      return std::ranges::any_of(met.stopped, [&](const Stopped& s) { return contacts_[s.contact].record == record; });
+    return std::ranges::any_of(stopped_, [&](const StoppedSplit& stopped) {
+      return std::ranges::any_of(stopped.contacts,
+                                 [&](const StoppedContact& s) { return contacts_[s.contact].record == record; });
     });
   }
 
@@ -127,62 +136,63 @@ class Instants {
   }
   const Contact& contact_of(const PendingFracture& split) const { return contacts_[index_of(split)]; }
 
-  MetSplit* met_at(const Contact& at) {
-    const auto met = std::ranges::find_if(met_, [&](const MetSplit& m) {
+  StoppedSplit* stopped_at(const Contact& at) {
+    const auto found = std::ranges::find_if(stopped_, [&](const StoppedSplit& m) {
       const Contact& c = contact_of(m.split);
       return c.a == at.a && c.b == at.b;
     });
-    return met == met_.end() ? nullptr : &*met;
+    return found == stopped_.end() ? nullptr : &*found;
   }
 
-  void stop_contacts(MetSplit& met) {
-    const Contact& at = contact_of(met.split);
+  void stop_contacts(StoppedSplit& stopped) {
+    const Contact& at = contact_of(stopped.split);
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       Contact& c = contacts_[i];
       const double force = normal_force_of(c, dt_);
       if (c.a != at.a || c.b != at.b || !(force > 0)) continue;
-      met.stopped.push_back({i, force, c.breaking_force, c.missed_impulse});
+      stopped.contacts.push_back({i, force, c.breaking_force, c.missed_impulse});
     }
-    stop_at(met, kAimedShare / share_of(met.split));
+    stop_at(stopped, kAimedShare / share_of(stopped.split));
   }
 
-  void stop_at(MetSplit& met, double share) {
-    met.at = share;
-    for (const Stopped& stopped : met.stopped) {
-      Contact& c = contacts_[stopped.contact];
-      c.breaking_force = stopped.breaking_force;
-      c.missed_impulse = stopped.missed_impulse;
-      break_at(c, share * stopped.force);
+  void stop_at(StoppedSplit& stopped, double share) {
+    stopped.share = share;
+    for (const StoppedContact& limited : stopped.contacts) {
+      Contact& c = contacts_[limited.contact];
+      c.breaking_force = limited.breaking_force;
+      c.missed_impulse = limited.missed_impulse;
+      break_at(c, share * limited.force);
     }
   }
 
-  /// Stops contacts later, or earlier, where together they came to less than the split takes, since some let
-  /// go as others were stopped, or to more: halves the range of where.
-  bool aim(MetSplit& met) {
-    const double share = share_of(met.split) * reached(met);
-    if (!is_any_broken(met) || (share >= 1 && share <= kMostShare)) return false;
-    (share < 1 ? met.low : met.enough) = met.at;
-    stop_at(met, 0.5 * (met.low + met.enough));
+  /// Adjusts the limits of a split by bisection, if its opening force deviates from the capacity. The force is too
+  /// small if other contacts were unloaded when one was limited. Returns true if the limits changed.
+  bool bisect(StoppedSplit& stopped) {
+    const double share = share_of(stopped.split) * reached(stopped);
+    if (!is_any_broken(stopped) || (share >= 1 && share <= kMostShare)) return false;
+    (share < 1 ? stopped.too_small : stopped.enough) = stopped.share;
+    stop_at(stopped, 0.5 * (stopped.too_small + stopped.enough));
     return true;
   }
 
-  /// The share of the forces that overshot to which they came now.
-  double reached(const MetSplit& met) const {
+  /// Returns the present sum of the contacts' forces over the sum of the forces that overshot [-].
+  double reached(const StoppedSplit& stopped) const {
     double before = 0, now = 0;
-    for (const Stopped& stopped : met.stopped) {
-      before += stopped.force;
-      now += std::min(normal_force_of(contacts_[stopped.contact], dt_), contacts_[stopped.contact].breaking_force);
+    for (const StoppedContact& limited : stopped.contacts) {
+      before += limited.force;
+      now += std::min(normal_force_of(contacts_[limited.contact], dt_), contacts_[limited.contact].breaking_force);
     }
     return now / before;
   }
 
-  bool is_any_broken(const MetSplit& met) const {
-    return std::ranges::any_of(met.stopped, [&](const Stopped& s) { return contacts_[s.contact].is_broken; });
+  bool is_any_broken(const StoppedSplit& stopped) const {
+    return std::ranges::any_of(stopped.contacts,
+                               [&](const StoppedContact& s) { return contacts_[s.contact].is_broken; });
   }
 
   std::vector<Contact>& contacts_;
   double dt_;
-  std::vector<MetSplit> met_;
+  std::vector<StoppedSplit> stopped_;
 };
 
 }  // namespace
@@ -202,7 +212,7 @@ dynamics::SolverResult solve_to_splits(const Setup& setup, const Step& step, Pop
     find_broken_beams(setup, step, population, data);
   };
   keep_start(bodies, data.contacts, step.threads, data.solver_start);
-  Instants instants(data.contacts, step.length);
+  SplitInstants instants(data.contacts, step.length);
   dynamics::SolverResult result = solve();
   find();
   for (int round = 0; round < kMostRounds && instants.stop(data.splits); ++round) {

@@ -17,10 +17,11 @@ namespace {
 using dynamics::Contact;
 using geometry::Vector;
 
-/// A crack that a body may open in a floe.
+/// A crack that a body may open in a floe, with its opening force and capacity.
 struct CrackCandidate {
   CrackMouth mouth;
-  geometry::Point begins_at;  ///< in the water frame: at the edge of the ice that the body has not crushed [m]
+  /// Place at which the crack begins: the edge of the ice that the body has not crushed, in the water frame [m].
+  geometry::Point begins_at;
   geometry::CrackPath path_in_body;
   fracture::FailureCriteria criteria;
   double share() const { return criteria.opening_force / criteria.opening_capacity; }
@@ -29,17 +30,17 @@ struct CrackCandidate {
 using geometry::CrackPath;
 using geometry::Point;
 
-/// A straight crack from a mouth, in the floe's frame.
+/// A straight crack from a mouth, in the floe's body frame.
 struct StraightCrack {
-  Point from;               ///< the mouth, or where the body ends ahead of it [m]
-  Vector direction;         ///< unit
-  Point first_ice;          ///< [m]
-  double to_first_ice = 0;  ///< from the mouth [m]
+  Point from;               ///< the mouth, or the place ahead of it where the body ends [m]
+  Vector direction;         ///< unit vector
+  Point first_ice;          ///< first point of ice on the crack [m]
+  double to_first_ice = 0;  ///< distance of that point from the mouth [m]
   CrackPath path;
 };
 
-/// A crack begins where the body that opens it ends, at ice that is not crushed, and does not lead into that
-/// body. None where it would.
+/// Returns the straight crack from a mouth. A crack begins where the body that opens it ends, at ice that is not
+/// crushed. Returns nullopt if there is no ice in its direction, or if the crack would lead into that body.
 std::optional<StraightCrack> straight_crack(const dynamics::Bodies& bodies, BodyIndex floe, const CrackMouth& mouth) {
   const Vector direction = mouth.direction;
   const BodyIndex by = other_of(*mouth.contact, floe);
@@ -69,8 +70,8 @@ std::optional<StraightCrack> straight_crack(const dynamics::Bodies& bodies, Body
   return crack;
 }
 
-/// Of a crack through holes: the length and width of the stretch of ice that takes the greatest force. Each stretch is
-/// taken for at least as wide as `least_width` [m].
+/// Returns the length and width of the stretch of ice with the largest capacity, for a crack that crosses holes. Each
+/// stretch is assumed to be at least `least_width` wide [m].
 fracture::FailureCriteria hardest_stretch(const dynamics::Bodies& bodies, BodyIndex floe, const fracture::Ice& ice,
                                           const StraightCrack& crack, double least_width) {
   fracture::FailureCriteria hardest;
@@ -88,7 +89,8 @@ fracture::FailureCriteria hardest_stretch(const dynamics::Bodies& bodies, BodyIn
   return hardest;
 }
 
-/// The crack to the free edge beside a straight one, that runs in its place.
+/// Returns the crack that turns to the free edge beside a straight one and runs instead of it, or nullopt if it does
+/// not reach that edge.
 std::optional<CrackPath> turning_crack(const geometry::Boundary& boundary, const StraightCrack& straight,
                                        const geometry::Arm& arm) {
   const fracture::TurningCrack& shape = fracture::kTurningCrack;
@@ -100,11 +102,12 @@ std::optional<CrackPath> turning_crack(const geometry::Boundary& boundary, const
   return path;
 }
 
+/// Returns true if a crack would leave a strip that is too narrow, so that it turns to the free edge.
 bool leaves_strip(const CrackPath& path, const geometry::CrackSides& sides) {
   return fracture::leaves_strip(path.length_in_ice, sides.left, sides.right);
 }
 
-/// Turns a candidate to the free edge beside it. Returns whether it can run there.
+/// Turns a candidate to the free edge beside it. Returns false if no crack can run there.
 bool turn_to_edge(const Setup& setup, const Population& population, BodyIndex floe, const StraightCrack& straight,
                   CrackCandidate& candidate) {
   const geometry::Boundary& boundary = *population.bodies.boundary[floe];
@@ -120,7 +123,7 @@ bool turn_to_edge(const Setup& setup, const Population& population, BodyIndex fl
   return !leaves_strip(*path, sides);
 }
 
-/// The opening of a crack, and F_max by the length and width measured so far.
+/// Sets the opening force of a crack, and its capacity F_max for the length and width measured so far.
 void enter_opening(const fracture::Opening& opening, const fracture::Ice& ice, fracture::FailureCriteria& criteria) {
   criteria.flank_forces[0] = opening.left;
   criteria.flank_forces[1] = opening.right;
@@ -128,9 +131,10 @@ void enter_opening(const fracture::Opening& opening, const fracture::Ice& ice, f
   criteria.opening_capacity = fracture::lefm_splitting_force(ice, criteria.crack_length, criteria.crack_width);
 }
 
-/// The crack from a mouth along its direction, where it can run: it leaves no sliver, and it is no less than a
-/// share of its way to F_max. One that would leave a strip turns to the free edge beside it. One that crosses
-/// holes has to break each stretch of ice by itself.
+/// Returns the crack from a mouth along its direction, or nullopt if it cannot run: it would leave a sliver, or its
+/// opening force is less than `least_share` of its capacity F_max. A crack that would leave a strip turns to the free
+/// edge beside it. A crack that crosses holes must break each stretch of ice separately, so the stretch with the
+/// largest capacity decides.
 std::optional<CrackCandidate> crack_candidate(const Setup& setup, const Population& population,
                                               const PressedFloe& pressed, const CrackMouth& mouth, double least_share) {
   const BodyIndex floe = pressed.floe;
@@ -172,11 +176,12 @@ std::optional<CrackCandidate> crack_candidate(const Setup& setup, const Populati
   return candidate;
 }
 
-/// Cracks are tried along a contact's normal and this many directions to either side of it, 15° apart.
+/// Number of directions on either side of a contact's normal in which cracks are tried, besides the normal itself, and
+/// the angle between them: 15° [rad]. More directions find the weakest crack more closely and cost time in proportion.
 constexpr int kDirectionsASide = 5;
-constexpr double kBetweenDirections = std::numbers::pi / 12;  // [rad]
+constexpr double kBetweenDirections = std::numbers::pi / 12;
 
-/// Enters what was measured of a crack.
+/// Copies the measures and forces of a crack.
 void enter_crack(const fracture::FailureCriteria& crack, fracture::FailureCriteria& criteria) {
   criteria.crack_length = crack.crack_length;
   criteria.crack_width = crack.crack_width;
@@ -186,7 +191,7 @@ void enter_crack(const fracture::FailureCriteria& crack, fracture::FailureCriter
   criteria.fracture_toughness = crack.fracture_toughness;
 }
 
-/// The crack that is nearest to running.
+/// Returns the candidate with the largest opening force over capacity, or nullopt if none reaches `least_share`.
 std::optional<CrackCandidate> first_to_run(const Setup& setup, const Population& population, const PressedFloe& pressed,
                                            double least_share) {
   std::optional<CrackCandidate> best;
@@ -204,7 +209,8 @@ std::optional<CrackCandidate> first_to_run(const Setup& setup, const Population&
   return best;
 }
 
-/// The split of a floe by one other body, where their contacts open a crack.
+/// Returns the split of a floe by one other body, or nullopt if their contacts open no crack. `contacts` are all
+/// contacts of the two bodies.
 std::optional<PendingFracture> split_of(const Setup& setup, const Step& step, const Population& population,
                                         std::span<const Contact> contacts, PressedFloe& pressed) {
   const BodyIndex floe = pressed.floe;
@@ -222,7 +228,7 @@ std::optional<PendingFracture> split_of(const Setup& setup, const Step& step, co
   return split;
 }
 
-/// The contacts of the same two bodies as c, which is among them.
+/// Returns the contacts of the same two bodies as c, which is an element of `contacts`.
 std::span<const Contact> contacts_beside(const std::vector<Contact>& contacts, const Contact& c) {
   const auto is_other = [&](const Contact& d) { return d.a != c.a || d.b != c.b; };
   const Contact* first = &c;
@@ -232,7 +238,7 @@ std::span<const Contact> contacts_beside(const std::vector<Contact>& contacts, c
   return {first, last};
 }
 
-/// Enters the forces that there were into a fracture that another rule decided.
+/// Sets the true forces of the step in the criteria of a fracture that another rule decided, for the records.
 void enter_true_forces(const Setup& setup, const Step& step, const Population& population,
                        const std::vector<Contact>& contacts, PendingFracture& pending) {
   const dynamics::Bodies& bodies = population.bodies;
@@ -249,7 +255,8 @@ void enter_true_forces(const Setup& setup, const Step& step, const Population& p
     if (!crack) return;
     enter_crack(crack->criteria, criteria);
   } else if (criteria.crack_length > 0) {
-    if (pending.failure == fracture::Failure::kBend)  // only now: most bends that are pending do not come about
+    // Measured only here, because most bends that were pending before the solver do not happen.
+    if (pending.failure == fracture::Failure::kBend)
       measure_crack_and_sides(setup, population, c->b, pending.crack_in_body, criteria);
     const fracture::Opening opening = fracture::opening_of(pressed.pushes, c->middle(), c->normal);
     enter_opening(opening, ice, criteria);
@@ -263,7 +270,7 @@ void find_splits(const Setup& setup, const Step& step, const Population& populat
                  std::vector<PendingFracture>& splits) {
   splits.clear();
   if (setup.scene.fracture.splitting != fracture::SplittingModel::kLefm) return;
-  PressedFloe pressed;  // its memory serves all pairs
+  PressedFloe pressed;  // declared here so that all pairs use the same memory
   for (std::size_t i = 0; i < all.size();) {
     const std::span<const Contact> contacts = contacts_beside(all, all[i]);
     i += contacts.size();
@@ -279,7 +286,8 @@ void find_splits(const Setup& setup, const Step& step, const Population& populat
 
 void enter_splits(const Setup& setup, const Step& step, const Population& population, StepData& data) {
   for (PendingFracture& pending : data.fractures) enter_true_forces(setup, step, population, data.contacts, pending);
-  // Before the bends: a bend stops the force at V_b, so what splits at it has split before.
+  // Splits are inserted before the bends. A bend limits the force to V_b, so a floe that splits at that force has split
+  // before it bends.
   data.fractures.insert(data.fractures.begin(), data.splits.begin(), data.splits.end());
 }
 

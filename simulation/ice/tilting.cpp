@@ -9,10 +9,11 @@ namespace {
 
 using dynamics::Contact;
 
-/// The share of a floe that a hull may cover: of a compact floe with more its middle is below the waterline.
+/// Fraction of a floe's area that a hull may cover before the floe goes under [-]. With more than half, the centre of a
+/// compact floe is inside the waterline. Larger values leave floes afloat that lie inside a hull.
 constexpr double kMostCovered = 0.5;
 
-/// All contacts of one ship with one floe: they follow each other.
+/// All contacts of one ship with one floe. They are consecutive in the list of contacts.
 struct Pressed {
   int ship = 0;
   FloeId floe = 0;
@@ -21,12 +22,13 @@ struct Pressed {
   std::pair<int, FloeId> key() const { return {ship, floe}; }
 };
 
+/// Returns true if floes can go under the hull of a ship.
 bool can_go_under(const Setup& setup, int ship) {
   return setup.scene.fracture.going_under.is_enabled && setup.underwater[ship].can_take_ice;
 }
 
-/// Calls use(pressed) for each floe in contact with a hull that it can go under, by (ship, floe). Fast ice
-/// cannot.
+/// Calls use(pressed) for each floe in contact with a hull under which it can go, ordered by (ship, floe). Fast ice
+/// cannot go under a hull.
 template <class Use>
 void for_pressed(const Setup& setup, const Population& population, std::vector<Contact>& contacts,
                  std::vector<HullSlope>& slopes, Use use) {
@@ -44,19 +46,23 @@ void for_pressed(const Setup& setup, const Population& population, std::vector<C
   }
 }
 
+/// Returns the resistance of a floe to tilting.
 fracture::TiltResistance resistance_of(const Setup& setup, const Population& population, FloeId floe) {
   return fracture::tilt_resistance(ice_of_floe(setup, population, floe), setup.scene.water.water,
                                    population.floes[floe].area,
                                    setup.scene.fracture.going_under.tilting.added_mass_factor);
 }
 
+/// Returns the motion of the edge of a floe that a ship presses down; zero if the floe is not in the list. `tilted` is
+/// ordered by (ship, floe).
 fracture::EdgeMotion edge_of(const std::vector<TiltedFloe>& tilted, std::pair<int, FloeId> key) {
   const auto key_of = [](const TiltedFloe& floe) { return std::pair(floe.ship, floe.floe); };
   const auto at = std::ranges::lower_bound(tilted, key, {}, key_of);
   return at != tilted.end() && key_of(*at) == key ? at->edge : fracture::EdgeMotion{};
 }
 
-/// The fastest that a contact slides the edge down the hull, v_n / tan θ_s [m/s].
+/// Returns the largest speed at which the slope of the hull can slide the edge down, v_n / tan θ_s, over all contacts
+/// [m/s].
 double slide_speed(const Pressed& pressed) {
   double fastest = 0;
   for (std::size_t i = 0; i < pressed.contacts.size(); ++i) {
@@ -66,12 +72,14 @@ double slide_speed(const Pressed& pressed) {
   return fastest;
 }
 
-/// The vertical force with which a contact may press at the end of the step [N].
+/// Returns the vertical force of a contact at the end of a step of length dt [s], if the bodies keep their speeds and
+/// the ice crushes [N].
 double expected_vertical_force(const Contact& c, const HullSlope& slope, double dt) {
   const double grown = c.crushing_stiffness * std::max(0.0, c.approach_speed) * dt;
   return slope.vertical_share * (c.crushing_force + grown);
 }
 
+/// Reduces the forces of a contact to a fraction, because the floe tilts instead of resisting more.
 void scale(Contact& c, double share) {
   c.crushing_force *= share;
   c.crushing_stiffness *= share;
@@ -81,7 +89,8 @@ void scale(Contact& c, double share) {
   c.gives_way = true;
 }
 
-/// Of what the overlaps grow in the step, what the edge's own way down leaves to be crushed.
+/// Reduces the fraction of the overlaps' growth that is crushed, by the distance by which the edge moved down in the
+/// step, `lowered` [m]. dt is the length of the step [s].
 void share_growth(const Pressed& pressed, double lowered, double dt) {
   for (std::size_t i = 0; i < pressed.contacts.size(); ++i) {
     HullSlope& slope = pressed.slopes[i];
@@ -91,7 +100,8 @@ void share_growth(const Pressed& pressed, double lowered, double dt) {
   }
 }
 
-/// The share of a floe that a hull covers which presses it down; 0 where it does not.
+/// Returns the fraction of a floe's area inside a hull that presses it down; 0 if the hull is too steep to press it
+/// down.
 double covered_share(const Population& population, const Pressed& pressed) {
   const bool presses_down =
       std::ranges::any_of(pressed.slopes, [](const HullSlope& slope) { return slope.vertical_share > 0; });
@@ -100,14 +110,14 @@ double covered_share(const Population& population, const Pressed& pressed) {
   return presses_down ? area / population.floes[pressed.floe].area : 0;
 }
 
-/// What becomes of a floe whose edge is pressed down in a step.
+/// Result of pressing a floe's edge down in a step: the floe stays tilted, or goes under, or neither.
 struct TiltOutcome {
   std::optional<TiltedFloe> tilted;
   std::optional<PendingSubmersion> submersion;
 };
 
-/// Turns the floe's edge. The floe goes under where its edge is deep enough, or the hull covers most of it: then its
-/// middle is below the hull's waterline.
+/// Moves the edge of a floe that a hull presses down. The floe goes under if its edge is deep enough, or if the hull
+/// covers more than kMostCovered of it, because its centre is then below the hull's waterline.
 TiltOutcome tilt(const Setup& setup, const Step& step, const Population& population, const Pressed& pressed) {
   TiltOutcome outcome;
   const fracture::TiltSettings& settings = setup.scene.fracture.going_under.tilting;

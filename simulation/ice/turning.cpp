@@ -12,7 +12,8 @@ namespace {
 using geometry::Point;
 using geometry::Vector;
 
-/// A piece that turns about the line across `ahead`, a unit vector, through the point of it that is farthest there.
+/// Returns a piece as a plate that rotates about its far edge: the line across the unit vector `ahead` through the
+/// point of the piece that is farthest in that direction. `ahead` is in the frame of the piece.
 fracture::TurningCusp turning(const geometry::Polygon& piece, Vector ahead) {
   const auto along = [&](Point p) { return dot(p - Point{}, ahead); };
   const auto ends = std::ranges::minmax_element(piece.outer, {}, along);
@@ -24,18 +25,21 @@ fracture::TurningCusp turning(const geometry::Polygon& piece, Vector ahead) {
   return {moments.area, along(far) - along(near), moments.xx};
 }
 
+/// Returns the direction in which the hull pushes a cusp, in the body frame of the floe that bends: the contact's
+/// normal.
 Vector ahead_of(const Population& population, const PendingFracture& bend) {
   return rotate_back(population.bodies.rotation[population.body_of(bend.floe)], bend.normal);
 }
 
-/// An impulse on a hull, at an arm from its centre of mass.
+/// An impulse on a hull, and its arm from the hull's centre of mass, both in the water frame.
 struct HullImpulse {
   BodyIndex ship = 0;
-  Vector arm;      ///< [m]
-  Vector impulse;  ///< [N s]
+  Vector arm;      ///< vector from the hull's centre of mass to the point of the impulse [m]
+  Vector impulse;  ///< impulse on the hull [N s]
 };
 
-/// Takes an impulse that goes into ice on its way under from the hull.
+/// Applies an impulse to a hull that presses ice down, and adds it to the loads of the hull and to the accounts. A hull
+/// of prescribed motion keeps its velocity; the impulse is only recorded.
 void brake(const HullImpulse& given, dynamics::Bodies& bodies, HullBooks books) {
   const auto [ship, arm, impulse] = given;
   const double turned = cross(arm, impulse);
@@ -47,13 +51,15 @@ void brake(const HullImpulse& given, dynamics::Bodies& bodies, HullBooks books) 
   books.audit.impulses += length(impulse);
 }
 
-/// By how much a ship's speed along a direction at an arm from its centre grows by an impulse there [m/s].
+/// Returns the change of the speed of a point of a ship along a direction due to an impulse at that point [m/s]. `arm`
+/// leads from the ship's centre of mass to the point.
 double speed_by(const dynamics::Bodies& bodies, BodyIndex ship, Vector arm, Vector direction, Vector impulse) {
   return dot(direction,
              bodies.inverse_mass[ship] * impulse + cross(bodies.inverse_moment[ship] * cross(arm, impulse), arm));
 }
 
-/// Of a cusp or floe that went under, where a point of the water is over one, the last ones first; else none.
+/// Returns the floe under a hull that covers a point of the water, or kNoFloe. Of several floes it returns the one that
+/// went under last.
 FloeId submerged_below(const Population& population, Point p) {
   const dynamics::Bodies& bodies = population.bodies;
   const auto found =
@@ -66,11 +72,13 @@ FloeId submerged_below(const Population& population, Point p) {
   return found == population.submerged.rend() ? kNoFloe : found->floe;
 }
 
-/// Of the piece's depth: how far from its edge that is looked for which is beside it [-].
+/// Distance outside the edge of a cusp at which its neighbour is looked for, as a fraction of the cusp's radius [-].
+/// Smaller values find no neighbour behind gaps from rounding. Larger values may miss narrow neighbours.
 constexpr double kBeside = 0.01;
 
-/// The edge of a cusp from a to b, counter-clockwise in its floe's body frame, by what is beside it; x of its frame is
-/// the direction in which the hull pushes the cusp (ahead_of).
+/// Returns the neighbour of the edge of a cusp from a to b: the ice sheet, an older cusp, or open water. The outline of
+/// the cusp is counter-clockwise in its floe's body frame. The x axis of the result's frame is the direction in which
+/// the hull pushes the cusp (ahead_of).
 fracture::DeckEdge deck_edge(const Setup& setup, const Population& population, const PendingFracture& bend, Point a,
                              Point b) {
   const Vector ahead = ahead_of(population, bend);
@@ -88,6 +96,7 @@ fracture::DeckEdge deck_edge(const Setup& setup, const Population& population, c
   return {fracture::Beside::kOlderCusp, along(*ends.max), along(*ends.max) - along(*ends.min)};
 }
 
+/// Returns the deck of a cusp that breaks off, from its outline in the body frame of its floe.
 fracture::Deck deck_of(const Setup& setup, const Population& population, const PendingFracture& bend,
                        const geometry::Ring& piece) {
   const Vector ahead = ahead_of(population, bend);
@@ -98,11 +107,12 @@ fracture::Deck deck_of(const Setup& setup, const Population& population, const P
     outline.push_back(Point{} + rotate(ahead_from_body, piece[i] - Point{}));
     edges.push_back(deck_edge(setup, population, bend, piece[i], piece[i + 1 < piece.size() ? i + 1 : 0]));
   }
-  return fracture::deck_of(ice_of_floe(setup, population, bend.floe), setup.scene.water.water, bend.push.hull_angle,
-                           outline, edges);
+  return fracture::deck_of(ice_of_floe(setup, population, bend.floe), setup.scene.water.water,
+                           bend.driven_edge.hull_angle, outline, edges);
 }
 
-/// Presses a deck on over a step.
+/// Turns a cusp further by the displacement of its hull in the step, and applies the force of the missing water to the
+/// hull.
 void press(const Setup& setup, const Step& step, PressedDeck& pressed, dynamics::Bodies& bodies, HullBooks books) {
   const BodyIndex ship = pressed.ship;
   const Vector arm = rotate(bodies.rotation[ship], pressed.arm_in_ship);
@@ -120,19 +130,21 @@ void press(const Setup& setup, const Step& step, PressedDeck& pressed, dynamics:
   brake({ship, arm, slowed > speed ? (speed / slowed) * impulse : impulse}, bodies, books);
 }
 
-/// Gives a cusp's edge what it may take of its impulse in a step, and brakes the hull by it.
-void press(const Step& step, StartedCusp& cusp, dynamics::Bodies& bodies, HullBooks books) {
+/// Gives the edge of a cusp as much of its remaining impulse as the largest force allows in a step, and brakes the hull
+/// by it.
+void press(const Step& step, AcceleratingCusp& cusp, dynamics::Bodies& bodies, HullBooks books) {
   const geometry::Rotation of_ship = bodies.rotation[cusp.ship];
   const Vector arm = rotate(of_ship, cusp.arm_in_ship);
-  const double given = std::min(cusp.left, cusp.most * step.length);
-  cusp.left -= given;
-  cusp.way -= step.length *
-              std::max(0.0, dot(rotate(of_ship, cusp.normal_in_ship), dynamics::velocity_at(bodies, cusp.ship, arm)));
+  const double given = std::min(cusp.impulse_left, cusp.largest_force * step.length);
+  cusp.impulse_left -= given;
+  cusp.distance_left -= step.length * std::max(0.0, dot(rotate(of_ship, cusp.normal_in_ship),
+                                                        dynamics::velocity_at(bodies, cusp.ship, arm)));
   brake({cusp.ship, arm, -given * rotate(of_ship, cusp.horizontal_in_ship)}, bodies, books);
 }
 
-bool is_started(const StartedCusp& cusp) {
-  return cusp.left <= 0 || cusp.way <= 0;
+/// Returns true if the edge has reached the hull's speed, or if the hull has passed the cusp.
+bool is_finished(const AcceleratingCusp& cusp) {
+  return cusp.impulse_left <= 0 || cusp.distance_left <= 0;
 }
 
 }  // namespace
@@ -149,30 +161,30 @@ double pressed_mass(const Setup& setup, const Population& population, const Pend
   return mass;
 }
 
-void turn_cusp(const Step& step, const PendingFracture& bend, double mass, Population& population, HullBooks books) {
-  const EdgePush& edge = bend.push;
+void start_cusp(const Step& step, const PendingFracture& bend, double mass, Population& population, HullBooks books) {
+  const DrivenEdge& edge = bend.driven_edge;
   const BodyIndex ship = bend.ship;
   if (edge.speed <= 0) return;
   dynamics::Bodies& bodies = population.bodies;
   const Vector arm = bend.point_in_water - bodies.position[ship];
-  // The hull slows down by what it gives: the two move on together.
+  // The hull is slowed down by the impulse that it gives, because edge and hull then move on together.
   const double slowed = edge.speed_per_approach * speed_by(bodies, ship, arm, bend.normal, edge.horizontal);
-  const double given = mass * edge.speed / (1 + mass * std::max(0.0, slowed));  // down on the edge
+  const double given = mass * edge.speed / (1 + mass * std::max(0.0, slowed));  // impulse down on the edge [N s]
   const geometry::Rotation of_ship = bodies.rotation[ship];
-  StartedCusp cusp{.ship = ship,
-                   .arm_in_ship = rotate_back(of_ship, arm),
-                   .normal_in_ship = rotate_back(of_ship, bend.normal),
-                   .horizontal_in_ship = rotate_back(of_ship, edge.horizontal),
-                   .left = given,
-                   .most = bend.criteria.bending_capacity,
-                   .way = bend.cusp_radius};
+  AcceleratingCusp cusp{.ship = ship,
+                        .arm_in_ship = rotate_back(of_ship, arm),
+                        .normal_in_ship = rotate_back(of_ship, bend.normal),
+                        .horizontal_in_ship = rotate_back(of_ship, edge.horizontal),
+                        .impulse_left = given,
+                        .largest_force = bend.criteria.bending_capacity,
+                        .distance_left = bend.cusp_radius};
   press(step, cusp, bodies, books);
-  if (!is_started(cusp)) population.started.push_back(cusp);
+  if (!is_finished(cusp)) population.accelerating_cusps.push_back(cusp);
 }
 
 void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut,
                Population& population) {
-  if (!setup.has_flooding_decks || bend.push.speed <= 0) return;
+  if (!setup.has_flooding_decks || bend.driven_edge.speed <= 0) return;
   const dynamics::Bodies& bodies = population.bodies;
   const geometry::Rotation of_ship = bodies.rotation[bend.ship];
   for (const geometry::Piece& piece : cut.pieces) {
@@ -180,24 +192,25 @@ void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::
     PressedDeck pressed{.ship = bend.ship,
                         .arm_in_ship = rotate_back(of_ship, bend.point_in_water - bodies.position[bend.ship]),
                         .normal_in_ship = rotate_back(of_ship, bend.normal),
-                        .horizontal_in_ship = rotate_back(of_ship, bend.push.horizontal),
+                        .horizontal_in_ship = rotate_back(of_ship, bend.driven_edge.horizontal),
                         .deck = deck_of(setup, population, bend, piece.shape.polygon.outer),
                         .state = {}};
-    if (fracture::way_to_lie_along(pressed.deck) > 0) population.decks.push_back(pressed);
+    if (fracture::distance_to_lie_along(pressed.deck) > 0) population.decks.push_back(pressed);
   }
 }
 
-void press_started(const Step& step, Population& population, std::vector<HullLoads>& loads, AuditSums& audit) {
-  for (StartedCusp& cusp : population.started)
+void accelerate_cusps(const Step& step, Population& population, std::vector<HullLoads>& loads, AuditSums& audit) {
+  for (AcceleratingCusp& cusp : population.accelerating_cusps)
     press(step, cusp, population.bodies, {loads[static_cast<std::size_t>(cusp.ship)], audit});
-  std::erase_if(population.started, is_started);
+  std::erase_if(population.accelerating_cusps, is_finished);
 }
 
 void press_decks(const Setup& setup, const Step& step, Population& population, std::vector<HullLoads>& loads,
                  AuditSums& audit) {
   for (PressedDeck& pressed : population.decks)
     press(setup, step, pressed, population.bodies, {loads[static_cast<std::size_t>(pressed.ship)], audit});
-  std::erase_if(population.decks, [](const PressedDeck& p) { return p.state.way >= way_to_lie_along(p.deck); });
+  std::erase_if(population.decks,
+                [](const PressedDeck& p) { return p.state.displacement >= distance_to_lie_along(p.deck); });
 }
 
 }  // namespace polynya::simulation

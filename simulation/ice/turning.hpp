@@ -6,33 +6,35 @@
 
 namespace polynya::simulation {
 
-/// Where an impulse on a hull is entered.
+/// The loads and accounts in which an impulse on a hull is recorded.
 struct HullBooks {
   HullLoads& loads;
   AuditSums& audit;
 };
 
-/// By the law of crushing ice: the impulse with which a hull sets in motion the cusp that a bend breaks off and that
-/// goes under it (`InsideFate::kUnderHull`). It is given with no more than the force at which the ice broke, so that it
-/// may last for some steps: press_started() gives the rest. Brakes the hull, and enters it in its loads and in the
-/// accounts.
-/// `mass` is what the cut's cusps weigh at the edge that the hull presses down [kg] (pressed_mass()).
-void turn_cusp(const Step& step, const PendingFracture& bend, double mass, Population& population, HullBooks books);
+/// Law of crushing ice: accelerates a cusp that a bend breaks off and that goes under the hull
+/// (`InsideFate::kUnderHull`). The edge of the cusp must reach the speed that the slope of the hull gives it, and the
+/// impulse for this brakes the hull. The force never exceeds the one at which the ice broke, so the impulse may take
+/// several steps; accelerate_cusps() gives the rest of it. The impulse is added to the loads of the hull and to the
+/// accounts. `mass` is the effective mass of the cusps at the edge that the hull presses down [kg] (pressed_mass()).
+void start_cusp(const Step& step, const PendingFracture& bend, double mass, Population& population, HullBooks books);
 
-/// Returns what the cusps of a cut weigh at the edge that the hull presses down, with the water that moves with them
-/// [kg].
+/// Returns the effective mass of a cut's cusps at the edge that the hull presses down, including the water that moves
+/// with them [kg].
 double pressed_mass(const Setup& setup, const Population& population, const PendingFracture& bend,
                     const geometry::CutResult& cut);
 
-/// Keeps the decks of the cut's cusps, which the hull presses down from now on, where water floods decks
-/// (`has_flooding_decks`).
+/// Adds the cusps of a cut to Population::decks, if the scene computes the water on the decks of turning cusps
+/// (`has_flooding_decks`). press_decks() turns them from the next step on.
 void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut, Population& population);
 
-/// Goes on to set in motion the cusps that have not all of their edge's speed yet. Those that the hull has passed end.
-void press_started(const Step& step, Population& population, std::vector<HullLoads>& loads, AuditSums& audit);
+/// Continues to accelerate the cusps whose edges have not reached the hull's speed yet. A cusp is removed from the list
+/// when it has reached it, or when the hull has passed it.
+void accelerate_cusps(const Step& step, Population& population, std::vector<HullLoads>& loads, AuditSums& audit);
 
-/// Presses the decks on that hulls press down, by the way of a step, and lets water onto them: brakes the hulls by the
-/// pressure of the water that is missing there. Those that lie along the hull end.
+/// Turns the cusps under hulls further by the displacement of their hull in the step, and lets water flow onto their
+/// decks. The hulls are braked by the pressure of the water that is missing there. A cusp that lies along the hull is
+/// removed from the list.
 void press_decks(const Setup& setup, const Step& step, Population& population, std::vector<HullLoads>& loads,
                  AuditSums& audit);
 

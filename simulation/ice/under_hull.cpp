@@ -21,7 +21,7 @@ using geometry::Point;
 using geometry::Pose;
 using geometry::Vector;
 
-/// δρ g h times the area that the hull's beam passes over [N].
+/// Returns the net buoyancy of the part of a floe within the beam of the hull, δρ g h times its area [N].
 double weight_under(const Setup& setup, const Population& population, FloeId floe, int ship) {
   const dynamics::Bodies& bodies = population.bodies;
   const BodyIndex body = population.body_of(floe);
@@ -66,7 +66,7 @@ void go_under(const Setup& setup, const Instant& now, const FloeAtHull& at, Popu
 void apply_submersions(const Setup& setup, const Step& step, const StepData& data, Population& population,
                        Books books) {
   for (const PendingSubmersion& floe : data.submersions) {
-    if (!population.is_floating(floe.floe)) continue;  // it broke in this step, or another ship has it
+    if (!population.is_floating(floe.floe)) continue;  // it broke in this step, or it is under another ship
     Event event = submersion_event(step.end, population, {floe.floe, floe.ship});
     event.point_in_world = floe.point_in_water + step.end.drift;
     auto& submerge = std::get<Submerge>(event.what);
@@ -79,24 +79,25 @@ void apply_submersions(const Setup& setup, const Step& step, const StepData& dat
   }
 }
 
-// ---- it brakes the ship while it is there
+// ---- ice under a hull brakes its ship
 
 namespace {
 
-/// What the ice under a hull takes from its ship in a step.
+/// The effect of the ice under a hull on its ship in a step.
 struct Pull {
   BodyIndex ship = 0;
-  double speed = 0;   ///< of the ship ahead, through the water [m/s]
-  double work = 0;    ///< over the way of the step [J]
-  double moment = 0;  ///< that work times the pieces' distances to port [J m]
-  double area = 0;    ///< under the hull [m²]
+  double speed = 0;   ///< speed of the ship ahead through the water [m/s]
+  double work = 0;    ///< work of the ship on the ice in the step [J]
+  double moment = 0;  ///< sum of the work on each piece times its distance to port of the centre line [J m]
+  double area = 0;    ///< area of ice under the hull [m²]
 };
 
+/// Returns the unit vector of a ship's heading in the water frame.
 Vector heading_of(const dynamics::Bodies& bodies, BodyIndex ship) {
   return {bodies.rotation[ship].cosine, bodies.rotation[ship].sine};
 }
 
-/// How far the piece is to port of the ship's centre line; no farther than its hull [m].
+/// Returns the distance of a piece to port of the ship's centre line, limited to the half-beam [m].
 double distance_to_port(const Setup& setup, const dynamics::Bodies& bodies, const SubmergedPiece& piece,
                         BodyIndex body) {
   const double half_beam = 0.5 * setup.underwater[piece.ship].form.beam;
@@ -104,9 +105,10 @@ double distance_to_port(const Setup& setup, const dynamics::Bodies& bodies, cons
   return std::clamp(rotate_back(bodies.rotation[piece.ship], from_ship).y, -half_beam, half_beam);
 }
 
+/// Adds the work on one piece in a step of length dt [s], and its area.
 void add_piece(const Setup& setup, double dt, const Population& population, const SubmergedPiece& piece, Pull& pull) {
   const dynamics::SubmersionPath& path = setup.underwater[piece.ship].path;
-  if (piece.path >= std::max(path.bow, path.sliding)) return;  // behind it
+  if (piece.path >= std::max(path.bow, path.sliding)) return;  // behind the hull
   if (piece.path < path.sliding) pull.area += piece.area;
   if (pull.speed <= 0) return;
   const double to = piece.path + pull.speed * dt;
@@ -117,8 +119,8 @@ void add_piece(const Setup& setup, double dt, const Population& population, cons
   pull.moment += work * distance_to_port(setup, population.bodies, piece, population.body_of(piece.floe));
 }
 
-/// The impulse with which ice under a hull brakes a ship in a step of length dt, against its heading. It never
-/// reverses a ship [N s].
+/// Returns the impulse against its heading with which the ice under a hull brakes a ship in a step of length dt [N s].
+/// It stops a ship and never reverses it.
 double impulse_of(const Setup& setup, double dt, const Pull& pull, const dynamics::Bodies& bodies) {
   const BodyIndex ship = pull.ship;
   if (pull.work == 0) return 0;
@@ -129,7 +131,7 @@ double impulse_of(const Setup& setup, double dt, const Pull& pull, const dynamic
   return bodies.inverse_mass[ship] != 0 ? std::min(impulse, bodies.mass[ship] * pull.speed) : impulse;
 }
 
-/// Gives a ship that impulse, which also turns it, and enters it.
+/// Applies the impulse to a ship, also its moment, and adds it to the loads and the accounts.
 void apply(double impulse, const Pull& pull, dynamics::Bodies& bodies, HullLoads& loads_of_ship, AuditSums& audit) {
   const BodyIndex ship = pull.ship;
   SubmergedLoads& loads = loads_of_ship.submerged;
@@ -144,6 +146,7 @@ void apply(double impulse, const Pull& pull, dynamics::Bodies& bodies, HullLoads
   audit.impulses += impulse;
 }
 
+/// Returns the speed of a ship ahead through the water [m/s].
 double speed_ahead(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex ship) {
   const Vector through_water = bodies.velocity[ship] - setup.current.velocity_at(bodies.position[ship]);
   return dot(heading_of(bodies, ship), through_water);
@@ -174,19 +177,21 @@ void pull_of_submerged_ice(const Setup& setup, const Step& step, Population& pop
   }
 }
 
-// ---- it comes up
+// ---- ice surfaces
 
 namespace {
 
-constexpr int kPlaces = 8;  ///< tried at a time, each scattered less; the last one is where it went under
+/// Number of places that are tried at each attempt to surface. Each place is scattered less than the one before; the
+/// last one is where the piece is. More places let pieces surface sooner in dense ice and cost time.
+constexpr int kPlaces = 8;
 
-/// Where a piece may come up.
+/// A place at which a piece may surface.
 struct Place {
   Pose water_from_body;
-  double angle = 0;  ///< [rad]
+  double angle = 0;  ///< angle of the body frame in the water frame [rad]
 };
 
-/// A polygon without its rim, about a point.
+/// Returns a polygon without its rim: scaled about a point so that its area is reduced by the fraction `rim_loss`.
 geometry::Polygon shrunk(geometry::Polygon polygon, Point about, double rim_loss) {
   const double scale = std::sqrt(1 - rim_loss);
   const auto shrink = [&](geometry::Ring& ring) {
@@ -197,7 +202,8 @@ geometry::Polygon shrunk(geometry::Polygon polygon, Point about, double rim_loss
   return polygon;
 }
 
-/// The piece's place in the water, scattered at random.
+/// Returns a random place near the piece's own. `size` is √area of the piece [m], and `scatter` is as in
+/// ResurfaceSettings.
 Place scattered(const dynamics::Bodies& bodies, BodyIndex body, double size, double scatter, Random& random) {
   const Vector shift = scatter * size * Vector{random.normal(), random.normal()};
   const double turn = scatter * std::numbers::pi * random.normal();
@@ -208,19 +214,21 @@ Place scattered(const dynamics::Bodies& bodies, BodyIndex body, double size, dou
   return {{centre - rotate(rotation, bodies.centroid[body] - Point{}), rotation}, angle};
 }
 
+/// Returns true if a piece at a place does not touch another body.
 bool is_clear_of(const Population& population, BodyIndex other, const geometry::Boundary& piece,
                  const Pose& water_from_piece) {
   const Pose water_from_other = dynamics::water_from_body(population.bodies, other);
   return is_clear(*population.bodies.boundary[other], piece, relative_pose(water_from_other, water_from_piece));
 }
 
+/// Returns true if a piece at a place touches any hull or lies inside it.
 bool is_under_hull(const Population& population, const geometry::Boundary& piece, const Pose& water_from_piece) {
   for (BodyIndex hull = 0; hull < population.hull_count; ++hull)
     if (!is_clear_of(population, hull, piece, water_from_piece)) return true;
   return false;
 }
 
-/// Whether no body is where a piece would come up.
+/// Returns true if a piece at a place touches no body.
 bool has_room(const Population& population, const geometry::Boundary& piece, const Pose& water_from_piece) {
   geometry::Ring ring;
   for (const Point p : piece.edges.vertices) ring.push_back(transform(water_from_piece, p));
@@ -231,7 +239,8 @@ bool has_room(const Population& population, const geometry::Boundary& piece, con
   return has_room;
 }
 
-/// Whether a piece would come up where another is that has not come up yet: that one keeps its room.
+/// Returns true if the place of a piece overlaps another piece that has not surfaced yet and has the right to its
+/// place. `centre` is the centre of mass of the piece at the place.
 bool is_over_another(const Population& population, const SubmergedPiece& submerged, const geometry::Boundary& piece,
                      const Pose& water_from_piece, Point centre) {
   const dynamics::Bodies& bodies = population.bodies;
@@ -244,7 +253,8 @@ bool is_over_another(const Population& population, const SubmergedPiece& submerg
   });
 }
 
-/// A kind of event with what decided it.
+/// Returns the event of a piece that surfaces or stays under, with its criterion. `kind` has the members that differ
+/// between the two.
 template <class Kind>
 Event event_of(const Setup& setup, const Instant& now, const Population& population, const SubmergedPiece& submerged,
                Kind kind) {
@@ -255,7 +265,7 @@ Event event_of(const Setup& setup, const Instant& now, const Population& populat
   return {now.time, submerged.ship, population.bodies.position[body] + now.drift, std::move(kind)};
 }
 
-/// One submerged piece's attempts to come up.
+/// The attempts of submerged pieces to surface in one step.
 class Resurfacing {
  public:
   Resurfacing(const Setup& setup, const Step& step, Population& population, Books books)
@@ -267,13 +277,14 @@ class Resurfacing {
         accounts_(books.accounts),
         journal_(books.journal) {}
 
+  /// Lets a piece surface, stay under for good, or wait, if its ship has passed it or has backed off it.
   void go_on(SubmergedPiece& submerged) {
-    const bool is_ahead = submerged.path < 0;  // the ship backed off it
+    const bool is_ahead = submerged.path < 0;  // the ship has backed off the piece
     if (submerged.path < setup_.underwater[submerged.ship].path.sliding && !is_ahead) return;
     if (now_.time < submerged.next_try) return;
     if (!settings_.is_enabled && !is_ahead) return stay_under(submerged);
     submerged.next_try = now_.time + settings_.retry;
-    try_to_come_up(submerged);
+    try_to_surface(submerged);
   }
 
  private:
@@ -288,13 +299,13 @@ class Resurfacing {
     journal_.events.push_back(std::move(event));
   }
 
-  void try_to_come_up(SubmergedPiece& submerged) {
+  void try_to_surface(SubmergedPiece& submerged) {
     const BodyIndex body = population_.body_of(submerged.floe);
     const Floe& floe = population_.floes[submerged.floe];
     const geometry::Polygon polygon = shrunk(floe.shape.polygon, population_.bodies.centroid[body], settings_.rim_loss);
     const geometry::Boundary boundary = geometry::make_outline(polygon);
     const Pose in_place = dynamics::water_from_body(population_.bodies, body);
-    if (is_under_hull(population_, boundary, in_place)) return;  // not behind it yet
+    if (is_under_hull(population_, boundary, in_place)) return;  // the piece is still below a hull
     Random random(setup_.scene.seed ^ (static_cast<std::uint64_t>(submerged.floe) << 32U) ^
                   static_cast<std::uint64_t>(whole_ticks_));
     for (int i = 0; i < kPlaces; ++i) {
@@ -303,13 +314,13 @@ class Resurfacing {
       if (!has_room(population_, boundary, place.water_from_body)) continue;
       const Point centre = transform(place.water_from_body, population_.bodies.centroid[body]);
       if (share > 0 && is_over_another(population_, submerged, boundary, place.water_from_body, centre)) continue;
-      return come_up(submerged, polygon, place);
+      return surface(submerged, polygon, place);
     }
     if (submerged.waited >= settings_.give_up) return stay_under(submerged);
     submerged.waited += settings_.retry;
   }
 
-  void come_up(const SubmergedPiece& submerged, const geometry::Polygon& polygon, const Place& place) {
+  void surface(const SubmergedPiece& submerged, const geometry::Polygon& polygon, const Place& place) {
     Resurface up;
     const geometry::Measures measures = geometry::measure(polygon);
     const double area_before = population_.floes[submerged.floe].area;
@@ -326,7 +337,7 @@ class Resurfacing {
     journal_.events.push_back(std::move(event));
   }
 
-  /// Adds the floe, going with the water.
+  /// Adds the floe that surfaces. It moves with the water.
   FloeId add_piece(const SubmergedPiece& submerged, const geometry::Polygon& polygon,
                    const geometry::Measures& measures, const Place& place) {
     NewFloe piece;
@@ -348,7 +359,8 @@ class Resurfacing {
     return id;
   }
 
-  /// Awake, it is paired with the bodies around it. A sheared current carries it along.
+  /// Wakes a floe that has surfaced, which pairs it with the bodies around it, and adds the energy and momentum that a
+  /// sheared current gives it to the accounts.
   void wake_and_enter(BodyIndex body) {
     wake(body, population_);
     AuditSums& audit = accounts_.audit;
@@ -366,7 +378,7 @@ class Resurfacing {
 
 }  // namespace
 
-void come_up(const Setup& setup, const Step& step, Population& population, Books books) {
+void surface_ice(const Setup& setup, const Step& step, Population& population, Books books) {
   Resurfacing resurfacing(setup, step, population, books);
   for (SubmergedPiece& submerged : population.submerged) resurfacing.go_on(submerged);
   std::erase_if(population.submerged,

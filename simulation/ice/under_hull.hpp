@@ -10,11 +10,11 @@ struct FloeAtHull {
   int ship = 0;
 };
 
-/// Takes a floe out of the contact world and puts it under a ship's hull, where it rests in the water. Enters
-/// its motion and counts it.
+/// Puts a floe under a ship's hull. The floe takes part in no contact any more and is at rest in the water. Its kinetic
+/// energy and momentum are added to the accounts, and the floe is counted.
 void go_under(const Setup& setup, const Instant& now, const FloeAtHull& at, Population& population, Accounts& accounts);
 
-/// The event of a floe that goes under, without what decided it.
+/// Returns the event of a floe that goes under a hull, with its position and area. The caller sets its criterion.
 Event submersion_event(const Instant& now, const Population& population, const FloeAtHull& at);
 
 }  // namespace polynya::simulation

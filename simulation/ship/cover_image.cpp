@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "elementary/elementary.hpp"
-
 #include "simulation/world/world.hpp"
 
 namespace polynya::simulation {
@@ -16,7 +15,8 @@ double ImageFrame::radius() const {
 
 CoverImage::CoverImage(const ImageFrame& frame) : frame_(frame), steps_(frame.rows * (frame.columns + 1)) {}
 
-/// From a crossing on, the line is covered or no longer covered: by a share of its cell, and all after it.
+/// Adds a crossing of a line and an edge at x cells from the left. From x on, the line is covered or not covered any
+/// more: the cell of the crossing changes by a part of `share`, all cells after it by `share`.
 void CoverImage::add_crossing(std::size_t row, double x, double share) {
   const auto columns = static_cast<double>(frame_.columns);
   if (!(x < columns)) return;
@@ -28,9 +28,9 @@ void CoverImage::add_crossing(std::size_t row, double x, double share) {
   steps[1] += before;
 }
 
-/// An edge has the lines from its upper end to its lower one, without the last: each ring crosses each line
-/// an even number of times. Line k lies at k + 1/2, in lines from the top; the ice is to the right of an edge
-/// down.
+/// Adds the crossings of an edge with all lines from its upper end to its lower end, without the last one, so that each
+/// ring crosses each line an even number of times. Line k lies at k + 1/2 lines from the top. The ice is to the right
+/// of an edge that runs down.
 void CoverImage::add_edge(geometry::Point a, geometry::Point b) {
   const auto lines = static_cast<double>(frame_.rows * kLines);
   const auto line_from = [lines](double y) { return static_cast<std::size_t>(std::clamp(y + 0.5, 0.0, lines)); };
@@ -46,7 +46,7 @@ void CoverImage::add_edge(geometry::Point a, geometry::Point b) {
     add_crossing(line / kLines, a.x + slope * (static_cast<double>(line) + 0.5 - a.y), share);
 }
 
-/// Columns from the left edge and lines from the top of each vertex.
+/// Converts each vertex into columns from the left edge and lines from the top, and adds the edges.
 void CoverImage::add_ring(const geometry::Ring& ring, const geometry::Pose& ship_from_body) {
   const double columns = 1 / frame_.cell, lines = kLines / frame_.cell;
   const double left = 0.5 * static_cast<double>(frame_.columns);
@@ -79,7 +79,6 @@ void CoverImage::write(float* cells) const {
   }
 }
 
-/// Floes whose circle meets the image's; those under hulls are not in the way.
 void add_floes(const World& world, const geometry::Pose& world_from_ship, const ImageFrame& frame, CoverImage& image) {
   const Population& population = world.population;
   const dynamics::Bodies& bodies = population.bodies;
@@ -100,7 +99,7 @@ void add_floes(const World& world, const geometry::Pose& world_from_ship, const 
 double cover_ahead(const World& world, int ship) {
   const geometry::Box hull = bounding_box(hull_of(world.setup.scene, static_cast<std::size_t>(ship)).hull.waterline);
   const double length = hull.high.x - hull.low.x, beam = hull.high.y - hull.low.y;
-  constexpr double kAcross = 8;  ///< across the beam; the image is exact along each of its lines
+  constexpr double kAcross = 8;  ///< number of cells across the beam; each line of a cell is exact, so few are enough
   ImageFrame frame;
   frame.cell = beam / kAcross;
   frame.columns = static_cast<std::size_t>(kAcross);

@@ -10,25 +10,29 @@ namespace polynya::simulation {
 
 struct World;
 
-/// An image from above in a ship's frame: its first row is the farthest ahead, its first column to port.
+/// Frame of an image from above that moves with a ship. The first row is the farthest ahead, and the first column is
+/// the farthest to port.
 struct ImageFrame {
   std::size_t rows = 0, columns = 0;
-  double cell = 1;   ///< [m]
-  double ahead = 0;  ///< of its middle, from the ship's centre of gravity [m]
+  double cell = 1;   ///< side of a cell [m]
+  double ahead = 0;  ///< distance of the image's middle ahead of the ship's centre of gravity [m]
 
-  /// Of a circle about the middle that holds the image [m].
+  /// Returns the radius of the circle about the middle that contains the image [m].
   double radius() const;
 };
 
-/// The share of each cell that polygons cover. Along a row it is exact on each of kLines lines a cell; cells
-/// on which polygons overlap are 1 at most. Outer rings run counter-clockwise, holes clockwise.
+/// Computes the fraction of each cell that polygons cover. Each cell is sampled on kLines lines along its row, and the
+/// fraction is exact on each line. If polygons overlap, the fraction is at most 1. Outer rings run counter-clockwise,
+/// holes clockwise.
 class CoverImage {
  public:
+  /// Number of lines in each row of cells. More lines resolve floes that are smaller than a cell and cost time.
   static constexpr int kLines = 4;
 
   explicit CoverImage(const ImageFrame& frame);
+  /// Adds a polygon in the body frame of its floe.
   void add(const geometry::Polygon& polygon, const geometry::Pose& ship_from_body);
-  /// Row by row, into rows × columns numbers.
+  /// Writes the fractions row by row into rows × columns numbers.
   void write(float* cells) const;
 
  private:
@@ -37,14 +41,16 @@ class CoverImage {
   void add_crossing(std::size_t row, double x, double share);
 
   ImageFrame frame_;
-  std::vector<double> steps_;  ///< of the share, from each cell of a row to the next; one more than columns
+  /// For each cell, the change of the fraction from the cell before; columns + 1 for each row.
+  std::vector<double> steps_;
 };
 
-/// Adds the floes whose circle touches the image. Floes under hulls are not in the way, and are left out.
+/// Adds the floes whose bounding circle touches the image. Floes under hulls are left out, because they are not in the
+/// way.
 void add_floes(const World& world, const geometry::Pose& world_from_ship, const ImageFrame& frame, CoverImage& image);
 
-/// Returns the share of the water ahead of a hull that floating ice covers [-]: of a rectangle as wide as its beam,
-/// from its foremost point to one length ahead.
+/// Returns the fraction of the water ahead of a hull that floating ice covers [-], in a rectangle that is as wide as
+/// the hull's beam and extends from its foremost point to one hull length ahead.
 double cover_ahead(const World& world, int ship);
 
 }  // namespace polynya::simulation

@@ -7,6 +7,7 @@ namespace {
 
 using geometry::Vector;
 
+/// Returns all hulls in the form in which pilots see them, at the start of the step.
 std::vector<SeenHull> seen_hulls(const Setup& setup, const Step& step, const Population& population) {
   const dynamics::Bodies& bodies = population.bodies;
   std::vector<SeenHull> seen;
@@ -27,6 +28,7 @@ std::vector<SeenHull> seen_hulls(const Setup& setup, const Step& step, const Pop
   return seen;
 }
 
+/// Returns all floating floes in the form in which pilots see them, at the start of the step.
 std::vector<SeenFloe> seen_floes(const Step& step, const Population& population) {
   std::vector<SeenFloe> seen;
   const Vector drift = step.begin.drift;
@@ -36,9 +38,10 @@ std::vector<SeenFloe> seen_floes(const Step& step, const Population& population)
   return seen;
 }
 
-/// Yaw acceleration by rudder or thrusters amidships, per angle [1/s²].
+/// Returns the yaw acceleration per angle of rudder or thrusters near amidships, at the present thrust and speed
+/// [1/s²].
 double steering_gain(const Sailing& sailing, const PilotView& view, double moment) {
-  constexpr double kAngle = 0.05;  // [rad]
+  constexpr double kAngle = 0.05;  // angle at which the force is evaluated on both sides [rad]
   const double thrust = dynamics::propeller_thrust(*sailing.engine, view.lever, view.through_water.surge);
   const auto yaw_at = [&](double angle) {
     return sailing.rudder ? dynamics::rudder_force(*sailing.rudder, angle, {view.through_water.surge, 0, 0}, thrust,
@@ -51,6 +54,7 @@ double steering_gain(const Sailing& sailing, const PilotView& view, double momen
   return (yaw_at(kAngle) - yaw_at(-kAngle)) / (2 * kAngle * inertia);
 }
 
+/// Returns the data that the pilot of ship i receives in the step.
 PilotView view_of(const Setup& setup, const Step& step, const Population& population, std::span<const SeenHull> hulls,
                   BodyIndex i) {
   const dynamics::Bodies& bodies = population.bodies;
@@ -78,13 +82,16 @@ PilotView view_of(const Setup& setup, const Step& step, const Population& popula
   return view;
 }
 
+/// Returns a command with its values limited to the stops.
 Command limited(Command command, const Sailing& sailing) {
   const auto within = [](double value, double most) {
-    return value == value ? std::clamp(value, -most, most) : 0;  // not a number: amidships, stop
+    // a value that is not a number becomes 0: amidships, or stop
+    return value == value ? std::clamp(value, -most, most) : 0;
   };
   return {within(command.lever, 1), within(command.steering_angle, sailing.steering_most)};
 }
 
+/// Returns the command of a ship's pilot: of the one from outside if there is one, and of the scene's otherwise.
 Command commanded(const Setup& setup, const PilotView& view, const std::vector<ExternalPilot>& external, Helm& helm) {
   const auto i = static_cast<std::size_t>(view.ship);
   const bool is_external = i < external.size() && external[i];
@@ -94,7 +101,7 @@ Command commanded(const Setup& setup, const PilotView& view, const std::vector<E
 
 }  // namespace
 
-void take_helms(const Setup& setup, const Step& step, Population& population) {
+void initialize_helms(const Setup& setup, const Step& step, Population& population) {
   population.helms.resize(setup.scene.ships.size());
   const std::vector<SeenHull> hulls = seen_hulls(setup, step, population);
   for (BodyIndex i = 0; i < std::ssize(population.helms); ++i) {

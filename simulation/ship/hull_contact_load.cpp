@@ -19,8 +19,8 @@ namespace {
 using dynamics::Contact;
 using geometry::Point;
 
-/// θ_s where the contact is: by the waterline's normal from the stem angle, or from the hull's own table
-/// [rad].
+/// Returns the angle θ_s of the hull from the vertical at a contact [rad]: from the waterline's normal and the stem
+/// angle, or by interpolation in the hull's own table.
 double hull_angle_at(const Hull& hull, const dynamics::Bodies& bodies, const dynamics::Contact& c) {
   const geometry::Pose pose = dynamics::water_from_body(bodies, c.a);
   if (hull.angles_from_vertical.empty()) {
@@ -31,8 +31,8 @@ double hull_angle_at(const Hull& hull, const dynamics::Bodies& bodies, const dyn
   return (1 - along) * angles[edge] + along * angles[(edge + 1) % angles.size()];
 }
 
-/// θ_s in the middle of a part of an edge of the waterline, whose outward normal has the forward component `sine`
-/// [rad].
+/// Returns θ_s in the middle of a part of an edge of the waterline [rad]. `sine` is the forward component of the edge's
+/// outward normal.
 double hull_angle_on(const Hull& hull, const EdgePart& part, double sine) {
   if (hull.angles_from_vertical.empty()) return fracture::hull_angle_from_vertical(sine, hull.stem_angle);
   const double along = 0.5 * (part.from + part.to);
@@ -40,7 +40,7 @@ double hull_angle_on(const Hull& hull, const EdgePart& part, double sine) {
   return (1 - along) * angles[part.edge] + along * angles[(part.edge + 1) % angles.size()];
 }
 
-/// The facets of the hull's side that is in the ice at a contact: from one end of its line to the other.
+/// Returns the facets of the hull's side between the two ends of a contact line.
 std::vector<fracture::HullFacet> facets_of(const Hull& hull, const dynamics::Bodies& bodies, const Contact& c) {
   const geometry::Pose pose = dynamics::water_from_body(bodies, c.a);
   const geometry::Vector normal = rotate_back(pose.rotation, c.normal);
@@ -59,8 +59,9 @@ std::vector<fracture::HullFacet> facets_of(const Hull& hull, const dynamics::Bod
   return facets;
 }
 
-/// The shares of a hull's contact by the law of crushing ice. A pierced body has its sides in several stretches: then
-/// they are those of its contact line.
+/// Returns the shares of the force of a contact, by the law of crushing ice, with each facet of a bent side taken by
+/// itself. The side of a hull that pierces a floe is in several stretches of ice, so the shares of its contact line are
+/// used.
 fracture::CrushingShares shares_of(const Hull& hull, const dynamics::Bodies& bodies, const Contact& c,
                                    const HullContactLoad& load) {
   if (load.hull_angle > 0 && !c.record->is_pierced) {
@@ -72,20 +73,24 @@ fracture::CrushingShares shares_of(const Hull& hull, const dynamics::Bodies& bod
   return load.shares;
 }
 
-/// The cusp is expected about this many characteristic lengths away; the wedge is measured over that length.
+/// Length of ice edge from the contact over which the wedge is measured, in characteristic lengths [-]. The edge is
+/// expected to break at about this distance. Longer: the wedge includes ice beyond the break. Shorter: it follows
+/// details of the edge.
 constexpr double kWedgeLengthOverL = 0.3;
 
-/// Eq. (5) needs the masses of the bodies as they are, also of one of prescribed motion.
+/// Returns the mobility of a body with its own mass, also of a body of prescribed motion, as Eq. (5) requires.
 dynamics::Mobility true_mobility(const dynamics::Bodies& bodies, BodyIndex i, Point at) {
   return {1 / bodies.mass[i], 1 / bodies.moment[i], at - bodies.position[i]};
 }
 
+/// Returns the impulse j of Eq. (5) for a contact [N s].
 double eq5_impulse(const Setup& setup, const dynamics::Bodies& bodies, const Contact& c) {
   const double mass = dynamics::effective_mass(true_mobility(bodies, c.a, c.middle()),
                                                true_mobility(bodies, c.b, c.middle()), c.normal);
   return dynamics::collision_impulse(c.approach_speed, setup.scene.contact.restitution, mass);
 }
 
+/// Returns the half-angles of the ice wedge at a contact.
 geometry::WedgeAngles wedge_at(const Setup& setup, const dynamics::Bodies& bodies, const HullContactLoad& load) {
   const Contact& c = load.contact;
   const geometry::Pose water_from_floe = dynamics::water_from_body(bodies, c.b);
@@ -95,6 +100,7 @@ geometry::WedgeAngles wedge_at(const Setup& setup, const dynamics::Bodies& bodie
                                 rotate_back(water_from_floe.rotation, c.normal), kWedgeLengthOverL * l);
 }
 
+/// Returns the outline of the ice edge on circles about a contact. Openings are at least twice kSmallestHalfAngle.
 fracture::EdgeOpenings openings_at(const Setup& setup, const dynamics::Bodies& bodies, const HullContactLoad& load) {
   const Contact& c = load.contact;
   const geometry::Pose water_from_floe = dynamics::water_from_body(bodies, c.b);
@@ -113,14 +119,16 @@ fracture::EdgeOpenings openings_at(const Setup& setup, const dynamics::Bodies& b
   return openings;
 }
 
-/// Where the overlap's centroid is between its point farthest inside the hull and its far end: in plan it is taken as
-/// the two triangles on the contact line, that of the ice's corner and that of the hull's, (m + d) / 3d.
+/// Returns the place of the overlap's centroid on the way from its point farthest inside the hull (0) to its far end
+/// (1) [-]. In plan the overlap is taken as two triangles on the contact line, the one of the ice's corner and the one
+/// of the hull's; the place is (m + d) / 3d, where m is the distance of the line from the first point, and d the depth.
 double place_of_load(const Contact& c) {
   if (!(c.depth > 0)) return 2.0 / 3;
   return (1 + std::clamp(dot(c.middle() - c.tip_of_b, c.normal) / c.depth, 0.0, 1.0)) / 3;
 }
 
-/// By the law of crushing ice, at the depth of the overlap or the paid depth, whichever is greater.
+/// Sets the forces of a load by the law of crushing ice, at the depth of the overlap or at the paid depth, whichever is
+/// larger. `can_bend` is true if the floe is large enough to break.
 void press(const Setup& setup, bool can_bend, HullContactLoad& load) {
   const Contact& c = load.contact;
   const double deepest = std::max(c.depth, c.paid_depth);
@@ -168,7 +176,8 @@ fracture::BendingLoad bending_load(const Setup& setup, const HullContactLoad& lo
 
 namespace {
 
-/// What both laws take of a contact; `can_break`: its floe is large enough to break.
+/// Returns the members of a load that both laws have in common. `can_break` is true if the floe is large enough to
+/// break.
 HullContactLoad common_load_of(const Setup& setup, const Population& population, const Contact& c, bool can_break) {
   const dynamics::Bodies& bodies = population.bodies;
   HullContactLoad load{.contact = c, .ice = ice_of_body(setup, population, c.b)};
@@ -183,6 +192,7 @@ HullContactLoad common_load_of(const Setup& setup, const Population& population,
   return load;
 }
 
+/// Returns true if the floe of a contact is large enough to break.
 bool can_break(const Setup& setup, const Population& population, const Contact& c) {
   return floe_size(population, c.b) >= limits_of_body(setup, population, c.b).breakable_size;
 }

@@ -2,7 +2,6 @@
 #include <iterator>
 
 #include "elementary/elementary.hpp"
-
 #include "geometry/cut/overlap.hpp"
 #include "simulation/world/step.hpp"
 
@@ -11,23 +10,25 @@ namespace {
 
 using geometry::Vector;
 
+/// Returns true if the contact of two hulls has been recorded before.
 bool is_known(const std::vector<Event>& contacts, BodyIndex ship, BodyIndex other) {
   return std::ranges::any_of(
       contacts, [&](const Event& e) { return e.ship == ship && std::get<HullContact>(e.what).other == other; });
 }
 
+/// Returns the waterline of a hull in the water frame [m].
 geometry::Ring waterline_in_water(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex ship) {
   return transform(dynamics::water_from_body(bodies, ship),
                    hull_of(setup.scene, static_cast<std::size_t>(ship)).hull.waterline);
 }
 
-/// The contact of two ships of prescribed motion whose outlines came to touch in the step. The contact search
-/// leaves such pairs out: no impulse moves them.
+/// Returns the contact of two hulls of prescribed motion whose outlines began to touch in the step, or nullopt. The
+/// contact search leaves such pairs out, because no impulse moves them.
 std::optional<Event> prescribed_contact(const Setup& setup, const Step& step, const dynamics::Bodies& bodies,
                                         BodyIndex ship, BodyIndex other) {
   const Vector velocity = bodies.velocity[other] - bodies.velocity[ship];
   const double speed = length(velocity);
-  // The touch may lie in the step before, where rounding hid it.
+  // The outlines may have begun to touch in the step before, where rounding hid it.
   const double earliest = -2 * step.length;
   const double reach = bodies.bounding_radius[ship] + bodies.bounding_radius[other] - earliest * speed;
   if (speed == 0 || distance(bodies.position[ship], bodies.position[other]) > reach) return std::nullopt;
@@ -56,7 +57,8 @@ void record_hull_contacts(const Setup& setup, const Step& step, const Population
   for (BodyIndex ship = 0; ship < population.hull_count; ++ship) {
     for (BodyIndex other = ship + 1; other < population.hull_count; ++other) {
       if (!are_prescribed(bodies, ship, other)) continue;
-      if (is_grounded(bodies.kind[ship]) && is_grounded(bodies.kind[other])) continue;  // they do not meet
+      // Structures and walls do not meet each other.
+      if (is_grounded(bodies.kind[ship]) && is_grounded(bodies.kind[other])) continue;
       if (is_known(known_contacts, ship, other)) continue;
       if (const auto contact = prescribed_contact(setup, step, bodies, ship, other)) enter(*contact);
     }

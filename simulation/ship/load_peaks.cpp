@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "elementary/elementary.hpp"
-
 #include "simulation/world/world.hpp"
 
 namespace polynya::simulation {
@@ -11,14 +10,16 @@ namespace {
 
 using dynamics::Contact;
 
-/// Of ice against a hull, or against ice; none where steel meets steel.
+/// Returns the thickness of the ice at a contact: that of the floe, or of the thinner one of two floes; 0 if two hulls
+/// touch [m].
 double thickness_at(const Setup& setup, const Population& population, const Contact& c) {
   if (population.is_hull(c.b)) return 0;
   const double of_b = ice_of_body(setup, population, c.b).thickness;
   return population.is_hull(c.a) ? of_b : std::min(of_b, ice_of_body(setup, population, c.a).thickness);
 }
 
-/// What happens in this step to the ice of a contact, or whether it tilts rather than bears more.
+/// Returns the event of a contact's ice in this step: a bend, a split, a tilt because the floe resists no more, or none
+/// (PeakEnd::kSlip).
 PeakEnd fate_of(const Population& population, const StepData& data, const Contact& c) {
   const FloeId floe = population.floe_of(c.b);
   for (const PendingFracture& pending : data.fractures) {
@@ -29,12 +30,14 @@ PeakEnd fate_of(const Population& population, const StepData& data, const Contac
   return c.gives_way || std::ranges::any_of(data.submersions, goes_under) ? PeakEnd::kTilt : PeakEnd::kSlip;
 }
 
+/// Returns the track with an id, or null if there is none or another contact has it in this step.
 LoadTrack* track_of(std::vector<LoadTrack>& tracks, std::int64_t id) {
   const auto at = std::ranges::lower_bound(tracks, id, {}, &LoadTrack::id);
   return at != tracks.end() && at->id == id && !at->is_seen ? &*at : nullptr;
 }
 
-/// The one of a contact. Where overlaps part, the first of them goes on with it.
+/// Returns the track of a contact, which is created if it has none. If an overlap divides into several, the first of
+/// them continues the track.
 LoadTrack& track_at(LoadPeaks& peaks, dynamics::PersistentContact& record) {
   if (record.load_track != 0) {
     if (LoadTrack* known = track_of(peaks.tracks, record.load_track)) return *known;
@@ -44,6 +47,7 @@ LoadTrack& track_at(LoadPeaks& peaks, dynamics::PersistentContact& record) {
   return peaks.tracks.back();
 }
 
+/// Records the peak of a track, or counts it if it is below the least peak or beyond the largest number of peaks.
 void record_peak(const Setup& setup, const LoadTrack& track, LoadPeaks& peaks, Journal& journal) {
   if (track.largest < setup.scene.record.least_peak) {
     ++peaks.counts.below;
@@ -59,13 +63,14 @@ void record_peak(const Setup& setup, const LoadTrack& track, LoadPeaks& peaks, J
   }
 }
 
-/// Of a gauge's way to a force that stays for a step, dF/dt = (force - F)/τ: the share that it goes.
+/// Returns the fraction of the difference to the contact's force that the gauge covers in a step, by dF/dt = (force −
+/// F)/τ [-].
 double response_in(const Setup& setup, const Step& step) {
   const double time_constant = setup.scene.record.peak_response;
   return time_constant > 0 ? -elementary::expm1(-step.length / time_constant) : 1;
 }
 
-/// Enters the force of a step into a track. Returns whether what the gauge has is the largest.
+/// Updates a track by the force of a step [N]. Returns true if the gauge shows a new largest value.
 bool rises(double force, double response, LoadTrack& track) {
   track.force += response * (force - track.force);
   if (!track.is_rising) {
@@ -115,12 +120,13 @@ void follow_loads(const Setup& setup, const Step& step, const Population& popula
   const double response = response_in(setup, step);
   for (std::size_t i = 0; i < data.slopes.size(); ++i) {
     const Contact& c = data.contacts[i];
-    const double force = c.steady_share * c.total_normal_impulse() / step.length;
+    const double force = c.step_share * c.total_normal_impulse() / step.length;
     if (population.is_hull(c.b) || (force == 0 && c.record->load_track == 0)) continue;
     LoadTrack& track = track_at(peaks, *c.record);
     track.is_seen = true;
     if (rises(force, response, track)) {
-      const double share = c.steady_share * track.force / force;  // of what the contact bears in this step
+      // Force that the gauge shows / whole force of the contact in this step.
+      const double share = c.step_share * track.force / force;
       track.largest = track.force;
       track.time = step.end.time;
       track.at_largest = state_of(setup, step, population, c, &data.slopes[i]);

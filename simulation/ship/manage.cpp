@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "elementary/elementary.hpp"
-
 #include "simulation/ship/pattern.hpp"
 #include "simulation/ship/pilot.hpp"
 
@@ -13,20 +12,21 @@ namespace polynya::simulation {
 using geometry::Point;
 using geometry::Vector;
 
-// ---- where patterns lead
+// ---- lines of patterns
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kCorners = 32;  ///< of a full turn
+constexpr int kCorners = 32;  ///< number of legs of a full turn; fewer make arcs angular
 
-/// Angles between which an arc lies, and the number of its legs.
+/// Range of angles of an arc, and the number of its legs.
 struct ArcSpan {
-  double from = 0;  ///< [rad]
-  double to = 0;    ///< [rad]
+  double from = 0;  ///< angle of the first corner from the x axis [rad]
+  double to = 0;    ///< angle of the last corner [rad]
   int legs = kCorners;
 };
 
+/// Appends the corners of an arc of an ellipse to a ring. `half_axes` are the half-axes along x and y [m].
 void add_arc(Point centre, Vector half_axes, const ArcSpan& arc, geometry::Ring& ring) {
   for (int i = 0; i <= arc.legs; ++i) {
     const double angle = arc.from + (arc.to - arc.from) * i / arc.legs;
@@ -34,6 +34,7 @@ void add_arc(Point centre, Vector half_axes, const ArcSpan& arc, geometry::Ring&
   }
 }
 
+/// Returns the corners of a pattern in its frame.
 geometry::Ring corners_of(const ManagingPilot& pilot) {
   const double far = pilot.distance + 0.5 * pilot.depth;
   const double near = pilot.distance - 0.5 * pilot.depth;
@@ -66,17 +67,17 @@ geometry::Ring corners_of(const ManagingPilot& pilot) {
 }  // namespace
 
 std::size_t PatternLine::leg_at(double place) const {
-  const auto after = std::upper_bound(way.begin() + 1, way.end() - 1, place);
-  return static_cast<std::size_t>(after - way.begin()) - 1;
+  const auto after = std::upper_bound(arc_length.begin() + 1, arc_length.end() - 1, place);
+  return static_cast<std::size_t>(after - arc_length.begin()) - 1;
 }
 
 Point PatternLine::at(double place) const {
   const std::size_t leg = leg_at(place);
-  return corners[leg] + (place - way[leg]) * direction(leg);
+  return corners[leg] + (place - arc_length[leg]) * direction(leg);
 }
 
 Vector PatternLine::direction(std::size_t leg) const {
-  return (corners[next(leg)] - corners[leg]) / (way[leg + 1] - way[leg]);
+  return (corners[next(leg)] - corners[leg]) / (arc_length[leg + 1] - arc_length[leg]);
 }
 
 bool PatternLine::is_sharp_after(std::size_t leg) const {
@@ -84,20 +85,21 @@ bool PatternLine::is_sharp_after(std::size_t leg) const {
 }
 
 PatternLine line_of(const ManagingPilot& pilot) {
-  constexpr double kShortest = 1e-3;  // of a leg [m]
+  constexpr double kShortest = 1e-3;  // shortest leg; nearer corners are merged [m]
   PatternLine line;
   for (const Point corner : corners_of(pilot))
     if (line.corners.empty() || distance(line.corners.back(), corner) > kShortest) line.corners.push_back(corner);
   while (line.corners.size() > 2 && distance(line.corners.back(), line.corners.front()) <= kShortest)
     line.corners.pop_back();
-  line.way.push_back(0);
+  line.arc_length.push_back(0);
   for (std::size_t i = 0; i < line.corners.size(); ++i)
-    line.way.push_back(line.way.back() + distance(line.corners[i], line.corners[line.next(i)]));
+    line.arc_length.push_back(line.arc_length.back() + distance(line.corners[i], line.corners[line.next(i)]));
   return line;
 }
 
 double least_distance(const PatternLine& line, double ahead) {
-  constexpr int kPlacesOnLap = 360;  // of a lap. Fewer: a near approach between two of them is missed
+  // Number of places on a lap that are compared; fewer may miss a near approach between two of them.
+  constexpr int kPlacesOnLap = 360;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kPlacesOnLap; ++i) {
     const double place = line.lap() * i / kPlacesOnLap;
@@ -106,31 +108,51 @@ double least_distance(const PatternLine& line, double ahead) {
   return least;
 }
 
-// ---- how ships go round them
+// ---- motion of ships on patterns
 
 namespace {
 
-constexpr double kLookAhead = 1.5;         ///< on the pattern, of the ship's length [-]
-constexpr double kTurnBefore = 0.5;        ///< from a sharp corner the ship turns, of its length [-]
-constexpr double kLeastDrift = 0.02;       ///< slower ice has no upstream of its own [m/s]
-constexpr double kSlowestInPattern = 0.5;  ///< to which a ship waits for others of its pattern, of its speed [-]
-constexpr double kFastestInPattern = 1.3;  ///< likewise, to catch up [-]
-constexpr double kPhaseGain = 4;           ///< of the speed by the phase's error in laps [-]
-constexpr double kLeastWayThrough = 1;     ///< a ship by the lever is taken to go at least so fast [m/s]
-constexpr double kHorizon = 120;           ///< within which a ship gives way [s]
-constexpr double kChoiceInterval = 10;     ///< between two looks at the floes [s]
-constexpr double kStationTime = 60;        ///< of closing the way to its station where there is no floe [s]
+/// Distance ahead on the pattern to which a ship steers, in ship lengths [-]. Smaller: the ship oscillates about the
+/// line. Larger: it cuts corners.
+constexpr double kLookAhead = 1.5;
+/// Distance before a sharp corner at which a ship begins to turn, in ship lengths [-]. Larger: it cuts the corner.
+/// Smaller: it overshoots the corner.
+constexpr double kTurnBefore = 0.5;
+/// Smallest drift of the ice from which the upstream direction is computed [m/s]. With a slower drift the last
+/// direction is kept.
+constexpr double kLeastDrift = 0.02;
+/// Smallest factor on its speed by which a ship waits for the other ships of its pattern [-]. Closer to 1: phases are
+/// corrected more slowly.
+constexpr double kSlowestInPattern = 0.5;
+/// Largest factor on its speed by which a ship catches up with the other ships [-]. Closer to 1: phases are corrected
+/// more slowly.
+constexpr double kFastestInPattern = 1.3;
+/// Change of that factor per error of the phase in laps [-]. Larger: phases are corrected sooner, and speeds vary more.
+constexpr double kPhaseGain = 4;
+/// Smallest speed through the water that is assumed of a ship whose lever is given [m/s]. It keeps the course defined
+/// for a ship that is stopped.
+constexpr double kLeastWayThrough = 1;
+/// Time ahead within which a ship gives way to another [s]. Longer: it also turns for ships that are far away. Shorter:
+/// it turns later and more sharply.
+constexpr double kHorizon = 120;
+/// Time between two choices of a floe [s]. Longer: a ship goes on to the next floe later. Shorter: costs time, because
+/// all floes are examined.
+constexpr double kChoiceInterval = 10;
+/// Time constant of approaching the station while there is no floe [s]. Shorter: the ship arrives faster and may
+/// overshoot.
+constexpr double kStationTime = 60;
 
-/// Where the protected body and the pattern are at an instant.
+/// Position and motion of the protected body and the pattern at an instant.
 struct Frame {
-  Point body;       ///< over ground [m]
-  Vector upstream;  ///< of length 1
-  Vector velocity;  ///< of the frame in which the pattern lies, over ground [m/s]
-  Vector water;     ///< at the ship, over ground [m/s]
+  Point body;       ///< position of the body; of a pattern that drifts, displaced with it [m]
+  Vector upstream;  ///< unit vector against the drift of the ice
+  Vector velocity;  ///< velocity of the pattern's frame over ground [m/s]
+  Vector water;     ///< velocity of the water at the ship over ground [m/s]
   Vector in_pattern(Vector v) const { return {dot(v, upstream), cross(upstream, v)}; }
   Vector over_ground(Vector v) const { return v.x * upstream + v.y * perpendicular(upstream); }
 };
 
+/// Returns the frame of a pattern, and stores its upstream direction.
 Frame frame_of(const ManagingPilot& pilot, const PilotView& view, PatternMemory& memory) {
   if (length(view.ice_drift) >= kLeastDrift) memory.upstream = angle_of(-view.ice_drift);
   const SeenHull& body = view.hulls[static_cast<std::size_t>(pilot.body_index)];
@@ -143,35 +165,37 @@ Frame frame_of(const ManagingPilot& pilot, const PilotView& view, PatternMemory&
   return frame;
 }
 
-/// Its place on the lap goes on to where the ship is on its leg, and to the next leg near the end.
+/// Advances the ship's place on the lap to the point of its leg that is abreast of it, and to the next leg near the end
+/// of the leg. `place` is in metres from the first corner; it becomes 0 when a lap is completed.
 void go_on(const PatternLine& line, Point ship, double own_length, double& place) {
   for (std::size_t legs = 0; legs < line.corners.size(); ++legs) {
     const std::size_t leg = line.leg_at(place);
-    const double length = line.way[leg + 1] - line.way[leg];
+    const double length = line.arc_length[leg + 1] - line.arc_length[leg];
     const double along = dot(ship - line.corners[leg], line.direction(leg));
     const double before = line.is_sharp_after(leg) ? std::min(kTurnBefore * own_length, 0.5 * length) : 0;
     if (along < length - before) {
-      place = std::max(place, line.way[leg] + along);
+      place = std::max(place, line.arc_length[leg] + along);
       return;
     }
-    place = leg + 1 < line.corners.size() ? line.way[leg + 1] : 0;
+    place = leg + 1 < line.corners.size() ? line.arc_length[leg + 1] : 0;
     if (place == 0) return;
   }
 }
 
-/// The point ahead on the line to which the ship steers: straight on beyond a sharp corner.
+/// Returns the point of the line to which a ship steers, at a distance ahead of its place [m]. Beyond a sharp corner
+/// the leg is extended straight.
 Point point_ahead(const PatternLine& line, double place, double ahead) {
   std::size_t leg = line.leg_at(place);
-  double left = line.way[leg + 1] - place;
+  double left = line.arc_length[leg + 1] - place;
   while (ahead > left && !line.is_sharp_after(leg)) {
     ahead -= left;
     leg = line.next(leg);
-    left = line.way[leg + 1] - line.way[leg];
+    left = line.arc_length[leg + 1] - line.arc_length[leg];
   }
   return line.corners[line.next(leg)] + (ahead - left) * line.direction(leg);
 }
 
-/// How fast to go beside the ships that share the pattern, each of which has its phase.
+/// Returns the factor on the speed of a ship that keeps its phase relative to the other ships of its pattern [-].
 double pace(const ManagingPilot& pilot, const PilotView& view, double own_place) {
   double error = 0;
   for (const PatternPartner& partner : pilot.partners) {
@@ -182,8 +206,8 @@ double pace(const ManagingPilot& pilot, const PilotView& view, double own_place)
   return std::clamp(1 + kPhaseGain * error, kSlowestInPattern, kFastestInPattern);
 }
 
-/// Velocity over ground along a direction in the pattern's frame: at a speed there, or by the lever's speed
-/// through the water.
+/// Returns the velocity over ground of a ship that moves along a direction in the frame of the pattern: at `share` of
+/// the speed given for that frame, or at its own speed through the water if the lever is given.
 Vector along(Vector direction, double share, const ManagingPilot& pilot, const PilotView& view, const Frame& frame) {
   if (pilot.speed > 0) return frame.velocity + share * pilot.speed * direction;
   const double through = std::max(view.through_water.surge, kLeastWayThrough);
@@ -192,6 +216,7 @@ Vector along(Vector direction, double share, const ManagingPilot& pilot, const P
   return frame.velocity + (dot(against, direction) + std::sqrt(through * through - across * across)) * direction;
 }
 
+/// Returns the velocity over ground of a ship that follows the line of a pattern, and updates its place on the lap.
 Vector on_pattern(const ManagingPilot& pilot, const PilotView& view, Frame& frame, PatternMemory& memory) {
   const PatternLine line = line_of(pilot);
   if (memory.lap_share < 0) memory.lap_share = pilot.phase;
@@ -208,19 +233,20 @@ Vector on_pattern(const ManagingPilot& pilot, const PilotView& view, Frame& fram
     }
     memory.carried += view.step * view.ice_drift;
   }
-  const Vector way = point_ahead(line, place, kLookAhead * view.own().length) - ship();
-  return along(frame.over_ground(way / std::max(length(way), 1e-9)), pace(pilot, view, share), pilot, view, frame);
+  const Vector course = point_ahead(line, place, kLookAhead * view.own().length) - ship();
+  return along(frame.over_ground(course / std::max(length(course), 1e-9)), pace(pilot, view, share), pilot, view,
+               frame);
 }
 
-/// Whether another ship is on its way to a floe.
+/// Returns true if another ship sails to a floe.
 bool is_taken(const PilotView& view, FloeId floe) {
   for (std::size_t i = 0; i < view.hulls.size(); ++i)
     if (static_cast<int>(i) != view.ship && view.hulls[i].target_floe == floe) return true;
   return false;
 }
 
-/// The largest floe within the pattern's box that no other ship goes to; the one at hand stays until it is
-/// broken, reached or past.
+/// Chooses the largest floe in the box of the pattern to which no other ship sails. The present floe is kept until it
+/// has broken, or has been reached, or has drifted out of the box.
 void choose_floe(const ManagingPilot& pilot, const PilotView& view, const Frame& frame, PatternMemory& memory) {
   const FloeId before = memory.target;
   const bool is_reached = length(memory.target_at - view.own().position_in_world) < kTurnBefore * view.own().length;
@@ -240,6 +266,7 @@ void choose_floe(const ManagingPilot& pilot, const PilotView& view, const Frame&
   }
 }
 
+/// Returns the velocity over ground of a ship that sails to the largest floe, or to its station while there is none.
 Vector to_largest_floe(const ManagingPilot& pilot, const PilotView& view, const Frame& frame, PatternMemory& memory) {
   memory.target_at += view.step * view.ice_drift;
   if (view.time >= memory.next_choice && view.floes) {
@@ -248,15 +275,16 @@ Vector to_largest_floe(const ManagingPilot& pilot, const PilotView& view, const 
   }
   const bool is_waiting = memory.target == kNoFloe;
   const Point station = frame.body + pilot.distance * frame.upstream;
-  const Vector way = (is_waiting ? station : memory.target_at) - view.own().position_in_world;
-  const double far = length(way);
+  const Vector course = (is_waiting ? station : memory.target_at) - view.own().position_in_world;
+  const double far = length(course);
   const double speed = pilot.speed > 0 ? pilot.speed : std::max(view.through_water.surge, kLeastWayThrough);
   const double share = is_waiting ? std::min(1.0, far / (kStationTime * speed)) : 1;
-  return along(way / std::max(far, 1e-9), share, pilot, view, frame);
+  return along(course / std::max(far, 1e-9), share, pilot, view, frame);
 }
 
-/// Turns a velocity so that it passes another hull at a distance at least: a ship with that to port, as both
-/// do; what stands to the side to which it passes already. Within that distance, away from it.
+/// Returns a velocity over ground that passes another hull at a distance of at least `distance` [m], turned as little
+/// as the rule of passing allows. The ship leaves another ship to port, as both do. It passes a hull that stands
+/// (`stands`) on the side on which it would pass anyway. Within the distance, it moves away.
 Vector clear_of(const SeenHull& other, bool stands, double distance, const PilotView& view, Vector velocity) {
   const Vector to_other = other.position_in_world - view.own().position_in_world;
   const double far = length(to_other);
@@ -273,6 +301,8 @@ Vector clear_of(const SeenHull& other, bool stands, double distance, const Pilot
   return other.velocity + speed * unit(angle_of(towards) + side * passes);
 }
 
+/// Returns a velocity over ground that keeps clear of all ships, of all structures and of the protected body, which is
+/// considered last.
 Vector clear_of_all(const ManagingPilot& pilot, const PilotView& view, Vector velocity) {
   const auto distance_to = [&](const SeenHull& other) {
     return pilot.safety_radius > 0 ? pilot.safety_radius : view.own().length + other.length;

@@ -11,22 +11,23 @@ using geometry::Vector;
 
 namespace {
 
-/// Diagonal coefficients in the axes of a mooring: along, across, about.
+/// Coefficients of a diagonal matrix in the axes of a mooring: along, across, about the vertical.
 using Diagonal = std::array<double, 3>;
 
-/// Such coefficients as a matrix in the axes of a ship. `to_ship` is the ship's rotation in the moored axes.
+/// Returns the matrix in the axes of a ship. `to_ship` is the ship's rotation in the moored axes.
 PlanarMatrix in_ship_axes(const Diagonal& d, Rotation to_ship) {
   const auto [c, s] = to_ship;
   const double shared = (d[1] - d[0]) * s * c;
   return {{{{d[0] * c * c + d[1] * s * s, shared, 0}, {shared, d[0] * s * s + d[1] * c * c, 0}, {0, 0, d[2]}}}};
 }
 
-/// θ of a damper of `damping` on `inertia`: the least weight from ½ on at which the damper alone does not reverse a
-/// velocity in a step.
+/// Returns the weight θ of a damper: the smallest value of at least ½ with which the damper alone does not reverse a
+/// velocity within a step of length dt [s].
 double weight_at_end(double damping, double inertia, double dt) {
   return dt * damping > 2 * inertia ? 1 - inertia / (dt * damping) : 0.5;
 }
 
+/// Returns the sum of the energies that moorings store at the offsets offset_of(mooring, ship) [J].
 template <class OffsetOf>
 double sum_of_stored(const Setup& setup, const Population& population, OffsetOf offset_of) {
   double sum = 0;

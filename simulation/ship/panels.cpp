@@ -13,15 +13,19 @@ using dynamics::Contact;
 using dynamics::Planar;
 using geometry::Point;
 
-/// How the panels of a hull lie.
+/// The division of a hull's waterline and height into panels.
 struct PanelGrid {
   const PanelSettings& settings;
   const Waterline& waterline;
+  /// Returns the number of columns on each side.
   int half_columns() const { return static_cast<int>(std::ceil(waterline.length / 2 / settings.length - 1e-9)); }
+  /// Returns the number of elements in each column: its rows, and one for the ice above and below them.
   std::size_t row_count() const { return static_cast<std::size_t>(settings.rows) + 1; }
   std::size_t size() const { return std::size_t{2} * static_cast<std::size_t>(half_columns()) * row_count(); }
+  /// Returns the index in HullPanels of the first element of a column.
   std::size_t first_of(int column) const { return static_cast<std::size_t>(column + half_columns()) * row_count(); }
-  /// The last ones are cut off where the two sides meet [m].
+  /// Returns the length of a column along the waterline [m]. The column farthest from the stem on each side ends where
+  /// the two sides meet.
   double length_of(int column) const {
     const double from = settings.length * (column < 0 ? -column - 1 : column);
     return std::min(settings.length, waterline.length / 2 - from);
@@ -29,8 +33,9 @@ struct PanelGrid {
   double row_height() const { return (settings.top - settings.bottom) / settings.rows; }
 };
 
-/// Calls use(column, share) for the parts of a stretch of the waterline that lie in each column. It may go past the
-/// place farthest from the stem.
+/// Calls use(column, share) for each column that contains a part of a stretch of the waterline, with that part as a
+/// fraction of the stretch. `from` and `to` are arc lengths from the stem [m]; `to` may lie beyond the place farthest
+/// from the stem.
 template <class Use>
 void for_columns(const PanelGrid& grid, double from, double to, Use use) {
   const double half = grid.waterline.length / 2;
@@ -40,7 +45,7 @@ void for_columns(const PanelGrid& grid, double from, double to, Use use) {
   };
   const double width = to - from;
   if (!(width > 1e-9)) return use(column_at(from > half ? from - 2 * half : from), 1.0);
-  const auto within = [&](double low, double high) {  // of −half to half
+  const auto within = [&](double low, double high) {  // arc lengths between −half and half
     for (int column = column_at(low); column <= column_at(high); ++column) {
       const double begin = column == column_at(low) ? low : column * grid.settings.length;
       const double end = column == column_at(high) ? high : (column + 1) * grid.settings.length;
@@ -51,13 +56,14 @@ void for_columns(const PanelGrid& grid, double from, double to, Use use) {
   if (to > half) within(std::max(from, half) - 2 * half, to - 2 * half);
 }
 
-/// Where the ice that presses on a hull begins and ends above the waterline [m].
+/// Range of heights of the ice that presses on a hull, above the water level [m].
 struct IceHeight {
   double bottom = 0;
   double top = 0;
 };
 
-/// Calls use(row, share) for the parts of the ice's height in each row; row `rows` is above and below them.
+/// Calls use(row, share) for each row that contains a part of the ice's height, with that part as a fraction of the
+/// height. The row number `rows` stands for the ice above and below all rows.
 template <class Use>
 void for_rows_of(const PanelGrid& grid, const IceHeight& ice, Use use) {
   const auto [bottom, top] = ice;
@@ -73,13 +79,15 @@ void for_rows_of(const PanelGrid& grid, const IceHeight& ice, Use use) {
   if (inside < 1 - 1e-12) use(grid.settings.rows, 1 - inside);
 }
 
+/// Adds the impulses of a contact with ice to the panels of its hull.
 void add_contact(const PanelGrid& grid, const dynamics::Bodies& bodies, const Contact& c, const IceHeight& ice,
                  HullPanels& panels) {
   const geometry::Pose pose = dynamics::water_from_body(bodies, c.a);
   const double full = grid.waterline.length;
   const std::array<double, 2> arc{arc_at(grid.waterline, inverse_transform(pose, c.ends[0])),
                                   arc_at(grid.waterline, inverse_transform(pose, c.ends[1]))};
-  std::array<int, 2> end{0, 1};  // from starboard to port, past the stem or past the place farthest from it
+  // The ends from starboard to port; the line may pass the stem or the place farthest from it.
+  std::array<int, 2> end{0, 1};
   if ((arc[0] > arc[1]) != (std::abs(arc[0] - arc[1]) > full / 2)) std::swap(end[0], end[1]);
   const double from = arc[end[0]], to = from + std::remainder(arc[end[1]] - from, full);
   const double middle = 0.5 * (from + to);
@@ -88,20 +96,20 @@ void add_contact(const PanelGrid& grid, const dynamics::Bodies& bodies, const Co
     const double normal = c.normal_impulse[end[half]];
     if (normal == 0) continue;
     const Planar load = planar_of(bodies, c.a, c.ends[end[half]], -normal * c.normal) +
-                        normal / c.total_normal_impulse() * slip;  // friction is where the ice presses
+                        normal / c.total_normal_impulse() * slip;  // friction acts where the ice presses
     for_columns(grid, half == 0 ? from : middle, half == 0 ? middle : to, [&](int column, double along) {
       for_rows_of(grid, ice, [&](int row, double up) {
         PanelLoads& panel = panels[grid.first_of(column) + static_cast<std::size_t>(row)];
-        panel.impulse += along * up * c.steady_share * load;
-        panel.carried_load += along * up * (1 - c.steady_share) * load;
-        panel.step += along * up * c.steady_share * normal;
-        panel.step_missed += along * up * (1 - c.steady_share) * normal;
+        panel.impulse += along * up * c.step_share * load;
+        panel.carried_load += along * up * (1 - c.step_share) * load;
+        panel.step += along * up * c.step_share * normal;
+        panel.step_missed += along * up * (1 - c.step_share) * normal;
       });
     });
   }
 }
 
-/// Books what the contacts gave a panel in a step of length dt [s].
+/// Adds the impulses of a step of length dt [s] to the sums of a panel.
 void book_step(PanelLoads& panel, double dt) {
   const double carried = panel.carried.impulse + panel.step_missed;
   if (panel.step == 0 && carried == 0) return;

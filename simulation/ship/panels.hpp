@@ -15,31 +15,33 @@ struct Population;
 struct Setup;
 struct StepData;
 
-/// What the ice does to a panel of a hull over a recording interval, in the hull's frame.
+/// Loads of the ice on a panel of a hull over a recording interval, in the hull's frame.
 struct PanelLoads {
-  dynamics::Planar impulse;       ///< [N s, N m s]
-  double normal = 0;              ///< along the normals of its contacts [N s]
-  double largest = 0;             ///< of that, in a single step, as a force [N]
-  double loaded = 0;              ///< how long it pressed [s]
-  CarriedLoad carried;            ///< of normal, what was missed before contacts were found
-  dynamics::Planar carried_load;  ///< of impulse, the same [N s, N m s]
-  double step = 0;                ///< along the normals in the present step, without what was missed [N s]
-  double step_missed = 0;         ///< what was missed [N s]
+  dynamics::Planar impulse;       ///< impulse on the panel [N s, N m s]
+  double normal = 0;              ///< impulse along the normals of its contacts [N s]
+  double largest = 0;             ///< largest force along the normals in a single step [N]
+  double loaded = 0;              ///< time during which ice pressed on the panel [s]
+  CarriedLoad carried;            ///< part of `normal` that was missed before contacts were found and is not booked yet
+  dynamics::Planar carried_load;  ///< the same part of `impulse` [N s, N m s]
+  double step = 0;                ///< impulse along the normals in the present step, without the missed part [N s]
+  double step_missed = 0;         ///< missed part found in the present step [N s]
 };
 
-/// Those of one hull: columns from the farthest to starboard on, the rows of each from the bottom, then what acts above
-/// and below all rows.
+/// The loads of all panels of one hull. Columns are ordered from the farthest to starboard to the farthest to port.
+/// Each column has its rows from the bottom, followed by one element for the ice above and below all rows.
 using HullPanels = std::vector<PanelLoads>;
 
-/// Empty, for each hull; of one without panels no loads.
+/// Returns the loads of all hulls, which are 0. A hull without panels has an empty list.
 std::vector<HullPanels> panels_of(const Setup& setup);
 
-/// Adds the step's contacts with ice. A contact's impulse is spread over its width, each end's evenly over its half,
-/// and over the height of the ice that presses. While the hulls are where they were when the contacts were found.
+/// Adds the contacts with ice of a step. The normal impulse of each end is spread evenly over its half of the contact
+/// line, and over the height of the ice that presses. Must be called before the hulls move, because contacts are in the
+/// positions at which they were found.
 void load_panels(const Setup& setup, const Step& step, const Population& population, const StepData& data,
                  std::vector<HullPanels>& panels);
 
-/// Records the panels that ice pressed in the interval [s] that ends now, and begins the next.
+/// Records the panels on which ice pressed in the interval that ends now, of the given length [s], and starts the next
+/// interval.
 void sample_panels(const Setup& setup, const Clock& clock, double interval, std::vector<HullPanels>& panels,
                    Journal& journal);
 

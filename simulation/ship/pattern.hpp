@@ -5,28 +5,33 @@
 
 namespace polynya::simulation {
 
-// Where patterns of ice management lead. In a pattern's axes x runs upstream from the protected body, against the
-// drift of the ice, and y across it, to port of upstream.
+// The lines along which ships sail that manage ice. In the frame of a pattern, x runs upstream from the protected body,
+// against the drift of the ice, and y runs across it, to port of a ship that heads upstream.
 
-/// A closed line: the corners of a pattern in their order, and the way to each from the first one.
+/// A closed line: the corners of a pattern in their order, and the distance along the line from the first corner to
+/// each.
 struct PatternLine {
   geometry::Ring corners;
-  std::vector<double> way;  ///< one more than corners: the last is the lap's length [m]
+  std::vector<double> arc_length;  ///< distance to each corner; the last element is the length of the whole lap [m]
 
-  double lap() const { return way.back(); }
+  double lap() const { return arc_length.back(); }
   std::size_t next(std::size_t corner) const { return (corner + 1) % corners.size(); }
-  /// The leg, from its corner to the next, that a place on the lap is on; 0 ≤ place < lap [m].
+  /// Returns the number of the leg that contains a place on the lap, 0 ≤ place < lap [m]. Leg i runs from corner i to
+  /// the next.
   std::size_t leg_at(double place) const;
+  /// Returns the point at a place on the lap [m].
   geometry::Point at(double place) const;
-  geometry::Vector direction(std::size_t leg) const;  ///< of length 1
-  /// Whether a ship turns about at a leg's end, by more than 60°, in place of going round.
+  geometry::Vector direction(std::size_t leg) const;  ///< unit vector along a leg
+  /// Returns true if the direction changes by more than 60° at the end of a leg, so that a ship turns there instead of
+  /// following a curve.
   bool is_sharp_after(std::size_t leg) const;
 };
 
-/// Of a pattern other than kLargestFloe.
+/// Returns the line of a pattern. The pattern kLargestFloe has none; its result is not used.
 PatternLine line_of(const ManagingPilot& pilot);
 
-/// How near two ships come that go round a pattern together, one by a share of a lap ahead of the other [m].
+/// Returns the smallest distance between two ships that sail round a pattern together, one of them ahead by a fraction
+/// of a lap [m].
 double least_distance(const PatternLine& line, double ahead);
 
 }  // namespace polynya::simulation

@@ -12,16 +12,27 @@ namespace {
 using geometry::Point;
 using geometry::Vector;
 
-constexpr double kSpeedTime = 20;        ///< of closing an error of speed [s]
-constexpr double kHeadingGain = 3;       ///< steering angle over error of heading [-]
-constexpr double kHeadingDamping = 0.7;  ///< of critical [-]
-constexpr double kLeastGain = 1e-6;      ///< of steering that can be used [1/s²]
-constexpr double kLeastWay = 0.3;        ///< slower, the course over ground means nothing [m/s]
-constexpr double kDriftTime = 60;        ///< of smoothing the drift angle [s]
-constexpr double kTurning = 0.1;         ///< length over radius of a turn [-]
-constexpr double kGapTime = 60;          ///< of closing an error of distance to a leader [s]
+constexpr double kSpeedTime = 20;  ///< Time constant of closing an error of speed [s]. Shorter: the lever moves more.
+/// Steering angle per error of heading [-]. Larger: faster turns, and the steering reaches its stops more often.
+constexpr double kHeadingGain = 3;
+/// Damping of the heading control, as a fraction of critical damping [-]. Smaller values overshoot.
+constexpr double kHeadingDamping = 0.7;
+/// Smallest yaw acceleration per angle at which the steering is used [1/s²]. Below it the ship hardly moves, and the
+/// steering has no effect.
+constexpr double kLeastGain = 1e-6;
+/// Smallest speed over ground at which the course over ground is used [m/s]. At lower speeds its direction is
+/// arbitrary.
+constexpr double kLeastWay = 0.3;
+/// Time constant with which the drift angle is smoothed [s]. Shorter: the heading follows single floes.
+constexpr double kDriftTime = 60;
+/// Length of the ship over the radius of its turn above which it counts as turning [-]. Its drift angle is then not due
+/// to the current. Larger values mix the drift angles of turns into that of the current.
+constexpr double kTurning = 0.1;
+/// Time constant of closing an error of the distance to a leader [s]. Shorter: the speed follows the error more closely
+/// and may overshoot.
+constexpr double kGapTime = 60;
 
-/// The lever that gives a thrust.
+/// Returns the lever that gives a thrust [N] at rest; thrust is proportional to the power 2/3 of the lever.
 double lever_for(const dynamics::Engine& engine, double thrust) {
   const double most = thrust < 0 ? engine.astern_share * engine.bollard_pull : engine.bollard_pull;
   if (most <= 0) return 0;
@@ -61,6 +72,7 @@ double steering_to_hold(double heading, const PilotView& view) {
 
 namespace {
 
+/// Returns a heading of the scene, or the heading at the start if the scene gives none (kAsAtStart).
 double chosen(double heading, const PilotMemory& memory) {
   return std::isfinite(heading) ? heading : memory.heading;
 }
@@ -77,7 +89,7 @@ Command steer(const HeadingPilot& pilot, const PilotView& view, PilotMemory& mem
   return {pilot.lever, steering_to_hold(chosen(pilot.heading, memory), view)};
 }
 
-/// Goes on to the next waypoint where the ship has reached or passed one.
+/// Selects the next waypoint when the ship has reached or passed one.
 void go_on(const RoutePilot& pilot, const PilotView& view, PilotMemory& memory) {
   const auto count = static_cast<std::int32_t>(pilot.waypoints.size());
   while (memory.waypoint < count) {
@@ -90,8 +102,8 @@ void go_on(const RoutePilot& pilot, const PilotView& view, PilotMemory& memory) 
   }
 }
 
-/// The angle from the ship's heading to its course over ground, smoothed: to port positive. In a turn it is
-/// the turn's own, and is left out.
+/// Returns the smoothed angle from the ship's heading to its course over ground, positive to port [rad]. It is not
+/// updated in a turn, whose own drift angle is not due to the current.
 double drift_angle(const PilotView& view, PilotMemory& memory) {
   const SeenHull& own = view.own();
   const bool is_turning = std::abs(view.through_water.yaw) * own.length > kTurning * view.speed_over_ground;
@@ -102,11 +114,13 @@ double drift_angle(const PilotView& view, PilotMemory& memory) {
   return memory.drift_angle;
 }
 
-/// Line of sight [Fossen2011]: over ground towards a point of the leg a look-ahead ahead.
+/// Steers by line of sight [Fossen2011]: the course over ground leads to the point of the leg that is `ahead` metres
+/// farther along it.
 Command steer(const RoutePilot& pilot, const PilotView& view, PilotMemory& memory) {
   const Point leg_from = memory.from;
   go_on(pilot, view, memory);
-  if (memory.waypoint >= static_cast<std::int32_t>(pilot.waypoints.size())) {  // there: stops on its course
+  // The ship stops on its course after the last waypoint.
+  if (memory.waypoint >= static_cast<std::int32_t>(pilot.waypoints.size())) {
     const double course = angle_of(memory.from - leg_from);
     if (memory.from != leg_from) memory.heading = course;
     return {lever_to_hold(0, view, memory), steering_to_hold(memory.heading, view)};
@@ -134,7 +148,7 @@ Command steer(const RammingPilot& pilot, const PilotView& view, PilotMemory& mem
   return ram(pilot, chosen(pilot.heading, memory), view, memory);
 }
 
-/// To where the leader's stern is, as fast as the leader and by the error of the distance.
+/// Steers to the leader's stern. The speed is the leader's, corrected by the error of the distance.
 Command steer(const FollowingPilot& pilot, const PilotView& view, PilotMemory& memory) {
   const SeenHull& own = view.own();
   const SeenHull& leader = view.hulls[static_cast<std::size_t>(pilot.leader)];

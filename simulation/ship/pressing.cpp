@@ -18,14 +18,17 @@ using geometry::Vector;
 
 namespace {
 
-/// Faces shorter than this, and tips nearer to the contact line, are none [m].
+/// Shortest face of a corner, and least distance of its tip from the contact line [m]. Smaller ones are rounding errors
+/// and do not count as corners.
 constexpr double kLeastFace = 1e-9;
 
-/// Whether a face of a body belongs to a ship's stern: its normal is within 60° of straight aft.
+/// Returns true if a face of a body belongs to the stern of a ship: its normal is within 60° of straight aft.
 bool is_aft(const dynamics::Bodies& bodies, BodyIndex by, Vector normal) {
   return bodies.kind[by] == dynamics::BodyKind::kShip && dot(normal, rotate(bodies.rotation[by], {1, 0})) < -0.5;
 }
 
+/// Returns a face of a corner, from an end of the contact line to the tip, with its normal into the floe and the speeds
+/// of the other body along it and away from it.
 fracture::Face face_of(const dynamics::Bodies& bodies, const Contact& c, BodyIndex floe, Point end, Point tip) {
   const BodyIndex by = other_of(c, floe);
   const Point middle = midpoint(end, tip);
@@ -37,7 +40,8 @@ fracture::Face face_of(const dynamics::Bodies& bodies, const Contact& c, BodyInd
   return {middle, normal, dot(relative, perpendicular(normal)), leaving};
 }
 
-/// The pushes of a contact where the other body's corner is in the floe.
+/// Returns the two pushes of a contact at which a corner of the other body is inside the floe; nullopt if there is no
+/// such corner.
 std::optional<std::array<Push, 2>> corner_pushes(const dynamics::Bodies& bodies, const Contact& c, BodyIndex floe,
                                                  Vector force, double friction) {
   const Point tip = floe == c.b ? c.tip_of_a : c.tip_of_b;
@@ -47,7 +51,8 @@ std::optional<std::array<Push, 2>> corner_pushes(const dynamics::Bodies& bodies,
       force, {face_of(bodies, c, floe, c.ends[0], tip), face_of(bodies, c, floe, c.ends[1], tip)}, friction);
 }
 
-/// A crack between two contacts starts on the way between them, across it, to where they push.
+/// Adds the place of a crack between two contacts: the middle of the line between them, in the direction across it to
+/// which they push.
 void add_mouth_between(const PressedContact& p, const PressedContact& q, std::vector<CrackMouth>& mouths) {
   const Point at_p = p.contact->centre_of_pressure();
   const Point at_q = q.contact->centre_of_pressure();
@@ -62,7 +67,7 @@ void add_mouth_between(const PressedContact& p, const PressedContact& q, std::ve
 }  // namespace
 
 Vector force_on(const Contact& c, BodyIndex floe, double dt) {
-  Vector force = (c.steady_share / dt) * c.impulse_on_b();
+  Vector force = (c.step_share / dt) * c.impulse_on_b();
   if (c.is_broken) {
     const double total = c.total_normal_impulse();
     const double slip = total > 0 ? c.slip_impulse / total : 0;
@@ -73,10 +78,10 @@ Vector force_on(const Contact& c, BodyIndex floe, double dt) {
 
 double opening_bound(const Setup& setup, const Step& step, std::span<const Contact> contacts) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  constexpr double kLeast = 1e-3;  // of a sine: below, rounding shows
+  constexpr double kLeast = 1e-3;  // smallest sine for which the bound is not dominated by rounding [-]
   const double friction = setup.scene.ice.friction;
   double sum = 0;
-  double half_sine = 0.5 * std::numbers::sqrt2, half_cosine = half_sine;  // of half of the sharpest corner
+  double half_sine = 0.5 * std::numbers::sqrt2, half_cosine = half_sine;  // of half of the angle of the sharpest corner
   for (const Contact& c : contacts) {
     const double slip = c.friction * c.friction;
     const double normal = normal_force_of(c, step.length);

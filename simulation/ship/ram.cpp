@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "elementary/elementary.hpp"
-
 #include "simulation/ship/pilot.hpp"
 
 namespace polynya::simulation {
@@ -12,12 +11,14 @@ namespace {
 /// Returns true if the ship has not moved for so long that another order is needed. A ship that still slows down
 /// from the order before moves, and is not stuck; nor is one whose lever is still on its way to the order.
 bool is_stuck(const RammingPilot& pilot, double ordered, const PilotView& view, PilotMemory& memory) {
-  constexpr double kAtOrder = 1e-6;  // of the lever: what rounding leaves of an order
+  // Difference of the lever from its order that counts as none, because of rounding [-].
+  constexpr double kAtOrder = 1e-6;
   const bool stands = std::abs(view.speed_over_ground) <= pilot.stuck_speed;
   if (!stands || std::abs(view.lever - ordered) > kAtOrder) memory.slow_since = view.time;
   return view.time - memory.slow_since >= pilot.stuck_time;
 }
 
+/// Orders the engine astern, and stores where the ship is stuck.
 void turn_astern(const PilotView& view, PilotMemory& memory) {
   memory.is_backing = true;
   memory.stuck_at = view.own().position_in_world;
@@ -27,8 +28,11 @@ void turn_astern(const PilotView& view, PilotMemory& memory) {
 /// Returns the distance that the ship still goes astern if the engine is ordered ahead now [m]. The lever moves at its
 /// rate, and the thrust and the resistance of open water stop the ship. Returns 0 if the engine or the mass is unknown.
 double distance_to_stop(const PilotView& view, double lever_ahead) {
-  constexpr double kStep = 0.5;      // of the prediction [s]; larger: the ship backs by up to a step's way more or less
-  constexpr double kLongest = 1200;  // prediction [s], for an engine that hardly pushes
+  // Time step of the prediction [s]; with a larger one the ship may back by up to a step's distance too far or too
+  // little.
+  constexpr double kStep = 0.5;
+  // Longest time of the prediction [s], which ends it for an engine that hardly pushes.
+  constexpr double kLongest = 1200;
   const dynamics::Engine& engine = view.engine;
   if (view.mass <= 0 || engine.bollard_pull <= 0 || engine.open_water_speed <= 0) return 0;
   double speed = view.speed_over_ground, lever = view.lever, distance = 0;
@@ -47,6 +51,7 @@ bool has_backed(const RammingPilot& pilot, double heading, const PilotView& view
   return backed + distance_to_stop(view, pilot.lever_ahead) >= wanted;
 }
 
+/// Orders the engine ahead, and counts the charge.
 void turn_ahead(PilotMemory& memory) {
   memory.is_backing = false;
   ++memory.rams;
@@ -55,7 +60,9 @@ void turn_ahead(PilotMemory& memory) {
 /// Returns the heading that leads back to the line on which the ship was last stuck, so that it charges in the channel
 /// that it has broken. Astern it is the line's own.
 double heading_on_line(double heading, const PilotView& view, const PilotMemory& memory) {
-  constexpr double kLookAheadOnLine = 1.5;  // along the line, of the ship's length; less: it turns sharply to the line
+  // Distance ahead on the line towards which the ship steers, in ship lengths [-]; with a smaller one it turns sharply
+  // to the line.
+  constexpr double kLookAheadOnLine = 1.5;
   if (memory.is_backing) return heading;
   const geometry::Point on_line = memory.rams > 0 ? memory.stuck_at : memory.from;
   const double offset = cross(unit(heading), view.own().position_in_world - on_line);

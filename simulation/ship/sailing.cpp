@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "elementary/elementary.hpp"
-
 #include "simulation/ship/mooring.hpp"
 #include "simulation/world/step.hpp"
 
@@ -14,28 +13,33 @@ using dynamics::Planar;
 using dynamics::PlanarMatrix;
 using geometry::Vector;
 
+/// Returns a velocity in a ship's axes, with the angular velocity as yaw rate.
 Planar in_ship(geometry::Rotation rotation, Vector velocity, double angular_velocity) {
   const Vector v = rotate_back(rotation, velocity);
   return {v.x, v.y, angular_velocity};
 }
 
-/// A ship in a step, in the ship's axes, which stand still while impulses act.
+/// A ship in a step, in the ship's axes at the start of the step, which do not turn while impulses act.
 struct ShipInStep {
-  double mass = 0;     ///< [kg]
-  double moment = 0;   ///< [kg m²]
-  Planar now;          ///< ν with the step's other impulses, in the water frame
-  Planar start;        ///< ν before them
-  Planar before_turn;  ///< ν in the ship's axes of the step before: it is there that the water had it
-  Planar of_current;   ///< of the water around it
-  Planar of_ground;    ///< of the ground
+  double mass = 0;    ///< mass of the ship [kg]
+  double moment = 0;  ///< moment of inertia of the ship [kg m²]
+  Planar now;         ///< velocity ν after the step's other impulses, in the water frame [m/s, rad/s]
+  Planar start;       ///< velocity at the start of the step, before these impulses [m/s, rad/s]
+  /// Velocity at the start, in the ship's axes of the previous step, in which the momentum of the added mass was
+  /// computed [m/s, rad/s].
+  Planar before_turn;
+  Planar of_current;  ///< velocity of the current around the ship [m/s, rad/s]
+  Planar of_ground;   ///< velocity of the ground in the water frame [m/s, rad/s]
 };
 
-/// The turn of a ship in the step before [rad]. A mooring's ship turns by its mean motion (sail_ship), so it is kept.
+/// Returns the angle by which a ship turned in the previous step [rad]. A moored ship turns by the mean of two yaw
+/// rates (sail_ship), so its angle is stored.
 double last_turn(const Setup& setup, const Step& step, const Population& population, const ShipMotion& start,
                  BodyIndex i) {
   return setup.scene.ships[i].mooring ? population.helms[i].last_turn : start.angular_velocity * step.length;
 }
 
+/// Returns the velocities of ship i in the step. `start` is its motion at the start of the step.
 ShipInStep ship_of(const Setup& setup, const Step& step, const Population& population, const ShipMotion& start,
                    BodyIndex i) {
   const dynamics::Bodies& bodies = population.bodies;
@@ -53,12 +57,12 @@ ShipInStep ship_of(const Setup& setup, const Step& step, const Population& popul
   return ship;
 }
 
-/// Where the ship of a mooring is at the start of the step.
+/// Returns the offset of a moored ship at the start of the step.
 Offset offset_at_start(const MooringSettings& mooring, const Step& step, const dynamics::Bodies& bodies, BodyIndex i) {
   return offset_from(mooring, bodies.position[i] + step.begin.drift, bodies.angle[i]);
 }
 
-/// The forces on a ship in a step.
+/// Forces on a ship in a step, in its axes.
 struct Forces {
   Planar engine;
   Planar rudder;
@@ -66,6 +70,8 @@ struct Forces {
   MooringForce mooring;
 };
 
+/// Returns the forces on ship i. Engine and rudder act with their forces at the start of the step; the forces of water
+/// and mooring are linear in the velocity at its end.
 Forces forces_on(const Setup& setup, const Step& step, const Population& population, const ShipInStep& ship,
                  BodyIndex i) {
   const Sailing& sailing = setup.sailing[i];
@@ -93,8 +99,8 @@ Forces forces_on(const Setup& setup, const Step& step, const Population& populat
   return forces;
 }
 
-/// ν at the end of the step: (M + A + Δt D) ν⁺ = M ν + A ν_b + Δt F, ν with the step's other impulses, ν_b in
-/// the ship's axes of the step before (docs/theory/ship.md).
+/// Returns the velocity at the end of the step: (M + A + Δt D) ν⁺ = M ν + A ν_b + Δt F, with the velocity ν after the
+/// step's other impulses, and ν_b in the ship's axes of the previous step (docs/theory/ship.md).
 Planar solved_motion(const ShipInStep& ship, const PlanarMatrix& added_mass, const Forces& forces, double dt) {
   const PlanarMatrix inertia = PlanarMatrix{{{{ship.mass, 0, 0}, {0, ship.mass, 0}, {0, 0, ship.moment}}}};
   const MooringForce& mooring = forces.mooring;
@@ -110,7 +116,8 @@ struct MooringImpulses {
   Planar damper;
 };
 
-/// Enters an impulse on a ship, and returns its work at the mean of the velocities before and after [J].
+/// Adds an impulse in the ship's axes to a flow of momentum in the accounts, and returns its work at the mean of the
+/// velocities before and after [J].
 double enter(Planar impulse, Planar mean, geometry::Rotation rotation, Vector& momentum, AuditSums& audit) {
   const Vector in_water = rotate(rotation, {impulse.surge, impulse.sway});
   momentum += in_water;
@@ -118,8 +125,8 @@ double enter(Planar impulse, Planar mean, geometry::Rotation rotation, Vector& m
   return dot(impulse, mean);
 }
 
-/// Enters the work of a mooring. The ship's motion over ground works on spring and damper, that of the ground in the
-/// water frame on the ship.
+/// Adds the work of a mooring to the accounts. The ship's motion over ground does work on spring and damper; the motion
+/// of the ground in the water frame does work on the ship.
 void enter_mooring(const MooringImpulses& impulses, Planar mean, const ShipInStep& ship, MooringFlows& flows) {
   const Planar over_ground = mean - ship.of_ground;
   const double given = dot(impulses.spring, over_ground);
@@ -128,14 +135,16 @@ void enter_mooring(const MooringImpulses& impulses, Planar mean, const ShipInSte
   flows.ground += dot(impulses.spring + impulses.damper, ship.of_ground);
 }
 
+/// Adds the impulses on a ship and their work to the accounts. `mean` is the mean of the velocities before and after.
 void enter_all(const SailingLoads& impulses, Planar mean, geometry::Rotation rotation, AuditSums& audit) {
   MomentumFlows& momentum = audit.momentum;
   audit.energy.thrust += enter(impulses.engine, mean, rotation, momentum.thrust, audit);
-  enter(impulses.mooring, mean, rotation, momentum.held, audit);  // its work: enter_mooring
+  enter(impulses.mooring, mean, rotation, momentum.held, audit);  // its work is added by enter_mooring()
   audit.energy.drag -= enter(impulses.water, mean, rotation, momentum.water, audit) +
                        enter(impulses.rudder, mean, rotation, momentum.water, audit);
 }
 
+/// Adds the impulses of a step to the sums of a recording interval.
 void add(const SailingLoads& of_step, SailingLoads& sum) {
   sum.water += of_step.water;
   sum.engine += of_step.engine;
@@ -143,7 +152,7 @@ void add(const SailingLoads& of_step, SailingLoads& sum) {
   sum.mooring += of_step.mooring;
 }
 
-/// Where the ship of a mooring is at the end of a step in which it moves by the mean of its velocities.
+/// Returns the offset of a moored ship at the end of a step in which it moves by the mean of its velocities.
 Offset offset_at_end(const MooringSettings& mooring, const Step& step, const dynamics::Bodies& bodies, Planar mean,
                      BodyIndex i) {
   const Vector velocity = rotate(bodies.rotation[i], {mean.surge, mean.sway}) + step.water_velocity;
@@ -151,8 +160,8 @@ Offset offset_at_end(const MooringSettings& mooring, const Step& step, const dyn
                      bodies.angle[i] + step.length * mean.yaw);
 }
 
-/// The horizontal force of a mooring at an offset [N]: that of the spring there, and the mean one of the damper over
-/// the step, `damped` in the axes of a ship.
+/// Returns the horizontal force of a mooring [N]: of its spring at an offset, and of its damper as a mean over the
+/// step. `damped` is the force of the damper in the ship's axes.
 double horizontal_force(const MooringSettings& mooring, const Offset& offset, Planar damped,
                         geometry::Rotation rotation) {
   const Vector in_world = rotate(rotation, {damped.surge, damped.sway});
@@ -161,7 +170,8 @@ double horizontal_force(const MooringSettings& mooring, const Offset& offset, Pl
                            in_mooring.y - mooring.sway_stiffness * offset.shift.y);
 }
 
-/// The mooring breaks at the end of the step where it holds the ship with more than it can. What it stores is lost.
+/// Breaks a mooring at the end of the step if its force exceeds its break load. The energy that it stores is added to
+/// `lost`, and the event to `breaks`.
 void break_mooring(const MooringSettings& mooring, const Step& step, const Offset& offset, double force, BodyIndex i,
                    Population& population, double& lost, std::vector<Event>& breaks) {
   if (mooring.break_load <= 0 || force <= mooring.break_load) return;
@@ -174,13 +184,15 @@ void break_mooring(const MooringSettings& mooring, const Step& step, const Offse
   breaks.push_back({helm.adrift_since, i, place, MooringBreak{offset.shift, force, mooring.break_load}});
 }
 
-/// Makes the way of a moored ship in the step that of the mean motion in place of the new one, which integrate() adds
-/// to it: x⁺ = x + ½Δt (v + v⁺). Its mooring so takes up what its work takes from the ship.
+/// Corrects the displacement of a moored ship in the step, so that it is the one of the mean velocity after integrate()
+/// has added the one of the new velocity: x⁺ = x + ½Δt (v + v⁺). With this displacement, the mooring stores exactly the
+/// energy that its work takes from the ship.
 void move_by_mean(double dt, const ShipMotion& before, BodyIndex i, dynamics::Bodies& bodies) {
   move_body(bodies, i, 0.5 * dt * (before.velocity - bodies.velocity[i]),
             0.5 * dt * (before.angular_velocity - bodies.angular_velocity[i]));
 }
 
+/// Adds the work of a mooring to the accounts, and breaks it if its force is too large.
 void follow_mooring(const MooringSettings& mooring, const Step& step, const ShipInStep& ship, Planar mean,
                     const MooringImpulses& impulses, BodyIndex i, Population& population, MooringFlows& flows,
                     std::vector<Event>& breaks) {
@@ -191,6 +203,8 @@ void follow_mooring(const MooringSettings& mooring, const Step& step, const Ship
   break_mooring(mooring, step, offset, force, i, population, flows.breaking, breaks);
 }
 
+/// Moves ship i by the forces of water, engine, steering and mooring in the step, and adds their impulses and work to
+/// its loads and to the accounts. For a ship of prescribed motion only the loads are computed.
 void sail_ship(const Setup& setup, const Step& step, const ShipMotion& start, BodyIndex i, Population& population,
                Accounts& accounts, std::vector<Event>& mooring_breaks) {
   dynamics::Bodies& bodies = population.bodies;
@@ -237,6 +251,7 @@ dynamics::MainDimensions dimensions_of(const Ship& ship, double water_density) {
 
 namespace {
 
+/// Returns the hull of a ship in the water. `engine` is null for a ship without an engine.
 dynamics::HullInWater hull_in_water(const Ship& ship, const dynamics::Engine* engine, double density) {
   const geometry::Box box = bounding_box(ship.hull.waterline);
   const dynamics::MainDimensions dimensions = dimensions_of(ship, density);
@@ -256,7 +271,8 @@ dynamics::HullInWater hull_in_water(const Ship& ship, const dynamics::Engine* en
   return hull;
 }
 
-/// The rudders of a ship. One of two propellers stands on the centreline, between their races.
+/// Returns the rudders of a ship. A single rudder of a ship with two propellers stands on the centreline, between their
+/// races. `position` is the x of the rudders in the ship's frame [m].
 dynamics::Rudder rudder_of(const RudderSettings& settings, const Engine* engine, double position) {
   const int propellers = engine ? engine->propellers : 1;
   dynamics::Rudder rudder{.area = settings.area, .aspect_ratio = settings.aspect_ratio, .position = position};
@@ -292,7 +308,7 @@ Sailing sailing_of(const Ship& ship, double water_density) {
   return sailing;
 }
 
-void keep_motion(const Population& population, StepData& data) {
+void store_motion(const Population& population, StepData& data) {
   data.start.resize(population.helms.size());
   for (std::size_t ship = 0; ship < data.start.size(); ++ship)
     data.start[ship] = {population.bodies.velocity[ship], population.bodies.angular_velocity[ship]};

@@ -9,21 +9,24 @@
 
 namespace polynya::simulation {
 
-/// What moves a ship beside ice and other ships: computed once, from its scene.
+/// Data of a ship's motion through the water: hull, engine, steering. They are computed once from the scene.
 struct Sailing {
-  bool is_active = false;      ///< any of the following
-  dynamics::HullInWater hull;  ///< without any force where no water acts on it
+  bool is_active = false;      ///< true if the ship has water around its hull, an engine or a mooring (sails)
+  dynamics::HullInWater hull;  ///< hull in the water; without any force if no water acts on it
   std::optional<dynamics::Engine> engine;
   std::optional<dynamics::Rudder> rudder;
   double stern = 0;          ///< x of rudder or thrusters from the centre of gravity [m]
-  double steering_rate = 0;  ///< [rad/s]
-  double steering_most = 0;  ///< to either side; 0: nothing to steer with [rad]
+  double steering_rate = 0;  ///< rate at which rudder or thrusters turn [rad/s]
+  double steering_most = 0;  ///< largest angle to either side; 0 for a ship that cannot be steered [rad]
+  /// True if the ship has thrusters that turn instead of rudders.
   bool has_azimuth = false;
 };
 
-/// L, B, T and C_B of a ship; C_B from its mass where it is not given.
+/// Returns length, beam, draught and block coefficient of a ship. The block coefficient follows from the mass if the
+/// scene does not give it. `water_density` is in kg/m³.
 dynamics::MainDimensions dimensions_of(const Ship& ship, double water_density);
 
+/// Returns the data of a ship's motion. They are empty for a ship that does not sail.
 Sailing sailing_of(const Ship& ship, double water_density);
 
 }  // namespace polynya::simulation

@@ -7,13 +7,14 @@ namespace {
 
 using geometry::Vector;
 
-/// A wall that presses, in a step.
+/// A wall that presses on the ice, with its body and its present normal.
 struct PressingWall {
   const Wall& wall;
   BodyIndex body = 0;
-  Vector normal;  ///< into the ice
+  Vector normal;  ///< unit normal into the ice
 };
 
+/// Calls use(wall) for each wall that presses.
 template <class Use>
 void for_pressing(const Setup& setup, const Population& population, Use use) {
   auto body = population.hull_count - static_cast<BodyIndex>(setup.scene.walls.size());
@@ -24,7 +25,7 @@ void for_pressing(const Setup& setup, const Population& population, Use use) {
   }
 }
 
-/// Changes a wall's velocity, and enters the impulse that this takes.
+/// Sets the velocity of a wall, and adds the impulse and the work of the change to the accounts.
 void change_velocity(Vector to, BodyIndex wall, dynamics::Bodies& bodies, AuditSums& audit) {
   const Vector before = bodies.velocity[wall];
   const Vector impulse = bodies.mass[wall] * (to - before);
@@ -54,8 +55,9 @@ void follow_water(const Setup& setup, const Step& step, Population& population, 
 void press_walls(const Setup& setup, const Step& step, Population& population, AuditSums& audit) {
   for_pressing(setup, population, [&](const PressingWall& p) {
     dynamics::Bodies& bodies = population.bodies;
-    // M dv/dt = q L (1 − v/v_c), v over ground along the normal. Damped by the speed that the ice left it,
-    // not by what the load adds: where the ice bears all of the load, it is q L.
+    // M dv/dt = q L (1 − v/v_c), with the speed v over ground along the normal. The damping uses the speed at the start
+    // of the step, which the ice has determined. If the ice resists the whole load, the force on it is then exactly q
+    // L.
     const double most = step.length * p.wall.load() / bodies.mass[p.body];
     const double speed = dot(bodies.velocity[p.body] + population.water_velocity, p.normal);
     const double closing_speed = p.wall.pressure->closing_speed;
@@ -64,12 +66,12 @@ void press_walls(const Setup& setup, const Step& step, Population& population, A
   });
 }
 
-void hold_walls(const Setup& setup, Population& population, AuditSums& audit) {
+void constrain_walls(const Setup& setup, Population& population, AuditSums& audit) {
   for_pressing(setup, population, [&](const PressingWall& p) {
     const Vector over_ground = population.bodies.velocity[p.body] + population.water_velocity;
     const Vector held = dot(over_ground, p.normal) * p.normal - population.water_velocity;
     change_velocity(held, p.body, population.bodies, audit);
-    population.bodies.angular_velocity[p.body] = 0;  // rounding
+    population.bodies.angular_velocity[p.body] = 0;  // the moment of inertia is finite, so rounding may turn the wall
   });
 }
 

@@ -10,8 +10,9 @@ namespace {
 
 using geometry::Point;
 
-constexpr double kLevel = 1e-9;  ///< vertices this much farther aft are as far forward [m]
+constexpr double kLevel = 1e-9;  ///< tolerance by which vertices count as equally far forward [m]
 
+/// Returns the index of the next vertex of a ring.
 std::size_t after(const geometry::Ring& ring, std::size_t i) {
   return i + 1 < ring.size() ? i + 1 : 0;
 }

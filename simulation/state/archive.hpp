@@ -16,18 +16,19 @@ namespace polynya::simulation {
 
 static_assert(std::endian::native == std::endian::little, "a state has the machine's number format");
 
-/// T, const or not: what a field list is written for.
+/// True if T is Value or const Value. Field lists are templates that are constrained by it.
 template <class T, class Value>
 concept Is = std::same_as<std::remove_const_t<T>, Value>;
 
-/// A plain number: its bits are its bytes.
+/// A plain number or enumeration, which is stored by its bytes.
 template <class T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-// A type is saved by its field list, fields(archive, value), which names each of its members once. The
-// archives below take any number of values at a time.
+// A type is saved by its field list, fields(archive, value), which passes each of its members once to the archive. The
+// archives below take any number of values in each call.
 
-/// Splits values into numbers and characters for a Sink; the length of a text or list precedes it.
+/// Splits values into numbers and characters and passes them to a Sink. The length of a text or list precedes its
+/// elements.
 template <class Sink>
 class Serializer {
  public:
@@ -57,7 +58,7 @@ class Serializer {
   }
 };
 
-/// Appends values to bytes: numbers in the machine's format.
+/// Appends values to bytes, with numbers in the format of the machine.
 class ByteWriter : public Serializer<ByteWriter> {
  public:
   std::string take() { return std::exchange(bytes_, {}); }
@@ -74,8 +75,8 @@ class ByteWriter : public Serializer<ByteWriter> {
   std::string bytes_;
 };
 
-/// Reads what ByteWriter wrote. The bytes may be anything: it reads no farther than they go and makes no list
-/// longer than they could hold. The first defect is kept, and everything after it reads as zero.
+/// Reads values that ByteWriter wrote. The bytes may be anything: it never reads beyond their end, and never makes a
+/// list longer than they could hold. It keeps the first defect; all values after it are read as zero.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
@@ -84,17 +85,18 @@ class ByteReader {
   void operator()(Values&... values) {
     (get(values), ...);
   }
-  /// Keeps the reason, unless there was one before.
+  /// Stores the reason of a failure, unless there is an earlier one, and ends reading.
   void fail(std::string reason) {
     if (failure_.empty()) failure_ = std::move(reason);
     bytes_ = {};
   }
+  /// Fails with a reason unless the condition holds.
   void require(bool holds, const char* reason) {
     if (!holds) fail(reason);
   }
   bool is_well() const { return failure_.empty(); }
   bool is_at_end() const { return bytes_.empty(); }
-  std::size_t left() const { return bytes_.size(); }  ///< [bytes]
+  std::size_t left() const { return bytes_.size(); }  ///< number of bytes that are left
   const std::string& failure() const { return failure_; }
 
  private:
@@ -146,7 +148,8 @@ class ByteReader {
   std::string failure_;
 };
 
-/// A hash of values: FNV-1a over 64-bit words [Fowler2019], one for each number, folded once more after each.
+/// Computes a hash of values: FNV-1a [Fowler2019] over 64-bit words, one for each number. After each word the hash is
+/// also mixed with its own upper half.
 class HashWriter : public Serializer<HashWriter> {
  public:
   std::uint64_t hash() const { return hash_; }

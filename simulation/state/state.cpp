@@ -22,11 +22,13 @@ namespace polynya::simulation {
 namespace {
 
 Restraint restraint_of(const Population& population, FloeId id) {
-  if (population.is_fast(id)) return Restraint::kFast;  // also when it has broken: its pieces follow it
+  // This also holds for fast ice that has broken, because one of its pieces may stay fast.
+  if (population.is_fast(id)) return Restraint::kFast;
   return population.floes[id].is_under ? Restraint::kUnderHull : Restraint::kFree;
 }
 
-/// A member of all records, in their order, which only one of the two laws has.
+/// Returns a member of all contact records, in the order of the records. Such members are saved separately because only
+/// one of the two laws of contact uses them, or because they are not hashed.
 template <class Member>
 std::vector<Member> members(const std::vector<dynamics::PairState>& pairs,
                             Member dynamics::PersistentContact::*member) {
@@ -49,10 +51,10 @@ void write(Archive& archive, const World& world, const std::vector<dynamics::Pai
     const Floe& floe = population.floes[id];
     archive(floe, population.is_alive(id), restraint_of(population, id));
     if (!population.is_alive(id)) continue;
-    if (floe.parent != kNoFloe) archive(floe.shape.polygon);  // else the scene's
+    if (floe.parent != kNoFloe) archive(floe.shape.polygon);  // otherwise the shape is the scene's
     motion_fields(archive, population.bodies, population.body_of(id));
   }
-  archive(population.tilted, population.submerged, population.started);
+  archive(population.tilted, population.submerged, population.accelerating_cusps);
   if (world.setup.has_flooding_decks) archive(population.decks);
   archive(pairs);
   archive(members(pairs, &dynamics::PersistentContact::crushed));
@@ -85,12 +87,15 @@ std::uint64_t state_hash(const World& world) {
 
 namespace {
 
-constexpr double kFarthestPosition = 1e9;           ///< from the origin that a body can have gone [m]
-constexpr double kFastestBody = 8 * kRunawaySpeed;  ///< pieces of a fracture may turn faster for one step [m/s]
-constexpr double kMostTurned = 1e9;                 ///< by a body [rad]
-constexpr double kOutside = 1e-3;  ///< rounded vertices may stand outside the scene's ice by less than that [m]
+/// Largest distance of a body from the origin; a larger one means damage [m].
+constexpr double kFarthestPosition = 1e9;
+/// Largest speed of a body; pieces of a fracture may exceed kRunawaySpeed for one step by turning [m/s].
+constexpr double kFastestBody = 8 * kRunawaySpeed;
+constexpr double kMostTurned = 1e9;  ///< largest angle by which a body has turned; a larger one means damage [rad]
+constexpr double kOutside = 1e-3;    ///< distance by which rounded vertices may lie outside the ice of the scene [m]
 
-/// Where the ice of a scene was at the start: its floes' frames, in which their pieces stay.
+/// Returns the box around all ice of the scene at the start. The body frames of floes are those of the scene, so the
+/// vertices of all pieces stay in this box.
 geometry::Box ice_box(std::span<const FloeSpec> floes) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   geometry::Box box{{kFar, kFar}, {-kFar, -kFar}};
@@ -98,8 +103,8 @@ geometry::Box ice_box(std::span<const FloeSpec> floes) {
   return geometry::grown(box, kOutside);
 }
 
-/// Fills an empty world from bytes. What is checked here is what the next value or a container needs: numbers of
-/// bodies, shapes and places. Whether the values make a world is for validate_world.
+/// Fills an empty world from bytes. It checks only values that the next value or a container depends on: numbers of
+/// bodies, shapes and places. validate_world() then checks whether the values form a consistent world.
 class StateLoader {
  public:
   StateLoader(World& world, std::string_view bytes)
@@ -141,7 +146,7 @@ class StateLoader {
     }
   }
 
-  /// Of a body that has been added, and puts it into the contact world.
+  /// Loads the motion of a body that has been added, and adds it to the contact search unless it is under a hull.
   void load_motion(BodyIndex i, bool is_under = false) {
     dynamics::Bodies& bodies = population_.bodies;
     motion_fields(bytes_, bodies, i);
@@ -171,6 +176,7 @@ class StateLoader {
     hull_fields(bytes_, world_, hull);
   }
 
+  /// Checks the parent of a floe and its restraint against those of the scene or of the parent.
   void check_origin(FloeId id, const Floe& floe, bool is_alive, Restraint restraint) {
     const bool is_of_scene = id < static_cast<FloeId>(floes_at_start_.size());
     bytes_.require(floe.parent >= kNoFloe && floe.parent < id, "a floe older than its parent");
@@ -201,7 +207,7 @@ class StateLoader {
     dynamics::NewBody body;
     if (is_alive) {
       body = new_body_of(floe.shape.polygon, geometry::measure(floe.shape.polygon), ice, is_fast);
-    } else {  // its index stays
+    } else {  // a floe that broke keeps its index
       body.mass = body.moment = 1;
       body.is_prescribed = is_fast;
       body.thickness = ice.thickness;
@@ -252,13 +258,13 @@ class StateLoader {
       if (!bytes_.is_well()) return;
       submerged.area = population_.floes[submerged.floe].area;
     }
-    load_started();
+    load_accelerating_cusps();
     if (world_.setup.has_flooding_decks) load_decks();
   }
 
-  void load_started() {
-    bytes_(population_.started);
-    for (const StartedCusp& cusp : population_.started)
+  void load_accelerating_cusps() {
+    bytes_(population_.accelerating_cusps);
+    for (const AcceleratingCusp& cusp : population_.accelerating_cusps)
       bytes_.require(can_take_ice(cusp.ship), "a cusp before a hull that there is not");
   }
 
@@ -268,7 +274,8 @@ class StateLoader {
       bytes_.require(can_take_ice(pressed.ship), "a deck under a hull that there is not");
   }
 
-  /// A member of all records, in their order.
+  /// Loads a member of all contact records, in the order of the records. `of_another_number` is the reason of failure
+  /// if the number of values differs.
   template <class Member>
   void load_members(std::vector<dynamics::PairState>& pairs, Member dynamics::PersistentContact::*member,
                     const char* of_another_number) {
@@ -324,7 +331,7 @@ class StateLoader {
     }
   }
 
-  /// With the numbers of the loads that contacts' records follow.
+  /// Loads the panels, and the numbers of the tracks that the records of contacts refer to.
   void load_panels() {
     std::vector<HullPanels> panels;
     bytes_(panels);
@@ -335,10 +342,11 @@ class StateLoader {
   }
 
   const Scene& scene_;
-  std::vector<FloeSpec> floes_at_start_;  ///< of the scene
+  std::vector<FloeSpec> floes_at_start_;  ///< floes of the scene
   World& world_;
   Population& population_;
   ByteReader bytes_;
+  /// Pairs, which are added to the contact search when all else is loaded.
   std::vector<dynamics::PairState> pairs_;
   geometry::Box ice_;
 };

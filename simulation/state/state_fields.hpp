@@ -7,27 +7,28 @@
 
 namespace polynya::simulation {
 
-// What a run's state is made of, member by member. A member that is added here is kept, read back and hashed;
-// raise kCheckpointVersion (io/run/checkpoint.hpp) with it.
+// The field lists of a run's state. A member that is added to a list is saved, loaded and hashed; increase
+// kCheckpointVersion (io/run/checkpoint.hpp) at the same time.
 
-/// What holds a floe, if anything.
+/// Constraint on the motion of a floe: none, under a hull, or fast ice.
 enum class Restraint : std::uint8_t { kFree, kUnderHull, kFast };
 
-/// Whether a body is a ship that has a helm and loads of its own.
+/// Returns true if a body is a ship that sails (Sailing::is_active), so that it has a helm and loads of sailing.
 inline bool is_sailing(const Setup& setup, std::int32_t body) {
   return body < std::ssize(setup.sailing) && setup.sailing[body].is_active;
 }
 
-/// Whether a body is a ship with a mooring, which may have broken.
+/// Returns true if a body is a ship with a mooring, which may be broken.
 inline bool has_mooring(const Setup& setup, std::int32_t body) {
   return is_sailing(setup, body) && setup.scene.ships[body].mooring.has_value();
 }
 
-/// Whether contacts store energy that they give back, by the law of impulses.
+/// Returns true if contacts store energy and give it back, as by the law of impulses.
 inline bool has_restitution(const Setup& setup) {
   return setup.scene.contact.law == ContactLaw::kImpulse;
 }
 
+/// Returns true if a body is a ship that manages ice.
 inline bool manages_ice(const Setup& setup, std::int32_t body) {
   return is_sailing(setup, body) && std::holds_alternative<ManagingPilot>(setup.scene.ships[body].pilot);
 }
@@ -44,7 +45,7 @@ void fields(auto& archive, Is<geometry::Rotation> auto& r) {
 void fields(auto& archive, Is<geometry::Polygon> auto& p) {
   archive(p.outer, p.holes);
 }
-/// Without its shape.
+/// The shape is saved separately, and only for floes that broke off.
 void fields(auto& archive, Is<Floe> auto& f) {
   archive(f.parent, f.born, f.generation, f.area);
 }
@@ -54,17 +55,18 @@ void fields(auto& archive, Is<TiltedFloe> auto& t) {
 void fields(auto& archive, Is<SubmergedPiece> auto& t) {
   archive(t.floe, t.ship, t.path, t.weight, t.next_try, t.waited);
 }
-void fields(auto& archive, Is<StartedCusp> auto& c) {
-  archive(c.ship, c.arm_in_ship, c.normal_in_ship, c.horizontal_in_ship, c.left, c.most, c.way);
+void fields(auto& archive, Is<AcceleratingCusp> auto& c) {
+  archive(c.ship, c.arm_in_ship, c.normal_in_ship, c.horizontal_in_ship, c.impulse_left, c.largest_force,
+          c.distance_left);
 }
 void fields(auto& archive, Is<fracture::DeckStrip> auto& s) {
   archive(s.width, s.sheet, s.sheet_across, s.water);
   for (auto& side : s.sides) archive(side.facing, side.length, side.axis, side.depth);
 }
-/// Of a deck; what follows from its ice and its hull as well.
+/// Includes the members of the deck that follow from ice and hull.
 void fields(auto& archive, Is<PressedDeck> auto& p) {
   archive(p.ship, p.arm_in_ship, p.normal_in_ship, p.horizontal_in_ship, p.deck.depth, p.deck.thickness,
-          p.deck.freeboard, p.deck.hull_angle, p.state.way, p.state.pool);
+          p.deck.freeboard, p.deck.hull_angle, p.state.displacement, p.state.pool);
   for (auto& strip : p.deck.strips) archive(strip);
 }
 void fields(auto& archive, Is<SubmergedLoads> auto& l) {
@@ -74,7 +76,7 @@ void fields(auto& archive, Is<ContactLoads> auto& l) {
   archive(l.impulse, l.largest, l.carried[0].impulse, l.carried[0].level, l.carried[1].impulse, l.carried[1].level,
           l.carried[2].impulse, l.carried[2].level, l.friction, l.contacts);
 }
-/// Of the contact of two ships.
+/// Events in a state are contacts of two hulls only.
 void fields(auto& archive, Is<Event> auto& e) {
   auto& c = std::get<HullContact>(e.what);
   archive(e.time, e.ship, c.other, e.point_in_world, c.closing_speed, c.relative_speed, c.is_prescribed);
@@ -92,7 +94,7 @@ void fields(auto& archive, Is<PilotMemory> auto& m) {
   archive(m.heading, m.speed_integral, m.drift_angle, m.waypoint, m.from, m.is_backing, m.slow_since, m.stuck_at,
           m.first_stuck_at, m.rams, m.distance_gained);
 }
-/// Of ships that manage ice alone.
+/// Saved only for ships that manage ice.
 void fields(auto& archive, Is<PatternMemory> auto& m) {
   archive(m.upstream, m.lap_share, m.carried, m.target, m.target_at, m.next_choice);
 }
@@ -100,7 +102,8 @@ void fields(auto& archive, Is<Helm> auto& h) {
   archive(h.lever, h.steering_angle, h.is_adrift, h.adrift_since, h.ice_force, h.memory);
 }
 void fields(auto& archive, Is<IceLedger> auto& l) {
-  archive(l.initial, l.under_ice, l.submerged, l.brash, l.rounding);  // the rest is derived
+  // The other members are computed when the ledger is read.
+  archive(l.initial, l.under_ice, l.submerged, l.brash, l.rounding);
 }
 void fields(auto& archive, Is<Counts> auto& c) {
   archive(c.floes_initial, c.bends, c.splits, c.ground, c.tilted_under, c.went_under, c.came_up, c.stayed_under,
@@ -121,8 +124,8 @@ void fields(auto& archive, Is<BoundaryFlows> auto& b) {
 void fields(auto& archive, Is<MooringFlows> auto& m) {
   archive(m.initial, m.taken_up, m.given_back, m.ground, m.damping, m.breaking, m.separation);
 }
-/// Not its boundaries: those are in states of scenes that have wind or walls. Not its moorings and scales: they decide
-/// nothing of the run (tail_fields).
+/// Leaves out `boundaries`, which only states of scenes with wind or pressing walls contain, and moorings and scales,
+/// which do not influence the run and are in checkpoints only (tail_fields).
 void fields(auto& archive, Is<AuditSums> auto& a) {
   archive(a.initial_energy, a.initial_momentum, a.impulses, a.energy, a.momentum);
 }
@@ -141,7 +144,8 @@ void fields(auto& archive, Is<dynamics::Booked> auto& b) {
 void fields(auto& archive, Is<dynamics::CrushedIce> auto& c) {
   archive(c.a_from_b, c.area);
 }
-/// Not its separation_bound: that is a cache, which may differ where the same bodies do the same.
+/// Leaves out separation_bound, a cache that may differ between runs with the same motion. It is saved separately and
+/// not hashed.
 void fields(auto& archive, Is<dynamics::PairState> auto& p) {
   archive(p.a, p.b, p.records);
 }
@@ -150,7 +154,8 @@ void fields(auto& archive, Is<std::pair<std::int64_t, std::int64_t>> auto& p) {
   archive(p.first, p.second);
 }
 
-/// Its bodies follow from hull and floe, its place on the waterline is found when the peak is recorded.
+/// The contact's bodies are saved as hull and floe. Its place on the waterline is left out, because it is computed when
+/// the peak is recorded.
 void fields(auto& archive, Is<LoadTrack> auto& t) {
   auto& s = t.at_largest;
   archive(t.id, t.is_rising, t.force, t.least, t.largest, t.time, s.on.ship, s.by.floe, s.point_in_world, s.force,
@@ -163,30 +168,30 @@ void fields(auto& archive, Is<PanelLoads> auto& p) {
   archive(p.impulse, p.normal, p.largest, p.loaded, p.carried.impulse, p.carried.level, p.carried_load);
 }
 
-/// Not its peaks and panels: they decide nothing of the run (state.cpp).
+/// Leaves out peaks and panels, which do not influence the run. They are saved separately and not hashed (state.cpp).
 void fields(auto& archive, Is<Accounts> auto& a) {
   archive(a.areas, a.audit, a.counts, a.loads, a.hull_contacts, a.refused_grinds);
 }
 
-/// Where a body is and how it moves, and how far it has travelled, which bounds its neighbours' caches. Its rotation
-/// follows from its angle.
+/// Position and motion of a body. `travel` is included because caches of its neighbours depend on it. The rotation is
+/// computed from the angle.
 void motion_fields(auto& archive, Is<dynamics::Bodies> auto& b, BodyIndex i) {
   archive(b.position[i], b.angle[i], b.angle_rest[i], b.velocity[i], b.angular_velocity[i], b.travel[i], b.rim_speed[i],
           b.is_awake[i]);
 }
-/// What a state begins with.
+/// The first part of a state.
 void head_fields(auto& archive, Is<World> auto& world) {
   archive(world.clock.ticks, world.pace.finer, world.pace.bends, world.population.water_velocity, world.accounts);
   if (has_wind_or_walls(world.setup.scene)) archive(world.accounts.audit.boundaries);
 }
-/// Beside its motion.
+/// Data of a hull, except for its motion.
 void hull_fields(auto& archive, Is<World> auto& world, std::int32_t hull) {
   if (is_sailing(world.setup, hull)) archive(world.population.helms[hull], world.accounts.sailing[hull]);
   if (has_mooring(world.setup, hull)) archive(world.population.helms[hull].last_turn);
   if (manages_ice(world.setup, hull)) archive(world.population.helms[hull].memory.pattern);
 }
-/// What checkpoints alone have after the contacts, before peaks and panels: masses follow from the areas where all ice
-/// is alike.
+/// The part of a checkpoint after the contacts, which is not hashed: the masses, which follow from the areas where all
+/// ice is the same, and counts and sums that do not influence the run.
 void tail_fields(auto& archive, Is<World> auto& world) {
   auto& counts = world.accounts.counts;
   archive(world.accounts.masses, counts.unresolved_splits, counts.passing_steps, counts.crowded_ticks,

@@ -46,8 +46,8 @@ Defect check_helms(const World& world) {
   return {};
 }
 
-constexpr std::int64_t kMostSteps = 1'000'000'000;            // 58 days of the default step: more is damage
-constexpr std::int64_t kMostCounted = std::int64_t{1} << 60;  // two of them can be added
+constexpr std::int64_t kMostSteps = 1'000'000'000;  // 58 days of the default step; a larger number means damage
+constexpr std::int64_t kMostCounted = std::int64_t{1} << 60;  // two such counts can still be added
 
 bool is_count(std::int64_t count) {
   return count >= 0 && count <= kMostCounted;
@@ -106,15 +106,17 @@ Defect check_loads(const LoadPeaks& peaks) {
 }
 
 Defect check_cusps(const Population& population) {
-  for (const StartedCusp& cusp : population.started)
-    if (!(cusp.left > 0 && cusp.most > 0 && cusp.way > 0)) return "a cusp that no hull presses";
-  constexpr double kLongestCusp = 1e4;  // [m]
+  for (const AcceleratingCusp& cusp : population.accelerating_cusps)
+    if (!(cusp.impulse_left > 0 && cusp.largest_force > 0 && cusp.distance_left > 0))
+      return "a cusp that no hull presses";
+  constexpr double kLongestCusp = 1e4;  // largest depth of a cusp; a larger value means damage [m]
   for (const PressedDeck& pressed : population.decks) {
     const fracture::Deck& deck = pressed.deck;
     if (!(deck.depth > 0 && deck.depth < kLongestCusp && deck.thickness > 0 && deck.freeboard >= 0))
       return "a deck of no size";
     if (!(deck.hull_angle > 0 && deck.hull_angle < std::numbers::pi / 2)) return "a deck under a hull of no slope";
-    if (!(pressed.state.way >= 0 && pressed.state.way < way_to_lie_along(deck) && pressed.state.pool >= 0))
+    if (!(pressed.state.displacement >= 0 && pressed.state.displacement < distance_to_lie_along(deck) &&
+          pressed.state.pool >= 0))
       return "a deck that has turned too far";
     for (const fracture::DeckStrip& s : deck.strips) {
       if (std::min({s.width, s.sheet, s.sheet_across, s.water}) < 0) return "a deck of negative width";

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "elementary/elementary.hpp"
-
 #include "geometry/exact/measures.hpp"
 #include "simulation/world/parts.hpp"
 
@@ -20,10 +19,11 @@ constexpr std::array kTickChoices{0.1, 0.05, 0.025, 0.02, 0.01, 0.005, 0.0025, 0
 /// Number of parts that a tick needs for the fastest hull at its full speed [-]. More would leave too few parts for ice
 /// that breaks faster than that; fewer would make ticks short where a ship is slower than she can be.
 constexpr double kPartsAtFullSpeed = 8;
-/// Speed in ice that is assumed of a ship under constant thrust [m/s], because the scene does not state it.
-constexpr double kUnderThrust = 4;
-/// Fraction of the scene's ice by area for which the tick is chosen [-]. Ticks get more parts where a hull meets the
-/// rest. Larger: a few thin or very thick floes make the tick short for the whole run.
+/// Speed in ice that is assumed of a ship with a constant thrust [m/s], because the scene does not give it. A larger
+/// value makes ticks shorter; with a smaller one, ticks of faster ships need more parts.
+constexpr double kSpeedUnderThrust = 4;
+/// Fraction of the scene's ice by area for which the tick is chosen [-]. Where a hull meets the rest, ticks are divided
+/// into more parts. A larger value makes ticks shorter for a few thin or very thick floes.
 constexpr double kMostIce = 0.95;
 
 /// Returns the greatest speed of a ship [m/s]: the speed at the start, or the open-water speed of its engine or the
@@ -32,7 +32,7 @@ double full_speed(const Ship& ship) {
   const double start = elementary::hypot(ship.speed, ship.sway_speed);
   if (const auto* engine = std::get_if<Engine>(&ship.propulsion)) return std::max(start, engine->open_water_speed);
   const auto* constant = std::get_if<ConstantThrust>(&ship.propulsion);
-  return constant && constant->thrust != 0 ? std::max(start, kUnderThrust) : start;
+  return constant && constant->thrust != 0 ? std::max(start, kSpeedUnderThrust) : start;
 }
 
 /// Returns the greatest speed at which the wind drives ice through the water [m/s].
@@ -96,8 +96,8 @@ double longest_tick(const Scene& scene) {
   const double radius = scene.contact.circle_radius;
   const double way = way_in_most_ice(scene);
   const double parts = scene.contact.law == ContactLaw::kCrush ? kPartsAtFullSpeed : 1;
-  return std::min(
-      {parts * way / fastest_meeting(scene), way / fastest_floe(scene), kWayOverCircle * radius / fastest_rim(scene)});
+  return std::min({parts * displacement / fastest_meeting(scene), displacement / fastest_floe(scene),
+                   kDisplacementOverRadius * radius / fastest_rim(scene)});
 }
 
 /// Returns the longest of the choices that is no longer than a time and goes whole into each interval [s]; where none

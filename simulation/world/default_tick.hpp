@@ -4,14 +4,15 @@
 
 namespace polynya::simulation {
 
-/// The tick of a scene that gives none [s]: the longest of a list of round numbers that goes a whole number of times
-/// into the intervals of its records, and in which no hull needs more than a quarter of the most parts at its full
-/// speed through the thinnest ice, and no floe moves too far at its first speed. It does not depend on when the run
-/// ends, so that a run which is ended early and resumed is the same run. By the law of impulses, which has no parts, a
-/// hull stays within most_way() (parts.hpp) in a tick.
+/// Returns the tick of a scene that does not give one [s]. It is the longest of a list of round numbers that satisfies
+/// three conditions. It divides the intervals of the records into whole numbers of ticks. No hull at full speed in the
+/// thinnest ice needs more than a quarter of kMostParts parts; with the law of impulses, which has no parts, a hull
+/// stays within allowed_displacement() (parts.hpp) in a tick. No floe moves too far in a step at its initial speed. The
+/// tick does not depend on the end of the run, so that a run that is ended early and resumed is the same run.
 double default_tick(const Scene& scene);
 
-/// Returns the same for records of any interval [s]: default_tick() is shorter only where an interval asks for it.
+/// Returns the tick without the condition on the intervals of the records [s]. It is longer than default_tick() only if
+/// an interval requires a short tick, which hints to the user report.
 double tick_for_any_interval(const Scene& scene);
 
 }  // namespace polynya::simulation

@@ -94,9 +94,9 @@ struct AuditSums {
 /// Energy and momentum at one instant, in the water frame, of all bodies that exist and whose motion is not prescribed,
 /// and of moorings.
 struct Holdings {
-  double kinetic_energy = 0;  ///< [J]
-  double stored_energy = 0;   ///< in moorings [J]
-  geometry::Vector momentum;  ///< [N s]
+  double kinetic_energy = 0;  ///< kinetic energy [J]
+  double stored_energy = 0;   ///< energy stored in moorings [J]
+  geometry::Vector momentum;  ///< sum of the bodies' momenta [N s]
   double momenta = 0;         ///< sum of the magnitudes of the bodies' momenta [N s]
 };
 
@@ -126,14 +126,14 @@ struct Audit {
 double kinetic_energy(const dynamics::Bodies& bodies);
 /// Returns the momentum of the same bodies, in the water frame [N s].
 geometry::Vector momentum(const dynamics::Bodies& bodies);
-/// Returns what the same bodies and moorings hold. `stored_energy` is that of the moorings [J].
+/// Returns energy and momentum of the same bodies and of the moorings. `stored_energy` is the energy that the moorings
+/// store [J].
 Holdings holdings(const dynamics::Bodies& bodies, double stored_energy);
 
-/// Sets all sums to 0 and stores what there is at the start. Called once, before the first step.
+/// Sets all sums to 0 and stores energy and momentum at the start. Called once, before the first step.
 void open_accounts(const Holdings& holdings, AuditSums& sums);
 
-/// Adds the magnitude of what each flow of energy has changed by since `before` to AuditSums::exchanged. Called after
-/// each step.
+/// Adds the magnitude of the change of each energy flow since `before` to AuditSums::exchanged. Called after each step.
 void enter_exchange(const AuditSums& before, AuditSums& sums);
 
 /// Adds the kinetic energy of a floe to `energy` [J] and its momentum to `momentum` [N s]. Both are members of the
@@ -145,7 +145,7 @@ void enter_motion(const dynamics::Bodies& bodies, dynamics::BodyIndex floe, doub
 /// `energy_sink`, one of the flows in `sums` [J], and its momentum to MomentumFlows::removed.
 void stop(dynamics::Bodies& bodies, dynamics::BodyIndex floe, double& energy_sink, AuditSums& sums);
 
-/// Returns the balance of the sums with what there is now.
+/// Returns the balance of the sums with the present energy and momentum.
 Audit audit(const AuditSums& sums, const Holdings& holdings);
 
 }  // namespace polynya::simulation

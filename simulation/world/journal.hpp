@@ -43,7 +43,9 @@ struct HullSample {
   double time = 0;            ///< end of the interval [s]
   int ship = 0;               ///< number of the hull in the scene
   dynamics::Planar from_ice;  ///< force of the ice around the hull: impulse / interval [N, N m]
-  dynamics::Planar carried;   ///< impulse of that ice that is booked in later intervals (CarriedLoad) [N s, N m s]
+  /// Impulse of that ice that was missed before contacts were found and is booked in later intervals (CarriedLoad) [N
+  /// s, N m s].
+  dynamics::Planar carried;
   /// Largest force of the ice around the hull in a single step, by magnitude and for each component [N, N m].
   dynamics::Planar from_ice_largest;
   /// Largest collision force j/τ_c of the paper, of the contacts with ice, in a single step, by magnitude and for each
@@ -62,19 +64,19 @@ struct HullSample {
   /// Thrust along the heading [N]: the constant thrust, the mean thrust of the engine, or the load with which a wall
   /// presses. For a hull of prescribed motion it is the force that holds the hull at its speed.
   double thrust = 0;
-  // The following loads are 0 unless the ship has water around its hull, an engine or a mooring.
   dynamics::Planar friction_of_ice;  ///< part of `from_ice` that friction causes [N, N m]
-  dynamics::Planar from_water;       ///< force of the water on the hull, with the inertia of the water [N, N m]
-  dynamics::Planar from_engine;      ///< force of the propellers or thrusters [N, N m]
-  dynamics::Planar from_rudder;      ///< force of the rudder [N, N m]
-  dynamics::Planar from_mooring;     ///< force of the mooring [N, N m]
-  double lever = 0;                  ///< thrust lever at the end, −1 (full astern) to 1 (full ahead) [-]
-  double steering_angle = 0;         ///< angle of the rudder or thrusters at the end, positive to port [rad]
-  std::int32_t rams = 0;             ///< number of charges after the first, of a pilot that rams
-  double distance_gained = 0;        ///< distance along the heading that ramming has gained [m]
-  double delivered_power = 0;        ///< |lever| × installed power of the engine; 0 if that power is unknown [W]
-  int contacts = 0;                  ///< number of contacts with ice in the last step
-  int contacts_with_ships = 0;       ///< number of contacts with other hulls in the last step
+  // The following loads are 0 unless the ship has water around its hull, an engine or a mooring.
+  dynamics::Planar from_water;    ///< force of the water on the hull, with the inertia of the water [N, N m]
+  dynamics::Planar from_engine;   ///< force of the propellers or thrusters [N, N m]
+  dynamics::Planar from_rudder;   ///< force of the rudder [N, N m]
+  dynamics::Planar from_mooring;  ///< force of the mooring [N, N m]
+  double lever = 0;               ///< thrust lever at the end, −1 (full astern) to 1 (full ahead) [-]
+  double steering_angle = 0;      ///< angle of the rudder or thrusters at the end, positive to port [rad]
+  std::int32_t rams = 0;          ///< number of charges after the first, of a pilot that rams
+  double distance_gained = 0;     ///< distance along the heading that ramming has gained [m]
+  double delivered_power = 0;     ///< |lever| × installed power of the engine; 0 if that power is unknown [W]
+  int contacts = 0;               ///< number of contacts with ice in the last step
+  int contacts_with_ships = 0;    ///< number of contacts with other hulls in the last step
   friend bool operator==(const HullSample&, const HullSample&) = default;
 };
 
@@ -213,7 +215,7 @@ struct Counts {
   /// Number of cusps that broke under a load outside the range of the bending model's data. Loads that did not reach
   /// V_b are not counted.
   std::int64_t database_out_of_range = 0;
-  /// Number of ticks with kMostParts parts in which the running mean of bends in a part exceeded kCrowded, so that
+  /// Number of ticks with kMostParts parts in which the running mean of bends in a part exceeded kCrowdedBends, so that
   /// loads depend on the step (parts.hpp).
   std::int64_t crowded_ticks = 0;
   /// Number of splits that were given up because their contacts could not be stopped at the force that splits the floe

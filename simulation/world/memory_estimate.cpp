@@ -86,7 +86,7 @@ class KeptCovers {
 
 /// Factor for further pairs, contacts and unused heap memory [-]. It was measured with drifting lattices of floes
 /// (tests/app/run_command_test.cpp). Larger values overestimate the memory of a run; smaller ones underestimate it.
-constexpr double kBesides = 1.2;
+constexpr double kOverheadFactor = 1.2;
 
 }  // namespace
 
@@ -101,7 +101,7 @@ MemoryEstimate estimate_memory(const Scene& scene) {
         floe.velocity != geometry::Vector{} || floe.angular_velocity != 0 || scene.water.shear.rate != 0;
     const double rest = at_rest(floe);
     estimate.at_start += rest + (is_moving ? drag : 0);
-    estimate.all_moving += kBesides * (rest + moving());
+    estimate.all_moving += kOverheadFactor * (rest + moving());
     covers.add(floe.polygon_in_world);
   }
   estimate.all_moving += covers.bytes();

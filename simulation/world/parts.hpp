@@ -4,53 +4,57 @@
 
 namespace polynya::simulation {
 
-// A tick (Scene::time.step) is taken in equal parts where one step of that length would be too long for what happens
-// in it. All awake bodies take the same parts, so that all of them are at the same instant after each part. By the law
-// of impulses a tick is one step.
+// Division of a tick (Scene::time.step) into equal parts, where a single step of that length would be too long for the
+// events in it. All awake bodies take the same parts, so all of them are at the same instant after each part. With the
+// law of impulses a tick is always one step.
 
-/// The most parts of a tick. More would make a tick that is chosen too long for its ship even slower to compute; ice
-/// that needs more is counted (Counts::crowded_ticks) and warned of.
+/// Largest number of parts of a tick. If the ice would need more, the tick is counted (Counts::crowded_ticks) and a
+/// warning is given. A larger number would make ticks slower to compute that are chosen too long for their ship.
 inline constexpr int kMostParts = 32;
 
-/// Fraction of the ice thickness that a hull may move in one step relative to ice at it [-]. Within some tenths of the
-/// thickness the crushing force grows to the force at which ice bends. Larger values find ice late, and loads fall.
-inline constexpr double kWayOverThickness = 0.15;
-/// The same for thick ice: the way times the thickness [m²]. Thick ice breaks in a few large cusps, and the order in
-/// which they break decides where the next ones form. Larger values change that order.
-inline constexpr double kWayTimesThickness = 0.0375;
-/// Fraction of the radius of contact circles that a hull may move in one step relative to ice at it [-]. Larger values
-/// lose contacts from one step to the next.
-inline constexpr double kWayOverCircle = 0.25;
-/// Factor by which a hull may exceed that way before a tick gets one more part [-]. At 1, a ship that moves just that
-/// way in a tick would take two parts wherever ice comes to meet it.
-inline constexpr double kWayExceeded = 1.1;
+/// Largest displacement of a hull relative to ice in one step, as a fraction of the ice thickness [-]. The crushing
+/// force grows to the force at which ice bends within some tenths of the thickness. Larger values find contacts too
+/// late, and loads become too small; smaller values cost time.
+inline constexpr double kDisplacementOverThickness = 0.15;
+/// Largest displacement of a hull relative to ice in one step, times the ice thickness [m²]. It is the stricter limit
+/// for ice thicker than 0.5 m. Thick ice breaks in a few large cusps, and the order in which they break determines
+/// where the next ones form. Larger values change that order.
+inline constexpr double kDisplacementTimesThickness = 0.0375;
+/// Largest displacement of a hull relative to ice in one step, as a fraction of the radius of contact circles [-].
+/// Larger values lose contacts from one step to the next.
+inline constexpr double kDisplacementOverRadius = 0.25;
+/// Factor by which a hull may exceed the allowed displacement before a tick is divided further [-]. With 1, a ship
+/// whose displacement in a tick is just the allowed one would need two parts wherever ice moves towards it.
+inline constexpr double kToleratedExcess = 1.1;
 
-/// Longest step of a scene in which a wall presses [s]. Jams between walls take more sweeps to solve in longer steps,
-/// and some are not solved.
+/// Longest step of a scene with walls that press [s]. Jams between walls need more sweeps of the solver in longer
+/// steps, and some are not solved.
 inline constexpr double kStepUnderPressure = 0.025;
 
-/// Mean number of bends in a step above which ticks get twice as many parts [-]. An overlap bends its ice once in a
-/// step: where a hull comes on by more than one cusp in a step, overlaps join along it and it passes through the ice.
-inline constexpr double kMostBends = 0.75;
-/// Mean number of bends in a step below which ticks get half as many parts again [-]. It must be less than half of
-/// kMostBends, or parts would change in every other tick.
+/// Mean number of bends in a step above which ticks are divided into twice as many parts [-]. A contact can bend its
+/// ice only once in a step. If a hull advances by more than one cusp in a step, overlaps along it join, and the hull
+/// passes through ice without breaking it. Larger values make loads depend on the step; smaller values cost time.
+inline constexpr double kManyBends = 0.75;
+/// Mean number of bends in a step below which the number of parts is halved again [-]. It must be less than half of
+/// kManyBends; otherwise the number of parts would change in every other tick.
 inline constexpr double kFewBends = 0.25;
-/// Mean number of bends in a step up to which loads are independent of the step [-].
-inline constexpr double kCrowded = 2;
-/// Weight of the last tick in that mean [-]. At 1, two bends that happen to fall into one step of thick ice would
-/// change the parts.
-inline constexpr double kLastTick = 0.125;
+/// Mean number of bends in a step above which loads depend on the step, if the tick already has kMostParts parts [-].
+/// Such ticks are counted in Counts::crowded_ticks. A larger value would not warn of loads that are too small.
+inline constexpr double kCrowdedBends = 2;
+/// Weight of the last tick in the running mean of bends [-]. With 1, two bends that happen to fall into one step in
+/// thick ice would change the number of parts. Smaller values adapt the number of parts more slowly.
+inline constexpr double kWeightOfLastTick = 0.125;
 
-/// The longest way of a hull relative to ice of a thickness in one step [m].
-double most_way(const ContactSettings& contact, double thickness);
+/// Returns the largest displacement of a hull relative to ice of a thickness [m] in one step [m].
+double allowed_displacement(const ContactSettings& contact, double thickness);
 
-/// The number of equal parts that the next tick has, from 1 to kMostParts: as many as keep every hull within
-/// most_way() of the ice that it may reach in the tick, and steps within Setup::longest_step_by_walls; times
-/// Pace::finer.
+/// Returns the number of equal parts of the next tick, from 1 to kMostParts. It is the smallest number with which every
+/// hull stays within allowed_displacement() relative to the ice that it may reach in the tick, and with which steps are
+/// no longer than Setup::longest_step_by_walls; this number is multiplied by Pace::finer.
 int parts_of_tick(const Setup& setup, const Pace& pace, const Population& population);
 
-/// Adjusts the pace after a tick of so many parts with so many bends. Returns true if loads depend on the step although
-/// the tick had the most parts.
+/// Updates the pace after a tick with the given numbers of parts and of bends. Returns true if loads depend on the step
+/// although the tick had the largest number of parts.
 bool follow_bends(int parts, std::int64_t bends, Pace& pace);
 
 }  // namespace polynya::simulation

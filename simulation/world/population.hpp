@@ -49,16 +49,16 @@ struct SubmergedPiece {
   double area = 0;      ///< copy of Floe::area, kept here for fast access and not stored in saved states [m²]
 };
 
-/// A cusp that broke off under a ship's hull and whose edge the hull has not given all of its speed yet. Members named
-/// `_in_ship` are in the ship's frame.
-struct StartedCusp {
+/// A cusp that broke off under a ship's hull and whose edge has not reached the speed yet that the slope of the hull
+/// gives it. Members named `_in_ship` are in the ship's frame.
+struct AcceleratingCusp {
   int ship = 0;                         ///< number of the ship
   geometry::Vector arm_in_ship;         ///< vector from the ship's centre to the contact that broke the cusp [m]
   geometry::Vector normal_in_ship;      ///< unit normal of that contact, out of the hull
   geometry::Vector horizontal_in_ship;  ///< horizontal force on the ice per downward force on it [-]
-  double left = 0;                      ///< downward impulse that the edge has not been given yet [N s]
-  double most = 0;                      ///< downward force with which the ice broke, with which the hull goes on [N]
-  double way = 0;                       ///< way of the hull along the normal until it has passed the cusp [m]
+  double impulse_left = 0;              ///< downward impulse that is still needed to give the edge its speed [N s]
+  double largest_force = 0;  ///< largest downward force of the hull on the edge: the one with which the ice broke [N]
+  double distance_left = 0;  ///< distance that the hull moves along the normal until it has passed the cusp [m]
 };
 
 /// A cusp that broke off under a ship's hull and turns until it lies along the hull. Members named `_in_ship` are in
@@ -78,7 +78,8 @@ struct Helm {
   double steering_angle = 0;  ///< angle of the rudder or the thrusters, positive to port [rad]
   bool is_adrift = false;     ///< true once the ship's mooring has broken
   double adrift_since = 0;    ///< time at which the mooring broke [s]
-  double last_turn = 0;       ///< turn of the ship in the last step; only of a ship with a mooring [rad]
+  /// Turn of a moored ship in the last step, needed for the momentum of its added mass (ship/sailing.cpp) [rad].
+  double last_turn = 0;
   /// Force of the ice around the hull in the previous step, in the ship's frame [N, N m]. Pilots see this force. It is
   /// updated only for ships with water around the hull, an engine or a mooring.
   dynamics::Planar ice_force;
@@ -100,8 +101,9 @@ struct Population {
   dynamics::BroadPhase pairs;             ///< pairs of bodies that may touch, with the memory of their contacts
   std::vector<TiltedFloe> tilted;         ///< floes pressed down by hulls, ordered by (ship, floe)
   std::vector<SubmergedPiece> submerged;  ///< pieces under hulls, in the order in which they went under
-  std::vector<StartedCusp> started;       ///< cusps that hulls set in motion, in the order in which they broke off
-  std::vector<PressedDeck> decks;         ///< turning cusps, in the order in which they broke off
+  /// Cusps that hulls accelerate, in the order in which they broke off.
+  std::vector<AcceleratingCusp> accelerating_cusps;
+  std::vector<PressedDeck> decks;  ///< turning cusps, in the order in which they broke off
 
   FloeId floe_count() const { return static_cast<FloeId>(floes.size()); }
   BodyKind kind(BodyIndex body) const { return bodies.kind[body]; }
@@ -167,8 +169,8 @@ bool stays_at_rest(BodyIndex body, const Setup& setup, const dynamics::Bodies& b
 /// Returns the body of a hull, by its number in the scene, with its position and motion at the start.
 dynamics::NewBody new_body_of(const Scene& scene, std::size_t hull);
 
-/// Returns the body of a floe without its position and motion. The ice's thickness is copied to the body because the
-/// drag of the water reads it there.
+/// Returns the body of a floe without its position and motion. The thickness of the ice is copied to the body, because
+/// the drag of the water uses it.
 dynamics::NewBody new_body_of(const geometry::Polygon& polygon_in_body, const geometry::Measures& measures,
                               const fracture::Ice& ice, bool is_fast);
 

@@ -31,7 +31,7 @@ void add_contact(const Population& population, const dynamics::Contact& c, BodyI
   const auto add = [&](geometry::Point at, Vector impulse, bool is_slip) {
     const Planar on_ship = planar_of(population.bodies, ship, at, impulse);
     loads.impulse += on_ship;
-    loads.steady_impulse += c.steady_share * on_ship;
+    loads.step_impulse += c.step_share * on_ship;
     if (is_slip) loads.friction += on_ship;
   };
   for (int end = 0; end < 2; ++end) add(c.ends[end], sign * c.normal_impulse[end] * c.normal, false);
@@ -41,11 +41,11 @@ void add_contact(const Population& population, const dynamics::Contact& c, BodyI
 
 /// Adds the loads of a step of length dt [s] to the sums of a recording interval.
 void add_step(ContactLoads& sum, const ContactLoads& step, double dt) {
-  const Planar steady = step.steady_impulse;
-  const Planar missed = step.impulse - steady;
-  const Planar booked{sum.carried[0].book(steady.surge, missed.surge, dt),
-                      sum.carried[1].book(steady.sway, missed.sway, dt),
-                      sum.carried[2].book(steady.yaw, missed.yaw, dt)};
+  const Planar of_step = step.step_impulse;
+  const Planar missed = step.impulse - of_step;
+  const Planar booked{sum.carried[0].book(of_step.surge, missed.surge, dt),
+                      sum.carried[1].book(of_step.sway, missed.sway, dt),
+                      sum.carried[2].book(of_step.yaw, missed.yaw, dt)};
   sum.impulse += booked;
   sum.friction += step.friction;
   sum.largest = larger(sum.largest, over(booked, dt));

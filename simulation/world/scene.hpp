@@ -89,7 +89,7 @@ struct ContactSettings {
   /// solution does not depend on it.
   bool is_warm_started = true;
   /// Radius of the contact circles that cover the boundaries of bodies [m]. Smaller circles need more memory and, at
-  /// hulls, shorter steps (kWayOverCircle).
+  /// hulls, shorter steps (kDisplacementOverRadius).
   double circle_radius = 1.0;
   ContactNormal normal = ContactNormal::kBoundary;
   /// Coefficient of restitution ε of Eq. (5) [-]. For kCrush it affects only the collision force j/τ_c.
@@ -148,8 +148,8 @@ struct FractureSettings {
   /// For ContactLaw::kCrush: true if ice that bends under a hull recedes from it, so that less ice crushes.
   bool follows_deflection = true;
   /// For ContactLaw::kCrush with CuspFate::kUnderHull: true if water reaches the deck of a turning cusp only through
-  /// the gaps that open at its edges, and the hull bears the missing water pressure. If false, water covers
-  /// the deck at once, and the hull bears no such load.
+  /// the gaps that open at its edges, and the hull carries the missing water pressure. If false, water covers the deck
+  /// at once, and the hull carries no such load.
   bool floods_decks = true;
   /// Scatter of the flexural strength among bending events, log-normal: standard deviation / mean [-].
   double bending_scatter = 0;

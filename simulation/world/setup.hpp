@@ -16,7 +16,7 @@
 
 namespace polynya::simulation {
 
-/// The underwater hull, as ice under it meets it.
+/// The underwater part of a hull, for ice that goes under it.
 struct Underwater {
   dynamics::HullForm form;
   dynamics::SubmersionPath path;
@@ -25,31 +25,36 @@ struct Underwater {
 
 /// Limits of breaking that depend on the ice's material alone.
 struct IceLimits {
-  double breakable_size = 0;         ///< κ l: floes with a smaller √area do not break [m]
-  double least_splitting_force = 0;  ///< force of a crack that is as long and wide as the ice is thick [N]
-  bool breaks_beams = false;         ///< true if κ l ≤ l: slender floes that are smaller break across as beams
+  double breakable_size = 0;  ///< κ l: floes with a smaller √area do not break [m]
+  /// Opening capacity of a crack that is as long and as wide as the ice is thick; smaller forces split no floe [N].
+  double least_splitting_force = 0;
+  bool breaks_beams = false;  ///< true if κ l ≤ l: slender floes that are smaller break across as beams
 };
 
-/// The settings of a run, and what follows from them alone. Const from the first step to the last.
+/// The settings of a run, and all data that follow from them alone. It is constant during the run.
 struct Setup {
   explicit Setup(Scene scene, Shortcuts shortcuts = {});
 
   Scene scene;
   Shortcuts shortcuts;
+  /// Model of the bending capacity of ice edges.
   std::unique_ptr<const fracture::BendingModel> bending;
-  dynamics::ShearCurrent current;      ///< in the water frame
+  dynamics::ShearCurrent current;      ///< sheared current, in the water frame
   dynamics::ContactRule contact_rule;  ///< how contacts are found
-  dynamics::SolverSettings solver;     ///< without the number of threads
-  std::vector<Underwater> underwater;  ///< per hull
-  std::vector<Waterline> waterlines;   ///< per hull
-  std::vector<Sailing> sailing;        ///< per ship
-  std::vector<IceLimits> ice_limits;   ///< of the scene's ice, then of each own_ice
-  double longest_step_by_walls = 0;    ///< infinite in scenes without walls that press [s]
-  bool has_flooding_decks = false;     ///< cusps that a hull presses down carry no water yet, which loads the hull
+  dynamics::SolverSettings solver;     ///< settings of the contact solver, without the number of threads
+  std::vector<Underwater> underwater;  ///< underwater part of each hull
+  std::vector<Waterline> waterlines;   ///< waterline of each hull
+  std::vector<Sailing> sailing;        ///< data of the motion of each ship through the water
+  std::vector<IceLimits> ice_limits;   ///< limits for the scene's ice, then for each own_ice
+  /// Longest step that walls allow (longest_step_by_walls); infinite without walls that press [s].
+  double longest_step_by_walls = 0;
+  /// True if the scene computes the water on the decks of turning cusps. Until water has flowed onto a deck, the hull
+  /// carries the missing water pressure.
+  bool has_flooding_decks = false;
 };
 
-/// Returns the longest step of a scene with walls that press [s]: kStepUnderPressure (parts.hpp), or the time in which
-/// the load of a wall accelerates it to its closing speed. Infinite without such walls.
+/// Returns the longest step of a scene with walls that press [s]: the smaller of kStepUnderPressure (parts.hpp) and the
+/// time in which the load of a wall accelerates it to its closing speed. Returns infinity without such walls.
 double longest_step_by_walls(const Scene& scene);
 
 /// Returns a hull's underwater form by its waterline, stem angle and draught. The entrance angle is the mean one of

@@ -107,7 +107,7 @@ void find_contacts(const Step& step, Population& population, StepData& data, Cou
   population.pairs.find_contacts(population.bodies, step.length, contacts, step.threads);
   counts.unpaired_stretches += population.pairs.take_unpaired_stretches();
   counts.peak_contacts = std::max(counts.peak_contacts, static_cast<std::int64_t>(contacts.size()));
-  population.pairs.take_blind_overlaps(data.blind_overlaps);
+  population.pairs.take_inseparable_overlaps(data.inseparable_overlaps);
   population.pairs.take_parted(data.parted);
 }
 
@@ -201,7 +201,7 @@ constexpr Stage kFollowWater{"follow the water",
 constexpr Stage kSteer{"steer", [](World& w, const Step& s) { steer(w.setup, s, w.pilots, w.population); }};
 constexpr Stage kPressWalls{"press walls",
                             [](World& w, const Step& s) { press_walls(w.setup, s, w.population, w.accounts.audit); }};
-constexpr Stage kKeepMotion{"keep motion", [](World& w, const Step&) { keep_motion(w.population, w.data); }};
+constexpr Stage kStoreMotion{"store motion", [](World& w, const Step&) { store_motion(w.population, w.data); }};
 constexpr Stage kFindPairs{"find pairs", [](World& w, const Step& s) { find_pairs(s, w.population); }};
 constexpr Stage kFindContacts{
     "find contacts", [](World& w, const Step& s) { find_contacts(s, w.population, w.data, w.accounts.counts); }};
@@ -215,9 +215,10 @@ constexpr Stage kSolveCrushing{
     "solve impulses", [](World& w, const Step& s) { solve_crushing(w.setup, s, w.population, w.data, w.accounts); }};
 constexpr Stage kSolveCollisions{
     "solve impulses", [](World& w, const Step& s) { solve_collisions(w.setup, s, w.population, w.data, w.accounts); }};
-constexpr Stage kHoldWalls{"hold walls",
-                           [](World& w, const Step&) { hold_walls(w.setup, w.population, w.accounts.audit); }};
-constexpr Stage kDropUnbroken{"drop unbroken", [](World& w, const Step&) { drop_unbroken(w.data); }};
+constexpr Stage kConstrainWalls{
+    "constrain walls", [](World& w, const Step&) { constrain_walls(w.setup, w.population, w.accounts.audit); }};
+constexpr Stage kDropUnreachedBends{"drop unreached bends",
+                                    [](World& w, const Step&) { drop_unreached_bends(w.data); }};
 constexpr Stage kEnterSplits{"enter splits",
                              [](World& w, const Step& s) { enter_splits(w.setup, s, w.population, w.data); }};
 constexpr Stage kOverload{"overload",
@@ -238,7 +239,7 @@ constexpr Stage kThrust{"thrust", [](World& w, const Step& s) {
                         }};
 constexpr Stage kSubmergedIce{"pull of submerged ice", [](World& w, const Step& s) {
                                 pull_of_submerged_ice(w.setup, s, w.population, w.data.loads, w.accounts.audit);
-                                press_started(s, w.population, w.data.loads, w.accounts.audit);
+                                accelerate_cusps(s, w.population, w.data.loads, w.accounts.audit);
                                 press_decks(w.setup, s, w.population, w.data.loads, w.accounts.audit);
                               }};
 constexpr Stage kSail{"sail", [](World& w, const Step& s) { sail(w.setup, s, w.data, w.population, w.accounts); }};
@@ -249,7 +250,7 @@ constexpr Stage kApplyFractures{"apply fractures", [](World& w, const Step& s) {
                                   apply_fractures(w.setup, s, w.data, w.population, {w.accounts, w.journal});
                                 }};
 constexpr Stage kGrind{"grind", [](World& w, const Step& s) {
-                         grind_blind_overlaps(w.setup, s, w.data, w.population, {w.accounts, w.journal});
+                         grind_inseparable_overlaps(w.setup, s, w.data, w.population, {w.accounts, w.journal});
                        }};
 constexpr Stage kCarve{"carve channels", [](World& w, const Step& s) {
                          carve_channels(w.setup, s, w.data, w.population, {w.accounts, w.journal});
@@ -263,30 +264,50 @@ constexpr Stage kCutThrough{"cut through floes", [](World& w, const Step& s) {
 constexpr Stage kGoUnder{"go under", [](World& w, const Step& s) {
                            apply_submersions(w.setup, s, w.data, w.population, {w.accounts, w.journal});
                          }};
-constexpr Stage kComeUp{"come up", [](World& w, const Step& s) {
-                          come_up(w.setup, s, w.population, {w.accounts, w.journal});
-                        }};
+constexpr Stage kSurface{"surface", [](World& w, const Step& s) {
+                           surface_ice(w.setup, s, w.population, {w.accounts, w.journal});
+                         }};
 constexpr Stage kHullContacts{"record ship events", [](World& w, const Step& s) {
                                 record_hull_contacts(w.setup, s, w.population, w.data, {w.accounts, w.journal});
                               }};
 constexpr Stage kSumLoads{"sum loads", [](World& w, const Step& s) { sum_loads(s, w.data, w.accounts); }};
 
-constexpr std::array kCrushStages{kFollowWater,  kSteer,          kPressWalls,
-                                  kKeepMotion,   kForces,         kThrust,
-                                  kFindPairs,    kFindContacts,   kDecideByCrushing,
-                                  kLimitByTilt,  kSolveCrushing,  kHoldWalls,
-                                  kDropUnbroken, kEnterSplits,    kOverload,
-                                  kTiltFloes,    kBookOverlaps,   kTallyLoads,
-                                  kFollowLoads,  kSubmergedIce,   kSail,
-                                  kIntegrate,    kApplyFractures, kGrind,
-                                  kCarve,        kShed,           kGoUnder,
-                                  kComeUp,       kHullContacts,   kSumLoads};
+constexpr std::array kCrushStages{kFollowWater,
+                                  kSteer,
+                                  kPressWalls,
+                                  kStoreMotion,
+                                  kForces,
+                                  kThrust,
+                                  kFindPairs,
+                                  kFindContacts,
+                                  kDecideByCrushing,
+                                  kLimitByTilt,
+                                  kSolveCrushing,
+                                  kConstrainWalls,
+                                  kDropUnreachedBends,
+                                  kEnterSplits,
+                                  kOverload,
+                                  kTiltFloes,
+                                  kBookOverlaps,
+                                  kTallyLoads,
+                                  kFollowLoads,
+                                  kSubmergedIce,
+                                  kSail,
+                                  kIntegrate,
+                                  kApplyFractures,
+                                  kGrind,
+                                  kCarve,
+                                  kShed,
+                                  kGoUnder,
+                                  kSurface,
+                                  kHullContacts,
+                                  kSumLoads};
 
 constexpr std::array kImpulseStages{
-    kFollowWater, kSteer,           kPressWalls,   kKeepMotion,   kFindPairs, kFindContacts, kDecideByCollision,
-    kLimitByTilt, kSolveCollisions, kHoldWalls,    kEnterSplits,  kTiltFloes, kTallyLoads,   kFollowLoads,
-    kForces,      kThrust,          kSubmergedIce, kSail,         kSeparate,  kIntegrate,    kApplyFractures,
-    kGrind,       kGoUnder,         kComeUp,       kHullContacts, kSumLoads};
+    kFollowWater, kSteer,           kPressWalls,     kStoreMotion,  kFindPairs, kFindContacts, kDecideByCollision,
+    kLimitByTilt, kSolveCollisions, kConstrainWalls, kEnterSplits,  kTiltFloes, kTallyLoads,   kFollowLoads,
+    kForces,      kThrust,          kSubmergedIce,   kSail,         kSeparate,  kIntegrate,    kApplyFractures,
+    kGrind,       kGoUnder,         kSurface,        kHullContacts, kSumLoads};
 
 /// Interval at which floes pierced by hulls are examined for a cut [s]. With longer intervals, a floe stays one piece
 /// for longer although a hull has come through it. Shorter intervals cost more trial cuts of large plates that still

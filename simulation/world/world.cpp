@@ -35,7 +35,7 @@ World::World(Scene scene, Shortcuts shortcuts, Start start)
     accounts.masses.initial += population.bodies.mass[population.body_of(id)];
   }
   accounts.counts.floes_initial = population.floe_count();
-  take_helms(setup, step_of(setup, clock, 0, 1), population);
+  initialize_helms(setup, step_of(setup, clock, 0, 1), population);
   const double stored = stored_in_moorings(setup, population, drift_at(setup, 0));
   open_accounts(holdings(population.bodies, stored), accounts.audit);
   const AuditSums at_start = accounts.audit;

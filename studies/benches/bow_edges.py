@@ -138,7 +138,7 @@ def by_elements(edge, ratio, finest):
     return result
 
 
-def hold_of_whole(opening):
+def whole_edge_factor(opening):
     return 1 + 0.18 * np.maximum(0, opening - math.radians(45))
 
 
@@ -173,7 +173,7 @@ def by_sections(edge, share=None, load_place=2 / 3):
     widest = opening[r <= 0.5 * l].max()
     if share is None:
         share = np.clip((math.degrees(widest) - 90) / 15, 0, 1)
-    whole = np.maximum(0, 6 * (moment - couple) - thrust) / (opening * r) / hold_of_whole(opening)
+    whole = np.maximum(0, 6 * (moment - couple) - thrust) / (opening * r) / whole_edge_factor(opening)
     counts = np.clip(np.log(r * 1.25 ** 0.5 / (edge["depth"] + 1)) / math.log(1.25), 0, 1)
     rims = (np.maximum(0, 6 * (rim_of_force(front, back, l) * moment - 0.31 * couple) - 0.93 * thrust)
             / (opening * r) * counts ** (1 / 6))

@@ -415,15 +415,15 @@ TEST(Pierced, AWedgeThroughAPlankIsPushedBackAlongItsAxis) {
   EXPECT_NEAR(m.depth, 0.3, 1e-12);
   EXPECT_NEAR(m.area, 0.3 * (2 * reach - 0.3) * std::tan(half), 1e-12);
   expect_points(m, {m.centroid.x, 0.3 * std::tan(half)}, {m.centroid.x, -0.3 * std::tan(half)}, 1e-12);
-  EXPECT_FALSE(is_blind(m.width, m.area, m.extent));
+  EXPECT_FALSE(is_inseparable(m.width, m.area, m.extent));
 }
 
-TEST(Pierced, AStripThroughAPlankIsBlind) {
+TEST(Pierced, AStripThroughAPlankIsInseparable) {
   const auto m = only(patches_of(rectangle(20, 2), rectangle(0.3, 30), {{1, 1}, Rotation::by(0.2)}).manifolds);
   EXPECT_TRUE(m.is_pierced);
   EXPECT_LT(m.width, 1e-12);
   EXPECT_NEAR(m.area, 0.3 * 2 / std::cos(0.2), 1e-12);
-  EXPECT_TRUE(is_blind(m.width, m.area, m.extent));
+  EXPECT_TRUE(is_inseparable(m.width, m.area, m.extent));
 }
 
 TEST(Pierced, WhatIsOneInsideTheOtherIsFoundThough) {

@@ -40,7 +40,7 @@ struct Work {
 };
 
 Work work(const Deck& deck, double duration, DeckState* end = nullptr, int steps = 2000) {
-  const double way = way_to_lie_along(deck) / steps;
+  const double way = distance_to_lie_along(deck) / steps;
   const double thrust = 1 / std::tan(deck.hull_angle);
   DeckState state;
   Work sum;
@@ -97,7 +97,7 @@ TEST(FloodingDeck, LiesAlongTheHullAtTheEndOfItsWay) {
   // From the lower corner of its far edge h below the level, the upper corner at right angles to the deck is on the
   // hull whose waterline is R - s from there.
   const Deck deck = rectangle(Beside::kSheet);
-  const double waterline = kCuspDepth - way_to_lie_along(deck);
+  const double waterline = kCuspDepth - distance_to_lie_along(deck);
   const double x = kThickness * std::cos(kHullAngle);
   const double z = kThickness * (1 - std::sin(kHullAngle));
   EXPECT_NEAR(waterline + z * std::tan(kHullAngle), x, 1e-12);
@@ -144,7 +144,7 @@ TEST(FloodingDeck, HoldsNoMoreThanThereIsRoomBetweenDeckAndHull) {
   DeckState end;
   const Deck deck = rectangle(Beside::kWater);
   work(deck, 40, &end);
-  EXPECT_NEAR(end.way, way_to_lie_along(deck), 1e-9);
+  EXPECT_NEAR(end.displacement, distance_to_lie_along(deck), 1e-9);
   EXPECT_NEAR(end.pool, 0, 1e-3 * kCuspWidth * kCuspDepth * kCuspDepth) << "the hull has come to the axis";
 }
 

@@ -290,7 +290,7 @@ TEST(Grind, AWedgeIsPartedByItsContactInstead) {
   const Trial done = run(
       Build().structure({{5, 0}, {-25, 9}, {-25, -9}}).floe(rectangle(0, -10, 1.5, 10), {-0.3, 0}).unbreakable(), 2);
   for (const Event& event : done.story.events)
-    EXPECT_EQ(std::get<Grind>(event.what).criterion.least_width, 0) << "crushed, not blind";
+    EXPECT_EQ(std::get<Grind>(event.what).criterion.least_width, 0) << "crushed, not inseparable";
   EXPECT_GT(done.simulation.counts().crush_contacts, 0);
 }
 

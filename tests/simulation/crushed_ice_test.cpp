@@ -39,7 +39,7 @@ Trial over_the_way(const Scene& scene, double speed, double most) {
   Trial done = run(scene, kWay / speed, [&](const Simulation& simulation) {
     geometry::Vector force{};
     for (const dynamics::Contact& c : simulation.world().data.contacts)
-      force += (c.steady_share / scene.time.step) * c.impulse_on_b();
+      force += (c.step_share / scene.time.step) * c.impulse_on_b();
     EXPECT_LT(length(force), 1.005 * most) << simulation.time();
   });
   EXPECT_FALSE(done.simulation.numerical_failure().has_value());

@@ -63,7 +63,7 @@ Largest largest_of(const Impact& impact, const Approach& a) {
   const Trial done = run(impact.scene, a.gap / a.speed + 2, [&](const Simulation& simulation) {
     for (const dynamics::Contact& c : simulation.world().data.contacts)
       most.contact =
-          std::max(most.contact, c.steady_share * c.total_normal_impulse() / simulation.world().last_step.length);
+          std::max(most.contact, c.step_share * c.total_normal_impulse() / simulation.world().last_step.length);
   });
   EXPECT_FALSE(done.simulation.numerical_failure().has_value());
   for (const HullSample& sample : done.story.samples)

@@ -209,7 +209,7 @@ double largest(const Story& story, dynamics::Planar HullSample::*load, int ship)
 double largest_contact_force(const Simulation& simulation) {
   double most = 0;
   for (const dynamics::Contact& c : simulation.world().data.contacts)
-    most = std::max(most, c.steady_share * c.total_normal_impulse() / simulation.scene().time.step);
+    most = std::max(most, c.step_share * c.total_normal_impulse() / simulation.scene().time.step);
   return most;
 }
 

@@ -366,7 +366,7 @@ TEST(TurningCusp, MovesOnWithTheHullThatItSlows) {
   World world(scene);
   PendingFracture bend;
   bend.normal = {1, 0};
-  bend.push = {.speed = slope * speed, .speed_per_approach = slope, .horizontal = {0.9, 0}, .hull_angle = 0.7};
+  bend.driven_edge = {.speed = slope * speed, .speed_per_approach = slope, .horizontal = {0.9, 0}, .hull_angle = 0.7};
   const dynamics::Bodies& bodies = world.population.bodies;
   geometry::CutResult cut;
   cut.pieces.push_back({{rectangle(0.1, -6, 6.1, 6)}, geometry::Part::kInside});
@@ -376,8 +376,8 @@ TEST(TurningCusp, MovesOnWithTheHullThatItSlows) {
   bend.criteria.bending_capacity = 1e12;  // all of it in one step
   Step step;
   step.length = 0.01;
-  turn_cusp(step, bend, pressed_mass(world.setup, world.population, bend, cut), world.population,
-            {loads, world.accounts.audit});
+  start_cusp(step, bend, pressed_mass(world.setup, world.population, bend, cut), world.population,
+             {loads, world.accounts.audit});
   const double given = (speed - bodies.velocity[0].x) * light.mass / 0.9;  // down on the edge [N s]
   EXPECT_NEAR(given / mass, slope * bodies.velocity[0].x, 1e-9 * speed);
   EXPECT_LT(bodies.velocity[0].x, 0.6 * speed) << "the cusp should weigh as much as the ship";

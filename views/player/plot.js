@@ -150,7 +150,7 @@ function pinchPlot(plot, after, before) {
 }
 
 /** Moves the plot by the wheel where it is turned sideways or with Shift, else zooms it at the pointer. */
-function turnPlot(plot, range, event) {
+function movePlotByWheel(plot, range, event) {
   const length = plot.span[1] - plot.span[0];
   if (Math.abs(event.deltaX) > Math.abs(event.deltaY) || event.shiftKey) {
     const turned = (event.deltaX || event.deltaY) * (event.deltaMode === 1 ? 33 : 1);
@@ -195,7 +195,7 @@ function watchPlot(plot, range, { onTime, onPoint }) {
   });
   over.addEventListener("pointerleave", () => onPoint(null));
   over.addEventListener("dblclick", () => plot.show(...range));
-  over.addEventListener("wheel", (event) => turnPlot(plot, range, event), { passive: false });
+  over.addEventListener("wheel", (event) => movePlotByWheel(plot, range, event), { passive: false });
 }
 
 // The plot of loads against time, in step with the picture. Drawn by uPlot; the present time is a line laid over it.

@@ -129,15 +129,17 @@ exact::Ring write_exactly(const LocalCut& cut, const PieceRing& ring) {
   return points;
 }
 
-// Returns the sense in which the exact loop turns: as the rounded one, if its area is clear of all errors.
-int turn_of(const LocalCut& cut, const PieceRing& ring) {
+// Returns 1 if the exact loop runs counter-clockwise, −1 if clockwise, 0 if it has no area. The area of the rounded
+// loop decides if it exceeds all rounding errors; otherwise the exact area is computed.
+int orientation_of(const LocalCut& cut, const PieceRing& ring) {
   const double clear = ring.area.doubt + 2 * ring.area.step_area;
   if (ring.area.area > clear) return 1;
   if (-ring.area.area > clear) return -1;
   return exact::sign(exact::area(write_exactly(cut, ring)));
 }
 
-// Returns more than the distance by which rounding can have moved the ends of the edge.
+// Returns an upper bound of the distance by which rounding can have moved the ends of an edge: 4 spacings of doubles at
+// its coordinates, while rounding moves them by half a spacing.
 double reach(const Segment& s) {
   const double size = std::max({std::abs(s.from.x), std::abs(s.from.y), std::abs(s.to.x), std::abs(s.to.y)});
   return 4 * (std::nextafter(size, std::numeric_limits<double>::infinity()) - size);
@@ -148,8 +150,9 @@ Box swept_box(const Segment& s) {
   return grown(box_of(s), reach(s));
 }
 
-// Returns true if a point is within reach of an edge of the shell whose ends were rounded. (An edge that ends in p
-// itself does not belong to the shell, since p is off it.) The threshold is well above the errors of the product.
+// Returns true if a point is so near to a changed edge that the rounded and the exact edge may have it on different
+// sides. (An edge that ends in p does not count, because p is not on the tested ring then.) The threshold is 8 times
+// the possible displacement, well above the rounding errors of the product.
 bool is_doubtful(const LocalCut& cut, Point p) {
   return std::ranges::any_of(cut.changed, [&](const Segment& s) {
     if (p == s.from || p == s.to || !overlaps(swept_box(s), {p, p})) return false;
@@ -197,9 +200,9 @@ bool plan_walk(LocalCut& cut, const Walk& walk, std::vector<PiecePlan>& plans, s
   std::vector<PieceRing> holes;
   for (const Loop& loop : walk.loops) {
     PieceRing ring(write_loop(cut, loop), loop, -1);
-    const int turn = turn_of(cut, ring);
-    if (turn == 0 || (turn > 0 && !plan.rings.empty())) return false;
-    (turn > 0 ? plan.rings : holes).push_back(std::move(ring));
+    const int orientation = orientation_of(cut, ring);
+    if (orientation == 0 || (orientation > 0 && !plan.rings.empty())) return false;
+    (orientation > 0 ? plan.rings : holes).push_back(std::move(ring));
   }
   std::ranges::move(holes, std::back_inserter(plan.rings.empty() ? free_holes : plan.rings));
   if (!plan.rings.empty()) plans.push_back(std::move(plan));

@@ -143,7 +143,7 @@ class Snapping {
   std::vector<std::vector<Bend>> bends_;
 };
 
-geometry::Ring welded(const geometry::Ring& ring) {
+geometry::Ring without_spikes(const geometry::Ring& ring) {
   geometry::Ring kept;
   for (const geometry::Point p : ring) {
     if (!kept.empty() && kept.back() == p) continue;
@@ -169,10 +169,10 @@ geometry::Ring welded(const geometry::Ring& ring) {
 // Returns the polygon without parts that rounding can leave in a ring and that enclose nothing: equal neighbours and
 // spikes, which are edges folded back on the one before. Rings that enclose nothing are dropped; an outer one becomes
 // empty.
-geometry::Polygon welded(const geometry::Polygon& polygon) {
-  geometry::Polygon result{welded(polygon.outer), {}};
+geometry::Polygon without_spikes(const geometry::Polygon& polygon) {
+  geometry::Polygon result{without_spikes(polygon.outer), {}};
   for (const geometry::Ring& hole : polygon.holes) {
-    if (geometry::Ring kept = welded(hole); !kept.empty()) result.holes.push_back(std::move(kept));
+    if (geometry::Ring kept = without_spikes(hole); !kept.empty()) result.holes.push_back(std::move(kept));
   }
   return result;
 }
@@ -207,14 +207,14 @@ double Lattice::width(double size) const {
 }
 
 std::optional<std::vector<geometry::Polygon>> snapped(const Polygon& polygon, const Lattice& lattice) {
-  const geometry::Polygon rings = welded(Snapping(polygon, lattice).polygon());
+  const geometry::Polygon rings = without_spikes(Snapping(polygon, lattice).polygon());
   if (!rings.outer.empty() && !find_defect(rings)) return std::vector{rings};
   std::vector<SourceSegment> segments;
   append_segments(segments, exactly(rings), 0);
   const auto inside = [](Winding w) { return w.shape > 0 ? 0 : -1; };
   std::vector<geometry::Polygon> parts;
   for (const Region& region : overlay(segments, inside, Seams::kDissolve).regions) {
-    geometry::Polygon part = welded(rounded(region.polygon));
+    geometry::Polygon part = without_spikes(rounded(region.polygon));
     if (part.outer.empty()) continue;
     if (find_defect(part)) return {};
     parts.push_back(std::move(part));
@@ -257,7 +257,7 @@ class Rounding {
     const Rational exact_area = area(piece.polygon);
     change_ -= exact_area;
     const geometry::Polygon nearest = rounded(piece.polygon);
-    geometry::Polygon kept = welded(nearest);
+    geometry::Polygon kept = without_spikes(nearest);
     if (!kept.outer.empty() && !find_defect(kept)) {
       add(std::move(kept), piece.part);
       return true;

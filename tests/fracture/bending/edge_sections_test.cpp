@@ -64,7 +64,7 @@ TEST(EdgeSections, OfANarrowWedgeAreTheFloatingBeams) {
 TEST(EdgeSections, BreakAtTheNeck) {
   EdgeOpenings openings = wedge_of(80);
   const double l = 15;
-  const EdgePush push{l, l, 0.2, 1.5, 0.4};
+  const EdgeLoad push{l, l, 0.2, 1.5, 0.4};
   const SectionBreak wedge = weakest_section(openings, push);
   for (std::size_t i = 0; i < kSectionCount; ++i)  // a promontory: the same tip on a wide edge
     if (kSectionRadii[i] > 0.25) openings[i] = {85 * kDegree, 85 * kDegree};
@@ -113,14 +113,14 @@ TEST(EdgeSections, OfWholeWedgesAreTheElements) {
                                                {60, 1., 0.219},
                                                {80, 1.7, 0.331},
                                                {80, 1., 0.308}}) {
-    const EdgePush push{15, 15, 2 * depth / 3, thrust, 0.5 - depth / (3 * slope), depth};
+    const EdgeLoad push{15, 15, 2 * depth / 3, thrust, 0.5 - depth / (3 * slope), depth};
     EXPECT_NEAR(weakest_section(wedge_of(degrees), push).force / force, 1, 0.04) << degrees << " " << thrust;
   }
 }
 
 /// An edge of a run with a crack below, its openings in degrees, and V_b/σ_f h² and R̄/h of its elements.
 struct CrackedEdge {
-  EdgePush push() const { return {l, l, distance, thrust, lever, facet}; }
+  EdgeLoad push() const { return {l, l, distance, thrust, lever, facet}; }
   double l, distance, thrust, lever, facet;
   SectionBreak by_elements;
   Degrees front, back;
@@ -225,7 +225,7 @@ TEST(EdgeSections, OfCrackedEdgesAreTheElements) {
 
 /// An edge that widens a little bears a little more or less, also where a side turns past the normal of the hull.
 TEST(EdgeSections, ChangeLittleWithTheOutline) {
-  const EdgePush push{15, 15, 0.2, 1.6, 0.4, 0.3};
+  const EdgeLoad push{15, 15, 0.2, 1.6, 0.4, 0.3};
   constexpr double kStep = 0.01;  // of a degree
   const auto at = [&](double aside) {
     EdgeOpenings edge = wedge_of(130);
@@ -286,7 +286,7 @@ TEST(EdgeSections, FollowTheDatabaseWithSpeed) {
 }
 
 TEST(EdgeSections, AreWholeWithoutRadialCracks) {
-  const EdgePush push{15, 15, 0.2, 1.7, 0.4};
+  const EdgeLoad push{15, 15, 0.2, 1.7, 0.4};
   const auto force = [&](double opening, bool has_radial_cracks) {
     return weakest_section_of_sinking(wedge_of(opening), push, 0, has_radial_cracks).force;
   };
