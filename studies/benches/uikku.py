@@ -17,6 +17,7 @@ import json
 import math
 import pathlib
 import sys
+import zlib
 
 import numpy as np
 
@@ -94,7 +95,7 @@ def found_at(runs, label, scenes, average=level_tests.AVERAGE):
 def of_tests(runs, angles, average=level_tests.AVERAGE, settings=(), places=PLACES):
     """(the tests, {test's name: what was found}) by one set of angles."""
     tests = level_tests.read_tests(HERE / "uikku_tests.csv")
-    label = "-".join([angles, *(f"{key}={value}".replace("/", "_") for key, value in settings)])
+    label = f"{angles}-{zlib.crc32(repr(settings).encode()):08x}" if settings else angles
     scenes = {test.name: scenes_of(test, ANGLES[angles], places, settings) for test in tests}
     return tests, found_at(runs, label, scenes, average)
 
