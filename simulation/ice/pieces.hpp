@@ -15,6 +15,7 @@ struct Breakage {
   InsideFate inside = InsideFate::kFloats;
   double EnergyFlows::*energy_sink = nullptr;  ///< for the motion of ice that leaves the floe list
   std::int64_t Counts::*count = nullptr;
+  bool has_decks = false;  ///< the hull carries the water that is missing on what goes under (add_decks)
 };
 
 /// Replaces the event's floe by the pieces of a cut: floes that move on as the parts of the body they were,

@@ -170,9 +170,12 @@ void turn_cusp(const Step& step, const PendingFracture& bend, double mass, Popul
   if (!is_started(cusp)) population.started.push_back(cusp);
 }
 
+bool has_decks(const Setup& setup, const PendingFracture& bend) {
+  return setup.has_flooding_decks && bend.push.speed > 0;
+}
+
 void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut,
                Population& population) {
-  if (!setup.has_flooding_decks || bend.push.speed <= 0) return;
   const dynamics::Bodies& bodies = population.bodies;
   const geometry::Rotation of_ship = bodies.rotation[bend.ship];
   for (const geometry::Piece& piece : cut.pieces) {

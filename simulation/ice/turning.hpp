@@ -24,8 +24,11 @@ void turn_cusp(const Step& step, const PendingFracture& bend, double mass, Popul
 double pressed_mass(const Setup& setup, const Population& population, const PendingFracture& bend,
                     const geometry::CutResult& cut);
 
-/// Keeps the decks of the cut's cusps, which the hull presses down from now on, where water floods decks
-/// (`has_flooding_decks`).
+/// Returns whether the hull carries the water that is missing on the decks of the cusps that a bend breaks off:
+/// where water floods decks (`has_flooding_decks`) and the hull presses the cusps down.
+bool has_decks(const Setup& setup, const PendingFracture& bend);
+
+/// Keeps the decks of the cut's cusps, which the hull presses down from now on. Call it where has_decks().
 void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut, Population& population);
 
 /// Goes on to set in motion the cusps that have not all of their edge's speed yet. Those that the hull has passed end.

@@ -50,12 +50,17 @@ def set_key(whole, key, value):
     whole[last] = value
 
 
+def share_of(place):
+    """Of a test's speed at one of many places, spread evenly over any first ones [-]."""
+    return 1 + SPEED_RANGE * (2 * (0.75488 * (place + 0.5) % 1) - 1)
+
+
 def at_places(scene_at, places, settings):
-    """[the scene of each place]; scene_at(share, slant) has the test at that share of its speed."""
-    shares = np.linspace(1 - SPEED_RANGE, 1 + SPEED_RANGE, places) if places > 1 else [1]
+    """[the scene of each place]; scene_at(share, slant) has the test at that share of its speed. More places have the
+    same first ones."""
     scenes = []
-    for place, share in enumerate(shares):
-        whole = scene_at(share=float(share), slant=slant_of(place)) | {"seed": place + 1}
+    for place in range(places):
+        whole = scene_at(share=share_of(place), slant=slant_of(place)) | {"seed": place + 1}
         whole["fracture"]["bending"] = {"strength_spread": STRENGTH_SPREAD}
         for key, value in settings:
             set_key(whole, key, value)
@@ -82,8 +87,8 @@ def measured(run, average):
 
 def found_at(runs, label, scenes, average=level_tests.AVERAGE):
     """{name: means over its places of what `measured` has, and the standard error of the mean}."""
-    found = runs.scenes("uikku", {(label, name, str(place)): whole for name, each in scenes.items()
-                                  for place, whole in enumerate(each)})
+    found = runs.scenes("uikku", {(label, name, str(place)): each[place]
+                                  for place in range(max(map(len, scenes.values()))) for name, each in scenes.items()})
     results = {}
     for name, each in scenes.items():
         values = [measured(found[label, name, str(place)], average) for place in range(len(each))]

@@ -199,6 +199,24 @@ TEST(UnderHull, DecksThatWaterHasNotReachedBrakeAFastHullMore) {
   EXPECT_GT(fast, 1.3 * slow);
 }
 
+TEST(UnderHull, WhereDecksFloodTheFactorOfSpeedIsLeftForTheFrictionBehindTheBowAlone) {
+  const auto by_factor = [](bool floods, double from, double to) {
+    const auto surge = [&](bool has_factor) {
+      Scene scene = in_thick_ice(ConstantSpeed{1}, 1, floods);
+      scene.ships[0].hull.has_speed_factor = has_factor;
+      return -mean(run(scene, 30).story, &HullSample::from_submerged, from, to);
+    };
+    return surge(true) - surge(false);
+  };
+  // The stem is in the ice from 0.5 s on. The bow is 10.4 m long, so that nothing is behind it before 10.9 s.
+  EXPECT_EQ(by_factor(true, 0, 10), 0);
+  EXPECT_GT(by_factor(false, 0, 10), 100);
+  const double whole = by_factor(false, 20, 30);
+  const double left = by_factor(true, 20, 30);
+  EXPECT_GT(left, 0);
+  EXPECT_LT(left, 0.6 * whole);  // of the first pieces, 20 to 30 m behind the stem
+}
+
 TEST(UnderHull, DecksTakeTheirWorkFromAShipThatIsFree) {
   const Simulation simulation = run(in_thick_ice(ConstantThrust{3e5}, 1.5, true), 20).simulation;
   EXPECT_FALSE(simulation.world().population.decks.empty());
