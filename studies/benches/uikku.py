@@ -4,7 +4,7 @@
 
   studies/benches/uikku.py [TABLE]... [--places N] [--average S] [--set KEY=VALUE]...
 
-TABLE is one of tests, other-angles, dependences, polaris; all without one. Each test is run at N places (8 if not
+TABLE is one of tests, other-angles, water, dependences, polaris; all without one. Each test is run at N places (8 if not
 given): constant speed in fast ice that does not split and whose strength scatters by 0.2 from cusp to cusp. A place has
 a seed of the strength, a slant of the ice's edge from 2 to 6 degrees (along a straight edge a bow breaks mirror images)
 and a speed within 3 % of the test's. 100 m are measured after the ice reaches along all of the hull. ± is the standard
@@ -138,22 +138,57 @@ def dependence(tests, forces):
     return solution[1:], errors[1:], math.sqrt(np.mean(left**2))
 
 
+DEPENDENCES = ("exponent of h", "of σ_f", "of v", "rms of what is left", "mean absolute error, sheets I to III",
+               "all ten")
+
+
+def dependence_cells(tests, forces):
+    """Exponents of sheets I to III and the mean absolute errors of {test's name: force [kN]}."""
+    solution, errors, left = dependence(tests, forces)
+    off = [abs(forces[test.name] / test.mean - 1) for test in tests]
+    of_sheets = off[:sum(test.name[0] in "123" for test in tests)]
+    return [*(f"{value:.2f} ± {error:.2f}".replace("-", "−") for value, error in zip(solution, errors)),
+            f"{100 * left:.0f} %", f"{100 * np.mean(of_sheets):.0f} %", f"{100 * np.mean(off):.0f} %"]
+
+
 def dependences(runs, settings=(), places=PLACES):
     """How the resistance grows, and how far the means are off, beside formulas as the tests' authors found them."""
     tests, results = of_tests(runs, "stated", settings=settings, places=places)
     columns = {"measured": {test.name: test.mean for test in tests},
                "Polynya": {name: of["mean"] for name, of in results.items()}}
     columns |= {name: {test.name: float(test.row[key]) for test in tests} for name, key in FORMULAS.items()}
-    rows = []
-    for name, forces in columns.items():
-        solution, errors, left = dependence(tests, forces)
-        off = [abs(forces[test.name] / test.mean - 1) for test in tests]
-        of_sheets = off[:sum(test.name[0] in "123" for test in tests)]
-        rows.append([name, *(f"{value:.2f} ± {error:.2f}".replace("-", "−") for value, error in zip(solution, errors)),
-                     f"{100 * left:.0f} %", *([f"{100 * np.mean(of_sheets):.0f} %", f"{100 * np.mean(off):.0f} %"]
-                                              if name != "measured" else ["", ""])])
-    return Table(["of sheets I to III", "exponent of h", "of σ_f", "of v", "rms of what is left",
-                  "mean absolute error, sheets I to III", "all ten"], rows, within=0.1)
+    rows = [[name, *dependence_cells(tests, forces)] for name, forces in columns.items()]
+    rows[0][-2:] = "", ""
+    return Table(["sheets I to III", *DEPENDENCES], rows, within=0.1)
+
+
+def growth_over_bow(test):
+    """What Lindqvist's factor of speed adds over the bow, which cusps with decks that flood leave out [kN]."""
+    hull = json.loads((HERE / "uikku.json").read_text(encoding="utf-8"))["hull"]
+    form = formulas.Hull(hull["length_m"], hull["beam_m"], hull["draught_m"], *(
+        math.radians(ANGLES["stated"][key]) for key in ("stem", "entrance")))
+    ice = formulas.Ice(test.ice["thickness_m"], friction=ANGLES["stated"]["friction"])
+    lighter = (ice.water_density - ice.density) * formulas.G * ice.thickness * form.beam
+    of_bow = lighter * (formulas.rise(form) + ice.friction * form.draught / math.tan(form.stem))
+    return 1e-3 * of_bow * 9.4 * test.speed / math.sqrt(formulas.G * form.length)
+
+
+WATER = {"once: decks, and the factor behind the bow (default)": (),
+         "once: decks alone": (NO_FACTOR,),
+         "once: the factor alone": (("fracture.bending.decks", "wet"),)}
+
+
+def water(runs, settings=(), places=PLACES):
+    """The choices by which missing water is counted once, and twice as in earlier versions: the default's means with
+    the factor's growth over the bow, since contacts at constant speed are the same."""
+    rows, twice = [], None
+    for name, more in WATER.items():
+        tests, results = of_tests(runs, "stated", settings=(*settings, *more), places=places)
+        forces = {key: of["mean"] for key, of in results.items()}
+        twice = twice or {test.name: forces[test.name] + growth_over_bow(test) for test in tests}
+        rows.append([name, *dependence_cells(tests, forces)])
+    return Table(["water", *DEPENDENCES], [["twice: decks and all of the factor", *dependence_cells(tests, twice)], *rows],
+                 within=0.1)
 
 
 def polaris(runs, settings=(), places=PLACES):
@@ -178,6 +213,7 @@ def polaris(runs, settings=(), places=PLACES):
 def main():
     made = {"tests": lambda runs, of: table(runs, "stated", of.average, of.settings, of.places),
             "other-angles": lambda runs, of: table(runs, "inverted", of.average, of.settings, of.places),
+            "water": lambda runs, of: water(runs, of.settings, of.places),
             "dependences": lambda runs, of: dependences(runs, of.settings, of.places),
             "polaris": lambda runs, of: polaris(runs, of.settings, of.places)}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
