@@ -5,12 +5,12 @@
   studies/benches/uikku.py [TABLE]... [--places N] [--average S] [--set KEY=VALUE]...
 
 TABLE is one of tests, other-angles, water, dependences, polaris; all without one. Each test is run at N places (8 if
-not given): constant speed in fast ice that does not split and whose strength scatters by 0.2 from cusp to cusp. A place
-has a seed of the strength, a slant of the ice's edge from 2 to 6 degrees (along a straight edge a bow breaks mirror
-images) and a speed within 3 % of the test's. 100 m are measured after the ice reaches along all of the hull. ± is the standard
-error of the mean over places. uikku_tests.csv has the tests: model scale 1:31.56, values in full scale. The angles of
-the bow are doubtful, so both sets that are named for it are run. --average: running means of forces over so many
-seconds, 0.1 if not given; --set: a key of the scene. Needs numpy.
+not given): constant speed in fast ice that does not split and whose strength scatters by 0.2 from cusp to cusp. A
+place has a seed of the strength, a slant of the ice's edge from 2 to 6 degrees (along a straight edge a bow breaks
+mirror images) and a speed within 3 % of the test's. 100 m are measured after the ice reaches along all of the hull. ±
+is the standard error of the mean over places. uikku_tests.csv has the tests: model scale 1:31.56, values in full
+scale. The angles of the bow are doubtful, so both sets that are named for it are run. --average: running means of
+forces over so many seconds, 0.1 if not given; --set: a key of the scene. Needs numpy.
 """
 import argparse
 import json
