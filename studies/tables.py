@@ -60,7 +60,7 @@ class Runs:
 
         def run(item):
             key, scene = item
-            path = kept_run(self.program, folder, "-".join(map(str, key)), scene)
+            path = kept_run(self.program, folder, "-".join(map(str, key)), scene, has_map=False)
             return key, polynya.Run(path, pandas=False)
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
             return dict(pool.map(run, scenes.items()))

@@ -179,6 +179,30 @@ def speed_error(runs):
     return Table(["ship", *(f"{h:g} m" for h in found)], [["reference", *shares]], within=0.03)
 
 
+def thick_ice(runs):
+    """Contacts, and the sum with the ice under the hull, by thickness; the slope of the contacts' logarithm over five
+    neighbouring thicknesses, by least squares, with its error from those of the means."""
+    study, rows, points = runs.study("thick-ice.json"), [], []
+    for h, cases in tables.groups(study, "ice.thickness_m").items():
+        contacts = -1e-3 * study.table["surge_mean_N"][cases]
+        points.append((h, *mean_and_error(contacts), *mean_and_error(1e-3 * study.table["resistance_mean_N"][cases])))
+    for i, (h, contact, error, total, error_of_total) in enumerate(points):
+        slope = ""
+        if 2 <= i < len(points) - 2:
+            slope = "{:.2f} ± {:.2f}".format(*slope_and_error([point[:3] for point in points[i - 2:i + 3]]))
+        rows.append([f"{h:g}", f"{contact:.0f} ± {error:.0f}", slope, f"{total:.0f} ± {error_of_total:.0f}"])
+    return Table(["h [m]", "crushing and bending [kN]", "slope over five thicknesses",
+                  "sum with ice under the hull [kN]"], rows, within=0.1)
+
+
+def slope_and_error(points):
+    """The slope of ln y over ln x of (x, y, standard error of y) by least squares, and its standard error."""
+    x, y, error = np.array(points, dtype=float).T
+    away = np.log(x) - np.log(x).mean()
+    weights = away / (away @ away)
+    return weights @ np.log(y), np.sqrt(weights**2 @ (error / y)**2)
+
+
 # ---- pack ice
 
 def colbourne(cover, h, v, k, b, n):
@@ -212,6 +236,40 @@ def pack(runs):
                      *slender_and_blunt(cover), f"{zuev(cover, 0.5, 1):.0f}"])
     return Table(["C", "contact", "submersion", "sum", "without going under", "floes under", "Colbourne slender",
                   "blunt", "Zuev"], rows, within=0.1)
+
+
+BREAKABLE = "fracture.breakable_size_factor"
+THICKNESS, BEAM = "ice.thickness_m", "ships[0].hull.beam_m"
+# Colbourne's k Fr^b C^n, with Fr = v/√(g h C): slender and blunt bows.
+COLBOURNE = {"slender": (-0.8267, 2), "blunt": (-1.7937, 3)}
+
+
+def pack_exponents(runs):
+    """Slopes of the logarithm of the sum about V 1 m/s, h 0.5 m, C 0.7, B 24 m, beside Colbourne's."""
+    study, rows = runs.study("pack-exponents.json"), []
+    names = (SPEED, THICKNESS, COVER, BEAM)
+    base = dict(zip(names, (1, 0.5, 0.7, 24)))
+    found = tables.groups(study, BREAKABLE, *names)
+    his = {SPEED: lambda b, n: 2 + b, THICKNESS: lambda b, n: 1 - b / 2, COVER: lambda b, n: n - b / 2,
+           BEAM: lambda b, n: 1}
+    of_series = [("V", SPEED, {}), ("V at C 0.5", SPEED, {COVER: 0.5}), ("h", THICKNESS, {}), ("C", COVER, {}),
+                 ("B", BEAM, {})]
+    for label, varied, other in of_series:
+        row = [label, ""]
+        for factor in (100, 1):
+            points = []
+            for key, cases in found.items():
+                if key[0] == factor and all(value == (base | other)[name] for name, value in zip(names, key[1:])
+                                            if name != varied):
+                    points.append((key[1 + names.index(varied)],
+                                   *mean_and_error(1e-3 * study.table["resistance_mean_N"][cases])))
+            points.sort()
+            row[1] = ", ".join(f"{at:g}" for at, _, _ in points)
+            row.append(", ".join(f"{mean:.0f} ± {error:.0f}" for _, mean, error in points))
+            row.append("{:.2f} ± {:.2f}".format(*slope_and_error(points)).replace("-", "−"))
+        rows.append(row + [f"{his[varied](*COLBOURNE[bow]):.2f}" for bow in COLBOURNE])
+    return Table(["varied", "values", "unbreakable: sum [kN]", "exponent", "breakable: sum [kN]", "exponent",
+                  "Colbourne slender", "blunt"], rows, within=0.2)
 
 
 def shapes(runs):
@@ -396,7 +454,10 @@ def scatter(runs):
 
 TABLES = {"resistance": resistance, "smooth": smooth, "exponents": exponents, "speeds": speeds,
           "speed-error": speed_error, "uikku": lambda runs: uikku.table(runs, "stated"),
-          "uikku-other-angles": lambda runs: uikku.table(runs, "inverted"), "pack": pack, "shapes": shapes,
+          "uikku-other-angles": lambda runs: uikku.table(runs, "inverted"),
+          "uikku-dependences": lambda runs: uikku.dependences(runs), "water-once": lambda runs: uikku.water(runs),
+          "polaris": lambda runs: uikku.polaris(runs), "thick-ice": thick_ice, "pack": pack,
+          "pack-exponents": pack_exponents, "shapes": shapes,
           "settings": settings, "gauge": gauge, "splitting": splitting, "crossover-forces": crossover_forces,
           "crossover": crossover, "ramming": ramming, "turning": turning,
           "three-measures": three_measures, "step": step, "circles": circles, "scatter": scatter,

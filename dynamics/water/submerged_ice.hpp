@@ -27,6 +27,10 @@ struct SubmersionPath {
   double risen_over(double from, double to) const { return bow > 0 ? rise / bow * part_of(bow, from, to) : 0; }
   /// Returns the part of s̄ between two values of s [m].
   double slid_over(double from, double to) const { return part_of(sliding, from, to); }
+  /// Returns the part of s̄ that lies behind the bow between two values of s [m].
+  double slid_behind_bow_over(double from, double to) const {
+    return std::max(0.0, part_of(sliding, from, to) - part_of(std::min(bow, sliding), from, to));
+  }
 
  private:
   /// Returns the length of the part of [0, length] that lies between two values of s [m].

@@ -33,7 +33,8 @@ const Description<ShipInput> kHull{
                      "C_B, displaced volume over length, beam and draught; if not given, by the mass", &ShipInput::spec,
                      &Ship::water, &HullWaterSettings::block_coefficient)),
      choice<bool>("submersion_speed_factor",
-                  "how the load of ice under the hull grows with speed: by 1 + 9.4 v/√(gL), or not",
+                  "how the load of ice under the hull grows with speed: by 1 + 9.4 v/√(gL), for cusps with "
+                  "`fracture.bending.decks` `flood` behind the bow alone; or not",
                   {{"lindqvist", true}, {"none", false}}, &ShipInput::spec, &Ship::hull, &Hull::has_speed_factor)}};
 
 const Description<EngineInput> kEngine{

@@ -91,6 +91,15 @@ def slide(hull):
     )
 
 
+def formula_under_hull(hull, ice, speed, has_factor=True):
+    """The part of the model's resistance in level ice that is Lindqvist's formula for ice under the hull [N]: R_s,
+    which grows with speed behind the bow alone (docs/theory/under-hull.md). `has_factor`: whether it grows at all."""
+    lighter = (ice.water_density - ice.density) * G * ice.thickness * hull.beam
+    behind_bow = max(0.0, slide(hull) - hull.draught / math.tan(hull.stem))
+    growth = ice.friction * behind_bow * 9.4 * speed / math.sqrt(G * hull.length) if has_factor else 0
+    return lighter * (rise(hull) + ice.friction * slide(hull) + growth)
+
+
 def riska(hull, ice, speed, bow=None, parallel=None):
     """[Riska1997], C1 + C2 v [N]. The lengths of the bow and of the parallel midbody are the wedge's if not given."""
     h, b, t, length = ice.thickness, hull.beam, hull.draught, hull.length

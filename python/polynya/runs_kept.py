@@ -10,8 +10,8 @@ class RunFailed(Exception):
     pass
 
 
-def kept_run(program, folder, name, scene):
-    """The run's folder, folder/name; of a run that is there already, at once."""
+def kept_run(program, folder, name, scene, has_map=True):
+    """The run's folder, folder/name; of a run that is there already, at once. `has_map`: with a picture of its end."""
     path, run = folder / (name + ".json"), folder / name
     text = json.dumps(scene, indent=1)
     if is_finished(run) and path.is_file() and path.read_text(encoding="utf-8") == text:
@@ -19,7 +19,8 @@ def kept_run(program, folder, name, scene):
     with writing(path) as file:
         file.write(text)
     done = subprocess.run(
-        [program, "run", path, "--out", run, "--overwrite", "--progress", "none", "--threads", "1"],
+        [program, "run", path, "--out", run, "--overwrite", "--progress", "none", "--threads", "1"]
+        + ([] if has_map else ["--no-map"]),
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
         text=True,

@@ -134,13 +134,14 @@ void apply_fractures(const Setup& setup, const Step& step, StepData& data, Popul
     }
     if (outcome) {
       const FloeId first = population.floe_count();
-      const Breakage breakage = breakage_of(setup, step.end, pending, *outcome);
+      Breakage breakage = breakage_of(setup, step.end, pending, *outcome);
       const bool is_bend = pending.failure == fracture::Failure::kBend;
       if (is_bend && !pending.is_in_range) ++books.accounts.counts.database_out_of_range;
       if (breakage.inside == InsideFate::kUnderHull) {
         start_cusp(step, pending, pressed_mass(setup, population, pending, *outcome), population,
                    {data.loads[pending.ship], books.accounts.audit});
-        add_decks(setup, pending, *outcome, population);
+        breakage.has_decks = has_decks(setup, pending);
+        if (breakage.has_decks) add_decks(setup, pending, *outcome, population);
       }
       replace_by_pieces(setup, step.end, breakage, population, books);
       if (pending.passes_to_pieces) pass_bends(pending.floe, first, std::span(fractures).subspan(i + 1), population);

@@ -118,6 +118,7 @@ void replace_by_pieces(const Setup& setup, const Instant& now, Breakage breakage
       std::get<Bend>(breakage.event.what).under_hull_area += measures.area;
       submersions.push_back(submersion_event(now, population, {id, ship}));
       go_under(setup, now, {id, ship}, population, books.accounts);
+      population.submerged.back().had_deck = breakage.has_decks;
       continue;
     }
     wake(population.body_of(id), population);

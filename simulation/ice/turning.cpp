@@ -182,9 +182,12 @@ void start_cusp(const Step& step, const PendingFracture& bend, double mass, Popu
   if (!is_finished(cusp)) population.accelerating_cusps.push_back(cusp);
 }
 
+bool has_decks(const Setup& setup, const PendingFracture& bend) {
+  return setup.has_flooding_decks && bend.driven_edge.speed > 0;
+}
+
 void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut,
                Population& population) {
-  if (!setup.has_flooding_decks || bend.driven_edge.speed <= 0) return;
   const dynamics::Bodies& bodies = population.bodies;
   const geometry::Rotation of_ship = bodies.rotation[bend.ship];
   for (const geometry::Piece& piece : cut.pieces) {

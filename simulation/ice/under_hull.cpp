@@ -87,6 +87,7 @@ namespace {
 struct Pull {
   BodyIndex ship = 0;
   double speed = 0;   ///< speed of the ship ahead through the water [m/s]
+  double factor = 1;  ///< Lindqvist's factor of speed [-]
   double work = 0;    ///< work of the ship on the ice in the step [J]
   double moment = 0;  ///< sum of the work on each piece times its distance to port of the centre line [J m]
   double area = 0;    ///< area of ice under the hull [m²]
@@ -112,8 +113,11 @@ void add_piece(const Setup& setup, double dt, const Population& population, cons
   if (piece.path < path.sliding) pull.area += piece.area;
   if (pull.speed <= 0) return;
   const double to = piece.path + pull.speed * dt;
-  const double work =
-      piece.weight * (path.risen_over(piece.path, to) + setup.scene.ice.friction * path.slid_over(piece.path, to));
+  const double friction = setup.scene.ice.friction;
+  const double steady = path.risen_over(piece.path, to) + friction * path.slid_over(piece.path, to);
+  // The decks of cusps have given the bow's part of the growth with speed; the friction behind the bow is left.
+  const double growing = piece.had_deck ? friction * path.slid_behind_bow_over(piece.path, to) : steady;
+  const double work = piece.weight * (steady + (pull.factor - 1) * growing);
   if (work == 0) return;
   pull.work += work;
   pull.moment += work * distance_to_port(setup, population.bodies, piece, population.body_of(piece.floe));
@@ -121,13 +125,10 @@ void add_piece(const Setup& setup, double dt, const Population& population, cons
 
 /// Returns the impulse against its heading with which the ice under a hull brakes a ship in a step of length dt [N s].
 /// It stops a ship and never reverses it.
-double impulse_of(const Setup& setup, double dt, const Pull& pull, const dynamics::Bodies& bodies) {
+double impulse_of(double dt, const Pull& pull, const dynamics::Bodies& bodies) {
   const BodyIndex ship = pull.ship;
   if (pull.work == 0) return 0;
-  const bool has_factor = setup.scene.ships[ship].hull.has_speed_factor;
-  const double factor =
-      has_factor ? dynamics::submersion_speed_factor(pull.speed, setup.underwater[ship].form.length) : 1;
-  const double impulse = factor * pull.work / (pull.speed * dt) * dt;
+  const double impulse = pull.work / (pull.speed * dt) * dt;
   return bodies.inverse_mass[ship] != 0 ? std::min(impulse, bodies.mass[ship] * pull.speed) : impulse;
 }
 
@@ -152,6 +153,14 @@ double speed_ahead(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex
   return dot(heading_of(bodies, ship), through_water);
 }
 
+/// The speed of a ship and the factor by which it multiplies the force of ice under its hull.
+Pull pull_of(const Setup& setup, const dynamics::Bodies& bodies, BodyIndex ship) {
+  Pull pull{.ship = ship, .speed = speed_ahead(setup, bodies, ship)};
+  if (setup.scene.ships[ship].hull.has_speed_factor && pull.speed > 0)
+    pull.factor = dynamics::submersion_speed_factor(pull.speed, setup.underwater[ship].form.length);
+  return pull;
+}
+
 }  // namespace
 
 void pull_of_submerged_ice(const Setup& setup, const Step& step, Population& population, std::vector<HullLoads>& loads,
@@ -160,11 +169,10 @@ void pull_of_submerged_ice(const Setup& setup, const Step& step, Population& pop
   const double dt = step.length;
   std::vector<Pull> pulls(setup.scene.ships.size());
   const auto ships = static_cast<BodyIndex>(pulls.size());
-  for (BodyIndex ship = 0; ship < ships; ++ship)
-    pulls[ship] = {.ship = ship, .speed = speed_ahead(setup, bodies, ship)};
+  for (BodyIndex ship = 0; ship < ships; ++ship) pulls[ship] = pull_of(setup, bodies, ship);
   for (const SubmergedPiece& piece : population.submerged) add_piece(setup, dt, population, piece, pulls[piece.ship]);
   for (BodyIndex ship = 0; ship < ships; ++ship) {
-    apply(impulse_of(setup, dt, pulls[ship], bodies), pulls[ship], bodies, loads[ship], audit);
+    apply(impulse_of(dt, pulls[ship], bodies), pulls[ship], bodies, loads[ship], audit);
     pulls[ship].speed = speed_ahead(setup, bodies, ship);
   }
   const bool is_still = setup.current.is_still();

@@ -53,7 +53,7 @@ void fields(auto& archive, Is<TiltedFloe> auto& t) {
   archive(t.floe, t.ship, t.edge.deflection, t.edge.rate);
 }
 void fields(auto& archive, Is<SubmergedPiece> auto& t) {
-  archive(t.floe, t.ship, t.path, t.weight, t.next_try, t.waited);
+  archive(t.floe, t.ship, t.path, t.weight, t.next_try, t.waited, t.had_deck);
 }
 void fields(auto& archive, Is<AcceleratingCusp> auto& c) {
   archive(c.ship, c.arm_in_ship, c.normal_in_ship, c.horizontal_in_ship, c.impulse_left, c.largest_force,

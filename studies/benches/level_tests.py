@@ -17,9 +17,13 @@ REQUIRED = {
     "flexural_strength_kPa": (1e-3, 1e6),
     "speed_m_per_s": (1e-3, 20),
     "resistance_mean_kN": (1e-6, 1e9),
+}
+OPTIONAL = {
+    "youngs_modulus_MPa": (1e-3, 1e6),
+    "compressive_strength_kPa": (1e-3, 1e6),
+    "friction": (0, 2),
     "resistance_sd_kN": (1e-6, 1e9),
 }
-OPTIONAL = {"youngs_modulus_MPa": (1e-3, 1e6), "compressive_strength_kPa": (1e-3, 1e6), "friction": (0, 2)}
 IN_SI = {"flexural_strength_kPa": 1e3, "youngs_modulus_MPa": 1e6, "compressive_strength_kPa": 1e3}
 ICE_KEYS = {
     "thickness_m": "thickness_m",
@@ -32,13 +36,12 @@ ICE_KEYS = {
 
 @dataclasses.dataclass(frozen=True)
 class Test:
-    """A row of the table: the scene's ice, the speed [m/s], and the measured resistance [kN]."""
+    """A row of the table: the scene's ice, the speed [m/s], and the measured resistance [kN]; `row` has its cells."""
 
     name: str
     ice: typing.Dict[str, float]
     speed: float
     mean: float
-    sd: float
     row: typing.Dict[str, str]
 
 
@@ -68,7 +71,7 @@ def read_tests(path):
         ice = {key: values[name] * IN_SI.get(name, 1) for name, key in ICE_KEYS.items() if name in values}
         name = row.get("test") or str(len(tests) + 1)
         tests.append(
-            Test(name, ice, values["speed_m_per_s"], values["resistance_mean_kN"], values["resistance_sd_kN"], row)
+            Test(name, ice, values["speed_m_per_s"], values["resistance_mean_kN"], row)
         )
     names = [test.name for test in tests]
     problems += [f"{path}: two tests are called {name}" for name in sorted({n for n in names if names.count(n) > 1})]

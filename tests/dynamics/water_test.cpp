@@ -349,15 +349,17 @@ TEST(SubmergedIce, ThePathOfTheReferenceShipIsLindqvists) {
 
 TEST(SubmergedIce, APieceHasRisenAndSlidAllTheWayHoweverItIsCutIntoSteps) {
   const SubmersionPath path = submersion_path(kReference);
-  double risen = 0, slid = 0;
+  double risen = 0, slid = 0, behind = 0;
   for (double s = -0.3; s < 130;) {
     const double to = s + 0.0137;
     risen += path.risen_over(s, to);
     slid += path.slid_over(s, to);
+    behind += path.slid_behind_bow_over(s, to);
     s = to;
   }
   EXPECT_NEAR(risen, path.rise, 1e-12);
   EXPECT_NEAR(slid, path.sliding, 1e-11);
+  EXPECT_NEAR(behind, path.sliding - path.bow, 1e-11);
 }
 
 TEST(SubmergedIce, AHullCoveredWithIcePaysLindqvistsResistance) {

@@ -148,7 +148,7 @@ def rows_of(*thickness, speed=3.0):
     """Points at that speed in the formulas' band from 2.5 to 3.5 m/s."""
     formulas_of = {"lindqvist_m_per_s": 2.5, "riska_m_per_s": 3.0, "spencer_jones_m_per_s": 3.5}
     return [formulas_of | {"speed_m_per_s": speed, "thickness_m": h, "error_m_per_s": 0.01, "is_stuck": False,
-                           "is_steady": True, "contact_kN": 1.0, "submerged_kN": 1.0,
+                           "is_steady": True, "contact_kN": 1.0, "submerged_kN": 1.0, "formula_share": 0.4 + 0.2 * h,
                            "is_in_validated_range": h <= 0.5,
                            "beyond_formulas": beyond_band(speed, formulas_of.values())} for h in thickness]
 
@@ -163,9 +163,12 @@ def test_points_outside_validation_are_marked_in_table_and_figure(capsys, tmp_pa
         assert ("0.8* " in table) == is_marked and "0.5*" not in table and "!" not in table
         assert ("outside the range of validation" in table) == is_marked
         assert "statistical scatter alone, not the model's error" in table
+        share = "45 to 50" if not is_marked else "50 to 56"
+        assert f"{share} % of its resistance is Lindqvist's formula" in table
         figure.draw(rows_of(*thickness), "title", [], tmp_path / "figure.svg")
         drawn = (tmp_path / "figure.svg").read_text()
         assert ("thicker than 0.5 m: outside validation" in drawn) == is_marked and "run's own scatter" in drawn
+        assert f"{share} % of its resistance" in drawn
         assert "outside the band of the formulas" not in drawn
 
 

@@ -187,7 +187,9 @@ Build in_thick_ice(const Propulsion& propulsion, double speed, bool floods_decks
 TEST(UnderHull, DecksThatWaterHasNotReachedBrakeAFastHullMore) {
   const auto of_decks = [](double speed) {
     const auto surge = [&](bool floods) {
-      const Trial done = run(in_thick_ice(ConstantSpeed{speed}, speed, floods), 40 / speed);
+      Scene scene = in_thick_ice(ConstantSpeed{speed}, speed, floods);
+      scene.ships[0].hull.has_speed_factor = false;  // without decks it multiplies more of the force
+      const Trial done = run(scene, 40 / speed);
       EXPECT_EQ(done.simulation.world().population.decks.empty(), !floods);
       return -mean(done.story, &HullSample::from_submerged, 0, 20 / speed);
     };
@@ -197,6 +199,24 @@ TEST(UnderHull, DecksThatWaterHasNotReachedBrakeAFastHullMore) {
   const double fast = of_decks(1);
   EXPECT_GT(slow, 0);
   EXPECT_GT(fast, 1.3 * slow);
+}
+
+TEST(UnderHull, WhereDecksFloodTheFactorOfSpeedIsLeftForTheFrictionBehindTheBowAlone) {
+  const auto by_factor = [](bool floods, double from, double until) {
+    const auto surge = [&](bool has_factor) {
+      Scene scene = in_thick_ice(ConstantSpeed{1}, 1, floods);
+      scene.ships[0].hull.has_speed_factor = has_factor;
+      return -mean(run(scene, until).story, &HullSample::from_submerged, 0, from);
+    };
+    return surge(true) - surge(false);
+  };
+  // The stem is in the ice from 0.5 s on. The bow is 10.4 m long, so that nothing is behind it before 10.9 s.
+  EXPECT_EQ(by_factor(true, 0, 10), 0);
+  EXPECT_GT(by_factor(false, 0, 10), 100);
+  const double whole = by_factor(false, 20, 30);
+  const double left = by_factor(true, 20, 30);
+  EXPECT_GT(left, 0);
+  EXPECT_LT(left, 0.6 * whole);  // of the first pieces, 20 to 30 m behind the stem
 }
 
 TEST(UnderHull, DecksTakeTheirWorkFromAShipThatIsFree) {

@@ -14,7 +14,7 @@ from ..program import program
 from ..runs_kept import RunFailed
 from ..study.case import DONE, FAILED, STOPPED
 from . import coefficients, sensitivity
-from .curve import BEYOND, THICKER, Curve, mark_of
+from .curve import BEYOND, THICKER, Curve, formula_words, mark_of
 from .options import FLEXURAL_STRENGTH, FRICTION, STEP, command_line
 
 INPUT_OUTPUT = 5  # app/command_line/console.hpp
@@ -69,6 +69,8 @@ def print_table(rows):
             f"{row['lindqvist_m_per_s']:10.2f}{row['riska_m_per_s']:8.2f}{row['spencer_jones_m_per_s']:15.2f}{note}"
         )
     print("±: standard error of the run's own mean speed [m/s], its statistical scatter alone, not the model's error")
+    if words := formula_words(rows):
+        print(f"{words} for ice under the hull, not mechanics (formula_share; docs/ships.md)")
     if any(not row["is_in_validated_range"] for row in rows):
         print(f"*: {THICKER}: the ship may go much too fast (docs/validation.md, \"A ship in level ice\")")
     for sign, words in BEYOND.items():

@@ -22,6 +22,16 @@ def mark_of(row):
     return ("*" if not row["is_in_validated_range"] else "") + ("!" if row["beyond_formulas"] else "")
 
 
+def formula_words(rows):
+    """The share of the resistance that no mechanics of the simulation gives, of the points where the ship moves; or
+    nothing."""
+    shares = [100 * row["formula_share"] for row in rows if row["formula_share"] > 0]
+    if not shares:
+        return ""
+    least, most = f"{min(shares):.0f}", f"{max(shares):.0f}"
+    return f"{least if least == most else f'{least} to {most}'} % of its resistance is Lindqvist's formula"
+
+
 class Curve:
     def __init__(self, ship, hull, engine, ice, folder, program, error, step):
         self.ship, self.hull, self.engine, self.ice = ship, hull, engine, ice
@@ -57,6 +67,9 @@ class Curve:
                 break
             lengths *= 2
         of_formulas = self.formula_speeds(thickness)
+        has_factor = self.ship["hull"].get("submersion_speed_factor") != "none"
+        by_formula = formulas.formula_under_hull(self.hull, self.level(thickness), measured.speed, has_factor)
+        resistance = measured.contact + measured.submerged
         return {
             "thickness_m": thickness,
             "speed_m_per_s": measured.speed,
@@ -67,6 +80,7 @@ class Curve:
             "beyond_formulas": beyond_band(measured.speed, of_formulas.values()),
             "contact_kN": 1e-3 * measured.contact,
             "submerged_kN": 1e-3 * measured.submerged,
+            "formula_share": 0.0 if measured.is_stuck or resistance <= 0 else by_formula / resistance,
             "way_m": measured.way,
             "run": name,
         } | {f"{name}_m_per_s": value for name, value in of_formulas.items()}

@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 from ..files import naming  # noqa: E402
 from ..formulas import KNOT  # noqa: E402
-from .curve import VALIDATED_THICKNESS  # noqa: E402
+from .curve import VALIDATED_THICKNESS, formula_words  # noqa: E402
 
 FORMULAS = (
     ("lindqvist", "Lindqvist 1989", "-"),
@@ -42,6 +42,8 @@ def draw(rows, title, reported, path):
         capsize=2,
         label="Polynya, ± 95 % of the run's own scatter",
     )
+    if words := formula_words(rows):
+        axes.plot([], [], linestyle="none", label=words)
     thicker = [row for row in rows if not row["is_in_validated_range"]]
     beyond = [row for row in rows if row["beyond_formulas"]]
     for marked, words, style in (
