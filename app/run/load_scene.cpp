@@ -78,7 +78,7 @@ void print_fields(const io::LoadedScene& scene) {
     if (const auto& brash = field.brash)
       print_out("floes[{}]: pieces {:.4g} to {:.4g} m thick, {:.6g} m³ of ice, {:+.2f} % of what the brash holds\n",
                 field.group, brash->least_thickness, brash->largest_thickness, brash->volume,
-                100 * (brash->volume / brash->asked_volume - 1));
+                std::round(1e4 * (brash->volume / brash->asked_volume - 1)) / 100 + 0.0);
     if (!outcome.statistics) continue;
     const FieldStatistics& statistics = *outcome.statistics;
     const std::string law = std::visit([&](const auto& asked) { return against(asked, statistics); }, statistics.law);

@@ -110,8 +110,8 @@ def test_the_rules_terms_are_those_of_a_calculation_by_hand():
 
 
 def test_computed_resistance_stands_beside_its_class():
-    points = [{"speed_m_per_s": v, "thickness_m": 0.8, "cover": c, "floe_size_m": 2, "resistance_N": 4e5, "error_N": 1e3}
-              for v in (2.0, 2.572) for c in (0.7, 0.8)]
+    of_all = {"thickness_m": 0.8, "floe_size_m": 2, "resistance_N": 4e5, "error_N": 1e3}
+    points = [{**of_all, "speed_m_per_s": v, "cover": c} for v in (2.0, 2.572) for c in (0.7, 0.8)]
     ship = {**SHIP, "propulsion": {"engine": {"propellers": 2, "propeller_diameter_m": 4}}}
     found = rules.rows(ship, points)
     assert [row["class"] for row in found] == ["IA Super", "IA", "IB", "IB", "IC"]

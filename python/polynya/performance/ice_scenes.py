@@ -35,7 +35,7 @@ def ice_of(regime, hull, way, point):
 
 
 def brash_channel(beam, way, point):
-    """A channel of brash: the point's thickness is that of the brash in the middle, its floe size that of the pieces."""
+    """A channel of brash: the point's thickness is that of the brash, its floe size that of the pieces."""
     return {"channel": {"centreline_m": [[0, 0], [way, 0]], "width_m": CHANNEL_WIDTH * beam,
                         "thickness_m": point["thickness_m"], "cover": point["cover"],
                         "sizes": {"mean_m": point["floe_size_m"], "spread": 0.3},
