@@ -40,7 +40,8 @@ BrashLayer layer_of(const ChannelInput& channel) {
 
 }  // namespace
 
-/// Fills in what is not given, and reports keys that exclude each other. True where nothing is wrong.
+/// Completes the keys that are not given, and reports keys that exclude each other. Returns true if there is no
+/// problem.
 bool FloeListReader::check_channel(ChannelInput& channel, const ReportAt& report_channel) {
   const std::size_t before = problems_.count();
   const bool is_consolidated = channel.consolidated_thickness.has_value();

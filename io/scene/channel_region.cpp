@@ -9,7 +9,8 @@ using geometry::Point;
 using geometry::Ring;
 using geometry::Vector;
 
-/// From the line to its port side at a point: half the width away from both legs.
+/// Returns the vector from a point of the line to the port side of the strip, which is half the width away from both
+/// legs.
 Vector mitre(Vector before, Vector after, double half) {
   const Vector a = perpendicular(before) / length(before);
   const Vector b = perpendicular(after) / length(after);

@@ -17,8 +17,9 @@ struct ChannelRegion {
 /// row.
 ChannelRegion channel_region(const std::vector<geometry::Point>& line, double width);
 
-/// Returns the strips between the sides of a channel and those of a wider one along the same line, to port and to
-/// starboard of it, counter-clockwise [m]. Their inner edges are exactly the sides of channel_region().
+/// Returns the two strips between the sides of a channel and the sides of a wider channel along the same line: the one
+/// to port and the one to starboard, counter-clockwise [m]. Their inner edges are exactly the sides of
+/// channel_region().
 std::vector<geometry::Ring> strips_beside(const std::vector<geometry::Point>& line, double width, double wider);
 
 }  // namespace polynya::io

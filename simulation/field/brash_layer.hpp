@@ -23,7 +23,7 @@ struct BrashLayer {
   /// Returns the mean volume of ice per area in plan over the width [m].
   double mean_ice() const { return (1 - porosity) * 0.5 * (thickness + side_thickness); }
   /// Returns the thickness of the equivalent layer's pieces at a distance [m] from the middle of the channel, for a
-  /// layer that covers the given fraction of the area [m]. The volume of ice per area is that of the brash.
+  /// layer that covers the given fraction of the area [m]. The pieces hold as much ice per area as the brash.
   double piece_thickness(double distance, double cover) const { return ice_at(distance) / cover; }
 };
 
