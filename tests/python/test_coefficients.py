@@ -120,6 +120,12 @@ def test_computed_resistance_stands_beside_its_class():
     assert rules.propellers_of(SHIP) == (1, 0.65 * 3)
 
 
+def test_the_rules_alone_need_no_run(tmp_path):
+    printed = succeeded("performance", "araon", "--channel", "--list", "--out", tmp_path / "out").stdout
+    assert "IA Super" in printed and "2 propellers of 4.3 m" in printed
+    assert not (tmp_path / "out").exists()
+
+
 def test_one_regime_at_a_time(tmp_path):
     done = ended("performance", "polaris", "--pack", "--level")
     assert done.returncode == 2 and "--level: not allowed with --pack" in done.stderr

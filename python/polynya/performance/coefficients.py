@@ -97,6 +97,9 @@ def main(arguments, found, ice, fail, codes):
     """`fail` prints a message and returns its code of `codes`: done, failed, stopped."""
     done, failed, stopped = codes
     name = regime_of(arguments)
+    if arguments.list and name == ice_scenes.CHANNEL:
+        rules.print_table(rules.rows(found["ship"], []), found["ship"])
+        return done
     folder = arguments.out or os.path.join("runs", f"resistance-{found['name']}")
     os.makedirs(folder, exist_ok=True)
     runs = Resistance(name, found["ship"], ice, folder, program(),

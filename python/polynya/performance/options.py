@@ -70,5 +70,6 @@ def command_line():
     meaning = "Runs at a time; one a processor if not given"
     parser.add("--jobs", meaning, type=number(1, 1024, kind=int), default=os.cpu_count() or 1, metavar="N")
     add_coefficients(parser)
-    parser.add("--list", "Print the formulas' speeds and run nothing", action="store_true")
+    parser.add("--list", "Print the formulas' speeds, with --channel the ice class rules, and run nothing",
+               action="store_true")
     return parser
