@@ -75,6 +75,10 @@ void print_fields(const io::LoadedScene& scene) {
     print_out("floes[{}]: {}, sizes {:.4g} m ± {:.3g} %, {:.4g} % of {:.6g} m² covered, {} left out\n", field.group,
               counted(outcome.count, "floe"), outcome.mean_size, 100 * outcome.size_spread,
               100 * outcome.concentration(), outcome.region_area, outcome.left_out);
+    if (const auto& brash = field.brash)
+      print_out("floes[{}]: pieces {:.4g} to {:.4g} m thick, {:.6g} m³ of ice, {:+.2f} % of what the brash holds\n",
+                field.group, brash->least_thickness, brash->largest_thickness, brash->volume,
+                std::round(1e4 * (brash->volume / brash->asked_volume - 1)) / 100 + 0.0);
     if (!outcome.statistics) continue;
     const FieldStatistics& statistics = *outcome.statistics;
     const std::string law = std::visit([&](const auto& asked) { return against(asked, statistics); }, statistics.law);

@@ -72,6 +72,39 @@ const Description<FieldInput> kField{
      member("seed", "", from(0, kLargestSeed), "another one gives another field; the scene's seed is added",
             &FieldInput::field, &FloeField::seed)}};
 
+const Description<ChannelInput> kChannel{
+    {required(as(FieldKind::kLine, member("centreline_m", "m", coordinate(), "middle of the channel, point by point",
+                                          &ChannelInput::brash, &FieldInput::region, &FieldChannel::centreline))),
+     required(member("width_m", "m", from(0.1, 1e5), "of the channel", &ChannelInput::brash, &FieldInput::region,
+                     &FieldChannel::width)),
+     required(member("thickness_m", "m", from(0.001, 20), "of the brash in the middle, H_M, with its pores",
+                     &ChannelInput::thickness)),
+     member("side_thickness_m", "m", from(0.001, 20),
+            "of the brash at the sides, with its pores; linear in between; that in the middle if not given",
+            &ChannelInput::side_thickness),
+     member("porosity", "", below(0, 0.9), "share of the brash's volume that is not ice", &ChannelInput::porosity),
+     member("cover", "", above(0, 0.98),
+            "share of the channel that the pieces cover; they are thickness · (1 − porosity) / cover thick; "
+            "1 − porosity if not given, but at most 0.9",
+            &ChannelInput::cover),
+     object("sizes", kSizes, "law of the pieces' sizes, √area; must be given but with consolidated_thickness_m",
+            &ChannelInput::brash, &FieldInput::field, &FloeField::law),
+     member("gap_m", "m", from(1e-6, 1000), "least distance between pieces", &ChannelInput::brash, &FieldInput::field,
+            &FloeField::gap),
+     member("consolidated_thickness_m", "m", from(0.001, 20),
+            "of a frozen layer on the brash: one plate of fast ice in place of the pieces, with the buoyancy of both",
+            &ChannelInput::consolidated_thickness),
+     member("fast_ice_thickness_m", "m", from(0.001, 20),
+            "of the fast ice on both sides; the scene's ice.thickness_m if not given",
+            &ChannelInput::fast_ice_thickness),
+     member("fast_ice_width_m", "m", from(0, 1e5), "of the fast ice on each side; 0: none",
+            &ChannelInput::fast_ice_width),
+     member("keep_clear_m", "m", coordinate(),
+            "regions no piece may reach into; ships, structures and walls are kept clear without being asked for",
+            &ChannelInput::brash, &FieldInput::keep_clear),
+     member("seed", "", from(0, kLargestSeed), "another one gives other pieces; the scene's seed is added",
+            &ChannelInput::brash, &FieldInput::field, &FloeField::seed)}};
+
 const Description<LatticeInput> kLattice{
     {member("origin_m", "m", coordinate(), "corner of the lattice's area with the least x and y",
             &LatticeInput::origin),
@@ -194,6 +227,7 @@ const Description<FloeGroup> kFloesDescription{
     {form("lattice", kLattice, "rows and columns of equal rectangles"), form("rectangle", kRectangle, "one rectangle"),
      form("polygon", kPolygon, "one polygon, with holes"),
      form("field", kField, "random convex floes at a concentration"),
+     form("channel", kChannel, "a channel of brash ice between fast ice"),
      of("file", required(member("file", "", {},
                                 "a floe file in the scene's folder or below: GeoJSON in metres, in longitude and "
                                 "latitude or with "

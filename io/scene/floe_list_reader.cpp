@@ -11,6 +11,7 @@
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "geometry/shape/pose.hpp"
+#include "io/scene/channel_region.hpp"
 #include "io/scene/scene_check.hpp"
 #include "io/text/floe_ids.hpp"
 #include "io/text/floe_text.hpp"
@@ -54,51 +55,6 @@ using simulation::PowerLawSizes;
 
 constexpr double kDefaultPacking = 0.75;
 constexpr int kCornersWithLaw = 16;
-
-/// A strip along a line.
-struct ChannelRegion {
-  geometry::Ring outline;             ///< counter-clockwise [m]
-  std::vector<geometry::Ring> parts;  ///< one for each leg, mitred at the bends, counter-clockwise [m]
-  int too_sharp = -1;                 ///< point of the line at which a bend leaves a leg no room; −1: none
-};
-
-/// From the line to its port side at a point: half the width away from both legs.
-Vector mitre(Vector before, Vector after, double half) {
-  const Vector a = perpendicular(before) / length(before);
-  const Vector b = perpendicular(after) / length(after);
-  const double share = 1 + dot(a, b);
-  return share > 0.02 ? half / share * (a + b) : Vector{};  // else the line turns back on itself
-}
-
-bool is_convex(const Ring& ring) {
-  const std::size_t n = ring.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!(cross(ring[(i + 1) % n] - ring[i], ring[(i + 2) % n] - ring[(i + 1) % n]) > 0)) return false;
-  }
-  return true;
-}
-
-/// `width` across [m]. The line has two points or more, none of them twice in a row.
-ChannelRegion channel_region(const std::vector<Point>& line, double width) {
-  ChannelRegion region;
-  const std::size_t last = line.size() - 1;
-  std::vector<Vector> to_port;
-  for (std::size_t i = 0; i <= last; ++i) {
-    const Vector before = line[i == 0 ? 1 : i] - line[i == 0 ? 0 : i - 1];
-    const Vector after = line[i == last ? last : i + 1] - line[i == last ? last - 1 : i];
-    to_port.push_back(mitre(before, after, 0.5 * width));
-  }
-  for (std::size_t i = 0; i < last; ++i) {
-    Ring part{line[i] - to_port[i], line[i + 1] - to_port[i + 1], line[i + 1] + to_port[i + 1], line[i] + to_port[i]};
-    if (!is_convex(part) && region.too_sharp < 0)
-      region.too_sharp = static_cast<int>(
-          i == 0 || (i < last - 1 && squared_length(to_port[i + 1]) > squared_length(to_port[i])) ? i + 1 : i);
-    region.parts.push_back(std::move(part));
-  }
-  for (std::size_t i = 0; i <= last; ++i) region.outline.push_back(line[i] - to_port[i]);
-  for (std::size_t i = last + 1; i-- > 0;) region.outline.push_back(line[i] + to_port[i]);
-  return region;
-}
 
 class FieldReader {
  public:
@@ -256,14 +212,15 @@ std::string remedy(const FloeField& field, const simulation::FloeFieldOutcome& o
   return fmt::format("{}, or most_corners above {}", most, field.most_corners);
 }
 
-/// Reports a cover that the field did not reach; true where there is none.
-bool check_cover(const FloeField& field, const simulation::FloeFieldOutcome& outcome, const ReportAt& report) {
+/// Reports a cover that the field did not reach, at its key; true where there is none.
+bool check_cover(const FloeField& field, const simulation::FloeFieldOutcome& outcome, const ReportAt& report,
+                 std::string_view key) {
   if (field.law && outcome.region_area <= 0) {
     report("", "no room: all of the region is kept clear", "a region with free water");
     return false;
   }
   if (outcome.reachable_concentration >= field.concentration) return true;
-  report("concentration", show(*report.value.find("concentration")), remedy(field, outcome));
+  report(key, fmt::format("{:g}", field.concentration), remedy(field, outcome));
   return false;
 }
 
@@ -470,6 +427,7 @@ void FloeListReader::add(std::size_t index, FloeGroup group, const JsonValue& it
   item_ = &item;
   path_ = fmt::format("floes[{}]", index);
   group_ = std::move(group);
+  member_ = 0;
   check_fast_ice(group_.is_fast);
   auto ice_of_group = GroupIce::of(draft_.scene, group_, item, path_, problems_);
   if (!ice_of_group) return;
@@ -519,19 +477,28 @@ void FloeListReader::add_floes(const Polygon& polygon) {
   if (has_room_for(1, path_)) add_all({in_house_notation(polygon)}, false);
 }
 
-void FloeListReader::add_floes(FieldInput& input) {
-  const ReportAt report_field{problems_, *item_->find("field"), path_ + ".field"};
+std::optional<simulation::FloeFieldOutcome> FloeListReader::make_field(FieldInput& input,
+                                                                       const ReportAt& report_field) {
   const auto field = FieldReader(input, draft_.scene, report_field).read();
-  if (!field) return;
+  if (!field) return std::nullopt;
   const double count = simulation::floe_count(*field);
-  if (count < 1)
-    return report_field("", "room for less than one floe", "a region for some floes of that size at the concentration");
-  if (!has_room_for(static_cast<std::size_t>(std::min(count, 1e9)), report_field.path)) return;
-  if (problems_.count() > 0) return;  // a million floes take half a minute; the scene is refused anyway
+  if (count < 1) {
+    report_field("", "room for less than one floe", "a region for some floes of that size at the concentration");
+    return std::nullopt;
+  }
+  if (!has_room_for(static_cast<std::size_t>(std::min(count, 1e9)), report_field.path)) return std::nullopt;
+  if (problems_.count() > 0) return std::nullopt;  // a million floes take half a minute; the scene is refused anyway
   simulation::FloeFieldOutcome outcome = simulation::make_floe_field(*field);
-  if (!check_cover(*field, outcome, report_field)) return;
-  add_all(std::exchange(outcome.floes, {}), true);
-  loaded_.fields.push_back({index_, field->gap, std::move(outcome)});
+  const bool is_channel = std::holds_alternative<ChannelInput>(group_.form);
+  if (!check_cover(*field, outcome, report_field, is_channel ? "cover" : "concentration")) return std::nullopt;
+  return outcome;
+}
+
+void FloeListReader::add_floes(FieldInput& input) {
+  auto outcome = make_field(input, {problems_, *item_->find("field"), path_ + ".field"});
+  if (!outcome) return;
+  add_all(std::exchange(outcome->floes, {}), true);
+  loaded_.fields.push_back({index_, input.field.gap, *std::move(outcome), {}});
 }
 
 bool FloeListReader::has_room_for(std::size_t count, const std::string& path) {

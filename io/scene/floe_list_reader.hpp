@@ -66,9 +66,17 @@ class FloeListReader {
   void add_floes(const RectangleInput& rectangle);
   void add_floes(const geometry::Polygon& polygon);
   void add_floes(FieldInput& field);
+  void add_floes(ChannelInput& channel);  // channel_reader.cpp
   void add_floes(const FileInput& file);
   /// Floes that the entry stands for in the resolved scene too.
   void add_all(std::vector<geometry::Polygon> floes, bool are_known_valid);
+  /// Makes a random field, whose problems are reported at `report`. Nothing where it is wrong.
+  std::optional<simulation::FloeFieldOutcome> make_field(FieldInput& input, const ReportAt& report);
+  bool check_channel(ChannelInput& channel, const ReportAt& report);
+  void add_brash(ChannelInput& channel, const ReportAt& report);
+  void add_consolidated(const ChannelInput& channel, const ReportAt& report);
+  void add_fast_ice(const ChannelInput& channel);
+  void add_fast(std::vector<geometry::Ring> rings, const FloeProperties& ice);
   void check_places(const FileReport& came, std::uint32_t offset);
   FloeGroup spelled_out(FileFloe& floe, bool is_of_run) const;
   void add_floe(const FloeGroup& group, geometry::Polygon polygon, const FloeProperties& given, Origin origin);
@@ -87,6 +95,7 @@ class FloeListReader {
   std::size_t index_ = 0;            ///< of the entry at hand
   const JsonValue* item_ = nullptr;  ///< its JSON
   std::string path_;                 ///< "floes[2]"
+  int member_ = 0;                   ///< of the entry's floes, the next one's number
   FloeGroup group_;
   GroupIce ice_;
 };

@@ -128,6 +128,17 @@ struct FieldInput {
   std::optional<double> aspect, orientation, packing;
   std::vector<geometry::Ring> keep_clear;  ///< [m]
 };
+/// A channel of brash ice between fast ice. What is left out is filled in when the scene is read.
+struct ChannelInput {
+  FieldInput brash;                              ///< pieces of the equivalent layer; its region is a FieldChannel
+  double thickness = 0;                          ///< of the brash in the middle, pores included [m]
+  std::optional<double> side_thickness;          ///< of the brash at the sides, pores included; as in the middle [m]
+  double porosity = 0.2;                         ///< of the brash [-]
+  std::optional<double> cover;                   ///< of the equivalent layer; 1 − porosity [-]
+  std::optional<double> consolidated_thickness;  ///< of a frozen layer on the brash [m]
+  std::optional<double> fast_ice_thickness;      ///< of the ice beside the channel; the scene's [m]
+  double fast_ice_width = 30;                    ///< on each side; 0: none [m]
+};
 /// How the floes of a file come to the scene.
 struct FileImport {
   ImportSettings settings;  ///< without the plane's origin and words
@@ -142,7 +153,7 @@ struct FileInput {
 
 /// One entry of the scene's "floes".
 struct FloeGroup {
-  std::variant<LatticeInput, RectangleInput, geometry::Polygon, FieldInput, FileInput> form = {};
+  std::variant<LatticeInput, RectangleInput, geometry::Polygon, FieldInput, ChannelInput, FileInput> form = {};
   bool is_fast = false;         ///< then the velocity is over ground
   geometry::Vector velocity;    ///< relative to the water [m/s]
   double angular_velocity = 0;  ///< [rad/s]

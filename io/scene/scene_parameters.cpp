@@ -19,13 +19,14 @@ constexpr std::size_t kMostGroups = 100;
 
 void collect(const Object& object, const JsonValue& value, const std::string& path, std::vector<SceneParameter>& found);
 
-/// The items of a list that have parameters: all ships and structures, and the random fields of floes.
+/// The items of a list that have parameters: all ships and structures, the random fields of floes, and channels of
+/// brash.
 void collect_items(const Field& field, const JsonValue& list, const std::string& path,
                    std::vector<SceneParameter>& found) {
   if (field.key != "ships" && field.key != "structures" && field.key != "floes") return;
   for (std::size_t i = 0; i < std::min(list.items().size(), kMostGroups); ++i) {
     const JsonValue& item = list.items()[i];
-    if (field.key == "floes" && !item.find("field")) continue;
+    if (field.key == "floes" && !item.find("field") && !item.find("channel")) continue;
     collect(*field.object, item, fmt::format("{}[{}]", path, i), found);
   }
 }

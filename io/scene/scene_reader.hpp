@@ -24,11 +24,20 @@ inline constexpr std::size_t kLongestScene = std::size_t{512} << 20;
 inline constexpr std::size_t kLongestFloesFile = std::size_t{256} << 20;  ///< [bytes]
 inline constexpr std::size_t kMostFloes = 1'000'000;
 
+/// How the brash ice of a channel came out as a layer of pieces.
+struct BrashReport {
+  double least_thickness = 0;    ///< of a piece [m]
+  double largest_thickness = 0;  ///< [m]
+  double volume = 0;             ///< of the pieces [m³]
+  double asked_volume = 0;       ///< of the ice in the brash that was asked for [m³]
+};
+
 /// How a random field of the scene came out.
 struct FieldReport {
   std::size_t group = 0;                 ///< index in the scene's "floes"
   double gap = 0;                        ///< at least between its floes [m]
   simulation::FloeFieldOutcome outcome;  ///< without its floes; they are the scene's
+  std::optional<BrashReport> brash;      ///< of a channel
 };
 
 /// How a floe file of the scene came to it.

@@ -75,15 +75,15 @@ double fastest_rim(const Scene& scene) {
   return fastest;
 }
 
-/// Returns the displacement of a hull in a part, most_way(), that the fraction kMostIce of the scene's ice allows, by
-/// area [m]. It is smaller for thin ice and for very thick ice.
-double way_in_most_ice(const Scene& scene) {
-  if (scene.own_ice.empty() || scene.floes.empty()) return most_way(scene.contact, scene.ice.thickness);
+/// Returns the displacement of a hull in a part, allowed_displacement(), that the fraction kMostIce of the scene's ice
+/// allows, by area [m]. It is smaller for thin ice and for very thick ice.
+double displacement_in_most_ice(const Scene& scene) {
+  if (scene.own_ice.empty() || scene.floes.empty()) return allowed_displacement(scene.contact, scene.ice.thickness);
   std::vector<std::pair<double, double>> ice;  // displacement [m] and area [m²] of each floe
   double rest = 0;
   for (const FloeSpec& floe : scene.floes) {
-    const double way = most_way(scene.contact, ice_of(scene, floe.own_ice).thickness);
-    ice.emplace_back(way, geometry::measure(floe.polygon_in_world).area);
+    const double displacement = allowed_displacement(scene.contact, ice_of(scene, floe.own_ice).thickness);
+    ice.emplace_back(displacement, geometry::measure(floe.polygon_in_world).area);
     rest += (1 - kMostIce) * ice.back().second;
   }
   std::ranges::sort(ice);
@@ -94,7 +94,7 @@ double way_in_most_ice(const Scene& scene) {
 /// Returns the longest tick in which no body moves too far [s].
 double longest_tick(const Scene& scene) {
   const double radius = scene.contact.circle_radius;
-  const double way = way_in_most_ice(scene);
+  const double displacement = displacement_in_most_ice(scene);
   const double parts = scene.contact.law == ContactLaw::kCrush ? kPartsAtFullSpeed : 1;
   return std::min({parts * displacement / fastest_meeting(scene), displacement / fastest_floe(scene),
                    kDisplacementOverRadius * radius / fastest_rim(scene)});

@@ -76,6 +76,22 @@ const std::string kFifth = scene(
 const std::string kSixth =
     scene({R"("contact": {"law": "impulse", "restitution": 0.1})", list("floes", {square(100, 0, 10)})});
 
+/// Channels of loose brash.
+const std::string kSeventh = scene(
+    {list("floes", {R"({"channel": {"centreline_m": [[0, 0], [60, 5], [120, 0]], "width_m": 30, "thickness_m": 0.8,
+      "side_thickness_m": 1.2, "porosity": 0.25, "cover": 0.7, "sizes": {"mean_m": 3, "spread": 0.3}, "gap_m": 0.03,
+      "fast_ice_thickness_m": 0.6, "fast_ice_width_m": 20, "seed": 3,
+      "keep_clear_m": [[[20, 0], [30, 0], [30, 10]]]}})",
+                    R"({"channel": {"centreline_m": [[0, 120], [60, 120]], "width_m": 30, "thickness_m": 0.8,
+      "sizes": {"size_m": 3}}})",
+                    R"({"channel": {"centreline_m": [[0, 240], [60, 240]], "width_m": 30, "thickness_m": 0.8,
+      "sizes": {"exponent": 1, "least_m": 2, "largest_m": 5}}})"})});
+
+/// A frozen channel.
+const std::string kEighth =
+    scene({list("floes", {R"({"channel": {"centreline_m": [[0, 0], [120, 0]], "width_m": 30, "thickness_m": 0.8,
+      "consolidated_thickness_m": 0.2}})"})});
+
 /// One ship for each other pilot.
 std::string fleet() {
   std::vector<std::string> ships;
@@ -148,7 +164,8 @@ std::set<std::string> all_leaves(const Object& table, const std::string& path) {
 }
 
 TEST(SceneFields, TheResolvedSceneReadsBackToTheSameSceneAndText) {
-  for (const std::string& text : {kFirst, kSecond, kThird, kFourth, kFifth, kSixth, fleet(), commented_scene()})
+  for (const std::string& text :
+       {kFirst, kSecond, kThird, kFourth, kFifth, kSixth, kSeventh, kEighth, fleet(), commented_scene()})
     expect_reads_back(load(text));
 }
 
@@ -157,6 +174,11 @@ bool is_bound(const std::string& path, const LoadedScene& base, const std::strin
   const std::set<std::string_view> of_ice_under_hulls{".fracture.cusp_fate", ".fracture.going_under.enabled",
                                                       ".fracture.resurface.enabled"};
   if (of_ice_under_hulls.contains(path)) return !has_draught(base.scene);
+  const bool is_of_entry = path.starts_with(".floes.") && !path.starts_with(".floes.channel.");
+  if (text == kEighth && (is_of_entry || path == ".floes.channel.gap_m" || path == ".floes.channel.seed"))
+    return true;                                                                     // it has no pieces
+  if ((text == kSeventh || text == kEighth) && path == ".contact.law") return true;  // they have fast ice
+  if (text == kSeventh && path == ".floes.fast_ice") return true;                    // its pieces are free
   if (path == ".ships.speed_m_per_s")  // said twice in a resolved scene, and changed in both places
     return tree.find("ships")->items()[0].find("propulsion")->find("constant_speed_m_per_s") != nullptr;
   if (path == ".water.drift_m_per_s" || path == ".wind.velocity_m_per_s") return text == kFifth;  // it has tables
@@ -170,7 +192,7 @@ bool is_bound(const std::string& path, const LoadedScene& base, const std::strin
 /// Every field of the table reaches the scene: changing it alone changes the scene, and survives the resolved text.
 TEST(SceneFields, EveryFieldRoundTripsAndReachesTheScene) {
   std::set<std::string> seen;
-  for (const std::string& base_text : {kFirst, kSecond, kThird, kFourth, kFifth, kSixth, fleet()}) {
+  for (const std::string& base_text : {kFirst, kSecond, kThird, kFourth, kFifth, kSixth, kSeventh, kEighth, fleet()}) {
     const LoadedScene base = load(base_text);
     JsonValue tree = parse_json(base.resolved_text).root;
     walk(kSceneDescription, tree, "", [&](const Field& field, JsonValue& value, const std::string& path) {

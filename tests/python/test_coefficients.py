@@ -7,7 +7,8 @@ import random
 import pytest
 
 from program import ended, succeeded
-from polynya.performance import colbourne, ice_scenes
+from polynya import formulas, ice_class
+from polynya.performance import colbourne, ice_scenes, rules
 from polynya.performance.resistance import is_validated, points_of
 
 BEAM, DENSITY = 20.0, 900.0
@@ -83,7 +84,46 @@ def test_the_command_writes_a_table_and_a_fit(regime, tmp_path):
     of_fit = 0.5 * fit["ice_density_kg_per_m3"] * 10 * point["thickness_m"] * point["speed_m_per_s"] ** 2 * fit["k"]
     of_fit *= colbourne.froude(point) ** -fit["b"] * point["cover"] ** (fit["n"] or 0)
     assert float(first["fit_N"]) == pytest.approx(of_fit, rel=1e-9)
+    assert (tmp_path / "out" / "ice-class.csv").exists() == (name == "channel")
+    assert ("by the rule" in printed) == (name == "channel")
     assert succeeded(*words).stdout.splitlines()[-3:] == printed.splitlines()[-3:], "finished runs are used again"
+
+
+def test_the_rules_terms_are_those_of_a_calculation_by_hand():
+    """A hull whose particulars make the terms simple: L 100, B 20, T 5 m, both angles 45 degrees."""
+    hull = formulas.Hull(100, 20, 5, math.radians(45), math.radians(45))
+    found = ice_class.channel_resistance(hull, 0.8)
+    displaced = 0.26 + 4  # 0.26 + (0.8 · 20)^½
+    flare = math.degrees(math.atan(math.sqrt(2)))
+    friction = 0.15 * math.sqrt(0.5) + math.sqrt(2 / 3) * math.sqrt(0.5)
+    assert found.bow == pytest.approx(845 * friction * (displaced + 0.8) ** 2
+                                      * (20 + (0.047 * flare - 2.115) * displaced))
+    assert found.midbody == pytest.approx(42 * 90 * displaced**2)  # the bow is 10 m long
+    assert found.waterplane == pytest.approx(825 * 5 * 100 / 100)  # (L T / B²)³ = 1.95 counts as 5; A_wf = 100 m²
+    assert found.total == pytest.approx(found.bow + found.midbody + found.waterplane) and found.frozen == 0
+    frozen = ice_class.channel_resistance(hull, 0.8, is_frozen=True)
+    assert frozen.total - found.total == pytest.approx(frozen.frozen)
+    # The frozen layer is the level ice resistance of [Riska1997] in 0.1 m at 5 knots, by rounded coefficients.
+    assert frozen.frozen == pytest.approx(formulas.riska(hull, formulas.Ice(0.1), 5 * formulas.KNOT), rel=0.02)
+    assert ice_class.minimum_power(400e3, 4, 1) == pytest.approx(2.26 * 8000 / 4 * 1e3)
+    assert ice_class.minimum_power(400e3, 4, 2, "controllable") == pytest.approx(1.44 * 8000 / 4 * 1e3)
+
+
+def test_computed_resistance_stands_beside_its_class():
+    of_all = {"thickness_m": 0.8, "floe_size_m": 2, "resistance_N": 4e5, "error_N": 1e3}
+    points = [{**of_all, "speed_m_per_s": v, "cover": c} for v in (2.0, 2.572) for c in (0.7, 0.8)]
+    ship = {**SHIP, "propulsion": {"engine": {"propellers": 2, "propeller_diameter_m": 4}}}
+    found = rules.rows(ship, points)
+    assert [row["class"] for row in found] == ["IA Super", "IA", "IB", "IB", "IC"]
+    assert [row["computed_N"] for row in found] == ["", "", 4e5, 4e5, ""]
+    assert found[2]["computed_power_fixed_pitch_W"] == pytest.approx(1.6 * 8000 / 4 * 1e3)
+    assert rules.propellers_of(SHIP) == (1, 0.65 * 3)
+
+
+def test_the_rules_alone_need_no_run(tmp_path):
+    printed = succeeded("performance", "araon", "--channel", "--list", "--out", tmp_path / "out").stdout
+    assert "IA Super" in printed and "2 propellers of 4.3 m" in printed
+    assert not (tmp_path / "out").exists()
 
 
 def test_one_regime_at_a_time(tmp_path):

@@ -5,7 +5,7 @@ import re
 # Caption: pages in their order. Pages of docs/ that no part names are an error.
 PARTS = {
     "Start": ["browser", "start", "tutorial", "gallery", "cite"],
-    "How to": ["view", "figures", "loads", "movie", "channel", "inspect", "why-it-split", "export", "ships",
+    "How to": ["view", "figures", "loads", "movie", "channel", "brash", "inspect", "why-it-split", "export", "ships",
                "management", "import", "cut", "database", "studies", "python", "environment",
                "couple"],
     "Reference": ["glossary", "scene", "run-folder", "reference/commands", "reference/python", "reference/cpp",

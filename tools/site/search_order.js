@@ -4,7 +4,7 @@
 /** What a page's part of the site adds to the score of a hit in it; a hit in a title has 15, in a text 5. */
 const partOrder = [
   [/^(start|tutorial|gallery|cite|glossary|index)$/, 12],
-  [new RegExp("^(view|figures|loads|movie|channel|inspect|why-it-split|export|ships|management|import|cut|couple|"
+  [new RegExp("^(view|figures|loads|movie|channel|brash|inspect|why-it-split|export|ships|management|import|cut|couple|"
     + "database|studies|python|environment)$"), 12],
   [/^(scene|run-folder|reference\/commands.*)$/, 8],
   [/^theory\//, 4],

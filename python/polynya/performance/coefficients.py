@@ -7,14 +7,16 @@ import sys
 from ..files import writing
 from ..program import program
 from ..runs_kept import RunFailed
-from . import colbourne, ice_scenes
+from . import colbourne, ice_scenes, rules
 from .resistance import VALIDATED, Resistance, points_of
 
-COVERS = {ice_scenes.PACK: (0.5, 0.7, 0.85), ice_scenes.LEVEL: (1.0,), ice_scenes.CHANNEL: (0.5, 0.7, 0.8)}
-SIZES = {ice_scenes.PACK: (20.0, 40.0), ice_scenes.LEVEL: (0.0,), ice_scenes.CHANNEL: (4.0,)}
-SPEEDS, THICKNESSES = (1.0, 2.0, 4.0), (0.3, 0.5, 0.8)
+COVERS = {ice_scenes.PACK: (0.5, 0.7, 0.85), ice_scenes.LEVEL: (1.0,), ice_scenes.CHANNEL: (0.8,)}
+SIZES = {ice_scenes.PACK: (20.0, 40.0), ice_scenes.LEVEL: (0.0,), ice_scenes.CHANNEL: (2.0,)}
+SPEEDS = {ice_scenes.PACK: (1.0, 2.0, 4.0), ice_scenes.LEVEL: (1.0, 2.0, 4.0), ice_scenes.CHANNEL: (1.0, 2.572, 4.0)}
+THICKNESSES = {ice_scenes.PACK: (0.3, 0.5, 0.8), ice_scenes.LEVEL: (0.3, 0.5, 0.8),
+               ice_scenes.CHANNEL: (0.6, 0.8, 1.0)}
 NOTHING = {
-    ice_scenes.CHANNEL: "No measurement or formula was compared with the resistance in a channel.",
+    ice_scenes.CHANNEL: "Compared with the ice class rules' formula alone (docs/brash.md), not with measurements.",
     ice_scenes.PACK: "Compared with published curves only for floes of 15 m, 0.5 m thick, at 1 m/s, covers 0.3 to "
                      "0.9 (docs/validation.md, \"Pack ice\"): between Colbourne's slender and blunt ships from cover "
                      "0.5 on.",
@@ -34,7 +36,7 @@ def wanted_points(regime, arguments):
         covers, sizes = COVERS[regime], SIZES[regime]
     else:
         covers, sizes = arguments.cover or COVERS[regime], arguments.floe_size or SIZES[regime]
-    return points_of(arguments.speed or SPEEDS, arguments.thickness or THICKNESSES, covers, sizes)
+    return points_of(arguments.speed or SPEEDS[regime], arguments.thickness or THICKNESSES[regime], covers, sizes)
 
 
 def print_table(rows):
@@ -85,10 +87,19 @@ def write_files(folder, name, rows, found, ice, fitted):
     print(f"fit     {path}")
 
 
+def write_rules(folder, asked):
+    from .__main__ import write_table
+
+    write_table(os.path.join(folder, "ice-class.csv"), asked)
+
+
 def main(arguments, found, ice, fail, codes):
     """`fail` prints a message and returns its code of `codes`: done, failed, stopped."""
     done, failed, stopped = codes
     name = regime_of(arguments)
+    if arguments.list and name == ice_scenes.CHANNEL:
+        rules.print_table(rules.rows(found["ship"], []), found["ship"])
+        return done
     folder = arguments.out or os.path.join("runs", f"resistance-{found['name']}")
     os.makedirs(folder, exist_ok=True)
     runs = Resistance(name, found["ship"], ice, folder, program(),
@@ -111,4 +122,8 @@ def main(arguments, found, ice, fail, codes):
     if math.isclose(arguments.fields, 1) and name != ice_scenes.LEVEL:
         print("one field a point: errors of the means are not known (--fields 4)")
     write_files(folder, name, rows, found, ice, fitted)
+    if name == ice_scenes.CHANNEL:
+        asked = rules.rows(found["ship"], rows)
+        rules.print_table(asked, found["ship"])
+        write_rules(folder, asked)
     return done

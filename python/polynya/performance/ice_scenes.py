@@ -31,10 +31,15 @@ def ice_of(regime, hull, way, point):
     if regime == LEVEL:
         width = 5 * beam
         return [{"rectangle": {"corner_m": [0, -0.5 * width], "size_m": [way, width]}, "fast_ice": True}], ENDLESS
-    width = CHANNEL_WIDTH * beam
-    banks = [{"rectangle": {"corner_m": [0, y], "size_m": [way, beam]}, "fast_ice": True}
-             for y in (0.5 * width, -0.5 * width - beam)]
-    return [field([0, -0.5 * width], [way, width], point), *banks], ENDLESS
+    return [brash_channel(beam, way, point)], ENDLESS
+
+
+def brash_channel(beam, way, point):
+    """A channel of brash: the point's thickness is that of the brash, its floe size that of the pieces."""
+    return {"channel": {"centreline_m": [[0, 0], [way, 0]], "width_m": CHANNEL_WIDTH * beam,
+                        "thickness_m": point["thickness_m"], "cover": point["cover"],
+                        "sizes": {"mean_m": point["floe_size_m"], "spread": 0.3},
+                        "fast_ice_thickness_m": point["thickness_m"], "fast_ice_width_m": beam}}
 
 
 def scene(regime, ship, ice, point, seed, step):

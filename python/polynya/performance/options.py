@@ -12,7 +12,7 @@ EXAMPLES = (
     "performance ship.json --thickness 0.4,0.8,1.2 --out runs/our-ship",
     "performance oden --list                   the formulas alone, without a run",
     "performance polaris --pack                resistance in pack ice, and its fit as JSON for route planners",
-    "performance polaris --channel --speed 2,4 --thickness 0.5,0.8 --cover 0.6,0.8",
+    "performance polaris --channel             in a channel of brash, and minimum power by the ice class rules",
 )
 REST = """Each thickness is a run in a plate of fast ice, repeated twice as long until the mean speed's standard error
 and its change between the halves are below the error asked for. Finished runs are kept: a curve that was stopped goes
@@ -22,7 +22,8 @@ matplotlib for the figure (./setup.sh python).
 
 With --pack, --level or --channel the ship keeps each speed through pack ice, level ice or a channel of brash ice. The
 means of the ice's force over speed, thickness, cover and floe size are a table, and their fit in Colbourne's form (k,
-b, n with errors and scatter) is JSON.
+b, n with errors and scatter) is JSON. With --channel the thickness is that of the brash in the middle, its pores
+included, and a second table has resistance and minimum power for the Finnish-Swedish ice classes.
 """
 
 
@@ -40,11 +41,11 @@ def add_coefficients(parser):
     for name, ice in (("--pack", "pack ice"), ("--level", "level ice"), ("--channel", "a channel of brash ice, 1.5 "
                                                                           "beams wide in fast ice")):
         which.add_argument(name, help=f"Resistance in {ice} at each speed, instead", action="store_true")
-    meaning = "Speeds of these tables [m/s]; 1,2,4 if not given"
+    meaning = "Speeds of these tables [m/s]; 1,2,4 if not given, and 1,2.572,4 in a channel (2.572 is 5 knots)"
     parser.add("--speed", meaning, type=values(number(0.05, 20, "m/s")), metavar="LIST")
-    meaning = "Covers of pack ice or a channel; 0.5,0.7,0.85 and 0.5,0.7,0.8 if not given"
+    meaning = "Covers of pack ice or a channel; 0.5,0.7,0.85 and 0.8 if not given"
     parser.add("--cover", meaning, type=values(number(0.05, 0.95)), metavar="LIST")
-    meaning = "Floe sizes [m]; 20,40 in pack ice and 4 in a channel if not given"
+    meaning = "Floe sizes [m]; 20,40 in pack ice and 2 in a channel if not given"
     parser.add("--floe-size", meaning, type=values(number(0.5, 1000, "m")), metavar="LIST")
     meaning = "Random fields a point; 2 if not given"
     parser.add("--fields", meaning, type=number(1, 1000, kind=int), default=2, metavar="N")
@@ -69,5 +70,6 @@ def command_line():
     meaning = "Runs at a time; one a processor if not given"
     parser.add("--jobs", meaning, type=number(1, 1024, kind=int), default=os.cpu_count() or 1, metavar="N")
     add_coefficients(parser)
-    parser.add("--list", "Print the formulas' speeds and run nothing", action="store_true")
+    parser.add("--list", "Print the formulas' speeds, with --channel the ice class rules, and run nothing",
+               action="store_true")
     return parser
