@@ -16,20 +16,22 @@
 
 namespace polynya::io {
 
-// The fields of events.ndjson, each once, in their order. What writes, reads, shows and lists them is a Line,
-// which takes each with its place in the event: line(key, place, about), and line.object(about, list) for the
-// criterion.
+// The fields of events.ndjson. Each is defined once, in the order of the lines. Functions that write, read, show or
+// list events pass a Line, which is called for each field with its key, its place in the event and its meaning:
+// line(key, place, about). The members of the criterion are passed by line.object(about, list).
 
 using simulation::Is;
 
-/// What a field is.
+/// Meaning and properties of a field.
 struct FieldMeaning {
-  std::string_view unit;        ///< as people read it; empty of words, counts and ids
-  std::string_view meaning;     ///< as docs/run-folder.md has it
-  std::string_view label = {};  ///< in the player and `polynya inspect`, where they show the field
+  std::string_view unit;        ///< unit for people; empty for words, counts and ids
+  std::string_view meaning;     ///< description in docs/run-folder.md
+  std::string_view label = {};  ///< name in the player and in `polynya inspect`; empty: they do not show the field
+  /// Smallest value that the reader accepts.
   double least = -std::numeric_limits<double>::infinity();
-  std::optional<bool> is_there = {};  ///< of one that may be left out, in lines of older versions too
-  bool is_derived = false;            ///< from others: it is not read
+  /// Set for a field that may be missing, also in lines of older versions: whether this event has it.
+  std::optional<bool> is_there = {};
+  bool is_derived = false;  ///< true for a field that is computed from others and therefore not read
 };
 constexpr FieldMeaning optional(bool is_there, FieldMeaning about) {
   about.is_there = is_there;
@@ -40,18 +42,18 @@ constexpr FieldMeaning derived(FieldMeaning about) {
   return about;
 }
 
-/// A ship or structure, recorded by its name.
+/// A ship or structure, which is recorded by its name.
 template <class Index>
 struct ShipName {
   Index& index;
   bool may_be_none = false;
 };
-template <class Index>  // clang 14, which builds the fuzzers, deduces none for aggregates
+template <class Index>  // Clang 14, which compiles the fuzz tests, does not deduce these for aggregates.
 ShipName(Index&)->ShipName<Index>;
 template <class Index>
 ShipName(Index&, bool) -> ShipName<Index>;
 
-/// The parent of the event's floe, which the event does not have.
+/// The parent of the event's floe. The event does not store it, so append_event() receives it.
 struct Parent {};
 
 inline constexpr FieldMeaning kRule = derived({"", "the rule, in words"});
@@ -98,7 +100,7 @@ void criterion(Line& line, Is<simulation::GrindCriterion> auto& c, bool) {
   line("least_area_m2", c.least_area, {"m²", "a smaller overlap is left", {}, 0});
 }
 
-/// What decided that ice bends or splits, and both sides of what did not.
+/// The rule by which ice bends or splits, and both sides of all rules that were compared.
 template <class Line>
 void criterion(Line& line, Is<fracture::FailureCriteria> auto& c, bool is_split) {
   const simulation::DecidingLoad by = simulation::deciding_load(c, is_split);
@@ -141,7 +143,7 @@ void criterion(Line& line, Is<fracture::FailureCriteria> auto& c, bool is_split)
 template <class Line, class Kind>
 void criterion_of(Line& line, Kind& e) {
   using namespace simulation;
-  if constexpr (Is<Kind, RejectedCut>) {  // it has the fields of what it was to be
+  if constexpr (Is<Kind, RejectedCut>) {  // a rejected cut has the fields of the event that it would have been
     if constexpr (requires { line.has("least_area_m2"); })
       if (line.has("least_area_m2")) e.criterion = GrindCriterion{};
     std::visit([&](auto& c) { criterion(line, c, e.cusp_radius == 0); }, e.criterion);
@@ -150,7 +152,7 @@ void criterion_of(Line& line, Kind& e) {
   }
 }
 
-/// What happens to ice. Of the kinds' own members each line has those that its kind has.
+/// Fields of events of the ice. Members that only some kinds have are written only for these.
 template <class Line, class Kind>
 requires std::derived_from<Kind, simulation::IceEvent>
 void kind_fields(Line& line, auto& event, Kind& e) {
@@ -201,7 +203,7 @@ void kind_fields(Line& line, auto& event, Is<simulation::MooringBreak> auto& e) 
        {"m", "of the ship from the moored place, along and across the moored heading", "off its place"});
 }
 
-/// All of a line. What is read has its kind already.
+/// All fields of a line. When a line is read, `event` already holds an event of the right kind.
 template <class Line>
 void fields(Line& line, Is<simulation::Event> auto& event) {
   line("t_s", event.time, {"s", "when", "time"});
@@ -209,35 +211,35 @@ void fields(Line& line, Is<simulation::Event> auto& event) {
   std::visit([&](auto& kind) { kind_fields(line, event, kind); }, event.what);
 }
 
-/// Appends a line of events.ndjson. `parent` is the parent of the floe that it happened to.
+/// Appends a line of events.ndjson. `parent` is the parent of the event's floe.
 void append_event(std::string& text, const simulation::Event& event, const simulation::Scene& scene,
                   simulation::FloeId parent = simulation::kNoFloe);
 
-/// The same object with the fields that the player shows.
+/// Writes the same object with only the fields that the player shows.
 void write_shown_event(JsonWriter& json, const simulation::Event& event, const simulation::Scene& scene);
 
-/// What decided it and what became of the ice, as people read it: the fields that have labels.
+/// Returns the rule and the fields that have labels, in words.
 std::string words_of(const simulation::Event& event, const simulation::Scene& scene);
 
-/// The line read back. Throws ReadError.
+/// Reads a line of events.ndjson. Throws ReadError if it is not valid.
 simulation::Event event_of(const JsonValue& line, const simulation::Scene& scene);
 
-/// A field as lists of them have it.
+/// A field in a list of fields.
 struct EventField {
   std::string_view key;
   FieldMeaning meaning;
   bool is_of_criterion = false;
-  std::vector<std::string_view> kinds;  ///< that have it
+  std::vector<std::string_view> kinds;  ///< kinds of events that have it
 };
-/// Those of all kinds, in the order of lines.
+/// Returns the fields of all kinds of events in the order of the lines.
 std::vector<EventField> event_fields();
 
-/// At most this many of a run are written; events.ndjson has all.
+/// Largest number of refused cuts of a run that are written as files; events.ndjson has all of them.
 inline constexpr std::int64_t kMostRejectedCuts = 100;
 
-/// Writes a cut that geometry refused into a run folder as `polynya cut` reads it (docs/cut.md):
+/// Writes a cut that geometry refused into a run folder, in the format that `polynya cut` reads (docs/cut.md):
 ///   polynya cut rejected-cuts/000001.geojson --ops rejected-cuts/000001-ops.json
-/// The files are on the disk then, whatever happens to the machine.
+/// The function returns after the disk has stored the files, so that they survive a failure of the machine.
 Result<> write_rejected_cut(const std::filesystem::path& run_folder, double time, const simulation::RejectedCut& cut);
 
 /// Removes the files that write_rejected_cut() wrote, and their folder if nothing else is in it.

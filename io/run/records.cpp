@@ -25,12 +25,12 @@ using geometry::Vector;
 using enum Over;
 using enum ShownWhere;
 
-/// Whether older runs do not have what is shown there.
+/// Returns true if older runs do not have the loads of this kind.
 constexpr bool is_of_newer_runs(ShownWhere where) {
   return where != kAlways && where != kWhereItSplits;
 }
 
-/// What a load is in one of the ship's axes.
+/// Words for one of the three directions of loads on a ship.
 struct Axis {
   std::string_view key, suffix, unit, title, noun, direction;
   double Planar::*component;
@@ -43,19 +43,20 @@ std::string name_of(const Axis& axis, std::string_view stem) {
   return fmt::format("{}{}{}", axis.key, stem, axis.suffix);
 }
 
-/// A load of which rows have surge, sway and yaw.
+/// A load that has three columns, for surge, sway and yaw.
 struct Load {
-  std::string_view stem;  ///< "_from_water": surge_from_water_N, …
+  std::string_view stem;  ///< part of the name: "_from_water" gives surge_from_water_N and so on
   Planar S::*place;
   Over over = kMean;
-  std::string_view source;  ///< "of the water": force of the water forward, Surge force of the water
+  /// Words for it: "of the water" gives "force of the water forward" and "Surge force of the water".
+  std::string_view source;
   ShownWhere where = kAlways;
-  std::string_view source_in_titles = {};  ///< where it is shorter there
+  std::string_view source_in_titles = {};  ///< shorter words for titles; empty: the same
   std::string_view curve = "mean";
   std::vector<Axis> axes = {kSurge, kSway, kYaw};
 };
 
-/// Where a number has its peak or its plot, and the plot's title.
+/// Where a number has its peak or its plot, and the title of the plot.
 struct Shown {
   std::optional<ShownWhere> peak = {};
   std::optional<ShownWhere> plotted = {};
@@ -71,7 +72,8 @@ Whole whole_of(double value) {
   return static_cast<Whole>(value);
 }
 
-/// A column of the number at the end of a path of pointers to members: in degrees, of one in radians.
+/// Returns a column for the number at the end of a path of pointers to members. Angles in radians are written in
+/// degrees.
 template <class Row, class... Path>
 Column<Row> number(std::string name, std::string meaning, Path... path) {
   const bool is_turn = name.find("_deg") != std::string::npos;
@@ -127,7 +129,7 @@ void add_motion(Table& t) {
   t.add("y_m", "m", kAtEnd, "centre of gravity, over ground", {}, &S::position_in_world, &Point::y);
   t.add("heading_deg", "°", kAtEnd, "from the x axis, counter-clockwise", {}, &S::heading);
   t.columns.push_back({{"speed_m_per_s", "over ground", [](const S& s) { return length(s.velocity_in_world); },
-                        [](S&, double) {}},  // it follows from the velocity
+                        [](S&, double) {}},  // not stored: it follows from the velocity
                        "m/s",
                        kAtEnd,
                        kAlways,
@@ -259,14 +261,14 @@ namespace {
 constexpr std::pair<Axis, std::string_view> kDirections[]{
     {kSurge, "Surge force by cause"}, {kSway, "Sway force by cause"}, {kYaw, "Yaw moment by cause"}};
 
-/// What one cause gives in each direction.
+/// A cause of forces, and its column in each direction.
 struct Cause {
   std::string_view cause, words;
-  std::string_view stem;  ///< of its columns: "_from_water"
+  std::string_view stem;  ///< part of the names of its columns: "_from_water"
 };
 constexpr Cause kIce{"ice", "ice on the hull, with friction", ""};
 constexpr Cause kFriction{"friction", "ice: friction", "_from_ice_friction"};
-constexpr Cause kThrust{"thrust", "thrust", "thrust_N"};  // a column of its own: of surge alone
+constexpr Cause kThrust{"thrust", "thrust", "thrust_N"};  // a single column, because it has only a surge component
 constexpr Cause kCauses[]{kIce,
                           kFriction,
                           {"submerged", "ice under the hull", "_from_submerged_ice"},
@@ -277,7 +279,7 @@ constexpr Cause kCauses[]{kIce,
                           {"mooring", "mooring", "_from_mooring"},
                           {"ships", "other ships", "_from_ships"}};
 
-/// The column of a cause in a direction; null where it gives nothing there.
+/// Returns the column of a cause in a direction; null if the cause has no force in that direction.
 const ForceColumn* column_of(const Cause& cause, const Axis& axis) {
   if (cause.stem != kThrust.stem) return find_column(name_of(axis, cause.stem));
   return axis.component == kSurge.component ? find_column(cause.stem) : nullptr;
@@ -391,7 +393,8 @@ std::string_view hull_name(const simulation::Scene& scene, int ship) {
 
 namespace {
 
-/// What a row of two bodies begins with: the time, and of each body the name of the ship or the number of the floe.
+/// Appends the beginning of a row about two bodies: the time, and for each body the name of the ship or the number of
+/// the floe.
 void append_bodies(std::string& text, double time, const simulation::ContactState::Body& on,
                    const simulation::ContactState::Body& by, const simulation::Scene& scene) {
   append_number(text, time);
@@ -482,7 +485,8 @@ void append_floe(GeojsonLayer& layer, const simulation::FloeState& floe) {
   if (floe.is_fast) json.key("fast_ice").value(true);
   if (!floe.under_hull_of.empty())
     json.key("under_hull_of").value(floe.under_hull_of).key("under_hull_path_m").value(floe.under_path);
-  // Two corners of a cut may round to one point far from the origin, which a scene that continues the run would refuse.
+  // Far from the origin two corners of a cut may be rounded to the same point, which a scene that continues the run
+  // would refuse.
   layer.end_with(normalised(transform(floe.world_from_body, *floe.polygon_in_body)));
 }
 
@@ -500,14 +504,14 @@ double take_number(std::string_view& row) {
   return *value;
 }
 
-/// Takes the time of a row [s] off its text.
+/// Removes the time [s] from the start of a row and returns it.
 double take_time(std::string_view& row) {
   const double time = take_number(row);
   if (std::isnan(time)) throw ReadError("a row without its time");
   return time;
 }
 
-/// Takes the name of a hull off the text of a row and returns the number of the hull.
+/// Removes the name of a hull from the start of a row and returns the index of the hull.
 int take_hull(std::string_view& row, const simulation::Scene& scene) {
   const std::string_view name = csv_field(row);
   const int hull = hull_named(scene, name);
@@ -569,7 +573,7 @@ simulation::HullSample sample_of(std::string_view line, const std::vector<const 
 
 namespace {
 
-/// A row of two bodies at an instant.
+/// Reads a row about two bodies at an instant.
 template <class Record, class Row>
 Record record_of(std::string_view line, const Run& run, Row Record::*row, std::span<const Column<Row>> columns) {
   Record record;

@@ -45,7 +45,7 @@ void append(JsonWriter& json, const simulation::IceLedger& areas, const simulati
   json.close('}');
 }
 
-/// Of the scene's floes, where they do not all have the scene's ice.
+/// Writes the ice properties of floes if they differ from those of the scene.
 void append_ice_of_floes(JsonWriter& json, const simulation::Scene& scene) {
   if (scene.own_ice.empty()) return;
   const auto own = std::ranges::count_if(
@@ -65,7 +65,7 @@ void append_ice_of_floes(JsonWriter& json, const simulation::Scene& scene) {
   json.close('}');
 }
 
-/// Of the energy of moorings, what the balance of energy has.
+/// Writes the terms of the energy balance that moorings store or dissipate.
 void append_stored(JsonWriter& json, const simulation::Audit& audit) {
   const simulation::MooringFlows& m = audit.sums.moorings;
   json.key("initial_stored_J").value(m.initial).key("stored_J").value(audit.stored_energy);
@@ -73,7 +73,7 @@ void append_stored(JsonWriter& json, const simulation::Audit& audit) {
   json.key("mooring_breaking_J").value(m.breaking).key("mooring_separation_J").value(m.separation);
 }
 
-/// What went to and fro between ships and their moorings.
+/// Writes the energy and momentum exchanged between ships and their moorings.
 void append_moorings(JsonWriter& json, const simulation::Audit& audit) {
   const simulation::MooringFlows& m = audit.sums.moorings;
   json.key("moorings").open('{').key("stored_J").value(audit.stored_energy);
@@ -151,9 +151,9 @@ void append(JsonWriter& json, const simulation::PeakCounts& peaks, double least)
   json.key("largest_beyond_limit_N").value(peaks.largest_beyond).close('}');
 }
 
-constexpr std::size_t kMostShipContacts = 5;  ///< that each have a warning
+constexpr std::size_t kMostShipContacts = 5;  ///< largest number of such warnings
 
-/// A warning for each two ships or structures that came into contact, the first few of them.
+/// Returns a warning for each pair of ships or structures that came into contact, for the first few pairs.
 std::vector<std::string> ship_contact_warnings(const Simulation& simulation) {
   std::vector<std::string> warnings;
   const auto& contacts = simulation.world().accounts.hull_contacts;
