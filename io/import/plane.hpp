@@ -12,9 +12,9 @@
 
 namespace polynya::io {
 
-/// [m]
-/// usually in another unit or system, and double precision no longer resolves contacts.
-inline constexpr double kFarthestFloe = 1e6;  ///< a coordinate in the plane [m]
+/// Largest coordinate of a floe in the plane [m]. Farther floes are refused, because a larger coordinate usually means
+/// another unit or coordinate system, or a wrong number.
+inline constexpr double kFarthestFloe = 1e6;
 
 /// Default of PlaneSettings::tolerance [m]. With it, an import followed by an export moves edges by at most a
 /// millimetre.

@@ -13,7 +13,7 @@
 
 namespace polynya::io {
 
-/// Frames.bin: positions of all bodies over time. Little-endian; numbers are aligned to their size
+/// frames.bin: positions of all bodies over time. Little-endian; numbers are aligned to their size
 /// (docs/run-folder.md).
 ///
 ///   file   = "PLYNYFRM" u32:version=1 u32:0 frame*

@@ -133,7 +133,7 @@ const Description<FileImport> kImport{
 
 using fracture::ScatterKind;
 
-/// A property that floe files have too, by its number there: a number, or the law that it is drawn by.
+/// A property that floe files also have, by its index there: a number, or a law from which it is drawn.
 FieldOf<IceInput> property(std::size_t index, std::string_view meaning) {
   const FloeProperty& in_file = floe_ice_properties()[index];
   const auto given = [index](const void* record) -> const std::optional<NumberOrLaw>& {

@@ -236,7 +236,8 @@ const Description<PilotSettings> kPilot{
      pilot("follow", "another ship at a distance", kFollow),
      pilot("manage", "breaks the ice that drifts onto another ship or a structure", kManage)}};
 
-/// Presets are filled in before a scene is read, and their names with them: what is left is none.
+/// The key "ship" with the name of a preset. Presets are filled in, and the key removed, before a scene is read. A name
+/// that is still there is therefore unknown.
 FieldOf<ShipInput> preset() {
   FieldOf<ShipInput> field{
       {.key = "ship",
@@ -247,7 +248,7 @@ FieldOf<ShipInput> preset() {
   return field;
 }
 
-/// A required object that a preset would give.
+/// Marks a required object that a preset would provide.
 FieldOf<ShipInput> or_preset(FieldOf<ShipInput> field) {
   field.instead = R"(; or "ship": a preset's name, as "reference" (polynya ships))";
   return required(std::move(field));

@@ -16,7 +16,7 @@
 namespace polynya::io {
 
 /// Longest text of floes that is read [bytes]. It limits the memory that a wrong file can take.
-inline constexpr std::size_t kLongestFloeText = std::size_t{256} << 20;  ///< [bytes]
+inline constexpr std::size_t kLongestFloeText = std::size_t{256} << 20;
 
 /// Format in which a text of floes is written.
 enum class FloeFormat { kGeojson, kNdjson, kWkt };

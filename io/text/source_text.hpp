@@ -87,8 +87,8 @@ struct Problem {
   Severity severity = Severity::kError;
 };
 
-/// [bytes]
-inline constexpr std::size_t kLongestPath = 160;  ///< in messages [bytes]
+/// Longest path of a value that messages show [bytes]. A longer one is shortened.
+inline constexpr std::size_t kLongestPath = 160;
 
 /// Returns the message: "found 0, allowed: a number > 0, ≤ 20 [m]".
 std::string message_of(const Problem& problem);
