@@ -55,7 +55,7 @@ int report_out_of_memory() {
   return kOutOfMemory;
 }
 
-/// What the standard library throws, as an exit code.
+/// Runs the command line. Exceptions of the standard library become exit codes.
 int command_line(int count, char** words) {
   try {
     const std::string commit = kCommit.empty() ? "" : fmt::format(" ({})", kCommit);

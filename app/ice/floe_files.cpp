@@ -21,13 +21,13 @@
 namespace polynya::app {
 namespace {
 
-// ---- polynya cut: what it reports on stderr
+// ---- polynya cut: reports on stderr
 
-constexpr std::size_t kMostReported = 100;  ///< messages; the ledger has all
-constexpr std::size_t kMostVertices = 4;    ///< in a message; likewise
+constexpr std::size_t kMostReported = 100;  ///< number of messages; the ledger has all
+constexpr std::size_t kMostVertices = 4;    ///< number of vertices in a message; the ledger has all
 
-/// A line for each polygon that was rejected or repaired and each line that separates nothing, as
-/// "floes.geojson:3: feature 1, polygon 0: …"; past the hundredth they are only counted.
+/// Prints a line for each polygon that was refused or repaired and for each line that separates nothing, as
+/// "floes.geojson:3: feature 1, polygon 0: …". Beyond kMostReported they are only counted.
 void report_floes(const std::string& name, const io::CutReport& report) {
   std::size_t reported = 0;
   const auto report_of = [&](const io::CutFloe& floe, const std::string& words) {
@@ -71,7 +71,7 @@ void report_totals(const io::CutReport& report) {
   }
 }
 
-/// What of the text is not in the pieces.
+/// Prints notes on properties of the text that the pieces do not have.
 void report_losses(const std::string& name, const io::FloeText& floes, io::FloeFormat format) {
   const auto note = [&name](const char* words) { print_err("note: {}: {}\n", name, words); };
   if (floes.entries.empty()) note("no floes in it");
@@ -100,13 +100,13 @@ constexpr auto kCutExamples =
     "Exit codes: 0 all were cut, 2 usage, 4 some polygons were refused (the others are cut), 5 input/output.\n";
 
 struct CutOptions {
-  std::string floes;                            ///< a file, or "-" for stdin; so are the other files
-  std::string disc, crack, line, polygon, ops;  ///< the one that is given; the others empty
+  std::string floes;                            ///< file, or "-" for stdin; the same holds for the other files
+  std::string disc, crack, line, polygon, ops;  ///< only one of these is given; the others are empty
   io::Keep keep = io::Keep::kOutside;
-  double sagitta = 0;          ///< [m]; 0: by the radius
-  std::optional<double> snap;  ///< [m]; none: by the coordinates
-  std::string out;             ///< empty: none, or stdout where the ledger goes to a file
-  std::string ledger;          ///< empty: stdout, unless the pieces go there
+  double sagitta = 0;          ///< [m]; 0: chosen from the radius
+  std::optional<double> snap;  ///< [m]; none: chosen from the coordinates
+  std::string out;             ///< empty: none, or stdout if the ledger is written to a file
+  std::string ledger;          ///< empty: stdout, unless the pieces are written there
   std::optional<geometry::FillRule> repair;
 };
 
@@ -150,7 +150,7 @@ Outcome<std::vector<io::CutOp>> read_ops(const CutOptions& options) {
   return *std::move(ops);
 }
 
-/// The format that the extension of --out names; none where it has no extension.
+/// Returns the format for the extension of --out; none if it has no extension.
 Outcome<std::optional<io::FloeFormat>> output_format(const std::string& file) {
   std::string extension = std::filesystem::path(file).extension().string();
   if (extension.empty()) return std::nullopt;
@@ -169,7 +169,7 @@ Outcome<std::optional<io::FloeFormat>> output_format(const std::string& file) {
                                      file, extension));
 }
 
-/// Pieces go to --out; the ledger to --ledger, or to stdout unless the pieces are there.
+/// Writes the pieces to --out, and the ledger to --ledger or else to stdout, unless the pieces are written there.
 io::Result<> write_results(const CutOptions& options, const io::CutReport& report, io::FloeFormat format) {
   std::string ledger = options.ledger;
   std::string out = options.out;
@@ -184,7 +184,7 @@ io::Result<> write_results(const CutOptions& options, const io::CutReport& repor
   return write_output(ledger, to_ledger_json(report));
 }
 
-/// Degrees have no areas in m².
+/// Refuses coordinates in degrees, because they have no areas in m².
 Outcome<void> check_units(const std::string& name, const io::FloeText& floes) {
   constexpr auto kRemedy = "polynya import makes metres of them";
   const std::string crs = io::crs_name(floes.crs);
@@ -230,7 +230,7 @@ ExitCode cut_all(const CutOptions& options) {
 
 // ---- polynya import
 
-constexpr std::size_t kMostItems = 20;  ///< messages about floes; the report has all
+constexpr std::size_t kMostItems = 20;  ///< number of messages about floes; the report has all
 
 constexpr auto kImportExamples =
     "Examples:\n"
@@ -244,11 +244,11 @@ constexpr auto kImportExamples =
     "Exit codes: 0 done, 2 usage, 4 some floes were refused (the others are written) or all of them, 5 input/output.\n";
 
 struct ImportOptions {
-  std::string file;     ///< or "-" for stdin
-  std::string out;      ///< or "-" for stdout
-  std::string report;   ///< empty: stdout, unless the floes go there
+  std::string file;     ///< file, or "-" for stdin
+  std::string out;      ///< file, or "-" for stdout
+  std::string report;   ///< empty: stdout, unless the floes are written there
   std::string origin;   ///< "LAT,LON" or "LAT,LON,HEADING" [°]
-  std::string no_data;  ///< numbers, between commas, that stand for no value
+  std::string no_data;  ///< numbers, separated by commas, that mean "no value"
   io::Selection selection;
   ProgressKind progress = ProgressKind::kAuto;
   std::vector<std::string> properties;
@@ -268,7 +268,7 @@ Outcome<std::optional<simulation::GeographicOrigin>> read_origin(const std::stri
                                       (n.size() > 2 ? n[2] : 90) * geometry::kRadiansPerDegree};
 }
 
-/// A file of floes as it was read.
+/// A floe file that was read.
 struct FloeFile {
   io::FloeText text;
   io::FilePlace place;
@@ -332,7 +332,7 @@ void report_totals(const std::string& name, const io::ImportOutcome& imported,
     print_err("polynya: --repair non-zero, or even-odd, makes valid polygons of crossing outlines\n");
 }
 
-/// Without `geojson` the report alone.
+/// Writes the floes and the report; only the report if there is no `geojson`.
 io::Result<> write_results(const ImportOptions& options, const std::optional<std::string>& geojson,
                            const std::string& report) {
   if (geojson)

@@ -43,11 +43,11 @@ constexpr auto kChannelExamples =
 
 struct MeasureOptions {
   std::string run;
-  std::string out;  ///< folder for channel.csv and channel.geojson; empty: the run's
+  std::string out;  ///< folder for channel.csv and channel.geojson; empty: the run's folder
   std::string ship;
   analysis::ChannelOptions measure;
-  std::string format = "table";  ///< of stdout
-  bool is_json = false;          ///< likewise
+  std::string format = "table";  ///< format of the output on stdout
+  bool is_json = false;          ///< the same as --format json
   ProgressKind progress = ProgressKind::kAuto;
 };
 
@@ -87,15 +87,15 @@ constexpr auto kExportExamples =
 
 struct ExportOptions {
   std::string run;
-  std::string vtk;           ///< folder; empty: none
-  std::string geojson;       ///< folder; empty: none
-  std::optional<double> at;  ///< instant of the GeoJSON [s]; the end if not given
-  int every = 1;             ///< of VTK: each N-th frame
-  bool is_scene = false;     ///< a scene that continues the run
-  std::string out;           ///< folder of that; empty: one in the run's
+  std::string vtk;           ///< folder; empty: no VTK files
+  std::string geojson;       ///< folder; empty: no GeoJSON files
+  std::optional<double> at;  ///< instant of the GeoJSON [s]; none: the end
+  int every = 1;             ///< only each N-th frame is written as VTK
+  bool is_scene = false;     ///< write a scene that continues the run
+  std::string out;           ///< folder for that scene; empty: a folder in the run's folder
   ProgressKind progress = ProgressKind::kAuto;
-  bool is_in_metres = false;  ///< GeoJSON in the scene's plane though it has an origin
-  views::LayerPlane plane;    ///< of the GeoJSON, else
+  bool is_in_metres = false;  ///< GeoJSON in the scene's plane although the scene has an origin
+  views::LayerPlane plane;    ///< plane of the GeoJSON otherwise
 };
 
 int write_vtk(const io::Run& run, const ExportOptions& options) {
@@ -115,7 +115,7 @@ int write_vtk(const io::Run& run, const ExportOptions& options) {
   return kDone;
 }
 
-/// Into a folder that is made where it is missing; prints their paths.
+/// Writes files to a folder, which is created if necessary, and prints their paths.
 int write_files(const fs::path& folder, const std::vector<std::pair<std::string, std::string>>& files) {
   if (const auto made = make_folder(folder); !made) return fail(kInputOutput, made.error());
   for (const auto& [name, text] : files) {
@@ -142,7 +142,7 @@ int write_geojson(const io::Run& run, double time, const ExportOptions& options)
   return write_files(options.geojson, *layers);
 }
 
-/// A scene of its own that starts where the run was then.
+/// Writes a scene that starts with the state of the run at a time [s].
 int write_scene(const io::Run& run, double time, const ExportOptions& options) {
   const auto scene =
       with_progress(options.progress, "making the scene", [&] { return views::continued_scene(run, time); });
@@ -191,16 +191,16 @@ constexpr auto kInspectExamples =
 
 struct InspectOptions {
   std::string run;
-  std::optional<double> at;       ///< [s]; the end of the run if not given
-  std::optional<FloeId> floe;     ///< its shape
-  bool is_geojson = false;        ///< else WKT
-  std::optional<FloeId> lineage;  ///< the fractures that led to it
+  std::optional<double> at;       ///< [s]; none: the end of the run
+  std::optional<FloeId> floe;     ///< floe whose shape is printed
+  bool is_geojson = false;        ///< true: GeoJSON; false: WKT
+  std::optional<FloeId> lineage;  ///< floe whose lineage is printed
   bool events = false;
   bool check = false;
   bool fsd = false;
   bool accounts = false;
   ProgressKind progress = ProgressKind::kAuto;
-  bool json = false;  ///< the report as JSON; a floe's shape has its own formats
+  bool json = false;  ///< the report as JSON; the shape of a floe has its own formats
 };
 
 std::string unknown_floe(const io::Run& run, FloeId id) {
@@ -270,9 +270,10 @@ int inspect(const InspectOptions& options) {
 
 // ---- polynya view
 
+/// Time between two looks at the scene's file with --watch.
 constexpr auto kBetweenLooks = std::chrono::milliseconds(300);
 
-/// The page beside its scene, and with `watch` the script by which pages that are open learn of it.
+/// Writes the page of a scene, and with `watch` the script by which open pages learn of the new version.
 io::Result<> write_page(const io::LoadedScene& scene, const std::string& out, bool watch) {
   const std::string stamp = fmt::format("{:x}", std::chrono::system_clock::now().time_since_epoch().count());
   const fs::path stamp_file = watch ? fs::path(out + ".js") : fs::path();
@@ -297,8 +298,8 @@ int write_once(const std::string& file, const std::string& out, bool watch) {
   return kDone;
 }
 
-/// `polynya view SCENE.json --live`: the page that holds the simulator, with this scene in it. Floe files are read into
-/// it.
+/// `polynya view SCENE.json --live`: writes the page that contains the simulator with this scene. The floes of its floe
+/// files are included.
 int write_live_view(const std::string& file, const std::string& out) {
   const std::string to = out.empty() ? fs::path(file).replace_extension(".html").string() : out;
   const auto scene = io::read_scene_file(file);
@@ -315,8 +316,8 @@ int write_live_view(const std::string& file, const std::string& out) {
   return kDone;
 }
 
-/// `polynya view SCENE.json`: the page of a scene that has not run, beside it as SCENE.html if `out` is empty. With
-/// `watch` again each time that the scene's file changes, until a signal.
+/// `polynya view SCENE.json`: writes the page of a scene that has not run, as SCENE.html beside the scene if `out` is
+/// empty. With `watch` it is written again each time the scene's file changes, until a signal stops the program.
 int write_scene_view(const std::string& scene, const std::string& out, bool watch) {
   const std::string page = out.empty() ? fs::path(scene).replace_extension(".html").string() : out;
   int code = write_once(scene, page, watch);
@@ -324,10 +325,10 @@ int write_scene_view(const std::string& scene, const std::string& out, bool watc
   watch_signals();
   std::error_code error;
   for (auto last = fs::last_write_time(scene, error); stop_signal() == 0; std::this_thread::sleep_for(kBetweenLooks)) {
-    const auto now = fs::last_write_time(scene, error);  // an editor may have the file away for an instant
+    const auto now = fs::last_write_time(scene, error);  // editors may remove the file for a moment while they save it
     if (error || now == last) continue;
     last = now;
-    code = write_once(scene, page, watch);  // what is wrong is on stderr; the page stays as it was
+    code = write_once(scene, page, watch);  // errors are printed on stderr, and the page stays unchanged
   }
   if (fs::remove(page + ".js", error); error) return fail(kInputOutput, error.message());
   return code;
@@ -346,17 +347,17 @@ constexpr auto kViewExamples =
     "Exit codes: 0 done, 2 usage (also: larger than --limit), 5 input/output.\n";
 
 struct ViewOptions {
-  std::vector<std::string> runs;    ///< one, or two side by side
-  std::vector<std::string> labels;  ///< of two; chosen if empty
-  std::string out;                  ///< empty: view.html in the run folder
+  std::vector<std::string> runs;    ///< one run, or two that are shown side by side
+  std::vector<std::string> labels;  ///< names of two runs; empty: they are chosen
+  std::string out;                  ///< empty: view.html in the run's folder
   views::PlayerSelection part;
-  std::vector<double> area;     ///< x0, y0, x1, y1 [m]; of `part` once it is checked
-  bool is_watched = false;      ///< a scene whose page is written again when its file changes
-  bool is_live = false;         ///< a scene in the page that holds the simulator
+  std::vector<double> area;     ///< x0, y0, x1, y1 [m]; it becomes part of `part` after checking
+  bool is_watched = false;      ///< write the page of a scene again when its file changes
+  bool is_live = false;         ///< write the page that contains the simulator
   double most_megabytes = 100;  ///< a larger page is refused [10⁶ bytes]
 };
 
-/// A run as it is read, with what the page holds of it.
+/// A run that was read, with the data for its page.
 struct ViewedRun {
   io::Run run;
   views::PlayerData data;
@@ -374,7 +375,8 @@ Outcome<ViewedRun> read_viewed(const std::string& folder, const views::PlayerSel
   return ViewedRun{std::move(*run), std::move(data)};
 }
 
-/// What two runs are called: as their scenes, their folders, or their whole paths; the first of these that differ.
+/// Returns names for two runs: the names of their scenes, or their folders, or their whole paths, whichever is the
+/// first to differ.
 std::array<std::string, 2> labels_of(const std::vector<ViewedRun>& viewed, const ViewOptions& options) {
   if (!options.labels.empty()) return {options.labels[0], options.labels[1]};
   const auto both = [&](auto name) { return std::array<std::string, 2>{name(0), name(1)}; };
@@ -393,14 +395,15 @@ std::string page_of(const std::vector<ViewedRun>& viewed, const ViewOptions& opt
   return views::pair_page({{{viewed[0].data, labels[0]}, {viewed[1].data, labels[1]}}});
 }
 
-/// What of a page too large takes the room, and the options that leave some of it out.
+/// Says what makes a page too large, and which options leave parts of it out.
 std::string too_large(const std::vector<ViewedRun>& viewed, const ViewOptions& options, double megabytes) {
   std::size_t floes = 0, frames = 0, floe_bytes = 0, frame_bytes = 0;
   for (const auto& [run, data] : viewed) {
     floes += data.floes, frames += data.frames;
     floe_bytes += data.floe_bytes, frame_bytes += data.frame_bytes;
   }
-  const auto in_page = [](std::size_t bytes) { return static_cast<double>(bytes) * 4 / 3 / 1e6; };  // base64
+  // Base64 makes them longer by a third.
+  const auto in_page = [](std::size_t bytes) { return static_cast<double>(bytes) * 4 / 3 / 1e6; };
   return fmt::format(
       "the page would have {:.0f} MB, the limit is {:g}: {:.3g} MB of it are the shapes of {}, which --area limits, "
       "{:.3g} MB where they are in {}, which --every, --from and --until limit; or --limit {:.0f}",
@@ -408,7 +411,7 @@ std::string too_large(const std::vector<ViewedRun>& viewed, const ViewOptions& o
       counted(frames, "frame"), std::ceil(megabytes));
 }
 
-/// What is wrong with the options; empty where nothing is.
+/// Returns a message about options that contradict each other; empty if there is none.
 std::string problem_of(const ViewOptions& options) {
   if (options.runs.size() == 2 && options.out.empty()) return "two runs: --out FILE has to state where their page goes";
   if (!options.labels.empty() && (options.runs.size() != 2 || options.labels.size() != 2))
@@ -419,7 +422,7 @@ std::string problem_of(const ViewOptions& options) {
   return "";
 }
 
-/// "276 frames, 491 floes, 356 events", of several runs one after the other.
+/// Returns "276 frames, 491 floes, 356 events", for several runs one after the other.
 std::string contents(const std::vector<ViewedRun>& viewed) {
   std::vector<std::string> all;
   all.reserve(viewed.size());
@@ -556,8 +559,8 @@ Command add_view(CommandLine& app) {
   return {command, [options] { return write_view(*options); }};
 }
 
-/// Checks a run folder by reading it. Commands that are written in Python call this before they read the folder
-/// themselves. It is not in the help.
+/// Checks a run folder by reading it. Commands in Python call this before they read the folder themselves. The help
+/// does not list it.
 Command add_read_run(CommandLine& app) {
   CommandLine command = app.add_command("read-run", "", "");
   auto folder = std::make_shared<std::string>();

@@ -38,7 +38,7 @@ std::string against(const PowerLawSizes& law, const FieldStatistics& field) {
       law.exponent, law.least, law.largest, fitted ? fitted->exponent : 0, field.distance_to_law);
 }
 
-/// "2.15 GB"
+/// Returns an amount of memory as "2.15 GB".
 std::string amount_of_memory(double bytes) {
   return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.3g} GB", bytes / 1e9);
 }

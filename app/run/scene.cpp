@@ -27,9 +27,9 @@ namespace {
 // ---- polynya validate --cases
 
 constexpr std::size_t kLongestCases = std::size_t{4} << 30;  ///< [bytes]
-constexpr std::size_t kMostPrinted = 100;                    ///< cases whose problems are printed
+constexpr std::size_t kMostPrinted = 100;                    ///< number of cases whose problems are printed
 
-/// Reads one case's scene; what is wrong with it.
+/// Reads the scene of one case and returns its problems.
 std::vector<io::Problem> problems_of(const io::SourceText& scene, std::string_view line, const std::string& cases,
                                      std::size_t number, io::SceneOverrides overrides) {
   auto assignments = io::parse_case(line, cases, static_cast<int>(number));
@@ -40,8 +40,8 @@ std::vector<io::Problem> problems_of(const io::SourceText& scene, std::string_vi
   return loaded ? std::vector<io::Problem>{} : loaded.error();
 }
 
-/// Checks a scene once for each line of a file of cases (docs/studies.md) and prints what is wrong with each: a line a
-/// problem on stderr, or on stdout a JSON object for each case that is refused. The code to exit with.
+/// Checks a scene with the values of each line of a file of cases (docs/studies.md) and prints the problems of each:
+/// one per line on stderr, or one JSON object on stdout for each case that is refused. Returns the exit code.
 int validate_cases(const std::string& scene, const std::string& cases, const io::SceneOverrides& overrides,
                    bool as_json) {
   auto scene_text = read_input(scene, io::kLongestScene);
@@ -89,13 +89,13 @@ constexpr auto kSceneExamples =
 struct ValidateOptions {
   std::string scene;
   std::vector<std::string> set;
-  std::string cases;      ///< a file of them; empty: none
-  bool resolved = false;  ///< print the scene with every default filled in
+  std::string cases;      ///< file of cases; empty: none
+  bool resolved = false;  ///< print the scene with all defaults filled in
   ProgressKind progress = ProgressKind::kAuto;
-  bool json = false;  ///< print its problems as a JSON array
+  bool json = false;  ///< print the problems as a JSON array
 };
 
-/// How the scene's fields, drawn ice and floe files came out.
+/// Prints the results of the scene's fields, drawn ice properties and floe files.
 void print_floes(const io::LoadedScene& loaded) {
   print_fields(loaded);
   for (const io::IceReport& report : loaded.ice) {
@@ -222,7 +222,7 @@ void print_list_as_json() {
   print_json(all);
 }
 
-/// The values that a ship's file and its preset have at one path; null where they have none.
+/// The values at one path in a ship's file and in its preset; null if they have none.
 struct Stated {
   const io::JsonValue* by_file = nullptr;
   const io::JsonValue* by_preset = nullptr;
@@ -231,8 +231,8 @@ struct Stated {
 using UseParticular =
     std::function<void(const std::string& path, const io::JsonValue& value, const std::string& source)>;
 
-/// Calls use(path, value, source) for each particular below an object. Its source is "given" by the file, its preset's
-/// name, "estimated" or "default".
+/// Calls use(path, value, source) for each value below an object. The source is "given" if the file states it, the name
+/// of the preset, "estimated" or "default".
 void each_particular(const std::string& path, const io::JsonValue& resolved, const Stated& stated,
                      const io::LoadedShip& ship, const UseParticular& use) {
   for (const io::JsonMember& member : resolved.members()) {
@@ -260,7 +260,7 @@ void print_estimates(const std::vector<io::Estimate>& estimates, const std::stri
             name);
 }
 
-/// Whose each particular is, and by which formula it is estimated.
+/// Adds to the output the source of each value, and the formulas of estimates.
 void set_sources(io::JsonValue& root, const io::LoadedShip& ship, const io::JsonValue& of_preset) {
   io::JsonValue from{io::JsonValue::Object{}, 0}, estimated{io::JsonValue::Object{}, 0};
   each_particular(
@@ -272,13 +272,13 @@ void set_sources(io::JsonValue& root, const io::LoadedShip& ship, const io::Json
 }
 
 struct ShipsOptions {
-  std::string ship;  ///< a preset's name or a file; empty: all presets
+  std::string ship;  ///< name of a preset, or a file; empty: all presets
   bool is_json = false;
   bool is_for_performance = false;
 };
 
-/// A ship that is read as one of a scene. `name` stands in messages; its places are not shown where the text
-/// is no file.
+/// Reads a ship as a ship of a scene and prints it. `name` names it in messages. Places in the text are shown only if
+/// it is a file.
 ExitCode show_text(std::string text, const std::string& name, bool is_file, const ShipsOptions& options) {
   const auto use = options.is_for_performance ? io::ShipUse::kLevelIce : io::ShipUse::kScene;
   auto ship = io::read_ship(std::move(text), name, use);
@@ -344,8 +344,8 @@ ExitCode show(const ShipsOptions& options) {
 
 // ---- polynya read-json
 
-/// The place of every value of a document by its JSON pointer (RFC 6901): line and column, and behind them
-/// those of its key.
+/// Writes the place of every value of a document by its JSON pointer (RFC 6901): line and column, then those of its
+/// key.
 class PlaceWriter {
  public:
   explicit PlaceWriter(std::string_view text) : lines_(text) { json_.open('{'); }
@@ -461,7 +461,7 @@ Command add_ships(CommandLine& app) {
   return {command, [options] { return show(*options); }};
 }
 
-/// Prints a JSON file's value and the place of all in it, for the commands that are written in Python; not in the help.
+/// Prints the value of a JSON file and the places of all its parts, for commands in Python. The help does not list it.
 Command add_read_json(CommandLine& app) {
   CommandLine command = app.add_command("read-json", "", "");
   auto file = std::make_shared<std::string>();
