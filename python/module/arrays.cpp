@@ -11,7 +11,7 @@
 namespace polynya::python {
 namespace {
 
-/// A copy of the floes' state, an array a quantity.
+/// A copy of the floes' state, one array per quantity.
 struct Floes {
   Integers ids, parents, generations;
   py::array_t<bool> is_under;

@@ -5,7 +5,7 @@
 namespace polynya::python {
 namespace {
 
-/// The garbage collector's way to the pilots, which often refer to their simulation.
+/// Gives the garbage collector access to the pilots, which often refer to their simulation.
 Simulation* initialised(PyObject* self) {
   auto value = reinterpret_cast<py::detail::instance*>(self)->get_value_and_holder();
   return value.holder_constructed() ? value.value_ptr<Simulation>() : nullptr;

@@ -10,8 +10,8 @@
 
 namespace polynya::python {
 
-/// A simulation's own memory of its floes as numpy arrays, without a copy (docs/python.md, "Without a copy"):
-/// while one of them lives, the simulation refuses to step.
+/// The simulation's own memory of its floes as numpy arrays, without a copy (docs/python.md, "Without a copy"). The
+/// simulation refuses to step as long as one of the arrays exists.
 class FloeMemory {
  public:
   explicit FloeMemory(py::object simulation)
@@ -20,7 +20,7 @@ class FloeMemory {
   const Simulation& simulation() const { return simulation_; }
 
  private:
-  py::object owner_;  ///< keeps the simulation
+  py::object owner_;  ///< keeps the simulation alive
   const Simulation& simulation_;
 };
 
@@ -30,7 +30,7 @@ using dynamics::Bodies;
 using geometry::Point;
 using simulation::Floe;
 
-// x and y lie one after the other: a vector of points is an array of n × 2.
+// x and y are adjacent, so a vector of points is an array of n × 2.
 static_assert(sizeof(Point) == 2 * sizeof(double) && sizeof(geometry::Vector) == 2 * sizeof(double));
 static_assert(sizeof(bool) == 1);
 
@@ -38,7 +38,7 @@ const simulation::Population& population_of(const FloeMemory& memory) {
   return memory.simulation().at_rest().world().population;
 }
 
-/// Counts a view of a simulation's memory as long as it lives, and keeps that memory.
+/// Counts a view of a simulation's memory as long as it exists, and keeps the simulation alive.
 struct Hold {
   explicit Hold(const FloeMemory& memory) : simulation(memory.owner()), views(memory.simulation().views()) { ++*views; }
   ~Hold() { --*views; }
@@ -51,10 +51,10 @@ struct Hold {
 
 py::array view(const FloeMemory& memory, const py::dtype& type, std::vector<py::ssize_t> shape,
                std::vector<py::ssize_t> strides, const void* first) {
-  if (first == nullptr) return py::array(type, std::move(shape));  // no floes
+  if (first == nullptr) return py::array(type, std::move(shape));  // there are no floes
   auto hold = std::make_unique<Hold>(memory);
   const py::capsule base(hold.get(), [](void* p) { delete static_cast<Hold*>(p); });
-  static_cast<void>(hold.release());  // the capsule has it
+  static_cast<void>(hold.release());  // the capsule owns it now
   py::array array(type, std::move(shape), std::move(strides), first, base);
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
@@ -65,7 +65,7 @@ py::array points(const FloeMemory& memory, const double* first, std::size_t coun
   return view(memory, py::dtype::of<double>(), {static_cast<py::ssize_t>(count), 2}, {2 * kNumber, kNumber}, first);
 }
 
-/// A quantity of bodies, from the first floe on.
+/// Array of a quantity of bodies, starting at the first floe.
 template <auto Member>
 py::array of_bodies(const FloeMemory& memory) {
   const simulation::Population& population = population_of(memory);
@@ -81,7 +81,7 @@ py::array of_bodies(const FloeMemory& memory) {
   }
 }
 
-/// A quantity of the floes' cold data, which lies between others: an array with strides.
+/// Array of a quantity in the floes' cold data. Other data lies between its values, so it has strides.
 template <auto Member>
 py::array of_floes(const FloeMemory& memory) {
   const std::vector<Floe>& floes = population_of(memory).floes;

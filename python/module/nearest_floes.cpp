@@ -13,9 +13,9 @@ namespace polynya::python {
 namespace {
 
 constexpr py::ssize_t kColumns = 7;
-constexpr int kMostFloes = 100'000;  ///< of one call
+constexpr int kMostFloes = 100'000;  ///< largest number of floes per call
 
-/// The floes whose circles are nearest to a point of the water frame [m], the nearest first, at most `count`.
+/// Returns the floes whose circles are nearest to a point of the water frame [m], nearest first, at most `count`.
 std::vector<simulation::FloeId> nearest(const simulation::Population& population, geometry::Point point,
                                         std::size_t count) {
   std::vector<std::pair<double, simulation::FloeId>> all;
@@ -32,7 +32,7 @@ std::vector<simulation::FloeId> nearest(const simulation::Population& population
   return floes;
 }
 
-/// Writes a row a floe, in the ship's frame.
+/// Writes a row for each floe, in the ship's frame.
 void write_rows(const simulation::World& world, int ship, py::ssize_t count, float* rows) {
   const simulation::Population& population = world.population;
   const dynamics::Bodies& bodies = population.bodies;

@@ -14,7 +14,7 @@ namespace polynya::python {
 
 namespace {
 
-constexpr int kMostCells = 4096;  ///< on a side
+constexpr int kMostCells = 4096;  ///< largest number of cells along one side
 
 simulation::ImageFrame checked_frame(std::pair<int, int> shape, double cell, double ahead) {
   const auto [rows, columns] = shape;
@@ -28,7 +28,7 @@ simulation::ImageFrame checked_frame(std::pair<int, int> shape, double cell, dou
   return {static_cast<std::size_t>(rows), static_cast<std::size_t>(columns), cell, ahead};
 }
 
-/// Draws what covers each cell: floating ice, and hulls other than the ship's own.
+/// Draws the contents of each cell: floating ice, and hulls other than the ship's own.
 void draw(const simulation::Simulation& simulation, std::size_t own, const simulation::ImageFrame& frame, float* ice,
           float* others) {
   const std::vector<simulation::HullState> ships = simulation.ship_states();

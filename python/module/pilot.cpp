@@ -9,7 +9,7 @@
 namespace polynya::python {
 namespace {
 
-/// A number of a command, which must be finite.
+/// Returns a number of a command. Raises an exception if it is not finite.
 double number_of(const py::handle& value, const char* name) {
   const double number = PyFloat_AsDouble(value.ptr());
   if (number == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
@@ -39,7 +39,7 @@ void bind_seen_ship(py::module_& module) {
       .def_readonly("length", &SeenHull::length, "Of its waterline [m].");
 }
 
-/// A number of the view.
+/// Reads a number of the view.
 template <auto Member>
 double read(const PilotView& view) {
   return view.values.*Member;
