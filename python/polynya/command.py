@@ -110,7 +110,7 @@ def defect(name, error):
 
 def main():
     open_streams()
-    if not sys.warnoptions:  # warnings of libraries are for who works on polynya, by python3 -W default
+    if not sys.warnoptions:  # warnings of libraries are for developers, who use python3 -W default
         warnings.simplefilter("ignore")
     name, *words = sys.argv[1:]
     sys.argv = [f"polynya {name}", *words]
