@@ -39,11 +39,11 @@ class ShipInIce(Env):
 
     scene: anything that polynya.Scene accepts, or a callable that makes a scene from a seed; default_scene if not
     given. For a scene that is no callable, reset(seed) replaces its `seed`, from which random fields of floes are
-    drawn. ship: index or name. goal: x, y [m], which counts as reached within `goal_radius` [m]; without a
-    goal the ship is to go along its initial heading. seconds: simulated time per step [s], a whole number of the scene's ticks (time.step_s). shape, cell_m, ahead_m: of the image, as in
-    Simulation.occupancy. floes: number of floes, for an observation of the nearest floes instead of the image.
-    time_limit: simulated time [s]; the scene's until_s if not given. reward: a callable that computes the reward from a
-    Change.
+    drawn. ship: index or name. goal: x, y [m], which counts as reached within `goal_radius` [m]; without a goal the
+    ship is to go along its initial heading. seconds: simulated time per step [s], a whole number of the scene's ticks
+    (time.step_s). shape, cell_m, ahead_m: of the image, as in Simulation.occupancy. floes: number of floes, for an
+    observation of the nearest floes instead of the image. time_limit: simulated time [s]; the scene's until_s if not
+    given. reward: a callable that computes the reward from a Change.
 
     Action: lever and steering angle, each from -1 to 1, the angle as a fraction of the largest, positive to port. Both
     move as fast as the scene's ship allows. Observation: "image", 2 x rows x columns: fractions of each cell that ice,

@@ -1,10 +1,10 @@
-"""The command line of `polynya performance`; ranges are those of the scene's keys."""
+"""The command line of `polynya performance`. Its ranges are those of the scene's keys."""
 import os
 
 from ..arguments import Parser, number, numbers
 
-FLEXURAL_STRENGTH, FRICTION = 500e3, 0.1  # where the command line has none [Pa], [-]
-STEP = 0.01  # of the runs in level ice at full power [s]
+FLEXURAL_STRENGTH, FRICTION = 500e3, 0.1  # defaults of the command line [Pa], [-]
+STEP = 0.01  # time step of the runs in level ice at full power [s]
 
 EXAMPLES = (
     "performance polaris                       ten thicknesses, on all processors",
@@ -27,7 +27,7 @@ b, n with errors and scatter) is JSON.
 
 
 def values(one):
-    """Reads a list of numbers; they are sorted, and each is there once."""
+    """Reads a list of numbers, sorts it and removes repeated ones."""
     return lambda text: sorted(set(numbers(one)(text)))
 
 
@@ -35,7 +35,7 @@ thicknesses = values(number(1e-3, 20, "m"))
 
 
 def add_coefficients(parser):
-    """What the tables of resistance need."""
+    """Adds the options for tables of resistance."""
     which = parser.add_mutually_exclusive_group()
     for name, ice in (("--pack", "pack ice"), ("--level", "level ice"), ("--channel", "a channel of brash ice, 1.5 "
                                                                           "beams wide in fast ice")):
