@@ -358,7 +358,7 @@ class ChannelMeasure {
 
 /// Checks the options and fills in the time.
 io::Result<ChannelOptions> checked_options(const io::Run& run, ChannelOptions options) {
-  if (options.ship >= hull_count(run.scene.scene)) return io::fail("the run has no such ship");
+  if (options.ship >= hull_count(run.scene.scene)) return io::fail("the run has no ship or structure");
   if (run.frames.empty()) return io::fail("the run has no frames");
   const double time = options.time.value_or(run.end_time());
   if (!(time >= run.start_time() && time <= run.end_time()))

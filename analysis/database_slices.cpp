@@ -43,7 +43,7 @@ std::vector<SlicePoint> slice(const FsiDatabaseModel& model, BendingLoad load, c
   return points;
 }
 
-constexpr int kPoints = 161;
+constexpr int kPoints = 161;  ///< number of points of a curve; more: smoother curves and a longer file
 /// Widest opening angle of a wedge; towards 180 the crushed area grows without limit [deg].
 constexpr double kWidestWedge = 170;
 

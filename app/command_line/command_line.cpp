@@ -197,7 +197,7 @@ void CommandLine::flag(const char* name, bool& value, const std::string& meaning
 }
 
 void add_scene(CommandLine& command, std::string& scene) {
-  command.option("scene", &scene, "SCENE", "The scene's JSON file; - for stdin", {}, {.is_required = true});
+  command.option("scene", &scene, "SCENE", "JSON file of the scene; - for stdin", {}, {.is_required = true});
 }
 
 void add_run_folder(CommandLine& command, std::string& folder) {
@@ -210,7 +210,7 @@ void add_set(CommandLine& command, std::vector<std::string>& words) {
     return assignment ? "" : assignment.error();
   };
   command.option("--set", &words, "KEY=VALUE",
-                 "A scene key's value instead of the scene's, by its path: --set ice.thickness_m=0.7; may be repeated",
+                 "Replace the value of a scene key, given by its path: --set ice.thickness_m=0.7; may be repeated",
                  {problem_of, ""}, {.one_each_time = true});
 }
 
@@ -223,7 +223,7 @@ std::vector<io::Assignment> assignments_of(const std::vector<std::string>& words
 
 void add_progress(CommandLine& command, ProgressKind& kind) {
   command.choice<ProgressKind>("--progress", kind,
-                               "auto: a bar on a terminal, else a line every ten seconds; on stderr",
+                               "Progress on stderr; auto: a bar on a terminal, otherwise a line every ten seconds",
                                {{"auto", ProgressKind::kAuto},
                                 {"bar", ProgressKind::kBar},
                                 {"json", ProgressKind::kJson},

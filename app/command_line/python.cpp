@@ -18,10 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::pair<const char*, const char*> kCommands[] = {
-    {"performance", "Find the speed that a ship keeps in level ice, by thickness"},
-    {"figures", "Draw a run, or several side by side, for print"},
-    {"loads", "Peaks of the ice's force by place: statistics, return values, figures"},
-    {"management", "State what ice management did, and rank the patterns of a study"},
+    {"performance", "Find the speed that a ship can keep in level ice of each thickness"},
+    {"figures", "Draw figures of a run, or of several side by side, for print"},
+    {"loads", "Peaks of the ice force by place on the hull: statistics, return values, figures"},
+    {"management", "Measure the effect of ice management, and rank the patterns of a study"},
     {"movie", "Make a film of a run: the ice, and the force on the ship"},
     {"study", "Plan, run and gather many runs of one scene"}};
 constexpr auto kModule = "polynya.command";  ///< python/polynya/command.py starts all commands of the package

@@ -57,20 +57,22 @@ struct DatabaseLoadOptions {
 void add_load(CommandLine& command, DatabaseLoadOptions& load) {
   command.option("--wedge-angle", &load.wedge_angle_deg, "DEG", "Opening angle of the wedge of ice",
                  between(kNarrowestWedge, 179.9));
-  command.option("--front-angle", &load.front_angle_deg, "DEG", "Instead: from the inward normal to the front edge",
-                 between(0, 89.9));
-  command.option("--back-angle", &load.back_angle_deg, "DEG", "and to the back edge", between(0, 89.9));
+  command.option("--front-angle", &load.front_angle_deg, "DEG",
+                 "Instead of --wedge-angle: angle from the inward normal to the front edge", between(0, 89.9));
+  command.option("--back-angle", &load.back_angle_deg, "DEG",
+                 "Angle from the inward normal to the back edge, with --front-angle", between(0, 89.9));
   const auto add = [&command](const char* name, double& value, const char* unit, const char* meaning,
                               const auto& allowed) {
     command.option(name, &value, unit, meaning, allowed, {.shows_default = true, .group = "Ice and water"});
   };
-  add("--density", load.ice.density, "KG_PER_M3", "of the ice", between(1, 5000));
-  add("--youngs-modulus", load.ice.youngs_modulus, "PA", "of the ice", between(1e3, 1e12));
-  add("--poisson-ratio", load.ice.poisson_ratio, "NU", "of the ice", between(0, 0.5));
-  add("--flexural-strength", load.ice.flexural_strength, "PA", "of the ice", between(1, 1e9));
-  add("--compressive-strength", load.ice.compressive_strength, "PA", "of the ice", between(1, 1e9));
-  add("--friction", load.ice.friction, "MU", "hull on ice", between(0, 2));
-  add("--water-density", load.water.density, "KG_PER_M3", "", between(1, 5000));
+  add("--density", load.ice.density, "KG_PER_M3", "Density of the ice", between(1, 5000));
+  add("--youngs-modulus", load.ice.youngs_modulus, "PA", "Young's modulus of the ice", between(1e3, 1e12));
+  add("--poisson-ratio", load.ice.poisson_ratio, "NU", "Poisson ratio of the ice", between(0, 0.5));
+  add("--flexural-strength", load.ice.flexural_strength, "PA", "Flexural strength of the ice", between(1, 1e9));
+  add("--compressive-strength", load.ice.compressive_strength, "PA", "Compressive strength of the ice",
+      between(1, 1e9));
+  add("--friction", load.ice.friction, "MU", "Coefficient of friction between hull and ice", between(0, 2));
+  add("--water-density", load.water.density, "KG_PER_M3", "Density of the water", between(1, 5000));
 }
 
 /// Adds the options for the thickness and speed of the load. They are required, or have the defaults of a slice.
@@ -78,9 +80,9 @@ void add_point(CommandLine& command, DatabaseLoadOptions& load, bool is_required
   const auto add = [&](const char* name, double& value, const char* unit, const char* meaning, const auto& allowed) {
     command.option(name, &value, unit, meaning, allowed, {.is_required = is_required, .shows_default = !is_required});
   };
-  add("--thickness", load.ice.thickness, "M", "of the ice", between(1e-3, 100));
-  add("--speed", load.speed, "M_PER_S", "of approach, normal to the hull's waterline", between(0, 100));
-  add("--hull-angle", load.hull_angle_deg, "DEG", "the hull's inclination from the vertical", between(0, 89.9));
+  add("--thickness", load.ice.thickness, "M", "Thickness of the ice", between(1e-3, 100));
+  add("--speed", load.speed, "M_PER_S", "Speed of approach, normal to the hull's waterline", between(0, 100));
+  add("--hull-angle", load.hull_angle_deg, "DEG", "Inclination of the hull from the vertical", between(0, 89.9));
 }
 
 /// Loads the database in a file, or the shipped one if the name is empty. If the file cannot be read, or is no database
@@ -216,18 +218,19 @@ Command add_build(CommandLine& app) {
   CommandLine command = app.add_command("build", "Solve the wedges and write a database", kBuildExamples);
   auto options = std::make_shared<BuildOptions>();
   command.option("--out", &options->out, "FILE", "The file to write", not_empty(), {.shows_default = true});
-  command.choice<fracture::FluidModel>("--fluid", options->fluid, "What the water does; potential if not given",
+  command.choice<fracture::FluidModel>("--fluid", options->fluid, "Model of the water; potential if not given",
                                        {{"winkler", fracture::FluidModel::kWinkler},
                                         {"local-mass", fracture::FluidModel::kLocalMass},
                                         {"potential", fracture::FluidModel::kPotential},
                                         {"free-surface", fracture::FluidModel::kFreeSurface}});
   command.option("--wedge-angles", &options->wedge_angles_deg, "DEG,DEG,...",
-                 "Opening angles of the wedges, ascending; the shipped database's if not given [deg]", between(5, 180),
-                 {.delimiter = ','});
+                 "Opening angles of the wedges, ascending [deg]; those of the shipped database if not given",
+                 between(5, 180), {.delimiter = ','});
   command.option("--threads", &options->threads, "N",
-                 "As many as the machine runs at once if not given; no result depends on it", whole(1, 1024));
+                 "Number of threads; as many as the machine can run at once if not given; results do not depend on it",
+                 whole(1, 1024));
   add_progress(command, options->progress);
-  command.flag("--overwrite", options->overwrite, "Replace the file");
+  command.flag("--overwrite", options->overwrite, "Replace an existing file");
   return {command, [options] { return build(*options); }};
 }
 
@@ -365,7 +368,7 @@ std::string with_ranges(const std::vector<fracture::OutsideRange>& ranges) {
 
 int query(const QueryOptions& options) {
   if (!options.load.wedge_angle_deg && !options.load.front_angle_deg && !options.load.back_angle_deg)
-    return fail(kUsage, "the wedge needs --wedge-angle, or --front-angle and --back-angle");
+    return fail(kUsage, "the opening of the wedge is missing: give --wedge-angle, or --front-angle and --back-angle");
   const auto load = bending_load(options.load);
   if (!load) return load.error();
   const auto database = load_database(options.file);
@@ -385,15 +388,16 @@ int query(const QueryOptions& options) {
 }
 
 Command add_query(CommandLine& app) {
-  CommandLine command =
-      app.add_command("query", "What a wedge of ice bears, by the database and by published forms", kQueryExamples);
+  CommandLine command = app.add_command(
+      "query", "Bending capacity of a wedge of ice by the database and by published formulas", kQueryExamples);
   auto options = std::make_shared<QueryOptions>();
   add_point(command, options->load, true);
   add_load(command, options->load);
-  command.option("--slip-speed", &options->load.slip_speed, "M_PER_S", "along the hull's waterline", between(-100, 100),
-                 {.shows_default = true});
-  command.option("--database", &options->file, "FILE", "The database; the shipped one if not given", not_empty());
-  command.flag("--json", options->json, "Answer as JSON, in SI units");
+  command.option("--slip-speed", &options->load.slip_speed, "M_PER_S", "Speed along the hull's waterline",
+                 between(-100, 100), {.shows_default = true});
+  command.option("--database", &options->file, "FILE", "File of the database; the shipped one if not given",
+                 not_empty());
+  command.flag("--json", options->json, "Print the answer as JSON in SI units");
   return {command, [options] { return query(*options); }};
 }
 
@@ -472,10 +476,10 @@ Command add_show(CommandLine& app) {
                       "  polynya database show                      the database that ships with Polynya\n"
                       "  polynya database show winkler.txt --svg plots --thickness 1\n");
   auto options = std::make_shared<ShowOptions>();
-  command.option("file", &options->file, "FILE", "The database; the shipped one if not given", not_empty());
+  command.option("file", &options->file, "FILE", "File of the database; the shipped one if not given", not_empty());
   command.option("--svg", &options->svg_folder, "DIR",
-                 "Draw the slices to speed.svg, wedge-angle.svg, thickness.svg, with their numbers in slices.json "
-                 "(needs Python and matplotlib: ./setup.sh python)",
+                 "Draw slices to speed.svg, wedge-angle.svg and thickness.svg in this folder, with their numbers in "
+                 "slices.json (needs Python and matplotlib: ./setup.sh python)",
                  not_empty());
   add_point(command, options->load, false);
   add_load(command, options->load);

@@ -407,46 +407,47 @@ ExitCode import_all(const ImportOptions& options) {
 void add_plane_options(CommandLine& command, ImportOptions& options) {
   const OptionTraits traits{.group = "The plane"};
   command.option("--origin", &options.origin, "LAT,LON",
-                 "Metres about this place [°], x to the east; a third number is the heading of x, as in a scene's "
-                 "origin",
+                 "Project to metres about this place [°], x to the east; a third number is the heading of the x axis, "
+                 "as in a scene's origin",
                  {}, traits);
   command.option("--crs", &options.settings.plane.target, "EPSG:n",
-                 "The plane of this projected system instead; any name PROJ knows", not_empty(), traits);
-  command.option("--from", &options.settings.plane.source, "EPSG:n", "The file's system, where the file names none",
-                 not_empty(), traits);
+                 "Project to the plane of this system; any name that PROJ knows", not_empty(), traits);
+  command.option("--from", &options.settings.plane.source, "EPSG:n",
+                 "Coordinate system of the file, if the file states none", not_empty(), traits);
   command.flag("--shift", options.settings.plane.is_shifted,
                "Move the middle of the floes' box to (0, 0), by whole metres", traits);
   command.option("--tolerance", &options.settings.plane.tolerance, "M",
-                 "Add points to edges that are not straight in the plane, until they are this near to it [m]; 0: none",
+                 "Add points to edges that are not straight in the plane until they are within this distance of their "
+                 "true course [m]; 0: none",
                  between(0, 1e5), traits);
 }
 
 void add_floe_options(CommandLine& command, ImportOptions& options) {
   io::ImportSettings& settings = options.settings;
   command.option("--join", &settings.join, "M",
-                 "Join polygons of one feature, and those on both sides of longitude 180, whose boundaries run along "
-                 "each other within this distance, and close slits that are narrower [m]",
+                 "Join polygons of one feature, and polygons on both sides of longitude 180, whose boundaries are "
+                 "within this distance of each other, and close narrower slits [m]",
                  between(0, 1e3));
   command.choice<geometry::FillRule>(
       "--repair", settings.repair,
-      "Make valid polygons of outlines that are not, exactly, by what the rule fills; else they are refused",
+      "Repair outlines that are not valid by this fill rule, exactly; if not given, they are refused",
       {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
   command.option("--simplify", &settings.simplify, "M",
-                 "Leave out vertices, each at most so far from the outline that is left [m]", between(0, 1e4));
-  command.option("--min-area", &settings.least_area, "M2", "Drop smaller floes [m²]", between(0, 1e12));
-  command.option("--gap", &settings.gap, "M", "Least distance between floes: the smaller of two is trimmed to it [m]",
-                 between(0, 1e3));
+                 "Leave out vertices within this distance of the remaining outline [m]", between(0, 1e4));
+  command.option("--min-area", &settings.least_area, "M2", "Drop floes with less area [m²]", between(0, 1e12));
+  command.option("--gap", &settings.gap, "M",
+                 "Least distance between floes [m]; the smaller of two floes is trimmed to it", between(0, 1e3));
   const OptionTraits features{.group = "Features and properties"};
-  command.option("--layer", &options.selection.layer, "NAME", "The layer, of a file with several", not_empty(),
+  command.option("--layer", &options.selection.layer, "NAME", "Layer to read, if the file has several", not_empty(),
                  features);
   command.option("--where", &options.selection.where, "SQL",
-                 "Take only features whose properties meet this condition, as ogr2ogr does: \"POLY_TYPE = 'I'\"",
+                 "Read only features whose properties satisfy this condition, as in ogr2ogr: \"POLY_TYPE = 'I'\"",
                  not_empty(), features);
   command.option("--property", &options.properties, "KEY=NAME",
-                 "The file's name for a property, with a factor for its unit, or values for its codes: "
+                 "Name of a property in the file, with a factor for its unit, or values for its codes: "
                  "thickness_m=THICK, thickness_m=CM*0.01, thickness_m=SA[91:0.95 93:1.6]; may be repeated",
                  {}, {.group = features.group, .one_each_time = true});
-  command.option("--nodata", &options.no_data, "N,N", "Numbers that stand for no value in a property: -9,-9999",
+  command.option("--nodata", &options.no_data, "N,N", "Numbers that mean \"no value\" in a property: -9,-9999",
                  not_empty(), features);
 }
 
@@ -461,42 +462,44 @@ Command add_cut(CommandLine& app) {
   const auto tool = [&](const char* name, std::string& value, const char* type, const char* meaning) {
     command.option(name, &value, type, meaning, {}, {.group = "Tools, one of them"});
   };
-  tool("--disc", options->disc, "X,Y,R", "The disc of that centre and radius [m]");
-  tool("--crack", options->crack, "X,Y,ANGLE_DEG", "The straight line through that point, across every floe");
-  tool("--line", options->line, "X0,Y0,X1,Y1", "From end to end; separates where it crosses ice fully");
-  tool("--polygon", options->polygon, "FILE", "Polygons, with holes or not, in any format of FLOES");
-  tool("--ops", options->ops, "FILE", "A JSON list of cuts, in order, each of all pieces");
-  command.choice<io::Keep>("--keep", options->keep, "Which side of a disc or polygon stays; outside if not given",
+  tool("--disc", options->disc, "X,Y,R", "Disc with this centre and radius [m]");
+  tool("--crack", options->crack, "X,Y,ANGLE_DEG",
+       "Straight crack through this point at this angle, across every floe");
+  tool("--line", options->line, "X0,Y0,X1,Y1", "Line between two points; separates a floe if it crosses it completely");
+  tool("--polygon", options->polygon, "FILE", "File of polygons, with or without holes, in any format of FLOES");
+  tool("--ops", options->ops, "FILE", "JSON list of cuts (docs/cut.md), each applied in order to all pieces");
+  command.choice<io::Keep>("--keep", options->keep, "Which side of a disc or polygon is kept; outside if not given",
                            {{"outside", io::Keep::kOutside}, {"inside", io::Keep::kInside}, {"both", io::Keep::kBoth}});
-  command.option("--sagitta", &options->sagitta, "M",
-                 "By how much a disc's polygon may stay inside it [m]; 0.02, or radius/250 if that is less",
-                 between(1e-12, 1e6));
   command.option(
-      "--snap", &options->snap, "M",
-      "Continue an end of a line that stops short of the ice's edge or of another line by at most this [m]; if "
-      "not given, what rounding of the coordinates leaves",
-      between(0, 1e6));
-  command.option("--out", &options->out, "FILE", "The pieces; format by extension, else that of FLOES; - for stdout");
-  command.option("--ledger", &options->ledger, "FILE", "The ledger, JSON; stdout if not given");
+      "--sagitta", &options->sagitta, "M",
+      "Largest distance between a disc and the polygon that replaces it [m]; 0.02, or radius/250 if that is less",
+      between(1e-12, 1e6));
+  command.option("--snap", &options->snap, "M",
+                 "Extend ends of a line to the ice edge or another line within this distance [m]; if not given, only "
+                 "within the rounding of the coordinates",
+                 between(0, 1e6));
+  command.option("--out", &options->out, "FILE",
+                 "File for the pieces; the extension gives the format, otherwise it is that of FLOES; - for stdout");
+  command.option("--ledger", &options->ledger, "FILE", "File for the ledger, JSON; stdout if not given");
   command.choice<geometry::FillRule>(
       "--repair", options->repair,
-      "Make valid polygons of those that are not, exactly, by what the rule fills; else they are refused",
+      "Repair polygons that are not valid by this fill rule, exactly; if not given, they are refused",
       {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
   return {command, [options] { return cut_all(*options); }};
 }
 
 Command add_import(CommandLine& app) {
   CommandLine command =
-      app.add_command("import", "Make a floe file of mapped ice: project, repair, part overlaps", kImportExamples);
+      app.add_command("import", "Make a floe file from mapped ice: project, repair, remove overlaps", kImportExamples);
   auto options = std::make_shared<ImportOptions>();
   command.option("file", &options->file, "FILE",
                  "GeoJSON, NDJSON or WKT, recognised by content; any other format that GDAL's ogr2ogr reads; - for "
                  "stdin",
                  {}, {.is_required = true});
-  command.option("--out", &options->out, "FILE", "The floes, GeoJSON in metres; - for stdout", not_empty(),
+  command.option("--out", &options->out, "FILE", "File for the floes, GeoJSON in metres; - for stdout", not_empty(),
                  {.is_required = true});
   command.option("--report", &options->report, "FILE",
-                 "The report, JSON; stdout if not given, unless the floes go there");
+                 "File for the report, JSON; stdout if not given, unless the floes are written there");
   add_plane_options(command, *options);
   add_floe_options(command, *options);
   add_progress(command, options->progress);

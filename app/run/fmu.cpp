@@ -91,10 +91,10 @@ int make_unit(const FmuOptions& options) {
 }  // namespace
 
 Command add_fmu(CommandLine& app) {
-  CommandLine command = app.add_command("fmu", "Make a co-simulation unit (FMI 2.0) of a scene", kFmuExamples);
+  CommandLine command = app.add_command("fmu", "Make a co-simulation unit (FMI 2.0) from a scene", kFmuExamples);
   auto options = std::make_shared<FmuOptions>();
   add_scene(command, options->scene);
-  command.option("--out", &options->out, "FILE.fmu", "The unit to write", not_empty(), {.is_required = true});
+  command.option("--out", &options->out, "FILE.fmu", "File for the unit", not_empty(), {.is_required = true});
   add_set(command, options->set);
   return {command, [options] { return make_unit(*options); }};
 }

@@ -102,15 +102,15 @@ ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
 
 void add_run_options(CommandLine& command, DriverOptions& options) {
   io::RunControl& control = options.control;
-  command.option("--threads", &control.threads, "N", "Threads to step on; results do not depend on it", whole(1, 1024));
+  command.option("--threads", &control.threads, "N", "Number of threads; results do not depend on it", whole(1, 1024));
   command.option("--checkpoint-every", &control.checkpoint_every, "S",
-                 "Simulated time between checkpoints, beside those by the clock [s]", between(1e-5, 1e7));
+                 "Simulated time between checkpoints, in addition to those by wall time [s]", between(1e-5, 1e7));
   command.option("--checkpoint-every-wall", &control.checkpoint_every_wall, "S",
-                 "Time by the clock between checkpoints, 60 if not given; 0: none by the clock [s]", between(0, 1e7));
-  command.flag("--check", control.check, "Recompute every cross-index and sum after every step; stop if one differs");
+                 "Wall time between checkpoints [s]; 60 if not given, 0: none by wall time", between(0, 1e7));
+  command.flag("--check", control.check, "Check the whole state after every step, and stop at the first fault; slow");
   command.flag("--no-map", options.no_map, "Do not draw final.svg and final.png");
   command.flag("--final-geojson", control.final_geojson,
-               fmt::format("Write final.geojson also of more than {} floes", io::kMostFloesInFinal));
+               fmt::format("Write final.geojson even if there are more than {} floes", io::kMostFloesInFinal));
   add_progress(command, options.progress);
 }
 
@@ -251,10 +251,11 @@ std::string no_run_in(const fs::path& folder) {
   const std::string name = folder.string();
   if (io::is_marked_run_folder(folder))
     return fmt::format(
-        "{0}: no run to resume: polynya was killed before it had written {1}; start the run again: polynya run "
+        "{0}: no run to resume: polynya was killed before it had written {1}; start the run again with polynya run "
         "SCENE --out {0} --overwrite",
         name, io::run_file::kScene);
-  return fmt::format("{}: no run to resume: there is no {}", name, io::run_file::kScene);
+  return fmt::format("{}: no run to resume: it has no {}; give a folder that polynya run wrote", name,
+                     io::run_file::kScene);
 }
 
 /// Refuses to continue a finished run with damaged files.
@@ -269,7 +270,8 @@ int refuse_damaged(const fs::path& folder, const io::FilesCheck& files) {
 /// may be too many checkpoints or missing pictures.
 int report_finished(const fs::path& folder, double end, bool no_map) {
   if (const auto files = io::check_files(folder); !files.damaged.empty()) return refuse_damaged(folder, files);
-  print_err("polynya: {}: the run is finished, at {:.6g} s; to go on from there: --until\n", folder.string(), end);
+  print_err("polynya: {}: the run has finished at {:.6g} s; to extend it, give --until with a later time\n",
+            folder.string(), end);
   const bool is_drawn = fs::exists(folder / io::run_file::kFinalSvg) && fs::exists(folder / io::run_file::kFinalPng);
   if (is_drawn && io::checkpoints_in(folder).size() <= 1) return kDone;
   const auto lock = io::RunLock::take(folder);
@@ -337,35 +339,37 @@ Command add_run(CommandLine& app) {
       "  polynya run scenes/level-plate.json --set ice.thickness_m=0.7 --set ships[0].position_m[1]=5\n");
   auto options = std::make_shared<RunOptions>();
   add_scene(command, options->scene);
-  command.option("--out", &options->out, "DIR", "The run folder; runs/<scene name> if not given");
-  command.option("--until", &options->until, "S", "Simulated time to run to, instead of the scene's [s]",
+  command.option("--out", &options->out, "DIR", "Folder to write the run to; runs/<scene name> if not given");
+  command.option("--until", &options->until, "S", "Simulated time at which the run ends, instead of the scene's [s]",
                  between(1e-9, 1e7));
-  command.option("--seed", &options->seed, "N", "Seed instead of the scene's", whole(0, 9007199254740991));
+  command.option("--seed", &options->seed, "N", "Seed of all random draws, instead of the scene's",
+                 whole(0, 9007199254740991));
   command.option("--panel", &options->panel, "M",
-                 "Record the loads on panels of this length of all ships and structures, in panels.csv [m]",
+                 "Record the ice loads on panels of this length of all ships and structures in panels.csv [m]",
                  between(0.1, 1000));
   add_set(command, options->set);
   add_run_options(command, options->driver);
-  command.flag("--overwrite", options->overwrite, "Replace the run that is in the folder");
+  command.flag("--overwrite", options->overwrite, "Replace the run that is already in the folder");
   return {command, [options] { return run(*options); }};
 }
 
 Command add_resume(CommandLine& app) {
   CommandLine command =
-      app.add_command("resume", "Resume a run that was stopped, killed or ran out of disk, or is to be longer",
+      app.add_command("resume", "Continue a run that was stopped, killed or ran out of disk space, or extend it",
                       "Examples:\n"
                       "  polynya resume runs/level-plate\n"
-                      "  polynya resume runs/level-plate --until 900        a finished one too\n"
+                      "  polynya resume runs/level-plate --until 900        extend a run, even a finished one\n"
                       "  polynya resume runs/level-plate --checkpoint runs/level-plate/checkpoint-000000012000.bin\n"
-                      "  polynya resume runs/level-plate --from-failure     only the step that failed, once more\n");
+                      "  polynya resume runs/level-plate --from-failure     repeat only the step that failed\n");
   auto options = std::make_shared<ResumeOptions>();
   add_run_folder(command, options->folder);
-  command.option("--checkpoint", &options->checkpoint, "FILE", "This one, instead of the newest");
+  command.option("--checkpoint", &options->checkpoint, "FILE", "Checkpoint to continue from; the newest if not given");
   command.option("--until", &options->until, "S",
-                 "Simulated time to run to, instead of the run's; the same bytes as a run begun so [s]",
+                 "Simulated time at which the run ends, instead of the run's own end [s]; gives the same bytes as a "
+                 "run started with it",
                  between(1e-9, 1e7));
   command.flag("--from-failure", options->from_failure,
-               "Repeat the step for which failure.bin was dumped; nothing is written",
+               "Repeat the step after the state in failure.bin to see the failure again; writes nothing",
                {.excludes = {"--checkpoint", "--until"}});
   add_run_options(command, options->driver);
   return {command, [options] { return resume(*options); }};

@@ -80,9 +80,10 @@ int validate_cases(const std::string& scene, const std::string& cases, const io:
 constexpr auto kSceneExamples =
     "Examples:\n"
     "  polynya validate scene.json\n"
-    "  polynya validate scene.json --resolved   with every default filled in\n"
+    "  polynya validate scene.json --resolved   the scene with all defaults filled in\n"
     "  polynya validate scene.json --set ice.thickness_m=0.7\n"
-    "  polynya validate scene.json --cases cases.ndjson   each line as many --set: {\"ice.thickness_m\": 0.7}\n"
+    "  polynya validate scene.json --cases cases.ndjson   values of each line, as with --set: {\"ice.thickness_m\": "
+    "0.7}\n"
     "  polynya validate scene.json --json       the problems as a JSON array, for editors\n"
     "  make-scene | polynya validate -          a scene from stdin\n";
 
@@ -317,7 +318,7 @@ ExitCode no_such_ship(const std::string& name) {
   std::vector<std::string_view> names;
   for (const io::ShipPreset& other : io::ship_presets()) names.push_back(other.name);
   const std::string meant = io::nearest(name, names);
-  return fail(kUsage, fmt::format("no ship \"{}\"; {}there are {}; no file has that name", name,
+  return fail(kUsage, fmt::format("no preset and no file is named \"{}\"; {}presets: {}", name,
                                   meant.empty() ? "" : fmt::format("did you mean {}? ", meant), fmt::join(names, " ")));
 }
 
@@ -405,16 +406,17 @@ int read_json(const std::string& file) {
 }  // namespace
 
 Command add_validate(CommandLine& app) {
-  CommandLine command =
-      app.add_command("validate", "Check a scene and report everything that is wrong with it", kSceneExamples);
+  CommandLine command = app.add_command("validate", "Check a scene and report all its errors", kSceneExamples);
   auto options = std::make_shared<ValidateOptions>();
   add_scene(command, options->scene);
   add_set(command, options->set);
-  command.option("--cases", &options->cases, "FILE",
-                 "Check the scene once for each line of this file, an object of paths and values", not_empty());
-  command.flag("--resolved", options->resolved, "Print the scene with every default filled in",
+  command.option(
+      "--cases", &options->cases, "FILE",
+      "Check the scene with the values of each line of this file: one JSON object of paths and values per line",
+      not_empty());
+  command.flag("--resolved", options->resolved, "Print the scene with all defaults filled in",
                {.excludes = {"--cases"}});
-  command.flag("--json", options->json, "Print the problems as a JSON array; [] for none",
+  command.flag("--json", options->json, "Print the problems as a JSON array; [] if there are none",
                {.excludes = {"--resolved"}});
   add_progress(command, options->progress);
   return {command, [options] { return validate(*options); }};
@@ -426,7 +428,7 @@ Command add_init(CommandLine& app) {
                                         "  polynya init my-scene.json && polynya run my-scene.json\n"
                                         "  polynya init                         to stdout\n");
   auto file = std::make_shared<std::string>();
-  command.option("file", file.get(), "FILE", "Where to; stdout if not given");
+  command.option("file", file.get(), "FILE", "File to write; stdout if not given");
   return {command, [file] { return init(*file); }};
 }
 
@@ -444,20 +446,20 @@ Command add_schema(CommandLine& app) {
 }
 
 Command add_ships(CommandLine& app) {
-  CommandLine command = app.add_command(
-      "ships", "List the ships that scenes can ask for by name; check one of a file",
-      "Examples:\n"
-      "  polynya ships                  all of them\n"
-      "  polynya ships polaris          every particular, its source, and which are assumed\n"
-      "  polynya ships polaris --json   its \"ship\" as scenes have one\n"
-      "  polynya ships our-ship.json    a ship as scenes have it: what is wrong, or all its particulars\n");
+  CommandLine command =
+      app.add_command("ships", "List the ships that scenes can use by name, or check a ship in a file",
+                      "Examples:\n"
+                      "  polynya ships                  all of them\n"
+                      "  polynya ships polaris          every particular with its source\n"
+                      "  polynya ships polaris --json   the ship in the form of a scene\n"
+                      "  polynya ships our-ship.json    check a ship in a file: its errors, or all its particulars\n");
   auto options = std::make_shared<ShipsOptions>();
-  command.option("ship", &options->ship, "SHIP", "Its name, or a JSON file with one; - for stdin", not_empty());
+  command.option("ship", &options->ship, "SHIP", "Name of a ship, or a JSON file with one; - for stdin", not_empty());
   command.flag("--json", options->is_json,
-               "Print that ship, or the list of all, as JSON; of a file with every default filled in");
+               "Print the ship, or the list of all ships, as JSON with all defaults filled in");
   command.flag("--for-performance", options->is_for_performance,
-               "Require also what polynya performance needs, main dimensions, draught and engine, and estimate what "
-               "can be: open-water speed, block coefficient, entrance angle, propellers");
+               "Also require the data that polynya performance needs (main dimensions, draught, engine), and estimate "
+               "missing ones: open-water speed, block coefficient, entrance angle, propellers");
   return {command, [options] { return show(*options); }};
 }
 

@@ -5,7 +5,7 @@ const alwaysInForm = [["time", "until_s"], ["seed"], ["ice", "thickness_m"], ["i
   ["ice", "compressive_strength_Pa"], ["water", "drift_m_per_s"]];
 /** Lists of points are edited with the mouse or in the text, not in the form. */
 const notInForm = new Set(["outer_m", "holes_m", "waterline_m", "outline_m", "centreline_m", "rows", "corners_m"]);
-const mostInForm = 120;
+const mostInForm = 120; // largest number of fields; further values can be edited in the text
 
 const schemaAt = (schema, path) => path.reduce((at, step) =>
   (typeof step === "number" ? at?.items : at?.properties?.[step]), schema);

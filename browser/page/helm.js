@@ -1,7 +1,7 @@
 // Steering by hand: lever and rudder of a ship with an engine, by keys, sliders and touch.
 
-const leverStep = 0.1;
-const angleStep = 5; // [°]
+const leverStep = 0.1; // change of the lever per key press [-]
+const angleStep = 5; // change of the steering angle per key press [°]
 
 /** Handles the controls of the helm. `order(ship, lever, angle [rad])` and `release(ship)` receive the commands. */
 function makeHelm({ order, release }) {

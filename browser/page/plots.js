@@ -11,7 +11,7 @@ function liveQuantities(columns) {
   return quantities;
 }
 
-const plotHeight = 150; // [px]
+const plotHeight = 150; // height of the plot [px]
 
 /** Options of a chart with the curves {hull, name, unit, isMean, label}. */
 function chartOptions(curves, width, colours) {

@@ -42,7 +42,7 @@ void fields(Archive& archive, Is<Checkpoint> auto& c) {
 namespace {
 
 constexpr std::string_view kMark = "PLYNYCKP";
-constexpr std::size_t kHeadSize = 24;
+constexpr std::size_t kHeadSize = 24;  ///< length of mark, version, checksum and length [bytes]
 constexpr std::string_view kPrefix = "checkpoint-";
 constexpr std::string_view kSuffix = ".bin";
 

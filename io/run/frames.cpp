@@ -14,8 +14,8 @@ namespace {
 constexpr std::string_view kFileMark = "PLYNYFRM";
 constexpr std::string_view kFrameMark = "FRAM";
 constexpr std::uint32_t kVersion = 1;
-constexpr std::size_t kHeaderSize = 16;
-constexpr std::size_t kFrameHeadSize = 24;
+constexpr std::size_t kHeaderSize = 16;     ///< length of the file's header [bytes]
+constexpr std::size_t kFrameHeadSize = 24;  ///< length of a frame before its ships [bytes]
 // The bytes of these structs in memory are those of the file.
 static_assert(sizeof(Motion) == 48 && sizeof(FloeMotion) == 56 && std::is_trivially_copyable_v<FloeMotion>);
 

@@ -20,6 +20,7 @@ using run_file::kGrowing;
 enum : std::size_t { kFloes, kEvents, kFrames, kContacts, kCrushed, kStates, kForces, kPanels };
 /// The buffers are written when they hold more than this [bytes].
 constexpr std::size_t kMuchBuffered = std::size_t{256} << 10;
+/// The buffers are also written after this time, so that a viewer of a running run sees its progress.
 constexpr auto kLongestWait = std::chrono::seconds(1);
 
 Motion motion_of(const simulation::FloeState& floe, geometry::Point centroid_in_body) {

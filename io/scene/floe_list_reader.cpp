@@ -52,8 +52,10 @@ Polygon floe_of(const RectangleInput& input) {
 using simulation::FloeField;
 using simulation::PowerLawSizes;
 
+/// Default concentration between the openings of a field with a law of sizes [-]. A larger value makes fewer and larger
+/// openings, and takes longer to fill.
 constexpr double kDefaultPacking = 0.75;
-constexpr int kCornersWithLaw = 16;
+constexpr int kCornersWithLaw = 16;  ///< default of the largest number of corners of a floe in such a field
 
 /// A strip along a line.
 struct ChannelRegion {

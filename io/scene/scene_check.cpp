@@ -20,7 +20,7 @@ namespace {
 using geometry::Polygon;
 using simulation::BodyKind;
 
-constexpr double kMostSteps = 1e9;
+constexpr double kMostSteps = 1e9;  ///< largest number of ticks of a run; longer runs are refused as mistakes
 /// Largest acceleration that a thrust may give a ship [m/s²]. Icebreakers have some 0.1. With a larger value, scenes
 /// are accepted whose ships exceed all speeds within a few steps.
 constexpr double kMostAcceleration = 10;

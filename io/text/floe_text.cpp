@@ -243,6 +243,7 @@ void add_syntax_error(FloeText& floes, std::size_t feature, std::size_t offset, 
   entry.detail = std::move(detail);
 }
 
+/// Deepest nesting of brackets and collections of WKT that is read. It bounds the stack of the recursive reader.
 constexpr int kDeepestCollection = 64;
 
 /// Returns true for A to Z and a to z.

@@ -200,7 +200,7 @@ constexpr std::string_view kRing = "ring_m";
 constexpr std::string_view kHoles = "holes_m";
 constexpr std::string_view kRingParts = "ring_parts_m";
 constexpr std::string_view kHoleParts = "hole_parts_m";
-constexpr double kMostVertices = 4e9;
+constexpr double kMostVertices = 4e9;  ///< larger numbers of vertices are refused, since they do not fit into 32 bits
 
 const JsonValue::Array& list(const JsonValue& value, std::string_view expected) {
   if (!value.is(JsonKind::kArray))

@@ -108,28 +108,31 @@ py::tuple pair_of(geometry::Vector v) {
 }
 
 constexpr auto kMemoryDoc =
-    "The simulation's own memory of its floes, without a copy: read-only numpy arrays, a row for each floe\n"
-    "that there was, by its id. Rows of floes that broke, which is_alive marks, have what they had then.\n\n"
-    "While one of the arrays lives, or a part of one, step() and run() raise a BufferError: delete it, or "
-    "copy\n"
-    "what is to outlast a step. An array keeps its simulation.\n\n"
-    "Places and velocities are those of centres of mass in the water's frame: add water_shift and\n"
-    "water_velocity for those over ground.";
+    "The simulation's own memory of its floes, without a copy: read-only numpy arrays with one row for each floe that\n"
+    "ever existed, by its id. is_alive marks floes that have not broken; rows of broken floes have their last state.\n"
+    "\n"
+    "While one of the arrays, or a part of one, exists, step() and run() raise a BufferError: delete it, or copy the\n"
+    "values that you need after a step. An array keeps its simulation alive.\n"
+    "\n"
+    "Positions and velocities are those of centres of mass in the water's frame. Add water_shift and water_velocity "
+    "for\n"
+    "those over ground.";
 
 void bind_bodies(py::class_<FloeMemory>& type) {
-  type.def_property_readonly("is_alive", &of_bodies<&Bodies::is_alive>, "Whether the floe has not broken.")
+  type.def_property_readonly("is_alive", &of_bodies<&Bodies::is_alive>, "True if the floe has not broken.")
       .def_property_readonly("centres", &of_bodies<&Bodies::position>,
                              "n x 2: centres of mass in the water's frame [m].")
-      .def_property_readonly("angles", &of_bodies<&Bodies::angle>, "Of the bodies' frames [rad].")
+      .def_property_readonly("angles", &of_bodies<&Bodies::angle>, "Angles of the body frames [rad].")
       .def_property_readonly("velocities", &of_bodies<&Bodies::velocity>,
-                             "n x 2: of the centres of mass, relative to the water [m/s].")
-      .def_property_readonly("turning", &of_bodies<&Bodies::angular_velocity>, "Counter-clockwise [rad/s].")
-      .def_property_readonly("masses", &of_bodies<&Bodies::mass>, "[kg]")
-      .def_property_readonly("thickness", &of_bodies<&Bodies::thickness>, "[m]")
+                             "n x 2: velocities of the centres of mass relative to the water [m/s].")
+      .def_property_readonly("turning", &of_bodies<&Bodies::angular_velocity>,
+                             "Angular velocities, counter-clockwise [rad/s].")
+      .def_property_readonly("masses", &of_bodies<&Bodies::mass>, "Masses [kg].")
+      .def_property_readonly("thickness", &of_bodies<&Bodies::thickness>, "Thicknesses [m].")
       .def_property_readonly("radii", &of_bodies<&Bodies::bounding_radius>,
-                             "Of the circles about the centres of mass that hold the floes [m].")
+                             "Radii of the circles about the centres of mass that contain the floes [m].")
       .def_property_readonly("centroids", &of_bodies<&Bodies::centroid>,
-                             "n x 2: centres of mass in the bodies' frames [m].");
+                             "n x 2: centres of mass in the body frames [m].");
 }
 
 }  // namespace
@@ -138,10 +141,12 @@ void bind_floe_memory(py::module_& module, py::class_<Simulation>& simulation) {
   py::class_<FloeMemory> type(module, "FloeMemory", kMemoryDoc);
   bind_bodies(type);
   type.def_property_readonly("parents", &of_floes<&Floe::parent>,
-                             "Ids of the floes that they broke from; -1: of the scene.")
-      .def_property_readonly("generations", &of_floes<&Floe::generation>, "Fractures since the scene's floe.")
-      .def_property_readonly("areas", &of_floes<&Floe::area>, "[m2]")
-      .def_property_readonly("is_under", &of_floes<&Floe::is_under>, "Whether under a hull, or the ice behind it.")
+                             "Ids of the floes from which they broke; -1 for floes of the scene.")
+      .def_property_readonly("generations", &of_floes<&Floe::generation>,
+                             "Number of fractures since the floe of the scene.")
+      .def_property_readonly("areas", &of_floes<&Floe::area>, "Areas [m2].")
+      .def_property_readonly("is_under", &of_floes<&Floe::is_under>,
+                             "Whether the floe is under a hull, or under the ice behind it.")
       .def("shape", &shape_of, py::arg("id"),
            "shape(id)\n\nThe rings of a floe that has not broken, n x 2 each, in its body's frame [m]: the "
            "outer one,\nthen its holes.")
@@ -151,15 +156,15 @@ void bind_floe_memory(py::module_& module, py::class_<Simulation>& simulation) {
             const simulation::Simulation& s = m.simulation().at_rest();
             return pair_of(drift_at(s.world().setup, s.time()));
           },
-          "How far the water has gone over ground, x and y [m].")
+          "Displacement of the water over ground, x and y [m].")
       .def_property_readonly(
           "water_velocity",
           [](const FloeMemory& m) { return pair_of(m.simulation().at_rest().world().population.water_velocity); },
-          "Over ground, x and y [m/s].")
+          "Velocity over ground, x and y [m/s].")
       .def("__len__", [](const FloeMemory& m) { return population_of(m).floe_count(); });
   simulation.def_property_readonly(
       "floe_memory", [](py::object self) { return FloeMemory(std::move(self)); },
-      "The floes' state as arrays on the simulation's own memory: FloeMemory.");
+      "State of the floes as arrays on the simulation's own memory: FloeMemory.");
 }
 
 }  // namespace polynya::python

@@ -62,11 +62,14 @@ py::array_t<float> nearest_floes(const Simulation& python, const py::object& shi
 }
 
 constexpr auto kNearestFloesDoc =
-    "nearest_floes(ship=0, count=32)\n\n"
-    "The floating floes nearest to a ship's centre of gravity, by their circles, the nearest first: an array of\n"
-    "count x 7, in the ship's frame: place ahead and to port [m], velocity relative to the ship's ahead and to port\n"
-    "[m/s], radius of the circle about the centre of mass that holds the floe [m], area [m2], thickness [m]. Rows\n"
-    "are 0 where there are fewer floes.";
+    "nearest_floes(ship=0, count=32)\n"
+    "\n"
+    "The floating floes whose circles are nearest to a ship's centre of gravity, nearest first: an array of count x 7 "
+    "in\n"
+    "the ship's frame. Columns: position ahead and to port [m], velocity relative to the ship ahead and to port "
+    "[m/s],\n"
+    "radius of the circle about the centre of mass that contains the floe [m], area [m2], thickness [m]. If there are\n"
+    "fewer floes, the other rows are 0.";
 
 }  // namespace
 

@@ -60,11 +60,13 @@ py::array_t<float> occupancy(const Simulation& python, const py::object& ship, s
 }
 
 constexpr auto kOccupancyDoc =
-    "occupancy(ship=0, shape=(96, 96), cell_m=4.0, ahead_m=0.0)\n\n"
-    "An image from above around a ship, in its frame: an array of 2 x rows x columns, the share of each "
-    "cell\n"
-    "that floating ice covers, and that other ships and structures cover. The first row is the farthest\n"
-    "ahead, the first column to port; the middle is ahead_m ahead of the ship's centre of gravity.";
+    "occupancy(ship=0, shape=(96, 96), cell_m=4.0, ahead_m=0.0)\n"
+    "\n"
+    "An image of the surroundings of a ship from above, in its frame: an array of 2 x rows x columns with the "
+    "fractions\n"
+    "of each cell that floating ice, and that other ships and structures, cover. The first row is the farthest ahead, "
+    "the\n"
+    "first column the farthest to port; the centre is ahead_m ahead of the ship's centre of gravity.";
 
 }  // namespace
 

@@ -7,8 +7,8 @@
 namespace polynya::python {
 namespace {
 
-constexpr double kBetweenCheckpoints = 60;  ///< wall time between checkpoints [s], as in `polynya run`
-constexpr std::int64_t kStepsBetweenFlushes = 16;
+constexpr double kBetweenCheckpoints = 60;         ///< wall time between checkpoints [s], as in `polynya run`
+constexpr std::int64_t kStepsBetweenFlushes = 16;  ///< reading the clock at every step would slow small steps down
 
 io::RunWriter writer_of(const std::filesystem::path& folder, bool overwrite, const io::LoadedScene& scene) {
   auto writer = io::RunWriter::create(folder, overwrite, scene);

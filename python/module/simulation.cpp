@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 
 /// Longest delay of Ctrl-C, and time between two reports of progress.
 constexpr auto kBetweenReports = std::chrono::milliseconds(50);
-constexpr double kMostSteps = 1e15;
+constexpr double kMostSteps = 1e15;  ///< largest number of ticks of one call; larger numbers are refused
 
 int checked_threads(int threads) {
   if (threads < 1 || threads > 1024)

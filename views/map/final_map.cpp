@@ -25,13 +25,14 @@ using geometry::Point;
 
 /// Pixels per millimetre on paper. Text of 16 px is then 8 pt in print, and text of 18 px is 9 pt.
 constexpr double kPixelsPerMm = 16 / (8 * 25.4 / 72);
-constexpr double kPageWidth = kPixelsPerMm * 170;  ///< width of a page of a journal [px]
-constexpr double kMargin = 24;                     ///< [px]
-constexpr double kRoom = kPageWidth - 2 * kMargin;
-constexpr double kTallest = 1200;    ///< largest height of the map [px]
-constexpr double kFullMarks = 1400;  ///< on a map of this width or more, marks have their full size [px]
-constexpr int kTitle = 18, kWords = 16;
-constexpr double kLine = 20, kLegendRow = 27, kSwatch = 26;  ///< [px]
+constexpr double kPageWidth = kPixelsPerMm * 170;   ///< width of a page of a journal [px]
+constexpr double kMargin = 24;                      ///< [px]
+constexpr double kRoom = kPageWidth - 2 * kMargin;  ///< width of the map [px]
+constexpr double kTallest = 1200;                   ///< largest height of the map [px]
+constexpr double kFullMarks = 1400;                 ///< on a map of this width or more, marks have their full size [px]
+constexpr int kTitle = 18, kWords = 16;             ///< font sizes [px]
+constexpr double kLine = 20, kLegendRow = 27,
+                 kSwatch = 26;  ///< heights of lines and legend rows, width of samples [px]
 /// Width of a character as a fraction of its font size, for DejaVu Sans bold. A title that would be wider than the page
 /// is compressed.
 constexpr double kWidthOfCharacter = 0.68;

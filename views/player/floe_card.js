@@ -81,6 +81,7 @@ function showFloeCard(host, run, places, motions, chosen, id, time, actions) {
   host.replaceChildren(list, make("h3", {}, "Fracture lineage"), lineageList(run, id, actions));
 }
 
+// Number of ancestors that the card lists; a longer list would hide the rest of the panel.
 const longestLineage = 8;
 
 /** Links to the ancestors of a floe, each with the fracture that ended it, to the floe itself, and to its pieces. */

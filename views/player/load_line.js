@@ -1,7 +1,7 @@
 // Colours the waterlines by the ice loads up to the present time, from the peaks of contacts.csv.
 
 const loadPanel = 2.5; // length of the panels into which a waterline is divided [m]
-const loadSteps = 5;
+const loadSteps = 5; // number of colours of the scale
 
 /** Colour for q from 0 to 1, from yellow to dark red in steps. */
 function loadColour(q) {

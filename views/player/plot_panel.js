@@ -1,7 +1,7 @@
 // The plots with their controls and legends, one below the other, and the timeline, which has the same width. All plots
 // show the same part of the run. The controls of the first plot apply to all.
 
-const mostPlots = 4;
+const mostPlots = 4; // more would leave each too little height
 
 /** Makes one plot with its legend. `parts` are the list of quantities, the element of the plot and that of the legend.
  * */

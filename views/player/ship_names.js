@@ -1,6 +1,6 @@
 // Places the names of ships on the map beside their hulls, so that a name covers no hull and no other name.
 
-const nameHeight = 15; // [px]
+const nameHeight = 15; // height of a name [px]
 const nameStep = 4; // step by which a name is moved away from its ship until it is free [px]
 const farthestName = 240; // a name is not moved farther than this; then it is not drawn [px]
 // A name changes its side only if it is nearer to its ship there by this distance, so that it does not jump [px].

@@ -3,7 +3,7 @@
 // Sizes √area in classes with round limits, ten per decade.
 
 const roundSizes = [1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.3, 8];
-const leastClasses = 6;
+const leastClasses = 6; // least number of classes of the histogram
 
 const sizeOf = (floes, id) => Math.sqrt(floes.area[id]);
 

@@ -145,9 +145,10 @@ def case_of(number, run, ship, start):
 
 def body_of(run, ship):
     name = ship or (run.ship_names[0] if run.ship_names else None)
+    if not run.ship_names:
+        raise InputError(f"{run.folder}: the run has no ship or structure, so it has no loads")
     if name not in run.ship_names:
-        raise InputError(f"{run.folder}: no ship or structure is named {name}; it has: "
-                         f"{', '.join(run.ship_names) or 'none'}")
+        raise InputError(f"{run.folder}: no ship or structure is named {name}; it has: {', '.join(run.ship_names)}")
     return next(body for key in ("ships", "structures", "walls") for body in run.scene.get(key, [])
                 if body["name"] == name)
 

@@ -51,18 +51,19 @@ def film_name(text):
 def command_line():
     seconds = number(0, unit="s")
     parser = Parser("polynya movie", "Make a film of a run: the ice, and the force on the ship", EXAMPLES, REST)
-    meaning = "The run folder; a run that is not finished is shown as far as it got"
+    meaning = "The run folder; a run that is not finished is shown up to its last frame"
     parser.add("run", meaning, metavar="RUN")
-    meaning = "The film: .mp4, .gif, or .png, the picture at --from; voyage.mp4 if not given"
+    meaning = "File for the film, .mp4 or .gif, or .png for one picture at --from; voyage.mp4 if not given"
     parser.add("--out", meaning, type=film_name, default="voyage.mp4", metavar="FILE")
-    meaning = "Simulated time at which it begins; the run's start if not given"
+    meaning = "Simulated time at which the film begins [s]; the start of the run if not given"
     parser.add("--from", meaning, dest="start", type=seconds, metavar="S")
-    meaning = "Simulated time at which it ends; the run's end if not given"
+    meaning = "Simulated time at which the film ends [s]; the end of the run if not given"
     parser.add("--to", meaning, dest="end", type=seconds, metavar="S")
-    meaning = "Simulated seconds a second of the film; one for about half a minute if not given"
+    meaning = "Simulated seconds per second of the film; if not given, such that the film takes about half a minute"
     parser.add("--speed", meaning, type=number(0, is_open=True), metavar="X")
-    parser.add("--size", "In pixels; 1280x720 if not given", type=size, default=(1280, 720), metavar="WxH")
-    meaning = "The ship that the map goes with, by its name; all of the run if not given"
+    meaning = "Size of the pictures [px]; 1280x720 if not given"
+    parser.add("--size", meaning, type=size, default=(1280, 720), metavar="WxH")
+    meaning = "Name of the ship that the map follows; if not given, the map shows the whole run"
     parser.add("--follow", meaning, metavar="SHIP")
     return parser
 
