@@ -18,6 +18,7 @@
 #include "app/read/live_page.hpp"
 #include "io/import/floe_properties.hpp"
 #include "io/import/gdal.hpp"
+#include "io/run/records.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/scene/scene_file.hpp"
 #include "io/text/floe_text.hpp"

@@ -150,7 +150,7 @@ int within_memory(const fs::path& folder, Work make_or_continue) {
     return make_or_continue();
   } catch (const std::bad_alloc&) {
     print_err("polynya: {}\n", out_of_memory());
-    print_err("polynya: {} is that of a run that was killed; {}\n", folder.string(), kToNeedLessMemory);
+    print_err("polynya: {} is now like the folder of a killed run; {}\n", folder.string(), kToNeedLessMemory);
     print_err("polynya: with more memory, continue from its newest checkpoint with: polynya resume {}\n",
               folder.string());
     return kOutOfMemory;
@@ -286,7 +286,7 @@ int resume_from_checkpoint(const io::LoadedScene& scene, io::RunLock lock, const
   const fs::path folder = lock.folder();
   const std::vector<fs::path> checkpoints = io::checkpoints_in(folder);
   if (checkpoints.empty() && options.checkpoint.empty()) {
-    print_err("polynya: {}: there is no checkpoint; from the start\n", folder.string());
+    print_err("polynya: {}: there is no checkpoint; starting from the beginning\n", folder.string());
     if (const auto ready = io::set_end(folder, scene); !ready) return fail(kInputOutput, ready.error());
     auto writer = io::RunWriter::begin(std::move(lock), scene);
     if (!writer) return fail(kInputOutput, writer.error());

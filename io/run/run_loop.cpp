@@ -28,7 +28,7 @@ Result<ActiveRun> resume_run(RunLock lock, const LoadedScene& scene, const std::
   if (!checkpoint) return fail(checkpoint.error());
   const simulation::StepSettings& time = scene.scene.time;
   if (checkpoint->steps > last_step_of(time))
-    return fail(fmt::format("{}: at {:.6g} s, behind the end of the run at {:.6g} s", file.string(),
+    return fail(fmt::format("{}: at {:.6g} s, after the end of the run at {:.6g} s", file.string(),
                             static_cast<double>(checkpoint->steps) * time.step, time.until));
   auto simulation = simulation_at(scene, *checkpoint);
   if (!simulation) return fail(fmt::format("{}: {}", file.string(), simulation.error()));
@@ -70,8 +70,8 @@ std::optional<std::string> numerical_failure_of(const Simulation& simulation) {
 
 std::optional<std::string> failure_after_step(const Simulation& simulation) {
   if (auto failure = numerical_failure_of(simulation)) return failure;
-  if (!simulation.audit().is_closed()) return "the accounts of energy or momentum do not close";
-  if (auto wrong = validate_world(simulation.world())) return "the world contradicts itself: " + *wrong;
+  if (!simulation.audit().is_closed()) return "the balances of energy or momentum do not close";
+  if (auto wrong = validate_world(simulation.world())) return "the state is inconsistent: " + *wrong;
   return {};
 }
 

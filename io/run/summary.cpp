@@ -193,23 +193,24 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
   };
   warn(counts.rejected_cuts, "rejected cut", "in events.ndjson, each with its reason");
   warn(counts.unresolved_splits, "split",
-       "did not run: their contacts could not be stopped at the force that splits (unresolved_splits)");
-  warn(
-      counts.passing_steps, "step",
-      "in which more than half of a body lay within another: rigid impulses crush ice and do not remove it, at no step "
-      "(contact.law crush removes it); polynya inspect --check names the bodies");
-  warn(counts.unconverged_steps, "step", "used all sweeps of the contact solver (contact.iterations)");
+       "did not happen, because their contacts could not be stopped at the splitting force (unresolved_splits)");
+  warn(counts.passing_steps, "step",
+       "in which more than half of a body was inside another one, because rigid impulses never remove crushed ice "
+       "(contact.law crush does); polynya inspect --check names the bodies");
+  warn(counts.unconverged_steps, "step",
+       "used all sweeps of the contact solver without reaching its tolerance (contact.iterations sets their number)");
   warn(counts.crowded_ticks, "tick",
-       "broke more ice in each of their parts than a hull takes apart in a step: loads depend on the step; give a "
+       "broke more ice in each of their parts than the model allows in a step, so loads depend on the step; give a "
        "shorter "
        "time.step_s");
   warn(counts.database_out_of_range, "cusp",
        simulation.scene().fracture.bending == simulation::BendingModelKind::kFsiDatabase
            ? "broke under a load outside the database's range: the force at which the ice broke and the cusp's radius "
-             "are those at the range's nearest edge, of an error that is not known (docs/database.md, \"Outside of the "
+             "are those at the nearest edge of the range, with an unknown error (docs/database.md, \"Outside of the "
              "table\"); polynya database query gives the ranges"
            : "broke under a load outside the range of fracture.bending.model: the force at which the ice broke and the "
-             "cusp's radius are the formula's, beyond where it is known to hold (docs/theory/bending.md)");
+             "cusp's radius are those of the formula outside the range for which it was derived "
+             "(docs/theory/bending.md)");
   if (const simulation::PeakCounts& peaks = simulation.world().accounts.load_peaks.counts; peaks.beyond > 0)
     warnings.push_back(
         fmt::format("contacts.csv has the first {} peaks of contacts' forces: {} came later, the "
