@@ -25,25 +25,25 @@ using geometry::Ring;
 using geometry::Vector;
 using io::GeojsonLayer;
 
-/// Of the track and of the hull's corners [m]. Larger, and widths are off by as much; smaller, and bands have
-/// more pieces, whose union takes longer.
+/// Largest error of the simplified track and hull corners [m]. A larger value makes widths wrong by as much; a smaller
+/// one makes bands of more pieces, whose union takes longer.
 constexpr double kTrackTolerance = 0.05;
 
-/// Limits of a channel that pictures show. Ice farther apart than the widest channel was not parted by the ship. On a
-/// track that turns with a smaller radius, neighbouring cells overlap on the inner side. A ship that drifts at a larger
+/// Limits of a channel that pictures show. Ice farther apart than the widest channel was not separated by the ship. On
+/// a track with a smaller radius of turn, neighbouring cells overlap on the inner side. A ship that moves at a larger
 /// angle to its heading is driven by the ice and opens no channel.
 constexpr double kWidestChannel = 3;  ///< [beams]
 constexpr double kTightestTurn = 4;   ///< radius [beams]
-constexpr double kMostDrift = 0.5;    ///< between the heading and the track [rad]
+constexpr double kMostDrift = 0.5;    ///< largest angle between the heading and the track [rad]
 
-/// The track's corners with the way to them and when they were passed.
+/// A corner of the track.
 struct Waypoint {
-  Point point;        ///< carried to now [m]
-  double along = 0;   ///< [m]
-  double passed = 0;  ///< [s]
+  Point point;        ///< carried with the water to the instant [m]
+  double along = 0;   ///< distance from the beginning of the track [m]
+  double passed = 0;  ///< time at which the ship was there [s]
 };
 
-/// A point of the track by the way to it.
+/// Returns the point of the track at a distance from its beginning [m].
 Waypoint at_way(const std::vector<Waypoint>& track, double along) {
   const auto next = std::ranges::upper_bound(track, along, {}, &Waypoint::along);
   if (next == track.begin()) return track.front();
@@ -60,7 +60,7 @@ std::vector<PlacedIce> with_boxes(const std::vector<Polygon>& polygons) {
   return boxed;
 }
 
-/// The part of a convex ring where `distance` is not negative; it is linear.
+/// Returns the part of a convex ring where `distance`, a linear function of the point, is not negative.
 template <class Distance>
 Ring clipped(const Ring& ring, Distance distance) {
   Ring kept;
@@ -73,7 +73,7 @@ Ring clipped(const Ring& ring, Distance distance) {
   return kept;
 }
 
-/// The part of a station's cell from ice to ice; of fewer than three corners where there is none.
+/// Returns the part of a station's cell from ice to ice; it has fewer than three corners if there is none.
 Polygon from_ice_to_ice(const ChannelStation& station, const Polygon& cell) {
   if (!station.is_bounded() || !(station.width() > 0)) return {};
   const auto to_port = [&](Point p) { return cross(station.forward, p - station.middle); };
@@ -81,7 +81,7 @@ Polygon from_ice_to_ice(const ChannelStation& station, const Polygon& cell) {
   return {clipped(to_starboard_of_port, [&](Point p) { return station.starboard + to_port(p); }), {}};
 }
 
-/// How much of each floe that reaches into polygons lies in them, the largest floe first.
+/// Returns the floes that extend into polygons, with their area inside, the largest floe first.
 io::Result<std::vector<ChannelFloe>> floes_in(const std::vector<Polygon>& polygons, const std::vector<PlacedIce>& ice) {
   std::vector<ChannelFloe> floes;
   const std::vector<PlacedIce> boxed = with_boxes(polygons);
@@ -97,7 +97,7 @@ io::Result<std::vector<ChannelFloe>> floes_in(const std::vector<Polygon>& polygo
   return floes;
 }
 
-/// Measures the brash from ice to ice, in the cells of the stations and piece by piece.
+/// Measures the brash from ice to ice, in the cells of the stations and for each piece.
 io::Result<> measure_brash(Channel& channel, const std::vector<Polygon>& cells, const std::vector<PlacedIce>& brash) {
   std::vector<Polygon> stretches;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -195,7 +195,8 @@ class ChannelMeasure {
     });
   }
 
-  /// Neighbouring cells share the corners between them: each joint has the mean of the directions beside it.
+  /// Makes the cells of the stations. Neighbouring cells have common corners, because the direction at each joint is
+  /// the mean of the directions of the two cells.
   Done find_stations() {
     const double behind_ship = track_.back().along - behind_;
     const auto count = static_cast<std::size_t>(std::max(0.0, std::floor(behind_ship / channel_.spacing)));
@@ -207,8 +208,8 @@ class ChannelMeasure {
       const Vector chord = joints[std::min(i + 1, count)].point - joints[i == 0 ? 0 : i - 1].point;
       across.push_back(perpendicular(length(chord) > 0 ? chord / length(chord) : Vector{1, 0}));
     }
-    // The joints at both ends have the direction of their only cell: from there to its other joint it makes half its
-    // turn.
+    // A joint at the end of the track has the direction of its only cell. From there to the other joint the direction
+    // changes by half of the cell's turn.
     const auto turn_in_cell = [&](std::size_t i) {
       const double between = std::atan2(cross(across[i], across[i + 1]), dot(across[i], across[i + 1]));
       return i == 0 || i + 1 == count ? 2 * between : between;
@@ -229,7 +230,8 @@ class ChannelMeasure {
     return {};
   }
 
-  /// Whether a station on a track that turns by so much in it [rad] is a channel that the ship cut.
+  /// Returns true if the ship cut the channel at a station. `turn` is the change of direction of the track in its cell
+  /// [rad].
   bool is_channel(const ChannelStation& station, double turn) const {
     const simulation::Scene& scene = run_.scene.scene;
     const bool is_moored = ship_ < scene.ships.size() && scene.ships[ship_].mooring.has_value();
@@ -250,7 +252,8 @@ class ChannelMeasure {
                            .length = length(chord),
                            .port = channel_.reach,
                            .starboard = channel_.reach};
-    // Floe by floe, which the local cut covers: ten times faster than all of them in one arrangement.
+    // Cutting one floe after the other is ten times faster than cutting with all at once, because the local cut can be
+    // used.
     for (const Polygon& ice : near(firm_ice_, bounding_box(cell.outer))) {
       const auto parted = part(cell, {ice});
       if (!parted) return io::fail(parted.error());
@@ -266,7 +269,8 @@ class ChannelMeasure {
     return {};
   }
 
-  /// The nearest point of a polygon to a straight line is at a corner, or the polygon lies across it.
+  /// Updates the distances to ice. The point of a polygon nearest to a straight line is a corner, unless the polygon
+  /// crosses the line.
   void clear_up_to(const Polygon& ice, ChannelStation& station) const {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Point p : ice.outer) {
@@ -284,7 +288,7 @@ class ChannelMeasure {
     }
   }
 
-  /// Brash does not part it: water beyond brash is joined to the track by it.
+  /// Finds the open water. Brash does not separate it: water beyond brash belongs to it.
   Done find_open_water() {
     std::vector<Polygon> cells;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -306,7 +310,8 @@ class ChannelMeasure {
         .map([&](std::vector<Polygon> water) { channel_.cut_water = std::move(water); });
   }
 
-  /// The water in these cells that neither floes nor the hull cover and that water or brash joins to the track.
+  /// Returns the water in these cells that neither floes nor the hull cover, and that water or brash connects to the
+  /// track.
   io::Result<std::vector<Polygon>> open_water_in(const std::vector<Polygon>& cells) const {
     std::vector<Polygon> found;
     const auto corridor = union_of(cells);
@@ -342,18 +347,18 @@ class ChannelMeasure {
   const io::MotionIndex& motions_;
   std::size_t ship_;
   double time_;           ///< [s]
-  bool is_whole_ = true;  ///< else stations alone, without the shares that ice covers
-  double behind_ = 0;     ///< from the ship's centre to its stern [m]
+  bool is_whole_ = true;  ///< false: only stations, without the fractions that ice covers
+  double behind_ = 0;     ///< distance from the ship's centre to its stern [m]
   std::vector<PlacedIce> ice_;
-  std::vector<PlacedIce> brash_, firm_ice_;  ///< of it what came up from under a hull, and the rest
+  std::vector<PlacedIce> brash_, firm_ice_;  ///< ice that surfaced from under a hull, and all other ice
   std::vector<Waypoint> track_;
-  std::vector<Polygon> cells_;  ///< of the stations
+  std::vector<Polygon> cells_;  ///< cells of the stations
   Channel channel_;
 };
 
-/// With the time.
+/// Checks the options and fills in the time.
 io::Result<ChannelOptions> checked_options(const io::Run& run, ChannelOptions options) {
-  if (options.ship >= hull_count(run.scene.scene)) return io::fail("the run has no such ship");
+  if (options.ship >= hull_count(run.scene.scene)) return io::fail("the run has no ship or structure");
   if (run.frames.empty()) return io::fail("the run has no frames");
   const double time = options.time.value_or(run.end_time());
   if (!(time >= run.start_time() && time <= run.end_time()))
@@ -420,7 +425,7 @@ BrashSizes brash_sizes(const Channel& channel) {
 
 namespace {
 
-/// A number of a station, as channel.csv and channel.geojson have it.
+/// A number of a station in channel.csv and channel.geojson.
 struct StationColumn {
   const char* name;
   double (*read)(const ChannelStation& station, double beam);
@@ -448,7 +453,7 @@ std::string side(double width, bool has_ice) {
   return has_ice ? fmt::format("{:.2f}", width) : fmt::format(">{:.2f}", width);
 }
 
-/// The cell of the table.
+/// Returns the cell of the table with the brash cover.
 std::string brash_cell(const ChannelStation& station) {
   return station.channel_area > 0 ? fmt::format(" {:>10.2f}", 100 * station.brash_cover())
                                   : fmt::format(" {:>10}", "-");
@@ -490,7 +495,7 @@ std::string summary_lines(const Channel& channel) {
   return text;
 }
 
-/// Empty where nothing came up from under a hull.
+/// Returns lines about brash; empty if no ice surfaced from under a hull.
 std::string brash_lines(const Channel& channel) {
   if (channel.brash_pieces.empty()) return "";
   const BrashSizes sizes = brash_sizes(channel);

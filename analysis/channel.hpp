@@ -10,146 +10,154 @@
 
 namespace polynya::analysis {
 
-/// The channel behind a ship at an instant of its run (docs/channel.md). The ship's track and the band its
-/// hull swept are carried with the water to that instant; floes are where the run has them.
+/// Measures the channel behind a ship at one instant of its run (docs/channel.md). The water carries the ship's track,
+/// and the band that the hull swept, from the time of the passage to that instant. Floes are at their places at that
+/// instant.
 
+/// Settings of a measurement.
 struct ChannelOptions {
   std::size_t ship = 0;
-  std::optional<double> time;  ///< [s]; the end of the run if not given
-  double spacing = 0;          ///< of stations along the track [m]; 0: the ship's beam
-  double reach = 0;            ///< how far to either side ice is searched [m]; 0: four beams
+  std::optional<double> time;  ///< instant [s]; none: the end of the run
+  double spacing = 0;          ///< distance between stations along the track [m]; 0: the ship's beam
+  double reach = 0;            ///< distance to either side of the track within which ice is searched [m]; 0: four beams
 };
 
-/// A cell of the channel: a stretch of the track as long as the spacing, as far as the reach to either side.
+/// A cell of the channel. It is as long as the spacing along the track and extends as far as the reach to either side.
 struct ChannelStation {
-  double along = 0;          ///< of its middle from the track's beginning [m]
-  double passed = 0;         ///< when the ship's centre was there [s]
-  geometry::Point middle;    ///< on the track, now [m]
-  geometry::Vector forward;  ///< unit, along the track
-  double length = 0;         ///< of its part of the track, straight from end to end [m]
-  double port = 0;           ///< from the track to the nearest ice in the cell that is not brash [m]; the reach where
-                             ///< there is none
-  double starboard = 0;      ///< [m]
+  double along = 0;          ///< distance of its middle from the beginning of the track [m]
+  double passed = 0;         ///< time at which the ship's centre was there [s]
+  geometry::Point middle;    ///< point of the track at that distance, carried to the instant [m]
+  geometry::Vector forward;  ///< unit vector along the track
+  double length = 0;         ///< length of its part of the track, as a straight line [m]
+  /// Distance from the track to the nearest ice to port that is not brash [m]; the reach if there is none in the cell.
+  double port = 0;
+  double starboard = 0;  ///< the same to starboard [m]
   bool has_port_ice = false;
   bool has_starboard_ice = false;
-  double ice_across_beam = 0;  ///< share of the cell within half a beam of the track that ice covers [-]
-  double channel_area = 0;     ///< of the cell from ice to ice [m²]; 0 where it is not bounded
-  double brash_area = 0;       ///< of it that brash covers [m²]
-  /// Whether the ship cut this stretch of the channel, so that pictures show it: ice lies on both sides, at most three
-  /// beams apart; the track is nearly straight; the ship moved along the track, not across it, and is not moored.
-  /// Elsewhere the width is a property of the ice field, not of the ship.
+  double ice_across_beam = 0;  ///< fraction of the cell within half a beam of the track that ice covers [-]
+  double channel_area = 0;     ///< area of the cell from ice to ice [m²]; 0 if the cell has no ice on one of the sides
+  double brash_area = 0;       ///< area of brash within channel_area [m²]
+  /// True if the ship cut this stretch of the channel, so that pictures show it: there is ice on both sides, at most
+  /// three beams apart; the track is nearly straight; and the ship moved along its heading rather than sideways, and is
+  /// not moored. Otherwise the width is a property of the ice field, not of the ship.
   bool is_channel = false;
 
-  double brash_cover() const;                        ///< [-]; NaN where there is no channel
+  double brash_cover() const;  ///< fraction of the channel that brash covers [-]; NaN if there is no channel
   double width() const { return port + starboard; }  ///< [m]
   bool is_bounded() const { return has_port_ice && has_starboard_ice; }
 };
 
-/// A floe that reaches into the band the hull swept, or a piece of brash in the channel.
+/// A floe that extends into the band that the hull swept, or a piece of brash in the channel.
 struct ChannelFloe {
   simulation::FloeId floe = 0;
   double size = 0;    ///< √area [m]
   double area = 0;    ///< [m²]
-  double inside = 0;  ///< of it in there [m²]
+  double inside = 0;  ///< area that is in the band or channel [m²]
 };
 
+/// Result of a measurement.
 struct Channel {
   std::string ship;
   double time = 0;                     ///< [s]
   double beam = 0;                     ///< [m]
   double spacing = 0;                  ///< [m]
   double reach = 0;                    ///< [m]
-  std::vector<geometry::Point> track;  ///< of the ship's centre, carried with the water to now [m]
+  std::vector<geometry::Point> track;  ///< track of the ship's centre, carried with the water to the instant [m]
   std::vector<ChannelStation> stations;
-  std::vector<geometry::Polygon> swept;       ///< by the hull, carried with the water to now [m]
-  double swept_area = 0;                      ///< [m²]
-  double swept_ice_at_start = 0;              ///< of it that was ice when the run began [m²]
-  std::vector<ChannelFloe> floes;             ///< in the band, the largest first
-  std::vector<geometry::Polygon> open_water;  ///< joined to the track by water or brash, from the first to
-                                              ///< the last bounded cell [m]
-  std::vector<geometry::Polygon> cut_water;   ///< the same in the cells that are a channel [m]
-  double open_area = 0;                       ///< [m²]
-  // From ice to ice, in the bounded cells. Brash is ice that came up from under a hull, and what it broke into.
-  double area = 0;                        ///< of them together [m²]
-  std::vector<geometry::Polygon> brash;   ///< in there [m]
+  std::vector<geometry::Polygon> swept;  ///< band that the hull swept, carried with the water to the instant [m]
+  double swept_area = 0;                 ///< [m²]
+  double swept_ice_at_start = 0;         ///< area of the swept band that was ice when the run began [m²]
+  std::vector<ChannelFloe> floes;        ///< floes that extend into the band, the largest first
+  /// Water without ice that open water or brash connects to the track, from the first to the last bounded cell [m].
+  std::vector<geometry::Polygon> open_water;
+  std::vector<geometry::Polygon> cut_water;  ///< the part of open_water in cells with is_channel [m]
+  double open_area = 0;                      ///< [m²]
+  // The following members concern the bounded cells from ice to ice. Brash is ice that surfaced from under a hull, and
+  // the pieces into which it broke.
+  double area = 0;                        ///< total area of these cells from ice to ice [m²]
+  std::vector<geometry::Polygon> brash;   ///< brash in them [m]
   double brash_area = 0;                  ///< [m²]
-  std::vector<ChannelFloe> brash_pieces;  ///< that reach in there, the largest first
+  std::vector<ChannelFloe> brash_pieces;  ///< pieces of brash that extend into them, the largest first
 
-  double swept_ice() const;    ///< [m²]
-  double brash_cover() const;  ///< share of `area` [-]; NaN where there is none
+  double swept_ice() const;    ///< area of the swept band that ice covers [m²]
+  double brash_cover() const;  ///< fraction of `area` that brash covers [-]; NaN if the area is 0
 };
 
-/// Widths of the stations with ice on both sides [m]; NaN where there are none.
+/// Widths of the stations with ice on both sides [m]; NaN if there are none.
 struct WidthSummary {
   std::size_t count = 0;
   double mean = 0, least = 0, most = 0;
 };
 WidthSummary widths(const Channel& channel);
 
-/// Sizes √area of the pieces of brash in the channel [m]; NaN where there are none.
+/// Sizes √area of the pieces of brash in the channel [m]; NaN if there are none.
 struct BrashSizes {
   std::size_t count = 0;
   double mean = 0, median = 0, largest = 0;
 };
 BrashSizes brash_sizes(const Channel& channel);
 
-/// Fails with words where the ship or the time is not in the run, or geometry refuses.
+/// Measures a channel. Fails with a message if the run does not have the ship or the time, or if geometry fails.
 io::Result<Channel> measure_channel(const io::Run& run, const ChannelOptions& options);
 
-/// The stations of that channel alone, without the shares that ice and brash cover in them: for many instants.
+/// Returns only the stations of the same channel, without the fractions that ice and brash cover. This is much faster
+/// and is used for many instants.
 io::Result<std::vector<ChannelStation>> measure_stations(const io::Run& run, const io::MotionIndex& motions,
                                                          const ChannelOptions& options);
 
-/// A channel for people: stations, widths, what is left in the band, with units in the heads.
+/// Returns a table for people: stations, widths, and ice that is left in the band, with units in the headers.
 std::string to_table(const Channel& channel);
-/// One row a station.
+/// Returns a CSV table with one row per station.
 std::string to_csv(const Channel& channel);
-/// Everything but the shapes, one object.
+/// Returns all results except shapes as one JSON object.
 std::string to_json_text(const Channel& channel);
-/// Open water, swept band, track and stations as a FeatureCollection in metres of the scene's plane.
+/// Returns open water, swept band, track and stations as a GeoJSON FeatureCollection in metres of the scene's plane.
 std::string to_geojson(const Channel& channel);
 
-// ---- what a channel is measured with: ice as valid polygons, and what moves with the water
+// ---- parts of the measurement: ice as valid polygons, and points that move with the water
 
-/// A valid polygon of ice at some instant, with its box.
+/// A valid polygon of ice at an instant, with its box.
 struct PlacedIce {
-  const simulation::BirthRecord* birth = nullptr;  ///< of the floe; null: of the scene
+  const simulation::BirthRecord* birth = nullptr;  ///< floe of the run; null: ice of the scene at its start
   geometry::Polygon polygon;                       ///< in the world [m]
   geometry::Box box;
 };
 
-/// Adds a floe's polygon in the world. A placed shape is rounded and may not be valid any more: it is then
-/// what its rings wind around, in as many polygons as that takes; none where they enclose nothing. Fails with
-/// words where a coordinate is not finite.
+/// Adds the polygon of a floe in the world. Rounding may make the placed shape invalid. It is then replaced by the area
+/// around which its rings wind, as one or more polygons, or by none if they enclose no area. Fails with a message if a
+/// coordinate is not finite.
 io::Result<> add_ice(std::vector<PlacedIce>& ice, const simulation::BirthRecord* birth,
                      geometry::Polygon polygon_in_world);
 
-/// The polygons whose boxes meet a box.
+/// Returns the polygons whose boxes overlap a box.
 std::vector<geometry::Polygon> near(const std::vector<PlacedIce>& ice, const geometry::Box& box);
 
-/// What of a polygon others cover and what not.
+/// The parts of a polygon that other polygons cover and do not cover.
 struct Parted {
   std::vector<geometry::Polygon> inside;
   std::vector<geometry::Polygon> outside;
   double inside_area = 0;  ///< [m²]
 };
 
-/// Exact but for one rounding of vertices. Fails with words where geometry refuses the cut.
+/// Divides a polygon by others. The result is exact except for one rounding of vertices. Fails if geometry refuses the
+/// cut.
 io::Result<Parted> part(const geometry::Polygon& polygon, const std::vector<geometry::Polygon>& by);
 
-/// A point that moves with the water (the scene's drift and shear), from one time to another [s]. The map is
-/// affine in the plane; the motion of floes does not enter.
+/// Returns the place at the time `to` [s] of a point that moves with the water from the time `from` [s], with the
+/// scene's drift and shear. The map is affine in the plane; it does not depend on the motion of floes.
 geometry::Point carried_by_water(const simulation::WaterSettings& water, geometry::Point point, double from, double to);
 geometry::Polygon carried_by_water(const simulation::WaterSettings& water, geometry::Polygon polygon, double from,
                                    double to);
 
-/// The longest pieces of time from the run's start to `time` over which no corner of the hull, carried by the
-/// water to `time`, leaves the straight line between its ends by more than `tolerance` [m]: their ends [s].
+/// Divides the time from the run's start to `time` [s] into pieces, as long as possible, and returns their ends [s]. In
+/// each piece no corner of the hull, carried by the water to `time`, leaves the straight line between its ends by more
+/// than `tolerance` [m].
 std::vector<double> straight_pieces(const io::Run& run, const io::MotionIndex& motions, std::size_t ship, double time,
                                     double tolerance);
 
-/// The convex hulls of a ship's waterline at both ends of each straight piece, carried by the water to `time`: together
-/// they are what the hull swept, right to the tolerance. A waterline that is not convex is taken as its convex hull.
+/// Returns, for each straight piece, the convex hull of the ship's waterline at both of its ends, carried by the water
+/// to `time` [s]. Their union is the band that the hull swept, to within the tolerance [m]. A waterline that is not
+/// convex is replaced by its convex hull.
 std::vector<geometry::Polygon> swept_pieces(const io::Run& run, const io::MotionIndex& motions, std::size_t ship,
                                             double time, double tolerance);
 

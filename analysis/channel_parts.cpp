@@ -86,7 +86,8 @@ bool is_straight(const std::vector<Ring>& hulls, std::size_t from, std::size_t t
 
 std::vector<double> straight_pieces(const io::Run& run, const io::MotionIndex& motions, std::size_t ship, double time,
                                     double tolerance) {
-  constexpr std::size_t kLongest = 256;  ///< frames in a piece, which keeps the search near linear
+  /// Largest number of frames in a piece; it keeps the time of the search proportional to the number of frames.
+  constexpr std::size_t kLongest = 256;
   const std::vector<double> times = frame_times_until(run, time);
   std::vector<Ring> hulls;
   hulls.reserve(times.size());

@@ -22,15 +22,15 @@ using fracture::BendingLoad;
 using fracture::FsiDatabaseModel;
 using geometry::kDegreesPerRadian;
 
-/// What a figure varies, from where to where, and how it is drawn.
+/// A figure: the quantity on its horizontal axis, its range, and how it is drawn.
 struct Figure {
   const char* name;
   const char* x_label;
   void (*set)(BendingLoad& load, double abscissa);
-  double scale;  ///< from abscissae to what is shown of them
+  double scale;  ///< factor from abscissae in SI to the shown unit
   double low, high;
   bool is_x_log, is_radius_log;
-  bool has_speeds;  ///< its curves are of other speeds, else of other wedges
+  bool has_speeds;  ///< true: its curves have different speeds; false: different wedge angles
 };
 
 std::vector<SlicePoint> slice(const FsiDatabaseModel& model, BendingLoad load, const Figure& figure,
@@ -43,8 +43,9 @@ std::vector<SlicePoint> slice(const FsiDatabaseModel& model, BendingLoad load, c
   return points;
 }
 
-constexpr int kPoints = 161;
-constexpr double kWidestWedge = 170;  ///< towards 180 the crushed area grows without bound [deg]
+constexpr int kPoints = 161;  ///< number of points of a curve; more: smoother curves and a longer file
+/// Widest opening angle of a wedge; towards 180 the crushed area grows without limit [deg].
+constexpr double kWidestWedge = 170;
 
 std::vector<double> evenly(double low, double high, bool is_log) {
   std::vector<double> values;
@@ -55,7 +56,7 @@ std::vector<double> evenly(double low, double high, bool is_log) {
   return values;
 }
 
-/// What the curves of a figure are of, each with its name: the load itself first, then its neighbours.
+/// Returns the loads of the curves of a figure with their names: first the load itself, then its neighbours.
 std::vector<std::pair<std::string, BendingLoad>> family(const BendingLoad& load, bool are_speeds) {
   const double own =
       are_speeds ? load.mean_approach_speed : (load.front_half_angle + load.back_half_angle) * kDegreesPerRadian;

@@ -6,18 +6,20 @@
 
 namespace polynya::analysis {
 
-/// One load by the database and by the published forms it can be compared with.
+/// Bending of one load by the database, and by the published formulas to which it can be compared.
 struct SlicePoint {
   fracture::BendingForecast database;
-  fracture::BendingCapacity nevel;  ///< at the database's penetration
+  fracture::BendingCapacity nevel;  ///< Nevel's formula at the penetration of the database
   fracture::BendingCapacity kashtelyan;
 };
 
+/// Computes one load by all models.
 SlicePoint compare_models(const fracture::FsiDatabaseModel& model, const fracture::BendingLoad& load);
 
-/// Slices of a database through one load as JSON, which polynya.figures.database draws: force and radius
-/// against speed, opening angle and thickness, each for the load itself and its neighbours in another of the
-/// three, beside Nevel's and Kashtelyan's forms. Units in the keys. `description` is the load in words.
+/// Returns slices of a database through one load as JSON, which polynya.figures.database draws: force and cusp radius
+/// over speed, opening angle and thickness, each for the load itself and for neighbouring values of another of the
+/// three, and for comparison the formulas of Nevel and Kashtelyan. Keys have units. `description` describes the load in
+/// words.
 std::string database_slices(const fracture::FsiDatabaseModel& model, const std::string& title,
                             const fracture::BendingLoad& load, const std::string& description);
 

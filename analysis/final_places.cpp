@@ -23,9 +23,10 @@ using simulation::FloeId;
 /// coordinates go, has steps of 1.2e-10 m. Two vertices that round to one point are one vertex in final.geojson.
 constexpr double kRounding = 1e-8;
 
-constexpr std::size_t kMostMisplaced = 20;  ///< floes that the text names
+constexpr std::size_t kMostMisplaced = 20;  ///< number of floes that the text lists
 
-/// The distance that a vertex may have from its place by a frame [m]. The frame's tolerance applies to each axis, so
+/// Largest accepted distance of a vertex from its place by a frame [m]. The frame's tolerance applies to each axis, so
+/// the position may be wrong by √2 times as much. `arm` is the distance from the floe's centre of mass [m].
 /// the position may be wrong by √2 times as much. `arm` is the distance from the floe's centre of mass [m].
 double allowed_distance(double arm) {
   return std::numbers::sqrt2 * io::kFramePositionTolerance + io::kFrameAngleTolerance * arm + kRounding;
@@ -40,7 +41,7 @@ Ring without_near_repeats(const Ring& ring) {
   return kept;
 }
 
-/// Compares the floes of final.geojson with the floes of the run. It keeps which floes final.geojson had.
+/// Compares the floes of final.geojson with the floes of the run. It records which floes final.geojson contained.
 class PlaceComparison {
  public:
   PlaceComparison(const io::Run& run, double time, FinalPlaces& result)
@@ -80,7 +81,7 @@ class PlaceComparison {
     if (!worst.defect.empty() || worst.distance > worst.allowed) result_.misplaced.push_back(std::move(worst));
   }
 
-  /// `worst` keeps the vertex whose distance is the largest multiple of the allowed one.
+  /// Compares two rings. `worst` keeps the vertex whose distance is the largest multiple of the accepted one.
   void compare_ring(Ring by_frame, Ring in_file, Point centre, MisplacedFloe& worst) {
     if (by_frame.size() != in_file.size()) {
       const std::string sizes = fmt::format("a ring of the floe has {} in final.geojson and {} in floes.ndjson",
@@ -107,10 +108,10 @@ class PlaceComparison {
   }
 
   const io::Run& run_;
-  double time_;  ///< of the instant [s]
+  double time_;  ///< instant of the comparison [s]
   FinalPlaces& result_;
   io::MotionIndex motions_;
-  std::vector<bool> is_seen_;  ///< by floe id: final.geojson has the floe
+  std::vector<bool> is_seen_;  ///< by floe id: true if final.geojson has the floe
 };
 
 }  // namespace

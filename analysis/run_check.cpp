@@ -29,7 +29,7 @@ using geometry::Vector;
 using simulation::FloeId;
 
 using Body = simulation::ContactState::Body;
-using BodyKey = std::int64_t;  ///< a floe's id; −1 − the number of a hull
+using BodyKey = std::int64_t;  ///< a floe's id, or −1 − the index of a hull
 using PairKey = std::pair<BodyKey, BodyKey>;
 
 BodyKey key_of(const Body& body) {
@@ -39,15 +39,15 @@ bool is_hull(BodyKey body) {
   return body < 0;
 }
 
-/// Calls use(overlap) for what had been crushed at a time.
+/// Calls use(overlap) for each recorded crushed overlap at a time.
 template <class Use>
 void for_crushed(const io::Run& run, double time, Use use) {
   auto row = std::ranges::lower_bound(run.crushed, time, {}, &io::RunCrushed::time);
   for (; row != run.crushed.end() && row->time == time; ++row) use(row->overlap);
 }
 
-/// Compares what the bodies of a run have crushed with the work that it took (crushed.csv), at one frame after the
-/// other, into its check.
+/// Compares the crushed ice of a run with the work that crushed it (crushed.csv), frame by frame, and stores the result
+/// in its check.
 class WorkCheck {
  public:
   WorkCheck(const io::Run& run, RunCheck& check) : run_(run), check_(check) {}
@@ -58,7 +58,7 @@ class WorkCheck {
     for_crushed(run_, time, [&](const simulation::CrushedOverlap& overlap) {
       const auto [first, second] =
           std::minmax(overlap.on, overlap.by, [](const Body& a, const Body& b) { return key_of(a) < key_of(b); });
-      if (second.ship >= 0) return;  // steel on steel
+      if (second.ship >= 0) return;  // steel on steel: no ice is crushed
       const fracture::Ice& of_second = ice_of(second);
       const fracture::Ice ice = first.ship >= 0 ? of_second : fracture::crushed_between(ice_of(first), of_second);
       const double expected = ice.compressive_strength * overlap.volume;
@@ -78,13 +78,13 @@ class WorkCheck {
     return simulation::ice_of(run_.scene.scene, run_.floe(floe.floe)->birth.own_ice);
   }
 
-  /// [m²]
+  /// Area of a body [m²].
   double area_of(const Body& body) const {
     if (body.ship < 0) return run_.floe(body.floe)->birth.area;
     return geometry::measure({hull_of(run_.scene.scene, static_cast<std::size_t>(body.ship)).hull.waterline, {}}).area;
   }
 
-  /// Of a pair that differs at several frames, that at which the most is crushed.
+  /// Stores a difference. Of a pair that differs at several frames, the frame with the largest crushed area is kept.
   void enter(const PairKey& pair, const UnpaidOverlap& overlap) {
     compared_.insert(pair);
     check_.paid_pairs = compared_.size();
@@ -100,7 +100,7 @@ class WorkCheck {
   const io::Run& run_;
   RunCheck& check_;
   std::set<PairKey> compared_;
-  std::map<PairKey, std::size_t> unpaid_;  ///< in the check's list
+  std::map<PairKey, std::size_t> unpaid_;  ///< index in the check's list
 };
 
 bool is_same_place(const io::Motion& a, const io::Motion& b) {
@@ -119,7 +119,7 @@ double depth_in(const Polygon& polygon, Point point) {
   return nearest;
 }
 
-/// Of the deepest outer vertex of `a` in `b` [m].
+/// Returns the depth of the deepest outer vertex of `a` in `b` [m].
 double deepest_vertex(const Polygon& a, const Polygon& b) {
   const Box box = bounding_box(b.outer);
   double depth = 0;
@@ -181,7 +181,7 @@ void check_fracture(const io::Run& run, const simulation::Event& event, RunCheck
   }
 }
 
-/// Measures what the bodies of a run share, exactly, at one instant after the other, into its check.
+/// Measures the exact overlaps of the bodies of a run, instant by instant, and stores the result in its check.
 class OverlapCheck {
  public:
   OverlapCheck(const io::Run& run, RunCheck& check) : run_(run), check_(check), motions_(run) {
@@ -197,7 +197,7 @@ class OverlapCheck {
     double ice = 0;
     for (const Placed& body : bodies_) ice += is_hull(body.body) ? 0 : body.area;
     for_near_pairs([&](const Placed& a, const Placed& b) {
-      if (is_hull(a.body) && is_hull(b.body)) return;  // no ice; events.ndjson has their contacts
+      if (is_hull(a.body) && is_hull(b.body)) return;  // no ice is involved; events.ndjson records contacts of hulls
       ++(is_hull(a.body) ? check_.hull_pairs : check_.pairs);
       const Known& known = shared_by(a, b);
       if (is_recorded_) compare_with_crushed(a, b, known.area, time);
@@ -229,14 +229,14 @@ class OverlapCheck {
     geometry::Pose world_from_body;
     geometry::Box box_in_world;
     double area = 0;    ///< [m²]
-    double radius = 0;  ///< of its box about its middle [m]
+    double radius = 0;  ///< radius about the middle of its box [m]
   };
-  /// What is known of a pair from the last instant it was measured.
+  /// Results for a pair at the instant at which it was measured last.
   struct Known {
     bool is_set = false;
     io::Motion a, b;
     double area = 0;   ///< [m²]
-    double depth = 0;  ///< 0 where they share less than kTouchingArea [m]
+    double depth = 0;  ///< 0 if they share less than kTouchingArea [m]
   };
 
   std::shared_ptr<const Polygon> polygon_of(BodyKey body) const {
@@ -328,7 +328,8 @@ class OverlapCheck {
     const double beyond = shared - crushed - of_pair.unpaid;
     const double smaller = std::min(a.area, b.area);
     if (beyond <= kUncrushedShare * smaller) return;
-    // A contact is found, and what has pressed is known, a step late; and frames are not exact.
+    // Allow for the delay of one step after which contacts and crushed ice are recorded, and for the accuracy of
+    // frames.
     const Box common = common_part(a.box_in_world, b.box_in_world);
     const Placed& small = a.radius < b.radius ? a : b;
     const Placed& large = a.radius < b.radius ? b : a;
@@ -350,9 +351,9 @@ class OverlapCheck {
   RunCheck& check_;
   io::MotionIndex motions_;
   std::vector<std::shared_ptr<const geometry::Polygon>> hulls_;
-  std::vector<Placed> bodies_;                             ///< living
-  std::map<PairKey, simulation::CrushedOverlap> crushed_;  ///< at the instant
-  bool is_recorded_ = false;                               ///< the instant is that of a frame
+  std::vector<Placed> bodies_;                             ///< bodies that exist at the instant
+  std::map<PairKey, simulation::CrushedOverlap> crushed_;  ///< crushed overlaps at the instant
+  bool is_recorded_ = false;                               ///< true if the instant is the time of a frame
   std::map<PairKey, Known> known_;
   std::set<PairKey> overlapping_;
 };
@@ -364,7 +365,7 @@ RunCheck check_run(const io::Run& run, std::optional<double> only_at, const std:
   check.files = io::check_files(run.folder);
   check.has_crushed = run.has_crushed;
   const std::size_t instants = only_at ? 1 : run.frames.size();
-  // An instant takes about as long as an eighth of the shapes: most pairs have not moved.
+  // For the progress, an instant counts as much as checking an eighth of the shapes, since most pairs have not moved.
   const double all = static_cast<double>(run.floes.size()) * (1 + static_cast<double>(instants) / 8) +
                      static_cast<double>(run.events.size());
   double done = 0;
@@ -392,7 +393,7 @@ RunCheck check_run(const io::Run& run, std::optional<double> only_at, const std:
   return check;
 }
 
-// ---- its texts
+// ---- texts of the results
 
 namespace {
 

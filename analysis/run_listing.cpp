@@ -21,7 +21,7 @@ namespace polynya::analysis {
 std::vector<SizeClass> size_classes(const std::vector<SizedFloe>& floes) {
   std::vector<SizeClass> classes;
   if (floes.empty()) return classes;
-  const auto edge = [](int number) {  // …, 1, 2, 5, 10, 20, 50, …
+  const auto edge = [](int number) {  // limits …, 1, 2, 5, 10, 20, 50, …
     static constexpr double kSteps[] = {1, 2, 5};
     const int decade = static_cast<int>(std::floor(number / 3.0));
     return kSteps[number - 3 * decade] * std::pow(10.0, decade);
@@ -44,7 +44,7 @@ using io::JsonValue;
 using io::JsonWriter;
 using simulation::FloeId;
 
-/// What happened, where and what decided it, in a line.
+/// Describes an event in one line: its kind, position and rule.
 std::string described(const io::Run& run, const simulation::Event& event) {
   const std::string_view ship = io::hull_name(run.scene.scene, event.ship);
   const bool is_by_floe = event.ice() && event.ice()->by_floe != simulation::kNoFloe;
@@ -55,7 +55,7 @@ std::string described(const io::Run& run, const simulation::Event& event) {
                      event.point_in_world.y, io::words_of(event, run.scene.scene));
 }
 
-/// A line of events.ndjson, without its end.
+/// Returns a line of events.ndjson without its line break.
 std::string json_of(const io::Run& run, const simulation::Event& event) {
   const io::RunFloe* floe = event.ice() ? run.floe(event.ice()->floe) : nullptr;
   std::string line;
@@ -64,21 +64,21 @@ std::string json_of(const io::Run& run, const simulation::Event& event) {
   return line;
 }
 
-/// In order of time; those of one time as they come in events.ndjson.
+/// Sorts events by time. Events at the same time keep their order in events.ndjson.
 std::vector<simulation::Event> in_order(std::vector<simulation::Event> events) {
   std::ranges::stable_sort(events, {}, &simulation::Event::time);
   return events;
 }
 
-/// A floe alive at some time.
+/// A floe that exists at some time.
 struct FloeRow {
   const simulation::BirthRecord& birth;
   const fracture::Ice& ice;
   double perimeter = 0;  ///< [m]
   std::size_t vertices = 0;
   std::size_t holes = 0;
-  std::optional<double> speed;  ///< [m/s]; none between two frames
-  std::string_view validity;    ///< "yes" or a defect's name
+  std::optional<double> speed;  ///< [m/s]; none if it existed only between two frames
+  std::string_view validity;    ///< "yes" or the name of the fault
 };
 
 std::vector<FloeRow> floe_rows(const io::Run& run, double time) {
@@ -103,8 +103,8 @@ std::vector<FloeRow> floe_rows(const io::Run& run, double time) {
 
 struct SizeDistribution {
   std::size_t count = 0;
-  std::size_t without_size = 0;               ///< left out: their recorded area is not a positive number
-  double area = 0;                            ///< of all [m²]
+  std::size_t without_size = 0;  ///< number of floes left out because their recorded area is not a positive number
+  double area = 0;               ///< total area [m²]
   double least = 0, median = 0, largest = 0;  ///< [m]
   std::vector<SizeClass> classes;
 };
@@ -131,7 +131,7 @@ SizeDistribution size_distribution(const io::Run& run, double time) {
   return sizes;
 }
 
-/// "-1.89 MN"
+/// Returns a force with a unit, "-1.89 MN".
 std::string with_unit(double newtons) {
   const double size = std::abs(newtons);
   return size >= 1e6   ? fmt::format("{:.4g} MN", newtons / 1e6)
@@ -144,14 +144,14 @@ std::string with_time(const io::Peak& peak) {
   return fmt::format("{} at {:.6g} s", with_unit(peak.value), peak.time);
 }
 
-/// What a peak of that column is of.
+/// Says how a peak in that column is measured.
 std::string measure_of(const io::ForceColumn& column, const simulation::Scene& scene) {
   if (column.curve == "paper") return "j/τ_c of the paper";
   return column.over == io::Over::kMean ? fmt::format("mean over {:.6g} s", recording_interval(scene))
                                         : "single step; depends on the step";
 }
 
-/// The largest peak of one contact's force with ice.
+/// Returns a line with the largest peak of the force of one contact with ice.
 std::string contact_peak_line(const io::ShipPeaks& peaks, const simulation::Scene& scene) {
   if (peaks.of_contact.value == 0) return "";
   const double response = scene.record.peak_response;
@@ -160,8 +160,8 @@ std::string contact_peak_line(const io::ShipPeaks& peaks, const simulation::Scen
       response > 0 ? fmt::format("by a gauge of {:g} s", response) : "in a single step; depends on the step");
 }
 
-/// The largest loads on each ship and structure (docs/theory/forces.md): of ice, then of other ships
-/// and structures, the paper's last.
+/// Returns the largest loads on each ship and structure (docs/theory/forces.md): first by ice, then by other ships and
+/// structures, last the numbers of the paper.
 std::string force_lines(const io::RunSummary& summary, const simulation::Scene& scene) {
   std::string text;
   const std::vector<const io::ForceColumn*> columns = io::peak_columns(scene);
@@ -191,7 +191,7 @@ std::string under_hull_lines(const simulation::Counts& counts, const simulation:
                      areas.under_ice);
 }
 
-/// "ticks of 0.05 s, the shortest step 0.0125 s".
+/// Returns "ticks of 0.05 s, the shortest step 0.0125 s".
 std::string steps_of(const simulation::Counts& counts, double tick) {
   std::string ticks = fmt::format("ticks of {:g} s", tick);
   if (counts.most_parts <= 1) return ticks;
@@ -370,7 +370,7 @@ std::string result_text(const io::RunSummary& summary, const simulation::Scene& 
 
 namespace {
 
-constexpr std::array kAccounts{"ledger", "energy", "moorings", "momentum"};  ///< of summary.json
+constexpr std::array kAccounts{"ledger", "energy", "moorings", "momentum"};  ///< members of summary.json
 constexpr std::array kVerdicts{"ledger_closed", "audit_closed"};
 
 std::string account_line(const std::string& key, const JsonValue& value) {

@@ -25,15 +25,15 @@ Commands add_commands(CommandLine& app) {
 constexpr auto kExamples =
     "Examples:\n"
     "  polynya run scenes/sawamura2017-fig4b.json     the paper's voyage, to runs/sawamura2017-fig4b\n"
-    "  polynya init my-scene.json                     a commented scene to start from\n"
-    "  polynya validate my-scene.json                 everything that is wrong with a scene\n"
-    "  polynya inspect runs/my-scene --check          the floes of a run, and whether they are right\n"
+    "  polynya init my-scene.json                     write a commented scene to start from\n"
+    "  polynya validate my-scene.json                 all errors of a scene\n"
+    "  polynya inspect runs/my-scene --check          check the floes of a run\n"
     "  polynya view runs/my-scene                     a page that plays the run in a browser\n"
-    "  polynya channel runs/my-scene                  how wide the channel behind the ship is\n"
+    "  polynya channel runs/my-scene                  width of the channel behind the ship\n"
     "  polynya figures runs/my-scene                  pictures for print: ice, loads, motion, sizes\n"
     "  polynya export runs/my-scene --vtk paraview    for ParaView; --geojson for QGIS\n"
     "  polynya cut floes.geojson --disc 10,5,3        cut floes outside any simulation\n"
-    "  polynya import mapped.shp --origin 78.2,15.6 --out floes.geojson   mapped ice as a floe file\n"
+    "  polynya import mapped.shp --origin 78.2,15.6 --out floes.geojson   a floe file from mapped ice\n"
     "  polynya fmu scene.json --out ship.fmu          a co-simulation unit for other simulators\n"
     "  polynya study plan study.json                  many runs of one scene, on this machine or a cluster\n"
     "\n"
@@ -55,7 +55,7 @@ int report_out_of_memory() {
   return kOutOfMemory;
 }
 
-/// What the standard library throws, as an exit code.
+/// Runs the command line. Exceptions of the standard library become exit codes.
 int command_line(int count, char** words) {
   try {
     const std::string commit = kCommit.empty() ? "" : fmt::format(" ({})", kCommit);

@@ -19,7 +19,8 @@ namespace {
 using simulation::Engine;
 using simulation::Ship;
 
-/// Fastest motion that the other side may ask for [m/s, rad/s]: more is a jump of its pose, or not a ship.
+/// Largest speed [m/s] and yaw rate [rad/s] that the other simulator may prescribe. A larger one means that its pose
+/// jumped, or that the body is no ship, and is refused.
 constexpr double kFastestMotion = 30;
 constexpr double kFastestTurn = 1;
 

@@ -14,14 +14,15 @@
 namespace polynya::app {
 namespace {
 
-/// Those that its help lists.
+/// Returns the commands that the help of a command line lists.
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
 }
 
 class ExamplesFirst : public CLI::Formatter {
  public:
-  /// In the order in which the groups' first options were added, but --help: what a command is for comes first.
+  /// Returns the groups of options in the order in which their first options were added; the group with --help comes
+  /// last, because the purpose of a command comes first.
   std::string option_groups(const CLI::App* app) const {
     std::vector<std::string> groups;
     const auto options = app->get_options([](const CLI::Option* option) { return option->nonpositional(); });
@@ -196,7 +197,7 @@ void CommandLine::flag(const char* name, bool& value, const std::string& meaning
 }
 
 void add_scene(CommandLine& command, std::string& scene) {
-  command.option("scene", &scene, "SCENE", "The scene's JSON file; - for stdin", {}, {.is_required = true});
+  command.option("scene", &scene, "SCENE", "JSON file of the scene; - for stdin", {}, {.is_required = true});
 }
 
 void add_run_folder(CommandLine& command, std::string& folder) {
@@ -209,7 +210,7 @@ void add_set(CommandLine& command, std::vector<std::string>& words) {
     return assignment ? "" : assignment.error();
   };
   command.option("--set", &words, "KEY=VALUE",
-                 "A scene key's value instead of the scene's, by its path: --set ice.thickness_m=0.7; may be repeated",
+                 "Replace the value of a scene key, given by its path: --set ice.thickness_m=0.7; may be repeated",
                  {problem_of, ""}, {.one_each_time = true});
 }
 
@@ -222,7 +223,7 @@ std::vector<io::Assignment> assignments_of(const std::vector<std::string>& words
 
 void add_progress(CommandLine& command, ProgressKind& kind) {
   command.choice<ProgressKind>("--progress", kind,
-                               "auto: a bar on a terminal, else a line every ten seconds; on stderr",
+                               "Progress on stderr; auto: a bar on a terminal, otherwise a line every ten seconds",
                                {{"auto", ProgressKind::kAuto},
                                 {"bar", ProgressKind::kBar},
                                 {"json", ProgressKind::kJson},
@@ -237,7 +238,7 @@ int run_chosen(const Commands& commands) {
 int run_command_line(const ProgramText& text, const std::function<Commands(CommandLine&)>& add_commands, int count,
                      const char* const* words) {
   CLI::App app(text.examples, "polynya");
-  app.formatter(std::make_shared<ExamplesFirst>());  // subcommands inherit it
+  app.formatter(std::make_shared<ExamplesFirst>());  // commands inherit it
   app.footer(text.footer);
   app.set_version_flag("--version", text.version);
   app.require_subcommand(1);
@@ -251,7 +252,7 @@ int run_command_line(const ProgramText& text, const std::function<Commands(Comma
       write_err(usage_message(app, error));
       return kUsage;
     }
-    write_out(out.str());  // help or version
+    write_out(out.str());  // text of the help or the version
     return kDone;
   }
   return run_chosen(commands);

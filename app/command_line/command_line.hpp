@@ -12,37 +12,40 @@
 #include "app/command_line/console.hpp"
 #include "io/scene/scene_reader.hpp"
 
-// CLI11 takes seconds to compile wherever it is included: command_line.cpp alone does.
+// Only command_line.cpp includes CLI11, because it takes seconds to compile.
 namespace CLI {
 class App;
 }  // namespace CLI
 
 namespace polynya::app {
 
-/// What is wrong with a word of the command line; "" where it is right.
+/// Check of a word of the command line. problem_of returns a message, or "" if the word is right.
 struct WordCheck {
   std::function<std::string(std::string&)> problem_of;
-  std::string description;  ///< of what is allowed, shown in the help; may be empty
+  std::string description;  ///< allowed words, shown in the help; may be empty
 };
 
+/// Accepts numbers from `least` to `most`.
 WordCheck between(double least, double most);
-/// For counts and seeds: "1.5 is not a whole number from 1 to 1024".
+/// Accepts whole numbers, for counts and seeds. The message is "1.5 is not a whole number from 1 to 1024".
 WordCheck whole(std::uint64_t least, std::uint64_t most);
-/// Every number but infinity and "nan".
+/// Accepts all numbers except infinity and "nan".
 WordCheck finite();
-/// For files and folders: an empty name is a shell variable that is not set, not the default.
+/// Accepts all texts except an empty one, for files and folders. An empty name usually comes from a shell variable that
+/// is not set.
 WordCheck not_empty();
 
-/// What an option is besides its name, its value and its meaning.
+/// Properties of an option in addition to its name, value and meaning.
 struct OptionTraits {
   bool is_required = false;
   bool shows_default = false;
-  std::string group = {};                  ///< its heading in the help; empty: "Options"
-  std::vector<std::string> excludes = {};  ///< options that were added before
-  std::string needs = {};                  ///< likewise
-  char delimiter = 0;                      ///< between the items of a list
-  int least = 1, most = 1;                 ///< items of a list, where they are not any number
-  bool one_each_time = false;              ///< of a list, so that a positional may follow
+  std::string group = {};  ///< heading in the help; empty: "Options"
+  /// Options that may not be given together with it; they must have been added before.
+  std::vector<std::string> excludes = {};
+  std::string needs = {};      ///< option that must be given with it, added before
+  char delimiter = 0;          ///< character between the items of a list; 0: blanks
+  int least = 1, most = 1;     ///< allowed number of items of a list; 1, 1: any number
+  bool one_each_time = false;  ///< true: each occurrence of the option takes one item, so that a positional may follow
 };
 
 using OptionValue =
@@ -50,25 +53,26 @@ using OptionValue =
                  std::optional<int>*, std::optional<double>*, std::optional<std::int64_t>*,
                  std::optional<std::uint64_t>*, std::vector<std::string>*, std::vector<double>*>;
 
-/// The program's command line, or one command on it. What options put their values into must outlive the
-/// parse: each command keeps it in a shared_ptr that its `run` holds.
+/// The program's command line, or one command of it. Parsing stores values in variables of the caller, which must exist
+/// until then: each command keeps them in a shared_ptr that its `run` holds.
 class CommandLine {
  public:
   explicit CommandLine(CLI::App* app) : app_(app) {}
 
-  /// A command; its help begins with the footer's examples. One without a meaning is not in the help.
+  /// Adds a command. Its help begins with the examples in `footer`. A command without a meaning is not listed in the
+  /// help.
   CommandLine add_command(const std::string& name, const std::string& meaning, const std::string& footer);
-  /// It needs one of its own commands.
+  /// Makes one of the command's own commands mandatory.
   void require_command();
-  /// All that follows it stays as it is, --help too: another program reads that (`remaining`).
+  /// Leaves all words after the command unparsed, including --help, because another program reads them (`remaining`).
   void hand_on_arguments();
   std::vector<std::string> remaining() const;
   bool is_chosen() const;
 
-  /// An option, or a positional where the name has no dashes.
+  /// Adds an option, or a positional if the name has no dashes.
   void option(const char* name, OptionValue value, const char* type, const char* meaning, WordCheck check = {},
               const OptionTraits& traits = {});
-  /// One that takes one of these names, which the help lists.
+  /// Adds an option that takes one of these names, which the help lists.
   template <class Choice, class Value>
   void choice(const char* name, Value& value, const char* meaning,
               std::vector<std::pair<std::string_view, Choice>> choices, const OptionTraits& traits = {}) {
@@ -89,27 +93,28 @@ class CommandLine {
 
 // Options that several commands have.
 
-/// The positionals SCENE and RUN.
+/// Add the positional SCENE, or RUN.
 void add_scene(CommandLine& command, std::string& scene);
 void add_run_folder(CommandLine& command, std::string& folder);
-/// --set, which every command that reads a scene to run or check it has.
+/// Adds --set, for every command that reads a scene to run or check it.
 void add_set(CommandLine& command, std::vector<std::string>& words);
-/// What its words, which have been checked, assign.
+/// Returns the assignments of the words of --set, which have been checked.
 std::vector<io::Assignment> assignments_of(const std::vector<std::string>& words);
-/// --progress, as every long command has it.
+/// Adds --progress, for every long command.
 void add_progress(CommandLine& command, ProgressKind& kind);
 
-/// A command, and what it does; it returns an ExitCode. Data goes to stdout, messages to stderr.
+/// A command and the function that carries it out, which returns an ExitCode. Data is written to stdout, messages to
+/// stderr.
 struct Command {
   CommandLine line;
   std::function<int()> run;
 };
 using Commands = std::vector<Command>;
 
-/// Runs the one of the commands that the words chose.
+/// Runs the command that the words chose.
 int run_chosen(const Commands& commands);
 
-// Each adds a command: its help, its options and what it does, all in one file (docs/architecture.md, "To add").
+// Each function adds a command with its help, options and action, all in one file (docs/architecture.md, "To add").
 Command add_channel(CommandLine& app);
 Command add_cut(CommandLine& app);
 Command add_database(CommandLine& app);
@@ -126,24 +131,24 @@ Command add_schema(CommandLine& app);
 Command add_ships(CommandLine& app);
 Command add_validate(CommandLine& app);
 Command add_view(CommandLine& app);
-/// Those that are written in Python (python/polynya/command.py).
+/// Adds the commands that are written in Python (python/polynya/command.py).
 void add_python_commands(CommandLine& app, Commands& commands);
 
-/// Becomes Python, which runs a command of the package: its name and its words. Returns, with an ExitCode, only where
-/// that fails.
+/// Replaces this process by Python, which runs a command of the package with its name and its words. Returns, with an
+/// ExitCode, only if that fails.
 int become_python(const std::vector<std::string>& words);
 
-/// Of the source that the program is built of; empty outside of git (cmake/PolynyaCommit.cmake).
+/// Commit of the source from which the program is built; empty outside of git (cmake/PolynyaCommit.cmake).
 extern const std::string_view kCommit;
 
-/// What the whole command line has beside its commands.
+/// Texts of the help and the version of the whole program.
 struct ProgramText {
   std::string examples;
   std::string footer;
   std::string version;
 };
 
-/// Parses the words and runs the command that they choose, or prints help, version or what is wrong with them.
+/// Parses the words and runs the chosen command, or prints help, version or an error. Returns the exit code.
 int run_command_line(const ProgramText& text, const std::function<Commands(CommandLine&)>& add_commands, int count,
                      const char* const* words);
 

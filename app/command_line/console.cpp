@@ -19,7 +19,7 @@
 namespace polynya::app {
 namespace {
 
-// The first reason for which text was lost, or 0.
+// Error number of the first failure to write text, or 0.
 int out_error = 0;
 int err_error = 0;
 
@@ -37,10 +37,11 @@ void flush(std::FILE* stream, int& error) {
   if (std::fflush(stream) != 0) note(error);
 }
 
-/// The wrong way round, so that using the stream fails. Without /dev/null (a bare chroot), a folder serves.
+/// Opens a closed descriptor in the wrong direction, so that using the stream fails. Without /dev/null (in a bare
+/// chroot), a folder has the same effect.
 void open_if_closed(int descriptor, int flags) {
   if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) return;
-  // The lowest free descriptor is this one, since those below it are open by now.
+  // open() returns the lowest free descriptor, which is this one, because lower ones are open already.
   if (::open("/dev/null", flags) < 0) static_cast<void>(::open("/", O_RDONLY | O_DIRECTORY));
 }
 
@@ -48,10 +49,10 @@ volatile std::sig_atomic_t asked = 0;
 
 extern "C" void on_signal(int signal) {
   asked = signal;
-  std::signal(signal, SIG_DFL);  // the second one is not ours any more
+  std::signal(signal, SIG_DFL);  // the second signal ends the program
 }
 
-/// A bar needs a terminal that can rewrite its line.
+/// A bar needs a terminal that can rewrite its line; otherwise lines are shown.
 ProgressKind kind_for_stderr(ProgressKind kind) {
   if (kind != ProgressKind::kAuto && kind != ProgressKind::kBar) return kind;
   const char* terminal = std::getenv("TERM");
@@ -59,8 +60,8 @@ ProgressKind kind_for_stderr(ProgressKind kind) {
   return isatty(STDERR_FILENO) != 0 && !is_dumb ? ProgressKind::kBar : ProgressKind::kLines;
 }
 
-/// As many of the fields, two blanks apart, as fit into that many columns. A longer line would wrap, and a
-/// carriage return would not lead back to its start.
+/// Returns as many of the fields, separated by two blanks, as fit into the columns. A longer line would wrap, and a
+/// carriage return would then not return to its start.
 std::string fitted(const std::string& fields, int columns) {
   const auto room = static_cast<std::size_t>(std::max(columns, 0));
   if (fields.size() <= room) return fields;
@@ -68,7 +69,7 @@ std::string fitted(const std::string& fields, int columns) {
   return fields.substr(0, end == std::string::npos ? room : end);
 }
 
-/// A bar of that many columns, in eighths.
+/// Returns a bar with this many columns, drawn in eighths of a column.
 std::string bar(double part, int width) {
   static constexpr const char* kEighths[] = {"", "▏", "▎", "▍", "▌", "▋", "▊", "▉"};
   const int eighths = static_cast<int>(std::clamp(part, 0.0, 1.0) * width * 8);
@@ -90,8 +91,8 @@ tl::expected<std::string, std::string> read_all(std::FILE* stream, std::size_t l
   return text;
 }
 
-/// Whether it is a pipe that the shell made and writes to, as `<(command)` does. Opening any other one would
-/// wait for its writer, for ever where there is none.
+/// Returns true for a pipe that the shell made and to which it writes, as for `<(command)`. Opening any other pipe
+/// would wait for its writer, possibly forever.
 bool is_of_shell(const std::string& file) {
   return file.starts_with("/dev/") || file.starts_with("/proc/");
 }
@@ -142,7 +143,7 @@ void show_progress(std::string_view text) {
 
 int close_streams(int code) {
   flush(stdout, out_error);
-  if (std::fclose(stdout) != 0) note(out_error);  // a network's disk may refuse only now
+  if (std::fclose(stdout) != 0) note(out_error);  // a network disk may report a failure only now
   if (out_error != 0 && out_error != EPIPE)
     print_err("polynya: stdout: {}; not all of the text was written\n",
               out_error == EBADF ? "it is closed" : std::strerror(out_error));
@@ -154,7 +155,7 @@ int close_streams(int code) {
 void watch_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction previous {};
-    // What our parent chose to ignore (nohup) stays ignored.
+    // A signal that the parent process chose to ignore (nohup) stays ignored.
     if (sigaction(signal, nullptr, &previous) == 0 && previous.sa_handler == SIG_IGN) continue;
     struct sigaction action {};
     action.sa_handler = on_signal;
@@ -199,7 +200,7 @@ void ProgressOutput::show(const ProgressReport& report) const {
   } else {
     winsize size{};
     const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-    const int columns = (is_known ? size.ws_col : 80) - 1;  // the last one would wrap some terminals
+    const int columns = (is_known ? size.ws_col : 80) - 1;  // some terminals wrap after the last column
     const int room = columns - static_cast<int>(report.words.size()) - 1;
     line = fmt::format("\r{}{}\x1b[K", room >= 8 && report.part >= 0 ? bar(report.part, std::min(room, 40)) + " " : "",
                        fitted(report.words, columns));
@@ -216,7 +217,7 @@ WorkProgress::WorkProgress(ProgressKind kind, std::string work) : output_(kind),
   if (output_.kind() == ProgressKind::kNone) return;
   try {
     thread_ = std::jthread([this](const std::stop_token& stop) { show_until(stop); });
-  } catch (const std::system_error&) {  // no thread: nothing is shown
+  } catch (const std::system_error&) {  // there is no thread, so no progress is shown
   }
 }
 
@@ -225,7 +226,7 @@ WorkProgress::~WorkProgress() {
 }
 
 void WorkProgress::show_until(const std::stop_token& stop) {
-  constexpr double kFirst = 2;  // [s]
+  constexpr double kFirst = 2;  // [s]; nothing is shown for shorter work
   double pause = std::max(kFirst, output_.pause());
   bool is_shown = false;
   std::unique_lock lock(mutex_);
@@ -279,7 +280,7 @@ bool is_stdout(const std::string& file) {
 }
 
 io::Result<> write_output(const std::string& file, const std::string& text) {
-  // Replacing the file that a stream goes to would lose what else is written there.
+  // Replacing the file to which a stream is written would lose the other output of that stream.
   if (is_stdout(file))
     write_out(text);
   else if (is_open_as(file, STDERR_FILENO))
@@ -299,7 +300,7 @@ io::Result<> make_folder(const std::filesystem::path& folder) {
 io::Result<> write_product(const std::string& out, const std::string& run, std::string_view name,
                            const std::string& text) {
   if (out.empty()) return io::write_whole_file(std::filesystem::path(run) / name, text);
-  static_cast<void>(make_folder(out));  // writing reports what is wrong with it
+  static_cast<void>(make_folder(out));  // an error is reported by the write that follows
   return write_output((std::filesystem::path(out) / name).string(), text);
 }
 

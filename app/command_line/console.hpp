@@ -21,26 +21,27 @@
 
 namespace polynya::app {
 
-/// What `polynya` returns to the shell.
+/// Exit codes of `polynya`.
 enum ExitCode {
   kDone = 0,
   kUsage = 2,             ///< the command line is wrong
   kSceneInvalid = 3,      ///< the scene is wrong; nothing was written
-  kNumericalFailure = 4,  ///< the numbers stopped being numbers; the folder holds the run up to there
-  kOutOfMemory = 4,       ///< memory ran out; a run folder is as one of a run that was killed
-  kRefused = 4,           ///< geometry was refused or found wrong; the rest was done
+  kNumericalFailure = 4,  ///< numbers became infinite or not a number; the folder has the run up to then
+  kOutOfMemory = 4,       ///< memory ran out; a run folder is like that of a killed run
+  kRefused = 4,           ///< geometry was refused or is faulty; everything else was done
   kInputOutput = 5,       ///< a file, stdout or stderr could not be read or written
-  kDefect = 70,           ///< polynya itself is wrong; the traceback of a command in Python is in a file
-  kStopped = 75,          ///< stopped on a signal; the folder has a checkpoint to resume from
-  kClosedPipe = 141,      ///< the reader of stdout or stderr went away, as a shell reports SIGPIPE
+  kDefect = 70,           ///< an error of Polynya itself; a command in Python writes its traceback to a file
+  kStopped = 75,          ///< stopped by a signal; the folder has a checkpoint from which the run can be resumed
+  kClosedPipe = 141,      ///< the reader of stdout or stderr has ended; shells report SIGPIPE by this code
 };
 
-// Every text of the program goes through here. A text that could not be written never ends in exit code 0; fmt::print
-// and std::cout are not used, since the one throws and the other forgets where stdout is a closed pipe or a full disk.
+// All text of the program is written by the functions below. If a text could not be written, the exit code is never 0.
+// fmt::print and std::cout are not used: on a closed pipe or a full disk the first throws and the second loses the
+// error.
 
-/// Opens what is closed of descriptors 0, 1 and 2, or the first files of a run would get them. Reading from
-/// stdin and writing to stdout and stderr fail then. Makes writing to a closed pipe, or past a file size
-/// limit, an error instead of a signal.
+/// Opens descriptors 0, 1 and 2 if they are closed, because otherwise the first files of a run would get these numbers.
+/// Reading and writing such a stream then fails. Writing to a closed pipe, or beyond a limit of the file size, becomes
+/// an error instead of a signal.
 void open_streams();
 
 /// Writes to stdout.
@@ -50,77 +51,79 @@ void print_out(fmt::format_string<Args...> format, Args&&... args) {
   write_out(fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// Writes what is buffered for stdout: before another program writes there.
+/// Writes the buffer of stdout. Call it before another program writes there.
 void flush_out();
 
-/// Writes a message to stderr, after what went to stdout before.
+/// Writes a message to stderr, after all text that was written to stdout before.
 void write_err(std::string_view text);
 template <typename... Args>
 void print_err(fmt::format_string<Args...> format, Args&&... args) {
   write_err(fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// Problems, or a scene's warnings and hints, on stderr, a line each.
+/// Writes problems, or warnings and hints of a scene, to stderr, one per line.
 void print_lines(const std::vector<io::Problem>& problems);
 
 using io::counted;
 
-/// "polynya: " and the message on stderr; returns the code.
+/// Writes "polynya: " and a message to stderr; returns the code.
 ExitCode fail(ExitCode code, std::string_view message);
 
-/// What a part of a command came to, or the code that the command ends with, whose message is on stderr by then.
+/// Result of a part of a command, or the exit code after its message has been written to stderr.
 template <class Value>
 using Outcome = tl::expected<Value, ExitCode>;
 inline tl::unexpected<ExitCode> failure(ExitCode code, std::string_view message) {
   return tl::unexpected(fail(code, message));
 }
 
-/// Shows how far some work is, on stderr. It may be lost.
+/// Shows progress on stderr. An error in writing it is ignored.
 void show_progress(std::string_view text);
 
-/// Writes what is buffered and reports on stderr what could not be written. Returns the exit code: `code` if
-/// it is not 0 or all was written; kClosedPipe, without a message, where only a closed pipe kept text from
-/// being written; else kInputOutput.
+/// Writes the buffers and reports on stderr what could not be written. Returns the exit code: `code` if it is not 0 or
+/// if everything was written; kClosedPipe, without a message, if only a closed pipe prevented writing; otherwise
+/// kInputOutput.
 int close_streams(int code);
 
-/// From now on SIGINT, SIGTERM and SIGHUP only ask to stop (a second one ends the program at once), and a
-/// write past a size limit or into a closed pipe is an error where it happens, not a signal.
+/// From now on SIGINT, SIGTERM and SIGHUP only ask to stop; a second signal ends the program at once. Writing beyond a
+/// size limit or to a closed pipe is an error, not a signal.
 void watch_signals();
 
-/// The signal that asked to stop, or 0.
+/// Returns the signal that asked to stop, or 0.
 int stop_signal();
 
+/// How progress is shown on stderr.
 enum class ProgressKind {
-  kAuto,  ///< a bar on a terminal, else a line now and then
-  kBar,   ///< where stderr is a terminal, else kLines
+  kAuto,  ///< a bar on a terminal, otherwise an occasional line
+  kBar,   ///< a bar; kLines if stderr is not a terminal
   kLines,
-  kJson,  ///< one object a second on stderr
+  kJson,  ///< one JSON object per second
   kNone,
 };
 
-/// One report of how far some work is, in each of its forms.
+/// A report of progress in all its forms.
 struct ProgressReport {
-  double part = 0;    ///< done, 0..1; negative where that is not known
-  std::string words;  ///< a line, or behind the bar: ASCII, fields two blanks apart, the important ones first
-  std::string json;   ///< one object, without its newline
+  double part = 0;  ///< completed fraction, 0..1; negative if it is not known
+  /// Text of a line, or of the field after the bar: ASCII, fields separated by two blanks, important fields first.
+  std::string words;
+  std::string json;  ///< one object without a line break
 };
 
-/// Prints reports on stderr, at the pace of their kind.
+/// Prints reports on stderr, as often as their kind requires.
 class ProgressOutput {
  public:
   explicit ProgressOutput(ProgressKind kind);
 
-  /// Whether it is time for a report; cheap to call often.
+  /// Returns true if a report is due. It costs little to call often.
   bool is_due();
   void show(const ProgressReport& report) const;
-  /// Takes a bar away.
+  /// Removes the bar from the terminal.
   void clear() const;
-  double pause() const;  ///< between two reports [s]
+  double pause() const;  ///< time between two reports [s]
   ProgressKind kind() const { return kind_; }
-  /// The last report: completes a bar, or is one object more.
+  /// Shows the last report: it completes a bar, or is another object.
   void finish(const ProgressReport& report) const;
 
-  double wall_time() const;  ///< since construction [s]
+  double wall_time() const;  ///< time since construction [s]
 
  private:
   ProgressKind kind_;
@@ -128,18 +131,18 @@ class ProgressOutput {
   double last_shown_ = 0;  ///< wall time [s]
 };
 
-/// Shows on stderr, from a thread of its own, that some work goes on: from its third second on (lines: from
-/// the tenth), with how much is done where that is known. A bar is cleared when the work ends, so that
-/// messages stand on lines of their own.
+/// Shows on stderr, from its own thread, that work is in progress: from its third second on (lines: from the tenth),
+/// with the completed fraction if it is known. A bar is removed when the work ends, so that messages start on a new
+/// line.
 class WorkProgress {
  public:
-  /// `work` is what is done: "reading the run".
+  /// `work` describes the work: "reading the run".
   WorkProgress(ProgressKind kind, std::string work);
   WorkProgress(const WorkProgress&) = delete;
   WorkProgress& operator=(const WorkProgress&) = delete;
   ~WorkProgress();
 
-  void set_part(double part) { part_ = part; }  ///< done, 0..1
+  void set_part(double part) { part_ = part; }  ///< completed fraction, 0..1
 
  private:
   void show_until(const std::stop_token& stop);
@@ -150,10 +153,10 @@ class WorkProgress {
   std::atomic<double> part_ = -1;
   std::mutex mutex_;
   std::condition_variable_any ended_;
-  std::jthread thread_;  ///< the last member: it uses the others
+  std::jthread thread_;  ///< must be the last member, because the thread uses the others
 };
 
-/// What `work` returns, with its progress shown while it goes on.
+/// Does work and shows its progress. Returns the result of `work`.
 template <class Work>
 auto with_progress(ProgressKind kind, std::string name, Work work) {
   WorkProgress progress(kind, std::move(name));
@@ -163,31 +166,31 @@ auto with_progress(ProgressKind kind, std::string name, Work work) {
     return work();
 }
 
-/// "1:05", "2:03:04".
+/// Returns a duration [s] as "1:05" or "2:03:04".
 std::string clock_time(double seconds);
 
-/// The whole of a file, or of stdin where its name is "-", or what is wrong with it in words. What is longer
-/// than `longest` bytes is refused, and a named pipe, but for those that the shell makes (`<(command)`).
+/// Returns the contents of a file, or of stdin if its name is "-". Fails with a message if it cannot be read or is
+/// longer than `longest` [bytes]. Named pipes are refused, except those that the shell makes for `<(command)`.
 tl::expected<std::string, std::string> read_input(const std::string& file, std::size_t longest);
 
-/// What an input is called in messages: the file's name, or "stdin".
+/// Returns the name of an input for messages: the file's name, or "stdin".
 std::string input_name(const std::string& file);
 
-/// A run's folder, with its progress on stderr (io/run/run_reader.hpp).
+/// Reads a run folder with progress on stderr (io/run/run_reader.hpp).
 io::Result<io::Run> read_run(const std::string& folder, ProgressKind progress);
 
-/// Whether the name means the program's own stdout: "-", "/dev/stdout", or the file that stdout goes to.
+/// Returns true if the name means the program's stdout: "-", "/dev/stdout", or the file to which stdout is written.
 bool is_stdout(const std::string& file);
 
-/// Writes to a name that a user gave: to a file, or into a pipe, a device or the program's own stdout or
-/// stderr, whose failures close_streams() reports.
+/// Writes to a name that a user gave: a file, a pipe, a device, or the program's own stdout or stderr, whose failures
+/// close_streams() reports.
 io::Result<> write_output(const std::string& file, const std::string& text);
 
-/// Makes a folder that a user named, with those above it.
+/// Creates a folder that a user named, with the folders above it.
 io::Result<> make_folder(const std::filesystem::path& folder);
 
-/// Writes what a command makes of a run: into the folder `out` that a user named, which is made where it is
-/// missing, or where that is empty into the run's, where links are not followed.
+/// Writes a file that a command makes from a run. If `out` names a folder, the file is written there, and the folder is
+/// created if necessary. If `out` is empty, it is written to the run's folder, in which links are not followed.
 io::Result<> write_product(const std::string& out, const std::string& run, std::string_view name,
                            const std::string& text);
 

@@ -18,16 +18,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::pair<const char*, const char*> kCommands[] = {
-    {"performance", "Find the speed that a ship keeps in level ice, by thickness"},
-    {"figures", "Draw a run, or several side by side, for print"},
-    {"loads", "Peaks of the ice's force by place: statistics, return values, figures"},
-    {"management", "State what ice management did, and rank the patterns of a study"},
+    {"performance", "Find the speed that a ship can keep in level ice of each thickness"},
+    {"figures", "Draw figures of a run, or of several side by side, for print"},
+    {"loads", "Peaks of the ice force by place on the hull: statistics, return values, figures"},
+    {"management", "Measure the effect of ice management, and rank the patterns of a study"},
     {"movie", "Make a film of a run: the ice, and the force on the ship"},
     {"study", "Plan, run and gather many runs of one scene"}};
-constexpr auto kModule = "polynya.command";  ///< python/polynya/command.py starts every command of the package
+constexpr auto kModule = "polynya.command";  ///< python/polynya/command.py starts all commands of the package
 
-/// The folder that holds the Python package: beside the build's app/, the installed one, or that of a wheel, whose
-/// program is in the package's bin/.
+/// Returns the folder with the Python package: beside app/ in the build tree, the installed one, or that of a wheel,
+/// whose program is in the package's bin/.
 std::optional<fs::path> package_folder(const fs::path& program) {
   const fs::path above = program.parent_path().parent_path();
   if (fs::exists(above / "__init__.py")) return above.parent_path();
@@ -36,7 +36,7 @@ std::optional<fs::path> package_folder(const fs::path& program) {
   return {};
 }
 
-/// Debian's Python sees Debian's modules; another one first in the path may not.
+/// Debian's Python finds Debian's modules; another Python earlier on the path may not.
 std::string python() {
   if (const char* chosen = std::getenv("POLYNYA_PYTHON"); chosen && *chosen) return chosen;
   const char* const debians = "/usr/bin/python3";
@@ -56,7 +56,7 @@ int become_python(const std::vector<std::string>& words) {
                             program.parent_path().parent_path().string()));
   const char* const more = std::getenv("PYTHONPATH");
   setenv("PYTHONPATH", (package->string() + (more && *more ? ":" + std::string(more) : "")).c_str(), 1);
-  setenv("PYTHONSAFEPATH", "1", 1);  // no module of the working folder
+  setenv("PYTHONSAFEPATH", "1", 1);  // do not import modules from the working folder
   setenv("POLYNYA_PROGRAM", program.c_str(), 1);
   std::vector<std::string> line{python(), "-m", kModule};
   line.insert(line.end(), words.begin(), words.end());
@@ -71,7 +71,7 @@ int become_python(const std::vector<std::string>& words) {
                                         line.front(), std::strerror(errno)));
 }
 
-/// All that follows a command's name is for Python, --help too.
+/// All words after the command's name are passed to Python, including --help.
 void add_python_commands(CommandLine& app, Commands& commands) {
   for (const auto& [name, meaning] : kCommands) {
     CommandLine command = app.add_command(name, meaning, "");

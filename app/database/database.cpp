@@ -36,57 +36,59 @@ using geometry::kDegreesPerRadian;
 using geometry::kRadiansPerDegree;
 using DatabasePointer = std::shared_ptr<const BendingDatabase>;
 
-// ---- what the commands share: the wedge of ice, the database, threads
+// ---- common to the commands: the wedge of ice, the database, threads
 
-constexpr double kNarrowestWedge = 0.1;  ///< as --wedge-angle allows [deg]
-constexpr double kUsualWedgeAngle = 90;  ///< where none is given [deg]
+constexpr double kNarrowestWedge = 0.1;  ///< least value of --wedge-angle [deg]
+constexpr double kUsualWedgeAngle = 90;  ///< value if none is given [deg]
 
-/// A wedge of floating ice and the hull that meets it, by the command line.
+/// Options for a wedge of floating ice and the hull that it meets.
 struct DatabaseLoadOptions {
   fracture::Ice ice;
   fracture::Water water;
-  double speed = 1;                       ///< v_n, normal to the hull's waterline [m/s]
-  double slip_speed = 0;                  ///< v_t, along it [m/s]
-  std::optional<double> wedge_angle_deg;  ///< 2α, halved for the two edges
+  double speed = 1;                       ///< v_n, normal to the waterline of the hull [m/s]
+  double slip_speed = 0;                  ///< v_t, along the waterline [m/s]
+  std::optional<double> wedge_angle_deg;  ///< 2α; each edge has half of it
   std::optional<double> front_angle_deg;  ///< θ_wf
   std::optional<double> back_angle_deg;   ///< θ_wb
   double hull_angle_deg = 60;             ///< θ_s, from the vertical
 };
 
-/// The options of the ice, the water and the hull; defaults are the paper's.
+/// Adds the options of the ice, the water and the hull. Their defaults are those of the paper.
 void add_load(CommandLine& command, DatabaseLoadOptions& load) {
   command.option("--wedge-angle", &load.wedge_angle_deg, "DEG", "Opening angle of the wedge of ice",
                  between(kNarrowestWedge, 179.9));
-  command.option("--front-angle", &load.front_angle_deg, "DEG", "Instead: from the inward normal to the front edge",
-                 between(0, 89.9));
-  command.option("--back-angle", &load.back_angle_deg, "DEG", "and to the back edge", between(0, 89.9));
+  command.option("--front-angle", &load.front_angle_deg, "DEG",
+                 "Instead of --wedge-angle: angle from the inward normal to the front edge", between(0, 89.9));
+  command.option("--back-angle", &load.back_angle_deg, "DEG",
+                 "Angle from the inward normal to the back edge, with --front-angle", between(0, 89.9));
   const auto add = [&command](const char* name, double& value, const char* unit, const char* meaning,
                               const auto& allowed) {
     command.option(name, &value, unit, meaning, allowed, {.shows_default = true, .group = "Ice and water"});
   };
-  add("--density", load.ice.density, "KG_PER_M3", "of the ice", between(1, 5000));
-  add("--youngs-modulus", load.ice.youngs_modulus, "PA", "of the ice", between(1e3, 1e12));
-  add("--poisson-ratio", load.ice.poisson_ratio, "NU", "of the ice", between(0, 0.5));
-  add("--flexural-strength", load.ice.flexural_strength, "PA", "of the ice", between(1, 1e9));
-  add("--compressive-strength", load.ice.compressive_strength, "PA", "of the ice", between(1, 1e9));
-  add("--friction", load.ice.friction, "MU", "hull on ice", between(0, 2));
-  add("--water-density", load.water.density, "KG_PER_M3", "", between(1, 5000));
+  add("--density", load.ice.density, "KG_PER_M3", "Density of the ice", between(1, 5000));
+  add("--youngs-modulus", load.ice.youngs_modulus, "PA", "Young's modulus of the ice", between(1e3, 1e12));
+  add("--poisson-ratio", load.ice.poisson_ratio, "NU", "Poisson ratio of the ice", between(0, 0.5));
+  add("--flexural-strength", load.ice.flexural_strength, "PA", "Flexural strength of the ice", between(1, 1e9));
+  add("--compressive-strength", load.ice.compressive_strength, "PA", "Compressive strength of the ice",
+      between(1, 1e9));
+  add("--friction", load.ice.friction, "MU", "Coefficient of friction between hull and ice", between(0, 2));
+  add("--water-density", load.water.density, "KG_PER_M3", "Density of the water", between(1, 5000));
 }
 
-/// Those of the load's size and speed, required or with the defaults of a slice.
+/// Adds the options for the thickness and speed of the load. They are required, or have the defaults of a slice.
 void add_point(CommandLine& command, DatabaseLoadOptions& load, bool is_required) {
   const auto add = [&](const char* name, double& value, const char* unit, const char* meaning, const auto& allowed) {
     command.option(name, &value, unit, meaning, allowed, {.is_required = is_required, .shows_default = !is_required});
   };
-  add("--thickness", load.ice.thickness, "M", "of the ice", between(1e-3, 100));
-  add("--speed", load.speed, "M_PER_S", "of approach, normal to the hull's waterline", between(0, 100));
-  add("--hull-angle", load.hull_angle_deg, "DEG", "the hull's inclination from the vertical", between(0, 89.9));
+  add("--thickness", load.ice.thickness, "M", "Thickness of the ice", between(1e-3, 100));
+  add("--speed", load.speed, "M_PER_S", "Speed of approach, normal to the hull's waterline", between(0, 100));
+  add("--hull-angle", load.hull_angle_deg, "DEG", "Inclination of the hull from the vertical", between(0, 89.9));
 }
 
-/// The database of that file, or the shipped one for an empty name. Reports on stderr why a file cannot be read or is
-/// not a database of this version; the code is then kInputOutput.
+/// Loads the database in a file, or the shipped one if the name is empty. If the file cannot be read, or is no database
+/// of this version, reports it on stderr and returns kInputOutput.
 Outcome<DatabasePointer> load_database(const std::string& file) {
-  // The shipped one lives as long as the program: nothing to delete.
+  // The shipped database exists as long as the program, so there is nothing to delete.
   if (file.empty()) return DatabasePointer(DatabasePointer(), &fracture::default_database());
   const auto text = io::read_text_file(file, fracture::kLargestFile);
   if (!text) return failure(kInputOutput, fmt::format("{}: {}", file, text.error()));
@@ -100,8 +102,8 @@ std::string database_title(const std::string& file) {
   return file.empty() ? "the one that ships with Polynya" : file;
 }
 
-/// The load, with c_V from the hull's angle, the friction and the slip. Reports on stderr where the options contradict
-/// each other.
+/// Returns the load, with c_V from the hull's angle, the friction and the slip. Reports options that contradict each
+/// other on stderr.
 Outcome<BendingLoad> bending_load(const DatabaseLoadOptions& options) {
   const bool has_edges = options.front_angle_deg || options.back_angle_deg;
   if (has_edges && !(options.front_angle_deg && options.back_angle_deg))
@@ -126,7 +128,7 @@ Outcome<BendingLoad> bending_load(const DatabaseLoadOptions& options) {
   return load;
 }
 
-/// "0.5 m of ice, 90 deg wedge, hull 60 deg from the vertical, v_n 1 m/s".
+/// Returns "0.5 m of ice, 90 deg wedge, hull 60 deg from the vertical, v_n 1 m/s".
 std::string describe(const BendingLoad& load) {
   const double front = load.front_half_angle / kRadiansPerDegree;
   const double back = load.back_half_angle / kRadiansPerDegree;
@@ -138,7 +140,7 @@ std::string describe(const BendingLoad& load) {
 
 // ---- polynya database build
 
-constexpr std::size_t kMostWedgeAngles = 64;  ///< what the file's reader takes
+constexpr std::size_t kMostWedgeAngles = 64;  ///< the reader of the file accepts no more
 
 constexpr auto kBuildExamples =
     "Examples:\n"
@@ -148,13 +150,13 @@ constexpr auto kBuildExamples =
 struct BuildOptions {
   std::string out = "icebreaking-database.txt";
   fracture::FluidModel fluid = fracture::FluidModel::kPotential;
-  std::vector<double> wedge_angles_deg;  ///< 2α; empty: the shipped database's
-  int threads = 0;                       ///< 0: as many as the machine runs at once
+  std::vector<double> wedge_angles_deg;  ///< 2α; empty: those of the shipped database
+  int threads = 0;                       ///< 0: as many as the machine can run at once
   ProgressKind progress = ProgressKind::kAuto;
   bool overwrite = false;
 };
 
-/// Whether a file may be written there, before the work.
+/// Checks before the computation that the file can be written.
 io::Result<> check_target(const std::filesystem::path& path, bool overwrite) {
   std::error_code ignored;
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
@@ -198,7 +200,7 @@ int build(const BuildOptions& options) {
   output.finish(report(wedges, wedges, wall));
 
   const std::string text = fracture::write_database(*built);
-  watch_signals();  // a signal waits for the write
+  watch_signals();  // a signal takes effect after the write
   auto written = check_target(options.out, options.overwrite);
   if (written) written = io::write_named_file(options.out, text);
   if (!written) return fail(kInputOutput, written.error());
@@ -216,18 +218,19 @@ Command add_build(CommandLine& app) {
   CommandLine command = app.add_command("build", "Solve the wedges and write a database", kBuildExamples);
   auto options = std::make_shared<BuildOptions>();
   command.option("--out", &options->out, "FILE", "The file to write", not_empty(), {.shows_default = true});
-  command.choice<fracture::FluidModel>("--fluid", options->fluid, "What the water does; potential if not given",
+  command.choice<fracture::FluidModel>("--fluid", options->fluid, "Model of the water; potential if not given",
                                        {{"winkler", fracture::FluidModel::kWinkler},
                                         {"local-mass", fracture::FluidModel::kLocalMass},
                                         {"potential", fracture::FluidModel::kPotential},
                                         {"free-surface", fracture::FluidModel::kFreeSurface}});
   command.option("--wedge-angles", &options->wedge_angles_deg, "DEG,DEG,...",
-                 "Opening angles of the wedges, ascending; the shipped database's if not given [deg]", between(5, 180),
-                 {.delimiter = ','});
+                 "Opening angles of the wedges, ascending [deg]; those of the shipped database if not given",
+                 between(5, 180), {.delimiter = ','});
   command.option("--threads", &options->threads, "N",
-                 "As many as the machine runs at once if not given; no result depends on it", whole(1, 1024));
+                 "Number of threads; as many as the machine can run at once if not given; results do not depend on it",
+                 whole(1, 1024));
   add_progress(command, options->progress);
-  command.flag("--overwrite", options->overwrite, "Replace the file");
+  command.flag("--overwrite", options->overwrite, "Replace an existing file");
   return {command, [options] { return build(*options); }};
 }
 
@@ -239,12 +242,12 @@ constexpr auto kQueryExamples =
     "  polynya database query --thickness 1 --speed 2 --front-angle 30 --back-angle 70 --hull-angle 50 --json\n";
 
 struct QueryOptions {
-  std::string file;  ///< empty: the shipped one
+  std::string file;  ///< empty: the shipped database
   DatabaseLoadOptions load;
   bool json = false;
 };
 
-/// Whether the hull presses the ice down at all; where it does not, the ice crushes and never bends.
+/// Returns true if the hull presses the ice down. Otherwise the ice crushes and never bends.
 bool can_bend(const BendingLoad& load) {
   return load.vertical_to_crushing > 0;
 }
@@ -275,7 +278,7 @@ void write_groups(io::JsonWriter& json, const fracture::ScaledLoad& scaled, cons
   json.key("characteristic_length_m").value(scaled.length_scale);
 }
 
-/// Numbers are null where the ice cannot bend.
+/// Returns the answer as JSON. Numbers are null if the ice cannot bend.
 std::string json_of(const QueryOptions& options, const BendingDatabase& database, const BendingLoad& load,
                     const SlicePoint& answer) {
   const bool is_known = can_bend(load);
@@ -353,7 +356,7 @@ void print_for_people(const QueryOptions& options, const BendingDatabase& databa
     print_out("The ice only crushes: friction outweighs what presses it down.\n");
 }
 
-/// "softness 0.2, the table's 3e-05 to 0.1; Poisson ratio 0.25, the table's 0.3"
+/// Returns "softness 0.2, the table's 3e-05 to 0.1; Poisson ratio 0.25, the table's 0.3".
 std::string with_ranges(const std::vector<fracture::OutsideRange>& ranges) {
   std::vector<std::string> parts;
   parts.reserve(ranges.size());
@@ -365,7 +368,7 @@ std::string with_ranges(const std::vector<fracture::OutsideRange>& ranges) {
 
 int query(const QueryOptions& options) {
   if (!options.load.wedge_angle_deg && !options.load.front_angle_deg && !options.load.back_angle_deg)
-    return fail(kUsage, "the wedge needs --wedge-angle, or --front-angle and --back-angle");
+    return fail(kUsage, "the opening of the wedge is missing: give --wedge-angle, or --front-angle and --back-angle");
   const auto load = bending_load(options.load);
   if (!load) return load.error();
   const auto database = load_database(options.file);
@@ -385,22 +388,23 @@ int query(const QueryOptions& options) {
 }
 
 Command add_query(CommandLine& app) {
-  CommandLine command =
-      app.add_command("query", "What a wedge of ice bears, by the database and by published forms", kQueryExamples);
+  CommandLine command = app.add_command(
+      "query", "Bending capacity of a wedge of ice by the database and by published formulas", kQueryExamples);
   auto options = std::make_shared<QueryOptions>();
   add_point(command, options->load, true);
   add_load(command, options->load);
-  command.option("--slip-speed", &options->load.slip_speed, "M_PER_S", "along the hull's waterline", between(-100, 100),
-                 {.shows_default = true});
-  command.option("--database", &options->file, "FILE", "The database; the shipped one if not given", not_empty());
-  command.flag("--json", options->json, "Answer as JSON, in SI units");
+  command.option("--slip-speed", &options->load.slip_speed, "M_PER_S", "Speed along the hull's waterline",
+                 between(-100, 100), {.shows_default = true});
+  command.option("--database", &options->file, "FILE", "File of the database; the shipped one if not given",
+                 not_empty());
+  command.flag("--json", options->json, "Print the answer as JSON in SI units");
   return {command, [options] { return query(*options); }};
 }
 
 // ---- polynya database show
 
 struct ShowOptions {
-  std::string file;        ///< empty: the shipped one
+  std::string file;        ///< empty: the shipped database
   std::string svg_folder;  ///< empty: no pictures
   DatabaseLoadOptions load;
 };
@@ -439,7 +443,7 @@ void print_grids(const BendingDatabase& database) {
   print_out("entries         {}: V/(sigma_f h2), R/l, crack ratio\n", database.entries().size());
 }
 
-/// The slices into slices.json of the folder, which is made where it is missing; Python draws them.
+/// Writes the slices to slices.json in the folder, which is created if necessary. Python then draws them.
 int draw_slices(const std::string& slices, const std::filesystem::path& folder) {
   if (const auto made = make_folder(folder); !made) return fail(kInputOutput, made.error());
   const std::filesystem::path file = folder / "slices.json";
@@ -472,10 +476,10 @@ Command add_show(CommandLine& app) {
                       "  polynya database show                      the database that ships with Polynya\n"
                       "  polynya database show winkler.txt --svg plots --thickness 1\n");
   auto options = std::make_shared<ShowOptions>();
-  command.option("file", &options->file, "FILE", "The database; the shipped one if not given", not_empty());
+  command.option("file", &options->file, "FILE", "File of the database; the shipped one if not given", not_empty());
   command.option("--svg", &options->svg_folder, "DIR",
-                 "Draw the slices to speed.svg, wedge-angle.svg, thickness.svg, with their numbers in slices.json "
-                 "(needs Python and matplotlib: ./setup.sh python)",
+                 "Draw slices to speed.svg, wedge-angle.svg and thickness.svg in this folder, with their numbers in "
+                 "slices.json (needs Python and matplotlib: ./setup.sh python)",
                  not_empty());
   add_point(command, options->load, false);
   add_load(command, options->load);

@@ -21,13 +21,13 @@
 namespace polynya::app {
 namespace {
 
-// ---- polynya cut: what it reports on stderr
+// ---- polynya cut: reports on stderr
 
-constexpr std::size_t kMostReported = 100;  ///< messages; the ledger has all
-constexpr std::size_t kMostVertices = 4;    ///< in a message; likewise
+constexpr std::size_t kMostReported = 100;  ///< number of messages; the ledger has all
+constexpr std::size_t kMostVertices = 4;    ///< number of vertices in a message; the ledger has all
 
-/// A line for each polygon that was rejected or repaired and each line that separates nothing, as
-/// "floes.geojson:3: feature 1, polygon 0: …"; past the hundredth they are only counted.
+/// Prints a line for each polygon that was refused or repaired and for each line that separates nothing, as
+/// "floes.geojson:3: feature 1, polygon 0: …". Beyond kMostReported they are only counted.
 void report_floes(const std::string& name, const io::CutReport& report) {
   std::size_t reported = 0;
   const auto report_of = [&](const io::CutFloe& floe, const std::string& words) {
@@ -71,7 +71,7 @@ void report_totals(const io::CutReport& report) {
   }
 }
 
-/// What of the text is not in the pieces.
+/// Prints notes on properties of the text that the pieces do not have.
 void report_losses(const std::string& name, const io::FloeText& floes, io::FloeFormat format) {
   const auto note = [&name](const char* words) { print_err("note: {}: {}\n", name, words); };
   if (floes.entries.empty()) note("no floes in it");
@@ -100,13 +100,13 @@ constexpr auto kCutExamples =
     "Exit codes: 0 all were cut, 2 usage, 4 some polygons were refused (the others are cut), 5 input/output.\n";
 
 struct CutOptions {
-  std::string floes;                            ///< a file, or "-" for stdin; so are the other files
-  std::string disc, crack, line, polygon, ops;  ///< the one that is given; the others empty
+  std::string floes;                            ///< file, or "-" for stdin; the same holds for the other files
+  std::string disc, crack, line, polygon, ops;  ///< only one of these is given; the others are empty
   io::Keep keep = io::Keep::kOutside;
-  double sagitta = 0;          ///< [m]; 0: by the radius
-  std::optional<double> snap;  ///< [m]; none: by the coordinates
-  std::string out;             ///< empty: none, or stdout where the ledger goes to a file
-  std::string ledger;          ///< empty: stdout, unless the pieces go there
+  double sagitta = 0;          ///< [m]; 0: chosen from the radius
+  std::optional<double> snap;  ///< [m]; none: chosen from the coordinates
+  std::string out;             ///< empty: none, or stdout if the ledger is written to a file
+  std::string ledger;          ///< empty: stdout, unless the pieces are written there
   std::optional<geometry::FillRule> repair;
 };
 
@@ -150,7 +150,7 @@ Outcome<std::vector<io::CutOp>> read_ops(const CutOptions& options) {
   return *std::move(ops);
 }
 
-/// The format that the extension of --out names; none where it has no extension.
+/// Returns the format for the extension of --out; none if it has no extension.
 Outcome<std::optional<io::FloeFormat>> output_format(const std::string& file) {
   std::string extension = std::filesystem::path(file).extension().string();
   if (extension.empty()) return std::nullopt;
@@ -169,7 +169,7 @@ Outcome<std::optional<io::FloeFormat>> output_format(const std::string& file) {
                                      file, extension));
 }
 
-/// Pieces go to --out; the ledger to --ledger, or to stdout unless the pieces are there.
+/// Writes the pieces to --out, and the ledger to --ledger or else to stdout, unless the pieces are written there.
 io::Result<> write_results(const CutOptions& options, const io::CutReport& report, io::FloeFormat format) {
   std::string ledger = options.ledger;
   std::string out = options.out;
@@ -184,7 +184,7 @@ io::Result<> write_results(const CutOptions& options, const io::CutReport& repor
   return write_output(ledger, to_ledger_json(report));
 }
 
-/// Degrees have no areas in m².
+/// Refuses coordinates in degrees, because they have no areas in m².
 Outcome<void> check_units(const std::string& name, const io::FloeText& floes) {
   constexpr auto kRemedy = "polynya import makes metres of them";
   const std::string crs = io::crs_name(floes.crs);
@@ -230,7 +230,7 @@ ExitCode cut_all(const CutOptions& options) {
 
 // ---- polynya import
 
-constexpr std::size_t kMostItems = 20;  ///< messages about floes; the report has all
+constexpr std::size_t kMostItems = 20;  ///< number of messages about floes; the report has all
 
 constexpr auto kImportExamples =
     "Examples:\n"
@@ -244,11 +244,11 @@ constexpr auto kImportExamples =
     "Exit codes: 0 done, 2 usage, 4 some floes were refused (the others are written) or all of them, 5 input/output.\n";
 
 struct ImportOptions {
-  std::string file;     ///< or "-" for stdin
-  std::string out;      ///< or "-" for stdout
-  std::string report;   ///< empty: stdout, unless the floes go there
+  std::string file;     ///< file, or "-" for stdin
+  std::string out;      ///< file, or "-" for stdout
+  std::string report;   ///< empty: stdout, unless the floes are written there
   std::string origin;   ///< "LAT,LON" or "LAT,LON,HEADING" [°]
-  std::string no_data;  ///< numbers, between commas, that stand for no value
+  std::string no_data;  ///< numbers, separated by commas, that mean "no value"
   io::Selection selection;
   ProgressKind progress = ProgressKind::kAuto;
   std::vector<std::string> properties;
@@ -268,7 +268,7 @@ Outcome<std::optional<simulation::GeographicOrigin>> read_origin(const std::stri
                                       (n.size() > 2 ? n[2] : 90) * geometry::kRadiansPerDegree};
 }
 
-/// A file of floes as it was read.
+/// A floe file that was read.
 struct FloeFile {
   io::FloeText text;
   io::FilePlace place;
@@ -332,7 +332,7 @@ void report_totals(const std::string& name, const io::ImportOutcome& imported,
     print_err("polynya: --repair non-zero, or even-odd, makes valid polygons of crossing outlines\n");
 }
 
-/// Without `geojson` the report alone.
+/// Writes the floes and the report; only the report if there is no `geojson`.
 io::Result<> write_results(const ImportOptions& options, const std::optional<std::string>& geojson,
                            const std::string& report) {
   if (geojson)
@@ -407,46 +407,47 @@ ExitCode import_all(const ImportOptions& options) {
 void add_plane_options(CommandLine& command, ImportOptions& options) {
   const OptionTraits traits{.group = "The plane"};
   command.option("--origin", &options.origin, "LAT,LON",
-                 "Metres about this place [°], x to the east; a third number is the heading of x, as in a scene's "
-                 "origin",
+                 "Project to metres about this place [°], x to the east; a third number is the heading of the x axis, "
+                 "as in a scene's origin",
                  {}, traits);
   command.option("--crs", &options.settings.plane.target, "EPSG:n",
-                 "The plane of this projected system instead; any name PROJ knows", not_empty(), traits);
-  command.option("--from", &options.settings.plane.source, "EPSG:n", "The file's system, where the file names none",
-                 not_empty(), traits);
+                 "Project to the plane of this system; any name that PROJ knows", not_empty(), traits);
+  command.option("--from", &options.settings.plane.source, "EPSG:n",
+                 "Coordinate system of the file, if the file states none", not_empty(), traits);
   command.flag("--shift", options.settings.plane.is_shifted,
                "Move the middle of the floes' box to (0, 0), by whole metres", traits);
   command.option("--tolerance", &options.settings.plane.tolerance, "M",
-                 "Add points to edges that are not straight in the plane, until they are this near to it [m]; 0: none",
+                 "Add points to edges that are not straight in the plane until they are within this distance of their "
+                 "true course [m]; 0: none",
                  between(0, 1e5), traits);
 }
 
 void add_floe_options(CommandLine& command, ImportOptions& options) {
   io::ImportSettings& settings = options.settings;
   command.option("--join", &settings.join, "M",
-                 "Join polygons of one feature, and those on both sides of longitude 180, whose boundaries run along "
-                 "each other within this distance, and close slits that are narrower [m]",
+                 "Join polygons of one feature, and polygons on both sides of longitude 180, whose boundaries are "
+                 "within this distance of each other, and close narrower slits [m]",
                  between(0, 1e3));
   command.choice<geometry::FillRule>(
       "--repair", settings.repair,
-      "Make valid polygons of outlines that are not, exactly, by what the rule fills; else they are refused",
+      "Repair outlines that are not valid by this fill rule, exactly; if not given, they are refused",
       {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
   command.option("--simplify", &settings.simplify, "M",
-                 "Leave out vertices, each at most so far from the outline that is left [m]", between(0, 1e4));
-  command.option("--min-area", &settings.least_area, "M2", "Drop smaller floes [m²]", between(0, 1e12));
-  command.option("--gap", &settings.gap, "M", "Least distance between floes: the smaller of two is trimmed to it [m]",
-                 between(0, 1e3));
+                 "Leave out vertices within this distance of the remaining outline [m]", between(0, 1e4));
+  command.option("--min-area", &settings.least_area, "M2", "Drop floes with less area [m²]", between(0, 1e12));
+  command.option("--gap", &settings.gap, "M",
+                 "Least distance between floes [m]; the smaller of two floes is trimmed to it", between(0, 1e3));
   const OptionTraits features{.group = "Features and properties"};
-  command.option("--layer", &options.selection.layer, "NAME", "The layer, of a file with several", not_empty(),
+  command.option("--layer", &options.selection.layer, "NAME", "Layer to read, if the file has several", not_empty(),
                  features);
   command.option("--where", &options.selection.where, "SQL",
-                 "Take only features whose properties meet this condition, as ogr2ogr does: \"POLY_TYPE = 'I'\"",
+                 "Read only features whose properties satisfy this condition, as in ogr2ogr: \"POLY_TYPE = 'I'\"",
                  not_empty(), features);
   command.option("--property", &options.properties, "KEY=NAME",
-                 "The file's name for a property, with a factor for its unit, or values for its codes: "
+                 "Name of a property in the file, with a factor for its unit, or values for its codes: "
                  "thickness_m=THICK, thickness_m=CM*0.01, thickness_m=SA[91:0.95 93:1.6]; may be repeated",
                  {}, {.group = features.group, .one_each_time = true});
-  command.option("--nodata", &options.no_data, "N,N", "Numbers that stand for no value in a property: -9,-9999",
+  command.option("--nodata", &options.no_data, "N,N", "Numbers that mean \"no value\" in a property: -9,-9999",
                  not_empty(), features);
 }
 
@@ -461,42 +462,44 @@ Command add_cut(CommandLine& app) {
   const auto tool = [&](const char* name, std::string& value, const char* type, const char* meaning) {
     command.option(name, &value, type, meaning, {}, {.group = "Tools, one of them"});
   };
-  tool("--disc", options->disc, "X,Y,R", "The disc of that centre and radius [m]");
-  tool("--crack", options->crack, "X,Y,ANGLE_DEG", "The straight line through that point, across every floe");
-  tool("--line", options->line, "X0,Y0,X1,Y1", "From end to end; separates where it crosses ice fully");
-  tool("--polygon", options->polygon, "FILE", "Polygons, with holes or not, in any format of FLOES");
-  tool("--ops", options->ops, "FILE", "A JSON list of cuts, in order, each of all pieces");
-  command.choice<io::Keep>("--keep", options->keep, "Which side of a disc or polygon stays; outside if not given",
+  tool("--disc", options->disc, "X,Y,R", "Disc with this centre and radius [m]");
+  tool("--crack", options->crack, "X,Y,ANGLE_DEG",
+       "Straight crack through this point at this angle, across every floe");
+  tool("--line", options->line, "X0,Y0,X1,Y1", "Line between two points; separates a floe if it crosses it completely");
+  tool("--polygon", options->polygon, "FILE", "File of polygons, with or without holes, in any format of FLOES");
+  tool("--ops", options->ops, "FILE", "JSON list of cuts (docs/cut.md), each applied in order to all pieces");
+  command.choice<io::Keep>("--keep", options->keep, "Which side of a disc or polygon is kept; outside if not given",
                            {{"outside", io::Keep::kOutside}, {"inside", io::Keep::kInside}, {"both", io::Keep::kBoth}});
-  command.option("--sagitta", &options->sagitta, "M",
-                 "By how much a disc's polygon may stay inside it [m]; 0.02, or radius/250 if that is less",
-                 between(1e-12, 1e6));
   command.option(
-      "--snap", &options->snap, "M",
-      "Continue an end of a line that stops short of the ice's edge or of another line by at most this [m]; if "
-      "not given, what rounding of the coordinates leaves",
-      between(0, 1e6));
-  command.option("--out", &options->out, "FILE", "The pieces; format by extension, else that of FLOES; - for stdout");
-  command.option("--ledger", &options->ledger, "FILE", "The ledger, JSON; stdout if not given");
+      "--sagitta", &options->sagitta, "M",
+      "Largest distance between a disc and the polygon that replaces it [m]; 0.02, or radius/250 if that is less",
+      between(1e-12, 1e6));
+  command.option("--snap", &options->snap, "M",
+                 "Extend ends of a line to the ice edge or another line within this distance [m]; if not given, only "
+                 "within the rounding of the coordinates",
+                 between(0, 1e6));
+  command.option("--out", &options->out, "FILE",
+                 "File for the pieces; the extension gives the format, otherwise it is that of FLOES; - for stdout");
+  command.option("--ledger", &options->ledger, "FILE", "File for the ledger, JSON; stdout if not given");
   command.choice<geometry::FillRule>(
       "--repair", options->repair,
-      "Make valid polygons of those that are not, exactly, by what the rule fills; else they are refused",
+      "Repair polygons that are not valid by this fill rule, exactly; if not given, they are refused",
       {{"even-odd", geometry::FillRule::kEvenOdd}, {"non-zero", geometry::FillRule::kNonZero}});
   return {command, [options] { return cut_all(*options); }};
 }
 
 Command add_import(CommandLine& app) {
   CommandLine command =
-      app.add_command("import", "Make a floe file of mapped ice: project, repair, part overlaps", kImportExamples);
+      app.add_command("import", "Make a floe file from mapped ice: project, repair, remove overlaps", kImportExamples);
   auto options = std::make_shared<ImportOptions>();
   command.option("file", &options->file, "FILE",
                  "GeoJSON, NDJSON or WKT, recognised by content; any other format that GDAL's ogr2ogr reads; - for "
                  "stdin",
                  {}, {.is_required = true});
-  command.option("--out", &options->out, "FILE", "The floes, GeoJSON in metres; - for stdout", not_empty(),
+  command.option("--out", &options->out, "FILE", "File for the floes, GeoJSON in metres; - for stdout", not_empty(),
                  {.is_required = true});
   command.option("--report", &options->report, "FILE",
-                 "The report, JSON; stdout if not given, unless the floes go there");
+                 "File for the report, JSON; stdout if not given, unless the floes are written there");
   add_plane_options(command, *options);
   add_floe_options(command, *options);
   add_progress(command, options->progress);

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kMark = "{{own}}";                   ///< where the scene stands in the page
+constexpr std::string_view kMark = "{{own}}";                   ///< mark in the page that is replaced by the scene
 constexpr std::uint64_t kLongestPage = std::uint64_t{1} << 26;  ///< [bytes]
 
 std::optional<fs::path> page_file() {

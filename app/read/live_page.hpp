@@ -6,8 +6,8 @@
 
 namespace polynya::app {
 
-/// The page that holds the simulator (docs/browser.md), with a scene in it. It is found beside an installed program, or
-/// in the build folder `browser` beside the program's own; POLYNYA_LIVE_PAGE names another place.
+/// Returns the page that contains the simulator (docs/browser.md), with a scene in it. The page is installed with the
+/// program, or is in the build folder `browser` beside the program's own. POLYNYA_LIVE_PAGE names another place.
 io::Result<std::string> live_page(std::string_view scene);
 
 }  // namespace polynya::app

@@ -18,6 +18,7 @@
 #include "app/read/live_page.hpp"
 #include "io/import/floe_properties.hpp"
 #include "io/import/gdal.hpp"
+#include "io/run/records.hpp"
 #include "io/run/run_reader.hpp"
 #include "io/scene/scene_file.hpp"
 #include "io/text/floe_text.hpp"
@@ -43,13 +44,20 @@ constexpr auto kChannelExamples =
 
 struct MeasureOptions {
   std::string run;
-  std::string out;  ///< folder for channel.csv and channel.geojson; empty: the run's
+  std::string out;  ///< folder for channel.csv and channel.geojson; empty: the run's folder
   std::string ship;
   analysis::ChannelOptions measure;
-  std::string format = "table";  ///< of stdout
-  bool is_json = false;          ///< likewise
+  std::string format = "table";  ///< format of the output on stdout
+  bool is_json = false;          ///< the same as --format json
   ProgressKind progress = ProgressKind::kAuto;
 };
+
+std::string no_ship_named(const std::string& name, const simulation::Scene& scene) {
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < hull_count(scene); ++i) names.push_back(io::hull_name(scene, static_cast<int>(i)));
+  return fmt::format("no ship or structure of the run is named \"{}\"; it has: {}", name,
+                     names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
+}
 
 int measure(const MeasureOptions& options) {
   const auto run = read_run(options.run, options.progress);
@@ -57,7 +65,7 @@ int measure(const MeasureOptions& options) {
   analysis::ChannelOptions wanted = options.measure;
   if (!options.ship.empty()) {
     const int ship = hull_named(run->scene.scene, options.ship);
-    if (ship < 0) return fail(kUsage, fmt::format("the run has no ship \"{}\"", options.ship));
+    if (ship < 0) return fail(kUsage, no_ship_named(options.ship, run->scene.scene));
     wanted.ship = static_cast<std::size_t>(ship);
   }
   const auto channel =
@@ -87,15 +95,15 @@ constexpr auto kExportExamples =
 
 struct ExportOptions {
   std::string run;
-  std::string vtk;           ///< folder; empty: none
-  std::string geojson;       ///< folder; empty: none
-  std::optional<double> at;  ///< instant of the GeoJSON [s]; the end if not given
-  int every = 1;             ///< of VTK: each N-th frame
-  bool is_scene = false;     ///< a scene that continues the run
-  std::string out;           ///< folder of that; empty: one in the run's
+  std::string vtk;           ///< folder; empty: no VTK files
+  std::string geojson;       ///< folder; empty: no GeoJSON files
+  std::optional<double> at;  ///< instant of the GeoJSON [s]; none: the end
+  int every = 1;             ///< only each N-th frame is written as VTK
+  bool is_scene = false;     ///< write a scene that continues the run
+  std::string out;           ///< folder for that scene; empty: a folder in the run's folder
   ProgressKind progress = ProgressKind::kAuto;
-  bool is_in_metres = false;  ///< GeoJSON in the scene's plane though it has an origin
-  views::LayerPlane plane;    ///< of the GeoJSON, else
+  bool is_in_metres = false;  ///< GeoJSON in the scene's plane although the scene has an origin
+  views::LayerPlane plane;    ///< plane of the GeoJSON otherwise
 };
 
 int write_vtk(const io::Run& run, const ExportOptions& options) {
@@ -115,7 +123,7 @@ int write_vtk(const io::Run& run, const ExportOptions& options) {
   return kDone;
 }
 
-/// Into a folder that is made where it is missing; prints their paths.
+/// Writes files to a folder, which is created if necessary, and prints their paths.
 int write_files(const fs::path& folder, const std::vector<std::pair<std::string, std::string>>& files) {
   if (const auto made = make_folder(folder); !made) return fail(kInputOutput, made.error());
   for (const auto& [name, text] : files) {
@@ -130,9 +138,9 @@ int write_geojson(const io::Run& run, double time, const ExportOptions& options)
   views::LayerPlane plane = options.plane;
   const bool has_origin = run.scene.scene.origin.has_value();
   if (!has_origin && !plane.system.empty())
-    return fail(kUsage,
-                fmt::format("--crs {}: the scene has no \"origin\", so that its place on the Earth is not known",
-                            plane.system));
+    return fail(kUsage, fmt::format("--crs {}: the scene has no \"origin\", so its place on the Earth is not known; "
+                                    "add an \"origin\" to the scene, or leave --crs out",
+                                    plane.system));
   if (!has_origin && !options.is_in_metres)
     print_err("note: the scene has no \"origin\"; coordinates are metres in its plane\n");
   if (has_origin && !options.is_in_metres && plane.system.empty()) plane.system = io::kDegreesOnEarth;
@@ -142,7 +150,7 @@ int write_geojson(const io::Run& run, double time, const ExportOptions& options)
   return write_files(options.geojson, *layers);
 }
 
-/// A scene of its own that starts where the run was then.
+/// Writes a scene that starts with the state of the run at a time [s].
 int write_scene(const io::Run& run, double time, const ExportOptions& options) {
   const auto scene =
       with_progress(options.progress, "making the scene", [&] { return views::continued_scene(run, time); });
@@ -157,8 +165,7 @@ int write_scene(const io::Run& run, double time, const ExportOptions& options) {
 
 int export_run(const ExportOptions& options) {
   if (options.vtk.empty() && options.geojson.empty() && !options.is_scene)
-    return fail(kUsage,
-                "--vtk DIR (for ParaView), --geojson DIR (for QGIS) or --scene (to continue the run) is needed");
+    return fail(kUsage, "give --vtk DIR (for ParaView), --geojson DIR (for QGIS) or --scene (to continue the run)");
   const auto run = read_run(options.run, options.progress);
   if (!run) return fail(kInputOutput, run.error());
   const bool has_instant = !options.geojson.empty() || options.is_scene;
@@ -177,34 +184,34 @@ int export_run(const ExportOptions& options) {
 
 constexpr auto kInspectExamples =
     "Examples:\n"
-    "  polynya inspect runs/level-plate                        the floes at the end, a line each\n"
+    "  polynya inspect runs/level-plate                        the floes at the end, one per line\n"
     "  polynya inspect runs/level-plate --at 30                at 30 s\n"
     "  polynya inspect runs/level-plate --floe 17 --format geojson > floe-17.geojson\n"
-    "  polynya inspect runs/level-plate --lineage 17           the fractures that led to it\n"
-    "  polynya inspect runs/level-plate --events               what broke, met and went under\n"
-    "  polynya inspect runs/level-plate --check                validity, areas, overlaps, last places\n"
+    "  polynya inspect runs/level-plate --lineage 17           the fractures that led to floe 17\n"
+    "  polynya inspect runs/level-plate --events               fractures, contacts of ships, ice under hulls\n"
+    "  polynya inspect runs/level-plate --check                check files, polygons, areas and overlaps\n"
     "  polynya inspect runs/level-plate --fsd                  floe size distribution\n"
     "  polynya inspect runs/level-plate --accounts             where ice, energy and momentum went\n"
-    "  polynya inspect runs/level-plate --json                 each of these but a shape as JSON\n"
+    "  polynya inspect runs/level-plate --json                 any of these except a shape as JSON\n"
     "\n"
     "Exit codes: 0 done, 2 usage, 4 --check found the run not sound, 5 input/output.\n";
 
 struct InspectOptions {
   std::string run;
-  std::optional<double> at;       ///< [s]; the end of the run if not given
-  std::optional<FloeId> floe;     ///< its shape
-  bool is_geojson = false;        ///< else WKT
-  std::optional<FloeId> lineage;  ///< the fractures that led to it
+  std::optional<double> at;       ///< [s]; none: the end of the run
+  std::optional<FloeId> floe;     ///< floe whose shape is printed
+  bool is_geojson = false;        ///< true: GeoJSON; false: WKT
+  std::optional<FloeId> lineage;  ///< floe whose lineage is printed
   bool events = false;
   bool check = false;
   bool fsd = false;
   bool accounts = false;
   ProgressKind progress = ProgressKind::kAuto;
-  bool json = false;  ///< the report as JSON; a floe's shape has its own formats
+  bool json = false;  ///< the report as JSON; the shape of a floe has its own formats
 };
 
 std::string unknown_floe(const io::Run& run, FloeId id) {
-  return fmt::format("there is no floe {}; they go from 0 to {}", id, std::ssize(run.floes) - 1);
+  return fmt::format("there is no floe {}; the run has floes 0 to {}", id, std::ssize(run.floes) - 1);
 }
 
 int print_floe(const io::Run& run, const InspectOptions& options) {
@@ -270,9 +277,10 @@ int inspect(const InspectOptions& options) {
 
 // ---- polynya view
 
+/// Time between two looks at the scene's file with --watch.
 constexpr auto kBetweenLooks = std::chrono::milliseconds(300);
 
-/// The page beside its scene, and with `watch` the script by which pages that are open learn of it.
+/// Writes the page of a scene, and with `watch` the script by which open pages learn of the new version.
 io::Result<> write_page(const io::LoadedScene& scene, const std::string& out, bool watch) {
   const std::string stamp = fmt::format("{:x}", std::chrono::system_clock::now().time_since_epoch().count());
   const fs::path stamp_file = watch ? fs::path(out + ".js") : fs::path();
@@ -297,8 +305,8 @@ int write_once(const std::string& file, const std::string& out, bool watch) {
   return kDone;
 }
 
-/// `polynya view SCENE.json --live`: the page that holds the simulator, with this scene in it. Floe files are read into
-/// it.
+/// `polynya view SCENE.json --live`: writes the page that contains the simulator with this scene. The floes of its floe
+/// files are included.
 int write_live_view(const std::string& file, const std::string& out) {
   const std::string to = out.empty() ? fs::path(file).replace_extension(".html").string() : out;
   const auto scene = io::read_scene_file(file);
@@ -315,8 +323,8 @@ int write_live_view(const std::string& file, const std::string& out) {
   return kDone;
 }
 
-/// `polynya view SCENE.json`: the page of a scene that has not run, beside it as SCENE.html if `out` is empty. With
-/// `watch` again each time that the scene's file changes, until a signal.
+/// `polynya view SCENE.json`: writes the page of a scene that has not run, as SCENE.html beside the scene if `out` is
+/// empty. With `watch` it is written again each time the scene's file changes, until a signal stops the program.
 int write_scene_view(const std::string& scene, const std::string& out, bool watch) {
   const std::string page = out.empty() ? fs::path(scene).replace_extension(".html").string() : out;
   int code = write_once(scene, page, watch);
@@ -324,10 +332,10 @@ int write_scene_view(const std::string& scene, const std::string& out, bool watc
   watch_signals();
   std::error_code error;
   for (auto last = fs::last_write_time(scene, error); stop_signal() == 0; std::this_thread::sleep_for(kBetweenLooks)) {
-    const auto now = fs::last_write_time(scene, error);  // an editor may have the file away for an instant
+    const auto now = fs::last_write_time(scene, error);  // editors may remove the file for a moment while they save it
     if (error || now == last) continue;
     last = now;
-    code = write_once(scene, page, watch);  // what is wrong is on stderr; the page stays as it was
+    code = write_once(scene, page, watch);  // errors are printed on stderr, and the page stays unchanged
   }
   if (fs::remove(page + ".js", error); error) return fail(kInputOutput, error.message());
   return code;
@@ -340,23 +348,24 @@ constexpr auto kViewExamples =
     "  polynya view runs/long --every 5 --from 100 --until 400\n"
     "  polynya view runs/wide --area 0,-200,900,200            only floes that come within 900 x 400 m\n"
     "  polynya view runs/6a runs/6b --out both.html            side by side, with one clock\n"
-    "  polynya view scene.json --watch                         a scene before it runs; again when its file is saved\n"
-    "  polynya view scene.json --live                          a page that runs it, with the simulator in it\n"
+    "  polynya view scene.json --watch                         a scene before it runs; written again when its file is "
+    "saved\n"
+    "  polynya view scene.json --live                          a page that contains the simulator and runs the scene\n"
     "\n"
     "Exit codes: 0 done, 2 usage (also: larger than --limit), 5 input/output.\n";
 
 struct ViewOptions {
-  std::vector<std::string> runs;    ///< one, or two side by side
-  std::vector<std::string> labels;  ///< of two; chosen if empty
-  std::string out;                  ///< empty: view.html in the run folder
+  std::vector<std::string> runs;    ///< one run, or two that are shown side by side
+  std::vector<std::string> labels;  ///< names of two runs; empty: they are chosen
+  std::string out;                  ///< empty: view.html in the run's folder
   views::PlayerSelection part;
-  std::vector<double> area;     ///< x0, y0, x1, y1 [m]; of `part` once it is checked
-  bool is_watched = false;      ///< a scene whose page is written again when its file changes
-  bool is_live = false;         ///< a scene in the page that holds the simulator
+  std::vector<double> area;     ///< x0, y0, x1, y1 [m]; it becomes part of `part` after checking
+  bool is_watched = false;      ///< write the page of a scene again when its file changes
+  bool is_live = false;         ///< write the page that contains the simulator
   double most_megabytes = 100;  ///< a larger page is refused [10⁶ bytes]
 };
 
-/// A run as it is read, with what the page holds of it.
+/// A run that was read, with the data for its page.
 struct ViewedRun {
   io::Run run;
   views::PlayerData data;
@@ -367,14 +376,15 @@ Outcome<ViewedRun> read_viewed(const std::string& folder, const views::PlayerSel
   if (!run) return failure(kInputOutput, run.error());
   views::PlayerData data = views::player_data(*run, part);
   if (data.frames == 0 && !run->frames.empty())
-    return failure(kUsage, fmt::format("no frame of {} is in that part; they go from {:g} to {:g} s", folder,
+    return failure(kUsage, fmt::format("{} has no frame in that part; its frames are from {:g} to {:g} s", folder,
                                        run->start_time(), run->end_time()));
   if (data.floes == 0 && !run->floes.empty())
     return failure(kUsage, fmt::format("no floe of {} comes within --area", folder));
   return ViewedRun{std::move(*run), std::move(data)};
 }
 
-/// What two runs are called: as their scenes, their folders, or their whole paths; the first of these that differ.
+/// Returns names for two runs: the names of their scenes, or their folders, or their whole paths, whichever is the
+/// first to differ.
 std::array<std::string, 2> labels_of(const std::vector<ViewedRun>& viewed, const ViewOptions& options) {
   if (!options.labels.empty()) return {options.labels[0], options.labels[1]};
   const auto both = [&](auto name) { return std::array<std::string, 2>{name(0), name(1)}; };
@@ -393,24 +403,25 @@ std::string page_of(const std::vector<ViewedRun>& viewed, const ViewOptions& opt
   return views::pair_page({{{viewed[0].data, labels[0]}, {viewed[1].data, labels[1]}}});
 }
 
-/// What of a page too large takes the room, and the options that leave some of it out.
+/// Says what makes a page too large, and which options leave parts of it out.
 std::string too_large(const std::vector<ViewedRun>& viewed, const ViewOptions& options, double megabytes) {
   std::size_t floes = 0, frames = 0, floe_bytes = 0, frame_bytes = 0;
   for (const auto& [run, data] : viewed) {
     floes += data.floes, frames += data.frames;
     floe_bytes += data.floe_bytes, frame_bytes += data.frame_bytes;
   }
-  const auto in_page = [](std::size_t bytes) { return static_cast<double>(bytes) * 4 / 3 / 1e6; };  // base64
+  // Base64 makes them longer by a third.
+  const auto in_page = [](std::size_t bytes) { return static_cast<double>(bytes) * 4 / 3 / 1e6; };
   return fmt::format(
-      "the page would have {:.0f} MB, the limit is {:g}: {:.3g} MB of it are the shapes of {}, which --area limits, "
-      "{:.3g} MB where they are in {}, which --every, --from and --until limit; or --limit {:.0f}",
+      "the page would have {:.0f} MB, more than --limit {:g}: {:.3g} MB are shapes of {} (--area keeps fewer), {:.3g} "
+      "MB are positions in {} (--every, --from and --until keep fewer); or give --limit {:.0f}",
       megabytes, options.most_megabytes, in_page(floe_bytes), counted(floes, "floe"), in_page(frame_bytes),
       counted(frames, "frame"), std::ceil(megabytes));
 }
 
-/// What is wrong with the options; empty where nothing is.
+/// Returns a message about options that contradict each other; empty if there is none.
 std::string problem_of(const ViewOptions& options) {
-  if (options.runs.size() == 2 && options.out.empty()) return "two runs: --out FILE has to state where their page goes";
+  if (options.runs.size() == 2 && options.out.empty()) return "two runs need --out FILE for their page";
   if (!options.labels.empty() && (options.runs.size() != 2 || options.labels.size() != 2))
     return fmt::format("--label: {} for {}; two names for two runs", counted(options.labels.size(), "name"),
                        counted(options.runs.size(), "run"));
@@ -419,7 +430,7 @@ std::string problem_of(const ViewOptions& options) {
   return "";
 }
 
-/// "276 frames, 491 floes, 356 events", of several runs one after the other.
+/// Returns "276 frames, 491 floes, 356 events", for several runs one after the other.
 std::string contents(const std::vector<ViewedRun>& viewed) {
   std::vector<std::string> all;
   all.reserve(viewed.size());
@@ -464,16 +475,18 @@ Command add_channel(CommandLine& app) {
   CommandLine command = app.add_command("channel", "Measure the channel behind a ship", kChannelExamples);
   auto options = std::make_shared<MeasureOptions>();
   add_run_folder(command, options->run);
-  command.option("--at", &options->measure.time, "S", "At that time instead of the end [s]", finite());
-  command.option("--ship", &options->ship, "NAME", "Which ship; the first one if not given");
-  command.option("--spacing", &options->measure.spacing, "M", "Length of a station [m]; the beam if not given",
-                 between(0.1, 1e5));
+  command.option("--at", &options->measure.time, "S", "Time [s]; the end of the run if not given", finite());
+  command.option("--ship", &options->ship, "NAME", "Name of the ship; the first one if not given");
+  command.option("--spacing", &options->measure.spacing, "M",
+                 "Length of a station along the track [m]; the ship's beam if not given", between(0.1, 1e5));
   command.option("--reach", &options->measure.reach, "M",
-                 "How far from the track ice is searched [m]; four beams if not given", between(0.1, 1e5));
-  command.choice<std::string>("--format", options->format, "What stdout gets; json: as --json",
+                 "Distance to either side of the track within which ice is searched [m]; four beams if not given",
+                 between(0.1, 1e5));
+  command.choice<std::string>("--format", options->format, "Format of the output on stdout; json is the same as --json",
                               {{"table", "table"}, {"csv", "csv"}, {"json", "json"}});
-  command.flag("--json", options->is_json, "Print the sums as JSON instead of the table", {.excludes = {"--format"}});
-  command.option("--out", &options->out, "DIR", "Folder for channel.csv and channel.geojson; the run's if not given");
+  command.flag("--json", options->is_json, "Print totals as JSON instead of the table", {.excludes = {"--format"}});
+  command.option("--out", &options->out, "DIR",
+                 "Folder for channel.csv and channel.geojson; the run folder if not given");
   add_progress(command, options->progress);
   return {command, [options] { return measure(*options); }};
 }
@@ -484,47 +497,50 @@ Command add_export(CommandLine& app) {
   auto options = std::make_shared<ExportOptions>();
   add_run_folder(command, options->run);
   command.option("--vtk", &options->vtk, "DIR", "Folder for run.pvd and its .vtp frames");
-  command.option("--every", &options->every, "N", "Of VTK only each N-th frame, and the last", whole(1, 1000000));
+  command.option("--every", &options->every, "N", "Write only each N-th frame, and the last one, as VTK",
+                 whole(1, 1000000));
   command.option("--geojson", &options->geojson, "DIR",
-                 "Folder for floes, fractures, tracks and channel as GeoJSON: longitude and latitude where the "
-                 "scene has an origin, metres where not");
-  command.option("--at", &options->at, "S", "Instant of GeoJSON and scene [s]; the end if not given", finite());
+                 "Folder for floes, fractures, tracks and channel as GeoJSON, in longitude and latitude if the scene "
+                 "has an origin, otherwise in metres");
+  command.option("--at", &options->at, "S", "Time of the GeoJSON and of the scene [s]; the end of the run if not given",
+                 finite());
   command.flag("--scene", options->is_scene,
-               "A scene of its own, scene.json and floes.geojson, that starts where the run was then");
-  command.option("--out", &options->out, "DIR", "Folder of the scene; one in the run's if not given", not_empty());
-  command.flag("--metres", options->is_in_metres, "GeoJSON in metres though the scene has an origin");
+               "Write a scene (scene.json and floes.geojson) that continues from the state of the run at that time");
+  command.option("--out", &options->out, "DIR", "Folder for the scene; a folder in the run folder if not given",
+                 not_empty());
+  command.flag("--metres", options->is_in_metres, "GeoJSON in metres even if the scene has an origin");
   command.option("--crs", &options->plane.system, "EPSG:n",
-                 "GeoJSON in this coordinate system in place of longitude and latitude on WGS 84", not_empty(),
+                 "GeoJSON in this coordinate system instead of longitude and latitude on WGS 84", not_empty(),
                  {.excludes = {"--metres"}});
-  command.option(
-      "--tolerance", &options->plane.tolerance, "M",
-      "Of GeoJSON: add points to edges that are not straight in its coordinates, until they are this near to "
-      "it [m]; 0: none",
-      between(0, 1e5));
+  command.option("--tolerance", &options->plane.tolerance, "M",
+                 "Add points to edges that are not straight in the GeoJSON's coordinates until they are within this "
+                 "distance of their true course [m]; 0: none",
+                 between(0, 1e5));
   add_progress(command, options->progress);
   return {command, [options] { return export_run(*options); }};
 }
 
 Command add_inspect(CommandLine& app) {
-  CommandLine command = app.add_command("inspect", "Show the floes of a run", kInspectExamples);
+  CommandLine command =
+      app.add_command("inspect", "Show floes, events and balances of a run, or check it", kInspectExamples);
   auto options = std::make_shared<InspectOptions>();
   add_run_folder(command, options->run);
-  command.option("--at", &options->at, "T", "At that time; the end of the run if not given [s]", finite());
+  command.option("--at", &options->at, "T", "Time [s]; the end of the run if not given", finite());
   command.option("--floe", &options->floe, "N",
-                 "The shape of one floe: in its body frame, or with --at where it was in the world");
-  command.option("--lineage", &options->lineage, "N", "The tree of fractures that led to a floe", {},
+                 "Shape of a floe: in its body frame, or with --at at its place in the world");
+  command.option("--lineage", &options->lineage, "N", "Tree of the fractures that led to a floe", {},
                  {.excludes = {"--floe"}});
-  command.flag("--events", options->events, "Every event of the run: fractures, ships that meet, moorings that break",
+  command.flag("--events", options->events, "All events of the run: fractures, contacts of ships, broken moorings",
                {.excludes = {"--floe", "--lineage"}});
-  command.flag("--check", options->check, "Recompute validity, areas, overlaps and last places of the whole run",
+  command.flag("--check", options->check, "Check files, polygons, areas, overlaps and final positions of the whole run",
                {.excludes = {"--floe", "--lineage", "--events"}});
-  command.flag("--fsd", options->fsd, "The distribution of floe sizes",
+  command.flag("--fsd", options->fsd, "Floe size distribution",
                {.excludes = {"--floe", "--lineage", "--events", "--check"}});
-  command.flag("--accounts", options->accounts, "Where ice, energy and momentum went by the end, moorings included",
+  command.flag("--accounts", options->accounts, "Balances of ice, energy, moorings and momentum at the end",
                {.excludes = {"--at", "--floe", "--lineage", "--events", "--check", "--fsd"}});
-  command.choice<bool>("--format", options->is_geojson, "Of --floe; wkt if not given",
+  command.choice<bool>("--format", options->is_geojson, "Format of the shape of --floe; wkt if not given",
                        {{"wkt", false}, {"geojson", true}}, {.needs = "--floe"});
-  command.flag("--json", options->json, "Print the report as JSON; a shape: --format geojson",
+  command.flag("--json", options->json, "Print the report as JSON; for a shape use --format geojson",
                {.excludes = {"--floe"}});
   add_progress(command, options->progress);
   return {command, [options] { return inspect(*options); }};
@@ -532,32 +548,35 @@ Command add_inspect(CommandLine& app) {
 
 Command add_view(CommandLine& app) {
   CommandLine command = app.add_command(
-      "view", "Write a page that plays a run, or two side by side, or shows a scene, in any browser, offline",
+      "view",
+      "Write a page that plays a run, or two runs side by side, or shows a scene, in any browser without a network",
       kViewExamples);
   auto options = std::make_shared<ViewOptions>();
-  command.option("run", &options->runs, "RUN", "The run folder, two to be shown side by side, or a scene, SCENE.json",
-                 {}, {.is_required = true, .most = 2});
+  command.option("run", &options->runs, "RUN",
+                 "A run folder, two run folders to be shown side by side, or a scene file, SCENE.json", {},
+                 {.is_required = true, .most = 2});
   command.option("--out", &options->out, "FILE",
-                 "The page; view.html in the run folder, or beside the scene, if not given");
+                 "File for the page; if not given, view.html in the run folder, or SCENE.html beside the scene");
   command.flag("--watch", options->is_watched,
-               "Of a scene: write the page again whenever the file is saved, until Ctrl-C");
-  command.flag("--live", options->is_live, "Of a scene: a page that holds the simulator and runs the scene by itself",
+               "For a scene: write the page again whenever the file is saved, until Ctrl-C");
+  command.flag("--live", options->is_live, "For a scene: a page that contains the simulator and runs the scene",
                {.excludes = {"--watch"}});
-  command.option("--label", &options->labels, "NAME,NAME", "Names of two runs", {}, {.delimiter = ','});
-  command.option("--every", &options->part.frames.every, "N", "Only each N-th frame, and the last", whole(1, 1000000));
-  command.option("--from", &options->part.frames.from, "S", "Only from that time on [s]", finite());
-  command.option("--until", &options->part.frames.until, "S", "Only up to that time [s]", finite());
-  command.option("--area", &options->area, "X0,Y0,X1,Y1",
-                 "Only floes that come within that part of the world [m], and what broke from the same floes of the "
-                 "scene",
-                 finite(), {.delimiter = ',', .least = 4, .most = 4});
-  command.option("--limit", &options->most_megabytes, "MB", "The largest page to write [MB]; 100 if not given",
+  command.option("--label", &options->labels, "NAME,NAME", "Names of the two runs on the page", {}, {.delimiter = ','});
+  command.option("--every", &options->part.frames.every, "N", "Keep only each N-th frame, and the last one",
+                 whole(1, 1000000));
+  command.option("--from", &options->part.frames.from, "S", "Show the run only from this time on [s]", finite());
+  command.option("--until", &options->part.frames.until, "S", "Show the run only up to this time [s]", finite());
+  command.option(
+      "--area", &options->area, "X0,Y0,X1,Y1",
+      "Keep only floes that come within this part of the world [m], and floes from the same floes of the scene",
+      finite(), {.delimiter = ',', .least = 4, .most = 4});
+  command.option("--limit", &options->most_megabytes, "MB", "Refuse a page larger than this [MB]; 100 if not given",
                  between(0.001, 2000));
   return {command, [options] { return write_view(*options); }};
 }
 
-/// Checks a run folder by reading it. Commands that are written in Python call this before they read the folder
-/// themselves. It is not in the help.
+/// Checks a run folder by reading it. Commands in Python call this before they read the folder themselves. The help
+/// does not list it.
 Command add_read_run(CommandLine& app) {
   CommandLine command = app.add_command("read-run", "", "");
   auto folder = std::make_shared<std::string>();

@@ -32,7 +32,7 @@ struct FmuOptions {
   std::vector<std::string> set;
 };
 
-/// Adds the path of a loaded library to a list, if it is one of the two that the unit needs beside it.
+/// Adds the path of a loaded library to a list, if it is one of the two that the unit needs.
 int add_needed(dl_phdr_info* info, std::size_t, void* list) {
   const fs::path path = info->dlpi_name;
   const std::string name = path.filename().string();
@@ -41,8 +41,8 @@ int add_needed(dl_phdr_info* info, std::size_t, void* list) {
   return 0;
 }
 
-/// Returns the unit's library and the shared libraries of GMP and MPFR with which this program runs. The unit's library
-/// is beside the program's folder in the build tree, and below lib/polynya once installed.
+/// Returns the library of the unit, and the shared libraries of GMP and MPFR that this program uses. The unit's library
+/// is beside the program's folder in the build tree, and below lib/polynya in an installation.
 io::Result<std::vector<fs::path>> unit_libraries() {
   std::error_code error;
   const fs::path above = fs::read_symlink("/proc/self/exe", error).parent_path().parent_path();
@@ -74,8 +74,8 @@ int make_unit(const FmuOptions& options) {
   }
   if (scene->scene.ships.empty() && scene->scene.structures.empty())
     return fail(kUsage, fmt::format("{}: a unit needs a ship or a structure; the scene has neither", name));
-  // The scene as it is written, so that what follows from its keys also follows from parameters. Files and values of
-  // the command line are only in the resolved one.
+  // The unit gets the scene as the user wrote it, so that values that follow from its keys also follow from parameters.
+  // With floe files or values of the command line it gets the resolved scene, because only that contains them.
   const bool is_whole = scene->files.empty() && options.set.empty();
   const auto libraries = unit_libraries();
   if (!libraries) return fail(kInputOutput, libraries.error());
@@ -91,10 +91,10 @@ int make_unit(const FmuOptions& options) {
 }  // namespace
 
 Command add_fmu(CommandLine& app) {
-  CommandLine command = app.add_command("fmu", "Make a co-simulation unit (FMI 2.0) of a scene", kFmuExamples);
+  CommandLine command = app.add_command("fmu", "Make a co-simulation unit (FMI 2.0) from a scene", kFmuExamples);
   auto options = std::make_shared<FmuOptions>();
   add_scene(command, options->scene);
-  command.option("--out", &options->out, "FILE.fmu", "The unit to write", not_empty(), {.is_required = true});
+  command.option("--out", &options->out, "FILE.fmu", "File for the unit", not_empty(), {.is_required = true});
   add_set(command, options->set);
   return {command, [options] { return make_unit(*options); }};
 }

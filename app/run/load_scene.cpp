@@ -17,7 +17,7 @@ using simulation::LognormalSizes;
 using simulation::PowerLawSizes;
 
 std::string against(const EqualSizes& law, const FieldStatistics& field) {
-  return fmt::format("equal sizes of {:g} m asked for, none further off than {:.2g} %", law.size,
+  return fmt::format("equal sizes of {:g} m requested, largest deviation {:.2g} %", law.size,
                      100 * field.distance_to_law);
 }
 
@@ -25,7 +25,7 @@ std::string against(const LognormalSizes& law, const FieldStatistics& field) {
   const auto* fitted = field.fitted ? std::get_if<LognormalSizes>(&*field.fitted) : nullptr;
   if (!fitted) return against(EqualSizes{law.mean}, field);
   return fmt::format(
-      "log-normal sizes of {:g} m ± {:.3g} % asked for, {:.4g} m ± {:.3g} % likeliest; Kolmogorov-Smirnov distance "
+      "log-normal sizes of {:g} m ± {:.3g} % requested, {:.4g} m ± {:.3g} % fitted; Kolmogorov-Smirnov distance "
       "{:.4f}",
       law.mean, 100 * law.spread, fitted->mean, 100 * fitted->spread, field.distance_to_law);
 }
@@ -33,12 +33,12 @@ std::string against(const LognormalSizes& law, const FieldStatistics& field) {
 std::string against(const PowerLawSizes& law, const FieldStatistics& field) {
   const auto* fitted = field.fitted ? std::get_if<PowerLawSizes>(&*field.fitted) : nullptr;
   return fmt::format(
-      "power law of exponent {:g} from {:g} to {:g} m asked for, exponent {:.4g} likeliest; Kolmogorov-Smirnov "
+      "power law of exponent {:g} from {:g} to {:g} m requested, exponent {:.4g} fitted; Kolmogorov-Smirnov "
       "distance {:.4f}",
       law.exponent, law.least, law.largest, fitted ? fitted->exponent : 0, field.distance_to_law);
 }
 
-/// "2.15 GB"
+/// Returns an amount of memory as "2.15 GB".
 std::string amount_of_memory(double bytes) {
   return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.3g} GB", bytes / 1e9);
 }
@@ -94,14 +94,16 @@ void print_fields(const io::LoadedScene& scene) {
 bool may_fit(const simulation::Scene& scene, const std::string& name, const io::MemoryAvailable& available) {
   const simulation::MemoryEstimate needed = simulation::estimate_memory(scene);
   if (needed.at_start > available.bytes) {
-    print_err("polynya: {}: {} take at least {} of memory, and there are {} ({}); nothing was written; {}\n", name,
+    print_err("polynya: {}: {} need at least {} of memory, and {} are available ({}); nothing was written; {}\n", name,
               counted(scene.floes.size(), "floe"), amount_of_memory(needed.at_start), amount_of_memory(available.bytes),
               available.source, kToNeedLessMemory);
     return false;
   }
   if (needed.all_moving > available.bytes) {
-    print_err("note: {}: the run takes about {} of memory if all floes come to move and touch, and there are {} ({})\n",
-              name, amount_of_memory(needed.all_moving), amount_of_memory(available.bytes), available.source);
+    print_err(
+        "note: {}: the run takes about {} of memory if all floes move and touch each other, and {} are available "
+        "({})\n",
+        name, amount_of_memory(needed.all_moving), amount_of_memory(available.bytes), available.source);
   }
   return true;
 }
@@ -109,7 +111,7 @@ bool may_fit(const simulation::Scene& scene, const std::string& name, const io::
 void print_folder_size(const simulation::Scene& scene, bool has_final_geojson) {
   if (scene.floes.size() <= io::kMostFloesInFinal) return;
   const io::FolderSize size = io::estimate_folder_size(scene);
-  print_err("note: {} begin floes.ndjson with about {}; final.geojson, about {}, {}\n",
+  print_err("note: for {}, floes.ndjson starts with about {}; final.geojson, about {}, {}\n",
             counted(scene.floes.size(), "floe"), amount_of_memory(size.floes), amount_of_memory(size.final_geojson),
             has_final_geojson ? "is written at the end" : "is written only with --final-geojson");
 }
@@ -117,7 +119,8 @@ void print_folder_size(const simulation::Scene& scene, bool has_final_geojson) {
 std::string out_of_memory() {
   const io::MemoryAvailable available = io::memory_available();
   if (!std::isfinite(available.bytes)) return "out of memory";
-  return fmt::format("out of memory: there are {} in all ({})", amount_of_memory(available.bytes), available.source);
+  return fmt::format("out of memory: {} are available in total ({})", amount_of_memory(available.bytes),
+                     available.source);
 }
 
 }  // namespace polynya::app

@@ -10,29 +10,30 @@
 
 namespace polynya::app {
 
-/// The scene of that file, or of stdin where its name is "-" (floe files are then searched in the working
-/// folder), with its progress on stderr. Where it cannot be read or is wrong, every problem has been printed,
-/// and it is the code to exit with: a line each on stderr, with `as_json` as one array on stdout.
+/// Reads the scene of a file, with progress on stderr, or that of stdin if the name is "-"; its floe files are then
+/// searched for in the working folder. If the scene cannot be read or is wrong, all problems are printed, one per line
+/// on stderr, or with `as_json` as one array on stdout, and the exit code is returned.
 Outcome<io::LoadedScene> load_scene(const std::string& file, const io::SceneOverrides& overrides = {},
                                     ProgressKind progress = ProgressKind::kNone, bool as_json = false);
 
-/// Each problem of that file on stderr, a line each, and how many there are.
+/// Prints each problem of a file on stderr, one per line, and their number.
 void print_problems(const std::string& name, const std::vector<io::Problem>& problems);
 
-/// How the scene's random fields came out, on stdout: sizes, cover, and of a size law how near the floes are to it.
+/// Prints the result of the scene's random fields on stdout: sizes, cover, and for a law of sizes how well the floes
+/// follow it.
 void print_fields(const io::LoadedScene& scene);
 
-/// Whether a run of a scene may fit into memory. Where it surely does not, that is reported on stderr; where
-/// it does only while most of the ice rests, a note is. `name` stands in messages.
+/// Checks whether a run of a scene can fit into memory. If it certainly cannot, this is reported on stderr and false is
+/// returned. If it can only while most of the ice rests, a note is printed. `name` names the scene in messages.
 bool may_fit(const simulation::Scene& scene, const std::string& name, const io::MemoryAvailable& available);
 
-/// Prints how large the files with all floes become, where they are many (io/run/run_folder.hpp).
+/// Prints how long the files with all floes will be, if there are many floes (io/run/run_folder.hpp).
 void print_folder_size(const simulation::Scene& scene, bool has_final_geojson);
 
-/// The message where memory ran out, with how much there is.
+/// Returns the message for a lack of memory, with the available amount.
 std::string out_of_memory();
 
-/// What there is to be done about it.
+/// Advice at the end of that message.
 inline constexpr const char* kToNeedLessMemory =
     "use fewer floes, fewer vertices or larger contact circles (contact.circle_radius_m), or more memory";
 

@@ -26,17 +26,17 @@ namespace fs = std::filesystem;
 using io::RunEnd;
 using simulation::Simulation;
 
-// ---- driving a run
+// ---- carrying out a run
 
-/// How a run is driven, whether it starts or is resumed.
+/// Options of a run, whether it is started or resumed.
 struct DriverOptions {
   io::RunControl control;
   ProgressKind progress = ProgressKind::kAuto;
-  bool no_map = false;  ///< leave out the picture of the end
+  bool no_map = false;  ///< leave out the picture of the last frame
 };
 
-/// Draws the map of the last frame into the run's folder; the picture's name. None, and a note, where the
-/// folder is too large to be read back.
+/// Draws the map of the last frame into the run's folder. Returns the name of the picture; empty, with a note on
+/// stderr, if the folder is too large to be read back.
 io::Result<std::string> draw_map(const fs::path& folder) {
   const auto run = io::read_run(folder);
   if (!run) {
@@ -57,7 +57,7 @@ std::optional<std::string> reason_to_stop() {
   return signal == 2 ? "SIGINT" : signal == 15 ? "SIGTERM" : fmt::format("signal {}", signal);
 }
 
-/// What stopped the run, and how to continue it.
+/// Reports why the run stopped, and how to continue it.
 void report_stop(const io::ActiveRun& run, const io::RunResult& result) {
   const std::string folder = run.writer.folder().string();
   print_err("polynya: stopped at {:.6g} s: {}\n", result.summary.sim_time, result.reason);
@@ -80,7 +80,7 @@ void report_dump(const std::string& folder, const io::Result<>& dump) {
 }
 
 ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
-  { const Simulation freed = std::move(run.simulation); }  // makes room for the map
+  { const Simulation freed = std::move(run.simulation); }  // frees memory for the map
   const fs::path& folder = run.writer.folder();
   const io::Result<std::string> picture = no_map || result.end == RunEnd::kFolderFailure ? "" : draw_map(folder);
   if (!picture) {
@@ -102,15 +102,15 @@ ExitCode report(io::ActiveRun& run, io::RunResult result, bool no_map) {
 
 void add_run_options(CommandLine& command, DriverOptions& options) {
   io::RunControl& control = options.control;
-  command.option("--threads", &control.threads, "N", "Threads to step on; results do not depend on it", whole(1, 1024));
+  command.option("--threads", &control.threads, "N", "Number of threads; results do not depend on it", whole(1, 1024));
   command.option("--checkpoint-every", &control.checkpoint_every, "S",
-                 "Simulated time between checkpoints, beside those by the clock [s]", between(1e-5, 1e7));
+                 "Simulated time between checkpoints, in addition to those by wall time [s]", between(1e-5, 1e7));
   command.option("--checkpoint-every-wall", &control.checkpoint_every_wall, "S",
-                 "Time by the clock between checkpoints, 60 if not given; 0: none by the clock [s]", between(0, 1e7));
-  command.flag("--check", control.check, "Recompute every cross-index and sum after every step; stop if one differs");
+                 "Wall time between checkpoints [s]; 60 if not given, 0: none by wall time", between(0, 1e7));
+  command.flag("--check", control.check, "Check the whole state after every step, and stop at the first fault; slow");
   command.flag("--no-map", options.no_map, "Do not draw final.svg and final.png");
   command.flag("--final-geojson", control.final_geojson,
-               fmt::format("Write final.geojson also of more than {} floes", io::kMostFloesInFinal));
+               fmt::format("Write final.geojson even if there are more than {} floes", io::kMostFloesInFinal));
   add_progress(command, options.progress);
 }
 
@@ -127,7 +127,7 @@ ProgressReport progress_of(const io::RunStatus& at, double until, double wall_ti
                       sim_time, until, wall, rate, left, at.fractures)};
 }
 
-/// Takes a run to its end, or to what stops it (io/run/run_loop.hpp), and prints the result.
+/// Carries a run to its end, or until something stops it (io/run/run_loop.hpp), and prints the result.
 ExitCode drive_run(io::ActiveRun run, const DriverOptions& options) {
   ProgressOutput output(options.progress);
   const double until = run.scene.scene.time.until;
@@ -142,15 +142,15 @@ ExitCode drive_run(io::ActiveRun run, const DriverOptions& options) {
   return report(run, result, options.no_map);
 }
 
-/// Does what makes or continues the run of a folder; where memory runs out, it reports that and what to do:
-/// it is as if the run had been killed.
+/// Calls a function that starts or continues the run of a folder. If memory runs out, reports this and what to do; the
+/// folder is then like that of a killed run.
 template <class Work>
 int within_memory(const fs::path& folder, Work make_or_continue) {
   try {
     return make_or_continue();
   } catch (const std::bad_alloc&) {
     print_err("polynya: {}\n", out_of_memory());
-    print_err("polynya: {} is that of a run that was killed; {}\n", folder.string(), kToNeedLessMemory);
+    print_err("polynya: {} is now like the folder of a killed run; {}\n", folder.string(), kToNeedLessMemory);
     print_err("polynya: with more memory, continue from its newest checkpoint with: polynya resume {}\n",
               folder.string());
     return kOutOfMemory;
@@ -165,7 +165,7 @@ struct RunOptions {
   std::optional<double> until;  ///< [s]
   std::optional<std::uint64_t> seed;
   std::vector<std::string> set;
-  std::optional<double> panel;  ///< [m]
+  std::optional<double> panel;  ///< length of panels [m]
   bool overwrite = false;
   DriverOptions driver;
 };
@@ -213,13 +213,13 @@ int run(const RunOptions& options) {
 
 struct ResumeOptions {
   std::string folder;
-  std::string checkpoint;       ///< empty: the newest
-  std::optional<double> until;  ///< instead of the scene's [s]
-  bool from_failure = false;    ///< only repeats the step that a failure was dumped for
+  std::string checkpoint;       ///< empty: the newest checkpoint
+  std::optional<double> until;  ///< replaces the scene's end [s]
+  bool from_failure = false;    ///< only repeat the step for which a failure was dumped
   DriverOptions driver;
 };
 
-/// Names the checkpoints that are left, where one was refused.
+/// Prints the other checkpoints after one was refused.
 void offer_others(const fs::path& folder, const fs::path& refused) {
   for (const fs::path& other : io::checkpoints_in(folder)) {
     if (other.filename() == refused.filename()) continue;
@@ -229,7 +229,7 @@ void offer_others(const fs::path& folder, const fs::path& refused) {
             (folder / io::run_file::kScene).string(), folder.string());
 }
 
-/// The one step after a dump, and whether it fails as it did.
+/// Repeats the step after a dump and reports whether it fails in the same way.
 int repeat_failure(const io::LoadedScene& scene, const fs::path& folder) {
   const fs::path path = folder / io::run_file::kFailure;
   const auto dump = io::read_checkpoint_file(path, scene.course_hash);
@@ -246,18 +246,19 @@ int repeat_failure(const io::LoadedScene& scene, const fs::path& folder) {
   return now == dump->failure ? kNumericalFailure : kDone;
 }
 
-/// Why there is nothing in a folder to resume.
+/// Returns a message on why there is no run in a folder that could be resumed.
 std::string no_run_in(const fs::path& folder) {
   const std::string name = folder.string();
   if (io::is_marked_run_folder(folder))
     return fmt::format(
-        "{0}: no run to resume: polynya was killed before it had written {1}; start the run again: polynya run "
+        "{0}: no run to resume: polynya was killed before it had written {1}; start the run again with polynya run "
         "SCENE --out {0} --overwrite",
         name, io::run_file::kScene);
-  return fmt::format("{}: no run to resume: there is no {}", name, io::run_file::kScene);
+  return fmt::format("{}: no run to resume: it has no {}; give a folder that polynya run wrote", name,
+                     io::run_file::kScene);
 }
 
-/// Refuses to continue a finished run that has damaged files.
+/// Refuses to continue a finished run with damaged files.
 int refuse_damaged(const fs::path& folder, const io::FilesCheck& files) {
   for (const std::string& file : files.damaged) fail(kInputOutput, file);
   print_err("polynya: bring the files back from a copy, or run it again: polynya run {} --out {} --overwrite\n",
@@ -265,16 +266,17 @@ int refuse_damaged(const fs::path& folder, const io::FilesCheck& files) {
   return kInputOutput;
 }
 
-/// A kill between the end of a run and the end of the command leaves more than its last checkpoint, or a part of the
-/// pictures.
+/// Reports that a run has finished, and completes its folder: if the command was killed after the end of the run, there
+/// may be too many checkpoints or missing pictures.
 int report_finished(const fs::path& folder, double end, bool no_map) {
   if (const auto files = io::check_files(folder); !files.damaged.empty()) return refuse_damaged(folder, files);
-  print_err("polynya: {}: the run is finished, at {:.6g} s; to go on from there: --until\n", folder.string(), end);
+  print_err("polynya: {}: the run has finished at {:.6g} s; to extend it, give --until with a later time\n",
+            folder.string(), end);
   const bool is_drawn = fs::exists(folder / io::run_file::kFinalSvg) && fs::exists(folder / io::run_file::kFinalPng);
   if (is_drawn && io::checkpoints_in(folder).size() <= 1) return kDone;
   const auto lock = io::RunLock::take(folder);
-  if (!lock) return kDone;                               // another polynya holds it and does what is left
-  static_cast<void>(io::remove_checkpoints(folder, 1));  // a later command tries again
+  if (!lock) return kDone;                               // another polynya is completing the folder
+  static_cast<void>(io::remove_checkpoints(folder, 1));  // if this fails, a later command tries again
   if (is_drawn || no_map) return kDone;
   const auto map = draw_map(folder);
   return map ? kDone : fail(kInputOutput, map.error());
@@ -284,7 +286,7 @@ int resume_from_checkpoint(const io::LoadedScene& scene, io::RunLock lock, const
   const fs::path folder = lock.folder();
   const std::vector<fs::path> checkpoints = io::checkpoints_in(folder);
   if (checkpoints.empty() && options.checkpoint.empty()) {
-    print_err("polynya: {}: there is no checkpoint; from the start\n", folder.string());
+    print_err("polynya: {}: there is no checkpoint; starting from the beginning\n", folder.string());
     if (const auto ready = io::set_end(folder, scene); !ready) return fail(kInputOutput, ready.error());
     auto writer = io::RunWriter::begin(std::move(lock), scene);
     if (!writer) return fail(kInputOutput, writer.error());
@@ -317,7 +319,7 @@ int resume(const ResumeOptions& options) {
   auto lock = io::RunLock::take(folder);
   if (!lock) return fail(kInputOutput, lock.error());
   if (const auto end = finished())
-    return report_finished(folder, *end, options.driver.no_map);  // by another polynya meanwhile
+    return report_finished(folder, *end, options.driver.no_map);  // another polynya has finished it in the meantime
   if (const auto files = io::check_files(folder); !files.damaged.empty()) return refuse_damaged(folder, files);
   watch_signals();
   const auto scene =
@@ -337,35 +339,37 @@ Command add_run(CommandLine& app) {
       "  polynya run scenes/level-plate.json --set ice.thickness_m=0.7 --set ships[0].position_m[1]=5\n");
   auto options = std::make_shared<RunOptions>();
   add_scene(command, options->scene);
-  command.option("--out", &options->out, "DIR", "The run folder; runs/<scene name> if not given");
-  command.option("--until", &options->until, "S", "Simulated time to run to, instead of the scene's [s]",
+  command.option("--out", &options->out, "DIR", "Folder to write the run to; runs/<scene name> if not given");
+  command.option("--until", &options->until, "S", "Simulated time at which the run ends, instead of the scene's [s]",
                  between(1e-9, 1e7));
-  command.option("--seed", &options->seed, "N", "Seed instead of the scene's", whole(0, 9007199254740991));
+  command.option("--seed", &options->seed, "N", "Seed of all random draws, instead of the scene's",
+                 whole(0, 9007199254740991));
   command.option("--panel", &options->panel, "M",
-                 "Record the loads on panels of this length of all ships and structures, in panels.csv [m]",
+                 "Record the ice loads on panels of this length of all ships and structures in panels.csv [m]",
                  between(0.1, 1000));
   add_set(command, options->set);
   add_run_options(command, options->driver);
-  command.flag("--overwrite", options->overwrite, "Replace the run that is in the folder");
+  command.flag("--overwrite", options->overwrite, "Replace the run that is already in the folder");
   return {command, [options] { return run(*options); }};
 }
 
 Command add_resume(CommandLine& app) {
   CommandLine command =
-      app.add_command("resume", "Resume a run that was stopped, killed or ran out of disk, or is to be longer",
+      app.add_command("resume", "Continue a run that was stopped, killed or ran out of disk space, or extend it",
                       "Examples:\n"
                       "  polynya resume runs/level-plate\n"
-                      "  polynya resume runs/level-plate --until 900        a finished one too\n"
+                      "  polynya resume runs/level-plate --until 900        extend a run, even a finished one\n"
                       "  polynya resume runs/level-plate --checkpoint runs/level-plate/checkpoint-000000012000.bin\n"
-                      "  polynya resume runs/level-plate --from-failure     only the step that failed, once more\n");
+                      "  polynya resume runs/level-plate --from-failure     repeat only the step that failed\n");
   auto options = std::make_shared<ResumeOptions>();
   add_run_folder(command, options->folder);
-  command.option("--checkpoint", &options->checkpoint, "FILE", "This one, instead of the newest");
+  command.option("--checkpoint", &options->checkpoint, "FILE", "Checkpoint to continue from; the newest if not given");
   command.option("--until", &options->until, "S",
-                 "Simulated time to run to, instead of the run's; the same bytes as a run begun so [s]",
+                 "Simulated time at which the run ends, instead of the run's own end [s]; gives the same bytes as a "
+                 "run started with it",
                  between(1e-9, 1e7));
   command.flag("--from-failure", options->from_failure,
-               "Repeat the step for which failure.bin was dumped; nothing is written",
+               "Repeat the step after the state in failure.bin to see the failure again; writes nothing",
                {.excludes = {"--checkpoint", "--until"}});
   add_run_options(command, options->driver);
   return {command, [options] { return resume(*options); }};

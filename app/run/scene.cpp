@@ -27,9 +27,9 @@ namespace {
 // ---- polynya validate --cases
 
 constexpr std::size_t kLongestCases = std::size_t{4} << 30;  ///< [bytes]
-constexpr std::size_t kMostPrinted = 100;                    ///< cases whose problems are printed
+constexpr std::size_t kMostPrinted = 100;                    ///< number of cases whose problems are printed
 
-/// Reads one case's scene; what is wrong with it.
+/// Reads the scene of one case and returns its problems.
 std::vector<io::Problem> problems_of(const io::SourceText& scene, std::string_view line, const std::string& cases,
                                      std::size_t number, io::SceneOverrides overrides) {
   auto assignments = io::parse_case(line, cases, static_cast<int>(number));
@@ -40,8 +40,8 @@ std::vector<io::Problem> problems_of(const io::SourceText& scene, std::string_vi
   return loaded ? std::vector<io::Problem>{} : loaded.error();
 }
 
-/// Checks a scene once for each line of a file of cases (docs/studies.md) and prints what is wrong with each: a line a
-/// problem on stderr, or on stdout a JSON object for each case that is refused. The code to exit with.
+/// Checks a scene with the values of each line of a file of cases (docs/studies.md) and prints the problems of each:
+/// one per line on stderr, or one JSON object on stdout for each case that is refused. Returns the exit code.
 int validate_cases(const std::string& scene, const std::string& cases, const io::SceneOverrides& overrides,
                    bool as_json) {
   auto scene_text = read_input(scene, io::kLongestScene);
@@ -80,22 +80,23 @@ int validate_cases(const std::string& scene, const std::string& cases, const io:
 constexpr auto kSceneExamples =
     "Examples:\n"
     "  polynya validate scene.json\n"
-    "  polynya validate scene.json --resolved   with every default filled in\n"
+    "  polynya validate scene.json --resolved   the scene with all defaults filled in\n"
     "  polynya validate scene.json --set ice.thickness_m=0.7\n"
-    "  polynya validate scene.json --cases cases.ndjson   each line as many --set: {\"ice.thickness_m\": 0.7}\n"
+    "  polynya validate scene.json --cases cases.ndjson   values of each line, as with --set: {\"ice.thickness_m\": "
+    "0.7}\n"
     "  polynya validate scene.json --json       the problems as a JSON array, for editors\n"
     "  make-scene | polynya validate -          a scene from stdin\n";
 
 struct ValidateOptions {
   std::string scene;
   std::vector<std::string> set;
-  std::string cases;      ///< a file of them; empty: none
-  bool resolved = false;  ///< print the scene with every default filled in
+  std::string cases;      ///< file of cases; empty: none
+  bool resolved = false;  ///< print the scene with all defaults filled in
   ProgressKind progress = ProgressKind::kAuto;
-  bool json = false;  ///< print its problems as a JSON array
+  bool json = false;  ///< print the problems as a JSON array
 };
 
-/// How the scene's fields, drawn ice and floe files came out.
+/// Prints the results of the scene's fields, drawn ice properties and floe files.
 void print_floes(const io::LoadedScene& loaded) {
   print_fields(loaded);
   for (const io::IceReport& report : loaded.ice) {
@@ -222,7 +223,7 @@ void print_list_as_json() {
   print_json(all);
 }
 
-/// The values that a ship's file and its preset have at one path; null where they have none.
+/// The values at one path in a ship's file and in its preset; null if they have none.
 struct Stated {
   const io::JsonValue* by_file = nullptr;
   const io::JsonValue* by_preset = nullptr;
@@ -231,8 +232,8 @@ struct Stated {
 using UseParticular =
     std::function<void(const std::string& path, const io::JsonValue& value, const std::string& source)>;
 
-/// Calls use(path, value, source) for each particular below an object. Its source is "given" by the file, its preset's
-/// name, "estimated" or "default".
+/// Calls use(path, value, source) for each value below an object. The source is "given" if the file states it, the name
+/// of the preset, "estimated" or "default".
 void each_particular(const std::string& path, const io::JsonValue& resolved, const Stated& stated,
                      const io::LoadedShip& ship, const UseParticular& use) {
   for (const io::JsonMember& member : resolved.members()) {
@@ -260,7 +261,7 @@ void print_estimates(const std::vector<io::Estimate>& estimates, const std::stri
             name);
 }
 
-/// Whose each particular is, and by which formula it is estimated.
+/// Adds to the output the source of each value, and the formulas of estimates.
 void set_sources(io::JsonValue& root, const io::LoadedShip& ship, const io::JsonValue& of_preset) {
   io::JsonValue from{io::JsonValue::Object{}, 0}, estimated{io::JsonValue::Object{}, 0};
   each_particular(
@@ -272,13 +273,13 @@ void set_sources(io::JsonValue& root, const io::LoadedShip& ship, const io::Json
 }
 
 struct ShipsOptions {
-  std::string ship;  ///< a preset's name or a file; empty: all presets
+  std::string ship;  ///< name of a preset, or a file; empty: all presets
   bool is_json = false;
   bool is_for_performance = false;
 };
 
-/// A ship that is read as one of a scene. `name` stands in messages; its places are not shown where the text
-/// is no file.
+/// Reads a ship as a ship of a scene and prints it. `name` names it in messages. Places in the text are shown only if
+/// it is a file.
 ExitCode show_text(std::string text, const std::string& name, bool is_file, const ShipsOptions& options) {
   const auto use = options.is_for_performance ? io::ShipUse::kLevelIce : io::ShipUse::kScene;
   auto ship = io::read_ship(std::move(text), name, use);
@@ -317,7 +318,7 @@ ExitCode no_such_ship(const std::string& name) {
   std::vector<std::string_view> names;
   for (const io::ShipPreset& other : io::ship_presets()) names.push_back(other.name);
   const std::string meant = io::nearest(name, names);
-  return fail(kUsage, fmt::format("no ship \"{}\"; {}there are {}; no file has that name", name,
+  return fail(kUsage, fmt::format("no preset and no file is named \"{}\"; {}presets: {}", name,
                                   meant.empty() ? "" : fmt::format("did you mean {}? ", meant), fmt::join(names, " ")));
 }
 
@@ -344,8 +345,8 @@ ExitCode show(const ShipsOptions& options) {
 
 // ---- polynya read-json
 
-/// The place of every value of a document by its JSON pointer (RFC 6901): line and column, and behind them
-/// those of its key.
+/// Writes the place of every value of a document by its JSON pointer (RFC 6901): line and column, then those of its
+/// key.
 class PlaceWriter {
  public:
   explicit PlaceWriter(std::string_view text) : lines_(text) { json_.open('{'); }
@@ -405,16 +406,17 @@ int read_json(const std::string& file) {
 }  // namespace
 
 Command add_validate(CommandLine& app) {
-  CommandLine command =
-      app.add_command("validate", "Check a scene and report everything that is wrong with it", kSceneExamples);
+  CommandLine command = app.add_command("validate", "Check a scene and report all its errors", kSceneExamples);
   auto options = std::make_shared<ValidateOptions>();
   add_scene(command, options->scene);
   add_set(command, options->set);
-  command.option("--cases", &options->cases, "FILE",
-                 "Check the scene once for each line of this file, an object of paths and values", not_empty());
-  command.flag("--resolved", options->resolved, "Print the scene with every default filled in",
+  command.option(
+      "--cases", &options->cases, "FILE",
+      "Check the scene with the values of each line of this file: one JSON object of paths and values per line",
+      not_empty());
+  command.flag("--resolved", options->resolved, "Print the scene with all defaults filled in",
                {.excludes = {"--cases"}});
-  command.flag("--json", options->json, "Print the problems as a JSON array; [] for none",
+  command.flag("--json", options->json, "Print the problems as a JSON array; [] if there are none",
                {.excludes = {"--resolved"}});
   add_progress(command, options->progress);
   return {command, [options] { return validate(*options); }};
@@ -426,7 +428,7 @@ Command add_init(CommandLine& app) {
                                         "  polynya init my-scene.json && polynya run my-scene.json\n"
                                         "  polynya init                         to stdout\n");
   auto file = std::make_shared<std::string>();
-  command.option("file", file.get(), "FILE", "Where to; stdout if not given");
+  command.option("file", file.get(), "FILE", "File to write; stdout if not given");
   return {command, [file] { return init(*file); }};
 }
 
@@ -444,24 +446,24 @@ Command add_schema(CommandLine& app) {
 }
 
 Command add_ships(CommandLine& app) {
-  CommandLine command = app.add_command(
-      "ships", "List the ships that scenes can ask for by name; check one of a file",
-      "Examples:\n"
-      "  polynya ships                  all of them\n"
-      "  polynya ships polaris          every particular, its source, and which are assumed\n"
-      "  polynya ships polaris --json   its \"ship\" as scenes have one\n"
-      "  polynya ships our-ship.json    a ship as scenes have it: what is wrong, or all its particulars\n");
+  CommandLine command =
+      app.add_command("ships", "List the ships that scenes can use by name, or check a ship in a file",
+                      "Examples:\n"
+                      "  polynya ships                  all of them\n"
+                      "  polynya ships polaris          every particular with its source\n"
+                      "  polynya ships polaris --json   the ship in the form of a scene\n"
+                      "  polynya ships our-ship.json    check a ship in a file: its errors, or all its particulars\n");
   auto options = std::make_shared<ShipsOptions>();
-  command.option("ship", &options->ship, "SHIP", "Its name, or a JSON file with one; - for stdin", not_empty());
+  command.option("ship", &options->ship, "SHIP", "Name of a ship, or a JSON file with one; - for stdin", not_empty());
   command.flag("--json", options->is_json,
-               "Print that ship, or the list of all, as JSON; of a file with every default filled in");
+               "Print the ship, or the list of all ships, as JSON with all defaults filled in");
   command.flag("--for-performance", options->is_for_performance,
-               "Require also what polynya performance needs, main dimensions, draught and engine, and estimate what "
-               "can be: open-water speed, block coefficient, entrance angle, propellers");
+               "Also require the data that polynya performance needs (main dimensions, draught, engine), and estimate "
+               "missing ones: open-water speed, block coefficient, entrance angle, propellers");
   return {command, [options] { return show(*options); }};
 }
 
-/// Prints a JSON file's value and the place of all in it, for the commands that are written in Python; not in the help.
+/// Prints the value of a JSON file and the places of all its parts, for commands in Python. The help does not list it.
 Command add_read_json(CommandLine& app) {
   CommandLine command = app.add_command("read-json", "", "");
   auto file = std::make_shared<std::string>();

@@ -1,4 +1,5 @@
-// What the page's worker calls (browser/page/simulator.js). Texts go through one buffer of the module each way.
+// Functions that the page's worker calls (browser/page/simulator.js). Texts are passed in one buffer for each
+// direction.
 
 #include <cmath>
 #include <string>
@@ -16,15 +17,15 @@ Session& session() {
   return only;
 }
 
-std::string input;   ///< what the page hands over
-std::string output;  ///< what it gets back
+std::string input;   ///< text from the page
+std::string output;  ///< text for the page
 
 int answer(bool is_good, std::string words) {
   output = std::move(words);
   return is_good ? 1 : 0;
 }
 
-/// Calls work() and turns what it throws into an answer: the page stays as it is.
+/// Calls work(). An exception becomes an answer, so that the page stays in its state.
 template <class Work>
 int guarded(Work work) {
   try {
@@ -67,7 +68,7 @@ extern "C" {
 [[clang::export_name("start")]] int start() {
   return guarded([] { return answer_of_session(session().start()); });
 }
-/// Returns a Progress (session.hpp), or −1 where it failed.
+/// Returns a Progress (session.hpp), or −1 if it failed.
 [[clang::export_name("advance")]] int advance(double until, double wall) {
   int progress = -1;
   guarded([&] {
@@ -76,7 +77,7 @@ extern "C" {
   });
   return progress;
 }
-/// Steps up to a time, also behind the scene's end. Tests compare states there.
+/// Steps up to a time, also beyond the scene's end, where tests compare states.
 [[clang::export_name("advance_beyond")]] int advance_beyond(double until) {
   return guarded([&] { return answer_of_session(session().advance_beyond(until)); });
 }
@@ -93,7 +94,7 @@ extern "C" {
 [[clang::export_name("release")]] void release(int ship) {
   session().release(ship);
 }
-/// The input is the reason why the run ends; empty where it has come to the scene's end.
+/// The input is the reason why the run ends; empty if it has reached the end of the scene.
 [[clang::export_name("finish")]] int finish() {
   return guarded([] { return answer_of_session(session().finish(input)); });
 }

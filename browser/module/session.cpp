@@ -37,7 +37,7 @@ void write_ships(io::JsonWriter& json, const simulation::Scene& scene) {
   json.close(']');
 }
 
-/// What a page shows of a scene that was read.
+/// Returns the data of a scene that the page shows after reading it.
 std::string words_of(const io::LoadedScene& scene) {
   std::string text;
   io::JsonWriter json(text);
@@ -86,7 +86,7 @@ bool Session::start() {
   return true;
 }
 
-/// Takes one step. Returns false where the run cannot go on after it.
+/// Takes one step. Returns false if the run cannot continue after it.
 bool Session::step() {
   simulation::Simulation& simulation = run_->simulation;
   simulation.step();

@@ -10,37 +10,37 @@
 
 namespace polynya::browser {
 
-/// How a run stands after it was advanced.
+/// State of a run after it was advanced.
 enum class Progress {
   kRunning,
   kFinished,          ///< at the end of the scene
-  kNumericalFailure,  ///< Session::words() says what it was
-  kFolderFailure,     ///< the page has no room for the run's files
+  kNumericalFailure,  ///< Session::words() has the message
+  kFolderFailure,     ///< the page has no memory left for the run's files
 };
 
-/// The folder in the page's memory that a run writes.
+/// Folder in the page's memory to which a run is written.
 inline constexpr const char* kRunFolder = "/run";
 
-/// One scene and its run, which the page holds.
+/// A scene and its run, which the page holds.
 class Session {
  public:
-  /// Reads a scene. words() has its problems and hints, the memory that it takes and what is shown before it runs, as
-  /// JSON. Returns false where it is no scene; what was there before is then kept.
+  /// Reads a scene. words() then has its problems and hints, the memory that it needs, and the data to show before it
+  /// runs, as JSON. Returns false if the text is no valid scene; the previous scene is then kept.
   bool load(std::string text);
-  /// Starts the run of the scene from its first step. Returns false, with words(), where it cannot.
+  /// Starts the run of the scene from its first step. Returns false, with a message in words(), if it cannot start.
   bool start();
-  /// Steps until a time of the scene [s], and stops earlier where `wall` [s] have passed.
+  /// Steps until a time of the scene [s], but for at most `wall` seconds of real time.
   Progress advance(double until, double wall);
-  /// Steps until a time of the scene [s], also behind its end. Returns false where the run fails.
+  /// Steps until a time [s], also beyond the end of the scene. Returns false if the run fails.
   bool advance_beyond(double until);
-  /// Gives a ship an order in the place of its pilot's.
+  /// Gives a ship a command that replaces that of its pilot. release() gives control back to the pilot.
   void steer(int ship, simulation::Command command);
   void release(int ship);
-  /// What changed since the last snapshot; words() has the numbers of the run as JSON.
+  /// Collects all changes since the last snapshot in columns(). words() has the numbers of the run as JSON.
   void take_snapshot();
-  /// Ends the run where it is, so that its folder is complete. An empty reason: it has come to the scene's end.
+  /// Ends the run now and completes its folder. `reason` is empty if the run has reached the end of the scene.
   bool finish(const std::string& reason);
-  /// The run as the player reads it: words() has its words, columns() its numbers.
+  /// Reads the run back in the form of the player: words() has its words, columns() its numbers.
   bool read_back();
 
   std::string state_hash() const;

@@ -66,7 +66,7 @@ void SnapshotMaker::add_births(views::ColumnWriter& columns) {
 
 void SnapshotMaker::add_places(views::ColumnWriter& columns, const simulation::Simulation& simulation) {
   std::vector<std::int32_t> ids;
-  std::vector<double> places;  // x, y, cosine, sine, vx, vy of each
+  std::vector<double> places;  // x, y, cosine, sine, vx, vy of each floe
   const auto add = [&](const FloeState& state) {
     const geometry::Pose& pose = state.world_from_body;
     const geometry::Point at = transform(pose, centroids_[static_cast<std::size_t>(state.floe)]);
@@ -80,7 +80,7 @@ void SnapshotMaker::add_places(views::ColumnWriter& columns, const simulation::S
   for (const FloeState& state : all)
     if (!std::ranges::binary_search(ids.begin(), ids.begin() + floating, static_cast<std::int32_t>(state.floe)))
       add(state);
-  std::vector<double> hulls;  // x, y, heading, vx, vy, yaw rate, lever, steering angle of each
+  std::vector<double> hulls;  // x, y, heading, vx, vy, yaw rate, lever, steering angle of each hull
   const std::vector<simulation::Helm>& helms = simulation.world().population.helms;
   const std::vector<simulation::HullState> states = simulation.ship_states();
   for (std::size_t i = 0; i < states.size(); ++i) {

@@ -8,14 +8,14 @@
 
 namespace polynya::browser {
 
-/// Gathers what a running simulation shows between two pictures of the page: floes that were made, loads on hulls and
-/// events since the last picture, and where everything is at the time of the picture.
+/// Collects what a running simulation must show between two pictures of the page: new floes, loads on hulls and events
+/// since the last picture, and all positions at the time of the picture.
 class SnapshotMaker {
  public:
-  /// Takes over what a step added to the journal, before the journal is written and cleared.
+  /// Takes the additions of a step from the journal, before the journal is written and emptied.
   void gather(const simulation::Journal& journal, const simulation::Scene& scene);
 
-  /// Returns the columns of the picture, and forgets what was gathered.
+  /// Returns the columns of the picture and empties the collection.
   views::ColumnWriter take(const simulation::Simulation& simulation);
 
  private:
@@ -25,7 +25,7 @@ class SnapshotMaker {
 
   std::vector<simulation::Birth> births_;
   std::vector<simulation::HullSample> samples_;
-  std::string events_;                      ///< one JSON object a line
+  std::string events_;                      ///< one JSON object per line
   std::vector<geometry::Point> centroids_;  ///< by floe id, in the body frame [m]
 };
 

@@ -1,4 +1,4 @@
-// What changes in the page by what the worker says.
+// Changes of the page after messages of the worker.
 
 const gigabytes = (bytes) => `${(bytes / 2 ** 30).toPrecision(2)} GiB`;
 
@@ -22,7 +22,7 @@ function openStudy({ info, bytes }) {
   byId("study-close").focus();
 }
 
-/** Whether an answer is to an earlier text than the page has now. */
+/** Returns true if an answer belongs to an earlier text of the scene. */
 const isOld = (page, { number }) => number !== undefined && number !== page.number;
 
 /** Answers about reading a scene. */
@@ -110,5 +110,5 @@ const runAnswers = (page, parts) => ({
   },
 });
 
-/** Answers to messages of the worker, by their kinds. */
+/** Handlers for messages of the worker, by their kinds. */
 const makeAnswers = (page, parts) => ({ ...sceneAnswers(page, parts), ...runAnswers(page, parts) });

@@ -1,29 +1,29 @@
-// Editing a scene by mouse: what is moved changes the scene's text.
+// Editing a scene with the mouse. Moving an object changes the text of the scene.
 
-const handleReach = 14; // [px], from a handle's middle
+const handleReach = 14; // largest distance from the middle of a handle at which it can be grabbed [px]
 
 const rounded = (value, digits) => Number(value.toFixed(digits));
-/** A place as scenes have it, to a pixel. */
+/** A position in the form of scenes, with as many digits as a pixel resolves. */
 const placeWords = (view, [x, y]) => {
   const digits = Math.max(0, Math.min(3, Math.ceil(Math.log10(view.scale))));
   return [rounded(x, digits), rounded(y, digits)];
 };
 
-/** Where the handle stands that turns a ship. */
+/** Position of the handle that turns a ship. */
 function bowOf(run, view, ship) {
   const pose = run.motions.ship(ship);
   const reach = Math.max(...run.info.ships[ship].waterline_m.map(([x]) => x)) + 26 / view.scale;
   return view.toScreen(...placedBy(pose)(reach, 0));
 }
 
-/** The entries of the text's lists that stand for hulls: ships, structures, walls, in this order. */
+/** Paths of the text's entries for hulls: ships, structures, walls, in this order. */
 function hullPaths(text) {
   const root = parseText(text);
   return ["ships", "structures", "walls"].flatMap((list) =>
     (nodeAt(root, [list])?.items ?? []).map((_, k) => [list, k]));
 }
 
-/** Waypoints of the text: their paths and places. */
+/** Paths and positions of the waypoints in the text. */
 function waypointsOf(text) {
   const root = parseText(text);
   return (nodeAt(root, ["ships"])?.items ?? []).flatMap((_, ship) => {
@@ -33,7 +33,7 @@ function waypointsOf(text) {
   });
 }
 
-/** Of floes that are written one by one: a point of them. */
+/** Floes that are written one by one, each with one of its points. */
 function floeEntries(text) {
   const root = parseText(text);
   return (nodeAt(root, ["floes"])?.items ?? []).flatMap((item, k) => {
@@ -52,7 +52,8 @@ const isInRing = ([x, y], ring) => ring.reduce((isIn, [ax, ay], k) => {
 const ringOf = ({ at, size, ring }) => ring ?? [at, [at[0] + size[0], at[1]],
   [at[0] + size[0], at[1] + (size[1] ?? size[0])], [at[0], at[1] + (size[1] ?? size[0])]];
 
-/** What is at a place of the screen [px]: a ship's turning handle, a waypoint, a hull, a floe, or null. */
+/** Finds the object at a point of the screen [px]: the turning handle of a ship, a waypoint, a hull, a floe, or null.
+ * */
 function findHandle(run, view, text, at) {
   const isNear = ([x, y]) => Math.hypot(x - at[0], y - at[1]) < handleReach;
   const paths = hullPaths(text);
@@ -68,7 +69,7 @@ function findHandle(run, view, text, at) {
   return floe ? { kind: "floe", ...floe } : null;
 }
 
-/** The text after what is held was moved from one place of the map to another [m]. */
+/** Returns the text after the held object was moved from one point of the map to another [m]. */
 function movedText(text, run, view, held, from, to) {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
   const shifted = ([x, y]) => placeWords(view, [x + dx, y + dy]);
@@ -86,7 +87,7 @@ function movedText(text, run, view, held, from, to) {
   return withValue(text, path, held.ring ? held.ring.map(shifted) : shifted(held.at));
 }
 
-/** What can be placed: its list, and what is written at a place. */
+/** Objects that can be placed: the name of their list, and the entry for a position. */
 const placeable = {
   floe: ["floes", ([x, y]) => ({ rectangle: { corner_m: [x - 10, y - 7], size_m: [20, 14] } })],
   structure: ["structures", (at) => ({ radius_m: 10, position_m: at })],
@@ -94,7 +95,7 @@ const placeable = {
   waypoint: ["", null],
 };
 
-/** The text with a thing more at a place. A waypoint is one of the first ship's route. */
+/** Returns the text with another object at a position. A waypoint is added to the route of the first ship. */
 function withPlaced(text, view, kind, at) {
   const place = placeWords(view, at);
   if (kind === "waypoint") {
@@ -108,7 +109,7 @@ function withPlaced(text, view, kind, at) {
   return withValue(text, [list, count], item(place));
 }
 
-/** Outlines what is chosen, and the handles of ships. */
+/** Outlines the selected object and draws the handles of ships. */
 function drawChosen(context, view, run, { handles, held }, colours) {
   for (const ship of handles) {
     const [x, y] = bowOf(run, view, ship);

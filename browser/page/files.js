@@ -1,5 +1,6 @@
-// Files in memory, and what of the system interface (WASI preview 1) the module asks its host for. One folder, the
-// root; no links, no users. Used by the page's worker and, under node, by the tests.
+// Files in memory, and the functions of the system interface (WASI preview 1) that the module imports from its host.
+// There is one folder, the root, and there are no links and users. The page's worker uses this, and so do the tests,
+// under node.
 
 /* exported makeFiles, makeSystem */
 
@@ -7,10 +8,10 @@ const errors = { SUCCESS: 0, BADF: 8, EXIST: 20, INVAL: 28, ISDIR: 31, NOENT: 44
   NOTEMPTY: 55 };
 const kinds = { directory: 3, file: 4 };
 
-/** A file that grows: its bytes are the first `size` of `bytes`. */
+/** A file that grows. Its contents are the first `size` of `bytes`. */
 const emptyFile = () => ({ bytes: new Uint8Array(1024), size: 0 });
 
-/** Gives a file room for so many bytes; false where there is no memory for it. */
+/** Makes room for `size` bytes in a file. Returns false if there is no memory for it. */
 function makeRoom(file, size) {
   if (size <= file.bytes.length) return true;
   try {
@@ -23,13 +24,13 @@ function makeRoom(file, size) {
   }
 }
 
-/** Files by their whole names without the first slash; a folder is null. */
+/** Files by their full names without the first slash. A folder has the value null. */
 function makeFiles() {
   const entries = new Map([["", null]]);
   const numbers = new Map();
   const files = {
     entries,
-    /** A number that stays the file's own. */
+    /** A number that identifies the file as long as it exists. */
     numberOf(entry, name) {
       const key = entry ?? name;
       if (!numbers.has(key)) numbers.set(key, numbers.size + 1);
@@ -39,7 +40,7 @@ function makeFiles() {
       entries.set(name, { bytes, size: bytes.length });
     },
     read: (name) => entries.get(name)?.bytes.slice(0, entries.get(name).size),
-    /** The files below a folder, by their names in it. */
+    /** The files below a folder, by their names relative to it. */
     below: (folder) => [...entries].filter(([name, file]) => file && name.startsWith(`${folder}/`))
       .map(([name, file]) => [name.slice(folder.length + 1), file.bytes.subarray(0, file.size)]),
     remove(folder) {
@@ -50,7 +51,7 @@ function makeFiles() {
   return files;
 }
 
-/** "a/./b/../c" is "a/c". */
+/** Simplifies a name: "a/./b/../c" becomes "a/c". */
 function plainName(name) {
   const parts = [];
   for (const part of name.split("/")) {
@@ -62,14 +63,14 @@ function plainName(name) {
 
 const parentOf = (name) => name.slice(0, Math.max(0, name.lastIndexOf("/")));
 
-/** What the calls below share: open descriptors, and the module's memory. */
+/** State that the calls below share: open descriptors, and the module's memory. */
 function makeHost(files, memory, print) {
   const open = new Map([[0, { name: "" }], [1, { print: true }], [2, { print: true }], [3, { name: "" }]]);
   const host = { files, entries: files.entries, open, next: 4,
     view: () => new DataView(memory().buffer),
     bytes: () => new Uint8Array(memory().buffer),
     nameAt: (at, length) => plainName(new TextDecoder().decode(host.bytes().slice(at, at + length))),
-    /** The parts of memory that a list of addresses and sizes names. */
+    /** The parts of memory that a list of addresses and sizes describes. */
     pieces: (at, count) => Array.from({ length: count }, (_, i) => {
       const from = host.view().getUint32(at + 8 * i, true);
       return host.bytes().subarray(from, from + host.view().getUint32(at + 8 * i + 4, true));
@@ -249,7 +250,7 @@ const nameCalls = ({ entries, open, nameAt, writeStat }) => ({
   path_readlink: () => errors.INVAL,
 });
 
-/** What a module imports of WASI. `memory()` gives its memory once it has one. */
+/** Imports of a module from WASI. `memory()` returns the module's memory once it exists. */
 function makeSystem(files, memory, print = () => {}) {
   const host = makeHost(files, memory, print);
   const { view } = host;

@@ -1,20 +1,20 @@
-// The form: numbers and choices of the scene, with names, ranges and meanings from the JSON Schema.
+// The form with numbers and choices of the scene. Names, ranges and meanings come from the JSON Schema.
 
-/** Shown whether or not the text has them. */
+/** Fields that are shown even if the text does not have them. */
 const alwaysInForm = [["time", "until_s"], ["seed"], ["ice", "thickness_m"], ["ice", "flexural_strength_Pa"],
   ["ice", "compressive_strength_Pa"], ["water", "drift_m_per_s"]];
-/** Points of shapes are for the mouse and the text. */
+/** Lists of points are edited with the mouse or in the text, not in the form. */
 const notInForm = new Set(["outer_m", "holes_m", "waterline_m", "outline_m", "centreline_m", "rows", "corners_m"]);
-const mostInForm = 120;
+const mostInForm = 120; // largest number of fields; further values can be edited in the text
 
 const schemaAt = (schema, path) => path.reduce((at, step) =>
   (typeof step === "number" ? at?.items : at?.properties?.[step]), schema);
 
-/** The part of a schema that describes one number, of alternatives the one that does. */
+/** The part of a schema that describes one number; among alternatives, the one that does. */
 const numberSchema = (schema) => [schema, ...(schema?.oneOf ?? [])].find(({ type } = {}) =>
   type === "number" || type === "integer");
 
-/** Paths of the form's fields, in the text's order. */
+/** Paths of the form's fields in the order of the text. */
 function formPaths(text, schema) {
   const paths = [];
   const known = new Set();
@@ -36,7 +36,7 @@ function formPaths(text, schema) {
   return paths.filter((path) => schemaAt(schema, path));
 }
 
-/** "thickness [m]" of "thickness_m", "flexural strength [Pa]" of "flexural_strength_Pa". */
+/** Label of a field: "thickness [m]" for "thickness_m", "flexural strength [Pa]" for "flexural_strength_Pa". */
 function labelOf(path, schema) {
   const key = String(path.findLast((step) => typeof step === "string"));
   const unit = /\[([^\]]+)\]\s*$/.exec(schema?.description ?? "")?.[1];
@@ -44,7 +44,7 @@ function labelOf(path, schema) {
   return `${plain.replaceAll("_", " ")}${unit ? ` [${unit}]` : ""}`;
 }
 
-/** "ships 1: hull" of ["ships", 0, "hull", "beam_m"]. */
+/** Heading of a field: "ships 1: hull" for ["ships", 0, "hull", "beam_m"]. */
 function groupOf(path) {
   const words = path.slice(0, -1).map((step) => (typeof step === "number" ? step + 1 : step.replaceAll("_", " ")));
   return words.length === 0 ? "scene" : words.join(" ");
@@ -75,8 +75,7 @@ function choiceField(path, schema, value, change) {
 
 const isPair = (value) => Array.isArray(value) && value.length === 2;
 
-/** The inputs of one field by what its schema allows: a choice, two numbers or one; none where it is something else,
- * whatever the text has there. */
+/** Inputs of a field, according to its schema: a choice, two numbers, or one number; none for anything else. */
 function fieldsOf(path, schema, given, change) {
   const value = given ?? schema.default;
   if (schema.enum || schema.type === "boolean") return [choiceField(path, schema, value, change)];
@@ -85,7 +84,7 @@ function fieldsOf(path, schema, given, change) {
   return numberSchema(schema) ? [numberField(path, null, schema, value, change)] : [];
 }
 
-/** One field with its label: a list of two numbers has two inputs. Nothing where the form has no field for it. */
+/** A field with its label. A list of two numbers has two inputs. Returns nothing if the form has no input for it. */
 function formRow(path, schema, given, change) {
   const label = labelOf(path, schema);
   const fields = fieldsOf(path, schema, given, change);
@@ -95,7 +94,7 @@ function formRow(path, schema, given, change) {
   return fields.length > 0 ? [make("label", { title }, make("span", {}, label), ...fields)] : [];
 }
 
-/** Fills the form from the text. `change(path, value)` is called where a field was changed. */
+/** Fills the form from the text. `change(path, value)` is called after a field was changed. */
 function fillForm(form, text, schema, change) {
   const root = parseText(text);
   const changed = (path, part, value) => {

@@ -1,9 +1,9 @@
-// Steering by hand: lever and rudder of a ship that has an engine, by keys, by the sliders, and by touch.
+// Steering by hand: lever and rudder of a ship with an engine, by keys, sliders and touch.
 
-const leverStep = 0.1;
-const angleStep = 5; // [°]
+const leverStep = 0.1; // change of the lever per key press [-]
+const angleStep = 5; // change of the steering angle per key press [°]
 
-/** Watches the helm's controls. `order(ship, lever, angle [rad])` and `release(ship)` pass on what is ordered. */
+/** Handles the controls of the helm. `order(ship, lever, angle [rad])` and `release(ship)` receive the commands. */
 function makeHelm({ order, release }) {
   const helm = { ship: -1, isTaken: false };
   const [lever, rudder, take, select] = ["lever", "rudder", "take-helm", "helm-ship"].map(byId);
@@ -30,7 +30,7 @@ function makeHelm({ order, release }) {
     else release(helm.ship);
     show();
   };
-  /** The ships of a run that can be steered. */
+  /** Lists the ships of a run that can be steered. */
   helm.show = (ships) => {
     const choices = ships.map((ship, k) => [ship, k]).filter(([{ canBeSteered }]) => canBeSteered);
     byId("helm").hidden = choices.length === 0;
@@ -41,7 +41,7 @@ function makeHelm({ order, release }) {
     [lever.value, rudder.value] = [1, 0];
     show();
   };
-  /** Where lever and rudder are, while the pilot has them. */
+  /** Shows the lever and rudder of the pilot as long as the pilot controls the ship. */
   helm.follow = (hull) => {
     if (helm.isTaken || !hull) return;
     lever.value = hull[6];
@@ -52,7 +52,7 @@ function makeHelm({ order, release }) {
   return helm;
 }
 
-/** Keys, sliders and buttons of a helm; `give` passes on where the sliders are. */
+/** Handles keys, sliders and buttons of a helm. `give` passes the values of the sliders on. */
 function watchHelm(helm, [lever, rudder], give) {
   const nudge = (slider, by) => {
     slider.value = Number(slider.value) + by;

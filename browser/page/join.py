@@ -13,7 +13,7 @@ import sys
 HERE = pathlib.Path(__file__).parent
 SOURCE = HERE.parent.parent
 PLAYER = SOURCE / "views/player"
-# From the player: what draws ice and ships, and what watches pointers.
+# Scripts of the player that draw ice and ships and handle pointers.
 SHARED = ["numbers.js", "motion.js", "map_view.js", "colours.js", "draw_ice.js", "draw_marks.js", "plan.js", "input.js"]
 OWN = ["save.js", "scene_text.js", "live_run.js", "live_map.js", "edit.js", "form.js", "plots.js", "helm.js", "page.js",
        "answers.js", "map_pointers.js", "live_actions.js", "start.js"]
@@ -61,7 +61,7 @@ def joined(module, player_page):
 def main():
     module, player_page, output = map(pathlib.Path, sys.argv[1:])
     page = joined(module.read_bytes(), player_page.read_text(encoding="utf-8"))
-    # `polynya view SCENE --live` puts a scene in place of this mark.
+    # `polynya view SCENE --live` replaces this mark by a scene.
     output.with_suffix(".template.html").write_text(page, encoding="utf-8")
     output.write_text(page.replace("{{own}}", "null"), encoding="utf-8")
 

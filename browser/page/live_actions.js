@@ -1,6 +1,6 @@
-// What the controls do, by their ids.
+// Actions of the controls, by the ids of these.
 
-/** Running. */
+/** Actions that control the run. */
 function runActions(page, { worker, setScene }) {
   const rate = () => Number(byId("rate").value);
   return {
@@ -42,7 +42,7 @@ function runActions(page, { worker, setScene }) {
   };
 }
 
-/** Saving and opening. */
+/** Actions that save and open files. */
 const fileActions = (page, { worker }) => ({
   "save-scene": () => download(new Blob([page.text], { type: "application/json" }),
     `${page.run?.words.name ?? "scene"}.json`),
@@ -60,7 +60,7 @@ const fileActions = (page, { worker }) => ({
   "open-files": () => byId("files").click(),
 });
 
-/** Editing, and how the page looks. */
+/** Actions that edit, and that change the appearance of the page. */
 function viewActions(page, parts) {
   const moves = mapMoves(page);
   const middle = () => [page.view.width / 2, page.view.height / 2];

@@ -1,8 +1,8 @@
-// The map of a growing run, drawn by the player's functions, and of a scene before it runs: its routes and problems.
+// The map of a growing run, drawn by the player's functions, and of a scene before it runs, with routes and problems.
 
 const generationEdges = [1, 2, 3, 5, 10];
 
-/** How floes are coloured. */
+/** Colours of the floes. */
 function liveLook(run, by, colours) {
   const edgeOf = () => colours["ice-edge"];
   const { floes, places } = run;
@@ -20,7 +20,7 @@ function liveLook(run, by, colours) {
     bucketOf: (id) => classOf(floes.generation[id], generationEdges) };
 }
 
-/** The box of what there is [m]. */
+/** Box around everything in the scene [m]. */
 function liveExtent(run) {
   const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
   const { places, floes } = run;
@@ -35,7 +35,7 @@ function liveExtent(run) {
   for (const { points_m: points } of run.words.options.plan.routes)
     for (const point of points) includePoint(box, ...point);
   if (!(box.right > box.left)) return { left: -50, right: 50, bottom: -50, top: 50 };
-  box.right += 0.07 * (box.right - box.left); // the buttons stand there
+  box.right += 0.07 * (box.right - box.left); // leaves room for the buttons
   return box;
 }
 
@@ -46,7 +46,7 @@ function drawEvents(context, view, run, colours) {
   }
 }
 
-/** Draws a run as it is. `chosen` is what the mouse has chosen (edit.js). */
+/** Draws a run in its present state. `chosen` is the object selected with the mouse (edit.js). */
 function drawLive(context, view, run, { by, colours, isPlan, chosen }) {
   context.resetTransform();
   context.scale(view.ratio, view.ratio);

@@ -1,4 +1,5 @@
-// A run that grows: what the player's drawing functions ask of a run, filled by snapshots of the worker.
+// A run that grows. It has the members of a run that the player's drawing functions need; snapshots of the worker fill
+// it.
 
 /** A column of numbers that grows. */
 function makeGrowing(Type) {
@@ -17,7 +18,7 @@ function makeGrowing(Type) {
   return column;
 }
 
-/** The floes of a growing run, as draw_ice.js reads them: columns by floe. */
+/** Floes of a growing run in columns, as draw_ice.js reads them. */
 function makeLiveFloes() {
   const [whole, real] = [() => makeGrowing(Int32Array), () => makeGrowing(Float64Array)];
   const columns = { parent: whole(), generation: whole(), area: real(), cx: real(), cy: real(), reach: real(),
@@ -28,7 +29,7 @@ function makeLiveFloes() {
     shape: (id) => floes.points.subarray(2 * floes.pointsOf[id], 2 * floes.pointsOf[id + 1]) };
   const show = () => Object.entries(columns).forEach(([name, { values }]) => { floes[name] = values; });
 
-  /** Appends floes, which come in the order of their ids. */
+  /** Appends floes, which arrive in the order of their ids. */
   floes.append = (born) => {
     columns.points.append(born.points_m);
     for (const [to, from] of [["parent", "born_parent"], ["generation", "born_generation"], ["area", "born_area_m2"],
@@ -57,7 +58,7 @@ function makeLiveFloes() {
   return floes;
 }
 
-/** Where the floes of the last snapshot are, by id. */
+/** Places of the floes in the last snapshot, by id. */
 function makeLivePlaces() {
   const names = ["x", "y", "cos", "sin", "vx", "vy"];
   const places = { count: 0, living: new Int32Array(0), under: [] };
@@ -74,7 +75,7 @@ function makeLivePlaces() {
   return places;
 }
 
-/** The loads so far, a column a hull: rows grow. */
+/** Loads so far, as one growing column per hull and quantity. */
 function makeLiveForces(hulls, columns) {
   const names = ["sample_s", ...columns.map(({ name }) => name)];
   const forces = hulls.map(() => Object.fromEntries(names.map((name) => [name, []])));
@@ -85,7 +86,7 @@ function makeLiveForces(hulls, columns) {
   } };
 }
 
-/** A run of a scene that the module has read. */
+/** Makes the run of a scene that the module has read. */
 function makeLiveRun(words) {
   const floes = makeLiveFloes();
   const hulls = words.hulls.map(() => new Float64Array(8));

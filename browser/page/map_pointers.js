@@ -1,15 +1,15 @@
-// Pointers on the map: what can be edited is dragged, all else moves the map.
+// Pointers on the map. Dragging an object that can be edited moves it; any other dragging moves the map.
 
-/** What is held by a pointer: it is shown where the pointer is, and changes the scene where it is let go. */
+/** Holds an object with the pointer. It is shown at the pointer, and the scene is changed when it is released. */
 function makeGrip(page, setScene) {
   const { view } = page;
   const grip = { held: null, from: null };
-  /** What can be edited at a place of the screen; null where nothing can. */
+  /** Returns the object that can be edited at a point of the screen; null if there is none. */
   grip.find = (at) => {
     try {
       return page.isEditable() ? findHandle(page.run, view, page.text, at) : null;
     } catch {
-      return null; // the text is no JSON
+      return null; // the text is not valid JSON
     }
   };
   grip.take = (at, isAlone) => {
@@ -44,7 +44,7 @@ function setTool(page, tool) {
     button.setAttribute("aria-pressed", String(button.dataset.place === page.tool));
 }
 
-/** Moves and zooms the map. */
+/** Actions that move and zoom the map. */
 function mapMoves(page) {
   const { view } = page;
   const moved = (move) => (...words) => {
@@ -68,7 +68,7 @@ function watchLiveMap(page, setScene) {
   const stage = byId("stage");
   const grip = makeGrip(page, setScene);
   const moves = mapMoves(page);
-  let way = 0; // of the pointer since it was pressed [px]
+  let way = 0; // distance that the pointer has moved since it was pressed [px]
   watchPointers(stage, {
     start(event, at, count) {
       way = 0;

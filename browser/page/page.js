@@ -1,13 +1,14 @@
 // The page: its scene, its worker, its controls.
 
-/** The module's bytes, unpacked and compiled. */
+/** Unpacks and compiles the bytes of the module. */
 async function compileModule() {
   const packed = bytesOfBase64(byId("module").textContent.trim());
   byId("module").remove();
   return WebAssembly.compile(await throughStream(packed, new DecompressionStream("gzip")));
 }
 
-/** A worker with the simulator; `hear` gets its messages. One that is stopped is replaced by a new one. */
+/** Makes a worker with the simulator; `hear` receives its messages. A worker that is stopped is replaced by a new one.
+ * */
 function makeWorker(compiled, hear) {
   const address = URL.createObjectURL(new Blob([byId("worker-script").textContent], { type: "text/javascript" }));
   let worker = null;
@@ -28,7 +29,7 @@ function makeWorker(compiled, hear) {
     } };
 }
 
-/** The state of the page, and what belongs to it. */
+/** Makes the state of the page and the objects that belong to it. */
 function makePage() {
   const canvas = byId("ice");
   const page = { text: "", number: 0, run: null, phase: "loading", undo: [], redo: [], files: new Map(), isDirty: true,
@@ -37,14 +38,14 @@ function makePage() {
   page.view = makeMapView(byId("stage"), [canvas]);
   page.context = canvas.getContext("2d", { alpha: false });
   page.plot = makeLivePlot(byId("plot"), byId("quantity"), () => page.colours);
-  // A scene that is refused too: what is wrong may be where something stands.
+  // A refused scene can be edited too, because the position of an object may be the reason.
   page.isEditable = () => ["ready", "refused"].includes(page.phase) && page.run?.hasPlaces && page.run.time === 0;
   return page;
 }
 
 const phaseWords = { loading: "Run", ready: "Run", running: "Pause", paused: "Run", ended: "Run", refused: "Run" };
 
-/** Shows what can be done now. */
+/** Enables the controls that can be used in the present phase. */
 function showPhase(page, phase = page.phase) {
   page.phase = phase;
   const canRun = ["ready", "running", "paused"].includes(phase);
@@ -74,7 +75,7 @@ function toast(words) {
   toastTimer = setTimeout(() => { byId("toast").hidden = true; }, 3500);
 }
 
-/** The reader's problems and hints, each with its line, which a button goes to. */
+/** Shows the reader's problems and hints. The line of each is a button that goes to the line in the text. */
 function showProblems(problems) {
   byId("problems").replaceChildren(...problems.slice(0, 60).map(({ severity, line, path, message }) => {
     const words = `${severity}${line ? `, line ${line}` : ""}: ${path}: ${message}`;
@@ -104,7 +105,7 @@ function goToLine(line) {
   area.scrollTop = Math.max(0, (line - 5) * 17);
 }
 
-/** Fills the form; a text that is no JSON leaves it as it is. */
+/** Fills the form. It stays unchanged if the text is not valid JSON. */
 function showForm(page, setScene) {
   if (!page.schema) return;
   try {
@@ -120,7 +121,7 @@ function showForm(page, setScene) {
   }
 }
 
-/** What the numbers beside the plot say. */
+/** Shows the numbers beside the plot. */
 function showNumbers(page, isRunning) {
   const { run } = page;
   byId("now").textContent = `${run.time.toFixed(1)} s`;
@@ -148,7 +149,7 @@ function showLegend(page) {
   }));
 }
 
-/** Draws at each tick of the screen what has changed, then asks the worker for the next picture. */
+/** At each refresh of the screen, draws what has changed and then asks the worker for the next picture. */
 function startDrawing(page, worker, helm) {
   function tick() {
     requestAnimationFrame(tick);

@@ -1,6 +1,6 @@
-// Plots that grow with the run: one quantity at a time, a curve a hull and column.
+// Plots that grow with the run. They show one quantity at a time, with a curve for each hull and column.
 
-/** The quantities of a run: titles with their columns. */
+/** Quantities of a run: titles with their columns. */
 function liveQuantities(columns) {
   const quantities = new Map();
   for (const column of columns) {
@@ -11,9 +11,9 @@ function liveQuantities(columns) {
   return quantities;
 }
 
-const plotHeight = 150; // [px]
+const plotHeight = 150; // height of the plot [px]
 
-/** How a chart of curves {hull, name, unit, isMean, label} looks. */
+/** Options of a chart with the curves {hull, name, unit, isMean, label}. */
 function chartOptions(curves, width, colours) {
   const axis = { stroke: colours.muted, grid: { stroke: colours.line, width: 1 }, ticks: { show: false } };
   const { unit } = curves[0];
@@ -26,7 +26,7 @@ function chartOptions(curves, width, colours) {
   };
 }
 
-/** The curves of a quantity: one a hull and column. */
+/** Curves of a quantity, one for each hull and column. */
 function curvesOf({ info: { ships, force_columns: columns } }, quantity) {
   const several = ships.length > 1;
   return ships.flatMap(({ name: ship }, hull) => (liveQuantities(columns).get(quantity) ?? []).map(({ name, unit,
@@ -60,7 +60,7 @@ function makeLivePlot(element, select, colours) {
       element.closest("section").hidden = run.info.ships.length === 0;
       build();
     },
-    /** Draws rows that have come since the last call. */
+    /** Draws the rows that were added since the last call. */
     grow() {
       const rows = shown?.run.forces.of[0]?.sample_s.length ?? 0;
       if (!chart || rows === shown.rows) return;

@@ -1,4 +1,4 @@
-// What is taken out of the page: the scene, the run as a folder in a .zip, a link that holds the scene.
+// Exports from the page: the scene, the run as a folder in a .zip, and a link that contains the scene.
 
 const crcTable = Uint32Array.from({ length: 256 }, (_, byte) => {
   let crc = byte;
@@ -12,11 +12,11 @@ function crcOf(bytes) {
   return ~crc >>> 0;
 }
 
-/** Passes bytes through a compression of the browser's. */
+/** Passes bytes through one of the browser's compression streams. */
 const throughStream = async (bytes, stream) =>
   new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
 
-/** A header of a .zip: numbers as [size in bytes, value]. */
+/** Makes a header of a .zip from numbers, each as [size in bytes, value]. */
 function zipRecord(...numbers) {
   const record = new Uint8Array(numbers.reduce((sum, [size]) => sum + size, 0));
   const view = new DataView(record.buffer);
@@ -29,7 +29,7 @@ function zipRecord(...numbers) {
   return record;
 }
 
-/** A .zip of files [name, bytes]. */
+/** Makes a .zip of files, each as [name, bytes]. */
 async function zipOf(files) {
   const deflate = 8;
   const utf8 = 0x800;
@@ -55,7 +55,7 @@ async function zipOf(files) {
   return new Blob(parts, { type: "application/zip" });
 }
 
-/** Hands a file to the person. */
+/** Offers a file for download. */
 function download(blob, name) {
   const link = make("a", { href: URL.createObjectURL(blob), download: name });
   document.body.append(link);
@@ -71,16 +71,16 @@ const base64Of = (bytes) => {
 };
 const bytesOfBase64 = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 
-const longestLink = 30000; // characters
+const longestLink = 30000; // longest link [characters]; a longer scene gets none
 
-/** The part of an address behind "#" that holds a scene; null where it is too long for one. */
+/** The part of an address after "#" that contains a scene; null if it would be too long. */
 async function linkOfScene(text) {
   const packed = await throughStream(new TextEncoder().encode(text), new CompressionStream("deflate-raw"));
   const words = base64Of(packed).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
   return words.length <= longestLink ? `#scene=${words}` : null;
 }
 
-/** The scene of such an address; null where there is none. */
+/** The scene in such an address; null if there is none. */
 async function sceneOfLink(hash) {
   const words = /^#scene=([\w-]+)$/.exec(hash)?.[1];
   if (!words) return null;

@@ -1,12 +1,12 @@
-// The scene's text: JSON with comments, of which one value at a time is changed where it stands, so that comments and
-// the order of keys stay.
+// The text of the scene, which is JSON with comments. Values are changed one at a time within the text, so that
+// comments and the order of keys stay.
 
-/** What is wrong with a text as JSON. */
+/** Thrown if a text is not valid JSON. */
 class TextFault extends Error {}
 
-const deepest = 64; // levels of lists and objects in each other
+const deepest = 64; // deepest nesting of lists and objects
 
-/** Reads words of a text from a place on. */
+/** Reads the words of a text one after the other. */
 function makeScanner(text) {
   const scanner = { at: 0 };
   const match = (pattern) => {
@@ -14,7 +14,7 @@ function makeScanner(text) {
     return pattern.exec(text)?.[0];
   };
   scanner.fault = (words) => { throw new TextFault(`${words} at character ${scanner.at + 1}`); };
-  /** Passes blanks and comments. */
+  /** Skips blanks and comments. */
   scanner.skip = () => { scanner.at += match(/(?:\s+|\/\/[^\n]*|\/\*[\s\S]*?\*\/)*/y).length; };
   scanner.take = (character) => {
     scanner.skip();
@@ -36,7 +36,8 @@ function makeScanner(text) {
   return scanner;
 }
 
-/** Reads JSON with comments. Gives nodes: {kind, from, to, value | items | members}; from and to are places. */
+/** Reads JSON with comments. Returns nodes {kind, from, to, value | items | members}; from and to are positions in the
+ * text. */
 function parseText(text) {
   const scanner = makeScanner(text);
   function list(close, one) {
@@ -73,13 +74,13 @@ function parseText(text) {
   return root;
 }
 
-/** The node at a path as ["ships", 0, "position_m"]; undefined where there is none. */
+/** The node at a path such as ["ships", 0, "position_m"]; undefined if there is none. */
 function nodeAt(root, path) {
   return path.reduce((node, step) => (typeof step === "number" ? node?.items?.[step]
     : node?.members?.find(({ key }) => key === step)?.value), root);
 }
 
-/** A node as a value. */
+/** The value of a node. */
 function valueOf(node) {
   if (node.kind === "array") return node.items.map(valueOf);
   if (node.kind === "object") return Object.fromEntries(node.members.map(({ key, value }) => [key, valueOf(value)]));
@@ -93,7 +94,8 @@ const readValue = (text, path) => {
 
 const written = (value) => JSON.stringify(value).replaceAll(/,(?=\S)/g, ", ").replaceAll(/":(?=\S)/g, "\": ");
 
-/** The text with another value at a path; missing objects are made, and an item behind a list's last is appended. */
+/** Returns the text with a changed value at a path. Missing objects are created. An index one past the end of a list
+ * appends an item. */
 function withValue(text, path, value) {
   const root = parseText(text);
   const there = nodeAt(root, path);
@@ -112,7 +114,7 @@ function withValue(text, path, value) {
   return splice(last, last, `,${indent}${words}`);
 }
 
-/** The text without an item of a list. */
+/** Returns the text without an item of a list. */
 function withoutItem(text, path) {
   const list = nodeAt(parseText(text), path.slice(0, -1));
   const index = path.at(-1);

@@ -1,20 +1,20 @@
-// The module with its files: calls with texts and columns in place of addresses.
+// The module with its files. Its functions take and return texts and columns instead of addresses.
 
 /* global makeFiles, makeSystem */
 /* exported makeSimulator */
 
 const typesOfColumns = { f64: Float64Array, i32: Int32Array, u8: Uint8Array };
 
-/** What a call of the module fails by: a text for the page. */
+/** Thrown if a call of the module fails. Its message is a text for the page. */
 class SimulatorFailure extends Error {}
 
-/** Gives the columns of a snapshot by their names. */
+/** Returns the columns of a snapshot by their names. */
 function columnsOf(table, bytes) {
   return Object.fromEntries(table.map(({ name, type, offset, count }) =>
     [name, new typesOfColumns[type](bytes.buffer, bytes.byteOffset + offset, count)]));
 }
 
-/** Texts and columns of a module, by its exports. */
+/** Functions that pass texts and columns to and from a module, by its exports. */
 function makeExchange(exports) {
   const bytesAt = (at, size) => new Uint8Array(exports.memory.buffer, at >>> 0, size >>> 0).slice();
   const output = () => new TextDecoder().decode(bytesAt(exports.output_data(), exports.output_size()));
@@ -32,24 +32,24 @@ function makeExchange(exports) {
   };
 }
 
-/** The calls of a module, with texts and columns. */
+/** Calls of a module with texts and columns. */
 function simulatorCalls(exports) {
   const { output, columns, give, check } = makeExchange(exports);
   return {
-    /** Reads a scene. Its problems are the text of the failure, as JSON. */
+    /** Reads a scene. If it fails, the message has the problems as JSON. */
     load(text) {
       give(text);
       check(exports.load());
       return JSON.parse(output());
     },
     start: () => check(exports.start()),
-    /** Steps up to a time [s], for at most so long by the clock [s]. Returns true at the scene's end. */
+    /** Steps up to a time [s], for at most `wall` seconds of real time. Returns true at the scene's end. */
     advance(until, wall) {
       const state = exports.advance(until, wall);
       check(state === 0 || state === 1);
       return state === 1;
     },
-    /** Steps up to a time [s], also behind the scene's end. */
+    /** Steps up to a time [s], also beyond the scene's end. */
     advanceBeyond: (until) => check(exports.advance_beyond(until)),
     steer: (ship, lever, angle) => exports.steer(ship, lever, angle),
     release: (ship) => exports.release(ship),
@@ -62,7 +62,7 @@ function simulatorCalls(exports) {
       give(reason);
       check(exports.finish());
     },
-    /** The run as the player reads it: {info, bytes} (views/player/run_data.js). */
+    /** Returns the run in the form that the player reads: {info, bytes} (views/player/run_data.js). */
     readBack() {
       check(exports.read_back());
       return { info: JSON.parse(output()), bytes: columns() };
@@ -75,8 +75,8 @@ function simulatorCalls(exports) {
 }
 
 /**
- * Starts a compiled module. Its calls throw SimulatorFailure where a scene or a run fails, and anything else where the
- * module itself has ended: it is then made anew, from the scene's text.
+ * Starts a compiled module. Its calls throw SimulatorFailure if a scene or a run fails. Any other exception means that
+ * the module itself has ended; it must then be made again from the text of the scene.
  */
 async function makeSimulator(compiled) {
   const files = makeFiles();

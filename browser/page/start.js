@@ -1,6 +1,6 @@
-// The page, put together.
+// Assembly of the page.
 
-/** Gives the page another text of its scene, and the worker too. */
+/** Returns a function that gives the page, and the worker, another text of the scene. */
 function makeSceneSetter(page, parts) {
   let waiting = 0;
   function load() {
@@ -30,7 +30,7 @@ function makeSceneSetter(page, parts) {
   };
 }
 
-/** Undo and redo: the text before, the text after. */
+/** Undo and redo: they exchange the present text with the previous or next one. */
 function makeTurns(page, setScene) {
   const turn = (from, to) => () => {
     if (page[from].length === 0) return;
@@ -45,7 +45,7 @@ function makeTurns(page, setScene) {
   return { undo: turn("undo", "redo"), redo: turn("redo", "undo") };
 }
 
-/** Scenes and floe files from disk: the file that ends in .json is the scene, others are files that it names. */
+/** Opens files from disk: a file whose name ends in .json is the scene, others are floe files that it names. */
 async function openFiles(page, setScene, files) {
   let scene = null;
   for (const file of files) {
@@ -103,7 +103,8 @@ function watchLiveKeys(page, parts, actions) {
   });
 }
 
-/** The scene to begin with: of the address, of the file that wrote the page, or the first. */
+/** Returns the first scene: that of the address, otherwise that of the program that wrote the page, otherwise the first
+ * example. */
 async function firstScene(texts, own) {
   const linked = await sceneOfLink(location.hash).catch(() => null);
   return linked ?? own ?? texts[0].text;

@@ -1,10 +1,10 @@
-// The simulator in its worker: it steps between messages of the page, so that the page never waits.
+// The simulator in a worker. It steps between messages of the page, so that the page never has to wait.
 
 /* global makeSimulator, SimulatorFailure */
 
-const longestSlice = 0.016; // [s] by the clock between two looks at messages
+const longestSlice = 0.016; // longest time of stepping between two looks at messages [s]; longer: the page reacts later
 let simulator = null;
-let pace = { rate: 1, from: 0, since: 0 }; // the run is at `from` [s] when the clock is at `since` [ms]
+let pace = { rate: 1, from: 0, since: 0 }; // the run should be at `from` [s] when the clock is at `since` [ms]
 let isRunning = false;
 let isPictureWanted = true;
 let hasEnded = false;
@@ -27,7 +27,7 @@ function end(reason, kind, words) {
   say(kind, { words });
 }
 
-/** Steps for a slice, then lets messages in. */
+/** Steps for a slice of time, then allows messages to arrive. */
 function slice() {
   if (!isRunning) return;
   const wanted = pace.rate === Infinity ? Infinity : pace.from + (pace.rate * (performance.now() - pace.since)) / 1000;
@@ -42,11 +42,11 @@ function slice() {
   turn.port2.postMessage(null);
 }
 
-// Lets messages in between two slices; timers would wait for some milliseconds each time.
+// A message channel lets other messages arrive between two slices. Timers would wait for some milliseconds each time.
 const turn = new MessageChannel();
 turn.port1.onmessage = slice;
 
-/** Keeps pace from the present time of the run on. */
+/** From now on, keeps the run at the pace of the clock. */
 const keepPace = (rate, from) => { pace = { rate, from, since: performance.now() }; };
 
 const orders = {
@@ -54,7 +54,7 @@ const orders = {
     simulator = await makeSimulator(compiled);
     say("ready", { schema: simulator.schema(), version: simulator.version() });
   },
-  /** Reads a scene and takes it to its start. */
+  /** Reads a scene and prepares its start. */
   load({ text, files, number }) {
     isRunning = hasEnded = byHand = false;
     for (const [name, bytes] of files ?? []) simulator.files.write(name, bytes);
@@ -93,7 +93,7 @@ const orders = {
     simulator.steer(ship, lever, angle);
   },
   release: ({ ship }) => simulator.release(ship),
-  /** The run so far as files, and as the player reads it. */
+  /** Returns the run so far as files, and in the form that the player reads. */
   read_back({ number }) {
     isRunning = false;
     if (!hasEnded) simulator.finish("stopped in a page");

@@ -1,6 +1,7 @@
-// C++ exceptions in WebAssembly. Debian's C++ library for it is compiled without them, so that the functions that a
-// `throw` and a `catch` call are not in it. These follow the Itanium C++ ABI as clang emits it with -fwasm-exceptions:
-// the engine unwinds, and calls _Unwind_CallPersonality to choose the handler by the tables of the function.
+// C++ exceptions in WebAssembly. Debian's C++ library for WebAssembly is compiled without exceptions, so it lacks the
+// functions that `throw` and `catch` call. The functions here follow the Itanium C++ ABI as clang emits it with
+// -fwasm-exceptions: the engine unwinds the stack and calls _Unwind_CallPersonality, which finds the handler in the
+// tables of the function.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +12,7 @@
 
 namespace __cxxabiv1 {
 
-/// As in libc++abi's private_typeinfo.h, whose objects these are: the order of the virtual functions counts.
+/// Layout of libc++abi's private_typeinfo.h, whose objects these are. The order of the virtual functions matters.
 class __shim_type_info : public std::type_info {
  public:
   virtual ~__shim_type_info();
@@ -26,17 +27,17 @@ namespace {
 
 using TypeInfo = __cxxabiv1::__shim_type_info;
 
-/// In front of each thrown object.
+/// Header in front of each thrown object.
 struct alignas(16) Thrown {
   const TypeInfo* type = nullptr;
   void* (*destroy)(void*) = nullptr;  ///< a destructor returns its object in WebAssembly
-  void* adjusted = nullptr;           ///< the object as the type that is caught
-  int handlers = 0;                   ///< that are in it now
+  void* adjusted = nullptr;           ///< the object, converted to the type that is caught
+  int handlers = 0;                   ///< number of handlers that are active for it
   bool is_rethrown = false;
   Thrown* next_caught = nullptr;
 };
 
-Thrown* caught = nullptr;  ///< the innermost
+Thrown* caught = nullptr;  ///< the innermost caught exception
 unsigned uncaught = 0;
 
 Thrown* header_of(void* object) {
@@ -77,26 +78,26 @@ std::intptr_t signed_at(const std::uint8_t*& at) {
   }
 }
 
-/// The table of a function: where its calls' actions are, and the types that it catches.
+/// Table of a function: the actions of its calls, and the types that it catches.
 struct Table {
   const std::uint8_t* calls = nullptr;
   const std::uint8_t* actions = nullptr;
-  const TypeInfo* const* types_end = nullptr;  ///< type i is the i-th before it
+  const TypeInfo* const* types_end = nullptr;  ///< type i is the i-th entry before this
 
   explicit Table(const std::uint8_t* at) {
     constexpr std::uint8_t kOmitted = 0xff;
-    ++at;  // where landing pads begin: always omitted
+    ++at;  // start of landing pads: always omitted
     if (*at++ != kOmitted) {
       const std::uintptr_t offset = unsigned_at(at);
       types_end = reinterpret_cast<const TypeInfo* const*>(at + offset);
     }
-    ++at;  // how calls are encoded: always by ULEB128
+    ++at;  // encoding of the calls: always ULEB128
     const std::uintptr_t length = unsigned_at(at);
     calls = at;
     actions = at + length;
   }
 
-  /// The first action of a call, or null where there is none.
+  /// Returns the first action of a call, or null if it has none.
   const std::uint8_t* action_of(std::uintptr_t call) const {
     const std::uint8_t* at = calls;
     for (std::uintptr_t i = 0;; ++i) {
@@ -107,7 +108,7 @@ struct Table {
   }
 };
 
-/// The number of the handler of a call that takes the exception, or 0.
+/// Returns the number of the handler of a call that catches the exception, or 0.
 int handler_for(Thrown* thrown, const Table& table, std::uintptr_t call) {
   for (const std::uint8_t* action = table.action_of(call); action;) {
     const std::intptr_t type = signed_at(action);
@@ -128,7 +129,7 @@ int handler_for(Thrown* thrown, const Table& table, std::uintptr_t call) {
 
 extern "C" {
 
-/// What clang's code hands to _Unwind_CallPersonality, and reads back.
+/// Data that clang's code passes to _Unwind_CallPersonality and reads back.
 struct {
   std::uintptr_t call;
   const std::uint8_t* table;
@@ -194,7 +195,7 @@ void _Unwind_DeleteException(void*) {}
 
 }  // extern "C"
 
-// A new that fails throws, as it does natively: the library's own would end the program.
+// Allocation that fails throws, as in a native program. The library's own operator would end the program.
 void* operator new(std::size_t size) {
   if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
   throw std::bad_alloc();

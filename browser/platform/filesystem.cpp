@@ -1,6 +1,6 @@
-// The part of std::filesystem that the program calls. Debian's C++ library for WebAssembly declares it and is compiled
-// without it. Files are those of the module's host: in the page they are in memory (browser/page/files.js), where
-// there are no links, no users and one folder to start from, the root.
+// The part of std::filesystem that the program calls. Debian's C++ library for WebAssembly declares it but is compiled
+// without it. Files belong to the module's host. In the page they are in memory (browser/page/files.js), without links
+// and users, and with the root as the only initial folder.
 
 #include <cerrno>
 #include <cstdlib>
@@ -15,7 +15,7 @@ _LIBCPP_BEGIN_NAMESPACE_FILESYSTEM
 
 namespace {
 
-/// Keeps what went wrong. Nothing is thrown: every call of the program asks for the error code, or tests before.
+/// Stores an error. Nothing is thrown, because the program always asks for the error code or tests before.
 void keep(error_code* error, int number) {
   if (error) *error = number == 0 ? error_code() : error_code(number, generic_category());
 }
@@ -25,7 +25,7 @@ string_view last_part(string_view path) {
   return slash == string_view::npos ? path : path.substr(slash + 1);
 }
 
-/// Where the extension begins in a file's name.
+/// Returns the position of the extension in a file's name.
 std::size_t extension_at(string_view name) {
   const std::size_t dot = name.rfind('.');
   return dot == string_view::npos || dot == 0 || name == ".." ? name.size() : dot;
@@ -160,7 +160,7 @@ path __canonical(const path& p, error_code* error) {
 
 // ---- folders
 
-/// What a folder has, read at once: folders of runs are small.
+/// Contents of a folder, read at once, because folders of runs are small.
 class __dir_stream {
  public:
   vector<directory_entry> entries;
@@ -196,7 +196,7 @@ _LIBCPP_END_NAMESPACE_FILESYSTEM
 
 extern "C" {
 
-/// Locks a file. The page is the only program that has its files.
+/// Locks a file. No lock is needed, because the page is the only program with access to its files.
 int flock(int, int) {
   return 0;
 }
@@ -205,7 +205,7 @@ char* mkdtemp(char* name) {
   return ::mkdir(name, 0700) == 0 ? name : nullptr;
 }
 
-// Debian's C++ library is compiled with guards on the stack, which WebAssembly's own checks make needless.
+// Debian's C++ library is compiled with stack guards. WebAssembly has its own checks, so these do nothing.
 void* __stack_chk_guard = nullptr;
 void __stack_chk_fail() {
   std::abort();

@@ -7,7 +7,7 @@
 namespace polynya::cosim {
 namespace {
 
-/// Mark and version of a saved instance. Another layout gets another version.
+/// Mark and version of a saved instance. A change of the layout raises the version, and other versions are refused.
 constexpr std::string_view kMark = "PLYNYFMU";
 constexpr std::uint32_t kVersion = 1;
 

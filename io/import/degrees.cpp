@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "elementary/elementary.hpp"
-
 #include "geometry/shape/angle.hpp"
 #include "geometry/shape/segments.hpp"
 
@@ -16,8 +15,8 @@ namespace {
 using geometry::Point;
 using geometry::Ring;
 
-constexpr double kAtPole = 1e-10;    ///< [°]
-constexpr double kSamePlace = 1e-9;  ///< [°]: 0.1 mm
+constexpr double kAtPole = 1e-10;    ///< points nearer to a pole than this are the pole [°]: 0.01 mm
+constexpr double kSamePlace = 1e-9;  ///< points nearer to each other than this are the same place [°]: 0.1 mm
 
 bool are_on_one_meridian(Point a, Point b) {
   return std::abs(std::remainder(a.x - b.x, 360)) <= kSamePlace;
@@ -27,7 +26,8 @@ bool are_same_place(Point a, Point b) {
   return are_on_one_meridian(a, b) && std::abs(a.y - b.y) <= kSamePlace;
 }
 
-/// Whether a ring turns back at a point: it comes and goes on one meridian, or stays.
+/// Returns true if a ring turns back at a point, so that it arrives and leaves on one meridian, or if two points are
+/// equal.
 bool turns_back(Point before, Point at, Point after) {
   if (are_same_place(before, at)) return true;
   if (is_pole(at)) return are_on_one_meridian(before, after) || is_pole(before) || is_pole(after);
@@ -93,8 +93,8 @@ Ring without_seams(Ring ring) {
 
 namespace {
 
-/// Puts the change of longitude at a pole right: with the material on its left, a ring at the north pole leaves it on a
-/// meridian to the west of that on which it came, and to the east at the south pole.
+/// Corrects the change of longitude at a pole. With the material on its left, a ring at the north pole leaves it on a
+/// meridian to the west of the one on which it arrived; at the south pole, to the east.
 void follow_material_at_poles(Ring& ring) {
   for (std::size_t i = 1; i < ring.size(); ++i) {
     if (!is_pole(ring[i]) || !is_pole(ring[i - 1])) continue;
@@ -104,24 +104,24 @@ void follow_material_at_poles(Ring& ring) {
   }
 }
 
-/// A place on the plane that touches the Earth at a pole, for comparing distances near it [°].
+/// Projects a place to a plane that touches the Earth at the pole, to compare distances near it [°].
 Point about_pole(Point degrees) {
   const double colatitude = 90 - std::abs(degrees.y), longitude = degrees.x * geometry::kRadiansPerDegree;
   return {colatitude * elementary::cos(longitude), colatitude * elementary::sin(longitude)};
 }
 
-/// A place on a ring: on the edge from the vertex of that index, at that part of its length.
+/// A place on a ring: the edge that starts at a vertex, and the fraction of its length.
 struct RingPlace {
   std::size_t edge = 0;
   double part = 0;
 };
 
-/// A ring around a pole; `turn` is the change of longitude once around.
+/// A ring around a pole. `turn` is the change of longitude once around it [°].
 class RingAroundPole {
  public:
   RingAroundPole(const Ring& ring, double turn) : ring_(ring), turn_(turn) {}
 
-  /// The ring with a seam to the pole that does not cross the polygon's rings, where there is such a seam.
+  /// Returns the ring with a seam to the pole that does not cross the polygon's rings, if there is such a seam.
   Ring with_seam(const std::vector<Ring>& rings) const {
     std::vector<RingPlace> places{nearest_to_pole()};
     for (std::size_t i = 0; i < ring_.size(); ++i) places.push_back({i, 0});
@@ -158,7 +158,7 @@ class RingAroundPole {
 
   bool crosses_seam(RingPlace place, const Ring& other) const {
     const Point a = ring_[place.edge], b = end_of(place.edge);
-    // A little above the ring, which it touches.
+    // The test starts a little above the ring, because the seam touches the ring at its foot.
     const Point foot = about_pole(a + place.part * (b - a));
     const Point above{(1 - 1e-9) * foot.x, (1 - 1e-9) * foot.y};
     for (std::size_t i = 0; i < other.size(); ++i)

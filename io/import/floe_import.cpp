@@ -35,7 +35,7 @@ Sum sum_of(const std::vector<Polygon>& polygons) {
   return sum;
 }
 
-/// The floes of one file on their way.
+/// Carries out the import of the floes of one file.
 class FloeImport {
  public:
   FloeImport(const std::vector<SourceFloe>& floes, const ImportSettings& settings)
@@ -61,7 +61,8 @@ class FloeImport {
     return one;
   }
 
-  /// Floes that may be parts of one: polygons of a feature, and those at longitude 180 with equal properties.
+  /// Numbers groups of floes that may be parts of one: polygons of a feature, and floes at longitude 180 with equal
+  /// properties.
   std::vector<std::size_t> groups() const {
     std::vector<std::size_t> groups(sources_.size());
     std::map<std::size_t, std::size_t> of_feature;
@@ -211,7 +212,7 @@ class FloeImport {
     dropped_.push_back(std::move(piece));
   }
 
-  /// Areas of the items and of all, and how many floes left nothing.
+  /// Sums the areas of the items and of all floes, and counts floes of which nothing is left.
   void sum_up() {
     ImportTotals& totals = outcome_.totals;
     Sum read, written;
@@ -242,8 +243,8 @@ class FloeImport {
 
   const std::vector<SourceFloe>& sources_;
   const ImportSettings& settings_;
-  std::vector<Polygon> drawn_;     ///< as read, in the plane and in house notation
-  std::vector<std::size_t> read_;  ///< those not refused
+  std::vector<Polygon> drawn_;     ///< floes as read, in the plane and in house notation
+  std::vector<std::size_t> read_;  ///< floes that are not refused
   std::vector<Joined> joined_;
   std::map<std::size_t, const Joined*> joined_to_;  ///< by source
   std::vector<Polygon> dropped_;
@@ -293,9 +294,9 @@ tl::expected<ImportOutcome, PlaneError> import_floes(std::vector<SourceFloe>& fl
 
 namespace {
 
-constexpr std::size_t kMostYields = 3;  ///< floes named in a message
+constexpr std::size_t kMostYields = 3;  ///< number of floes that a message names
 
-/// A feature's other properties, as members of JSON.
+/// Returns the properties of a feature that are not Polynya's own, as members of JSON.
 std::string others_of(const FloeEntry& entry) {
   if (!entry.properties) return "";
   const std::string text = "{" + *entry.properties + "}";
@@ -370,7 +371,7 @@ void write_totals(JsonWriter& json, const ImportTotals& totals) {
   json.key("written").value(totals.area_written).key("change").value(totals.area_change).close('}');
 }
 
-/// " + 0.5 repaired", where there is any.
+/// Returns a term of the sum such as " + 0.5 repaired", or an empty text if the area is 0.
 std::string term(double area, const char* what) {
   if (area == 0) return "";
   return fmt::format(" {} {:.9g} {}", area < 0 ? "-" : "+", std::abs(area), what);
@@ -378,8 +379,6 @@ std::string term(double area, const char* what) {
 
 }  // namespace
 
-/// The floes' own ids where every one has one of its own, else their numbers; further pieces of a floe are
-/// numbered on.
 ImportedIds ids_of(const ImportOutcome& imported, const std::vector<SourceFloe>& floes,
                    const std::vector<FloeEntry>& entries) {
   std::vector<GivenId> given;

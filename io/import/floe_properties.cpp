@@ -32,7 +32,7 @@ constexpr FloeProperty kProperties[] = {
     {"angular_velocity_deg_per_s", "°/s", -360, 360, &FloeProperties::angular_velocity},
     {"under_hull_path_m", "m", -1000, 1e5, &FloeProperties::under_hull_path}};
 
-/// The whole of a text as a finite number.
+/// Returns the number if the whole text is a finite number.
 std::optional<double> as_number(std::string_view text) {
   text = trimmed(text);
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -47,14 +47,14 @@ std::optional<double> as_number(const JsonValue& value) {
   return value.is(JsonKind::kText) ? as_number(value.text()) : std::nullopt;
 }
 
-/// Whether a value is that code: the same number, or the same text.
+/// Returns true if a value is that code: the same number or the same text.
 bool is_code(const JsonValue& value, const std::string& code) {
   const auto number = as_number(value), listed = as_number(code);
   if (number && listed) return *number == *listed;
   return value.is(JsonKind::kText) && trimmed(value.text()) == code;
 }
 
-/// Whether it looks like a number that stands for no value: -9, -99, -9999.
+/// Returns true for numbers that usually mean "no value": -9, -99, -9999.
 bool looks_like_no_data(const JsonValue& value) {
   const auto number = as_number(value);
   if (!number || *number > -9) return false;
@@ -62,7 +62,7 @@ bool looks_like_no_data(const JsonValue& value) {
   return digits.find_first_not_of('9') == std::string::npos;
 }
 
-/// Units in a property's name, and what they are of the SI's.
+/// Units in the name of a property, and their factors to SI units.
 struct UnitName {
   std::string_view name, si;
   double factor;
@@ -71,7 +71,7 @@ constexpr UnitName kUnits[] = {{"m", "m", 1},   {"cm", "m", 0.01},  {"mm", "m", 
                                {"pa", "pa", 1}, {"kpa", "pa", 1e3}, {"mpa", "pa", 1e6}, {"gpa", "pa", 1e9},
                                {"kg", "kg", 1}, {"deg", "deg", 1}};
 
-/// A key in small letters, parted at its unit: "thickness", and cm.
+/// A key in small letters, divided at its unit: "thickness" and "cm".
 struct NameAndUnit {
   std::string name;
   std::optional<UnitName> unit;
@@ -94,9 +94,9 @@ NameAndUnit part_at_unit(std::string_view key) {
   return {std::move(small), std::nullopt};
 }
 
-/// The property that a key may be meant for, and the factor of its unit.
+/// Returns the property that a key may mean, and the factor of its unit.
 std::optional<NearMiss> near_miss_of(const std::string& key) {
-  constexpr std::size_t kShort = 4;  // letters: names this short are all near one another
+  constexpr std::size_t kShort = 4;  // letters; shorter names all resemble each other and are not compared
   constexpr std::size_t kLong = 100;
   if (key.size() > kLong) return {};
   const NameAndUnit given = part_at_unit(key);
@@ -131,7 +131,7 @@ void append_ice(JsonWriter& json, const Ice& ice) {
 
 namespace {
 
-/// Takes "[91:0.95 93:1.6]" from the end of a name: the values of codes. Brackets without a colon are of the name.
+/// Takes "[91:0.95 93:1.6]", the values of codes, from the end of a name. Brackets without a colon belong to the name.
 Result<> take_codes(std::string_view words, PropertyName& name) {
   const std::size_t open = name.name.rfind('[');
   if (open == std::string::npos || !name.name.ends_with(']') || name.name.find(':', open) == std::string::npos)
@@ -227,7 +227,7 @@ FloeProperties PropertyReader::read(const JsonValue& properties, std::string& wr
   return result;
 }
 
-/// The number that a value stands for; none where it stands for no value, or where it is wrong.
+/// Returns the number in a value; none if the value means "no value", or is wrong.
 std::optional<double> PropertyReader::number_in(std::string_view key, const PropertyName& name, const JsonValue& value,
                                                 bool& is_wrong) {
   const auto number = as_number(value);

@@ -16,7 +16,8 @@
 
 namespace polynya::io {
 
-/// What a floe file states of a floe beside its outline. What it does not state is the scene's.
+/// Properties of a floe in a floe file, apart from its outline. The scene's values apply to properties that the file
+/// does not have.
 struct FloeProperties {
   std::optional<std::int64_t> floe_id;
   std::optional<double> thickness;             ///< [m]
@@ -25,41 +26,43 @@ struct FloeProperties {
   std::optional<double> compressive_strength;  ///< [Pa]
   std::optional<double> tensile_strength;      ///< [Pa]
   std::optional<double> fracture_toughness;    ///< [Pa √m]
-  std::optional<double> velocity_x;            ///< over ground, along the coordinates' first axis [m/s]
-  std::optional<double> velocity_y;            ///< [m/s]
+  std::optional<double> velocity_x;            ///< velocity over ground along the first axis of the coordinates [m/s]
+  std::optional<double> velocity_y;            ///< along the second axis [m/s]
   std::optional<double> angular_velocity;      ///< counter-clockwise [°/s]
-  std::optional<bool> is_fast;                 ///< held at its velocity
-  std::optional<std::string> under_hull_of;    ///< the ship that it is under
-  std::optional<double> under_hull_path;       ///< then how far that has come over it [m]
+  std::optional<bool> is_fast;                 ///< true: fast ice, which keeps its velocity whatever presses on it
+  std::optional<std::string> under_hull_of;    ///< name of the ship under which the floe is, if it is submerged
+  std::optional<double> under_hull_path;  ///< distance that this ship's hull has moved over it since it went under [m]
   friend bool operator==(const FloeProperties&, const FloeProperties&) = default;
 };
 
-/// A number among the properties. The names and ranges are those of the scene's keys.
+/// A number among the properties. Keys and ranges are those of the scene.
 struct FloeProperty {
   std::string_view key;   ///< in the file
-  std::string_view unit;  ///< as shown to people
-  double low = 0;         ///< least value
+  std::string_view unit;  ///< unit in messages
+  double low = 0;         ///< smallest value that is allowed
   double high = 0;
   std::optional<double> FloeProperties::*member = nullptr;
-  double fracture::Ice::*ice = nullptr;  ///< of those of the ice
+  double fracture::Ice::*ice = nullptr;  ///< member of Ice, for a property of ice
 };
 std::span<const FloeProperty> floe_properties();
 
-inline constexpr std::size_t kFloeIceProperties = 6;  ///< of ice, that a floe may have of its own: the first ones
-/// A property of ice that a floe may have of its own: a key of the scene's "ice", of an entry of "floes" and of a
-/// feature's properties in a floe file, and of the floes that a run writes.
+/// Number of properties of ice, which come first in floe_properties().
+inline constexpr std::size_t kFloeIceProperties = 6;
+/// Returns the properties of ice that a single floe may have. Each is a key of the scene's "ice", of an entry of
+/// "floes", of the properties of a feature in a floe file, and of the floes that a run writes.
 inline std::span<const FloeProperty> floe_ice_properties() {
   return floe_properties().first(kFloeIceProperties);
 }
 
-/// Writes them as members of the object at hand.
+/// Writes the properties of ice as members of the object that is open.
 void append_ice(JsonWriter& json, const fracture::Ice& ice);
 
-/// Under which other names, and in which other units, a file has a property.
+/// Name and unit of a property in a file that uses other ones than Polynya.
 struct PropertyName {
-  std::string name;   ///< in the file
-  double factor = 1;  ///< of its values
-  /// Values of codes, where the file has codes: {"93", 1.6}. A code that is not among them stands for no value.
+  std::string name;   ///< name of the property in the file
+  double factor = 1;  ///< by which its values are multiplied to give Polynya's unit
+  /// Values of codes, if the file has codes instead of numbers: {"93", 1.6}. A code that is not listed means that there
+  /// is no value.
   std::vector<std::pair<std::string, double>> codes = {};
 };
 using PropertyNames = std::map<std::string, PropertyName, std::less<>>;  ///< by Polynya's key
@@ -67,32 +70,32 @@ using PropertyNames = std::map<std::string, PropertyName, std::less<>>;  ///< by
 /// How the properties of a file are read.
 struct PropertyRules {
   PropertyNames names;
-  std::vector<double> no_data = {};              ///< numbers that stand for no value: -9, -9999
-  std::string no_data_in_words = "--nodata {}";  ///< how a user names one, in messages
+  std::vector<double> no_data = {};              ///< numbers that mean "no value", such as -9 or -9999
+  std::string no_data_in_words = "--nodata {}";  ///< how a user writes such a number, for messages
 };
 
-/// Adds a property's key, the file's name for it, and a factor or codes where there are any: "thickness_m=CM*0.01",
-/// "thickness_m=SA[91:0.95 93:1.6]".
+/// Adds the name of a property in the file, with a factor or codes if there are any: "thickness_m=CM*0.01",
+/// "thickness_m=SA[91:0.95 93:1.6]". Fails with a message if the words are not of this form.
 Result<> add_property_name(std::string_view words, PropertyNames& names);
 
-/// Reads the properties of many features. A text that is a number is read as one.
+/// Reads the properties of many features. A text that contains a number is read as the number.
 class PropertyReader {
  public:
   explicit PropertyReader(PropertyRules rules) : rules_(std::move(rules)) {}
 
-  /// Reads the properties of a feature; null and a blank text are none. What a floe cannot have is appended to `wrong`:
-  /// "property thickness_m: found -0.4, allowed: a number from 0.001 to 20 [m]". An id that is no whole number is no
-  /// fault: floe_id is then none.
+  /// Reads the properties of one feature. null and a blank text mean "no value". A value that a floe cannot have is
+  /// appended to `wrong`: "property thickness_m: found -0.4, allowed: a number from 0.001 to 20 [m]". An id that is not
+  /// a whole number is no error; floe_id then has no value.
   FloeProperties read(const JsonValue& properties, std::string& wrong);
 
-  /// What was read otherwise than it stands in the file, in words, once for each property and kind.
+  /// Returns notes on values that were converted when they were read, one for each property and kind of conversion.
   std::vector<std::string> notes() const;
 
  private:
   enum class Reading { kText, kNoData, kUnlistedCode };
   struct Note {
-    std::string key;   ///< Polynya's
-    std::string name;  ///< the file's
+    std::string key;   ///< Polynya's key
+    std::string name;  ///< name in the file
     Reading reading;
     std::string example;
     std::size_t floes = 0;
@@ -105,30 +108,30 @@ class PropertyReader {
   std::vector<Note> notes_;
 };
 
-/// A property that is not read, though its name is near that of one that is.
+/// A property that is not read although its name resembles one that is.
 struct NearMiss {
-  std::string key;        ///< in the file
-  std::string meant;      ///< Polynya's
-  double factor = 1;      ///< to Polynya's unit, by the unit in its name
-  std::size_t floes = 0;  ///< that have it, and none by the meant name
+  std::string key;        ///< name in the file
+  std::string meant;      ///< Polynya's key that may be meant
+  double factor = 1;      ///< by which its values are multiplied to give Polynya's unit, from the unit in its name
+  std::size_t floes = 0;  ///< number of floes that have it but not the property that is meant
 };
 
-/// Finds near misses among the properties of many floes.
+/// Finds properties with nearly the right name among the properties of many floes.
 class NearMisses {
  public:
   explicit NearMisses(PropertyNames names) : names_(std::move(names)) {}
-  /// Adds the properties of a floe, and what was read of them.
+  /// Adds the properties of a floe and the values that were read from them.
   void add(const JsonValue& properties, const FloeProperties& read);
-  /// By their first occurrence.
+  /// Returns the near misses in the order of their first occurrence.
   const std::vector<NearMiss>& found() const { return found_; }
 
  private:
   PropertyNames names_;
-  std::map<std::string, std::optional<std::size_t>, std::less<>> index_;  ///< in found_, by the file's key
+  std::map<std::string, std::optional<std::size_t>, std::less<>> index_;  ///< index in found_ by the key in the file
   std::vector<NearMiss> found_;
 };
 
-/// "thickness_m=thickness_cm*0.01", for add_property_name().
+/// Returns the words that make the import read it, for add_property_name(): "thickness_m=thickness_cm*0.01".
 std::string as_property_name(const NearMiss& miss);
 
 }  // namespace polynya::io

@@ -25,9 +25,10 @@ using geometry::Point;
 using JsonKind = JsonValue::Kind;
 
 constexpr std::string_view kNeedsGdal = "this needs GDAL's programs";
-constexpr std::size_t kLongestAnswer = std::size_t{2} << 30;  ///< of a program [bytes]
+constexpr std::size_t kLongestAnswer = std::size_t{2} << 30;  ///< longest output of a program [bytes]
 
-/// GDAL's reason among its warnings: the first line that is one, without the list of drivers that it tried.
+/// Returns GDAL's reason for a failure from its output: the first line that is one, without the list of drivers it
+/// tried.
 std::string reason_in(std::string_view text) {
   std::string_view reason = text.substr(0, text.find('\n'));
   bool is_found = false;
@@ -39,7 +40,7 @@ std::string reason_in(std::string_view text) {
   return std::string(reason);
 }
 
-/// The answer of a program that ended well, or its reason.
+/// Runs a program of GDAL. Returns its output, or the reason why it failed.
 Result<std::string> run_gdal(const std::vector<std::string>& words, std::string_view input = {},
                              std::size_t longest = kLongestAnswer) {
   auto output = run_child(words, longest, input);
@@ -55,8 +56,8 @@ Result<std::string> run_gdal(const std::vector<std::string>& words, std::string_
 
 // ---- coordinate systems
 
-/// Whether GDAL would open a file or an address of the web to find the system, or take the text for an option. The text
-/// may come from a file of others.
+/// Returns true if GDAL would open a file or a web address to find the system, or would take the text for an option.
+/// Such a definition is refused, because the text may come from somebody else's file.
 bool leads_elsewhere(const std::string& definition) {
   constexpr std::string_view kOfOgc = "opengis.net/def/crs/";
   if (definition.empty() || definition.front() == '-' || definition.front() == '@') return true;
@@ -65,7 +66,7 @@ bool leads_elsewhere(const std::string& definition) {
   return std::filesystem::exists(definition, error);
 }
 
-/// The horizontal part of a system that has a height, or a way to another datum, beside it.
+/// Returns the horizontal part of a system that also has a height or a transformation to another datum.
 const JsonValue& horizontal_part(const JsonValue& crs) {
   const JsonValue* part = nullptr;
   if (const JsonValue* components = crs.find("components", JsonKind::kArray);
@@ -75,7 +76,7 @@ const JsonValue& horizontal_part(const JsonValue& crs) {
   return part ? horizontal_part(*part) : crs;
 }
 
-/// The size of the unit of a system's first axis in SI units; 0 where it is not told.
+/// Returns the size of the unit of a system's first axis in SI units; 0 if it is not stated.
 double unit_of(const JsonValue& crs) {
   constexpr double kDegree = std::numbers::pi / 180;
   const JsonValue* coordinates = crs.find("coordinate_system");
@@ -133,7 +134,7 @@ namespace {
 
 constexpr Point kNowhere{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
 
-/// The point in a line of gdaltransform, "x y"; NaN in "transformation failed."
+/// Returns the point in a line of gdaltransform, "x y"; NaN for "transformation failed."
 Point point_in(std::string_view line) {
   Point p = kNowhere;
   const char* const end = line.data() + line.size();
@@ -177,14 +178,14 @@ Result<std::vector<Point>> transform(const std::vector<Point>& points, const std
 
 namespace {
 
-/// What a file is by how it begins.
+/// Kind of a file, from its beginning.
 enum class FileKind {
-  kOwn,      ///< GeoJSON, NDJSON or WKT, or nothing that can be opened
-  kForeign,  ///< surely none of these
-  kUnknown,  ///< a text that begins as none of these
+  kOwn,      ///< GeoJSON, NDJSON or WKT, or something that cannot be opened
+  kForeign,  ///< certainly none of these
+  kUnknown,  ///< a text that does not begin as any of these
 };
 
-/// A JSON format that is not GeoJSON: TopoJSON, or that of Esri.
+/// Returns true for a JSON format that is not GeoJSON: TopoJSON or that of Esri.
 bool is_other_json(std::string_view begin) {
   return begin.find("\"Topology\"") != std::string_view::npos || begin.find("\"esriGeometry") != std::string_view::npos;
 }
@@ -208,7 +209,8 @@ FileKind kind_of(const std::filesystem::path& file) {
   return may_be_floe_text(words) ? FileKind::kOwn : FileKind::kUnknown;
 }
 
-/// How GDAL is given the file: absolute, since it takes some relative names for databases; within, of an archive.
+/// Returns the name by which GDAL opens the file. It is absolute, because GDAL takes some relative names for databases;
+/// for an archive it leads to the file inside.
 std::string name_for_gdal(const std::filesystem::path& file) {
   const std::string name = std::filesystem::absolute(file).string();
   return file.extension() == ".zip" || file.extension() == ".ZIP" ? "/vsizip/" + name : name;
@@ -216,12 +218,12 @@ std::string name_for_gdal(const std::filesystem::path& file) {
 
 struct ForeignLayer {
   std::string name;
-  std::string geometry;  ///< "Multi Polygon"
-  std::string features;  ///< how many
-  std::string system;    ///< WKT; or empty
+  std::string geometry;  ///< kind of its geometries, "Multi Polygon"
+  std::string features;  ///< number of features
+  std::string system;    ///< WKT; may be empty
 };
 
-/// The layers in the text of `ogrinfo -so -al`.
+/// Returns the layers from the output of `ogrinfo -so -al`.
 std::vector<ForeignLayer> layers_in(std::string_view text) {
   std::vector<ForeignLayer> layers;
   bool is_in_system = false;
@@ -239,13 +241,13 @@ std::vector<ForeignLayer> layers_in(std::string_view text) {
     if (line == "Layer SRS WKT:") is_in_system = true;
     if (line == "(unknown)") is_in_system = false;
   });
-  // GeoPackages without a system are given one of that name.
+  // GDAL gives GeoPackages without a system one with such a name.
   for (ForeignLayer& layer : layers)
     if (name_of_system(layer.system).starts_with("Undefined ")) layer.system.clear();
   return layers;
 }
 
-/// Whether a layer's geometries may be polygons.
+/// Returns true if the geometries of a layer may be polygons.
 bool may_have_polygons(const ForeignLayer& layer) {
   constexpr std::string_view kOthers[] = {"None", "Point", "Line String", "Multi Point", "Multi Line String"};
   std::string_view type = layer.geometry;
@@ -263,7 +265,7 @@ std::string in_words(const std::vector<ForeignLayer>& layers) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-/// The layer that is meant, of those that the file has.
+/// Returns the selected layer of the file, or fails with a message that lists its layers.
 Result<ForeignLayer> choose(const std::vector<ForeignLayer>& layers, const Selection& selection) {
   const std::string& wanted = selection.layer;
   if (layers.empty()) return fail("it has no layer");
@@ -297,7 +299,7 @@ std::string taken_in_words(const std::string& where, std::size_t taken, std::str
   return fmt::format("{} of {} features were taken, where {}", taken, all, where);
 }
 
-/// The features of a layer as GeoJSON in the file's coordinates.
+/// Converts the features of a layer to GeoJSON in the file's coordinates.
 Result<ForeignFile> convert(const std::string& name, const ForeignLayer& layer, const Selection& selection,
                             std::size_t longest) {
   std::vector<std::string> words{
@@ -339,9 +341,11 @@ std::optional<Result<ForeignFile>> read_foreign_file(const std::filesystem::path
 
 namespace {
 
-constexpr std::string_view kFeatureNumber = "polynya_feature";  ///< number of a feature in the text for ogr2ogr
+/// Property with the number of a feature in the text for ogr2ogr.
+constexpr std::string_view kFeatureNumber = "polynya_feature";
 
-/// The features of a text by their numbers, each with the properties and the polygon of its first entry, for ogr2ogr.
+/// Returns the features of a text for ogr2ogr, by their numbers, each with the properties and the polygon of its first
+/// entry.
 std::string features_of(const FloeText& floes, std::set<std::size_t>& features) {
   return json_object([&](JsonWriter& json) {
     json.key("type").value("FeatureCollection").key("features").open('[');

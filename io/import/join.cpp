@@ -22,17 +22,17 @@ Box grown(Box box, double by) {
   return {{box.low.x - by, box.low.y - by}, {box.high.x + by, box.high.y + by}};
 }
 
-/// Sets that are united.
+/// Disjoint sets with union.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0); }
-  /// The least member of the set.
+  /// Returns the least member of the set that contains i.
   std::size_t find(std::size_t i) {
     while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
     return i;
   }
   void unite(std::size_t i, std::size_t j) {
-    const auto [low, high] = std::minmax({find(i), find(j)});  // a pair of values, not of references
+    const auto [low, high] = std::minmax({find(i), find(j)});  // a pair of values, not of references to temporaries
     parents_[high] = low;
   }
 
@@ -40,7 +40,7 @@ class DisjointSets {
   std::vector<std::size_t> parents_;
 };
 
-/// The polygons of one group.
+/// Joins the polygons of one group.
 class Weld {
  public:
   Weld(const std::vector<Polygon>& polygons, std::vector<std::size_t> members, double reach)
@@ -67,7 +67,7 @@ class Weld {
     }
   }
 
-  /// Vertices within reach of each other become the first of them.
+  /// Replaces vertices within reach of each other by the first of them.
   void merge_vertices() {
     std::vector<Point*> vertices;
     for (WeldRing& ring : rings_)
@@ -85,7 +85,7 @@ class Weld {
     for (WeldRing& ring : rings_) ring.points = geometry::without_repeats(ring.points);
   }
 
-  /// An edge within reach of a vertex runs through it.
+  /// Makes edges pass through the vertices that are within reach of them.
   void split_edges() {
     std::vector<Edge> edges;
     std::vector<Point> vertices;
@@ -124,7 +124,7 @@ class Weld {
     return geometry::without_repeats(result);
   }
 
-  /// Edges that run both ways are where polygons were cut; true where there is any.
+  /// Finds edges that are drawn in both directions, along which polygons were cut apart. Returns true if there are any.
   bool find_shared_edges() {
     using Ends = std::pair<std::pair<double, double>, std::pair<double, double>>;
     std::multimap<Ends, std::size_t> edges;

@@ -7,16 +7,16 @@
 
 namespace polynya::io {
 
-/// Polygons that have become fewer.
+/// Several polygons that were joined.
 struct Joined {
-  std::vector<std::size_t> members;         ///< the polygons, by their indices, ascending
-  std::vector<geometry::Polygon> polygons;  ///< in their place
+  std::vector<std::size_t> members;         ///< indices of the polygons, ascending
+  std::vector<geometry::Polygon> polygons;  ///< polygons that replace them; fewer than before
 };
 
-/// Joins polygons that were cut apart: those whose boundaries run along each other, within `reach` [m] and in opposite
-/// directions, become one, and a slit in a polygon narrower than that is closed. Only polygons of the same group are
+/// Joins polygons that were cut apart. Two polygons become one if their boundaries run in opposite directions within
+/// `reach` [m] of each other. A slit in a polygon narrower than `reach` is closed. Only polygons of the same group are
 /// joined. The polygons are in house notation (geometry::normalised), which a slit of no width may make invalid.
-/// Corners of polygons that are joined move by at most `reach`; polygons that are not joined are not in the result.
+/// Corners of joined polygons move by at most `reach`. Polygons that are not joined are not in the result.
 std::vector<Joined> join(const std::vector<geometry::Polygon>& polygons, const std::vector<std::size_t>& groups,
                          double reach);
 

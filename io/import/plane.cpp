@@ -39,7 +39,7 @@ void for_rings(SourceFloe& floe, Use use) {
   for (Ring& hole : floe.polygon.holes) use(hole);
 }
 
-/// The first point of a floe of which it is true.
+/// Returns the first point of a polygon for which the condition is true.
 template <class Condition>
 std::optional<Point> find_point(const geometry::Polygon& polygon, Condition is_it) {
   const auto find_in = [&](const Ring& ring) -> std::optional<Point> {
@@ -52,14 +52,14 @@ std::optional<Point> find_point(const geometry::Polygon& polygon, Condition is_i
   return found;
 }
 
-/// "75.1° S, 16° E", of longitude and latitude in degrees.
+/// Returns "75.1° S, 16° E" for a longitude and latitude in degrees.
 std::string place_in_degrees(Point at) {
   const double longitude = std::remainder(at.x, 360);
   return fmt::format("{:.6g}° {}, {:.6g}° {}", std::abs(at.y), at.y < 0 ? "S" : "N", std::abs(longitude),
                      longitude < 0 ? "W" : "E");
 }
 
-/// Between two places, longitude and latitude in degrees, on a sphere of the Earth's radius [m].
+/// Distance between two places in degrees on a sphere with the radius of the Earth [m].
 double great_circle(Point a, Point b) {
   constexpr double kEarthRadius = 6371e3;  // [m]
   const auto radians = [](double degrees) { return degrees / geometry::kDegreesPerRadian; };
@@ -69,7 +69,7 @@ double great_circle(Point a, Point b) {
   return kEarthRadius * elementary::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
-/// Longitude and latitude [°].
+/// Returns longitude and latitude [°].
 template <class Place>
 Point degrees_of(const Place& place) {
   return {geometry::kDegreesPerRadian * place.longitude, geometry::kDegreesPerRadian * place.latitude};
@@ -81,21 +81,21 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// A floe that has no place in the plane, and its first point that has none.
+/// A floe without a place in the plane, and its first point that has none.
 struct MisplacedFloe {
   std::size_t floe = 0;
   Point point;
 };
 
-/// Likewise, with the image of the point.
+/// The same, with the image of the point.
 struct MisplacedLinePoint : MisplacedFloe {
   MisplacedLinePoint(std::size_t number, Point at, Point to) : MisplacedFloe{number, at}, image(to) {}
   Point image;
 };
 
-/// Whether a ring in degrees has an edge along the meridian of longitude 180, where polygons are cut.
+/// Returns true if a ring in degrees has an edge along the meridian of longitude 180, where files divide polygons.
 bool has_edge_at_180(const Ring& ring) {
-  constexpr double kNear = 1e-6;  // [°]; others cut a little beside it
+  constexpr double kNear = 1e-6;  // [°]; some files cut a little beside the meridian
   const auto is_on = [](Point p) { return 180 - std::abs(std::remainder(p.x, 360)) <= kNear; };
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point next = ring[(i + 1) % ring.size()];
@@ -109,12 +109,12 @@ bool is_one_system(const std::string& a, const std::string& b) {
   return first && second && !first->code.empty() && first->code == second->code;
 }
 
-/// Brings one file's floes to the plane, step by step.
+/// Projects the floes of one file to the plane, step by step.
 class PlaneImport {
  public:
   PlaneImport(std::vector<SourceFloe>& floes, const PlaneSettings& settings) : floes_(floes), settings_(settings) {}
 
-  /// Throws PlaneError.
+  /// Does all steps. Throws PlaneError.
   PlaneReport run(const FilePlace& place) {
     if (!place.stated.wrong.empty()) refuse(place.stated.wrong);
     check_numbers();
@@ -130,11 +130,12 @@ class PlaneImport {
   }
 
  private:
-  using Others = std::optional<std::size_t>;  ///< how many floes more
+  using Others = std::optional<std::size_t>;  ///< number of further floes with the same fault
 
   static bool is_kept(const SourceFloe& floe) { return floe.refused.empty(); }
 
-  /// The floes, of those not refused before, with a point of which it is true.
+  /// Returns the floes not yet refused that have a point for which the condition is true, each with its first such
+  /// point.
   template <class Condition>
   std::vector<MisplacedFloe> find_floes(Condition is_it) const {
     std::vector<MisplacedFloe> found;
@@ -145,8 +146,9 @@ class PlaneImport {
     return found;
   }
 
-  /// Refuses floes one by one; the file where they are more of it than `share`, or all. words_of(floe,
-  /// others) is why: `others` are how many more there are where the file is refused, none where the floe is.
+  /// Refuses floes one by one, or the whole file if they are more than the fraction `share` of its floes, or all of
+  /// them. words_of(floe, others) returns the message. `others` is the number of further floes if the file is refused,
+  /// and has no value if only the floe is.
   template <class Misplaced, class Words>
   void refuse_floes(const std::vector<Misplaced>& misplaced, Words words_of, double share = 1) {
     if (misplaced.empty()) return;
@@ -157,7 +159,7 @@ class PlaneImport {
     for (const Misplaced& one : misplaced) floes_[one.floe].refused = words_of(one, Others());
   }
 
-  /// The system that the coordinates are in; empty where they are metres of the plane already.
+  /// Returns the system of the coordinates; empty if they are metres of the plane already.
   std::string system_of(const std::string& crs) const {
     if (!crs.empty() && !settings_.source.empty() && crs != settings_.source && !is_one_system(crs, settings_.source))
       refuse(fmt::format("the file names its own coordinate system, {}, where {} is given", name_of_system(crs),
@@ -187,10 +189,10 @@ class PlaneImport {
     return "";
   }
 
-  /// Whether the floes are degrees about the origin, whatever a few wrong numbers show: those of a tenth or
-  /// more of the floes are, and small; or as metres they are no ice to simulate.
+  /// Returns true if the floes are degrees near the origin even if the file has some wrong numbers: at least a tenth of
+  /// the floes are near it and small, or the floes taken as metres would be too small to simulate.
   bool lie_about_origin() const {
-    constexpr double kLeastIce = 1;  // [m²], or squares of a degree
+    constexpr double kLeastIce = 1;  // [m²] or square degrees
     double area = 0;
     std::size_t near = 0, floes = 0;
     for (const SourceFloe& floe : floes_) {
@@ -206,8 +208,8 @@ class PlaneImport {
     return floes > 0 && (area < kLeastIce || 10 * near >= floes);
   }
 
-  /// The middle of the points in degrees on the sphere, longitude first, to 0.001°; without points farther
-  /// than kFarthestFloe from most, which wrong numbers bring there.
+  /// Returns the middle of the floes on the sphere, longitude first, to 0.001°. Points farther than kFarthestFloe from
+  /// most others are left out, since they come from wrong numbers.
   Point middle_of_degrees() const {
     std::vector<Point> points;
     std::vector<double> latitudes, longitudes;
@@ -216,7 +218,7 @@ class PlaneImport {
     if (points.empty()) return {};
     for (const Point p : points) {
       latitudes.push_back(p.y);
-      longitudes.push_back(std::remainder(p.x - points[0].x, 360));  // also across 180°
+      longitudes.push_back(std::remainder(p.x - points[0].x, 360));  // works across longitude 180 too
     }
     const Point middle{median(std::move(longitudes)) + points[0].x, median(std::move(latitudes))};
     const auto is_near = [&](Point p) { return great_circle(p, middle) < kFarthestFloe; };
@@ -260,7 +262,7 @@ class PlaneImport {
     report_.target = is_wkt && !crs->code.empty() ? crs->code : system;
   }
 
-  /// Marks floes that may have been cut at longitude 180.
+  /// Marks floes that may have been divided at longitude 180.
   void mark_180(const CoordinateFrame& from) {
     std::vector<Point> points;
     for (const SourceFloe& floe : floes_)
@@ -274,7 +276,8 @@ class PlaneImport {
     }
   }
 
-  /// The floes of a file that Polynya wrote, which states its plane.
+  /// Treats the floes of a file of Polynya that states its plane: keeps the plane, or moves the floes to the one asked
+  /// for.
   void keep_or_move(const StatedPlace& stated) {
     if (!settings_.source.empty())
       refuse(fmt::format("the file states its own place, {}, where {} is given", in_words(stated), settings_.source));
@@ -344,7 +347,8 @@ class PlaneImport {
     finish(lines, from, to);
   }
 
-  /// The rings of all floes that are kept, in their order, with the images of their vertices. Refuses floes without.
+  /// Returns the rings of all floes that are kept, in order, with the images of their vertices. Refuses floes without
+  /// an image.
   std::vector<ProjectedLine> lines_of(const CoordinateFrame& from, const CoordinateFrame& to) {
     turn_velocities(from, to);
     std::vector<ProjectedLine> lines;
@@ -359,7 +363,7 @@ class PlaneImport {
     return lines;
   }
 
-  /// Adds points to the edges that bend, and gives the floes their images.
+  /// Adds points to edges whose images bend, and replaces the polygons of floes by their images.
   void finish(std::vector<ProjectedLine>& lines, const CoordinateFrame& from, const CoordinateFrame& to) {
     const auto count_points = [&] {
       std::size_t count = 0;
@@ -374,7 +378,7 @@ class PlaneImport {
       if (is_kept(floe)) for_rings(floe, [&](Ring& ring) { ring = image_of(*next++); });
   }
 
-  /// Turns velocities as the axes turn at the first vertex of their floe.
+  /// Turns velocities by the angle through which the axes turn at the first vertex of the floe.
   void turn_velocities(const CoordinateFrame& from, const CoordinateFrame& to) {
     std::vector<Point> points;
     const auto moves = [](const SourceFloe& floe) {
@@ -385,8 +389,8 @@ class PlaneImport {
       if (!moves(floe)) continue;
       const Point at = floe.polygon.outer.front();
       const double step =
-          from.is_in_degrees ? 1e-4 : 10;  // some metres: PROJ makes one point of less than a millimetre
-      // Towards the equator, since there is nothing beyond a pole.
+          from.is_in_degrees ? 1e-4 : 10;  // Some metres: PROJ treats points less than a millimetre apart as one.
+      // The second step points towards the equator, because there is nothing beyond a pole.
       const double step_y = from.is_in_degrees && at.y > 0 ? -step : step;
       for (const Point p : {at, Point{at.x + step, at.y}, Point{at.x, at.y + step_y}}) points.push_back(p);
     }
@@ -405,7 +409,7 @@ class PlaneImport {
     }
   }
 
-  /// Refuses floes that have a vertex of which it is true: is_it(point in the file, image). Their lines are left out.
+  /// Refuses floes that have a vertex for which is_it(point in the file, image) is true, and leaves out their lines.
   template <class Condition, class Words>
   void refuse_lines(std::vector<ProjectedLine>& lines, Condition is_it, Words words_of) {
     std::vector<MisplacedLinePoint> found;
@@ -425,7 +429,7 @@ class PlaneImport {
     std::erase_if(lines, [&](const ProjectedLine&) { return !is_kept(floes_[floe_of[k++]]); });
   }
 
-  /// Floes beyond the plane's reach from the origin, named by where they are on the Earth.
+  /// Refuses floes beyond kFarthestFloe from the origin. The message says where they are on the Earth.
   void check_hemisphere(std::vector<ProjectedLine>& lines, const CoordinateFrame& from, const CoordinateFrame& to) {
     const auto is_far = [](Point, Point image) { return length(image - Point{}) > kFarthestFloe; };
     refuse_lines(lines, is_far, [&](const MisplacedLinePoint& one, Others others) {
@@ -443,7 +447,7 @@ class PlaneImport {
     });
   }
 
-  /// Whether degrees with latitude first lie near the origin.
+  /// Returns true if the coordinates lie near the origin when they are read as latitude first.
   static bool are_swapped(const CoordinateFrame& to, std::span<const SourceFloe> floes) {
     std::vector<Point> exchanged;
     for (const SourceFloe& floe : floes) {
@@ -456,7 +460,7 @@ class PlaneImport {
     return std::ranges::all_of(images, [](Point p) { return length(p - Point{}) <= kFarthestFloe; });
   }
 
-  /// Floes far from most others, by a wrong number, do not count.
+  /// Shifts the floes. Floes far from most others, which come from wrong numbers, do not count for the middle.
   void shift() {
     std::vector<double> xs, ys;
     std::vector<Point> points;
@@ -491,10 +495,10 @@ class PlaneImport {
       return fmt::format("found [{:.12g}, {:.12g}]{}, allowed: coordinates from {:g} to {:g} [m]: {}", one.point.x,
                          one.point.y, more_in_words(others), -kFarthestFloe, kFarthestFloe, settings_.shift_in_words);
     };
-    refuse_floes(far, words_of, 0.5);  // most of them: the file needs a shift
+    refuse_floes(far, words_of, 0.5);  // If most floes are too far, the whole file needs a shift.
   }
 
-  /// ", and as far in 3 more floes"
+  /// Returns ", and as far in 3 more floes".
   static std::string more_in_words(Others count) {
     if (count.value_or(0) == 0) return "";
     return fmt::format(", and as far in {} more floe{}", *count, *count == 1 ? "" : "s");

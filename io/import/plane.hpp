@@ -12,77 +12,82 @@
 
 namespace polynya::io {
 
-inline constexpr double kFarthestFloe = 1e6;  ///< a coordinate in the plane [m]
+/// Largest coordinate of a floe in the plane [m]. Farther floes are refused, because a larger coordinate usually means
+/// another unit or coordinate system, or a wrong number.
+inline constexpr double kFarthestFloe = 1e6;
 
-/// Largest distance between an edge and its image where points are added to it, if no other is given [m]. An import and
-/// an export together stay within a millimetre.
+/// Default of PlaneSettings::tolerance [m]. With it, an import followed by an export moves edges by at most a
+/// millimetre.
 inline constexpr double kEdgeTolerance = 0.0005;
 
-/// A floe as a file has it.
+/// A floe as a file describes it.
 struct SourceFloe {
   geometry::Polygon polygon;  ///< rings as drawn, in the file's coordinates
   FloeProperties properties;
-  std::string refused = {};            ///< why it is; empty: it is not
-  std::optional<std::size_t> feature;  ///< the feature of the file that it is a polygon of, by number
-  bool is_at_180 = false;  ///< an edge of it lies on the meridian of longitude 180, where that was asked for
+  std::string refused = {};            ///< reason why it is refused; empty: it is not
+  std::optional<std::size_t> feature;  ///< number of the feature in the file to which the polygon belongs
+  /// True if one of its edges lies on the meridian of longitude 180; set only if marks_180 asks for it.
+  bool is_at_180 = false;
 };
 
-/// What a file states of where its coordinates lie.
+/// What a file states about its coordinate system.
 struct FilePlace {
-  std::string system;  ///< the coordinate system that it names, as GDAL knows it; or empty
-  StatedPlace stated;  ///< of a file that Polynya wrote
+  std::string system;  ///< coordinate system that the file names, as GDAL knows it; may be empty
+  StatedPlace stated;  ///< place that a file of Polynya states
 };
 
-/// Which plane the floes of a file come to.
+/// Plane to which the floes of a file are projected.
 struct PlaneSettings {
-  std::optional<simulation::GeographicOrigin> origin;  ///< that about a place on the Earth
-  std::string target;                                  ///< that of a projected system, "EPSG:3413"; or empty
-  std::string source;                                  ///< the file's system, where the file names none; or empty
-  bool chooses_origin = false;                         ///< of a file in degrees without either: the middle of its floes
-  bool are_metres = false;                             ///< known to be no degrees
-  bool keeps_metres = true;  ///< also beside an origin, of a file without system that is not in degrees
-  bool marks_180 = false;    ///< floes with an edge on the meridian of longitude 180 are marked
-  bool is_shifted = false;   ///< then the middle of the floes' box comes to (0, 0), to a metre
-  /// Largest distance between the image of an edge and the straight lines that are put in its place [m]. A smaller
+  std::optional<simulation::GeographicOrigin> origin;  ///< plane about this place on the Earth
+  std::string target;                                  ///< plane of this projected system, "EPSG:3413"; may be empty
+  std::string source;  ///< system of the file's coordinates, if the file names none; may be empty
+  /// For a file in degrees without origin and target: use the middle of its floes as origin.
+  bool chooses_origin = false;
+  bool are_metres = false;  ///< coordinates are known to be metres, not degrees
+  /// Coordinates of a file without a system that do not look like degrees stay as they are, even with an origin.
+  bool keeps_metres = true;
+  bool marks_180 = false;   ///< mark floes with an edge on the meridian of longitude 180
+  bool is_shifted = false;  ///< move the middle of the box around all floes to (0, 0), in whole metres
+  /// Largest distance between the exact image of an edge and the straight lines that replace it [m]. A smaller
   /// tolerance adds more points to edges. With 0 no points are added.
   double tolerance = kEdgeTolerance;
-  /// How a user gives an origin [°], in messages.
+  /// Returns the option with which a user gives an origin [°], for messages.
   std::string (*origin_in_words)(double latitude, double longitude) = nullptr;
-  std::string shift_in_words;   ///< likewise
-  std::string source_in_words;  ///< likewise
+  std::string shift_in_words;   ///< option with which a user asks for a shift, for messages
+  std::string source_in_words;  ///< option with which a user names the system of the file, for messages
 };
 
-/// How the coordinates came to the plane.
+/// How the coordinates were projected to the plane.
 struct PlaneReport {
-  std::string system;  ///< the file's: its name as PROJ has it; empty: metres of the plane
-  std::optional<simulation::GeographicOrigin> origin;  ///< of the plane, where it is about one
-  bool is_origin_chosen = false;                       ///< by the program
-  std::string target;                                  ///< the plane's system, where it is that of one
-  geometry::Vector shift;                              ///< that was added [m]
-  std::size_t added_points = 0;                        ///< to edges that are not straight in the plane
+  std::string system;  ///< name of the file's system in PROJ; empty: the coordinates were metres of the plane
+  std::optional<simulation::GeographicOrigin> origin;  ///< origin of the plane, if it is about one
+  bool is_origin_chosen = false;                       ///< true if the program chose the origin
+  std::string target;                                  ///< system of the plane, if it has one
+  geometry::Vector shift;                              ///< vector that was added to the coordinates [m]
+  std::size_t added_points = 0;  ///< number of points that were added to edges whose images are not straight
 };
 
-/// Why the floes of a file have no place in the plane.
+/// Reason why the floes of a file have no place in the plane.
 struct PlaneError {
-  std::optional<std::size_t> floe;  ///< the first of which it is true; none: of the file
+  std::optional<std::size_t> floe;  ///< index of the first floe with the fault; none: the fault is one of the file
   std::string words;
 };
 
-/// Brings floes to metres in a plane, by GDAL, their velocities with them. Floes that are refused are left as they are.
-/// Refused are then also those with a coordinate that is not finite, with a latitude beyond ±90, without an image, and
-/// farther than kFarthestFloe from the origin (in the other hemisphere, say). Where that is all of them (most, of those
-/// far in the plane), it is the error; others are degrees without a system or an origin, systems that PROJ does not
-/// know, and planes that are not in metres. Coordinates without system that do not look like degrees
-/// (io/text/floe_text.hpp) are metres of the plane. A file that states its own place (StatedPlace) keeps it where no
-/// other plane is asked for; else its floes are moved to that plane.
+/// Projects floes and their velocities to metres in a plane, with GDAL. Floes that are refused already are not changed.
+/// Further floes are refused if a coordinate is not finite, if a latitude is beyond ±90°, if a point has no image, or
+/// if a point is farther than kFarthestFloe from the origin, as in the other hemisphere. If all floes have one of these
+/// faults (for the last one: most floes), the whole file fails with it. The file also fails if it is in degrees without
+/// a system or an origin, if PROJ does not know its system, or if the plane is not in metres. Coordinates without a
+/// system that do not look like degrees (io/text/floe_text.hpp) are metres of the plane. A file that states its own
+/// place (StatedPlace) keeps it unless another plane is asked for; then its floes are moved there.
 tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes, const FilePlace& place,
                                                      const PlaneSettings& settings);
 
-/// Whether two origins are one: within a hundredth of a millimetre.
+/// Returns true if two origins are the same place and heading, to within a hundredth of a millimetre.
 bool are_one(const simulation::GeographicOrigin& a, const simulation::GeographicOrigin& b);
 
-/// The plane of a report in words, "the plane about 78.3° N, 15° E, x along 90°, shifted by (10, 20) m"; empty where it
-/// lies nowhere on the Earth.
+/// Describes the plane of a report, "the plane about 78.3° N, 15° E, x along 90°, shifted by (10, 20) m". Returns an
+/// empty text if the plane has no place on the Earth.
 std::string place_in_words(const PlaneReport& plane);
 
 }  // namespace polynya::io

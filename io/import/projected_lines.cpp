@@ -22,8 +22,8 @@ using geometry::Point;
 using geometry::Ring;
 using geometry::Vector;
 
-constexpr double kMetresPerDegree = 111195;  ///< along a meridian of a sphere of the Earth's radius
-/// How often an edge is halved at most: 1000 km into pieces of 1 m.
+constexpr double kMetresPerDegree = 111195;  ///< along a meridian of a sphere with the radius of the Earth [m/°]
+/// Largest number of times that an edge is halved: enough to divide 1000 km into pieces of 1 m.
 constexpr int kMostHalvings = 20;
 
 Vector turned(Vector v, double angle) {
@@ -47,7 +47,7 @@ bool has_image(const ProjectedLine& line) {
 }  // namespace
 
 CoordinateFrame frame_about(const simulation::GeographicOrigin& origin) {
-  // A heading is clockwise from north, a turn counter-clockwise from east.
+  // A heading counts clockwise from north, a turn counter-clockwise from east.
   return {.system = fmt::format("+proj=aeqd +lat_0={:.15g} +lon_0={:.15g} +datum=WGS84 +units=m +no_defs +type=crs",
                                 geometry::kDegreesPerRadian * origin.latitude,
                                 geometry::kDegreesPerRadian * origin.longitude),
@@ -97,13 +97,13 @@ namespace {
 /// A part of an edge that may need points.
 struct Part {
   std::size_t line = 0;
-  std::size_t edge = 0;       ///< from the point of this index
-  double begin = 0, end = 1;  ///< of the edge's length
+  std::size_t edge = 0;       ///< the edge starts at the point with this index
+  double begin = 0, end = 1;  ///< range of the part, as fractions of the edge's length
   std::pair<Point, Point> from, to;
   int halvings = 0;
 };
 
-/// A point on an edge, and its image.
+/// A point added to an edge, and its image.
 struct Added {
   std::size_t line = 0, edge = 0;
   double place = 0;
@@ -148,8 +148,9 @@ class Densification {
     return parts;
   }
 
-  /// Whether the image of an edge may leave its straight image at all. In degrees, by its latitude: an edge of length l
-  /// leaves the straight line by at most l² tan(latitude) / (4 R).
+  /// Returns true if the image of an edge can leave the straight line by more than the tolerance at all. In degrees
+  /// this depends on the latitude: the image of an edge of length l leaves the line by at most l² tan(latitude) / (4
+  /// R), with R the radius of the Earth.
   bool may_bend(const Part& part) const {
     const double length_of_image = distance(part.to.first, part.to.second);
     if (length_of_image == 0 && !to_.is_in_degrees) return false;
@@ -165,8 +166,8 @@ class Densification {
     return {(1 - place) * ends.first.x + place * ends.second.x, (1 - place) * ends.first.y + place * ends.second.y};
   }
 
-  /// Divides each part whose image is not straight into two, or into four where two would not do, since a half bends by
-  /// a quarter. Keeps the points between the new parts, and returns these.
+  /// Divides each part whose image is not straight into two, or into four if two would not be enough: a half bends a
+  /// quarter as much. Stores the points between the new parts, and returns the new parts.
   Result<std::vector<Part>> divided(const std::vector<Part>& parts) {
     std::vector<Point> samples;
     samples.reserve(kSamples.size() * parts.size());
@@ -174,7 +175,7 @@ class Densification {
       for (const double place : kSamples) samples.push_back(at(part.from, place));
     const auto images = project(samples, from_, to_);
     if (!images) return fail(images.error());
-    // Half of the tolerance, since the greatest deviation may lie between the samples.
+    // Half of the tolerance is used, because the largest deviation may lie between the samples.
     const double most = tolerance_ / 2;
     std::vector<Part> next;
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -206,7 +207,7 @@ class Densification {
     return next;
   }
 
-  /// How far the image of a part leaves the straight line between its ends, by the samples [m].
+  /// Largest distance of a part's image from the straight line between its ends, at the samples [m].
   double deviation(const Part& part, const Point* image) const {
     std::pair<Point, Point> chord = part.to;
     Vector scale{1, 1};
@@ -217,7 +218,7 @@ class Densification {
       const double latitude = (chord.first.y + chord.second.y) / 2;
       scale = {kMetresPerDegree * elementary::cos(latitude * geometry::kRadiansPerDegree), kMetresPerDegree};
     } else if (!to_.is_metric) {
-      // The scene's metres are those of `from`, since systems may be in feet.
+      // Lengths are those of `from` in metres, because the target system may be in feet.
       const double length_to = distance(chord.first, chord.second);
       if (length_to > 0) scale = distance(part.from.first, part.from.second) / length_to * scale;
     }

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file's number; none where there is no such file or it has a word, as "max".
+/// Returns the number in a file; nothing if there is no such file, or if it has a word such as "max" instead.
 std::optional<double> number_in(const fs::path& file) {
   std::ifstream stream(file);
   double value = 0;
@@ -22,7 +22,7 @@ std::optional<double> number_in(const fs::path& file) {
   return {};
 }
 
-/// The number behind a key that starts a line, as in /proc/meminfo; 0 where there is none.
+/// Returns the number after a key at the start of a line, as in /proc/meminfo; 0 if there is none.
 double number_behind(const fs::path& file, const std::string& key) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
@@ -44,7 +44,7 @@ void limit_by_process(MemoryAvailable& available, int resource, const char* sour
     limit(available, static_cast<double>(limits.rlim_cur), source);
 }
 
-/// What this process holds in memory [bytes].
+/// Memory that this process uses now [bytes].
 double resident(const fs::path& root) {
   std::ifstream stream(root / "proc/self/statm");
   double size = 0, resident_pages = 0;
@@ -52,15 +52,15 @@ double resident(const fs::path& root) {
   return resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-/// Names of a version of control groups.
+/// Names of the files of one version of control groups.
 struct GroupFiles {
   const char* folder;
   const char* limit;
   const char* used;
-  const char* cache;  ///< key in memory.stat of what is given back on demand
+  const char* cache;  ///< key in memory.stat of the memory that the kernel frees on demand
 };
 
-/// A group and those it is in, up to the root of groups: each has its limit.
+/// Applies the limits of a group and of all groups that contain it.
 void limit_by_groups(MemoryAvailable& available, const fs::path& root, const GroupFiles& files, const fs::path& group,
                      double ours) {
   for (fs::path at = group;; at = at.parent_path()) {
@@ -75,7 +75,8 @@ void limit_by_groups(MemoryAvailable& available, const fs::path& root, const Gro
   }
 }
 
-/// The groups of this process: lines of /proc/self/cgroup, "0::/group" or "N:controllers:/group".
+/// Applies the limits of the groups of this process. /proc/self/cgroup lists them as "0::/group" or
+/// "N:controllers:/group".
 void limit_by_groups(MemoryAvailable& available, const fs::path& root, double ours) {
   std::ifstream stream(root / "proc/self/cgroup");
   for (std::string line; std::getline(stream, line);) {
@@ -102,7 +103,7 @@ MemoryAvailable memory_available(const fs::path& root) {
   const fs::path machine = root / "proc/meminfo";
   const double swap = kKibibyte * number_behind(machine, "SwapFree:");
   limit_by_groups(available, root, ours);
-  available.bytes += swap;  // a group's limit is of memory without swap
+  available.bytes += swap;  // the limit of a group does not include swap
   if (const double free = kKibibyte * number_behind(machine, "MemAvailable:"); free > 0)
     limit(available, free + swap + ours, "what is free on this machine");
   limit_by_process(available, RLIMIT_AS, "the limit of ulimit -v");

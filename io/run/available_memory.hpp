@@ -5,15 +5,15 @@
 
 namespace polynya::io {
 
-/// How much memory this process can have in all, what it has already included.
+/// Memory that this process can use in total, including what it uses already.
 struct MemoryAvailable {
-  double bytes = 0;    ///< infinite where nothing limits it
-  std::string source;  ///< what sets the limit, in words
+  double bytes = 0;    ///< infinite if nothing limits it
+  std::string source;  ///< the limit in words, for messages
 };
 
-/// The least of what is free on the machine, swap included (/proc/meminfo), of the control groups' limits
-/// (version 2 and 1), and of the limits of the process (ulimit -v and -d). What cannot be read limits
-/// nothing. `root` is where /proc and /sys are.
+/// Returns the smallest of the free memory of the machine including swap (/proc/meminfo), the limits of the control
+/// groups (versions 2 and 1), and the limits of the process (ulimit -v and -d). A limit that cannot be read is ignored.
+/// `root` is the folder that contains /proc and /sys; tests use another one.
 MemoryAvailable memory_available(const std::filesystem::path& root = "/");
 
 }  // namespace polynya::io

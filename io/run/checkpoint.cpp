@@ -42,11 +42,11 @@ void fields(Archive& archive, Is<Checkpoint> auto& c) {
 namespace {
 
 constexpr std::string_view kMark = "PLYNYCKP";
-constexpr std::size_t kHeadSize = 24;
+constexpr std::size_t kHeadSize = 24;  ///< length of mark, version, checksum and length [bytes]
 constexpr std::string_view kPrefix = "checkpoint-";
 constexpr std::string_view kSuffix = ".bin";
 
-/// The number of steps in a checkpoint's name; negative where it is none.
+/// Returns the number of steps in the name of a checkpoint; negative if it is not the name of one.
 std::int64_t steps_of(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
   if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) return -1;
@@ -82,7 +82,8 @@ std::string checkpoint_bytes(const Checkpoint& checkpoint) {
 }
 
 Result<> write_checkpoint_file(const std::filesystem::path& path, const Checkpoint& checkpoint) {
-  const std::string payload = payload_of(checkpoint);  // of a million floes 200 MB, which are not copied
+  // A variable of its own, because it has 200 MB for a million floes and must not be copied.
+  const std::string payload = payload_of(checkpoint);
   const auto produce = [&](const WritePart& write) {
     write(head_of(payload));
     write(payload);
@@ -130,7 +131,7 @@ Result<> write_checkpoint(const std::filesystem::path& folder, const Checkpoint&
   const std::vector<std::filesystem::path> found = checkpoints_in(folder);
   const auto is_older = [&](const auto& path) { return steps_of(path) < checkpoint.steps; };
   const auto kept = std::ranges::find_if(found, is_older);
-  std::error_code ignored;  // one too many does no harm
+  std::error_code ignored;  // an old checkpoint that stays does no harm
   for (auto path = found.begin(); path != found.end(); ++path)
     if (path != kept && steps_of(*path) != checkpoint.steps) std::filesystem::remove(*path, ignored);
   return {};
@@ -139,7 +140,7 @@ Result<> write_checkpoint(const std::filesystem::path& folder, const Checkpoint&
 Result<> rewind_to(const std::filesystem::path& folder, const Checkpoint& checkpoint,
                    const std::filesystem::path& file) {
   const auto own = path_of(folder, checkpoint);
-  std::error_code ignored;  // where there is no such file yet
+  std::error_code ignored;  // the file may not exist yet
   if (!std::filesystem::equivalent(file, own, ignored))
     if (auto written = write_checkpoint_file(own, checkpoint); !written) return written;
   for (const auto& path : checkpoints_in(folder)) {

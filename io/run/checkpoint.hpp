@@ -11,54 +11,57 @@
 
 namespace polynya::io {
 
-/// An instant of a run from which it can be resumed, and what was on disk then.
+/// An instant of a run from which it can be resumed, and the state of the run folder at that instant.
 ///
 ///   file = "PLYNYCKP" u32:version u32:crc u64:length payload{length}
 ///
-/// crc is the CRC-32 of the payload; the payload is the field list of this and of RunProgress in the layout
-/// of simulation/state/archive.hpp. Little-endian.
+/// crc is the CRC-32 of the payload. The payload is the field list of this struct and of RunProgress in the layout of
+/// simulation/state/archive.hpp, little-endian.
 struct Checkpoint {
-  std::string program_version;  ///< that wrote it
-  std::string course_hash;      ///< of the run's scene (LoadedScene::course_hash): it may end at another time
-  std::int64_t steps = 0;       ///< done
-  double wall_time =
-      0;  ///< that the run has taken so far, all its parts together; 0 at its end: summary.json has it [s]
-  RunProgress progress;  ///< of the run folder
-  std::string state;     ///< simulation/state/state.hpp
+  std::string program_version;  ///< version of the program that wrote it
+  std::string course_hash;      ///< hash of the run's scene without its end (LoadedScene::course_hash)
+  std::int64_t steps = 0;       ///< number of ticks that are done
+  /// Wall time of the run so far, with its earlier parts [s]. The last checkpoint of a run has 0 instead, so that two
+  /// folders of the same run have equal bytes; summary.json has the time.
+  double wall_time = 0;
+  RunProgress progress;  ///< state of the run folder
+  std::string state;     ///< state of the simulation (simulation/state/state.hpp)
+  /// Hash of the simulation's state, which shows after reading whether it is complete.
   std::uint64_t state_hash = 0;
-  std::string failure;  ///< of a dump: what went wrong in the step after it; empty in a checkpoint
+  std::string failure;  ///< in a dump: message about the failure in the next step; empty in a checkpoint
 };
 
+/// Version of the format. It is raised whenever the layout changes; files of other versions are refused.
 inline constexpr std::uint32_t kCheckpointVersion = 26;
 
-/// The file around a payload: mark, version, checksum, length.
+/// Returns the bytes of a checkpoint file with this payload: mark, version, checksum, length and payload.
 std::string checkpoint_file_of(std::string_view payload);
 std::string checkpoint_bytes(const Checkpoint& checkpoint);
 
-/// Writes a file of these bytes to a temporary name, synced and renamed.
+/// Writes a checkpoint to a temporary name, waits until the disk has stored it, and renames it to `path`.
 Result<> write_checkpoint_file(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
-/// The error is why the bytes are no checkpoint, or a damaged one, or one of another version.
+/// Reads a checkpoint. Fails if the bytes are no checkpoint, are damaged, or have another version.
 Result<Checkpoint> read_checkpoint(std::string_view bytes);
 
-/// Whether a file has the name of a checkpoint.
+/// Returns true if the name of a file is that of a checkpoint.
 bool is_checkpoint(const std::filesystem::path& path);
 
-/// The checkpoints in a run folder, the newest first: "checkpoint-000000012000.bin" after 12 000 steps.
+/// Returns the checkpoints in a run folder, newest first. One after 12 000 steps is "checkpoint-000000012000.bin".
 std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder);
 
-/// Writes a checkpoint into a run folder; only then all others are removed but the newest that is older.
+/// Writes a checkpoint into a run folder. Then it removes all others except the newest of the older ones.
 Result<> write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint);
 
-/// Makes a checkpoint, read from a file in the folder or elsewhere, the newest of a run folder that is to be
-/// resumed from it: newer ones are of a course of the run that is now cut off.
+/// Makes a checkpoint the newest of a run folder that is to be resumed from it, and removes newer ones, which belong to
+/// the part of the run that is discarded. `file` is the file from which it was read, in the folder or elsewhere.
 Result<> rewind_to(const std::filesystem::path& folder, const Checkpoint& checkpoint,
                    const std::filesystem::path& file);
 
-/// Reads a checkpoint of the folder whose scene has that LoadedScene::course_hash.
+/// Reads a checkpoint of the folder. Fails if its scene has another LoadedScene::course_hash.
 Result<Checkpoint> read_checkpoint_file(const std::filesystem::path& path, std::string_view course_hash);
 
-/// Removes the checkpoints but the newest `kept`, and what a crash left of one, from a folder.
+/// Removes all checkpoints except the newest `kept`, and unfinished files that a crash left, from a folder.
 Result<> remove_checkpoints(const std::filesystem::path& folder, std::size_t kept = 0);
 
 }  // namespace polynya::io

@@ -19,7 +19,7 @@ using simulation::Event;
 using simulation::FloeId;
 using simulation::Scene;
 
-/// Writes a line; of the player's only what has a label.
+/// Writes the fields of an event; for the player only fields with a label.
 struct Writer {
   JsonWriter& json;
   const Scene& scene;
@@ -56,7 +56,7 @@ struct Writer {
   }
 };
 
-/// The rule, and "label value unit" of what else has a label.
+/// Collects the rule and, of other fields with a label, "label value unit".
 struct Words {
   const Scene& scene;
   std::string text = {};
@@ -86,7 +86,7 @@ struct Words {
   }
 };
 
-/// Reads a line into an event of its kind.
+/// Reads the fields of a line into an event of its kind.
 class Reader {
  public:
   Reader(const JsonValue& line, const Scene& scene) : at_(&line), scene_(scene) {}
@@ -129,7 +129,7 @@ class Reader {
   const Scene& scene_;
 };
 
-/// Enters the fields of a kind into a list.
+/// Adds the fields of a kind of event to a list.
 struct Lister {
   std::vector<EventField>& fields;
   std::string_view kind;
@@ -150,7 +150,7 @@ struct Lister {
   }
 };
 
-/// Uses an event of each kind.
+/// Calls use(event) with an event of each kind.
 template <std::size_t Index = 0>
 void for_kinds(auto use) {
   if constexpr (Index < std::variant_size_v<decltype(Event::what)>) {
@@ -233,7 +233,7 @@ std::string ops_text(const simulation::CutInput& cut) {
 constexpr std::string_view kFloeEnding = ".geojson";
 constexpr std::string_view kOpsEnding = "-ops.json";
 
-/// Whether write_rejected_cut() gives a file that name, or left it when it was killed.
+/// Returns true if the name is one that write_rejected_cut() gives to a file, or left when it was killed.
 bool is_name_of_ours(std::string_view name) {
   constexpr std::string_view kPart = ".part";
   constexpr std::size_t kDigits = 6;
@@ -242,7 +242,7 @@ bool is_name_of_ours(std::string_view name) {
   return is_numbered && (name.substr(kDigits) == kFloeEnding || name.substr(kDigits) == kOpsEnding);
 }
 
-/// The folder for rejected cuts, which may be missing.
+/// Returns the folder for refused cuts, which may not exist.
 Result<std::filesystem::path> folder_in(const std::filesystem::path& run_folder) {
   std::filesystem::path folder = run_folder / run_file::kRejectedCuts;
   std::error_code ignored;
@@ -277,7 +277,7 @@ Result<> remove_rejected_cuts(const std::filesystem::path& run_folder) {
     std::filesystem::remove(file, error);
     if (error) return fail(fmt::format("{}: {}", file.string(), error.message()));
   }
-  std::filesystem::remove(*folder, error);  // unless something else is in it
+  std::filesystem::remove(*folder, error);  // fails, as intended, if the folder contains other files
   return {};
 }
 

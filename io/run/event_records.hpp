@@ -16,20 +16,22 @@
 
 namespace polynya::io {
 
-// The fields of events.ndjson, each once, in their order. What writes, reads, shows and lists them is a Line,
-// which takes each with its place in the event: line(key, place, about), and line.object(about, list) for the
-// criterion.
+// The fields of events.ndjson. Each is defined once, in the order of the lines. Functions that write, read, show or
+// list events pass a Line, which is called for each field with its key, its place in the event and its meaning:
+// line(key, place, about). The members of the criterion are passed by line.object(about, list).
 
 using simulation::Is;
 
-/// What a field is.
+/// Meaning and properties of a field.
 struct FieldMeaning {
-  std::string_view unit;        ///< as people read it; empty of words, counts and ids
-  std::string_view meaning;     ///< as docs/run-folder.md has it
-  std::string_view label = {};  ///< in the player and `polynya inspect`, where they show the field
+  std::string_view unit;        ///< unit for people; empty for words, counts and ids
+  std::string_view meaning;     ///< description in docs/run-folder.md
+  std::string_view label = {};  ///< name in the player and in `polynya inspect`; empty: they do not show the field
+  /// Smallest value that the reader accepts.
   double least = -std::numeric_limits<double>::infinity();
-  std::optional<bool> is_there = {};  ///< of one that may be left out, in lines of older versions too
-  bool is_derived = false;            ///< from others: it is not read
+  /// Set for a field that may be missing, also in lines of older versions: whether this event has it.
+  std::optional<bool> is_there = {};
+  bool is_derived = false;  ///< true for a field that is computed from others and therefore not read
 };
 constexpr FieldMeaning optional(bool is_there, FieldMeaning about) {
   about.is_there = is_there;
@@ -40,21 +42,21 @@ constexpr FieldMeaning derived(FieldMeaning about) {
   return about;
 }
 
-/// A ship or structure, recorded by its name.
+/// A ship or structure, which is recorded by its name.
 template <class Index>
 struct ShipName {
   Index& index;
   bool may_be_none = false;
 };
-template <class Index>  // clang 14, which builds the fuzzers, deduces none for aggregates
+template <class Index>  // Clang 14, which compiles the fuzz tests, does not deduce these for aggregates.
 ShipName(Index&)->ShipName<Index>;
 template <class Index>
 ShipName(Index&, bool) -> ShipName<Index>;
 
-/// The parent of the event's floe, which the event does not have.
+/// The parent of the event's floe. The event does not store it, so append_event() receives it.
 struct Parent {};
 
-inline constexpr FieldMeaning kRule = derived({"", "the rule, in words"});
+inline constexpr FieldMeaning kRule = derived({"", "the rule in words"});
 
 template <class Line>
 void criterion(Line& line, Is<simulation::TiltCriterion> auto& c, bool) {
@@ -64,14 +66,18 @@ void criterion(Line& line, Is<simulation::TiltCriterion> auto& c, bool) {
                         : c.deflection < c.least_deflection ? "covered share > 1/2"
                                                             : "edge deflection >= least deflection"),
        kRule);
-  line("deflection_m", c.deflection, optional(tilts, {"m", "of the floe's edge", "deflection"}));
+  line("deflection_m", c.deflection, optional(tilts, {"m", "deflection of the floe's edge", "deflection"}));
   line("least_deflection_m", c.least_deflection,
-       optional(tilts, {"m", "at which the floe goes under", "goes under from", 0}));
-  line("vertical_force_N", c.vertical_force, optional(tilts, {"N", "on the edge in the step", "vertical force"}));
+       optional(tilts, {"m", "deflection at which the floe goes under", "goes under from", 0}));
+  line("vertical_force_N", c.vertical_force,
+       optional(tilts, {"N", "vertical force on the edge in the step", "vertical force"}));
   line("tilting_capacity_N", c.capacity,
-       optional(tilts, {"N", "the force that turns the floe over", "tilting capacity", 0}));
+       optional(tilts, {"N", "vertical force at which the floe tilts over", "tilting capacity", 0}));
   line("covered_share", c.covered_share,
-       optional(tilts, {"", "of the floe what the hull covers; more than half goes under too", "covered", 0}));
+       optional(
+           tilts,
+           {"", "fraction of the floe that the hull covers; a floe that is covered by more than half also goes under",
+            "covered", 0}));
 }
 
 template <class Line>
@@ -81,10 +87,11 @@ void criterion(Line& line, Is<simulation::ResurfaceCriterion> auto& c, bool come
                         : c.path < 0 ? "the ship backed off it"
                                      : "path >= least path"),
        kRule);
-  line("path_m", c.path, {"m", "how far the ship has come over it", "ship came over it"});
-  line("least_path_m", c.least_path, {"m", "of the hull, from which a piece may come up", {}, 0});
-  line("waited_s", c.waited, {"s", "for room", "waited for room", 0});
-  line("longest_wait_s", c.longest_wait, {"s", "after which it stays under the ice", {}, 0});
+  line("path_m", c.path,
+       {"m", "distance that the ship has moved over the piece since it went under", "ship came over it"});
+  line("least_path_m", c.least_path, {"m", "distance from which on a piece may surface", {}, 0});
+  line("waited_s", c.waited, {"s", "time that the piece has waited for room", "waited for room", 0});
+  line("longest_wait_s", c.longest_wait, {"s", "waiting time after which the piece stays under the ice", {}, 0});
 }
 
 template <class Line>
@@ -92,57 +99,63 @@ void criterion(Line& line, Is<simulation::GrindCriterion> auto& c, bool) {
   const bool is_inseparable = c.least_width > 0;
   line("kind", std::string_view(is_inseparable ? "overlap width < least width" : "crushed overlap >= least area"),
        kRule);
-  line("width_m", c.width, optional(is_inseparable, {"m", "by which the overlap's area falls per metre of motion"}));
+  line("width_m", c.width,
+       optional(is_inseparable, {"m", "decrease of the overlap's area per metre by which the bodies are moved apart"}));
   line("least_width_m", c.least_width,
-       optional(is_inseparable, {"m", "from which a contact parts the overlap; left out where it was crushed", {}, 0}));
-  line("overlap_area_m2", c.overlap_area, {"m²", "of the overlap, exactly", "overlap ground", 0});
-  line("least_area_m2", c.least_area, {"m²", "a smaller overlap is left", {}, 0});
+       optional(is_inseparable,
+                {"m", "width above which a contact can part the overlap; left out if the overlap was crushed", {}, 0}));
+  line("overlap_area_m2", c.overlap_area, {"m²", "exact area of the overlap", "overlap ground", 0});
+  line("least_area_m2", c.least_area, {"m²", "area below which an overlap is kept", {}, 0});
 }
 
-/// What decided that ice bends or splits, and both sides of what did not.
+/// The rule by which ice bends or splits, and both sides of all rules that were compared.
 template <class Line>
 void criterion(Line& line, Is<fracture::FailureCriteria> auto& c, bool is_split) {
   const simulation::DecidingLoad by = simulation::deciding_load(c, is_split);
   line("kind", by, kRule);
-  line("load_N", by.load, derived({"N", "the load that decided", "load"}));
-  line("capacity_N", by.capacity, derived({"N", "what it reached", "capacity"}));
+  line("load_N", by.load, derived({"N", "load of the rule that applied", "load"}));
+  line("capacity_N", by.capacity, derived({"N", "capacity that this load reached", "capacity"}));
   const auto of_crack = [&](std::string_view label) { return is_split ? label : std::string_view(); };
-  line("floe_size_m", c.floe_size, {"m", "√area of the floe", {}, 0});
-  line("breakable_size_m", c.breakable_size, {"m", "κ l, from which floes break", {}, 0});
+  line("floe_size_m", c.floe_size, {"m", "size √area of the floe", {}, 0});
+  line("breakable_size_m", c.breakable_size, {"m", "κ l, size above which floes break", {}, 0});
   line("collision_force_N", c.collision_force, {"N", "j/τ_c"});
-  line("splitting_force_N", c.splitting_force, {"N", "F_s, which j/τ_c splits above; 0 by lefm", {}, 0});
-  line("crack_length_m", c.crack_length, {"m", "L, of the crack in ice", of_crack("crack length"), 0});
+  line("splitting_force_N", c.splitting_force,
+       {"N", "F_s, force above which j/τ_c splits the floe; 0 with lefm", {}, 0});
+  line("crack_length_m", c.crack_length, {"m", "length L of the crack in the ice", of_crack("crack length"), 0});
   line("crack_width_m", c.crack_width,
-       optional(true, {"m", "W, twice the ice on its narrower side", of_crack("crack width"), 0}));
+       optional(true,
+                {"m", "W, twice the width of the ice on the narrower side of the crack", of_crack("crack width"), 0}));
   line("contact_force_N", c.contact_force,
        optional(true, {"N", "true force of the contact in the step", of_crack("contact force")}));
   const bool opens = c.opening_capacity > 0;
   line("opening_force_N", c.opening_force,
-       optional(opens, {"N",
-                        "F that opens the crack, by the true forces: the lesser of its two flanks; with the next "
-                        "four, of a bend by lefm, of the crack nearest to running, and left out where none opens",
-                        of_crack("opening force")}));
+       optional(
+           opens,
+           {"N",
+            "F that opens the crack, by the true forces: the smaller one of its two flanks. For a bend by lefm, this "
+            "field and the next four belong to the crack nearest to running; they are left out if no crack opens",
+            of_crack("opening force")}));
   line("opening_capacity_N", c.opening_capacity,
-       optional(opens, {"N", "F_max, at which the crack runs", of_crack("opening capacity"), 0}));
+       optional(opens, {"N", "F_max, opening force at which the crack runs", of_crack("opening capacity"), 0}));
   line("left_flank_force_N", c.flank_forces[0],
-       optional(opens, {"N", "that pushes the ice on its left apart", of_crack("left flank")}));
+       optional(opens, {"N", "force that pushes the ice on the left of the crack aside", of_crack("left flank")}));
   line("right_flank_force_N", c.flank_forces[1],
-       optional(opens, {"N", "likewise on its right", of_crack("right flank")}));
+       optional(opens, {"N", "force that pushes the ice on the right of the crack aside", of_crack("right flank")}));
   line("fracture_toughness_Pa_sqrt_m", c.fracture_toughness,
-       optional(opens, {"Pa √m", "K_IC of the floe", of_crack("K_IC"), 0}));
-  line("vertical_force_N", c.vertical_force, {"N", "V of the contact, down on the ice"});
-  line("bending_capacity_N", c.bending_capacity, {"N", "V_b, at which a cusp breaks off", {}, 0});
+       optional(opens, {"Pa √m", "fracture toughness K_IC of the floe", of_crack("K_IC"), 0}));
+  line("vertical_force_N", c.vertical_force, {"N", "vertical force V of the contact, downwards on the ice"});
+  line("bending_capacity_N", c.bending_capacity, {"N", "V_b, vertical force at which a cusp breaks off", {}, 0});
   line("flexural_strength_Pa", c.flexural_strength,
-       optional(c.flexural_strength > 0, {"Pa", "σ_f that V_b, or the beam, is of", {}, 0}));
+       optional(c.flexural_strength > 0, {"Pa", "flexural strength σ_f that was used for V_b or the beam", {}, 0}));
   line("section_stress_Pa", c.section_stress,
-       optional(c.section_stress > 0,
-                {"Pa", "σ at the section where a floe below κ l breaks across as a beam", "stress of the section", 0}));
+       optional(c.section_stress > 0, {"Pa", "stress σ at the section where a floe below κ l breaks across as a beam",
+                                       "stress of the section", 0}));
 }
 
 template <class Line, class Kind>
 void criterion_of(Line& line, Kind& e) {
   using namespace simulation;
-  if constexpr (Is<Kind, RejectedCut>) {  // it has the fields of what it was to be
+  if constexpr (Is<Kind, RejectedCut>) {  // a rejected cut has the fields of the event that it would have been
     if constexpr (requires { line.has("least_area_m2"); })
       if (line.has("least_area_m2")) e.criterion = GrindCriterion{};
     std::visit([&](auto& c) { criterion(line, c, e.cusp_radius == 0); }, e.criterion);
@@ -151,94 +164,97 @@ void criterion_of(Line& line, Kind& e) {
   }
 }
 
-/// What happens to ice. Of the kinds' own members each line has those that its kind has.
+/// Fields of events of the ice. Members that only some kinds have are written only for these.
 template <class Line, class Kind>
 requires std::derived_from<Kind, simulation::IceEvent>
 void kind_fields(Line& line, auto& event, Kind& e) {
-  line("ship", ShipName{event.ship, true}, {"", "by which it happened; empty where a floe did it", "ship"});
+  line("ship", ShipName{event.ship, true}, {"", "ship or structure that caused it; empty if a floe did", "ship"});
   line("by_floe", e.by_floe,
-       optional(e.by_floe != simulation::kNoFloe, {"", "the floe that did it, where no ship did", "by floe"}));
-  line("floe", e.floe, {"", "that broke, was ground, went under or came up", "floe"});
-  line("parent", Parent{}, derived({"", "of that floe; null for a floe of the scene"}));
-  line("children", e.children, {"", "the floes it became", "pieces"});
-  line("point_m", event.point_in_world, {"m", "where, in the world", "at"});
-  line("normal", e.normal_in_world, {"", "unit, from the hull into the ice; [0, 0] where nothing pressed"});
-  line.object({"", "what decided: its rule, and both sides of it"}, [&] { criterion_of(line, e); });
-  line("penetration_m", e.penetration, {"m", "ξ, what of the contact is crushed"});
+       optional(e.by_floe != simulation::kNoFloe, {"", "floe that caused it, if no ship did", "by floe"}));
+  line("floe", e.floe, {"", "floe that broke, was ground, went under or surfaced", "floe"});
+  line("parent", Parent{}, derived({"", "parent of that floe; null for a floe of the scene"}));
+  line("children", e.children, {"", "floes that it became", "pieces"});
+  line("point_m", event.point_in_world, {"m", "position in the world", "at"});
+  line("normal", e.normal_in_world, {"", "unit normal from the hull into the ice; [0, 0] if nothing pressed"});
+  line.object({"", "criterion: the rule that applied, and both sides of the comparison"},
+              [&] { criterion_of(line, e); });
+  line("penetration_m", e.penetration, {"m", "ξ, crushed depth of the contact"});
   if constexpr (requires { e.cusp_radius; })
-    line("cusp_radius_m", e.cusp_radius, optional(e.cusp_radius > 0, {"m", "R of a bend", {}, 0}));
-  line("submerged_area_m2", e.submerged_area, {"m²", "gone under the ship for good", "submerged", 0});
-  line("brash_area_m2", e.brash_area, {"m²", "pieces below the size limit, slivers and rims", "brash", 0});
+    line("cusp_radius_m", e.cusp_radius, optional(e.cusp_radius > 0, {"m", "radius R of the cusp of a bend", {}, 0}));
+  line("submerged_area_m2", e.submerged_area, {"m²", "area removed under the ship permanently", "submerged", 0});
+  line("brash_area_m2", e.brash_area, {"m²", "area of pieces below the size limit, slivers and rims", "brash", 0});
   if constexpr (requires { e.under_hull_area; })
-    line("under_hull_area_m2", e.under_hull_area,
-         optional(e.under_hull_area > 0, {"m²", "gone under the hull, to come up", "under the hull", 0}));
+    line(
+        "under_hull_area_m2", e.under_hull_area,
+        optional(e.under_hull_area > 0, {"m²", "area that went under the hull and will surface", "under the hull", 0}));
   if constexpr (requires { e.under_ice_area; })
     line("under_ice_area_m2", e.under_ice_area,
-         optional(e.under_ice_area > 0, {"m²", "that stays under the ice", "under the ice", 0}));
-  line("rounding_defect_m2", e.rounding_defect, {"m²", "what rounding added (+) or took (−)"});
+         optional(e.under_ice_area > 0, {"m²", "area that stays under the ice", "under the ice", 0}));
+  line("rounding_defect_m2", e.rounding_defect, {"m²", "area that rounding added (+) or removed (−)"});
   if constexpr (requires { e.reason; })
-    line("reason", e.reason, optional(!e.reason.empty(), {"", "why geometry refused the cut", "reason"}));
+    line("reason", e.reason, optional(!e.reason.empty(), {"", "reason why geometry refused the cut", "reason"}));
 }
 
 template <class Line>
 void kind_fields(Line& line, auto& event, Is<simulation::HullContact> auto& e) {
-  line("ship", ShipName{event.ship}, {"", "one of the two", "ship"});
-  line("by_ship", ShipName{e.other}, {"", "the other: a ship, a structure or a wall", "other ship"});
-  line("point_m", event.point_in_world, {"m", "where, in the world", "at"});
+  line("ship", ShipName{event.ship}, {"", "one of the two bodies", "ship"});
+  line("by_ship", ShipName{e.other}, {"", "the other body: a ship, a structure or a wall", "other ship"});
+  line("point_m", event.point_in_world, {"m", "position in the world", "at"});
   line("closing_speed_m_per_s", e.closing_speed,
-       {"m/s", "along the contact's normal, before the contact acts", "closing at"});
-  line("relative_speed_m_per_s", e.relative_speed, {"m/s", "of the two at that point, likewise", {}, 0});
+       {"m/s", "closing speed along the contact's normal before the contact acts", "closing at"});
+  line("relative_speed_m_per_s", e.relative_speed,
+       {"m/s", "relative speed of the two bodies at that point before the contact acts", {}, 0});
   line("is_prescribed", e.is_prescribed,
-       {"", "the scene prescribes the motion of both: they pass through each other and no force is computed"});
+       {"", "true if the scene prescribes the motion of both: they pass through each other, and no force is computed"});
 }
 
 template <class Line>
 void kind_fields(Line& line, auto& event, Is<simulation::MooringBreak> auto& e) {
-  line("ship", ShipName{event.ship}, {"", "that is adrift from then on", "ship"});
-  line("point_m", event.point_in_world, {"m", "its centre of gravity, in the world", "at"});
-  line("force_N", e.force, {"N", "with which the mooring held it, horizontal", "force", 0});
-  line("break_load_N", e.break_load, {"N", "which that force exceeds", "breaks above", 0});
+  line("ship", ShipName{event.ship}, {"", "ship that is adrift from then on", "ship"});
+  line("point_m", event.point_in_world, {"m", "its centre of gravity in the world", "at"});
+  line("force_N", e.force, {"N", "horizontal force of the mooring", "force", 0});
+  line("break_load_N", e.break_load, {"N", "breaking load, which that force exceeds", "breaks above", 0});
   line("offset_m", e.offset_in_moored_place,
-       {"m", "of the ship from the moored place, along and across the moored heading", "off its place"});
+       {"m", "offset of the ship from the moored position, along and across the moored heading", "off its place"});
 }
 
-/// All of a line. What is read has its kind already.
+/// All fields of a line. When a line is read, `event` already holds an event of the right kind.
 template <class Line>
 void fields(Line& line, Is<simulation::Event> auto& event) {
-  line("t_s", event.time, {"s", "when", "time"});
-  line("kind", simulation::name_of(event), derived({"", "what happened", "event"}));
+  line("t_s", event.time, {"s", "time of the event", "time"});
+  line("kind", simulation::name_of(event), derived({"", "kind of the event", "event"}));
   std::visit([&](auto& kind) { kind_fields(line, event, kind); }, event.what);
 }
 
-/// Appends a line of events.ndjson. `parent` is the parent of the floe that it happened to.
+/// Appends a line of events.ndjson. `parent` is the parent of the event's floe.
 void append_event(std::string& text, const simulation::Event& event, const simulation::Scene& scene,
                   simulation::FloeId parent = simulation::kNoFloe);
 
-/// The same object with the fields that the player shows.
+/// Writes the same object with only the fields that the player shows.
 void write_shown_event(JsonWriter& json, const simulation::Event& event, const simulation::Scene& scene);
 
-/// What decided it and what became of the ice, as people read it: the fields that have labels.
+/// Returns the rule and the fields that have labels, in words.
 std::string words_of(const simulation::Event& event, const simulation::Scene& scene);
 
-/// The line read back. Throws ReadError.
+/// Reads a line of events.ndjson. Throws ReadError if it is not valid.
 simulation::Event event_of(const JsonValue& line, const simulation::Scene& scene);
 
-/// A field as lists of them have it.
+/// A field in a list of fields.
 struct EventField {
   std::string_view key;
   FieldMeaning meaning;
   bool is_of_criterion = false;
-  std::vector<std::string_view> kinds;  ///< that have it
+  std::vector<std::string_view> kinds;  ///< kinds of events that have it
 };
-/// Those of all kinds, in the order of lines.
+/// Returns the fields of all kinds of events in the order of the lines.
 std::vector<EventField> event_fields();
 
-/// At most this many of a run are written; events.ndjson has all.
+/// Largest number of refused cuts of a run that are written as files; events.ndjson has all of them.
 inline constexpr std::int64_t kMostRejectedCuts = 100;
 
-/// Writes a cut that geometry refused into a run folder as `polynya cut` reads it (docs/cut.md):
+/// Writes a cut that geometry refused into a run folder, in the format that `polynya cut` reads (docs/cut.md):
 ///   polynya cut rejected-cuts/000001.geojson --ops rejected-cuts/000001-ops.json
-/// The files are on the disk then, whatever happens to the machine.
+/// The function returns after the disk has stored the files, so that they survive a failure of the machine.
 Result<> write_rejected_cut(const std::filesystem::path& run_folder, double time, const simulation::RejectedCut& cut);
 
 /// Removes the files that write_rejected_cut() wrote, and their folder if nothing else is in it.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kEndOfCollection = "]}";
 
-/// The instant in the first line, {"type":"FeatureCollection","t_s":550,"features":[ [s].
+/// Returns the time [s] in the first line, {"type":"FeatureCollection","t_s":550,"features":[
 double instant_of(std::string_view first_line) {
   std::string whole(trimmed(first_line));
   if (whole.ends_with('['))
@@ -22,7 +22,7 @@ double instant_of(std::string_view first_line) {
   return json_member(json_of(whole), "t_s", JsonValue::Kind::kNumber).number();
 }
 
-/// The feature in a line, without the commas between features and the end of the collection.
+/// Returns the feature in a line, without the comma between features and without the end of the collection.
 std::string_view feature_in(std::string_view line) {
   line = trimmed(line);
   if (line.starts_with(',')) line.remove_prefix(1);
@@ -31,7 +31,7 @@ std::string_view feature_in(std::string_view line) {
   return line == kEndOfCollection ? std::string_view() : line;
 }
 
-/// The ring without its last point, which in GeoJSON repeats the first one.
+/// Returns a ring without its last point, which in GeoJSON repeats the first one.
 geometry::Ring open_ring_of(const JsonValue& value) {
   if (!value.is(JsonValue::Kind::kArray)) throw ReadError("a ring is not a list of [x, y]");
   geometry::Ring ring;

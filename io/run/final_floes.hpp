@@ -21,18 +21,18 @@ struct FinalFloe {
 /// a time, because all floes of a large run need several times the memory of the file's text.
 class FinalFloes {
  public:
-  /// Returns nothing where the folder has no final.geojson, and for a run without a folder. The error names the file
-  /// and the line.
+  /// Reads the file. Returns nothing if the folder has no final.geojson, or if the run has no folder. The error names
+  /// the file and the line.
   static Result<std::optional<FinalFloes>> read(const std::filesystem::path& run_folder);
 
-  double time() const { return time_; }  ///< of the instant [s]
+  double time() const { return time_; }  ///< time of the instant [s]
 
   /// Calls use(floe) for each floe of the file. The error names the file and the line.
   Result<> for_each(const std::function<void(const FinalFloe&)>& use) const;
 
  private:
   FinalFloes(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {}
-  std::string name_;  ///< of the file, for messages
+  std::string name_;  ///< name of the file, for messages
   std::string text_;
   double time_ = 0;  ///< [s]
 };

@@ -14,9 +14,9 @@ namespace {
 constexpr std::string_view kFileMark = "PLYNYFRM";
 constexpr std::string_view kFrameMark = "FRAM";
 constexpr std::uint32_t kVersion = 1;
-constexpr std::size_t kHeaderSize = 16;
-constexpr std::size_t kFrameHeadSize = 24;
-// What the file has of them is what they are.
+constexpr std::size_t kHeaderSize = 16;     ///< length of the file's header [bytes]
+constexpr std::size_t kFrameHeadSize = 24;  ///< length of a frame before its ships [bytes]
+// The bytes of these structs in memory are those of the file.
 static_assert(sizeof(Motion) == 48 && sizeof(FloeMotion) == 56 && std::is_trivially_copyable_v<FloeMotion>);
 
 template <class Value>
@@ -27,7 +27,7 @@ Value take(std::string_view& bytes) {
   return value;
 }
 
-/// All of a frame but its floes.
+/// Writes a frame except its floes.
 void write_head(simulation::ByteWriter& frame, double time, std::span<const Motion> ships, std::uint32_t floes) {
   for (const char letter : kFrameMark) frame(letter);
   frame(static_cast<std::uint32_t>(ships.size()), floes, std::uint32_t{0}, time);
@@ -95,7 +95,8 @@ bool is_finite(const Motion& m) {
   return std::isfinite(0 * (m.position.x + m.position.y + m.angle + m.velocity.x + m.velocity.y + m.angular_velocity));
 }
 
-/// Takes `count` bodies off the bytes, which must be long enough. Returns false if a number in them is not finite.
+/// Removes `count` bodies from the bytes, which must be long enough. Returns false if one of their numbers is not
+/// finite.
 template <class Body>
 bool take_bodies(std::string_view& bytes, std::size_t count, std::vector<Body>& bodies) {
   bodies.reserve(count);

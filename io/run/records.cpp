@@ -25,12 +25,12 @@ using geometry::Vector;
 using enum Over;
 using enum ShownWhere;
 
-/// Whether older runs do not have what is shown there.
+/// Returns true if older runs do not have the loads of this kind.
 constexpr bool is_of_newer_runs(ShownWhere where) {
   return where != kAlways && where != kWhereItSplits;
 }
 
-/// What a load is in one of the ship's axes.
+/// Words for one of the three directions of loads on a ship.
 struct Axis {
   std::string_view key, suffix, unit, title, noun, direction;
   double Planar::*component;
@@ -43,19 +43,20 @@ std::string name_of(const Axis& axis, std::string_view stem) {
   return fmt::format("{}{}{}", axis.key, stem, axis.suffix);
 }
 
-/// A load of which rows have surge, sway and yaw.
+/// A load that has three columns, for surge, sway and yaw.
 struct Load {
-  std::string_view stem;  ///< "_from_water": surge_from_water_N, …
+  std::string_view stem;  ///< part of the name: "_from_water" gives surge_from_water_N and so on
   Planar S::*place;
   Over over = kMean;
-  std::string_view source;  ///< "of the water": force of the water forward, Surge force of the water
+  /// Words for it: "of the water" gives "force of the water forward" and "Surge force of the water".
+  std::string_view source;
   ShownWhere where = kAlways;
-  std::string_view source_in_titles = {};  ///< where it is shorter there
+  std::string_view source_in_titles = {};  ///< shorter words for titles; empty: the same
   std::string_view curve = "mean";
   std::vector<Axis> axes = {kSurge, kSway, kYaw};
 };
 
-/// Where a number has its peak or its plot, and the plot's title.
+/// Where a number has its peak or its plot, and the title of the plot.
 struct Shown {
   std::optional<ShownWhere> peak = {};
   std::optional<ShownWhere> plotted = {};
@@ -71,7 +72,8 @@ Whole whole_of(double value) {
   return static_cast<Whole>(value);
 }
 
-/// A column of the number at the end of a path of pointers to members: in degrees, of one in radians.
+/// Returns a column for the number at the end of a path of pointers to members. Angles in radians are written in
+/// degrees.
 template <class Row, class... Path>
 Column<Row> number(std::string name, std::string meaning, Path... path) {
   const bool is_turn = name.find("_deg") != std::string::npos;
@@ -125,9 +127,9 @@ void add_contact_loads(Table& t) {
 void add_motion(Table& t) {
   t.add("x_m", "m", kAtEnd, "centre of gravity, over ground", {}, &S::position_in_world, &Point::x);
   t.add("y_m", "m", kAtEnd, "centre of gravity, over ground", {}, &S::position_in_world, &Point::y);
-  t.add("heading_deg", "°", kAtEnd, "from the x axis, counter-clockwise", {}, &S::heading);
-  t.columns.push_back({{"speed_m_per_s", "over ground", [](const S& s) { return length(s.velocity_in_world); },
-                        [](S&, double) {}},  // it follows from the velocity
+  t.add("heading_deg", "°", kAtEnd, "heading from the x axis, counter-clockwise", {}, &S::heading);
+  t.columns.push_back({{"speed_m_per_s", "speed over ground", [](const S& s) { return length(s.velocity_in_world); },
+                        [](S&, double) {}},  // not stored: it follows from the velocity
                        "m/s",
                        kAtEnd,
                        kAlways,
@@ -135,11 +137,11 @@ void add_motion(Table& t) {
                        "Speed over ground"});
   t.add("vx_m_per_s", "m/s", kAtEnd, "velocity over ground", {}, &S::velocity_in_world, &Vector::x);
   t.add("vy_m_per_s", "m/s", kAtEnd, "velocity over ground", {}, &S::velocity_in_world, &Vector::y);
-  t.add("yaw_rate_deg_per_s", "°/s", kAtEnd, "counter-clockwise", {}, &S::yaw_rate);
+  t.add("yaw_rate_deg_per_s", "°/s", kAtEnd, "yaw rate, counter-clockwise", {}, &S::yaw_rate);
 }
 
 void add_sailing_loads(Table& t) {
-  t.add("thrust_N", "N", kMean, "along the heading; of a ship at constant speed what it takes to hold it",
+  t.add("thrust_N", "N", kMean, "thrust along the heading; for a ship at constant speed the force that keeps the speed",
         {{}, {}, "Thrust"}, &S::thrust);
   t.load({"_from_thrusters",
           &S::from_engine,
@@ -159,18 +161,19 @@ void add_sailing_loads(Table& t) {
 }
 
 void add_helm(Table& t) {
-  t.add("lever", "", kAtEnd, "of the thrust, a share of the power: −1 full astern to 1 full ahead",
+  t.add("lever", "", kAtEnd, "thrust lever as a fraction of the power, from −1 (full astern) to 1 (full ahead)",
         {{}, kWithEngines, "Thrust lever"}, &S::lever);
-  t.add("steering_deg", "°", kAtEnd, "angle of rudder or thrusters, to port", {{}, kWithEngines, "Steering angle"},
-        &S::steering_angle);
-  t.add("delivered_power_W", "W", kAtEnd, "power of the engine at that lever; 0 where none is given",
+  t.add("steering_deg", "°", kAtEnd, "angle of rudder or thrusters, positive to port",
+        {{}, kWithEngines, "Steering angle"}, &S::steering_angle);
+  t.add("delivered_power_W", "W", kAtEnd, "power of the engine at that lever; 0 if the scene gives no power",
         {{}, kWithEngines, "Delivered power"}, &S::delivered_power);
-  t.add("rams", "", kAtEnd, "charges after the first, of a pilot that rams", {{}, kRamming, "Rams"}, &S::rams);
-  t.add("gained_m", "m", kAtEnd, "by rams, from where the ship was first stuck", {{}, kRamming, "Gained by ramming"},
-        &S::distance_gained);
-  t.add("contacts", "", kAtEnd, "with ice", {{}, {}, "Contacts at the hull"}, &S::contacts);
-  t.add("contacts_with_ships", "", kAtEnd, "with other ships and structures", {}, &S::contacts_with_ships).is_optional =
-      true;
+  t.add("rams", "", kAtEnd, "number of charges after the first, for a ramming pilot", {{}, kRamming, "Rams"}, &S::rams);
+  t.add("gained_m", "m", kAtEnd, "distance gained by ramming, from the place at which the ship was stuck first",
+        {{}, kRamming, "Gained by ramming"}, &S::distance_gained);
+  t.add("contacts", "", kAtEnd, "number of contacts with ice", {{}, {}, "Contacts at the hull"}, &S::contacts);
+  t.add("contacts_with_ships", "", kAtEnd, "number of contacts with other ships and structures", {},
+        &S::contacts_with_ships)
+      .is_optional = true;
 }
 
 std::vector<ForceColumn> all_columns() {
@@ -259,14 +262,14 @@ namespace {
 constexpr std::pair<Axis, std::string_view> kDirections[]{
     {kSurge, "Surge force by cause"}, {kSway, "Sway force by cause"}, {kYaw, "Yaw moment by cause"}};
 
-/// What one cause gives in each direction.
+/// A cause of forces, and its column in each direction.
 struct Cause {
   std::string_view cause, words;
-  std::string_view stem;  ///< of its columns: "_from_water"
+  std::string_view stem;  ///< part of the names of its columns: "_from_water"
 };
 constexpr Cause kIce{"ice", "ice on the hull, with friction", ""};
 constexpr Cause kFriction{"friction", "ice: friction", "_from_ice_friction"};
-constexpr Cause kThrust{"thrust", "thrust", "thrust_N"};  // a column of its own: of surge alone
+constexpr Cause kThrust{"thrust", "thrust", "thrust_N"};  // a single column, because it has only a surge component
 constexpr Cause kCauses[]{kIce,
                           kFriction,
                           {"submerged", "ice under the hull", "_from_submerged_ice"},
@@ -277,7 +280,7 @@ constexpr Cause kCauses[]{kIce,
                           {"mooring", "mooring", "_from_mooring"},
                           {"ships", "other ships", "_from_ships"}};
 
-/// The column of a cause in a direction; null where it gives nothing there.
+/// Returns the column of a cause in a direction; null if the cause has no force in that direction.
 const ForceColumn* column_of(const Cause& cause, const Axis& axis) {
   if (cause.stem != kThrust.stem) return find_column(name_of(axis, cause.stem));
   return axis.component == kSurge.component ? find_column(cause.stem) : nullptr;
@@ -325,27 +328,34 @@ constexpr std::array<std::string_view, 5> kPeakEnds{"", "bend", "split", "slip",
 std::span<const ContactColumn> contact_columns() {
   using S = ContactState;
   static const std::array columns{
-      number<S>("x_m", "where the force acts, over ground, when the step began: the contact line's centre of pressure",
-                &S::point_in_world, &geometry::Point::x),
-      number<S>("y_m", "likewise", &S::point_in_world, &geometry::Point::y),
-      number<S>("fx_N", "the force on the first by the second, over ground: momentum given in the step, by its length",
+      number<S>(
+          "x_m",
+          "position of the force over ground at the start of the step: the centre of pressure of the contact line",
+          &S::point_in_world, &geometry::Point::x),
+      number<S>("y_m", "the same, y component", &S::point_in_world, &geometry::Point::y),
+      number<S>("fx_N",
+                "force on the first body by the second, in axes over ground: momentum transferred in the step / "
+                "duration of the step",
                 &S::force, &geometry::Vector::x),
-      number<S>("fy_N", "likewise", &S::force, &geometry::Vector::y),
-      number<S>("depth_m", "of the overlap, along the contact's normal", &S::depth),
-      number<S>("is_crushing", "1 where the contact pressed with all that crushing ice carries, else 0",
+      number<S>("fy_N", "the same, y component", &S::force, &geometry::Vector::y),
+      number<S>("depth_m", "penetration depth of the overlap along the contact's normal", &S::depth),
+      number<S>("is_crushing", "1 if the contact pressed with the full force that crushing ice can carry, otherwise 0",
                 &S::is_crushing),
       number<S>("arc_m",
-                "of that place on the waterline of `ship`, from its stem along the waterline, to port; to starboard "
-                "negative; empty on a floe",
+                "distance of that position from the stem of `ship` along the waterline, positive to port, negative to "
+                "starboard; empty on a floe",
                 &S::arc),
-      number<S>("station_m", "of that place along the ship, from its stem aft; empty on a floe", &S::station),
-      number<S>("width_m", "of the contact line", &S::width),
-      number<S>("height_m", "of the ice that presses: its thickness, or what crushed of it at an inclined hull",
+      number<S>("station_m", "distance of that position aft of the stem; empty on a floe", &S::station),
+      number<S>("width_m", "length of the contact line", &S::width),
+      number<S>("height_m",
+                "height of the ice that presses: its thickness, or at an inclined hull the height of its crushed part",
                 &S::height),
-      number<S>("pressure_Pa", "nominal: the force along the contact's normal, by width and height", &S::pressure),
-      number<S>("thickness_m", "of the ice, of two floes the thinner; 0 of steel", &S::thickness),
+      number<S>("pressure_Pa", "nominal pressure: force along the contact's normal / (width × height)", &S::pressure),
+      number<S>("thickness_m", "thickness of the ice, of two floes the thinner one; 0 for contacts of steel",
+                &S::thickness),
       ContactColumn{"ended_by",
-                    "of a peak what ended it: `bend`, `split`, `tilt` or `slip`; empty of a contact at a frame",
+                    "for a peak, the reason why the contact ended: `bend`, `split`, `tilt` or `slip`; empty for a "
+                    "contact at a frame",
                     [](const S& s) { return static_cast<double>(s.ended_by); },
                     [](S& s, double word) { s.ended_by = static_cast<simulation::PeakEnd>(word); }, kPeakEnds}};
   return columns;
@@ -354,15 +364,15 @@ std::span<const ContactColumn> contact_columns() {
 std::span<const PanelColumn> panel_columns() {
   using S = PanelSample;
   static const std::array columns{
-      number<S>("panel", "its number from the stem, to port 0, 1, …, to starboard −1, −2, …", &S::column),
-      number<S>("row", "from the bottom, 0, 1, …; −1: what acts above and below all rows", &S::row),
+      number<S>("panel", "number of the panel from the stem: 0, 1, … to port, −1, −2, … to starboard", &S::column),
+      number<S>("row", "number of the row from the bottom: 0, 1, …; −1: loads above and below all rows", &S::row),
       number<S>("surge_N", "mean force of the ice forward", &S::load, &dynamics::Planar::surge),
       number<S>("sway_N", "mean force of the ice to port", &S::load, &dynamics::Planar::sway),
       number<S>("yaw_Nm", "mean moment of the ice counter-clockwise", &S::load, &dynamics::Planar::yaw),
-      number<S>("force_N", "mean of what acts along the normals of its contacts", &S::force),
-      number<S>("force_max_N", "of that, the largest step", &S::largest),
-      number<S>("pressure_Pa", "`force_N` by the panel's area", &S::pressure),
-      number<S>("loaded_s", "how long ice pressed on it in the interval", &S::loaded)};
+      number<S>("force_N", "mean of the forces along the normals of the panel's contacts", &S::force),
+      number<S>("force_max_N", "largest value of that force in one step", &S::largest),
+      number<S>("pressure_Pa", "`force_N` / area of the panel", &S::pressure),
+      number<S>("loaded_s", "time for which ice pressed on the panel in the interval", &S::loaded)};
   return columns;
 }
 
@@ -391,7 +401,8 @@ std::string_view hull_name(const simulation::Scene& scene, int ship) {
 
 namespace {
 
-/// What a row of two bodies begins with: the time, and of each body the name of the ship or the number of the floe.
+/// Appends the beginning of a row about two bodies: the time, and for each body the name of the ship or the number of
+/// the floe.
 void append_bodies(std::string& text, double time, const simulation::ContactState::Body& on,
                    const simulation::ContactState::Body& by, const simulation::Scene& scene) {
   append_number(text, time);
@@ -482,7 +493,8 @@ void append_floe(GeojsonLayer& layer, const simulation::FloeState& floe) {
   if (floe.is_fast) json.key("fast_ice").value(true);
   if (!floe.under_hull_of.empty())
     json.key("under_hull_of").value(floe.under_hull_of).key("under_hull_path_m").value(floe.under_path);
-  // Two corners of a cut may round to one point far from the origin, which a scene that continues the run would refuse.
+  // Far from the origin two corners of a cut may be rounded to the same point, which a scene that continues the run
+  // would refuse.
   layer.end_with(normalised(transform(floe.world_from_body, *floe.polygon_in_body)));
 }
 
@@ -500,14 +512,14 @@ double take_number(std::string_view& row) {
   return *value;
 }
 
-/// Takes the time of a row [s] off its text.
+/// Removes the time [s] from the start of a row and returns it.
 double take_time(std::string_view& row) {
   const double time = take_number(row);
   if (std::isnan(time)) throw ReadError("a row without its time");
   return time;
 }
 
-/// Takes the name of a hull off the text of a row and returns the number of the hull.
+/// Removes the name of a hull from the start of a row and returns the index of the hull.
 int take_hull(std::string_view& row, const simulation::Scene& scene) {
   const std::string_view name = csv_field(row);
   const int hull = hull_named(scene, name);
@@ -569,7 +581,7 @@ simulation::HullSample sample_of(std::string_view line, const std::vector<const 
 
 namespace {
 
-/// A row of two bodies at an instant.
+/// Reads a row about two bodies at an instant.
 template <class Record, class Row>
 Record record_of(std::string_view line, const Run& run, Row Record::*row, std::span<const Column<Row>> columns) {
   Record record;

@@ -21,19 +21,20 @@
 
 namespace polynya::io {
 
-/// A column of forces.csv, contacts.csv, crushed.csv or panels.csv, behind those that name time and bodies. Writer,
-/// reader, Python and docs/run-folder.md follow these tables (a test compares the page): to add a column, add it at the
-/// end of its table in records.cpp, and its row, which that test prints, to the page.
+/// A column of forces.csv, contacts.csv, crushed.csv or panels.csv after the columns that name time and bodies. Writer,
+/// reader, Python and docs/run-folder.md follow these tables; a test compares the page. To add a column, append it to
+/// its table in records.cpp, and add the row that the test prints to the page.
 template <class Row>
 struct Column {
-  std::string name;                        ///< with its unit: "surge_N"
-  std::string meaning;                     ///< as docs/run-folder.md has it
-  std::function<double(const Row&)> read;  ///< not a number where there is none; of words the place in them
+  std::string name;     ///< name with its unit: "surge_N"
+  std::string meaning;  ///< description in docs/run-folder.md
+  /// Returns the value; NaN if there is none; for a column of words the index in `words`.
+  std::function<double(const Row&)> read;
   std::function<void(Row&, double)> store;
-  std::span<const std::string_view> words = {};  ///< in the place of numbers
+  std::span<const std::string_view> words = {};  ///< values of a column that has words instead of numbers
 };
 
-/// Takes the first field off a row.
+/// Removes the first field from a row and returns it.
 inline std::string_view csv_field(std::string_view& row) {
   const std::string_view field = row.substr(0, row.find(','));
   row.remove_prefix(std::min(row.size(), field.size() + 1));
@@ -49,70 +50,70 @@ inline std::optional<double> csv_number(std::string_view field) {
   return value;
 }
 
-/// Where the views show a load.
+/// Scenes for which the views show a load.
 enum class ShownWhere {
   kAlways,
-  kAmongShips,     ///< in scenes of several ships and structures
-  kUnderHulls,     ///< in scenes with ships that ice can go under
-  kInWater,        ///< in scenes with ships that water acts on, or that have an engine or a mooring
-  kWithEngines,    ///< in scenes with ships that have one
-  kWithThrusters,  ///< in scenes with ships that are steered by thrusters
-  kWithRudders,    ///< in scenes with ships that are steered by rudders
-  kRamming,        ///< in scenes with ships whose pilots ram
-  kMoored,         ///< in scenes with moored ships
-  kWhereItSplits   ///< in scenes where j/τ_c decides splits
+  kAmongShips,     ///< scenes with several ships and structures
+  kUnderHulls,     ///< scenes with ships under which ice can go
+  kInWater,        ///< scenes with ships on which water acts, or that have an engine or a mooring
+  kWithEngines,    ///< scenes with ships that have an engine
+  kWithThrusters,  ///< scenes with ships that are steered by thrusters
+  kWithRudders,    ///< scenes with ships that are steered by rudders
+  kRamming,        ///< scenes with ships whose pilots ram
+  kMoored,         ///< scenes with moored ships
+  kWhereItSplits   ///< scenes in which j/τ_c decides splits
 };
 
-/// What a number is of the steps of its interval.
+/// How a number is computed from the time steps of its interval: as mean, as largest value, or as value at the end.
 enum class Over { kMean, kLargestStep, kAtEnd };
 
-/// A number that forces.csv records of each ship and structure; the checkpoint's peaks, summary.json and the player
-/// follow its table too.
+/// A number that forces.csv records for each ship and structure. The peaks of checkpoints and summary.json and the
+/// plots of the player follow this table too.
 struct ForceColumn : Column<simulation::HullSample> {
-  std::string_view unit;  ///< as people read it: "N·m"; empty of a count
+  std::string_view unit;  ///< unit for people: "N·m"; empty for a count
   Over over = Over::kAtEnd;
-  std::optional<ShownWhere> peak = {};     ///< where summary.json has its largest value by magnitude
-  std::optional<ShownWhere> plotted = {};  ///< where it has a plot, if that is not where it has a peak
-  std::string plot = {};                   ///< title of its plot in the player; empty: none
-  std::string_view curve = "mean";         ///< in that plot; or "max", or "paper"
-  bool is_optional = false;                ///< older runs do not have it
+  std::optional<ShownWhere> peak = {};  ///< scenes whose summary.json has its largest magnitude; none: it has no peak
+  std::optional<ShownWhere> plotted = {};  ///< scenes in which the player plots it, if they differ from those of `peak`
+  std::string plot = {};                   ///< title of its plot in the player; empty: the player does not plot it
+  std::string_view curve = "mean";         ///< curve in that plot: "mean", "max" or "paper"
+  bool is_optional = false;                ///< true if older runs do not have it
 };
 
-/// All of them, as they follow the columns t_s and ship.
+/// Returns all columns of forces.csv after t_s and ship.
 std::span<const ForceColumn> force_columns();
 
-/// The one of that name, which must be in the table.
+/// Returns the column of that name, which must exist.
 const ForceColumn& force_column(std::string_view name);
 
-/// Whether views of a scene show what is shown there.
+/// Returns true if the views of a scene show loads of this kind.
 bool is_shown(ShownWhere where, const simulation::Scene& scene);
 
-/// The columns of which a scene's summary.json has the peak.
+/// Returns the columns whose peaks are in summary.json of a run of the scene.
 std::vector<const ForceColumn*> peak_columns(const simulation::Scene& scene);
 
-/// The columns that the player plots of a scene's runs.
+/// Returns the columns that the player plots for runs of the scene.
 std::vector<const ForceColumn*> plotted_columns(const simulation::Scene& scene);
 
-/// The columns that the first line of a forces.csv names, after t_s and ship. The error names the column that
-/// is unknown, there twice or missing.
+/// Returns the columns that the first line of a forces.csv names after t_s and ship. The error names the column that is
+/// unknown, occurs twice or is missing.
 Result<std::vector<const ForceColumn*>> force_columns_in(std::string_view header);
 
-/// A part of the force on a ship by what causes it: a column of forces.csv, without the columns that are
-/// shares of it. The parts of one direction add up to the force on the ship, mass × acceleration
-/// (docs/run-folder.md).
+/// A part of the force on a ship, by its cause. It is a column of forces.csv; columns that are only shares of it are
+/// left out. The parts of one direction add up to the force on the ship, mass × acceleration (docs/run-folder.md).
 struct ForceCause {
-  std::string_view direction;            ///< title of the player's plot that stacks the parts: "Surge force by cause"
-  std::string_view cause;                ///< "friction": names its colour
-  std::string_view words;                ///< as people read it: "ice: friction"
-  std::string_view column;               ///< of forces.csv
-  std::string_view share_of = {};        ///< the column that contains this one; empty: none
-  std::string_view without_shares = {};  ///< words for a column whose shares are shown apart; empty: it has none
+  std::string_view direction;      ///< title of the player's plot that stacks the parts: "Surge force by cause"
+  std::string_view cause;          ///< short name, which also selects its colour: "friction"
+  std::string_view words;          ///< name for people: "ice: friction"
+  std::string_view column;         ///< column of forces.csv
+  std::string_view share_of = {};  ///< column that contains this one; empty: none does
+  /// Name for the rest of a column whose shares are shown separately; empty: it has no shares.
+  std::string_view without_shares = {};
 };
 
-/// Every one there is.
+/// Returns all causes.
 std::span<const ForceCause> force_causes();
 
-/// Those whose columns the player plots of a scene's runs.
+/// Returns the causes whose columns the player plots for runs of the scene.
 std::vector<ForceCause> force_causes(const simulation::Scene& scene);
 
 using ContactColumn = Column<simulation::ContactState>;
@@ -122,7 +123,7 @@ std::span<const ContactColumn> contact_columns();
 std::span<const CrushedColumn> crushed_columns();
 std::span<const PanelColumn> panel_columns();
 
-/// Appends a row's values, each behind a comma, and a line's end; `none` where there is no number.
+/// Appends the values of a row, each after a comma, and a line break. `none` is written where there is no number.
 template <class Row, class Columns>
 void append_row(std::string& text, const Row& row, const Columns& columns, std::string_view none = {}) {
   for (const auto& column : columns) {
@@ -138,10 +139,10 @@ void append_row(std::string& text, const Row& row, const Columns& columns, std::
   text += '\n';
 }
 
-/// The value of a field; throws ReadError where it is neither a number nor one of the column's words.
+/// Returns the value of a field. Throws ReadError if it is neither a number nor one of the column's words.
 double value_of(std::string_view field, std::span<const std::string_view> words = {});
 
-/// Reads a row's values, as many as the row has: those of earlier versions had fewer. Throws ReadError.
+/// Reads the values of a row. Rows of earlier versions may have fewer values than there are columns. Throws ReadError.
 template <class Row>
 void read_row(std::string_view text, Row& row, std::span<const Column<Row>> columns) {
   for (const Column<Row>& column : columns) {
@@ -151,50 +152,50 @@ void read_row(std::string_view text, Row& row, std::span<const Column<Row>> colu
   if (!text.empty()) throw ReadError("more fields than there are columns");
 }
 
-/// A floe's number where there is such a floe; records have null where there is none.
+/// Returns the number of a floe, or nothing for kNoFloe, which records write as null.
 inline std::optional<simulation::FloeId> id_or_none(simulation::FloeId floe) {
   return floe == simulation::kNoFloe ? std::nullopt : std::optional(floe);
 }
 
-/// The name of a ship or structure, by its index; empty where there is none.
+/// Returns the name of a ship or structure by its index; empty if there is none.
 std::string_view hull_name(const simulation::Scene& scene, int ship);
 
-/// The lines of a run's files (docs/run-folder.md). Each function appends whole lines to a buffer.
+/// Lines of the files of a run (docs/run-folder.md). Each function appends whole lines to a text.
 
-/// What one that grows begins with: of a table the names of its columns, with their units.
+/// Returns the first bytes of a growing file: for a table its header, the names of the columns with their units.
 std::string header_of(std::string_view file);
 
-/// forces.csv: the loads on a hull in an interval.
+/// forces.csv: loads on a hull in a recording interval.
 void append_forces_row(std::string& text, const simulation::HullSample& sample, const simulation::Scene& scene);
 
-/// contacts.csv: who touched whom at a frame, and how hard at the peaks of a contact's force.
+/// contacts.csv: contacts of bodies at a frame, and the peaks of the force of contacts.
 void append_contact(std::string& text, double time, const simulation::ContactState& contact,
                     const simulation::Scene& scene);
 
-/// panels.csv: what ice did to a panel of a hull in an interval.
+/// panels.csv: loads of ice on a panel of a hull in a recording interval.
 void append_panel(std::string& text, const simulation::PanelSample& sample, const simulation::Scene& scene);
 
-/// crushed.csv: the overlap of two bodies at a frame that their contacts have pressed, as it is booked. Pairs below
-/// this share of the smaller body are left out.
+/// Overlaps smaller than this fraction of the smaller body's area are left out of crushed.csv.
 inline constexpr double kLeastCrushedShare = 1e-3;
+/// crushed.csv: paid area of the overlap of two bodies at a frame.
 void append_crushed(std::string& text, double time, const simulation::CrushedOverlap& overlap,
                     const simulation::Scene& scene);
 
-/// states.csv: a hash of everything at each frame.
+/// states.csv: a hash of the whole state at each frame. It shows at which frame two runs begin to differ.
 void append_state(std::string& text, double time, std::int64_t steps, std::uint64_t hash);
 
-/// `parent` is the shape of the floe that it broke from; null where it is of the scene. With a scene also the
-/// ice that is the floe's own, and the id that it has in the file it is from.
+/// floes.ndjson: a floe. `parent` is the shape of the floe from which it broke, null for a floe of the scene. With a
+/// scene, the floe's own ice properties and its id in the floe file are written too.
 void append_birth(std::string& text, const simulation::Birth& birth, const geometry::Polygon* parent,
                   const simulation::Scene* scene = nullptr);
 
-/// All floes as a GeoJSON FeatureCollection in world coordinates [m].
+/// Returns all floes as a GeoJSON FeatureCollection in world coordinates [m].
 std::string to_geojson(const std::vector<simulation::FloeState>& floes, double time,
                        const std::optional<simulation::GeographicOrigin>& origin = {});
-/// One floe of them.
+/// Adds one floe to such a collection.
 void append_floe(GeojsonLayer& layer, const simulation::FloeState& floe);
 
-// The lines that records.hpp writes, read back. Each throws ReadError where a line is not what it should be.
+// The functions below read these lines. Each throws ReadError if a line is not valid.
 
 JsonValue json_of(std::string_view text);
 simulation::FloeId floe_id(const JsonValue& value);
@@ -202,7 +203,7 @@ simulation::FloeId floe_id(const JsonValue& value);
 simulation::BirthRecord birth_of(const JsonValue& line);
 simulation::HullSample sample_of(std::string_view line, const std::vector<const ForceColumn*>& columns,
                                  const simulation::Scene& scene);
-/// `run` has its scene and its floes.
+/// `run` already has its scene and its floes.
 RunCrushed crushed_of(std::string_view line, const Run& run);
 RunContact contact_of(std::string_view line, const Run& run);
 simulation::PanelSample panel_of(std::string_view line, const simulation::Scene& scene);

@@ -23,11 +23,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a folder holds, as far as it concerns a new run.
+/// Contents of a folder that is to be used for a new run.
 enum class Contents {
-  kNothing,  ///< or only what a run leaves that was killed before it had its scene
-  kRemains,  ///< of a run: --overwrite was killed while it removed it
-  kRun,      ///< finished or not
+  kNothing,  ///< nothing, or the remains of a run that was killed before it had its scene
+  kRemains,  ///< part of a run: --overwrite was killed while it removed the files
+  kRun,      ///< a run, finished or not
   kForeign,
 };
 
@@ -50,7 +50,7 @@ Result<Contents> contents_of(const fs::path& folder) {
   return is_marked && !has_scene ? Contents::kRemains : Contents::kForeign;
 }
 
-/// Whether a new run can have a folder with such contents.
+/// Fails if a new run cannot use a folder with such contents.
 Result<> check_claim(const fs::path& folder, Contents contents, bool overwrite) {
   const std::string name = folder.string();
   if (contents == Contents::kForeign)
@@ -74,7 +74,7 @@ Result<> check_claim(const fs::path& folder, Contents contents, bool overwrite) 
                   name));
 }
 
-/// Makes a folder and what is missing above it, so that all of it is on the disk.
+/// Makes a folder and the missing folders above it, and waits until the disk has stored them.
 Result<> make_folder(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> missing;
@@ -91,7 +91,7 @@ Result<> make_folder(const fs::path& folder) {
   return {};
 }
 
-/// Removes one file and what a crash left of writing it.
+/// Removes a file and the temporary file that a crash may have left.
 Result<> remove_with_part(const fs::path& path) {
   fs::path part = path;
   part += ".part";
@@ -120,9 +120,9 @@ std::vector<fs::path> made_at_end(const fs::path& folder) {
   return names;
 }
 
-/// Removes what polynya writes into a run folder. Whenever it is killed, what is left is a run that `resume`
-/// takes from the start, or the remains that --overwrite replaces: summary.json, which may call the run
-/// finished, goes first, and for good, and scene.json last.
+/// Removes the files that Polynya writes into a run folder. If the program is killed meanwhile, the remaining files are
+/// either a run that `resume` starts from the beginning, or remains that --overwrite accepts. For this, summary.json,
+/// which may call the run finished, is removed first, and scene.json last.
 Result<> remove_run(const fs::path& folder) {
   std::vector<fs::path> names = made_at_end(folder);
   names.insert(names.end(), run_file::kGrowing.begin(), run_file::kGrowing.end());
@@ -158,14 +158,13 @@ Result<RunLock> RunLock::take(const std::filesystem::path& folder) {
   if (::fstat(lock.descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) return refuse("not a regular file");
   if (::flock(lock.descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     return fail(fmt::format("{}: another polynya is writing this run", folder.string()));
-  // File systems without locks go without.
+  // On file systems without locks the run continues without one.
   if (!lock.is_in_place()) return refuse("removed by another program meanwhile; try again");
   return lock;
 }
 
 FolderSize estimate_folder_size(const simulation::Scene& scene) {
-  // A vertex is two numbers of 16 to 18 digits; a floe's other members are those of append_birth,
-  // append_floe.
+  // A vertex has two numbers of 16 to 18 digits. The other members of a floe are those of append_birth and append_floe.
   constexpr double kVertex = 40, kBirth = 160, kState = 470;  // [bytes]
   double vertices = 0;
   for (const simulation::FloeSpec& floe : scene.floes)
@@ -197,7 +196,8 @@ bool is_marked_run_folder(const fs::path& folder) {
 
 Result<RunLock> claim_run_folder(const fs::path& folder, bool overwrite) {
   if (const auto made = make_folder(folder); !made) return fail(made.error());
-  // Before the lock, which writes into the folder, and again behind it: it may have become a run meanwhile.
+  // This is checked before taking the lock, which writes into the folder, and again after it, because another process
+  // may have started a run meanwhile.
   const auto check = [&]() -> Result<Contents> {
     auto contents = contents_of(folder);
     if (!contents) return contents;

@@ -14,13 +14,14 @@
 
 namespace polynya::io {
 
-/// What a run folder's files are like, in its summary.json. 5: peaks in contacts.csv; 4: ice under hulls; 3:
-/// crushed.csv and ground overlaps; 2: floes.ndjson has parts of parents' shapes; folders without a number are 1.
+/// Version of the format of a run folder, in its summary.json. 6: current. 5: peaks in contacts.csv. 4: ice under
+/// hulls. 3: crushed.csv and ground overlaps. 2: floes.ndjson refers to vertices of parents. Folders without a number
+/// are version 1.
 inline constexpr int kRunFolderVersion = 6;
 
 /// The files of a run (docs/run-folder.md).
 namespace run_file {
-inline constexpr std::string_view kLock = ".polynya";  ///< RunLock
+inline constexpr std::string_view kLock = ".polynya";  ///< locked by RunLock
 inline constexpr std::string_view kScene = "scene.json";
 inline constexpr std::string_view kSummary = "summary.json";
 inline constexpr std::string_view kForces = "forces.csv";
@@ -30,28 +31,28 @@ inline constexpr std::string_view kFrames = "frames.bin";
 inline constexpr std::string_view kStates = "states.csv";
 inline constexpr std::string_view kContacts = "contacts.csv";
 inline constexpr std::string_view kCrushed = "crushed.csv";
-inline constexpr std::string_view kPanels = "panels.csv";  ///< of scenes that have panels
+inline constexpr std::string_view kPanels = "panels.csv";  ///< only in scenes with panels
 inline constexpr std::string_view kFinalGeojson = "final.geojson";
 inline constexpr std::string_view kFinalSvg = "final.svg";
 inline constexpr std::string_view kFinalPng = "final.png";
-inline constexpr std::string_view kView = "view.html";           ///< `polynya view` writes it, not the run
-inline constexpr std::string_view kChannel = "channel.geojson";  ///< `polynya channel` writes these two
+inline constexpr std::string_view kView = "view.html";           ///< written by `polynya view`, not by the run
+inline constexpr std::string_view kChannel = "channel.geojson";  ///< this and the next are written by `polynya channel`
 inline constexpr std::string_view kChannelCsv = "channel.csv";
-// `polynya figures` writes these, and a PNG and a PDF beside each.
+// Written by `polynya figures`, which also writes a PNG and a PDF of each.
 inline constexpr std::string_view kFigureFloes = "figure-floes.svg";
 inline constexpr std::string_view kFigureLoads = "figure-loads.svg";
 inline constexpr std::string_view kFigureMotion = "figure-motion.svg";
 inline constexpr std::string_view kFigureSizes = "figure-sizes.svg";
 inline constexpr std::string_view kFigureEnergy = "figure-energy.svg";
 inline constexpr std::array kFigures{kFigureFloes, kFigureLoads, kFigureMotion, kFigureSizes, kFigureEnergy};
-inline constexpr std::string_view kLoads = "loads";  // a folder, of `polynya loads`
+inline constexpr std::string_view kLoads = "loads";  // a folder, written by `polynya loads`
 inline constexpr std::string_view kFailure = "failure.bin";
-inline constexpr std::string_view kChecksums = "checksums.txt";     ///< of a finished run
+inline constexpr std::string_view kChecksums = "checksums.txt";     ///< only in a finished run
 inline constexpr std::string_view kRejectedCuts = "rejected-cuts";  // a folder
-/// The files that grow, in the order they are flushed: what is named before what names it. A run without panels has
-/// all but the last.
+/// The files that grow, in the order in which they are written to disk, so that a name is never on the disk before the
+/// body that it names. Runs without panels do not have the last one.
 inline constexpr std::array kGrowing{kFloes, kEvents, kFrames, kContacts, kCrushed, kStates, kForces, kPanels};
-// `polynya management` writes these.
+// Written by `polynya management`.
 inline constexpr std::string_view kManagement = "management.csv";
 inline constexpr std::string_view kManagementSizes = "management-sizes.csv";
 inline constexpr std::string_view kManagementPng = "management.png";
@@ -59,34 +60,34 @@ inline constexpr std::array kMadeAtEnd{kFinalGeojson, kFinalSvg,   kFinalPng,   
                                        kChannelCsv,   kManagement, kManagementSizes, kManagementPng};
 }  // namespace run_file
 
-/// The files that grow in a run of the scene.
+/// Returns the files that grow in a run of the scene.
 std::span<const std::string_view> growing_files(const simulation::Scene& scene);
 
-/// What reads runs takes no longer file; a run that writes one warns [bytes].
+/// Longest file that programs which read runs accept [bytes]. A run that writes a longer one warns.
 inline constexpr std::uint64_t kLongestRunFile = std::uint64_t{4} << 30;
 
-/// A run of more floes at the start writes no final.geojson unless it is asked for: the other files have what
-/// `polynya export --geojson` makes it of.
+/// A run that starts with more floes than this writes no final.geojson unless asked to, because it is long, and
+/// `polynya export --geojson` can make it from the other files.
 inline constexpr std::size_t kMostFloesInFinal = 100'000;
 
-/// About how long the files with all floes become, of the floes at the start [bytes].
+/// Estimated sizes of the files that contain all floes, from the floes at the start [bytes].
 struct FolderSize {
   double floes = 0;          ///< floes.ndjson
-  double final_geojson = 0;  ///< where it is written
+  double final_geojson = 0;  ///< if it is written
 };
 FolderSize estimate_folder_size(const simulation::Scene& scene);
 
-/// Keeps other processes from writing a run folder as long as it lives: a lock on the folder's file
-/// `.polynya`, which ends with the process, however that ends. The file stays: it marks the folder as a
-/// run's, and a file that is never replaced can be locked by one process only.
+/// Prevents other processes from writing to a run folder while this object exists. It locks the file `.polynya` of the
+/// folder; the lock ends with the process, however that ends. The file stays. It marks the folder as that of a run, and
+/// a file that is never replaced can be locked by only one process.
 class RunLock {
  public:
-  /// Makes the file where there is none. The error names what is in the way.
+  /// Takes the lock, and creates the file if there is none. The error names what prevents it.
   static Result<RunLock> take(const std::filesystem::path& folder);
 
   const std::filesystem::path& folder() const { return folder_; }
 
-  /// Whether the folder is still there under its name: it was neither removed, moved nor replaced.
+  /// Returns true if the folder still has its name, so that it was neither removed, moved nor replaced.
   bool is_in_place() const { return is_still_at(descriptor_, folder_ / run_file::kLock); }
 
  private:
@@ -96,19 +97,19 @@ class RunLock {
   std::filesystem::path folder_;
 };
 
-/// Takes a folder for a new run, making it where there is none, and locks it: of several processes that take
-/// one folder, one gets it. A folder with anything in it is refused, but for what a run leaves that was
-/// killed before it had its scene. With `overwrite`, a run folder (finished or not, or in part removed) loses
-/// the files that polynya writes there, and nothing else; any other folder is refused even then, and nothing
-/// is written into it. The error names the folder, what is in it and what to do.
+/// Takes a folder for a new run and locks it. It is created if there is none; if several processes want one folder, one
+/// gets it. A folder that is not empty is refused, except for the remains of a run that was killed before it had its
+/// scene. With `overwrite`, the files that Polynya writes are removed from a run folder, finished, unfinished or partly
+/// removed, and nothing else is. Any other folder is refused even then and stays unchanged. The error names the folder,
+/// its contents and what to do.
 Result<RunLock> claim_run_folder(const std::filesystem::path& folder, bool overwrite);
 
-/// Makes a folder that of a run to the end of the scene, which is that of its scene.json but for `time.until_s`,
-/// where the run has ended or was to end at another time: its summary is that of an unfinished one, what was made at
-/// and after its end is removed, and scene.json names the new end. A kill in between leaves a run that is resumed.
+/// Changes the end of a run to the end of the scene. The scene equals that of scene.json except for `time.until_s`. The
+/// summary becomes that of an unfinished run, files made at and after the old end are removed, and scene.json gets the
+/// new end. If the program is killed in between, the folder is that of a run that can be resumed.
 Result<> set_end(const std::filesystem::path& folder, const LoadedScene& scene);
 
-/// Whether polynya marked the folder as a run's.
+/// Returns true if Polynya has marked the folder as that of a run.
 bool is_marked_run_folder(const std::filesystem::path& folder);
 
 }  // namespace polynya::io

@@ -28,7 +28,7 @@ Result<ActiveRun> resume_run(RunLock lock, const LoadedScene& scene, const std::
   if (!checkpoint) return fail(checkpoint.error());
   const simulation::StepSettings& time = scene.scene.time;
   if (checkpoint->steps > last_step_of(time))
-    return fail(fmt::format("{}: at {:.6g} s, behind the end of the run at {:.6g} s", file.string(),
+    return fail(fmt::format("{}: at {:.6g} s, after the end of the run at {:.6g} s", file.string(),
                             static_cast<double>(checkpoint->steps) * time.step, time.until));
   auto simulation = simulation_at(scene, *checkpoint);
   if (!simulation) return fail(fmt::format("{}: {}", file.string(), simulation.error()));
@@ -70,14 +70,14 @@ std::optional<std::string> numerical_failure_of(const Simulation& simulation) {
 
 std::optional<std::string> failure_after_step(const Simulation& simulation) {
   if (auto failure = numerical_failure_of(simulation)) return failure;
-  if (!simulation.audit().is_closed()) return "the accounts of energy or momentum do not close";
-  if (auto wrong = validate_world(simulation.world())) return "the world contradicts itself: " + *wrong;
+  if (!simulation.audit().is_closed()) return "the balances of energy or momentum do not close";
+  if (auto wrong = validate_world(simulation.world())) return "the state is inconsistent: " + *wrong;
   return {};
 }
 
 namespace {
 
-/// The run at its newest checkpoint that can be read and is sound, or at its start.
+/// Returns the run at its newest checkpoint that can be read and has no failure, or at its start.
 Simulation at_last_checkpoint(const ActiveRun& run) {
   for (const auto& path : checkpoints_in(run.writer.folder())) {
     const auto checkpoint = read_checkpoint_file(path, run.scene.course_hash);
@@ -88,9 +88,9 @@ Simulation at_last_checkpoint(const ActiveRun& run) {
   return Simulation(run.scene.scene);
 }
 
-/// Writes the state before the first step after which something is wrong into the run folder, with what it
-/// is. The step is found by stepping again from the newest sound checkpoint, which costs nothing where
-/// nothing fails.
+/// Writes a dump into the run folder: the state before the first step after which a failure is found, and the failure.
+/// The step is found by stepping again from the newest checkpoint without a failure. This way the normal run needs no
+/// extra work.
 Result<> dump_failure(const ActiveRun& run) {
   const auto step = [](Simulation& simulation) {
     simulation.step();
@@ -113,7 +113,7 @@ Result<> dump_failure(const ActiveRun& run) {
   return write_checkpoint_file(run.writer.folder() / run_file::kFailure, dump);
 }
 
-constexpr std::int64_t kStepsBetweenReports = 16;  ///< looking at the clock costs as much as a small step
+constexpr std::int64_t kStepsBetweenReports = 16;  ///< reading the clock takes as long as a small step
 
 }  // namespace
 
@@ -139,14 +139,14 @@ bool RunRecorder::is_frame_due() const {
 }
 
 Result<> RunRecorder::end() {
-  auto written = checkpoint(0);  // without the time that it took: folders of one run are the same bytes
+  auto written = checkpoint(0);  // The wall time is left out, so that two folders of the same run have the same bytes.
   if (written && !is_frame_due()) writer_.frame(simulation_);
   return written;
 }
 
 namespace {
 
-/// Why a run ends before its scene does.
+/// Reason why a run ends before its scene does.
 struct Stop {
   RunEnd end = RunEnd::kFinished;
   std::string reason;
@@ -165,7 +165,7 @@ class RunLoop {
     last_step_ = last_step_of(time);
   }
 
-  /// Steps to the end of the run; nothing where it got there.
+  /// Steps to the end of the run. Returns nothing if the end was reached.
   std::optional<Stop> advance() {
     simulation().set_threads(control_.threads);
     if (!run_.writer.has_begun()) recorder_.begin(simulation().journal());
@@ -176,7 +176,7 @@ class RunLoop {
 
   RunResult finish(const Stop& stop) {
     RunResult result{stop.end, stop.reason, summarise(simulation(), run_.writer, stop.reason, recorder_.wall_time())};
-    // Before the run is finished: that takes away the checkpoints from which the failure is sought.
+    // This comes before the run is finished, because finishing removes the checkpoints from which a dump is made.
     const std::size_t floes = run_.scene.scene.floes.size();
     const bool has_floes = control_.final_geojson || floes <= kMostFloesInFinal;
     if (!has_floes)
@@ -213,7 +213,7 @@ class RunLoop {
     return Stop{RunEnd::kStopped, *reason};
   }
 
-  /// Checkpoints, flushing and progress, each where it is due.
+  /// Writes checkpoints, flushes files and reports progress, each when it is due.
   std::optional<Stop> work_between_steps() {
     const std::int64_t step = simulation().steps();
     const bool is_report_due = step % kStepsBetweenReports == 0;

@@ -16,58 +16,60 @@
 
 namespace polynya::io {
 
-/// A run somewhere between its start and its end, and its folder.
+/// A run that is in progress, with its folder.
 struct ActiveRun {
-  const LoadedScene& scene;  ///< outlives this
+  const LoadedScene& scene;  ///< must exist longer than this object
   simulation::Simulation simulation;
   RunWriter writer;
-  double wall_time = 0;  ///< that it has taken before [s]
+  double wall_time = 0;  ///< wall time of earlier parts of the run [s]
 };
 
-/// The tick that a run ends with: its end is rounded up to a whole tick.
+/// Returns the last tick of a run. The end of the scene is rounded up to a whole tick.
 std::int64_t last_step_of(const simulation::StepSettings& time);
 
-/// A run before its first step. The error is what is wrong with the folder (RunWriter::create).
+/// Starts a run: prepares its folder before the first step. Fails if the folder cannot be used (RunWriter::create).
 Result<ActiveRun> start_run(const std::filesystem::path& folder, const LoadedScene& scene, bool overwrite = false);
 
-/// A run at a checkpoint of its folder, read from `file`: the folder is cut back to it (RunWriter::resume), and
-/// becomes that of a run to the scene's end, which may be another than it had.
+/// Continues a run from a checkpoint of its folder, which is read from `file`. Whatever the folder has beyond the
+/// checkpoint is cut off (RunWriter::resume). The run goes to the scene's end, which may differ from its former end.
 Result<ActiveRun> resume_run(RunLock lock, const LoadedScene& scene, const std::filesystem::path& file);
 
-/// The simulation of a checkpoint, checked against the hash it was saved with.
+/// Returns the simulation at a checkpoint, after comparing its hash with the one in the checkpoint.
 Result<simulation::Simulation> simulation_at(const LoadedScene& scene, const Checkpoint& checkpoint);
 
-/// Where a run stands between two steps, its journal having been written.
+/// Returns a checkpoint of a run between two steps. The journal of the simulation must have been written.
 Checkpoint checkpoint_of(const simulation::Simulation& simulation, const LoadedScene& scene, RunProgress progress,
                          double wall_time);
 
-/// What is wrong with a run after a step: numbers that are none, accounts that do not close, a world that
-/// contradicts itself. Nothing where all is well.
+/// Looks for a failure after a step: numbers that are not finite, balances that do not close, a state that contradicts
+/// itself. Returns a message, or nothing if there is none.
 std::optional<std::string> failure_after_step(const simulation::Simulation& simulation);
 
-/// How far a run is.
+/// Progress of a run.
 struct RunStatus {
-  double time = 0;             ///< simulated [s]
+  double time = 0;             ///< simulated time [s]
   std::int64_t fractures = 0;  ///< bends, splits and rejected cuts
 };
 
-/// What is written of a run between its steps, whoever takes them: run_to_end(), or Python.
+/// Writes the folder of a run between its steps. Both run_to_end() and Python's stepping use it.
 class RunRecorder {
  public:
-  /// `wall_time` has been taken before [s].
+  /// `wall_time` is that of earlier parts of the run [s].
   RunRecorder(simulation::Simulation& simulation, RunWriter& writer, const LoadedScene& scene, double wall_time = 0);
-  /// Where nothing has been stepped yet: what there is, and a first frame.
+  /// Call it after the constructor. Before the first step of a run it records the initial state and a first frame.
   void begin(simulation::Journal& journal);
   void record_step() { writer_.record(simulation_.journal()); }
   void frame_if_due() {
     if (is_frame_due()) writer_.frame(simulation_);
   }
   Result<> checkpoint() { return checkpoint(wall_time()); }
-  /// At the end: a checkpoint, and behind it a frame where none was due. A longer run goes on from the checkpoint,
-  /// without the frame that only this end has.
+  /// Writes a last checkpoint, and then a frame if none is due at the end. A run that is continued to a later end
+  /// starts from the checkpoint, and so does not contain that extra frame.
   Result<> end();
-  double wall_time() const { return wall_time_before_ + seconds_since(start_); }  ///< of the run so far [s]
-  double checkpoint_age() const { return seconds_since(last_checkpoint_); }       ///< by the clock [s]
+  /// Of the run so far, with earlier parts [s].
+  double wall_time() const { return wall_time_before_ + seconds_since(start_); }
+  /// Wall time since the last checkpoint [s].
+  double checkpoint_age() const { return seconds_since(last_checkpoint_); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -84,38 +86,41 @@ class RunRecorder {
   Clock::time_point last_checkpoint_ = start_;
 };
 
-/// How a run is carried to its end.
+/// Settings of run_to_end().
 struct RunControl {
-  int threads = 1;                    ///< results do not depend on it
-  double checkpoint_every = 0;        ///< simulated time between checkpoints [s]; 0: by the clock alone
-  double checkpoint_every_wall = 60;  ///< and by the clock [s]; 0: never by it
-  bool check = false;                 ///< validate all of the world, and derive its sums again, after every step
-  bool final_geojson = false;         ///< also of a scene of more than kMostFloesInFinal floes (run_folder.hpp)
-  /// Called every 16th step.
+  int threads = 1;                    ///< number of threads; results do not depend on it
+  double checkpoint_every = 0;        ///< simulated time between checkpoints [s]; 0: only by wall time
+  double checkpoint_every_wall = 60;  ///< wall time between checkpoints [s]; 0: only by simulated time
+  bool check = false;                 ///< check the whole state, and compute its sums again, after every step; slow
+  /// Write final.geojson even if the scene has more than kMostFloesInFinal floes (run_folder.hpp).
+  bool final_geojson = false;
+  /// Called after every 16th step.
   std::function<void(const RunStatus&)> progress = {};
-  /// Called after every step: a reason stops the run there, with a checkpoint to resume from.
+  /// Called after every step. If it returns a reason, the run stops there, with a checkpoint from which it can be
+  /// resumed.
   std::function<std::optional<std::string>()> stop = {};
 };
 
 enum class RunEnd {
   kFinished,
-  kStopped,           ///< by RunControl::stop
-  kNumericalFailure,  ///< numbers that are none, or what RunControl::check found
+  kStopped,           ///< stopped by RunControl::stop
+  kNumericalFailure,  ///< numbers that are not finite, or a fault found by RunControl::check
   kFolderFailure,     ///< a file of the folder could not be written
 };
 
+/// How run_to_end() ended.
 struct RunResult {
   RunEnd end = RunEnd::kFinished;
-  std::string reason;  ///< of any other end
-  RunSummary summary;  ///< as in summary.json
-  /// Where a failure was to be dumped, the state before the first step after which something is wrong: whether that
-  /// went well.
+  std::string reason;  ///< reason for an end other than kFinished
+  RunSummary summary;  ///< the contents of summary.json
+  /// After a numerical failure, the state before the first faulty step is written to a dump. This is whether writing it
+  /// succeeded; empty if no dump was to be written.
   std::optional<Result<>> dump = {};
 };
 
-/// Steps a run to the end of its scene, or to what stops it, and writes its folder; docs/architecture.md
-/// shows an example. Throws std::bad_alloc where memory runs out: the folder is then that of a run that was
-/// killed, which resume_run continues from its newest checkpoint.
+/// Steps a run to the end of its scene, or until something stops it, and writes its folder. docs/architecture.md shows
+/// an example. Throws std::bad_alloc if memory runs out; the folder is then like that of a killed run, and resume_run
+/// can continue it from the newest checkpoint.
 RunResult run_to_end(ActiveRun& run, const RunControl& control = {});
 
 }  // namespace polynya::io

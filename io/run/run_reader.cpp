@@ -19,7 +19,8 @@ using geometry::Polygon;
 using simulation::FloeId;
 
 namespace {
-constexpr std::size_t kMostKept = std::size_t{4} << 20;  ///< vertices of assembled shapes, 64 MB
+/// Number of vertices of assembled shapes that are kept, 64 MB.
+constexpr std::size_t kMostKept = std::size_t{4} << 20;
 }  // namespace
 
 void FloeShapes::add(ShapeParts shape, FloeId parent) {
@@ -167,7 +168,7 @@ void read_floes(Run& run) {
   });
 }
 
-/// What comes up from under a hull is brash, and so is all that it breaks into.
+/// Marks ice that surfaced from under a hull, and all pieces into which it breaks, as brash.
 void mark_brash(Run& run, const simulation::Event& event) {
   const bool came_up = event.is<simulation::Resurface>() || run.floe(event.ice()->floe)->came_up;
   for (const FloeId child : event.ice()->children) {
@@ -202,7 +203,7 @@ void read_forces(Run& run) {
            [&](std::string_view line) { run.samples.push_back(sample_of(line, columns, run.scene.scene)); });
 }
 
-/// Peaks stand where they ended.
+/// Reads contacts.csv. A peak is a row at the end of its contact.
 void read_contacts(Run& run) {
   for_rows_where_recorded(run, run_file::kContacts, [&](std::string_view line) {
     RunContact contact = contact_of(line, run);
@@ -238,7 +239,7 @@ void check_other_tables(const Run& run) {
   for_rows_where_recorded(run, run_file::kStates, [&](std::string_view line) { check_state(line); });
 }
 
-/// Why a folder without a scene is none of a run.
+/// Says why a folder without a scene is not that of a run.
 std::string what_is_missing(const std::filesystem::path& folder) {
   std::error_code error;
   const auto status = std::filesystem::status(folder, error);
@@ -252,7 +253,7 @@ std::vector<FloeId> Run::lineage(FloeId id) const {
   std::vector<FloeId> ids;
   while (const RunFloe* at = floe(id)) {
     ids.push_back(id);
-    if (at->birth.parent >= id) break;  // a parent is older than its child
+    if (at->birth.parent >= id) break;  // a parent always has a smaller id; stops on a damaged file
     id = at->birth.parent;
   }
   std::ranges::reverse(ids);
@@ -357,9 +358,9 @@ std::optional<Motion> MotionIndex::ship_at(std::size_t ship, double time) const 
 
 std::vector<Frame> thinned_frames(const Run& run, const FrameSelection& selection) {
   if (selection.is_all()) return run.frames;
-  std::map<simulation::FloeId, RecordedMotion> skipped;  // since the last frame that stayed
+  std::map<simulation::FloeId, RecordedMotion> skipped;  // records since the last selected frame
   std::vector<Frame> frames;
-  std::size_t last = 0;  // one past the last selected frame
+  std::size_t last = 0;  // index one past the last selected frame
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
     if (selection.has(run.frames[i].time)) last = i + 1;
   }
@@ -387,7 +388,7 @@ geometry::Pose pose_of(const simulation::BirthRecord& birth, const Motion& motio
 
 namespace {
 
-/// Of the youngest of the floe and those it broke from that a frame has.
+/// Returns the pose of the floe, or of the youngest floe in its lineage that a frame has.
 geometry::Pose body_pose(const Run& run, const MotionIndex& motions, const simulation::BirthRecord& floe, double time) {
   const simulation::BirthRecord* at = &floe;
   while (true) {

@@ -22,27 +22,26 @@
 
 namespace polynya::io {
 
-/// The shapes of a run's floes, as floes.ndjson has them: those that are parts of their parents' take the
-/// memory of what is new, and are assembled when asked for. The last ones assembled are kept. Not for several
-/// threads at once.
+/// Shapes of the floes of a run, as floes.ndjson stores them. A shape that refers to its parent takes memory only for
+/// its new vertices, and is assembled on request. The shapes assembled last are kept. Not thread-safe.
 class FloeShapes {
  public:
-  /// The next floe, by id. Throws ReadError where the parts cannot be of that parent; nothing is added then.
+  /// Adds the next floe by id. Throws ReadError, and adds nothing, if the parts cannot refer to that parent.
   void add(ShapeParts shape, simulation::FloeId parent);
   void add(const geometry::Polygon& shape) { add(whole(shape), simulation::kNoFloe); }
 
   std::size_t size() const { return floes_.size(); }
 
-  /// In the floe's body frame. Needs a floe that was added.
+  /// Returns the shape in the floe's body frame. Needs a floe that was added.
   std::shared_ptr<const geometry::Polygon> of(simulation::FloeId floe) const;
 
-  /// What of the floe's shape is its parent's; null where nothing is.
+  /// Returns the parts by which the shape refers to its parent; null if it refers to none.
   const ShapeParts* parts_of(simulation::FloeId id) const { return floe(id).whole ? nullptr : &floe(id).parts; }
 
  private:
   struct Floe {
-    simulation::FloeId parent = simulation::kNoFloe;  ///< that its parts are of
-    ShapeParts parts;                                 ///< empty where it is whole
+    simulation::FloeId parent = simulation::kNoFloe;  ///< floe to which its parts refer
+    ShapeParts parts;                                 ///< empty if the shape is stored whole
     std::shared_ptr<const geometry::Polygon> whole;
     std::vector<std::size_t> ring_sizes;
   };
@@ -51,125 +50,130 @@ class FloeShapes {
   void keep(simulation::FloeId id, std::shared_ptr<const geometry::Polygon> shape) const;
 
   std::vector<Floe> floes_;  ///< by id
-  // What was assembled last: it follows from floes_, so that const functions may change it.
+  // Cache of the shapes assembled last. It is mutable because it follows from floes_.
   mutable std::unordered_map<simulation::FloeId, std::shared_ptr<const geometry::Polygon>> kept_;
   mutable std::deque<simulation::FloeId> oldest_kept_;
   mutable std::size_t kept_vertices_ = 0;
 };
 
-/// A floe's life in a run.
+/// Life of a floe in a run.
 struct RunFloe {
   simulation::BirthRecord birth;
-  double went_under = std::numeric_limits<double>::infinity();  ///< a hull [s]
-  double died = std::numeric_limits<double>::infinity();        ///< when it broke, or came up as another [s]
-  std::optional<std::size_t> death_event;                       ///< index of the event that broke it
-  bool came_up = false;  ///< it, or a floe that it broke from, came up from under a hull: brash
+  /// Time at which it went under a hull [s]; infinite: never.
+  double went_under = std::numeric_limits<double>::infinity();
+  /// Time at which it broke, or surfaced as a new floe [s]; infinite: it exists to the end.
+  double died = std::numeric_limits<double>::infinity();
+  std::optional<std::size_t> death_event;  ///< index of the event that broke it
+  bool came_up = false;  ///< true if it, or a floe from which it broke, surfaced from under a hull; such ice is brash
 };
 
-/// A line of contacts.csv.
+/// A row of contacts.csv.
 struct RunContact {
   double time = 0;  ///< [s]
   simulation::ContactState state;
 };
 
-/// A line of crushed.csv.
+/// A row of crushed.csv.
 struct RunCrushed {
   double time = 0;  ///< [s]
   simulation::CrushedOverlap overlap;
 };
 
-/// A run folder read back (docs/run-folder.md): what every tool for runs starts from.
+/// A run folder read into memory (docs/run-folder.md). All commands that read runs start from this.
 struct Run {
   std::filesystem::path folder;
-  std::string label;  ///< names the run in figures: its scene's name unless another is given
+  std::string label;  ///< name of the run in figures: the name of its scene unless another is given
   LoadedScene scene;
   JsonValue summary;
   std::vector<RunFloe> floes;  ///< by floe id
-  FloeShapes shapes;           ///< theirs, in their body frames
+  FloeShapes shapes;           ///< their shapes in body frames
   std::vector<simulation::Event> events;
   std::vector<simulation::HullSample> samples;
   std::vector<Frame> frames;
-  std::vector<RunContact> contacts;  ///< at frames, as time goes; none in runs of versions that did not record them
-  std::vector<RunContact> peaks;     ///< of a contact's force, as time goes; none in runs of versions before
-  std::vector<RunCrushed> crushed;   ///< as time goes
-  bool has_crushed = false;          ///< runs of versions before do not record it
+  /// Contacts at frames, in order of time; empty in runs of versions that did not record them.
+  std::vector<RunContact> contacts;
+  /// Peaks of contact forces, in order of time; empty in runs of versions that did not record them.
+  std::vector<RunContact> peaks;
+  std::vector<RunCrushed> crushed;  ///< in order of time
+  bool has_crushed = false;         ///< false in runs of versions that did not record it
 
   double start_time() const { return frames.empty() ? 0 : frames.front().time; }
   double end_time() const { return frames.empty() ? 0 : frames.back().time; }
   const RunFloe* floe(simulation::FloeId id) const {
     return id >= 0 && static_cast<std::size_t>(id) < floes.size() ? &floes[static_cast<std::size_t>(id)] : nullptr;
   }
-  /// The shape of a floe that there is, in its body frame.
+  /// Returns the shape of an existing floe in its body frame.
   std::shared_ptr<const geometry::Polygon> shape(simulation::FloeId id) const { return shapes.of(id); }
-  /// Whether it floats then.
+  /// Returns true if the floe exists and floats at that time [s].
   bool is_alive(simulation::FloeId id, double time) const {
     return floe(id) != nullptr && floe(id)->birth.time <= time && time < floe(id)->died && time < floe(id)->went_under;
   }
-  /// Whether it is under a hull then, or waits for room behind it.
+  /// Returns true if the floe is under a hull at that time, or waits behind it for room to surface.
   bool is_under(simulation::FloeId id, double time) const {
     return floe(id) != nullptr && floe(id)->went_under <= time && time < floe(id)->died;
   }
-  /// Those recorded at the time of a frame.
+  /// Returns the contacts that were recorded at the time of a frame [s].
   std::span<const RunContact> contacts_at(double time) const;
-  /// The floes that broke to make this one, oldest first, itself last.
+  /// Returns the sequence of floes that broke one from the other until this one, oldest first, this one last.
   std::vector<simulation::FloeId> lineage(simulation::FloeId id) const;
 };
 
-/// Reads a run folder, finished or not; a last line or frame that is cut short is left out.
-/// The error has the file and the line.
+/// Reads a run folder, finished or not. An incomplete last line or frame is ignored. The error has the file and the
+/// line.
 Result<Run> read_run(const std::filesystem::path& folder);
 
-/// Where the floes of a run are, by time: the frames' records, by floe.
+/// Motions of all bodies of a run by time. It sorts the records of the frames by floe.
 class MotionIndex {
  public:
   explicit MotionIndex(const Run& run);
 
-  /// Motion of a floe's centre of mass at a time: between two frames, linear between their records. Nothing
-  /// where no frame has the floe.
+  /// Motion of a floe's centre of mass at a time [s], interpolated linearly between the records of two frames. Returns
+  /// nothing if no frame has the floe.
   std::optional<Motion> floe_at(simulation::FloeId floe, double time) const;
   std::optional<Motion> ship_at(std::size_t ship, double time) const;
 
  private:
   const RecordedMotion* last_record(simulation::FloeId floe, double time) const;
   std::vector<double> frame_times_;
-  std::vector<std::vector<RecordedMotion>> floes_;  ///< by floe id, in time order
-  std::vector<std::vector<Motion>> ships_;          ///< by ship, one a frame
+  std::vector<std::vector<RecordedMotion>> floes_;  ///< records by floe id, in order of time
+  std::vector<std::vector<Motion>> ships_;          ///< motions by ship, one per frame
 };
 
-/// A floe's polygon in the world for a motion of its centre of mass.
+/// Returns the polygon of a floe in the world for a motion of its centre of mass.
 geometry::Polygon polygon_in_world(geometry::Polygon polygon_in_body, geometry::Point centroid_in_body,
                                    const Motion& motion);
 
-/// A floe where it was at some time of a run.
+/// A floe at its place at some time of a run.
 struct PlacedFloe {
-  const simulation::BirthRecord* birth = nullptr;            ///< the run's
+  const simulation::BirthRecord* birth = nullptr;            ///< owned by the run
   std::shared_ptr<const geometry::Polygon> polygon_in_body;  ///< [m]
   geometry::Pose world_from_body;
-  std::optional<Motion> motion;  ///< of its centre of mass; nothing where no frame has it
+  std::optional<Motion> motion;  ///< motion of its centre of mass; nothing if no frame has it
 };
 
-/// The floes that float at a time, by id. A floe that lived between two frames is placed as the floe it broke
-/// from was, whose body frame it shares; one that no frame has, where it was born.
+/// Returns the floes that float at a time [s], by id. A floe that existed only between two frames is placed as the floe
+/// from which it broke, whose body frame it shares. A floe that no frame has is placed where it was at its beginning.
 std::vector<PlacedFloe> floes_at(const Run& run, const MotionIndex& motions, double time);
-/// Calls use(floe) for each of them, one at a time: all of a million floes, with their polygons, take 200 MB.
+/// Calls use(floe) for each of these floes, one at a time. This saves memory: the polygons of a million floes take 200
+/// MB.
 void for_floes_at(const Run& run, const MotionIndex& motions, double time,
                   const std::function<void(const PlacedFloe&)>& use);
 
-/// Those under hulls then, or waiting for room behind them, likewise.
+/// Returns, in the same way, the floes that are under hulls at that time or wait behind them for room to surface.
 std::vector<PlacedFloe> floes_under_hulls_at(const Run& run, const MotionIndex& motions, double time);
 
-/// The body frame of a floe whose centre of mass moves so.
+/// Returns the pose of a floe's body frame for a motion of its centre of mass.
 geometry::Pose pose_of(const simulation::BirthRecord& birth, const Motion& motion);
 
-/// Where a ship's frame is in the world; where the scene puts it if the run has no frames.
+/// Returns the pose of a ship in the world at a time [s]; its pose in the scene if the run has no frames.
 geometry::Pose ship_pose_at(const Run& run, const MotionIndex& motions, std::size_t ship, double time);
 
-/// The times of the frames up to a time, and that time itself [s].
+/// Returns the times of the frames up to a time, and that time itself [s].
 std::vector<double> frame_times_until(const Run& run, double time);
 
-/// Which of a run's frames are wanted.
+/// A selection of the frames of a run.
 struct FrameSelection {
-  int every = 1;                                           ///< only each n-th frame, and the last
+  int every = 1;                                           ///< only each n-th frame, and the last one
   double from = -std::numeric_limits<double>::infinity();  ///< [s]
   double until = std::numeric_limits<double>::infinity();  ///< [s]
 
@@ -177,8 +181,8 @@ struct FrameSelection {
   bool has(double time) const { return from <= time && time <= until; }
 };
 
-/// The selected frames. A floe's record in a frame between them is carried on to the next one that stays, so
-/// at every frame that stays each floe alive is where the run has it, at the run's velocity.
+/// Returns the selected frames. The record of a floe in a frame that is left out is moved to the next selected frame,
+/// extrapolated at its velocity. So at every selected frame each living floe has the place and velocity of the run.
 std::vector<Frame> thinned_frames(const Run& run, const FrameSelection& selection);
 
 }  // namespace polynya::io

@@ -18,14 +18,16 @@ namespace {
 
 using run_file::kGrowing;
 enum : std::size_t { kFloes, kEvents, kFrames, kContacts, kCrushed, kStates, kForces, kPanels };
-constexpr std::size_t kMuchBuffered = std::size_t{256} << 10;  ///< [bytes]
+/// The buffers are written when they hold more than this [bytes].
+constexpr std::size_t kMuchBuffered = std::size_t{256} << 10;
+/// The buffers are also written after this time, so that a viewer of a running run sees its progress.
 constexpr auto kLongestWait = std::chrono::seconds(1);
 
 Motion motion_of(const simulation::FloeState& floe, geometry::Point centroid_in_body) {
   return {transform(floe.world_from_body, centroid_in_body), floe.angle, floe.velocity, floe.angular_velocity};
 }
 
-/// final.geojson in parts: of a million floes it is a gigabyte.
+/// Writes final.geojson in parts, because it has a gigabyte for a million floes.
 void write_floes(const simulation::Simulation& simulation, const std::optional<simulation::GeographicOrigin>& origin,
                  const WritePart& write) {
   constexpr std::size_t kPart = std::size_t{256} << 10;  // [bytes]
@@ -70,7 +72,7 @@ Result<RunWriter> RunWriter::begin(RunLock lock, const LoadedScene& scene) {
 
 namespace {
 
-/// Whether a file that grows can be cut back to its size at a checkpoint.
+/// Fails if a growing file is shorter than at the checkpoint, so that it cannot be cut back to it.
 Result<> check_size(const std::filesystem::path& file, std::uint64_t size_then) {
   std::error_code error;
   const auto status = std::filesystem::symlink_status(file, error);
@@ -81,7 +83,8 @@ Result<> check_size(const std::filesystem::path& file, std::uint64_t size_then) 
   return fail(fmt::format("{}: {} bytes; at the checkpoint there were {}", file.string(), size, size_then));
 }
 
-/// Whether a file begins as this program begins it: a row of other columns under its header would be lost.
+/// Fails if a file does not begin with the header of this program, because rows with other columns could not be read
+/// later.
 Result<> check_header(const std::filesystem::path& file, std::string_view header) {
   std::string there(header.size(), '\0');
   std::ifstream stream(file, std::ios::binary);
@@ -101,7 +104,8 @@ Result<Checksum> checksum_then(const std::filesystem::path& file, const WrittenF
                   file.string(), then.size, sum->crc(), then.crc));
 }
 
-/// Whether the folder can be cut back to a checkpoint, before any of its files is: the checksums of those that grow.
+/// Returns the checksums of all growing files if the folder can be cut back to a checkpoint. It is called before any
+/// file is changed.
 Result<std::vector<Checksum>> check_progress(const RunProgress& progress, const std::filesystem::path& folder,
                                              const simulation::Scene& scene) {
   const auto is_of_scene = [columns = peak_columns(scene).size()](const ShipPeaks& peaks) {
@@ -251,7 +255,7 @@ void RunWriter::flush() {
   check_place();
   bool is_sound = !is_displaced_;
   for (OutputFile& file : files_) {
-    if (!is_sound) file.drop();  // nothing may be named that is not there
+    if (!is_sound) file.drop();  // other files must not name a record that could not be written
     is_sound = is_sound && file.flush();
   }
   last_flush_ = std::chrono::steady_clock::now();
@@ -289,7 +293,7 @@ std::vector<std::string> RunWriter::overlong(std::uint64_t longest) const {
 Result<> RunWriter::write_checksums(Checksums known) const {
   for (std::size_t i = 0; i < files_.size(); ++i) known[std::string(kGrowing[i])] = files_[i].checksum();
   std::vector<std::filesystem::path> others{run_file::kScene};
-  std::error_code ignored;  // where nothing was rejected
+  std::error_code ignored;  // there is no such folder if no cut was refused
   for (const auto& entry : std::filesystem::directory_iterator(folder() / run_file::kRejectedCuts, ignored))
     others.push_back(std::filesystem::path(run_file::kRejectedCuts) / entry.path().filename());
   for (const std::filesystem::path& path : checkpoints_in(folder())) others.push_back(path.filename());
@@ -304,7 +308,7 @@ Result<> RunWriter::write_checksums(Checksums known) const {
 
 Result<> RunWriter::finish(const RunSummary& summary, const simulation::Simulation* simulation) {
   Result<> written = sync_files();
-  if (is_displaced_) return written;  // whatever is there now is not this run's
+  if (is_displaced_) return written;  // the folder or a file now belongs to another program and must not be changed
   Checksums sums;
   const auto write = [&](std::string_view name, const std::function<void(const WritePart&)>& produce) {
     Checksum& sum = sums[std::string(name)];
@@ -322,8 +326,8 @@ Result<> RunWriter::finish(const RunSummary& summary, const simulation::Simulati
       write(run_file::kFinalGeojson,
             [&](const WritePart& part) { write_floes(*simulation, scene_->scene.origin, part); });
   };
-  // A summary with "finished": true comes last, when all is there, and on the disk. Of a run that stopped it
-  // comes first: where space is short it matters more than the ice.
+  // The summary of a finished run is written last, when the disk has stored all other files. For a run that was stopped
+  // it is written first, because it matters more than the ice if the disk is nearly full.
   if (summary.finished) write_ice();
   if (written || !summary.finished)
     write(run_file::kSummary, [&](const WritePart& part) { part(to_json_text(summary, *scene_)); });

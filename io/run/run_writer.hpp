@@ -18,82 +18,81 @@ namespace polynya::io {
 
 struct Checkpoint;
 
-/// Length of a file at a checkpoint, and the CRC-32 of these bytes.
+/// Length of a file at a checkpoint, and the CRC-32 of its bytes up to that length.
 struct WrittenFile {
   std::uint64_t size = 0;  ///< [bytes]
   std::uint32_t crc = 0;
 };
 
-/// What of a run's folder is written, and what the writer needs to continue it.
+/// State of a run folder at a checkpoint. The writer needs it to continue the folder.
 struct RunProgress {
-  std::vector<WrittenFile> files;        ///< those that grow
-  std::vector<RecordedMotion> recorded;  ///< by floe id
+  std::vector<WrittenFile> files;        ///< the files that grow, in the order of growing_files()
+  std::vector<RecordedMotion> recorded;  ///< last record of each floe, by floe id
   std::vector<ShipPeaks> peaks;
 };
 
-/// Writes a run's folder while it runs (docs/run-folder.md). What is on disk is whole lines and whole frames
-/// at all times, and summary.json has "finished": false from the start: a killed run leaves a
-/// usable folder. Disk errors are kept: the caller asks for status() now and then and stops.
+/// Writes the folder of a run while it runs (docs/run-folder.md). The files on disk always have whole lines and whole
+/// frames, and summary.json has "finished": false from the start, so that a killed run leaves a usable folder. Disk
+/// errors are stored; the caller must look at status() regularly and stop.
 class RunWriter {
  public:
-  /// Prepares the folder (run_folder.hpp) and writes scene.json and a first summary.json. `scene` must
-  /// outlive this.
+  /// Prepares the folder (run_folder.hpp), and writes scene.json and a first summary.json. `scene` must exist longer
+  /// than this object.
   static Result<RunWriter> create(const std::filesystem::path& folder, bool overwrite, const LoadedScene& scene);
 
-  /// The same for a folder that has its scene.json already: everything else of the run is written from the
-  /// start.
+  /// Does the same for a folder that already has its scene.json. All other files are written from the start.
   static Result<RunWriter> begin(RunLock lock, const LoadedScene& scene);
 
-  /// Continues the folder of a run that was interrupted, or has come to an earlier end than the scene's: what its
-  /// files have beyond the checkpoint is cut off, newer checkpoints too. `file` is where the checkpoint was read.
+  /// Continues the folder of a run that was interrupted, or that ended before the scene's end. Whatever its files have
+  /// beyond the checkpoint is cut off, and newer checkpoints are removed. `file` is the file of the checkpoint.
   static Result<RunWriter> resume(RunLock lock, const LoadedScene& scene, const Checkpoint& checkpoint,
                                   const std::filesystem::path& file, const simulation::Simulation& simulation);
 
-  /// Records the journal and clears it.
+  /// Writes the journal of the last step and empties it.
   void record(simulation::Journal& journal);
 
-  /// Records a frame: where everything is now.
+  /// Writes a frame: the present positions of all bodies.
   void frame(const simulation::Simulation& simulation);
 
-  /// Whether the folder has what there is before the first step.
+  /// Returns true if the initial state has been written.
   bool has_begun() const { return has_begun_; }
 
-  /// Writes what is buffered if a second has passed or much has gathered. Cheap to call after every step.
+  /// Writes the buffers if a second has passed or if they are large. It costs little if called after every step.
   void flush_if_due();
 
-  /// Brings everything to the disk, for a checkpoint, and returns how far the folder is.
+  /// Writes everything to the disk for a checkpoint, and returns the state of the folder.
   Result<RunProgress> sync();
 
   /// The first failure to write a file of the folder.
   Result<> status() const;
 
-  /// The files that have become too long to be read back.
+  /// Returns the names of files that have become too long to be read back.
   std::vector<std::string> overlong(std::uint64_t longest = kLongestRunFile) const;
 
-  /// Peaks of the samples so far.
+  /// Largest loads recorded so far.
   const std::vector<ShipPeaks>& peaks() const { return peaks_; }
 
-  /// Ends the run: everything buffered, final.geojson of a simulation, and last summary.json. All of it is on
-  /// the disk before a summary with "finished": true is, and that one before the checkpoints are removed but that of
-  /// the end, and the checksums of all written.
+  /// Ends the run: writes the buffers, final.geojson if a simulation is given, and the last summary.json. The order
+  /// makes the folder valid at any time: first all files, then the summary with "finished": true, then all checkpoints
+  /// except that of the end are removed, and the checksums of all files are written.
   Result<> finish(const RunSummary& summary, const simulation::Simulation* simulation);
 
-  /// The same scene with the end that the run has come to instead of its own (set_end()); it outlives this.
+  /// Continues with a scene that differs only by its end (set_end()); it must exist longer than this object.
   Result<> end_with(const LoadedScene& scene) {
     scene_ = &scene;
     return set_end(folder(), scene);
   }
 
   const std::filesystem::path& folder() const { return lock_.folder(); }
-  /// Whether the folder and its files were removed, moved or replaced by another program.
+  /// Returns true if another program removed, moved or replaced the folder or one of its files.
   bool is_displaced() const { return is_displaced_; }
 
  private:
   RunWriter(const LoadedScene& scene, std::vector<OutputFile> files, RunLock lock);
-  /// Keeps what events and frames need of a floe.
+  /// Stores the properties of a floe that its events and frames need.
   void add_floe(simulation::FloeId floe, simulation::FloeId parent, geometry::Point centroid_in_body);
   OutputFile& file(std::size_t which) { return files_[which]; }
-  /// Appends what `write` puts into a text as one record, of which no file holds a part.
+  /// Appends the text that `write` makes as one record. A file never contains only a part of a record.
   template <class Write>
   void append(std::size_t which, Write write) {
     record_.clear();
@@ -104,11 +103,11 @@ class RunWriter {
   Result<> sync_files();
   /// Writes checksums.txt. `known` has the checksums of the files that were just written; other files are read.
   Result<> write_checksums(Checksums known) const;
-  /// Keeps it as the failure if the folder or a file in it has lost its name.
+  /// Stores a failure if the folder or one of its files no longer has its name.
   void check_place();
 
   const LoadedScene* scene_;
-  std::vector<OutputFile> files_;  ///< in the order they are flushed: what is named before what names it
+  std::vector<OutputFile> files_;  ///< in the order of growing_files()
   FrameEncoder frames_;
   std::vector<simulation::FloeId> parents_;         ///< by floe id
   std::vector<geometry::Point> centroids_in_body_;  ///< by floe id [m]
@@ -116,7 +115,7 @@ class RunWriter {
   std::vector<ShipPeaks> peaks_;
   RunLock lock_;
   std::string record_;
-  Result<> status_;  ///< of what is written at once
+  Result<> status_;  ///< failure of a file that is written in one step
   std::chrono::steady_clock::time_point last_flush_;
   bool is_displaced_ = false;
   bool has_begun_ = false;

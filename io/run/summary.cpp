@@ -45,7 +45,7 @@ void append(JsonWriter& json, const simulation::IceLedger& areas, const simulati
   json.close('}');
 }
 
-/// Of the scene's floes, where they do not all have the scene's ice.
+/// Writes the ice properties of floes if they differ from those of the scene.
 void append_ice_of_floes(JsonWriter& json, const simulation::Scene& scene) {
   if (scene.own_ice.empty()) return;
   const auto own = std::ranges::count_if(
@@ -65,7 +65,7 @@ void append_ice_of_floes(JsonWriter& json, const simulation::Scene& scene) {
   json.close('}');
 }
 
-/// Of the energy of moorings, what the balance of energy has.
+/// Writes the terms of the energy balance that moorings store or dissipate.
 void append_stored(JsonWriter& json, const simulation::Audit& audit) {
   const simulation::MooringFlows& m = audit.sums.moorings;
   json.key("initial_stored_J").value(m.initial).key("stored_J").value(audit.stored_energy);
@@ -73,7 +73,7 @@ void append_stored(JsonWriter& json, const simulation::Audit& audit) {
   json.key("mooring_breaking_J").value(m.breaking).key("mooring_separation_J").value(m.separation);
 }
 
-/// What went to and fro between ships and their moorings.
+/// Writes the energy and momentum exchanged between ships and their moorings.
 void append_moorings(JsonWriter& json, const simulation::Audit& audit) {
   const simulation::MooringFlows& m = audit.sums.moorings;
   json.key("moorings").open('{').key("stored_J").value(audit.stored_energy);
@@ -151,9 +151,9 @@ void append(JsonWriter& json, const simulation::PeakCounts& peaks, double least)
   json.key("largest_beyond_limit_N").value(peaks.largest_beyond).close('}');
 }
 
-constexpr std::size_t kMostShipContacts = 5;  ///< that each have a warning
+constexpr std::size_t kMostShipContacts = 5;  ///< largest number of such warnings
 
-/// A warning for each two ships or structures that came into contact, the first few of them.
+/// Returns a warning for each pair of ships or structures that came into contact, for the first few pairs.
 std::vector<std::string> ship_contact_warnings(const Simulation& simulation) {
   std::vector<std::string> warnings;
   const auto& contacts = simulation.world().accounts.hull_contacts;
@@ -193,23 +193,24 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const simulat
   };
   warn(counts.rejected_cuts, "rejected cut", "in events.ndjson, each with its reason");
   warn(counts.unresolved_splits, "split",
-       "did not run: their contacts could not be stopped at the force that splits (unresolved_splits)");
-  warn(
-      counts.passing_steps, "step",
-      "in which more than half of a body lay within another: rigid impulses crush ice and do not remove it, at no step "
-      "(contact.law crush removes it); polynya inspect --check names the bodies");
-  warn(counts.unconverged_steps, "step", "used all sweeps of the contact solver (contact.iterations)");
+       "did not happen, because their contacts could not be stopped at the splitting force (unresolved_splits)");
+  warn(counts.passing_steps, "step",
+       "in which more than half of a body was inside another one, because rigid impulses never remove crushed ice "
+       "(contact.law crush does); polynya inspect --check names the bodies");
+  warn(counts.unconverged_steps, "step",
+       "used all sweeps of the contact solver without reaching its tolerance (contact.iterations sets their number)");
   warn(counts.crowded_ticks, "tick",
-       "broke more ice in each of their parts than a hull takes apart in a step: loads depend on the step; give a "
+       "broke more ice in each of their parts than the model allows in a step, so loads depend on the step; give a "
        "shorter "
        "time.step_s");
   warn(counts.database_out_of_range, "cusp",
        simulation.scene().fracture.bending == simulation::BendingModelKind::kFsiDatabase
            ? "broke under a load outside the database's range: the force at which the ice broke and the cusp's radius "
-             "are those at the range's nearest edge, of an error that is not known (docs/database.md, \"Outside of the "
+             "are those at the nearest edge of the range, with an unknown error (docs/database.md, \"Outside of the "
              "table\"); polynya database query gives the ranges"
            : "broke under a load outside the range of fracture.bending.model: the force at which the ice broke and the "
-             "cusp's radius are the formula's, beyond where it is known to hold (docs/theory/bending.md)");
+             "cusp's radius are those of the formula outside the range for which it was derived "
+             "(docs/theory/bending.md)");
   if (const simulation::PeakCounts& peaks = simulation.world().accounts.load_peaks.counts; peaks.beyond > 0)
     warnings.push_back(
         fmt::format("contacts.csv has the first {} peaks of contacts' forces: {} came later, the "

@@ -20,7 +20,7 @@ namespace polynya::io {
 
 class RunWriter;
 
-/// The largest value of something, by magnitude, and when.
+/// Largest magnitude of a value, and its time.
 struct Peak {
   double value = 0;
   double time = 0;  ///< [s]
@@ -29,11 +29,11 @@ struct Peak {
   }
 };
 
-/// The largest loads on one ship over a run, in its frame.
+/// Largest loads on one ship over a run, in the ship's frame.
 struct ShipPeaks {
   std::string ship;
-  std::vector<Peak> of_column;  ///< of each of peak_columns()
-  Peak of_contact;              ///< of one contact with ice along its normal, by the gauge [N]
+  std::vector<Peak> of_column;  ///< of each column of peak_columns()
+  Peak of_contact;  ///< largest force of one contact with ice along its normal [N], as a row of contacts.csv has it
 };
 
 /// Number of fractures: bends and splits. Ground overlaps and refused cuts are not counted.
@@ -41,10 +41,10 @@ inline std::int64_t fractures_of(const simulation::Counts& counts) {
   return counts.bends + counts.splits;
 }
 
-/// What summary.json holds.
+/// Contents of summary.json.
 struct RunSummary {
   bool finished = false;
-  std::string stopped_by;  ///< why it did not finish; empty while it runs and when it finished
+  std::string stopped_by;  ///< reason why the run stopped early; empty while it runs and when it has finished
   std::int64_t steps = 0;
   double sim_time = 0;   ///< [s]
   double wall_time = 0;  ///< [s]
@@ -57,14 +57,15 @@ struct RunSummary {
   std::vector<std::string> warnings;
 
   double real_time_factor() const { return wall_time > 0 ? sim_time / wall_time : 0; }
-  /// Whether ice, energy and momentum are where the accounts have them.
+  /// Returns true if the balances of ice, energy and momentum close.
   bool accounts_close() const { return audit.is_closed() && areas.is_closed() && masses.is_closed(); }
 };
 
-/// The shortest time step that a run of such ticks [s] took [s].
+/// Returns the shortest time step [s] that a run with this tick [s] took.
 double shortest_step(const simulation::Counts& counts, double tick);
 
-/// The summary of a run at its end, or where it was stopped; `stopped_by` is empty at the end.
+/// Returns the summary of a run that has ended. `stopped_by` is the reason if it was stopped, or empty if it finished.
+/// `wall_time` [s] is that of the whole run.
 RunSummary summarise(const simulation::Simulation& simulation, const RunWriter& writer, const std::string& stopped_by,
                      double wall_time);
 
@@ -74,15 +75,15 @@ std::string to_json_text(const RunSummary& summary, const LoadedScene& scene);
 /// instead of a number. Members may be missing, because older versions wrote fewer.
 std::optional<JsonFault> fault_of_summary(const JsonValue& summary, const LoadedScene& scene);
 
-/// The end of a finished run.
+/// End of a finished run.
 struct FinishedRun {
-  double time = 0;       ///< simulated [s]
-  double wall_time = 0;  ///< that it has taken [s]
+  double time = 0;       ///< simulated time [s]
+  double wall_time = 0;  ///< wall time that the run took [s]
 };
-/// By a folder's summary.json; none where its run has not finished.
+/// Reads the end from summary.json of a folder; returns nothing if the run has not finished.
 std::optional<FinishedRun> finished_run(const std::filesystem::path& folder);
 
-/// Polynya's version, as in every summary.json.
+/// Returns the version of Polynya, which every summary.json contains.
 std::string_view version();
 
 }  // namespace polynya::io

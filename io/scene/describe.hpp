@@ -11,10 +11,11 @@
 
 namespace polynya::io {
 
-// What descriptions (record.hpp) are written with. A field is a key, its kind, unit, range and meaning, and
-// the path of pointers to members that leads from the record to its place. On the way, an optional or a
-// variant is made to hold the next member's class when the field is read; where it does not hold that, the
-// field is not written. The kind follows from the place's type, and an optional place may be left out.
+// Functions that make descriptions (record.hpp). A field has a key, a kind, a unit, a range, a meaning, and a path of
+// pointers to members that leads from the record to the value. The path may pass through an optional or a variant. When
+// the field is read, these are made to hold the class of the next member. When the field is written and they do not
+// hold it, the field is left out. The kind follows from the type of the value. A field whose value is optional may be
+// left out.
 
 inline constexpr double kLargestCoordinate = 1e6;  ///< [m]
 inline constexpr double kLargestCount = 1e6;
@@ -44,12 +45,12 @@ struct Optional<std::optional<T>> : std::true_type {
   using Value = T;
 };
 
-/// A T, as constant as what holds it.
+/// T, const if Holder is const.
 template <class T, class Holder>
 using Held = std::conditional_t<std::is_const_v<Holder>, const T, T>;
 
-/// The T in what holds it: itself, what is derived from it, an optional or a variant. Where that holds none, it is null
-/// of a constant, and else made.
+/// Returns the T in its holder, which is the T itself, a class derived from it, an optional or a variant. If the holder
+/// has no T, the result is null for a const holder, and otherwise a T is made.
 template <class T, class Holder>
 Held<T, Holder>* held(Holder& holder) {
   if constexpr (std::is_convertible_v<Holder*, const T*>) {
@@ -65,7 +66,7 @@ Held<T, Holder>* held(Holder& holder) {
   }
 }
 
-/// The T at the end of a path of pointers to members, likewise.
+/// Returns the T at the end of a path of pointers to members in the same way.
 template <class T, class Whole>
 Held<T, Whole>* at(Whole& whole) {
   return held<T>(whole);
@@ -85,7 +86,7 @@ struct Parts<M C::*> {
 };
 template <class... Path>
 using Last = Parts<std::remove_reference_t<decltype((std::declval<Path>(), ...))>>;
-/// The record that a path begins in: as given, else the class of its first pointer.
+/// The record in which a path begins: the given one, or else the class of the path's first pointer.
 template <class Given, class... Path>
 struct Begin {
   using Record = Given;
@@ -97,7 +98,7 @@ struct Begin<void, First, Rest...> {
 
 }  // namespace place
 
-// Values of JSON and of records, by their type.
+// Conversions between values of JSON and of records, by type.
 
 template <class T>
 constexpr FieldKind kind_of() {
@@ -150,7 +151,7 @@ JsonValue json_of(std::string_view unit, const T& value) {
 
 namespace place {
 
-/// A field whose value two functions bring from JSON and back.
+/// Makes a field whose value is converted from JSON by `read` and to JSON by `write`.
 template <class Record, class T, class Read, class Write, class... Path>
 FieldOf<Record> leaf(Field field, Read read, Write write, Path... path) {
   field.set = [read, path...](void* record, const JsonValue& json) {
@@ -167,7 +168,7 @@ FieldOf<Record> leaf(Field field, Read read, Write write, Path... path) {
 
 }  // namespace place
 
-/// A number, vector, text, … Of records that are variants, the Record is given.
+/// Makes a field with a number, vector, text and so on. `Given` is the record, if that is a variant.
 template <class Given = void, class... Path>
 auto member(std::string_view key, std::string_view unit, Range range, std::string_view meaning, Path... path) {
   using Place = place::Optional<typename place::Last<Path...>::Member>;
@@ -179,7 +180,7 @@ auto member(std::string_view key, std::string_view unit, Range range, std::strin
       [unit](const T& value) { return json_of(unit, value); }, path...);
 }
 
-/// One of a few words, each of which stands for a value.
+/// Makes a field with one of a few words, each of which has a value.
 template <class T, class... Path>
 auto choice(std::string_view key, std::string_view meaning, std::initializer_list<std::pair<std::string_view, T>> words,
             Path... path) {
@@ -197,7 +198,7 @@ auto choice(std::string_view key, std::string_view meaning, std::initializer_lis
       path...);
 }
 
-/// An object of its own record, or, without a path, one that has a part of this record's members.
+/// Makes a field with an object that has its own record. Without a path the object has some members of this record.
 template <class Given = void, class Part, class... Path>
 auto object(std::string_view key, const Description<Part>& description, std::string_view meaning, Path... path) {
   using Start = std::conditional_t<std::is_void_v<Given> && sizeof...(Path) == 0, Part, Given>;
@@ -213,7 +214,7 @@ auto object(std::string_view key, const Description<Part>& description, std::str
   return field;
 }
 
-/// A list of objects.
+/// Makes a field with a list of objects.
 template <class Item, class... Path>
 auto list(std::string_view key, Range length, std::string_view meaning, const Description<Item>& items, Path... path) {
   using Record = typename place::Begin<void, Path...>::Record;
@@ -236,7 +237,7 @@ auto list(std::string_view key, Range length, std::string_view meaning, const De
   return field;
 }
 
-/// A list whose items the record does not hold: they are read one by one.
+/// Makes a field with a list whose items are not stored in the record; they are read one by one.
 template <class Record, class Item>
 FieldOf<Record> list_of(std::string_view key, double longest, std::string_view meaning,
                         const Description<Item>& items) {
@@ -248,32 +249,32 @@ FieldOf<Record> list_of(std::string_view key, double longest, std::string_view m
            .default_value = {JsonValue::Array{}}}};
 }
 
-// What a field may be besides.
+// Functions that change a property of a field.
 
 template <class Record>
 FieldOf<Record> required(FieldOf<Record> field) {
   field.presence = Presence::kRequired;
   return field;
 }
-/// Where it is not given, the reader finds its value from all of the scene.
+/// If the field is not given, the reader computes its value from the whole scene.
 template <class Record>
 FieldOf<Record> chosen(FieldOf<Record> field) {
   field.presence = Presence::kChosen;
   return field;
 }
-/// Belongs to one of its object's alternatives.
+/// The field belongs to one of the alternatives of its object.
 template <class Record>
 FieldOf<Record> of(std::string_view alternative, FieldOf<Record> field) {
   field.alternative = alternative;
   return field;
 }
-/// Not the kind that its type has.
+/// The field has another kind than that of its type.
 template <class Record>
 FieldOf<Record> as(FieldKind kind, FieldOf<Record> field) {
   field.kind = kind;
   return field;
 }
-/// May be left out: a number whose default is none that may be given.
+/// The field may be left out. Its default is a number that may not be given and that means "left out".
 template <class Record>
 FieldOf<Record> left_out(FieldOf<Record> field) {
   field.presence = Presence::kLeftOut;

@@ -13,10 +13,12 @@ using fracture::Ice;
 using fracture::ScatterKind;
 using fracture::ScatterLaw;
 
-constexpr double kDeviations = 3;     ///< off the mean where a normal law without bounds is cut off
-constexpr double kLeastShare = 0.01;  ///< of a law between its bounds: less is taken for a slip
+/// A normal law without bounds is cut off at this number of standard deviations from the mean.
+constexpr double kDeviations = 3;
+/// Least fraction of a law that must lie between its bounds. Less is taken for a mistake.
+constexpr double kLeastShare = 0.01;
 
-/// Reports what the kind of a law needs, and what it has no use for.
+/// Reports keys that the kind of law needs but does not have, and keys that it does not use.
 void check_keys(const LawInput& law, const ReportAt& report) {
   const std::string word = write(kLawDescription, law).find("law")->text();
   const auto check = [&](std::string_view key, std::optional<double> given, bool is_needed, bool is_refused) {
@@ -40,7 +42,7 @@ void check_bounds(const ScatterLaw& law, std::string_view unit, const ReportAt& 
   }
 }
 
-/// The law of one property of one entry, complete; nothing where it is wrong, which is reported.
+/// Returns the complete law of one property of one entry. If it is wrong, reports it and returns nothing.
 std::optional<ScatterLaw> complete_law(const NumberOrLaw& given, const FloeProperty& property, double scene_value,
                                        const ReportAt& report) {
   if (const double* number = std::get_if<double>(&given))

@@ -53,8 +53,10 @@ Polygon floe_of(const RectangleInput& input) {
 using simulation::FloeField;
 using simulation::PowerLawSizes;
 
+/// Default concentration between the openings of a field with a law of sizes [-]. A larger value makes fewer and larger
+/// openings, and takes longer to fill.
 constexpr double kDefaultPacking = 0.75;
-constexpr int kCornersWithLaw = 16;
+constexpr int kCornersWithLaw = 16;  ///< default of the largest number of corners of a floe in such a field
 
 class FieldReader {
  public:
@@ -79,7 +81,7 @@ class FieldReader {
   }
 
  private:
-  /// Sizes are a law's or floe_size_m's, and go with their own keys.
+  /// Sets the sizes of the floes, which come from a law or from floe_size_m. Each of the two has its own further keys.
   void choose_sizes() {
     const bool has_size = input_.floe_size.has_value();
     if (has_size == field_.law.has_value())
@@ -103,7 +105,7 @@ class FieldReader {
       complete_sizes();
   }
 
-  /// The value, put where it was not given.
+  /// Returns the value, after setting it to the default if it was not given.
   template <class Value>
   static Value filled_in(std::optional<Value>& given, Value otherwise) {
     if (!given) given = otherwise;
@@ -170,7 +172,7 @@ class FieldReader {
       check_ring(field_.kept_clear[i].outer, fmt::format("keep_clear_m[{}]", i));
   }
 
-  /// The widest floe that the region can hold, roughly: as wide as the region [m].
+  /// Returns the width of the region, which roughly limits the width of a floe [m].
   double width_of_region() const {
     if (const auto* channel = std::get_if<FieldChannel>(&input_.region)) return channel->width;
     const geometry::Box box = bounding_box(field_.region);
@@ -184,7 +186,8 @@ class FieldReader {
                      fmt::format("less than {:g}", power->largest));
     const double count = simulation::floe_count(field_);
     const double width = width_of_region();
-    // The bounds of a power law are asked for; a log-normal law has none that a field would have to reach.
+    // The largest floe of a power law is stated. A log-normal law has no upper limit, so the largest floe expected
+    // among `count` is taken.
     const double largest = power ? power->largest : simulation::size_at(*field_.law, 1 - 0.5 / std::max(count, 1.0));
     if (largest > width) {
       const std::string_view key = power ? "sizes.largest_m" : "sizes";
@@ -196,11 +199,11 @@ class FieldReader {
 
   FieldInput& input_;
   const simulation::Scene& scene_;
-  const ReportAt& report_;  ///< of the entry's "field"
+  const ReportAt& report_;  ///< reports at the entry's "field"
   FloeField field_;
 };
 
-/// What would make room for the cover.
+/// Says what would allow the field to reach its concentration.
 std::string remedy(const FloeField& field, const simulation::FloeFieldOutcome& outcome) {
   const double reachable = outcome.reachable_concentration;
   if (!field.law) return fmt::format("at most {:.3g} with this gap_m", reachable);
@@ -212,7 +215,7 @@ std::string remedy(const FloeField& field, const simulation::FloeFieldOutcome& o
   return fmt::format("{}, or most_corners above {}", most, field.most_corners);
 }
 
-/// Reports a cover that the field did not reach, at its key; true where there is none.
+/// Reports at its key a cover that the field did not reach. Returns true if it reached it.
 bool check_cover(const FloeField& field, const simulation::FloeFieldOutcome& outcome, const ReportAt& report,
                  std::string_view key) {
   if (field.law && outcome.region_area <= 0) {
@@ -224,11 +227,11 @@ bool check_cover(const FloeField& field, const simulation::FloeFieldOutcome& out
   return false;
 }
 
-/// A floe file as a scene has it.
+/// A floe file that was read for a scene.
 struct FloeFile {
   std::size_t source = 0;  ///< index in the ProblemCollector's sources
   std::vector<FileFloe> floes;
-  FileReport report;  ///< without its group
+  FileReport report;  ///< report without its group
 };
 
 std::string origin_in_scene(double latitude, double longitude) {
@@ -236,7 +239,7 @@ std::string origin_in_scene(double latitude, double longitude) {
                      longitude);
 }
 
-/// Words between commas.
+/// Returns the words between commas.
 std::vector<std::string_view> words_of(std::string_view text) {
   std::vector<std::string_view> words;
   for_pieces(text, ',', [&words](std::string_view piece, std::size_t) {
@@ -245,8 +248,9 @@ std::vector<std::string_view> words_of(std::string_view text) {
   return words;
 }
 
-/// Reads a floe file of a scene: GeoJSON, or what GDAL converts (io/import/floe_import.hpp), brought to the plane about
-/// the scene's origin. One use. `offset` is that of the entry's `file` in the scene.
+/// Reads a floe file of a scene and projects it to the plane about the scene's origin. The file is GeoJSON, or GDAL
+/// converts it (io/import/floe_import.hpp). Each object reads one file. `offset` is that of the entry's `file` in the
+/// scene.
 class FloeFileReader {
  public:
   FloeFileReader(const std::optional<FileImport>& import, std::string path, std::uint32_t offset,
@@ -257,7 +261,7 @@ class FloeFileReader {
         offset_(offset),
         problems_(problems) {}
 
-  /// None where anything is wrong with it: then there are problems, of the file or of the entry.
+  /// Returns the file; nothing if there are problems of the file or the entry, which are reported.
   std::optional<FloeFile> read(const FloeFiles& files, const std::string& name,
                                const std::optional<simulation::GeographicOrigin>& origin) {
     const std::size_t before = problems_.count();
@@ -310,7 +314,7 @@ class FloeFileReader {
     return file;
   }
 
-  /// Takes the features that the entry selects, where GDAL has not done so.
+  /// Selects the features that the entry asks for, unless GDAL has already done so.
   void select() {
     if (is_foreign_) return;
     const Selection& selection = import_.selection;
@@ -324,7 +328,7 @@ class FloeFileReader {
       report_entry("import.where: " + taken.error(), "a condition on the features' properties: POLY_TYPE = 'I'");
   }
 
-  /// In a scene floes go by numbers alone.
+  /// Notes ids of the file that cannot be used, because floes of a scene have numbers only.
   void note_ids(const std::vector<SourceFloe>& floes) {
     std::vector<GivenId> ids;
     for (std::size_t i = 0; i < floes.size(); ++i) {
@@ -337,7 +341,8 @@ class FloeFileReader {
           "floe_id: {}; the run knows floes by their own numbers, polynya import keeps such ids as source_id", why));
   }
 
-  /// Where the features' area_m2 are those of their coordinates, these are metres, however small.
+  /// Returns true if the property area_m2 of the features equals the area of their coordinates, so that these are
+  /// metres however small the floes are.
   bool are_metres() const {
     CoordinateEvidence evidence;
     for (const FloeEntry& entry : text_.entries) evidence.add(entry.polygon);
@@ -400,8 +405,8 @@ class FloeFileReader {
   ProblemCollector& problems_;
   FloeText text_;
   FilePlace place_;
-  bool is_foreign_ = false;  ///< GDAL has read it
-  std::string system_;       ///< then its coordinate system
+  bool is_foreign_ = false;  ///< true if GDAL has read the file
+  std::string system_;       ///< coordinate system of a file that GDAL has read
   std::vector<std::string> notes_;
   FloeFile result_;
 };
@@ -436,7 +441,8 @@ void FloeListReader::add(std::size_t index, FloeGroup group, const JsonValue& it
   std::ranges::move(ice_.reports(index), std::back_inserter(loaded_.ice));
 }
 
-/// Fast ice does not turn, and what rigid impulses do between two prescribed motions is not defined.
+/// Reports fast ice that turns, and fast ice with the impulse law, which does not define an impulse between two bodies
+/// of prescribed motion.
 void FloeListReader::check_fast_ice(bool is_fast) {
   if (!is_fast) return;
   if (group_.is_fast && group_.angular_velocity != 0)
@@ -487,7 +493,8 @@ std::optional<simulation::FloeFieldOutcome> FloeListReader::make_field(FieldInpu
     return std::nullopt;
   }
   if (!has_room_for(static_cast<std::size_t>(std::min(count, 1e9)), report_field.path)) return std::nullopt;
-  if (problems_.count() > 0) return std::nullopt;  // a million floes take half a minute; the scene is refused anyway
+  // Making a million floes takes half a minute, which is not worth it for a scene that is refused.
+  if (problems_.count() > 0) return std::nullopt;
   simulation::FloeFieldOutcome outcome = simulation::make_floe_field(*field);
   const bool is_channel = std::holds_alternative<ChannelInput>(group_.form);
   if (!check_cover(*field, outcome, report_field, is_channel ? "cover" : "concentration")) return std::nullopt;
@@ -536,7 +543,8 @@ void FloeListReader::add_floes(const FileInput& input) {
   loaded_.files.push_back(std::move(came));
 }
 
-/// Files whose metres are of different planes do not lie beside each other as their coordinates say.
+/// Reports floe files in metres of different planes, because their coordinates then do not give their true relative
+/// positions.
 void FloeListReader::check_places(const FileReport& came, std::uint32_t offset) {
   if (draft_.scene.origin || came.place.empty()) return;
   const auto other = std::ranges::find_if(
@@ -548,8 +556,8 @@ void FloeListReader::check_places(const FileReport& came, std::uint32_t offset) 
                                other->group, other->place));
 }
 
-/// The entry that a floe of a file is in the resolved scene: what the file states of it stands there instead
-/// of what the file's entry has for all. The floe's polygon is moved there.
+/// Returns the entry by which the resolved scene represents one floe of a file. Values of the file replace those of the
+/// file's entry. The polygon of the floe is moved there.
 FloeGroup FloeListReader::spelled_out(FileFloe& floe, bool is_of_run) const {
   const FloeProperties& own = floe.properties;
   const simulation::WaterSettings& water = draft_.scene.water;
@@ -563,9 +571,9 @@ FloeGroup FloeListReader::spelled_out(FileFloe& floe, bool is_of_run) const {
                   .under_hull_path = own.under_hull_path ? own.under_hull_path : group_.under_hull_path};
   if (own.velocity_x || own.velocity_y) {
     geometry::Vector velocity{own.velocity_x.value_or(0), own.velocity_y.value_or(0)};
-    if (!entry.is_fast)  // relative to the water there
+    if (!entry.is_fast)  // the scene's velocity is relative to the water at that place
       velocity -= water.drift_at(0) + shear.velocity_at(geometry::measure(floe.polygon).centroid);
-    entry.velocity = {velocity.x + 0.0, velocity.y + 0.0};  // no −0
+    entry.velocity = {velocity.x + 0.0, velocity.y + 0.0};  // adding 0.0 turns −0 into 0
   }
   if (own.angular_velocity)
     entry.angular_velocity =
@@ -576,7 +584,8 @@ FloeGroup FloeListReader::spelled_out(FileFloe& floe, bool is_of_run) const {
   return entry;
 }
 
-/// The number of the ship under whose hull a floe is; −1, and a report, where there is none with a draught.
+/// Returns the index of the ship under whose hull a floe is. If there is no such ship with a draught, reports it and
+/// returns −1.
 int FloeListReader::ship_over(const std::string& name, const Origin& origin) {
   const auto& ships = draft_.scene.ships;
   const auto ship = std::ranges::find(ships, name, &simulation::Ship::name);

@@ -14,29 +14,29 @@
 
 namespace polynya::io {
 
-/// A floe of a file, in the scene's plane.
+/// A floe of a file in the scene's plane.
 struct FileFloe {
-  geometry::Polygon polygon;  ///< in house notation; valid where the file was imported [m]
+  geometry::Polygon polygon;  ///< in house notation, and valid if it was imported [m]
   FloeProperties properties;
-  std::uint32_t offset = 0;  ///< of its coordinates in the file
+  std::uint32_t offset = 0;  ///< position of its coordinates in the file [bytes]
 };
 
-/// The ice of one entry of the scene's "floes". What a floe's feature gives comes before the entry's own, and
-/// that before the scene's.
+/// Ice properties of the floes of one entry of the scene's "floes". A property of a floe is taken from its feature in
+/// the file; if that has none, from the entry; if that has none, from the scene.
 class GroupIce {
  public:
-  /// The scene's ice is complete. Nothing where the entry's is wrong, which is reported; `path` is the
-  /// entry's, `item` its JSON.
+  /// Reads the ice of an entry. The scene's own ice must be complete. Returns nothing if the entry is wrong, which is
+  /// reported; `path` and `item` are the path and the JSON of the entry.
   static std::optional<GroupIce> of(const simulation::Scene& scene, const FloeGroup& group, const JsonValue& item,
                                     const std::string& path, ProblemCollector& problems);
 
-  /// The index in the scene's own_ice of the floe that is added next.
+  /// Draws the properties of the next floe. Returns their index in own_ice of the scene.
   std::int32_t add_to(simulation::Scene& scene, const FloeProperties& given);
 
-  /// What was drawn of each law, in the order of the properties.
+  /// Returns a summary of the values that were drawn from each law, in the order of the properties.
   std::vector<IceReport> reports(std::size_t group) const;
 
-  /// The entry's and the feature's properties of the floe that was added last; none where it has none.
+  /// Returns the properties that the entry and the feature give to the floe added last; nothing if they give none.
   std::optional<IceInput> spelled_out(const simulation::Scene& scene, const FloeProperties& given) const;
 
  private:
@@ -52,14 +52,15 @@ class GroupIce {
 /// Makes the floes of the scene's list: lattices, fields, files and single floes.
 class FloeListReader {
  public:
-  /// All of these outlive it. `files` gives the floe files that the scene names.
+  /// All arguments must exist longer than this object. `files` returns the floe files that the scene names.
   FloeListReader(const FloeFiles& files, SceneDraft& draft, LoadedScene& loaded, ProblemCollector& problems)
       : files_(files), draft_(draft), loaded_(loaded), problems_(problems) {}
 
-  /// Adds the floes of one entry, whose JSON is `item`, to the draft, and how they came to it to the loaded scene.
+  /// Adds the floes of one entry, whose JSON is `item`, to the draft, and reports on them to the loaded scene.
   void add(std::size_t index, FloeGroup group, const JsonValue& item);
 
-  JsonValue written{JsonValue::Array{}};  ///< the entries, complete, files spelled out
+  /// Entries of the resolved scene: complete, and with the floes of files in place of the files.
+  JsonValue written{JsonValue::Array{}};
 
  private:
   void add_floes(const LatticeInput& lattice);
@@ -68,7 +69,7 @@ class FloeListReader {
   void add_floes(FieldInput& field);
   void add_floes(ChannelInput& channel);  // channel_reader.cpp
   void add_floes(const FileInput& file);
-  /// Floes that the entry stands for in the resolved scene too.
+  /// Adds floes that the resolved scene represents by the same entry.
   void add_all(std::vector<geometry::Polygon> floes, bool are_known_valid);
   /// Makes a random field, whose problems are reported at `report`. Nothing where it is wrong.
   std::optional<simulation::FloeFieldOutcome> make_field(FieldInput& input, const ReportAt& report);
@@ -83,7 +84,7 @@ class FloeListReader {
   void check_fast_ice(bool is_fast);
   int ship_over(const std::string& name, const Origin& origin);
   bool has_room_for(std::size_t count, const std::string& path);
-  /// Reports what is wrong with a member of the entry at hand: "lattice.size_m".
+  /// Reports a problem of a member of the present entry, such as "lattice.size_m".
   void report(std::string_view key, std::string found, std::string allowed) const {
     ReportAt{problems_, *item_, path_}(key, std::move(found), std::move(allowed));
   }
@@ -92,20 +93,19 @@ class FloeListReader {
   SceneDraft& draft_;
   LoadedScene& loaded_;
   ProblemCollector& problems_;
-  std::size_t index_ = 0;            ///< of the entry at hand
-  const JsonValue* item_ = nullptr;  ///< its JSON
-  std::string path_;                 ///< "floes[2]"
-  int member_ = 0;                   ///< of the entry's floes, the next one's number
+  std::size_t index_ = 0;            ///< index of the present entry
+  const JsonValue* item_ = nullptr;  ///< JSON of the present entry
+  std::string path_;                 ///< path of the present entry: "floes[2]"
+  int member_ = 0;                   ///< number of the next floe of the present entry
   FloeGroup group_;
   GroupIce ice_;
 };
 
-/// A rectangle along the axes, counter-clockwise from its corner with the least x and y.
+/// Returns a rectangle along the axes, counter-clockwise from the corner with the smallest x and y.
 geometry::Polygon rectangle(geometry::Point corner, geometry::Vector size);
 
-/// The same region with rings that are not closed by a repeated first point, outer counter-clockwise, holes
-/// clockwise. Which way rings run and whether they are closed are matters of notation; nothing else is
-/// changed.
+/// Returns the same polygon in the notation of this program: rings are not closed by a repeated first point, the outer
+/// ring runs counter-clockwise, holes clockwise. Only the notation changes.
 geometry::Polygon in_house_notation(geometry::Polygon polygon);
 
 }  // namespace polynya::io

@@ -18,7 +18,8 @@ bool has_only_ones(const JsonValue& value) {
          std::ranges::all_of(value.members(), [](const JsonMember& member) { return is_one(member.value); });
 }
 
-// scene.json of older runs has every default, so that values that change nothing must still be read.
+// The scene.json of older runs contains all keys. So keys of older versions are still accepted with values that change
+// nothing.
 constexpr GoneKey kGoneKeys[]{
     {.path = "time.levels",
      .changes_nothing = [](const JsonValue&) { return true; },
@@ -79,7 +80,8 @@ const GoneKey* gone_key(std::string_view path) {
 }
 
 void add_hints_at_gone_keys(const JsonValue& given, ProblemCollector& hints) {
-  for (const std::string_view part : {"time", "fracture", "ships"})  // floes may be very many, and have no such key
+  // Floes are left out, because there may be a million, and none of these keys is theirs.
+  for (const std::string_view part : {"time", "fracture", "ships"})
     if (const JsonValue* found = given.find(part)) add_hints(*found, std::string(part), hints);
 }
 

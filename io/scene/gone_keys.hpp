@@ -8,12 +8,13 @@
 
 namespace polynya::io {
 
-/// A scene key of an earlier version that scenes no longer have.
+/// A scene key of an earlier version that no longer exists.
 struct GoneKey {
-  std::string_view path;                           ///< path of the key, without the numbers of list items
-  bool (*changes_nothing)(const JsonValue&) = {};  ///< true for a value with which a scene means the same without it
-  std::string_view allowed = "";                   ///< such values, in words
-  std::string_view instead = "";                   ///< why the key went, and what to use instead
+  std::string_view path;  ///< path of the key, without the numbers of list items
+  /// True for values with which the scene has the same meaning if the key is removed.
+  bool (*changes_nothing)(const JsonValue&) = {};
+  std::string_view allowed = "";  ///< these values in words
+  std::string_view instead = "";  ///< reason why the key was removed, and what to use instead
 };
 
 /// Returns the key of an earlier version that has this path, as "ships[1].calibration", or null if there is none.

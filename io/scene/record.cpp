@@ -16,8 +16,8 @@ namespace {
 
 using JsonKind = JsonValue::Kind;
 
-/// Numbers that are not 0 are at least as large [in any unit]. Squares and cubes of smaller ones, and quotients by
-/// them, leave the range of doubles; a larger bound could refuse coordinates that differ from 0 by rounding alone.
+/// Smallest magnitude of a number that is not 0, in any unit. Squares, cubes and reciprocals of smaller numbers exceed
+/// the range of doubles. A larger limit could refuse coordinates that differ from 0 only by rounding.
 constexpr double kLeastMagnitude = 1e-100;
 
 bool is_tiny(const JsonValue& value) {
@@ -54,7 +54,8 @@ std::string describe_range(const Field& field) {
   return text;
 }
 
-/// The innermost wrong part of a number, or of lists of numbers of these lengths; or null.
+/// Returns the innermost wrong part of a number, or of nested lists of numbers with these lengths; null if all is
+/// right.
 const JsonValue* first_wrong_number(const Range& range, std::span<const Length> lengths, const JsonValue& value) {
   if (lengths.empty()) {
     const bool is_right =
@@ -70,7 +71,7 @@ const JsonValue* first_wrong_number(const Range& range, std::span<const Length> 
   return nullptr;
 }
 
-/// The innermost wrong part of a value that is not made of fields, or null.
+/// Returns the innermost wrong part of a value that is not an object, or null.
 const JsonValue* first_wrong(const Field& field, const JsonValue& value) {
   const auto only_if = [&](bool is_right) { return is_right ? nullptr : &value; };
   switch (field.kind) {
@@ -93,7 +94,7 @@ const JsonValue* first_wrong(const Field& field, const JsonValue& value) {
   return only_if(field.kind != FieldKind::kInteger || value.number() == std::floor(value.number()));
 }
 
-/// The keys that an object cannot be without: "radius_m, or waterline_m" where there are alternatives.
+/// Returns the keys that an object must have: "radius_m, or waterline_m" if there are alternatives.
 std::string keys_needed_by(const Object& table) {
   const auto keys_of = [&](std::string_view alternative) {
     std::vector<std::string_view> keys;
@@ -106,7 +107,7 @@ std::string keys_needed_by(const Object& table) {
   return forms;
 }
 
-/// What is allowed in place of a field that is missing.
+/// Describes what may be given for a field that is missing.
 std::string describe_missing(const Field& field) {
   if (field.kind != FieldKind::kObject) return describe_allowed(field);
   return fmt::format("an object with {}{}", keys_needed_by(*field.object), field.instead);
@@ -188,7 +189,7 @@ void RecordReader::report_unknown_keys(const Object& table, const JsonValue& val
   }
 }
 
-/// The alternative of which any field is given; false where it is not one.
+/// Finds the alternative whose fields are given. Returns false if there is none or more than one.
 bool RecordReader::choose_alternative(const Object& table, const JsonValue& value, const std::string& path,
                                       std::string_view& chosen) {
   if (table.alternatives.empty()) return true;
@@ -252,7 +253,7 @@ bool RecordReader::list(const Field& field, const JsonValue& value, const std::s
   return true;
 }
 
-/// The numbers of a law are in the unit and range of its field.
+/// Reads a law. Its numbers have the unit and the range of the field.
 bool RecordReader::law(const Field& field, const JsonValue& value, const std::string& path, void* record) {
   if (!object(*field.object, value, path, field.open(record), 1)) return false;
   Field number = field;
@@ -323,7 +324,7 @@ double from_si(std::string_view unit, double value) {
     std::from_chars(text, end, candidate);
     if (to_si(unit, candidate) == value) return candidate;
   }
-  // Of seventeen digits, the one meant may be a neighbour.
+  // Among seventeen digits the number that the user wrote may be a neighbouring double.
   double candidate = near;
   for (int i = 0; i < 4; ++i) candidate = std::nextafter(candidate, -std::numeric_limits<double>::infinity());
   for (int i = 0; i < 8 && to_si(unit, candidate) != value; ++i)

@@ -13,33 +13,34 @@
 
 namespace polynya::io {
 
-// What a JSON object holds, described once for each struct that it becomes: reader, writer, JSON Schema,
-// tables and `polynya init` follow from the description. Descriptions are made by describe.hpp; their records
-// are SI, whatever the unit of the key: `_deg` is radians in the record, `_kN` newtons.
+// A description states the contents of a JSON object once, for the struct that it becomes. Reader, writer, JSON Schema,
+// tables and `polynya init` follow from it. describe.hpp makes descriptions. Records are in SI units whatever the unit
+// of the key: `_deg` becomes radians, `_kN` newtons.
 
 enum class FieldKind {
   kText,  ///< a string
-  kName,  ///< a string of letters, digits, space, '.', '_', '-' that can name a file
+  kName,  ///< a string of letters, digits, space, '.', '_', '-', which can be a file name
   kInteger,
   kNumber,
   kBoolean,
   kChoice,          ///< one of a few words
-  kNumberOrLaw,     ///< one number, or the fields of `object`, by which each floe's is drawn
+  kNumberOrLaw,     ///< one number, or an object with a law from which a value is drawn for each floe
   kVector,          ///< [x, y]
-  kNumberOrVector,  ///< [x, y], or one number for both; written as [x, y]
+  kNumberOrVector,  ///< [x, y], or one number for both; it is written as [x, y]
   kNumbers,         ///< a list of numbers
   kLine,            ///< a list of two or more [x, y]
   kRing,            ///< a list of three or more [x, y]
   kRings,           ///< a list of rings
   kObject,          ///< the fields of `object`
-  kList,            ///< a list of such objects
+  kList,            ///< a list of objects with the fields of `object`
 };
 
-/// How many items a list has; a most of 0: as many as there are.
+/// Allowed number of items of a list. most = 0: there is no upper limit.
 struct Length {
   int least = 0, most = 0;
 };
-/// Those of the lists of numbers that a kind is, from the outermost on; none of what is no list of numbers.
+/// Returns the allowed lengths of the lists of a kind, from the outermost inwards; none for a kind that is not a list
+/// of numbers.
 std::span<const Length> lengths_of(FieldKind kind);
 
 struct Range {
@@ -50,36 +51,38 @@ struct Range {
 };
 
 enum class Presence {
-  kDefault,   ///< the record's own value where it is not given
-  kRequired,  ///< or does not apply, see Field::alternative
-  kLeftOut,   ///< may be left out, and is then not written either
-  kChosen,    ///< by all of the scene where it is not given
+  kDefault,   ///< the record's initial value applies if the field is not given
+  kRequired,  ///< must be given, unless it belongs to another alternative (Field::alternative)
+  kLeftOut,   ///< may be left out; it is then not written either
+  kChosen,    ///< if it is not given, it is computed from the whole scene
 };
 
 struct Object;
 
-/// One member of a record. Records are passed as void*; Description (below) keeps their types together.
+/// A member of a record. The functions get records as void*; Description (below) ensures that the types match.
 struct Field {
   std::string_view key = {};
   FieldKind kind = FieldKind::kNumber;
-  std::string_view unit = {};  ///< as shown to people; empty for none
-  Range range = {};            ///< of the number, of each component, or of a list's length
+  std::string_view unit = {};  ///< unit for people; empty: none
+  Range range = {};            ///< range of the number, of each component, or of the length of a list
   std::string_view meaning = {};
-  std::string_view instead = {};  ///< what else may be given, where a required one is missing
+  std::string_view instead = {};  ///< end of the message if this required field is missing: what may be given instead
   Presence presence = Presence::kDefault;
   std::vector<std::string_view> choices = {};
-  std::string_view alternative = {};  ///< belongs to this one of its object's alternatives; empty: to all
-  const Object* object = nullptr;     ///< of kObject, kList and kNumberOrLaw
-  JsonValue default_value = {};       ///< of the record as it is constructed, of what is no object
-  std::function<void(void*, const JsonValue&)> set = {};                ///< from a value that has been checked
-  std::function<std::optional<JsonValue>(const void*)> get = {};        ///< nothing where it is not there
-  std::function<void*(void*)> open = {};                                ///< the part; of a list, a new item
-  std::function<const void*(const void*, std::size_t item)> find = {};  ///< the part or item, or null
-  std::function<void(void*)> drop = {};                                 ///< the last item
+  std::string_view alternative = {};  ///< alternative of the object to which the field belongs; empty: to all
+  const Object* object = nullptr;     ///< fields of kObject, kList and kNumberOrLaw
+  JsonValue default_value = {};       ///< value in a new record; null for objects
+  std::function<void(void*, const JsonValue&)> set = {};  ///< stores a value, which has been checked, in the record
+  /// Returns the value in the record; nothing if it is not there.
+  std::function<std::optional<JsonValue>(const void*)> get = {};
+  std::function<void*(void*)> open = {};  ///< returns the object's record, or for a list that of a new item
+  /// Returns the record of the object or item, or null.
+  std::function<const void*(const void*, std::size_t item)> find = {};
+  std::function<void(void*)> drop = {};  ///< removes the last item of a list
 };
 
-/// The fields of one object. Where there are alternatives, whose fields follow each other, exactly one is chosen by
-/// giving any of its fields.
+/// Fields of a JSON object. If there are alternatives, whose fields must be adjacent, exactly one is chosen by giving
+/// any of its fields.
 struct Object {
   std::vector<Field> fields;
   std::vector<std::string_view> alternatives = {};
@@ -88,7 +91,7 @@ struct Object {
 template <class Record>
 struct FieldOf : Field {};
 
-/// The fields of an object that becomes a Record.
+/// Fields of an object that is read into a Record.
 template <class Record>
 struct Description : Object {
   Description(const std::vector<FieldOf<Record>>& of) : Object{{of.begin(), of.end()}} {
@@ -98,20 +101,20 @@ struct Description : Object {
   }
 };
 
-/// "ships[2].hull.beam_m": a key below a path, which is empty of the scene itself.
+/// Path of a key below a path: "ships[2].hull.beam_m". The path of the scene itself is empty.
 std::string key_path(std::string_view path, std::string_view key);
 
-/// "a number > 0, ≤ 20 [m]", "one of nevel, kashtelyan".
+/// Describes the allowed values: "a number > 0, ≤ 20 [m]", "one of nevel, kashtelyan".
 std::string describe_allowed(const Field& field);
 
-/// Reads JSON objects into records. Every problem is reported with its place.
+/// Reads JSON objects into records. It reports every problem with its place.
 class RecordReader {
  public:
   explicit RecordReader(ProblemCollector& problems) : problems_(problems) {}
 
-  /// False where a field without a default is missing or wrong; elsewhere the default stands for what is
-  /// wrong. `number` takes the place of the # of a default name. Lists without a place in the record are
-  /// checked but for their items.
+  /// Reads an object. Returns false if a field without a default is missing or wrong. Other wrong fields are reported
+  /// and keep their defaults. `number` replaces the # in a default name such as "ship-#". For lists that the record
+  /// does not store, only the list itself is checked, not its items.
   template <class Record>
   bool read(const Description<Record>& description, const JsonValue& value, const std::string& path, Record& record,
             std::size_t number = 1) {
@@ -136,10 +139,11 @@ class RecordReader {
   }
 
   ProblemCollector& problems_;
-  const Object* root_ = nullptr;  ///< of what is read first: where keys are looked for that are unknown in their place
+  /// The description read first; unknown keys are looked up in it to suggest their right place.
+  const Object* root_ = nullptr;
 };
 
-/// The object that reads back to the same record, with every default. Lists without a place in the record are
+/// Returns the object that is read back to the same record, with all defaults. Lists that the record does not store are
 /// empty.
 JsonValue write_object(const Object& object, const void* record);
 template <class Record>
@@ -147,9 +151,9 @@ JsonValue write(const Description<Record>& description, const Record& record) {
   return write_object(description, &record);
 }
 
-/// A number in the unit of its key and in SI: degrees and radians, kilo- and mega-units and units.
+/// Converts a number from the unit of its key to SI: degrees to radians, kilo- and mega-units to units.
 double to_si(std::string_view unit, double value);
-/// The number of the fewest digits that to_si() makes this value of.
+/// Returns the number with the fewest digits that to_si() converts to this value.
 double from_si(std::string_view unit, double value);
 
 }  // namespace polynya::io

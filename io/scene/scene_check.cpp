@@ -20,11 +20,11 @@ namespace {
 using geometry::Polygon;
 using simulation::BodyKind;
 
-constexpr double kMostSteps = 1e9;
+constexpr double kMostSteps = 1e9;  ///< largest number of ticks of a run; longer runs are refused as mistakes
 /// Largest acceleration that a thrust may give a ship [m/s²]. Icebreakers have some 0.1. With a larger value, scenes
 /// are accepted whose ships exceed all speeds within a few steps.
 constexpr double kMostAcceleration = 10;
-constexpr std::size_t kMostOverlaps = 200;
+constexpr std::size_t kMostOverlaps = 200;  ///< number of overlaps that are reported at most
 
 void check_water_and_time(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
   const auto& scene = draft.scene;
@@ -37,7 +37,7 @@ void check_water_and_time(const SceneDraft& draft, const JsonValue& given, Probl
            fmt::format("at most {:g} steps", kMostSteps));
 }
 
-/// Rules between the keys of `contact`.
+/// Checks rules between the keys of `contact`.
 void check_contact(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
   const simulation::ContactSettings& contact = draft.scene.contact;
   if (contact.normal == simulation::ContactNormal::kCircleCentres && contact.law == simulation::ContactLaw::kCrush)
@@ -47,7 +47,7 @@ void check_contact(const SceneDraft& draft, const JsonValue& given, ProblemColle
         "boundary, or circle-centres with contact.law impulse");
 }
 
-/// Reports ships where a sheared current is faster than a run allows: the water takes them along.
+/// Reports ships at places where a sheared current is faster than a run allows, because the water carries them along.
 void check_currents_at_ships(const SceneDraft& draft, ProblemCollector& problems) {
   const dynamics::ShearCurrent current = simulation::current_of(draft.scene.water.shear);
   for (std::size_t i = 0; i < draft.scene.ships.size(); ++i) {
@@ -61,10 +61,10 @@ void check_currents_at_ships(const SceneDraft& draft, ProblemCollector& problems
   }
 }
 
-/// The first floe of each entry whose own ice sinks.
+/// Reports the first floe of each entry whose own density makes it sink.
 void check_own_density(const SceneDraft& draft, ProblemCollector& problems) {
   const double water = draft.scene.water.water.density;
-  std::optional<std::size_t> last;  // entry that has its report
+  std::optional<std::size_t> last;  // entry that was reported last
   for (std::size_t i = 0; i < draft.scene.floes.size(); ++i) {
     const std::int32_t own_ice = draft.scene.floes[i].own_ice;
     const Origin& origin = draft.floe_origins[i];
@@ -78,12 +78,13 @@ void check_own_density(const SceneDraft& draft, ProblemCollector& problems) {
   }
 }
 
-/// At the start [m/s].
+/// Returns the speed of a ship after the first step [m/s].
 double speed_of(const simulation::Scene& scene, const simulation::Ship& ship) {
   return std::abs(ship.speed) + std::abs(thrust_of(ship)) / ship.mass * scene.time.step;
 }
 
-/// Of its rim at the start [m/s]; 0 of what can be no floe, which is refused for that.
+/// Returns the largest initial speed of a point of a floe relative to the water [m/s]; 0 for an outline that is no
+/// floe, which is reported elsewhere.
 double rim_speed_of(const dynamics::ShearCurrent& current, const simulation::FloeSpec& floe) {
   const geometry::Measures measures = geometry::measure(floe.polygon_in_world);
   if (!simulation::can_be_floe(measures)) return 0;
@@ -93,7 +94,7 @@ double rim_speed_of(const dynamics::ShearCurrent& current, const simulation::Flo
          std::abs(floe.angular_velocity + current.angular_velocity()) * radius;
 }
 
-/// The fastest body so far.
+/// The fastest body found so far.
 struct Fastest {
   double speed = 0;  ///< [m/s]
   std::string path;
@@ -107,7 +108,7 @@ void report_runaway(const Fastest& body, const Origin& origin, ProblemCollector&
                 .allowed = fmt::format("less than {:g} m/s, the water's shear included", simulation::kRunawaySpeed)});
 }
 
-/// Of the water and the ships.
+/// Returns the fastest of the water and the ships.
 Fastest fastest_ship(const SceneDraft& draft) {
   Fastest fastest{draft.scene.water.fastest_drift(), "the drift"};
   for (std::size_t i = 0; i < draft.scene.ships.size(); ++i)
@@ -117,7 +118,7 @@ Fastest fastest_ship(const SceneDraft& draft) {
 }
 
 bool is_too_fast_for_step(const Fastest& fastest, const simulation::Scene& scene) {
-  return fastest.speed < simulation::kRunawaySpeed &&  // else no step helps
+  return fastest.speed < simulation::kRunawaySpeed &&  // above this speed no time step would help
          fastest.speed * scene.time.step >= scene.contact.circle_radius;
 }
 
@@ -130,13 +131,13 @@ void report_step(const Fastest& fastest, const simulation::Scene& scene, const J
       fmt::format("a step in which nothing moves as far as a circle's radius, {} m", scene.contact.circle_radius));
 }
 
-/// The keys of a flow over time, and of a constant one.
+/// Keys of a flow: as a table over time, and as a constant.
 struct FlowKeys {
   std::string table;
   std::string constant;
 };
 
-/// Rows of a flow over time ascend, and stand alone.
+/// Reports a flow over time whose rows are not in ascending order, or that is given together with a constant one.
 void check_flow(const std::vector<dynamics::FlowRow>& rows, geometry::Vector constant, const FlowKeys& keys,
                 const JsonValue& given, ProblemCollector& problems) {
   const ReportAt report{problems, given, ""};
@@ -148,7 +149,7 @@ void check_flow(const std::vector<dynamics::FlowRow>& rows, geometry::Vector con
     report(keys.constant, "a velocity, and a table", "one of the two");
 }
 
-/// Reports thrusts that no ship has: by the acceleration, and by the speed at the end where no water slows the ship.
+/// Reports thrusts that no ship has, judged by the acceleration, and by the final speed if no water slows the ship.
 void check_thrusts(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems) {
   const simulation::Scene& scene = draft.scene;
   for (std::size_t i = 0; i < scene.ships.size(); ++i) {
@@ -184,7 +185,7 @@ void check_speeds_of_floes(const SceneDraft& draft, const JsonValue& given, Prob
   const simulation::Scene& scene = draft.scene;
   const dynamics::ShearCurrent current = simulation::current_of(scene.water.shear);
   Fastest fastest = fastest_ship(draft);
-  if (is_too_fast_for_step(fastest, scene)) return;  // reported with the ships
+  if (is_too_fast_for_step(fastest, scene)) return;  // already reported with the ships
   for (std::size_t i = 0; i < scene.floes.size(); ++i) {
     const double speed = rim_speed_of(current, scene.floes[i]);
     if (speed <= fastest.speed && speed < simulation::kRunawaySpeed) continue;
@@ -195,7 +196,7 @@ void check_speeds_of_floes(const SceneDraft& draft, const JsonValue& given, Prob
   if (is_too_fast_for_step(fastest, scene)) report_step(fastest, scene, given, problems);
 }
 
-/// The largest σ_c h of the floes; of the scene's ice where there are none [N/m].
+/// Returns the largest σ_c h of the floes, or that of the scene's ice if there are no floes [N/m].
 double most_that_ice_bears(const simulation::Scene& scene) {
   const auto borne = [](const fracture::Ice& ice) { return ice.compressive_strength * ice.thickness; };
   if (scene.floes.empty()) return borne(scene.ice);
@@ -205,7 +206,8 @@ double most_that_ice_bears(const simulation::Scene& scene) {
   return most;
 }
 
-/// Reports a load that no ice bears, and a mass that the load takes beyond the closing speed in the shortest step.
+/// Reports a wall's load that no ice can carry, and one that accelerates the wall beyond the closing speed in the
+/// shortest step.
 void check_load(const simulation::Scene& scene, const simulation::WallPressure& pressure, const JsonValue& given,
                 const std::string& path, ProblemCollector& problems) {
   const ReportAt report{problems, given, path};
@@ -224,7 +226,7 @@ void check_load(const simulation::Scene& scene, const simulation::WallPressure& 
                        shortest_step * pressure.line_load / pressure.closing_speed));
 }
 
-/// Calls with the pressure of each wall that has one, the JSON of the wall and its path.
+/// Calls `call` with the pressure, the JSON and the path of each wall that has a pressure.
 template <class Call>
 void each_pressing_wall(const SceneDraft& draft, const JsonValue& given, Call call) {
   std::size_t hull = hull_count(draft.scene) - draft.scene.walls.size();
@@ -251,11 +253,11 @@ void check_loads_of_walls(const SceneDraft& draft, const JsonValue& given, Probl
   });
 }
 
-/// A body that takes part in the search for overlaps.
+/// A body in the search for overlaps.
 struct Named {
   std::string path;
   const Origin* origin;
-  std::size_t index;  ///< in the scene
+  std::size_t index;  ///< index of the body in the scene
 
   bool is_floe() const { return origin->kind == BodyKind::kFloe; }
   bool is_wall() const { return origin->kind == BodyKind::kWall; }
@@ -320,14 +322,14 @@ void check_floes(const SceneDraft& draft, ProblemCollector& problems, std::vecto
           fmt::format("at least {:g} m², and a second moment above 0", simulation::kLeastFloeArea));
       continue;
     }
-    if (draft.scene.floes[i].under_ship >= 0) continue;  // the hull is over it, and other ice may be
+    if (draft.scene.floes[i].under_ship >= 0) continue;  // a submerged floe may overlap the hull and other ice
     outlines.push_back(polygon);
     named.push_back({floe_path(draft, i), &origin, i});
   }
 }
 
-/// Whether two bodies may overlap so: ice in contact overlaps by what it crushed. Not by nearly all of the smaller one,
-/// which would be the same ice twice.
+/// Returns true if an overlap of two bodies may be there because ice was crushed. An overlap of nearly the whole
+/// smaller body is not accepted, since it would be the same ice twice.
 bool is_crushed(const SceneDraft& draft, const std::vector<Named>& named, const std::vector<Polygon>& outlines,
                 const geometry::OverlappingPair& overlap) {
   const auto is_as_a_run_left_it = [&](const Named& one) {
@@ -339,7 +341,8 @@ bool is_crushed(const SceneDraft& draft, const std::vector<Named>& named, const 
          overlap.area <= kMostShare * std::min(area_of(overlap.first), area_of(overlap.second));
 }
 
-/// All of a scene that may have overlaps, else as many as are reported.
+/// Returns the largest number of overlaps to search for: all, if the scene allows some, or else as many as are
+/// reported.
 std::size_t most_overlaps(const SceneDraft& draft) {
   const bool may_overlap = std::ranges::any_of(draft.scene.floes, &simulation::FloeSpec::has_crushed_overlaps);
   return may_overlap ? std::numeric_limits<std::size_t>::max() : kMostOverlaps;
@@ -360,7 +363,7 @@ void check_overlaps(const SceneDraft& draft, const std::vector<Named>& named, co
   for (const geometry::OverlappingPair& overlap : overlaps) {
     const Named& first = named[overlap.first];
     const Named& second = named[overlap.second];
-    if (second.is_wall() && is_grounded(first.origin->kind)) continue;  // walls cross each other and structures
+    if (second.is_wall() && is_grounded(first.origin->kind)) continue;  // walls may cross each other and structures
     const std::string area = std::isnan(overlap.area) ? "" : fmt::format(", {:.6g} m² shared", overlap.area);
     problems.add(second.origin->source, second.origin->offset,
                  {.path = second.path,
@@ -421,8 +424,9 @@ void check_without_ice(const SceneDraft& draft, const JsonValue& given, ProblemC
   check_thrusts(draft, given, problems);
 }
 
-/// Reports fast ice that runs onto other fast ice before the end: nothing can resist there, since the motion of both is
-/// prescribed, and the ice in which they overlap would be there twice. Compares boxes, swept by the relative motion.
+/// Reports fast ice that would run onto other fast ice before the end. The motion of both is prescribed, so that
+/// nothing can resist, and their overlap would be counted as ice twice. The check compares boxes, swept by the relative
+/// motion.
 void check_fast_ice(const SceneDraft& draft, ProblemCollector& problems) {
   const std::vector<simulation::FloeSpec>& floes = draft.scene.floes;
   std::vector<std::size_t> fast;

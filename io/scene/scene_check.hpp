@@ -8,58 +8,58 @@
 
 namespace polynya::io {
 
-// What no single field of a scene shows. Every problem is reported with its place; `given` is the scene's
-// JSON.
+// Checks that concern several fields of a scene. Every problem is reported with its place. `given` is the JSON of the
+// scene.
 
-/// The scene's list of bodies of a kind: "ships".
+/// Returns the name of the scene's list of bodies of a kind, such as "ships".
 std::string_view list_of(simulation::BodyKind kind);
 
-/// "ships[0]" or "structures[2]", "floes[1]" or "floes[1] (its floe 7)": for messages.
+/// Return the path of a body for messages: "ships[0]", "structures[2]"; "floes[1]" or "floes[1] (its floe 7)".
 std::string hull_path(const SceneDraft& draft, std::size_t hull);
 std::string floe_path(const SceneDraft& draft, std::size_t floe);
 
-/// Of a waterline, along and across the hull's axis [m].
+/// Returns length and width of a waterline, along and across the hull's axis [m].
 geometry::Vector size_of(const simulation::Hull& hull);
 
-/// Constant thrust or bollard pull along the heading; 0 of a ship at constant speed [N].
+/// Returns the constant thrust or the bollard pull of a ship [N]; 0 for a ship at constant speed.
 double thrust_of(const simulation::Ship& ship);
 
-/// A waterline in the world.
+/// Returns the waterline of a hull in the world.
 geometry::Polygon waterline_in_world(const simulation::PlacedHull& hull);
 
-/// "self-crossing at (5, 5), (0, 0)".
+/// Describes a fault of an outline: "self-crossing at (5, 5), (0, 0)".
 std::string describe(const geometry::DefectAt& defect);
 
-/// What needs no floe: water, time, walls, hulls, bodies that start faster than a run allows, and a step in
-/// which one moves as far as a contact circle's radius. Speeds are those of rims, relative to the water;
-/// ships' include what thrust adds in the first step.
+/// Checks everything that does not depend on floes: water, time, walls, hulls, initial speeds above the limit of a run,
+/// and time steps in which a body moves by the radius of a contact circle. Speeds are those of the outermost points
+/// relative to the water. For ships they include the gain from the thrust in the first step.
 void check_without_ice(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems);
 
-/// The rest, once the floes are there: ice that would sink, the speeds of floes, loads that no ice bears,
-/// invalid outlines, floes that overlap each other or lie in a ship.
+/// Checks everything that depends on floes: ice that would sink, speeds of floes, loads that no ice can carry, outlines
+/// that are not valid, floes that overlap each other or lie in a ship.
 void check_ice(const SceneDraft& draft, const JsonValue& given, ProblemCollector& problems);
 
-/// What in a valid scene is probably not meant: a ship far from the weight of the water its hull displaces,
-/// one that leaves all ice behind, speeds and thicknesses beyond those of ships and level ice, prescribed
-/// courses that cross, no ice. Added to `hints` with their severity; a run is never refused for them.
+/// Adds warnings and hints on values of a valid scene that are probably not intended: a mass that does not match the
+/// displacement of the hull, a ship that moves away from all ice, unusual speeds and thicknesses, prescribed motions
+/// that cross, a scene without ice. They never prevent a run.
 void add_scene_hints(const SceneDraft& draft, const JsonValue& given, ProblemCollector& hints);
 
-/// A ship as the simulation has it. What is not given follows from its other particulars: mass, moment of
-/// inertia, bollard pull, rudder, mooring, whether water acts on the hull. What is written of it with the
-/// scene, masses, the speed of one at constant speed and the model of the water, is put into the input.
-/// Reports what does not go together, at the ship's path; `given` is its JSON, `density` the water's [kg/m³].
+/// Returns the ship of the simulation. Values that are not given are computed from others: mass, moment of inertia,
+/// bollard pull, rudder, mooring, and whether water acts on the hull. Values that the resolved scene states are stored
+/// in the input: masses, the speed of a ship at constant speed, and the model of the water. Values that contradict each
+/// other are reported at the ship's path. `given` is the JSON of the ship, `density` that of the water [kg/m³].
 simulation::Ship complete_ship(ShipInput& input, const JsonValue& given, const std::string& path, double density,
                                ProblemCollector& problems);
 
 simulation::Structure complete_structure(const StructureInput& input);
 
-/// A wall, or reports why it is none.
+/// Returns a wall; if the input is wrong, reports it and returns nothing.
 std::optional<simulation::Wall> complete_wall(const WallInput& input, const JsonValue& given, const std::string& path,
                                               ProblemCollector& problems);
 
-/// Finds whom ships follow. Reports pilots that cannot do what they are to do: without an engine or steering,
-/// beyond the rudder's stop, on a route that begins behind the ship or leads through a structure, behind a
-/// ship that is not there or that follows them. `given` is the scene's JSON.
+/// Finds the ship that each following ship follows. Reports pilots that cannot work: without an engine or steering,
+/// with a rudder angle beyond the stop, on a route that begins behind the ship or leads through a structure, behind a
+/// ship that does not exist or that in turn follows this one. `given` is the JSON of the scene.
 void complete_pilots(const JsonValue& given, SceneDraft& draft, ProblemCollector& problems);
 
 }  // namespace polynya::io

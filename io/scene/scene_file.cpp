@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The path of a file named in the scene, if it stays in the scene's folder, links followed.
+/// Returns the path of a file that the scene names. Fails if it leads out of the scene's folder, also by links.
 Result<fs::path> located(const fs::path& scene_folder, const std::string& name) {
   std::error_code error;
   if (name.empty() || fs::path(name).is_absolute()) return fail("not a relative path");

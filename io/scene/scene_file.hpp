@@ -7,13 +7,14 @@
 
 namespace polynya::io {
 
-/// The floe files of a folder and what is below it. Names that leave it, also by links, are refused.
+/// Returns the floe files of a folder and its subfolders. Names that lead out of the folder, also by links, are
+/// refused.
 FloeFiles floe_files_in(std::filesystem::path folder);
 
-/// Reads a scene: JSON, comments allowed. All problems at once, each with its place (docs/scene.md).
+/// Reads a scene file: JSON with comments. Returns the scene, or all its problems, each with its place (docs/scene.md).
 SceneOutcome read_scene_file(const std::filesystem::path& path, const SceneOverrides& overrides = {});
 
-/// read_scene() for a text whose floe files are searched for in `folder`.
+/// Does the same for a text. The floe files that it names are searched for in `folder`.
 SceneOutcome read_scene(std::string text, const std::string& name, const std::filesystem::path& folder,
                         const SceneOverrides& overrides = {}, std::size_t longest = kLongestScene);
 

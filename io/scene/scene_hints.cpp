@@ -23,18 +23,21 @@ using simulation::PlacedHull;
 using simulation::Ship;
 using simulation::Wall;
 
-// Block coefficients are those of fine-lined and of full ships; a draught is most often a third of the beam.
+// Limits of values that are usual. Values beyond them give a hint. Block coefficients are those of slender and of full
+// ships. Draughts are given as fractions of the beam; usual is a third.
 constexpr double kSlenderBlock = 0.4, kFullBlock = 0.9;                        // [-]
 constexpr double kLeastDraughtOfBeam = 1 / 8.0, kMostDraughtOfBeam = 2 / 3.0;  // [-]
-constexpr double kMassError = 0.05;                                            ///< of what the hull displaces [-]
+/// Largest relative difference between the mass and the displacement of the hull [-].
+constexpr double kMassError = 0.05;
 constexpr double kFastestShip = 12;    ///< icebreakers reach 11 m/s in open water [m/s]
 constexpr double kFastestIce = 3;      ///< ice drifts at 1 m/s in a storm, at 3 m/s in tidal straits [m/s]
 constexpr double kThinnestIce = 0.01;  ///< thinner ice is grease and slush [m]
 constexpr double kThickestIce = 4;     ///< level ice grows no thicker; ridges are no plates [m]
-/// Ticks in the period of a mooring from which its period is right to 0.2 %: by the midpoint rule it is too long by
-/// (ωΔt)²/12 [-]. More would warn of moorings that are right enough.
+/// Least number of ticks per period of a mooring [-]. With it, the period in the run is right to 0.2 %: the midpoint
+/// rule makes it too long by the fraction (ωΔt)²/12. A larger value would warn of moorings that are accurate enough.
 constexpr double kLeastTicksInPeriod = 40;
-/// How many times shorter intervals of records may make a tick without a hint [-]. Below 2 they make it no shorter.
+/// A hint is given if the recording intervals make the tick shorter than the motion requires by this factor or more
+/// [-]. A smaller value gives the hint more often.
 constexpr double kShortenedTick = 2.5;
 constexpr double kKnots = 3600 / 1852.0;  ///< [kn / (m/s)]
 
@@ -45,7 +48,7 @@ Vector ahead_of(const PlacedHull& hull) {
 bool is_steered(const Ship& ship) {
   return !std::holds_alternative<simulation::NoSteering>(ship.steering);
 }
-/// Whether water slows the ship.
+/// Returns true if water slows the ship.
 bool is_slowed(const Ship& ship) {
   return ship.water.acts || std::holds_alternative<simulation::Engine>(ship.propulsion);
 }
@@ -122,7 +125,8 @@ class SceneHints {
         "all its stiffnesses and dampings are 0: it holds nothing; give surge_stiffness_N_per_m");
   }
 
-  /// A mooring whose period is so short against the tick that its period comes out too long (docs/theory/ship.md).
+  /// Warns of a mooring whose period is so short compared with the tick that the run makes it too long
+  /// (docs/theory/ship.md).
   void hint_at_period(std::size_t i) {
     const Ship& ship = scene_.ships[i];
     if (!ship.mooring || scene_.time.until <= scene_.time.step) return;
@@ -166,7 +170,7 @@ class SceneHints {
                     ship.speed + gained, scene_.time.until, most));
   }
 
-  /// All of the ice is behind the hull, and the ship moves away from it.
+  /// Warns if all ice is behind the hull and the ship moves away from it.
   void hint_at_course(std::size_t i) {
     const Ship& ship = scene_.ships[i];
     const bool is_ice_moved =
@@ -187,7 +191,7 @@ class SceneHints {
         fmt::format("the ship moves away from all ice: the nearest lies {:.4g} m behind its end", stern - ice));
   }
 
-  /// Two whose motions are prescribed do not stop each other.
+  /// Warns of two bodies with prescribed motion whose paths cross, because they do not stop each other.
   void hint_at_crossings() {
     std::vector<dynamics::NewBody> bodies;
     for (std::size_t i = 0; i < hull_count(scene_); ++i) bodies.push_back(simulation::new_body_of(scene_, i));
@@ -200,7 +204,7 @@ class SceneHints {
     }
   }
 
-  /// Of velocities in the water frame [m/s].
+  /// Warns about one such pair. Velocities are in the water frame [m/s].
   void hint_at_crossing(std::size_t i, std::size_t k, Vector velocity, Vector velocity_of_other) {
     const PlacedHull &hull = hull_of(scene_, i), &other = hull_of(scene_, k);
     const auto touch = geometry::first_contact(waterline_in_world(hull).outer, waterline_in_world(other).outer,
@@ -220,7 +224,7 @@ class SceneHints {
           fmt::format("{:.3g} m/s: ice drifts at {:g} m/s at most", drift, kFastestIce));
   }
 
-  /// All of the ice is behind a wall's face.
+  /// Warns if all ice is behind the face of a wall.
   void hint_at_side(const Wall& wall, std::size_t hull) {
     const auto is_before = [&](Point p) { return dot(p - wall.position_in_world, ahead_of(wall)) > 0; };
     const auto has_part_before = [&](const simulation::FloeSpec& floe) {
@@ -230,13 +234,13 @@ class SceneHints {
     add(Severity::kWarning, hull, "to_m", "all ice lies behind its face: exchange from_m and to_m");
   }
 
-  /// The shortest step [s]: ticks have parts where a hull meets ice.
+  /// Returns the shortest step [s]. A tick is divided into parts if a hull meets ice.
   double shortest_step(bool is_hull) const {
     const bool has_parts = is_hull && scene_.contact.law == simulation::ContactLaw::kCrush;
     return has_parts ? scene_.time.step / simulation::kMostParts : scene_.time.step;
   }
 
-  /// The longest way in a step (simulation/world/parts.hpp), and which bound it is.
+  /// Returns the limit of the displacement per step (simulation/world/parts.hpp) and its reason, in words.
   std::string most_way_as_text(double thickness) const {
     const double way = simulation::allowed_displacement(scene_.contact, thickness);
     if (way == simulation::kDisplacementOverThickness * thickness)
@@ -258,27 +262,29 @@ class SceneHints {
     double speed = 0, way = 0, thickness = thin;
     const auto consider = [&](double of_one, bool is_hull) {
       const double own = of_one * shortest_step(is_hull);
-      const double ice = is_hull && way_in(thick) < way_in(thin) ? thick : thin;  // floes' own way is that in thin ice
+      // The limit for floes is that of the thinnest ice.
+      const double ice = is_hull && way_in(thick) < way_in(thin) ? thick : thin;
       if (own * way_in(thickness) <= way * way_in(ice)) return;
       speed = of_one;
       way = own;
       thickness = ice;
     };
-    const double drift = scene_.water.fastest_drift();  // speed of ice towards bodies that stand
+    const double drift = scene_.water.fastest_drift();  // speed of ice towards bodies that do not move
     for (const Ship& ship : scene_.ships) consider(std::max(std::abs(ship.speed), ship.mooring ? drift : 0), true);
     if (!scene_.structures.empty()) consider(drift, true);
     for (const Wall& wall : scene_.walls)
       consider(wall.pressure ? wall.pressure->closing_speed : std::max(length(wall.velocity), drift), true);
     for (const simulation::FloeSpec& floe : scene_.floes) consider(length(floe.velocity), false);
     const double most = way_in(thickness);
-    if (way <= 1.005 * most) return;  // what the sentence below gives, rounded, will do
+    if (way <= 1.005 * most) return;  // the rounded value that the message below recommends would be no different
     add(Severity::kWarning, "time.step_s",
         fmt::format("at {:.3g} m/s bodies move {:.2g} m in a step, more than {}: loads depend on the step; "
                     "give {:.3g} s or less",
                     speed, way, most_way_as_text(thickness), most * scene_.time.step / way));
   }
 
-  /// The chosen tick is much shorter than the motion of bodies needs, because it must fit into intervals of records.
+  /// Hints if the chosen tick is much shorter than the motion of the bodies requires, because it must divide the
+  /// recording intervals.
   void hint_at_intervals() {
     const JsonValue* time = given_.find("time", JsonValue::Kind::kObject);
     if (time != nullptr && time->find("step_s") != nullptr) return;

@@ -11,15 +11,15 @@
 namespace polynya::io {
 namespace {
 
-/// Keys of the scene that do not decide how a run goes, or that have no place in a coupled one.
+/// Keys that do not determine a run, or that make no sense for a coupled run.
 constexpr std::array<std::string_view, 6> kLeftOut{"name", "description", "origin", "record", "walls", "until_s"};
 
-/// Largest number of entries of "floes" that are looked at: a scene may list a million floes one by one.
+/// Largest number of entries of "floes" that are searched, because a scene may list a million floes one by one.
 constexpr std::size_t kMostGroups = 100;
 
 void collect(const Object& object, const JsonValue& value, const std::string& path, std::vector<SceneParameter>& found);
 
-/// The items of a list that have parameters: all ships and structures, the random fields of floes, and channels of
+/// Collects the parameters of the items of a list: all ships and structures, the random fields of floes, and channels of
 /// brash.
 void collect_items(const Field& field, const JsonValue& list, const std::string& path,
                    std::vector<SceneParameter>& found) {

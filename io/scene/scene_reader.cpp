@@ -18,7 +18,7 @@ namespace {
 using JsonKind = JsonValue::Kind;
 using simulation::BodyKind;
 
-/// FNV-1a, 64 bits, of texts that follow each other.
+/// Returns the hash (FNV-1a, 64 bits) of consecutive texts.
 std::string hash_of(std::initializer_list<std::string_view> texts) {
   std::uint64_t hash = 14695981039346656037U;
   for (const std::string_view text : texts)
@@ -26,14 +26,15 @@ std::string hash_of(std::initializer_list<std::string_view> texts) {
   return fmt::format("{:016x}", hash);
 }
 
-/// Of a resolved scene but for the value of time.until_s, the only key of that name; a text's quotes are escaped.
+/// Returns the hash of a resolved scene without the value of time.until_s. No other key has that name, and quotes
+/// within texts are escaped.
 std::string course_hash_of(std::string_view resolved) {
   constexpr std::string_view kKey = R"("until_s":)";
   const std::size_t value = resolved.find(kKey) + kKey.size();
   return hash_of({resolved.substr(0, value), resolved.substr(resolved.find_first_of(",}", value))});
 }
 
-/// The length of the panels of each ship and structure.
+/// Sets the length of the panels of each ship and structure.
 void set_panels(JsonValue& root, double length) {
   for (const char* list : {"ships", "structures"}) {
     JsonValue* hulls = root.find(list);
@@ -62,8 +63,8 @@ std::string items_of(const JsonValue& list, std::string_view path) {
   return fmt::format("{0}[0] to {0}[{1}]", path, list.items().size() - 1);
 }
 
-/// Where the value of "ships[0].position_m[1]" belongs. Objects on the way are made where the scene has none, items of
-/// lists must be there; null where the path leads nowhere, which has been reported.
+/// Returns the value at a path such as "ships[0].position_m[1]". Objects on the way are created if the scene has none;
+/// items of lists must exist. If the path leads nowhere, reports it and returns null.
 template <class Report>
 JsonValue* place_of(JsonValue& scene, std::string_view path, std::uint32_t offset, Report report) {
   JsonValue* at = &scene;
@@ -98,7 +99,7 @@ JsonValue* place_of(JsonValue& scene, std::string_view path, std::uint32_t offse
   return at;
 }
 
-/// Reports a path that leads nowhere; the place is the path's.
+/// Reports a path that leads nowhere, at the place of the path.
 struct ReportPath {
   std::string_view path;
   std::uint32_t offset;
@@ -114,8 +115,8 @@ struct ReportPath {
   }
 };
 
-/// Puts the values into a scene before it is resolved, in order. Objects on the way are made where the scene
-/// has none; what is no key of a scene is found when it is resolved. Items of lists must be there.
+/// Sets values in a scene before it is resolved, in order. Objects on the way are created if the scene has none; items
+/// of lists must exist. Unknown keys are reported later, when the scene is resolved.
 void assign(JsonValue& scene, const std::vector<Assignment>& assignments, ProblemCollector& problems) {
   for (const Assignment& assignment : assignments) {
     const std::uint32_t begin = problems.add_overlay(assignment.text);
@@ -129,7 +130,7 @@ void assign(JsonValue& scene, const std::vector<Assignment>& assignments, Proble
   }
 }
 
-/// Reads a scene's text into a draft. One use.
+/// Reads a scene into a draft. Each object reads one scene.
 class SceneReader {
  public:
   SceneReader(std::string text, const std::string& name, FloeFiles files)
@@ -203,8 +204,9 @@ class SceneReader {
     return problems;
   }
 
-  /// Adds all that `polynya performance` lacks, each at its own path, in place of what the reader says of the same: it
-  /// stops at an object of which a part is missing, and would name the rest once that is there.
+  /// Reports all values that `polynya performance` needs and does not have, each at its own path. These replace the
+  /// reader's problems about the same values, because the reader stops at an object with a missing part and would
+  /// report the rest only after that is added.
   void add_problems_of_level_ice(const JsonValue& ship, std::vector<Problem>& problems) {
     report_for_level_ice(ship, {problems_, ship, "ships[0]"});
     const std::vector<Problem> lacking = problems_of_ship();
@@ -226,7 +228,7 @@ class SceneReader {
     problems_.report(0, offset, std::move(path), std::move(found), std::move(allowed));
   }
 
-  /// Makes the draft and the resolved scene; false where anything is wrong, which has been reported.
+  /// Makes the draft and the resolved scene. Returns false if there is a problem, which has been reported.
   bool complete(JsonValue& given) {
     fill_in_presets(given);
     RecordReader reader(problems_);
@@ -260,13 +262,13 @@ class SceneReader {
     return problems_.count() == 0;
   }
 
-  /// Of a list of the scene; empty where that is none.
+  /// Returns the items of a list of the scene; none if the value is no list.
   static std::span<const JsonValue> items_of(const JsonValue& given, std::string_view list) {
     const JsonValue* found = given.find(list, JsonKind::kArray);
     return found ? std::span(found->items()) : std::span<const JsonValue>{};
   }
 
-  /// The items of a list, nothing where they are wrong.
+  /// Reads the items of a list. An item that is wrong gives nothing.
   template <class Item>
   std::vector<std::optional<Item>> items(const JsonValue& given, const std::string& list,
                                          const Description<Item>& description, RecordReader& reader) {
@@ -280,7 +282,8 @@ class SceneReader {
     return read;
   }
 
-  /// Ice goes under hulls with a draught and comes up behind them, unless the scene states otherwise.
+  /// Sets the fate of broken ice: unless the scene states otherwise, it goes under hulls with a draught and surfaces
+  /// behind them.
   void complete_fate_of_ice(const JsonValue& given, const std::vector<std::optional<ShipInput>>& ships) {
     const JsonValue* root = given.find("fracture");
     const auto is_given = [&](std::string_view object, std::string_view key) {
@@ -308,7 +311,7 @@ class SceneReader {
                 "false, or cusp_fate under_hull, or going_under.enabled");
   }
 
-  /// The water rubs on floes where a wind blows, unless the scene states otherwise.
+  /// Sets the skin drag of the water on floes: unless the scene states otherwise, it acts if there is wind.
   void complete_skin_drag(const JsonValue& given) {
     constexpr double kSkinDragInWind = 0.004;  // [-]
     const JsonValue* water = given.find("water");
@@ -316,8 +319,8 @@ class SceneReader {
       input_.scene.water.skin_drag_coefficient = kSkinDragInWind;
   }
 
-  /// The tick, by speeds and thickness, unless the scene states it. Before the floes are there by the scene's ice,
-  /// since what needs no floe is checked first.
+  /// Chooses the tick from speeds and thickness, unless the scene states it. The first choice uses the scene's ice,
+  /// because checks that need no floe come before the floes are made.
   void complete_step(const JsonValue& given) {
     const JsonValue* time = given.find("time");
     loaded_.is_step_chosen = !(time && time->find("step_s"));
@@ -326,7 +329,8 @@ class SceneReader {
     resolved_.find("time")->set("step_s", draft_.scene.time.step);
   }
 
-  /// Completes what could be read of a list of hulls into the draft; what is none has been reported.
+  /// Completes the items of a list of hulls and adds them to the draft. Items that could not be read have been reported
+  /// and are skipped.
   template <class Input, class Complete>
   void add_hulls(const JsonValue& given, BodyKind kind, const Description<Input>& description,
                  std::vector<std::optional<Input>>& inputs, Complete complete) {
@@ -344,8 +348,8 @@ class SceneReader {
     }
   }
 
-  /// Reports what follows from other particulars and is outside the range of its key, so that a run could not read its
-  /// own scene.json.
+  /// Reports a value that was computed from others and is outside the range of its key, because a run could not read
+  /// its own scene.json.
   template <class Input>
   void check_completed(const Description<Input>& description, const JsonValue& written, const JsonValue& given,
                        const std::string& path) {
@@ -369,8 +373,8 @@ class SceneReader {
     *resolved_.find("floes") = std::move(floes_.written);
   }
 
-  /// Properties of a floe file that are probably meant to be read, and floes without a thickness among
-  /// others.
+  /// Hints at properties of a floe file that are probably meant to be read, and at floes without a thickness among
+  /// floes with one.
   void add_file_hints(const FileReport& file) {
     const auto add = [&](Severity severity, std::string sentence) {
       problems_.add(

@@ -18,117 +18,123 @@
 
 namespace polynya::io {
 
-/// Of a scene with its floe files read in, too, since that is the scene.json of its run [bytes]. Any one floe
-/// file has room in it.
+/// Longest scene that is read [bytes], including the floe files, because the scene.json of a run contains them. Any
+/// single floe file fits into it.
 inline constexpr std::size_t kLongestScene = std::size_t{512} << 20;
-inline constexpr std::size_t kLongestFloesFile = std::size_t{256} << 20;  ///< [bytes]
+inline constexpr std::size_t kLongestFloesFile = std::size_t{256} << 20;  ///< longest floe file that is read [bytes]
+/// Largest number of floes of a scene.
 inline constexpr std::size_t kMostFloes = 1'000'000;
 
-/// How the brash ice of a channel came out as a layer of pieces.
+/// Result of laying the brash ice of a channel as a layer of pieces.
 struct BrashReport {
-  double least_thickness = 0;    ///< of a piece [m]
-  double largest_thickness = 0;  ///< [m]
-  double volume = 0;             ///< of the pieces [m³]
-  double asked_volume = 0;       ///< of the ice in the brash that was asked for [m³]
+  double least_thickness = 0;    ///< thickness of the thinnest piece [m]
+  double largest_thickness = 0;  ///< thickness of the thickest piece [m]
+  double volume = 0;             ///< volume of the pieces [m³]
+  double asked_volume = 0;       ///< volume of ice in the brash that was asked for [m³]
 };
 
-/// How a random field of the scene came out.
+/// Result of placing the floes of a random field.
 struct FieldReport {
   std::size_t group = 0;                 ///< index in the scene's "floes"
-  double gap = 0;                        ///< at least between its floes [m]
-  simulation::FloeFieldOutcome outcome;  ///< without its floes; they are the scene's
-  std::optional<BrashReport> brash;      ///< of a channel
+  double gap = 0;                        ///< least distance between its floes [m]
+  simulation::FloeFieldOutcome outcome;  ///< outcome without the floes, which are in the scene
+  std::optional<BrashReport> brash;      ///< of a channel of brash only
 };
 
-/// How a floe file of the scene came to it.
+/// Result of reading a floe file of the scene.
 struct FileReport {
   std::size_t group = 0;  ///< index in the scene's "floes"
   PlaneReport plane = {};
-  std::optional<double> run_time = {};      ///< of floes of a run [s]
-  std::optional<ImportTotals> totals = {};  ///< where it was imported
-  std::size_t floes = 0;                    ///< that it gave
-  std::size_t with_thickness = 0;           ///< of their own
+  std::optional<double> run_time = {};      ///< for floes that a run wrote: the time of the run [s]
+  std::optional<ImportTotals> totals = {};  ///< only if the file was imported
+  std::size_t floes = 0;                    ///< number of floes of the file
+  std::size_t with_thickness = 0;           ///< number of these floes that have their own thickness
   std::vector<NearMiss> near_misses = {};
-  std::vector<std::string> notes = {};  ///< what was read otherwise than it stands in the file, in words
-  std::string place = {};               ///< where on the Earth the file's metres lie, in words; empty: it does not say
-  std::uint32_t offset = 0;             ///< of its name in the scene
+  std::vector<std::string> notes = {};  ///< values that were converted when they were read, in words
+  std::string place = {};               ///< place on the Earth of the file's coordinates, in words; empty: not stated
+  std::uint32_t offset = 0;             ///< position of the file's name in the scene [bytes]
 };
 
-/// How a property of the floes of one entry came out that was drawn.
+/// Summary of the values of an ice property that were drawn for the floes of one entry.
 struct IceReport {
   std::size_t group = 0;     ///< index in the scene's "floes"
-  std::size_t property = 0;  ///< its number (floe_properties.hpp)
+  std::size_t property = 0;  ///< index of the property (floe_properties.hpp)
   fracture::ScatterMeasures measures;
 };
 
+/// A scene that was read, with everything that was computed or noticed while reading.
 struct LoadedScene {
   simulation::Scene scene;
   std::string description;
-  std::string resolved_text;  ///< JSON with every default filled in and files read in; reads back to the same scene
-  std::string hash;           ///< of resolved_text: 16 hexadecimal digits, FNV-1a
-  std::string course_hash;    ///< of it without time.until_s: runs of one course that end at other times have the same
+  std::string resolved_text;  ///< JSON with all defaults and with the floes of files; it is read back to the same scene
+  std::string hash;           ///< hash of resolved_text: 16 hexadecimal digits, FNV-1a
+  /// Hash of resolved_text without time.until_s, equal for runs that differ only by their end.
+  std::string course_hash;
   std::vector<FieldReport> fields;
   std::vector<FileReport> files;
-  std::vector<IceReport> ice;   ///< what was drawn of it, by floe groups and properties
-  bool is_step_chosen = false;  ///< time.step_s is not given, but chosen (simulation::default_tick)
-  std::vector<Problem> hints;   ///< warnings and hints, by their places (io/scene/scene_check.hpp)
+  std::vector<IceReport> ice;   ///< values that were drawn for ice properties, by group and property
+  bool is_step_chosen = false;  ///< true if time.step_s is not given and was chosen (simulation::default_tick)
+  std::vector<Problem> hints;   ///< warnings and hints in the order of their places (io/scene/scene_check.hpp)
 };
 
-/// A ship as scenes have it, of a file of its own.
+/// A ship in a file of its own, written like a ship of a scene.
 struct LoadedShip {
   JsonValue given;     ///< as written
-  JsonValue resolved;  ///< with its preset's particulars and every default filled in
-  std::string preset;  ///< its name, or empty
+  JsonValue resolved;  ///< with all defaults and the values of its preset
+  std::string preset;  ///< name of its preset; may be empty
   std::optional<simulation::Engine> engine;
-  std::vector<Estimate> estimates;  ///< particulars that the text does not state; for kLevelIce alone
+  /// Values that the text does not state and that were estimated; only with kLevelIce.
+  std::vector<Estimate> estimates;
 };
 
-/// What a ship is read for.
+/// Purpose for which a ship is read.
 enum class ShipUse {
   kScene,
-  kLevelIce,  ///< `polynya performance`: needs main dimensions, draught and engine, and no mooring; what can be
-              ///< estimated is (ship_estimates.hpp)
+  /// `polynya performance`. It needs main dimensions, draught and engine, and accepts no mooring. Missing values are
+  /// estimated where possible (ship_estimates.hpp).
+  kLevelIce,
 };
 
-/// A value in place of the scene's own, of one key by its path.
+/// A value that replaces the scene's value of one key.
 struct Assignment {
   std::string path;              ///< "ice.thickness_m", "ships[0].position_m[1]"
-  JsonValue value;               ///< its offsets are in the text that the assignment was read from
-  std::uint32_t key_offset = 0;  ///< in that text
+  JsonValue value;               ///< its offsets refer to the text from which the assignment was read
+  std::uint32_t key_offset = 0;  ///< position of the key in that text
   PlacedText text;
 };
 
-/// "ice.thickness_m=0.7": the value is JSON or, where it is not, a text without quotes. `option` is its name
-/// in problems. The error says what is no KEY=VALUE.
+/// Parses "ice.thickness_m=0.7". The value is JSON, or if it is not JSON a text without quotes. `option` is the name of
+/// the option in messages. Fails if the words are not KEY=VALUE.
 Result<Assignment> parse_assignment(std::string_view words, std::string_view option = "--set");
 
-/// One line of a file of cases: {"ice.thickness_m": 0.7, "seed": 3}. `line` counts from 1.
+/// Parses one line of a file of cases: {"ice.thickness_m": 0.7, "seed": 3}. `line` counts from 1.
 tl::expected<std::vector<Assignment>, Problem> parse_case(std::string_view text, const std::string& file, int line);
 
-/// What the command line puts in place of the scene's own.
+/// Values of the command line that replace those of the scene.
 struct SceneOverrides {
-  std::optional<double> until;  ///< [s]
+  std::optional<double> until;  ///< replaces time.until_s [s]
   std::optional<std::uint64_t> seed;
-  std::vector<Assignment> assignments;      ///< put before the others
-  std::optional<double> panel_length = {};  ///< of all ships and structures [m]
+  std::vector<Assignment> assignments;      ///< applied before the other values
+  std::optional<double> panel_length = {};  ///< length of the panels of all ships and structures [m]
 };
 
 using SceneOutcome = tl::expected<LoadedScene, std::vector<Problem>>;
 
-/// Reads a scene's text: JSON, comments allowed. All problems at once, each with its place (docs/scene.md). `name`
-/// stands in messages; `files` gives the floe files that the scene names. A scene whose resolved text is longer than
-/// `longest` [bytes] could not be read back, and is refused. Scenes of files are read by io/scene/scene_file.hpp.
+/// Reads a scene: JSON with comments. Returns the scene, or all its problems, each with its place (docs/scene.md).
+/// `name` names the text in messages; `files` returns the floe files that the scene names. A scene whose resolved text
+/// is longer than `longest` [bytes] is refused, because it could not be read back. io/scene/scene_file.hpp reads scene
+/// files.
 SceneOutcome read_scene(std::string text, const std::string& name, const FloeFiles& files,
                         const SceneOverrides& overrides = {}, std::size_t longest = kLongestScene);
 
-inline constexpr std::size_t kLongestShip = std::size_t{16} << 20;  ///< [bytes]
+inline constexpr std::size_t kLongestShip = std::size_t{16} << 20;  ///< longest ship file that is read [bytes]
 
-/// Reads an entry of a scene's "ships" that is a text of its own, as read_scene() reads it in a scene whose
-/// other keys have their defaults. Paths of problems are those below the ship: "hull.length_m".
+/// Reads a text with one entry of a scene's "ships". It is checked as part of a scene whose other keys have their
+/// defaults. Paths of problems begin at the ship: "hull.length_m".
 tl::expected<LoadedShip, std::vector<Problem>> read_ship(std::string text, const std::string& name,
                                                          ShipUse use = ShipUse::kScene);
 
-/// A file's stem as a scene's or a run's name.
+/// Returns the name of a scene or run for a file: the file's name without folder and extension.
 std::string name_from(const std::string& file);
 
 }  // namespace polynya::io

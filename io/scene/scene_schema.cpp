@@ -22,7 +22,7 @@ void write_number(JsonWriter& json, const Field& field, const char* type) {
   write_range(json, field.range, "minimum", "maximum");
 }
 
-/// A number, or lists of these lengths of numbers.
+/// Writes the schema of a number, or of nested lists of numbers with these lengths.
 void write_numbers(JsonWriter& json, const Field& field, std::span<const Length> lengths) {
   if (lengths.empty()) return write_number(json, field, "number");
   json.key("type").value("array");
@@ -33,7 +33,7 @@ void write_numbers(JsonWriter& json, const Field& field, std::span<const Length>
 
 void write_object(JsonWriter& json, const Object& object);
 
-/// As JSON, in one line.
+/// Returns the default as JSON in one line.
 std::string default_text(const Field& field) {
   if (field.kind == Kind::kObject) return "{}";
   std::string text = to_json_text(field.default_value);
@@ -98,7 +98,7 @@ void write_object(JsonWriter& json, const Object& object) {
     if (!field.meaning.empty())
       json.key("description")
           .value(field.unit.empty() ? std::string(field.meaning) : fmt::format("{} [{}]", field.meaning, field.unit));
-    // A default that is filled in from elsewhere ("ship-#", objects) is no default of the schema's.
+    // A default that is computed ("ship-#", objects) cannot be stated in the schema.
     if (field.presence == Presence::kDefault && field.kind != Kind::kObject && field.kind != Kind::kName)
       json.key("default").json(default_text(field));
     write_type(json, field);
@@ -200,13 +200,13 @@ std::string commented_scene() {
   text += kExampleShips;
   text += kExampleFloes;
   text += "}\n";
-  // The defaults would call every scene the same and run for the paper's time.
+  // The scene's own defaults would name every scene alike and run for the time of the paper.
   const auto replace = [&](const std::string& from, const std::string& to) {
     text.replace(text.find(from), from.size(), to);
   };
   replace(R"("name": "scene")", R"("name": "my-scene")");
   replace(R"("until_s": 550)", R"("until_s": 120)");
-  // What is filled in where a ship has a draught, as this one has.
+  // For a ship with a draught, such as this one, these values are the defaults.
   replace(R"("cusp_fate": "submerge")", R"("cusp_fate": "under_hull")");
   for (int i = 0; i < 2; ++i) replace(R"("enabled": false)", R"("enabled": true)");
   return text;

@@ -22,13 +22,14 @@ using geometry::Point;
 using geometry::Vector;
 using simulation::Ship;
 
-constexpr double kLargestRudder = 0.2;      ///< A_R of L T; rudders have a tenth of that [-]
-constexpr double kRudderShare = 0.018;      ///< A_R of L T [-]
-constexpr double kGyrationOfLength = 0.25;  ///< [-]
-constexpr double kLeastBlock = 0.2;         ///< [-]
-constexpr double kShortestWall = 0.1;       ///< [m]
+/// Largest area of all rudders as a fraction of L T [-]. Usual are 0.02, a tenth of this.
+constexpr double kLargestRudder = 0.2;
+constexpr double kRudderShare = 0.018;      ///< Default area of the rudders as a fraction of L T [-].
+constexpr double kGyrationOfLength = 0.25;  ///< Default radius of gyration as a fraction of the length [-].
+constexpr double kLeastBlock = 0.2;         ///< Smallest block coefficient that is accepted [-].
+constexpr double kShortestWall = 0.1;       ///< Shortest wall that is accepted [m].
 
-/// The outline in house notation, with the angles of its vertices.
+/// Sets the waterline in house notation, and the angles of its vertices.
 void set_waterline(const HullOutline& outline, simulation::Hull& hull) {
   hull.waterline = in_house_notation(geometry::Polygon{outline.waterline, {}}).outer;
   hull.angles_from_vertical = outline.angles_from_vertical;
@@ -38,7 +39,7 @@ void set_waterline(const HullOutline& outline, simulation::Hull& hull) {
   if (hull.waterline.front() != outline.waterline.front()) std::ranges::reverse(angles);
 }
 
-/// One ship while it is completed.
+/// Completes one ship.
 class Completion {
  public:
   Completion(ShipInput& input, const JsonValue& given, const std::string& path, double density,
@@ -64,8 +65,8 @@ class Completion {
   }
 
  private:
-  /// Water acts on the hulls of ships with an engine, and a ship at constant speed starts at that speed,
-  /// unless the scene states otherwise.
+  /// Sets defaults that depend on the propulsion: water acts on the hulls of ships with an engine, and a ship at
+  /// constant speed has that speed at the start.
   void choose_water_and_speed() {
     const JsonValue* water = item_.find("water");
     if (std::holds_alternative<EngineInput>(input_.propulsion) && !(water && water->find("model")))
@@ -107,7 +108,8 @@ class Completion {
     input_.spec.mass = ship_.mass;
     input_.spec.moment_of_inertia = ship_.moment_of_inertia;
     for (double* missing : {&ship_.mass, &ship_.moment_of_inertia})
-      if (*missing == 0) *missing = std::numeric_limits<double>::infinity();  // no further faults by it
+      // Infinite, so that the missing value causes no further messages.
+      if (*missing == 0) *missing = std::numeric_limits<double>::infinity();
   }
 
   void add_engine(const EngineInput& input) {
@@ -127,7 +129,7 @@ class Completion {
       check_speed(engine, key + ".open_water_speed_m_per_s");
   }
 
-  /// The friction of the water alone must leave something of thrust and power at that speed.
+  /// Reports an open-water speed at which the friction of the water alone would need all thrust or power.
   void check_speed(const simulation::Engine& engine, const std::string& key) {
     const double v = engine.open_water_speed;
     const double resistance =
@@ -146,7 +148,7 @@ class Completion {
     if (ship_.hull.draught <= 0)
       return report_("hull.draught_m", "nothing, and water acts on the hull", "a draught, or water.model none");
     const auto d = dimensions();
-    if (!std::isfinite(d.block_coefficient)) return;  // no mass: reported
+    if (!std::isfinite(d.block_coefficient)) return;  // there is no mass, which has been reported
     if (d.block_coefficient < kLeastBlock || d.block_coefficient > 1)
       return report_("mass_kg",
                      fmt::format("{:.4g}, a block coefficient of {:.3g} for {:.4g} × {:.4g} × {:.4g} m", ship_.mass,
@@ -209,7 +211,7 @@ double steering_most(const Ship& ship) {
   return 0;
 }
 
-/// Whether two segments come nearer than that.
+/// Returns true if the distance of two segments is less than `nearer_than` [m].
 bool are_near(Point a, Point b, Point c, Point d, double nearer_than) {
   const auto side = [](Point p, Point q, Point r) { return cross(q - p, r - p); };
   if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) return true;
@@ -217,7 +219,7 @@ bool are_near(Point a, Point b, Point c, Point d, double nearer_than) {
                    distance_to_segment(d, a, b)}) < nearer_than;
 }
 
-/// The pilot of one ship while it is checked.
+/// Checks the pilot of one ship.
 class PilotCheck {
  public:
   PilotCheck(std::size_t ship, const JsonValue& item, SceneDraft& draft, ProblemCollector& problems)
@@ -235,7 +237,7 @@ class PilotCheck {
   }
 
  private:
-  /// Whether the ship can be steered, which the pilot needs.
+  /// Returns true if the ship can be steered, as its pilot needs; reports it otherwise.
   bool has_steering(const std::string& key) {
     if (steering_most(ship_) > 0) return true;
     report_(key, "nothing to steer with", "steering.rudder or steering.azimuth");
@@ -284,7 +286,7 @@ class PilotCheck {
     }
   }
 
-  /// A structure or a wall nearer to a leg than half the beam.
+  /// Returns a structure or wall that is nearer to a leg of the route than half the beam, or null.
   const simulation::PlacedHull* structure_on(Point from, Point to) const {
     const double half_beam = 0.5 * size_of(ship_.hull).y;
     for (std::size_t k = draft_.scene.ships.size(); k < hull_count(draft_.scene); ++k) {
@@ -337,7 +339,7 @@ class PilotCheck {
     return size_of(ship_.hull).x + size_of(hull_of(draft_.scene, other).hull).x;
   }
 
-  /// The pattern has a form, and stays clear of the body.
+  /// Checks that the pattern has a valid form and does not touch the protected body.
   void check_place(const simulation::ManagingPilot& pilot) {
     using Pattern = simulation::ManagementPattern;
     if (pilot.pattern == Pattern::kRacetrack && pilot.depth > pilot.width)
@@ -347,8 +349,8 @@ class PilotCheck {
       return report_(
           "pilot.manage.width_m", fmt::format("{:g}", pilot.width),
           fmt::format("at most half a circle about the body, {:.4g} [m]", std::numbers::pi * pilot.distance));
-    // The pilot steers to a point 1.5 ship lengths ahead on the pattern. On a line much shorter than that it would go
-    // round in circles for ever; a line without length has no direction at all.
+    // The pilot steers to a point on the pattern 1.5 ship lengths ahead. On a line much shorter than a ship length the
+    // ship would go round in circles forever, and a line without length has no direction.
     const double length = size_of(ship_.hull).x;
     if (pilot.pattern != Pattern::kLargestFloe && !(line_of(pilot).lap() >= length))
       return report_("pilot.manage.width_m",
@@ -362,7 +364,7 @@ class PilotCheck {
               fmt::format("a pattern that stays outside the safety radius, {:.4g} m", least));
   }
 
-  /// Ships that go round the same line keep their phases, and must not meet.
+  /// Finds the ships that manage on the same line. They keep their distances on it; reports those that would meet.
   void find_partners(simulation::ManagingPilot& pilot) {
     if (pilot.pattern == simulation::ManagementPattern::kLargestFloe) return;
     const auto key = [](const simulation::ManagingPilot& p) {
@@ -383,7 +385,7 @@ class PilotCheck {
     }
   }
 
-  /// Whether the leaders of leaders lead back to this ship.
+  /// Returns true if the ship is followed, directly or through others, by the ship that it follows.
   bool follows_back(const simulation::FollowingPilot& pilot) const {
     const auto& ships = draft_.scene.ships;
     std::string_view name = pilot.ship;

@@ -19,7 +19,7 @@ using JsonKind = JsonValue::Kind;
 
 constexpr std::string_view kEngineKey = "propulsion.engine";
 
-/// The value at a path below objects; null where there is none.
+/// Returns the value at a path of keys; null if there is none.
 template <class Json>
 Json* at_path(Json& ship, std::string_view path) {
   Json* at = &ship;
@@ -31,7 +31,7 @@ Json* at_path(Json& ship, std::string_view path) {
   return at;
 }
 
-/// A ship while estimates are added to it.
+/// Adds estimates to a ship.
 class Estimator {
  public:
   Estimator(JsonValue& ship, double density) : ship_(ship), density_(density) {}
@@ -45,7 +45,7 @@ class Estimator {
   }
 
  private:
-  /// A stated or estimated number above 0.
+  /// Returns a stated or estimated number above 0; nothing otherwise.
   std::optional<double> number(std::string_view path) const {
     const JsonValue* found = at_path(std::as_const(ship_), path);
     if (!found || !found->is(JsonKind::kNumber) || !(found->number() > 0)) return {};
@@ -57,7 +57,7 @@ class Estimator {
   struct Range {
     double least, most;
   };
-  /// Enters a value into the ship where it lies in the range that its key allows.
+  /// Sets a value of the ship if it lies in the range that its key allows.
   void add(std::string_view object, std::string_view key, double value, Range allowed, std::string by) {
     JsonValue* const holder = at_path(ship_, object);
     if (!holder || !holder->is(JsonKind::kObject) || !std::isfinite(value)) return;
@@ -68,7 +68,7 @@ class Estimator {
     estimates_.push_back({fmt::format("{}.{}", object, key), rounded, std::move(by)});
   }
 
-  /// Length, beam and draught; with a block coefficient where one is known.
+  /// Returns length, beam and draught, and the block coefficient if it is known.
   std::optional<dynamics::MainDimensions> dimensions() const {
     const auto length = number("hull.length_m"), beam = number("hull.beam_m"), draught = number("hull.draught_m");
     if (!length || !beam || !draught) return {};
@@ -103,7 +103,8 @@ class Estimator {
         fmt::format("{:g} of the draught (recall)", dynamics::kPropellerOfDraught));
   }
 
-  /// Installed power [W]; if it is not stated, the power whose bollard pull K_e (P D)^⅔ is the stated one.
+  /// Returns the installed power [W]. If it is not stated, the power is computed from the stated bollard pull K_e (P
+  /// D)^⅔.
   std::optional<double> power() const {
     if (const auto stated = of_engine("power_MW")) return 1e6 * *stated;
     const auto pull = of_engine("bollard_pull_kN"), draught = number("hull.draught_m");

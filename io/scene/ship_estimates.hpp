@@ -8,21 +8,21 @@
 
 namespace polynya::io {
 
-// Estimates for a ship in an early design, whose file does not state everything that `polynya performance` needs.
+// Estimates for a ship in an early design stage, whose file does not state everything that `polynya performance` needs.
 
-/// The estimate of a particular that a ship's file does not state.
+/// The estimate of a value that the ship's file does not state.
 struct Estimate {
   std::string path;  ///< "propulsion.engine.open_water_speed_m_per_s"
   double value = 0;  ///< in the unit of its key, rounded to three digits
   std::string by;    ///< the formula and its source, in words
 };
 
-/// Adds what can be estimated to a ship as scenes have it, with its preset filled in: the block coefficient, the
-/// entrance angle, the propellers' diameter where the thrust follows from it, and the open-water speed. What the ship
-/// states stays. `density` is the water's [kg/m³].
+/// Adds estimates to a ship of a scene whose preset is filled in: the block coefficient, the entrance angle, the
+/// diameter of the propellers if the thrust follows from it, and the open-water speed. Stated values are kept.
+/// `density` is that of the water [kg/m³].
 std::vector<Estimate> add_estimates(JsonValue& ship, double density);
 
-/// Reports each particular that `polynya performance` needs and that is neither stated nor estimated, at its own path.
+/// Reports each value that `polynya performance` needs and that is neither stated nor estimated, at its own path.
 /// Also reports what prevents a run in level ice: a waterline point by point, a mooring, thrust without an engine.
 void report_for_level_ice(const JsonValue& ship, const ReportAt& report_at);
 

@@ -27,7 +27,7 @@ std::vector<ShipPreset> make_presets() {
   return presets;
 }
 
-/// Puts a value at a dotted path, making the objects on the way.
+/// Sets the value at a dotted path. Missing objects on the way are created.
 void put_at(JsonValue& object, std::string_view path, JsonValue value) {
   const std::size_t dot = path.find('.');
   const std::string_view key = path.substr(0, dot);
@@ -38,7 +38,7 @@ void put_at(JsonValue& object, std::string_view path, JsonValue value) {
     put_at(*object.find(key), path.substr(dot + 1), std::move(value));
 }
 
-/// Whether the object has a field of another one of its table's alternatives.
+/// Returns true if the object has a field of another alternative than that of `field`.
 bool chose_another(const Object& table, const JsonValue& object, const Field& field) {
   return !field.alternative.empty() && std::ranges::any_of(table.fields, [&](const Field& other) {
     return !other.alternative.empty() && other.alternative != field.alternative && object.find(other.key);
@@ -59,8 +59,8 @@ void merge(const Object& table, JsonValue& given, const JsonValue& preset, std::
   }
 }
 
-/// Whether the ship is driven by something else than an engine: then the preset's steering, which needs one,
-/// gives way with it.
+/// Returns true if the ship is driven by something other than an engine. The preset's steering needs an engine and is
+/// then left out.
 bool has_no_engine(const JsonValue& ship) {
   const JsonValue* propulsion = ship.find("propulsion", JsonValue::Kind::kObject);
   return propulsion && !propulsion->members().empty() && !propulsion->find("engine");
@@ -94,7 +94,8 @@ void fill_in_presets(JsonValue& scene) {
     const std::uint32_t offset = name->offset;
     const ShipPreset* preset = find_ship_preset(name->text());
     if (preset) std::erase_if(ship.members(), [](const JsonMember& member) { return member.key == "ship"; });
-    // Of an unknown one the name is reported, and not all that it would have filled in.
+    // For an unknown preset only its name is reported. The values of a known one avoid messages about everything that
+    // is missing.
     if (!preset) preset = find_ship_preset("reference");
     JsonValue particulars = json_of(*preset);
     if (has_no_engine(ship) && !ship.find("steering"))

@@ -9,28 +9,28 @@
 
 namespace polynya::io {
 
-inline constexpr double kKnot = 1852.0 / 3600;  ///< [m/s]
+inline constexpr double kKnot = 1852.0 / 3600;  ///< one knot [m/s]
 
-/// ship_presets.json, which has what there is to know of them.
+/// Contents of ship_presets.json, with all data of the presets and their sources.
 extern const std::string_view kShipPresets;
 
-/// One particular of a preset: a scene key of a ship and its value.
+/// A value of a preset, for one key of a scene's ship.
 struct PresetValue {
-  std::string path;   ///< below the ship, as "hull.length_m"
-  std::string json;   ///< its value, in the key's unit
-  std::string basis;  ///< "published", "estimated", "assumed", "recall"
+  std::string path;   ///< path of the key below the ship: "hull.length_m"
+  std::string json;   ///< JSON of the value, in the key's unit
+  std::string basis;  ///< how the value is known: "published", "estimated", "assumed" or "recall"
   std::string source;
 };
 
-/// What has been reported of a ship in level ice.
+/// A published speed of a ship in level ice.
 struct ReportedSpeed {
   double thickness = 0;          ///< [m]
   double speed = 0;              ///< [m/s]
-  double flexural_strength = 0;  ///< 0: not stated [Pa]
+  double flexural_strength = 0;  ///< [Pa]; 0: not stated
   std::string source;
 };
 
-/// A ship whose particulars a scene can ask for by name, as "ship": "polaris".
+/// A ship that a scene selects by its name: "ship": "polaris".
 struct ShipPreset {
   std::string name;
   std::string title;
@@ -40,16 +40,15 @@ struct ShipPreset {
 
 std::span<const ShipPreset> ship_presets();
 
-/// The preset of that name, or null.
+/// Returns the preset of that name, or null.
 const ShipPreset* find_ship_preset(std::string_view name);
 
-/// Its particulars as a ship of a scene has them.
+/// Returns the values of a preset as a ship of a scene.
 JsonValue json_of(const ShipPreset& preset);
 
-/// Fills in the particulars of a scene's ships that ask for a preset, where the scene
-/// gives none itself. What a scene gives of another kind (a constant speed for an engine, a waterline for
-/// length and beam) stands instead. Values that are filled in are placed where the ship's preset is
-/// named, and stand for that name.
+/// Fills in the values of presets for ships of a scene that ask for one. Values of the scene take precedence. So do
+/// values of another alternative, such as a constant speed instead of an engine, or a waterline instead of length and
+/// beam. For messages, the filled-in values have the place at which the scene names the preset.
 void fill_in_presets(JsonValue& scene);
 
 }  // namespace polynya::io

@@ -13,7 +13,7 @@
 namespace polynya::io {
 namespace {
 
-/// A file without a name, into which a child writes.
+/// A temporary file without a name, into which the child process writes.
 using NamelessFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 int spawn(std::vector<std::string> words, int in, int out, int err, pid_t& child) {

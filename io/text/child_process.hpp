@@ -8,21 +8,22 @@
 
 namespace polynya::io {
 
-/// What a program wrote, and how it ended.
+/// Output of a program that has ended.
 struct ChildOutput {
   std::string out;
   std::string err;
-  int code = 0;  ///< as a shell has it: 128 + signal where one ended it
+  int code = 0;  ///< exit code; 128 + the signal's number if a signal ended the program, as in a shell
 };
 
-/// Why a program gave no output.
+/// Reason why a program gave no output.
 struct ChildFailure {
-  bool is_missing = false;  ///< the search path does not have it, or it cannot be started
+  bool is_missing = false;  ///< the program is not on the search path, or cannot be started
   std::string words;
 };
 
-/// Runs a program of the search path with these words, the first of which is its name, without a shell and
-/// with `input` on stdin. Fails where it is not there, or where it writes more than `longest` bytes.
+/// Runs a program without a shell. `words` are its name, which is looked up on the search path, and its arguments.
+/// `input` is written to its stdin. Returns its output; fails if the program cannot be started, or if it writes more
+/// than `longest` bytes.
 tl::expected<ChildOutput, ChildFailure> run_child(const std::vector<std::string>& words, std::size_t longest,
                                                   std::string_view input = {});
 

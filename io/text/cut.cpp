@@ -21,7 +21,7 @@ namespace {
 
 using JsonKind = JsonValue::Kind;
 
-constexpr std::size_t kMostPlaces = 4;  ///< in a message
+constexpr std::size_t kMostPlaces = 4;  ///< number of places that a message names
 
 tl::unexpected<ToolError> malformed(std::string words) {
   return tl::unexpected(ToolError{ToolError::Kind::kMalformed, std::move(words)});
@@ -208,7 +208,7 @@ void write_crs(JsonWriter& json, const std::string& crs) {
   if (!crs.empty()) json.key("crs").json(crs);
 }
 
-/// Where the coordinates lie.
+/// Writes the coordinate system and the place on the Earth of the coordinates.
 void write_frame(JsonWriter& json, const CutReport& report) {
   write_crs(json, report.crs);
   write_place(json, report.place);
@@ -370,12 +370,12 @@ using geometry::Point;
 using geometry::Polygon;
 using geometry::Shape;
 
-/// One floe on its way through all cuts.
+/// Applies all cuts to one floe.
 class FloeCutter {
  public:
   explicit FloeCutter(CutFloe& floe) : floe_(floe) {}
 
-  /// False where the polygon is refused.
+  /// Takes the outline of the floe, repaired if a rule is given. Returns false if the polygon is refused.
   bool take(const Polygon& as_drawn, std::optional<geometry::FillRule> repair_rule) {
     Polygon polygon = geometry::normalised(as_drawn);
     const auto defect = find_defect(polygon);
@@ -389,7 +389,7 @@ class FloeCutter {
     return true;
   }
 
-  /// Applies all cuts in their order. Lines and cracks that follow each other are one tool.
+  /// Applies all cuts in order. Consecutive lines and cracks are one tool.
   void apply_all(const std::vector<CutOp>& ops) {
     for (std::size_t i = 0; i < ops.size();) {
       std::size_t end = i + 1;
@@ -423,7 +423,7 @@ class FloeCutter {
   bool repair(const Polygon& polygon, const geometry::DefectAt& defect, geometry::FillRule rule) {
     auto repaired = geometry::repair(rings_of(polygon), rule);
     if (!repaired) {
-      // Rings that are not finite keep that name; others enclose nothing.
+      // Rings that are not finite keep that reason. Others fail because they enclose no area.
       if (repaired.error().reason != geometry::CutFailure::kInvalidShape) {
         floe_.rejected = {
             {std::string(name_of(defect.defect)), "not repaired: " + repaired.error().detail, defect.places}};
@@ -486,7 +486,7 @@ class FloeCutter {
     }
   }
 
-  /// What ends of paths were continued by is no crack that dangles.
+  /// Cuts along paths whose ends were extended. The extensions do not count as cracks that end inside the ice.
   static geometry::CutOutcome cut_along_paths(const Shape& shape, const std::vector<CutPath>& paths,
                                               std::optional<double> snap) {
     const double rounding = default_snap(shape.polygon, paths);
@@ -540,14 +540,14 @@ class FloeCutter {
     floe_.snap_rounded += ledger.snap_rounded;
     floe_.area_slivers += ledger.area_slivers;
     floe_.removed += ledger.area_slivers;
-    // Geometry refuses a cut whose pieces do not sum to their parent exactly; were it ever not so, it shows
-    // here.
+    // Geometry refuses a cut whose pieces do not sum exactly to their parent. This reports a defect if it ever fails to
+    // do so.
     if (ledger.exact_defect != "0") floe_.exact_defect = ledger.exact_defect;
   }
 
   CutFloe& floe_;
   std::vector<Piece> pieces_;
-  geometry::Box box_{};  ///< of the whole floe, so that a crack is one line for all its pieces
+  geometry::Box box_{};  ///< box of the whole floe, so that a crack is the same line for all pieces
 };
 
 }  // namespace

@@ -16,47 +16,49 @@
 
 namespace polynya::io {
 
-/// Which pieces of a cut by a disc or a polygon stay. Cracks and lines keep everything.
+/// Which pieces of a cut by a disc or a polygon are kept. A cut by a crack or a line keeps all pieces.
 enum class Keep { kOutside, kInside, kBoth };
 std::string_view name_of(Keep keep);
 
-/// The regular polygon inscribed in a circle that cuts in its place.
+/// A circle. The floe is cut by a regular polygon that is inscribed in it.
 struct DiscTool {
   geometry::Point centre;
   double radius = 0;   ///< [m]
-  double sagitta = 0;  ///< by which the polygon may stay inside the circle [m]
+  double sagitta = 0;  ///< largest distance between the circle and the sides of the polygon [m]
   geometry::Polygon polygon;
 };
-/// Polygons, all of them together; ready for geometry::cut_by_polygons.
+/// Several polygons that cut together, prepared for geometry::cut_by_polygons.
 struct PolygonTool {
   std::vector<geometry::Polygon> polygons;
 };
-/// The straight line through a point.
+/// A straight crack through a point, across the whole floe.
 struct CrackTool {
   geometry::Point point;
   double angle_deg = 0;  ///< from the x axis, counter-clockwise
 };
-/// A path from its first point to its last.
+/// A path from its first point to its last one, along which the floe is cut.
 struct LineTool {
   CutPath path;
-  std::optional<double> snap = {};  ///< how far its ends may lie before what they meet [m]; none: default_snap()
+  /// An end is extended to the ice boundary or another path within this distance [m]; none: default_snap()
+  std::optional<double> snap = {};
 };
 
-/// One cut, of all pieces there are.
+/// One cut. It is applied to all pieces that exist when its turn comes.
 struct CutOp {
   std::variant<DiscTool, PolygonTool, CrackTool, LineTool> tool;
   Keep keep = Keep::kOutside;
-  bool must_cut = false;  ///< refuses a floe of which it leaves a piece whole, else that is no fault
+  /// A piece that this cut leaves whole is an error, and its floe is refused; false: it stays whole
+  bool must_cut = false;
 };
 
-/// Defaults of all cuts.
+/// Values of cuts that do not state their own.
 struct CutDefaults {
   Keep keep = Keep::kOutside;
-  double sagitta = 0;               ///< [m]; 0: default_sagitta() of the radius
-  std::optional<double> snap = {};  ///< of lines [m]; none: default_snap()
+  double sagitta = 0;  ///< largest distance between a circle and its polygon [m]; 0: default_sagitta() of the radius
+  std::optional<double> snap = {};  ///< distance within which ends of lines are extended [m]; none: default_snap()
 };
 
-/// Why there is no tool. A polygon that is not valid is another matter than a list that is not one.
+/// Reason why there is no tool. The kind tells a list of cuts with a mistake from a polygon whose outline is not valid.
 struct ToolError {
   enum class Kind { kMalformed, kInvalidPolygon };
   Kind kind = Kind::kMalformed;
@@ -65,38 +67,42 @@ struct ToolError {
 template <class Value>
 using ToolOutcome = tl::expected<Value, ToolError>;
 
-/// 0.02 m, or 1/250 of the radius of discs smaller than 5 m: those have 36 vertices.
+/// Default distance between a circle and the polygon that cuts [m]: 0.02 m, or 1/250 of the radius of discs smaller
+/// than 5 m, which gives 36 vertices.
 double default_sagitta(double radius);
 
-/// So many finite numbers, between commas, as JSON has them.
+/// Reads `least` to `most` finite numbers in JSON notation with commas between them.
 Result<std::vector<double>> read_numbers(std::string_view text, std::size_t least, std::size_t most);
 
-/// The cut of that kind by its numbers: "disc" x, y, radius, "crack" x, y, angle [°], "line" from x, y to x, y.
+/// Returns the cut of a kind from its numbers: "disc" from x, y, radius [m]; "crack" from x, y [m] and angle [°];
+/// "line" from x, y of one point and x, y of the other [m]. `sagitta` [m] is that of discs.
 ToolOutcome<CutOp> op_of_numbers(std::string_view kind, const std::vector<double>& numbers, double sagitta);
 ToolOutcome<LineTool> line_tool(std::vector<geometry::Point> path);
-/// The polygons of a text in any of the formats of floes (floe_text.hpp).
+/// Reads the polygons of a text in any of the formats of floe_text.hpp.
 ToolOutcome<PolygonTool> polygon_tool(std::string text);
 
-/// A JSON list of cuts (docs/cut.md):
+/// Reads a JSON list of cuts (docs/cut.md):
 ///   [{"disc": [x, y, r], "sagitta_m": s}, {"crack": [x, y, angle_deg]}, {"line": [x0, y0, x1, y1], "snap_m": s},
 ///    {"polygon": GeoJSON}], each with an optional "keep" and "must_cut".
 ToolOutcome<std::vector<CutOp>> read_cut_ops(const std::string& text, const CutDefaults& defaults);
 
-/// A polygon that was refused, or a floe that could not be cut.
+/// Reason why a polygon was refused, or why a floe could not be cut.
 struct Rejection {
-  std::string reason;                     ///< "self-crossing"; see docs/cut.md
-  std::string detail;                     ///< for people
-  std::vector<geometry::Point> vertices;  ///< the offending ones [m]
+  std::string reason;                     ///< short name, such as "self-crossing"; docs/cut.md lists them
+  std::string detail;                     ///< explanation for the message
+  std::vector<geometry::Point> vertices;  ///< positions of the fault [m]
 };
 
+/// Record of the repair of an outline that was not valid.
 struct RepairNote {
   std::string_view rule;
-  std::string defect;       ///< what was wrong
+  std::string defect;       ///< the fault that was repaired
   double area_drawn = 0;    ///< Σ signed areas of the rings as given [m²]
   double area_changed = 0;  ///< repaired − drawn [m²]
-  std::size_t shapes = 0;   ///< how many polygons it became
+  std::size_t shapes = 0;   ///< number of polygons after the repair
 };
 
+/// One piece of a floe after all cuts.
 struct CutPiece {
   std::int64_t floe_id = 0;
   geometry::Part part = geometry::Part::kOutside;
@@ -104,45 +110,51 @@ struct CutPiece {
   geometry::Polygon polygon;
 };
 
-/// What became of one floe. area_of_pieces + removed = area + rounding_defect.
+/// Result of all cuts for one floe. area_of_pieces + removed = area + rounding_defect.
 struct CutFloe {
   std::int64_t floe_id = 0;
   std::size_t feature = 0;
   std::size_t member = 0;
   std::size_t line = 0;
-  double area = 0;            ///< of the floe, after repair if it was repaired [m²]
+  double area = 0;            ///< area of the floe, after its repair if it was repaired [m²]
   double area_of_pieces = 0;  ///< [m²]
-  double removed = 0;         ///< what was not kept, slivers included [m²]
-  double area_slivers = 0;    ///< of that, what was too narrow to survive rounding [m²]
+  double removed = 0;         ///< area that was not kept, including slivers [m²]
+  double area_slivers = 0;    ///< part of `removed` that was too narrow to survive the rounding of its vertices [m²]
   int slivers = 0;
-  int snap_rounded = 0;            ///< pieces of any cut whose nearest doubles were not valid
-  double rounding_defect = 0;      ///< what rounding the vertices changed [m²]
-  std::string exact_defect = "0";  ///< Σ exact pieces + removed − parent, over all cuts, as a rational
+  /// Number of pieces whose vertices, rounded to the nearest doubles, did not make a valid polygon.
+  int snap_rounded = 0;
+  double rounding_defect = 0;  ///< area that the rounding of vertices changed [m²]
+  /// Σ exact areas of pieces + removed − floe, over all cuts, as a rational number; "0" unless there is a bug
+  std::string exact_defect = "0";
   std::vector<CutPiece> pieces;
-  double dangling_length = 0;  ///< of what of lines ends inside ice, or only leads from hole to hole [m]
+  /// Length of lines that separate nothing: they end inside the ice, or lead from hole to hole [m].
+  double dangling_length = 0;
   std::optional<Rejection> rejected;
   std::optional<RepairNote> repair;
-  std::shared_ptr<const std::string> properties;  ///< for its pieces, as in FloeEntry
-  std::optional<std::string> source_id;           ///< what the text calls it, where floes are numbered: JSON
+  std::shared_ptr<const std::string> properties;  ///< properties that the pieces inherit, as in FloeEntry
+  std::optional<std::string> source_id;           ///< id in the text as JSON, if floes are numbered instead
 };
 
+/// Result of cutting all floes of a text.
 struct CutReport {
   std::vector<CutOp> ops;
   std::vector<CutFloe> floes;  ///< in the order of the text
-  std::string crs;             ///< of the text, JSON, for the pieces; or empty
-  StatedPlace place;           ///< likewise, of a text that Polynya wrote
-  std::string ids_replaced;    ///< why floes are numbered though the text has ids (io/text/floe_ids.hpp); or empty
-  std::string source_id_key;   ///< the property of a piece that then has what the text calls its floe
+  std::string crs;             ///< coordinate system of the text as JSON, which the pieces keep; may be empty
+  StatedPlace place;           ///< place on the Earth that the text states, if Polynya wrote it
+  /// Reason why floes are numbered although the text has ids (io/text/floe_ids.hpp); empty: ids are kept.
+  std::string ids_replaced;
+  std::string source_id_key;  ///< name of the property in which a piece then keeps the id of the text
 };
 
-/// Cuts every floe by all cuts in order. A polygon that is not valid is refused, or repaired where a rule is
-/// given; a floe that a cut does not meet stays whole; a floe that geometry fails to cut stays as it was
-/// before that cut. Lines and cracks that follow each other cut together, so that their order does not matter.
+/// Cuts every floe by all cuts in order. A polygon that is not valid is refused, or repaired if a rule is given. A floe
+/// that a cut does not meet stays whole. A floe that geometry fails to cut stays as it was before that cut. Consecutive
+/// lines and cracks cut together, so that their order does not matter.
 CutReport cut_floes(const std::vector<FloeEntry>& entries, std::vector<CutOp> ops,
                     std::optional<geometry::FillRule> repair_rule);
 
 std::string_view name_of(geometry::Part part);
 
+/// Sums over all floes of a report.
 struct CutTotals {
   double area = 0, area_of_pieces = 0, removed = 0, area_slivers = 0, rounding_defect = 0;  ///< [m²]
   std::string exact_defect = "0";
@@ -152,12 +164,12 @@ struct CutTotals {
 };
 CutTotals totals_of(const CutReport& report);
 
-/// The ledger as JSON: {"tools": […], "floes": […], "totals": {…}} (docs/cut.md).
+/// The report as JSON: {"tools": […], "floes": […], "totals": {…}} (docs/cut.md).
 std::string to_ledger_json(const CutReport& report);
 
-/// All pieces, in the order of their floes, with their parents' properties and the crs. GeoJSON is one
-/// FeatureCollection, NDJSON a Feature a line, WKT a POLYGON a line (which can carry neither properties, the
-/// ledger lists them in the same order, nor a crs).
+/// Returns all pieces in the order of their floes, with the properties of their floes and the coordinate system.
+/// GeoJSON is one FeatureCollection, NDJSON one Feature per line, WKT one POLYGON per line. WKT can hold neither
+/// properties nor a coordinate system; the JSON report lists the pieces in the same order.
 std::string to_floe_text(const CutReport& report, FloeFormat format);
 
 }  // namespace polynya::io

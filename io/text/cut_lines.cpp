@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "elementary/elementary.hpp"
-
 #include "geometry/exact/predicates.hpp"
 
 namespace polynya::io {
@@ -23,7 +22,7 @@ double largest_coordinate(const std::vector<Point>& points) {
   return largest;
 }
 
-/// cos and sin, exact at whole quarter turns and equal between them.
+/// Returns cosine and sine of an angle [°]. They are exact at multiples of 90°, and equal to each other at 45°.
 Vector direction_of(double angle_deg) {
   constexpr double kDiagonal = 1 / std::numbers::sqrt2;
   constexpr Vector kEighths[] = {{1, 0}, {kDiagonal, kDiagonal}, {0, 1}, {-kDiagonal, kDiagonal}, {-1, 0}};
@@ -36,7 +35,7 @@ Vector direction_of(double angle_deg) {
   return {elementary::cos(angle * std::numbers::pi / 180), elementary::sin(angle * std::numbers::pi / 180)};
 }
 
-/// Continues the ends of paths.
+/// Extends the ends of paths.
 class Continuation {
  public:
   Continuation(const std::vector<CutPath>& paths, const geometry::Polygon& floe, double snap)
@@ -54,7 +53,7 @@ class Continuation {
   }
 
  private:
-  /// The end of a path whose last segment comes from `before`.
+  /// Returns the new end of a path whose last segment runs from `before` to `end`.
   Point end_of(std::size_t path, Point before, Point end) const {
     const double way = length(end - before);
     if (!(way > 0 && std::isfinite(way))) return end;
@@ -85,7 +84,7 @@ class Continuation {
   const std::vector<CutPath>& paths_;
   const geometry::Polygon& floe_;
   const double snap_;
-  const double rounding_;  ///< how far beyond what an end meets it is continued [m]
+  const double rounding_;  ///< distance by which an extended end passes the boundary or path that it meets [m]
 };
 
 }  // namespace

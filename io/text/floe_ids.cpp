@@ -16,7 +16,7 @@
 namespace polynya::io {
 namespace {
 
-/// Why an id is not used: the kinds, in the order in which they are told.
+/// Reasons why an id cannot be used, in the order in which the message lists them.
 enum class Fault { kText, kBeyond, kNotWhole, kOfFeature, kRepeated, kMissing };
 
 Fault fault_of(const std::string& json) {

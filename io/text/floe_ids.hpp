@@ -10,30 +10,32 @@
 
 namespace polynya::io {
 
-// Floes go by whole numbers from 0 to 2^53. Files of others name them by texts, fractions or larger numbers, use a name
-// twice, or name some of them only. Then floes are numbered, and each keeps what the file calls it as another property.
+// Polynya numbers floes by whole numbers from 0 to 2^53. Other files may name floes by texts, fractions or larger
+// numbers, use a name twice, or leave floes without a name. Then Polynya numbers the floes of the file and stores the
+// id of the file in another property.
 
-/// What a file calls a floe.
+/// Id of a floe in a file.
 struct GivenId {
-  std::optional<std::int64_t> number;  ///< a whole number
-  std::optional<std::string> other;    ///< a value of JSON, as written, that is none
+  std::optional<std::int64_t> number;  ///< the id, if it is a whole number
+  std::optional<std::string> other;    ///< the id as JSON, as written in the file, if it is not a whole number
 
   bool is_given() const { return number || other; }
-  std::string as_json() const { return other ? *other : std::to_string(number.value_or(0)); }  ///< of one that is given
+  std::string as_json() const { return other ? *other : std::to_string(number.value_or(0)); }  ///< needs an id
 };
 GivenId given_id(const FloeEntry& entry);
 
-/// Why the ids of floes cannot be kept, in words for people: "2 are text ("A1"), 1 floe has none". Empty where they can
-/// be kept, or where no floe has one.
+/// Says in words why the ids of floes cannot be kept: "2 are text ("A1"), 1 floe has none". Returns an empty text if
+/// they can be kept, or if no floe has an id.
 std::string why_ids_are_replaced(const std::vector<GivenId>& ids);
 
-/// Whether every floe has an id that is a whole number and that no other floe has.
+/// Returns true if every floe has a whole number as its id and no two ids are equal.
 bool are_usable(const std::vector<GivenId>& ids);
 
-/// The property under which a floe keeps what the file calls it: "source_id", unless the file has that property.
+/// Name of the property that stores the ids of the file: "source_id", followed by as many _ as make it different from
+/// all properties of the file.
 std::string source_id_key(const std::vector<FloeEntry>& entries);
 
-/// What is done about ids that cannot be kept, in words.
+/// Says in words what is done about ids that cannot be kept.
 std::string replaced_in_words(std::string_view why, std::string_view key);
 
 }  // namespace polynya::io

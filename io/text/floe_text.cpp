@@ -20,10 +20,10 @@ namespace {
 
 using JsonKind = JsonValue::Kind;
 
-/// What Polynya writes of each piece in place of its parent's.
+/// Properties that Polynya writes for each piece; it does not copy them from the floe that was cut.
 constexpr std::string_view kOwnProperties[] = {"floe_id", "parent_id", "area_m2", "part"};
 
-/// Ends the reading of one feature.
+/// Thrown to end the reading of one feature.
 struct ParseError : std::runtime_error {
   ParseError(std::string_view why, const std::string& detail) : std::runtime_error(detail), reason(why) {}
   std::string_view reason;
@@ -33,7 +33,7 @@ class GeojsonEntries {
  public:
   GeojsonEntries(FloeText& floes, std::string_view text) : floes_(floes), text_(text) {}
 
-  /// Everything in a GeoJSON value, as one feature after the other from `feature` on.
+  /// Reads all polygons of a GeoJSON value. Its features are numbered from `feature` on.
   void read(const JsonValue& value, std::size_t feature) {
     note_crs(value);
     note_place(value);
@@ -93,7 +93,8 @@ class GeojsonEntries {
     attempt(*geometry, [&] { read_geometry(*geometry); });
   }
 
-  /// What is refused inside is recorded here, and what stands beside it is read.
+  /// Calls `read` and stores an entry with the reason if it throws ParseError, so that the rest of the text is still
+  /// read.
   template <class Read>
   void attempt(const JsonValue& value, Read read) {
     try {
@@ -111,7 +112,8 @@ class GeojsonEntries {
     floes_.has_other_crs = floes_.has_other_crs || found != floes_.crs;
   }
 
-  /// The place of a file that Polynya wrote. An "origin" of others is no object with a latitude.
+  /// Reads the place of a file that Polynya wrote. Other programs may write an "origin" too; it has no latitude and is
+  /// ignored.
   void note_place(const JsonValue& value) {
     StatedPlace& place = floes_.place;
     const auto is_within = [](const JsonValue* number, double least, double most) {
@@ -144,7 +146,7 @@ class GeojsonEntries {
     if (id && !id->is_null() && !text_.empty()) other_id_ = compact_json(text_, id->offset);
   }
 
-  /// A feature's properties: those that Polynya writes itself, or the others.
+  /// Returns the properties of a feature as JSON: those that Polynya itself writes, or all others.
   std::shared_ptr<const std::string> members_of(const JsonValue& properties, bool are_own) const {
     if (!properties.is(JsonKind::kObject) || text_.empty()) return nullptr;
     std::string kept;
@@ -218,7 +220,7 @@ class GeojsonEntries {
 
   static double coordinate(const JsonValue& value) {
     if (value.is(JsonKind::kNumber)) return value.number();
-    // null and (after parse_lenient_json) empty texts stand for what JSON cannot write.
+    // null, and (after parse_lenient_json) an empty text, represent a number that JSON cannot write.
     if (value.is_null() || (value.is(JsonKind::kText) && value.text().empty()))
       return std::numeric_limits<double>::quiet_NaN();
     throw ParseError("malformed", fmt::format("found {}, expected a coordinate", name_of(value.kind())));
@@ -241,24 +243,25 @@ void add_syntax_error(FloeText& floes, std::size_t feature, std::size_t offset, 
   entry.detail = std::move(detail);
 }
 
+/// Deepest nesting of brackets and collections of WKT that is read. It bounds the stack of the recursive reader.
 constexpr int kDeepestCollection = 64;
 
-/// Whether it is one of A to Z or a to z.
+/// Returns true for A to Z and a to z.
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-/// What is wrong at the reader's place; ends the geometry it stands in.
+/// Describes a syntax error at the reader's place. It ends the geometry that is being read.
 struct SyntaxError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads WKT in any case, with or without Z and M.
+/// Reads WKT in upper or lower case, with or without Z and M.
 class WktReader {
  public:
   explicit WktReader(std::string_view text) : text_(text) {}
 
-  /// The geometries of the text in order, '#' and '//' comments between them. After a syntax error reading continues at
+  /// Reads the geometries of the text in order; '#' and '//' start comments. After a syntax error reading continues at
   /// the next line.
   FloeText read() {
     FloeText floes;
@@ -290,7 +293,7 @@ class WktReader {
     skip_blanks();
     while (take(';')) skip_blanks();
   }
-  /// Takes "SRID=…;" for the system of the text.
+  /// Reads "SRID=…;" and stores it as the coordinate system of the text.
   void skip_srid(FloeText& floes) {
     const std::size_t begin = at_;
     if (take_word() != "SRID") {
@@ -300,7 +303,7 @@ class WktReader {
     const std::size_t end = std::min(text_.find_first_of(";\n", at_), text_.size());
     std::string_view number = trimmed(text_.substr(at_, end - at_));
     if (number.starts_with('=')) number = trimmed(number.substr(1));
-    const std::string system = number == "0" ? "" : fmt::format("EPSG:{}", number);  // 0 is none
+    const std::string system = number == "0" ? "" : fmt::format("EPSG:{}", number);  // 0 means no system
     floes.has_other_crs = floes.has_other_crs || (floes.has_srid && floes.srid != system);
     floes.has_srid = true;
     floes.srid = system;
@@ -322,7 +325,7 @@ class WktReader {
     skip_blanks();
     return at_ < text_.size() && is_letter(text_[at_]);
   }
-  /// The next word in upper case; empty where none stands here.
+  /// Reads the next word and returns it in upper case; empty if there is none here.
   std::string take_word() {
     std::string word;
     skip_blanks();
@@ -336,7 +339,7 @@ class WktReader {
     JsonValue geometry{JsonValue::Object{}, static_cast<std::uint32_t>(at_)};
     std::string type = take_word(), next;
     while (is_at_word() && next != "EMPTY") next = take_word();
-    // "POLYGON Z" and "POLYGONZ" are both written.
+    // Both "POLYGON Z" and "POLYGONZ" are in use.
     while (type.size() > 1 && (type.back() == 'Z' || type.back() == 'M')) type.pop_back();
     const bool is_collection = type == "GEOMETRYCOLLECTION";
     for (const auto& [upper, name] : {std::pair{"POLYGON", "Polygon"},
@@ -350,7 +353,7 @@ class WktReader {
     return geometry;
   }
 
-  /// What holds nothing is left out: GEOS writes empty holes.
+  /// Reads a list. Empty items are left out, because GEOS writes empty holes.
   template <class Read>
   JsonValue read_list(Read read) {
     skip_blanks();
@@ -366,7 +369,7 @@ class WktReader {
     if (!take(')')) fail("')'");
     return list;
   }
-  /// A list, or a point: two to four numbers.
+  /// Reads a list, or a point of two to four numbers.
   JsonValue read_item(int depth) {
     if (depth > kDeepestCollection) throw SyntaxError("brackets nested too deep");
     skip_blanks();
@@ -385,7 +388,7 @@ class WktReader {
     double value = 0;
     const auto [end, error] = std::from_chars(start, text_.data() + text_.size(), value);
     if (end == start) fail("a number");
-    // Out of range is either too small or too large: strtod returns 0 or infinity.
+    // The number is too small or too large for a double: strtod returns 0 or infinity.
     if (error != std::errc{}) value = std::strtod(std::string(start, end).c_str(), nullptr);
     at_ = static_cast<std::size_t>(end - text_.data());
     return value;
@@ -395,7 +398,7 @@ class WktReader {
   std::size_t at_ = 0;
 };
 
-/// Whether a trimmed line begins with the name of a geometry, or with any word that a bracket follows.
+/// Returns true if a trimmed line begins with the name of a geometry, or with any word before a bracket.
 bool begins_wkt(std::string_view line) {
   const auto end_of_word = static_cast<std::size_t>(std::ranges::find_if_not(line, is_letter) - line.begin());
   std::string word(line.substr(0, end_of_word));
@@ -407,9 +410,9 @@ bool begins_wkt(std::string_view line) {
   return !word.empty() && trimmed(line.substr(end_of_word)).starts_with('(');
 }
 
-// What kind of text it is, by its lines.
+// The functions below find out the format of a text from its lines.
 
-/// Whether a trimmed line is a comment: '#' or '//' to its end.
+/// Returns true if a trimmed line is a comment, which starts with '#' or '//'.
 bool is_comment(std::string_view line) {
   return line.starts_with('#') || line.starts_with("//");
 }
@@ -422,11 +425,11 @@ void for_lines(std::string_view text, Use use) {
   });
 }
 
-/// What kinds of lines a text of floes has. Blank lines and comments do not count.
+/// Counts of the kinds of lines in a text of floes. Blank lines and comments are not counted.
 struct LineCounts {
   std::size_t lines = 0;
-  std::size_t objects = 0;  ///< from '{' to '}': a line of NDJSON, sound or not
-  std::size_t wkt = 0;      ///< begin with a WKT geometry
+  std::size_t objects = 0;  ///< lines from '{' to '}': lines of NDJSON, valid or not
+  std::size_t wkt = 0;      ///< lines that begin with a WKT geometry
   std::string_view first_line;
 };
 
@@ -441,7 +444,7 @@ LineCounts count_lines(std::string_view text) {
   return counts;
 }
 
-/// Blanks for comments that begin a line with '#', which JSON's parser refuses.
+/// Replaces comment lines that begin with '#' by blanks, because the JSON parser refuses them.
 void blank_hash_comments(std::string& text) {
   for_pieces(text, '\n', [&text](std::string_view line, std::size_t offset) {
     if (trimmed(line).starts_with('#'))
@@ -449,7 +452,7 @@ void blank_hash_comments(std::string& text) {
   });
 }
 
-/// Without the line of a place in a text of one line.
+/// Removes the line from a place in a text of one line: "column 5" instead of "1:5".
 std::string without_line(const std::string& words) {
   return words.starts_with("1:") ? "column " + words.substr(2) : words;
 }
@@ -483,12 +486,13 @@ void append_ring(std::string& text, const geometry::Ring& ring) {
   text += ')';
 }
 
-constexpr double kPolarLatitude = 40;    ///< [°]
-constexpr double kLeastIceInMetres = 1;  ///< of a scene in metres [m²]
-constexpr double kMostPolarIce = 100;    ///< of a scene in degrees [°²]
+constexpr double kPolarLatitude = 40;  ///< floes of polar ice lie beyond this latitude [°]
+/// A scene in metres has at least this much ice; less is taken for square degrees [m²].
+constexpr double kLeastIceInMetres = 1;
+constexpr double kMostPolarIce = 100;  ///< Polar ice of a scene in degrees covers less than this [°²].
 
 std::string unknown_text(std::string_view first_line) {
-  constexpr std::size_t kMost = 30;  // bytes of it in the message
+  constexpr std::size_t kMost = 30;  // bytes of the first line in the message
   std::string begin(first_line.substr(0, kMost));
   std::ranges::replace_if(
       begin, [](char c) { return static_cast<unsigned char>(c) < 0x20 || (c & 0x80) != 0; }, '?');
@@ -498,7 +502,7 @@ std::string unknown_text(std::string_view first_line) {
       begin, first_line.size() > kMost ? " …" : "");
 }
 
-/// Decides by the lines what the text is, and reads it.
+/// Finds out the format from the lines, and reads the text.
 Result<FloeText> read_kind(std::string& text) {
   const LineCounts lines = count_lines(text);
   FloeText floes;
@@ -526,7 +530,7 @@ Result<FloeText> read_kind(std::string& text) {
 }  // namespace
 
 double degrees_in_file(double radians) {
-  constexpr double kParts = 1e12;  // of a degree
+  constexpr double kParts = 1e12;  // Angles are rounded to this fraction of a degree.
   return std::round(geometry::kDegreesPerRadian * radians * kParts) / kParts;
 }
 
@@ -570,7 +574,7 @@ Result<FloeText> read_floe_text(std::string text) {
   if (text.size() > kLongestFloeText)
     return fail(fmt::format("1:1: {} bytes, more than the {} allowed", text.size(), kLongestFloeText));
   if (text.starts_with("\xEF\xBB\xBF")) text.replace(0, 3, "   ");
-  std::ranges::replace(text, '\x1E', ' ');  // GeoJSON text sequences [RFC8142] start each record with one
+  std::ranges::replace(text, '\x1E', ' ');  // GeoJSON text sequences [RFC8142] start each record with this character.
   const LineIndex lines(text);
   auto floes = read_kind(text);
   if (!floes) return floes;
@@ -592,7 +596,7 @@ std::string crs_name(const std::string& crs) {
   const JsonDocument document = parse_json(crs);
   const JsonValue* properties = document.root.find("properties");
   if (!properties) return "";
-  for (const char* key : {"name", "code"}) {  // of type "name", and of type "EPSG" in older files
+  for (const char* key : {"name", "code"}) {  // "name" is current; "code" belongs to the type "EPSG" of older files.
     const JsonValue* name = properties->find(key);
     if (name && name->is(JsonValue::Kind::kText)) return name->text();
     if (name && name->is(JsonValue::Kind::kNumber)) return fmt::format("EPSG:{}", name->number());

@@ -15,101 +15,107 @@
 
 namespace polynya::io {
 
-inline constexpr std::size_t kLongestFloeText = std::size_t{256} << 20;  ///< [bytes]
+/// Longest text of floes that is read [bytes]. It limits the memory that a wrong file can take.
+inline constexpr std::size_t kLongestFloeText = std::size_t{256} << 20;
 
-/// How a text of floes is written.
+/// Format in which a text of floes is written.
 enum class FloeFormat { kGeojson, kNdjson, kWkt };
 
-/// A polygon as it stands in a text, or what stands there in place of one.
+/// One polygon of a text as it is written there, or a record of why there is none.
 struct FloeEntry {
-  geometry::Polygon polygon;            ///< rings as drawn: either way round, closed or not; NaN where no number stands
-  std::size_t feature = 0;              ///< which feature, line or WKT geometry of the text, from 0
-  std::size_t member = 0;               ///< which polygon of it, from 0
-  std::uint32_t offset = 0;             ///< of it in the text
-  std::size_t line = 1;                 ///< likewise, from 1
-  std::optional<std::int64_t> floe_id;  ///< its property of that name, where that is a whole number
-  std::optional<std::string> other_id;  ///< else what stands there, or the feature's "id": a value of JSON, as written
-  std::shared_ptr<const std::string> properties;  ///< the feature's others, as members of JSON; null if none
+  geometry::Polygon polygon;  ///< rings as drawn: in either direction, closed or open; NaN in place of a missing number
+  std::size_t feature = 0;    ///< number of the feature, line or WKT geometry that has the polygon, from 0
+  std::size_t member = 0;     ///< number of the polygon in its feature, from 0
+  std::uint32_t offset = 0;   ///< position of the polygon in the text [bytes]
+  std::size_t line = 1;       ///< line of the polygon in the text, from 1
+  std::optional<std::int64_t> floe_id;  ///< property "floe_id", if it is a whole number
+  std::optional<std::string> other_id;  ///< otherwise that property, or the "id" of the feature: JSON as written
+  /// Other properties of the feature, as members of a JSON object; null: none.
+  std::shared_ptr<const std::string> properties;
   std::shared_ptr<const std::string>
-      own_properties;   ///< likewise: floe_id, and what Polynya writes of each floe itself
+      own_properties;   ///< likewise: floe_id and the properties that Polynya itself writes of each floe
   std::string refusal;  ///< "not-a-polygon", "no-geometry", "malformed", "syntax", or empty
-  std::string detail;   ///< for people
+  std::string detail;   ///< explanation for the message
 };
 
-/// What a file that Polynya wrote states of the place of its plane on the Earth, in members of its own.
+/// Place on the Earth of the plane of a file that Polynya wrote. Such a file states it in members of its own.
 struct StatedPlace {
-  std::optional<simulation::GeographicOrigin> origin;  ///< "origin": the plane is that about this place
-  std::string shifted_crs;                             ///< "shifted_crs": else the plane is that of this system
-  geometry::Vector shift;                              ///< "shift_m": that was added to the coordinates there [m]
-  std::string wrong;                                   ///< in words, where such a member cannot be read
+  std::optional<simulation::GeographicOrigin> origin;  ///< "origin": the plane is the one about this place
+  /// "shifted_crs": the plane is that of this coordinate system, shifted; empty: it has no such member
+  std::string shifted_crs;
+  geometry::Vector shift;  ///< "shift_m": vector that was added to the coordinates in that system [m]
+  std::string wrong;       ///< message if such a member cannot be read; empty: all can
 
   bool is_stated() const { return origin || !shifted_crs.empty(); }
 };
 
-/// Writes it as members of the object at hand; nothing where none is stated.
+/// Writes the place as members of the object that is open; writes nothing if no place is stated.
 void write_place(JsonWriter& json, const StatedPlace& place);
 
-/// The same members as JSON, for a GeojsonLayer; empty where there is no origin.
+/// Returns the same members as JSON, for a GeojsonLayer; empty if there is no origin.
 std::string place_members(const std::optional<simulation::GeographicOrigin>& origin);
 
-/// An angle in degrees, without the rounding of its conversion: 15, not 14.999999999999998.
+/// Converts radians to degrees and removes the rounding of the conversion: 15, not 14.999999999999998.
 double degrees_in_file(double radians);
 
+/// A text of floes after it was read.
 struct FloeText {
   FloeFormat format = FloeFormat::kGeojson;
   std::vector<FloeEntry> entries;     ///< in the order of the text
-  bool has_more_coordinates = false;  ///< Z or M values were passed over
-  bool has_srid = false;              ///< WKT has "SRID=…;"
-  std::string srid;                   ///< then the system that it names, "EPSG:3413"; empty: none
-  std::string crs;                    ///< GeoJSON's member of that name (of 2008; RFC 7946 has none), JSON; or empty
-  bool has_other_crs = false;         ///< several differ; `crs` is the first
-  std::optional<double> time;         ///< GeoJSON's member "t_s", which a run writes beside its floes [s]
-  double stated_area = 0;             ///< Σ of the features' area_m2 [m²]
-  StatedPlace place;                  ///< what a file that Polynya wrote states of its plane
+  bool has_more_coordinates = false;  ///< true if Z or M values were left out
+  bool has_srid = false;              ///< true if the WKT has "SRID=…;"
+  std::string srid;                   ///< coordinate system that SRID names, such as "EPSG:3413"; empty: it names none
+  std::string crs;  ///< member "crs" of GeoJSON as JSON (in the format of 2008; RFC 7946 has none); may be empty
+  bool has_other_crs = false;  ///< true if several members "crs" differ; `crs` is the first
+  std::optional<double> time;  ///< member "t_s" of GeoJSON, the time of the run that wrote the file [s]
+  double stated_area = 0;      ///< Σ of the property area_m2 of the features [m²]
+  StatedPlace place;           ///< place on the Earth that a file of Polynya states
 };
 
-/// Reads the polygons of a text: GeoJSON (Polygon, MultiPolygon, Feature, FeatureCollection,
-/// GeometryCollection), NDJSON (one of these a line) or WKT, distinguished by the content. A text without content has
-/// no polygons. What is no polygon, a bad line of NDJSON or WKT among them, is an entry with its refusal; validity is
-/// not checked. The error is for a text that cannot be read at all: "line:column: words".
+/// Reads the polygons of a text: GeoJSON (Polygon, MultiPolygon, Feature, FeatureCollection, GeometryCollection),
+/// NDJSON (one of these per line) or WKT. The format is recognised by the content. A text without content has no
+/// polygons. Anything that is not a polygon, such as a bad line of NDJSON or WKT, becomes an entry with the reason why
+/// it is refused. The polygons are not checked for crossings. Fails with "line:column: words" if the text cannot be
+/// read at all.
 Result<FloeText> read_floe_text(std::string text);
 
-/// The polygons of one GeoJSON value, likewise.
+/// Reads the polygons of one GeoJSON value in the same way.
 FloeText read_floe_json(const JsonValue& geojson);
 
 /// Appends "POLYGON ((…), (…))" with numbers that read back to the same doubles.
 void append_wkt(std::string& text, const geometry::Polygon& polygon);
 
-/// Whether a text may be one of these formats: its first line that is neither blank nor a comment begins as one, or it
-/// has none.
+/// Returns true if a text may be in one of these formats: its first line that is neither blank nor a comment begins as
+/// one of them, or there is no such line.
 bool may_be_floe_text(std::string_view text);
 
-/// The number of a floe in a member of an object; nothing where that is no such number.
+/// Returns the number of a floe from a member of an object, or nothing if the member is no such number.
 std::optional<std::int64_t> floe_id_in(const JsonValue& object, std::string_view key);
 
-/// The name that a GeoJSON crs member (FloeText::crs) gives its system; "" where it gives none.
+/// Returns the name of the coordinate system in a GeoJSON member "crs" (FloeText::crs), or "" if it has no name.
 std::string crs_name(const std::string& crs);
 
-/// The coordinate system that a text names, by its crs member or its SRID; or empty.
+/// Returns the coordinate system that a text names by "crs" or SRID; may be empty.
 std::string system_of(const FloeText& text);
 
-/// Whether a point may be a longitude and a latitude: one turn more or less names the same meridian.
+/// Returns true if a point may be a longitude and a latitude [°]. Longitudes up to a turn beyond ±180 are accepted.
 bool is_in_degrees(geometry::Point point);
 
-/// What a file's coordinates show without its crs. A wrong number here and there does not hide the rest.
+/// Evidence from coordinates alone whether they are degrees. It is made so that a few wrong numbers do not hide the
+/// rest.
 struct CoordinateEvidence {
-  geometry::Box box{};        ///< of the floes in the range of degrees, without vertices that are not
-  double area = 0;            ///< Σ of these floes, in squares of the unit they are in
-  std::size_t floes = 0;      ///< with an outline
-  std::size_t in_range = 0;   ///< of them with most of their vertices in the range of degrees
-  bool are_all_whole = true;  ///< all of their vertices are
+  geometry::Box box{};        ///< of the floes in the range of degrees, without vertices outside of it
+  double area = 0;            ///< Σ of the areas of these floes, in squares of their unit
+  std::size_t floes = 0;      ///< number of floes with an outline
+  std::size_t in_range = 0;   ///< number of floes with most of their vertices in the range of degrees
+  bool are_all_whole = true;  ///< true if no floe in range has a vertex outside of it
 
   void add(const geometry::Polygon& polygon);
-  /// Most floes lie on one side beyond 40 of latitude, in the range of degrees, and cover less than 100
-  /// squares, which are 3000 km² each at 75°.
+  /// Returns true if the floes look like polar ice in degrees: most are in the range of degrees, all of these on one
+  /// side beyond 40° of latitude, and they cover less than 100 square degrees (one is 3000 km² at 75°).
   bool look_polar() const;
-  /// Or all are in the range of degrees and cover less than one square at any latitude: no ice to simulate if
-  /// it is in m².
+  /// Returns true if the floes look like degrees, polar or not. Floes at any latitude do if all are in the range of
+  /// degrees and cover less than one square: less than 1 m² would be no ice to simulate.
   bool look_like_degrees() const;
 };
 

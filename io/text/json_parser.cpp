@@ -15,19 +15,19 @@ namespace {
 constexpr auto kAnyValue = "an object, a list, text in double quotes, a number, true, false or null";
 constexpr std::string_view kOfWords = "+-._0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
-/// A bracket, a sign, a text with its quotes (the last one is missing where it is not closed on its line), or a
-/// word; empty at the end.
+/// A bracket, a sign, a text with its quotes, or a word; empty at the end of the text. A text that is not closed on its
+/// line has no second quote.
 struct Token {
-  std::size_t begin = 0;  ///< byte in the text
+  std::size_t begin = 0;  ///< position in the text [bytes]
   std::string_view text = {};
-  bool is_closed = true;  ///< of a text
+  bool is_closed = true;  ///< false for a text without a second quote
 
   std::size_t end() const { return begin + text.size(); }
   bool is(char sign) const { return text.size() == 1 && text[0] == sign; }
   bool is_text() const { return text.starts_with('"'); }
 };
 
-/// Cuts a text into tokens; blanks and comments stand between them.
+/// Divides a text into tokens and skips blanks and comments between them.
 class Lexer {
  public:
   explicit Lexer(std::string_view text, std::size_t begin = 0) : text_(text), at_(begin) {
@@ -64,7 +64,7 @@ class Lexer {
         return;
     }
   }
-  /// False where no quote closes it on its line.
+  /// Moves behind a quoted text. Returns false if no quote closes it on its line.
   bool pass_text() {
     for (++at_; at_ < text_.size() && static_cast<unsigned char>(text_[at_]) >= 0x20; ++at_) {
       if (text_[at_] == '"') return ++at_, true;
@@ -81,7 +81,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// The number that a word of JSON's grammar is, infinite where it is too large for a double.
+/// Returns the number that a word of JSON's grammar represents; infinite if it is too large for a double.
 std::optional<double> number_in(std::string_view word) {
   const std::string_view digits = word.substr(word.starts_with('-') ? 1 : 0);
   if (digits.empty() || !is_digit(digits[0]) || (digits.size() > 1 && digits[0] == '0' && is_digit(digits[1])))
@@ -91,11 +91,11 @@ std::optional<double> number_in(std::string_view word) {
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size()) return {};
-  // Out of range is either too small or too large: strtod returns 0 or infinity.
+  // The number is too small or too large for a double: strtod returns 0 or infinity.
   return error == std::errc() ? value : std::strtod(std::string(word).c_str(), nullptr);
 }
 
-/// NaN, Infinity, and what is beyond the doubles.
+/// Returns true for NaN, Infinity and numbers beyond the range of a double.
 bool is_not_finite(std::string_view word) {
   if (word.size() < 3 || kOfWords.find(word[0]) == std::string_view::npos) return false;
   const std::string copy(word);
@@ -103,7 +103,7 @@ bool is_not_finite(std::string_view word) {
   return !std::isfinite(std::strtod(copy.c_str(), &end)) && end == copy.c_str() + copy.size();
 }
 
-/// The token on one line.
+/// Returns the token as messages show it, on one line.
 std::string shown(const Token& token) {
   if (token.text.empty()) return "the end of the text";
   if (static_cast<unsigned char>(token.text[0]) < 0x20) return "a control character";
@@ -111,7 +111,7 @@ std::string shown(const Token& token) {
   return token.is_text() ? std::string(word) : fmt::format("'{}'", word);
 }
 
-/// The keys of an object while it is read, for finding a key that stands twice.
+/// Keys of the object that is being read. They are kept to find a key that occurs twice.
 class Keys {
  public:
   /// Returns false if the object, whose members so far are given, has the key already. Few keys are compared one by
@@ -153,7 +153,7 @@ class Parser {
   }
   int line_of(std::size_t offset) const { return line_and_column(text_, offset).line; }
 
-  /// The token at hand is not what is allowed here.
+  /// Reports that the current token is not allowed here, and ends the reading.
   [[noreturn]] void refuse(std::string_view allowed) {
     if (token_.text.empty() && !open_.empty()) {
       const bool is_list = open_.back().is('[');
@@ -203,7 +203,7 @@ class Parser {
     });
   }
 
-  /// What stands between two brackets, with commas between the items.
+  /// Reads items up to the bracket `close`, with commas between them.
   template <class Item>
   void list(char close, Item item) {
     if (open_.size() >= kDeepestNesting)
@@ -238,7 +238,7 @@ class Parser {
                      line_before < line_of(token_.begin) ? fmt::format(", at the end of line {}", line_before) : ""));
   }
 
-  /// The library decodes what is more than plain ASCII.
+  /// Returns the current token as text. The library decodes texts with escapes.
   std::string text() {
     const std::string_view quoted = token_.text;
     if (!token_.is_closed)
@@ -256,8 +256,8 @@ class Parser {
   JsonDocument& document_;
   Lexer lexer_;
   Token token_;
-  std::size_t last_end_ = 0;  ///< of the token before
-  std::vector<Token> open_;   ///< brackets that are not closed
+  std::size_t last_end_ = 0;  ///< end of the previous token
+  std::vector<Token> open_;   ///< brackets that are still open
 };
 
 JsonDocument parsed(std::string_view text, bool is_lenient) {

@@ -14,17 +14,17 @@ namespace polynya::io {
 
 struct JsonMember;
 
-/// A JSON value that remembers where in its text it stood. Objects keep their order.
+/// A JSON value that stores where it stood in its text. Objects keep the order of their members.
 struct JsonValue {
   using Array = std::vector<JsonValue>;
   using Object = std::vector<JsonMember>;
-  /// In the order of Data and of name_of().
+  /// Kinds of values, in the order of Data and of name_of().
   enum class Kind { kNull, kBoolean, kNumber, kText, kArray, kObject };
 
   using Data = std::variant<std::nullptr_t, bool, double, std::string, Array, Object>;
 
   Data data;
-  std::uint32_t offset = 0;  ///< of the value's first byte in its text
+  std::uint32_t offset = 0;  ///< position of the first byte of the value in its text
 
   Kind kind() const { return static_cast<Kind>(data.index()); }
   bool is(Kind other) const { return kind() == other; }
@@ -38,26 +38,26 @@ struct JsonValue {
   const Object& members() const { return std::get<Object>(data); }
   Object& members() { return std::get<Object>(data); }
 
-  /// The member of that key, or null where this is no object or has none.
+  /// Returns the member of that key, or null if this is not an object or has no such member.
   const JsonValue* find(std::string_view key) const;
-  /// The same where it is of that kind.
+  /// Returns the member of that key if it is of that kind, or else null.
   const JsonValue* find(std::string_view key, Kind kind) const {
     const JsonValue* found = find(key);
     return found && found->is(kind) ? found : nullptr;
   }
-  /// Whether it has that text as a member.
+  /// Returns true if the object has this member and the member is this text.
   bool has(std::string_view key, std::string_view text) const {
     const JsonValue* found = find(key, Kind::kText);
     return found && found->text() == text;
   }
-  /// Gives a member of an object that value, and makes it where there is none; what is no object stays.
+  /// Sets a member of an object, and adds it if the object has none. Does nothing if this is not an object.
   void set(std::string_view key, Data value);
   JsonValue* find(std::string_view key) { return const_cast<JsonValue*>(std::as_const(*this).find(key)); }
 };
 
 struct JsonMember {
   std::string key;
-  std::uint32_t key_offset = 0;  ///< of the key's opening quote
+  std::uint32_t key_offset = 0;  ///< position of the opening quote of the key
   JsonValue value;
 };
 
@@ -76,7 +76,7 @@ inline void JsonValue::set(std::string_view key, Data value) {
   member->data = std::move(value);
 }
 
-/// Calls use(offset) for the places of a value, of all within it and of their keys.
+/// Calls use(offset) for the position of a value and of everything within it, and for the positions of keys.
 template <class Use>
 void for_offsets(JsonValue& value, Use use) {
   use(value.offset);
@@ -90,42 +90,45 @@ void for_offsets(JsonValue& value, Use use) {
   }
 }
 
-/// Offset of the value at a path, "hull.length_m" or "rows[2].t_s", or of the nearest value on the way to it.
+/// Position of the value at a path such as "hull.length_m" or "rows[2].t_s", or of the last value on the way that
+/// exists.
 std::uint32_t nearest_offset(const JsonValue& root, std::string_view path);
 
-/// "a number", "text", … for messages.
+/// Name of a kind in messages: "a number", "text" and so on.
 std::string_view name_of(JsonValue::Kind kind);
 
-/// The member of that key, of that kind where one is given; throws ReadError where there is none.
+/// Return the member of that key (and of that kind); throw ReadError if there is none.
 const JsonValue& json_member(const JsonValue& value, std::string_view key);
 const JsonValue& json_member(const JsonValue& value, std::string_view key, JsonValue::Kind kind);
 
+/// Deepest nesting of lists and objects that is read. It bounds the stack of the recursive reader.
 inline constexpr std::size_t kDeepestNesting = 64;
-inline constexpr std::size_t kLongestText = std::size_t{256} << 20;  ///< [bytes]
+inline constexpr std::size_t kLongestText = std::size_t{256} << 20;  ///< longest text that is read [bytes]
 
-/// Something wrong in a JSON text, before its meaning is read. It has the path of a key that stands twice; none else.
+/// A fault of a JSON text that is found before its meaning is read. Only a key that occurs twice has a path.
 struct JsonFault : Problem {
-  std::uint32_t offset = 0;  ///< byte in the text
+  std::uint32_t offset = 0;  ///< position in the text [bytes]
 };
 
 struct JsonDocument {
   JsonValue root;
-  std::vector<JsonFault> faults;  ///< empty where the text is sound
+  std::vector<JsonFault> faults;  ///< empty if the text has no fault
 };
 
-/// Reads JSON with // and /* */ comments. A syntax error ends the reading (the root is then what was read so
-/// far); keys that stand twice are faults and the first one counts. Nesting and length are bounded.
+/// Reads JSON with // and /* */ comments. A syntax error ends the reading; the root is then the part that was read. A
+/// key that occurs twice is a fault, and its first value counts. Nesting and length are limited.
 JsonDocument parse_json(std::string_view text);
 
-/// The first fault of a document, "12:5: found '=', allowed: a colon", by its text; it has one.
+/// Returns the first fault of a document in words, "12:5: found '=', allowed: a colon". Needs a document with a fault.
 std::string first_fault(const JsonDocument& document, std::string_view text);
 
-/// JSON in which also NaN, Infinity and numbers beyond the doubles stand, as Python and others write them:
-/// each of them becomes an empty text, which no number is. The error is "line:column: words".
+/// Reads JSON in which NaN, Infinity and numbers beyond the range of a double may also occur, as Python and other
+/// programs write them. Each of these becomes an empty text, which cannot be mistaken for a number. The error is
+/// "line:column: words".
 Result<JsonValue> parse_lenient_json(std::string_view text);
 
-/// The value that begins at an offset of a text that parse_lenient_json accepts, as it is written there but
-/// without blanks and comments; what is not finite becomes null.
+/// Returns the value that begins at `offset` [bytes] of a text that parse_lenient_json accepts, as written but without
+/// blanks and comments. Numbers that are not finite become null.
 std::string compact_json(std::string_view text, std::size_t offset);
 
 }  // namespace polynya::io

@@ -12,7 +12,7 @@ void append_number(std::string& text, double value) {
     return;
   }
   char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value + 0.0).ptr;  // + 0.0: no "-0"
+  const auto end = std::to_chars(digits, digits + sizeof digits, value + 0.0).ptr;  // adding 0.0 turns −0 into 0
   text.append(digits, end);
 }
 
@@ -167,7 +167,7 @@ bool holds_only_numbers(const JsonValue& value) {
   return value.is(JsonValue::Kind::kArray) && std::ranges::all_of(value.items(), holds_only_numbers);
 }
 
-/// Writes a value as one of a JsonValue's kinds.
+/// Writes the value of each kind of a JsonValue.
 struct ValueWriter {
   JsonWriter& json;
 

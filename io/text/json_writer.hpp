@@ -14,21 +14,21 @@
 
 namespace polynya::io {
 
-/// Appends a number as the shortest text that reads back to the same double, whatever the locale.
-/// Zero has no sign; what is not finite becomes null.
+/// Appends a number as the shortest text that reads back to the same double, independent of the locale. −0 is written
+/// as 0, numbers that are not finite as null.
 void append_number(std::string& text, double value);
 void append_number(std::string& text, std::int64_t value);
 
 /// Appends text as a JSON string with its quotes.
 void append_text(std::string& text, std::string_view value);
 
-/// Text as it may stand in XML (SVG): &, < and > escaped.
+/// Escapes &, < and > of a text for XML (SVG).
 std::string escaped(std::string_view text);
 
 /// Bytes as base64 text (RFC 4648, with padding, no line breaks).
 std::string to_base64(std::string_view bytes);
 
-/// Writes JSON into a string it is given, so that buffers can be used again.
+/// Writes JSON into a string that the caller owns, so that the string's memory can be used again.
 ///
 ///   JsonWriter json(line);
 ///   json.open('{').key("t_s").value(0.5).key("children").open('[').value(3).close(']').close('}');
@@ -56,9 +56,9 @@ class JsonWriter {
   JsonWriter& value(geometry::Point point);
   JsonWriter& value(geometry::Vector vector) { return value(geometry::Point{vector.x, vector.y}); }
   JsonWriter& value(const geometry::Ring& ring);
-  /// As the coordinates of a GeoJSON Polygon: its rings, each closed by its first point.
+  /// Writes the coordinates of a GeoJSON Polygon: all rings, each closed by its first point.
   JsonWriter& value(const geometry::Polygon& polygon);
-  /// What is not known is null.
+  /// Writes the value, or null if there is none.
   template <class Value>
   JsonWriter& value(const std::optional<Value>& known) {
     return known ? value(*known) : null();
@@ -70,14 +70,14 @@ class JsonWriter {
     for (const auto& each : values) value(each);
     return close(']');
   }
-  /// An object; `write` writes its members.
+  /// Writes an object; `write` writes its members.
   template <class Write>
   JsonWriter& object(Write write) {
     open('{');
     write();
     return close('}');
   }
-  /// A list of objects; `write(item)` writes the members of each.
+  /// Writes a list of objects; `write(item)` writes the members of each.
   template <class Items, class Write>
   JsonWriter& objects(const Items& items, Write write, bool has_lines = false) {
     open('[');
@@ -87,18 +87,18 @@ class JsonWriter {
     }
     return close(']');
   }
-  /// The same, each object on a line of its own.
+  /// Writes the same list with each object on a line of its own.
   template <class Items, class Write>
   JsonWriter& object_lines(const Items& items, Write write) {
     return objects(items, write, true);
   }
-  /// A GeoJSON geometry.
+  /// Writes a polygon as a GeoJSON geometry.
   JsonWriter& polygon(const geometry::Polygon& polygon);
-  /// A value that is JSON already.
+  /// Writes a value that is JSON text already.
   JsonWriter& json(std::string_view raw) {
     return put([=](std::string& text) { text += raw; });
   }
-  /// The next item or member starts on a line of its own.
+  /// The next item or member starts on a new line.
   void start_line() { starts_line_ = true; }
 
  private:
@@ -118,7 +118,7 @@ class JsonWriter {
   bool starts_line_ = false;
 };
 
-/// The text of one object, whose members `write(json)` writes, and a newline.
+/// Returns the text of one object and a newline; `write(json)` writes the members.
 template <class Write>
 std::string json_object(Write write, JsonWriter::Layout layout = JsonWriter::Layout::kLine) {
   std::string text;
@@ -127,14 +127,15 @@ std::string json_object(Write write, JsonWriter::Layout layout = JsonWriter::Lay
   return text + '\n';
 }
 
-/// A value as indented JSON; lists of numbers (and lists of points) stay on one line. Deterministic.
+/// Returns a value as indented JSON. Lists of numbers, and lists of points, stay on one line. The same value always
+/// gives the same text.
 std::string to_json_text(const JsonValue& value);
 
-/// A GeoJSON FeatureCollection of one instant while it is written, a feature a line: start() opens the
-/// properties, end_with() closes them and writes the geometry.
+/// Writes a GeoJSON FeatureCollection of one instant with one feature per line. start() opens the properties of a
+/// feature; end_with() closes them and writes the geometry.
 class GeojsonLayer {
  public:
-  /// `members`: further members of the collection, as JSON; or empty.
+  /// `time` [s] is that of the instant. `members` are further members of the collection as JSON; may be empty.
   explicit GeojsonLayer(double time, std::string_view members = {});
 
   JsonWriter& start();
@@ -142,9 +143,10 @@ class GeojsonLayer {
   void end_with(const std::vector<geometry::Polygon>& polygons);
   void end_with(const geometry::Ring& line);
   void end_with(geometry::Point point);
-  /// What was written since the last take(), so that a long layer need not fit into memory.
+  /// Returns the text written since the last take(). A caller that takes it often writes a long layer with little
+  /// memory.
   std::string take() { return std::exchange(text_, {}); }
-  std::size_t size() const { return text_.size(); }  ///< of it [bytes]
+  std::size_t size() const { return text_.size(); }  ///< length of the text not yet taken [bytes]
   std::string finish();
 
  private:

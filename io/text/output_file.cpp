@@ -21,13 +21,13 @@ tl::unexpected<std::string> failed_in_run_folder(const std::filesystem::path& pa
   return fail(fmt::format("{}: a link; polynya writes through no link in a run folder", path.string()));
 }
 
-/// A new file of that name in place of what had it. Negative, and errno, where there can be none.
+/// Creates a new file and removes whatever had its name. Returns a negative number and sets errno on failure.
 int open_new(const char* path) {
   if (::unlink(path) != 0 && errno != ENOENT) return -1;
   return ::open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 
-/// Writes as much as goes; errno is why it is not all.
+/// Writes the bytes. Returns how many were written; if not all were, errno is the reason.
 std::size_t write_all(int descriptor, std::string_view bytes) {
   std::size_t done = 0;
   while (done < bytes.size()) {
@@ -39,7 +39,8 @@ std::size_t write_all(int descriptor, std::string_view bytes) {
   return done;
 }
 
-constexpr std::size_t kMuchKept = std::size_t{4} << 20;  ///< of an empty buffer [bytes]
+/// An empty buffer with more memory than this gives it back [bytes].
+constexpr std::size_t kMuchKept = std::size_t{4} << 20;
 
 }  // namespace
 
@@ -55,7 +56,7 @@ Result<OutputFile> OutputFile::create(const std::filesystem::path& path) {
 }
 
 Result<OutputFile> OutputFile::reopen(const std::filesystem::path& path, const Checksum& then) {
-  // Not blocking: a pipe without a reader is refused instead of waited for.
+  // O_NONBLOCK: opening a pipe without a reader then fails at once instead of waiting for one.
   Descriptor descriptor(::open(path.c_str(), O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (descriptor < 0) return failed_in_run_folder(path, errno);
   const auto refuse = [&](const std::string& reason) { return fail(fmt::format("{}: {}", path.string(), reason)); };
@@ -89,7 +90,8 @@ bool OutputFile::flush() {
   }
   written_.add(std::string_view(buffer_).substr(0, whole));
   drop();
-  if (buffer_.capacity() > kMuchKept) {  // of the floes at the start: not as many come again
+  // The records of all floes at the start are by far the largest; later ones need less memory.
+  if (buffer_.capacity() > kMuchKept) {
     buffer_.shrink_to_fit();
     record_ends_.shrink_to_fit();
   }
@@ -125,7 +127,7 @@ Result<> sync_folder(const std::filesystem::path& folder) {
 
 namespace {
 
-/// Whether `path` may be replaced.
+/// Fails if `path` is something that may not be replaced: neither a regular file nor a link.
 Result<> check_replaceable(const std::filesystem::path& path) {
   struct stat status {};
   if (::lstat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode) || S_ISLNK(status.st_mode)) return {};
@@ -133,7 +135,7 @@ Result<> check_replaceable(const std::filesystem::path& path) {
                           S_ISDIR(status.st_mode) ? "a folder" : "not a regular file"));
 }
 
-/// Where a chain of links ends, whether or not there is a file. No chain is longer than the kernel follows.
+/// Returns the path to which a chain of links leads, even if it does not exist. The kernel limits the length of chains.
 std::filesystem::path end_of_links(std::filesystem::path path) {
   std::error_code error;
   while (std::filesystem::is_symlink(path, error))
@@ -150,14 +152,14 @@ Result<> write_named_file(const std::filesystem::path& path, std::string_view te
     return fail(fmt::format("{}: {}", path.string(), error.message()));
   if (!exists(status) || is_regular_file(status) || is_directory(status))
     return write_whole_file(end_of_links(path), text);
-  Descriptor descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC));  // of a pipe or a device
+  Descriptor descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC));  // a pipe or a device
   if (descriptor < 0 || write_all(descriptor, text) != text.size() || !descriptor.close()) return failed(path, errno);
   return {};
 }
 
 namespace {
 
-/// A file under its temporary name, which is removed unless the file is finished.
+/// A file under a temporary name. The destructor removes it unless finish() has given it its name.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::filesystem::path& path)
@@ -174,7 +176,7 @@ class TemporaryFile {
     if (error_ == 0 && write_all(descriptor_, part) != part.size()) error_ = errno;
   }
 
-  /// Gives it its name. The error number, 0 where all went well.
+  /// Renames the file to its name. Returns an error number, 0 if all went well.
   int finish(bool is_synced) {
     if (error_ == 0 && is_synced && ::fsync(descriptor_) != 0) error_ = errno;
     if (!descriptor_.close() && error_ == 0) error_ = errno;

@@ -12,7 +12,7 @@ namespace polynya::io {
 
 namespace {
 
-/// Levenshtein distance in bytes, with the exchange of two neighbours as one edit.
+/// Edit distance (Levenshtein) in bytes; exchanging two neighbouring bytes counts as one edit.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
   std::iota(above.begin(), above.end(), std::size_t{0});

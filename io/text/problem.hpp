@@ -17,58 +17,61 @@
 
 namespace polynya::io {
 
-/// A JSON array of them, one a line: file, line and column (null where there is no place), path, severity and
-/// message.
+/// Returns a JSON array of the problems, one per line: file, line and column (null if there is no place), path,
+/// severity and message.
 std::string to_json_text(const std::vector<Problem>& problems);
 
-/// " at (5, 5), (0, 0)": the first few of what is wrong, for messages; empty where there are none.
+/// Returns " at (5, 5), (0, 0)" with at most `most` of the places of a fault, for messages; empty if there are none.
 std::string places_in_words(std::span<const geometry::Point> places, std::size_t most);
 
-/// "1 floe", "2 floes"; "1 box", "2 boxes" where the plural is given.
+/// Returns a count with its noun: "1 floe", "2 floes". `plural` is for nouns whose plural is not formed by an s: "2
+/// boxes".
 template <std::integral Count>
 std::string counted(Count count, std::string_view noun, std::string_view plural = {}) {
   return fmt::format("{} {}{}", count, count == 1 || plural.empty() ? noun : plural,
                      count == 1 || !plural.empty() ? "" : "s");
 }
 
-/// A value as messages show it: "-0.5", "\"nevle\"", "a list of 3".
+/// Returns a value as messages show it: "-0.5", "\"nevle\"", "a list of 3".
 std::string show(const JsonValue& value);
 
-/// The candidate fewest edits away from a word, or "" where none is near enough to be meant.
+/// Returns the candidate with the smallest edit distance from a word, or "" if no candidate is near enough to be meant.
 std::string nearest(std::string_view word, const std::vector<std::string_view>& candidates);
 
-/// A text beside a source, put in place of a part of it: an option of the command line, or a line of a file.
+/// A text that replaces a part of a source: an option of the command line, or a line of another file.
 struct PlacedText {
-  std::string name;                          ///< as shown to people
-  int line = 0;                              ///< in the file of that name; 0: the name alone is the place
+  std::string name;                          ///< name of the option or the file in messages
+  int line = 0;                              ///< line in the file of that name; 0: the name alone is the place
   std::size_t length = 0;                    ///< [bytes]
-  std::optional<std::string> not_json = {};  ///< a value that is taken as a text because it is not JSON
+  std::optional<std::string> not_json = {};  ///< value of the option, if it is taken as a text because it is not JSON
 };
 
-/// Gathers everything wrong in a scene and in the files it names, so that it can be reported at once.
+/// Collects all problems of a scene and of the files that it names, so that they are reported together.
 class ProblemCollector {
  public:
-  static constexpr std::size_t kMost = 500;  ///< what comes after these is only counted
+  /// Largest number of problems that are stored. Further ones are only counted.
+  static constexpr std::size_t kMost = 500;
 
   explicit ProblemCollector(SourceText main) { sources_.push_back(std::move(main)); }
 
-  /// Adds a further source; its index is for add().
+  /// Adds another source and returns its index for add().
   std::size_t add_source(SourceText source) {
     sources_.push_back(std::move(source));
     return sources_.size() - 1;
   }
-  /// Adds a text to the first source; its bytes have the offsets from the returned one on.
+  /// Adds a text to the first source and returns its offset: the bytes of the text have the offsets from there on.
   std::uint32_t add_overlay(PlacedText text);
   const SourceText& source(std::size_t index) const { return sources_[index]; }
 
   void add(std::size_t source, std::uint32_t offset, Problem problem);
   void report(std::size_t source, std::uint32_t offset, std::string path, std::string found, std::string allowed,
               std::string suggestion = {});
-  /// What the parser found in a source.
+  /// Adds the faults that the parser found in a source.
   void add_faults(std::size_t source, const std::vector<JsonFault>& faults);
   std::size_t count() const { return entries_.size() + beyond_; }
 
-  /// In the order of sources and places. Where there were too many, a last one has how many are left out.
+  /// Returns the problems in the order of sources and places. If there were more than kMost, the last one states how
+  /// many are left out.
   std::vector<Problem> take();
 
  private:
@@ -83,16 +86,17 @@ class ProblemCollector {
   };
   void place(const Entry& entry, Problem& problem) const;
   std::vector<SourceText> sources_;
-  std::vector<Overlay> overlays_;  ///< of the first source, by their offsets, all behind its text
+  /// Texts that replace parts of the first source, by their offsets, which lie beyond its text.
+  std::vector<Overlay> overlays_;
   std::vector<Entry> entries_;
   std::size_t beyond_ = 0;
 };
 
-/// Reports what is wrong with a member of a value of the first source, by the member's key: "hull.draught_m".
+/// Reports a problem of a member of a value in the first source. The member is given by its key: "hull.draught_m".
 struct ReportAt {
   ProblemCollector& problems;
   const JsonValue& value;
-  std::string path;  ///< of the value; empty: the root
+  std::string path;  ///< path of the value; empty: the root
 
   void operator()(std::string_view key, std::string found, std::string allowed) const {
     std::string place = path.empty() || key.empty() ? path : path + '.';

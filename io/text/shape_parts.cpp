@@ -23,7 +23,7 @@ std::vector<const Ring*> rings_in(const Polygon& polygon) {
   return rings;
 }
 
-/// Finds stretches of a ring among the rings of another shape, each vertex of which is given out once.
+/// Finds stretches of a ring in the rings of another shape. Each vertex of that shape is used once.
 class StretchFinder {
  public:
   explicit StretchFinder(const Polygon& parent) : rings_(rings_in(parent)) {
@@ -34,12 +34,12 @@ class StretchFinder {
     is_taken_.resize(points_.size());
     same_hash_.resize(points_.size());
     by_hash_.resize(std::bit_ceil(points_.size() + 1), kNone);
-    for (auto i = static_cast<std::uint32_t>(points_.size()); i-- > 0;)  // each list then ascends
+    for (auto i = static_cast<std::uint32_t>(points_.size()); i-- > 0;)  // backwards, so that each list ascends
       same_hash_[i] = std::exchange(by_hash_[bucket_of(points_[i])], i);
   }
 
-  /// The longest stretch that the ring follows from its vertex `from` on, and takes it; of no vertices where
-  /// the parent has no such vertex left.
+  /// Finds the longest stretch of unused vertices in the parent that equals the ring from its vertex `from` on, and
+  /// marks it as used. Returns a part of 0 vertices if the parent has no such vertex left.
   ShapePart take(const Ring& ring, std::size_t from) {
     ShapePart best;
     for (std::uint32_t i = by_hash_[bucket_of(ring[from])]; i != kNone; i = same_hash_[i]) {
@@ -55,7 +55,8 @@ class StretchFinder {
   static constexpr std::uint32_t kNone = UINT32_MAX;
 
   std::size_t bucket_of(Point p) const {
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };  // +0 and −0 are the same
+    // adding 0.0 makes +0 and −0 equal
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };
     const std::uint64_t mixed = (bits(p.x) * 0x9e3779b97f4a7c15U + bits(p.y)) * 0xbf58476d1ce4e5b9U;
     return (mixed ^ (mixed >> 32U)) >> 8U & (by_hash_.size() - 1);
   }
@@ -66,7 +67,7 @@ class StretchFinder {
   }
 
   ShapePart stretch(const Ring& ring, std::size_t from, std::uint32_t vertex) const {
-    const auto next = std::ranges::upper_bound(first_, vertex);  // rings of a shape have vertices
+    const auto next = std::ranges::upper_bound(first_, vertex);  // a ring has at least one vertex
     const auto index = static_cast<std::size_t>(next - first_.begin()) - 1;
     ShapePart part{static_cast<std::int32_t>(index), static_cast<std::uint32_t>(vertex - first_[index]), 0};
     const std::size_t most = std::min(ring.size() - from, rings_[index]->size());
@@ -80,11 +81,11 @@ class StretchFinder {
   }
 
   std::vector<const Ring*> rings_;
-  std::vector<std::size_t> first_;  ///< of each ring, in points_
-  std::vector<Point> points_;       ///< of all rings
+  std::vector<std::size_t> first_;  ///< index of each ring's first vertex in points_
+  std::vector<Point> points_;       ///< vertices of all rings
   std::vector<std::uint8_t> is_taken_;
-  std::vector<std::uint32_t> by_hash_;    ///< the first of points_ with that hash
-  std::vector<std::uint32_t> same_hash_;  ///< the next one, for each of points_
+  std::vector<std::uint32_t> by_hash_;    ///< first index in points_ with this hash
+  std::vector<std::uint32_t> same_hash_;  ///< next index with the same hash, for each of points_
 };
 
 void append_new(ShapeParts& shape, const Ring& ring, std::size_t from, std::size_t count) {
@@ -126,7 +127,7 @@ ShapeParts parts_of(const Polygon& polygon, const Polygon& parent) {
   ShapeParts shape;
   std::size_t stretches = 0;
   for (const Ring* ring : rings_in(polygon)) {
-    std::size_t fresh = 0;  // vertices before `at` that are new and not yet written
+    std::size_t fresh = 0;  // number of new vertices before `at` that are not yet written
     for (std::size_t at = 0; at < ring->size();) {
       const ShapePart found = finder.take(*ring, at);
       if (found.count == 0) {
@@ -199,7 +200,7 @@ constexpr std::string_view kRing = "ring_m";
 constexpr std::string_view kHoles = "holes_m";
 constexpr std::string_view kRingParts = "ring_parts_m";
 constexpr std::string_view kHoleParts = "hole_parts_m";
-constexpr double kMostVertices = 4e9;
+constexpr double kMostVertices = 4e9;  ///< larger numbers of vertices are refused, since they do not fit into 32 bits
 
 const JsonValue::Array& list(const JsonValue& value, std::string_view expected) {
   if (!value.is(JsonKind::kArray))
@@ -221,14 +222,14 @@ std::uint32_t whole_number(const JsonValue& value) {
   return static_cast<std::uint32_t>(n);
 }
 
-/// Adds new vertices to the ring at hand.
+/// Appends new vertices to the current ring.
 void add_points(ShapeParts& shape, const JsonValue::Array& points) {
   Ring ring;
   for (const JsonValue& item : points) ring.push_back(point_of(item));
   append_new(shape, ring, 0, ring.size());
 }
 
-/// Adds stretches of a parent's ring, and what is new between them.
+/// Appends stretches of the parent's ring and the new vertices between them.
 void add_parts(ShapeParts& shape, const JsonValue::Array& parts) {
   for (const JsonValue& part : parts) {
     const JsonValue::Array& items = list(part, "a part of a ring");

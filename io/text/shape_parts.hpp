@@ -10,45 +10,50 @@
 
 namespace polynya::io {
 
-/// A stretch of a ring: vertices that follow each other, around a ring of the parent or of the new ones.
+/// Consecutive vertices of a ring, taken from a ring of the parent or from the new vertices.
 struct ShapePart {
   static constexpr std::int32_t kNew = -1;
-  std::int32_t ring = kNew;  ///< of the parent, 0 the outer one, then its holes; kNew: of ShapeParts::vertices
-  std::uint32_t first = 0;   ///< vertex
-  std::uint32_t count = 0;   ///< of vertices; around a ring they continue from its last to its first
+  /// Ring of the parent, 0 for the outer one, then its holes; kNew: the vertices are in ShapeParts::vertices.
+  std::int32_t ring = kNew;
+  std::uint32_t first = 0;  ///< index of the first vertex
+  /// Number of vertices; in a ring of the parent they may continue from the last one to the first.
+  std::uint32_t count = 0;
 };
 
-/// A floe's shape as floes.ndjson has it (docs/run-folder.md): what it has of the floe that it broke from,
-/// and what is new. A fracture adds a few vertices to a boundary of any length.
+/// Shape of a floe as floes.ndjson stores it (docs/run-folder.md): references to vertices of the floe from which it
+/// broke, and new vertices. This keeps the file small, since a fracture adds only a few vertices to a boundary of any
+/// length.
 struct ShapeParts {
-  std::vector<ShapePart> parts;          ///< of the outer ring, then of each hole
-  std::vector<std::uint32_t> ring_ends;  ///< one past the last part of each ring
-  geometry::Ring vertices;               ///< the new ones [m]
+  std::vector<ShapePart> parts;          ///< parts of the outer ring, then of each hole
+  std::vector<std::uint32_t> ring_ends;  ///< index one past the last part of each ring
+  geometry::Ring vertices;               ///< new vertices [m]
 
-  /// Whether anything in it is of a parent.
+  /// Returns true if any part refers to a parent.
   bool has_parent() const;
 };
 
+/// Returns the shape with all vertices stored as new ones.
 ShapeParts whole(const geometry::Polygon& shape);
 
-/// The shape by its parent's vertices, none of them twice: whole where that takes no more entries. Vertices
-/// are the same where their coordinates are.
+/// Returns the shape with references to the parent's vertices, each used at most once. Vertices are equal if their
+/// coordinates are. If that would take as many entries as the whole shape, the whole shape is returned.
 ShapeParts parts_of(const geometry::Polygon& shape, const geometry::Polygon& parent);
 
-/// How many vertices each ring has.
+/// Return the number of vertices of each ring.
 std::vector<std::size_t> ring_sizes(const ShapeParts& shape);
 std::vector<std::size_t> ring_sizes(const geometry::Polygon& polygon);
 
-/// Throws ReadError where parts cannot be of a parent with rings of these sizes.
+/// Throws ReadError if the parts cannot refer to a parent with rings of these sizes.
 void check_parts(const ShapeParts& shape, const std::vector<std::size_t>& parent_ring_sizes);
 
-/// The shape itself, to the bit. `parent` is not used by parts that are all new. Needs parts without fault.
+/// Returns the shape, with the same bits. `parent` is not used if all vertices are new. Needs parts that check_parts
+/// accepts.
 geometry::Polygon assembled(const ShapeParts& shape, const geometry::Polygon& parent);
 
-/// Adds the members of a line of floes.ndjson that hold the shape.
+/// Writes the shape as members of a line of floes.ndjson.
 void append_shape(JsonWriter& json, const ShapeParts& shape);
 
-/// A point of a JSON line, [x, y], and the shape of a line of floes.ndjson. Throw ReadError where it is none.
+/// Read a point [x, y] of a JSON line, and the shape in a line of floes.ndjson. They throw ReadError if there is none.
 geometry::Point point_of(const JsonValue& value);
 ShapeParts read_shape(const JsonValue& line);
 

@@ -10,7 +10,7 @@ namespace polynya::io {
 
 LineAndColumn line_and_column(std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, std::min(offset, text.size()));
-  const auto line_start = before.rfind('\n') + 1;  // npos + 1 is 0
+  const auto line_start = before.rfind('\n') + 1;  // without a newline, rfind returns npos, and npos + 1 is 0
   const auto is_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
   return {.line = 1 + static_cast<int>(std::ranges::count(before, '\n')),
           .column = 1 + static_cast<int>(std::ranges::count_if(before.substr(line_start), is_character))};
@@ -44,7 +44,7 @@ std::string_view name_of(Severity severity) {
 
 std::string message_of(const Problem& problem) {
   if (!problem.sentence.empty()) return problem.sentence;
-  constexpr std::size_t kLongestFound = 1000;  // [bytes]
+  constexpr std::size_t kLongestFound = 1000;  // longest value that a message shows [bytes]
   std::string text = "found " + printable(shortened(problem.found, kLongestFound));
   if (!problem.allowed.empty()) text += ", allowed: " + problem.allowed;
   if (!problem.suggestion.empty()) text += fmt::format("; did you mean \"{}\"?", problem.suggestion);

@@ -5,11 +5,11 @@
 namespace polynya::io {
 namespace {
 
-constexpr std::uint16_t kZipVersion = 20;                 ///< of the format that a reader needs: 2.0
-constexpr std::uint16_t kUtf8Names = 1 << 11;             ///< flag
+constexpr std::uint16_t kZipVersion = 20;                 ///< version of the format that a reader needs: 2.0
+constexpr std::uint16_t kUtf8Names = 1 << 11;             ///< flag: names are UTF-8
 constexpr std::uint16_t kDate = (0 << 9) | (1 << 5) | 1;  ///< 1 January 1980
 constexpr std::uint16_t kMadeOnUnix = 3 << 8;
-constexpr std::uint32_t kRegularFile = 0100755u << 16;  ///< a file's kind and rights, as Unix has them
+constexpr std::uint32_t kRegularFile = 0100755u << 16;  ///< kind and permissions of a file in Unix notation
 
 /// Appends a number, its lowest byte first.
 template <class Number>
@@ -22,14 +22,14 @@ void put(std::string& bytes, Number number) {
 void put_common(std::string& bytes, std::string_view name, const Checksum& checksum) {
   put(bytes, kZipVersion);
   put(bytes, kUtf8Names);
-  put(bytes, std::uint16_t{0});  // stored
-  put(bytes, std::uint16_t{0});  // time
+  put(bytes, std::uint16_t{0});  // method 0: stored without compression
+  put(bytes, std::uint16_t{0});  // time of day
   put(bytes, kDate);
   put(bytes, checksum.crc());
-  put(bytes, static_cast<std::uint32_t>(checksum.size()));  // compressed
+  put(bytes, static_cast<std::uint32_t>(checksum.size()));  // size after compression, which is none
   put(bytes, static_cast<std::uint32_t>(checksum.size()));
   put(bytes, static_cast<std::uint16_t>(name.size()));
-  put(bytes, std::uint16_t{0});  // no extra field
+  put(bytes, std::uint16_t{0});  // length of an extra field
 }
 
 }  // namespace
@@ -44,8 +44,8 @@ void ZipArchive::add(std::string_view name, std::string_view bytes) {
   put(directory_, std::uint32_t{0x02014b50});
   put(directory_, static_cast<std::uint16_t>(kMadeOnUnix | kZipVersion));
   put_common(directory_, name, checksum);
-  put(directory_, std::uint16_t{0});  // no comment
-  put(directory_, std::uint16_t{0});  // disk
+  put(directory_, std::uint16_t{0});  // length of a comment
+  put(directory_, std::uint16_t{0});  // number of the disk
   put(directory_, std::uint16_t{0});  // internal attributes
   put(directory_, kRegularFile);
   put(directory_, offset);
@@ -56,13 +56,13 @@ void ZipArchive::add(std::string_view name, std::string_view bytes) {
 std::string ZipArchive::bytes() const {
   std::string all = members_ + directory_;
   put(all, std::uint32_t{0x06054b50});
-  put(all, std::uint16_t{0});  // disk
+  put(all, std::uint16_t{0});  // number of the disk
   put(all, std::uint16_t{0});
   put(all, count_);
   put(all, count_);
   put(all, static_cast<std::uint32_t>(directory_.size()));
   put(all, static_cast<std::uint32_t>(members_.size()));
-  put(all, std::uint16_t{0});  // no comment
+  put(all, std::uint16_t{0});  // length of a comment
   return all;
 }
 

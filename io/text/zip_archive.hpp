@@ -19,8 +19,9 @@ class ZipArchive {
   static constexpr std::uint64_t kLargest = 0xffffffff;
 
  private:
-  std::string members_;    ///< each member behind its header
-  std::string directory_;  ///< an entry a member
+  std::string members_;    ///< headers and bytes of the members
+  std::string directory_;  ///< one entry per member
+  /// Number of members.
   std::uint16_t count_ = 0;
 };
 

@@ -11,7 +11,7 @@
 namespace polynya::python {
 namespace {
 
-/// A copy of the floes' state, an array a quantity.
+/// A copy of the floes' state, one array per quantity.
 struct Floes {
   Integers ids, parents, generations;
   py::array_t<bool> is_under;
@@ -120,18 +120,18 @@ Floes floes_of(const Simulation& python) {
 }
 
 void bind_ship(py::module_& module) {
-  py::class_<Ship>(module, "Ship", "A ship or structure between two steps: a copy.")
-      .def_readonly("name", &Ship::name, "As in the scene.")
-      .def_readonly("position", &Ship::position, "Of its centre of gravity, x and y [m].")
-      .def_readonly("heading", &Ship::heading, "From the x axis, counter-clockwise [rad].")
-      .def_readonly("velocity", &Ship::velocity, "Over ground, x and y [m/s].")
-      .def_readonly("yaw_rate", &Ship::yaw_rate, "Counter-clockwise [rad/s].")
-      .def_readonly("lever", &Ship::lever, "Of the thrust, -1 full astern to 1 full ahead.")
-      .def_readonly("steering_angle", &Ship::steering_angle, "Of rudder or thrusters, to port [rad].")
-      .def_readonly("forces", &Ship::forces,
-                    "The last row of forces.csv: a dict by its columns (docs/run-folder.md), forces by what\n"
-                    "causes them, means over the recording interval that ends at t_s. Empty before the\n"
-                    "first interval has ended.")
+  py::class_<Ship>(module, "Ship", "State of a ship or structure between two steps, as a copy.")
+      .def_readonly("name", &Ship::name, "Name in the scene.")
+      .def_readonly("position", &Ship::position, "Position of the centre of gravity, x and y [m].")
+      .def_readonly("heading", &Ship::heading, "Heading from the x axis, counter-clockwise [rad].")
+      .def_readonly("velocity", &Ship::velocity, "Velocity over ground, x and y [m/s].")
+      .def_readonly("yaw_rate", &Ship::yaw_rate, "Yaw rate, counter-clockwise [rad/s].")
+      .def_readonly("lever", &Ship::lever, "Thrust lever from -1 (full astern) to 1 (full ahead).")
+      .def_readonly("steering_angle", &Ship::steering_angle, "Angle of rudder or thrusters, positive to port [rad].")
+      .def_readonly(
+          "forces", &Ship::forces,
+          "The last row of forces.csv as a dict by its columns (docs/run-folder.md). Forces are means over the\n"
+          "recording interval that ends at t_s. Empty before the first interval has ended.")
       .def("__repr__", [](const Ship& s) {
         return py::str("polynya.Ship({!r}, position {}, heading {:.4f} rad)").format(s.name, s.position, s.heading);
       });
@@ -140,29 +140,32 @@ void bind_ship(py::module_& module) {
 void bind_floes(py::module_& module) {
   py::class_<Floes>(
       module, "Floes",
-      "The floes between two steps, in the order of their ids: numpy arrays, copies.\n\n"
+      "State of the floes between two steps as numpy arrays in the order of their ids. The arrays are copies.\n\n"
       "Floe i has the rings floe_offsets[i] to floe_offsets[i + 1], the outer one first, holes after it;\n"
       "ring r has the vertices ring_offsets[r] to ring_offsets[r + 1], the first not repeated.")
-      .def_readonly("ids", &Floes::ids, "Never reused; as in floes.ndjson and events.")
-      .def_readonly("parents", &Floes::parents, "Ids of the floes that they broke from; -1: of the scene.")
-      .def_readonly("generations", &Floes::generations, "Fractures since the scene's floe.")
-      .def_readonly("is_under", &Floes::is_under, "Whether under a hull, or the ice behind it.")
+      .def_readonly("ids", &Floes::ids, "Ids as in floes.ndjson and events; an id is never reused.")
+      .def_readonly("parents", &Floes::parents, "Ids of the floes from which they broke; -1 for floes of the scene.")
+      .def_readonly("generations", &Floes::generations, "Number of fractures since the floe of the scene.")
+      .def_readonly("is_under", &Floes::is_under, "Whether the floe is under a hull, or under the ice behind it.")
       .def_readonly("poses", &Floes::poses,
-                    "n x 3: the body frame's origin in the world, x and y [m], and its angle [rad].")
+                    "n x 3: origin of the body frame in the world, x and y [m], and its angle [rad].")
       .def_readonly("velocities", &Floes::velocities,
-                    "n x 3: of the centre of mass over ground, x and y [m/s]; turning [rad/s].")
-      .def_readonly("thickness", &Floes::thickness, "[m]")
-      .def_readonly("densities", &Floes::densities, "[kg/m3]")
-      .def_readonly("flexural_strengths", &Floes::flexural_strengths, "[Pa]")
-      .def_readonly("compressive_strengths", &Floes::compressive_strengths, "[Pa]")
-      .def_readonly("tensile_strengths", &Floes::tensile_strengths, "[Pa]")
-      .def_readonly("fracture_toughnesses", &Floes::fracture_toughnesses, "[Pa m^0.5]")
-      .def_readonly("areas", &Floes::areas, "[m2]")
-      .def_readonly("masses", &Floes::masses, "[kg]")
-      .def_readonly("vertices", &Floes::vertices, "m x 2: in the body's frame, where a floe's shape never changes [m].")
-      .def_readonly("world_vertices", &Floes::world_vertices, "m x 2: the same in the world [m].")
-      .def_readonly("ring_offsets", &Floes::ring_offsets, "Of the rings in vertices; one more than rings.")
-      .def_readonly("floe_offsets", &Floes::floe_offsets, "Of the floes in ring_offsets; one more than floes.")
+                    "n x 3: velocity of the centre of mass over ground, x and y [m/s]; angular velocity [rad/s].")
+      .def_readonly("thickness", &Floes::thickness, "Thickness [m].")
+      .def_readonly("densities", &Floes::densities, "Density [kg/m3].")
+      .def_readonly("flexural_strengths", &Floes::flexural_strengths, "Flexural strength [Pa].")
+      .def_readonly("compressive_strengths", &Floes::compressive_strengths, "Compressive strength [Pa].")
+      .def_readonly("tensile_strengths", &Floes::tensile_strengths, "Tensile strength [Pa].")
+      .def_readonly("fracture_toughnesses", &Floes::fracture_toughnesses, "Fracture toughness [Pa m^0.5].")
+      .def_readonly("areas", &Floes::areas, "Area [m2].")
+      .def_readonly("masses", &Floes::masses, "Mass [kg].")
+      .def_readonly("vertices", &Floes::vertices,
+                    "m x 2: vertices in the body frame, in which a floe's shape never changes [m].")
+      .def_readonly("world_vertices", &Floes::world_vertices, "m x 2: the same vertices in the world [m].")
+      .def_readonly("ring_offsets", &Floes::ring_offsets,
+                    "Index of the first vertex of each ring; one more entry than rings.")
+      .def_readonly("floe_offsets", &Floes::floe_offsets,
+                    "Index of the first ring of each floe; one more entry than floes.")
       .def("__len__", [](const Floes& floes) { return floes.ids.size(); });
 }
 
@@ -174,9 +177,9 @@ void bind_arrays(py::module_& module, py::class_<Simulation>& simulation) {
   simulation
       .def_property_readonly(
           "ships", &ships_of,
-          "Ships and structures, in the scene's order: a list of Ship, of which each is found by its name\n"
-          "too: ships[\"icebreaker\"].")
-      .def_property_readonly("floes", &floes_of, "The floes' state as numpy arrays: Floes.");
+          "Ships and structures in the scene's order: a list of Ship, which can also be accessed by name:\n"
+          "ships[\"icebreaker\"].")
+      .def_property_readonly("floes", &floes_of, "State of the floes as numpy arrays: Floes.");
 }
 
 }  // namespace polynya::python

@@ -14,7 +14,8 @@ std::optional<geometry::FillRule> rule_of(const std::string& repair) {
   throw py::value_error("cut: repair is " + repair + ", allowed: None, even-odd, non-zero");
 }
 
-/// Pieces as GeoJSON and the ledger as JSON, of floes as GeoJSON and cuts as the file of `polynya cut --ops`.
+/// Cuts floes given as GeoJSON. `ops` are the cuts in the format of `polynya cut --ops`. Returns the pieces as GeoJSON
+/// and the ledger as JSON.
 py::tuple cut(const std::string& floes, const std::string& ops, const std::string& repair) {
   const std::optional<geometry::FillRule> rule = rule_of(repair);
   std::string pieces, ledger, reason;

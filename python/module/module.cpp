@@ -2,7 +2,7 @@
 #include "python/module/simulation.hpp"
 
 PYBIND11_MODULE(_core, module) {
-  module.doc() = "The compiled half of polynya: import its names from polynya.";
+  module.doc() = "The compiled part of polynya. Import its names from polynya.";
   polynya::python::bind_scene(module);
   polynya::python::bind_pilot(module);
   polynya::python::bind_simulation(module);

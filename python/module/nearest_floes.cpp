@@ -13,9 +13,9 @@ namespace polynya::python {
 namespace {
 
 constexpr py::ssize_t kColumns = 7;
-constexpr int kMostFloes = 100'000;  ///< of one call
+constexpr int kMostFloes = 100'000;  ///< largest number of floes per call
 
-/// The floes whose circles are nearest to a point of the water frame [m], the nearest first, at most `count`.
+/// Returns the floes whose circles are nearest to a point of the water frame [m], nearest first, at most `count`.
 std::vector<simulation::FloeId> nearest(const simulation::Population& population, geometry::Point point,
                                         std::size_t count) {
   std::vector<std::pair<double, simulation::FloeId>> all;
@@ -32,7 +32,7 @@ std::vector<simulation::FloeId> nearest(const simulation::Population& population
   return floes;
 }
 
-/// Writes a row a floe, in the ship's frame.
+/// Writes a row for each floe, in the ship's frame.
 void write_rows(const simulation::World& world, int ship, py::ssize_t count, float* rows) {
   const simulation::Population& population = world.population;
   const dynamics::Bodies& bodies = population.bodies;
@@ -62,11 +62,14 @@ py::array_t<float> nearest_floes(const Simulation& python, const py::object& shi
 }
 
 constexpr auto kNearestFloesDoc =
-    "nearest_floes(ship=0, count=32)\n\n"
-    "The floating floes nearest to a ship's centre of gravity, by their circles, the nearest first: an array of\n"
-    "count x 7, in the ship's frame: place ahead and to port [m], velocity relative to the ship's ahead and to port\n"
-    "[m/s], radius of the circle about the centre of mass that holds the floe [m], area [m2], thickness [m]. Rows\n"
-    "are 0 where there are fewer floes.";
+    "nearest_floes(ship=0, count=32)\n"
+    "\n"
+    "The floating floes whose circles are nearest to a ship's centre of gravity, nearest first: an array of count x 7 "
+    "in\n"
+    "the ship's frame. Columns: position ahead and to port [m], velocity relative to the ship ahead and to port "
+    "[m/s],\n"
+    "radius of the circle about the centre of mass that contains the floe [m], area [m2], thickness [m]. If there are\n"
+    "fewer floes, the other rows are 0.";
 
 }  // namespace
 

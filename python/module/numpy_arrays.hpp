@@ -14,17 +14,17 @@ namespace polynya::python {
 using Numbers = py::array_t<double>;
 using Integers = py::array_t<std::int64_t>;
 
-/// An array of a shape that takes the vector's memory over, without a copy.
+/// Returns an array of a shape that takes over the memory of the vector, without a copy.
 template <class Value>
 py::array_t<Value> array_of(std::vector<Value> values, std::vector<py::ssize_t> shape) {
   auto kept = std::make_unique<std::vector<Value>>(std::move(values));
   Value* const data = kept->data();
-  if (data == nullptr) return py::array_t<Value>(std::move(shape));  // nothing to keep
+  if (data == nullptr) return py::array_t<Value>(std::move(shape));  // there is no memory to keep
   const py::capsule owner(kept.release(), [](void* p) { delete static_cast<std::vector<Value>*>(p); });
   return py::array_t<Value>(std::move(shape), data, owner);
 }
 
-/// Rows of so many numbers.
+/// Returns an array with this number of columns.
 inline Numbers table(std::vector<double> values, py::ssize_t columns) {
   const py::ssize_t rows = static_cast<py::ssize_t>(values.size()) / columns;
   return array_of(std::move(values), {rows, columns});
@@ -35,9 +35,8 @@ py::array_t<Value> column_of(std::vector<Value> values) {
   return array_of(std::move(values), {size});
 }
 
-/// The rings of polygons one after the other: ring r of all has the vertices ring_offsets[r] to
-/// ring_offsets[r + 1], polygon i the rings polygon_offsets[i] to polygon_offsets[i + 1], its outer one
-/// first.
+/// Rings of many polygons, one after the other. Ring r has the vertices ring_offsets[r] to ring_offsets[r + 1]. Polygon
+/// i has the rings polygon_offsets[i] to polygon_offsets[i + 1], the outer one first.
 struct PolygonTable {
   std::vector<double> vertices;  ///< x, y, x, y, … [m]
   std::vector<std::int64_t> ring_offsets{0}, polygon_offsets{0};

@@ -14,7 +14,7 @@ namespace polynya::python {
 
 namespace {
 
-constexpr int kMostCells = 4096;  ///< on a side
+constexpr int kMostCells = 4096;  ///< largest number of cells along one side
 
 simulation::ImageFrame checked_frame(std::pair<int, int> shape, double cell, double ahead) {
   const auto [rows, columns] = shape;
@@ -28,7 +28,7 @@ simulation::ImageFrame checked_frame(std::pair<int, int> shape, double cell, dou
   return {static_cast<std::size_t>(rows), static_cast<std::size_t>(columns), cell, ahead};
 }
 
-/// Draws what covers each cell: floating ice, and hulls other than the ship's own.
+/// Draws the contents of each cell: floating ice, and hulls other than the ship's own.
 void draw(const simulation::Simulation& simulation, std::size_t own, const simulation::ImageFrame& frame, float* ice,
           float* others) {
   const std::vector<simulation::HullState> ships = simulation.ship_states();
@@ -60,11 +60,13 @@ py::array_t<float> occupancy(const Simulation& python, const py::object& ship, s
 }
 
 constexpr auto kOccupancyDoc =
-    "occupancy(ship=0, shape=(96, 96), cell_m=4.0, ahead_m=0.0)\n\n"
-    "An image from above around a ship, in its frame: an array of 2 x rows x columns, the share of each "
-    "cell\n"
-    "that floating ice covers, and that other ships and structures cover. The first row is the farthest\n"
-    "ahead, the first column to port; the middle is ahead_m ahead of the ship's centre of gravity.";
+    "occupancy(ship=0, shape=(96, 96), cell_m=4.0, ahead_m=0.0)\n"
+    "\n"
+    "An image of the surroundings of a ship from above, in its frame: an array of 2 x rows x columns with the "
+    "fractions\n"
+    "of each cell that floating ice, and that other ships and structures, cover. The first row is the farthest ahead, "
+    "the\n"
+    "first column the farthest to port; the centre is ahead_m ahead of the ship's centre of gravity.";
 
 }  // namespace
 

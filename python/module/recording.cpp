@@ -7,8 +7,8 @@
 namespace polynya::python {
 namespace {
 
-constexpr double kBetweenCheckpoints = 60;  ///< by the clock [s], as `polynya run` has it
-constexpr std::int64_t kStepsBetweenFlushes = 16;
+constexpr double kBetweenCheckpoints = 60;         ///< wall time between checkpoints [s], as in `polynya run`
+constexpr std::int64_t kStepsBetweenFlushes = 16;  ///< reading the clock at every step would slow small steps down
 
 io::RunWriter writer_of(const std::filesystem::path& folder, bool overwrite, const io::LoadedScene& scene) {
   auto writer = io::RunWriter::create(folder, overwrite, scene);
@@ -24,7 +24,7 @@ Recording::Recording(const io::LoadedScene& scene, simulation::Simulation& simul
       simulation_(simulation),
       writer_(writer_of(folder, overwrite, *scene_)),
       recorder_(simulation_, writer_, *scene_) {
-  simulation::Simulation again(scene_->scene);  // the journal of the first one has gone
+  simulation::Simulation again(scene_->scene);  // the journal of the first simulation is no longer available
   recorder_.begin(again.journal());
 }
 

@@ -9,18 +9,17 @@
 
 namespace polynya::python {
 
-/// The run folder of a simulation that Python steps: the files of `polynya run`. What goes wrong with the folder is
-/// kept as a failure, since steps are taken without the GIL.
+/// The run folder of a simulation that Python steps, with the files of `polynya run`. An error in the folder is stored
+/// as a failure, because steps are taken without the GIL.
 class Recording {
  public:
-  /// Takes the folder and writes what there is before the first step. Raises FolderError.
+  /// Creates the folder and writes the state before the first step. Raises FolderError.
   Recording(const io::LoadedScene& scene, simulation::Simulation& simulation, const std::filesystem::path& folder,
             bool overwrite);
-  /// After each step; takes its journal.
+  /// Records a step and empties its journal. Call it after each step.
   void take_step();
   const std::optional<std::string>& failure() const { return failure_; }
-  /// Ends the run here, as one whose scene ends at `until` [s]; or stops it, where there is a reason. Raises
-  /// FolderError.
+  /// Ends the run now, as if its scene ended at `until` [s]; or stops it, if a reason is given. Raises FolderError.
   void end(double until, const std::string& stopped_by);
 
  private:

@@ -24,13 +24,16 @@ py::list to_python(const std::vector<io::Problem>& problems, bool has_lines) {
 }
 
 constexpr auto kSceneDoc =
-    "Scene(scene)\n\n"
-    "A scene: from a dict, from JSON text (a str with a brace in it; comments are allowed), or from a file\n"
-    "(a path, or a str without a brace). Floe files named by a dict or a text are searched for in the\n"
-    "working folder. Keys and units: docs/scene.md.\n\n"
-    "It may be wrong: validate() lists what is, and Simulation(scene) raises SceneError.\n"
-    "Raises TypeError where it is none of these, FileNotFoundError, and ValueError for a dict with numbers\n"
-    "that are none.";
+    "Scene(scene)\n"
+    "\n"
+    "A scene from a dict, from JSON text (a str that contains a brace; comments are allowed), or from a file (a path, "
+    "or\n"
+    "a str without a brace). Floe files that a dict or a text names are searched for in the working folder. Keys and\n"
+    "units: docs/scene.md.\n"
+    "\n"
+    "The scene may be wrong: validate() lists its problems, and Simulation(scene) raises SceneError.\n"
+    "Raises TypeError for an argument of another type, FileNotFoundError, and ValueError for a dict with numbers that\n"
+    "are not finite.";
 
 }  // namespace
 
@@ -63,17 +66,17 @@ void bind_scene(py::module_& module) {
   py::class_<Scene, std::shared_ptr<Scene>>(module, "Scene", kSceneDoc)
       .def(py::init<const py::object&>(), py::arg("scene"))
       .def("validate", &Scene::problems,
-           "What is wrong: a list of Problem, all errors at once, each with its place. Of a scene without\n"
-           "errors its warnings and hints, by their severity.")
+           "All problems as a list of Problem, each with its place. For a scene without errors these are\n"
+           "its warnings and hints, by their severity.")
       .def_property_readonly(
           "name", [](const Scene& scene) { return scene.loaded().scene.name; }, "The scene's name.")
       .def_property_readonly(
           "hash", [](const Scene& scene) { return scene.loaded().hash; },
-          "Of the scene with every default filled in: 16 hexadecimal digits, as in the run's summary.json.")
+          "Hash of the scene with all defaults filled in: 16 hexadecimal digits, as in the run's summary.json.")
       .def_property_readonly(
           "resolved",
           [](const Scene& scene) { return py::module_::import("json").attr("loads")(scene.loaded().resolved_text); },
-          "The scene as a dict, with every default filled in and floe files read in.")
+          "The scene as a dict with all defaults and with the floes of its files.")
       .def("__repr__", [](const Scene& scene) {
         const py::list problems = scene.problems();
         return py::str("polynya.Scene: {} problems, warnings and hints").format(problems.size());

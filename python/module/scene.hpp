@@ -10,21 +10,20 @@ namespace polynya::python {
 
 namespace py = pybind11;
 
-/// A scene as Python gave it, read once. It may be wrong: problems() lists what is.
+/// A scene that Python gave, after reading it. It may be wrong; problems() returns why.
 class Scene {
  public:
-  /// From a dict, JSON text or a path; polynya.given decides which it is. Raises TypeError and
-  /// FileNotFoundError.
+  /// Reads a dict, JSON text or a path; polynya.given finds out which it is. Raises TypeError and FileNotFoundError.
   explicit Scene(const py::object& given);
 
-  /// Errors, or warnings and hints where there are none, as polynya.Problem.
+  /// Returns errors as polynya.Problem, or warnings and hints if there are no errors.
   py::list problems() const;
-  /// Raises SceneError where the scene is wrong.
+  /// Returns the scene. Raises SceneError if it is wrong.
   const io::LoadedScene& loaded() const;
 
  private:
   io::SceneOutcome outcome_;
-  bool has_lines_ = true;  ///< a dict has none
+  bool has_lines_ = true;  ///< false for a dict, whose values have no lines
 };
 
 /// Raises an exception of polynya.errors.

@@ -17,9 +17,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Ctrl-C waits at most this long, and progress is reported as often.
+/// Longest delay of Ctrl-C, and time between two reports of progress.
 constexpr auto kBetweenReports = std::chrono::milliseconds(50);
-constexpr double kMostSteps = 1e15;
+constexpr double kMostSteps = 1e15;  ///< largest number of ticks of one call; larger numbers are refused
 
 int checked_threads(int threads) {
   if (threads < 1 || threads > 1024)
@@ -41,7 +41,7 @@ simulation::Simulation resumed(const io::LoadedScene& loaded, const std::string&
   return *std::move(simulation);
 }
 
-/// Raises KeyboardInterrupt after Ctrl-C, and calls back.
+/// Raises KeyboardInterrupt after Ctrl-C, and reports progress.
 void report(const py::object& progress, double time) {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   if (!progress.is_none()) progress(time);
@@ -49,7 +49,7 @@ void report(const py::object& progress, double time) {
 
 }  // namespace
 
-/// Marks a simulation as being stepped; the GIL is held where it is made and where it ends.
+/// Marks a simulation as being stepped. It must be created and destroyed with the GIL held.
 class Simulation::Stepping {
  public:
   explicit Stepping(Simulation& simulation) : simulation_(simulation) { simulation.is_stepping_ = true; }
@@ -110,7 +110,7 @@ void Simulation::take_journal() {
   for (const simulation::Event& event : journal.events) {
     const simulation::IceEvent* ice = event.ice();
     io::append_event(events_, event, scene, ice ? floes[ice->floe].parent : simulation::kNoFloe);
-    events_.back() = ',';  // in place of the line's end
+    events_.back() = ',';  // replaces the line break
   }
   for (const simulation::HullSample& sample : journal.samples) samples_[sample.ship] = sample;
   if (recording_)
@@ -186,7 +186,7 @@ py::list Simulation::events() {
 }
 
 py::bytes Simulation::save() const {
-  refuse_while_stepping();  // also to pilots: the levers of the ships before theirs have moved
+  refuse_while_stepping();  // refuses pilots too, because ships before theirs have already moved their levers
   return py::bytes(io::checkpoint_bytes(io::checkpoint_of(between_steps(), scene(), {}, 0)));
 }
 
@@ -202,7 +202,8 @@ void Simulation::end_recording(const std::string& stopped_by) {
   const std::unique_ptr<Recording> recording = std::move(recording_);
   if (!recording) return;
   const simulation::Simulation& here = at_rest();
-  simulation::StepSettings time = scene().scene.time;  // the end as it was given, where the run has come to just that
+  // Keeps the end as it was given if the run has reached exactly that end.
+  simulation::StepSettings time = scene().scene.time;
   for (const double until : {time.until, until_, here.time()}) {
     time.until = until;
     if (io::last_step_of(time) == here.steps()) break;
@@ -259,7 +260,8 @@ void Simulation::set_pilot(const py::object& ship, const py::object& pilot) {
   simulation_.set_pilot(static_cast<int>(index), std::move(external));
 }
 
-/// What a pilot raises ends the stepping after this step; the step itself is whole, levers where they are.
+/// Asks the pilot of a ship. Its exception ends the stepping after this step. The step itself is completed, with lever
+/// and steering unchanged.
 simulation::Command Simulation::command_of(std::size_t ship, const simulation::PilotView& view) {
   simulation::Command command{view.lever, view.steering_angle};
   if (pilot_error_) return command;

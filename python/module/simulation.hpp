@@ -20,36 +20,36 @@ namespace polynya::python {
 class Simulation {
  public:
   Simulation(const std::shared_ptr<Scene>& scene, int threads);
-  /// Continues from the bytes of save(). Raises ValueError where they do not fit.
+  /// Continues from the bytes of save(). Raises ValueError if they do not belong to the scene.
   static std::unique_ptr<Simulation> resume(std::shared_ptr<Scene> scene, const py::bytes& bytes, int threads);
 
   void step(std::int64_t count);
-  /// To a time [s], the scene's own end if none is given. `progress` is None or a callable.
+  /// Steps to a time [s], or to the scene's end if none is given. `progress` is None or a callable.
   void run(std::optional<double> until, const py::object& progress);
   py::list events();
   py::bytes save() const;
-  /// Writes a run folder from the start on (Recording), until end_recording(), which gives a reason if it is not the
-  /// run's end.
+  /// Writes a run folder (Recording) from the start of the run until end_recording(). That takes a reason if the run is
+  /// stopped before its end.
   void record(const std::string& folder, bool overwrite);
   void end_recording(const std::string& stopped_by);
-  /// Puts a callable in the place of a ship's own pilot; None gives the ship back to its own. The ship is an
-  /// index or a name.
+  /// Replaces the pilot of a ship by a callable; None restores the ship's own pilot. `ship` is an index or a name.
   void set_pilot(const py::object& ship, const py::object& pilot);
-  /// Gives a ship a command that it follows from now on, in place of its pilot's: the lever, and the steering angle as
-  /// a share of the largest. It is asked without Python, so that stepping does not take the GIL.
+  /// Gives a ship a command that it follows from now on instead of its pilot's: the lever, and the steering angle as a
+  /// fraction of the largest. The command is read without Python, so that stepping does not need the GIL.
   void set_command(const py::object& ship, double lever, double steering_share);
-  /// What Python's garbage collector follows and clears.
+  /// Objects that Python's garbage collector visits and clears.
   std::vector<py::object>& pilots() { return pilots_; }
 
-  /// The simulation between two steps or before one, to be read. Raises RuntimeError while it is stepped,
-  /// but for its pilots, which are asked before anything moves.
+  /// Returns the simulation for reading between two steps or before the first one. Raises RuntimeError while it is
+  /// being stepped. Its pilots may read it, because they are asked before anything moves.
   const simulation::Simulation& between_steps() const;
-  /// The same, refused to pilots too: to be read as long as views() is not 0.
+  /// The same, but refuses pilots too: for reading as long as views() is not 0.
   const simulation::Simulation& at_rest() const;
-  /// How many arrays on this simulation's own memory live (FloeMemory); it is not stepped meanwhile.
+  /// Number of existing arrays that share the simulation's memory (FloeMemory). The simulation cannot be stepped while
+  /// there are any.
   const std::shared_ptr<std::int64_t>& views() const { return views_; }
-  /// Marks the simulation as being read without the GIL as long as it lives; it is not stepped meanwhile. Made and
-  /// ended with the GIL held.
+  /// Marks the simulation as being read without the GIL as long as this object exists; it cannot be stepped meanwhile.
+  /// It must be created and destroyed with the GIL held.
   class Reading {
    public:
     explicit Reading(const Simulation& simulation) : readers_(simulation.readers_) { ++readers_; }
@@ -60,9 +60,9 @@ class Simulation {
    private:
     int& readers_;
   };
-  /// Of a ship given by an index or a name; `caller` is named in what it raises.
+  /// Returns the index of a ship given by index or name. `caller` is named in the exception.
   std::size_t index_of(const py::object& ship, const char* caller) const;
-  /// The last recorded row of a ship; none before the first.
+  /// The last recorded row of a ship; nothing before the first one.
   const std::optional<simulation::HullSample>& last_sample(std::size_t ship) const { return samples_[ship]; }
   const io::LoadedScene& scene() const { return scene_->loaded(); }
   const std::shared_ptr<Scene>& given_scene() const { return scene_; }
@@ -82,26 +82,26 @@ class Simulation {
   std::shared_ptr<Scene> scene_;
   simulation::Simulation simulation_;
   std::unique_ptr<Recording> recording_;
-  double until_ = 0;    ///< that run() was last asked for [s]
-  std::string events_;  ///< since the last call of events(): JSON objects, a comma behind each
+  double until_ = 0;    ///< end that run() was asked for last [s]
+  std::string events_;  ///< events since the last call of events(): JSON objects, each followed by a comma
   std::vector<std::optional<simulation::HullSample>> samples_;  ///< per ship
-  std::vector<py::object> pilots_;                              ///< per ship; None: its own
-  std::vector<simulation::Command> commands_;                   ///< per ship: of set_command(), the angle as a share
-  std::exception_ptr pilot_error_;                              ///< raised by one in a step, to be raised after it
+  std::vector<py::object> pilots_;                              ///< per ship; None: the ship's own pilot
+  std::vector<simulation::Command> commands_;  ///< per ship: the command of set_command(), with the angle as a fraction
+  std::exception_ptr pilot_error_;             ///< raised by a pilot in a step; it is raised again after the step
   std::shared_ptr<std::int64_t> views_ = std::make_shared<std::int64_t>(0);
   mutable int readers_ = 0;  ///< number of calls that read the simulation without the GIL
   bool is_stepping_ = false;
   bool is_pilot_asked_ = false;
-  bool is_broken_ = false;  ///< an exception left a step unfinished
+  bool is_broken_ = false;  ///< an exception interrupted a step
 };
 
 void bind_simulation(py::module_& module);
-/// Ship, Floes and how they are read from a simulation.
+/// Binds Ship and Floes, and the properties of a simulation that return them.
 void bind_arrays(py::module_& module, py::class_<Simulation>& simulation);
-/// FloeMemory: the floes without a copy.
+/// Binds FloeMemory, which gives access to the floes without a copy.
 void bind_floe_memory(py::module_& module, py::class_<Simulation>& simulation);
 void bind_occupancy(py::class_<Simulation>& simulation);
-/// The floes that are nearest to a ship, as an array.
+/// Binds the method that returns the floes nearest to a ship as an array.
 void bind_nearest_floes(py::class_<Simulation>& simulation);
 void bind_cut(py::module_& module);
 

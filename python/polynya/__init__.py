@@ -12,7 +12,7 @@ plain Python and the program `polynya`.
 """
 import os as _os
 
-TYPE_CHECKING = False  # typing's, without its import: every case of a study starts with this file
+TYPE_CHECKING = False  # avoids the import of typing, because each case of a study starts by importing this file
 if TYPE_CHECKING:
     from polynya._core import FloeMemory, Floes, PilotView, Scene, SeenShip, Ship, Simulation
     from polynya.cutting import Cut, cut
@@ -27,8 +27,8 @@ __all__ = ["Cut", "FloeMemory", "Floes", "PilotView", "Problem", "Run", "Scene",
            "SceneError", "SeenShip", "Ship", "Simulation", "SimulationError", "Study", "cut"]
 __all__ += ["FolderError", "NotARunError", "NotAStudyError", "UnfinishedError", "VersionError", "require"]
 
-# The compiled module lies beside the folder that this package is in: that may be a link into the source tree, so its
-# own path is not resolved.
+# The compiled module is beside the folder of this package. That folder may be a link into the source tree, so its path
+# is not resolved.
 __path__.append(_os.path.join(_os.path.dirname(_os.path.dirname(_os.path.dirname(_os.path.abspath(__file__)))),
                               "python_core"))
 
@@ -38,7 +38,7 @@ _ERRORS = {"FolderError", "NotARunError", "NotAStudyError", "Problem", "SceneErr
 
 
 def _module(name):
-    """A module of the package; where a package that it needs is missing, an ImportError with what to do."""
+    """Imports a module of the package. If a package that it needs is missing, raises ImportError with advice."""
     import importlib
     try:
         return importlib.import_module(name)
@@ -54,7 +54,7 @@ def _compiled():
     import sys
     try:
         from polynya import _core
-        _module("numpy")  # which the compiled module asks for where it makes the first array
+        _module("numpy")  # the compiled module needs it when it makes its first array
         if not hasattr(_core.Simulation, "record"):
             from polynya import recording, showing
             _core.Simulation.record, _core.Simulation.plot = recording.record, showing.plot
@@ -78,8 +78,8 @@ def _compiled():
 
 
 def _version():
-    """CMake's PROJECT_VERSION: as it wrote it beside the package, or in a source tree that is not built, its own
-    text."""
+    """Version of Polynya: the one that CMake wrote beside the package, or in a source tree that is not built, the one
+    in CMakeLists.txt."""
     try:
         from polynya import _written_version
         return _written_version.VERSION

@@ -7,7 +7,7 @@ import re
 import sys
 import textwrap
 
-COLUMN, WIDTH = 30, 100  # where meanings begin, and where lines break
+COLUMN, WIDTH = 30, 100  # column in which meanings begin, and width of lines [characters]
 
 
 def meant_by(word, names):
@@ -16,7 +16,7 @@ def meant_by(word, names):
 
 
 def number(least=-math.inf, most=math.inf, unit="", kind=float, is_open=False):
-    """Reads a finite number of a range, which is without its ends where it is open."""
+    """Returns a reader of finite numbers from `least` to `most`, without these limits if `is_open`."""
     signs = (">", "<") if is_open else ("≥", "≤")
     ends = [f"{sign} {end:g}" for sign, end in zip(signs, (least, most)) if math.isfinite(end)]
     what = "a whole number" if kind is int else "a number"
@@ -39,7 +39,7 @@ WHOLE = number(1, kind=int)
 
 
 def numbers(one=number(), count=None):
-    """Reads a list of numbers, separated by commas, of that length where one is given."""
+    """Returns a reader of lists of numbers, separated by commas, with `count` numbers if it is given."""
 
     def read(text):
         values = [one(part) for part in text.split(",")]
@@ -51,7 +51,7 @@ def numbers(one=number(), count=None):
 
 
 def choice(names):
-    """Reads one of these names."""
+    """Returns a reader that accepts one of these names."""
 
     def read(text):
         if text not in names:
@@ -62,12 +62,12 @@ def choice(names):
 
 
 def choices(names):
-    """Reads some of these names, separated by commas."""
+    """Returns a reader of lists of these names, separated by commas."""
     return lambda text: [choice(names)(part) for part in text.split(",")]
 
 
 class Parser(argparse.ArgumentParser):
-    """The command line of `prog`: what it is for, lines of examples without "polynya", and what follows the options."""
+    """Command line of `prog`: its purpose, lines of examples without "polynya", and text after the options."""
 
     def __init__(self, prog, meaning, examples, rest=""):
         super().__init__(prog=prog, allow_abbrev=False, add_help=False)
@@ -75,20 +75,20 @@ class Parser(argparse.ArgumentParser):
         self.add_argument("-h", "--help", action="help", help="Print this help message and exit")
 
     def add(self, name, meaning, **more):
-        """An option or a positional; a choice shows its names where it has no metavar."""
+        """Adds an option or a positional. A choice shows its names unless it has a metavar."""
         return self.add_argument(name, help=meaning, **more)
 
     def add_actions(self):
-        """The commands of this command."""
+        """Adds commands to this command."""
         self.actions_of = self.add_subparsers(dest="action", metavar="ACTION", required=True)
         return self.actions_of
 
     def commands(self):
-        """Name and parser of each."""
+        """Name and parser of each command of this command."""
         return self.actions_of.choices if self.actions_of else {}
 
     def arguments(self):
-        """Positionals and options, in their order."""
+        """Positionals and options in their order."""
         return [argument for argument in self._actions if argument is not self.actions_of]
 
     def format_help(self):
@@ -118,8 +118,8 @@ class Parser(argparse.ArgumentParser):
         return found, rest
 
     def joined(self, words):
-        """Each option and its value as one word: argparse takes a value that begins with a dash, -inf or -10,0, for an
-        option."""
+        """Joins each option and its value into one word, because argparse takes a value that begins with a dash, such
+        as -inf or -10,0, for an option."""
         valued = {name for a in self.arguments() if a.nargs is None for name in a.option_strings}
         found, left = [], list(words)
         while left:
@@ -134,7 +134,7 @@ class Parser(argparse.ArgumentParser):
         self.exit(2, f"{self.prog}: {self.in_plain_words(message)}\n{self.prog} --help explains its options\n")
 
     def in_plain_words(self, message):
-        """argparse's words in those of the other commands."""
+        """Rewrites a message of argparse in the words of the commands in C++."""
         commands = list(self.commands())
         wrong = re.match(r"argument ACTION: invalid choice: '(.*?)' \(choose", message)
         if wrong:
@@ -156,7 +156,7 @@ def spelled(argument):
 
 
 def entry(name, meaning):
-    """A line of a list, or some: a name, and its meaning in a column."""
+    """Lines of a list: a name, and its meaning in a column."""
     lines = textwrap.wrap(meaning, WIDTH - COLUMN, break_long_words=False)
     head = f"  {name}"
     first = f"{head}\n{'':{COLUMN}}" if len(head) >= COLUMN else f"{head:{COLUMN}}"

@@ -15,7 +15,7 @@ FAILED, INPUT_OUTPUT, DEFECT, CLOSED_PIPE = 4, 5, 70, 141
 
 
 class Stdout(io.FileIO):
-    """stdout whose errors name it: a full disk, or a reader that went away."""
+    """stdout whose errors name it, for example on a full disk or if the reader has ended."""
 
     def write(self, data):
         try:
@@ -26,7 +26,8 @@ class Stdout(io.FileIO):
 
 
 def open_streams():
-    """Makes stdout one whose errors name it; both take any file's name, in any locale, as in the commands in C++."""
+    """Replaces stdout by one whose errors name it. Both streams accept any file name in any locale, as in the commands
+    in C++."""
     buffer = io.BufferedWriter(Stdout(1, "w", closefd=False))
     sys.stdout = io.TextIOWrapper(buffer, "utf-8", "surrogateescape", line_buffering=os.isatty(1))
     sys.stderr.reconfigure(encoding="utf-8", errors="surrogateescape")
@@ -42,7 +43,7 @@ def run(name, main):
         sys.stdout.flush()
     except OSError as error:
         code = code or end_of(name, error)
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what is left is lost, without another message
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # the remaining text is lost without another message
     return code
 
 
@@ -52,7 +53,7 @@ def fail(name, message, code=INPUT_OUTPUT):
 
 
 def report(message):
-    """Prints a message on stderr, where that is still read."""
+    """Prints a message on stderr, if stderr can still be written."""
     try:
         print(message, file=sys.stderr, flush=True)
     except OSError:
@@ -60,13 +61,14 @@ def report(message):
 
 
 def end_of(name, error):
-    """The exit code of a command that ended by an exception, after its message."""
+    """Prints the message for an exception that ended a command. Returns the exit code."""
     from .errors import FolderError, InputError, missing_package
 
     command = f"polynya {name}"
     if isinstance(error, SystemExit):
         return error.code if isinstance(error.code, int) else 0
-    if isinstance(error, KeyboardInterrupt):  # by default's action, so that a shell sees what ended it
+    # Use the default action of the signal, so that a shell sees what ended the process.
+    if isinstance(error, KeyboardInterrupt):
         signal.signal(signal.SIGINT, signal.SIG_DFL)
         os.kill(os.getpid(), signal.SIGINT)
     if isinstance(error, InputError):
@@ -78,7 +80,7 @@ def end_of(name, error):
         return fail(command, missing_package(error))
     if isinstance(error, MemoryError):
         return fail(command, "out of memory", FAILED)
-    if isinstance(error, BrokenPipeError):  # the reader of stdout or stderr went away
+    if isinstance(error, BrokenPipeError):  # the reader of stdout or stderr has ended
         return CLOSED_PIPE
     if isinstance(error, OSError) and error.filename == "stdout":
         return fail("polynya", f"stdout: {error.strerror}")
@@ -89,7 +91,7 @@ def end_of(name, error):
 
 
 def defect(name, error):
-    """One line about a defect of the program, after writing its traceback into a file."""
+    """Reports an error of the program in one line, after writing its traceback to a file."""
     import tempfile
     import traceback
 
@@ -108,7 +110,7 @@ def defect(name, error):
 
 def main():
     open_streams()
-    if not sys.warnoptions:  # warnings of libraries are for who works on polynya, by python3 -W default
+    if not sys.warnoptions:  # warnings of libraries are for developers, who use python3 -W default
         warnings.simplefilter("ignore")
     name, *words = sys.argv[1:]
     sys.argv = [f"polynya {name}", *words]

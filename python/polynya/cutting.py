@@ -9,13 +9,14 @@ from polynya._core import cut_geojson
 
 
 class Cut(typing.NamedTuple):
-    """What a cut made. area_of_pieces_m2 + removed_m2 = area_m2 + rounding_defect_m2, all of them in the ledger
+    """Result of a cut. area_of_pieces_m2 + removed_m2 = area_m2 + rounding_defect_m2; all of these are in the ledger
     (docs/cut.md)."""
 
-    #: polygons: lists of numpy rings (n x 2) [m], the outer one first; open and counter-clockwise, holes clockwise
+    #: polygons: lists of numpy rings (n x 2) [m], the outer one first. Rings are open; outer rings run
+    #: counter-clockwise, holes clockwise
     pieces: list
-    parts: list  #: "inside" or "outside" the tool, piece by piece
-    ledger: dict  #: of the floe: where every square metre went
+    parts: list  #: "inside" or "outside" the tool, for each piece
+    ledger: dict  #: of the floe: the balance of its area
 
 
 def _ring(ring):
@@ -29,7 +30,7 @@ def _ring(ring):
 
 
 def _geometry(shape):
-    """GeoJSON of a polygon: a ring, a list of rings, or what has __geo_interface__."""
+    """Returns the GeoJSON of a polygon: of a ring, a list of rings, or an object with __geo_interface__."""
     given = getattr(shape, "__geo_interface__", shape)
     if isinstance(given, collections.abc.Mapping):
         given = given.get("geometry", given) if given.get("type") == "Feature" else given
@@ -51,7 +52,7 @@ def _numbers(name, values, count):
 
 
 def _fault(rejected):
-    """"self-crossing at (5, 5)": the reason of a ledger, what more there is to it, and the first places of the
+    """Describes a fault of a ledger as "self-crossing at (5, 5)": the reason, its details, and the first places of the
     fault."""
     words = ": ".join(filter(None, (rejected["reason"], rejected.get("detail"))))
     places = ", ".join(f"({x:g}, {y:g})" for x, y in rejected["vertices"][:3])
@@ -59,13 +60,13 @@ def _fault(rejected):
 
 
 def cut(polygon, *, disc=None, crack=None, by=None, keep="both", repair=None):
-    """Cuts a polygon exactly, and accounts for every square metre.
+    """Cuts a polygon exactly, and accounts for all of its area.
 
-    polygon: a ring (n x 2 numbers [m]), a list of rings (holes after the outer one), or what has __geo_interface__. One
-    tool of: disc=(x, y, radius [m]); crack=(x, y, angle in degrees from the x axis), the straight line through a point;
-    by=another polygon. keep: "both", "outside" or "inside" of a disc or polygon. repair: "even-odd" or "non-zero" for a
-    polygon that is not valid; without it, it is refused. Returns a Cut. Raises ValueError for what cannot be cut, with
-    the reason.
+    polygon: a ring (n x 2 numbers [m]), a list of rings (holes after the outer one), or an object with
+    __geo_interface__. Give one tool: disc=(x, y, radius [m]); crack=(x, y, angle in degrees from the x axis), a
+    straight line through a point; by=another polygon. keep: "both", "outside" or "inside", for a disc or polygon.
+    repair: "even-odd" or "non-zero", for a polygon that is not valid; without it such a polygon is refused. Returns a
+    Cut. Raises ValueError with the reason if the polygon cannot be cut.
     """
     tools = {"disc": disc, "crack": crack, "polygon": by}
     given = [name for name, tool in tools.items() if tool is not None]

@@ -1,26 +1,26 @@
-"""What goes wrong: problems of scenes with their places, and runs that cannot continue."""
+"""Errors: problems of scenes with their places, and runs that cannot continue."""
 import dataclasses
 import importlib.util
 import os
 import sys
 import typing
 
-DEBIANS = "/usr/bin/python3"  # has the modules of Debian's packages
+DEBIANS = "/usr/bin/python3"  # finds the modules of Debian's packages
 
 
 @dataclasses.dataclass(frozen=True)
 class Problem:
-    """One thing wrong, or unusual, in a scene."""
+    """An error or an unusual value in a scene."""
 
     file: str
-    line: typing.Optional[int]  #: from 1; None where there is none: a scene from a dict
+    line: typing.Optional[int]  #: from 1; None if there is none, as for a scene from a dict
     column: typing.Optional[int]  #: from 1, in characters
-    path: str  #: of the value: "ships[0].hull.length_m"
+    path: str  #: path of the value: "ships[0].hull.length_m"
     found: str
     allowed: str
-    suggestion: str  #: the nearest known key or choice; empty where none is near
+    suggestion: str  #: nearest known key or choice; empty if none is near
     severity: str  #: "error", "warning" or "hint"
-    message: str  #: for people, without the place
+    message: str  #: message for people, without the place
 
     def __str__(self):
         place = [self.file] + [str(number) for number in (self.line, self.column) if number is not None]
@@ -30,7 +30,7 @@ class Problem:
 
 
 class SceneError(ValueError):
-    """A scene that is wrong. `problems` lists all that is, each with its place."""
+    """A scene that is wrong. `problems` lists all errors with their places."""
 
     def __init__(self, problems):
         super().__init__(problems)
@@ -41,8 +41,7 @@ class SceneError(ValueError):
 
 
 class InputError(Exception):
-    """What a command was given is wrong: `problems`, a line each, and the `code` to exit with
-    (app/command_line/console.hpp)."""
+    """Wrong input of a command. `problems` are its lines, `code` is the exit code (app/command_line/console.hpp)."""
 
     def __init__(self, problems, code=3):
         self.problems = list(problems) if isinstance(problems, (list, tuple)) else [problems]
@@ -54,8 +53,8 @@ class InputError(Exception):
 
 
 def how_to_get(*packages):
-    """How this Python gets packages that it lacks: Debian's Python by apt-get, one of a virtual environment, or from
-    elsewhere, by its own pip."""
+    """Says how to install packages that this Python lacks: by apt-get for Debian's Python, by pip for any other one,
+    such as that of a virtual environment."""
     is_debians = os.path.realpath(sys.executable) == os.path.realpath(DEBIANS) and sys.prefix == sys.base_prefix
     if is_debians:
         return "apt-get install " + " ".join(f"python3-{name}" for name in packages)
@@ -63,7 +62,8 @@ def how_to_get(*packages):
 
 
 def missing_package(error):
-    """Which Python has not what an ImportError asks for, and what to do; empty where it is a part of polynya itself."""
+    """Says for an ImportError which Python lacks which package, and what to do; empty if the missing module is a part
+    of polynya."""
     name = (error.name or "").partition(".")[0]
     if name == "polynya":
         return ""
@@ -77,31 +77,31 @@ def missing_package(error):
 
 
 def require(*packages):
-    """Ends a script with one line for people where this Python has not one of these packages."""
+    """Ends a script with a message if this Python lacks one of these packages."""
     for name in packages:
         if importlib.util.find_spec(name) is None:
             sys.exit(missing_package(ModuleNotFoundError(name=name)))
 
 
 class SimulationError(RuntimeError):
-    """A run that cannot continue: numbers that are none, or a runaway speed."""
+    """A run that cannot continue: numbers that are not finite, or a speed beyond the limit."""
 
 
 class FolderError(ValueError):
-    """A folder of a run or a study that cannot be read. The message has the file, what is wrong and what to do."""
+    """A folder of a run or a study that cannot be read. The message states the file, the problem and what to do."""
 
 
 class NotARunError(FolderError):
-    """A folder that holds no run."""
+    """A folder that contains no run."""
 
 
 class NotAStudyError(FolderError):
-    """A folder that holds no study."""
+    """A folder that contains no study."""
 
 
 class UnfinishedError(FolderError):
-    """A run or a study that is not finished, read without `unfinished=True`."""
+    """A run or a study that is not finished and was read without `unfinished=True`."""
 
 
 class VersionError(FolderError):
-    """A folder of a version that this polynya does not read, or of one that did not record what is asked for."""
+    """A folder of a version that this polynya cannot read, or of a version that did not record the requested data."""

@@ -1,13 +1,13 @@
-"""Rare loads: what is exceeded once in a long time, from the peaks of a shorter record.
+"""Rare loads: loads that are exceeded once in a long time, estimated from the peaks of a shorter record.
 
-Peaks above a threshold come as a Poisson process, and what they have above it follows a generalised Pareto
-distribution [Coles2001]. Its shape is the curvature of the tail: 0 is exponential, below 0 the tail ends, above 0 it is
-heavy. The answer is Bayesian with a penalty on the shape, because few peaks say little of it: normal about 0 with the
-standard deviation SHAPE_SPREAD, uniform in the logarithm of the scale, Jeffreys's 1/√rate of the rate. Intervals are
-those of the posterior at LEVEL. How often they hold the truth is measured (docs/loads.md,
-tests/python/tail_coverage.py).
+Peaks above a threshold are taken as a Poisson process, and their excess over the threshold as having a generalised
+Pareto distribution [Coles2001]. Its shape is the curvature of the tail: 0 is an exponential tail, below 0 the tail has
+an end, above 0 it is heavy. The estimate is Bayesian, because few peaks say little about the shape. The prior of the
+shape is normal with mean 0 and standard deviation SHAPE_SPREAD, that of the scale is uniform in its logarithm, and that
+of the rate is Jeffreys's 1/√rate. Intervals contain the fraction LEVEL of the posterior. How often they contain the
+true value was measured (docs/loads.md, tests/python/tail_coverage.py).
 
-Forces are in newtons and times in hours here, but nothing depends on it.
+Names and docstrings assume forces in newtons and times in hours, but the formulas hold for any units.
 """
 from __future__ import annotations
 
@@ -20,25 +20,26 @@ from scipy import optimize, stats
 
 from .statistics import Interval
 
-LEVEL = 0.90  #: of every interval here
-SHAPE_SPREAD = 0.4  #: standard deviation of the shape before any peak is seen [-]
-LEAST_SHAPE, MOST_SHAPE = -0.75, 1.5  #: of the posterior's grid
-LEAST_PEAKS = 20  #: that a tail is fitted to
-FARTHEST = 10.0  #: return period over the record's length up to which coverage is measured
-RESAMPLES = 499  #: simulated samples of a test
-NODES = (71, 61, 25)  #: of the posterior's grid: shape, scale, rate
+LEVEL = 0.90  #: probability of all intervals of this module [-]
+SHAPE_SPREAD = 0.4  #: standard deviation of the prior of the shape [-]; smaller: fits are nearer to an exponential tail
+LEAST_SHAPE, MOST_SHAPE = -0.75, 1.5  #: range of the shape on the grid of the posterior [-]
+LEAST_PEAKS = 20  #: least number of peaks for a fit
+#: Largest ratio of return period to length of the record for which the coverage of intervals was measured [-].
+FARTHEST = 10.0
+RESAMPLES = 499  #: number of simulated samples of a test; more: p values are more exact and take longer
+NODES = (71, 61, 25)  #: number of grid points of the posterior for shape, scale and rate
 
 
 def stretched(shape, logarithm):
-    """((λT)^ξ − 1)/ξ from ln λT, which is its limit at ξ = 0."""
+    """((λT)^ξ − 1)/ξ as a function of ln λT. At ξ = 0 it is the limit ln λT."""
     x = numpy.asarray(shape * logarithm, dtype=float)
     small = numpy.abs(x) < 1e-8
     return logarithm * numpy.where(small, 1 + x / 2, numpy.expm1(x) / numpy.where(small, 1, x))
 
 
 def log_likelihood(shape, log_scale, excesses):
-    """Of the excesses by the generalised Pareto distribution, for arrays of equal shape; -inf where a peak lies beyond
-    the tail's end."""
+    """Log-likelihood of the excesses for the generalised Pareto distribution, for arrays of equal shape; -inf if a peak
+    lies beyond the end of the tail."""
     found = numpy.full(shape.shape, -numpy.inf)
     chunk = max(1, int(2e6 / len(excesses)))
     for begin in range(0, shape.size, chunk):
@@ -57,8 +58,8 @@ def penalty(shape):
 
 
 def best_shape(bent, count):
-    """The shape ξ where the posterior is largest at a fixed ξ/σ, from the mean of ln(1 + y ξ/σ) over the excesses: the
-    only root of ξ³/SHAPE_SPREAD² + count (ξ − bent) = 0."""
+    """The shape ξ with the largest posterior at a fixed ξ/σ, from the mean of ln(1 + y ξ/σ) over the excesses. It is
+    the only root of ξ³/SHAPE_SPREAD² + count (ξ − bent) = 0."""
     shape = bent
     for _ in range(20):
         shape = shape - ((shape**3 / SHAPE_SPREAD**2 + count * (shape - bent))
@@ -67,8 +68,8 @@ def best_shape(bent, count):
 
 
 def profile(guess, rows):
-    """The largest posterior for each row of excesses where ξ/σ is that of a shape `guess` and the row's mean; shape and
-    scale there."""
+    """For each row of excesses, the largest posterior for ξ/σ as given by the shape `guess` and the row's mean; with
+    the shape and scale there."""
     mean, count = rows.mean(axis=1), rows.shape[1]
     ratio = guess / ((1 - guess) * mean)
     ratio = numpy.where(numpy.abs(ratio * mean) < 1e-7, 1e-7 / mean, ratio)
@@ -82,10 +83,10 @@ def profile(guess, rows):
 
 
 def most_likely(rows):
-    """Shape and scale of each row of excesses where the posterior is largest, by golden section."""
+    """Shape and scale with the largest posterior for each row of excesses, by golden-section search."""
     rows = numpy.atleast_2d(rows)
     mean = rows.mean(axis=1)
-    end = -mean / rows.max(axis=1)  # beyond it the largest peak lies behind the tail's end
+    end = -mean / rows.max(axis=1)  # beyond this value the largest peak lies beyond the end of the tail
     low = numpy.maximum(LEAST_SHAPE, end / numpy.maximum(1 + end, 1e-9))
     high = numpy.full(len(rows), 0.8)
     share = (math.sqrt(5) - 1) / 2
@@ -115,11 +116,11 @@ def interval_of(values, weights):
 
 @dataclasses.dataclass(frozen=True)
 class Tail:
-    """Peaks above a threshold, and what they tell of rarer ones."""
+    """The tail of a record: its peaks above a threshold, and estimates of rarer ones."""
 
     threshold: float  #: [N]
     hours: float  #: length of the record
-    excesses: numpy.ndarray  #: of the peaks above the threshold [N]
+    excesses: numpy.ndarray  #: excesses of the peaks above the threshold [N]
 
     @property
     def count(self):
@@ -127,7 +128,7 @@ class Tail:
 
     @functools.cached_property
     def posterior(self):
-        """Shapes, scales [N] and weights on a grid about their most likely values."""
+        """Shapes, scales [N] and weights on a grid around their most likely values."""
         shape, scale = (float(found[0]) for found in most_likely(self.excesses))
         reach = 6 * min(SHAPE_SPREAD, 1.3 / math.sqrt(self.count))
         shapes = numpy.linspace(max(LEAST_SHAPE, shape - reach), min(MOST_SHAPE, shape + reach), NODES[0])
@@ -140,7 +141,7 @@ class Tail:
 
     @property
     def rates(self):
-        """Nodes of equal weight of the rate of peaks above the threshold [1/h]."""
+        """Grid points of equal weight for the rate of peaks above the threshold [1/h]."""
         middles = (numpy.arange(NODES[2]) + 0.5) / NODES[2]
         return stats.gamma.ppf(middles, self.count + 0.5) / self.hours
 
@@ -151,22 +152,22 @@ class Tail:
 
     @functools.cached_property
     def scale(self):
-        """[N]"""
+        """Most likely scale [N]."""
         _, scales, weights = self.posterior
         return interval_of(scales, weights)
 
     @property
     def rate(self):
-        """[1/h]"""
+        """Rate of peaks above the threshold [1/h]."""
         low, high = stats.gamma.ppf([(1 - LEVEL) / 2, (1 + LEVEL) / 2], self.count + 0.5) / self.hours
         return Interval(self.count / self.hours, float(low), float(high))
 
     def reaches(self, period):
-        """Whether what is exceeded once in so many hours lies above the threshold."""
+        """Returns True if the return value of a period [h] lies above the threshold."""
         return self.count * period / self.hours > 1
 
     def level(self, period):
-        """What is exceeded once in so many hours on average [N]: the median and the interval of the posterior."""
+        """The value that is exceeded once per period [h] on average [N]: median and interval of the posterior."""
         shapes, scales, weights = self.posterior
         logarithms = numpy.maximum(numpy.log(self.rates * period), 0)
         levels = scales[:, None] * stretched(shapes[:, None], logarithms[None, :])
@@ -174,15 +175,15 @@ class Tail:
         return Interval(*(self.threshold + value for value in dataclasses.astuple(found)))
 
     def exceeded(self, force):
-        """How often peaks exceed a force above the threshold [1/h], by the fit, with its interval."""
+        """The rate at which peaks exceed a force above the threshold [1/h] by the fit, with its interval."""
         shapes, scales, weights = self.posterior
         share = stats.genpareto.sf(force - self.threshold, shapes, scale=scales)
         rates = share[:, None] * self.rates[None, :]
         return interval_of(rates, numpy.broadcast_to(weights[:, None], rates.shape))
 
     def spread_of_level(self, period, hours):
-        """Half of the interval of `level` that a record of that length would give [N]: by the information of as many
-        peaks as come in it, at the shape and scale found here."""
+        """Half of the interval of `level` that a record of another length [h] would give [N]. It follows from the
+        Fisher information of the expected number of peaks, at the shape and scale found here."""
         shape, scale, logarithm = self.shape.value, self.scale.value, math.log(self.count * period / self.hours)
         count = self.count * hours / self.hours
         information = count * numpy.array([[2 / ((1 + shape) * (1 + 2 * shape)), 1 / ((1 + shape) * (1 + 2 * shape))],
@@ -196,13 +197,14 @@ class Tail:
         return float(stats.norm.ppf((1 + LEVEL) / 2)) * spread
 
     def record_needed(self, period, half_width):
-        """How many hours of record make the interval of `level` at most ± half_width of it, and the period at most
-        FARTHEST records: as wide as this record's, narrower by the information of more peaks; None where the
-        shape is at the edge of where the formula holds."""
+        """The length of record [h] for which the interval of `level` is at most ± half_width of the value, and the
+        period is at most FARTHEST records. The interval of this record is scaled by the information of more peaks. None
+        if the shape is at the limit of the formula."""
         if self.shape.value <= -0.45 or not self.reaches(period):
             return None
         level = self.level(period)
-        scale = level.half_width / self.spread_of_level(period, self.hours)  # few peaks: wider than by information
+        # With few peaks, the interval is wider than the information gives.
+        scale = level.half_width / self.spread_of_level(period, self.hours)
         most = half_width * level.value / scale
         low, high = math.log(period / FARTHEST), math.log(1e6 * period)
         too_wide = lambda hours: self.spread_of_level(period, math.exp(hours)) - most
@@ -212,11 +214,12 @@ class Tail:
 
 
 def distances(rows):
-    """How far each row of excesses in order lies from the distribution fitted to it: Anderson and Darling's distance,
-    and how improbable its largest peak is."""
+    """For each sorted row of excesses, its distance from the distribution fitted to it (Anderson and Darling), and the
+    improbability of its largest peak."""
     shape, scale = (found[:, None] for found in most_likely(rows))
     with numpy.errstate(divide="ignore", invalid="ignore"):
-        logs = -numpy.log1p(numpy.maximum(shape * rows / scale, -1)) / shape  # of the share above
+        # Logarithm of the fraction above each value.
+        logs = -numpy.log1p(numpy.maximum(shape * rows / scale, -1)) / shape
     logs = numpy.clip(logs, -60, -1e-16)
     below = numpy.log(-numpy.expm1(logs))
     count = rows.shape[1]
@@ -225,13 +228,15 @@ def distances(rows):
 
 
 def goodness(excesses, seed=0):
-    """A p value, by a parametric bootstrap: how often samples of the fitted distribution lie as far from their own fits
-    as this one from its. It is three times the smallest of three, so that it is small by chance as seldom as one: of
-    Anderson and Darling's distance, for the whole tail; and of the largest peak, which a fit to many small ones may
-    make impossible, or promise where the ice cannot bear it."""
+    """p value of the fit, by a parametric bootstrap: the fraction of samples of the fitted distribution that are as far
+    from their own fits as this sample is from its fit. It is three times the smallest of three p values, so that it is
+    small by chance no more often than one test. The tests are Anderson and Darling's distance, for the whole tail, and
+    two for the largest peak, which a fit to many small peaks may make impossible, or may predict to be larger than the
+    ice can carry."""
     own = numpy.sort(excesses)[None, :]
     shape, scale = (float(found[0]) for found in most_likely(own))
-    samples = min(RESAMPLES, max(99, int(2e6 / own.shape[1])))  # enough to tell 0.05 in a long record too
+    # Enough samples to recognise p = 0.05 even in a long record.
+    samples = min(RESAMPLES, max(99, int(2e6 / own.shape[1])))
     uniform = numpy.random.default_rng(seed).uniform(1e-16, 1, (samples, own.shape[1]))
     simulated = numpy.sort(scale * stretched(shape, -numpy.log(uniform)), axis=1)
     (whole, largest), (own_whole, own_largest) = distances(simulated), distances(own)
@@ -240,11 +245,12 @@ def goodness(excesses, seed=0):
 
 
 def level_of_order(values, hours, period):
-    """What is exceeded once in so many hours, between peaks that were seen, whatever the tail: as many exceed it as a
-    Poisson process of that rate has in the record. Ends are infinite, or 0, where no peak can be named."""
+    """The value that is exceeded once per period [h] on average, as an interval between observed peaks, without a fit.
+    Its limits follow from the Poisson distribution of the number of peaks in the record that exceed it. They are
+    infinite, or 0, if no peak can be named."""
     ordered = numpy.sort(values)[::-1]
     expected = hours / period
-    most = int(stats.poisson.ppf((1 + LEVEL) / 2, expected))  # this many peaks may exceed it
+    most = int(stats.poisson.ppf((1 + LEVEL) / 2, expected))  # largest number of peaks that may exceed it
     least = int(stats.poisson.ppf((1 - LEVEL) / 2, expected))
     low = float(ordered[most]) if most < len(ordered) else 0.0
     high = float(ordered[least - 1]) if 0 < least <= len(ordered) else math.inf

@@ -14,8 +14,8 @@ import subprocess
 from .errors import FolderError
 from .program import program
 
-LONGEST_CELL = 2**31 - 1  # of a CSV file [characters]; Python's own limit is 131 072
-LONGEST_SHOWN = 60  # of a value in a message [characters]
+LONGEST_CELL = 2**31 - 1  # longest cell of a CSV file [characters]; Python's own limit is 131 072
+LONGEST_SHOWN = 60  # longest value in a message [characters]
 
 
 def check_run(folder):
@@ -122,8 +122,8 @@ MAY_BE_BEYOND = re.compile(r"[eE]\+?[0-9]{3}|[0-9]{19}")
 
 
 def parse_json(text, path, line=1, pairs_hook=None):
-    """The value of a JSON text that begins at a line of a file. NaN, Infinity and numbers beyond the doubles are
-    refused."""
+    """Returns the value of a JSON text that begins at a line of a file. NaN, Infinity and numbers beyond the range of
+    doubles are refused."""
     kinds = {"parse_float": _number, "parse_int": _whole} if MAY_BE_BEYOND.search(text) else {}
     try:
         return json.loads(text, object_pairs_hook=pairs_hook, parse_constant=_refuse, **kinds)

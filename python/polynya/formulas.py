@@ -1,6 +1,7 @@
-"""Published formulas of a ship's resistance and thrust in ice, to compare with. SI units, angles in radians.
+"""Published formulas for the resistance and thrust of a ship in ice, for comparison. SI units, angles in radians.
 
-Keys resolve in docs/references.md. None of the formulas is used by the simulation itself, but for the net thrust."""
+Keys in brackets are those of docs/references.md. The simulation itself uses none of the formulas except the net
+thrust."""
 import dataclasses
 import math
 
@@ -10,8 +11,8 @@ KNOT = 1852 / 3600  # [m/s]
 
 @dataclasses.dataclass(frozen=True)
 class Hull:
-    """Main particulars: length, beam, draught [m], stem angle from the horizontal, entrance angle from the centre
-    line."""
+    """Main dimensions: length, beam, draught [m], stem angle from the horizontal and entrance angle from the centreline
+    [rad]."""
 
     length: float
     beam: float
@@ -21,12 +22,12 @@ class Hull:
 
     @property
     def bow(self):
-        """Length of the bow of a wedge [m]."""
+        """Length of the bow of a wedge-shaped bow [m]."""
         return 0.5 * self.beam / math.tan(self.entrance)
 
     @property
     def parallel(self):
-        """Length of its parallel midbody, up to a square stern [m]."""
+        """Length of the parallel midbody, which ends in a square stern [m]."""
         return self.length - self.bow
 
 
@@ -49,7 +50,7 @@ def lindqvist(hull, ice, speed):
     R = (R_c + R_b)(1 + 1.4 v/√(g h)) + R_s (1 + 9.4 v/√(g L))."""
     stem, entrance, mu, h = hull.stem, hull.entrance, ice.friction, ice.thickness
     psi = math.atan(math.tan(stem) / math.sin(entrance))
-    # How much of the ice's force turns it down: none where so steep or rough a stem crushes it all the way.
+    # Vertical share of the ice force. It is negative if the stem is so steep or rough that it only crushes the ice.
     downward = 1 - mu * math.sin(stem) / math.cos(psi)
     crushing = (
         0.5 * ice.flexural_strength * h**2 * (math.tan(stem) + mu * math.cos(stem) / math.cos(psi)) / downward
@@ -73,12 +74,12 @@ def lindqvist(hull, ice, speed):
 
 
 def rise(hull):
-    """z̄, how deep ice is pushed under the hull on the mean [m]."""
+    """z̄, the mean depth to which ice is pushed under the hull [m]."""
     return hull.draught * (hull.beam + hull.draught) / (hull.beam + 2 * hull.draught)
 
 
 def slide(hull):
-    """s̄, how far ice slides along the hull, as friction counts it [m]."""
+    """s̄, the distance that ice slides along the hull, for friction [m]."""
     psi = math.atan(math.tan(hull.stem) / math.sin(hull.entrance))
     return (
         0.7 * hull.length
@@ -101,7 +102,8 @@ def formula_under_hull(hull, ice, speed, has_factor=True):
 
 
 def riska(hull, ice, speed, bow=None, parallel=None):
-    """[Riska1997], C1 + C2 v [N]. The lengths of the bow and of the parallel midbody are the wedge's if not given."""
+    """Resistance C1 + C2 v of [Riska1997] [N]. Lengths of the bow and the parallel midbody are those of the wedge if
+    not given."""
     h, b, t, length = ice.thickness, hull.beam, hull.draught, hull.length
     bow = hull.bow if bow is None else bow
     parallel = hull.parallel if parallel is None else parallel
@@ -116,7 +118,7 @@ def riska(hull, ice, speed, bow=None, parallel=None):
 
 
 def spencer_jones(hull, ice, speed):
-    """[SpencerJones2001] (recall), by strength number and Froude number [N]. Speed > 0."""
+    """Resistance by strength number and Froude number [SpencerJones2001] (recall) [N]. Needs speed > 0."""
     h, b = ice.thickness, hull.beam
     strength = speed / math.sqrt(ice.flexural_strength * h / (ice.density * b))
     froude = speed / math.sqrt(G * h)
@@ -124,23 +126,25 @@ def spencer_jones(hull, ice, speed):
     return breaking + 0.5 * (ice.water_density - ice.density) * G * h * b * hull.draught
 
 
-PULL_OF_PROPELLERS = {1: 0.78, 2: 0.98, 3: 1.12}  # K_e
+PULL_OF_PROPELLERS = {1: 0.78, 2: 0.98, 3: 1.12}  # K_e by number of propellers
 
 
 def bollard_pull(power, diameter, propellers, has_nozzles=False):
-    """K_e (P D)^⅔ [N]: power of all propellers [W], diameter of one [m]; K_e .78, .98, 1.12 for 1, 2, 3 of them."""
+    """Bollard pull K_e (P D)^⅔ [N]. P is the power of all propellers [W], D the diameter of one [m]; K_e is 0.78, 0.98
+    and 1.12 for 1, 2 and 3 propellers."""
     factor = PULL_OF_PROPELLERS[propellers] * (1.4 if has_nozzles else 1)
     return 1e3 * factor * (1e-3 * power * diameter) ** (2 / 3)
 
 
 def net_thrust(bollard, open_water_speed, speed):
-    """What the propellers leave to break ice, T_B [1 − v/(3 v_ow) − ⅔ (v/v_ow)²] [N]."""
+    """Thrust left for breaking ice, T_B [1 − v/(3 v_ow) − ⅔ (v/v_ow)²] [N]."""
     share = speed / open_water_speed
     return bollard * (1 - share / 3 - 2 / 3 * share**2)
 
 
 def equilibrium(bollard, open_water_speed, resistance):
-    """The speed at which the net thrust equals resistance(speed) [m/s]; 0 where it does not reach it at rest."""
+    """The speed at which the net thrust equals resistance(speed) [m/s]; 0 if the resistance at rest is larger than the
+    thrust."""
 
     def excess(speed):
         return net_thrust(bollard, open_water_speed, speed) - resistance(speed)
@@ -155,8 +159,8 @@ def equilibrium(bollard, open_water_speed, resistance):
 
 
 def level_ice_speeds(hull, engine, ice):
-    """The speeds at which published resistances equal the net thrust of an engine, a mapping with bollard_pull_N and
-    open_water_speed_m_per_s [m/s]."""
+    """The speeds [m/s] at which published resistances equal the net thrust of an engine, given as a mapping with
+    bollard_pull_N and open_water_speed_m_per_s."""
     resistances = {
         "lindqvist": lambda v: sum(lindqvist(hull, ice, v)),
         "riska": lambda v: riska(hull, ice, v),

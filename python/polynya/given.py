@@ -1,4 +1,4 @@
-"""What a scene may be given as."""
+"""The forms in which a scene may be given."""
 import collections.abc
 import errno
 import json
@@ -7,7 +7,7 @@ import os
 
 
 def _plain(value):
-    """numpy's arrays and numbers, and paths, as JSON has them."""
+    """Converts numpy's arrays and numbers, and paths, to types that JSON has."""
     if hasattr(value, "tolist"):
         return value.tolist()
     if isinstance(value, os.PathLike):
@@ -16,7 +16,7 @@ def _plain(value):
 
 
 def _first_not_finite(value, path=""):
-    """The path of the first number below a value that JSON has not, and the number; None where there is none."""
+    """The path of the first number within a value that JSON cannot write, and the number; None if there is none."""
     if isinstance(value, float):
         return None if math.isfinite(value) else (path, value)
     if isinstance(value, collections.abc.Mapping):
@@ -29,8 +29,8 @@ def _first_not_finite(value, path=""):
 
 
 def scene_parts(given):
-    """A scene's file and its JSON text, of which one is empty, and whether the text is the caller's own, with lines to
-    name."""
+    """Returns a scene's file and its JSON text, one of which is empty, and whether the text is the caller's own, so
+    that messages can name its lines."""
     if isinstance(given, collections.abc.Mapping):
         try:
             return "", json.dumps(dict(given), default=_plain, allow_nan=False), False

@@ -40,7 +40,8 @@ complete -o filenames -F _polynya polynya
 
 
 class Command:
-    """A command by its help: what stands before the usage and after the lists, and in the lists name and meaning."""
+    """A command as its help describes it: the text before the usage and after the lists, and the names and meanings in
+    the lists."""
 
     def __init__(self, program, path=""):
         words = [program, *path.split(), "--help"]
@@ -69,7 +70,7 @@ class Command:
             yield from command.all()
 
     def lists(self):
-        """Of each option and positional its long names, none of a positional, and the words behind them."""
+        """For each option and positional its long names (none for a positional) and its description."""
         for name, _ in self.options:
             names, _, rest = name.partition(" ")
             is_option = name.startswith("-")

@@ -1,14 +1,14 @@
-"""Short names of values, runs and cases: each is named by what differs from the others."""
+"""Short names of values, runs and cases, formed from their differences."""
 from __future__ import annotations
 
 import json
 import pathlib
 
-LONGEST = 40  #: characters of a name; a longer one is cut in its middle
+LONGEST = 40  #: largest length of a name [characters]; longer ones are shortened in the middle
 
 
 def parsed(value):
-    """The value that a table's cell stands for: JSON where the cell is an object or a list, else the cell itself."""
+    """The value of a table's cell: parsed JSON if the cell is an object or a list, otherwise the cell itself."""
     if isinstance(value, str) and value[:1] in ("{", "["):
         try:
             return json.loads(value)
@@ -18,7 +18,7 @@ def parsed(value):
 
 
 def leaves(value, path=()):
-    """{path: value} of all numbers, words and empty lists or objects within a JSON value."""
+    """{path: value} of all numbers, texts, and empty lists or objects within a JSON value."""
     if isinstance(value, dict) and value:
         return {at: leaf for key, item in value.items() for at, leaf in leaves(item, (*path, key)).items()}
     if isinstance(value, list) and value:
@@ -27,19 +27,19 @@ def leaves(value, path=()):
 
 
 def number_in_words(value):
-    """A number as people write it: up to six digits, true and false as in JSON."""
+    """A number with up to six digits; true and false as in JSON."""
     if isinstance(value, bool) or value is None:
         return json.dumps(value)
     return f"{value:.6g}" if isinstance(value, (int, float)) else str(value)
 
 
-#: Endings of keys that name a unit, and the unit as people write it.
+#: Endings of keys that state a unit, and the unit for people.
 UNITS = {"m_per_s": "m/s", "deg": "°", "Pa": "Pa", "N": "N", "Nm": "N m", "J": "J", "kg": "kg", "MW": "MW", "m2": "m²",
          "m": "m", "s": "s"}
 
 
 def leaf_in_words(path, value):
-    """"depth 120 m" of depth_m; a word alone names itself, as "circular" of pattern."""
+    """"depth 120 m" for depth_m; a text is its own name, such as "circular" for pattern."""
     words = number_in_words(value) if not isinstance(value, (list, dict)) else json.dumps(value)
     key = next((part for part in reversed(path) if isinstance(part, str)), "")
     if not key or (isinstance(value, str) and value):
@@ -52,7 +52,7 @@ def leaf_in_words(path, value):
 
 
 def short(words, longest=LONGEST):
-    """The words, cut in the middle where they are longer."""
+    """Shortens a text in the middle if it is too long."""
     if len(words) <= longest:
         return words
     head = (longest - 1) // 2
@@ -60,8 +60,8 @@ def short(words, longest=LONGEST):
 
 
 def telling_paths(flat):
-    """The fewest leaves, of those that differ, by which all values are told apart: the one that makes most groups
-    first, then the next. Words go before numbers, because a word names what a number only measures."""
+    """The smallest set of differing leaves that distinguishes all values. The leaf that forms most groups is chosen
+    first, then the next. Texts are chosen before numbers, because they are better names."""
     paths = list(dict.fromkeys(path for leaf in flat for path in leaf))
     differing = [path for path in paths if len({repr(leaf.get(path)) for leaf in flat}) > 1]
     chosen, groups = [], 1
@@ -81,7 +81,7 @@ def telling_paths(flat):
 
 
 def name_of_leaves(flat, chosen):
-    """The chosen leaves of a value in words; the way to its own leaves where it has none of them."""
+    """Describes a value by its chosen leaves; by the path to its own leaves if it has none of the chosen ones."""
     found = [leaf_in_words(path, flat[path]) for path in chosen if path in flat]
     if found:
         return ", ".join(found)
@@ -90,8 +90,8 @@ def name_of_leaves(flat, chosen):
 
 
 def names_of(values):
-    """{value: name} of the different values of a parameter. Numbers and words name themselves. Objects and lists are
-    named by the fewest of their members that tell them apart."""
+    """{value: name} of the different values of a parameter. Numbers and texts are their own names. Objects and lists
+    are named by the fewest of their members that distinguish them."""
     different = list(dict.fromkeys(values))
     read = {value: parsed(value) for value in different}
     if not any(isinstance(item, (dict, list)) for item in read.values()):
@@ -101,14 +101,14 @@ def names_of(values):
         return unique({value: short(json.dumps(item, ensure_ascii=False)) for value, item in read.items()})
     flat = {value: leaves(item) for value, item in read.items()}
     chosen = telling_paths(list(flat.values()))
-    if not chosen:  # one value alone
+    if not chosen:  # there is only one value
         words = [path for path, leaf in next(iter(flat.values())).items() if isinstance(leaf, str)]
         chosen = words or list(next(iter(flat.values())))[:1]
     return unique({value: short(name_of_leaves(flat[value], chosen)) for value in different})
 
 
 def unique(names):
-    """The names, with a number behind those that several values have."""
+    """Adds numbers to names that several values have."""
     count, found = {}, {}
     taken = list(names.values())
     for value, name in names.items():
@@ -118,8 +118,8 @@ def unique(names):
 
 
 def names_of_folders(folders):
-    """Names of run folders by the fewest of their last parts that tell them apart, without last parts that all have:
-    A/run and B/run are A and B, and a study's cases are named by number."""
+    """Names of run folders: the fewest of their last path components that distinguish them, without final components
+    that all share. A/run and B/run become A and B; cases of a study are named by number."""
     parts = [list(pathlib.Path(folder).resolve().parts) for folder in folders]
     is_told_apart = len(set(map(tuple, parts))) > 1
     while all(len(part) > 2 for part in parts) and len({part[-1] for part in parts}) == 1 and (

@@ -1,4 +1,4 @@
-"""The style of pages that commands written in Python make: light or dark by the reader's system, and for print."""
+"""Style of the pages that Python commands write: light or dark as the reader's system, and suitable for print."""
 
 STYLE = """:root{color-scheme:light dark;--ink:#1a2530;--paper:#fff;--line:#d5dbe2;--code:#f0f3f6;--link:#0b5cad}
 @media (prefers-color-scheme:dark){:root{--ink:#e3e8ee;--paper:#161b21;--line:#3a4450;--code:#232a32;--link:#7db8f5}}

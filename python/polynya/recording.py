@@ -1,4 +1,4 @@
-"""A run folder of a simulation that Python steps: the one that `polynya run` leaves."""
+"""Writes a run folder for a simulation that Python steps, as `polynya run` does."""
 from __future__ import annotations
 
 import os
@@ -9,11 +9,11 @@ from .program import program
 
 
 class Recording:
-    """Writes the folder while the simulation is stepped; ends it with the `with` block, or by `close()`.
+    """Writes the folder while the simulation is stepped. The `with` block, or `close()`, ends it.
 
-    The folder is that of `polynya run` of the scene up to the simulated time at which it is closed, byte for byte but
-    for the time by the clock, where no pilot of Python's has steered. An exception leaves a run that was stopped there,
-    with a checkpoint: `polynya resume` goes on from both kinds, with the scene's own pilots."""
+    The folder equals that of `polynya run` for the scene up to the simulated time at which it is closed, byte for byte
+    except for wall times, unless a Python pilot has steered. An exception leaves a run that was stopped, with a
+    checkpoint. `polynya resume` can continue both kinds, with the scene's own pilots."""
 
     def __init__(self, simulation, folder, overwrite, map):
         self.folder = pathlib.Path(folder)
@@ -27,7 +27,7 @@ class Recording:
         self.close("" if kind is None else f"{kind.__name__}: {error}".rstrip(": "))
 
     def close(self, stopped_by=""):
-        """Ends the run here, or with a reason stops it, so that it can be resumed. A second time it does nothing."""
+        """Ends the run now. With a reason, stops it so that it can be resumed. A second call does nothing."""
         if not self._is_open:
             return
         self._is_open = False
@@ -37,7 +37,7 @@ class Recording:
 
     @property
     def run(self):
-        """The folder as a polynya.Run, once it is closed."""
+        """Returns the folder as a polynya.Run. It must be closed."""
         from .results.run import Run
         return Run(self.folder)
 
@@ -45,7 +45,7 @@ class Recording:
 def record(self, folder, *, overwrite=False, map=True):
     """record(folder, overwrite=False, map=True)
 
-    Writes a run folder as `polynya run` does (docs/run-folder.md), from the start on: before the first step. Returns a
-    Recording, which ends the folder where a `with` block does, or by its close(). `map` draws final.svg and final.png
-    at the end. FolderError where the folder cannot be had, or written."""
+    Writes a run folder as `polynya run` does (docs/run-folder.md). Call it before the first step. Returns a Recording,
+    which ends the folder at the end of a `with` block or by its close(). `map` draws final.svg and final.png at the
+    end. Raises FolderError if the folder cannot be used or written."""
     return Recording(self, folder, overwrite, map)

@@ -1,4 +1,4 @@
-"""Runs of scenes that commands make: finished ones are kept, and used again where the scene is the same."""
+"""Runs of scenes that commands make. Finished runs are kept, and reused if the scene is the same."""
 import json
 import subprocess
 
@@ -11,7 +11,10 @@ class RunFailed(Exception):
 
 
 def kept_run(program, folder, name, scene, has_map=True):
-    """The run's folder, folder/name; of a run that is there already, at once. `has_map`: with a picture of its end."""
+    """Returns the run's folder, folder/name, after running the scene if it has no finished run yet.
+
+    With `has_map` the run has a picture of its end.
+    """
     path, run = folder / (name + ".json"), folder / name
     text = json.dumps(scene, indent=1)
     if is_finished(run) and path.is_file() and path.read_text(encoding="utf-8") == text:
@@ -26,7 +29,7 @@ def kept_run(program, folder, name, scene, has_map=True):
         text=True,
         check=False,
     )
-    if done.returncode == STOPPED:  # Ctrl-C reaches the run too
+    if done.returncode == STOPPED:  # Ctrl-C also reaches the run
         raise KeyboardInterrupt
     if done.returncode != DONE:
         raise RunFailed(f"{path}: polynya run ended with {done.returncode}\n{done.stderr.strip()}")

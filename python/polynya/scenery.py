@@ -1,7 +1,7 @@
-"""What a map shows of a run at a time, as few paths in the world [m]: the maps of figures and of films draw it.
+"""Objects on a map of a run at a time, as few paths in the world [m]. Maps of figures and of films use it.
 
-Floes out of the picture are left out, and those of a few pixels are squares of their area: a field of 100 000 floes
-costs what is seen of it."""
+Floes outside of the picture are left out, and those of a few pixels become squares of their area. So the time to draw
+a field of 100 000 floes depends on the visible part."""
 from __future__ import annotations
 
 import functools
@@ -9,7 +9,8 @@ import functools
 import numpy
 from matplotlib.path import Path
 
-# Light ice on mid water, apart in greyscale; marks in the Okabe–Ito palette [Okabe2008]. As views/map/final_map.cpp.
+# Light ice on medium water, which differ in greyscale; marks use the Okabe–Ito palette [Okabe2008]. Colours as in
+# views/map/final_map.cpp.
 WATER = "#8fb8d0"
 AT_START = "#a9cadd"
 CHANNEL = "#5e93b5"
@@ -26,7 +27,7 @@ MARKS = {"bend": "#0072b2", "split": "#d55e00", "grind": "#7a5c2e"}
 WHOLE, BROKEN, CAME_UP, UNDER = range(4)  # kinds of floes
 COLOURS = (ICE, BROKEN_ICE, RESURFACED_ICE, ICE_UNDER)
 FRACTURES = ("bend", "split", "grind")
-LEAST_PIXELS = 3.0  # √area of the smallest floe that is drawn in its shape
+LEAST_PIXELS = 3.0  # √area of the smallest floe that is drawn in its shape [px]
 
 NOTHING = Path(numpy.empty((0, 2)), numpy.empty(0, Path.code_type))
 SQUARE = numpy.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5]])
@@ -34,14 +35,14 @@ SQUARE = numpy.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5], [-0.5,
 
 @functools.lru_cache(maxsize=None)
 def codes_of(count):
-    """Of a closed ring of so many points, the first of them repeated."""
+    """Path codes of a closed ring with this number of points, the last of which repeats the first."""
     codes = numpy.full(count, Path.LINETO, Path.code_type)
     codes[0], codes[-1] = Path.MOVETO, Path.CLOSEPOLY
     return codes
 
 
 def path_of(rings):
-    """Rings, each n × 2, as one path that closes them: a polygon with its holes, or several."""
+    """One path of several rings, each n × 2, which it closes: a polygon with its holes, or several polygons."""
     if not rings:
         return NOTHING
     closed = [numpy.concatenate([ring, ring[:1]]) for ring in rings]
@@ -49,7 +50,7 @@ def path_of(rings):
 
 
 def extent_of(pieces):
-    """x0, y0, x1, y1 of points, each n × 2, with a little room around [m]."""
+    """Box x0, y0, x1, y1 around points, each n × 2, with a margin [m]."""
     points = numpy.concatenate([piece for piece in pieces if len(piece)] or [numpy.array([[0.0, 0.0], [100.0, 100.0]])])
     low, high = points.min(axis=0), points.max(axis=0)
     room = max(1.0, 0.02 * (high - low).max())
@@ -57,30 +58,30 @@ def extent_of(pieces):
 
 
 def counted(count, noun):
-    """As in: 1 split, 2 splits."""
+    """A count with its noun: 1 split, 2 splits."""
     return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
 
 
 def turned(points, poses):
-    """Points, each in the body frame of its pose (x, y [m], angle [rad]), in the world."""
+    """Transforms points from the body frames with these poses (x, y [m], angle [rad]) to the world."""
     x, y, angle = poses.T
     c, s = numpy.cos(angle), numpy.sin(angle)
     return numpy.column_stack((x + c * points[:, 0] - s * points[:, 1], y + s * points[:, 0] + c * points[:, 1]))
 
 
 class Outlines:
-    """The outlines of a run's floes in their body frames, packed: closed rings one after the other, and where each
-    floe's begin."""
+    """Outlines of a run's floes in their body frames, stored as closed rings one after the other, with the index of the
+    first point of each floe."""
 
     def __init__(self, run):
         self._run = run
         self._first = numpy.full(len(run.births["floe_id"]), -1)
         self._count = numpy.zeros(len(self._first), dtype=int)
-        self._reach = numpy.zeros(len(self._first))  # farthest vertex from the centroid [m]
+        self._reach = numpy.zeros(len(self._first))  # distance of the farthest vertex from the centroid [m]
         self._points, self._codes = numpy.empty((0, 2)), numpy.empty(0, Path.code_type)
 
     def load(self, ids):
-        """Reads those that are not here yet."""
+        """Reads outlines that are not loaded yet."""
         missing = ids[self._first[ids] < 0]
         if len(missing) == 0:
             return
@@ -96,7 +97,7 @@ class Outlines:
         self._points, self._codes = numpy.concatenate(points), numpy.concatenate(codes)
 
     def forget(self, floes):
-        """Drops those of a mask of all floes."""
+        """Drops the outlines of floes; `floes` is a mask of all floes."""
         kept = numpy.flatnonzero((self._first >= 0) & ~floes)
         rows = self._rows(kept)
         self._points, self._codes = self._points[rows], self._codes[rows]
@@ -104,12 +105,12 @@ class Outlines:
         self._first[kept] = numpy.cumsum(self._count[kept]) - self._count[kept]
 
     def reach(self, ids):
-        """From the centroids to the farthest vertices [m]."""
+        """Distances from the centroids to the farthest vertices [m]."""
         self.load(ids)
         return self._reach[ids]
 
     def count(self, ids):
-        """How many points their paths have."""
+        """Numbers of points in the floes' paths."""
         self.load(ids)
         return int(self._count[ids].sum())
 
@@ -118,13 +119,13 @@ class Outlines:
         return numpy.arange(counts.sum()) + numpy.repeat(self._first[ids] - (numpy.cumsum(counts) - counts), counts)
 
     def boxes(self, ids, poses):
-        """Lower left and upper right corners in the world, each n × 2."""
+        """Lower left and upper right corners of the floes in the world, each n × 2."""
         points = self.path(ids, poses).vertices
         first = numpy.cumsum(self._count[ids]) - self._count[ids]
         return numpy.minimum.reduceat(points, first), numpy.maximum.reduceat(points, first)
 
     def path(self, ids, poses):
-        """In the world, as one path."""
+        """The floes in the world as one path."""
         if len(ids) == 0:
             return NOTHING
         self.load(ids)
@@ -133,14 +134,14 @@ class Outlines:
 
 
 def joined(one, other):
-    """Two paths as one."""
+    """Joins two paths."""
     if len(one.vertices) == 0 or len(other.vertices) == 0:
         return one if len(other.vertices) == 0 else other
     return Path(numpy.concatenate((one.vertices, other.vertices)), numpy.concatenate((one.codes, other.codes)))
 
 
 class Scenery:
-    """The floes, hulls, tracks and fractures of a run, ready to be drawn at any of its times."""
+    """Floes, hulls, tracks and fractures of a run, prepared for drawing at any of its times."""
 
     def __init__(self, run):
         self.run = run
@@ -152,14 +153,14 @@ class Scenery:
         self._fracture_points = numpy.column_stack((events["x_m"][order], events["y_m"][order])).astype(float)
 
     def kinds(self, frame):
-        """WHOLE as in the scene, BROKEN, CAME_UP or UNDER of each floe of a frame."""
+        """For each floe of a frame: WHOLE (not broken since the start), BROKEN, CAME_UP or UNDER."""
         births, ids = self.run.births, frame.ids
         kinds = numpy.where(births["generation"][ids] == 0, WHOLE, numpy.where(births["came_up"][ids], CAME_UP, BROKEN))
         kinds[frame.is_under] = UNDER
         return kinds
 
     def seen(self, frame, window):
-        """Which floes of a frame reach into x0, y0, x1, y1 [m]: a mask; all without a window."""
+        """Mask of the floes of a frame that extend into x0, y0, x1, y1 [m]; all floes without a window."""
         if window is None:
             return numpy.ones(len(frame.ids), dtype=bool)
         corners, ids, poses = numpy.reshape(window, (2, 2)), frame.ids, frame.poses
@@ -173,8 +174,8 @@ class Scenery:
         return shown
 
     def floes(self, frame, window=None, least=0.0, among=None):
-        """Floes as one path a kind: those of a mask `among` that reach into the window; of a √area below `least` [m]
-        squares of their area."""
+        """Floes as one path for each kind. `among` is a mask of the floes to draw; only those that extend into the
+        window are. Floes with √area below `least` [m] are squares of their area."""
         kinds = self.kinds(frame)
         shown = self.seen(frame, window) if among is None else self.seen(frame, window) & among
         return [self._path(frame.ids[shown & (kinds == kind)], frame.poses[shown & (kinds == kind)], least)
@@ -198,7 +199,7 @@ class Scenery:
         self.outlines.forget(self.run.births["died_s"] <= time)
 
     def ice_at_start(self, window=None, least=0.0):
-        """As one path."""
+        """The ice at the start as one path."""
         frame = self.run.frame(self.run.start_time)
         seen = self.seen(frame, window)
         return self._path(frame.ids[seen], frame.poses[seen], least)
@@ -211,11 +212,11 @@ class Scenery:
 
     @functools.cached_property
     def _recorded_places(self):
-        """Of ships, structures and walls at each recorded frame, n × bodies × 2 [m]."""
+        """Positions of ships, structures and walls at each recorded frame, n × bodies × 2 [m]."""
         return numpy.array([self.run.motions.ships_at(time)[:, :2] for time in self.run.times])
 
     def tracks(self, time):
-        """Of ships, and of structures that gave way, up to a time [s], each n × 2."""
+        """Tracks of ships, and of structures that moved, up to a time [s], each n × 2."""
         if len(self.run.times) == 0:
             return []
         here = self.run.motions.ships_at(time)[None, :, :2]
@@ -225,16 +226,16 @@ class Scenery:
                 and numpy.ptp(places[:, i], axis=0).max() > 0]
 
     def fractures(self, kind, start, end):
-        """Where ice broke so after a time [s] and up to another, n × 2, and how long before the latter."""
+        """Positions of fractures of a kind after `start` [s] and up to `end` [s], n × 2, and their age at `end`."""
         among = (self._fracture_kinds == kind) & (self._fracture_times > start) & (self._fracture_times <= end)
         return self._fracture_points[among], end - self._fracture_times[among]
 
     def points(self, frame):
-        """Of all that sets the extent of a map at a time: ice, hulls, walls and tracks, each n × 2."""
+        """Points that determine the extent of a map at a time: ice, hulls, walls and tracks, each n × 2."""
         return [*(path.vertices for path in (*self.floes(frame), *self.hulls(frame))), *self.tracks(frame.time)]
 
     @functools.cached_property
     def extent(self):
-        """Of ice and hulls at the start and end and of all tracks: x0, y0, x1, y1 [m]."""
+        """Extent of ice and hulls at the start and end and of all tracks: x0, y0, x1, y1 [m]."""
         return extent_of([points for time in (self.run.start_time, self.run.end_time)
                           for points in self.points(self.run.frame(time))])

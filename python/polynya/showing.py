@@ -1,4 +1,4 @@
-"""What scenes, simulations, runs and studies show in a notebook: a map of ice and hulls, and a few lines beside it."""
+"""Views of scenes, simulations, runs and studies in a notebook: a map of ice and hulls, with a few lines of text."""
 from __future__ import annotations
 
 import base64
@@ -7,12 +7,12 @@ import io
 
 import numpy
 
-MOST_FLOES = 100_000  # of a map
-MOST_ROWS = 20  # of a study's table
+MOST_FLOES = 100_000  # largest number of floes on a map
+MOST_ROWS = 20  # largest number of rows of a study's table
 
 
 def floes_by_kind(simulation):
-    """Floes as one path a kind, as Scenery.floes() of a run."""
+    """Floes as one path for each kind, like Scenery.floes() for a run."""
     from . import scenery
     floes = simulation.floes
     rings = numpy.split(floes.world_vertices, floes.ring_offsets[1:-1]) if len(floes) else []
@@ -36,7 +36,7 @@ def hulls_of(simulation):
 
 
 def draw(axes, floes, hulls, tracks=()):
-    """Draws paths from above, in one scale."""
+    """Draws paths from above, in equal scale along both axes."""
     from matplotlib.patches import PathPatch
 
     from . import scenery
@@ -45,7 +45,7 @@ def draw(axes, floes, hulls, tracks=()):
     shown += [(path, style(colour, "white", 0.4)) for path, colour in zip(hulls, (scenery.SHIP, scenery.WALL))]
     axes.set_facecolor(scenery.WATER)
     for order, (path, its) in enumerate(shown):
-        is_under = order == scenery.UNDER  # seen through the hulls
+        is_under = order == scenery.UNDER  # ice under hulls is drawn over them
         alpha = 0.5 if is_under else 0.9 if order > scenery.UNDER else None
         if len(path.vertices):
             axes.add_artist(PathPatch(path, zorder=2 + order + 2 * is_under, alpha=alpha, **its))
@@ -59,8 +59,8 @@ def draw(axes, floes, hulls, tracks=()):
 def plot(self, axes=None):
     """plot(axes=None)
 
-    Draws ice and hulls as they are now, from above, by matplotlib: into these axes, or into a new figure's, which are
-    returned."""
+    Draws ice and hulls at the present time from above, with matplotlib, into these axes or into those of a new figure.
+    Returns the axes."""
     if axes is None:
         from matplotlib import pyplot
         axes = pyplot.figure(figsize=(7, 4.5), layout="constrained").add_subplot()
@@ -69,7 +69,7 @@ def plot(self, axes=None):
 
 
 def image(fill):
-    """A PNG of axes that `fill` draws, as an element of HTML; none where matplotlib is missing."""
+    """A PNG of axes that `fill` draws, as an HTML element; none if matplotlib is missing."""
     try:
         from matplotlib.figure import Figure
     except ImportError:

@@ -1,8 +1,7 @@
-"""Estimators for samples of independent runs: means, quantiles, exceedance and extreme-value fits, with their
-intervals.
+"""Estimators for samples of independent runs: means, quantiles, exceedance and extreme-value fits, with intervals.
 
-Every sample is a one-dimensional array of finite numbers; units are the caller's. Intervals are two-sided at `level`.
-Bootstrap intervals are percentile intervals [Efron1993]; their draws depend on `seed` alone.
+A sample is a one-dimensional array of finite numbers in any unit. Intervals are two-sided with probability `level`.
+Bootstrap intervals are percentile intervals [Efron1993]; their random draws depend only on `seed`.
 """
 import dataclasses
 import math
@@ -16,7 +15,7 @@ RESAMPLES = 1000
 
 @dataclasses.dataclass(frozen=True)
 class Interval:
-    """An estimate between its limits."""
+    """An estimate and its limits."""
 
     value: float
     low: float
@@ -30,7 +29,8 @@ class Interval:
 @dataclasses.dataclass(frozen=True)
 class Fit:
     """A distribution fitted by maximum likelihood. `ks` and `ad` are the Kolmogorov–Smirnov and Anderson–Darling
-    distances; their p values are from a parametric bootstrap, since the parameters come from the same sample."""
+    distances. Their p values come from a parametric bootstrap, because the parameters were fitted to the same
+    sample."""
 
     name: str  # gumbel or weibull
     parameters: dict  # name -> Interval
@@ -48,12 +48,12 @@ class Fit:
         return exceedance_of(self.name, self.values(), numpy.asarray(x, dtype=float))
 
     def level_of(self, probability):
-        """The value that is exceeded with that probability."""
+        """The value that is exceeded with this probability."""
         return value_exceeded(self.name, self.values(), numpy.asarray(probability, dtype=float))
 
 
 def sample_of(values, least):
-    """The values as an array; ValueError for what is no sample of at least that size."""
+    """Returns the values as an array. Raises ValueError if they are no sample of at least `least` numbers."""
     sample = numpy.asarray(values, dtype=float)
     if sample.ndim != 1 or not numpy.all(numpy.isfinite(sample)):
         raise ValueError("a sample is a list of finite numbers")
@@ -63,7 +63,8 @@ def sample_of(values, least):
 
 
 def mean(values, level=LEVEL):
-    """The mean with Student's interval. Exact for normal samples, and for large ones by the central limit theorem."""
+    """Mean with Student's interval. The interval is exact for normal samples, and approximate for large ones by the
+    central limit theorem."""
     sample = sample_of(values, 2)
     middle = sample.mean()
     half = stats.t.ppf((1 + level) / 2, sample.size - 1) * sample.std(ddof=1) / math.sqrt(sample.size)
@@ -71,12 +72,12 @@ def mean(values, level=LEVEL):
 
 
 def resampled(sample, seed, count=RESAMPLES):
-    """`count` resamples with replacement, a row each."""
+    """`count` resamples with replacement, one per row."""
     return numpy.random.default_rng(seed).choice(sample, (count, sample.size))
 
 
 def bootstrap(values, statistic, level=LEVEL, seed=0, count=RESAMPLES):
-    """A statistic with its percentile interval; `statistic` maps an array's last axis to a number."""
+    """A statistic with its percentile interval. `statistic` maps the last axis of an array to a number."""
     sample = sample_of(values, 2)
     of_resamples = statistic(resampled(sample, seed, count))
     low, high = numpy.quantile(of_resamples, [(1 - level) / 2, (1 + level) / 2])
@@ -88,19 +89,19 @@ def bootstrap_mean(values, level=LEVEL, seed=0, count=RESAMPLES):
 
 
 def quantile(values, probability, level=LEVEL):
-    """A quantile with the interval of order statistics, which holds for any continuous distribution: the number of
-    values below the quantile is binomial. Where the sample is too small for a limit it is infinite."""
+    """A quantile with the interval of order statistics, which is valid for any continuous distribution, because the
+    number of values below the quantile is binomial. A limit is infinite if the sample is too small for it."""
     sample = numpy.sort(sample_of(values, 1))
     n = sample.size
-    lower = int(stats.binom.ppf((1 - level) / 2, n, probability))  # low limit: the lower-th smallest
-    upper = int(stats.binom.ppf((1 + level) / 2, n, probability)) + 1  # high limit: the upper-th smallest
+    lower = int(stats.binom.ppf((1 - level) / 2, n, probability))  # the low limit is the lower-th smallest value
+    upper = int(stats.binom.ppf((1 + level) / 2, n, probability)) + 1  # the high limit is the upper-th smallest value
     low = sample[lower - 1] if lower >= 1 else -math.inf
     high = sample[upper - 1] if upper <= n else math.inf
     return Interval(float(numpy.quantile(sample, probability)), float(low), float(high))
 
 
 def exceedance(values):
-    """The ordered values and the empirical probability of a value above each: 1 − i/(n + 1), Weibull's plotting
+    """Sorted values and the empirical probability of a value above each: 1 − i/(n + 1), Weibull's plotting
     positions."""
     sample = numpy.sort(sample_of(values, 1))
     return sample, 1 - numpy.arange(1, sample.size + 1) / (sample.size + 1)
@@ -118,7 +119,8 @@ def proportion(count, of, level=LEVEL):
 
 
 def cases_needed(values, half_width, level=LEVEL):
-    """How many cases make the mean's interval at most ± half_width, judged by the standard deviation of these."""
+    """Number of cases for which the interval of the mean is at most ± half_width, estimated from the standard deviation
+    of these."""
     sample = sample_of(values, 2)
     if not half_width > 0:
         raise ValueError(f"found a half width of {half_width}, allowed: a number > 0")
@@ -133,8 +135,9 @@ def cases_needed(values, half_width, level=LEVEL):
 
 
 def gumbel_parameters(rows):
-    """Location and scale of the Gumbel distribution of largest values, by maximum likelihood, for each row. The scale β
-    solves β = x̄ − Σ x e^(−x/β) / Σ e^(−x/β) [Johnson1995]; Newton's method for log β, from the method of moments."""
+    """Location and scale of the Gumbel distribution of largest values for each row, by maximum likelihood. The scale β
+    solves β = x̄ − Σ x e^(−x/β) / Σ e^(−x/β) [Johnson1995]. It is found by Newton's method for log β, starting from the
+    method of moments."""
     rows = numpy.atleast_2d(rows)
     low = rows.min(axis=1, keepdims=True)
     x = rows - low
@@ -146,7 +149,7 @@ def gumbel_parameters(rows):
         first = (x * weights).sum(axis=1) / total
         second = (x * x * weights).sum(axis=1) / total
         miss = scale - middle + first
-        slope = scale + (second - first * first) / scale  # of the miss, by log β
+        slope = scale + (second - first * first) / scale  # derivative of the residual with respect to log β
         change = numpy.clip(-miss / slope, -1, 1)
         scale = scale * numpy.exp(change)
         if numpy.all(numpy.abs(change) < 1e-12):
@@ -156,14 +159,14 @@ def gumbel_parameters(rows):
 
 
 def weibull_parameters(rows):
-    """Shape and scale of the Weibull distribution from zero, by maximum likelihood, for each row of positive numbers:
-    −ln X is then of a Gumbel distribution with location −ln scale and scale 1/shape."""
+    """Shape and scale of the Weibull distribution from zero for each row of positive numbers, by maximum likelihood.
+    −ln X then has a Gumbel distribution with location −ln scale and scale 1/shape."""
     location, scale = gumbel_parameters(-numpy.log(rows))
     return 1 / scale, numpy.exp(-location)
 
 
 def parameters_of(name, rows):
-    """Parameters by rows, a column each, in the order of NAMES."""
+    """Fitted parameters, one row per sample, with columns in the order of NAMES."""
     return numpy.column_stack(gumbel_parameters(rows) if name == "gumbel" else weibull_parameters(rows))
 
 
@@ -198,7 +201,7 @@ def distances(name, parameters, rows):
 
 
 def fit(name, values, level=LEVEL, seed=0, count=RESAMPLES):
-    """A Gumbel or Weibull distribution for a sample of extremes, with bootstrap intervals and goodness of fit."""
+    """Fits a Gumbel or Weibull distribution to a sample of extremes, with bootstrap intervals and tests of the fit."""
     sample = sample_of(values, 5)
     if name not in NAMES:
         raise ValueError(f'found "{name}", allowed: {", ".join(NAMES)}')
@@ -225,7 +228,7 @@ def fit(name, values, level=LEVEL, seed=0, count=RESAMPLES):
 
 
 def level_interval(name, values, probability, level=LEVEL, seed=0, count=RESAMPLES):
-    """The value that is exceeded with that probability, by the fit, with its bootstrap interval."""
+    """The value that is exceeded with this probability by the fit, with its bootstrap interval."""
     sample = sample_of(values, 5)
 
     def of(rows):

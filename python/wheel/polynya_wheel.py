@@ -21,7 +21,7 @@ import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 NAME = "polynya"
-EXTRAS = {  # beside numpy, without which nothing of the package works
+EXTRAS = {  # packages in addition to numpy, which all parts of the package need
     "plot": ["matplotlib", "scipy"],
     "tables": ["pandas", "shapely"],
     "notebook": ["matplotlib", "ipython"],
@@ -55,18 +55,18 @@ def run(*words):
 
 
 def given_tree():
-    """From the environment: pip 23.0, which is Debian's, hands on no --config-settings."""
+    """Path from the environment, because pip 23.0 of Debian does not pass --config-settings on."""
     return os.environ.get("POLYNYA_BUILD_TREE", "")
 
 
 def built_tree():
-    """The build tree to take, with program and module for this Python in it."""
+    """The build tree to use, which must contain program and module for this Python."""
     if given_tree():
         return ROOT / given_tree()
     tree = ROOT / "build" / "wheel"
-    # What was found for another Python is forgotten; the rooms, which are most of the work, are kept.
+    # Forget what was found for another Python; keep the compiled rooms, which are most of the work.
     forget = ["-U", "Python_*", "-U", "_Python_*", "-U", "PYBIND11_*", "-U", "pybind11_*"]
-    own = importlib.util.find_spec("pybind11")  # what pip brought for this build, else Debian's headers
+    own = importlib.util.find_spec("pybind11")  # installed by pip for this build; otherwise Debian's headers are used
     if own:
         forget.append(f"-Dpybind11_DIR={pathlib.Path(own.origin).parent / 'share' / 'cmake' / 'pybind11'}")
     python = f"-DPython_EXECUTABLE={sys.executable}"
@@ -76,7 +76,7 @@ def built_tree():
 
 
 def files_of_wheel(tree):
-    """(name in the wheel, file) of all that is installed, in one order."""
+    """(name in the wheel, file) of all files that are installed, in a fixed order."""
     suffix = sysconfig.get_config_var("EXT_SUFFIX")
     module = tree / "python_core" / f"_core{suffix}"
     if not module.is_file():
@@ -103,14 +103,14 @@ def texts_of_wheel():
 
 
 class Wheel:
-    """A zip with the list of its files' hashes."""
+    """A zip file with a list of the hashes of its files."""
 
     def __init__(self, path):
         self.zip = zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED)
         self.record = []
 
     def add(self, name, data, mode=0o644):
-        entry = zipfile.ZipInfo(name)  # of 1980: the same files are the same bytes
+        entry = zipfile.ZipInfo(name)  # dated 1980, so that the same files give the same bytes
         entry.external_attr, entry.compress_type = (0o100000 | mode) << 16, zipfile.ZIP_DEFLATED
         self.zip.writestr(entry, data)
         digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
@@ -122,10 +122,10 @@ class Wheel:
         self.zip.close()
 
 
-# ---- the hooks that pip calls
+# ---- functions that pip calls
 
 def get_requires_for_build_wheel(config_settings=None):
-    """Debian's pybind11 is of 2022, before Python 3.12."""
+    """Debian's pybind11 is from 2022, before Python 3.12."""
     if given_tree() or sys.version_info < (3, 12) and pathlib.Path("/usr/include/pybind11").exists():
         return []
     return ["pybind11>=2.13"]
@@ -152,7 +152,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 def build_sdist(sdist_directory, config_settings=None):
-    """What git has of this tree."""
+    """Files of this tree that git tracks."""
     base = f"{NAME}-{version()}"
     listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True)
     names = listed.stdout.splitlines()

@@ -248,8 +248,8 @@ TEST_F(ShipsCommand, WhatIsNoShipOrNoneForPerformanceIsRefusedWithItsPlace) {
                    {outline, 3, "outline.json:3:19: propulsion.engine: "},
                    {outline, 3, "outline.json:3:49: mooring: "},
                    {"ships sawamura2017 --for-performance", 3, "sawamura2017: "},
-                   {"ships titanic", 2, "no ship \"titanic\"; there are"},
-                   {"ships araoon --json", 2, "no ship \"araoon\"; did you mean araon?"},
+                   {"ships titanic", 2, "no preset and no file is named \"titanic\"; presets: "},
+                   {"ships araoon --json", 2, "no preset and no file is named \"araoon\"; did you mean araon?"},
                    {"ships nofile.json", 5, "polynya: nofile.json: no such file\n"},
                    {"ships scene.json", 3, "scene.json:1:1: found a scene, with its \"ships\""}},
                   {folder.path()});

@@ -141,7 +141,7 @@ class BrokenAudit : public testing::Test {
     simulation->step();
     EXPECT_FALSE(simulation->audit().is_closed());
     const Outcome repeated = expect_code(4, resume("--from-failure"));
-    EXPECT_HAS(repeated.out, "now         the accounts of energy or momentum do not close\nreproduced\n");
+    EXPECT_HAS(repeated.out, "now         the balances of energy or momentum do not close\nreproduced\n");
     EXPECT_EQ(resume("--from-failure").out, repeated.out);
   }
 
@@ -160,7 +160,7 @@ TEST_F(BrokenAudit, IsToldAtTheEndAndDumpedAndRepeated) {
 
 TEST_F(BrokenAudit, StopsARunThatIsCheckedAtEveryStep) {
   stop_run();
-  EXPECT_HAS(expect_code(4, resume("--check")).err, "stopped at ", ": the accounts of energy or momentum do not close");
+  EXPECT_HAS(expect_code(4, resume("--check")).err, "stopped at ", ": the balances of energy or momentum do not close");
   expect_reproduced();
 }
 

@@ -124,7 +124,7 @@ TEST_F(Resume, AFinishedRunGoesOnToALaterEnd) {
 
 TEST_F(Resume, AKilledRunMayEndElsewhere) {
   interrupt();
-  expect_refused("--until 0.5", "behind the end of the run at 0.5 s");
+  expect_refused("--until 0.5", "after the end of the run at 0.5 s");
   ASSERT_EQ(polynya("run scene.json --out whole --until 110 --overwrite", start_).code, 0);
   EXPECT_EQ(resume("--until 110").code, 0);
   EXPECT_EQ(difference(), "");

@@ -253,7 +253,7 @@ TEST(MemoryCheck, RefusesWhatSurelyDoesNotFitAndNotesWhatMayNot) {
   };
   const std::string refusal = said_of(200e3, false);
   EXPECT_HAS(refusal,
-             "scene.json: 1000 floes take at least 1 MB of memory, and there are 0 MB (a limit); "
+             "scene.json: 1000 floes need at least 1 MB of memory, and 0 MB are available (a limit); "
              "nothing was written");
   EXPECT_HAS(said_of(3e6, true), "note: scene.json: the run takes about");
   EXPECT_EQ(said_of(1e9, true), "");

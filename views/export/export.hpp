@@ -12,69 +12,75 @@
 
 namespace polynya::views {
 
-/// One VTK PolyData as XML (.vtp), numbers in base64: vertices, lines and triangles in the plane z = 0.
+/// A VTK PolyData, which is written as XML (.vtp) with numbers in base64. It has vertices, lines and triangles in the
+/// plane z = 0.
 struct VtkPolyData {
   explicit VtkPolyData(double at = 0) : time(at) {}
 
   std::vector<geometry::Point> points;  ///< [m]
-  /// Cells by the numbers of their points, in VTK's order: vertices, then lines, then polygons.
+  /// Cells, each a list of indices of points. VTK numbers all vertices first, then lines, then polygons.
   std::vector<std::vector<std::int64_t>> vertices, lines, polygons;
 
   struct Column {
+    /// Name, with unit, as ParaView shows it.
     std::string name;
     std::vector<double> values;
     int components = 1;  ///< 1, or 3 for vectors
     bool is_integer = false;
   };
-  std::vector<Column> cell_data;   ///< a row a cell
-  std::vector<Column> point_data;  ///< a row a point
-  double time;                     ///< [s], as field data TimeValue
+  std::vector<Column> cell_data;   ///< columns with one row per cell, in VTK's order
+  std::vector<Column> point_data;  ///< columns with one row per point
+  double time;                     ///< time [s], which is written as the field data TimeValue
 };
 
+/// Returns the text of a .vtp file.
 std::string to_vtp(const VtkPolyData& data);
 
-/// A file of a collection over time (.pvd).
+/// A file of a time series (.pvd).
 struct VtkFile {
   double time = 0;  ///< [s]
+                    /// Number that distinguishes several files of the same time.
   int part = 0;
   std::string name;
 };
 std::string to_pvd(const std::vector<VtkFile>& files);
 
+/// Result of an export.
 struct VtkExport {
   std::size_t frames = 0;
-  std::vector<simulation::FloeId> only_outlines;  ///< floes of a damaged run whose rings bound no area
+  /// Floes of a damaged run whose rings enclose no area; only their outlines were exported.
+  std::vector<simulation::FloeId> only_outlines;
 };
 
-/// Writes a run for ParaView (docs/export.md): run.pvd, and for each selected frame the ice, the ships, their
-/// loads and the contacts. The error names the file.
+/// Writes a run for ParaView (docs/export.md): run.pvd, and for each selected frame the ice, the ships, their loads and
+/// the contacts. The error names the file that could not be written.
 io::Result<VtkExport> export_vtk(const io::Run& run, const io::FrameSelection& selection,
                                  const std::filesystem::path& folder);
 
-/// In which coordinates the layers of a run are written.
+/// Coordinates in which the layers of a run are written.
 struct LayerPlane {
-  std::string system;  ///< a coordinate system, "OGC:CRS84" or "EPSG:3413"; empty: metres of the scene's plane
-  double tolerance = io::kEdgeTolerance;  ///< as in an import (io/import/plane.hpp) [m]
+  std::string system;  ///< coordinate system, "OGC:CRS84" or "EPSG:3413"; empty: metres of the scene's plane
+  double tolerance = io::kEdgeTolerance;  ///< largest error of an edge [m], as in an import (io/import/plane.hpp)
 };
 
-/// The layers of a run at a time as GeoJSON FeatureCollections: floes, fractures up to then, and for each ship its
-/// track and its hull. Returns the names of files with their text. In a system, which the scene needs an origin for,
-/// edges get points where they are not straight there; in degrees longitudes run on past 180, so that no floe is torn,
-/// and a floe over a pole has a seam to it (io/import/degrees.hpp).
+/// Returns the layers of a run at a time [s] as GeoJSON FeatureCollections, each with its file name: floes, fractures
+/// until then, and for each ship its track and its hull. A coordinate system needs a scene with an origin. Points are
+/// added to edges that are not straight in it. In degrees, longitudes continue beyond 180 so that no floe is divided,
+/// and a floe over a pole has a seam to the pole (io/import/degrees.hpp).
 io::Result<std::vector<std::pair<std::string, std::string>>> geojson_layers(const io::Run& run, double time,
                                                                             const LayerPlane& plane);
 
-/// A scene that continues a run from one of its instants.
+/// A scene that continues a run from one of its frames.
 struct ContinuedScene {
-  double time = 0;  ///< of the frame that it continues from [s]
-  /// scene.json and floes.geojson, which it names.
+  double time = 0;  ///< time of the frame in the run [s]
+  /// Contents of scene.json and of floes.geojson, which scene.json names.
   std::vector<std::pair<std::string, std::string>> files;
-  std::vector<std::string> left_out;  ///< what of the run's state they do not have, in words
+  std::vector<std::string> left_out;  ///< parts of the run's state that the files do not contain, in words
 };
 
-/// The scene of a run as it stands at the last frame up to a time: its ships and floes where they are, with
-/// their velocities, lineage and thickness, everything else as in the run's scene.json. The clock starts at
-/// 0.
+/// Returns a scene with the state of a run at its last frame up to a time [s]: ships and floes have their places,
+/// velocities, lineage and thickness at that frame, and everything else is as in the run's scene.json. The clock starts
+/// at 0.
 io::Result<ContinuedScene> continued_scene(const io::Run& run, double time);
 
 }  // namespace polynya::views

@@ -21,12 +21,12 @@ using geometry::Point;
 using geometry::Polygon;
 using geometry::Ring;
 
-/// A feature of a layer, in the scene's plane until it is projected.
+/// A feature of a layer. It is in the scene's plane until it is projected.
 struct LayerFeature {
   enum class Kind { kPoint, kLine, kPolygon };
   std::string properties;  ///< members of JSON
   Kind kind = Kind::kPoint;
-  Polygon shape;  ///< of a point or a line only `outer`
+  Polygon shape;  ///< a point or a line uses only `outer`
 };
 
 struct Layer {
@@ -124,7 +124,7 @@ void for_rings(LayerFeature& feature, Use use) {
   for (Ring& hole : feature.shape.holes) use(hole);
 }
 
-/// Draws what was projected to degrees as it is read there.
+/// Rewrites a feature that was projected to degrees in the usual notation of degrees.
 void draw_in_degrees(LayerFeature& feature, double longitude) {
   Polygon& shape = feature.shape;
   if (feature.kind == LayerFeature::Kind::kPolygon)
@@ -133,7 +133,7 @@ void draw_in_degrees(LayerFeature& feature, double longitude) {
     shape.outer = io::line_in_degrees(shape.outer, longitude);
 }
 
-/// Brings the features of all layers from the plane about the scene's origin to another system.
+/// Projects the features of all layers from the plane about the scene's origin to another system.
 io::Result<> project(std::vector<Layer>& layers, const simulation::GeographicOrigin& origin, const LayerPlane& plane) {
   const auto crs = io::find_crs(plane.system);
   if (!crs) return io::fail(crs.error());
@@ -173,7 +173,7 @@ std::string text_of(const Layer& layer, double time, const std::string& members)
   return text.finish();
 }
 
-/// The members of a layer that tell where its coordinates lie. Without one GeoJSON is in OGC:CRS84.
+/// Returns the members of a layer that state its coordinate system. Without them, GeoJSON is in OGC:CRS84.
 std::string members_of(const std::optional<simulation::GeographicOrigin>& origin, const std::string& system) {
   if (system.empty()) return io::place_members(origin);
   if (system == io::kDegreesOnEarth) return "";

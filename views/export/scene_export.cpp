@@ -20,13 +20,14 @@ using io::JsonMember;
 using io::JsonValue;
 using JsonKind = JsonValue::Kind;
 
-constexpr std::size_t kLongestFinal = std::size_t{1} << 31;  ///< [bytes]
+constexpr std::size_t kLongestFinal = std::size_t{1} << 31;  ///< longest final.geojson that is read [bytes]
 
 JsonValue::Array pair_of(double x, double y) {
   return {{x}, {y}};
 }
 
-/// Which floes are fast ice: the scene's, and of the pieces of one the largest that is ice still.
+/// Returns which floes are fast ice: floes that are fast in the scene, and of the pieces of such a floe the largest
+/// that still exists.
 std::vector<bool> fast_floes(const io::Run& run) {
   std::vector<bool> is_fast(run.floes.size());
   const auto& specs = run.scene.scene.floes;
@@ -44,7 +45,7 @@ std::vector<bool> fast_floes(const io::Run& run) {
   return is_fast;
 }
 
-/// A floe's ship, and how far that has come over it: its way ahead through the water since the floe went under.
+/// Sets the ship over a floe and the distance that it has moved through the water, ahead, since the floe went under.
 void add_hull(const io::Run& run, const io::MotionIndex& motions, double time, simulation::FloeState& state) {
   const auto went_under = std::ranges::find_if(run.events, [&](const simulation::Event& event) {
     return event.is<simulation::Submerge>() && event.ice()->floe == state.floe;
@@ -70,7 +71,7 @@ void add_hull(const io::Run& run, const io::MotionIndex& motions, double time, s
   }
 }
 
-/// Floes at a frame as final.geojson has them.
+/// Returns the floes at a frame in the form of final.geojson.
 std::string floes_text(const io::Run& run, const io::MotionIndex& motions, const std::vector<io::PlacedFloe>& placed,
                        double time) {
   const std::vector<bool> is_fast = fast_floes(run);
@@ -98,14 +99,14 @@ std::string floes_text(const io::Run& run, const io::MotionIndex& motions, const
   return io::to_geojson(states, time, run.scene.scene.origin);
 }
 
-/// Adds the features of one collection to those of another.
+/// Appends the features of one collection to another.
 void add_features(std::string& collection, const std::string& other) {
   const std::size_t end = collection.rfind("]}"), first = other.find('[') + 1;
   const bool is_empty = collection.find_last_not_of(" \n", end - 1) == collection.find('[');
   collection.replace(end, std::string::npos, (is_empty ? "" : ",") + other.substr(first));
 }
 
-/// Brings a ship of the resolved scene to where it is.
+/// Moves a ship of the resolved scene to its place at the frame.
 void place_ship(JsonValue& ship, const io::Motion& motion) {
   const geometry::Vector ahead{std::cos(motion.angle), std::sin(motion.angle)};
   ship.set("position_m", pair_of(motion.position.x, motion.position.y));
@@ -117,7 +118,8 @@ void place_ship(JsonValue& ship, const io::Motion& motion) {
   ship.set("yaw_rate_deg_per_s", geometry::kDegreesPerRadian * motion.angular_velocity);
 }
 
-/// The clock starts again: rows of a table pilot that lie behind are cut off where it is now.
+/// Shifts a table of a pilot to the new clock. Rows before its zero are removed, and a row that is interpolated at that
+/// time is put at 0.
 void shift_table(JsonValue& rows, double time) {
   JsonValue::Array later;
   const JsonValue::Array& all = rows.items();
@@ -140,7 +142,7 @@ void shift_table(JsonValue& rows, double time) {
   rows.data = std::move(later);
 }
 
-/// A pilot that holds the heading of the start holds that one.
+/// A pilot that holds the initial heading of the ship continues to hold that heading.
 void keep_heading(JsonValue& ship, double heading) {
   JsonValue* pilot = ship.find("steering") ? ship.find("pilot") : nullptr;
   for (const char* kind : {"hold_speed", "hold_heading", "ram"}) {
@@ -149,7 +151,7 @@ void keep_heading(JsonValue& ship, double heading) {
   }
 }
 
-/// What a ship's pilot and steering remember that the scene does not have.
+/// Notes the state of a ship's pilot and steering that the new scene does not contain.
 void note_memory(const JsonValue& ship, std::vector<std::string>& left_out) {
   const JsonValue* name = ship.find("name", JsonKind::kText);
   const auto note = [&](std::string_view what) {
@@ -162,7 +164,7 @@ void note_memory(const JsonValue& ship, std::vector<std::string>& left_out) {
   if (ship.find("steering")) note("its rudder or thrusters start amidships");
 }
 
-/// Walls that moved are where they came to.
+/// Sets moving walls to their places at the frame.
 void place_walls(JsonValue& scene, const io::Run& run, const io::MotionIndex& motions, double time,
                  std::vector<std::string>& left_out) {
   const std::vector<simulation::Wall>& walls = run.scene.scene.walls;
@@ -194,7 +196,7 @@ void place_ships(JsonValue& scene, const io::Run& run, const io::MotionIndex& mo
   }
 }
 
-/// The scene's own clock and current, from then on.
+/// Shifts the scene's end and its flows over time to the new clock.
 void restart_clock(JsonValue& scene, const simulation::Scene& before, double time) {
   JsonValue* clock = scene.find("time");
   const double left = before.time.until - time;
@@ -223,7 +225,7 @@ io::Result<ContinuedScene> continued_scene(const io::Run& run, double time) {
   for (const io::Frame& frame : run.frames)
     if (frame.time <= time) continued.time = frame.time;
   const io::MotionIndex motions(run);
-  // The end is in final.geojson to the last bit, frames are within their tolerances.
+  // At the end of the run, final.geojson is exact to the last bit, while frames have tolerances.
   std::string floes;
   if (continued.time == run.end_time()) {
     auto final_floes = io::read_text_file(run.folder / io::run_file::kFinalGeojson, kLongestFinal);

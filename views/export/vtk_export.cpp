@@ -21,7 +21,7 @@ namespace {
 
 using Cells = std::vector<std::vector<std::int64_t>>;
 
-/// A DataArray: its length in bytes and its bytes as one stream of base64 (VTK seeks in it as in one).
+/// Returns a DataArray: its length in bytes and its bytes as one stream of base64, as VTK requires.
 template <class Value>
 std::string data_array(const std::string& name, const std::vector<Value>& values, int components) {
   simulation::ByteWriter bytes;
@@ -100,7 +100,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 using Column = VtkPolyData::Column;
 
-/// Adds a row to a table: the values of all columns, of a vector its three components.
+/// Appends a row to a table: one value for each column, three for a vector.
 void add_row(std::vector<Column>& columns, std::initializer_list<double> values) {
   const double* value = values.begin();
   for (Column& column : columns) {
@@ -109,12 +109,12 @@ void add_row(std::vector<Column>& columns, std::initializer_list<double> values)
   }
 }
 
-/// The cells of one floe: its rings as lines, and its triangles.
+/// Collects the cells of floes: their rings as lines, and their triangles.
 class IceExport {
  public:
   explicit IceExport(const io::Run& run) : run_(run), motions_(run) {}
 
-  /// What floats, or what is under hulls.
+  /// Returns the floating ice at a time [s], or the ice under hulls.
   VtkPolyData at(double time, bool is_under_hulls) {
     VtkPolyData data(time);
     const std::vector<io::PlacedFloe> floes =
@@ -145,11 +145,11 @@ class IceExport {
     return data;
   }
 
-  /// Floes whose rings bound no area; only their outlines are exported.
+  /// Floes whose rings enclose no area; only their outlines are exported.
   const std::set<simulation::FloeId>& without_triangles() const { return without_triangles_; }
 
  private:
-  /// A shape is triangulated once, in its body frame, where it is exact.
+  /// Returns the triangles of a floe. Each shape is triangulated once, in its body frame, in which it is exact.
   const std::vector<geometry::Triangle>& triangles_of(const io::PlacedFloe& floe) {
     auto& triangles = triangles_[floe.birth->floe];
     if (triangles.empty()) triangles = geometry::triangulate(*floe.polygon_in_body);
@@ -188,7 +188,7 @@ class IceExport {
   std::set<simulation::FloeId> without_triangles_;
 };
 
-/// Each ship's waterline as a polygon, with its motion at the time.
+/// Returns the waterline of each ship as a polygon, with its motion at the time [s].
 VtkPolyData ships_at(const io::Run& run, const io::MotionIndex& motions, double time) {
   VtkPolyData data(time);
   data.cell_data = {{"ship", {}, 1, true}, {"velocity_m_per_s", {}, 3, false}, {"heading_deg", {}, 1, false}};
@@ -209,13 +209,13 @@ VtkPolyData ships_at(const io::Run& run, const io::MotionIndex& motions, double 
   return data;
 }
 
-/// The `kind` of a fracture in the loads; that of a ship is 0.
+/// Number of a fracture in the column `kind` of the loads; ships have 0.
 int number_of(const simulation::Event& fracture) {
   if (fracture.is<simulation::Bend>()) return 1;
   return fracture.is<simulation::Split>() ? 2 : 3;
 }
 
-/// A ship with its ice load, or a fracture with the force that decided it.
+/// A ship with its ice load, or a fracture with the force that caused it.
 struct LoadVertex {
   geometry::Point at;
   int kind = 0;
@@ -227,8 +227,8 @@ struct LoadVertex {
   geometry::Vector collision;
 };
 
-/// The ice loads of the interval that ends at the time, a vertex a ship at its centre; and the fractures
-/// since the frame before, a vertex each where it happened.
+/// Returns the ice loads of the recording interval that ends at `time` [s], as a vertex at the centre of each ship, and
+/// the fractures since the frame at `after` [s], as a vertex where each happened.
 VtkPolyData loads_at(const io::Run& run, double after, double time) {
   VtkPolyData data(time);
   data.cell_data = {{"kind", {}, 1, true},           {"ship", {}, 1, true},     {"floe_id", {}, 1, true},
@@ -274,7 +274,8 @@ VtkPolyData loads_at(const io::Run& run, double after, double time) {
   return data;
 }
 
-/// The contacts recorded at a frame, a vertex each. Their columns are of points: glyphs stand on points.
+/// Returns the contacts recorded at a frame as vertices. Their columns belong to points, because ParaView draws glyphs
+/// at points.
 VtkPolyData contacts_at(const io::Run& run, double time) {
   VtkPolyData data(time);
   data.point_data = {{"ship", {}, 1, true},       {"floe_id", {}, 1, true},  {"by_ship", {}, 1, true},

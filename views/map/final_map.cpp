@@ -23,19 +23,21 @@ namespace {
 using geometry::Box;
 using geometry::Point;
 
-/// The unit of pictures for print: 16 px are 8 pt, so words of 16 and 18 px have 8 and 9 pt on paper.
+/// Pixels per millimetre on paper. Text of 16 px is then 8 pt in print, and text of 18 px is 9 pt.
 constexpr double kPixelsPerMm = 16 / (8 * 25.4 / 72);
-constexpr double kPageWidth = kPixelsPerMm * 170;  ///< across a journal's page [px]
-constexpr double kMargin = 24;                     ///< [px]
-constexpr double kRoom = kPageWidth - 2 * kMargin;
-constexpr double kTallest = 1200;    ///< of the map [px]
-constexpr double kFullMarks = 1400;  ///< marks have their full size on a map of that width [px]
-constexpr int kTitle = 18, kWords = 16;
-constexpr double kLine = 20, kLegendRow = 27, kSwatch = 26;  ///< [px]
-/// Of DejaVu Sans in bold, of the size; a title longer than the page by this is squeezed.
+constexpr double kPageWidth = kPixelsPerMm * 170;   ///< width of a page of a journal [px]
+constexpr double kMargin = 24;                      ///< [px]
+constexpr double kRoom = kPageWidth - 2 * kMargin;  ///< width of the map [px]
+constexpr double kTallest = 1200;                   ///< largest height of the map [px]
+constexpr double kFullMarks = 1400;                 ///< on a map of this width or more, marks have their full size [px]
+constexpr int kTitle = 18, kWords = 16;             ///< font sizes [px]
+constexpr double kLine = 20, kLegendRow = 27,
+                 kSwatch = 26;  ///< heights of lines and legend rows, width of samples [px]
+/// Width of a character as a fraction of its font size, for DejaVu Sans bold. A title that would be wider than the page
+/// is compressed.
 constexpr double kWidthOfCharacter = 0.68;
 
-/// Light ice on mid water on paper: apart in greyscale. Marks in the Okabe–Ito palette.
+/// Colours: light ice on medium water on white paper, which differ in greyscale. Marks use the Okabe–Ito palette.
 constexpr auto kWater = "#8fb8d0";
 constexpr auto kIceAtStart = "#a9cadd";
 constexpr auto kIce = "#ffffff";
@@ -50,17 +52,17 @@ constexpr auto kBend = "#0072b2";
 constexpr auto kSplit = "#d55e00";
 constexpr auto kGrind = "#7a5c2e";
 
-constexpr std::size_t kLargestConverted = std::size_t{20} << 20;  ///< an SVG that a converter is given [bytes]
+constexpr std::size_t kLargestConverted = std::size_t{20} << 20;  ///< longest SVG that is passed to a converter [bytes]
 
 struct DrawnFloe {
   geometry::Polygon polygon_in_world;  ///< [m]
   int generation = 0;
-  bool came_up = false;  ///< from under a hull
+  bool came_up = false;  ///< true if it surfaced from under a hull
 };
 
 struct DrawnHull {
   geometry::Ring waterline_in_world;   ///< [m]
-  std::vector<geometry::Point> track;  ///< of its centre of gravity [m]; of a wall none
+  std::vector<geometry::Point> track;  ///< track of its centre of gravity [m]; empty for a wall
   bool is_wall = false;
 };
 
@@ -111,11 +113,11 @@ class FinalMap {
   }
 
  private:
-  /// An entry of the legend; its swatch's lower left corner is drawn at a point [px].
+  /// An entry of the legend. Its sample is drawn with its lower left corner at a point [px].
   struct Key {
     std::string words;
     std::function<void(Point)> draw;
-    double width = kSwatch;  ///< of the swatch [px]
+    double width = kSwatch;  ///< width of the sample [px]
   };
 
   template <class... Values>
@@ -130,9 +132,9 @@ class FinalMap {
   double y(Point p) const { return top_ + scale_ * (extent_.high.y - p.y); }
   double width() const { return scale_ * (extent_.high.x - extent_.low.x); }
   double height() const { return scale_ * (extent_.high.y - extent_.low.y); }
-  double ice_edge() const { return std::clamp(0.4 * scale_, 0.4, 1.2); }  ///< [px]
+  double ice_edge() const { return std::clamp(0.4 * scale_, 0.4, 1.2); }  ///< width of the line around ice [px]
 
-  /// All that is shown, with some room around it.
+  /// Finds the extent of everything that is shown, with a margin.
   void find_extent() {
     std::optional<Box> all;
     const auto include = [&](Point p) {
@@ -220,7 +222,7 @@ class FinalMap {
     add("</g>\n");
   }
 
-  /// Dashed, pale, so that the hull shows through it.
+  /// Style of ice under hulls: dashed and pale, so that the hull remains visible through it.
   static std::string under_hull_style() {
     return fmt::format(
         "fill='{0}' fill-opacity='0.25' fill-rule='evenodd' stroke='{0}' stroke-dasharray='3 2' "
@@ -263,7 +265,8 @@ class FinalMap {
         edge);
   }
 
-  /// The scale bar, the longest of 1, 2, 5 × 10ⁿ metres that is short enough, and what the map shows.
+  /// Returns the scale bar, which is the longest of 1, 2, 5 × 10ⁿ metres that fits, and entries for everything that the
+  /// map shows.
   std::vector<Key> legend() {
     const double room = kRoom / 6 / scale_;
     const double decade = std::pow(10, std::floor(std::log10(room)));
@@ -302,27 +305,27 @@ class FinalMap {
   }
 
   const io::Run& run_;
-  double time_;  ///< of the map [s]
+  double time_;  ///< time of the map [s]
   std::vector<DrawnFloe> floes_;
-  std::vector<geometry::Polygon> under_hulls_;  ///< ice, in the world [m]
+  std::vector<geometry::Polygon> under_hulls_;  ///< ice under hulls in the world [m]
   std::vector<DrawnHull> hulls_;
-  Box extent_;                             ///< in the world [m]
-  double scale_ = 1, left_ = 0, top_ = 0;  ///< [px/m], of the map's corner [px]
+  Box extent_;                             ///< extent of the map in the world [m]
+  double scale_ = 1, left_ = 0, top_ = 0;  ///< scale [px/m] and corner of the map [px]
   std::string text_;
 };
 
-/// Makes a PNG of 240 dots per inch of an SVG file where rsvg-convert is installed. False where it is not or fails.
+/// Converts an SVG file to a PNG with 240 dots per inch by rsvg-convert. Returns false if it is not installed or fails.
 bool convert_to_png(const std::filesystem::path& svg, const std::filesystem::path& png) {
   constexpr std::size_t kLongest = std::size_t{1} << 30;  // [bytes]
   std::error_code error;
   const auto there = std::filesystem::symlink_status(png, error);
   if (exists(there) && !is_regular_file(there) && !is_symlink(there)) return false;
-  // It writes into a pipe: no folder is written to by a program that may outlive this one.
+  // It writes to a pipe, because a program that may outlive this one should not write to the folder.
   const auto output =
       io::run_child({"rsvg-convert", "--format=png", "--dpi-x=240", "--dpi-y=240", svg.string()}, kLongest);
   const bool is_made = output && output->code == 0 && !output->out.empty();
   if (is_made && io::write_whole_file(png, output->out, io::Durability::kSynced)) return true;
-  std::filesystem::remove(png, error);  // of an earlier picture
+  std::filesystem::remove(png, error);  // remove the file of an earlier picture
   return false;
 }
 

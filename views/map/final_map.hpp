@@ -6,12 +6,13 @@
 
 namespace polynya::views {
 
-/// The last frame of a run as SVG: ice, hulls, tracks and fractures under a title and a caption of what happened, over
-/// a legend, on a page as wide as a journal's. Its colours stay apart in greyscale and for colour-blind eyes.
+/// Returns a picture of the last frame of a run as SVG, as wide as a page of a journal: ice, hulls, tracks and
+/// fractures, with a title, a caption about the main events, and a legend. Its colours can be told apart in greyscale
+/// and by colour-blind readers.
 std::string final_map(const io::Run& run);
 
-/// Draws that into the run's folder: final.svg, and final.png where there is a converter. Returns the name of the
-/// better one; the error names the file that could not be written.
+/// Writes the picture to the run's folder: final.svg, and final.png if a converter is installed. Returns the name of
+/// the better file. The error names the file that could not be written.
 io::Result<std::string> draw_final_map(const io::Run& run);
 
 }  // namespace polynya::views

@@ -1,6 +1,6 @@
-// What can be done with the player: by its controls, keys and pointers, and by tests.
+// Actions of the player. Its controls, keys and pointers call them, and so do tests.
 
-/** All actions, each group with the others at hand. */
+/** Returns all actions in one object. Each group may call actions of the others. */
 function makeActions(player) {
   const actions = clockActions(player.state);
   const redrawn = Object.entries({ ...mapActions(player, actions), ...layerActions(player) }).map(([name, act]) =>
@@ -13,7 +13,7 @@ function makeActions(player) {
   return Object.assign(actions, Object.fromEntries(redrawn), ...groups);
 }
 
-/** From frame to frame, and from event to event. */
+/** Actions that move to another frame or event. */
 function eventActions({ run, state, view }, actions) {
   const { frames: { times }, info: { events } } = run;
   return {
@@ -35,7 +35,8 @@ function eventActions({ run, state, view }, actions) {
       }
       showEventCard(byId("event-card"), run, event);
     },
-    /** The first marked event after a time [s], or before it; −1 where there is none. */
+    /** Index of the first marked event after a time [s], or with step < 0 of the last one before it; −1 if there is
+     * none. */
     eventFrom(time, step) {
       const isBeyond = (event) => isMarked(event) && (step > 0 ? event.t_s > time + 1e-9 : event.t_s < time - 1e-9);
       return step > 0 ? events.findIndex(isBeyond) : events.findLastIndex(isBeyond);
@@ -52,7 +53,7 @@ function eventActions({ run, state, view }, actions) {
   };
 }
 
-/** The part of the map in view. */
+/** Actions that change the visible part of the map. */
 function mapActions(player, actions) {
   const { state, view, run: { info: { ships } } } = player;
   return {
@@ -84,7 +85,7 @@ function mapActions(player, actions) {
   };
 }
 
-/** What the map shows. */
+/** Actions that change the contents of the map. */
 function layerActions(player) {
   const { state } = player;
   return {
@@ -98,7 +99,7 @@ function layerActions(player) {
       byId(`layer-${name}`).checked = isOn;
       player.legend.show();
     },
-    /** Sizes √area [m] `from` on and `below`; null: all. */
+    /** Highlights floes with sizes √area [m] from `from` to less than `below`; null: all floes. */
     chooseSizes(range = null) {
       state.sizes = range;
       player.sizePanel.showFields();
@@ -107,14 +108,14 @@ function layerActions(player) {
   };
 }
 
-/** What is taken out of the page: a link, pictures. */
+/** Actions that export something from the page: a link or pictures. */
 const takeAwayActions = (player) => ({
   copyLink: () => copyLink(player.address()),
   saveMap: () => savePicture(player, mapPicture(player), "map"),
   savePlot: () => player.run.info.ships.length > 0 && savePicture(player, plotPicture(player), "plot"),
 });
 
-/** The floe that is chosen, and the one pointed at. */
+/** Actions on the selected floe and on the floe under the pointer. */
 function floeActions(player, actions) {
   const { run, state, view, places, range } = player;
   return {
@@ -123,7 +124,7 @@ function floeActions(player, actions) {
       state.marksDirty = true;
       player.cardIsStale = true;
     },
-    /** Chooses a floe, and moves to its time if it is not there now. */
+    /** Selects a floe. If it does not exist at the present time, the player moves to a time at which it does. */
     visit(id) {
       if (run.floes.born[id] === Infinity) return showToast(`floe ${id} is not in this page: it is out of the area`);
       if (!places.isThere(id, state.time)) {
@@ -144,7 +145,8 @@ function floeActions(player, actions) {
       Object.assign(state, { hovered: floe, hoveredShip: ship, marksDirty: true });
       player.cardIsStale = true;
     },
-    /** Chooses what is there, or lets go of it where it was chosen. Ice under a hull is chosen with its ship. */
+    /** Selects the ship and the floe at a point of the screen, or deselects them if they were selected. Ice under a
+     * hull is selected together with its ship. */
     click(px, py) {
       const at = view.toWorld(px, py);
       const [floe, ship] = [floeAt(run, places, ...at), shipAt(run, player.motions, ...at)];
@@ -160,7 +162,7 @@ function floeActions(player, actions) {
   };
 }
 
-/** The page: its cards, its theme and its plot. */
+/** Actions on the page: its cards, theme and plots. */
 function pageActions(player, actions) {
   const { run, state, axis, plot } = player;
   return {
@@ -187,7 +189,7 @@ function pageActions(player, actions) {
       player.plotPanel.setFull(!plot.isFull);
       player.plotPanel.showTools();
     },
-    /** Shows a part of the run in the plot [s]; without ends all of it. */
+    /** Shows a part of the run [s] in the plot; without arguments the whole run. */
     zoomPlot: (from = axis[0], until = axis[1]) => plot.show(from, until),
     plotQuantity(name) {
       if (!Object.hasOwn(plot.quantities, name)) return;
@@ -195,11 +197,11 @@ function pageActions(player, actions) {
       byId("quantity").value = name;
       player.plotPanel.rebuild();
     },
-    /** Adds a plot below the others, of the first quantity that none shows if not named. */
+    /** Adds a plot below the others. Without a name it shows the first quantity that no other plot shows. */
     addPlot(name = nextQuantity(player.plotPanel)) {
       if (name !== undefined) actions.showPlots([...player.plotPanel.further(), name]);
     },
-    /** Shows plots of these quantities below the first. */
+    /** Shows plots of these quantities below the first plot. */
     showPlots(quantities) {
       player.plotPanel.showFurther(quantities.filter((name) => Object.hasOwn(plot.quantities, name)));
       state.marksDirty = true;

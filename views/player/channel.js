@@ -1,7 +1,8 @@
-// The channel behind each ship (docs/channel.md): what analysis/channel.cpp measured of it, and what its hull swept,
-// both carried with the water to the instant that is shown.
+// The channel behind each ship (docs/channel.md): the widths that analysis/channel.cpp measured, and the band that the
+// hull swept. Both are carried with the water to the time that is shown.
 
-/** Of the drift at a time: how far it took the water, x and y, and the free drift of ice. */
+/** Drift of the water at a time: its displacement x, y [m] and the velocity of free drift of ice [m/s], interpolated.
+ * */
 function driftAt(samples, time) {
   const after = samples.findIndex(([t]) => t > time);
   const k = Math.max(1, after < 0 ? samples.length - 1 : after);
@@ -10,7 +11,7 @@ function driftAt(samples, time) {
   return [1, 2, 3, 4].map((column) => from[column] + share * (to[column] - from[column]));
 }
 
-/** Where a point of the water at (x, y) at one time is at another. */
+/** Returns a function that computes where a point of the water moves from one time to another [s]. */
 function makeCarrier({ drift, shear_per_s: shear, shear_direction_rad: direction, shear_origin_m: [ox, oy] }) {
   const [cx, cy] = [Math.cos(direction), Math.sin(direction)];
   return (x, y, from, to) => {
@@ -21,7 +22,8 @@ function makeCarrier({ drift, shear_per_s: shear, shear_direction_rad: direction
   };
 }
 
-/** Whether a ship went anywhere, beside what is carried: through the water, else it has no channel; or over ground. */
+/** Returns true if a ship has moved more than 1 m relative to `carry`, which carries points with the water, or leaves
+ * them in place for motion over ground. */
 function hasGone(run, motions, ship, carry) {
   const { times } = run.frames;
   const last = times.length - 1;
@@ -31,7 +33,7 @@ function hasGone(run, motions, ship, carry) {
   return Math.hypot(x - bx, y - by) > 1;
 }
 
-/** A ship's poses with their times, frame by frame up to now. */
+/** Poses of a ship [x, y, heading, time] at all frames up to the present time, and at that time. */
 function posesUpTo(run, motions, ship, time) {
   const { times } = run.frames;
   const poses = [];
@@ -42,8 +44,8 @@ function posesUpTo(run, motions, ship, time) {
   return poses;
 }
 
-/** Poses so near each other in the water that outlines overlap: some between those far apart, none where it hardly
- * moves. */
+/** Selects poses at distances at which the drawn outlines overlap. Poses are interpolated between distant ones, and
+ * left out where the ship hardly moves. */
 function evenly(poses, spacing, carry, time) {
   const placed = ([x, y, , at]) => carry(x, y, at, time);
   const even = [];
@@ -60,7 +62,8 @@ function evenly(poses, spacing, carry, time) {
   return even;
 }
 
-/** What hulls swept: their outlines painted over each other along their tracks, carried with the water. */
+/** Draws the band that hulls swept: the outlines along their tracks, painted over each other and carried with the
+ * water. */
 function drawSweptBand(context, view, run, motions, time, colours) {
   run.info.ships.forEach(({ waterline_m: waterline }, index) => {
     const spacing = hullBox(waterline).length / 8;
@@ -72,8 +75,8 @@ function drawSweptBand(context, view, run, motions, time, colours) {
   });
 }
 
-/** The stations of a ship's channel with ice on both sides, as `polynya channel --at` measured them last, carried with
- * the water to now. */
+/** Stations of a ship's channel with ice on both sides, from the last measurement before a time [s], carried with the
+ * water to that time. */
 function stationsOf(run, ship, time) {
   const { columns: c, info } = run;
   const measured = c.channel_measured_s[lastAtMost(c.channel_measured_s, time)];
@@ -88,14 +91,14 @@ function stationsOf(run, ship, time) {
   return stations;
 }
 
-/** Their mean width in words; "" where there is none. */
+/** Mean width of the stations in words; "" if there are none. */
 function widthWords(stations) {
   if (stations.length === 0) return "";
   const mean = stations.reduce((sum, { port, starboard }) => sum + port + starboard, 0) / stations.length;
   return `${mean.toFixed(1)} m wide, ${(mean / stations[0].beam).toFixed(2)} beams`;
 }
 
-/** Of each station the rectangle from ice to ice. */
+/** Draws the rectangle from ice to ice at each station. */
 function drawStations(context, view, stations, colours) {
   context.beginPath();
   for (const { x, y, fx, fy, length, port, starboard } of stations) {

@@ -1,9 +1,10 @@
-// Time, and how fast it goes.
+// The clock of the player: time, and speed of playback.
 
-/** How many times as fast as the run it may be played: the choices of the page. */
+/** Playback speeds that the page offers, as multiples of real time. */
 const playRates = () => Array.from(byId("rate").options, ({ value }) => Number(value));
 
-/** The clock of a page between the ends of its axis [s]. `onChange` is called whenever it shows something else. */
+/** Makes the clock of a page. `axis` are its first and last time [s]. `onChange` is called whenever the clock changes.
+ * */
 function makeClock(axis, onChange) {
   const clock = {
     time: axis[0],
@@ -35,11 +36,11 @@ function makeClock(axis, onChange) {
   return clock;
 }
 
-/** What others may do with a clock. */
+/** The functions of a clock that other parts may call as actions. */
 const clockActions = ({ goTo, goToEnd, play, togglePlay, setRate, changeRate }) =>
   ({ goTo, goToEnd, play, togglePlay, setRate, changeRate });
 
-/** Calls `draw` at each tick of the screen, with the clock moved on while it plays, up to its end. */
+/** Calls `draw` at each refresh of the screen. While the clock plays, it is advanced before, until its end. */
 function runClock(clock, axis, draw) {
   let last = performance.now();
   function tick(now) {

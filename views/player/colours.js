@@ -1,16 +1,18 @@
-// What the colours of the ice mean: what became of each floe, the palette, and the legend below the map.
+// Colours of the ice: the history of each floe, the palette, and the legend below the map.
 
-// What became of each floe, from its lineage and its area: whole, cut, split off, broken off by bending, or come up
-// from under a hull.
+// History of a floe, from its lineage and area: whole, cut, split off, broken off by bending, or surfaced from under a
+// hull.
 
 const breakages = { whole: 0, cut: 1, split: 2, bend: 3, cameUp: 4 };
-const cutShare = 0.2; // of the area of the scene's floe: a piece that holds as much is what is left of it
+// A piece with at least this fraction of the area of the scene's floe counts as the cut floe, not as a piece broken off
+// [-].
+const cutShare = 0.2;
 
 /**
- * For each floe one of `breakages`. Whole: no fracture since the scene. Cut: what is left of a floe of the scene: the
- * largest piece of each bend, and every piece that holds a fifth of it. Off: all else, by the kind of fracture that
- * freed it; the largest piece of a piece that broke off stays what that was. What came up from under a hull stays that,
- * and its pieces too.
+ * Returns one of `breakages` for each floe. `whole`: it has not broken since the start of the scene. `cut`: it is the
+ * remaining part of a floe of the scene, which is the largest piece of each bend, and every piece with a fifth of the
+ * area. `split` and `bend`: any other piece, by the fracture that freed it; the largest piece of a piece that broke
+ * off keeps its kind. `cameUp`: it surfaced from under a hull, or broke from such a floe.
  */
 function breakagesOf({ floes, info, breakOf }) {
   const of = new Uint8Array(floes.count);
@@ -29,8 +31,8 @@ function breakagesOf({ floes, info, breakOf }) {
   return of;
 }
 
-// Colours. Each ramp goes from light to dark in even steps of lightness, none at that of the water, so that it
-// survives greyscale and colour blindness; marks are in the Okabe–Ito palette.
+// Each ramp goes from light to dark in even steps of lightness, and none has the lightness of the water, so that
+// colours can be told apart in greyscale and by colour-blind users. Marks use the Okabe–Ito palette.
 
 const ramps = {
   breakage: ["#ffffff", "#f6e3a8", "#dd9a45", "#8f4a1c", "#edc7dd"],
@@ -39,17 +41,17 @@ const ramps = {
   size: ["#0d4a35", "#2d7a55", "#58a173", "#b5dcbb", "#dcf0df", "#ffffff"],
 };
 
-/** A colour "#rrggbb" a part of the way to another. */
+/** Mixes two colours "#rrggbb". `part` is the fraction of the second one. */
 function mixedColour(colour, other, part) {
   const channel = (css, k) => parseInt(css.slice(1 + 2 * k, 3 + 2 * k), 16);
   const mixed = [0, 1, 2].map((k) => Math.round(channel(colour, k) + part * (channel(other, k) - channel(colour, k))));
   return `#${mixed.map((value) => value.toString(16).padStart(2, "0")).join("")}`;
 }
 
-/** Of a ship's curve. */
+/** Colour of a ship's curves in the plot. */
 const shipColour = (colours, ship) => colours[`ship-${ship % 5}`];
 
-/** The five largest of 1, 2, 5 × 10ⁿ below a value, growing: the edges of six classes. */
+/** The five largest of 1, 2, 5 × 10ⁿ below a value in ascending order: the limits of six classes. */
 function roundEdges(largest) {
   const edges = [];
   let edge = roundBelow(largest * 0.999);
@@ -62,8 +64,8 @@ function countWords(from, below) {
   return below === from + 1 ? String(from) : `${from} \u2013 ${below - 1}`;
 }
 
-/** The fastest record of a floe [m/s], the largest area [m²] and the most fractures in a run: the ends of its classes
- * of colours. */
+/** Largest values in a run, which determine the classes of colours: the fastest record of a floe [m/s], the largest
+ * area [m²], and the most fractures in a lineage. */
 function extremesOf({ floes, frames }) {
   const most = { speed: 0, area: 0, generation: 1 };
   for (const at of frames.recordAt) most.speed = Math.max(most.speed, Math.hypot(frames.doubles[at + 3],
@@ -75,7 +77,8 @@ function extremesOf({ floes, frames }) {
   return most;
 }
 
-/** How floes are coloured, in classes up to the extremes: a floe's value, edges, colours, words for the legend. */
+/** Ways of colouring floes, in classes up to the extremes: the value of a floe, limits, colours, and words for the
+ * legend. */
 function makeColourings(run, places, most) {
   const { floes } = run;
   const classes = (edges) => [`below ${edges[0]}`,
@@ -97,7 +100,7 @@ function makeColourings(run, places, most) {
   };
 }
 
-/** The theme's colours, by the names that they have in the style sheet (player.css). */
+/** Colours of the theme by their names in the style sheet (player.css). */
 function themeColours() {
   const style = getComputedStyle(document.documentElement);
   const rules = [...document.styleSheets].flatMap((sheet) => [...sheet.cssRules]);
@@ -105,16 +108,17 @@ function themeColours() {
   return Object.fromEntries(names.map((name) => [name.slice(2), style.getPropertyValue(name).trim()]));
 }
 
-// The legend below the map: what the colours, marks and arrows mean that are shown now.
+// The legend below the map. It explains the colours, marks and arrows that are shown.
 
 function makeLegend(player) {
   const { run, state, colourings } = player;
-  // As wide as its longest words from the start: the legend must not grow and shrink while the run plays.
+  // The field is as wide as its longest text from the start, so that the legend does not change its size while the run
+  // plays.
   const channelWidth = make("output", { id: "channel-width", style: `flex: 0 1 ${23 * run.info.ships.length}ch` });
 
   const row = (attributes, ...words) => make("span", {}, make("i", attributes), ...words);
   const swatchRow = (colour, ...words) => row({ style: `background: ${colour}` }, ...words);
-  /** An arrow of a round length of what is drawn at that many pixels a unit, in `words` of it. */
+  /** A row with an arrow of a round length. `perUnit` is its scale in pixels per unit; `words` describes the length. */
   function scaleRow(perUnit, words) {
     const length = roundBelow(60 / perUnit);
     return row({ class: "arrow", style: `width: ${length * perUnit}px` }, words(length));

@@ -1,6 +1,7 @@
-// The ice on the map: each floe as a path of the browser's, and what stays as a picture.
+// Draws the ice on the map. Each floe is a path of the browser; floes that hardly move are kept as a picture.
 
-/** Gives each floe's outline as a path in its body frame, from its centroid [m]; made when it is first asked for. */
+/** Returns a function that gives the outline of a floe as a path in its body frame, relative to its centroid [m]. An
+ * outline is made when it is first needed. */
 function makeOutlines({ floes }) {
   const outlines = new Map();
   return (id) => {
@@ -18,7 +19,7 @@ function makeOutlines({ floes }) {
   };
 }
 
-/** The floes that float now, those that are under hulls or wait behind them, and where they are. */
+/** The floes that float at the present time, those that are under hulls or wait behind them, and their places. */
 function makePlaces(run, motions) {
   const { floes } = run;
   const column = () => new Float64Array(floes.count);
@@ -51,8 +52,8 @@ function makePlaces(run, motions) {
   return places;
 }
 
-/** Draws of a floe `how` ("fill", "stroke"), where `places` have it. Its lines are in metres, as wide as `lineWidth` of
- * onMap(). */
+/** Draws a floe at its place in `places`. `how` are methods of the canvas ("fill", "stroke"). Lengths are in metres;
+ * the line is as wide as onMap() has set. */
 function drawFloe(context, view, run, places, id, ...how) {
   const scale = view.scale * view.ratio;
   const [c, s] = [places.cos[id] * scale, places.sin[id] * scale];
@@ -62,7 +63,7 @@ function drawFloe(context, view, run, places, id, ...how) {
   for (const name of how) context[name](outline);
 }
 
-/** Draws floes: lines have a width [px] and dashes [px]. */
+/** Calls `draw` with a line width [px] and dashes [px], which are converted to metres for drawFloe(). */
 function onMap(context, view, { width = 1, dash = [] }, draw) {
   context.save();
   context.lineWidth = width / view.scale;
@@ -72,12 +73,13 @@ function onMap(context, view, { width = 1, dash = [] }, draw) {
   context.restore();
 }
 
-/** The class of a value among growing edges. */
+/** Index of the class of a value. `edges` are the limits between classes in ascending order. */
 const classOf = (value, edges) => lastAtMost(edges, value) + 1;
 
-const smallReach = 5; // [px]; floes that reach less far have no edge drawn
+// Radius [px] of a floe on the screen up to which its edge is not drawn; smaller: drawing takes longer.
+const smallReach = 5;
 
-/** Draws the floes of these ids that show on the screen. `look` has their colours. */
+/** Draws the floes of these ids that are visible. `look` has their colours. */
 function drawFloes(context, view, run, places, ids, look) {
   const { floes } = run;
   const buckets = look.fills.map(() => []);
@@ -94,7 +96,7 @@ function drawFloes(context, view, run, places, ids, look) {
   }));
 }
 
-/** The scene's floes where they were at the start, so that open water shows what it was. */
+/** Draws the floes of the scene at their initial places, so that open water shows where ice was. */
 function drawStartIce(context, view, run, start, places, time, colours) {
   context.fillStyle = colours["start-ice"];
   const { floes } = run;
@@ -105,7 +107,7 @@ function drawStartIce(context, view, run, start, places, time, colours) {
   onMap(context, view, {}, () => seen.forEach((id) => drawFloe(context, view, run, start, id, "fill")));
 }
 
-/** Where floes of the scene are at the run's start. */
+/** Places of the floes at the start of the run. */
 function startPlaces(run, motions, time) {
   const start = makePlaces(run, motions);
   start.setTime(time);
@@ -113,20 +115,22 @@ function startPlaces(run, motions, time) {
   return start;
 }
 
-// Ice that hardly moves, drawn once and kept as a picture. Most floes of a large field stay where they are for a while:
-// then only the others are drawn again. The picture serves as long as the view stays and none of its floes has to move.
+// Ice that hardly moves is drawn once and kept as a picture, because most floes of a large field stay in place for a
+// while; only the other floes are drawn each time. The picture can be used as long as the view does not change and none
+// of its floes moves.
 
-const mostLoose = 1000; // floes outside the picture; with more of them it serves for a shorter time
+// Largest number of floes outside the picture; if there are more, the picture is made for a shorter time.
+const mostLoose = 1000;
 
 function makeStillIce(run, places, motions) {
   const { floes, frames: { times } } = run;
   const canvas = make("canvas");
   const kept = { look: "", from: 0, until: -1, loose: [] };
 
-  /** Parts the floes into those that stay where they are until a time, to a quarter of a pixel, and the others. */
+  /** Divides the floes into those that stay in place until a time, to within a quarter of a pixel, and the others. */
   function part(view, time, until) {
     const endFrame = lastAtMost(times, until) + 1;
-    const isInOneFrame = until <= times[motions.frame + 1]; // then nothing changes its way
+    const isInOneFrame = until <= times[motions.frame + 1]; // no further record then changes the motion of a floe
     const stays = (id) => {
       const speed = Math.hypot(places.vx[id], places.vy[id]) + Math.abs(places.spin[id]) * floes.reach[id];
       return floes.floatsUntil[id] > until && speed * (until - time) * view.scale < 0.25
@@ -147,10 +151,10 @@ function makeStillIce(run, places, motions) {
     Object.assign(kept, { from: time, until, loose });
   }
 
-  /** Draws all ice alive at the time. `look` names the view and the colours; `ahead` [s] is how long a picture is to
-   * last. */
+  /** Draws all floating ice at a time. `look` identifies the view and the colours; a picture is discarded if it
+   * changes. A picture is made for the next `ahead` [s]. */
   return function drawAll(target, view, look, time, ahead, draw) {
-    if (look !== kept.look) { // the view moves: no picture would serve twice
+    if (look !== kept.look) { // the view is changing, so that a picture could not be used twice
       Object.assign(kept, { look, until: -1 });
       draw(target, places.living.subarray(0, places.count));
       return;

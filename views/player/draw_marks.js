@@ -1,8 +1,8 @@
-// What stands above the ice on the map: contacts, marks of fractures, arrows, ships.
+// Draws everything that is above the ice on the map: contacts, marks of fractures, arrows, and ships.
 
-// The contacts recorded at frames (contacts.csv) and their forces.
+// Contacts recorded at frames (contacts.csv) and their forces.
 
-/** The contacts recorded at a frame. */
+/** Contacts recorded at a frame. */
 function contactsOfFrame({ columns: c, frames }, frame) {
   const at = frames.times[frame];
   const contacts = [];
@@ -13,13 +13,13 @@ function contactsOfFrame({ columns: c, frames }, frame) {
   return contacts;
 }
 
-/** A force of which one contact in twenty is larger [N]; 0 where nothing presses. */
+/** The force that one contact in twenty exceeds [N]; 0 if no contact presses. It sets the scale of arrows. */
 function typicalForce({ columns: { contact_fx_N: fx, contact_fy_N: fy } }) {
   const sizes = Float64Array.from(fx, (x, row) => Math.hypot(x, fy[row])).filter((size) => size > 0).sort();
   return sizes[Math.floor(0.95 * (sizes.length - 1))] ?? 0;
 }
 
-/** How a body has moved since a frame; null for a floe that broke since. */
+/** Returns a function that moves a point with a body since a frame; null for a floe that has broken since. */
 function moveSince(run, motions, places, frame, ship, floe, time) {
   if (ship < 0) {
     const duration = time - run.frames.times[frame];
@@ -32,26 +32,26 @@ function moveSince(run, motions, places, frame, ship, floe, time) {
   return (x, y) => move(x - x0, y - y0);
 }
 
-/** Fills the path. */
+/** Fills the current path. */
 function fillWith(context, colour) {
   context.fillStyle = colour;
   context.fill();
 }
 
-/** Strokes the path. */
+/** Strokes the current path. */
 function strokeWith(context, colour, width) {
   context.strokeStyle = colour;
   context.lineWidth = width;
   context.stroke();
 }
 
-/** Strokes a path twice, so that it stands out from ice and water [px]. */
+/** Strokes the current path twice, first wider by `rim` [px], so that it contrasts with ice and water. */
 function strokeTwice(context, under, over, width, rim = 2.4) {
   strokeWith(context, under, width + rim);
   strokeWith(context, over, width);
 }
 
-/** Words on the map, on a rim. */
+/** Draws words on the map with an outline that separates them from the background. */
 function drawWords(context, words, x, y, ink, rim, align = "center") {
   context.font = "600 12px system-ui, sans-serif";
   context.textAlign = align;
@@ -62,7 +62,7 @@ function drawWords(context, words, x, y, ink, rim, align = "center") {
   context.fillText(words, x, y);
 }
 
-/** An arrow from a point of the screen along (fx, fy), y up, added to the path. */
+/** Adds an arrow to the path, from a point of the screen in the direction (fx, fy), with y upwards. */
 function traceArrow(context, sx, sy, fx, fy, length) {
   const size = Math.hypot(fx, fy);
   const [ux, uy] = [fx / size, -fy / size];
@@ -75,8 +75,9 @@ function traceArrow(context, sx, sy, fx, fy, length) {
   context.lineTo(ex - tip * (ux - 0.5 * uy), ey - tip * (uy + 0.5 * ux));
 }
 
-/** Arrows of the forces on ships (of floe on floe: on the first), `perNewton` pixels a newton; those of the frame
- * before go with the ship they press on. Returns the notice to show where there are none. */
+/** Draws arrows for the forces of contacts on ships, or on the first floe of two, `perNewton` pixels long per newton.
+ * They belong to the last frame and move with the body on which they act. Returns a notice if the run has no contacts.
+ * */
 function drawContactForces(context, view, run, motions, places, time, colours, perNewton) {
   if (run.columns.contact_t_s.length === 0) return "This run recorded no contacts.";
   const contacts = contactsOfFrame(run, motions.frame);
@@ -92,9 +93,9 @@ function drawContactForces(context, view, run, motions, places, time, colours, p
   }
 }
 
-// What is drawn over the ice besides ships: velocities, lineage, marks, scale bar.
+// Other drawings over the ice: velocities, lineage, marks, scale bar.
 
-/** Arrows along the floes' and ships' velocities, `perSpeed` pixels for 1 m/s. */
+/** Draws arrows for the velocities of floes and ships, `perSpeed` pixels long for 1 m/s. */
 function drawVelocities(context, view, run, places, motions, colours, perSpeed) {
   const arrow = (x, y, vx, vy) => {
     const length = Math.hypot(vx, vy) * perSpeed;
@@ -112,12 +113,13 @@ function drawVelocities(context, view, run, places, motions, colours, perSpeed) 
   strokeWith(context, colours["hull-edge"], 2);
 }
 
-const arrowCell = 24; // [px]
+const arrowCell = 24; // side of the squares of which each has at most one arrow of a floe [px]
 
-/** Of the floes whose centres show in the same square of the screen the largest, so that arrows stay apart. */
+/** Ids of the largest floe in each square of the screen, by centre, so that arrows do not overlap. */
 function largestPerCell(view, floes, places) {
   const cells = new Map();
-  const cell = arrowCell / view.scale; // fixed in the world, so that arrows do not flicker as the map moves
+  // Squares are fixed in the world, so that arrows do not flicker when the map moves.
+  const cell = arrowCell / view.scale;
   for (let n = 0; n < places.count; ++n) {
     const id = places.living[n];
     if (!view.shows(places.x[id], places.y[id], cell)) continue;
@@ -128,7 +130,8 @@ function largestPerCell(view, floes, places) {
   return cells.values();
 }
 
-/** The floe's family: pieces of the same floe of the scene tinted, its ancestors' outlines, itself outlined. */
+/** Draws the family of a floe: tints the pieces of the same floe of the scene, and outlines its ancestors and itself.
+ * */
 function drawLineage(context, view, run, places, id, time, colours) {
   const { floes } = run;
   if (!places.isAlive(id, time)) places.place(id);
@@ -144,9 +147,9 @@ function drawLineage(context, view, run, places, id, time, colours) {
   onMap(context, view, { width: 3, dash }, () => drawFloe(context, view, run, places, id, "stroke"));
 }
 
-const mostAncestors = 40; // drawn
+const mostAncestors = 40; // number of ancestors that are drawn
 
-/** Ancestors share the floe's body frame: its pose places them. */
+/** Draws the outlines of ancestors. They share the body frame of the floe, so its pose places them. */
 function drawAncestors(context, view, run, places, id) {
   const { parent, cx, cy } = run.floes;
   const [c, s] = [places.cos[id], places.sin[id]];
@@ -158,7 +161,7 @@ function drawAncestors(context, view, run, places, id) {
   }
 }
 
-/** Of each kind of event the corners of its mark, in its size; a disc where there are none. */
+/** Corners of the mark of each kind of event, in units of its size; a disc if there are none. */
 const markCorners = { split: [[0, -1.3], [1.3, 1], [-1.3, 1]], bend: [],
   mooring_break: [[0, -1.4], [1.4, 0], [0, 1.4], [-1.4, 0]], other: [[-1, -1], [1, -1], [1, 1], [-1, 1]] };
 
@@ -202,11 +205,11 @@ function drawScaleBar(context, view, colours) {
   drawWords(context, words, x + pixels / 2, y - 8, colours.ink, colours.panel);
 }
 
-// Ships and structures: the waterline as the run has it, and inside it what shows a ship from above: deck, house, bow.
+// Ships and structures: the waterline of the run, and within it the deck, the deck house and the bow for recognition.
 
-const deckBeam = 7; // [px]; narrower ships have their waterline only
+const deckBeam = 7; // narrower ships are drawn as a waterline only [px]
 
-/** The box of a waterline in the ship's frame [m]. */
+/** Box of a waterline in the ship's frame [m]. */
 function hullBox(waterline) {
   const [xs, ys] = [0, 1].map((axis) => waterline.map((point) => point[axis]));
   const box = { aft: Math.min(...xs), bow: Math.max(...xs), starboard: Math.min(...ys), port: Math.max(...ys) };
@@ -218,7 +221,8 @@ function traceLine(context, points) {
   for (const point of points) context.lineTo(...point);
 }
 
-/** Deck, deck house and bridge, the bow's centreline. All in the ship's frame; `pixel` is one in metres. */
+/** Draws deck, deck house, bridge, and the centreline of the bow in the ship's frame. `pixel` is the size of a pixel
+ * [m]. */
 function drawDeck(context, waterline, { aft, length, beam, middle }, pixel, colours) {
   const shrunk = ([x, y]) => [x + 0.14 * beam * (0.5 - (x - aft) / length), middle + 0.86 * (y - middle)];
   traceLine(context, waterline.map(shrunk));
@@ -230,7 +234,7 @@ function drawDeck(context, waterline, { aft, length, beam, middle }, pixel, colo
     context.fillRect(aft + from * length, middle - 0.5 * across * beam, along * length, across * beam);
 }
 
-/** From the bow along the heading, with a tip; 16 to 50 pixels long. */
+/** Draws an arrow from the bow along the heading, 16 to 50 pixels long. */
 function drawHeading(context, { bow, middle, length }, pixel, colours) {
   const start = bow + 3 * pixel;
   const end = start + Math.min(50 * pixel, Math.max(16 * pixel, 0.3 * length));
@@ -239,7 +243,7 @@ function drawHeading(context, { bow, middle, length }, pixel, colours) {
   strokeTwice(context, colours["hull-edge"], colours.hull, 2 * pixel, 2.5 * pixel);
 }
 
-/** Draws in a ship's frame [m]; `draw` gets how long a pixel is there. */
+/** Calls `draw` with the canvas in the ship's frame [m]. Its argument is the size of a pixel [m]. */
 function inShipFrame(context, view, [x, y, heading], draw) {
   context.save();
   context.translate(...view.toScreen(x, y));
@@ -263,7 +267,7 @@ function drawShip(context, view, ship, pose, colours) {
   });
 }
 
-/** Strokes a path through points of the world in dashes [px]. */
+/** Strokes a dashed line through points of the world. Width and dashes are in pixels. */
 function drawDashed(context, view, points, colour, width, dash) {
   traceLine(context, points.map((point) => view.toScreen(...point)));
   context.setLineDash(dash);
@@ -271,7 +275,7 @@ function drawDashed(context, view, points, colour, width, dash) {
   context.setLineDash([]);
 }
 
-/** The lines of ships that manage ice, against the drift from the bodies that they protect. */
+/** Draws the patterns of ships that manage ice, which lie upstream of the bodies that they protect. */
 function drawPatterns(context, view, run, motions, time, colours) {
   const [, , vx, vy] = driftAt(run.info.water.drift, time);
   const upstream = vx === 0 && vy === 0 ? 0 : Math.atan2(-vy, -vx);
@@ -283,7 +287,7 @@ function drawPatterns(context, view, run, motions, time, colours) {
   }
 }
 
-/** All of them, with their tracks where that layer is on. */
+/** Draws all ships, and their tracks if that layer is shown. */
 function drawShips(context, view, run, motions, time, layers, colours) {
   if (layers.track) drawPatterns(context, view, run, motions, time, colours);
   run.info.ships.forEach((ship, index) => {
@@ -295,14 +299,14 @@ function drawShips(context, view, run, motions, time, layers, colours) {
   });
 }
 
-/** Ships as their names are placed by: names, centres and outlines on the screen. */
+/** Names, centres and outlines of ships on the screen, for placing their names. */
 function shipsOnScreen(view, { info: { ships } }, motions) {
   return ships.map(({ name, waterline_m: ring }, index) => ({ name, pose: motions.ship(index), ring }))
     .filter(({ pose }) => pose).map(({ name, pose, ring }) => ({ name, centre: view.toScreen(pose[0], pose[1]),
       ring: ring.map((point) => view.toScreen(...placedBy(pose)(...point))) }));
 }
 
-/** The outline of the ship that is chosen. */
+/** Outlines the selected ship. */
 function drawChosenShip(context, view, { waterline_m: ring }, pose, colours) {
   traceLine(context, ring.map((point) => view.toScreen(...placedBy(pose)(...point))));
   context.closePath();

@@ -1,7 +1,6 @@
-// Which floe is under a point, and what is known of it.
+// Finds the floe under a point and shows its data.
 
-/** The floe at a point of the world, the smallest where several overlap, else what is under a hull there; −1 where
- * there is water. */
+/** Floe at a point of the world: the smallest floating one, otherwise a floe under a hull; −1 if there is none. */
 function floeAt(run, places, x, y) {
   const found = floeAmong(run, places, places.living.subarray(0, places.count), x, y);
   return found >= 0 ? found : floeAmong(run, places, places.under, x, y);
@@ -19,14 +18,15 @@ function floeAmong({ floes, outline }, places, ids, x, y) {
   return best;
 }
 
-/** The floes that broke to make this one, oldest first, itself last. */
+/** The floes that broke one from the other until this one, oldest first, this one last. */
 function lineageOf(floes, id) {
   const ids = [];
   for (let at = id; at >= 0; at = floes.parent[at]) ids.unshift(at);
   return ids;
 }
 
-/** A floe's stand-in at a time: itself while it is there; before, what it was part of; later, its largest piece. */
+/** Substitute for a floe at a time: itself while it exists, before that the floe that it was part of, later its largest
+ * piece. */
 function standIn(run, places, id, time) {
   const { floes } = run;
   for (let at = id; at >= 0; at = floes.parent[at]) {
@@ -43,7 +43,7 @@ function standIn(run, places, id, time) {
   return best;
 }
 
-/** What is known of a floe: words, and the run's own number. */
+/** Data of a floe: text, and the exact number of the run. */
 function floeFacts(run, places, motions, id) {
   const { floes } = run;
   const speed = motions.isRecorded(id) ? Math.hypot(places.vx[id], places.vy[id]) : null;
@@ -61,7 +61,7 @@ function floeFacts(run, places, motions, id) {
   };
 }
 
-/** `chosen` is the floe that was clicked, `id` its stand-in now. */
+/** `chosen` is the floe that was clicked, `id` is its substitute at the present time. */
 function showFloeCard(host, run, places, motions, chosen, id, time, actions) {
   if (id < 0) {
     host.replaceChildren(make("p", { class: "hint" }, "Point at a floe, or tap it. A click keeps it."));
@@ -81,9 +81,10 @@ function showFloeCard(host, run, places, motions, chosen, id, time, actions) {
   host.replaceChildren(list, make("h3", {}, "Fracture lineage"), lineageList(run, id, actions));
 }
 
+// Number of ancestors that the card lists; a longer list would hide the rest of the panel.
 const longestLineage = 8;
 
-/** The floe's ancestors, each with the fracture that ended it, then itself and what it became. */
+/** Links to the ancestors of a floe, each with the fracture that ended it, to the floe itself, and to its pieces. */
 function lineageList(run, id, actions) {
   const { floes, info } = run;
   const breaks = run.breakOf;
@@ -117,7 +118,7 @@ function button(words, onClick) {
   return element;
 }
 
-/** A field of an event as its card shows it. */
+/** Returns a row of an event's card for one of its fields. */
 function eventValue(key, value, unit) {
   if (key === "kind") return kindWords(value);
   if (key === "children") return value.join(", ") || "\u2013";
@@ -126,8 +127,8 @@ function eventValue(key, value, unit) {
   return unit ? valueWords(value, unit) : String(value) || "\u2013";
 }
 
-/** The fields of an event that have labels, also those of what decided it: a load and its capacity by the names that
- * its rule has. */
+/** Returns the fields of an event that have labels, including those of its criterion. Its load and capacity have the
+ * names of the rule. */
 function eventRows({ event_labels: labels }, { criterion = {}, ...event }) {
   const { kind: rule = "", ...sides } = criterion;
   const [, load, capacity] = /^(.+) >=? (.+)$/.exec(rule) ?? [];
@@ -149,14 +150,14 @@ function showEventCard(host, run, event) {
   host.replaceChildren(list);
 }
 
-// The floe that was chosen or is pointed at: its card, and its line on the map.
+// The selected floe, or the floe under the pointer: its card, and its text on the map.
 
 function makeShownFloe(player) {
   const { run, state, places, motions } = player;
   let cardShown = "";
 
   const chosen = () => (state.selected >= 0 ? state.selected : state.hovered);
-  /** The floe that stands for it at the present time; −1 where there is none. */
+  /** Substitute for the floe at the present time; −1 if there is none. */
   const shown = () => (chosen() < 0 ? -1 : standIn(run, places, chosen(), state.time));
 
   function showCard() {

@@ -1,24 +1,26 @@
-// Pointers and keys.
+// Input by pointers and keys.
 
-// Mouse, pen and fingers on the map: drag to pan, wheel or two fingers to zoom, point to identify, click to keep.
+// Mouse, pen and fingers on the map: dragging pans, the wheel or two fingers zoom, pointing identifies, a click
+// selects.
 
-const clickSlop = 5; // [px]
+const clickSlop = 5; // a press that moves by less than this is a click [px]
 
-/** Where a pointer is in an element [px]. */
+/** Position of a pointer in an element [px]. */
 function pointIn(element, { clientX, clientY }) {
   const box = element.getBoundingClientRect();
   return [clientX - box.left, clientY - box.top];
 }
 
-/** How far a wheel was turned: the logarithm of the zoom it asks for. */
+/** Rotation of a wheel, as the logarithm of the zoom factor. */
 function wheelTurn({ deltaY, deltaMode, ctrlKey }) {
   return (deltaMode === 1 ? 33 * deltaY : deltaY) * (ctrlKey ? 0.01 : 0.0015);
 }
 
 /**
- * Pointers that are pressed on an element, each where it is [px]: `start(event, at, count)` where one is added,
- * `drag(at, before)` where a single one moves, `pinch(after, before)` where one of two does, `end(event, at)` when the
- * last is lifted, or taken away (pointercancel). `hover(event, at)` is of every move, pressed or not.
+ * Tracks the pointers that are pressed on an element. Positions `at` are in pixels. It calls `start(event, at, count)`
+ * when a pointer is pressed, `drag(at, before)` when a single pressed pointer moves, `pinch(after, before)` when one of
+ * two moves, and `end(event, at)` when the last is lifted or the browser cancels it. `hover(event, at)` is called for
+ * every move, pressed or not.
  */
 function watchPointers(element, { start, drag, pinch, hover, end }) {
   const pressed = new Map(); // pointer id → [x, y]
@@ -45,8 +47,8 @@ function watchPointers(element, { start, drag, pinch, hover, end }) {
 }
 
 function watchMap(stage, actions, isMeasuring) {
-  let moved = 0; // since the press [px]; no end of it with two fingers
-  let waiting = [0, 0]; // moved by less than a click may [px]
+  let moved = 0; // distance moved since the press [px]; with two fingers large, so that the press is no click
+  let waiting = [0, 0]; // motion that is still too small to be more than a click [px]
   let lastTap = -Infinity;
   watchPointers(stage, {
     start(event, at, count) {
@@ -86,8 +88,8 @@ function watchMap(stage, actions, isMeasuring) {
   }, { passive: false });
 }
 
-// Controls and keys. A control states all of its own: `data-do` names its action, `data-with` what that is given,
-// `data-keys` the keys that press it.
+// Controls and keys. A control describes itself by attributes: `data-do` names its action, `data-with` is the argument
+// of the action, and `data-keys` are its keys.
 
 function watchControls(actions) {
   for (const control of document.querySelectorAll("[data-do]")) {
@@ -95,7 +97,8 @@ function watchControls(actions) {
     const words = () => (control.tagName === "SELECT" ? [control.value] : given ? [Number(given) || given] : []);
     control.addEventListener(control.tagName === "BUTTON" ? "click" : "change", () => actions[name](...words()));
   }
-  // One that a pointer has used gives the focus back to the page, so that Space plays; one that keys reached keeps it.
+  // A control that was used by a pointer returns the focus to the page, so that Space plays. A control reached by keys
+  // keeps it.
   let isByPointer = false;
   const giveBack = () => isByPointer && document.activeElement.closest("button, input:not([type=number])")?.blur();
   for (const name of ["pointerdown", "keydown"])
@@ -103,7 +106,7 @@ function watchControls(actions) {
   for (const name of ["change", "click"]) document.addEventListener(name, giveBack);
 }
 
-/** Whether a key is for the control with the focus. Of a list Enter opens it: Space is the page's. */
+/** Returns true if a key is for the control with the focus. Enter opens a list, because Space belongs to the page. */
 function isForControl({ target, key }) {
   if (target.closest("select")) return /^(Arrow|Enter|Home|End|Page)/.test(key);
   if (target.closest("input[type=number]")) return key !== "Escape";

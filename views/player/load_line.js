@@ -1,15 +1,16 @@
-// The waterlines coloured by the loads that the ice has put on them up to the instant, by peaks of contacts.csv.
+// Colours the waterlines by the ice loads up to the present time, from the peaks of contacts.csv.
 
-const loadPanel = 2.5; // along the waterline [m]
-const loadSteps = 5;
+const loadPanel = 2.5; // length of the panels into which a waterline is divided [m]
+const loadSteps = 5; // number of colours of the scale
 
-/** A colour of q from 0 to 1: yellow to dark red, in steps. */
+/** Colour for q from 0 to 1, from yellow to dark red in steps. */
 function loadColour(q) {
   const step = Math.min(loadSteps - 1, Math.floor(loadSteps * q)) / (loadSteps - 1);
   return `hsl(${55 - 55 * step} 95% ${60 - 30 * step}%)`;
 }
 
-/** A waterline's length, and the way along it from its first vertex to its stem (simulation/ship/waterline.cpp) [m]. */
+/** Length of a waterline, and distance along it from its first vertex to its stem (simulation/ship/waterline.cpp) [m].
+ * */
 function waterlineOf(ring) {
   const next = (k) => ring.at(k - ring.length + 1);
   const sides = ring.map(([x, y], k) => Math.hypot(x - next(k)[0], y - next(k)[1]));
@@ -20,8 +21,8 @@ function waterlineOf(ring) {
   return { ring, length: sumOf(sides), stem: sumOf(sides.slice(0, first)) + (isEdge ? sides[first] / 2 : 0) };
 }
 
-/** The largest peak and the sum and number of all of each panel of each ship, up to an instant. Goes on from the last
- * instant where time goes on. */
+/** Returns a function that gives the largest peak, and the sum and number of all peaks, for each panel of each ship up
+ * to a time. It continues from the previous time if time advances. */
 function makeLoadLine({ info, columns }) {
   const lines = info.ships.map(({ waterline_m: ring }) => waterlineOf(ring));
   const sides = lines.map(({ length }) => Math.ceil(length / 2 / loadPanel));
@@ -47,7 +48,7 @@ function makeLoadLine({ info, columns }) {
   };
 }
 
-/** Draws them along the hulls. Returns the notice to show where there are none. */
+/** Draws the loads along the hulls. Returns a notice if the run has no peaks. */
 function drawLoadLine(context, view, loadLine, motions, time, isMean) {
   if (loadLine.most === 0) return "This run recorded no peaks of loads.";
   loadLine.panelsAt(time).forEach((panels, ship) => {
@@ -57,7 +58,7 @@ function drawLoadLine(context, view, loadLine, motions, time, isMean) {
     inShipFrame(context, view, pose, (pixel) => {
       traceLine(context, ring);
       context.closePath();
-      panels.forEach(({ largest, sum, count }, k) => { // a dash as long as the panel, where it is
+      panels.forEach(({ largest, sum, count }, k) => { // draw a dash as long as the panel at its place
         if (count === 0) return;
         const [from, to] = [k - side, k - side + 1].map((n) =>
           Math.max(-length / 2, Math.min(length / 2, n * loadPanel)));

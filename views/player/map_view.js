@@ -1,4 +1,4 @@
-// The map's camera: y up in the world, down on the screen.
+// The camera of the map. y points up in the world and down on the screen.
 
 function makeMapView(stage, canvases) {
   const view = { x: 0, y: 0, scale: 1, width: 1, height: 1, ratio: 1 };
@@ -13,7 +13,7 @@ function makeMapView(stage, canvases) {
   view.toWorld = (px, py) => [(px - view.width / 2) / view.scale + view.x,
     view.y - (py - view.height / 2) / view.scale];
 
-  /** Zooms so that what is under the screen point stays there. */
+  /** Zooms so that the point of the world under the given screen point stays there. */
   view.zoomAt = (px, py, factor) => {
     const [x, y] = view.toWorld(px, py);
     view.scale = Math.min(400, Math.max(1e-3, view.scale * factor));
@@ -32,7 +32,7 @@ function makeMapView(stage, canvases) {
     view.scale = Math.min(view.width / ((box.right - box.left) * margin),
       view.height / ((box.top - box.bottom) * margin));
   };
-  /** Whether a disc in the world shows on the screen. */
+  /** Returns true if a disc of the world overlaps the screen. */
   view.shows = (x, y, radius) =>
     Math.abs(x - view.x) - radius < view.width / 2 / view.scale
       && Math.abs(y - view.y) - radius < view.height / 2 / view.scale;
@@ -46,7 +46,7 @@ function includePoint(box, x, y) {
   box.top = Math.max(box.top, y);
 }
 
-/** What a run covers at its start and at its end, with the ships' tracks. */
+/** Box around the bodies of a run at its start and end and around the ships' tracks. */
 function extentOf(run, motions, places, range) {
   const { floes, info, frames } = run;
   const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };

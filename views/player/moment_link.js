@@ -1,6 +1,7 @@
-// A link to an instant of the run: #t=330&floe=42, with what of the page is not as it opens (docs/view.md).
+// A link to an instant of the run: #t=330&floe=42. It contains the settings of the page that differ from those at its
+// opening (docs/view.md).
 
-/** What the page shows, as the words of a link. */
+/** Returns the parameters of a link for the present state of the page. */
 function momentOf(player) {
   const { state, view, plot, run } = player;
   const words = { t: Number(state.time.toFixed(4)) };
@@ -19,18 +20,18 @@ function momentOf(player) {
 }
 
 const written = (value) => encodeURIComponent(value).replaceAll("%2C", ",");
-/** Of a list one word for each of its items. */
+/** Returns the link for these parameters. A list becomes one parameter for each item. */
 const linkOf = (words) => `#${Object.entries(words).flatMap(([key, value]) => [value].flat().map((one) =>
   `${key}=${written(one)}`)).join("&")}`;
 
-/** Shows a part of the map that is so wide [m]. */
+/** Sets the width of the map [m]. */
 function showWidth({ state, view }, width) {
   view.scale = Math.min(400, Math.max(1e-3, view.width / width));
   state.isFitted = false;
   state.iceDirty = true;
 }
 
-/** What each word of a link does with its value; gives what is wrong with it, or nothing. */
+/** Applies each parameter of a link. Returns a message about a wrong value, or nothing. */
 const momentWords = {
   t(player, text) {
     const { actions, axis } = player;
@@ -84,7 +85,7 @@ const momentWords = {
   },
 };
 
-/** Goes where a link leads; gives what of it was not understood. */
+/** Goes to the instant of a link. Returns messages about parts that were not understood. */
 function goToMoment(player, link) {
   const problems = [];
   player.actions.showPlots([]);
@@ -95,13 +96,13 @@ function goToMoment(player, link) {
   return problems;
 }
 
-/** The address of this page with these words. */
+/** Address of this page with these parameters. */
 const addressOf = (words) => `${location.href.split("#")[0]}${linkOf(words)}`;
 
 /**
- * Keeps the address of the page up with what it shows, and the page with an address that is entered. `words` gives what
- * it shows, `goTo`
- * goes to a link and gives its problems. Gives what is to be called when something changed.
+ * Updates the address of the page when its state changes, and the state when another address is entered. `words`
+ * returns the parameters of the present state; `goTo` applies a link and returns messages about it. Returns a function
+ * that must be called when something has changed.
  */
 function watchMoment({ words, goTo, isPlaying }) {
   let link = linkOf(words());
@@ -114,7 +115,7 @@ function watchMoment({ words, goTo, isPlaying }) {
   if (location.hash.length > 1) open();
   return () => {
     if (timer !== 0 || isPlaying()) return;
-    timer = setTimeout(() => { // browsers take a few changes a second
+    timer = setTimeout(() => { // browsers accept only a few changes per second
       timer = 0;
       const now = linkOf(words());
       if (isPlaying() || now === link) return;
@@ -124,7 +125,7 @@ function watchMoment({ words, goTo, isPlaying }) {
   };
 }
 
-/** Puts a text into the clipboard, where the browser lets it, and says so, or what else to do. */
+/** Copies a text to the clipboard if the browser allows it, and reports that; otherwise tells the user what to do. */
 async function copyText(text, done, otherwise) {
   try {
     await navigator.clipboard.writeText(text);
@@ -140,7 +141,7 @@ async function copyText(text, done, otherwise) {
 
 const copyLink = (address) => copyText(address, "link copied", "copy the link from the address bar");
 
-/** A line on the map that goes after a while. */
+/** Shows a message on the map for a short time. */
 function showToast(words) {
   const toast = byId("toast");
   toast.textContent = words;

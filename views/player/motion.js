@@ -1,8 +1,8 @@
-// Where everything is at a time, on the water and under hulls.
+// Places of all bodies at a time, on the water and under hulls.
 
-// Where floes and ships are at a time, by the rules of docs/run-folder.md (and io/run/frames.cpp).
+// Motion of floes and ships at a time, by the rules of docs/run-folder.md (as in io/run/frames.cpp).
 
-/** The last index whose value is at most x, or −1; values grow. */
+/** Last index whose value is at most x, or −1. Values are in ascending order. */
 function lastAtMost(values, x, from = 0, end = values.length) {
   while (from < end) {
     const middle = (from + end) >> 1;
@@ -12,7 +12,7 @@ function lastAtMost(values, x, from = 0, end = values.length) {
   return from - 1;
 }
 
-/** Where points of a body's frame are in the world, by its pose. */
+/** Returns a function that transforms points from a body's frame to the world, for a pose of the body. */
 function placedBy([x, y, angle]) {
   const [c, s] = [Math.cos(angle), Math.sin(angle)];
   return (px, py) => [x + c * px - s * py, y + s * px + c * py];
@@ -23,11 +23,11 @@ class Motions {
     this.frames = frames;
     this.floes = floes;
     this.reference = floeReferences({ frames, floes });
-    this.motion = new Float64Array(6); // x, y, angle, vx, vy, spin
+    this.motion = new Float64Array(6); // x, y, angle, velocity in x and y, angular velocity
     this.recorded = new Float64Array(6);
     this.time = 0;
-    this.frame = 0; // the last one not after time
-    this.part = 0; // of the way to the next
+    this.frame = 0; // the last frame that is not after the time
+    this.part = 0; // fraction of the interval to the next frame
   }
 
   setTime(time) {
@@ -38,14 +38,14 @@ class Motions {
     this.part = next < times.length ? (time - times[this.frame]) / (times[next] - times[this.frame]) : 0;
   }
 
-  /** The motion recorded at a place of the frames, carried on for a time. */
+  /** Writes the motion recorded at a position in the frames, extrapolated by a duration [s], to `out`. */
   carry(out, at, duration) {
     const { doubles } = this.frames;
     for (let k = 3; k < 6; ++k) out[k] = doubles[at + k];
     for (let k = 0; k < 3; ++k) out[k] = doubles[at + k] + duration * out[k + 3];
   }
 
-  /** A floe's last record not after the present frame, else its first. */
+  /** Last record of a floe that is not after the present frame; its first record if there is none. */
   slotOf(floe) {
     const { recordsOf, recordFrame } = this.frames;
     return Math.max(recordsOf[floe], lastAtMost(recordFrame, this.frame, recordsOf[floe], recordsOf[floe + 1]));
@@ -65,7 +65,7 @@ class Motions {
     return motion;
   }
 
-  /** Motion of any floe. One that lived between two frames moves with what it broke from. */
+  /** Motion of any floe. A floe that existed only between two frames moves with the floe from which it broke. */
   floe(id) {
     const { floes, motion } = this;
     const by = this.reference[id];
@@ -90,7 +90,7 @@ class Motions {
     return a.map((value, k) => value + this.part * (b[k] - value));
   }
 
-  /** Whether no frame from the present one to that one records the floe. */
+  /** Returns true if no frame after the present one, before `endFrame`, records the floe. */
   isSteady(id, endFrame) {
     const { recordsOf, recordFrame } = this.frames;
     const by = this.reference[id];
@@ -99,13 +99,13 @@ class Motions {
     return next >= recordsOf[by + 1] || recordFrame[next] > endFrame;
   }
 
-  /** Whether frames record the floe itself. */
+  /** Returns true if frames record the floe itself. */
   isRecorded(id) {
     return this.reference[id] === id;
   }
 }
 
-/** For each floe the one whose records place it: itself, else the nearest ancestor, else a descendant. */
+/** For each floe, the floe whose records place it: itself, otherwise the nearest ancestor, otherwise a descendant. */
 function floeReferences({ floes, frames }) {
   const reference = new Int32Array(floes.count).fill(-1);
   for (let i = 0; i < floes.count; ++i) {
@@ -119,15 +119,16 @@ function floeReferences({ floes, frames }) {
   return reference;
 }
 
-// Ice under hulls: what goes under, comes up behind and stays (docs/theory/under-hull.md).
+// Ice that goes under hulls, surfaces behind them or stays under the ice (docs/theory/under-hull.md).
 
-/** How many pieces went under, and when each came up, in order [s]. */
+/** Number of pieces that went under, and the times at which pieces surfaced, in ascending order [s]. */
 function readIceUnderHulls(events) {
   const timesOf = (kind) => Float64Array.from(events.filter((event) => event.kind === kind), (event) => event.t_s);
   return { went: timesOf("submerge").length, cameUpAt: timesOf("resurface") };
 }
 
-/** Outlines of what is under hulls, or waits for room behind them: through the ship, which shows between them. */
+/** Outlines ice that is under hulls or waits behind them for room. It is drawn over the ship, which stays visible
+ * between the lines. */
 function drawIceUnderHulls(context, view, run, places, colours) {
   onMap(context, view, { width: Math.min(1.2, Math.max(0.5, 0.4 * view.scale)), dash: [3, 2] }, () => {
     context.fillStyle = context.strokeStyle = colours["under-hull"];
@@ -141,7 +142,7 @@ function drawIceUnderHulls(context, view, run, places, colours) {
   });
 }
 
-/** The two rows of the present time above the numbers of the whole run. */
+/** The two rows with present values above the numbers of the whole run. */
 function rowsUnderHulls() {
   return [["under-now", "under the hull or waiting"], ["came-up-now", "come up until now"]].flatMap(([id, name]) =>
     [make("dt", {}, name), make("dd", { id }, "0")]);
@@ -152,7 +153,7 @@ function showCountsUnderHulls({ under }, places, time) {
   byId("came-up-now").textContent = String(lastAtMost(under.cameUpAt, time) + 1);
 }
 
-/** When a floe went under and how it ended: it broke, came up as another, or stayed under the ice. */
+/** When a floe went under and how it ended: it broke, surfaced as a new floe, or stayed under the ice. */
 function lastFacts({ floes, info, breakOf }, id) {
   const facts = {};
   const seconds = (time) => valueWords(time, "s");

@@ -1,8 +1,8 @@
-// Numbers and words as they are shown.
+// Numbers and words as the page shows them.
 
 const byId = (id) => document.getElementById(id);
 
-/** An element with attributes and children. */
+/** Makes an element with attributes and children. */
 function make(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
@@ -10,16 +10,17 @@ function make(tag, attributes = {}, ...children) {
   return element;
 }
 
-/** "1 floe", "2 floes". */
+/** A count with its noun: "1 floe", "2 floes". */
 const counted = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
 
 const minus = (text) => text.replace(/^-/, "\u2212");
 
-// Numbers as people read them: four digits, in a unit that suits the value, with spaces between thousands. A value
-// below what a run can mean in its unit is rounding and shows as 0.
+// Numbers for people: four digits, in a unit that suits the value, with spaces between thousands. A value that is so
+// small that it can only be rounding is shown as 0.
 
 const prefixed = (base) => [[1e9, `G${base}`], [1e6, `M${base}`], [1e3, `k${base}`]];
-/** Of each base unit the larger units with their sizes, and the smallest value that is not rounding, both in it. */
+/** For each base unit, the larger units with their sizes, and the smallest value that is not rounding, in the base
+ * unit. */
 const unitScales = {
   N: { larger: prefixed("N"), least: 0.1 }, "N\u00b7m": { larger: prefixed("N\u00b7m"), least: 0.1 },
   Pa: { larger: prefixed("Pa"), least: 0.1 }, W: { larger: prefixed("W"), least: 0.1 },
@@ -29,7 +30,7 @@ const unitScales = {
 };
 const otherScale = { larger: [], least: 1e-4 };
 
-/** The unit in which a value of a base unit is shown: its name, and the factor from the base. */
+/** Unit in which a value is shown: its name, and the factor from the base unit. */
 function unitFor(value, base) {
   const { larger } = unitScales[base] ?? otherScale;
   const [, name, size] = larger.map(([from, word, step = from]) => [from, word, step])
@@ -37,8 +38,8 @@ function unitFor(value, base) {
   return { factor: 1 / size, name };
 }
 
-/** Four significant digits, all digits before the point, and a narrow space between thousands. `isSteady`: with zeros
- * at the end, so that a number that changes keeps its width. */
+/** A number with four significant digits, all digits before the point, and narrow spaces between thousands. `isSteady`
+ * keeps zeros at the end, so that a number that changes keeps its width. */
 function fourDigits(value, isSteady = false) {
   const size = Math.abs(value);
   const text = size >= 1000 ? String(Math.round(value)) : value.toPrecision(4);
@@ -47,7 +48,7 @@ function fourDigits(value, isSteady = false) {
     (whole.includes(".") || whole.includes("e") ? digit : `${digit}\u202f`)));
 }
 
-/** A value of a base unit ("N", "kg", "m", \u2026) in words: "4 889 t", "0.5 m", "\u2212289.3 N", "0 N". */
+/** A value in a base unit ("N", "kg", "m", \u2026) as text: "4 889 t", "0.5 m", "\u2212289.3 N", "0 N". */
 function valueWords(value, base, isSteady = false) {
   const { least } = unitScales[base] ?? otherScale;
   const shown = Math.abs(value) < least ? 0 : value;
@@ -58,11 +59,11 @@ function valueWords(value, base, isSteady = false) {
 
 const metresPerSecondOfKnot = 1852 / 3600;
 
-/** A ship's speed in both units that are used of it. */
+/** Speed of a ship in both units in use, m/s and knots. */
 const shipSpeedWords = (speed) =>
   `${valueWords(speed, "m/s")} (${fourDigits(Number((speed / metresPerSecondOfKnot).toFixed(2)))} kn)`;
 
-/** The longest of 1, 2, 5 × 10ⁿ that is at most `room`. */
+/** Largest of 1, 2, 5 × 10ⁿ that is at most `room`. */
 function roundBelow(room) {
   const decade = 10 ** Math.floor(Math.log10(room));
   return decade * (room >= 5 * decade ? 5 : room >= 2 * decade ? 2 : 1);
@@ -70,7 +71,7 @@ function roundBelow(room) {
 
 const shortNumber = (value) => String(Number(value.toPrecision(3)));
 
-/** Gives a canvas a size [px] and clears it. Returns how many of its own pixels one is. */
+/** Sets the size of a canvas [px] and clears it. Returns the number of its own pixels per pixel of the page. */
 function sizeCanvas(canvas, width, height) {
   const ratio = Math.min(window.devicePixelRatio || 1, 2);
   canvas.width = Math.round(width * ratio);
@@ -78,7 +79,7 @@ function sizeCanvas(canvas, width, height) {
   return ratio;
 }
 
-/** The same; its context has these pixels. */
+/** Does the same. Returns a context that is scaled to pixels of the page. */
 function clearedCanvas(canvas, width, height) {
   const ratio = sizeCanvas(canvas, width, height);
   const context = canvas.getContext("2d");

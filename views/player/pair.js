@@ -1,4 +1,4 @@
-// A link to an instant of two runs: that of the first run, with `floe2`, the floe chosen in the second.
+// A link to an instant of two runs: the link of the first run, with `floe2` for the selected floe of the second.
 
 function momentOfPair([first, second], clock) {
   const words = { ...momentOf(first), t: Number(clock.time.toFixed(4)) };
@@ -6,7 +6,7 @@ function momentOfPair([first, second], clock) {
   return words;
 }
 
-/** Goes where a link leads; gives what of it was not understood. */
+/** Goes to the instant of a link. Returns messages about parts that were not understood. */
 function goToMomentOfPair([first, second], link) {
   const words = new URLSearchParams(link.replace(/^#/, ""));
   const ofSecond = words.get("floe2");
@@ -14,9 +14,10 @@ function goToMomentOfPair([first, second], link) {
   return [...goToMoment(first, words.toString()), ...(ofSecond === null ? [] : goToMoment(second, `floe=${ofSecond}`))];
 }
 
-// Two runs side by side: each is a player of its own in a frame; here are their clock and what they have in common.
+// Two runs side by side. Each has its own player in a frame. This script has their common clock and their common
+// settings.
 
-/** The page of one of the runs, from its data in this page. */
+/** Returns the page of one of the runs, made from its data in this page. */
 function pageOfRun(template, { labels, axis_s }, k) {
   const take = (id) => {
     const text = byId(id).textContent;
@@ -28,7 +29,7 @@ function pageOfRun(template, { labels, axis_s }, k) {
   return template.replace(/\{\{(title|options|info|columns)\}\}/g, (_, name) => parts[name]);
 }
 
-/** Puts the two players into the page; gives them when both have started. */
+/** Puts the two players into the page. Returns them when both have started. */
 function openPlayers() {
   const pair = JSON.parse(byId("pair-info").textContent);
   const template = JSON.parse(byId("player-page").textContent);
@@ -41,7 +42,7 @@ function openPlayers() {
   })));
 }
 
-/** The one clock, which all controls of the players are of. A run that ends before the other stays at its end. */
+/** Makes the common clock, which replaces the clocks of both players. A run that ends earlier stays at its end. */
 function makePairClock(players) {
   const clock = makeClock(players[0].axis, () => {
     byId("now").textContent = `${clock.time.toFixed(1)} s`;
@@ -55,7 +56,7 @@ function makePairClock(players) {
   return clock;
 }
 
-/** Takes over how the plots of another player look, as far as this one has the same curves. */
+/** Applies the settings of another player's plots, as far as this player has the same curves. */
 function showPlotAs({ plot, plotPanel, actions }, { quantity, hidden, isFull, span, further }) {
   if (Object.hasOwn(plot.quantities, quantity) && (plot.quantity !== quantity
     || [...plot.hidden].join() !== hidden.join())) {
@@ -68,7 +69,7 @@ function showPlotAs({ plot, plotPanel, actions }, { quantity, hidden, isFull, sp
   plot.show(...span);
 }
 
-/** What both players have in common: how it is read of one, and given to the other. */
+/** Settings that both players share: how each is read from one player and applied to another. */
 const common = {
   colours: { of: ({ state }) => state.colourBy, give: ({ actions }, by) => actions.colourBy(by) },
   layers: { of: ({ state }) => state.layers, give: ({ actions }, layers) =>
@@ -90,11 +91,12 @@ const common = {
   },
 };
 
-/** Gives what changed in one player to the other, thing by thing; called at each tick of the screen. */
+/** Applies settings that changed in one player to the other. It is called at each refresh of the screen. */
 function makeCommon(players) {
   const known = {};
   const wordsOf = ({ of }) => players.map((player) => JSON.stringify(of(player)));
-  const show = () => players.forEach(({ plot }) => plot.show(...plot.span)); // each has the other's scale
+  // Makes each plot use the scale of the other.
+  const show = () => players.forEach(({ plot }) => plot.show(...plot.span));
   const give = (name, from) => {
     const thing = common[name];
     if (thing.isOn?.() ?? true) thing.give(players[1 - from], thing.of(players[from]));
@@ -114,7 +116,8 @@ function makeCommon(players) {
   };
 }
 
-/** One extent of the map, one scale of the plots and of arrows, and the same classes of colours. */
+/** Gives both players the same extent of the map, the same scales of plots and arrows, and the same classes of colours.
+ * */
 function joinScales(players) {
   const scales = Object.fromEntries(["forceScale", "arrowScale"].map((name) =>
     [name, Math.min(...players.map((player) => player[name]))]));
@@ -138,7 +141,7 @@ function joinScales(players) {
   });
 }
 
-/** The event of either run that comes next, or came last. */
+/** Moves to the next or previous event of either run. */
 function stepEvent(players, clock, step) {
   const found = players.map(({ actions, run }) => {
     const index = actions.eventFrom(clock.time, step);
@@ -154,13 +157,13 @@ function toggleThemes(players) {
   for (const player of players) player.refreshTheme();
 }
 
-/** The controls of the bar, and keys pressed there. */
+/** Handles the controls of the bar, and keys that are pressed there. */
 function watchBar(players, clock, shared, address) {
   const common = { toggleTheme: () => toggleThemes(players), copyLink: () => copyLink(address()),
     stepEvent: (step) => stepEvent(players, clock, step) };
   for (const { actions } of players) Object.assign(actions, common);
   watchControls({ ...players[0].actions, shareScale: shared.show });
-  document.addEventListener("keydown", (event) => { // as if it were pressed in the first player
+  document.addEventListener("keydown", (event) => { // the key acts as if it were pressed in the first player
     if (event.ctrlKey || event.metaKey || event.altKey || isForControl(event)) return;
     const { contentWindow, contentDocument } = players[0].frame;
     const passed = new contentWindow.KeyboardEvent("keydown", { key: event.key, shiftKey: event.shiftKey, bubbles: true,

@@ -1,16 +1,16 @@
-// A scene before it runs: routes, wind and current, what validate warns of, places to copy. Of the page's options,
-// `plan` (views/player/player_page.cpp).
+// A scene before it runs: routes, wind and current, warnings of `polynya validate`, and positions to copy. The data is
+// in `plan` of the page's options (views/player/player_page.cpp).
 
-const currentCell = 110; // [px], of the grid of arrows
-const longestArrow = 40; // [px], of the fastest current on the screen
+const currentCell = 110; // distance between the arrows of the current [px]
+const longestArrow = 40; // length of the arrow of the fastest current on the screen [px]
 
-/** Arrows of the current over ground across the map. Returns the fastest [m/s]. */
+/** Draws arrows of the current over ground across the map. Returns its largest speed [m/s]. */
 function drawCurrent(context, view, run, colours) {
   const arrows = [];
   for (let px = currentCell / 2; px < view.width; px += currentCell) {
     for (let py = currentCell / 2; py < view.height; py += currentCell) {
       const [x, y] = view.toWorld(px, py);
-      const [toX, toY] = run.carry(x, y, 0, 1); // in a second
+      const [toX, toY] = run.carry(x, y, 0, 1); // displacement in one second
       arrows.push([px, py, toX - x, toY - y]);
     }
   }
@@ -26,7 +26,7 @@ function drawCurrent(context, view, run, colours) {
   return fastest;
 }
 
-/** The wind as one arrow, and how fast it and the current are. */
+/** Draws the wind as one arrow, and the speeds of wind and current as text. */
 function drawWindAndWords(context, view, [wx, wy], fastest, { panel, ink }) {
   const wind = Math.hypot(wx, wy);
   if (wind > 0) {
@@ -75,7 +75,8 @@ function drawPlan(context, { plan, view, run, colours, state }) {
   strokeTwice(context, colours.panel, colours.highlight, 2);
 }
 
-/** Marks a place and puts its coordinates into the clipboard, as a scene has them: [x, y] in metres, to the pixel. */
+/** Marks a position and copies its coordinates to the clipboard in the form of a scene: [x, y] in metres, with as many
+ * digits as a pixel resolves. */
 function pickPlace({ view, state }, px, py) {
   const digits = Math.max(0, Math.ceil(Math.log10(view.scale)));
   state.place = view.toWorld(px, py).map((value) => Number(value.toFixed(digits)));
@@ -84,7 +85,7 @@ function pickPlace({ view, state }, px, py) {
   copyText(words, `${words} m, copied`, `${words} m`);
 }
 
-/** What the page says of a scene in place of a run: its problems; nothing that needs time. */
+/** Shows the problems of a scene instead of a run, and hides everything that needs time. */
 function fillPlan({ plan, run }) {
   document.body.classList.add("plan");
   byId("badge").textContent = `not run; until ${run.info.until_s} s`;
@@ -99,8 +100,8 @@ function fillPlan({ plan, run }) {
   if (plan.stamp_file) setInterval(() => lookForNewer(plan), 1000);
 }
 
-/** Loads the page again where a newer one has been written: a script beside it has the stamp of the newest, which pages
- * on disk may load. */
+/** Reloads the page if a newer version has been written. A script beside the page has the stamp of the newest version;
+ * pages on disk may load scripts but not other files. */
 function lookForNewer({ stamp, stamp_file: file }) {
   const script = make("script", { src: `${encodeURIComponent(file)}?${Date.now()}` });
   script.onload = script.onerror = () => {

@@ -1,11 +1,11 @@
-// The player: the page's words and controls, its drawing, and its parts put together.
+// The player: text and controls of the page, drawing, and assembly of the parts.
 
-// The page's words and controls.
+// Text and controls of the page.
 
 const eventCounts = { bends: "bend", splits: "split", ground: "grind", "rejected cuts": "rejected_cut",
   "went under": "submerge", "came up": "resurface", "stayed under": "stay_under", "moorings broken": "mooring_break" };
 
-/** The panel with the numbers of the whole run. */
+/** Fills the panel with the numbers of the whole run. */
 function fillFacts({ run: { info, floes }, name, plan }) {
   const ofRun = (held, all) => (held === all ? held : `${held} of ${all}`);
   const counts = Object.entries(eventCounts).map(([words, kind]) =>
@@ -27,7 +27,7 @@ function fillFacts({ run: { info, floes }, name, plan }) {
   if ("went under" in facts) byId("facts").prepend(...rowsUnderHulls());
 }
 
-/** What the plot can show, forces by cause apart. */
+/** Options of the list of quantities. Forces by cause are a separate group. */
 function quantityGroups(quantities) {
   return [[false, "Quantities"], [true, "Stacked areas"]].flatMap(([stacks, label]) => {
     const group = Object.entries(quantities).filter(([, { isStack = false }]) => isStack === stacks);
@@ -63,7 +63,7 @@ function fillPage(player) {
   watchKeys(actions);
 }
 
-// The picture and the numbers at each tick of the screen.
+// Drawing of the picture and the numbers at each refresh of the screen.
 
 function showNumbers({ run, state, places, plotPanel, sizePanel, timeline }) {
   const words = `${state.time.toFixed(1)} s`;
@@ -82,7 +82,7 @@ function startDrawing(player, canvases) {
   const drawMarks = makeMarksPicture(player, canvases[1]);
   const shownFloe = makeShownFloe(player);
   const showShip = makeShownShip(player);
-  runClock(state, player.range, () => { // draws what has changed
+  runClock(state, player.range, () => { // draw what has changed
     const { iceDirty } = state;
     if (!iceDirty && !state.marksDirty) return;
     const before = performance.now();
@@ -104,9 +104,9 @@ function startDrawing(player, canvases) {
   });
 }
 
-// The player: its parts, put together.
+// Assembly of the player.
 
-/** The run, with what several parts ask of it. */
+/** Reads the run, and adds data that several parts use. */
 function readPlayedRun(source) {
   const run = readRun(source);
   run.breakOf = new Map();
@@ -120,11 +120,11 @@ function readPlayedRun(source) {
   return run;
 }
 
-/** Of one of two runs side by side its `label` and `axis_s`, the times on the axes of both; of a scene that has not run
- * its `plan`; else nothing. */
+/** Options of the page. For one of two runs side by side: its `label` and `axis_s`, the common axis of times. For a
+ * scene that has not run: its `plan`. Otherwise they are empty. */
 const readOptions = () => JSON.parse(byId("page-options").textContent);
 
-/** What is shown when the page opens. */
+/** State of the page when it opens. */
 function firstState(run, motions, range) {
   const isUnderWay = (carry) => run.frames.times.length > 0 && run.info.ships.some(({ is_moored: isMoored }, ship) =>
     !isMoored && hasGone(run, motions, ship, carry));
@@ -138,7 +138,7 @@ function firstState(run, motions, range) {
   });
 }
 
-/** The player without its controls. Includes what tests and measurements read. */
+/** Makes the player without its controls. Tests and measurements read its members. */
 function makePlayer(canvases, source) {
   const run = readPlayedRun(source);
   const { times } = run.frames;
@@ -156,14 +156,14 @@ function makePlayer(canvases, source) {
     loadLine: makeLoadLine(run), drawn: 0, drawTimes: [],
     forceScale: 40 / (typicalForce(run) || 1), // [px/N]
     arrowScale: 40 / (colourings.speed.edges.at(-1) || 1), // [px/(m/s)]
-    /** Classes of colours up to other extremes, as another run has them. */
+    /** Sets the classes of colours for other extremes, such as those of another run. */
     colourUpTo: (most) => Object.assign(colourings, makeColourings(run, places, most)),
     stations: (ship) => stationsOf(run, ship, state.time),
     contacts: () => contactsOfFrame(run, motions.frame), valueWords, rulerWords,
   };
 }
 
-/** Keeps the page up with the theme and with the sizes of its parts. */
+/** Updates the page when the theme or the sizes of its parts change. */
 function watchPage(player) {
   const { state, view, plotPanel } = player;
   player.refreshTheme = () => {

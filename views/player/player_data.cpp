@@ -19,10 +19,10 @@ using geometry::Point;
 
 namespace {
 
-/// The floes of a run that a page holds.
+/// The floes of a run that a page contains.
 class HeldFloes {
  public:
-  /// Those whose distance is 0.
+  /// Selects the floes whose distance is 0.
   explicit HeldFloes(const std::vector<double>& distances) : is_held_(distances.size()) {
     for (std::size_t i = 0; i < distances.size(); ++i) {
       is_held_[i] = distances[i] <= 0;
@@ -30,16 +30,16 @@ class HeldFloes {
     }
   }
   bool are_all() const { return ids_.size() == is_held_.size(); }
-  /// Also of what is no floe.
+  /// Returns true for floes on the page, and for ids that are no floe.
   bool has(simulation::FloeId id) const { return id < 0 || is_held_[static_cast<std::size_t>(id)]; }
   const std::vector<simulation::FloeId>& ids() const { return ids_; }
 
  private:
-  std::vector<bool> is_held_;  ///< by floe
+  std::vector<bool> is_held_;  ///< by floe id
   std::vector<simulation::FloeId> ids_;
 };
 
-/// The shapes of floes while they are gathered (views/player/run_data.js reads them).
+/// Collects the shapes of floes in columns, which views/player/run_data.js reads.
 class ShapeColumns {
  public:
   explicit ShapeColumns(const io::Run& run) : run_(run) {}
@@ -47,7 +47,7 @@ class ShapeColumns {
   void add(const simulation::BirthRecord& birth) {
     const io::ShapeParts* parts = run_.shapes.parts_of(birth.floe);
     const auto polygon = run_.shape(birth.floe);
-    double reach = 0;  // no hole reaches farther than the outer ring
+    double reach = 0;  // a hole never extends farther than the outer ring
     for (const Point p : polygon->outer) reach = std::max(reach, distance(p, birth.centroid_in_body));
     reach_.push_back(reach);
     std::size_t end = 0;
@@ -91,10 +91,10 @@ class ShapeColumns {
   std::vector<double> points_, reach_;
 };
 
-/// Of every floe held its floe_id where not all are; parent, generation, born_s, died_s, went_under_s,
-/// came_up, area_m2, mass_kg, thickness_m, flexural_strength_Pa, centroid, reach_m (of its farthest vertex
-/// from its centroid), and its shape: the ends of its rings, counted from its first vertex, and its vertices,
-/// or of one that is parts of its parent's the parts and its new vertices.
+/// Adds columns with one value per floe: floe_id (only if the page does not contain all floes), parent, generation,
+/// born_s, died_s, went_under_s, came_up, area_m2, mass_kg, thickness_m, flexural_strength_Pa, centroid, and reach_m,
+/// the distance of the farthest vertex from the centroid. The shape follows: the ends of its rings, counted from its
+/// first vertex, and its vertices. For a shape that refers to its parent, these are its parts and its new vertices.
 void add_floes(ColumnWriter& columns, const io::Run& run, const HeldFloes& held) {
   const auto add_of_floe = [&](const char* name, auto read) {
     columns.add(name, held.ids(), [&run, read](simulation::FloeId id) { return std::invoke(read, *run.floe(id)); });
@@ -122,16 +122,17 @@ void add_floes(ColumnWriter& columns, const io::Run& run, const HeldFloes& held)
   shapes.add_to(columns);
 }
 
-/// How far a box has to grow on all sides to meet another [m]; 0 where they meet.
+/// Distance by which a box must grow on all sides to touch another [m]; 0 if they overlap.
 double gap(const Box& box, const Box& other) {
   const double across = std::max(other.low.x - box.high.x, box.low.x - other.high.x);
   const double up = std::max(other.low.y - box.high.y, box.low.y - other.high.y);
   return std::max({0.0, across, up});
 }
 
-/// Of each floe of a run how far a box has to grow on all sides for the floe, or one of its family (all that broke from
-/// one floe of the scene), to come within it at one of these frames [m]; 0 where one does as it is. By the floes'
-/// circles and the boxes of their ways from record to record.
+/// Returns, for each floe, the distance by which a box must grow on all sides so that the floe, or a floe of its
+/// family, comes within it at one of these frames [m]; 0 if one does without. A family are all floes that broke from
+/// one floe of the scene. The distance is estimated from the floes' circles and from the boxes of their paths between
+/// records.
 std::vector<double> family_distances(const io::Run& run, const Box& box, const std::vector<io::Frame>& frames) {
   std::vector<std::size_t> oldest(run.floes.size());
   std::vector<double> reach(run.floes.size());
@@ -141,16 +142,17 @@ std::vector<double> family_distances(const io::Run& run, const Box& box, const s
     for (const Point p : run.shape(birth.floe)->outer)
       reach[i] = std::max(reach[i], distance(p, birth.centroid_in_body));
   }
-  std::vector<double> least(run.floes.size(), std::numeric_limits<double>::infinity());  // by oldest floe
+  // By the oldest floe of a family.
+  std::vector<double> least(run.floes.size(), std::numeric_limits<double>::infinity());
   std::vector<std::optional<io::RecordedMotion>> last(run.floes.size());
-  /// From its last record on at its velocity up to a time.
+  /// Extends the path of a floe from its last record to a time, at its velocity.
   const auto follow = [&](std::size_t floe, double time) {
     const Point from = last[floe]->motion.position;
     const Point to = carried_on(last[floe]->motion, time - last[floe]->time).position;
     double& distance = least[oldest[floe]];
     distance = std::min(distance, gap(box, geometry::grown(geometry::box_around(from, to), reach[floe])));
   };
-  double before = 0;  // of the frame before [s]
+  double before = 0;  // time of the previous frame [s]
   for (const io::Frame& frame : frames) {
     for (const auto& [id, motion] : frame.floes) {
       const auto floe = static_cast<std::size_t>(id);
@@ -191,7 +193,7 @@ void add_contacts(ColumnWriter& columns, const io::Run& run, const std::vector<i
   add("contact_is_crushing", [](const ContactState& c) { return c.is_crushing; });
 }
 
-/// Peaks of forces on hulls, of those in the selection's time.
+/// Adds the peaks of forces on hulls within the selected time.
 void add_peaks(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames) {
   std::vector<io::RunContact> peaks;
   const double from = frames.empty() ? 0 : frames.front().time, until = frames.empty() ? 0 : frames.back().time;
@@ -204,10 +206,11 @@ void add_peaks(ColumnWriter& columns, const io::Run& run, const std::vector<io::
               [](const io::RunContact& peak) { return peak.state.pressure * peak.state.width * peak.state.height; });
 }
 
-/// The stations that are a channel of each ship, at frames that are spread evenly over the run and end with the last.
-/// What geometry refuses to measure is not shown.
+/// Adds, for each ship, the stations that are a channel, at frames spread evenly over the run and at the last one.
+/// Stations that geometry fails to measure are left out.
 void add_channels(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames) {
-  // More make pages larger and take longer: some 80 bytes a station and a millisecond an instant among 500 floes.
+  // More instants make pages larger and take longer: 80 bytes per station, and a millisecond per instant with 500
+  // floes.
   constexpr std::size_t kMostInstants = 200;
   struct Row {
     int ship;
@@ -245,10 +248,11 @@ void add_channels(ColumnWriter& columns, const io::Run& run, const std::vector<i
   add("channel_starboard_m", [](const Station& s) { return s.starboard; });
 }
 
-/// A cause as the page has it: a column of forces.csv, or one of its own without what others are shares of.
+/// A cause as the page shows it: a column of forces.csv, or a column minus its shares, which are shown as causes of
+/// their own.
 struct ShownCause {
   io::ForceCause cause;
-  std::vector<std::string_view> shares;  ///< columns
+  std::vector<std::string_view> shares;  ///< columns of its shares
 
   std::string column() const { return std::string(cause.column) + (shares.empty() ? "" : " without shares"); }
   double read(const simulation::HullSample& sample) const {
@@ -328,7 +332,7 @@ void write_ships(io::JsonWriter& json, const simulation::Scene& scene) {
   json.close(']');
 }
 
-/// The drift of the water over time: t, x and y of its path, and the free drift of ice.
+/// Writes the drift of the water over time: t, x and y of its path, and the free drift of ice.
 void write_drift(io::JsonWriter& json, const simulation::Scene& scene) {
   constexpr int kSamples = 400;
   const int samples = scene.water.is_steady() && scene.wind.rows.empty() ? 1 : kSamples;
@@ -341,7 +345,7 @@ void write_drift(io::JsonWriter& json, const simulation::Scene& scene) {
   json.close(']');
 }
 
-/// The lines of ships that manage ice, about the protected body: x upstream.
+/// Writes the patterns of ships that manage ice, relative to the protected body, with x upstream.
 void write_patterns(io::JsonWriter& json, const simulation::Scene& scene) {
   json.key("patterns").open('[');
   for (const simulation::Ship& ship : scene.ships) {
@@ -359,7 +363,7 @@ void write_summary(io::JsonWriter& json, const io::Run& run) {
     json.key("stopped_by").value(by->text());
 }
 
-/// The tick and the shortest time step; older runs do not have that.
+/// Writes the tick and the shortest time step, which older runs did not record.
 void write_steps(io::JsonWriter& json, const io::Run& run) {
   for (const char* key : {"step_s", "time_steps", "shortest_step_s"})
     if (const io::JsonValue* found = run.summary.find(key, io::JsonValue::Kind::kNumber))

@@ -9,14 +9,14 @@
 namespace polynya::views {
 namespace {
 
-/// JSON as it may stand in a script element: no "<" that could end it or start a comment.
+/// Makes JSON safe inside a script element: without "<", which could end it or start a comment.
 std::string in_script(const std::string& json) {
   std::string text;
   for (const char c : json) c == '<' ? text += "\\u003c" : text += c;
   return text;
 }
 
-/// A template with what its marks stand for: mark and text, in the order in which they stand in it.
+/// Returns a template with its marks replaced. The marks and their texts are in the order in which the marks occur.
 std::string filled(std::string_view page, const std::vector<std::pair<std::string_view, std::string>>& fillings) {
   std::string text;
   for (const auto& [mark, filling] : fillings) {
@@ -29,7 +29,7 @@ std::string filled(std::string_view page, const std::vector<std::pair<std::strin
   return text;
 }
 
-/// The names of the two runs, and the times that both have on their axes [s].
+/// Returns the names of the two runs, and the times that their common axes show [s].
 std::string pair_info(const std::array<ShownRun, 2>& runs) {
   std::string text;
   io::JsonWriter json(text);
@@ -67,7 +67,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder for a run of one frame, which the page is made of; it goes with this.
+/// A temporary folder for a run of one frame, from which the page is made. The destructor removes it.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -86,7 +86,7 @@ class ScratchFolder {
   fs::path path_;
 };
 
-/// The run of a scene before its first step.
+/// Returns the run of a scene before its first step.
 io::Result<io::Run> first_frame(const io::LoadedScene& scene) {
   const ScratchFolder folder;
   auto run = io::start_run(folder.run(), scene);

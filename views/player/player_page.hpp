@@ -17,8 +17,8 @@
 
 namespace polynya::views {
 
-/// Columns of numbers one after the other, each at a multiple of 8 bytes, as the player reads them. `table`
-/// has of each: name, type ("f64", "i32", "u8"), first byte, how many numbers.
+/// Packs columns of numbers one after the other, each at a multiple of 8 bytes, as the player reads them. `table` lists
+/// name, type ("f64", "i32", "u8"), first byte and number of values of each column.
 class ColumnWriter {
  public:
   struct Column {
@@ -30,7 +30,7 @@ class ColumnWriter {
   void add(const std::string& name, const std::vector<double>& values) { add_raw(name, "f64", values); }
   void add(const std::string& name, const std::vector<std::int32_t>& values) { add_raw(name, "i32", values); }
   void add(const std::string& name, std::string_view bytes) { add_raw(name, "u8", bytes); }
-  /// A number of each item: a double, or anything else as a 32-bit integer.
+  /// Adds a column with one value of each item. Doubles are stored as such, all other types as 32-bit integers.
   template <class Items, class Read>
   void add(const std::string& name, const Items& items, Read read) {
     using Found = std::remove_cvref_t<std::invoke_result_t<Read, const typename Items::value_type&>>;
@@ -55,49 +55,53 @@ class ColumnWriter {
   std::string bytes_;
 };
 
-/// What the player's page holds of a run (docs/view.md): words and lists as JSON, numbers as columns.
+/// Data of a run for the player's page (docs/view.md): words and lists as JSON, numbers as columns.
 struct PlayerData {
   std::string info;  ///< JSON
   ColumnWriter columns;
   std::size_t frames = 0;
   std::size_t floes = 0;
-  std::size_t floe_bytes = 0;   ///< of `columns`: shapes and particulars
-  std::size_t frame_bytes = 0;  ///< of `columns`: where everything is over time
-  double start = 0;             ///< of the frames [s]
+  std::size_t floe_bytes = 0;   ///< bytes in `columns` for shapes and properties of floes
+  std::size_t frame_bytes = 0;  ///< bytes in `columns` for positions over time
+  double start = 0;             ///< time of the first frame [s]
+  /// Time of the last frame [s].
   double end = 0;
 };
 
-/// Which part of a run a page holds.
+/// Selects the part of a run that a page contains.
 struct PlayerSelection {
   io::FrameSelection frames;
-  std::optional<geometry::Box> area;  ///< only floes that come within it, and their families
+  /// Only floes that come within this box at some frame, and their families (floes from one floe of the scene).
+  std::optional<geometry::Box> area;
 };
 
+/// Collects the data of the selected part of a run.
 PlayerData player_data(const io::Run& run, const PlayerSelection& selection);
 
-/// The pages of views/player with their style sheets and scripts, made by cmake/PolynyaPlayerPage.cmake. What
-/// is of a run is put in for {{title}}, {{info}} and {{columns}}.
+/// The pages of views/player with their style sheets and scripts, which cmake/PolynyaPlayerPage.cmake assembles. The
+/// marks {{title}}, {{info}} and {{columns}} are replaced by data of a run.
 extern const std::string_view kPlayerTemplate;
 extern const std::string_view kPairTemplate;
 
-/// One HTML file that shows a run and needs nothing else (docs/view.md); with `options` a scene (scene_page()).
+/// Returns one HTML file that shows a run and needs no other file (docs/view.md). `options` is JSON for pages of scenes
+/// (scene_page()).
 std::string player_page(const io::Run& run, const PlayerData& data, const std::string& options = "{}");
 
-/// A run of a page of two.
+/// One of the two runs on a page.
 struct ShownRun {
   PlayerData data;
   std::string label;
 };
 
-/// One HTML file that shows two runs side by side, with one clock (docs/view.md).
+/// Returns one HTML file that shows two runs side by side with a common clock (docs/view.md).
 std::string pair_page(const std::array<ShownRun, 2>& runs);
 
-/// What a page of a scene that has not run shows beside ice and hulls, as its options: routes of ships, wind, and the
-/// warnings of `polynya validate`.
+/// Returns, as options of the page of a scene that has not run, what it shows in addition to ice and hulls: routes of
+/// ships, wind, and the warnings of `polynya validate`.
 std::string scene_plan(const io::LoadedScene& scene, const std::string& stamp, const std::string& stamp_file);
 
-/// One HTML file that shows a scene that has not run (docs/view.md). `stamp` is of this page: the script `stamp_file`
-/// beside it, where one is named, has that of the newest (`--watch`).
+/// Returns one HTML file that shows a scene that has not run (docs/view.md). For `--watch`, `stamp` identifies this
+/// version of the page, and the script `stamp_file` beside it, if one is named, sets the stamp of the newest version.
 io::Result<std::string> scene_page(const io::LoadedScene& scene, const std::string& stamp,
                                    const std::string& stamp_file);
 

@@ -1,12 +1,13 @@
-// One plot: its key, the values beyond its scale, its chart and its pointers.
+// One plot: its legend, values beyond its scale, its chart and its pointers.
 
-/** How a curve looks: a line, or the colour of an area. */
+/** Sample of a curve for the legend: a line, or the colour of an area. */
 function lineOf({ kind, isArea = false }) {
   return make("i", isArea
     ? { class: "line area", style: `background: var(--cause-${kind})` } : { class: `line ${kind}` });
 }
 
-/** The plot's key: a box to tick, a line and a value for each curve. Gives what shows the values at a time [s]. */
+/** Fills the plot's legend: a check box, a sample and a value for each curve. Returns a function that shows the values
+ * at a time [s]. */
 function fillPlotKey(run, plot, host, onChange) {
   const { ships } = run.info;
   const outputs = [];
@@ -39,9 +40,9 @@ function fillPlotKey(run, plot, host, onChange) {
   };
 }
 
-// Rows that lie off the plot's scale, in words above it.
+// Text above the plot about rows that are beyond its scale.
 
-/** Counts the rows in view that lie off the scale, and names the largest of each curve. */
+/** Counts the visible rows that are beyond the scale, and finds the largest of each curve. */
 function countOffScale(plot) {
   const ranges = plot.axisRanges();
   const all = { count: 0, words: [] };
@@ -55,7 +56,7 @@ function countOffScale(plot) {
   return all.count > 0 ? all : null;
 }
 
-/** Of stacked areas over how long each column is the mean, where that is more than a row. */
+/** Says for stacked areas over which time each column is the mean, if a column has more than one row. */
 function meanWords(plot) {
   const size = plot.shownQuantity().isStack ? rowsInColumn(plot) : 1;
   return size > 1 ? `drawn as means over ${shortNumber(size * plot.run.info.forces_interval_s)} s` : "";
@@ -71,9 +72,9 @@ function showOffScale(plot) {
     make("span", { class: "short" }, words(plot.off && `${plot.off.count} values off the scale`)));
 }
 
-// The plot's chart, as uPlot takes it: its axes, its curves and their rows.
+// The chart in the form that uPlot expects: axes, curves and rows.
 
-const axisSize = 46; // of an axis of values [px]
+const axisSize = 46; // width of an axis of values [px]
 
 function chartAxis({ colours }, scale, label, extra) {
   const font = "11px system-ui, sans-serif";
@@ -93,10 +94,10 @@ function valueAxis(plot, scale, side) {
   });
 }
 
-/** The curves in the order of drawing: the first is drawn last, over the others. */
+/** Curves in the order of drawing. The first curve is drawn last, over the others. */
 const drawnCurves = (plot) => plot.shownCurves().reverse();
 
-/** The series of uPlot. Stacked areas are drawn by drawStack. */
+/** Series of uPlot. drawStack draws stacked areas instead. */
 function chartSeries(plot, curves) {
   const paths = plot.shownQuantity().isStack ? { paths: () => null } : {};
   return plot.ships().flatMap((ship) => curves.map((curve) =>
@@ -106,13 +107,14 @@ function chartSeries(plot, curves) {
 
 function chartOptions(plot) {
   const curves = drawnCurves(plot);
-  const rangeOf = (scale) => () => plot.axisRanges()[scale] ?? [0, 1]; // a chart that was replaced asks once more
+  // A chart that has been replaced calls this once more.
+  const rangeOf = (scale) => () => plot.axisRanges()[scale] ?? [0, 1];
   const isPaper = plot.scales().includes("paper");
   const isPlain = plot.scales().includes("y");
   const placed = (chart) => plot.on.onPlaced(chart.over.offsetLeft, chart.over.offsetWidth);
   return {
     width: plot.host.clientWidth, height: plot.host.clientHeight,
-    // Plots one below the other keep the ends of their axes of times at one place.
+    // The ends of the time axes of plots one below the other are aligned.
     padding: [plot.isOfLoads() ? 18 : 6, isPaper ? 0 : plot.on.hasPaperAxis() ? axisSize : 24, 0,
       isPlain ? 0 : axisSize],
     legend: { show: false }, cursor: { show: false },
@@ -127,7 +129,7 @@ function chartOptions(plot) {
   };
 }
 
-/** The curves of the ships that are shown over one axis of times. */
+/** Curves of the selected ships over a common axis of times. */
 function chartRows(plot) {
   const curves = drawnCurves(plot);
   const tables = plot.ships().map((ship) => plot.run.forces[ship]).map((rows) =>
@@ -137,8 +139,8 @@ function chartRows(plot) {
     ? tables[0] : uPlot.join(tables.map((columns) => columns.map((column) => Array.from(column))));
 }
 
-// Pointers on the plot: a drag goes to a time, the wheel and two fingers zoom, Shift and a drag choose a part of the
-// run, a double click shows all of it again.
+// Pointers on the plot. Dragging moves to a time, the wheel and two fingers zoom, Shift with dragging selects a part of
+// the run, and a double click shows the whole run.
 
 /** Moves and zooms the plot so that the times under two fingers stay under them. */
 function pinchPlot(plot, after, before) {
@@ -149,8 +151,8 @@ function pinchPlot(plot, after, before) {
   plot.show(middle, middle + plot.chart.over.clientWidth * perPixel);
 }
 
-/** Moves the plot by the wheel where it is turned sideways or with Shift, else zooms it at the pointer. */
-function movePlotByWheel(plot, range, event) {
+/** Scrolls the plot if the wheel is turned sideways or with Shift; otherwise zooms it about the pointer. */
+function scrollOrZoomPlot(plot, range, event) {
   const length = plot.span[1] - plot.span[0];
   if (Math.abs(event.deltaX) > Math.abs(event.deltaY) || event.shiftKey) {
     const turned = (event.deltaX || event.deltaY) * (event.deltaMode === 1 ? 33 : 1);
@@ -160,7 +162,7 @@ function movePlotByWheel(plot, range, event) {
     plot.show(plot.span[0] + move, plot.span[1] + move);
     return;
   }
-  if (event.deltaY > 0 && !plot.isZoomed()) return; // the page scrolls on
+  if (event.deltaY > 0 && !plot.isZoomed()) return; // let the page scroll on
   event.preventDefault();
   const at = plot.timeAt(pointIn(plot.chart.over, event)[0]);
   const factor = Math.exp(wheelTurn(event));
@@ -169,13 +171,13 @@ function movePlotByWheel(plot, range, event) {
 
 function watchPlot(plot, range, { onTime, onPoint }) {
   const { over } = plot.chart;
-  const chosen = make("div", { class: "chosen-span", hidden: "" }); // the part that is being chosen
+  const chosen = make("div", { class: "chosen-span", hidden: "" }); // marks the part that is being selected
   const choose = (from, to) => {
     chosen.hidden = false;
     chosen.style.left = `${Math.min(from, to)}px`;
     chosen.style.width = `${Math.abs(from - to)}px`;
   };
-  let from = null; // where it begins [px]; null where none is
+  let from = null; // left end of that part [px]; null: none is being selected
   over.append(chosen);
   watchPointers(over, {
     start(event, [px], count) {
@@ -195,29 +197,29 @@ function watchPlot(plot, range, { onTime, onPoint }) {
   });
   over.addEventListener("pointerleave", () => onPoint(null));
   over.addEventListener("dblclick", () => plot.show(...range));
-  over.addEventListener("wheel", (event) => movePlotByWheel(plot, range, event), { passive: false });
+  over.addEventListener("wheel", (event) => scrollOrZoomPlot(plot, range, event), { passive: false });
 }
 
-// The plot of loads against time, in step with the picture. Drawn by uPlot; the present time is a line laid over it.
+// The plot of loads over time, synchronous with the picture. uPlot draws it; the present time is a line over it.
 
-const shortestSpan = 20; // rows of forces.csv; the plot zooms no closer
+const shortestSpan = 20; // least number of rows of forces.csv in view; it limits zooming
 
-/** `on.onTime` is called with the requested time, `onPoint` with where the pointer is [px] (null: elsewhere),
- * `onPlaced` with the left end and the width of the axis of times [px], `onSpan` with the part of the run that is in
- * view [s], `hasPaperAxis` says whether any of the plots has that axis at its right. Without a `quantity` it is the
- * first of the plots one below the other. */
+/** `on` has callbacks: `onTime` receives the requested time, `onPoint` the position of the pointer [px] (null:
+ * outside), `onPlaced` the left end and the width of the time axis [px], `onSpan` the visible part of the run [s].
+ * `hasPaperAxis` returns true if any of the plots has that axis on its right. A plot without `quantity` is the first of
+ * the plots one below the other. */
 class Plot {
   constructor(run, host, range, on, quantity) {
     Object.assign(this, { run, host, range, on });
     this.quantities = { ...plotQuantities(run), ...stackedQuantities(run) };
     this.quantity = quantity ?? Object.keys(this.quantities)[0];
-    this.isFirst = quantity === undefined; // of those one below the other; it has the ids and the numbers of the times
-    this.hidden = new Set(run.info.splits_by_j_over_tau_c ? [] : ["paper"]); // kinds of curves
-    this.span = range; // in view [s]
-    this.isFull = false; // up to the largest value, else without spikes
-    this.off = null; // the rows off the scale
+    this.isFirst = quantity === undefined; // the first of the plots, which has the ids and the labels of the time axis
+    this.hidden = new Set(run.info.splits_by_j_over_tau_c ? [] : ["paper"]); // kinds of curves that are hidden
+    this.span = range; // visible part of the run [s]
+    this.isFull = false; // true: the scale shows the largest value; false: without spikes
+    this.off = null; // rows beyond the scale
     this.chart = null;
-    this.widened = (ranges) => ranges; // so that two plots have one scale
+    this.widened = (ranges) => ranges; // extends the ranges of axes, so that two plots get the same scale
     this.colours = {};
     this.now = make("div", { class: "now-line" });
     const id = (name) => (this.isFirst ? { id: name } : {});
@@ -238,7 +240,7 @@ class Plot {
     return this.shownQuantity().curves;
   }
 
-  /** The ships whose curves are shown, by index. */
+  /** Indices of the ships whose curves are shown. */
   ships() {
     const { ship } = this.shownQuantity();
     return ship === undefined ? [...this.run.forces.keys()] : [ship];
@@ -260,13 +262,13 @@ class Plot {
     return this.span !== this.range;
   }
 
-  /** Of a ship's rows the first in view and one past the last. */
+  /** Index of a ship's first visible row, and one past its last. */
   rowsInView(ship) {
     const times = this.run.forces[ship].force_t_s;
     return [Math.max(0, lastAtMost(times, this.span[0])), lastAtMost(times, this.span[1]) + 1];
   }
 
-  /** What is in view of each curve and ship: its times and values. Of stacked areas how high and how low they stand. */
+  /** Visible times and values of each curve and ship; for stacked areas their upper and lower limits. */
   inView() {
     if (this.shownQuantity().isStack) {
       const { high, low, line, ends } = stackOf(this);
@@ -284,7 +286,7 @@ class Plot {
     return this.shownCurves().every(isLoad);
   }
 
-  /** The parts of its axes that this plot needs, by scale. */
+  /** Ranges of the axes that this plot needs, by scale. */
   neededRanges() {
     const all = this.inView();
     const columnsOf = (scale) => all.filter(({ curve }) => curve.scale === scale).map(({ values }) => values);
@@ -292,7 +294,7 @@ class Plot {
     return Object.fromEntries(this.scales().map((name) => [name, rangeOf(columnsOf(name))]));
   }
 
-  /** The ranges of the axes, by scale, for what is in view. */
+  /** Ranges of the axes, by scale, for the visible values. */
   axisRanges() {
     const needed = this.widened(this.neededRanges());
     const names = Object.keys(needed);
@@ -301,7 +303,7 @@ class Plot {
     return Object.fromEntries(names.map((name, k) => [name, ranges[k]]));
   }
 
-  /** What a ship's curve is at a time, with the end of the row's interval. */
+  /** Value of a ship's curve at a time, with the end of the row's interval. */
   valueAt(ship, curve, time) {
     const rows = this.run.forces[ship];
     const row = rowAt(rows, time);
@@ -324,7 +326,7 @@ class Plot {
       && (this.chart.width !== width || this.chart.height !== height)) this.chart.setSize({ width, height });
   }
 
-  /** Shows a part of the run, at least some rows of it, at most all. */
+  /** Shows a part of the run, with at least some of its rows and at most all. */
   show(from, until) {
     if (!this.chart) return;
     const { range } = this;
@@ -350,7 +352,7 @@ class Plot {
     this.now.style.transform = `translateX(${((this.time - from) / (until - from || 1)) * width}px)`;
   }
 
-  /** Sets the present time; what is in view follows it. */
+  /** Sets the present time. If it is outside of the visible part, that part follows it. */
   setTime(time) {
     const hasMoved = this.time !== undefined && time !== this.time;
     this.time = time;

@@ -1,12 +1,15 @@
-// What the plot shows: columns of forces.csv as curves, causes as stacked areas, and how far their axes reach.
+// Curves of the plot: columns of forces.csv as lines, causes as stacked areas, and the ranges of their axes.
 
-// How far the axes of loads reach. Crushing ice gives spikes: drawn whole, one of them flattens all else.
+// Ranges of the axes of loads. Crushing ice causes spikes; a scale that showed all of them would flatten everything
+// else.
 
-const common = 0.99; // the share of rows with a load that the scale holds at least
-const beyondCommon = 1.25; // the scale reaches this many times as far
-const spike = 2; // a spike is larger than this many times that reach; without one the scale shows everything
+// Least fraction of the rows with a load that the scale shows [-]; smaller: more spikes are cut off.
+const common = 0.99;
+const beyondCommon = 1.25; // the scale extends to this multiple of that value [-]
+const spike = 2; // a value above this multiple of the scale is a spike; without spikes the scale shows everything [-]
 
-/** Of the sizes of a column's rows that are not 0 the one that `common` of them stay below, and the largest. */
+/** The value below which the fraction `common` of a column's rows that are not 0 lies, and the largest value, as
+ * magnitudes. */
 function sizesOf(values) {
   const stride = Math.ceil(values.length / 5000);
   const sizes = [];
@@ -20,7 +23,7 @@ function sizesOf(values) {
   return { usual: sizes[Math.floor(common * (sizes.length - 1))] ?? 0, largest };
 }
 
-/** From the least to the largest of columns, grown from [low, high]. */
+/** Extends the range [low, high] to the smallest and largest value of columns. */
 function extentOfColumns(columns, low, high) {
   for (const values of columns) {
     for (const value of values) {
@@ -31,7 +34,7 @@ function extentOfColumns(columns, low, high) {
   return [low, high];
 }
 
-/** The part of the axis that columns of loads need, [at most 0, at least 0]: all of it, or without spikes. */
+/** Range of an axis that columns of loads need, which includes 0: everything, or without spikes. */
 function loadRange(columns, isFull) {
   const sizes = columns.map(sizesOf);
   const largest = Math.max(0, ...sizes.map((size) => size.largest));
@@ -41,13 +44,13 @@ function loadRange(columns, isFull) {
   return [Math.max(low, -limit), Math.min(high, limit)];
 }
 
-/** That of columns that are no loads. */
+/** Range of an axis for columns that are not loads. */
 function wholeRange(columns) {
   const [low, high] = extentOfColumns(columns, Infinity, -Infinity);
   return low <= high ? [low, high] : [0, 1];
 }
 
-/** The ranges with some room, grown so that 0 is at one height in all of them. */
+/** Ranges with a margin, extended so that 0 is at the same height in all of them. */
 function alignedRanges(ranges) {
   const size = ([low, high]) => Math.max(high, -low) || 1;
   const below = Math.max(...ranges.map((range) => -range[0] / size(range)));
@@ -55,7 +58,7 @@ function alignedRanges(ranges) {
   return ranges.map((range) => [-1.06 * Math.max(below, 0.04) * size(range), 1.06 * above * size(range)]);
 }
 
-/** Rows of a column that lie off its scale: how many, and the largest with its time. */
+/** Rows of a column that are beyond its scale: their number, and the largest with its time. */
 function rowsOffScale(times, values, [low, high]) {
   const off = { count: 0, largest: 0, time: 0 };
   values.forEach((value, row) => {
@@ -66,10 +69,9 @@ function rowsOffScale(times, values, [low, high]) {
   return off;
 }
 
-// Forces by what causes them: columns, one for each cause, that add up to the force on a ship
-// (io/run/records.cpp).
+// Forces by cause: one column for each cause, whose sum is the force on a ship (io/run/records.cpp).
 
-/** The plots that stack the causes, one for each ship and direction, where any force acts. */
+/** Plots that stack the causes, one for each ship and direction with any force. */
 function stackedQuantities({ info: { force_causes: causes, ships }, forces }) {
   const quantities = {};
   for (const direction of new Set(causes.map((cause) => cause.direction))) {
@@ -92,11 +94,11 @@ function stackedQuantities({ info: { force_causes: causes, ships }, forces }) {
   return quantities;
 }
 
-// What the plot shows: quantities, each with its curves, which are columns of forces.csv. True loads lead; the paper's
-// j/τ_c, which is larger by far, has its own name and its own axis.
+// Quantities of the plot, each with its curves, which are columns of forces.csv. True loads come first. The paper's
+// j/τ_c, which is much larger, has its own name and axis.
 
-/** The quantities a run can show, by the first of their columns; those that not every run has come last, where they are
- * not 0. */
+/** Quantities that a run can show, by the first of their columns. Those that not every run has come last, and only if
+ * they are not 0. */
 function plotQuantities({ info, forces }) {
   const labels = { mean: `${info.forces_interval_s} s mean`, max: "step maximum (depends on the step)",
     paper: "j/\u03c4c (paper)" };
@@ -112,13 +114,14 @@ function plotQuantities({ info, forces }) {
 
 const isLoad = (curve) => curve.base.startsWith("N");
 
-/** The row of forces.csv whose interval holds the time; null before any. */
+/** Index of the row of forces.csv whose interval contains a time; null before the first. */
 function rowAt(rows, time) {
   const times = rows.force_t_s;
   return times.length === 0 ? null : Math.min(times.length - 1, lastAtMost(times, time - 1e-9) + 1);
 }
 
-/** How a curve is drawn: in its ship's colour; the largest steps pale, behind the means; the paper's load dashed. */
+/** Style of a curve: the colour of its ship; the largest steps are pale and behind the means; the paper's load is
+ * dashed. */
 function curveStyle(curve, ship, ships, colours) {
   if (curve.kind === "sum") return { stroke: colours.ink, width: 1.5 };
   const colour = curve.kind === "paper" && ships === 1 ? colours["paper-load"] : shipColour(colours, ship);
@@ -127,11 +130,11 @@ function curveStyle(curve, ship, ships, colours) {
   return { stroke: colour, width: 1.25 };
 }
 
-// Stacked areas: forces by cause, from 0 up those above it, from 0 down those below, and the line of their sum.
+// Stacked areas: forces by cause, positive ones upwards from 0, negative ones downwards, and the line of their sum.
 
-const columnWidth = 2; // [px]; rows that stand closer are drawn as their mean
+const columnWidth = 2; // rows that are closer together than this are drawn as their mean [px]
 
-/** How many rows of forces.csv go into one column of the picture. */
+/** Number of rows of forces.csv that are combined into one column of the picture. */
 function rowsInColumn(plot) {
   const [first, end] = plot.rowsInView(plot.shownQuantity().ship);
   return Math.max(1, Math.ceil((columnWidth * (end - first)) / Math.max(1, plot.host.clientWidth)));
@@ -139,9 +142,9 @@ function rowsInColumn(plot) {
 
 const meanOf = (values) => values.reduce((sum, value) => sum + value / values.length, 0);
 
-/** What is in view, as columns of rows: of each shown cause its mean, how high and how low they stand together, their
- * sum, and the times between which each column stands [s]. Columns begin at multiples of their rows, so that they stay
- * when the plot moves. */
+/** Visible rows combined into columns: for each cause that is shown the mean, its upper and lower limit in the stack,
+ * the sum, and the times between which each column lies [s]. Columns begin at multiples of their number of rows, so
+ * that they do not change when the plot moves. */
 function stackOf(plot) {
   const { ship } = plot.shownQuantity();
   const rows = plot.run.forces[ship];

@@ -1,9 +1,10 @@
-// The plots with their controls and keys, one below the other, and the timeline that follows their width. All show the
-// same part of the run; the first one's controls are of all.
+// The plots with their controls and legends, one below the other, and the timeline, which has the same width. All plots
+// show the same part of the run. The controls of the first plot apply to all.
 
-const mostPlots = 4;
+const mostPlots = 4; // more would leave each too little height
 
-/** One plot with its key. `parts` are its list of quantities, where it is drawn and where its key stands. */
+/** Makes one plot with its legend. `parts` are the list of quantities, the element of the plot and that of the legend.
+ * */
 function makePlotView(player, panel, { select, host, key }, quantity) {
   const { run, axis } = player;
   const view = { host, select, key, showLoads: () => {} };
@@ -23,10 +24,10 @@ function makePlotView(player, panel, { select, host, key }, quantity) {
   return view;
 }
 
-/** The controls of the first plot, which the page has. */
+/** Controls of the first plot, which are part of the page. */
 const firstParts = () => ({ select: byId("quantity"), host: byId("plot"), key: byId("load-now") });
 
-/** The controls of a further plot. */
+/** Makes the controls of a further plot. */
 function furtherParts(onQuantity, onRemove) {
   const select = make("select", { "aria-label": "What this plot shows" });
   const words = "Remove this plot";
@@ -43,7 +44,7 @@ function furtherParts(onQuantity, onRemove) {
 const nextQuantity = ({ views }) => Object.keys(views[0].plot.quantities).find((name) =>
   views.every(({ plot }) => plot.quantity !== name));
 
-/** Buttons of all plots, by what may be done with them now. */
+/** Enables and disables the common buttons of the plots. */
 function showPlotTools(panel) {
   byId("full-scale").setAttribute("aria-pressed", String(panel.plot.isFull));
   byId("full-scale").disabled = !panel.plot.isFull && panel.views.every(({ plot }) => plot.off === null);
@@ -51,7 +52,7 @@ function showPlotTools(panel) {
   byId("add-plot").disabled = panel.views.length >= mostPlots || nextQuantity(panel) === undefined;
 }
 
-/** Shows in all plots where the pointer is in one of them [px], and the time that stands there. */
+/** Shows the position of the pointer in one plot [px] in all plots, and the time there. */
 function showPointed(panel, px, pointedPlot) {
   panel.pointed = px === null ? null : pointedPlot.timeAt(px);
   for (const { plot } of panel.views) {
@@ -64,7 +65,7 @@ function showPointed(panel, px, pointedPlot) {
   }
 }
 
-/** Adds a plot of a quantity below the others, in the part of the run that they show. */
+/** Adds a plot of a quantity below the others. It shows the same part of the run. */
 function addPlotView(player, panel, quantity) {
   const parts = furtherParts((name) => {
     view.plot.quantity = name;
@@ -92,19 +93,21 @@ function makePlotPanel(player) {
   };
   Object.assign(panel, {
     showTools: () => showPlotTools(panel),
-    /** The keys have the values under the pointer, of the rows whose intervals end at the times that stand there. */
+    /** Shows the values under the pointer in the legends. They are those of the rows whose intervals end at the times
+     * shown. */
     point(px, pointedPlot) {
       showPointed(panel, px, pointedPlot);
       panel.setTime(state.time);
     },
-    /** All plots show the part of the run that one of them does. */
+    /** Makes all plots show the part of the run that one of them shows. */
     share(span, from) {
       for (const plot of plots())
         if (plot !== from && plot.span.join() !== span.join()) plot.show(...span);
       player.timeline.setPart(span);
       panel.showTools();
     },
-    /** Draws all plots again, with their keys; redraw() without: a key that is used stays as it is. */
+    /** Draws all plots again with their legends. redraw() keeps the legends, so that one that is in use does not
+     * change. */
     rebuild() {
       for (const view of panel.views) view.rebuild();
       finish();
@@ -114,7 +117,7 @@ function makePlotPanel(player) {
       finish();
     },
     ...furtherPlots(player, panel, sizes),
-    /** Takes the theme's colours. */
+    /** Applies the colours of the theme. */
     refresh: () => (hasShips ? panel.rebuild() : placeTimeline()),
     resize: () => (hasShips ? plots().forEach((plot) => plot.resize()) : placeTimeline()),
     setFull: (isFull) => plots().forEach((plot) => plot.setFull(isFull)),
@@ -130,7 +133,7 @@ function makePlotPanel(player) {
   return panel;
 }
 
-/** The plots below the first: their quantities, in their order, and what shows others instead. */
+/** Functions for the plots below the first: their quantities in order, and showing others instead. */
 const furtherPlots = (player, panel, sizes) => ({
   further: () => panel.views.slice(1).map(({ plot }) => plot.quantity),
   showFurther(quantities) {

@@ -1,6 +1,6 @@
-// The ruler: a line between two places of the map, with its length and direction.
+// The ruler: a line between two points of the map, with its length and direction.
 
-/** The words beside a ruler: "123.4 m, 45.0°", the direction from the x axis, counter-clockwise. */
+/** Text beside a ruler, "123.4 m, 45.0°". The direction is counter-clockwise from the x axis. */
 function rulerWords([[ax, ay], [bx, by]]) {
   return `${valueWords(Math.hypot(bx - ax, by - ay), "m")}, ${angleWords(Math.atan2(by - ay, bx - ax))}`;
 }
@@ -26,7 +26,7 @@ function drawRuler(context, view, ends, { panel, ink, highlight }) {
   drawWords(context, words, inView(x, half, view.width), inView(y, 14, view.height), ink, panel);
 }
 
-/** Measures on the map: while the ruler is on, a drag draws it. */
+/** Actions of the ruler. While it is on, dragging on the map measures. */
 function rulerActions({ state, view }) {
   return {
     toggleRuler(isOn = !state.isMeasuring) {
@@ -37,7 +37,7 @@ function rulerActions({ state, view }) {
       byId("stage").classList.toggle("measures", isOn);
       if (isOn) showToast("drag on the map to measure; Esc or M ends it");
     },
-    /** Begins a measurement at a point of the screen. */
+    /** Starts a measurement at a point of the screen. */
     rulerFrom(px, py) {
       state.ruler = [view.toWorld(px, py), view.toWorld(px, py)];
       state.marksDirty = true;

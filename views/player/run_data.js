@@ -1,16 +1,16 @@
-// The run as the page holds it: its columns, and the shapes of its floes.
+// Reads the run from the page: its columns, and the shapes of its floes.
 
-const mostKeptPoints = 4e6; // of assembled shapes, 64 MB
+const mostKeptPoints = 4e6; // largest number of points of assembled shapes that are kept, 64 MB
 
 /**
- * Gives a floe's points [x, y, ...] in its body frame [m], ring after ring; a ring ends before the point
- * ring_ends[ring]. The page holds whole shapes, and of the others what floes.ndjson does (docs/run-folder.md):
- * stretches of the parent's rings and new points. These are assembled on demand and kept.
+ * Returns a function that gives the points [x, y, ...] of a floe in its body frame [m], ring after ring. A ring ends
+ * before the point ring_ends[ring]. The page contains shapes as floes.ndjson does (docs/run-folder.md): whole, or as
+ * stretches of the parent's rings and new points. The latter are assembled when they are needed and then kept.
  */
 function makeShapes({ parent, rings_of: ringsOf, ring_ends: ringEnds, points_m: points, ...parts }) {
   const { part_floe: floeOf, part_ring: ringOf, part_first: firstOf, part_count: countOf } = parts;
   const sizeOf = (floe) => (ringsOf[floe + 1] > ringsOf[floe] ? ringEnds[ringsOf[floe + 1] - 1] : 0);
-  const newAt = new Int32Array(parent.length + 1); // the first of each floe's new points
+  const newAt = new Int32Array(parent.length + 1); // index of the first new point of each floe
   parent.forEach((_, floe) => { newAt[floe + 1] = sizeOf(floe); });
   floeOf.forEach((floe, part) => { if (ringOf[part] >= 0) newAt[floe + 1] -= countOf[part]; });
   for (let floe = 0; floe < parent.length; ++floe) newAt[floe + 1] += newAt[floe];
@@ -53,7 +53,7 @@ function makeShapes({ parent, rings_of: ringsOf, ring_ends: ringEnds, points_m: 
   };
 }
 
-// The run in the page: words and lists as JSON, numbers as columns (docs/view.md).
+// The page contains the words and lists of a run as JSON, and its numbers as columns (docs/view.md).
 
 const bytesOfBase64 = (text) => Uint8Array.fromBase64?.(text) ?? Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 
@@ -62,7 +62,8 @@ const columnTypes = { f64: Float64Array, i32: Int32Array, u8: Uint8Array };
 const floeRows = ["parent", "generation", "born_s", "died_s", "went_under_s", "came_up", "area_m2", "mass_kg",
   "thickness_m", "flexural_strength_Pa", "centroid_x_m", "centroid_y_m", "reach_m"];
 
-/** Gives the floes of a page of an area their ids: rows of all floes of the run; those left out are never born. */
+/** Expands the columns of a page of an area, which has only some floes, to all floes of the run. Floes that the page
+ * does not have never exist (born = Infinity). */
 function spreadFloes(columns, count) {
   const ids = columns.floe_id;
   for (const name of floeRows) {
@@ -77,9 +78,9 @@ function spreadFloes(columns, count) {
 }
 
 /**
- * Where the player's run comes from. A source's `read()` gives the run's words and lists, `info`, and its columns of
- * numbers, `bytes`, as views/player/player_data.cpp makes both: `info.columns` says where each column is in the bytes.
- * This one is the page that `polynya view` writes. Any other that gives the two is drawn by the same player.
+ * The source of the player's run. `read()` returns the words and lists of a run, `info`, and its columns of numbers,
+ * `bytes`, both as views/player/player_data.cpp makes them; `info.columns` states where each column is in the bytes.
+ * This source is the page that `polynya view` writes. The player can show any other source with these two.
  */
 const pageSource = {
   read() {
@@ -90,7 +91,7 @@ const pageSource = {
   },
 };
 
-/** The run of a source. */
+/** Reads the run from a source. */
 function readRun(source) {
   const { info, bytes } = source.read();
   const columns = {};
@@ -102,8 +103,9 @@ function readRun(source) {
   return { info, columns, floes, frames, forces: readForces(info, columns) };
 }
 
-/** The columns of floes by their names without units, as died_s is `died` and went_under_s `wentUnder`: `reach` is of
- * the farthest vertex from the centroid, `cameUp` from under a hull, or what such a floe broke into. */
+/** Columns of floes, named without units: died_s becomes `died`, went_under_s `wentUnder`. `reach` is the distance of
+ * the farthest vertex from the centroid. `cameUp` is true for floes that surfaced from under a hull, and for their
+ * pieces. */
 function readFloes(columns) {
   const capital = (_, letter) => letter.toUpperCase();
   const nameOf = (column) => column.replace(/_(s|m|m2|kg|Pa)$/, "").replace(/_(.)/g, capital);
@@ -112,7 +114,7 @@ function readFloes(columns) {
   Object.assign(floes, {
     count, cx: floes.centroidX, cy: floes.centroidY, shape: makeShapes(columns),
     floatsUntil: floes.died.map((died, i) => Math.min(died, floes.wentUnder[i])),
-    oldest: new Int32Array(count), // the floe of the scene it comes from
+    oldest: new Int32Array(count), // the floe of the scene from which it broke
     children: new Map(),
   });
   for (let i = 0; i < count; ++i) {
@@ -123,15 +125,15 @@ function readFloes(columns) {
   return floes;
 }
 
-/** frames.bin (docs/run-folder.md), indexed by floe. */
+/** Reads frames.bin (docs/run-folder.md) and sorts its records by floe. */
 function readFrames(bytes, floeCount, shipCount) {
   const words = new Uint32Array(bytes.buffer, bytes.byteOffset, bytes.length >> 2);
   const doubles = new Float64Array(bytes.buffer, bytes.byteOffset, bytes.length >> 3);
   const times = [];
-  const shipAt = []; // of each frame: where its ships begin in doubles
+  const shipAt = []; // index in doubles of the first ship of each frame
   const starts = [];
   const recordsOf = new Int32Array(floeCount + 1);
-  let at = 2; // in doubles
+  let at = 2; // index in doubles
   while (at + 3 <= doubles.length) {
     const ships = words[2 * at + 1];
     const floes = words[2 * at + 2];
@@ -156,7 +158,7 @@ function readFrames(bytes, floeCount, shipCount) {
   return { times: Float64Array.from(times), shipAt, shipCount, doubles, recordsOf, recordFrame, recordAt };
 }
 
-/** The rows of forces.csv, by ship: the columns that the page names, and those of causes. */
+/** Rows of forces.csv for each ship: the columns that the page names, and those of causes. */
 function readForces(info, columns) {
   const named = [...info.force_columns.map(({ name }) => name), ...info.force_causes.map(({ column }) => column)];
   return info.ships.map((_, ship) => {

@@ -1,8 +1,8 @@
-// Map and plot as PNG.
+// Draws the map, and saves the map and the plots as PNG.
 
-// The map's two pictures: the ice, and what lies over it.
+// The map has two pictures: the ice, and everything above it.
 
-/** The ice and the channels; gives what draws them. */
+/** Returns a function that draws the ice and the channels. */
 function makeIcePicture(player, canvas) {
   const { run, state, view, places, motions, colourings, range } = player;
   const start = startPlaces(run, motions, range[0]);
@@ -34,7 +34,7 @@ function makeIcePicture(player, canvas) {
   };
 }
 
-/** What lies over the ice; gives what draws it, with the floe that is shown. */
+/** Returns a function that draws everything above the ice. Its argument is the highlighted floe, −1 for none. */
 function makeMarksPicture(player, canvas) {
   const { run, state, view, places, motions, loadLine } = player;
   const marks = canvas.getContext("2d");
@@ -82,9 +82,10 @@ function makeMarksPicture(player, canvas) {
   };
 }
 
-// The map or the plot as a PNG file, under its title, over its key: what stands in the page, where it stands there.
+// PNG files of the map or the plots, with the title above and the legend below, which are drawn as the page shows them.
 
-/** Draws swatches, words and lines of an element of the page into a picture, `place` px from its left and top. */
+/** Draws colour samples, text and lines of an element of the page into a picture, at `place` [px] from its left and
+ * top. */
 function drawElement(context, element, [left, top]) {
   const origin = element.getBoundingClientRect();
   const walker = document.createTreeWalker(element);
@@ -113,7 +114,8 @@ function drawElement(context, element, [left, top]) {
   }
 }
 
-/** A picture of a width and height [px] under a title, over a key; `drawBody` draws what is between. */
+/** Returns a picture with a title above and a legend, `key`, below. `drawBody` draws the part between, which is `width`
+ * × `height` [px]. */
 function composePicture({ colours, name }, { width, height, title, key, drawBody }) {
   const canvas = make("canvas");
   const head = 34;
@@ -143,7 +145,7 @@ const mapPicture = (player) => composePicture(player, {
   },
 });
 
-/** One plot over its key. */
+/** Returns a picture of one plot and its legend. */
 function pictureOfPlot(player, { plot, key }) {
   const { chart, host } = plot;
   const [width, height] = [host.clientWidth, host.clientHeight];
@@ -161,7 +163,7 @@ function pictureOfPlot(player, { plot, key }) {
   });
 }
 
-/** All plots, one below the other. */
+/** Returns a picture of all plots, one below the other. */
 function plotPicture(player) {
   const pictures = player.plotPanel.views.map((view) => pictureOfPlot(player, view));
   if (pictures.length === 1) return pictures[0];
@@ -179,7 +181,7 @@ function plotPicture(player) {
   return canvas;
 }
 
-/** Offers a picture as a file of that kind. */
+/** Offers a picture for download. `kind` is part of its file name. */
 function savePicture({ name: run, state }, canvas, kind) {
   const name = `${run}-${state.time.toFixed(1)}s-${kind}.png`.replace(/[^\w.-]+/g, "_");
   canvas.toBlob((blob) => {

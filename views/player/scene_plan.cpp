@@ -8,7 +8,7 @@ namespace {
 
 using geometry::Point;
 
-/// The index in "ships[2].speed", where the path is of that list.
+/// Returns the index in a path such as "ships[2].speed" if it belongs to that list.
 std::optional<std::size_t> index_in(std::string_view path, std::string_view list) {
   if (!path.starts_with(list) || path.substr(list.size()).substr(0, 1) != "[") return {};
   std::size_t index = 0;
@@ -17,7 +17,7 @@ std::optional<std::size_t> index_in(std::string_view path, std::string_view list
   return index;
 }
 
-/// Where the body is that a problem is of; none of ice, whose entries may be many floes.
+/// Returns the position of the body to which a problem belongs; nothing for ice, because an entry may have many floes.
 std::optional<Point> place_of(const io::Problem& problem, const simulation::Scene& scene) {
   std::size_t before = 0;
   for (const auto& [list, count] : {std::pair{"ships", scene.ships.size()},

@@ -1,6 +1,6 @@
-// The card of a ship, the line about it on the map, and the search for the ship under a point.
+// The card of a ship, the text about it on the map, and the search for the ship under a point.
 
-/** Whether a ring of points [x, y] has a point inside it. */
+/** Returns true if a point lies inside a ring of points [x, y]. */
 function isInRing(ring, x, y) {
   let isInside = false;
   ring.forEach(([ax, ay], k) => {
@@ -10,7 +10,7 @@ function isInRing(ring, x, y) {
   return isInside;
 }
 
-/** The ship or structure whose waterline has a point of the world inside it; −1 where there is none. */
+/** Index of the ship or structure whose waterline contains a point of the world; −1 if there is none. */
 function shipAt({ info: { ships } }, motions, x, y) {
   return ships.findIndex(({ waterline_m: ring }, index) => {
     const pose = motions.ship(index);
@@ -22,12 +22,12 @@ function shipAt({ info: { ships } }, motions, x, y) {
 
 const degreeWords = (degrees) => `${minus((Math.abs(degrees) < 0.05 ? 0 : degrees).toFixed(1))}\u00b0`;
 
-/** An angle [rad] in degrees from −180 to 180, in words. */
+/** An angle [rad] as text in degrees from −180 to 180. */
 const angleWords = (angle) => degreeWords((180 / Math.PI) * Math.atan2(Math.sin(angle), Math.cos(angle)));
 
-const slowest = 0.005; // [m/s]; below it a course means nothing
+const slowest = 0.005; // below this speed no course is shown, because its direction would be arbitrary [m/s]
 
-/** The rows of a ship's card: name, words, exact value where the words are rounded, and what the row means. */
+/** Rows of a ship's card: name, text, exact value if the text is rounded, and meaning of the row. */
 function shipFacts(run, motions, index, time) {
   const ship = run.info.ships[index];
   const [, , heading, vx, vy, turn] = motions.ship(index);
@@ -73,14 +73,16 @@ function shipForces({ info: { force_causes: causes }, forces }, index, time) {
   return { directions, table, sums };
 }
 
-/** A number of a column in the unit of its largest, with three digits of that. */
+/** A number as text in the unit of its column, with as many decimals as give the column's largest value three digits.
+ * */
 function cellWords(value, largest, factor) {
   const digits = Math.max(0, 2 - Math.floor(Math.log10(largest * factor || 1)));
   const text = (value * factor).toFixed(Math.min(3, digits));
   return minus(Number(text) === 0 ? "0" : text);
 }
 
-/** The table of forces, each column in one unit. A cell's exact value stands in `data-value` and in its tip. */
+/** Makes the table of forces, in which each column has one unit. The exact value of a cell is in `data-value` and in
+ * its tooltip. */
 function forceTable({ directions, table, sums }) {
   const columns = directions.map((direction, k) => {
     const cells = [...table.map(({ cells: row }) => row[k]), sums[k]].filter(Boolean);
@@ -113,14 +115,15 @@ function showShipCard(host, run, motions, index, time) {
       "Forces on the ship"), forceTable(forces)] : []));
 }
 
-/** The line on the map for a ship under the pointer. */
+/** Text on the map for the ship under the pointer. */
 function shipLine({ info: { ships } }, motions, index) {
   const [, , , vx, vy] = motions.ship(index);
   return ships[index].is_fixed ? ships[index].name
     : `${ships[index].name} \u00b7 ${shipSpeedWords(Math.hypot(vx, vy))}`;
 }
 
-/** Keeps the card up with the ship that is chosen, or pointed at, and its time. */
+/** Returns a function that updates the card when the ship that is selected or under the pointer changes, or the time.
+ * */
 function makeShownShip({ run, state, motions }) {
   let shown = "";
   return () => {
@@ -132,7 +135,7 @@ function makeShownShip({ run, state, motions }) {
   };
 }
 
-/** When moorings broke. */
+/** Returns a function for the time at which the mooring of a ship broke; Infinity if it did not. */
 const readMoorings = (events) => ({
   brokeAt: (name) => events.find(({ kind, ship }) => kind === "mooring_break" && ship === name)?.t_s ?? Infinity,
 });

@@ -1,18 +1,19 @@
-// The names of ships on the map, beside their hulls: each where it lies on no hull and on no other name.
+// Places the names of ships on the map beside their hulls, so that a name covers no hull and no other name.
 
-const nameHeight = 15; // [px]
-const nameStep = 4; // [px] by which a name moves away from its ship until it is free
-const farthestName = 240; // [px]
-const keepsSide = 14; // [px]; a name changes its side only where the other one is nearer by that
+const nameHeight = 15; // height of a name [px]
+const nameStep = 4; // step by which a name is moved away from its ship until it is free [px]
+const farthestName = 240; // a name is not moved farther than this; then it is not drawn [px]
+// A name changes its side only if it is nearer to its ship there by this distance, so that it does not jump [px].
+const keepsSide = 14;
 
-/** Whether segments from a to b and from c to d cross. */
+/** Returns true if the segments from a to b and from c to d cross. */
 function areCrossing([ax, ay], [bx, by], [cx, cy], [dx, dy]) {
   const side = (px, py, qx, qy, rx, ry) => (qx - px) * (ry - py) - (qy - py) * (rx - px);
   return side(ax, ay, bx, by, cx, cy) * side(ax, ay, bx, by, dx, dy) < 0
     && side(cx, cy, dx, dy, ax, ay) * side(cx, cy, dx, dy, bx, by) < 0;
 }
 
-/** Whether a rectangle touches the area inside a ring of points. */
+/** Returns true if a rectangle overlaps the area inside a ring of points. */
 function touchesRing({ left, right, top, bottom }, ring) {
   const corners = [[left, top], [right, top], [right, bottom], [left, bottom]];
   const isInRectangle = ([x, y]) => x > left && x < right && y > top && y < bottom;
@@ -22,10 +23,11 @@ function touchesRing({ left, right, top, bottom }, ring) {
 
 const touchesBox = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 
-/** The directions from a ship in which its name is tried, as [x, y] on the screen. */
+/** Directions from a ship in which a place for its name is tried, as [x, y] on the screen. */
 const nameSides = [[0, -1], [0, 1], [1, 0], [-1, 0], [0.7, -0.7], [-0.7, -0.7], [0.7, 0.7], [-0.7, 0.7]];
 
-/** How far a name of a width has to move from a ship's centre to a side until it is free; Infinity where it is not. */
+/** Distance [px] by which a name must be moved from a ship's centre in a direction until it is free; Infinity if it
+ * never is. */
 function freeDistance([x, y], [sx, sy], width, isFree) {
   for (let far = 0; far <= farthestName; far += nameStep) {
     const [middle, centre] = [x + sx * (far + 0.5 * width * Math.abs(sx)), y + sy * far];
@@ -36,8 +38,8 @@ function freeDistance([x, y], [sx, sy], width, isFree) {
   return { far: Infinity };
 }
 
-/** Gives what draws the names of ships: `ships` are names and outlines on the screen. Remembers each name's side. Gives
- * where the names are. */
+/** Returns a function that draws the names of ships and returns their places. `ships` have names and outlines on the
+ * screen. It remembers the side on which each name was. */
 function makeNamePlacer() {
   const sides = new Map();
   return (context, view, ships, colours) => {

@@ -1,13 +1,13 @@
-// Floe sizes: their classes, and the panel that chooses among them.
+// Floe sizes: their classes, and the panel in which a range of sizes is selected.
 
-// Sizes of floes, √area, in classes: ten to a decade at round sizes.
+// Sizes √area in classes with round limits, ten per decade.
 
 const roundSizes = [1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.3, 8];
-const leastClasses = 6;
+const leastClasses = 6; // least number of classes of the histogram
 
 const sizeOf = (floes, id) => Math.sqrt(floes.area[id]);
 
-/** Edges of classes that hold all sizes from the least to the largest. */
+/** Limits of classes that contain all sizes from the smallest to the largest. */
 function sizeEdges(least, largest) {
   const edgeOf = (n) => Number((roundSizes[((n % 10) + 10) % 10] * 10 ** Math.floor(n / 10)).toPrecision(3));
   let first = Math.floor(10 * Math.log10(least)) - 1;
@@ -18,7 +18,7 @@ function sizeEdges(least, largest) {
   return Array.from({ length: last - first + 1 }, (_, k) => edgeOf(first + k));
 }
 
-/** The classes of a run's floes: their edges and, of each floe, its class. */
+/** Classes of the floes of a run: their limits, and the class of each floe. */
 function makeSizeClasses({ floes }) {
   let [least, largest] = [Infinity, 0];
   for (let id = 0; id < floes.count; ++id) {
@@ -31,7 +31,7 @@ function makeSizeClasses({ floes }) {
   return { edges, of };
 }
 
-/** How many floes float in each class, and their area [m²]; of all and of those in a range of sizes too. */
+/** Number and area [m²] of floating floes in each class, in total, and in a range of sizes. */
 function countSizes({ floes }, places, { edges, of }, range) {
   const classes = Math.max(0, edges.length - 1);
   const counts = { number: new Float64Array(classes), area: new Float64Array(classes), all: { number: 0, area: 0 },
@@ -50,7 +50,7 @@ function countSizes({ floes }, places, { edges, of }, range) {
   return counts;
 }
 
-/** Whether a floe is in a range of sizes; all are where none is chosen. */
+/** Returns true if a floe is in a range of sizes, or if none is selected. */
 function isInSizes(floes, id, range) {
   return range === null || (sizeOf(floes, id) >= range.from && sizeOf(floes, id) < range.below);
 }
@@ -59,9 +59,9 @@ function isInSizes(floes, id, range) {
 const sizeRangeWords = ({ from, below }) =>
   (Number.isFinite(below) ? `from ${shortNumber(from)} to ${shortNumber(below)} m` : `from ${shortNumber(from)} m on`);
 
-const paleness = 0.72; // of floes out of the range: how far they go to the water's colour
+const paleness = 0.72; // fraction of the water's colour in floes outside the selected range
 
-/** A colouring whose floes out of a range of sizes are pale. */
+/** Returns a colouring in which floes outside a range of sizes are pale. */
 function paleOutOfSizes(colouring, floes, range, colours) {
   const bucketOf = (id) => classOf(colouring.value(id), colouring.edges);
   const edge = colours["ice-edge"];
@@ -74,16 +74,16 @@ function paleOutOfSizes(colouring, floes, range, colours) {
     edgeOf: (bucket) => (bucket < classes ? paleEdge : edge) };
 }
 
-// The panel with the histogram of floe sizes: a drag over it chooses a range, which the map shows; others are pale.
+// The panel with the histogram of floe sizes. Dragging over it selects a range; floes outside are pale on the map.
 
-const labelGap = 6; // between sizes below the histogram [px]
+const labelGap = 6; // least distance between labels below the histogram [px]
 
-/** A number of floes or an area as people read it. */
+/** A number of floes, or an area, as text. */
 const amountWords = (value, isArea) =>
   (isArea ? valueWords(value, "m\u00b2") : counted(value, "floe"));
 
-/** Puts a bar for each class into the histogram; gives the bars. Below stand as many round sizes as have room; they are
- * chosen again when the histogram gets another width. */
+/** Adds a bar for each class to the histogram and returns the bars. As many round sizes as fit are shown below; they
+ * are chosen again when the width changes. */
 function fillHistogram(host, { edges }) {
   const bars = edges.slice(1).map(() => make("i"));
   const labels = edges.map((edge, k) => make("span", { style: `left: ${(100 * k) / bars.length}%` },
@@ -91,7 +91,7 @@ function fillHistogram(host, { edges }) {
   const isRound = (edge) => /^0*\.?0*[125]0*$/.test(String(edge));
   host.replaceChildren(...bars.map((bar) => make("div", {}, bar)), ...labels);
   new ResizeObserver(() => {
-    let end = -Infinity; // of the last label that is shown [px]
+    let end = -Infinity; // right end of the last label that is shown [px]
     labels.forEach((label, k) => {
       label.hidden = false;
       const { left, right } = label.getBoundingClientRect();
@@ -103,7 +103,8 @@ function fillHistogram(host, { edges }) {
   return bars;
 }
 
-/** Pointers on the histogram: a drag chooses classes, a click one of them; the one under the pointer is read out. */
+/** Handles pointers on the histogram. Dragging selects classes, a click one class; the class under the pointer is
+ * described. */
 function watchHistogram(host, { edges }, panel, actions) {
   let from = 0;
   const classAt = ([px]) =>
@@ -121,7 +122,7 @@ function watchHistogram(host, { edges }, panel, actions) {
   host.addEventListener("dblclick", () => actions.chooseSizes());
 }
 
-/** Fields for the two ends of the range; what is no range changes nothing. */
+/** Handles the two fields with the ends of the range. Values that are no range are ignored. */
 function watchSizeFields(state, actions) {
   for (const id of ["size-from", "size-below"]) {
     byId(id).addEventListener("change", () => {

@@ -1,18 +1,19 @@
-// The timeline: a slider with a mark for every fracture, rejected cut and broken mooring. A click on a mark goes there,
-// a drag scrubs.
+// The timeline: a slider with a mark for each fracture, refused cut and broken mooring. A click on a mark moves to it;
+// dragging moves through time.
 
-const nearMark = 5; // [px]
-const markedHeight = 23; // of the timeline from its top, where marks are [px]
-/** Of each kind of mark, from the top [px]. */
+const nearMark = 5; // largest distance between the pointer and a mark that is hit [px]
+const markedHeight = 23; // marks are in this part of the timeline, measured from its top [px]
+/** Height of the mark of each kind of event, from the top [px]. */
 const markHeights = { split: 7, bend: 18, grind: 18, rejected_cut: 18, mooring_break: 7 };
 
-/** Whether an event has a mark. What goes under hulls and comes up has none: there is one for each cusp. */
+/** Returns true if an event has a mark. Ice that goes under a hull or surfaces has none, because there is one for each
+ * cusp. */
 const isMarked = ({ kind }) => kind in markHeights;
 
-/** Rare events stand above the others. */
+/** Returns true for rare events, whose marks are drawn above the others. */
 const isAbove = ({ kind }) => kind === "split" || kind === "mooring_break";
 
-/** The slider; `pixelOf` and `timeOf` convert between times [s] and pixels from its left. */
+/** Makes the slider. `pixelOf` and `timeOf` convert between times [s] and pixels from its left end. */
 function makeTimeline(run, track, range, actions) {
   const { events } = run.info;
   const thumb = track.querySelector(".thumb");
@@ -31,7 +32,7 @@ function makeTimeline(run, track, range, actions) {
     placeThumb();
     timeline.setPart(timeline.part);
   };
-  /** The part of the run that the plot shows, marked where it is not the whole. */
+  /** Marks the part of the run that the plot shows, unless it is the whole run. */
   timeline.setPart = (span) => {
     timeline.part = span;
     part.hidden = span === range;
@@ -63,7 +64,7 @@ function drawTimeline(track, { width, pixelOf }, events, colours) {
     drawEventMark(context, pixelOf(event.t_s), markHeights[event.kind], event.kind, 4.5, colours);
 }
 
-/** The event whose mark is under the point, nearest first. Splits stand above bends. */
+/** Index of the event whose mark is nearest to a point. Marks of splits are above those of bends. */
 function eventAt(events, { pixelOf }, px, py) {
   let best = null;
   let least = nearMark;
@@ -78,13 +79,13 @@ function eventAt(events, { pixelOf }, px, py) {
   return best;
 }
 
-/** Pointers on the timeline: a drag goes to a time, wherever it begins; so does a click, or to the event whose mark it
- * hits. The words of the mark under the pointer stand in the tip. */
+/** Handles pointers on the timeline. Dragging, or a click beside the marks, moves to the time there; a click on a mark
+ * moves to its event. A tooltip describes the mark under the pointer. */
 function watchTimeline(track, timeline, run, actions) {
   const { events } = run.info;
   const tip = byId("timeline-tip");
-  let from = 0; // of the press [px]
-  let mark = null; // the event whose mark is there, until the pointer moves away from it
+  let from = 0; // position at which the pointer was pressed [px]
+  let mark = null; // event whose mark was pressed, until the pointer moves away from it
   const goTo = (px) => actions.goTo(timeline.timeOf(px));
   watchPointers(track, {
     start(event, [px, py]) {

@@ -1,8 +1,9 @@
-"""The scene of an environment that is given none: a ship with rudder and engine before a field of big floes."""
+"""The scene of an environment that is given no other: a ship with rudder and engine in front of a field of large
+floes."""
 
 
 def default_scene(seed):
-    """The scene of a seed, as a dict."""
+    """Returns the scene for a seed, as a dict."""
     return {
         "name": "ship-in-ice",
         "seed": seed,

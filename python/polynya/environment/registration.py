@@ -1,5 +1,5 @@
-"""The environment in Gymnasium's registry, where Gymnasium is installed."""
-ID = "polynya/ShipInIce-v0"  #: by which gymnasium.make finds it
+"""Adds the environment to Gymnasium's registry, if Gymnasium is installed."""
+ID = "polynya/ShipInIce-v0"  #: name for gymnasium.make
 
 
 def register():
@@ -8,7 +8,7 @@ def register():
         import gymnasium
     except ImportError:
         return
-    if ID in getattr(gymnasium, "registry", {}):  # the module was imported before, and reloaded
+    if ID in getattr(gymnasium, "registry", {}):  # the module was imported before and is being reloaded
         return
     gymnasium.register(id=ID, entry_point="polynya.environment:ShipInIce",
                        vector_entry_point="polynya.environment:ShipsInIce")

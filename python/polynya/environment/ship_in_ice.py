@@ -15,41 +15,42 @@ from .spaces import Box, Dict, Env
 _COLOURS = (143, 184, 208), (255, 255, 255), (122, 92, 46), (43, 43, 43)
 WATER, ICE, OTHERS, OWN = (numpy.array(colour, dtype=float) for colour in _COLOURS)
 MOST_SEED = 2**31
-FLOE_COLUMNS = 7  #: of Simulation.nearest_floes
+FLOE_COLUMNS = 7  #: number of columns of Simulation.nearest_floes
 
 
 class Change(typing.NamedTuple):
-    """What a step did: what rewards are made of."""
+    """Changes in one step, from which rewards are computed."""
 
-    progress: float  #: made good to the goal, or along the first heading [m]
-    ice_work: float  #: that the ship lost to the ice: minus force times velocity, means of the step [J]
-    seconds: float  #: simulated
-    reached: bool  #: the goal
-    ship: polynya.Ship  #: after the step; its forces are those of the step
-    events: list  #: of the step, as the lines of events.ndjson
+    progress: float  #: distance gained towards the goal, or along the initial heading without a goal [m]
+    ice_work: float  #: energy that the ship lost to the ice in the step [J]: minus mean force times mean velocity
+    seconds: float  #: simulated time [s]
+    reached: bool  #: true if the goal was reached
+    ship: polynya.Ship  #: ship after the step; its forces are means of the step
+    events: list  #: events of the step, as in the lines of events.ndjson
 
 
 def metres_less_work(change):
-    """The default reward: metres made good, less the work of the ice at 1 m a megajoule."""
+    """The default reward: distance gained [m], minus 1 m per megajoule of work of the ice."""
     return change.progress - 1e-6 * change.ice_work
 
 
 class ShipInIce(Env):
     """A ship with an engine in a scene, in Gymnasium's convention.
 
-    scene: what polynya.Scene takes, or a callable that makes it of a seed; default_scene if not given. Of the former
-    reset(seed) replaces the scene's `seed`, which its random fields of floes follow. ship: index or name. goal: x, y
-    [m], reached within `goal_radius` (a length of 100 m if not given); without one the ship is to go along its first
-    heading. seconds: simulated, a step; a whole number of the scene's ticks (time.step_s). shape, cell_m, ahead_m: of
-    the image, as in Simulation.occupancy. floes: a number of floes for an observation of the nearest floes in place of
-    the image. time_limit: simulated [s]; the scene's until_s if not given. reward: a callable of a Change.
+    scene: anything that polynya.Scene accepts, or a callable that makes a scene from a seed; default_scene if not
+    given. For a scene that is no callable, reset(seed) replaces its `seed`, from which random fields of floes are
+    drawn. ship: index or name. goal: x, y [m], which counts as reached within `goal_radius` [m]; without a goal the
+    ship is to go along its initial heading. seconds: simulated time per step [s], a whole number of the scene's ticks
+    (time.step_s). shape, cell_m, ahead_m: of the image, as in Simulation.occupancy. floes: number of floes, for an
+    observation of the nearest floes instead of the image. time_limit: simulated time [s]; the scene's until_s if not
+    given. reward: a callable that computes the reward from a Change.
 
-    Action: lever and steering angle, each from -1 to 1; the angle in shares of the largest, to port positive. Both go
-    there as fast as the scene's ship lets them. Observation: "image", 2 x rows x columns, the share of each cell that
-    ice covers, and that other ships and structures cover, ahead on top, port on the left, or "floes", floes x 7 numbers
-    of the nearest floes, as Simulation.nearest_floes has them; "ship": speed ahead and to
-    port [m/s], yaw rate [rad/s], lever, steering angle in shares, and where the goal is: ahead and to port [m] (0
-    without one). `simulation` is the Simulation that is stepped."""
+    Action: lever and steering angle, each from -1 to 1, the angle as a fraction of the largest, positive to port. Both
+    move as fast as the scene's ship allows. Observation: "image", 2 x rows x columns: fractions of each cell that ice,
+    and that other ships and structures, cover, with the view ahead at the top and port on the left; or "floes",
+    floes x 7 numbers of the nearest floes, as in Simulation.nearest_floes. "ship": speed ahead and to port [m/s], yaw
+    rate [rad/s], lever, steering angle as a fraction, and the position of the goal ahead and to port [m] (0 without a
+    goal). `simulation` is the Simulation that is stepped."""
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
 
@@ -76,8 +77,8 @@ class ShipInIce(Env):
         self.simulation = None
 
     def reset(self, *, seed=None, options=None):
-        """A new simulation. The scene's seed is `seed`, or one drawn where it is None. Returns observation and info:
-        `scene_seed`, `time_s`."""
+        """Starts a new simulation with the scene's seed `seed`, or a random one if it is None. Returns the observation
+        and info with `scene_seed` and `time_s`."""
         super().reset(seed=seed)
         self.scene_seed = int(self.np_random.integers(MOST_SEED)) if seed is None else seed
         given = self._make_scene(self.scene_seed)
@@ -100,8 +101,8 @@ class ShipInIce(Env):
         return self._observation(), {"scene_seed": self.scene_seed, "time_s": self.simulation.time}
 
     def step(self, action):
-        """Observation, reward, whether the goal is reached, whether the time is over, and info: `time_s`, `progress_m`,
-        `ice_work_J`, `events`."""
+        """Steps with an action. Returns the observation, the reward, whether the goal is reached, whether the time is
+        over, and info with `time_s`, `progress_m`, `ice_work_J` and `events`."""
         if self.simulation is None:
             raise RuntimeError("reset() comes before the first step()")
         wanted = numpy.asarray(action, dtype=float)
@@ -141,7 +142,7 @@ class ShipInIce(Env):
         return {**ice, "ship": numpy.array(state, dtype=numpy.float32)}
 
     def render(self):
-        """The image in colours, with the ship: rows x columns x 3 bytes."""
+        """Returns the image in colours, with the ship: rows x columns x 3 bytes."""
         if self.render_mode is None:
             return None
         ice, others = self.simulation.occupancy(self._ship, **self._view)
@@ -151,7 +152,7 @@ class ShipInIce(Env):
         return picture.astype(numpy.uint8)
 
     def _own_hull(self):
-        """Cells whose middle is in the ship's waterline."""
+        """Cells whose centre is inside the ship's waterline."""
         if self._waterline is None:
             from matplotlib.path import Path
 
@@ -174,11 +175,11 @@ def _seeded(scene):
 
 
 def _largest_angle(ship):
-    """Of its rudder or thrusters, to either side; 0 without [rad]."""
+    """Largest angle of the ship's rudder or thrusters to either side [rad]; 0 if it has none."""
     return math.radians(max((kind["max_deg"] for kind in ship.get("steering", {}).values()), default=0.0))
 
 
 def _in_ship(vector, heading):
-    """Ahead and to port."""
+    """Components of a vector ahead and to port of the ship."""
     c, s = numpy.cos(heading), numpy.sin(heading)
     return float(c * vector[0] + s * vector[1]), float(-s * vector[0] + c * vector[1])

@@ -1,4 +1,4 @@
-"""Many ships in ice at a time, each in its own simulation, in the convention of Gymnasium's vector environments."""
+"""Many ships in ice at once, each in its own simulation, in the convention of Gymnasium's vector environments."""
 from __future__ import annotations
 
 import concurrent.futures
@@ -10,12 +10,13 @@ from .spaces import VectorEnv, batch_space
 
 
 class ShipsInIce(VectorEnv):
-    """num_envs times ShipInIce, stepped on threads: steps and images release Python's lock.
+    """num_envs environments ShipInIce, which are stepped in threads. Steps and images release Python's lock.
 
-    workers: number of threads; as many as simulations, at most one a processor, if not given. settings: of ShipInIce.
+    workers: number of threads; if not given, one per simulation, but at most one per processor. settings: those of
+    ShipInIce.
 
-    Observations are stacked along a first axis, rewards and ends are arrays. An environment that has ended is reset by
-    its next step, whose action it ignores: that step has the first observation, reward 0 and no end (Gymnasium's
+    Observations are stacked along a first axis; rewards and ends are arrays. An environment that has ended is reset by
+    its next step, which ignores the action and returns the first observation, reward 0 and no end (Gymnasium's
     autoreset mode "next step"). The info of a step is a dict of arrays; "events" is an array of lists."""
 
     def __init__(self, num_envs=1, *, workers=None, **settings):
@@ -33,7 +34,7 @@ class ShipsInIce(VectorEnv):
         self._pool = concurrent.futures.ThreadPoolExecutor(workers or min(num_envs, _processors()))
 
     def reset(self, *, seed=None, options=None):
-        """New simulations: of the seeds seed, seed + 1, …, of a list of seeds, or of drawn ones."""
+        """Starts new simulations with the seeds seed, seed + 1, …, with a list of seeds, or with random ones."""
         seeds = [None if seed is None else seed + i for i in range(self.num_envs)] if not _is_list(seed) else seed
         if len(seeds) != self.num_envs:
             raise ValueError(f"{len(seeds)} seeds are given for {self.num_envs} environments")
@@ -42,7 +43,7 @@ class ShipsInIce(VectorEnv):
         return _stacked([observation for observation, _ in results]), _gathered([info for _, info in results])
 
     def step(self, actions):
-        """Observations, rewards, which goals are reached, which times are over, and infos."""
+        """Steps all. Returns observations, rewards, which goals are reached, which times are over, and infos."""
         actions = numpy.asarray(actions, dtype=float)
         if actions.shape != (self.num_envs, 2):
             raise ValueError(f"actions have the shape {actions.shape}, allowed: ({self.num_envs}, 2)")
@@ -59,7 +60,7 @@ class ShipsInIce(VectorEnv):
         return observation, 0.0, False, False, info
 
     def render(self):
-        """The pictures of all, or None."""
+        """Returns the pictures of all environments, or None."""
         return None if self.render_mode is None else tuple(env.render() for env in self.envs)
 
     def close(self, **_):
@@ -79,7 +80,7 @@ def _processors():
 
 
 def _next_step():
-    """Gymnasium's name of the mode, or a word where it has none."""
+    """Gymnasium's name of the mode, or a text if it has none."""
     try:
         from gymnasium.vector import AutoresetMode
     except ImportError:
@@ -92,7 +93,7 @@ def _stacked(observations):
 
 
 def _gathered(infos):
-    """An array a key, with which environments have it in the key "_name", as Gymnasium has infos of many."""
+    """Returns an array for each key, and in the key "_name" which environments have it, as in Gymnasium's infos."""
     gathered = {}
     for name in dict.fromkeys(name for info in infos for name in info):
         has = numpy.array([name in info for info in infos])

@@ -1,4 +1,4 @@
-"""Gymnasium's base class and spaces, or what an environment needs of them where Gymnasium is not installed."""
+"""Gymnasium's base class and spaces, or the parts of them that an environment needs if Gymnasium is not installed."""
 import numpy
 
 try:
@@ -10,7 +10,7 @@ except ImportError:
     HAS_GYMNASIUM = False
 
     class Box:
-        """Arrays of one shape within bounds."""
+        """Arrays of one shape with bounds."""
 
         def __init__(self, low, high, shape, dtype=numpy.float32):
             self.shape, self.dtype = tuple(shape), numpy.dtype(dtype)
@@ -23,7 +23,7 @@ except ImportError:
             return [seed]
 
         def sample(self):
-            """Evenly between the bounds; normally where there are none."""
+            """Returns a sample, uniform between the bounds, or normal where there are none."""
             bounded = numpy.isfinite(self.low) & numpy.isfinite(self.high)
             even = self._random.uniform(numpy.where(bounded, self.low, 0), numpy.where(bounded, self.high, 1))
             return numpy.where(bounded, even, self._random.normal(size=self.shape)).astype(self.dtype)
@@ -54,7 +54,7 @@ except ImportError:
             return all(space.contains(x[name]) for name, space in self.items())
 
     class Env:
-        """As Gymnasium's, without its registry."""
+        """Like Gymnasium's class, without its registry."""
 
         metadata = {"render_modes": []}
         render_mode = None
@@ -91,7 +91,7 @@ try:
 except ImportError:
 
     class VectorEnv:
-        """As Gymnasium's."""
+        """Like Gymnasium's class."""
 
         @property
         def unwrapped(self):
@@ -104,7 +104,7 @@ except ImportError:
             self.close()
 
     def batch_space(space, n):
-        """The space of n values of a space, along a first axis."""
+        """Returns the space of n values of a space, along a first axis."""
         if isinstance(space, Dict):
             return Dict({name: batch_space(one, n) for name, one in space.spaces.items()})
         batched = Box(0, 1, (n, *space.shape), space.dtype)

@@ -14,7 +14,7 @@ def note(words):
 
 
 def problem_of(options, runs):
-    """What is wrong with the options for these runs; None where nothing is."""
+    """Returns a message about options that do not apply to these runs; None if there is none."""
     from . import loads
 
     first = runs[0]
@@ -34,7 +34,7 @@ def problem_of(options, runs):
 
 
 def pages(options, runs):
-    """(name, figure or None, why there is none) of each figure that is asked for."""
+    """Returns (name, figure or None, reason if there is none) for each requested figure."""
     from . import energy, loads, maps, motion, sizes
     from .page import STYLES, Page
 
@@ -49,7 +49,8 @@ def pages(options, runs):
     start = time.monotonic()
     for number, name in enumerate(options.only, 1):
         draw, why = drawn[name]
-        # On a terminal at once, since one figure of a large run takes long; else after ten seconds, as other commands.
+        # On a terminal progress is shown at once, because one figure of a large run takes long; otherwise after ten
+        # seconds.
         if sys.stderr.isatty() or time.monotonic() - start > 10:
             print(f"drawing figure {number} of {len(options.only)}: {name}", file=sys.stderr, flush=True)
         yield name, draw(), why

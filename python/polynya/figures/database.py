@@ -8,7 +8,7 @@ COLOURS = ("#0072b2", "#d55e00", "#009e73", "#aa4499")
 
 
 def draw(figure, title, caption):
-    """Force and radius of each curve, faint where it is out of its range."""
+    """Draws force and radius of each curve. A curve is faint outside its range."""
     import numpy
     from matplotlib.lines import Line2D
 
@@ -46,7 +46,7 @@ def draw(figure, title, caption):
 
 
 def main():
-    """Draws the figures beside the file of slices that app/database/database.cpp wrote and names."""
+    """Draws the figures beside the file of slices that app/database/database.cpp wrote."""
     from .page import save
 
     slices = sys.argv[1]

@@ -1,4 +1,4 @@
-"""Where each run's energy came from and where it went: `energy` of summary.json, sources and sinks apart."""
+"""Sources and sinks of the energy of each run, from `energy` of summary.json."""
 from __future__ import annotations
 
 from matplotlib.patches import Patch
@@ -30,8 +30,8 @@ SINKS = {
 
 
 def terms_of(runs):
-    """Sources and sinks in their order: (words, a value [J] or None for each run). A term of no name here is a sink of
-    its own name."""
+    """Sources and sinks in order: (name, a value [J] or None for each run). A term without a name here is a sink under
+    its own key."""
     energies = [run.run.summary.get("energy") or {} for run in runs]
     keys = dict.fromkeys(key[:-2] for energy in energies for key in energy if key.endswith("_J")
                          and key != "turnover_J")
@@ -42,7 +42,7 @@ def terms_of(runs):
 
 
 def draw(runs, page=Page()):
-    """None where no run has energies."""
+    """Draws the figure. Returns None if no run has energies."""
     runs = all_labelled(runs)
     sources, sinks = terms_of(runs)
     if not sources and not sinks:
@@ -72,7 +72,7 @@ def draw(runs, page=Page()):
 
 
 def draw_bars(axes, terms, factor, bar, pitch, page):
-    """The bars, and their numbers beside them."""
+    """Draws the bars with their numbers."""
     numbers = []
     for k, (_, values) in enumerate(terms):
         for i, value in enumerate(values):
@@ -97,7 +97,7 @@ def draw_bars(axes, terms, factor, bar, pitch, page):
 
 
 def make_room(figure, axes, numbers):
-    """Widens the scale until the numbers at the bars end within it."""
+    """Widens the scale until the numbers at the bars fit into it."""
     for _ in range(6):
         right = axes.get_window_extent().x1
         over = max((n.get_window_extent(figure.canvas.get_renderer()).x1 - right for n in numbers), default=0)

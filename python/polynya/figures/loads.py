@@ -1,4 +1,4 @@
-"""Surge, sway and yaw on every ship and structure against time, with the fractures of each."""
+"""Surge, sway and yaw on every ship and structure over time, with the fractures of each."""
 from __future__ import annotations
 
 import dataclasses
@@ -11,13 +11,13 @@ from .page import Page, Sheet
 from .subjects import all_labelled, mark_fractures, once, subjects_of
 
 COMPONENTS = (("surge", "N"), ("sway", "N"), ("yaw", "Nm"))
-FRONT, BEHIND = "#000000", "#56b4e9"  # apart in greyscale
-STRETCH = 0.1  # of paper, of which the largest and the least value are drawn [mm]
+FRONT, BEHIND = "#000000", "#56b4e9"  # colours that differ in greyscale
+STRETCH = 0.1  # width on paper of the stretches of which the largest and smallest value are drawn [mm]
 
 
 @dataclasses.dataclass(frozen=True)
 class Load:
-    """A measure of the load (docs/theory/forces.md): which columns of forces.csv, surge, sway and yaw."""
+    """A measure of the load (docs/theory/forces.md), with the columns of forces.csv for surge, sway and yaw."""
 
     middle: str
     words: str
@@ -27,7 +27,7 @@ class Load:
 
 
 def chosen(run, choice):
-    """The loads that `--load` names, the one in front first; none where the run has none of that kind."""
+    """The loads that `--load` names, the front one first; none if the run has none of that kind."""
     scene = run.scene
     step = scene["time"]["step_s"]
     interval = max(1, round(scene["record"]["forces_interval_s"] / step)) * step
@@ -42,7 +42,7 @@ def chosen(run, choice):
 
 
 def why_not(run, choice):
-    """Why a run has no such load."""
+    """Says why a run has no such load."""
     what = "does not split floes by j/tau_c (fracture.splitting.model michel)"
     if choice == "ships":
         what = "has one ship and no structure"
@@ -50,12 +50,13 @@ def why_not(run, choice):
 
 
 def prefixed(most):
-    """10³ⁿ and its prefix, so that values up to `most` read well."""
+    """A factor 10³ⁿ and its prefix, so that values up to `most` are easy to read."""
     return next(((factor, name) for factor, name in ((1e9, "G"), (1e6, "M"), (1e3, "k")) if most >= factor), (1, ""))
 
 
 def envelope(times, values, start, end, stretches):
-    """Edges of equal stretches of time, and of each the least and the largest value, 0 between: no peak is lost."""
+    """Divides time into equal stretches. Returns their limits, and the smallest and largest value in each, so that no
+    peak is lost."""
     edges = numpy.linspace(start, end, stretches + 1)
     low, high = numpy.zeros(stretches), numpy.zeros(stretches)
     is_number = numpy.isfinite(values)
@@ -66,7 +67,7 @@ def envelope(times, values, start, end, stretches):
 
 
 def scale_of(subjects, loads, component, unit):
-    """The ends of the scale of all values, with room for the marks above."""
+    """Limits of the scale for all values, with room for the marks above."""
     values = [subject.columns(load.column(component, unit))[0] for subject in subjects for load in loads]
     values = numpy.concatenate([[0.0], *values])
     values = values[numpy.isfinite(values)]
@@ -77,7 +78,7 @@ def scale_of(subjects, loads, component, unit):
 
 
 def draw(runs, page=Page(), choice="true"):
-    """A column for each ship and structure, one scale for each of surge, sway and yaw."""
+    """Draws a column of panels for each ship and structure, with one scale each for surge, sway and yaw."""
     runs = all_labelled(runs)
     subjects = subjects_of(runs)
     loads = chosen(runs[0].run, choice) if subjects else []
@@ -87,7 +88,7 @@ def draw(runs, page=Page(), choice="true"):
     target = "ships and structures" if len(subjects) > len(runs) else "the ship"
     caption = "In the ship's frame: surge forward, sway to port, yaw counter-clockwise."
     scales = [scale_of(subjects, loads, component, unit) for component, unit in COMPONENTS]
-    forces = prefixed(max(max(-low, high) for low, high in scales[:2]))  # surge and sway in one unit
+    forces = prefixed(max(max(-low, high) for low, high in scales[:2]))  # surge and sway use one unit
     prefixes = [forces, forces, prefixed(max(map(abs, scales[2])))]
     with Sheet(page, f"Load of {source} on {target}", caption) as sheet:
         columns = page.columns_for(len(subjects))
@@ -119,13 +120,13 @@ def draw_panel(axes, subject, loads, component, factor, page):
     for of, colour in reversed(list(zip(values, (FRONT, BEHIND)))):
         edges, low, high = envelope(times, of / factor, subject.of.start, subject.of.end, stretches)
         stairs = StepPatch(high, edges, baseline=low, fill=True, color=colour, linewidth=0.25 * page.style.scale)
-        axes.add_artist(stairs)  # the scale is set, and finding it again takes half a second
+        axes.add_artist(stairs)  # without rescaling, which would take half a second, because the scale is already set
     axes.axhline(0, color="#000000", linewidth=0.4 * page.style.scale)
     return mark_fractures(axes, subject, page.style.scale)
 
 
 def label(axes, is_left, is_lowest):
-    """Scales are common: numbers and words stand at the left and at the bottom."""
+    """Labels a panel. Scales are common, so numbers and words are only at the left and at the bottom."""
     axes.locator_params(axis="y", nbins=4)
     axes.locator_params(axis="x", nbins=5)
     axes.tick_params(labelleft=is_left, labelbottom=is_lowest)

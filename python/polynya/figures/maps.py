@@ -1,4 +1,4 @@
-"""Floes, hulls, tracks, fractures and channels from above, at some times."""
+"""Maps of floes, hulls, tracks, fractures and channels at some times."""
 from __future__ import annotations
 
 import dataclasses
@@ -15,25 +15,26 @@ from polynya.scenery import BROKEN, CAME_UP, FRACTURES, LEAST_PIXELS, UNDER, WHO
 from .page import Page, Sheet
 from .subjects import all_labelled
 
-CROWD = 400  # cusps, from which on their marks are smaller
-MOST_VERTICES = 300_000  # drawn as vectors; more become dots, and floes of a few dots squares
+CROWD = 400  # number of cusps above which their marks are smaller
+# Largest number of vertices drawn as vectors; with more, floes become dots, and the smallest ones squares.
+MOST_VERTICES = 300_000
 
 
 @dataclasses.dataclass
 class Map:
-    """A run at a time, and what stands above its map."""
+    """A run at one time, and the title of its map."""
 
     title: str
     caption: str
     scenery: Scenery
-    frame: object  #: of the run
-    channel: list  #: polygons, each a list of rings
-    marks: dict  #: points of fractures by kind
+    frame: object  #: frame of the run
+    channel: list  #: polygons of the channel, each a list of rings
+    marks: dict  #: positions of fractures by kind
 
 
 def chosen_times(runs, wanted, count):
-    """One run: as many, evenly, the end among them, and the start where there are more than two. Several: their ends.
-    Of the times drawn, rounded to seconds where that changes little."""
+    """Times of the maps. For one run: `count` times, evenly spaced, including the end and, for more than two, the
+    start. For several runs: their ends. Times are rounded to seconds if that changes little."""
     if wanted:
         return list(wanted)
     if len(runs) > 1:
@@ -46,7 +47,7 @@ def chosen_times(runs, wanted, count):
 
 
 def channels_at(run, time):
-    """Open water along the track of each ship; none where none can be measured."""
+    """Open water along the track of each ship; none if it cannot be measured."""
     polygons = []
     for ship in run.scene.get("ships", []):
         try:
@@ -73,13 +74,13 @@ def map_of(labelled, scenery, time, has_label):
 
 
 def add_path(axes, path, **style):
-    """Neither in the limits nor in the layout, which would go over each of its points."""
+    """Adds a path without including it in the limits and the layout, which would visit each of its points."""
     if len(path.vertices):
         axes.add_artist(PathPatch(path, joinstyle="round", **style)).set_in_layout(False)
 
 
 def draw_map(axes, shown, window, page, points_per_metre):
-    """Water, then ice, ships, and marks on top."""
+    """Draws water, then ice, ships, and marks on top."""
     scale, scenery, frame = page.style.scale, shown.scenery, shown.frame
     seen = frame.ids[scenery.seen(frame, window)]
     is_huge = scenery.outlines.count(seen) > MOST_VERTICES
@@ -110,7 +111,7 @@ def draw_map(axes, shown, window, page, points_per_metre):
 
 
 def legend_of(maps, scale):
-    """The keys of what some maps show."""
+    """Legend entries for everything that the maps show."""
     kinds = {int(kind) for shown in maps for kind in shown.scenery.kinds(shown.frame)}
     has = lambda of: any(len(of(shown)) for shown in maps)
     area = lambda colour, words, edge=colours.EDGE: Patch(facecolor=colour, edgecolor=edge,
@@ -142,8 +143,8 @@ def legend_of(maps, scale):
 
 
 def draw(runs, page=Page(), at=(), window=None):
-    """A map of each run at each time of `at` [s] (chosen_times), all of one scale; of x0, y0, x1, y1 [m] where a window
-    is given."""
+    """Draws a map of each run at each time of `at` [s] (chosen_times), all with one scale. `window` limits the maps to
+    x0, y0, x1, y1 [m]."""
     runs = all_labelled(runs)
     times = chosen_times(runs, at, page.style.maps)
     is_alone = len(runs) == 1
@@ -183,8 +184,8 @@ def draw(runs, page=Page(), at=(), window=None):
 
 
 def layout(page, count, across, along):
-    """Columns, and the width and height of a map [mm]: the columns on which maps are largest, if the page is tall
-    enough."""
+    """Number of columns, and width and height of a map [mm]. It chooses the number of columns with which the maps are
+    largest on the page."""
     scale = page.style.scale
     best = (1, 0.0, 0.0)
     for columns in range(1, min(count, max(1, int(page.width / (38 * scale)))) + 1):
@@ -194,7 +195,7 @@ def layout(page, count, across, along):
         width = min(width, tallest * across / along)
         is_flat = along < 0.25 * across and page.width / 2 > 70 * scale
         if count > 1 and columns == 1 and is_flat and width > page.width / 2:
-            best = (columns, width, width * along / across)  # long maps stand below each other
+            best = (columns, width, width * along / across)  # long maps are placed below each other
             break
         if width > 1.02 * best[1] or (columns <= max(1, round(page.width / (85 * scale))) and width > 0.45 * best[1]):
             best = (columns, width, width * along / across)

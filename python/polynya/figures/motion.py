@@ -7,20 +7,20 @@ from matplotlib.lines import Line2D
 from .page import Page, Sheet, plain
 from .subjects import all_labelled, colour_of, dash_of, mark_fractures, once, subjects_of
 
-SLOW = 0.02  # below which noise decides the course [m/s]
+SLOW = 0.02  # below this speed noise determines the course [m/s]
 MOST_POINTS = 1500
 COURSE = (0, (1, 1.2))
 
 
 def course_of(vx, vy, heading):
-    """The direction of motion [deg], near the heading (both count whole turns); NaN where noise decides it."""
+    """Direction of motion [deg] near the heading; both count full turns. NaN where noise determines it."""
     angle = numpy.degrees(numpy.arctan2(vy, vx))
     angle = angle + 360 * numpy.round((heading - angle) / 360)
     return numpy.where(numpy.hypot(vx, vy) < SLOW, numpy.nan, angle)
 
 
 def moving(runs):
-    """Ships; structures where there is no ship."""
+    """Ships of the runs; their structures if there is no ship."""
     subjects = subjects_of(runs)
     ships = [s for s in subjects if s.ship in {ship["name"] for ship in s.of.run.scene.get("ships", [])}]
     return ships or subjects

@@ -18,29 +18,30 @@ Exit codes: 0 done, 2 usage, 5 input/output, or numpy or matplotlib is missing.
 
 
 def command_line():
-    parser = Parser("polynya figures", "Draw a run, or several side by side, for print", EXAMPLES, REST)
+    parser = Parser("polynya figures", "Draw figures of a run, or of several side by side, for print", EXAMPLES, REST)
     parser.add("runs", "The run folders", nargs="+", metavar="RUN")
-    meaning = "Which figures, separated by commas; all if not given"
+    meaning = "Figures to draw, separated by commas; all if not given"
     parser.add("--only", meaning, type=choices(FIGURES), default=list(FIGURES), metavar="|".join(FIGURES))
     meaning = (
-        "True force of the ice (mean of each recorded interval and largest step, or one of the two), "
+        "Load to draw: true force of the ice (mean of each recording interval and largest step, or one of the two), "
         "force of other ships and structures, or the paper's j/tau_c; true if not given"
     )
     parser.add("--load", meaning, type=choice(LOADS), default="true", metavar="|".join(LOADS))
-    meaning = "What for: a column of a page, its whole width (if not given), or slides"
+    meaning = "Size of the figures: for one column of a page, for its whole width (if not given), or for slides"
     parser.add("--style", meaning, type=choice(STYLES), default="two-columns", metavar="|".join(STYLES))
-    meaning = "Which files, separated by commas; all if not given"
+    meaning = "File formats, separated by commas; all if not given"
     parser.add("--format", meaning, type=choices(FORMATS), default=list(FORMATS), metavar="|".join(FORMATS))
-    parser.add("--at", "Instants of the maps [s]; chosen if not given", type=numbers(), default=[], metavar="S,S,...")
+    meaning = "Times of the maps [s]; chosen automatically if not given"
+    parser.add("--at", meaning, type=numbers(), default=[], metavar="S,S,...")
     meaning = "Draw from this time on [s]; from the start if not given"
     parser.add("--from", meaning, dest="start", type=number(), metavar="S")
     parser.add("--until", "Draw up to this time [s]; to the end if not given", dest="end", type=number(), metavar="S")
-    meaning = "The part of the world that the maps show [m]; all if not given"
+    meaning = "Part of the world that the maps show [m]; everything if not given"
     parser.add("--window", meaning, type=numbers(count=4), metavar="X0,Y0,X1,Y1")
-    meaning = "Names of the runs, separated by commas; their scenes' if not given"
+    meaning = "Names of the runs, separated by commas; those of their scenes if not given"
     parser.add("--label", meaning, type=lambda text: text.split(","), action="extend", default=[], metavar="NAME,...")
-    parser.add("--title", 'Title of the figures instead of their own; "" for none', metavar="TEXT")
-    meaning = "Width on paper instead of the style's, 85, 170 or 300; text keeps its size"
+    parser.add("--title", 'Title that replaces those of the figures; "" for none', metavar="TEXT")
+    meaning = "Width on paper [mm], instead of 85, 170 or 300 for the styles; text keeps its size"
     parser.add("--width-mm", meaning, type=number(60, 400, "mm"), metavar="MM")
-    parser.add("--out", "Folder for the figures; the first run's if not given", default="", metavar="DIR")
+    parser.add("--out", "Folder for the figures; the folder of the first run if not given", default="", metavar="DIR")
     return parser

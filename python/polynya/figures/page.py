@@ -1,4 +1,5 @@
-"""A figure's page: as wide as asked, as tall as heading, panels and legend need, and nothing beyond its edge."""
+"""The page of a figure. It is as wide as requested, as tall as heading, panels and legend need, and nothing extends
+beyond its edge."""
 from __future__ import annotations
 
 import dataclasses
@@ -16,25 +17,25 @@ from . import options
 
 MM = 1 / 25.4  # [inch]
 POINT = 25.4 / 72  # [mm]
-MARGIN = 1.5  # at the edge of a paper [mm]
-LINE = 1.3  # heights of a letter from line to line
+MARGIN = 1.5  # margin of a figure for a paper [mm]
+LINE = 1.3  # distance between lines, as a multiple of the font size
 
 
 @dataclasses.dataclass(frozen=True)
 class Style:
-    """What a figure is for. Sizes of text [pt]: numbers at ticks and notes, words, titles."""
+    """Style for one use of a figure. Sizes of text [pt]: numbers at ticks and notes, words, titles."""
 
     width: float  #: [mm]
     tallest: float  #: [mm]
     small: float
     text: float
     title: float
-    dots: int  #: of a PNG, per inch
-    maps: int  #: of one run, where no times are given
+    dots: int  #: dots per inch of a PNG
+    maps: int  #: number of maps of one run if no times are given
 
     @property
     def scale(self):
-        """Of lines, marks and gaps, beside those of a paper."""
+        """Size of lines, marks and gaps relative to those for a paper."""
         return self.text / 8
 
 
@@ -47,28 +48,28 @@ STYLES = dict(zip(options.STYLES, (ONE_COLUMN, TWO_COLUMNS, SLIDES)))
 @dataclasses.dataclass(frozen=True)
 class Page:
     style: Style = TWO_COLUMNS
-    given_width: Optional[float] = None  #: instead of the style's [mm]
-    title: Optional[str] = None  #: instead of a figure's own; empty: neither title nor caption
+    given_width: Optional[float] = None  #: replaces the width of the style [mm]
+    title: Optional[str] = None  #: replaces the figure's own title; empty: neither title nor caption
 
     @property
     def width(self):
-        """On paper [mm]."""
+        """Width on paper [mm]."""
         return self.given_width or self.style.width
 
     def columns_for(self, panels, least=46.0):
-        """How many panels of at least that width [mm] stand beside each other, rows nearly full."""
+        """Number of panels of at least this width [mm] beside each other, so that rows are nearly full."""
         most = max(1, min(panels, int(self.width / (least * self.style.scale))))
         rows = -(-panels // most)
         return -(-panels // rows)
 
     def row_height(self, rows, wanted):
-        """Of a row of panels with its words, so that all rows, a heading and a legend fit onto a page if they can
-        [mm]."""
+        """Height of a row of panels with its text [mm], so that all rows, a heading and a legend fit onto a page if
+        possible."""
         scale = self.style.scale
         return max(15 * scale, min(wanted * scale, (self.style.tallest - 32 * scale) / rows))
 
     def settings(self):
-        """Of matplotlib."""
+        """Settings of matplotlib."""
         style, scale = self.style, self.style.scale
         return {
             "font.family": "DejaVu Sans",
@@ -103,7 +104,8 @@ class Page:
 
 
 class Sheet:
-    """A figure while it is drawn. Within `with Sheet(…) as sheet`: make `sheet.figure`'s panels, then call `finish`."""
+    """A figure while it is drawn. Within `with Sheet(…) as sheet`, make panels in `sheet.figure`, then call
+    `finish`."""
 
     def __init__(self, page, title="", caption=""):
         self.page = page
@@ -120,22 +122,23 @@ class Sheet:
         return self._settings.__exit__(*error)
 
     def panels(self, rows, columns, **more):
-        """Axes in rows. Their ticks' size is their own: matplotlib asks the settings of the day when it draws."""
+        """Makes axes in rows. The size of tick labels is set here, because matplotlib reads its settings when it
+        draws."""
         grid = self.figure.subplots(rows, columns, squeeze=False, **more)
         for axes in grid.flat:
             axes.tick_params(which="both", labelsize=self.page.style.small)
         return grid
 
     def width_of(self, words, size, weight="normal"):
-        """[mm]"""
+        """Width of a text [mm]."""
         text = self.figure.text(0, 0, words, fontsize=size, fontweight=weight)
         width = text.get_window_extent().width / self.figure.dpi / MM
         text.remove()
         return width
 
     def wrapped(self, words, size, width, weight="normal"):
-        """Words in lines no wider than that [mm]: broken at spaces, else behind hyphens and underscores, else
-        anywhere."""
+        """Breaks a text into lines no wider than `width` [mm]: at spaces, otherwise after hyphens and underscores,
+        otherwise anywhere."""
         lines, line = [], ""
         for part in parts_of(words):
             if self.width_of((line + part).rstrip(), size, weight) <= width:
@@ -152,7 +155,7 @@ class Sheet:
         return lines + [line.rstrip()] if line.strip() else lines
 
     def title_panel(self, axes, number, panels, words, width):
-        """Its letter, where there are several, and its titles, each in lines no wider than that [mm]."""
+        """Adds the letter of a panel, if there are several, and its titles in lines no wider than `width` [mm]."""
         letter = f"({letters(number)}) " if panels > 1 else ""
         lines = [line for title in (letter + words).split("\n")
                  for line in self.wrapped(plain(title), self.page.style.text, width)]
@@ -160,23 +163,24 @@ class Sheet:
             axes.set_title("\n".join(lines), loc="left", fontsize=self.page.style.text)
 
     def label_y(self, axes, words, height):
-        """A label in lines no longer than a panel with its words is high [mm]."""
+        """Adds a label of the y axis in lines no longer than the height of a panel with its text [mm]."""
         axes.set_ylabel("\n".join(self.wrapped(words, self.page.style.text, height - 6 * self.page.style.scale)))
 
     def finish(self, panels_height, handles=(), notes=(), is_snug=False):
-        """Sets heading and legend around the panels, whose height is given [mm], less what they leave blank where
-        `is_snug`, and makes the page as tall; notes are lines of small text below."""
+        """Places heading and legend around the panels, and makes the page as tall as needed. `panels_height` is the
+        height of the panels [mm]; with `is_snug` it is reduced by their blank part. `notes` are lines of small text
+        below."""
         self._decorate(handles, notes)
         self._place(panels_height)
         if is_snug:
             self._place(panels_height - self._blank(panels_height))
         self.figure.set_layout_engine("none")
-        for axes in self.figure.axes:  # the solver's last bits differ from time to time
+        for axes in self.figure.axes:  # the last bits of the layout solver differ between calls
             axes.set_position([round(edge, 6) for edge in axes.get_position().bounds])
         return self.figure
 
     def _decorate(self, handles, notes):
-        """The words around the panels, which `_place` puts where they belong."""
+        """Makes the text around the panels; `_place` positions it."""
         style, room = self.page.style, self.page.width - 2 * MARGIN * self.page.style.scale
         bold = lambda size: "bold" if size == style.title else "normal"
         self._above = [self.figure.text(0, 0, words, fontsize=size, fontweight=bold(size), in_layout=False)
@@ -206,11 +210,11 @@ class Sheet:
         rect = (margin / page.width, low / height, 1 - 2 * margin / page.width, panels_height / height)
         pad = 0.02 * style.scale  # [inch]
         figure.get_layout_engine().set(rect=rect, w_pad=pad, h_pad=pad, wspace=0.03, hspace=0.03)
-        for _ in range(2):  # numbers at ticks change with the panels' sizes
+        for _ in range(2):  # tick labels change with the size of the panels
             figure.get_layout_engine().execute(figure)
 
     def _blank(self, panels_height):
-        """How much of the panels' height they leave blank [mm]."""
+        """Blank part of the panels' height [mm]."""
         boxes = [axes.get_tightbbox(self.figure.canvas.get_renderer()) for axes in self.figure.axes]
         filled = max(box.y1 for box in boxes) - min(box.y0 for box in boxes)
         return panels_height - filled / self.figure.dpi / MM - 1.5 * self.page.style.scale
@@ -225,7 +229,7 @@ class Sheet:
         return lines + [(line, style.text) for line in self.wrapped(plain(caption), style.text, width)]
 
     def _legend(self, handles, width):
-        """A legend in as many columns as fit, and its height [mm]."""
+        """Makes a legend with as many columns as fit. Returns it and its height [mm]."""
         if not handles:
             return None, 0
         style = self.page.style
@@ -245,8 +249,8 @@ class Sheet:
 
 
 def set_log(axis, low, high):
-    """Makes an axis logarithmic for values from low to high, with plain numbers, more of each decade the fewer there
-    are."""
+    """Makes an axis logarithmic for values from low to high, with plain numbers. The fewer decades there are, the more
+    numbers each has."""
     axis.axes.set(**{f"{axis.axis_name}scale": "log"})
     axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 20 * low else (1, 3) if high < 100 * low else (1,)))
     axis.set_major_formatter("{x:g}")
@@ -254,7 +258,7 @@ def set_log(axis, low, high):
 
 
 def parts_of(words):
-    """Words with the space behind them, broken behind hyphens and underscores too."""
+    """Divides a text at spaces and after hyphens and underscores; each part keeps its separator."""
     part = ""
     for before, letter in zip(" " + words, words):
         if (before == " " and letter != " " and part.strip()) or (before in "-_" and part[:-1].strip()):
@@ -265,25 +269,25 @@ def parts_of(words):
 
 
 def plain(words):
-    """Words that matplotlib takes as they are: a dollar is one."""
+    """Escapes a text for matplotlib, so that a dollar is shown as such."""
     return words.replace("$", r"\$")
 
 
 def in_words(value):
-    """Four digits, powers of ten as superscripts."""
+    """A number with four digits, and powers of ten as superscripts."""
     mantissa, _, power = f"{value:.4g}".replace("-", "−").partition("e")
     raised = power.lstrip("+").replace("−0", "−").lstrip("0").translate(str.maketrans("−0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
     return mantissa + (" · 10" + raised if power else "")
 
 
 def letters(number):
-    """a … z, aa, ab …"""
+    """The letter of a panel: a … z, aa, ab …"""
     return (letters(number // 26 - 1) if number >= 26 else "") + chr(ord("a") + number % 26)
 
 
 def save(figure, stem, formats, dots=300):
-    """Writes stem.svg and so on, each whole or not at all, in place of a link of that name too; the same figure gives
-    the same bytes. Yields each path."""
+    """Writes stem.svg and so on. Each file is written completely or not at all, and replaces a link of that name. The
+    same figure gives the same bytes. Yields each path."""
     for suffix in formats:
         path = f"{stem}.{suffix}"
         draft = f"{path}.{os.getpid()}.tmp"

@@ -1,4 +1,4 @@
-"""How many floes, and how much of the ice, is in floes of at least a size."""
+"""Number of floes, and fraction of the ice, in floes of at least a given size."""
 from __future__ import annotations
 
 import numpy
@@ -9,8 +9,8 @@ from .subjects import all_labelled, colour_of
 
 
 def sizes_at(run, time):
-    """Sizes √area of the floating floes, the least first [m], their number from each on, and their share of the ice
-    [%]."""
+    """Sizes √area of the floating floes in ascending order [m], the number of floes of at least each size, and their
+    percentage of the ice."""
     births = run.births
     is_afloat = (births["born_s"] <= time) & (time < births["died_s"]) & (time < births["went_under_s"])
     areas = numpy.sort(births["area_m2"][is_afloat])

@@ -1,4 +1,4 @@
-"""The ships and structures of runs, their names and colours, and the part of the time that is drawn."""
+"""Ships and structures of runs with their names and colours, and the range of time that is drawn."""
 from __future__ import annotations
 
 import dataclasses
@@ -6,7 +6,8 @@ import dataclasses
 import numpy
 from matplotlib.lines import Line2D
 
-#: Of runs: black, vermilion, sky blue, blue, purple, green [Okabe2008]; the first three are apart in greyscale too.
+#: Colours of runs: black, vermilion, sky blue, blue, purple, green [Okabe2008]. The first three also differ in
+#: greyscale.
 COLOURS = ("#000000", "#d55e00", "#56b4e9", "#0072b2", "#aa4499", "#009e73")
 DASHES = ("-", "--", "-.")
 CUSP, SPLIT = "#555555", "#d55e00"
@@ -14,7 +15,7 @@ CUSP, SPLIT = "#555555", "#d55e00"
 
 @dataclasses.dataclass(frozen=True)
 class Labelled:
-    """A run with the name and the times that figures give it."""
+    """A run with its name and range of times in figures."""
 
     run: object
     label: str
@@ -23,7 +24,8 @@ class Labelled:
 
 
 def labelled(run, label=None, start=None, end=None):
-    """The whole run under its scene's name, if not given otherwise. Times outside of the run raise a ValueError."""
+    """Returns a run with the name of its scene and its whole time, unless given otherwise. Raises ValueError for times
+    outside of the run."""
     for word, time in (("--from", start), ("--until", end)):
         if time is not None and not run.start_time <= time <= run.end_time:
             raise ValueError(f"{word} {time:g}: {run.folder} goes from {run.start_time:g} to {run.end_time:g} s")
@@ -46,18 +48,18 @@ class Subject:
 
     @property
     def name(self):
-        """The run's, and the ship's where the run has several."""
+        """Name of the run, and of the ship if the run has several."""
         return self.of.label if len(self.of.run.ship_names) == 1 else f"{self.of.label}, {self.ship}"
 
     def columns(self, *names):
-        """Columns of forces.csv within the times drawn; NaN where a run of an older version has none."""
+        """Columns of forces.csv within the range of times; NaN if a run of an older version does not have them."""
         forces = self.of.run.force_columns
         rows = (forces["ship"] == self.ship) & (forces["t_s"] >= self.of.start) & (forces["t_s"] <= self.of.end)
         return [forces[name][rows] if name in forces else numpy.full(numpy.count_nonzero(rows), numpy.nan)
                 for name in names]
 
     def fractures(self, kind):
-        """Times of its cusps ("bend") or splits."""
+        """Times of the ship's cusps ("bend") or splits."""
         events = self.of.run.event_columns
         times = events["t_s"]
         is_within = (times >= self.of.start) & (times <= self.of.end)
@@ -65,7 +67,7 @@ class Subject:
 
 
 def subjects_of(runs):
-    """None where no time passes."""
+    """All subjects of runs; None if a run has no duration."""
     return [Subject(run, ship) for run in runs for ship in run.run.ship_names if run.start < run.end]
 
 
@@ -78,8 +80,8 @@ def dash_of(number):
 
 
 def mark_fractures(axes, subject, scale):
-    """Strokes of cusps and triangles of splits along the top of a panel; the legend's entries of those that there
-    are."""
+    """Draws strokes for cusps and triangles for splits along the top of a panel. Returns the legend entries for those
+    that exist."""
     handles = []
     across = axes.get_xaxis_transform()
     cusps, splits = subject.fractures("bend"), subject.fractures("split")
@@ -97,5 +99,5 @@ def mark_fractures(axes, subject, scale):
 
 
 def once(handles):
-    """Each label's first handle."""
+    """Removes legend entries whose label occurred before."""
     return list({handle.get_label(): handle for handle in reversed(handles)}.values())[::-1]

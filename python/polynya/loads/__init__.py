@@ -1,4 +1,4 @@
-"""Loads by place: peaks of contacts' forces and loads of panels, of a run or of all cases of a study.
+"""Ice loads by place on a hull: peaks of contact forces and loads of panels, of a run or of all cases of a study.
 
     from polynya import loads
     found = loads.gather("studies/load-peaks")

@@ -10,7 +10,7 @@ DONE, USAGE = 0, 2
 
 
 def draw(loads, estimates, options, out):
-    """Writes the figures. Returns the SVG's name of each, and what it shows."""
+    """Writes the figures. Returns the name of the SVG of each, and a description."""
     from polynya.figures.page import STYLES, Page, save
 
     from . import pictures
@@ -33,7 +33,7 @@ def report(options):
 
     try:
         loads = gather(options.folder, options.ship, options.start, options.panel)
-    except StudyError:  # of a folder that is damaged, not of the words
+    except StudyError:  # the folder is damaged; the message is already complete
         raise
     except InputError as error:
         return fail(COMMAND, error, USAGE)

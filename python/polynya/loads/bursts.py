@@ -1,26 +1,27 @@
-"""Peaks of a record as independent events: peaks of one burst count once, and runs that are not alike are found.
+"""Peaks of a record as independent events.
 
-Peaks of one jam follow each other. As independent ones they would promise more than the record knows. Peaks nearer to
-each other than a gap are therefore one event, of which the largest counts. The gap is the shortest by which the events
-pass two tests: they are as many in each part of the record as chance has it, and as large."""
+Peaks of one jam follow each other. Counted as independent, they would suggest more information than the record has. So
+peaks that are closer in time than a gap form one event, and its largest peak counts. The gap is the shortest one for
+which the events pass two tests: their numbers in the parts of the record vary only as much as chance explains, and so
+do their sizes."""
 from __future__ import annotations
 
 import dataclasses
 
 import numpy
 
-PARTS = 20  #: of the record, at least, in which events are counted
-HALVINGS = 6  #: the shortest gap is a part's length halved as often
-SIMULATED = 499  #: samples of a test
-COVERED = 0.25  #: of the time of a run that bursts with the gaps behind them may cover
-UNLIKE = 0.01  #: p values below say that parts of the record differ
+PARTS = 20  #: least number of parts of the record in which events are counted
+HALVINGS = 6  #: the shortest gap is the length of a part, halved this number of times
+SIMULATED = 499  #: number of samples of a test
+COVERED = 0.25  #: largest fraction of a run's time that bursts and the gaps after them may cover [-]
+UNLIKE = 0.01  #: p values below this mean that parts of the record differ
 
 
 @dataclasses.dataclass(frozen=True)
 class Record:
     """Peaks in the order of their cases and times. `starts` and `lengths` are those of the cases [s]."""
 
-    cases: numpy.ndarray  #: of each peak, the place of its case in the lists below
+    cases: numpy.ndarray  #: index of the case of each peak in the lists below
     times: numpy.ndarray  #: [s]
     forces: numpy.ndarray  #: [N]
     starts: numpy.ndarray
@@ -35,7 +36,8 @@ class Record:
         return max(1, -(-PARTS // max(1, len(self.lengths))))
 
     def part_of(self, cases, times):
-        """The part of the record in which each event is: equal parts of every case, at least PARTS in all."""
+        """The part of the record in which each event is. All cases are divided into equal parts, at least PARTS in
+        total."""
         parts = self.parts_of_case
         share = (times - self.starts[cases]) / self.lengths[cases]
         return cases * parts + numpy.clip((share * parts).astype(int), 0, parts - 1)
@@ -45,13 +47,13 @@ class Record:
         return numpy.repeat(self.lengths / self.parts_of_case, self.parts_of_case)
 
     def gaps(self):
-        """The gaps that are tried [s]: none, then from a 64th of a part of the record to a whole one."""
+        """Gaps to try [s]: none, then from 1/64 of a part of the record to a whole part."""
         part = float(self.lengths.max()) / self.parts_of_case
         return [0.0, *(part / 2**k for k in range(HALVINGS, -1, -1))]
 
 
 def record_of(loads):
-    """The peaks of gathered cases that have a length."""
+    """Returns the peaks of the gathered cases that have a length."""
     cases = [case for case in loads.cases if case.hours > 0]
     numbers = numpy.array([case.number for case in cases], dtype=int)
     place = {number: at for at, number in enumerate(numbers.tolist())}
@@ -64,13 +66,14 @@ def record_of(loads):
 
 @dataclasses.dataclass(frozen=True)
 class Events:
-    """The largest peaks of bursts above a threshold, and the tests of whether they are independent and alike."""
+    """The largest peaks of bursts above a threshold, and the results of the tests."""
 
     forces: numpy.ndarray  #: [N]
     gap: float  #: [s]
-    counts_p: float  #: of their numbers in parts of the record
-    sizes_p: float  #: of their sizes in its cases or parts
-    covered: float  #: share of a run's time that bursts and the gaps behind them cover, in the run where it is largest
+    counts_p: float  #: p value of their numbers in parts of the record
+    sizes_p: float  #: p value of their sizes in its cases or parts
+    #: Fraction of a run's time that bursts and the gaps after them cover, in the run where it is largest.
+    covered: float
 
     @property
     def are_alike(self):
@@ -78,8 +81,8 @@ class Events:
 
 
 def counts_p(counts, lengths, rng):
-    """How often as many events that come by chance are spread as unevenly over parts of these lengths (chi-squared
-    distance)."""
+    """Fraction of simulations in which as many events at random times are distributed over parts of these lengths at
+    least as unevenly (chi-squared distance)."""
     total, share = int(counts.sum()), lengths / lengths.sum()
     if total == 0:
         return 1.0
@@ -91,8 +94,8 @@ def counts_p(counts, lengths, rng):
 
 
 def sizes_p(forces, groups, rng):
-    """How often the same events, dealt to the groups by chance, differ as much between groups: Kruskal and Wallis's
-    distance of their ranks."""
+    """Fraction of random assignments of the events to the groups in which the groups differ at least as much (Kruskal
+    and Wallis's distance of ranks)."""
     _, groups = numpy.unique(groups, return_inverse=True)
     number = numpy.bincount(groups)
     if len(number) < 2 or number.max() < 2:
@@ -108,7 +111,7 @@ def sizes_p(forces, groups, rng):
 
 
 def events_above(record, threshold, gap, seed=0):
-    """The events of peaks above a threshold by that gap, tested."""
+    """Returns the events of the peaks above a threshold for a gap, with the results of the tests."""
     above = record.forces > threshold
     cases, times, forces = record.cases[above], record.times[above], record.forces[above]
     is_first = numpy.ones(len(times), dtype=bool)
@@ -116,7 +119,7 @@ def events_above(record, threshold, gap, seed=0):
     burst = numpy.cumsum(is_first) - 1
     ends = numpy.flatnonzero(numpy.append(is_first[1:], True)) if len(times) else numpy.array([], dtype=int)
     covered = numpy.bincount(cases[is_first], times[ends] - times[is_first] + gap, len(record.lengths)) / record.lengths
-    order = numpy.lexsort((-forces, burst))  # of each burst the largest first
+    order = numpy.lexsort((-forces, burst))  # the largest peak of each burst first
     largest = order[numpy.flatnonzero(numpy.diff(burst[order], prepend=-1))]
     cases, times, forces = cases[largest], times[largest], forces[largest]
     rng = numpy.random.default_rng(seed)
@@ -130,10 +133,11 @@ def events_above(record, threshold, gap, seed=0):
 
 
 def independent(record, threshold, least, seed=0):
-    """The events by the shortest gap by which they pass; by the longest that leaves `least` of them where none does;
-    None where there are fewer to begin with. Bursts may cover at most COVERED of each run: longer ones join what comes
-    by chance, and hide that runs differ. Only where there are PARTS runs may a burst be a whole run: the largest peak
-    of each run is then the event, and runs that differ in their seeds alone have independent ones."""
+    """Returns the events for the shortest gap with which they pass the tests. If there is none, it is the longest gap
+    that leaves `least` events; if there are fewer events from the start, returns None. Bursts may cover at most COVERED
+    of each run, because longer ones would join peaks that are independent, and would hide differences between runs.
+    With at least PARTS runs, a burst may be a whole run. The largest peak of each run is then the event; such events
+    are independent if the runs differ only in their seeds."""
     best = None
     for gap in record.gaps():
         events = events_above(record, threshold, gap, seed)

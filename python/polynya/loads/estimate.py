@@ -1,4 +1,4 @@
-"""Estimates of a load's peaks: rates with bands, tails, return values, and what each panel bore."""
+"""Estimates from peaks of a load: rates with confidence bands, tails, return values, and the loads of each panel."""
 from __future__ import annotations
 
 import dataclasses
@@ -12,13 +12,13 @@ from polynya import extremes
 
 from . import bursts
 
-REFUTED = 0.05  #: p values below refute a fit
-HALF_WIDTH = 0.2  #: of an interval over its value, for which the record needed is stated
+REFUTED = 0.05  #: a fit with a smaller p value is refuted
+HALF_WIDTH = 0.2  #: half of an interval relative to its value, for which the required length of record is stated [-]
 
 
 def exceedance(loads, level=extremes.LEVEL):
-    """Columns: each peak's force, from the largest, how many are at least as large per hour, and between which limits
-    the rate lies if peaks come independently of each other (exact Poisson limits [Garwood1936])."""
+    """Columns: force of each peak in descending order, number of peaks per hour that are at least as large, and the
+    limits of that rate if peaks are independent (exact Poisson limits [Garwood1936])."""
     force = numpy.sort(loads.forces)[::-1]
     count = numpy.arange(1, len(force) + 1)
     low = stats.chi2.ppf((1 - level) / 2, 2 * count) / 2
@@ -37,11 +37,11 @@ class Fit:
 
     tail: extremes.Tail
     events: bursts.Events
-    goodness_p: float  #: of Anderson and Darling's test
+    goodness_p: float  #: p value of Anderson and Darling's test
 
     @property
     def refuted(self):
-        """Why the fit gives no return values; empty where it gives them."""
+        """Reason why the fit gives no return values; empty if it gives them."""
         reasons = []
         if self.goodness_p < REFUTED:
             reasons.append(f"the peaks do not follow the fitted tail (p {self.goodness_p:.2g})")
@@ -55,11 +55,11 @@ class Fit:
 
 @dataclasses.dataclass(frozen=True)
 class Estimate:
-    """The fits that were tried, from the lowest threshold on. The last is used where it is not refuted."""
+    """The fits that were tried, in ascending order of the threshold. The last one is used unless it is refuted."""
 
     fits: list
     hours: float
-    why: str  #: there is no fit that may be used; empty where there is one
+    why: str  #: reason why no fit can be used; empty if one can
 
     @property
     def used(self) -> Optional[Fit]:
@@ -67,8 +67,8 @@ class Estimate:
 
 
 def thresholds(forces, least=None):
-    """The forces above which peaks are fitted, until a fit is not refuted [N]: the given one alone, else those that
-    leave all peaks but the least, half of them, a quarter and so on."""
+    """Thresholds to try until a fit is not refuted [N]: only `least` if it is given, otherwise those that leave all
+    peaks except the smallest, half of them, a quarter and so on."""
     if least is not None:
         return [float(least)]
     ordered = numpy.sort(forces)
@@ -78,7 +78,8 @@ def thresholds(forces, least=None):
 
 
 def estimate(loads, least=None):
-    """The tail of alike runs. Of several kinds of runs the answer is withheld: `loads.kinds()` parts them."""
+    """Estimates the tail of runs of one kind. For several kinds of runs no estimate is given; `loads.kinds()` lists the
+    kinds."""
     record = bursts.record_of(loads)
     if len(loads.kinds()) > 1:
         return Estimate([], record.hours, "the runs differ in more than their seeds; each kind has its own answer")
@@ -104,27 +105,29 @@ def estimate(loads, least=None):
 
 @dataclasses.dataclass(frozen=True)
 class Answer:
-    """What is exceeded once in a time on average, or why that is not said. Forces in N, times in hours."""
+    """The value that is exceeded once in a period on average, or the reason why it is not given. Forces in N, times in
+    hours."""
 
     period_h: float
-    records: float  #: the period over the record's length
+    records: float  #: period divided by the length of the record
     value_N: Optional[float]
     low_N: Optional[float]
     high_N: Optional[float]
-    is_extrapolated: bool  #: beyond the periods for which the intervals are tested
-    seen_low_N: float  #: between peaks that were seen, without a fit
+    is_extrapolated: bool  #: true if the period is longer than those for which the intervals were tested
+    seen_low_N: float  #: limits between observed peaks, without a fit
     seen_high_N: float
     record_needed_h: Optional[float]
-    why: str  #: there is no value
+    why: str  #: reason why there is no value
 
 
 def standard_periods(hours):
-    """The record's length and ten times it [h]."""
+    """The default periods: the length of the record and ten times that length [h]."""
     return [hours, extremes.FARTHEST * hours]
 
 
 def returns(loads, hours=None, least=None, extrapolate=False, half_width=HALF_WIDTH):
-    """An Answer for each return period [h], by default the record's length and ten times it."""
+    """Returns an Answer for each return period [h]. Default periods are the length of the record and ten times that
+    length."""
     found = estimate(loads, least)
     if found.hours <= 0:
         return []
@@ -151,9 +154,9 @@ def answer(found, forces, period, extrapolate=False, half_width=HALF_WIDTH):
 
 
 def panels(loads):
-    """A row for each panel that ice pressed: its peaks and, where panels.csv has it, its force: the largest step, the
-    mean over all the time, how long it was under load, the largest mean pressure of an interval. Rows of a column stand
-    apart; peaks belong to columns."""
+    """Returns a row for each panel that ice loaded: its peaks and, if panels.csv has it, its force in the largest step,
+    its mean over the whole time, the time under load, and the largest mean pressure of an interval. Rows of panels are
+    separate in one column; peaks belong to columns."""
     number = loads.panel_of(loads.peaks["arc_m"])
     rows = []
     table = loads.panels

@@ -1,4 +1,4 @@
-"""Peaks and panels of a run, or of all cases of a study."""
+"""Collects peaks and panels of a run, or of all cases of a study."""
 from __future__ import annotations
 
 import dataclasses
@@ -14,11 +14,12 @@ from polynya.naming import names_of
 from polynya.results.run import Run
 from polynya.results.tables import read_csv
 
-COMMON = 2.5  # panels where nothing says how long they are [m]
+COMMON = 2.5  # length of panels if nothing states it [m]
 
 
 class Waterline:
-    """A hull's, measured from its stem to port, as contacts.csv has it (simulation/ship/waterline.cpp)."""
+    """Waterline of a hull. Positions are measured from the stem to port along it, as in contacts.csv
+    (simulation/ship/waterline.cpp)."""
 
     def __init__(self, ring):
         ring = numpy.asarray(ring, dtype=float)
@@ -35,27 +36,27 @@ class Waterline:
         self._points, self._arcs = closed, arcs - stem
 
     def at(self, arc):
-        """The points at these arcs from the stem, in the hull's frame [m]."""
+        """Points at these distances from the stem, in the hull's frame [m]."""
         along = numpy.mod(numpy.asarray(arc, dtype=float) - self._arcs[0], self.length) + self._arcs[0]
         return numpy.column_stack([numpy.interp(along, self._arcs, self._points[:, k]) for k in (0, 1)])
 
 
 @dataclasses.dataclass(frozen=True)
 class Case:
-    """A run of those gathered."""
+    """One of the gathered runs."""
 
     number: int
     start_s: float
     hours: float
-    kilometres: float  #: over ground
-    kind: str = ""  #: runs of one kind differ in their seeds alone
+    kilometres: float  #: distance over ground
+    kind: str = ""  #: runs of one kind differ only in their seeds
 
 
 @dataclasses.dataclass
 class Loads:
-    """What was gathered of one ship or structure. `peaks` are columns of equal length: those of contacts.csv, `case`
-    and
-    `force_N`, along the contact's normal. `panels` those of panels.csv, or None where there are no panels."""
+    """Loads of one ship or structure. `peaks` has columns of equal length: those of contacts.csv, `case`, and
+    `force_N`, the force along the contact's normal. `panels` has the columns of panels.csv, or is None if there are
+    none."""
 
     name: str
     ship: str
@@ -65,10 +66,10 @@ class Loads:
     cases: list[Case]
     peaks: dict
     panels: Optional[dict]
-    interval_s: float  #: that a row of those covers
-    left_out: int  #: peaks below the least that the runs record
-    beyond_limit: int = 0  #: peaks after the most that the runs record
-    gauge_s: float = 0.0  #: time constant of the gauge that peaks are those of
+    interval_s: float  #: length of the interval of a row of panels [s]
+    left_out: int  #: number of peaks below the smallest that the runs record
+    beyond_limit: int = 0  #: number of peaks beyond the number that the runs record
+    gauge_s: float = 0.0  #: time constant of the gauge that measured the peaks
 
     @property
     def hours(self):
@@ -80,7 +81,7 @@ class Loads:
 
     @property
     def forces(self):
-        """Of the peaks [N]."""
+        """Forces of the peaks [N]."""
         return self.peaks["force_N"]
 
     def kinds(self):
@@ -88,7 +89,7 @@ class Loads:
         return list(dict.fromkeys(case.kind for case in self.cases))
 
     def of_kind(self, kind):
-        """The loads of one kind of runs alone."""
+        """The loads of one kind of runs."""
         cases = [case for case in self.cases if case.kind == kind]
         numbers = [case.number for case in cases]
         chosen = {name: table and {key: values[numpy.isin(table["case"], numbers)] for key, values in table.items()}
@@ -100,7 +101,7 @@ class Loads:
 
 
 def runs_of(folder):
-    """(case's number, folder) of each run."""
+    """(number of the case, folder) of each run."""
     folder = pathlib.Path(folder)
     from polynya.study import folder as folders
     if not (folder / folders.PLAN).is_file():
@@ -121,21 +122,21 @@ def of_ship(columns, ship, start):
 
 
 def kind_of(scene):
-    """What runs of one kind share: the scene but for its seed, its length and its words."""
+    """The common properties of runs of one kind: the scene without its seed, duration and texts."""
     shared = {key: value for key, value in scene.items() if key not in ("seed", "name", "description")}
     shared["time"] = {key: value for key, value in scene["time"].items() if key != "until_s"}
     return json.dumps(shared, sort_keys=True)
 
 
 def with_kinds(cases, scenes):
-    """The cases with the names of their kinds, by what differs; none where all are of one kind."""
+    """Adds names of their kinds to the cases, formed from the differences; no names if all are of one kind."""
     different = list(dict.fromkeys(scenes))
     names = names_of(different) if len(different) > 1 else {scene: "" for scene in different}
     return [dataclasses.replace(case, kind=names[scene]) for case, scene in zip(cases, scenes)]
 
 
 def case_of(number, run, ship, start):
-    """How long a run is from then on, and how far the ship goes."""
+    """Duration of a run from `start` on [s], and the distance that the ship moves."""
     rows = of_ship(run.force_columns, ship, start)
     way = numpy.hypot(numpy.diff(rows["x_m"]), numpy.diff(rows["y_m"])).sum() if len(rows["t_s"]) else 0.0
     begin = max(start, run.start_time)
@@ -144,9 +145,10 @@ def case_of(number, run, ship, start):
 
 def body_of(run, ship):
     name = ship or (run.ship_names[0] if run.ship_names else None)
+    if not run.ship_names:
+        raise InputError(f"{run.folder}: the run has no ship or structure, so it has no loads")
     if name not in run.ship_names:
-        raise InputError(f"{run.folder}: no ship or structure is named {name}; it has: "
-                         f"{', '.join(run.ship_names) or 'none'}")
+        raise InputError(f"{run.folder}: no ship or structure is named {name}; it has: {', '.join(run.ship_names)}")
     return next(body for key in ("ships", "structures", "walls") for body in run.scene.get(key, [])
                 if body["name"] == name)
 
@@ -156,8 +158,8 @@ def joined(parts):
 
 
 def gather(folder, ship=None, start=0.0, panel=None) -> Loads:
-    """Reads the peaks, and the panels where they are recorded, of a ship or structure (the first one) from `start` [s]
-    of each run on. `panel` is the length of the panels by which peaks are counted [m]."""
+    """Reads the peaks, and if they were recorded the panels, of a ship or structure (the first by default). Only times
+    from `start` [s] of each run count. `panel` is the length of the panels by which peaks are counted [m]."""
     cases, scenes, peaks, panels, left_out, beyond = [], [], [], [], 0, 0
     first = None
     for number, run_folder in runs_of(folder):
@@ -182,7 +184,7 @@ def gather(folder, ship=None, start=0.0, panel=None) -> Loads:
     all_peaks = joined(peaks)
     all_peaks["force_N"] = all_peaks["pressure_Pa"] * all_peaks["width_m"] * all_peaks["height_m"]
     length = (body.get("panels") or {}).get("length_m", COMMON)
-    is_recorded = len(panels) == len(cases) and panel in (None, length)  # of panels of another length nothing is
+    is_recorded = len(panels) == len(cases) and panel in (None, length)  # panels of another length were not recorded
     return Loads(name=pathlib.Path(folder).resolve().name, ship=body["name"], is_fixed="propulsion" not in body,
                  waterline=Waterline(run.waterlines[body["name"]]), panel_m=panel or length,
                  cases=with_kinds(cases, scenes),
@@ -192,7 +194,7 @@ def gather(folder, ship=None, start=0.0, panel=None) -> Loads:
 
 
 def facing(loads, columns):
-    """Where the middles of panels are from the middle of the waterline, as angles from ahead to port [rad]."""
+    """Directions of the middles of panels from the middle of the waterline, as angles from ahead to port [rad]."""
     half = loads.waterline.length / 2
     low = numpy.clip(columns * loads.panel_m, -half, half)
     high = numpy.clip((columns + 1) * loads.panel_m, -half, half)

@@ -3,10 +3,10 @@ from ..arguments import Parser, choice, choices, number, numbers
 from ..figures.options import FORMATS, STYLES
 
 EXAMPLES = (
-    "loads runs/sawamura2017-fig4b                         tables, figures and loads.html, in its folder loads",
-    "loads studies/load-peaks --out loads --from 20        of all its cases, from 20 s of each on",
-    "loads studies/load-peaks --out loads --returns 3,30   what is exceeded once in 3 h and in 30 h",
-    "run scenes/level-plate.json --panel 2.5               records the loads of panels too",
+    "loads runs/sawamura2017-fig4b                         writes tables, figures and loads.html to its folder loads",
+    "loads studies/load-peaks --out loads --from 20        all cases of a study, from 20 s of each on",
+    "loads studies/load-peaks --out loads --returns 3,30   return values for 3 h and 30 h",
+    "run scenes/level-plate.json --panel 2.5               also records the loads of panels",
 )
 REST = """Needs Python 3 with numpy, scipy and matplotlib (./setup.sh python).
 Exit codes: 0 done, 2 usage, 5 input/output, or numpy, scipy or matplotlib is missing.
@@ -14,26 +14,28 @@ Exit codes: 0 done, 2 usage, 5 input/output, or numpy, scipy or matplotlib is mi
 
 
 def command_line():
-    parser = Parser("polynya loads", "Peaks of the ice's force by place: statistics, return values, figures",
+    parser = Parser("polynya loads", "Peaks of the ice force by place on the hull: statistics, return values, figures",
                     EXAMPLES, REST)
-    parser.add("folder", "A run's folder, or a study's", metavar="RUN|STUDY")
-    meaning = "Folder for tables, figures and loads.html; loads in the run's or study's folder if not given"
+    parser.add("folder", "Folder of a run or of a study", metavar="RUN|STUDY")
+    meaning = "Folder for tables, figures and loads.html; if not given, loads in the folder of the run or study"
     parser.add("--out", meaning, metavar="DIR")
-    parser.add("--ship", "The ship or structure; the first one if not given", metavar="NAME")
-    meaning = "Length of the panels by which peaks are counted [m]; the scene's, else 2.5, if not given"
+    parser.add("--ship", "Name of the ship or structure; the first one if not given", metavar="NAME")
+    meaning = "Length of the panels by which peaks are counted [m]; if not given, that of the scene, otherwise 2.5"
     parser.add("--panel", meaning, type=number(0.1, 1000, "m"), metavar="M")
-    parser.add("--from", "Leave out what is before that time of a run [s]", dest="start",
+    parser.add("--from", "Use only times of each run from here on [s]", dest="start",
                type=number(0), default=0.0, metavar="S")
-    meaning = ("Fit the tail of peaks above this force [N]; the lowest of some forces whose tail is not refuted if not "
-               "given")
+    meaning = ("Threshold above which the tail of the peaks is fitted [N]; if not given, the lowest one whose fit is "
+               "not refuted")
     parser.add("--least", meaning, type=number(0), metavar="N")
-    meaning = "Return periods [h]; the record's length and ten times it if not given"
+    meaning = "Return periods [h]; the length of the record and ten times that if not given"
     parser.add("--returns", meaning, type=numbers(number(0, is_open=True)), metavar="H,H,...")
-    parser.add("--extrapolate", "Answer, and mark, return periods beyond ten times the record too", action="store_true")
-    meaning = "State the record needed for intervals of ± this share of the value; 0.2 if not given"
+    meaning = "Also give return values for periods beyond ten times the record, with a mark"
+    parser.add("--extrapolate", meaning, action="store_true")
+    meaning = ("Half-width of intervals, as a fraction of the value, for which the record needed is stated; 0.2 if "
+               "not given")
     parser.add("--half-width", meaning, type=number(0, 10, is_open=True), default=0.2, metavar="SHARE")
-    meaning = "What for: a column of a page, its whole width (if not given), or slides"
+    meaning = "Size of the figures: for one column of a page, for its whole width (if not given), or for slides"
     parser.add("--style", meaning, type=choice(STYLES), default="two-columns", metavar="|".join(STYLES))
-    meaning = "Which files of a figure, separated by commas; all if not given"
+    meaning = "File formats of the figures, separated by commas; all if not given"
     parser.add("--format", meaning, type=choices(FORMATS), default=list(FORMATS), metavar="|".join(FORMATS))
     return parser

@@ -1,4 +1,5 @@
-"""loads.html: what was gathered, the figures and the short tables, offline and by themselves."""
+"""loads.html: a page with the gathered loads, the figures and the short tables. It needs no network and no other
+file."""
 import html
 
 from ..page_style import STYLE
@@ -10,7 +11,7 @@ def shown(value):
 
 
 def cells(row, names):
-    """A row of a table; struck through where a fit is refuted or a value is withheld, with why."""
+    """A row of a table. It is struck through, with the reason, if a fit is refuted or a value is not given."""
     strike = ("<s>", "</s>") if row.get("refuted") else ("", "")
     return "".join(f"<td>{strike[0] if name not in ('refuted', 'runs') else ''}{shown(row.get(name, ''))}"
                    f"{strike[1] if name not in ('refuted', 'runs') else ''}</td>" for name in names)
@@ -25,7 +26,7 @@ def table(heading, rows):
 
 
 def fit_rows(estimates):
-    """Fits as people read them; the numbers of refuted ones are struck through."""
+    """Rows with the fits; numbers of refuted fits are struck through."""
     for kind, (_, found) in estimates.items():
         for fit in found.fits:
             tail = fit.tail
@@ -36,7 +37,7 @@ def fit_rows(estimates):
 
 
 def answer_rows(answers, half_width):
-    """Return values as people read them."""
+    """Rows with the return values."""
     for kind, given in answers:
         yield {"runs": kind, "once in": words.hours(given.period_h), "records": words.plain(given.records),
                "force": words.of_answer(given), "by peaks seen": words.of_seen(given),
@@ -44,7 +45,7 @@ def answer_rows(answers, half_width):
 
 
 def page(loads, estimates, answers, options, tables, pictures):
-    """The whole page. `tables` are (heading, rows), `pictures` (file, what it shows)."""
+    """Returns the page. `tables` are (heading, rows), `pictures` (file, description)."""
     start = f", from {options.start:g} s of each on" if options.start else ""
     notes = [f"{kind + ': ' if kind else ''}{why}" for kind, (_, found) in estimates.items()
              for why in words.reasons([given for of_kind, given in answers if of_kind == kind], found)]

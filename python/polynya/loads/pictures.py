@@ -1,4 +1,4 @@
-"""Figures of loads by place, for print."""
+"""Figures of ice loads by place, for print."""
 from __future__ import annotations
 
 import numpy
@@ -13,23 +13,23 @@ from . import estimate, rules, words
 BLACK, RED, BLUE, GREEN, PURPLE = "#000000", "#d55e00", "#0072b2", "#009e73", "#cc79a7"  # [Okabe2008]
 KINDS = (BLACK, RED, BLUE, GREEN, PURPLE, "#e69f00")
 ENDS = {"bend": (BLUE, "o"), "split": (RED, "^"), "tilt": (GREEN, "s"), "slip": ("#888888", ".")}
-MOST_POINTS = 5000  # of a scatter: the largest
-BINS = 400  # of time in a raster
+MOST_POINTS = 5000  # largest number of points of a scatter plot; the largest peaks are drawn
+BINS = 400  # number of time intervals of a raster
 REFUTED = {"color": "#777777", "linestyle": ":", "linewidth": 1.0}
-WIDEST = 5  # a fit is drawn up to so many times the largest peak
-HEIGHT = 70  # of a figure's panels [mm]
+WIDEST = 5  # a fit is drawn up to this multiple of the largest peak
+HEIGHT = 70  # height of the panels of a figure [mm]
 
 
 def curve_of(tail, lowest):
-    """Rates from that of the threshold down to the lowest [1/h], and the interval of the return value at each [MN]."""
+    """Rates from that of the threshold down to `lowest` [1/h], and the interval of the return value at each [MN]."""
     rates = numpy.geomspace(max(lowest, 1e-12), 0.95 * tail.rate.value, 60)[::-1]
     levels = [tail.level(1 / rate) for rate in rates]
     return rates, *(numpy.array([getattr(level, end) for level in levels]) / 1e6 for end in ("value", "low", "high"))
 
 
 def draw_fits(axes, found, lowest):
-    """The fit that is used with its interval, and those that are refuted, paler. Returns the legend's entries, and how
-    far the interval goes [MN]."""
+    """Draws the fit in use with its interval, and refuted fits paler. Returns the legend entries and the upper end of
+    the interval [MN]."""
     handles, reach = [], 0.0
     refuted = [fit for fit in found.fits if fit is not found.used]
     for fit in refuted:
@@ -51,14 +51,14 @@ def draw_fits(axes, found, lowest):
 
 
 def forces_of(fits):
-    """The least and the largest threshold."""
+    """The smallest and the largest threshold."""
     found = [words.force(fit.tail.threshold) for fit in fits]
     return " to ".join(dict.fromkeys((found[0], found[-1])))
 
 
 def draw_kind(axes, loads, found, lowest):
-    """Peaks of one kind of runs with their band, and the fits of their tail. Returns the legend's entries, and how far
-    the fit that is used goes [MN]."""
+    """Draws the peaks of one kind of runs with their confidence band, and the fits of their tail. Returns the legend
+    entries and the upper end of the fit in use [MN]."""
     columns = estimate.exceedance(loads)
     force = columns["force_N"] / 1e6
     axes.fill_between(force, columns["per_hour_low"], columns["per_hour_high"], color=BLUE, alpha=0.25, linewidth=0)
@@ -69,7 +69,8 @@ def draw_kind(axes, loads, found, lowest):
 
 
 def draw_kinds(axes, estimates):
-    """Peaks of each kind of runs. Returns the legend's entries: of the six kinds with the largest peaks at most."""
+    """Draws the peaks of each kind of runs. Returns legend entries for at most six kinds, those with the largest
+    peaks."""
     drawn = {kind: estimate.exceedance(of) for kind, (of, _) in estimates.items() if len(of.forces) > 1}
     largest = sorted(drawn, key=lambda kind: -drawn[kind]["force_N"][0])
     handles = []
@@ -86,7 +87,8 @@ def draw_kinds(axes, estimates):
 
 
 def exceedance(loads, estimates, page=Page()):
-    """Peaks exceeded per hour with their band, and the fitted tail; of several kinds of runs a line each."""
+    """Draws the number of peaks per hour above each force with its confidence band, and the fitted tail; for several
+    kinds of runs one line each."""
     if len(loads.forces) < 2 or not loads.hours:
         return None
     with Sheet(page, "Peaks exceeded", words.of_loads(loads)) as sheet:
@@ -108,7 +110,7 @@ def exceedance(loads, estimates, page=Page()):
 
 
 def pressure_area(loads, page=Page()):
-    """Nominal pressure of each peak over its area, beside the rules."""
+    """Draws the nominal pressure of each peak over its area, with the rules for comparison."""
     area = loads.peaks["width_m"] * loads.peaks["height_m"]
     order = numpy.argsort(loads.forces)[::-1][:MOST_POINTS]
     if len(order) < 2:
@@ -136,7 +138,7 @@ def pressure_area(loads, page=Page()):
 
 
 def along(loads, page=Page()):
-    """Loads of panels along the waterline."""
+    """Draws the loads of panels along the waterline."""
     rows = estimate.panels(loads)
     if not rows:
         return None
@@ -157,9 +159,8 @@ def along(loads, page=Page()):
 
 
 def unrolled(loads, page=Page()):
-    """Place by time, of the first case: the outline unrolled from the stem, coloured by the largest force in each panel
-    and
-    time; by peaks alone where panels are not recorded."""
+    """Draws the loads of the first case by place and time. The outline is unrolled from the stem, and each panel and
+    time is coloured by the largest force. Without recorded panels only peaks are used."""
     case = loads.cases[0]
     source = loads.panels if loads.panels else loads.peaks
     chosen = source["case"] == case.number
@@ -191,7 +192,7 @@ def unrolled(loads, page=Page()):
 
 
 def polar(loads, page=Page()):
-    """Of a structure: loads by the direction in which a panel lies."""
+    """Draws the loads of a structure by the direction of each panel."""
     rows = estimate.panels(loads) if loads.is_fixed else []
     if not rows:
         return None
@@ -213,7 +214,7 @@ def polar(loads, page=Page()):
 
 
 def all_of(loads, estimates, page=Page()):
-    """(name, what it shows, figure or None) of each."""
+    """Returns (name, description, figure or None) of each figure."""
     yield "exceedance", "Peaks exceeded per hour and per kilometre", exceedance(loads, estimates, page)
     yield "pressure-area", "Pressure over area, beside rules", pressure_area(loads, page)
     yield "along", "Panels along the waterline", along(loads, page)

@@ -1,4 +1,4 @@
-"""The rows of the tables of `polynya loads`, and their files."""
+"""Rows of the tables of `polynya loads`, and their files."""
 import csv
 import math
 
@@ -9,7 +9,7 @@ FIT_COLUMNS = ("shape", "scale_N")
 
 
 def estimates_of(loads, least):
-    """{kind: (loads, Estimate)} of each kind of runs."""
+    """Returns {kind: (loads, Estimate)} for each kind of runs."""
     kinds = {kind: loads if len(loads.kinds()) == 1 else loads.of_kind(kind) for kind in loads.kinds()}
     return {kind: (of, estimate.estimate(of, least)) for kind, of in kinds.items()}
 
@@ -27,7 +27,7 @@ def fit_rows(estimates):
 
 
 def answers_of(estimates, options):
-    """(kind, Answer) for each period."""
+    """Returns (kind, Answer) for each period."""
     for kind, (loads, found) in estimates.items():
         if found.hours <= 0:
             continue
@@ -45,7 +45,7 @@ def return_rows(answers):
 
 
 def rows_of(columns):
-    """Columns of equal length as rows."""
+    """Converts columns of equal length to rows."""
     names = list(columns)
     return [dict(zip(names, values)) for values in zip(*(columns[name] for name in names))]
 

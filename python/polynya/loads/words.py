@@ -1,21 +1,21 @@
-"""What `polynya loads` found, in sentences: on the terminal, and for its page."""
+"""Results of `polynya loads` in sentences, for the terminal and for its page."""
 import math
 
 from polynya import extremes
 
 from . import estimate
 
-MOST_KINDS = 12  #: of runs, whose answers are printed
+MOST_KINDS = 12  #: largest number of kinds of runs whose answers are printed
 
 
 def plain(value):
-    """Three digits, without an exponent: 0.0123, 1250, 40000."""
+    """A number with three digits, without an exponent: 0.0123, 1250, 40000."""
     rounded = float(f"{value:.3g}")
     return f"{rounded:.0f}" if abs(rounded) >= 100 else f"{rounded:.4g}"
 
 
 def hours(value):
-    """A time as people say it: 90 s, 12 min, 3.5 h."""
+    """A duration in a suitable unit: 90 s, 12 min, 3.5 h."""
     for most, unit, name in ((1 / 30, 3600, "s"), (0.9995, 60, "min")):
         if value < most:
             return f"{plain(value * unit)} {name}"
@@ -30,7 +30,7 @@ def force(value):
 
 
 def shape(value):
-    """Two digits behind the point, without a minus before 0."""
+    """A number with two decimals, without a minus sign before 0."""
     return f"{round(value, 2) + 0:.2f}"
 
 
@@ -48,7 +48,7 @@ def of_fit(fit):
 
 
 def of_answer(given):
-    """What is exceeded once in a period, or that it is withheld."""
+    """Describes the value that is exceeded once in a period, or says that it is not given."""
     if given.value_N is None:
         return "withheld"
     mark = ", EXTRAPOLATED" if given.is_extrapolated else ""
@@ -56,7 +56,7 @@ def of_answer(given):
 
 
 def reasons(answers, found):
-    """Why values are withheld or not to be trusted, each once."""
+    """Reasons why values are not given or not reliable, each once."""
     said = {given.why: [] for given in answers if given.why}
     for given in answers:
         if given.why:
@@ -67,19 +67,19 @@ def reasons(answers, found):
 
 
 def of_seen(given):
-    """What the peaks that were seen say without a fit."""
+    """Describes the estimate from observed peaks without a fit."""
     return span(given.seen_low_N, given.seen_high_N)
 
 
 def of_record(given, half_width):
-    """How long a record has to be."""
+    """Says how long a record must be."""
     if given.record_needed_h:
         return f"{hours(given.record_needed_h)} for ±{100 * half_width:g} %"
     return f"at least {hours(given.period_h / extremes.FARTHEST)}"
 
 
 def of_loads(loads):
-    """How much was recorded."""
+    """Says how much was recorded."""
     runs = len(loads.cases)
     kinds = f" of {len(loads.kinds())} kinds" if len(loads.kinds()) > 1 else ""
     reach = f", {loads.kilometres:.3g} km" if loads.kilometres > 1e-6 else ""
@@ -89,7 +89,7 @@ def of_loads(loads):
 
 
 def of_fits(found):
-    """The fits that are refuted, in one line, and the one that is used."""
+    """Describes the refuted fits in one line, and the fit in use."""
     rest = [fit for fit in found.fits if fit is not found.used]
     if rest:
         reach = dict.fromkeys(force(fit.tail.threshold) for fit in (rest[0], rest[-1]))
@@ -105,7 +105,7 @@ def aligned(rows):
 
 
 def lines_of(loads, estimates, answers, half_width):
-    """The lines that the command prints, some for each kind of runs."""
+    """Returns the lines that the command prints, with a section for each kind of runs."""
     yield of_loads(loads)
     for kind, (of, found) in list(estimates.items())[:MOST_KINDS]:
         if len(estimates) > 1:

@@ -1,8 +1,9 @@
-"""`polynya management RUN|STUDY`: what ice management did, by gates across the drift (docs/management.md)."""
+"""`polynya management RUN|STUDY`: measures the effect of ice management at gates across the drift
+(docs/management.md)."""
 
 
 def of_folder(folder, given):
-    """The measures of a run's folder, by `collect.management` of a study."""
+    """Measures of a run's folder for `collect.management` of a study."""
     from ..results.run import Run
     from .measures import measures_of
 

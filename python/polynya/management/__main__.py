@@ -23,7 +23,7 @@ DONE = 0
 
 @dataclasses.dataclass
 class Case:
-    """A run with what passed its gates."""
+    """A run, and the ice that passed its gates."""
 
     name: str
     run: Run
@@ -34,7 +34,7 @@ class Case:
 
     @property
     def intervals(self):
-        """Rows of forces.csv that count."""
+        """Rows of forces.csv that are counted."""
         return max(1, len(rows_of(self.run, self.gates.body, self.gates.start)["t_s"]))
 
 
@@ -52,7 +52,7 @@ def case_of(folder, name, given):
 
 
 def labels_of(arguments):
-    """A name for each folder: those given, else by what differs."""
+    """A name for each folder: the given ones, otherwise formed from the differences."""
     if arguments.label and len(arguments.label) != len(arguments.folders):
         raise InputError(f"--label: found {len(arguments.label)} names, allowed: one for each of the "
                          f"{len(arguments.folders)} folders", 2)
@@ -101,7 +101,7 @@ def write_tables(cases, folder):
 
 
 def draw(arguments, out, figures_of):
-    """Writes the pictures that figures_of(page) gives as (name, figure), where matplotlib is there."""
+    """Writes the pictures that figures_of(page) returns as (name, figure), if matplotlib is installed."""
     try:
         from ..figures.page import STYLES, Page, save
     except ImportError as error:
@@ -115,8 +115,8 @@ def draw(arguments, out, figures_of):
 
 
 def report_study(arguments, out):
-    """What `polynya management STUDY` prints and writes."""
-    with contextlib.redirect_stdout(sys.stderr):  # stdout is for the answer
+    """Prints and writes the results of `polynya management STUDY`."""
+    with contextlib.redirect_stdout(sys.stderr):  # stdout is for the results only
         gather(folders.open_study(arguments.folders[0]))
     found = study.read(arguments.folders[0])
     if arguments.json:
@@ -139,7 +139,7 @@ def report_study(arguments, out):
 
 
 def report_runs(arguments, out):
-    """What `polynya management RUN …` prints and writes."""
+    """Prints and writes the results of `polynya management RUN …`."""
     given, names = given_by(arguments), labels_of(arguments)
     cases = [case_of(folder, name, given) for folder, name in zip(arguments.folders, names)]
     if arguments.json:

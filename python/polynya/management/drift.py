@@ -1,4 +1,4 @@
-"""The drift of a scene over time, as simulation/world/scene.cpp has it."""
+"""Drift of a scene over time, as in simulation/world/scene.cpp."""
 import math
 
 import numpy
@@ -10,7 +10,7 @@ def unit(degrees):
 
 
 def by_rows(rows, time):
-    """Of a table: as a vector linear between its rows [m/s]."""
+    """Velocity from a table as a vector, linear between its rows [m/s]."""
     times = [row["t_s"] for row in rows]
     velocities = numpy.array([row["speed_m_per_s"] * unit(row["direction_deg"]) for row in rows])
     return numpy.array([numpy.interp(time, times, velocities[:, k]) for k in (0, 1)])
@@ -24,7 +24,7 @@ def tide(ellipse, time):
 
 
 def free_drift(scene, time):
-    """The velocity over ground of free ice: of the water, and by the wind through it [m/s]."""
+    """Velocity of free ice over ground: that of the water, plus that by wind through the water [m/s]."""
     water, wind = scene["water"], scene["wind"]
     rows = water.get("drift_table")
     velocity = by_rows(rows, time) if rows else numpy.array(water["drift_m_per_s"], dtype=float)

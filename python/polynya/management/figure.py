@@ -1,4 +1,4 @@
-"""The picture of runs of ice management, side by side."""
+"""The picture of runs of ice management, which are shown side by side."""
 import numpy
 from matplotlib.lines import Line2D
 
@@ -7,17 +7,17 @@ from .gates import distribution, managing
 from .measures import loads_on, rows_of
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")  # [Okabe2008]
-REST = "#bbbbbb"  # of runs beyond as many
-HEIGHT = 62  # of a row of panels [mm]
+REST = "#bbbbbb"  # colour of further runs
+HEIGHT = 62  # height of a row of panels [mm]
 
 
 def coloured(cases):
-    """(colour, case): those with a colour of their own are drawn last."""
+    """(colour, case) of each run. Runs with their own colours are drawn last."""
     return [(COLOURS[k] if k < len(COLOURS) else REST, case) for k, case in enumerate(cases)][::-1]
 
 
 def at_least(passage, weights):
-    """Sizes, and the sum of the weights of the floes of each size or more."""
+    """Sizes, and the sum of the weights of the floes of at least each size."""
     order = numpy.argsort(passage.sizes)
     return passage.sizes[order], numpy.cumsum(weights[order][::-1])[::-1]
 
@@ -50,7 +50,7 @@ def draw_exceedance(axes, cases):
 
 
 def draw_tracks(axes, case, colour):
-    """Where the icebreakers went, over ground, and the body at the end."""
+    """Draws the tracks of the icebreakers over ground, and the body at the end."""
     for ship in managing(case.run.scene):
         rows = rows_of(case.run, ship)
         axes.plot(rows["x_m"], rows["y_m"], linewidth=0.6, color=colour)
@@ -68,7 +68,7 @@ def draw_across(axes, cases):
 
 
 def draw_passed(axes, cases):
-    """The ice of each size that passed the gates, by area."""
+    """Draws the area of ice of each size that passed the gates."""
     for colour, case in coloured(cases):
         for passage, dash in ((case.before, "--"), (case.after, "-")):
             edges, _, areas = distribution(passage)
@@ -87,7 +87,7 @@ def legend_of(cases):
 
 
 def draw_runs(cases, page):
-    """Sizes, loads, places and tracks of all runs."""
+    """Draws sizes, loads, places and tracks of all runs."""
     gates = cases[0].gates
     caption = (f"Floes through gates {gates.upstream:g} m and {gates.near:g} m upstream of {gates.body}; grey line: "
                f"floes of {gates.size:g} m")

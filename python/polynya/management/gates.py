@@ -1,4 +1,4 @@
-"""Ice through gates: lines across the drift, at distances upstream of a protected body."""
+"""Measures the ice that passes gates, which are lines across the drift upstream of a protected body."""
 from __future__ import annotations
 
 import dataclasses
@@ -9,35 +9,35 @@ import numpy
 from ..errors import InputError
 from .drift import free_drift
 
-LEAST_DRIFT = 0.02  # [m/s]; slower ice has no upstream of its own, as for pilots
-BINS = 40  # of a gate's width
+LEAST_DRIFT = 0.02  # [m/s]; ice that drifts more slowly has no upstream direction, as for pilots
+BINS = 40  # number of intervals of a gate's width
 
 
 @dataclasses.dataclass(frozen=True)
 class Gates:
-    """Where is looked, and what counts as large."""
+    """Positions of the gates, and the size of floes that count as large."""
 
     body: str
     upstream: float  # distance of the gate before management [m]
-    near: float  # of that just before the body [m]
-    width: float  # of both, across the drift [m]
-    size: float  # √area of the least floe that counts as a hit, and is not managed [m]
-    start: float = 0.0  # nothing before it is counted [s]
+    near: float  # distance of the gate just before the body [m]
+    width: float  # width of both gates across the drift [m]
+    size: float  # √area of the smallest floe that counts as a hit and as not managed [m]
+    start: float = 0.0  # only times from here on count [s]
 
 
 @dataclasses.dataclass
 class Passage:
-    """The floes that passed a gate, in the order of their ids."""
+    """Floes that passed a gate, in the order of their ids."""
 
     floes: numpy.ndarray
     times: numpy.ndarray  # [s]
-    across: numpy.ndarray  # where, to port of upstream [m]
+    across: numpy.ndarray  # position in the gate, to port of upstream [m]
     areas: numpy.ndarray  # [m²]
-    swept: float  # of the gate by the drift from the first floe to the last [m²]
+    swept: float  # area that the gate swept relative to the drift, from the first floe to the last [m²]
 
     @property
     def sizes(self):
-        """√area [m]."""
+        """Sizes √area [m]."""
         return numpy.sqrt(self.areas)
 
     @property
@@ -46,18 +46,18 @@ class Passage:
 
     @property
     def mean_size(self):
-        """Mean √area of the ice: by area [m]."""
+        """Mean size √area of the ice, weighted by area [m]."""
         return float((self.sizes * self.areas).sum() / self.areas.sum()) if len(self.areas) else None
 
 
 def managing(scene):
-    """The pilots that manage ice, by ship."""
+    """Pilots that manage ice, by ship."""
     pilots = {ship["name"]: (ship.get("pilot") or {}).get("manage") for ship in scene["ships"]}
     return {name: pilot for name, pilot in pilots.items() if pilot}
 
 
 def protected_body(scene):
-    """The body that pilots protect; without one the first moored ship, or the first structure."""
+    """The body that the pilots protect; without pilots the first moored ship, or the first structure."""
     pilots = managing(scene)
     if pilots:
         return next(iter(pilots.values()))["body"]
@@ -70,12 +70,13 @@ def protected_body(scene):
 
 
 def reach(waterline):
-    """From the frame's origin to the waterline's farthest point [m]."""
+    """Distance from the frame's origin to the farthest point of the waterline [m]."""
     return float(numpy.hypot(*waterline.T).max())
 
 
 def gates_of(run, given):
-    """The gates of a run: what is given ({"body": …, "upstream_m": …}), else by the patterns of its pilots."""
+    """Gates of a run: the given ones ({"body": …, "upstream_m": …}), otherwise derived from the patterns of its
+    pilots."""
     scene = run.scene
     body = given.get("body") or protected_body(scene)
     if body not in run.waterlines:
@@ -101,13 +102,13 @@ def gates_of(run, given):
 
 
 def depth_of(pilot):
-    """Of a pattern [m], as io/scene/ship_completion.cpp completes it."""
+    """Depth of a pattern [m], as io/scene/ship_completion.cpp completes it."""
     share = {"circular": 1, "largest_floe": 1, "racetrack": 0.25}.get(pilot["pattern"], 0)
     return pilot.get("depth_m") or share * pilot["width_m"]
 
 
 def axes_over_time(run):
-    """At every frame the unit vector upstream, and how far the drift goes until the next one [m]."""
+    """Unit vector upstream at each frame, and distance that the ice drifts until the next frame [m]."""
     upstream, ways = [], []
     last = numpy.array([1.0, 0.0])
     times = run.times
@@ -121,8 +122,8 @@ def axes_over_time(run):
 
 
 def places_over_time(run, body):
-    """For every frame: ids of the floes that float, and where they are against the drift from the body, x upstream
-    and y to port of that [m]."""
+    """For each frame: ids of the floating floes, and their positions relative to the body, x upstream and y to port of
+    that direction [m]."""
     number = run.ship_names.index(body)
     upstream, _ = axes_over_time(run)
     births = run.births
@@ -136,8 +137,8 @@ def places_over_time(run, body):
 
 
 def passages(run, gates):
-    """What passed the gate upstream and the one at the body. A floe passes once, by its centre; of one that breaks
-    after that, no piece does."""
+    """Returns the ice that passed the upstream gate and the gate at the body. A floe passes once, when its centre does.
+    Pieces of a floe that breaks after that do not count again."""
     count = len(run.births["floe_id"])
     parents = run.births["parent_id"]
     lines = (gates.upstream, gates.near)
@@ -146,7 +147,7 @@ def passages(run, gates):
     found: list = [[], []]
     _, ways = axes_over_time(run)
     for k, (ids, places) in enumerate(places_over_time(run, gates.body)):
-        for floe in ids[numpy.isnan(before[ids, 0])].tolist():  # new ones come from where their ancestor was
+        for floe in ids[numpy.isnan(before[ids, 0])].tolist():  # new floes start at the position of their ancestor
             ancestor = int(parents[floe])
             while ancestor >= 0 and numpy.isnan(before[ancestor, 0]):
                 ancestor = int(parents[ancestor])
@@ -176,7 +177,8 @@ def passage_of(run, rows, ways, gates):
 
 
 def managed_width(passage: Passage, gates) -> float:
-    """Of the stretch about the body in which no floe of the size passed the gate [m]: a floe takes √area across."""
+    """Width of the stretch around the body in which no floe of that size passed the gate [m]. A floe occupies √area
+    across."""
     edges = numpy.linspace(-0.5 * gates.width, 0.5 * gates.width, BINS + 1)
     is_free = numpy.ones(BINS, dtype=bool)
     for y, size in zip(passage.across, passage.sizes):
@@ -188,7 +190,7 @@ def managed_width(passage: Passage, gates) -> float:
 
 
 def distribution(passage: Passage, edges: Optional[numpy.ndarray] = None):
-    """How many floes, and how much ice [m²], is of each size between edges [m]."""
+    """Number of floes and area of ice [m²] of each size between edges [m]."""
     edges = numpy.geomspace(1, 1000, 31) if edges is None else edges
     numbers, _ = numpy.histogram(passage.sizes, edges)
     areas, _ = numpy.histogram(passage.sizes, edges, weights=passage.areas)

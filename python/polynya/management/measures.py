@@ -1,4 +1,4 @@
-"""Numbers of ice management: of a run, for a study's table."""
+"""Measures of ice management of a run, for the table of a study."""
 import dataclasses
 
 import numpy
@@ -9,8 +9,9 @@ LEVELS = (0.5, 0.9, 0.99)
 
 
 def hits_on(run, gates):
-    """Contacts of the body with floes of at least the size, at the recorded frames: a touch that goes on from frame to
-    frame is one. Sizes √area [m], their number, and for how long [s]; none where contacts are not recorded."""
+    """Contacts of the body with floes of at least that size, at the recorded frames. A contact that continues from
+    frame to frame counts once. Returns sizes √area [m], number and durations [s]; nothing if contacts were not
+    recorded."""
     if run.scene["record"]["contacts"] == "none":
         return None
     contacts, births = run._table("contacts.csv", ""), run.births
@@ -29,7 +30,7 @@ def hits_on(run, gates):
 
 
 def largest_touch(run, gates):
-    """√area of the largest floe that touched the body [m]."""
+    """Size √area of the largest floe that touched the body [m]."""
     found = hits_on(run, dataclasses.replace(gates, size=0.0))
     return None if found is None else float(found[0].max(initial=0))
 
@@ -41,7 +42,7 @@ def rows_of(run, ship, start=0.0):
 
 
 def loads_on(run, gates):
-    """Sizes of the horizontal loads on the body, a value a row of forces.csv [N]: by ice, and by its mooring."""
+    """Magnitudes of the horizontal loads on the body, one per row of forces.csv [N]: by ice, and by its mooring."""
     rows = rows_of(run, gates.body, gates.start)
     ice = numpy.hypot(rows["surge_N"] + rows["surge_from_submerged_ice_N"], rows["sway_N"])
     mooring = numpy.hypot(rows["surge_from_mooring_N"], rows["sway_from_mooring_N"])
@@ -49,7 +50,7 @@ def loads_on(run, gates):
 
 
 def effort(run, start=0.0):
-    """Of each ship that manages ice: the distance that it went [m] and what its engine delivered [J]."""
+    """For each ship that manages ice: the distance sailed [m] and the energy that its engine delivered [J]."""
     found = {}
     for ship in managing(run.scene):
         rows = rows_of(run, ship)
@@ -63,15 +64,15 @@ def effort(run, start=0.0):
 
 
 def ice_lost(ledger):
-    """Area of the ice that left the scene by a rule in the whole run [m²], and its share of all ice at the start [-]:
-    cusps that are taken to be gone, pieces below the size limit with rims and slivers, and ice that found no room to
-    come up. Where it is not small, the loads and sizes at the body are too low."""
+    """Area of the ice that left the scene in the whole run [m²], and its fraction of all initial ice [-]. Ice leaves as
+    cusps that are removed, as pieces below the size limit with rims and slivers, and as ice that found no room to
+    surface. If it is not small, the loads and sizes at the body are too low."""
     area = sum(ledger[f"{place}_area_m2"] for place in ("submerged", "brash", "under_ice"))
     return area, area / ledger["initial_ice_area_m2"] if ledger["initial_ice_area_m2"] > 0 else 0.0
 
 
 def measures_of(run, given):
-    """By name; None where there is none. `given` is `collect.management` of a study."""
+    """Measures by name, None if there is no value. `given` is `collect.management` of a study."""
     gates = gates_of(run, given)
     before, after = passages(run, gates)
     found = {}

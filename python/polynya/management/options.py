@@ -8,30 +8,34 @@ EXAMPLES = (
     "management runs/ice-management --size 30 --out pictures",
     "management studies/ice-management             gathers a study and ranks its patterns, with intervals",
 )
-REST = """Gates are lines across the drift, upstream of the body that is protected (docs/management.md). Of a study the
-measures are those that its collect.management asks for. Needs Python 3 with numpy, and matplotlib for the figures
+REST = """Gates are lines across the drift, upstream of the protected body (docs/management.md). For a study, the
+measures are those that its collect.management requests. Needs Python 3 with numpy, and matplotlib for the figures
 (./setup.sh python).
 """
 
 
 def command_line():
-    meaning = "State what ice management did, and rank the patterns of a study"
+    meaning = "Measure the effect of ice management, and rank the patterns of a study"
     parser = Parser("polynya management", meaning, EXAMPLES, REST)
-    parser.add("folders", "Run folders, which are compared, or a study's folder", metavar="FOLDER", nargs="+")
-    parser.add("--body", "The protected ship or structure; that of the pilots if not given", metavar="NAME")
+    parser.add("folders", "Run folders, which are compared, or the folder of a study", metavar="FOLDER", nargs="+")
+    meaning = "Name of the protected ship or structure; the one that the pilots protect if not given"
+    parser.add("--body", meaning, metavar="NAME")
     distance = number(0, 1e6, "m", is_open=True)
-    parser.add("--upstream", "Distance of the gate before management; beyond the patterns if not given",
+    parser.add("--upstream", "Distance of the upstream gate from the body [m]; beyond the patterns if not given",
                type=distance, metavar="M")
-    parser.add("--near", "Distance of the gate at the body; 1.5 of its radius if not given", type=distance, metavar="M")
-    parser.add("--width", "Of the gates; that of the widest pattern if not given", type=distance, metavar="M")
-    parser.add("--size", "√area of the least floe that counts as a hit; 20 if not given", type=distance, metavar="M")
-    parser.add("--from", "Counts nothing before; 0 if not given", type=number(0, 1e7, "s"), dest="start", metavar="S")
-    parser.add("--out", "Folder of tables and figures; the first folder given if not", metavar="DIR")
-    meaning = "Names of the runs, separated by commas; by what differs in their folders if not given"
+    meaning = "Distance of the gate near the body [m]; 1.5 times the body's radius if not given"
+    parser.add("--near", meaning, type=distance, metavar="M")
+    parser.add("--width", "Width of the gates [m]; that of the widest pattern if not given", type=distance, metavar="M")
+    meaning = "Size √area of the smallest floe that counts as a hit [m]; 20 if not given"
+    parser.add("--size", meaning, type=distance, metavar="M")
+    meaning = "Count only from this time on [s]; 0 if not given"
+    parser.add("--from", meaning, type=number(0, 1e7, "s"), dest="start", metavar="S")
+    parser.add("--out", "Folder for tables and figures; the first given folder if not given", metavar="DIR")
+    meaning = "Names of the runs, separated by commas; the differences of their folder names if not given"
     parser.add("--label", meaning, type=lambda text: text.split(","), action="extend", default=[], metavar="NAME,...")
-    meaning = "What for: a column of a page, its whole width (if not given), or slides"
+    meaning = "Size of the figures: for one column of a page, for its whole width (if not given), or for slides"
     parser.add("--style", meaning, type=choice(STYLES), default="two-columns", metavar="|".join(STYLES))
-    meaning = "Which files of a figure, separated by commas; svg,png if not given"
+    meaning = "File formats of the figures, separated by commas; svg,png if not given"
     parser.add("--format", meaning, type=choices(FORMATS), default=["svg", "png"], metavar="|".join(FORMATS))
-    parser.add("--json", "Print the measures as JSON, and write nothing", action="store_true")
+    parser.add("--json", "Print the measures as JSON, and write no files", action="store_true")
     return parser

@@ -1,7 +1,7 @@
-"""Which pattern is better: means over the same fields of ice, with Student's intervals, and what they tell apart.
+"""Ranks patterns by means over the same ice fields, with Student's intervals and tests of the differences.
 
-Patterns are compared field by field: the same seed is the same ice, so that what one field makes easy or hard for all
-patterns drops out of their differences."""
+Patterns are compared field by field. The same seed gives the same ice, so effects of a field that are the same for all
+patterns cancel in the differences."""
 from __future__ import annotations
 
 import dataclasses
@@ -9,12 +9,12 @@ import itertools
 import math
 from typing import Optional
 
-LEVEL = 0.95  #: of intervals, and of what is told apart
+LEVEL = 0.95  #: probability of intervals and of the tests [-]
 
 
 @dataclasses.dataclass(frozen=True)
 class Mean:
-    """A mean over fields, and half of Student's interval; None where there is one field alone."""
+    """A mean over fields, and half of its Student interval; None if there is only one field."""
 
     value: float
     half: Optional[float]
@@ -22,7 +22,7 @@ class Mean:
 
 
 def student(count):
-    """Half of an interval over the standard deviation of a mean of so many values."""
+    """Half of an interval divided by the standard deviation, for the mean of `count` values."""
     from scipy import stats
 
     return float(stats.t.ppf((1 + LEVEL) / 2, count - 1)) / math.sqrt(count)
@@ -34,7 +34,7 @@ def deviation(values):
 
 
 def mean_of(values):
-    """None of no values."""
+    """Mean of values; None if there are none."""
     values = list(values)
     if not values:
         return None
@@ -50,15 +50,15 @@ def common(one, other):
 
 
 def difference(one, other):
-    """Of two patterns, over their common fields; None where there is none."""
+    """Mean difference of two patterns over their common fields; None if there are none."""
     first, second = common(one, other)
     return mean_of(a - b for a, b in zip(first, second))
 
 
 def share_left(managed, unmanaged):
-    """What management leaves, over what there is without it: the ratio of the means over the common fields and its
-    interval by Fieller's theorem [Fieller1954]. (ratio, low, high); None where there is none, without limits for fewer
-    than two fields, or where the mean without management may be 0."""
+    """The load with management divided by that without: the ratio of the means over common fields, with its interval by
+    Fieller's theorem [Fieller1954]. Returns (ratio, low, high). Returns None if there is no common field, and no limits
+    for fewer than two fields or if the mean without management may be 0."""
     top, low = common(managed, unmanaged)
     if not top or math.fsum(low) == 0:
         return None
@@ -78,7 +78,8 @@ def share_left(managed, unmanaged):
 
 
 def p_value(one, other):
-    """Of the paired t test over the common fields; 1 where they are fewer than two or all differences are 0."""
+    """p value of the paired t test over the common fields; 1 if there are fewer than two, or if all differences are
+    0."""
     from scipy import stats
 
     first, second = common(one, other)
@@ -89,8 +90,8 @@ def p_value(one, other):
 
 
 def told_apart(patterns):
-    """The pairs of {name: {field: value}} that differ, by Holm's rule over all pairs [Holm1979]: with a probability of
-    at most 1 − LEVEL any pair of these is wrong."""
+    """Pairs of {name: {field: value}} that differ, by Holm's rule over all pairs [Holm1979]. The probability that any
+    of these pairs is wrong is at most 1 − LEVEL."""
     pairs = sorted((p_value(patterns[a], patterns[b]), a, b) for a, b in itertools.combinations(patterns, 2))
     found = set()
     for rank, (p, a, b) in enumerate(pairs):
@@ -102,17 +103,17 @@ def told_apart(patterns):
 
 @dataclasses.dataclass(frozen=True)
 class Place:
-    """A pattern in a ranking; the first has the least."""
+    """A pattern in a ranking. The first one has the smallest mean."""
 
     name: str
     mean: Mean
-    left: Optional[tuple]  #: of the unmanaged mean: (ratio, low, high)
-    benefit: Optional[Mean]  #: the unmanaged mean less this one
-    like: list  #: patterns that are not told apart from it
+    left: Optional[tuple]  #: its mean relative to the unmanaged one: (ratio, low, high)
+    benefit: Optional[Mean]  #: unmanaged mean minus this one
+    like: list  #: patterns from which it does not differ significantly
 
 
 def ranking(patterns, unmanaged=None):
-    """Places of {name: {field: value}}, from the least mean on. `unmanaged` names the one without management."""
+    """Ranks {name: {field: value}} by ascending mean. `unmanaged` names the pattern without management."""
     patterns = {name: of for name, of in patterns.items() if of}
     apart = told_apart(patterns)
     base = patterns.get(unmanaged)
@@ -126,8 +127,8 @@ def ranking(patterns, unmanaged=None):
 
 
 def alike(places):
-    """Groups of patterns of a ranking of which none is told apart from another, each as large as it can be, in the
-    order of the ranking: the longest stretches of neighbours."""
+    """Groups of neighbouring patterns in a ranking that do not differ significantly from each other. Each group is as
+    large as possible."""
     names = [place.name for place in places]
     likes = {place.name: set(place.like) for place in places}
     found = []

@@ -1,4 +1,4 @@
-"""A study of ice management: its patterns ranked, by the conditions that it varies."""
+"""Ranks the patterns of a study of ice management, for each of the conditions that it varies."""
 import dataclasses
 import json
 import math
@@ -9,7 +9,7 @@ from . import ranking
 
 PREFIX = "management_"
 UNMANAGED = "not managed"
-MEASURES = {  # by which patterns are ranked: the less the better
+MEASURES = {  # measures by which patterns are ranked; smaller is better
     "management_ice_load_mean_N": "mean load of the ice [N]",
     "management_ice_load_q99_N": "load exceeded 1 % of the time [N]",
     "management_largest_at_body_m": "largest floe that arrives [m]",
@@ -19,12 +19,12 @@ SEEDS = ("seed", "repetition")
 
 @dataclasses.dataclass
 class Condition:
-    """Cases that differ in their pattern and their field of ice alone: measure -> pattern -> {field: value}."""
+    """Cases that differ only in their pattern and ice field: measure -> pattern -> {field: value}."""
 
     name: str
-    x: float  #: of the parameter that figures have on their x axis; 0 where there is none
+    x: float  #: value of the parameter on the x axis of figures; 0 if there is none
     values: dict
-    lost: dict  #: pattern -> {field: (area that left by a rule [m²], its share of all ice)}
+    lost: dict  #: pattern -> {field: (area of ice that left the scene [m²], its fraction of all ice)}
 
     def ranked(self, measure):
         return ranking.ranking(self.values.get(measure, {}), UNMANAGED)
@@ -32,15 +32,15 @@ class Condition:
 
 @dataclasses.dataclass
 class Found:
-    """What a study says of its patterns."""
+    """Results of a study for its patterns."""
 
     name: str
     finished: int
     cases: int
-    by: list  #: parameters that make patterns
-    against: str  #: the parameter of the x axis; empty where there is none
+    by: list  #: parameters that define patterns
+    against: str  #: parameter of the x axis; empty if there is none
     conditions: list
-    patterns: list  #: their names in the order of the study
+    patterns: list  #: names of patterns in the order of the study
     measures: list
 
 
@@ -53,7 +53,8 @@ def is_number(value):
 
 
 def follows(table, name, others):
-    """Whether a parameter has one value for each combination of the others: it was set together with them."""
+    """Returns True if a parameter has one value for each combination of the others, because it was set together with
+    them."""
     values = {}
     for row in table:
         key = tuple(str(row[other]) for other in others)
@@ -63,8 +64,9 @@ def follows(table, name, others):
 
 
 def roles_of(plan, parameters, table):
-    """The parameters that make patterns (report.group_by, else those with objects, else the first), the one of the x
-    axis (report.against, else one of drift, else one with numbers), and the rest that makes conditions."""
+    """Finds the roles of parameters: those that define patterns (report.group_by, otherwise those with objects,
+    otherwise the first), the one on the x axis (report.against, otherwise one of drift, otherwise one with numbers),
+    and the rest, which define conditions."""
     asked = plan.get("report", {})
     varied = [name for name in parameters if name not in SEEDS and len(different(table, name)) > 1]
     if not varied:
@@ -81,7 +83,7 @@ def roles_of(plan, parameters, table):
 
 
 def x_of(against, value):
-    """A number of a parameter's value: of a velocity its speed."""
+    """A number for a value of the parameter on the x axis; for a velocity its speed."""
     value = parsed(value)
     if isinstance(value, list) and value and all(isinstance(part, (int, float)) for part in value):
         return math.hypot(*value)
@@ -91,12 +93,12 @@ def x_of(against, value):
 
 
 def path_of(name):
-    """The parts of a parameter's path, by which its unit is found."""
+    """Parts of the path of a parameter, from which its unit is found."""
     return tuple(name.replace("]", "").replace("[", ".").split("."))
 
 
 def value_in_words(name, value):
-    """"drift 0.5 m/s" of a number at a path with its unit."""
+    """"drift 0.5 m/s" for a number with the unit of its path."""
     if not is_number(value):
         return str(value)
     keys = [part for part in path_of(name) if not part.isdigit()]
@@ -104,7 +106,8 @@ def value_in_words(name, value):
 
 
 def pattern_names(table, by):
-    """{values: name} of the patterns, by what differs; those without a ship that manages are not managed."""
+    """{values: name} of the patterns, formed from the differences. Patterns without a managing ship are named as not
+    managed."""
     names = {name: names_of([str(value) for value in table[name]]) for name in by}
     found = {}
     for row in table:
@@ -114,7 +117,7 @@ def pattern_names(table, by):
         has_none = f"{PREFIX}icebreakers" in table.dtype.names and row[f"{PREFIX}icebreakers"] == 0
         found.setdefault(key, UNMANAGED if has_none else words)
     managed = [name for name in found.values() if name != UNMANAGED]
-    if not managed:  # a study without icebreakers: its groups have their own names
+    if not managed:  # in a study without icebreakers, groups have their own names
         return {key: ", ".join(names[name][value] for name, value in zip(by, key)) for key in found}
     return found
 
@@ -157,7 +160,7 @@ def read(folder):
 
 
 def in_json(found):
-    """Everything that is ranked, and the means of all measures."""
+    """All ranked results, and the means of all measures."""
     def of(mean):
         return None if mean is None else dataclasses.asdict(mean)
 

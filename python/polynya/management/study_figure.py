@@ -1,4 +1,4 @@
-"""Pictures of a study of ice management: patterns ranked, and measures against a parameter."""
+"""Pictures of a study of ice management: ranked patterns, and measures over a parameter."""
 from matplotlib.lines import Line2D
 
 from ..figures.page import Sheet, plain
@@ -17,13 +17,13 @@ SHOWN = {
     "management_hit_s": "time with floes of the size on the body",
     "management_managed_width_m": "managed width",
 }
-MOST_PATTERNS = 24  # of a panel of the ranking
-MANY = 12  # places on the x axis, beyond which intervals are bands
-ROW = 5.2  # of a pattern in the ranking [mm]
+MOST_PATTERNS = 24  # largest number of patterns in a panel of the ranking
+MANY = 12  # with more points on the x axis, intervals are drawn as bands
+ROW = 5.2  # height of a pattern in the ranking [mm]
 
 
 def scaled(measure, most):
-    """A factor and its unit of a measure's values."""
+    """Factor and unit for the values of a measure."""
     unit = measure.rpartition("_")[2]
     if unit == "N":
         return next(((factor, name) for factor, name in ((1e6, "MN"), (1e3, "kN")) if most >= factor), (1, "N"))
@@ -31,7 +31,7 @@ def scaled(measure, most):
 
 
 def draw_place(axes, place, y, factor, page):
-    """A pattern's mean and interval, with its name above."""
+    """Draws mean and interval of a pattern, with its name above."""
     colour = "0.45" if place.name == UNMANAGED else COLOURS[0]
     half = 0 if place.mean.half is None else place.mean.half / factor
     scale = page.style.scale
@@ -42,7 +42,7 @@ def draw_place(axes, place, y, factor, page):
 
 
 def bracket_alike(axes, places):
-    """A bar beside each group of patterns that are not told apart."""
+    """Draws a bar beside each group of patterns that do not differ significantly."""
     names = [place.name for place in places]
     groups = ranking.alike(places)
     low, high = axes.get_xlim()
@@ -55,7 +55,7 @@ def bracket_alike(axes, places):
 
 
 def draw_places(sheet, axes, measure, condition, width):
-    """The patterns of one condition by one measure, from the best on."""
+    """Draws the patterns of one condition by one measure, best first."""
     page = sheet.page
     every = condition.ranked(measure)
     places = every[:MOST_PATTERNS]
@@ -72,8 +72,8 @@ def draw_places(sheet, axes, measure, condition, width):
 
 
 def draw_ranking(found, page):
-    """For each condition and measure the patterns from the best on, with their intervals. Those that are not told
-    apart have a bar beside them."""
+    """Draws, for each condition and measure, the patterns with their intervals, best first. Bars join patterns that do
+    not differ significantly."""
     measures = [name for name in MEASURES if any(condition.values.get(name) for condition in found.conditions)]
     every = [condition for condition in found.conditions if any(condition.values.get(name) for name in measures)]
     if not every:
@@ -100,7 +100,7 @@ def draw_ranking(found, page):
 
 
 def draw_line(axes, points, style, is_dense):
-    """The means of a pattern with their intervals: bands where points are dense."""
+    """Draws the means of a pattern with their intervals, which are bands if there are many points."""
     x, y, half = (list(column) for column in zip(*points))
     if not is_dense:
         axes.errorbar(x, y, yerr=half, **style, markersize=3, linewidth=1, capsize=2)
@@ -111,8 +111,8 @@ def draw_line(axes, points, style, is_dense):
 
 
 def draw_study(found, page):
-    """Means with their 95 % intervals of some measures against a parameter, a line a pattern; None where there is no
-    parameter with at least two numbers, or other parameters vary too."""
+    """Draws means with 95 % intervals of some measures over a parameter, with a line for each pattern. Returns None if
+    no parameter has at least two numbers, or if other parameters vary too."""
     xs = [condition.x for condition in found.conditions]
     shown = [name for name in SHOWN if name in found.measures]
     if not found.against or len(set(xs)) < 2 or len(set(xs)) < len(xs) or not shown:
@@ -146,7 +146,7 @@ def draw_study(found, page):
 
 
 def words_of(parameter):
-    """A parameter's last name with its unit: "drift, m/s" of water.drift_m_per_s[0]."""
+    """Last name of a parameter with its unit: "drift, m/s" for water.drift_m_per_s[0]."""
     label = parameter.rpartition(".")[2].partition("[")[0]
     for ending, unit in sorted(UNITS.items(), key=lambda item: -len(item[0])):
         if label.endswith("_" + ending):

@@ -9,13 +9,13 @@ UNITS = {"[N]": ((1e6, "MN"), (1e3, "kN"), (1, "N")), "[m]": ((1, "m"),)}
 
 
 def unit_of(measure, most):
-    """A factor and its unit, in which values up to `most` read well."""
+    """Factor and unit in which values up to `most` are easy to read."""
     choices = UNITS[MEASURES[measure][-3:]]
     return next(((factor, name) for factor, name in choices if most >= factor), choices[-1])
 
 
 def three(value):
-    """Three digits, without an exponent."""
+    """A number with three digits, without an exponent."""
     rounded = float(f"{value:.3g}")
     return f"{rounded:.0f}" if abs(rounded) >= 100 else f"{rounded:.6g}"
 
@@ -26,7 +26,7 @@ def interval(mean, factor=1.0):
 
 
 def left(place):
-    """What management leaves of the load, in percent."""
+    """The load with management as a percentage of that without."""
     if place.left is None:
         return ""
     ratio, low, high = place.left
@@ -35,7 +35,7 @@ def left(place):
 
 
 def lost(condition, name):
-    """The ice that left the scene by a rule: its mean area and its share of all ice."""
+    """Ice that left the scene: its mean area and its fraction of all ice."""
     found = condition.lost.get(name)
     if not found:
         return ""
@@ -52,7 +52,7 @@ def listed(names):
 
 
 def not_told_apart(places):
-    """Sentences on which patterns the study cannot tell apart."""
+    """Sentences on patterns between which the study finds no significant difference."""
     if len(places) < 2:
         return []
     if all(place.mean.half is None for place in places):
@@ -64,7 +64,7 @@ def not_told_apart(places):
 
 
 def table_of(condition, measure):
-    """Rows of words: rank, pattern, mean, what is left, benefit, ice lost."""
+    """Rows of text: rank, pattern, mean, remaining load, benefit, lost ice."""
     places = condition.ranked(measure)
     if not places:
         return [], "", places
@@ -85,7 +85,7 @@ def aligned(rows):
 
 
 def lines_of(found):
-    """What the command prints."""
+    """Returns the lines that the command prints."""
     yield f"{found.name}: {found.finished} of {found.cases} cases; patterns by {', '.join(found.by)}"
     for condition in found.conditions:
         for measure, words in MEASURES.items():
@@ -126,7 +126,7 @@ def write_ranking(found, path):
 
 
 def write_means(found, path):
-    """Means of all measures, by condition and pattern."""
+    """Writes the means of all measures by condition and pattern."""
     with writing(path, newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["condition", "pattern", "measure", "fields", "mean", "half_of_95_percent"])

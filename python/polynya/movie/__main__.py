@@ -23,7 +23,7 @@ Exit codes: 0 done, 2 usage, 5 input/output, or numpy, matplotlib or ffmpeg is m
 
 
 class Stopped(Exception):
-    """By a signal."""
+    """Raised when a signal stops the command."""
 
     def __init__(self, number):
         super().__init__(signal.Signals(number).name)
@@ -31,7 +31,7 @@ class Stopped(Exception):
 
 
 def size(text):
-    """Width and height of a picture [px]; halves of both must be whole, as MP4 needs it."""
+    """Reads width and height of a picture [px]. Both must be even, because MP4 requires it."""
     parts = text.lower().split("x")
     values = [int(part) for part in parts if part.isdigit()]
     if len(parts) != 2 or len(values) != 2 or not all(320 <= value <= 7680 and value % 2 == 0 for value in values):
@@ -51,18 +51,19 @@ def film_name(text):
 def command_line():
     seconds = number(0, unit="s")
     parser = Parser("polynya movie", "Make a film of a run: the ice, and the force on the ship", EXAMPLES, REST)
-    meaning = "The run folder; a run that is not finished is shown as far as it got"
+    meaning = "The run folder; a run that is not finished is shown up to its last frame"
     parser.add("run", meaning, metavar="RUN")
-    meaning = "The film: .mp4, .gif, or .png, the picture at --from; voyage.mp4 if not given"
+    meaning = "File for the film, .mp4 or .gif, or .png for one picture at --from; voyage.mp4 if not given"
     parser.add("--out", meaning, type=film_name, default="voyage.mp4", metavar="FILE")
-    meaning = "Simulated time at which it begins; the run's start if not given"
+    meaning = "Simulated time at which the film begins [s]; the start of the run if not given"
     parser.add("--from", meaning, dest="start", type=seconds, metavar="S")
-    meaning = "Simulated time at which it ends; the run's end if not given"
+    meaning = "Simulated time at which the film ends [s]; the end of the run if not given"
     parser.add("--to", meaning, dest="end", type=seconds, metavar="S")
-    meaning = "Simulated seconds a second of the film; one for about half a minute if not given"
+    meaning = "Simulated seconds per second of the film; if not given, such that the film takes about half a minute"
     parser.add("--speed", meaning, type=number(0, is_open=True), metavar="X")
-    parser.add("--size", "In pixels; 1280x720 if not given", type=size, default=(1280, 720), metavar="WxH")
-    meaning = "The ship that the map goes with, by its name; all of the run if not given"
+    meaning = "Size of the pictures [px]; 1280x720 if not given"
+    parser.add("--size", meaning, type=size, default=(1280, 720), metavar="WxH")
+    meaning = "Name of the ship that the map follows; if not given, the map shows the whole run"
     parser.add("--follow", meaning, metavar="SHIP")
     return parser
 
@@ -72,11 +73,11 @@ def fail(code, message):
 
 
 class Progress:
-    """How far a film is, on stderr: one line on a terminal, which is written over, else a line every ten seconds."""
+    """Shows progress on stderr: one line on a terminal, which is overwritten, otherwise a line every ten seconds."""
 
     def __init__(self):
         self._start = self._shown = time.monotonic()
-        self._least = 0.1 if sys.stderr.isatty() else 10.0  # between two reports [s]
+        self._least = 0.1 if sys.stderr.isatty() else 10.0  # time between two reports [s]
 
     def __call__(self, done, count):
         now = time.monotonic()
@@ -100,7 +101,7 @@ def make(options):
 
     suffix = os.path.splitext(options.out)[1].lower()
     if suffix != ".png":
-        encoder.ffmpeg()  # before the run is read
+        encoder.ffmpeg()  # this fails before the run is read if ffmpeg is missing
     if not os.path.isdir(os.path.dirname(os.path.abspath(options.out))):
         return fail(INPUT_OUTPUT, f"{options.out}: its folder does not exist")
     run = Run(options.run, unfinished=True, pandas=False, shapely=False)
@@ -150,7 +151,7 @@ def main():
             return make(options)
         except encoder.FilmError as error:
             return fail(INPUT_OUTPUT, error)
-    except Stopped as stopped:  # by default's action, so that a shell sees what ended it
+    except Stopped as stopped:  # use the default action of the signal, so that a shell sees what ended the process
         fail(DONE, f"stopped by {stopped}; no film was written")
         signal.signal(stopped.number, signal.SIG_DFL)
         os.kill(os.getpid(), stopped.number)

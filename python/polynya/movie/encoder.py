@@ -1,4 +1,4 @@
-"""Pictures into a film, by ffmpeg."""
+"""Encodes pictures as a film with ffmpeg."""
 from __future__ import annotations
 
 import contextlib
@@ -11,7 +11,7 @@ import numpy
 
 MISSING = ("ffmpeg is not installed: ./setup.sh python, or apt-get install ffmpeg "
            "(a picture, --out frame.png, needs none)")
-SAMPLES = 8  # pictures that the colours of a GIF are chosen from
+SAMPLES = 8  # number of pictures from which the colours of a GIF are chosen
 
 
 class FilmError(Exception):
@@ -19,7 +19,7 @@ class FilmError(Exception):
 
 
 def ffmpeg():
-    """The program's path. Raises FilmError where it is missing."""
+    """Returns the path of the program. Raises FilmError if it is missing."""
     found = shutil.which("ffmpeg")
     if found is None:
         raise FilmError(MISSING)
@@ -27,13 +27,13 @@ def ffmpeg():
 
 
 def input_of(size, rate):
-    """ffmpeg's words for pictures of rows × columns × 4 bytes that come through its stdin."""
+    """Arguments of ffmpeg for pictures of rows × columns × 4 bytes from its stdin."""
     return ["-f", "rawvideo", "-pixel_format", "rgb0", "-video_size", "{}x{}".format(*size),
             "-framerate", f"{rate:g}", "-i", "-"]
 
 
 def palette(pictures, size, folder):
-    """A PNG with the colours of some pictures, as GIFs need."""
+    """Makes a PNG with the colours of some pictures, which GIFs need."""
     path = os.path.join(folder, "palette.png")
     words = [ffmpeg(), "-v", "error", "-y", *input_of(size, 1), "-vf", "palettegen=stats_mode=full",
              "-frames:v", "1", "-update", "1", path]
@@ -50,11 +50,11 @@ def last_line(text):
 
 
 class Encoder:
-    """A film while it is written, beside its place under a hidden name: it gets its own when it is whole, and nothing
-    stays of one that is not. ffmpeg has a session of its own, so that Ctrl-C reaches this process alone."""
+    """A film that is being written. It is written under a hidden name and gets its own name when it is complete;
+    otherwise nothing of it remains. ffmpeg runs in its own session, so that Ctrl-C reaches only this process."""
 
     def __init__(self, path, size, rate, samples=()):
-        """`samples` are pictures that the colours of a GIF are chosen from."""
+        """`samples` are pictures from which the colours of a GIF are chosen."""
         self._path = os.path.realpath(path)
         folder, name = os.path.split(self._path)
         self._draft = os.path.join(folder, f".{name}.{os.getpid()}.part")
@@ -79,7 +79,7 @@ class Encoder:
                                 stderr=self._errors, start_new_session=True)
 
     def add(self, pixels):
-        """The next picture."""
+        """Adds the next picture."""
         try:
             self._process.stdin.write(numpy.ascontiguousarray(pixels))
         except BrokenPipeError:
@@ -105,7 +105,7 @@ class Encoder:
             if self._process.poll() is None:
                 self._process.kill()
                 self._process.wait()
-            with contextlib.suppress(OSError):  # what it did not read
+            with contextlib.suppress(OSError):  # ffmpeg may not have read all input
                 self._process.stdin.close()
         if os.path.exists(self._draft):
             os.remove(self._draft)

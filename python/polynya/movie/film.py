@@ -1,4 +1,4 @@
-"""A run as a film: its times, picture by picture."""
+"""Makes a film of a run, picture by picture."""
 from __future__ import annotations
 
 import dataclasses
@@ -11,20 +11,20 @@ from polynya.files import naming
 from .encoder import SAMPLES, Encoder
 from .picture import Picture
 
-WANTED = 30.0  # how long a film is whose speed is not given [s]
-RATES = {".mp4": 25.0, ".gif": 12.5}  # pictures a second
+WANTED = 30.0  # approximate duration of a film whose speed is not given [s]
+RATES = {".mp4": 25.0, ".gif": 12.5}  # pictures per second
 SUFFIXES = (*RATES, ".png")
 
 
 def chosen_speed(seconds):
-    """Simulated seconds a second of the film, of 1, 2, 5 · 10ⁿ: so that it takes about half a minute."""
+    """Simulated seconds per second of the film, one of 1, 2, 5 · 10ⁿ, for which the film takes about half a minute."""
     wanted = max(seconds, 1e-9) / WANTED
     power = 10.0 ** numpy.floor(numpy.log10(wanted))
     return float(min((step * power for step in (1, 2, 5, 10)), key=lambda speed: abs(numpy.log(speed / wanted))))
 
 
 def chosen_times(run, start=None, end=None, speed=None, rate=RATES[".mp4"]):
-    """Of the pictures [s], from `start` to `end` of the run."""
+    """Times of the pictures [s], from `start` to `end` of the run."""
     start = run.start_time if start is None else start
     end = run.end_time if end is None else end
     for name, time in (("from", start), ("to", end)):
@@ -38,8 +38,9 @@ def chosen_times(run, start=None, end=None, speed=None, rate=RATES[".mp4"]):
 
 
 def write(run, path, times, look, progress=None):
-    """Writes a film of a run at some times [s] to an MP4 or a GIF, or the picture of the first of them to a PNG; whole
-    or not at all. `progress` is called with how many pictures are done, and of how many. Raises FilmError."""
+    """Writes a film of a run at some times [s] as MP4 or GIF, or the first picture as PNG. The file is written
+    completely or not at all. `progress` is called with the number of completed pictures and their total. Raises
+    FilmError."""
     suffix = os.path.splitext(path)[1].lower()
     if suffix not in SUFFIXES:
         raise ValueError(f"{path}: a film's name ends in {', '.join(SUFFIXES)}")
@@ -59,7 +60,7 @@ def write(run, path, times, look, progress=None):
 
 
 def write_png(pixels, path):
-    """Whole or not at all."""
+    """Writes a PNG, completely or not at all."""
     from matplotlib import image
 
     path = os.path.realpath(path)

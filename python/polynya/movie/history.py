@@ -1,4 +1,5 @@
-"""The force of the ice on a ship against time: pale all of it, in full what has passed."""
+"""Chart of the ice force on a ship over time: the whole curve is pale, and the part up to the present is drawn in
+full."""
 from __future__ import annotations
 
 import numpy
@@ -9,7 +10,7 @@ PALE = 0.22
 
 
 def thinned(times, values, bins):
-    """At most two points a stretch of time: its least and largest value, in their order."""
+    """Keeps at most two points in each stretch of time: its smallest and largest value, in their order."""
     if len(times) <= 2 * bins:
         return times, values
     edges = numpy.linspace(0, len(times), bins + 1).astype(int)[:-1]
@@ -20,13 +21,13 @@ def thinned(times, values, bins):
 
 
 def unit_of(largest):
-    """A force's unit [N] and its name."""
+    """Unit for a force [N] and its name."""
     return next((unit, name) for unit, name in ((1e6, "MN"), (1e3, "kN"), (1.0, "N"))
                 if largest >= 0.5 * unit or unit == 1.0)
 
 
 class History:
-    """A chart at a place of a figure, [x, y, width, height] as shares of it."""
+    """A chart at a position of a figure, given as [x, y, width, height] in fractions of the figure."""
 
     def __init__(self, run, ship, look, figure, place, font):
         self.look = look
@@ -35,7 +36,7 @@ class History:
         self.start = run.start_time if look.start is None else look.start
         self.end = run.end_time if look.end is None else look.end
         x, y, width, height = place
-        left, right, foot, top = 0.075, 0.02, 0.28, 0.14  # of the place
+        left, right, foot, top = 0.075, 0.02, 0.28, 0.14  # in fractions of the chart
         self.axes = figure.add_axes((x + left * width, y + foot * height, (1 - left - right) * width,
                                      (1 - foot - top) * height))
         times = columns["t_s"][own]
@@ -49,7 +50,7 @@ class History:
             at, force = thinned(times[shown], of / unit, look.size[0])
             self.curves += self.axes.plot(at, force, color=colour, linewidth=0.055 * font,
                                           label=name, zorder=2 if name == "surge" else 1)
-        if largest < 1.0:  # nothing but rounding
+        if largest < 1.0:  # smaller forces are rounding
             self.axes.set_ylim(-1, 1)
         self._dress(ship, unit_name, font, len(run.ship_names) > 1)
 
@@ -70,7 +71,7 @@ class History:
             line.set_linewidth(0.14 * font)
 
     def prepare(self, canvas):
-        """Keeps the picture of the whole curve, and draws it pale from then on."""
+        """Stores the picture of the whole curve, and makes the curve pale."""
         self._full = numpy.asarray(canvas.buffer_rgba()).copy()
         box = self.axes.get_window_extent()
         rows = len(self._full)
@@ -80,7 +81,7 @@ class History:
         self._pale = (255 - PALE * (255 - inside)).astype(numpy.uint8)
 
     def draw(self, pixels, time):
-        """Onto a picture of the figure that has the whole curve."""
+        """Draws the part up to `time` onto a picture of the figure, from the stored picture."""
         share = (time - self.start) / (self.end - self.start) if self.end > self.start else 1.0
         now = self._left + round(min(max(share, 0.0), 1.0) * (self._right - self._left))
         first = max(now, self._left + 2)

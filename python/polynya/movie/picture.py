@@ -1,4 +1,4 @@
-"""The pictures of a film: a map and below it the force on the ship."""
+"""Pictures of a film: a map, and below it the force on the ship."""
 from __future__ import annotations
 
 import dataclasses
@@ -19,39 +19,39 @@ from .history import History
 
 FLOES = tuple(zip(("ice", "broken off", "come up from under a hull", "under a hull"), colours.COLOURS))
 FRACTURES = (("bend", "cusp bends off", "o"), ("split", "floe splits", "^"), ("grind", "ice grinds", "s"))
-HEAD, KEY, CHART = 0.07, 0.055, 0.25  # of a picture's height
-FOLLOWED = 2.0  # lengths of the ship that a map which follows it shows at least
-RESTING = 1.0  # how long a picture of the floes at rest serves [s of the film]
-AT_REST = 0.1  # the farthest that a floe moves while it counts as at rest [px]
-SHOWN = 0.8  # how long a fracture's mark stays in a film [s of the film]
-POINTS_PER_HEIGHT = 0.0195 * 72  # size of text, of the picture's height in inches
+HEAD, KEY, CHART = 0.07, 0.055, 0.25  # heights in fractions of a picture
+FOLLOWED = 2.0  # least width of a map that follows a ship, in lengths of the ship
+RESTING = 1.0  # time for which a picture of the resting floes is used [s of the film]; longer: floes lag behind more
+AT_REST = 0.1  # largest displacement of a floe that counts as resting [px]
+SHOWN = 0.8  # time for which the mark of a fracture is shown [s of the film]
+POINTS_PER_HEIGHT = 0.0195 * 72  # font size for a picture of 1 inch height [pt]
 
 
 @dataclasses.dataclass(frozen=True)
 class Look:
-    """Of a film."""
+    """Settings of a film."""
 
     size: tuple = (1280, 720)  #: [px]
-    follow: Optional[str] = None  #: the ship that the map goes with; all of the run if None
-    start: Optional[float] = None  #: of the force's axis [s]; the run's
+    follow: Optional[str] = None  #: ship that the map follows; None: the map shows the whole run
+    start: Optional[float] = None  #: start of the force's time axis [s]; None: that of the run
     end: Optional[float] = None
-    speed: float = 1.0  #: simulated seconds a second of the film
-    is_film: bool = True  #: else a picture by itself, which names no speed
+    speed: float = 1.0  #: simulated seconds per second of the film
+    is_film: bool = True  #: false: a single picture, which states no speed
 
     @property
     def dots(self):
-        """An inch."""
+        """Dots per inch."""
         return 100
 
 
 def bar_length(room):
-    """The longest of 1, 2, 5 · 10ⁿ metres within some metres."""
+    """The longest of 1, 2, 5 · 10ⁿ metres that is at most `room`."""
     power = 10.0 ** numpy.floor(numpy.log10(room))
     return float(max(step * power for step in (1, 2, 5) if step * power <= room))
 
 
 class Picture:
-    """Draws a run at one time after another. What stays is drawn once."""
+    """Draws a run at one time after another. Parts that do not change are drawn once."""
 
     def __init__(self, run, look):
         self.run, self.look = run, look
@@ -95,7 +95,8 @@ class Picture:
             name.set_fontsize(1.1 * self._font * room / taken)
 
     def _set_window(self):
-        """Metres across and up, and where the map begins; all of the run, in its middle, if it follows no ship."""
+        """Sets width, height and origin of the map in metres. A map that follows no ship shows the whole run,
+        centred."""
         box = self._map.get_window_extent()
         if self.look.follow is None:
             x0, y0, x1, y1 = self.scenery.extent
@@ -145,7 +146,7 @@ class Picture:
         return list(self._marks.values())
 
     def _draw_key(self, chart):
-        """The scale bar and what the colours and marks mean, in one line."""
+        """Draws the scale bar and the meaning of colours and marks in one line."""
         axes = self.figure.add_axes((0, chart, 1, KEY))
         axes.set(xlim=(0, self.look.size[0]), ylim=(-1, 1))
         axes.set_axis_off()
@@ -165,7 +166,7 @@ class Picture:
         return x + text.get_window_extent().width
 
     def _keys(self):
-        """Of what the run has."""
+        """Legend entries for the kinds of objects in the run."""
         births, kinds = self.run.births, set(self.run.event_columns["kind"])
         has = (True, bool((births["generation"] > 0).any()), bool(births["came_up"].any()),
                bool(numpy.isfinite(births["went_under_s"]).any()))
@@ -178,7 +179,7 @@ class Picture:
                 yield word, {"marker": marker, "color": colours.MARKS[kind], "markeredgewidth": 0}
 
     def draw(self, time):
-        """The picture of a time [s]: rows × columns × 4 bytes, valid until the next one."""
+        """Returns the picture at a time [s]: rows × columns × 4 bytes, valid until the next call."""
         frame = self.run.frame(time)
         if self.look.follow is not None:
             names = self.run.ship_names
@@ -208,8 +209,8 @@ class Picture:
             patch.set_path(path)
 
     def _lay_ice(self, frame):
-        """Restores the picture of what stays: of a map that stays also the floes at rest. The other floes are left to
-        be drawn."""
+        """Restores the picture of the parts that do not change; if the map stays in place, this includes the resting
+        floes. Returns the floes that must still be drawn."""
         if self.look.follow is not None or not self.look.is_film:
             self._at_start.set_path(self.scenery.ice_at_start(self._window, self._least))
             self.canvas.restore_region(self._background)
@@ -221,7 +222,7 @@ class Picture:
         return self._set_floes(frame, ~self._resting[frame.ids])
 
     def _draw_resting(self, frame):
-        """Makes the picture of the floes that rest from a frame's time on for a while, and keeps which they are."""
+        """Draws the floes that will rest for a while after a frame's time, and stores which they are."""
         self._rest_from = frame.time
         self._rest_until = min(frame.time + RESTING * self.look.speed, self.run.end_time)
         births, ids = self.run.births, frame.ids
@@ -240,7 +241,7 @@ class Picture:
         self._resting_picture = self.canvas.copy_from_bbox(self.figure.bbox)
 
     def _show_fractures(self, marks, kind, time):
-        """Those just made; their marks fade."""
+        """Draws the marks of recent fractures, which fade with time."""
         stays = SHOWN * self.look.speed
         points, age = self.scenery.fractures(kind, time - stays, time)
         marks.set_offsets(points if len(points) else numpy.empty((0, 2)))

@@ -1,1 +1,1 @@
-"""`polynya performance SHIP`: the speed that a ship keeps in level ice of each thickness."""
+"""`polynya performance SHIP`: the speed that a ship can keep in level ice of each thickness."""

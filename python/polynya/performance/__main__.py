@@ -17,7 +17,7 @@ from . import coefficients, sensitivity
 from .curve import BEYOND, THICKER, Curve, formula_words, mark_of
 from .options import FLEXURAL_STRENGTH, FRICTION, STEP, command_line
 
-INPUT_OUTPUT = 5  # app/command_line/console.hpp
+INPUT_OUTPUT = 5  # exit code of app/command_line/console.hpp
 
 
 def fail(code, message):
@@ -26,8 +26,8 @@ def fail(code, message):
 
 
 def ship_of(name):
-    """What `polynya ships` has of a preset, or of a file's ship: its title, the ship with every default, its engine,
-    reported speeds. Ends as that does where the ship is refused; what is wrong then stands on stderr."""
+    """Reads a preset or a ship file by `polynya ships`: its title, the ship with all defaults, its engine, and reported
+    speeds. If the ship is refused, this ends the command in the same way, with the reason on stderr."""
     words = [program(), "ships", name, "--json", "--for-performance"]
     done = subprocess.run(words, stdout=subprocess.PIPE, text=True, check=False)
     if done.returncode != DONE:
@@ -47,7 +47,7 @@ def hull_of(ship):
 
 
 def ten_thicknesses(curve):
-    """Evenly up to a bit less than where Lindqvist's formula stops the ship."""
+    """Ten thicknesses, evenly spaced up to slightly less than that at which Lindqvist's formula stops the ship."""
     thin, thick = 0.05, 5.0
     while thick - thin > 0.01:
         middle = 0.5 * (thin + thick)
@@ -80,7 +80,7 @@ def print_table(rows):
 
 
 def print_sensitivity(found, curve, thicknesses, arguments):
-    """The table of particulars, those that nobody stated marked; gives it for all thicknesses."""
+    """Prints the table of particulars, with a mark at those that nobody stated. Returns it for all thicknesses."""
     is_given = {"flexural_strength": arguments.flexural_strength is not None,
                 "friction": arguments.friction is not None}
     of = (curve.hull, curve.engine, curve.ice)
@@ -92,7 +92,7 @@ def print_sensitivity(found, curve, thicknesses, arguments):
 
 
 def report_progress(done, total, row):
-    """A bar that is drawn over on a terminal; a line each elsewhere."""
+    """Shows a bar that is overwritten on a terminal, otherwise a line for each report."""
     last = f"{row['thickness_m']:g} m at {row['speed_m_per_s']:.2f} m/s"
     if sys.stderr.isatty():
         filled = 30 * done // total
@@ -104,7 +104,7 @@ def report_progress(done, total, row):
 
 
 def run_all(curve, wanted, jobs):
-    """The rows, thinnest ice first; what is done is reported as it comes."""
+    """Runs all thicknesses and reports progress. Returns the rows, thinnest ice first."""
     rows = {}
     with concurrent.futures.ThreadPoolExecutor(max(1, jobs)) as pool:
         futures = {pool.submit(curve.point, h): h for h in sorted(wanted, reverse=True)}
@@ -135,7 +135,7 @@ def write_table(path, rows):
 
 
 def draw_figure(path, rows, found, ice):
-    """The picture; without matplotlib a line that says so."""
+    """Draws the picture; without matplotlib prints a line that says so."""
     try:
         from . import figure
     except ImportError as error:
@@ -153,7 +153,7 @@ def main():
         found = ship_of(arguments.ship)
     except OSError as error:
         return fail(INPUT_OUTPUT, error)
-    ice = formulas.Ice(  # of each thickness in turn
+    ice = formulas.Ice(  # ice of each thickness in turn
         thickness=0,
         flexural_strength=FLEXURAL_STRENGTH if arguments.flexural_strength is None else arguments.flexural_strength,
         friction=FRICTION if arguments.friction is None else arguments.friction,

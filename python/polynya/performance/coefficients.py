@@ -1,4 +1,5 @@
-"""`polynya performance SHIP --pack`, --level and --channel: resistance as a table, and its fit for route planners."""
+"""`polynya performance SHIP --pack`, --level and --channel: a table of resistances, and a formula fitted to it for
+route planners."""
 import json
 import math
 import os
@@ -26,7 +27,7 @@ NOTHING = {
 
 
 def regime_of(arguments):
-    """The regime that is asked for, or None."""
+    """Returns the requested regime, or None."""
     return next((name for name in (ice_scenes.PACK, ice_scenes.LEVEL, ice_scenes.CHANNEL) if getattr(arguments, name)),
                 None)
 
@@ -53,7 +54,7 @@ def print_table(rows):
 
 
 def described(name, found, ice, fitted, rows):
-    """The fit as JSON that other programs read."""
+    """Returns the fit as JSON for other programs."""
     ranges = {key: [min(row[key] for row in rows), max(row[key] for row in rows)]
               for key in ("speed_m_per_s", "thickness_m", "cover", "floe_size_m")}
     return {
@@ -94,7 +95,7 @@ def write_rules(folder, asked):
 
 
 def main(arguments, found, ice, fail, codes):
-    """`fail` prints a message and returns its code of `codes`: done, failed, stopped."""
+    """`fail` prints a message and returns its exit code. `codes` are the exit codes done, failed and stopped."""
     done, failed, stopped = codes
     name = regime_of(arguments)
     if arguments.list and name == ice_scenes.CHANNEL:

@@ -1,4 +1,5 @@
-"""Resistance of broken ice in Colbourne's form, fitted to points: R = ½ k F⁻ᵇ ρ_i B h V² Cⁿ with F = V / √(g h C)."""
+"""Fits Colbourne's formula for the resistance of broken ice to points: R = ½ k F⁻ᵇ ρ_i B h V² Cⁿ with F = V / √(g h
+C)."""
 import dataclasses
 import math
 
@@ -7,16 +8,16 @@ import numpy as np
 from ..formulas import G
 
 FORM = "R = 0.5 k F^(-b) rho_i B h V^2 C^n with F = V / sqrt(g h C)"
-FEWEST = 2  # more points than coefficients, for errors
+FEWEST = 2  # least number of points beyond the number of coefficients, so that errors can be estimated
 
 
 class NotEnough(Exception):
-    """The points do not decide the coefficients."""
+    """Raised if there are too few points to determine the coefficients."""
 
 
 @dataclasses.dataclass
 class Fit:
-    """Coefficients with their standard errors; n is None where all points have one cover."""
+    """Coefficients with their standard errors; n is None if all points have the same cover."""
 
     k: float
     k_error: float
@@ -24,26 +25,26 @@ class Fit:
     b_error: float
     n: float
     n_error: float
-    scatter: float  #: factor by which a point lies above or below the fit: e to the residuals' standard deviation
+    scatter: float  #: typical factor between a point and the fit: exp of the residuals' standard deviation
     points: int
 
     def resistance(self, point, beam, density):
-        """Of a point by the fit [N]."""
+        """Resistance of a point by the fit [N]."""
         return scale(point, beam, density) * self.k * froude(point) ** -self.b * point["cover"] ** (self.n or 0)
 
 
 def froude(point):
-    """The Froude number of pack ice."""
+    """Froude number of pack ice at a point."""
     return point["speed_m_per_s"] / math.sqrt(G * point["thickness_m"] * point["cover"])
 
 
 def scale(point, beam, density):
-    """½ ρ_i B h V² [N]."""
+    """½ ρ_i B h V² of a point [N]."""
     return 0.5 * density * beam * point["thickness_m"] * point["speed_m_per_s"] ** 2
 
 
 def fit(points, resistances, beam, density):
-    """Least squares of the logarithm of the resistance [N]; points are mappings, resistances > 0."""
+    """Fits by least squares of the logarithm of the resistance [N]. Points are mappings; resistances must be > 0."""
     has_covers = len({point["cover"] for point in points}) > 1
     columns = [np.ones(len(points)), [-math.log(froude(point)) for point in points]]
     if has_covers:

@@ -1,4 +1,5 @@
-"""The runs of a curve: one a thickness, longer until the speed is steady. Finished runs are kept and used again."""
+"""Runs of a curve, one per thickness. A run is repeated with a longer course until the speed is steady. Finished runs
+are kept and reused."""
 import dataclasses
 import pathlib
 
@@ -6,19 +7,21 @@ from .. import formulas
 from ..runs_kept import kept_run
 from . import level_ice
 
-FIRST, MOST = 5, 20  # lengths of the course
-VALIDATED_THICKNESS = 0.5  # [m], docs/validation.md, "A ship in level ice"
+FIRST, MOST = 5, 20  # first and largest length of the course, in lengths of the ship
+# Ice up to this thickness was compared with measurements [m], docs/validation.md, "A ship in level ice".
+VALIDATED_THICKNESS = 0.5
 THICKER = f"thicker than {VALIDATED_THICKNESS:g} m, outside the range of validation"
 BEYOND = {1: "faster than by every formula", -1: "slower than by every formula"}
 
 
 def beyond_band(speed, of_formulas):
-    """1 where a speed is above those of all formulas, -1 where it is below, 0 within their band."""
+    """1 if a speed is above those of all formulas, -1 if it is below all, 0 if it is between them."""
     return int(speed > max(of_formulas)) - int(speed < min(of_formulas))
 
 
 def mark_of(row):
-    """The mark of a point that is not supported: "!" out of the formulas' band, "*" in ice thicker than validated."""
+    """Mark of a point that is not supported: "!" outside of the range of the formulas, "*" for ice thicker than was
+    validated."""
     return ("*" if not row["is_in_validated_range"] else "") + ("!" if row["beyond_formulas"] else "")
 
 
@@ -38,15 +41,15 @@ class Curve:
         self.folder, self.program, self.error, self.step = pathlib.Path(folder), program, error, step
 
     def level(self, thickness):
-        """The ice of that thickness."""
+        """Ice of a thickness [m]."""
         return dataclasses.replace(self.ice, thickness=thickness)
 
     def formula_speeds(self, thickness):
-        """The speeds at which published resistances equal the net thrust [m/s]."""
+        """Speeds at which published resistances equal the net thrust [m/s]."""
         return formulas.level_ice_speeds(self.hull, self.engine, self.level(thickness))
 
     def first_speed(self, thickness):
-        """A speed to start at [m/s]: where a bit less than Lindqvist's resistance equals the net thrust."""
+        """Initial speed of a run [m/s]: slightly less than Lindqvist's resistance equals the net thrust there."""
         ice = self.level(thickness)
         speed = formulas.equilibrium(
             self.engine["bollard_pull_N"],
@@ -56,7 +59,7 @@ class Curve:
         return max(0.5, speed)
 
     def point(self, thickness):
-        """One row of the curve."""
+        """Computes one row of the curve."""
         speed, lengths = self.first_speed(thickness), FIRST
         while True:
             name = f"level-{thickness:g}-{lengths}"

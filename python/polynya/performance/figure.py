@@ -1,4 +1,4 @@
-"""The picture of a curve: speed against thickness, beside published formulas and what has been reported."""
+"""The picture of a curve: speed over thickness, with published formulas and reported speeds for comparison."""
 import matplotlib
 
 matplotlib.use("Agg")
@@ -16,7 +16,7 @@ FORMULAS = (
 
 
 def draw(rows, title, reported, path):
-    """Writes the picture; its format is the path's ending."""
+    """Writes the picture in the format of the path's extension."""
     thickness = [row["thickness_m"] for row in rows]
     plt.rcParams.update({"font.size": 8, "axes.spines.top": False, "axes.spines.right": False})
     figure, axes = plt.subplots(figsize=(4.7, 3.4), constrained_layout=True)

@@ -1,15 +1,16 @@
-"""Scenes in which a ship keeps a speed through pack ice, level ice or a channel of brash ice, for its resistance."""
+"""Scenes in which a ship keeps its speed through pack ice, level ice or a channel of brash ice, to measure its
+resistance."""
 import math
 
 from .level_ice import ENDLESS, OF_THE_START, STRENGTH_SPREAD, ice_keys
 
 PACK, LEVEL, CHANNEL = "pack", "level", "channel"
-LENGTHS = 4  # of the way in the ice, in lengths of the ship
-CHANNEL_WIDTH = 1.5  # of a channel, in beams of the ship
+LENGTHS = 4  # distance in the ice, in lengths of the ship; longer: less scatter, longer runs
+CHANNEL_WIDTH = 1.5  # width of a channel in beams of the ship
 
 
 def ship_at(ship, speed):
-    """The ship before the ice, which keeps its speed [m/s] and its heading."""
+    """The ship in front of the ice, with a pilot that keeps speed [m/s] and heading."""
     gone = (*OF_THE_START, "propulsion", "steering", "mooring")
     kept = {key: value for key, value in ship.items() if key not in gone}
     start = {"name": "ship", "position_m": [-0.5 * ship["hull"]["length_m"] - 2, 0], "heading_deg": 0,
@@ -23,7 +24,7 @@ def field(corner, extent, point):
 
 
 def ice_of(regime, hull, way, point):
-    """The entries of the scene's floes, and settings that go with them."""
+    """Entries of the scene's floes, and settings that belong to them."""
     beam = hull["beam_m"]
     if regime == PACK:
         width = max(10 * beam, 10 * point["floe_size_m"])
@@ -43,7 +44,7 @@ def brash_channel(beam, way, point):
 
 
 def scene(regime, ship, ice, point, seed, step):
-    """The scene of a point: its speed [m/s], thickness [m], cover [-] and floe size [m]."""
+    """The scene of a point, which has a speed [m/s], a thickness [m], a cover [-] and a floe size [m]."""
     length, speed = ship["hull"]["length_m"], point["speed_m_per_s"]
     way = LENGTHS * length
     floes, settings = ice_of(regime, ship["hull"], way, point)

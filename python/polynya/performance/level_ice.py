@@ -1,4 +1,4 @@
-"""A ship under full power in level ice: the scene of one thickness, and whether its speed is steady."""
+"""A ship under full power in level ice: the scene for one thickness, and a test of whether its speed is steady."""
 import math
 import pathlib
 
@@ -6,18 +6,18 @@ import numpy as np
 
 from ..study.measures import rows_by_ship
 
-BLOCKS = 6  # of the measured way
-# What a ship file may have of its own start and pilot gives way to the course: full ahead along the x axis.
+BLOCKS = 6  # number of parts of the measured distance, from whose differences the error is estimated
+# Keys of a ship file that are replaced, because the ship sails full ahead along the x axis.
 OF_THE_START = ("pilot", "sway_speed_m_per_s", "yaw_rate_deg_per_s")
-# A plate without end does not split; what comes up behind the stern does not load the ship.
+# An endless plate does not split, and pieces that surface behind the stern do not load the ship.
 ENDLESS = {"splitting": {"model": "none"}, "resurface": {"enabled": False}}
-# Deviation of the flexural strength of beams at one place over their mean (recall). Without it cusps of thick ice
-# settle into patterns that can hold a ship.
+# Standard deviation of the flexural strength of beams at one place, divided by their mean (recall). Without scatter,
+# cusps of thick ice form regular patterns that can stop a ship.
 STRENGTH_SPREAD = 0.2
 
 
 def ice_keys(ice):
-    """A scene's ice."""
+    """The ice of a scene."""
     return {
         "thickness_m": ice.thickness,
         "flexural_strength_Pa": ice.flexural_strength,
@@ -29,7 +29,8 @@ def ice_keys(ice):
 
 
 def scene(ship, ice, speed, lengths, step):
-    """The ship at speed [m/s] 2 m before a plate of fast ice, on a course of so many of its own lengths."""
+    """The scene: the ship at `speed` [m/s] 2 m in front of a plate of fast ice, on a course of `lengths` ship
+    lengths."""
     hull = ship["hull"]
     length, width = hull["length_m"], 5 * hull["beam_m"]
     way = (lengths + 1) * length
@@ -50,8 +51,8 @@ def scene(ship, ice, speed, lengths, step):
 
 
 class Measured:
-    """A run's mean speed over ground, where the hull is full of ice and its stem within a plate as long as the way [m],
-    its error [m/s], and what braked it [N]."""
+    """Mean speed over ground of a run [m/s], its error [m/s], and the mean braking forces [N]. Only the distance on
+    which the whole hull is in the ice and the stem within the plate counts."""
 
     def __init__(self, folder, ship, way=math.inf):
         length = ship["hull"]["length_m"]
@@ -70,7 +71,7 @@ class Measured:
             self.submerged = -np.mean(submerged[tail])
             return
         time, x = time[is_full], x[is_full]
-        edges = np.linspace(x[0], x[-1], BLOCKS + 1)  # blocks of equal way
+        edges = np.linspace(x[0], x[-1], BLOCKS + 1)  # parts of equal distance
         at = np.interp(edges, x, time)
         speeds = np.diff(edges) / np.diff(at)
         self.speed = (x[-1] - x[0]) / (time[-1] - time[0])
@@ -83,7 +84,8 @@ class Measured:
         self.is_steady = True
 
     def is_within(self, share):
-        """Whether the mean's standard error, and half of the change between the halves, are below that share of it."""
+        """Returns True if the standard error of the mean, and half of the change between the halves, are below this
+        fraction of it."""
         if self.is_stuck:
             return True
         return (

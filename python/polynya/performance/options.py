@@ -1,16 +1,16 @@
-"""The command line of `polynya performance`; ranges are those of the scene's keys."""
+"""The command line of `polynya performance`. Its ranges are those of the scene's keys."""
 import os
 
 from ..arguments import Parser, number, numbers
 
-FLEXURAL_STRENGTH, FRICTION = 500e3, 0.1  # where the command line has none [Pa], [-]
-STEP = 0.01  # of the runs in level ice at full power [s]
+FLEXURAL_STRENGTH, FRICTION = 500e3, 0.1  # defaults of the command line [Pa], [-]
+STEP = 0.01  # time step of the runs in level ice at full power [s]
 
 EXAMPLES = (
     "performance polaris                       ten thicknesses, on all processors",
     "performance araon --flexural-strength 630e3 --friction 0.1",
     "performance ship.json --thickness 0.4,0.8,1.2 --out runs/our-ship",
-    "performance oden --list                   the formulas alone, without a run",
+    "performance oden --list                   only the formulas, without a run",
     "performance polaris --pack                resistance in pack ice, and its fit as JSON for route planners",
     "performance polaris --channel             in a channel of brash, and minimum power by the ice class rules",
 )
@@ -28,7 +28,7 @@ included, and a second table has resistance and minimum power for the Finnish-Sw
 
 
 def values(one):
-    """Reads a list of numbers; they are sorted, and each is there once."""
+    """Reads a list of numbers, sorts it and removes repeated ones."""
     return lambda text: sorted(set(numbers(one)(text)))
 
 
@@ -36,40 +36,43 @@ thicknesses = values(number(1e-3, 20, "m"))
 
 
 def add_coefficients(parser):
-    """What the tables of resistance need."""
+    """Adds the options for tables of resistance."""
     which = parser.add_mutually_exclusive_group()
     for name, ice in (("--pack", "pack ice"), ("--level", "level ice"), ("--channel", "a channel of brash ice, 1.5 "
                                                                           "beams wide in fast ice")):
-        which.add_argument(name, help=f"Resistance in {ice} at each speed, instead", action="store_true")
-    meaning = "Speeds of these tables [m/s]; 1,2,4 if not given, and 1,2.572,4 in a channel (2.572 is 5 knots)"
+        which.add_argument(name, help=f"Compute the resistance in {ice} at each speed instead", action="store_true")
+    meaning = ("Speeds for --pack, --level and --channel [m/s]; 1,2,4 if not given, and 1,2.572,4 in a channel (2.572 is "
+               "5 knots)")
     parser.add("--speed", meaning, type=values(number(0.05, 20, "m/s")), metavar="LIST")
-    meaning = "Covers of pack ice or a channel; 0.5,0.7,0.85 and 0.8 if not given"
+    meaning = "Ice covers for --pack and --channel, as fractions; 0.5,0.7,0.85 and 0.8 if not given"
     parser.add("--cover", meaning, type=values(number(0.05, 0.95)), metavar="LIST")
-    meaning = "Floe sizes [m]; 20,40 in pack ice and 2 in a channel if not given"
+    meaning = "Floe sizes for --pack and --channel [m]; 20,40 and 2 if not given"
     parser.add("--floe-size", meaning, type=values(number(0.5, 1000, "m")), metavar="LIST")
-    meaning = "Random fields a point; 2 if not given"
+    meaning = "Number of random ice fields per point of the table; 2 if not given"
     parser.add("--fields", meaning, type=number(1, 1000, kind=int), default=2, metavar="N")
 
 
 def command_line():
-    meaning = "Find the speed that a ship keeps in level ice, by thickness"
+    meaning = "Find the speed that a ship can keep in level ice of each thickness"
     parser = Parser("polynya performance", meaning, EXAMPLES, REST)
-    parser.add("ship", "A preset (polynya ships), or a JSON file with a ship as scenes have it", metavar="SHIP")
-    meaning = "Thicknesses [m], as 0.4,0.8,1.2; ten up to where formulas stop the ship if not given"
+    meaning = "Name of a preset (polynya ships), or a JSON file with a ship in the form of a scene"
+    parser.add("ship", meaning, metavar="SHIP")
+    meaning = ("Thicknesses of the ice [m], such as 0.4,0.8,1.2; if not given, ten up to that at which the formulas "
+               "stop the ship")
     parser.add("--thickness", meaning, type=thicknesses, metavar="LIST")
-    meaning = f"Of the ice; {FLEXURAL_STRENGTH:g} if not given"
+    meaning = f"Flexural strength of the ice [Pa]; {FLEXURAL_STRENGTH:g} if not given"
     parser.add("--flexural-strength", meaning, type=number(1, 1e9, "Pa"), metavar="PA")
-    meaning = f"Of ice on the hull; {FRICTION:g} if not given"
+    meaning = f"Coefficient of friction of ice on the hull; {FRICTION:g} if not given"
     parser.add("--friction", meaning, type=number(0, 2), metavar="MU")
-    meaning = "Largest error of a mean speed, of that speed; 0.03 if not given"
+    meaning = "Largest accepted error of a mean speed, as a fraction of the speed; 0.03 if not given"
     parser.add("--error", meaning, type=number(0, 1, is_open=True), default=0.03, metavar="SHARE")
-    meaning = "Time step; 0.01 if not given, and with --pack, --level and --channel that of a scene without one"
+    meaning = "Time step [s]; 0.01 if not given, or with --pack, --level and --channel the default of a scene"
     parser.add("--step", meaning, type=number(1e-5, 1, "s"), metavar="S")
-    meaning = "Folder of the runs, the table and the figure; runs/performance-SHIP if not given"
+    meaning = "Folder for the runs, the table and the figure; runs/performance-SHIP if not given"
     parser.add("--out", meaning, metavar="DIR")
-    meaning = "Runs at a time; one a processor if not given"
+    meaning = "Number of runs at a time; one per processor if not given"
     parser.add("--jobs", meaning, type=number(1, 1024, kind=int), default=os.cpu_count() or 1, metavar="N")
     add_coefficients(parser)
-    parser.add("--list", "Print the formulas' speeds, with --channel the ice class rules, and run nothing",
+    parser.add("--list", "Print only the speeds by the formulas, with --channel the ice class rules, without a run",
                action="store_true")
     return parser

@@ -1,18 +1,18 @@
-"""How far the speed moves with each particular: the answer's sensitivity to what was stated, estimated or left at its
+"""Sensitivity of the speed to each particular of the ship: to those that were stated, estimated or left at their
 default."""
 import dataclasses
 import statistics
 
 from .. import formulas
 
-STEP = 0.1  # by which each particular is changed, of its value
-MOST_THICKNESSES = 3  # shown in the table
+STEP = 0.1  # relative change of each particular [-]
+MOST_THICKNESSES = 3  # largest number of thicknesses in the printed table
 
 
 @dataclasses.dataclass(frozen=True)
 class Particular:
-    """A particular of the ship or its ice: key, value in the key's unit, whose it is, and what a changed value makes of
-    (hull, engine, ice); None where it cannot be less."""
+    """A particular of the ship or its ice: key, value in the key's unit, source, and a function that returns (hull,
+    engine, ice) for a changed value. Some particulars cannot be reduced; the function then returns None."""
 
     key: str
     value: float
@@ -21,13 +21,13 @@ class Particular:
 
     @property
     def is_guess(self):
-        """Whether nobody stated it."""
+        """Returns True if nobody stated the value."""
         return self.source in ("estimated", "default")
 
 
 def particulars(ship, hull, engine, ice, sources, is_given):
-    """All particulars that the formulas use. `sources` says of each key of the ship whose it is, `is_given` of
-    "flexural_strength" and "friction" whether the command line had it."""
+    """All particulars that the formulas use. `sources` gives the source of each key of the ship; `is_given` whether the
+    command line had "flexural_strength" and "friction"."""
     found = []
 
     def of_hull(key, name):
@@ -73,8 +73,8 @@ def mean_speed(hull, engine, ice, thickness):
 
 
 def changes(particular, thicknesses, base):
-    """The change of the mean speed in ice of each thickness where the particular is a tenth less and a tenth more, or
-    there is one propeller more [m/s]. None where it cannot be less."""
+    """Change of the mean speed [m/s] in ice of each thickness if the particular is a tenth smaller and a tenth larger,
+    or if there is one propeller more. None if it cannot be smaller."""
     def change(sign, h, speed):
         changed = particular.changed(1 + sign * STEP)
         return None if changed is None else mean_speed(*changed, h) - speed
@@ -83,26 +83,27 @@ def changes(particular, thicknesses, base):
 
 
 def most_of(pairs):
-    """The largest change of all."""
+    """The largest change."""
     return max(abs(change) for pair in pairs for change in pair if change is not None)
 
 
 def table(found, thicknesses, hull, engine, ice):
-    """A row for each particular, those that nobody stated first, each part by how far the speed moves."""
+    """A row for each particular: first those that nobody stated, then the others, each group in order of the change of
+    speed."""
     base = [mean_speed(hull, engine, ice, h) for h in thicknesses]
     rows = [(one, changes(one, thicknesses, base)) for one in found]
     return sorted(rows, key=lambda row: (not row[0].is_guess, -most_of(row[1])))
 
 
 def shown_thicknesses(thicknesses):
-    """Where at most three of them stand in the list: the first, the middle one and the last."""
+    """At most three thicknesses of the list: the first, the middle and the last."""
     if len(thicknesses) <= MOST_THICKNESSES:
         return range(len(thicknesses))
     return (0, len(thicknesses) // 2, len(thicknesses) - 1)
 
 
 def as_rows(rows, thicknesses):
-    """The table for sensitivity.csv: a line for each particular and thickness."""
+    """Rows of sensitivity.csv, one for each particular and thickness."""
     return [{"particular": one.key, "value": one.value, "from": one.source, "thickness_m": h,
              "change_at_minus_10_percent_m_per_s": less, "change_at_plus_10_percent_m_per_s": more}
             for one, pairs in rows for h, (less, more) in zip(thicknesses, pairs)]

@@ -1,3 +1,3 @@
-"""Runs and studies read back (docs/python.md, "A run folder, a study's folder"): polynya.Run and polynya.Study.
+"""Reads runs and studies (docs/python.md, "A run folder, a study's folder"): polynya.Run and polynya.Study.
 
 Needs numpy."""

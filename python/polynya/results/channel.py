@@ -18,16 +18,16 @@ from .tables import read_csv, table
 
 @dataclasses.dataclass(frozen=True)
 class Channel:
-    """A channel at a time. `parts` has the shapes of channel.geojson by name, "open water" and "brash" among them: of
-    each polygon its rings, arrays of n × 2 [m]."""
+    """A channel at a time. `parts` has the shapes of channel.geojson by name, such as "open water" and "brash". Each
+    polygon is a list of rings, which are arrays of n × 2 [m]."""
 
-    stations: Any  #: the table of channel.csv
-    sums: dict  #: mean width, areas and so on, as `polynya channel --json`
+    stations: Any  #: table of channel.csv
+    sums: dict  #: mean width, areas and so on, as in `polynya channel --json`
     parts: dict
 
 
 def measure(folder, ship, time, pandas):
-    """Measures without a trace in the run folder."""
+    """Measures a channel without writing to the run folder."""
     with tempfile.TemporaryDirectory() as scratch:
         words = [program(), "channel", os.fspath(folder), "--out", scratch]
         words += ([] if time is None else ["--at", repr(float(time))]) + ([] if ship is None else ["--ship", ship])

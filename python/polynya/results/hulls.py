@@ -5,11 +5,13 @@ import math
 
 import numpy
 
-SAGITTA = 0.01  # of a cylinder's polygon [m], as `cylinder_waterline` of simulation/world/scene.cpp
+# Largest distance between a cylinder and its polygon [m], as in `cylinder_waterline` of simulation/world/scene.cpp.
+SAGITTA = 0.01
 
 
 def waterline(body):
-    """An array of n × 2: as given, a wedge bow's, a cylinder's, or that of a wall behind its face."""
+    """Waterline as an array of n × 2 [m]: the given one, or that of a wedge-shaped bow, a cylinder, or a wall behind
+    its face."""
     if "radius_m" in body:
         radius = body["radius_m"]
         half_turn = math.acos(max(-1.0, 1 - SAGITTA / radius))
@@ -28,8 +30,8 @@ def waterline(body):
 
 
 def first_motion(body):
-    """Where the scene puts it, at rest: x, y [m], heading [rad] and their rates; a wall's heading is that of its face,
-    to the left of `from_m` to `to_m`."""
+    """Initial pose at rest: x, y [m], heading [rad] and their rates. The heading of a wall is the direction of its
+    face, to the left of the line from `from_m` to `to_m`."""
     if "from_m" in body:
         (x0, y0), (x1, y1) = body["from_m"], body["to_m"]
         return [(x0 + x1) / 2, (y0 + y1) / 2, math.atan2(x1 - x0, y0 - y1), 0, 0, 0]

@@ -1,4 +1,5 @@
-"""Where everything is at any time of a run: frames.bin (docs/run-folder.md), between frames along straight lines."""
+"""Positions of all bodies at any time of a run, from frames.bin (docs/run-folder.md). Between frames, motion is
+linear."""
 from __future__ import annotations
 
 import numpy
@@ -6,13 +7,14 @@ import numpy
 from polynya.errors import FolderError, VersionError
 from polynya.files import read_bytes
 
-HEAD, FRAME_HEAD, SHIP, FLOE = 16, 24, 48, 56  # [bytes]
+HEAD, FRAME_HEAD, SHIP, FLOE = 16, 24, 48, 56  # sizes in the file [bytes]
 VERSION = 1
 FLOE_RECORD = numpy.dtype([("floe", "<i8"), ("motion", "<f8", 6)])
 
 
 class Motions:
-    """The records of a run's frames: of ships x, y [m], heading [rad] and their rates, of floes likewise."""
+    """Records of a run's frames: for ships x, y [m], heading [rad] and their rates, for floes the same with the
+    angle."""
 
     def __init__(self, path, floes):
         data = read_bytes(path)
@@ -29,7 +31,7 @@ class Motions:
             ship_count, floe_count = numpy.frombuffer(data, "<u4", 2, at + 4).tolist()
             end = at + FRAME_HEAD + SHIP * ship_count + FLOE * floe_count
             if end > len(data):
-                break  # the part of a frame that a killed run leaves
+                break  # incomplete frame of a killed run
             times.append(float(numpy.frombuffer(data, "<f8", 1, at + 16)[0]))
             ships.append(numpy.frombuffer(data, "<f8", 6 * ship_count, at + FRAME_HEAD).reshape(ship_count, 6))
             records.append(numpy.frombuffer(data, FLOE_RECORD, floe_count, at + FRAME_HEAD + SHIP * ship_count))
@@ -39,7 +41,7 @@ class Motions:
         self._index(records, floes)
 
     def _index(self, records, floes):
-        """Orders the records by floe, then by frame."""
+        """Sorts the records by floe, then by frame."""
         frame = numpy.repeat(numpy.arange(len(records)), [len(of) for of in records])
         floe = numpy.concatenate([of["floe"] for of in records]) if records else numpy.empty(0, numpy.int64)
         motion = numpy.concatenate([of["motion"] for of in records]) if records else numpy.empty((0, 6))
@@ -51,14 +53,14 @@ class Motions:
         self._first = numpy.searchsorted(floe[order], numpy.arange(floes + 1))
 
     def _last_record(self, floes, frame):
-        """Index of each floe's last record up to a frame, or its first one; -1 where it has none."""
+        """Index of each floe's last record up to a frame, or of its first one; -1 if it has none."""
         first, after = self._first[floes], self._first[floes + 1]
         found = numpy.searchsorted(self._keys, floes * max(1, len(self.times)) + frame, side="right") - 1
         return numpy.where(after > first, numpy.maximum(found, first), -1)
 
     def floes_at(self, floes, time):
-        """An array of n × 6 for the floes of these ids: x, y [m], turn [rad] and their rates; NaN where no frame has a
-        floe."""
+        """Returns an array of n × 6 for the floes with these ids: x, y [m], angle [rad] and their rates; NaN for a floe
+        that no frame has."""
         found = numpy.full((len(floes), 6), numpy.nan)
         if len(self._motion) == 0:
             return found
@@ -79,8 +81,8 @@ class Motions:
         return found
 
     def are_steady(self, floes, start, end):
-        """Of floes of these ids whether no frame changes their motion between two times [s], so that they go on at the
-        velocity they have: a mask."""
+        """Mask of the floes with these ids whose motion no frame changes between two times [s], so that they move at
+        constant velocity."""
         if len(self._motion) == 0:
             return numpy.zeros(len(floes), dtype=bool)
         here, after = (int(numpy.searchsorted(self.times, time, side="right")) - 1 for time in (start, end))
@@ -88,7 +90,7 @@ class Motions:
         return (last >= 0) & (last == self._last_record(floes, min(after + 1, len(self.times) - 1)))
 
     def ships_at(self, time):
-        """The same of every ship and structure; none where there is no frame."""
+        """The same for every ship and structure; no rows if there is no frame."""
         if len(self.times) == 0:
             return numpy.empty((0, 6))
         after = int(numpy.searchsorted(self.times, time, side="right"))
@@ -101,13 +103,13 @@ class Motions:
 
 
 def carried_on(motions, durations):
-    """Motions of some time ago [s], at their velocities."""
+    """Extrapolates motions by durations [s] at constant velocity."""
     later = motions.copy()
     later[:, :3] += numpy.asarray(durations)[:, None] * motions[:, 3:]
     return later
 
 
 def placed(ring, x, y, angle):
-    """A ring of a body in the world."""
+    """Returns a ring of a body in the world."""
     c, s = numpy.cos(angle), numpy.sin(angle)
     return numpy.column_stack((x + c * ring[:, 0] - s * ring[:, 1], y + s * ring[:, 0] + c * ring[:, 1]))

@@ -1,4 +1,4 @@
-"""A run folder read back, and the run at one time."""
+"""Reads a run folder, and the state of the run at a time."""
 from __future__ import annotations
 
 import functools
@@ -17,19 +17,19 @@ from .motions import Motions, placed
 from .shapes import Shapes
 from .tables import NONE, event_columns, optional, read_csv, table
 
-VERSION = 6  # of run folders, kRunFolderVersion of io/run/summary.hpp
+VERSION = 6  # version of run folders, kRunFolderVersion of io/run/run_folder.hpp
 
 
 class Run:
-    """A folder that `polynya run` wrote (docs/run-folder.md), read as its parts are asked for.
+    """A folder that `polynya run` wrote (docs/run-folder.md). Its parts are read when they are first used.
 
-    Tables are pandas' frames, or numpy's structured arrays where pandas is not installed (`pandas=True` insists on
-    frames, `False` on arrays). Their columns are those of the files, with their units in their names, and each number
-    is the file's. Floes are shapely's polygons, or GeoJSON's where shapely is not installed (`shapely=` likewise).
+    Tables are pandas frames, or numpy's structured arrays if pandas is not installed (`pandas=True` requires frames,
+    `False` gives arrays). Columns have the names and units of the files, and numbers are those of the files. Floes are
+    shapely polygons, or GeoJSON polygons if shapely is not installed (`shapely=` works in the same way).
 
-    Raises NotARunError, UnfinishedError (but with `unfinished=True`, which reads what is there), VersionError, and
-    FolderError with the file and the line where one is missing or damaged: the program reads the whole folder first, so
-    that this class reads nothing that `polynya inspect` would refuse."""
+    Raises NotARunError; UnfinishedError (except with `unfinished=True`, which reads the part that exists);
+    VersionError; and FolderError with the file and the line if a file is missing or damaged. The program reads the
+    whole folder first, so this class accepts only folders that `polynya inspect` accepts."""
 
     def __init__(self, folder: Union[str, os.PathLike[str]], *, unfinished: bool = False,
                  pandas: Optional[bool] = None, shapely: Optional[bool] = None):
@@ -45,9 +45,9 @@ class Run:
             self._check_version()
             raise
         self._check_version()
-        self.scene: dict = read_json(self.folder / "scene.json")  #: with every default filled in
-        self.summary: dict = read_json(self.folder / "summary.json")  #: how it went
-        self.version: int = int(self.summary.get("folder_version", 1))  #: of the folder
+        self.scene: dict = read_json(self.folder / "scene.json")  #: with all defaults filled in
+        self.summary: dict = read_json(self.folder / "summary.json")  #: contents of summary.json
+        self.version: int = int(self.summary.get("folder_version", 1))  #: version of the folder
         if not self.is_finished and not unfinished:
             stopped = self.summary.get("stopped_by")
             raise UnfinishedError(
@@ -55,7 +55,7 @@ class Run:
                 f": polynya resume {self.folder} continues it; Run(folder, unfinished=True) reads what is there")
 
     def _check_version(self):
-        """Refuses a folder that another version wrote, whatever else the program says of it."""
+        """Refuses a folder of another version, before the program's other messages about it."""
         try:
             summary = read_json(self.folder / "summary.json")
         except FolderError:
@@ -78,27 +78,27 @@ class Run:
 
     @property
     def name(self) -> str:
-        """The scene's."""
+        """Name of the scene."""
         return self.scene.get("name", self.folder.name)
 
     @property
     def is_finished(self) -> bool:
-        """Whether it ran to its end."""
+        """True if the run reached its end."""
         return bool(self.summary.get("finished", True))
 
     @property
     def ship_names(self) -> list[str]:
-        """Of ships, then of structures, then of walls: their order everywhere."""
+        """Names of ships, then structures, then walls; their order is the same everywhere."""
         return list(self.waterlines)
 
     @property
     def wall_names(self) -> set[str]:
-        """Of the scene's walls, which `waterlines` has among the others."""
+        """Names of the walls, which `waterlines` also contains."""
         return {wall["name"] for wall in self.scene.get("walls", [])}
 
     @functools.cached_property
     def waterlines(self) -> dict[str, numpy.ndarray]:
-        """Of ships, structures and walls, in their own frames [m], by name."""
+        """Waterlines of ships, structures and walls in their own frames [m], by name."""
         return {body["name"]: waterline(body) for body in self._bodies}
 
     @property
@@ -109,24 +109,25 @@ class Run:
 
     @property
     def forces(self) -> Any:
-        """forces.csv: loads and motion, a row for each ship or structure and interval."""
+        """forces.csv: loads and motion, one row for each ship or structure and interval."""
         return table(self.force_columns, self.pandas)
 
     @property
     def events(self) -> Any:
-        """events.ndjson, a row an event: `point_m` as `x_m`, `y_m`, `normal` as `normal_x`, `normal_y`, a mooring's
-        `offset_m` as `offset_along_m`, `offset_across_m`, the members of `criterion` by their names, its kind as
-        `criterion`; -1 where there is no floe, NaN where there is no number. `children` holds tuples."""
+        """events.ndjson, one row per event. `point_m` becomes `x_m`, `y_m`; `normal` becomes `normal_x`, `normal_y`;
+        the `offset_m` of a mooring becomes `offset_along_m`, `offset_across_m`. Members of `criterion` keep their
+        names, and its kind becomes `criterion`. -1 means no floe, NaN no number. `children` holds tuples."""
         return table(self.event_columns, self.pandas)
 
     @property
     def contacts(self) -> Any:
-        """contacts.csv: who touched whom at every frame; -1 where a body is no floe."""
+        """contacts.csv: contacts at every frame; -1 if a body is no floe."""
         return table(self._contact_rows(of_peaks=False), self.pandas)
 
     @property
     def peaks(self) -> Any:
-        """contacts.csv: the peaks of the forces of contacts with hulls, as time goes, with what ended each."""
+        """contacts.csv: peaks of the forces of contacts with hulls, in order of time, with the reason why each contact
+        ended."""
         return table(self._contact_rows(of_peaks=True), self.pandas)
 
     def _contact_rows(self, of_peaks):
@@ -144,37 +145,38 @@ class Run:
 
     @property
     def panels(self) -> Any:
-        """panels.csv: what the ice did to each panel that it pressed in an interval; of scenes whose hulls have
-        panels."""
+        """panels.csv: loads of ice on each panel that it pressed in an interval, for scenes whose hulls have panels."""
         return self._table("panels.csv", "no ship or structure of the scene has panels, or its version")
 
     @property
     def crushed(self) -> Any:
-        """crushed.csv: how much of their overlap two bodies have crushed."""
+        """crushed.csv: paid area of the overlap of each pair of bodies."""
         return self._table("crushed.csv", "run folders of version 2 and before")
 
     @property
     def states(self) -> Any:
-        """states.csv: a hash of everything that moves, of every frame."""
+        """states.csv: a hash of the whole state at every frame."""
         return self._table("states.csv", "runs of early versions")
 
     @property
     def channel(self) -> Any:
-        """channel.csv, a row a station, where `polynya channel` wrote it; `measure_channel` measures at any time."""
+        """channel.csv, one row per station, if `polynya channel` has written it. `measure_channel` measures at any
+        time."""
         if not (self.folder / "channel.csv").exists():
             raise FolderError(f"{self.folder / 'channel.csv'}: is not there: polynya channel {self.folder} writes it; "
                               "Run.measure_channel() measures without writing")
         return table(read_csv(self.folder / "channel.csv"), self.pandas)
 
     def measure_channel(self, time: Optional[float] = None, ship: Optional[str] = None) -> channels.Channel:
-        """The channel behind a ship (the first one) at a time [s] (the end), by the program `polynya channel`."""
+        """Measures the channel behind a ship (the first by default) at a time [s] (the end by default) with `polynya
+        channel`."""
         return channels.measure(self.folder, ship, time, self.pandas)
 
     @property
     def floes(self) -> Any:
-        """floes.ndjson: every floe that there was, with `died_s`, when it broke, and `went_under_s`, when it went under
-        a hull (infinite where it did not), and whether it, or one that it broke from, `came_up` from there. The shapes
-        are in `frame(time)`."""
+        """floes.ndjson: all floes of the run. `died_s` is the time at which a floe broke, `went_under_s` the time at
+        which it went under a hull (infinite if it did not); `came_up` is true if it, or a floe from which it broke,
+        surfaced from there. `frame(time)` has the shapes."""
         return table(self.births, self.pandas)
 
     def _table(self, name, lacking):
@@ -188,29 +190,29 @@ class Run:
 
     @functools.cached_property
     def force_columns(self) -> dict[str, numpy.ndarray]:
-        """The columns of `forces`."""
+        """Columns of `forces`."""
         return read_csv(self.folder / "forces.csv")
 
     @functools.cached_property
     def event_columns(self) -> dict[str, numpy.ndarray]:
-        """The columns of `events`."""
+        """Columns of `events`."""
         return event_columns(read_json_lines(self.folder / "events.ndjson"))
 
     # Frames
 
     @property
     def times(self) -> numpy.ndarray:
-        """Of the recorded frames [s]."""
+        """Times of the recorded frames [s]."""
         return self.motions.times
 
     @property
     def start_time(self) -> float:
-        """Of the first frame [s]."""
+        """Time of the first frame [s]."""
         return float(self.times[0]) if len(self.times) else 0.0
 
     @property
     def end_time(self) -> float:
-        """Of the last frame [s]."""
+        """Time of the last frame [s]."""
         return float(self.times[-1]) if len(self.times) else 0.0
 
     @property
@@ -230,22 +232,22 @@ class Run:
 
     @functools.cached_property
     def shapes(self) -> Shapes:
-        """Of floes, in their body frames."""
+        """Shapes of floes in their body frames."""
         return Shapes(self._lines, self.folder / "floes.ndjson")
 
     @functools.cached_property
     def motions(self) -> Motions:
-        """The records of frames.bin."""
+        """Records of frames.bin."""
         return Motions(self.folder / "frames.bin", len(self._lines))
 
     @functools.cached_property
     def centroids(self) -> numpy.ndarray:
-        """Of floes, in their body frames, n × 2 [m]."""
+        """Centroids of floes in their body frames, n × 2 [m]."""
         return numpy.array([line["centroid_m"] for line in self._lines], dtype=float).reshape(-1, 2)
 
     @functools.cached_property
     def births(self) -> dict[str, numpy.ndarray]:
-        """The columns of `floes`, by floe id."""
+        """Columns of `floes`, by floe id."""
         lines = self._lines
         columns = {"floe_id": numpy.arange(len(lines))}
         columns["parent_id"] = numpy.array([NONE if line["parent_id"] is None else line["parent_id"]
@@ -258,7 +260,7 @@ class Run:
         for time, kind, floe, children in zip(events["t_s"], events["kind"], events["floe"].tolist(),
                                               events["children"]):
             if not 0 <= floe < len(lines):
-                continue  # of ships that touch
+                continue  # events of ships that touch have no floe
             if kind == "submerge":
                 went_under[floe] = time
             elif kind != "rejected_cut":
@@ -270,13 +272,12 @@ class Run:
 
     @property
     def first_motions(self) -> numpy.ndarray:
-        """Where the scene puts ships, structures and walls, at rest: x, y, heading and their rates."""
+        """Initial poses of ships, structures and walls at rest: x, y, heading and their rates."""
         return numpy.array([first_motion(body) for body in self._bodies], dtype=float).reshape(-1, 6)
 
 
 class Frame:
-    """Where ships and floes of a run are at a time. Floes are in the order of their ids; those under hulls are among
-    them."""
+    """Ships and floes of a run at a time. Floes are in the order of their ids and include those under hulls."""
 
     def __init__(self, run: Run, time: float):
         self._run = run
@@ -288,16 +289,16 @@ class Frame:
 
     @property
     def ships(self) -> Any:
-        """A table: `ship`, `x_m`, `y_m`, `heading_rad`, `vx_m_per_s`, `vy_m_per_s`, `yaw_rate_rad_per_s`."""
+        """Table with `ship`, `x_m`, `y_m`, `heading_rad`, `vx_m_per_s`, `vy_m_per_s`, `yaw_rate_rad_per_s`."""
         names = ("x_m", "y_m", "heading_rad", "vx_m_per_s", "vy_m_per_s", "yaw_rate_rad_per_s")
         return table({"ship": numpy.array(self._run.ship_names, dtype=object),
                       **dict(zip(names, self.ship_motions.T))}, self._run.pandas)
 
     @property
     def floes(self) -> Any:
-        """A table: `floe_id`, `parent_id` (-1 of a floe of the scene), `born_s`, `generation`, `area_m2`, `mass_kg`,
-        `is_under` a hull, `came_up` from under one (or broke from such a floe), the centre of mass `x_m`, `y_m`, the
-        turn `angle_rad`, and their rates, NaN where no frame has the floe."""
+        """Table with `floe_id`, `parent_id` (-1 for a floe of the scene), `born_s`, `generation`, `area_m2`, `mass_kg`,
+        `is_under` (under a hull), `came_up` (it, or a floe from which it broke, surfaced from under a hull), the centre
+        of mass `x_m`, `y_m`, the rotation `angle_rad`, and their rates, NaN if no frame has the floe."""
         births = {name: values[self._ids] for name, values in self._run.births.items()
                   if name not in ("died_s", "went_under_s")}
         names = ("x_m", "y_m", "angle_rad", "vx_m_per_s", "vy_m_per_s", "spin_rad_per_s")
@@ -305,13 +306,13 @@ class Frame:
 
     @property
     def rings(self) -> list[list[numpy.ndarray]]:
-        """Of each floe its outer ring and its holes in the world, arrays of n × 2 [m], not closed."""
+        """For each floe its outer ring and its holes in the world, arrays of n × 2 [m], not closed."""
         shapes = self._run.shapes.of(self._ids)
         return [[placed(ring, *pose) for ring in shapes[floe]] for floe, pose in zip(self._ids.tolist(), self._poses)]
 
     @property
     def polygons(self) -> list[Any]:
-        """Of each floe a shapely Polygon in the world [m], or a GeoJSON Polygon, a dict, where shapely is not
+        """For each floe a shapely Polygon in the world [m], or a GeoJSON Polygon (a dict) if shapely is not
         installed."""
         return [polygon_of(rings, self._run.shapely) for rings in self.rings]
 
@@ -323,17 +324,17 @@ class Frame:
 
     @functools.cached_property
     def is_under(self) -> numpy.ndarray:
-        """Which of the floes are under a hull, or wait behind it for room."""
+        """Mask of the floes that are under a hull, or wait behind it for room to surface."""
         return self._run.births["went_under_s"][self._ids] <= self.time
 
     @property
     def ids(self) -> numpy.ndarray:
-        """Of the floes."""
+        """Ids of the floes."""
         return self._ids
 
     @property
     def poses(self) -> numpy.ndarray:
-        """Of each floe's body frame in the world, n × 3: x, y [m], angle [rad]; its shape is in `run.shapes`."""
+        """Pose of each floe's body frame in the world, n × 3: x, y [m], angle [rad]. `run.shapes` has the shapes."""
         return self._poses
 
     @functools.cached_property
@@ -343,7 +344,7 @@ class Frame:
 
     @functools.cached_property
     def ship_motions(self) -> numpy.ndarray:
-        """n × 6, as the columns of `ships`."""
+        """Motions of ships, n × 6, as the columns of `ships`."""
         moved = self._run.motions.ships_at(self.time)
         return moved if len(moved) else self._run.first_motions
 
@@ -353,8 +354,8 @@ class Frame:
 
     @functools.cached_property
     def _poses(self):
-        """Of each floe's body frame in the world: x, y, angle; of a floe that no frame has, that of the one it broke
-        from."""
+        """Poses of the floes' body frames in the world: x, y, angle. A floe that no frame has is placed as the floe
+        from which it broke."""
         poses = body_poses(self._recorded, self._run.centroids[self._ids])
         parents = self._run.births["parent_id"]
         for i in numpy.flatnonzero(numpy.isnan(poses[:, 0])):
@@ -371,7 +372,7 @@ class Frame:
 
     @functools.cached_property
     def _motions(self):
-        """The records, and where there is none the centre of mass where the pose puts it."""
+        """Motions by the records; without a record, the centre of mass at its place by the pose."""
         found, (x, y, angle) = self._recorded.copy(), self._poses.T
         centre = self._run.centroids[self._ids]
         c, s = numpy.cos(angle), numpy.sin(angle)
@@ -398,7 +399,7 @@ class Frames:
 
 
 def body_poses(motions, centroids):
-    """The body frames of floes whose centres of mass move so: x, y, angle."""
+    """Body frames, as x, y, angle, of floes whose centres of mass have these motions."""
     x, y, angle = motions[:, 0], motions[:, 1], motions[:, 2]
     c, s = numpy.cos(angle), numpy.sin(angle)
     return numpy.column_stack(
@@ -406,7 +407,7 @@ def body_poses(motions, centroids):
 
 
 def polygon_of(rings, shapely):
-    """A shapely Polygon of rings, or a GeoJSON one."""
+    """Makes a shapely Polygon, or a GeoJSON one, from rings."""
     geometry = optional("shapely.geometry", shapely)
     if geometry:
         return geometry.Polygon(rings[0], rings[1:])

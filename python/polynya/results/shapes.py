@@ -1,23 +1,23 @@
-"""The shapes of a run's floes, in their body frames: whole rings, or parts of their parents' (docs/run-folder.md,
-"floes.ndjson")."""
+"""Shapes of a run's floes in their body frames. The file has whole rings, or references to the rings of parents
+(docs/run-folder.md, "floes.ndjson")."""
 from __future__ import annotations
 
 import numpy
 
 from polynya.errors import FolderError
 
-MOST_KEPT = 8 << 20  # vertices of assembled shapes, 128 MB
+MOST_KEPT = 8 << 20  # largest number of vertices of assembled shapes that are kept, 128 MB
 
 
 class Shapes:
-    """Assembles shapes as they are asked for, and keeps the newest."""
+    """Assembles shapes when they are needed, and keeps the newest ones."""
 
     def __init__(self, births, path):
         self._births, self._path = births, path
         self._kept, self._vertices = {}, 0
 
     def of(self, floes):
-        """{id: [outer ring, holes …]} of some floes, each ring an array of n × 2 [m]."""
+        """{id: [outer ring, holes …]} of some floes; each ring is an array of n × 2 [m]."""
         wanted = {int(floe) for floe in floes}
         needed, waiting = set(), list(wanted)
         while waiting:
@@ -32,7 +32,7 @@ class Shapes:
             if floe not in self._kept and "ring_parts_m" in self._births[floe]:
                 parent = self._parent_of(floe)
                 children[parent] = children.get(parent, 0) + 1
-        for floe in sorted(needed):  # a parent is older than its child
+        for floe in sorted(needed):  # a parent has a smaller id than its children
             found[floe] = self._kept[floe] if floe in self._kept else self._assembled(floe, found, children, wanted)
         shapes = {floe: found[floe] for floe in wanted}
         self._keep(shapes)
@@ -78,7 +78,7 @@ def ring_of(points):
 
 
 def vertices(part, parent):
-    """A part of a ring: new vertices, or a stretch of one of the parent's rings."""
+    """Vertices of a part of a ring: new ones, or a stretch of one of the parent's rings."""
     if isinstance(part[0], list):
         return numpy.array(part, dtype=float)
     ring, first, count = part

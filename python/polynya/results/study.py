@@ -1,4 +1,4 @@
-"""A study's folder read back."""
+"""Reads a study's folder."""
 from __future__ import annotations
 
 import os
@@ -20,9 +20,9 @@ from .tables import table
 class Study:
     """A folder that `polynya study` planned, ran and gathered (docs/studies.md).
 
-    Raises NotAStudyError, VersionError, FolderError where the table is not gathered, and UnfinishedError where it lacks
-    cases, but with `unfinished=True`: `table["state"]` then has which are "finished", "failed", "unfinished" or
-    "missing"."""
+    Raises NotAStudyError; VersionError; FolderError if the table has not been gathered; and UnfinishedError if cases
+    are missing, except with `unfinished=True`. `table["state"]` then says which cases are "finished", "failed",
+    "unfinished" or "missing"."""
 
     def __init__(self, folder: Union[str, os.PathLike[str]], *, unfinished: bool = False,
                  pandas: Optional[bool] = None):
@@ -38,8 +38,8 @@ class Study:
             raise VersionError(str(error)) from None
         if not (self.folder / SUMMARY).is_file() or not (self.folder / TABLE).is_file():
             raise FolderError(f"{self.folder}: the study has no table: polynya study gather {self.folder} makes it")
-        self.plan: dict = self._study.plan  #: what was planned
-        self.summary: dict = read_summary(self.folder)  #: of the table: how many cases have which state
+        self.plan: dict = self._study.plan  #: contents of plan.json
+        self.summary: dict = read_summary(self.folder)  #: summary of the table, with the number of cases in each state
         if not self.summary["is_complete"] and not unfinished:
             raise UnfinishedError(
                 f"{self.folder}: {self.summary['finished']} of {self.summary['cases']} cases are in the table: polynya "
@@ -56,28 +56,28 @@ class Study:
 
     @property
     def name(self) -> str:
-        """The study's, not its folder's."""
+        """Name of the study, which may differ from its folder."""
         return self.plan["name"]
 
     @property
     def parameters(self) -> list[str]:
-        """Names of the columns with what the study varies."""
+        """Names of the columns with the varied parameters."""
         return list(self.summary["parameters"])
 
     @property
     def measures(self) -> list[str]:
-        """Names of the columns with what it measured."""
+        """Names of the columns with measures."""
         return [name for name in self.summary["columns"] if name not in ("case", "state", *self.parameters)]
 
     @property
     def table(self) -> Any:
-        """table.csv, a row a case: a pandas frame, or a structured array. Columns are numbers where all values are,
-        else words; NaN where there is none."""
+        """table.csv, one row per case, as a pandas frame or a structured array. A column has numbers if all its values
+        are numbers, otherwise texts; NaN means no value."""
         cells = read_cells(self.folder / TABLE)
         return table({name: values_of(name, of, cells.path) for name, of in cells.items()}, self._pandas)
 
     def run(self, case: int, **options: Any) -> Run:
-        """A case's run, where the study keeps runs (`keep`) and the case is not packed; options as those of Run."""
+        """The run of a case, if the study keeps runs (`keep`) and the case is not packed. Options are those of Run."""
         if not 0 <= case < self._study.count:
             raise IndexError(f"there is no case {case}; the study has 0 to {self._study.count - 1}")
         found = self._study.case_folder(case) / folders.RUN

@@ -1,4 +1,4 @@
-"""Columns of files, and the tables they become: pandas' frames, or numpy's structured arrays."""
+"""Columns of files as tables: pandas frames, or numpy's structured arrays."""
 from __future__ import annotations
 
 import importlib
@@ -8,15 +8,15 @@ import numpy
 from polynya import files
 from polynya.errors import FolderError, how_to_get
 
-NONE = -1  #: the id of no floe
+NONE = -1  #: id that means no floe
 LARGEST_WHOLE = 2.0**53
 WORDS = {"ship", "by_ship", "state_hash", "ended_by"}
 WHOLE = {"floe_id", "by_floe_id", "steps", "station", "contacts", "contacts_with_ships", "rams", "panel", "row"}
 
 
 def optional(name, wanted):
-    """A module where it is installed and `wanted` is None, one that must be there where it is True, none where it is
-    False."""
+    """Imports a module if it is installed and `wanted` is None. It must be installed if `wanted` is True, and is not
+    used if it is False."""
     if wanted is False:
         return None
     try:
@@ -29,7 +29,7 @@ def optional(name, wanted):
 
 
 def table(columns, pandas=None):
-    """Columns of equal length as a pandas.DataFrame, or as a structured array where pandas is not installed or
+    """Returns columns of equal length as a pandas.DataFrame, or as a structured array if pandas is not installed or is
     False."""
     frames = optional("pandas", pandas)
     if frames:
@@ -42,8 +42,8 @@ def table(columns, pandas=None):
 
 
 def column(name, cells, path):
-    """The values of a column, by its name (docs/run-folder.md): words, whole numbers (-1 where there is none), yes or
-    no, else numbers."""
+    """Values of a column, whose type follows from its name (docs/run-folder.md): texts, whole numbers (-1 for none),
+    truth values, or else numbers."""
     if name in WORDS:
         return numpy.array(cells, dtype=object)
     values = numpy.array(files.numbers(cells, path, name), dtype=float)
@@ -57,7 +57,7 @@ def column(name, cells, path):
 
 
 def read_csv(path):
-    """The columns of a run's table by name, each number as it is in the file."""
+    """Columns of a run's table by name, with the numbers exactly as in the file."""
     return files.Columns({name: column(name, cells, path) for name, cells in files.read_cells(path).items()}, path)
 
 
@@ -66,8 +66,8 @@ FIRST = {"t_s": float, "kind": str, "ship": str, "by_ship": str, "floe": int, "p
 
 
 def flattened(event):
-    """An event's members in one row: its point, normal and offset by coordinates, what decided it by name, with the
-    rule as `criterion`."""
+    """Members of an event in one row. Point, normal and offset become coordinates; members of the criterion keep their
+    names, and its rule becomes `criterion`."""
     row = {}
     for key, value in event.items():
         if key == "point_m":
@@ -84,8 +84,7 @@ def flattened(event):
 
 
 def event_columns(events):
-    """Columns of events.ndjson: -1 where there is no floe, NaN where there is no number, an empty word where there is
-    none."""
+    """Columns of events.ndjson. -1 means no floe, NaN no number, an empty text no text."""
     rows = [flattened(event) for event in events]
     kinds = dict(FIRST)
     kinds.update({name: float for name in ("x_m", "y_m", "normal_x", "normal_y")})

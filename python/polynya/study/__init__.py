@@ -1,2 +1,2 @@
-"""Many runs of one scene: `polynya study` (docs/studies.md). Only `report` needs more than Python's standard
+"""Many runs of one scene: `polynya study` (docs/studies.md). Only `report` needs packages outside of Python's standard
 library."""

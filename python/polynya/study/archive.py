@@ -1,4 +1,4 @@
-"""Chunks as one file each: millions of small files are what a cluster's file system bears least."""
+"""Packs chunks of cases into one file each, because a cluster's file system is slow with millions of small files."""
 import io
 import json
 import os
@@ -9,14 +9,14 @@ from ..files import naming, open_regular
 from .case import is_result, state_of
 from .located_json import StudyError
 
-ROWS = "results.ndjson"  # first in an archive: the results of its cases, a line each
+ROWS = "results.ndjson"  # first member of an archive: the results of its cases, one per line
 
 
 def pack(study, chunk):
-    """Packs a chunk whose cases have all ended, and removes its folders. False where one has not. Of two processes that
-    pack a chunk, the second finds the first one's archive and leaves it."""
+    """Packs a chunk whose cases have all ended, and removes its folders. Returns False if a case has not ended. If two
+    processes pack the same chunk, the second one finds the archive of the first and keeps it."""
     if study.archive(chunk).exists():
-        remove_folders(study, chunk)  # a kill may have left some
+        remove_folders(study, chunk)  # a killed process may have left folders
         return True
     results = []
     for number in study.cases_of(chunk):
@@ -27,7 +27,7 @@ def pack(study, chunk):
     draft = study.archive(chunk).with_suffix(f".{os.getpid()}.tmp")
     try:
         write_archive(study, chunk, draft, "".join(results).encode())
-        os.link(draft, study.archive(chunk))  # unlike a rename, never replaces one
+        os.link(draft, study.archive(chunk))  # unlike a rename, this never replaces an archive
     except (FileNotFoundError, FileExistsError):
         if not study.archive(chunk).exists():
             raise
@@ -51,7 +51,7 @@ def write_archive(study, chunk, draft, results):
 
 
 def unpack(study, chunk):
-    """Makes an archive the folders that it was, to run a case of it again."""
+    """Restores the folders of an archive, so that one of its cases can run again."""
     home = study.chunk_folder(chunk) if study.chunk_size > 1 else study.folder / "cases"
     remove_folders(study, chunk)
     draft = study.archive(chunk).with_suffix(f".{os.getpid()}.tmp")
@@ -66,12 +66,12 @@ def unpack(study, chunk):
 
 
 def chunks_of(study, numbers):
-    """The chunks of some cases, in order."""
+    """Chunks of some cases in order."""
     return sorted({number // study.chunk_size for number in numbers})
 
 
 def unpack_to_run(study, numbers, keep, retries_failed):
-    """Unpacks the chunks of which a case is to run again: to keep its run, or because it failed."""
+    """Unpacks the chunks with a case that must run again, to keep its run or because it failed."""
     for chunk in chunks_of(study, numbers) if keep == "all" or retries_failed else []:
         if not study.archive(chunk).exists():
             continue
@@ -82,7 +82,7 @@ def unpack_to_run(study, numbers, keep, retries_failed):
 
 
 def remove_folders(study, chunk):
-    """Removes a packed chunk's folders."""
+    """Removes the folders of a packed chunk."""
     if study.chunk_size > 1:
         shutil.rmtree(study.chunk_folder(chunk), ignore_errors=True)
     else:
@@ -91,10 +91,10 @@ def remove_folders(study, chunk):
 
 
 def results_of(study, chunk):
-    """The results of a packed chunk's cases, in order."""
+    """Results of the cases of a packed chunk, in order."""
     try:
         with open_regular(study.archive(chunk)) as file, tarfile.open(fileobj=file, mode="r:") as tar:
-            first = tar.next()  # extractfile(ROWS) would go through all of it
+            first = tar.next()  # extractfile(ROWS) would read the whole archive
             text = tar.extractfile(first).read().decode() if first is not None and first.name == ROWS else ""
             results = [json.loads(line) for line in text.splitlines()]
             if len(results) == len(study.cases_of(chunk)) and all(map(is_result, results)):

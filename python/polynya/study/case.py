@@ -1,4 +1,4 @@
-"""One case: run, resumed or found finished, in its own folder."""
+"""Runs one case in its own folder, resumes it, or finds it finished."""
 import ctypes
 import errno
 import fcntl
@@ -18,22 +18,22 @@ from . import measures
 from .folder import RESULT, RUN, write_atomically
 
 DONE, FAILED, INPUT_OUTPUT, STOPPED = 0, 4, 5, 75
-# Of a run that another signal or the lack of memory ended (docs/run-folder.md).
+# Value of `stopped_by` for a run that another signal or a lack of memory ended (docs/run-folder.md).
 KILLED = "still running, or killed"
-# A run that ends so would do it again: a defect of the program, where other signals come from the machine.
+# Signals that mean an error of the program, which would occur again. Other signals come from the machine.
 CRASHES = (signal.SIGABRT, signal.SIGSEGV, signal.SIGBUS, signal.SIGFPE, signal.SIGILL)
-KEPT_WORDS = 2000  # of a failed run's messages [characters]
+KEPT_WORDS = 2000  # length of a failed run's messages that is kept [characters]
 PR_SET_PDEATHSIG = 1
 LIBC = ctypes.CDLL(None)
 
 
 def die_with_parent(number):
-    """Has the kernel send this process a signal when its parent ends, however that comes."""
+    """Asks the kernel to send this process a signal when its parent ends for any reason."""
     LIBC.prctl(PR_SET_PDEATHSIG, number)
 
 
 def state_of(folder):
-    """\"finished\", \"failed\", \"unfinished\" or \"missing\", and the result where there is one."""
+    """"finished", "failed", "unfinished" or "missing", and the result if there is one."""
     if not (folder / RESULT).exists():
         return ("unfinished" if (folder / RUN).exists() else "missing"), None
     try:
@@ -44,7 +44,7 @@ def state_of(folder):
 
 
 def is_result(result):
-    """Whether a value read from a file is the result of a case."""
+    """Returns True if a value read from a file is the result of a case."""
     if not isinstance(result, dict):
         return False
     kinds = {"finished": {"measures": dict}, "failed": {"message": str}}.get(result.get("state"))
@@ -52,9 +52,9 @@ def is_result(result):
 
 
 def run_case(study, number, stop=None, keep=None):
-    """Brings a case to its end and returns (exit code, message). A finished one returns at once. `stop` is a file
-    descriptor: when it can be read, the run is stopped with a checkpoint. `keep` "all" brings back the run folder of a
-    case whose records were thinned."""
+    """Runs a case to its end and returns (exit code, message). A finished case returns at once. When the file
+    descriptor `stop` becomes readable, the run is stopped with a checkpoint. `keep` = "all" restores the run folder of
+    a case whose records were thinned."""
     if stop is not None and select.select([stop], [], [], 0)[0]:
         return STOPPED, ""
     folder = study.case_folder(number)
@@ -75,7 +75,7 @@ def run_case(study, number, stop=None, keep=None):
 
 
 def carry(study, number, folder, lock, stop, keep):
-    """Runs or resumes, then measures and writes the result."""
+    """Runs or resumes the case, then measures it and writes the result."""
     run, began = folder / RUN, time.monotonic()
     (folder / RESULT).unlink(missing_ok=True)
     if not is_finished(run):
@@ -100,7 +100,8 @@ def carry(study, number, folder, lock, stop, keep):
     write_atomically(folder / RESULT, json.dumps(result) + "\n")
     if keep == "summary":
         shutil.rmtree(run, ignore_errors=True)
-    for checkpoint in run.glob("checkpoint-*.bin"):  # cases are not made longer: thousands of these would be a lot
+    # Cases are never extended, and thousands of checkpoints need much space.
+    for checkpoint in run.glob("checkpoint-*.bin"):
         checkpoint.unlink()
     return DONE, ""
 
@@ -111,8 +112,8 @@ def case_in_words(study, number):
 
 
 def failed(study, number, folder, code, words):
-    """Records a failure that another try would repeat. What the machine is to blame for, a full disk or too little
-    memory, leaves the case unfinished."""
+    """Records a failure that would occur again. A failure of the machine, such as a full disk or a lack of memory,
+    leaves the case unfinished."""
     words = words.strip()[-KEPT_WORDS:] or without_words(folder, code)
     is_killed = code > 0 and summary_of(folder / RUN).get("stopped_by") == KILLED
     if code == INPUT_OUTPUT or is_killed:
@@ -123,20 +124,21 @@ def failed(study, number, folder, code, words):
 
 
 def without_words(folder, code):
-    """What is known of a run that left no message. A full disk keeps the run's message from being written, too."""
+    """Describes a run that left no message. A full disk also prevents the run from writing its message."""
     is_full = os.statvfs(folder).f_bavail == 0
     return f"exit code {code}" + (f"; {folder}: {os.strerror(errno.ENOSPC)}" if is_full else "")
 
 
 def gist(words):
-    """The line of a program's messages that says why it ended: its own, else the first problem of a scene."""
+    """The line of a program's messages that says why it ended: its own message, otherwise the first problem of a
+    scene."""
     lines = words.splitlines()
     stops = [line for line in lines if line.startswith("polynya: ") and "nothing was written" not in line]
     return (stops or lines)[0].removeprefix("polynya: ")
 
 
 def summary_of(run):
-    """The summary of a run; empty where it cannot be read."""
+    """Summary of a run; empty if it cannot be read."""
     try:
         return files.read_json(run / "summary.json")
     except FolderError:
@@ -158,12 +160,13 @@ def command_of(study, number, run):
 
 
 def run_program(words, lock, stop):
-    """The exit code of a program and what it wrote to stderr. It holds the case's lock as long as it lives, and stops
-    with a checkpoint where we are killed."""
+    """Runs a program. Returns its exit code and its output on stderr. The program holds the case's lock as long as it
+    runs, and stops with a checkpoint if this process is killed."""
 
     def in_child():
         die_with_parent(signal.SIGHUP)
-        for number in (signal.SIGINT, signal.SIGHUP):  # a shell's background job ignores them, and polynya would too
+        # Background jobs of a shell ignore them, and polynya would inherit that.
+        for number in (signal.SIGINT, signal.SIGHUP):
             signal.signal(number, signal.SIG_DFL)
 
     with open(os.path.join(f"/proc/self/fd/{lock}", "messages.txt"), "w+b") as messages:
@@ -180,7 +183,7 @@ def run_program(words, lock, stop):
         try:
             ready, _, _ = select.select([ended] + ([stop] if stop is not None else []), [], [])
             if ended not in ready:
-                # Not SIGTERM: Slurm sends that to every process of a job, and polynya ends at once on a second one.
+                # SIGTERM is not used: Slurm sends it to every process of a job, and a second one ends polynya at once.
                 child.send_signal(signal.SIGINT)
             code = child.wait()
         finally:

@@ -1,4 +1,4 @@
-"""A small multiple of channels: the ice and the ships at the end of some runs."""
+"""A picture with many small panels: the ice and the ships at the end of some runs."""
 from matplotlib.collections import PolyCollection
 
 from ..figures.page import Page, Sheet, plain
@@ -7,11 +7,11 @@ from .folder import RUN
 from .measures import rows_by_ship
 from .pictures import group_label, save
 
-COLUMNS, SMALL = 4, 6  # of panels; size of their titles [pt]
+COLUMNS, SMALL = 4, 6  # number of columns of panels; font size of their titles [pt]
 
 
 def choose(study, sample, group_by, count):
-    """Cases whose run is kept: of each group as many, evenly, and not more than `count` in all."""
+    """Selects cases whose run is kept: the same number from each group, evenly spaced, and at most `count` in total."""
     groups = sample.groups(group_by)
     each, chosen = max(1, count // len(groups)), []
     for _, cases in groups if count > 0 else []:
@@ -51,7 +51,7 @@ def draw(study, sample, numbers, group_by, folder):
 
 
 def read_end(folder):
-    """The rings of the ice at the end of a run, and its ships: track and waterline in the world."""
+    """Rings of the ice at the end of a run, and its ships: track and waterline in the world."""
     run = Run(folder, unfinished=True, pandas=False, shapely=False)
     frame, rows = run.frame(run.end_time), rows_by_ship(run.folder / "forces.csv")
     names = [ship["name"] for ship in run.scene["ships"]]

@@ -1,4 +1,4 @@
-"""A study's file: its keys, and everything that is wrong with one (docs/studies.md)."""
+"""The file of a study: its keys, and all checks of it (docs/studies.md)."""
 import dataclasses
 import difflib
 import math
@@ -11,8 +11,8 @@ from .expand import repeats_by_seed
 from .located_json import LocatedJson, StudyError, shortened, shown
 
 LARGEST_SEED = 2**53 - 1
-LONGEST_RANGE = 10**6  # values
-LONGEST_NAME = 1000  # of a file [characters]
+LONGEST_RANGE = 10**6  # largest number of values of a range
+LONGEST_NAME = 1000  # longest file name [characters]
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
 KEYS = (
     "name",
@@ -33,22 +33,22 @@ KEYS = (
 COLLECT_KEYS = ("ship", "from_s", "from_m", "loads", "quantiles", "stop_speed_m_per_s", "channel", "time_to",
                 "management")
 MANAGEMENT_KEYS = ("body", "upstream_m", "near_m", "width_m", "size_m", "from_s")
-TARGETS = ({"x_m"}, {"y_m"}, {"distance_m"}, {"point_m", "within_m"})  # of collect.time_to
+TARGETS = ({"x_m"}, {"y_m"}, {"distance_m"}, {"point_m", "within_m"})  # alternative targets of collect.time_to
 REPORT_KEYS = ("against", "means", "exceedance", "group_by", "map", "channels")
 
 
 @dataclasses.dataclass
 class Definition:
-    """A study without fault. Paths are those of scene keys; \"scene\" itself may be varied by a list of scenes."""
+    """A valid study. Paths are those of scene keys; "scene" itself may be varied by a list of scenes."""
 
     file: str
     name: str
-    folder: pathlib.Path  # in which scenes are named
-    scenes: list  # names as the file has them
+    folder: pathlib.Path  # folder in which scenes are searched for
+    scenes: list  # names as in the file
     fixed: dict
     grid: dict  # path -> values
-    paired: dict  # path -> values, all of one length; those of the design too
-    design: dict  # path -> values of a CSV file, a row a case
+    paired: dict  # path -> values, all of one length, including those of the design
+    design: dict  # path -> values of a CSV file with one row per case
     draw: dict  # path -> (kind, numbers)
     draws: int
     method: str
@@ -59,18 +59,18 @@ class Definition:
     keep: str
     archive: bool
     report: dict
-    source: LocatedJson  # for problems that a scene's check finds
+    source: LocatedJson  # for problems that the check of a scene finds
 
 
 def read_definition(file, design=None):
-    """The study of a JSON file; StudyError with everything that is wrong with it. `design` names a CSV file in place of
-    the study's own design."""
+    """Reads the study in a JSON file. Raises StudyError with all its problems. `design` is a CSV file that replaces the
+    study's own design."""
     file = pathlib.Path(file)
     return Reader(LocatedJson(file)).read(file, design)
 
 
 class Reader:
-    """Reads one study. One use."""
+    """Reads one study; each object is used once."""
 
     def __init__(self, source):
         self.source, self.problems = source, []
@@ -121,7 +121,7 @@ class Reader:
         return definition
 
     def design(self, study, file, given):
-        """The values of a design by path, of the study's own or of a given file."""
+        """Values of a design by path, from the study's own design or from the file `given`."""
         named = self.member(study, "design", str, "")
         if not given and not named:
             return {}
@@ -260,7 +260,7 @@ class Reader:
         return collect
 
     def time_to(self, name, target, path):
-        """Of one target of that name: its line, distance or place."""
+        """A target with that name: its line, distance or position."""
         if not NAME.fullmatch(name):
             found = shown(name)
             allowed = "a name of letters, digits and . _ -, starting with a letter or digit"
@@ -316,7 +316,7 @@ class Reader:
             "design": definition.design,
             "draw": definition.draw,
         }
-        where, inside = {}, {}  # the block of each path, and a path below each that is part of one
+        where, inside = {}, {}  # the block of each path, and for each path a path below it
         for block, paths in blocks.items():
             for path in paths:
                 place = {"draw": ["draw", "of", path], "design": ["design"]}.get(block, [block, path])

@@ -1,4 +1,5 @@
-"""A design of cases as a CSV file, which other programs write: a column a path of a scene's key, a row a case."""
+"""A design of cases as a CSV file that other programs write: a column for each path of a scene's key, a row for each
+case."""
 import csv
 import json
 import math
@@ -6,11 +7,11 @@ import math
 from ..files import naming
 from .located_json import Problem, StudyError, shown
 
-LARGEST = 10**7  # rows
+LARGEST = 10**7  # largest number of rows
 
 
 def read_design(file):
-    """The values by path, each a list with a value a row; StudyError with everything that is wrong."""
+    """Values by path, as lists with one value per row. Raises StudyError with all problems."""
     with naming(file), open(file, encoding="utf-8-sig", newline="") as opened:
         try:
             rows = list(csv.reader(opened, strict=True))
@@ -23,7 +24,7 @@ def read_design(file):
 
 
 class Design:
-    """Reads one. One use."""
+    """Reads one design; each object is used once."""
 
     def __init__(self, file):
         self.file, self.problems = file, []
@@ -48,7 +49,7 @@ class Design:
         return columns
 
     def value(self, number, path, text):
-        """A number, true or false, JSON, or a text as it is."""
+        """A number, true or false, JSON, or otherwise the text itself."""
         if not text:
             self.report(number, path, "found an empty value, allowed: a value in each row")
             return None

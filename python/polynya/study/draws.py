@@ -1,6 +1,6 @@
-"""Random draws of a study's parameters: each by the inverse of its distribution, from uniform numbers that depend on
-the study's seed and the parameter's path alone. Longer studies begin with the draws of shorter ones, but by Latin
-hypercube."""
+"""Random draws of a study's parameters. Each value is the inverse of the parameter's distribution at a uniform number
+that depends only on the study's seed and the parameter's path. So a longer study begins with the draws of a shorter
+one, except with a Latin hypercube."""
 import math
 import random
 import statistics
@@ -8,18 +8,18 @@ import statistics
 from .located_json import shown
 
 STANDARD = statistics.NormalDist()
-KINDS = {  # what a distribution needs
+KINDS = {  # numbers that each distribution needs
     "uniform": ("low", "high"),
     "log_uniform": ("low", "high"),
     "normal": ("mean", "sd"),
     "log_normal": ("mean", "sd"),  # of the parameter itself, not of its logarithm
 }
 BOUNDS = ("least", "most")
-LEAST_P = 1e-16  # of a draw, from either end
+LEAST_P = 1e-16  # smallest probability of a draw, at both ends of the distribution
 
 
 def fault_of(kind, given):
-    """What is wrong with the numbers of a distribution, or nothing."""
+    """Returns what is wrong with the numbers of a distribution, or nothing."""
     for name in KINDS[kind]:
         if not is_number(given.get(name)):
             found = shown(given[name]) if name in given else "nothing"
@@ -41,7 +41,7 @@ def fault_of(kind, given):
     try:
         ends = [value_at(kind, given, p) for p in (LEAST_P, 1 - LEAST_P)]
         share = probability_below(kind, given, most) - probability_below(kind, given, least)
-        probability_below(kind, given, ends[0])  # of a spread that is lost in rounding: a division by zero
+        probability_below(kind, given, ends[0])  # a spread that is lost in rounding gives a division by zero
     except ArithmeticError:
         ends, share = [math.nan], 1
     if not all(map(math.isfinite, ends)):
@@ -57,13 +57,13 @@ def is_number(value):
 
 
 def log_parameters(given):
-    """Mean and standard deviation of the logarithm of a log-normal parameter with that mean and sd."""
+    """Mean and standard deviation of the logarithm of a log-normal parameter with this mean and sd."""
     variance = math.log1p((given["sd"] / given["mean"]) ** 2)
     return math.log(given["mean"]) - variance / 2, math.sqrt(variance)
 
 
 def value_at(kind, given, p):
-    """The value that a part p of the distribution lies below."""
+    """The value below which the fraction p of the distribution lies."""
     if kind == "uniform":
         return given["low"] + p * (given["high"] - given["low"])
     if kind == "log_uniform":
@@ -101,7 +101,7 @@ def uniform_numbers(seed, path, count, method):
 
 
 def draw(seed, path, kind, given, count, method):
-    """`count` values of one parameter, by a distribution without fault."""
+    """`count` values of one parameter from a valid distribution."""
     low = probability_below(kind, given, given.get("least", -math.inf))
     high = probability_below(kind, given, given.get("most", math.inf))
     least, most = given.get("least", -math.inf), given.get("most", math.inf)

@@ -1,4 +1,5 @@
-"""`polynya study evaluate`: the measures of a design's cases, for programs that choose the next cases by them."""
+"""`polynya study evaluate`: computes the measures of a design's cases, for programs that choose further cases from
+them."""
 import argparse
 import hashlib
 import pathlib
@@ -11,7 +12,7 @@ from .definition import read_definition
 
 
 def folder_of(options, definition):
-    """Where the cases run: the same design finds its cases again, another one has another folder."""
+    """Folder for the cases. The same design finds its cases again; another design has another folder."""
     if options.folder:
         return pathlib.Path(options.folder)
     digest = hashlib.sha256((read_text(options.study) + "\0" + read_text(options.design)).encode()).hexdigest()
@@ -19,7 +20,7 @@ def folder_of(options, definition):
 
 
 def evaluate(options):
-    """Plans, runs and gathers a design, and writes the table where it is asked for. Returns gather's code."""
+    """Plans, runs and gathers a design, and writes the table to the requested file. Returns the exit code of gather."""
     folder = folder_of(options, read_definition(options.study, options.design))
     planning = argparse.Namespace(out=folder, chunk=None, repetitions=None, most=10_000_000, trial_seconds=0,
                                   check_seeds=False, jobs=options.jobs, design=options.design)

@@ -1,4 +1,4 @@
-"""A study's cases: every combination of scenes, grid, pairs and draws, each repeated with other seeds."""
+"""Lists the cases of a study: every combination of scenes, grid, pairs and draws, repeated with other seeds."""
 import itertools
 
 from . import draws
@@ -16,8 +16,8 @@ def paired_count(definition):
 
 
 def expand(definition):
-    """Every case in the order of its number: which scene, and the values by path. Repetitions are outermost and draws
-    next, so a study of more of them begins with the cases of the one of fewer."""
+    """Every case in the order of its number: its scene, and the values by path. Repetitions are the outermost loop and
+    draws the next one, so that a study with more of them begins with the cases of a smaller study."""
     drawn = {
         path: draws.draw(definition.draw_seed, path, kind, numbers, definition.draws, definition.method)
         for path, (kind, numbers) in definition.draw.items()
@@ -38,12 +38,12 @@ def expand(definition):
 
 
 def repeats_by_seed(definition):
-    """Whether repetitions set the scene's seed: where nothing else of the study does."""
+    """Returns True if repetitions set the scene's seed, because nothing else in the study sets it."""
     blocks = (definition.fixed, definition.grid, definition.paired, definition.draw)
     return not any("seed" in block for block in blocks)
 
 
 def varied_paths(definition):
-    """The paths that differ between cases, in the order of the study."""
+    """Paths that differ between cases, in the order of the study."""
     paths = [*definition.grid, *definition.paired, *definition.draw]
     return [*paths, "seed"] if repeats_by_seed(definition) else paths

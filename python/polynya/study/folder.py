@@ -1,11 +1,11 @@
-"""A planned study's folder: plan.json, the cases by number, and where each case lives.
+"""Folder of a planned study: plan.json, the cases by number, and the places of the cases.
 
-    plan.json            what was planned
-    cases.ndjson         a line a case: {"scene": 0, "set": {path: value}}
-    cases.index          where each line begins: 8 bytes, little-endian
-    scenes/…             by number, the scenes, with the floe files they name
-    cases/000012/000137  a case (below its chunk's folder where chunks have more than one)
-    cases/000012.tar     a chunk whose cases are packed
+    plan.json            the plan
+    cases.ndjson         one line per case: {"scene": 0, "set": {path: value}}
+    cases.index          start of each line: 8 bytes, little-endian
+    scenes/…             the scenes by number, with the floe files that they name
+    cases/000012/000137  a case (in the folder of its chunk if chunks have more than one case)
+    cases/000012.tar     a chunk with packed cases
 """
 import dataclasses
 import json
@@ -20,12 +20,12 @@ from .located_json import StudyError, shown
 
 PLAN, CASES, INDEX = "plan.json", "cases.ndjson", "cases.index"
 FORMAT = 1
-KEYS = {  # of plan.json
+KEYS = {  # members of plan.json
     "format": int, "name": str, "cases": int, "chunk": int, "archive": bool, "keep": str, "set": dict, "scenes": list,
     "varied": list, "collect": dict, "report": dict,
 }
-RESULT = "case.json"  # in a case's folder, once it is finished or has failed
-RUN = "run"  # the run folder in a case's folder
+RESULT = "case.json"  # in a case's folder, after it has finished or failed
+RUN = "run"  # run folder in a case's folder
 
 
 @dataclasses.dataclass(frozen=True)
@@ -62,7 +62,7 @@ class Study:
         return self.chunk_folder(number // self.chunk_size) / f"{number:06d}"
 
     def case(self, number):
-        """The scene's file and all values of one case, by one read of 8 bytes and one of a line."""
+        """The scene's file and all values of one case. It reads only 8 bytes and one line."""
         with files.open_regular(self.folder / INDEX) as index, files.open_regular(self.folder / CASES) as cases:
             index.seek(8 * number)
             offset = index.read(8)
@@ -76,7 +76,7 @@ class Study:
                 yield self._whole(line, number)
 
     def _whole(self, line, number):
-        """Scene and values of a case, by its line of cases.ndjson."""
+        """Scene and values of a case from its line of cases.ndjson."""
         try:
             case = json.loads(line)
             return self.folder / self.plan["scenes"][case["scene"]], {**self.plan["set"], **case["set"]}
@@ -86,7 +86,7 @@ class Study:
 
 
 def open_study(given):
-    """The planned study of a folder, or of a study's file, which is planned as studies/<name>."""
+    """Opens the planned study in a folder, or that of a study's file, which is planned as studies/<name>."""
     folder = planned_folder(given)
     if not (folder / PLAN).exists():
         hint = f"polynya study plan {given}" if folder != pathlib.Path(given) else "polynya study plan FILE"
@@ -95,7 +95,7 @@ def open_study(given):
 
 
 def read_plan(folder):
-    """The plan of a planned study's folder."""
+    """Reads the plan of a planned study's folder."""
     try:
         plan = files.read_json(folder / PLAN)
     except FolderError as error:
@@ -104,7 +104,7 @@ def read_plan(folder):
         raise StudyError(f"{folder / PLAN}: of format {shown(plan.get('format'))}; this polynya reads format {FORMAT}: "
                          f"read it with the polynya that wrote it, or choose another folder (--out)", 5)
     damaged = [key for key, kind in KEYS.items() if not isinstance(plan.get(key), kind)]
-    is_changed = plan.get("crc32") not in (None, checksum_of(plan))  # plans of older versions have none
+    is_changed = plan.get("crc32") not in (None, checksum_of(plan))  # plans of older versions have no checksum
     if damaged or is_changed or plan["cases"] < 0 or plan["chunk"] < 1:
         what = f'"{damaged[0]}" is missing or of another kind' if damaged else "it is not as it was written"
         raise StudyError(f"{folder / PLAN}: damaged, {what}; remove the folder and plan the study again", 5)
@@ -112,13 +112,14 @@ def read_plan(folder):
 
 
 def write_plan(folder, plan):
-    """Writes the plan with its checksum: what it holds was checked when the study was planned, and not again."""
+    """Writes the plan with its checksum. The contents were checked when the study was planned and are not checked
+    again."""
     plan["crc32"] = checksum_of(plan)
     write_atomically(folder / PLAN, json.dumps(plan, indent=1) + "\n")
 
 
 def checksum_of(plan):
-    """The CRC-32 of a plan without its checksum, in hexadecimal digits."""
+    """CRC-32 of a plan without its checksum, in hexadecimal digits."""
     rest = {key: value for key, value in plan.items() if key != "crc32"}
     return f"{zlib.crc32(json.dumps(rest, sort_keys=True).encode()):08x}"
 
@@ -127,13 +128,13 @@ def planned_folder(given):
     path = pathlib.Path(given)
     if not path.is_file():
         return path
-    from .definition import read_definition  # only here: running a case does not need it
+    from .definition import read_definition  # imported here, because running a case does not need it
 
     return pathlib.Path("studies") / read_definition(path).name
 
 
 def write_atomically(path, text):
-    """Replaces a file: a reader, or a kill, finds the old one or the new one whole."""
+    """Replaces a file in one step, so that readers find the old or the new file, even after a kill."""
     draft = path.with_name(path.name + f".{os.getpid()}.tmp")
     with files.naming(path):
         with files.writing(draft) as file:
@@ -144,12 +145,12 @@ def write_atomically(path, text):
 
 
 def counted(count, noun):
-    """As in: 1 case, 2 cases."""
+    """A count with its noun: 1 case, 2 cases."""
     return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
 
 
 def list_of_numbers(numbers):
-    """\"3,7-9,12\" of numbers in order."""
+    """A list such as "3,7-9,12" for sorted numbers."""
     parts, numbers = [], list(numbers)
     i = 0
     while i < len(numbers):
@@ -162,7 +163,7 @@ def list_of_numbers(numbers):
 
 
 def numbers_of_list(words, count, what):
-    """The numbers of \"3,7-9,12\", each below `count`."""
+    """The numbers of a list such as "3,7-9,12"; each must be below `count`."""
     numbers = []
     for part in words.split(","):
         low, dash, high = part.partition("-")

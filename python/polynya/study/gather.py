@@ -1,4 +1,4 @@
-"""`polynya study gather`: one table of all cases, a row each, and what is missing."""
+"""`polynya study gather`: writes one table of all cases with one row each, and says which are missing."""
 import csv
 import dataclasses
 import json
@@ -12,18 +12,18 @@ from .case import DONE, FAILED, STOPPED, gist
 from .folder import counted, list_of_numbers, write_atomically
 
 TABLE, NETCDF, SUMMARY = "table.csv", "table.nc", "gather.json"
-STATES = ("failed", "unfinished", "missing")  # but finished
-MOST_SHOWN = 10  # failures
-LONGEST_SHOWN = 380  # command [characters]
-MOST_NETCDF = 1_000_000  # cases
+STATES = ("failed", "unfinished", "missing")  # states other than finished
+MOST_SHOWN = 10  # number of failures that are printed
+LONGEST_SHOWN = 380  # longest command that is printed [characters]
+MOST_NETCDF = 1_000_000  # largest number of cases for which a netCDF file is written
 
 
 def gather(study):
-    """Writes table.csv, table.nc where xarray and netCDF4 are, and gather.json. Returns an exit code: DONE where every
-    case is finished. Case by case: only those that are not finished are kept in memory."""
+    """Writes table.csv, table.nc if xarray and netCDF4 are installed, and gather.json. Returns an exit code, DONE if
+    every case is finished. It reads case by case; only cases that are not finished are kept in memory."""
     measures = first_measures(study)
     rest = write_table(study, measures)
-    if rest.unknown:  # some cases are of another version
+    if rest.unknown:  # some cases were run by another version
         measures += rest.unknown
         rest = write_table(study, measures)
     columns = ["case", "state", *parameter_columns(study), *measures]
@@ -47,11 +47,12 @@ def gather(study):
     return DONE if summary["is_complete"] else FAILED if rest.by_state["failed"] else STOPPED
 
 
-KINDS = {"cases": int, "is_complete": bool, "finished": int, "parameters": list, "columns": list}  # of gather.json
+# Members of gather.json.
+KINDS = {"cases": int, "is_complete": bool, "finished": int, "parameters": list, "columns": list}
 
 
 def read_summary(folder):
-    """What gather.json states of the table."""
+    """Reads the state of the table from gather.json."""
     summary = read_json(folder / SUMMARY)
     wrong = [key for key, kind in KINDS.items() if not isinstance(summary.get(key), kind)]
     names = [] if wrong else [*summary["parameters"], *summary["columns"]]
@@ -63,10 +64,10 @@ def read_summary(folder):
 
 @dataclasses.dataclass
 class Rest:
-    """What a table does not have: cases that are not finished, and measures that its header lacks."""
+    """Parts that a table lacks: cases that are not finished, and measures that are not in its header."""
 
-    by_state: dict = dataclasses.field(default_factory=lambda: {state: [] for state in STATES})  # numbers
-    messages: list = dataclasses.field(default_factory=list)  # (number, words) of the first failures
+    by_state: dict = dataclasses.field(default_factory=lambda: {state: [] for state in STATES})  # numbers of cases
+    messages: list = dataclasses.field(default_factory=list)  # (number, message) of the first failures
     unknown: list = dataclasses.field(default_factory=list)
 
 
@@ -76,7 +77,8 @@ def parameter_columns(study):
 
 
 def first_measures(study):
-    """The names that the first finished case has; all cases of a study have the same, if not by another version."""
+    """Names of the measures of the first finished case. All cases of a study have the same, unless another version ran
+    them."""
     for _, state, result in archive.all_states(study):
         if state == "finished":
             return list(result["measures"])
@@ -84,7 +86,7 @@ def first_measures(study):
 
 
 def write_table(study, measures):
-    """A row for each case. One without a result has its parameters, its state and nothing else."""
+    """Writes a row for each case. A case without a result has only its parameters and its state."""
     rest, parameters, known = Rest(), parameter_columns(study), set(measures)
     draft = study.folder / (TABLE + ".tmp")
     with writing(draft, newline="") as file:
@@ -109,7 +111,7 @@ def cell(value):
 
 
 def commands(study, by_state):
-    """The command that repairs each kind of what is not finished."""
+    """The command that repairs each kind of unfinished case."""
     run = f"polynya study run {study.folder}"
     found = {}
     for state in ("missing", "unfinished"):
@@ -138,13 +140,14 @@ def report_rest(study, rest):
 
 
 def write_netcdf(study, summary):
-    """The table as a netCDF file over the dimension "case". Returns why there is none, or nothing."""
+    """Writes the table as a netCDF file with the dimension "case". Returns the reason if it cannot, otherwise
+    nothing."""
     path = study.folder / NETCDF
     path.unlink(missing_ok=True)
     if study.count > MOST_NETCDF:
         return f"more than {MOST_NETCDF} cases; table.csv has them"
     try:
-        import netCDF4  # noqa: F401  (the engine)
+        import netCDF4  # xarray uses it
         import numpy
         import xarray
     except ImportError as error:

@@ -1,4 +1,5 @@
-"""Many cases on this machine: worker processes of concurrent.futures, each with one run at a time, and a live table."""
+"""Runs many cases on this machine in worker processes of concurrent.futures, each with one run at a time, and shows a
+live table."""
 import concurrent.futures
 import multiprocessing
 import os
@@ -10,29 +11,29 @@ from .folder import RUN
 from .stop import SIGNALS, Stop
 from .table import Counts, Display
 
-STUDY, STOP = None, None  # of a worker process
+STUDY, STOP = None, None  # state of a worker process
 
 
 def begin_worker(study, stop):
-    """In a new worker process: the study, and the reading end of the stop. Signals are its parent's."""
+    """Prepares a new worker process with the study and the reading end of the stop. Only the parent handles signals."""
     global STUDY, STOP
-    die_with_parent(signal.SIGKILL)  # else it waits for work for ever; its run then stops with a checkpoint
+    die_with_parent(signal.SIGKILL)  # otherwise it would wait for work forever; its run then stops with a checkpoint
     STUDY, STOP = study, stop.reader
     os.close(stop.writer)
     for number in SIGNALS:
         if signal.getsignal(number) != signal.SIG_IGN:
-            signal.signal(number, lambda *_: None)  # not SIG_IGN, which polynya would inherit
+            signal.signal(number, lambda *_: None)  # SIG_IGN cannot be used, because polynya would inherit it
 
 
 def run_in_worker(number, keep):
     try:
         return run_case(STUDY, number, STOP, keep)
-    except OSError as error:  # a full disk: the other cases go on, or fail alike
+    except OSError as error:  # after a full disk, the other cases continue or fail in the same way
         return INPUT_OUTPUT, f"case {number}: {error}"
 
 
 def exit_code(counts):
-    """Of a command that runs many cases."""
+    """Exit code of a command that runs many cases."""
     return STOPPED if counts.stopped else FAILED if counts.failed else DONE
 
 
@@ -62,7 +63,8 @@ def run_cases(study, numbers, jobs, *, keep=None, retries_failed=False, is_quiet
 
 
 def states_of(study, numbers, keep):
-    """The states of some cases, of packed ones too; one without its run is missing where that is to be kept."""
+    """States of some cases, including packed ones. A case without its run counts as missing if the run is to be
+    kept."""
     packed_chunk, packed = None, []
     for number in numbers:
         chunk = number // study.chunk_size
@@ -82,7 +84,8 @@ def run_waiting(study, waiting, jobs, keep, stop, counts, table):
     with concurrent.futures.ProcessPoolExecutor(min(jobs, len(waiting)), context, begin_worker, (study, stop)) as pool:
         left, running = iter(waiting), {}
         while True:
-            while len(running) < 2 * jobs and not stop.is_raised:  # some wait, so that no worker does
+            # Some cases are queued, so that no worker has to wait.
+            while len(running) < 2 * jobs and not stop.is_raised:
                 number = next(left, None)
                 if number is None:
                     break

@@ -1,4 +1,5 @@
-"""JSON whose values know their place, as the program itself reads it (`polynya read-json`), and problems with it."""
+"""JSON whose values have places in the file, as the program itself reads it (`polynya read-json`), and problems with
+it."""
 import dataclasses
 import json
 import re
@@ -7,17 +8,17 @@ import subprocess
 from ..errors import InputError
 from ..program import program
 
-LONGEST_SHOWN = 60  # of a value in a message [characters]
+LONGEST_SHOWN = 60  # longest value in a message [characters]
 
 
 @dataclasses.dataclass(frozen=True)
 class Problem:
-    """One thing wrong in a file."""
+    """A problem of a file."""
 
     file: str
     path: str
     message: str
-    line: int = 0  # from 1; 0 where there is no place
+    line: int = 0  # from 1; 0 if there is no place
     column: int = 0
 
     def __str__(self):
@@ -26,14 +27,15 @@ class Problem:
 
 
 class StudyError(InputError):
-    """What is wrong with a study."""
+    """A study that cannot be used, with its problems."""
 
 
 class LocatedJson:
-    """A JSON file with comments. `value` is what it holds; `problem(path, …)` names a place in it."""
+    """A JSON file with comments. `value` is its contents; `problem(path, …)` makes a problem with the place of a
+    value."""
 
     def __init__(self, file):
-        """Raises StudyError with every fault of the text, or with why the file cannot be read (code 5)."""
+        """Raises StudyError with all faults of the text, or with the reason why the file cannot be read (code 5)."""
         self.file = str(file)
         done = subprocess.run([program(), "read-json", "--", self.file], capture_output=True, check=False)
         if done.returncode != 0:
@@ -44,7 +46,8 @@ class LocatedJson:
         self.value, self._places = read["value"], read["places"]
 
     def problem(self, path, message, of_key=False):
-        """A problem of the value at a path of keys and indices, or of its key, or of the nearest one that there is."""
+        """A problem of the value at a path of keys and indices, or of its key, or of the nearest value on the path that
+        exists."""
         known = len(path)
         while pointer(path[:known]) not in self._places:
             known -= 1
@@ -54,7 +57,7 @@ class LocatedJson:
 
 
 def number(text):
-    """Whole where it is one, 1e3 too: in the file every number is a double."""
+    """A whole number if it is one, such as 1e3; all numbers of the file are doubles."""
     value = float(text)
     return int(value) if value.is_integer() and abs(value) <= 2**53 else value
 
@@ -65,7 +68,7 @@ def read_json(path):
 
 
 def pointer(path):
-    """RFC 6901"""
+    """A path as a JSON pointer (RFC 6901)."""
     return "".join("/" + str(step).replace("~", "~0").replace("/", "~1") for step in path)
 
 
@@ -87,6 +90,6 @@ def shortened(words):
 
 
 def shown(value):
-    """A value in a message."""
+    """A value as messages show it."""
     words = {dict: "an object", list: "a list"}.get(type(value))
     return words or shortened(json.dumps(value, ensure_ascii=False))

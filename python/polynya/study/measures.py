@@ -1,5 +1,5 @@
-"""What is measured of one finished run, from what it writes (docs/run-folder.md). Plain Python: a job needs little
-memory."""
+"""Measures of one finished run, from its files (docs/run-folder.md). Written in plain Python, so that a job needs
+little memory."""
 import json
 import math
 import subprocess
@@ -8,12 +8,13 @@ from .. import files
 
 LOADS = ("surge_N", "sway_N", "yaw_Nm")
 QUANTILES = (0.5, 0.9, 0.99)
-STOP_SPEED = 0.05  # [m/s]
+STOP_SPEED = 0.05  # a slower ship counts as stopped [m/s]
 TEXT_COLUMNS = {"ship"}
 
 
 def measure(run, collect, program):
-    """Measures of a finished run by name, all the same for the same run on any machine; None where there are none."""
+    """Measures of a finished run by name, None if there is no value. The same run gives the same measures on any
+    machine."""
     files.check_run(run)
     summary = files.read_json(run / "summary.json")
     counts = summary["counts"]
@@ -37,7 +38,7 @@ def measure(run, collect, program):
     if collect.get("channel"):
         found["channel_width_m"] = channel_width(run, ship, program)
     if collect.get("management") is not None:
-        from ..management import of_folder  # needs numpy
+        from ..management import of_folder  # this needs numpy
 
         found.update(of_folder(run, collect["management"]))
     found["warnings"] = len(summary["warnings"])
@@ -45,7 +46,7 @@ def measure(run, collect, program):
 
 
 def rows_by_ship(path):
-    """The columns of forces.csv by ship: name -> values."""
+    """Columns of forces.csv by ship: name -> values."""
     cells, rows = files.read_cells(path), {}
     for row, ship in enumerate(cells["ship"]):
         rows.setdefault(ship, []).append(row)
@@ -87,8 +88,8 @@ def measures_of_ship(columns, collect):
 
 
 def of_load(name, unit, values, sizes, levels):
-    """Mean and standard deviation of a load, and peak and quantiles of its size: of the resistance itself, else of the
-    magnitude."""
+    """Mean and standard deviation of a load, and peak and quantiles of `sizes`, which are the resistance itself or the
+    magnitude of the load."""
     if not values:
         return {}
     mean = math.fsum(values) / len(values)
@@ -104,7 +105,7 @@ def of_load(name, unit, values, sizes, levels):
 
 
 def quantile(ordered, level):
-    """By linear interpolation between the ordered values, as numpy's."""
+    """Quantile with linear interpolation between the sorted values, as in numpy."""
     at = level * (len(ordered) - 1)
     low = int(at)
     high = min(low + 1, len(ordered) - 1)
@@ -139,8 +140,8 @@ def of_motion(columns, kept, collect):
 
 
 def of_rams(columns):
-    """Of a ship that rams: how often it charged after its first charge, and the mean of the charges from one begin to
-    the next: the way gained, the time, and the largest speed ahead. A charge begins where `rams` grows."""
+    """Measures of a ramming ship: the number of charges after the first, and means per charge, from its start to the
+    start of the next: distance gained, duration, and largest speed ahead. A charge starts when `rams` increases."""
     if "rams" not in columns:
         return {}
     rams, gained, times = columns["rams"], columns["gained_m"], columns["t_s"]
@@ -163,7 +164,7 @@ def forward_speed(columns, i):
 
 
 def time_to(columns, target, never=None):
-    """When the ship first comes to where the target is, or `never` if it does not [s]."""
+    """Time at which the ship first reaches the target [s], or `never` if it does not."""
     times, xs, ys = columns["t_s"], columns["x_m"], columns["y_m"]
     if "distance_m" in target:
         gone, before = 0.0, 0.0
@@ -183,7 +184,7 @@ def time_to(columns, target, never=None):
 
 
 def outcome(found, columns, collect):
-    """In one word: stuck (it lies still at the end), split, bent, or pushed."""
+    """The outcome in one word: stuck (the ship does not move at the end), split, bent, or pushed."""
     if columns["speed_m_per_s"][-1] < collect.get("stop_speed_m_per_s", STOP_SPEED):
         return "stuck"
     return "split" if found["splits"] else "bent" if found["bends"] else "pushed"
@@ -198,7 +199,7 @@ def fractures_of(path, ship):
 
 
 def channel_width(run, ship, program):
-    """Mean width of the channel behind the ship [m], by `polynya channel`; None where it has no width."""
+    """Mean width of the channel behind the ship [m], measured by `polynya channel`; None if there is none."""
     printed = subprocess.run(
         [program, "channel", run, "--json", "--ship", ship], capture_output=True, text=True, check=False
     )

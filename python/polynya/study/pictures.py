@@ -1,4 +1,4 @@
-"""The pictures of a study's page, by matplotlib: SVG and PNG."""
+"""Pictures of a study's page, drawn with matplotlib as SVG and PNG."""
 import math
 
 import numpy
@@ -10,7 +10,7 @@ from ..figures import page
 from .sample import fits_of, refuted
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999933")  # [Okabe2008]
-GREY = "#bbbbbb"  # of groups beyond as many
+GREY = "#bbbbbb"  # colour of further groups
 OUTCOMES = {"pushed": "#56b4e9", "bent": "#009e73", "split": "#d55e00", "stuck": "#000000"}
 PAPER = (
     0.999,
@@ -27,7 +27,7 @@ PAPER = (
     0.005,
     0.002,
     0.001,
-)  # probabilities of exceedance
+)  # probabilities of exceedance at ticks
 SCALES = {"N": (1e6, "MN"), "Nm": (1e6, "MN m"), "J": (1e6, "MJ"), "m": (1, "m"), "s": (1, "s")}
 
 
@@ -39,8 +39,8 @@ def save(figure, folder, name):
 
 
 def label_of(measure, is_parameter=False):
-    """("resistance peak [MN]", factor) of a measure's name with its unit; of a parameter's path its last part, in the
-    unit in which the scene states it."""
+    """("resistance peak [MN]", factor) for the name of a measure with its unit. For the path of a parameter it is the
+    last part, in the unit of the scene."""
     name, _, index = measure.rsplit(".", 1)[-1].partition("[")
     axis = {"0]": " x", "1]": " y"}.get(index, f" {index.rstrip(']')}" if index else "")
     for unit in sorted(("m_per_s", "deg", "Pa", *SCALES), key=len, reverse=True):
@@ -52,8 +52,8 @@ def label_of(measure, is_parameter=False):
 
 
 def in_words(value, digits=6):
-    """A number to so many significant digits, by default whole ones in full: with an exponent only below 1e-4 and from
-    1e12 on. Other values as they are."""
+    """A number with this number of significant digits; by default whole numbers are complete. An exponent is used only
+    below 1e-4 and from 1e12 on. Other values stay as they are."""
     if not isinstance(value, (int, float)) or not math.isfinite(value):
         return str(value).replace("inf", "∞")
     if value and not 1e-4 <= abs(value) < 1e12:
@@ -64,31 +64,31 @@ def in_words(value, digits=6):
 
 
 def group_label(name, value):
-    """ "thickness 0.4 m", "scene fig4a" """
+    """Label of a group: "thickness 0.4 m", "scene fig4a"."""
     label, _ = label_of(name, is_parameter=True)
     words, _, unit = label.partition(" [")
     return f"{words} {in_words(value)} {unit.rstrip(']')}".rstrip()
 
 
 def lines_of(sample, group_by):
-    """(value, cases, colour) of the groups: those beyond as many as there are colours are grey."""
+    """(value, cases, colour) of the groups. Groups beyond the number of colours are grey."""
     groups = sample.groups(group_by)
     return [(value, cases, COLOURS[k] if k < len(COLOURS) else GREY) for k, (value, cases) in enumerate(groups)]
 
 
 def more(lines):
-    """The legend's entry of the groups that are grey."""
+    """Legend entry of the grey groups."""
     rest = sum(colour == GREY for _, _, colour in lines)
     return [Line2D([], [], color=GREY, label=f"{rest} more groups")] if rest else []
 
 
 def reduced(p):
-    """Gumbel's reduced variate of a probability of exceedance: his distribution is a straight line over it."""
+    """Gumbel's reduced variate for a probability of exceedance. His distribution is a straight line over it."""
     return -numpy.log(-numpy.log1p(-numpy.asarray(p)))
 
 
 def draw_fits(axes, values, factor, lowest, colour):
-    """Lines of both fits; those that are refuted are dotted. Returns the words for the legend, each with its dash."""
+    """Draws lines of both fits, dotted if they are refuted. Returns texts for the legend, each with its line style."""
     found = {}
     for name, dash in (("gumbel", "-"), ("weibull", "--")):
         fitted = fits_of(values)[name]
@@ -101,7 +101,7 @@ def draw_fits(axes, values, factor, lowest, colour):
 
 
 def exceedance(sample, measure, group_by, folder):
-    """Peaks on Gumbel's probability paper, on which his distribution is a straight line, with both fits."""
+    """Draws peaks on Gumbel's probability paper, on which his distribution is a straight line, with both fits."""
     label, factor = label_of(measure)
     lowest, handles, dashes = 0.5, [], {}
     lines = lines_of(sample, group_by)
@@ -130,7 +130,7 @@ def exceedance(sample, measure, group_by, folder):
 
 
 def means(sample, measure, against, group_by, folder):
-    """Means with their 95 % intervals against a parameter, a line for each group."""
+    """Draws means with 95 % intervals over a parameter, with a line for each group."""
     label, factor = label_of(measure)
     lines, handles = lines_of(sample, None if group_by == against else group_by), []
     with page.Sheet(page.Page(), f"Mean of the {label.partition(' [')[0]}", "with its 95 % interval") as sheet:
@@ -160,7 +160,7 @@ def means(sample, measure, against, group_by, folder):
 
 
 def outcome_map(sample, over, folder):
-    """The most frequent outcome over two parameters; its share of the cell's cases where it is not all."""
+    """Draws the most frequent outcome over two parameters, with its fraction of the cell's cases if it is not all."""
     xs, ys = sample.values_of(over[0]), sample.values_of(over[1])
     if len(xs) < len(ys):
         over, xs, ys = over[::-1], ys, xs
@@ -188,7 +188,7 @@ CAPTION = "Most frequent outcome; paler, and in percent, where it is not that of
 
 
 def draw_cell(axes, i, k, outcomes, is_numbered):
-    """The most frequent outcome of a cell's cases."""
+    """Draws the most frequent outcome of a cell's cases."""
     word = max(OUTCOMES, key=outcomes.count)
     share = outcomes.count(word) / len(outcomes)
     axes.add_patch(Rectangle((i - 0.5, k - 0.5), 1, 1, color=OUTCOMES[word], alpha=0.25 + 0.75 * share, lw=0))

@@ -1,4 +1,4 @@
-"""`polynya study plan`: a study's file becomes a folder of numbered cases, every one checked."""
+"""`polynya study plan`: makes a folder of numbered cases from a study's file, after checking every case."""
 import concurrent.futures
 import hashlib
 import json
@@ -19,8 +19,8 @@ from .expand import count_cases, expand, repeats_by_seed, varied_paths
 from .folder import CASES, FORMAT, INDEX, PLAN, Study, list_of_numbers, read_plan, write_atomically, write_plan
 from .located_json import Problem, StudyError, read_json
 
-MOST_TASKS = 1000  # of an array; Slurm's MaxArraySize is 1001 where a cluster does not raise it
-MOST_SHOWN = 20  # problems
+MOST_TASKS = 1000  # largest number of tasks of a job array; Slurm's MaxArraySize is 1001 by default
+MOST_SHOWN = 20  # number of problems that are printed
 
 
 def plan_study(file, options):
@@ -53,8 +53,8 @@ def plan_study(file, options):
 
 
 def write_study(definition, folder, draft, lines, old, expanded, options):
-    """Checks the cases and writes the folder; where the same is planned there, nothing. Scenes are copied into the
-    draft first: what a refused plan would change stays as it is."""
+    """Checks the cases and writes the folder; does nothing if the same plan is there. Scenes are copied to a draft
+    folder first, so that a refused plan changes nothing."""
     count, text = len(lines), "".join(lines)
     scenes = copy_scenes(definition, draft, lines)
     new = {
@@ -93,7 +93,7 @@ def write_study(definition, folder, draft, lines, old, expanded, options):
 
 
 def plan_in(folder):
-    """The plan that a folder has already, or none."""
+    """The existing plan of a folder, or none."""
     return read_plan(folder) if (folder / PLAN).exists() else None
 
 
@@ -103,8 +103,8 @@ def is_same(old, new, folder, text):
 
 
 def refuse_other_cases(old, new, folder, text):
-    """Cases that have ended stay those of the plan that they ran by; a study may grow. Where none has, what they have
-    begun by another plan is removed."""
+    """Refuses a changed plan if cases have ended by the old one; only further cases may be added. If none has ended,
+    cases that were begun by the old plan are removed."""
     if old is None:
         return
     kept = ("set", "scenes", "inputs", "collect", "chunk", "archive")
@@ -123,7 +123,7 @@ def refuse_other_cases(old, new, folder, text):
 
 
 def chunk_size(given, old, count):
-    """How many cases a chunk has: so that there are at most as many as one array takes, if not given."""
+    """Number of cases per chunk. By default it is chosen so that one job array can run all chunks."""
     if given:
         return given
     if old is not None and -(-count // old["chunk"]) <= MOST_TASKS:
@@ -139,8 +139,8 @@ def chunk_size(given, old, count):
 
 
 def copy_scenes(definition, folder, lines):
-    """Copies the scenes, and the floe files that they or the cases name: the study's folder is all that a cluster
-    needs."""
+    """Copies the scenes, and the floe files that they or the cases name, because a cluster gets only the study's
+    folder."""
     names = []
     for i, name in enumerate(definition.scenes):
         source = definition.folder / name
@@ -155,7 +155,7 @@ def copy_scenes(definition, folder, lines):
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source, target)
         for file in floe_files(scene, definition, lines):
-            if (source.parent / file).is_file():  # what is missing is found by the check
+            if (source.parent / file).is_file():  # the check reports missing files
                 (target.parent / file).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copyfile(source.parent / file, target.parent / file)
         names.append(str(target.relative_to(folder)))
@@ -202,9 +202,9 @@ def is_seed(path):
 
 
 def check_cases(definition, folder, scenes, lines, options):
-    """Checks every case as `polynya run` would; of those that differ in seeds alone the first, and of the others the
-    seeds. Returns how many were checked in full. StudyError with all problems."""
-    tasks = [{} for _ in scenes]  # the text of a case -> the numbers of the cases it stands for
+    """Checks every case as `polynya run` would. Of cases that differ only in their seeds, the first is checked fully,
+    and of the others the seeds. Returns the number of full checks. Raises StudyError with all problems."""
+    tasks = [{} for _ in scenes]  # the text of a case -> the numbers of the cases with that text
     problems = {}
     for number, line in enumerate(lines):
         case = json.loads(line)
@@ -231,7 +231,7 @@ def check_cases(definition, folder, scenes, lines, options):
 
 
 def check_scene(scene, name, groups, problems):
-    """Checks a scene's cases by `polynya validate --cases`, on all processors. `name` is the scene's in messages."""
+    """Checks a scene's cases with `polynya validate --cases` on all processors. `name` names the scene in messages."""
     parts = max(1, min(os.cpu_count() or 1, len(groups) // 50))
     with tempfile.TemporaryDirectory() as work, concurrent.futures.ThreadPoolExecutor(parts) as pool:
 
@@ -270,7 +270,7 @@ def check_scene(scene, name, groups, problems):
 
 
 def in_words(definition, problems, count):
-    """Each problem once, at the place in the study that sets its key, with the cases that have it."""
+    """Lists each problem once, at the place in the study that sets its key, with the cases that have it."""
     words = []
     for (path, message), numbers in list(problems.items())[:MOST_SHOWN]:
         numbers = sorted(numbers)
@@ -291,7 +291,7 @@ def in_words(definition, problems, count):
 
 
 def place_of(definition, path):
-    """Where the study sets that key of the scene, or a part of it, or what it is a part of."""
+    """Place at which the study sets a key of the scene, a part of it, or an object that contains it."""
     blocks = [
         (["set"], definition.fixed),
         (["grid"], definition.grid),

@@ -1,5 +1,5 @@
-"""`polynya study report`: statistics, pictures, and one page from which each case opens in the player. Needs numpy,
-scipy and matplotlib."""
+"""`polynya study report`: statistics, pictures, and one page from which each case can be opened in the player. Needs
+numpy, scipy and matplotlib."""
 import concurrent.futures
 import csv
 import html
@@ -17,11 +17,11 @@ from .sample import QUANTILE, choices_of, fits_of, read_sample, refuted
 
 PAGE = "study.html"
 MOST_PLAYERS, MOST_ROWS = 250, 2000
-RELATIVE_WIDTH = 0.05  # to which "cases needed" refers
+RELATIVE_WIDTH = 0.05  # relative half-width of the interval for which "cases needed" is computed
 
 
 def report(study, players):
-    """Gathers, draws and writes study.html. Returns gather's exit code."""
+    """Gathers, draws and writes study.html. Returns the exit code of gather."""
     code = gather(study)
     sample = read_sample(study)
     folder = study.folder / "report"
@@ -73,7 +73,7 @@ def draw(study, sample, choices, folder):
 
 
 def statistics_of(sample, choices):
-    """A row for each measure and group: mean, quantile, how many cases are needed, and the fits of peaks."""
+    """A row for each measure and group: mean, quantile, number of cases needed, and the fits of peaks."""
     rows = []
     for measure in dict.fromkeys([*choices.means, *choices.exceedance]):
         for value, cases in sample.groups(choices.group_by):
@@ -139,7 +139,7 @@ def write_csv(path, rows):
 
 
 def make_players(study, sample, players):
-    """The players of kept runs that have none yet."""
+    """Makes the players of kept runs that have none yet."""
     numbers = sample.columns["case"].astype(int).tolist()
     runs = [study.case_folder(n) / RUN for n in numbers]
     wanted = [run for run in runs if (run / "frames.bin").exists() and not (run / "view.html").exists()]
@@ -218,8 +218,8 @@ def statistics_table(rows, group_by):
 
 
 def of_fit(row, name, factor):
-    """What a fit is exceeded by in one run of a hundred; struck through, with why, where the fit is refuted; why there
-    is no fit."""
+    """The value that a fit exceeds in one run of a hundred. It is struck through, with the reason, if the fit is
+    refuted. Without a fit, the reason for that."""
     note = html.escape(row.get(f"{name}_note", ""))
     level = with_interval(row, f"{name}_exceeded_by_1_percent", factor)
     struck = with_interval(row, f"{name}_refuted_level", factor)
@@ -227,7 +227,7 @@ def of_fit(row, name, factor):
 
 
 def with_interval(row, name, factor):
-    """ "1.2 (1.1 – 1.4)"; empty where the row has none."""
+    """"1.2 (1.1 – 1.4)"; empty if the row has no value."""
     if name not in row:
         return ""
     value, low, high = (pictures.in_words(row[name + side] * factor, 4) for side in ("", "_low", "_high"))
@@ -235,7 +235,7 @@ def with_interval(row, name, factor):
 
 
 def case_table(study, sample):
-    """The cases with their parameters and outcome, and each one's player, or the command that makes it."""
+    """Table of the cases with their parameters and outcome, and the player of each, or the command that makes it."""
     numbers = sample.columns["case"].astype(int).tolist()
     shown = numbers[:MOST_ROWS]
     names = [
@@ -265,7 +265,7 @@ def case_table(study, sample):
 
 
 def name_table(sample):
-    """What short names of parameters stand for."""
+    """Table with the meanings of short names of parameters."""
     return table(["parameter", "name", "value"], [[parameter, name, Raw(f"<code>{html.escape(str(value))}</code>")]
                                                   for parameter, of in sample.meanings.items()
                                                   for name, value in of.items()])
@@ -276,7 +276,7 @@ def in_unit(value, factor):
 
 
 class Raw(str):
-    """Text that is HTML already."""
+    """Text that already is HTML."""
 
 
 def table(head, body):

@@ -1,4 +1,4 @@
-"""A gathered study as columns: its finished cases, grouped by parameters. Needs numpy."""
+"""A gathered study as columns of its finished cases, grouped by parameters. Needs numpy."""
 import dataclasses
 import functools
 
@@ -10,19 +10,19 @@ from ..naming import names_of
 from .gather import TABLE, read_summary
 
 MOST_GROUPS = 8
-LEAST_FIT = 10  # cases of a group that is fitted
+LEAST_FIT = 10  # least number of cases in a group for a fit
 QUANTILE = 0.99
-REFUTED = 0.05  # p values below refute a fit
+REFUTED = 0.05  # a fit with a smaller p value is refuted
 
 
 @dataclasses.dataclass
 class Sample:
-    """The columns of the finished cases by name: numbers where all are, else words; NaN where there is none."""
+    """Columns of the finished cases by name: numbers if all values are numbers, otherwise texts; NaN means no value."""
 
     columns: dict
     parameters: list
     summary: dict
-    meanings: dict = dataclasses.field(default_factory=dict)  #: parameter -> {short name: what the table has}
+    meanings: dict = dataclasses.field(default_factory=dict)  #: parameter -> {short name: value in the table}
 
     @property
     def size(self):
@@ -33,7 +33,7 @@ class Sample:
         return sorted(set(self.columns[name].tolist()))
 
     def varied(self):
-        """Parameters of more than one value, seeds left out."""
+        """Parameters with more than one value, without seeds."""
         return [
             name
             for name in self.parameters
@@ -41,7 +41,7 @@ class Sample:
         ]
 
     def groups(self, by):
-        """(value, cases) of a parameter; all cases where there is none to group by."""
+        """(value, cases) for each value of a parameter; all cases if `by` is empty."""
         if by is None:
             return [(None, numpy.ones(self.size, dtype=bool))]
         return [(value, self.columns[by] == value) for value in self.values_of(by)]
@@ -71,7 +71,7 @@ def read_sample(study):
 
 
 def named(values):
-    """A column of words with short names in place of objects and of long words, and {short name: the value}."""
+    """A column of texts in which short names replace objects and long texts, and {short name: the value}."""
     names = names_of(values.tolist())
     return (numpy.array([names[value] for value in values.tolist()]),
             {name: value for value, name in names.items() if name != value})
@@ -85,7 +85,7 @@ def column(values):
 
 @dataclasses.dataclass
 class Choices:
-    """What a report shows, by the study's \"report\" or, where it leaves that out, by what varies."""
+    """Settings of a report, from the study's "report" or, if they are missing there, from the parameters that vary."""
 
     against: str | None
     means: list
@@ -115,17 +115,17 @@ def choices_of(study, sample):
 
 
 def refuted(fit):
-    """Why a fit gives no value that is rarely exceeded; empty where it gives one."""
+    """Reason why a fit gives no rarely exceeded value; empty if it gives one."""
     p = min(fit.ks_p, fit.ad_p)
     return f"refuted: p {p:.2g}" if p < REFUTED else ""
 
 
 def fits_of(values, seed=0):
-    """Gumbel's and Weibull's distributions for a group's peaks, or why there is none."""
+    """Gumbel's and Weibull's distributions fitted to a group's peaks, or the reason why there are none."""
     return fits_of_bytes(numpy.asarray(values, dtype=float).tobytes(), seed)
 
 
-@functools.lru_cache(maxsize=256)  # pictures and tables show the same fits
+@functools.lru_cache(maxsize=256)  # pictures and tables use the same fits
 def fits_of_bytes(data, seed):
     values, found = numpy.frombuffer(data), {}
     for name in statistics.NAMES:

@@ -1,4 +1,4 @@
-"""Scripts for clusters: one Slurm job array over a study's chunks, and the line for GNU parallel."""
+"""Scripts for clusters: a Slurm job array over a study's chunks, and the command line for GNU parallel."""
 import pathlib
 import re
 import shlex
@@ -48,7 +48,7 @@ exec {program} study gather {folder}
 
 
 def chunks_to_run(study, retries_failed=False):
-    """The chunks with a case that has not ended, or an archive still to be packed."""
+    """Chunks with a case that has not ended, or whose archive must still be packed."""
     ended = {"finished"} if retries_failed else {"finished", "failed"}
     chunks = []
     for chunk in range(study.chunks):
@@ -60,7 +60,7 @@ def chunks_to_run(study, retries_failed=False):
 
 
 def write_scripts(study, options):
-    """Writes array.sbatch and gather.sbatch below the study's folder; their paths, and how many tasks there are."""
+    """Writes array.sbatch and gather.sbatch in the study's folder. Returns their paths, and the number of tasks."""
     chunks = chunks_to_run(study, options.retry_failed)
     if not chunks:
         return None, None, 0
@@ -95,7 +95,7 @@ def program_path():
 
 
 def submit(array, gather):
-    """Submits both and prints their ids; the gathering job waits until no task is left, however the tasks ended."""
+    """Submits both jobs and prints their ids. The gathering job waits until no task is left, however the tasks end."""
     job = sbatch([array])
     print(f"submitted   job {job}", flush=True)
     words = [f"--dependency=afterany:{job}", str(gather)]
@@ -122,7 +122,7 @@ def sbatch(words):
 
 
 def parallel_line(study, hosts, jobs):
-    """GNU parallel's line for these hosts, over the chunks that have cases to run."""
+    """Command line of GNU parallel for these hosts, over the chunks with cases to run."""
     chunks = chunks_to_run(study)
     login = f"--sshlogin {shlex.quote(','.join(hosts))} " if hosts else ""
     command = (
@@ -136,7 +136,7 @@ def parallel_line(study, hosts, jobs):
 
 
 def brace(chunks):
-    """Numbers as bash expands them: {0..23} for a stretch."""
+    """Numbers in the form that bash expands, with {0..23} for consecutive ones."""
     for part in list_of_numbers(chunks).split(","):
         low, dash, high = part.partition("-")
         yield f"{{{low}..{high}}}" if dash else low

@@ -1,4 +1,4 @@
-"""A request to stop, that signals raise and every process hears."""
+"""A request to stop, which signals raise and which all processes of a study receive."""
 import os
 import signal
 
@@ -6,8 +6,8 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1)
 
 
 class Stop:
-    """A request to stop: a pipe whose reading end becomes readable, in every process that has it, when it is raised or
-    when this process ends."""
+    """A request to stop. It is a pipe whose reading end becomes readable, in every process that has it, when the
+    request is raised or when this process ends."""
 
     def __init__(self):
         self.reader, self.writer = os.pipe()

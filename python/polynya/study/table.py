@@ -1,27 +1,28 @@
-"""How far a study is, on stderr: a live table on a terminal, else a line now and then."""
+"""Progress of a study on stderr: a live table on a terminal, otherwise a line now and then."""
 import dataclasses
 import sys
 import time
 
-MOST_NAMED = 12  # running cases in the table
-LIVE_PAUSE, LINE_PAUSE = 0.2, 10.0  # [s]
+MOST_NAMED = 12  # number of running cases that the table lists
+LIVE_PAUSE, LINE_PAUSE = 0.2, 10.0  # times between updates of the table, and between lines [s]
 CLEAR_LINE = "\033[K"
 
 
 @dataclasses.dataclass
 class Counts:
-    """How far a study is."""
+    """Progress of a study."""
 
     total: int
     done: int = 0
     failed: int = 0
     stopped: int = 0
-    running: list = dataclasses.field(default_factory=list)  # numbers
-    before: int = 0  # ended before this command
+    running: list = dataclasses.field(default_factory=list)  # numbers of cases
+    before: int = 0  # number of cases that had ended before this command
     began: float = dataclasses.field(default_factory=time.monotonic)
 
     def left(self):
-        """Time left as a clock shows it, by the pace so far; a dash before the first case has ended."""
+        """Remaining time at the average rate so far, in hours, minutes and seconds; a dash before the first case has
+        ended."""
         ended = self.done + self.failed - self.before
         if ended <= 0:
             return "–"
@@ -73,10 +74,10 @@ class Display:
         self.lines = len(rows)
 
     def back(self):
-        """To the table's first line."""
+        """Moves the cursor to the first line of the table."""
         return f"\r\033[{self.lines}A" if self.lines else ""
 
     def message(self, words):
-        """A line above the table, which is drawn again below it."""
+        """Prints a line above the table, which is drawn again below it."""
         print(f"{self.back()}{words}{CLEAR_LINE if self.is_live else ''}", file=sys.stderr, flush=True)
         self.shown, self.lines = 0.0 if self.is_live else self.shown, 0

@@ -1,4 +1,4 @@
-"""What a study will take, from a trial of its first case."""
+"""Estimates time and space of a study from a trial of its first case."""
 import os
 import resource
 import sys
@@ -11,8 +11,8 @@ from .folder import RUN, write_plan
 
 
 def estimate(study, seconds, jobs):
-    """Runs the first case for at most `seconds` and prints what all of them will take; it stays where it is, finished
-    or with its checkpoint. The estimate is kept in the plan."""
+    """Runs the first case for at most `seconds` and prints an estimate for all cases. The case keeps its result or its
+    checkpoint. The estimate is stored in the plan."""
     if state_of(study.case_folder(0))[0] != "missing":
         return
     reader, writer = os.pipe()

@@ -2,7 +2,7 @@
 
 namespace polynya::io {
 
-/// WebAssembly addresses 4 GiB; a browser's tab gets half of them without being stopped.
+/// WebAssembly can address 4 GiB. A browser tab can use half of them without being stopped.
 MemoryAvailable memory_available(const std::filesystem::path&) {
   return {2.0 * 1024 * 1024 * 1024, "what a browser's tab has"};
 }

@@ -6,24 +6,24 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
-// Takes the place of geometry/exact/internal/rational.hpp, which is on GMP: a browser has no GMP.
+// Replaces geometry/exact/internal/rational.hpp, which uses GMP, because a browser has no GMP.
 
 namespace polynya::geometry::exact {
 
 using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
-/// Without expression templates, as CGAL expects its numbers.
+/// CGAL needs numbers without expression templates.
 using Rational =
     boost::multiprecision::number<boost::multiprecision::rational_adaptor<boost::multiprecision::cpp_int_backend<>>,
                                   boost::multiprecision::et_off>;
 
-/// −1, 0 or +1.
+/// Returns −1, 0 or +1.
 inline int sign(const Rational& value) {
   return value.sign();
 }
 inline Rational magnitude(const Rational& value) {
   return value.sign() < 0 ? Rational(-value) : value;
 }
-/// The value rounded towards 0 to a double. Boost's own conversion is near it.
+/// Returns the value rounded towards 0 to a double. Boost's own conversion gives a double near it.
 inline double truncated_double(const Rational& value) {
   const double far =
       value.sign() < 0 ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
@@ -35,23 +35,23 @@ inline double truncated_double(const Rational& value) {
     rounded = next;
   return rounded;
 }
-/// value · 2^exponent.
+/// Returns value · 2^exponent.
 inline Rational scaled(const Rational& value, int exponent) {
   const Integer power = Integer(1) << static_cast<unsigned>(exponent < 0 ? -exponent : exponent);
   return exponent < 0 ? Rational(value / power) : Rational(value * power);
 }
-/// The largest whole number that is not above the value; it must fit a double.
+/// Returns the largest whole number that is at most the value, which must fit into a double.
 inline double whole_below(const Rational& value) {
   const Integer above = numerator(value), below = denominator(value);
   Integer whole = above / below;
   if (above < 0 && whole * below != above) --whole;
   return whole.convert_to<double>();
 }
-/// "-3/4", or "2" where the value is whole.
+/// Returns "-3/4", or "2" for a whole value.
 inline std::string digits_of(const Rational& value) {
   return denominator(value) == 1 ? numerator(value).str() : value.str();
 }
-/// value · 2^bits.
+/// Returns value · 2^bits.
 inline Integer shifted(const Integer& value, unsigned bits) {
   return value << bits;
 }
