@@ -69,7 +69,7 @@ TEST_F(Resume, GivesTheBytesOfTheRunNobodyInterrupted) {
 
   restore();
   for (const fs::path& checkpoint : checkpoints_) fs::remove(checkpoint);
-  EXPECT_HAS(resume().err, "from the start");
+  EXPECT_HAS(resume().err, "starting from the beginning");
   EXPECT_EQ(difference(), "");
 }
 
@@ -108,17 +108,17 @@ TEST_F(Resume, AFinishedRunGoesOnToALaterEnd) {
   ASSERT_EQ(polynya("view run", start_).code, 0);
   for (const char* until : {"41", "60.5"}) {
     ASSERT_EQ(polynya({"run", "scene.json", "--out", "whole", "--until", until, "--overwrite"}, start_).code, 0);
-    EXPECT_LACKS(expect_code(0, resume({"--until", until})).err, "from the start");
+    EXPECT_LACKS(expect_code(0, resume({"--until", until})).err, "starting from the beginning");
     EXPECT_EQ(difference(), "");
     EXPECT_EQ(read_file(folder_ / "run/final.svg"), read_file(folder_ / "whole/final.svg"));
     EXPECT_FALSE(fs::exists(folder_ / "run/view.html"));
   }
-  EXPECT_HAS(resume("--until 40").err, "the run is finished, at 60.5 s");
+  EXPECT_HAS(resume("--until 40").err, "the run has finished at 60.5 s");
   EXPECT_EQ(difference(), "");
   // One of a version that kept no checkpoint.
   fs::remove(io::checkpoints_in(folder_ / "run").front());
   ASSERT_EQ(polynya("run scene.json --out whole --until 61 --overwrite", start_).code, 0);
-  EXPECT_HAS(resume("--until 61").err, "from the start");
+  EXPECT_HAS(resume("--until 61").err, "starting from the beginning");
   EXPECT_EQ(difference(), "");
 }
 

@@ -93,8 +93,7 @@ function makePlotPanel(player) {
   };
   Object.assign(panel, {
     showTools: () => showPlotTools(panel),
-    /** Shows the values under the pointer in the legends. They are those of the rows whose intervals end at the times
-     * shown. */
+    /** Shows the values at the pointer in the legends: those of the rows that end at the times shown. */
     point(px, pointedPlot) {
       showPointed(panel, px, pointedPlot);
       panel.setTime(state.time);
@@ -106,8 +105,7 @@ function makePlotPanel(player) {
       player.timeline.setPart(span);
       panel.showTools();
     },
-    /** Draws all plots again with their legends. redraw() keeps the legends, so that one that is in use does not
-     * change. */
+    /** Draws all plots and legends again. redraw() keeps legends, so that one in use does not change. */
     rebuild() {
       for (const view of panel.views) view.rebuild();
       finish();
