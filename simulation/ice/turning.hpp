@@ -24,8 +24,8 @@ void start_cusp(const Step& step, const PendingFracture& bend, double mass, Popu
 double pressed_mass(const Setup& setup, const Population& population, const PendingFracture& bend,
                     const geometry::CutResult& cut);
 
-/// Returns true if the hull carries the water that is missing on the decks of the cusps that a bend breaks off: if water
-/// floods decks (`has_flooding_decks`) and the hull presses the cusps down.
+/// Returns true if the hull carries the water that is missing on the decks of the cusps that a bend breaks off. It does
+/// if water floods decks (`has_flooding_decks`) and the hull presses the cusps down.
 bool has_decks(const Setup& setup, const PendingFracture& bend);
 
 /// Adds the cusps of a cut to Population::decks. press_decks() turns them from the next step on. Call it only where
