@@ -19,8 +19,8 @@ constexpr std::size_t kMostGroups = 100;
 
 void collect(const Object& object, const JsonValue& value, const std::string& path, std::vector<SceneParameter>& found);
 
-/// Collects the parameters of the items of a list: all ships and structures, the random fields of floes, and channels of
-/// brash.
+/// Collects the parameters of the items of a list: all ships and structures, random fields of floes, and channels of
+/// brash ice.
 void collect_items(const Field& field, const JsonValue& list, const std::string& path,
                    std::vector<SceneParameter>& found) {
   if (field.key != "ships" && field.key != "structures" && field.key != "floes") return;

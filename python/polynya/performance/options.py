@@ -41,8 +41,8 @@ def add_coefficients(parser):
     for name, ice in (("--pack", "pack ice"), ("--level", "level ice"), ("--channel", "a channel of brash ice, 1.5 "
                                                                           "beams wide in fast ice")):
         which.add_argument(name, help=f"Compute the resistance in {ice} at each speed instead", action="store_true")
-    meaning = ("Speeds for --pack, --level and --channel [m/s]; 1,2,4 if not given, and 1,2.572,4 in a channel (2.572 is "
-               "5 knots)")
+    meaning = ("Speeds for --pack, --level and --channel [m/s]; 1,2,4 if not given, and 1,2.572,4 in a channel, where "
+               "2.572 m/s are 5 knots")
     parser.add("--speed", meaning, type=values(number(0.05, 20, "m/s")), metavar="LIST")
     meaning = "Ice covers for --pack and --channel, as fractions; 0.5,0.7,0.85 and 0.8 if not given"
     parser.add("--cover", meaning, type=values(number(0.05, 0.95)), metavar="LIST")
