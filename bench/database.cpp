@@ -73,7 +73,7 @@ void Forecast(benchmark::State& state) {
 }
 BENCHMARK(Forecast);
 
-/// What the table saves: the modes of one wedge …
+/// The work that the table saves: computing the modes of one wedge …
 void DirectModes(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(fracture::wedge_of(BendingLoad{}, {}));
 }

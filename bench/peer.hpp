@@ -37,14 +37,14 @@ struct PeerScene {
 /// The bodies a simulation starts with. Outlines must be convex and without holes.
 PeerScene peer_scene(const simulation::Simulation& simulation);
 
-/// What a step cost and what it had to do.
+/// Cost of a step, and the work that it did.
 struct StepReport {
   double seconds = 0;
   int awake = 0;     ///< bodies that moved
   int contacts = 0;  ///< pairs that touch; −1: not counted at this step
 };
 
-/// A convex ring in convex pieces of at most so many corners, cut along chords.
+/// Cuts a convex ring along chords into convex pieces of at most `most_corners` corners.
 std::vector<geometry::Ring> convex_pieces(const geometry::Ring& ring, std::size_t most_corners);
 
 /// Box2D 2.4.1, in floats: 8 velocity and 3 position iterations, as its manual recommends; sleeping on, with

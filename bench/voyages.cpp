@@ -30,7 +30,7 @@ struct Options {
   std::optional<double> lateral;
 };
 
-/// Some rows of the table: a scene, and what is compared.
+/// A group of rows of the table: a scene, and the engines and settings that are compared.
 struct Case {
   std::string name;
   std::string scene;
@@ -43,7 +43,7 @@ struct Case {
   int repeats = 1;          ///< of all engines; of each kBlock ticks the quietest repeat counts
 };
 
-/// As many floes again, far away from the voyage.
+/// Adds the same number of floes again, far away from the voyage.
 void double_the_field(simulation::Scene& scene) {
   double low = INFINITY;
   double high = -INFINITY;
@@ -61,12 +61,12 @@ void double_the_field(simulation::Scene& scene) {
   }
 }
 
-/// A round plate of 300 m in level-plate's place, its outline drawn with so many corners.
+/// Replaces the plate of level-plate by a round plate of 300 m whose outline has `corners` corners.
 Edit round_plate(int corners) {
   return [corners](simulation::Scene& scene) {
     geometry::Ring ring;
     for (int i = 0; i < corners; ++i) {
-      // Not symmetric about the course, so that no corner lies just ahead of the stem.
+      // The corners are not symmetric about the course, so that no corner lies just ahead of the stem.
       const double angle = 2 * std::numbers::pi * (i + 0.3) / corners;
       ring.push_back({150 + 150 * std::cos(angle), 150 * std::sin(angle)});
     }
@@ -158,7 +158,7 @@ std::string times(double ratio) {
   return text;
 }
 
-/// Runs what is to be compared one after the other, and that so many times over.
+/// Executes the runs one after the other, and repeats the whole sequence `repeats` times.
 std::vector<RunCost> alternate(int repeats, const std::vector<std::function<RunCost()>>& runs) {
   std::vector<RunCost> costs;
   costs.reserve(runs.size());
@@ -186,7 +186,8 @@ double astray(const PeerScene& start, const RunCost& reference, const RunCost& r
   return std::max(of_ship, way > 0 ? off / way : 0);
 }
 
-/// The scene with the longest step with which a peer's bodies come to the places that they come to at the scene's.
+/// Returns the scene with the longest step with which the bodies of a peer reach the same places as with the scene's
+/// step.
 PeerScene with_longest_step(const Peer& peer, const PeerScene& scene, const Limits& limits) {
   constexpr double kAllowed = 0.1;
   PeerScene found = scene;
@@ -203,7 +204,7 @@ PeerScene with_longest_step(const Peer& peer, const PeerScene& scene, const Limi
   return found;
 }
 
-/// What a case compares: ours first.
+/// The runs that a case compares. The first run is that of Polynya.
 struct Runs {
   std::vector<std::function<RunCost()>> runs;
   std::vector<PeerScene> scenes;  ///< of the peers, for as long as they run

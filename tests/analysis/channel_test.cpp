@@ -261,7 +261,8 @@ TEST(Channel, RefusesTimesAndShipsThatAreNotThere) {
 
 const Polygon kSquare{{{0, 0}, {2, 0}, {2, 2}, {0, 2}}, {}};
 
-/// A valid floe is ice as it is, near where boxes meet; of one whose ring crosses itself what it winds around.
+/// The ice of a valid floe is exact, also near the edges of boxes. The ice of a floe whose ring crosses itself is the
+/// area around which the ring winds.
 TEST(PlacedIce, IsWhatItsFloeEncloses) {
   std::vector<analysis::PlacedIce> ice, crossed, none;
   ASSERT_TRUE(analysis::add_ice(ice, nullptr, kSquare));

@@ -41,9 +41,9 @@ Ring star(std::mt19937& dice, int vertices, double radius) {
   return ring;
 }
 
-/// The near part decides like the whole, and so does an edge that separates two: exact overlaps of long jagged floes
-/// with small ones, and of convex with jagged ones, in any pose, with and without a hole, agree to the last bit with
-/// those of the whole rings.
+/// The near part decides like the whole ring, and so does an edge that separates two floes. Exact overlaps of long
+/// jagged floes with small floes, and of convex floes with jagged floes, agree to the last bit with the overlaps of the
+/// whole rings, in any pose, with and without a hole.
 TEST(NearPart, SharesTheSameAreaAsTheWhole) {
   std::mt19937 dice(11);
   std::uniform_real_distribution<double> place(-14, 14), turn(-4, 4);
@@ -69,7 +69,8 @@ TEST(NearPart, SharesTheSameAreaAsTheWhole) {
   EXPECT_EQ(shared_area(left, {}, right, {}), 0);
 }
 
-/// What is drawn straight far from the box may cross the rest of the ring: geometry::overlap takes that.
+/// The edge that replaces the ring far from the box may cross the rest of the ring. geometry::overlap accepts such
+/// rings.
 TEST(NearPart, MayCrossItselfAndSharesTheSame) {
   std::mt19937 dice(29);
   std::uniform_real_distribution<double> place(-9, 9);
@@ -266,7 +267,7 @@ class FinalPlacesOfARun : public testing::Test {
     return std::ranges::find(run.frames.back().floes, floe, &io::FloeMotion::floe)->motion;
   }
 
-  /// Writes final.geojson, with the motions of the last frame and those that the test changed.
+  /// Writes final.geojson with the motions of the last frame, including the motions that the test changed.
   void write_final() {
     io::GeojsonLayer layer(run.end_time());
     for (const io::FloeMotion& floe : run.frames.back().floes) {
@@ -281,7 +282,7 @@ class FinalPlacesOfARun : public testing::Test {
   void write(const std::string& text) { tests::write_file(folder / "final.geojson", text); }
   std::string text() const { return tests::read_file(folder / "final.geojson"); }
 
-  /// Checks the run, which must not be sound because of one floe alone, and returns what is wrong with that floe.
+  /// Checks the run, in which exactly one floe must be wrong, and returns the defect of that floe.
   MisplacedFloe only_misplaced() {
     const RunCheck check = check_run(run);
     EXPECT_FALSE(check.is_sound());

@@ -111,7 +111,8 @@ TEST_F(Checksums, MayBeMissingOfOlderRunsAndOfThoseThatHaveNotFinished) {
   EXPECT_TRUE(io::check_files(folder->path() / "run").damaged.empty());
 }
 
-/// Where the last part of a file is cut off, a bit there is no damage; where it stays, it is.
+/// A flipped bit in the last part of a file is no damage if the resumed run cuts that part off. It is damage if the
+/// part stays.
 TEST_F(Checksums, OfACheckpointFindABitInWhatIsContinued) {
   const fs::path run = folder->path() / "run";
   for (const std::string_view name : {io::run_file::kFloes, io::run_file::kEvents, io::run_file::kFrames,

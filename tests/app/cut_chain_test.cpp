@@ -1,6 +1,6 @@
-// What `polynya cut` writes it reads: long chains of cuts of awkward outlines, every piece written in one of
-// the formats and read back before the next cut. POLYNYA_CHAINED_CUTS sets how many; the ctest label
-// `endurance` runs 20 000.
+// `polynya cut` can read the files that it writes. The test makes long chains of cuts of awkward outlines. Every piece
+// is written in one of the formats and read back before the next cut. POLYNYA_CHAINED_CUTS sets the number of cuts; the
+// ctest label `endurance` runs 20 000.
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -51,8 +51,8 @@ double step_at(double value) {
   return std::nextafter(std::abs(value), std::numeric_limits<double>::infinity()) - std::abs(value);
 }
 
-/// Nothing refused; every piece valid, and its area the nearest double; and areas that sum to
-/// the parent's, exactly: the two terms of the ledger are nearest doubles themselves.
+/// Checks that nothing is refused, that every piece is valid and has the nearest double of its area, and that the areas
+/// add up to the parent's area exactly. The two terms of the ledger are nearest doubles themselves.
 void expect_sound(const io::CutFloe& floe, const Polygon& parent) {
   ASSERT_FALSE(floe.rejected) << floe.rejected->reason << " " << floe.rejected->detail;
   EXPECT_EQ(floe.exact_defect, "0");

@@ -1,4 +1,5 @@
-// `polynya cut`: the ledger and the pieces of every tool, what is refused, and what is kept of a file's formats.
+// `polynya cut`: the ledger and the pieces of every tool, the inputs that are refused, and the properties of a file's
+// format that are kept.
 #include <cmath>
 #include <random>
 
@@ -59,7 +60,7 @@ class CutCommand : public InFolder {
     }
     return area;
   }
-  /// What an outcome's ledger holds, all of whose sums balance.
+  /// Returns the ledger of an outcome after checking that all its sums balance.
   static json ledger_of(const Outcome& outcome, int code = 0) {
     EXPECT_EQ(outcome.code, code) << outcome.err;
     json ledger = json::parse(outcome.out);
@@ -200,7 +201,7 @@ TEST_F(CutCommand, ACutThatMustCutRefusesWhatItLeavesWhole) {
   EXPECT_EQ(each["pieces"], 3);
 }
 
-/// By every name that tests/geometry/validity_peer_test.cpp does not reach through a text, and some that it does.
+/// Covers every defect that tests/geometry/validity_peer_test.cpp cannot express as text, and some that it can.
 TEST_F(CutCommand, DefectsAreRefusedByNameAndTheGoodAreCut) {
   const std::vector<std::pair<std::string, std::string>> all{
       {feature(""), "too-few-points"},
@@ -393,7 +394,7 @@ TEST_F(CutCommand, WhatCannotBeReadOrWrittenIsFive) {
                    {"cut floes.geojson --disc 0,0,1 --out no/such/folder.geojson", 5, "no/such/folder.geojson"},
                    {"cut broken.geojson --disc 0,0,1", 5, "broken.geojson:2:"}},
                   {folder.path()});
-  // A size limit stands for a full disk: nothing half-written is left, nor is what was there lost.
+  // A file size limit simulates a full disk. No incomplete file is left, and the previous file is not lost.
   EXPECT_HAS(expect_code(5, polynya("cut floes.geojson --disc 0,0,5 --out pieces.wkt", {folder.path(), 300})).err,
              "File too large");
   EXPECT_EQ(read("pieces.wkt"), "as it was");

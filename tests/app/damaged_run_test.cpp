@@ -76,7 +76,8 @@ TEST_F(DamagedRun, ADamagedSummaryIsNamedWithItsPlace) {
   write_file(summary, whole);
 }
 
-/// Rings that can be read but bound no valid area: the check finds them, and everything else says what it leaves out.
+/// Some rings can be read but bound no valid area. The check reports them, and every other command states which floes
+/// it leaves out.
 TEST_F(DamagedRun, ARingThatIsNotValidCrashesNoCommand) {
   for (const char* ring : {"[[0,0],[1,0],[2,0]]", "[[1,1],[1,1],[1,1]]", "[[0,0],[4,4],[4,0],[0,4]]",
                            "[[0,0],[9,0],[4,0],[4,9]]", "[[0,0],[1e300,0],[0,1e300]]", "[[0,0],[0,9],[9,9],[9,0]]"}) {

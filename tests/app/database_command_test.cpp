@@ -62,7 +62,7 @@ TEST_F(Database, BuildMakesWhatIsAskedAndOverwritesOnlyWhenTold) {
   EXPECT_NE(number(of_small.out, "vertical_force_N"), number(database(paper_wedge + "1").out, "vertical_force_N"));
 }
 
-// Before the work: no wedge is solved, which --progress json would show.
+// The fault is found before the work: no wedge is solved, otherwise --progress json would report it.
 TEST_F(Database, NowhereToWriteIsFoundBeforeTheWork) {
   std::filesystem::create_directory(folder / "folder");
   for (const std::string& out : Words("missing/file.txt folder /dev/full")) {

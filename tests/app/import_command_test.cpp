@@ -225,7 +225,7 @@ TEST_F(Import, AnIceChartBecomesFloesByOneCommand) {
     EXPECT_HAS(imported.out, "\"notes\":[\"4 of 6 features were taken");
     EXPECT_HAS(read("floes.geojson"), R"("thickness_m":1.6,"POLY_TYPE":"I","CT":"92","SA":"93")");
   }
-  // The line of a feature that is taken is that of the file.
+  // The reported line of a selected feature is its line in the file.
   write("chart.geojson", chart() + "");
   EXPECT_HAS(
       expect_code(4, call({"import", "chart.geojson", "--where", "POLY_TYPE = 'I'", "--property", "thickness_m=AREA",
@@ -266,7 +266,7 @@ TEST_F(Import, NumbersThatAreTextsAreNumbers) {
     EXPECT_HAS(expect_code(4, import(floe(number))).err, "property thickness_m: found ");
 }
 
-/// An id that is no whole number of its own is kept under another key, and one line says so.
+/// An id that is not a unique integer is kept under another key, and one line of output reports this.
 TEST_F(Import, IdsThatCannotBeKeptAreKeptUnderAnotherKey) {
   const auto floes = [&](const std::string& first, const std::string& second, const std::string& more = "") {
     return collection_of(square(0, 0, 10, first) + "," + square(20, 0, 10, second) + more);
@@ -310,7 +310,7 @@ TEST_F(Import, IdsThatCannotBeKeptAreKeptUnderAnotherKey) {
   const auto loaded = checked(scene());
   for (const io::Problem& hint : loaded->hints) hints += to_string(hint);
   EXPECT_HAS(hints, "hint: floes[0].file: floe_id: 2 are text (\"A1\")");
-  // By another name, too.
+  // The property may also have another name.
   EXPECT_HAS(expect_code(0, import(floes(R"("FID":"A1")", R"("FID":"A2")"), "--property floe_id=FID")).err,
              "read; 2 written");
   EXPECT_HAS(read("floes.geojson"), R"("FID":"A1")");

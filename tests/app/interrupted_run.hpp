@@ -76,7 +76,8 @@ inline bool kill_at_checkpoints(const Words& words, const Start& start, const st
   return kill_after(child, start, {});
 }
 
-/// Leaves a run as a kill after so many steps does; its checkpoints are written at these steps, after `change`.
+/// Leaves a run folder in the state in which a kill after `end` steps leaves it. Checkpoints are written at the given
+/// steps, after `change`.
 inline void leave_run(
     const std::filesystem::path& scene_file, const std::filesystem::path& run, std::int64_t end,
     const std::vector<std::int64_t>& checkpoints, std::int64_t frame_every,

@@ -52,18 +52,18 @@ struct Start {
   std::vector<std::string> under = {};  ///< a program, and its options, that starts polynya
 };
 
-/// Without rsvg-convert, which takes seconds.
+/// Starts the program without rsvg-convert, which takes seconds.
 inline Start without_converter(const TemporaryFolder& folder) {
   return {.folder = folder.path(), .arrange_streams = [] { setenv("PATH", "/", 1); }};
 }
 
-/// With stdout or stderr a pipe without a reader.
+/// Makes stdout or stderr a pipe without a reader.
 inline void close_pipe_behind(int descriptor) {
   int ends[2];
   if (pipe(ends) != 0 || close(ends[0]) != 0 || dup2(ends[1], descriptor) < 0) _exit(126);
 }
 
-/// With stdout or stderr on a full disk.
+/// Makes stdout or stderr a file on a full disk.
 inline void fill_disk_of(int descriptor) {
   const int full = open("/dev/full", O_WRONLY);
   if (full < 0 || dup2(full, descriptor) < 0) _exit(126);
@@ -150,11 +150,11 @@ inline std::string scene_path(const std::string& name) {
   return std::string(POLYNYA_SOURCE_DIR) + "/scenes/" + name + ".json";
 }
 
-/// The folder of its own in which a test calls the program.
+/// Gives a test an empty folder in which it calls the program.
 class InFolder : public testing::Test {
  protected:
   Outcome call(const Words& words) const { return polynya(words, folder); }
-  /// Of a command that succeeds.
+  /// Returns the outcome of a command, which must succeed.
   Outcome done(const Words& words) const { return expect_code(0, call(words)); }
   void write(const std::string& name, const std::string& text) const { write_file(folder / name, text); }
   std::string read(const std::string& name) const { return read_file(folder / name); }

@@ -130,7 +130,7 @@ TEST_F(Resume, AKilledRunMayEndElsewhere) {
   EXPECT_EQ(difference(), "");
 }
 
-/// And leaves a folder that is whole and says that it is not finished.
+/// Also checks that the folder is complete and states that the run is not finished.
 TEST_F(Resume, ASignalStopsWithACheckpointAndNobodyElseMayWriteMeanwhile) {
   write_file(folder_ / "scene.json", crash_scene("100"));
   write_file(folder_ / "long.json", crash_scene("4500"));
@@ -158,7 +158,8 @@ TEST_F(Resume, ASignalStopsWithACheckpointAndNobodyElseMayWriteMeanwhile) {
   }
 }
 
-/// A size limit stands for a full disk, of 64 kB: forces.csv or floes.ndjson meets it. After it is lifted, all is well.
+/// A file size limit of 64 kB simulates a full disk: forces.csv or floes.ndjson reaches it. After the limit is removed,
+/// the run continues.
 TEST_F(Resume, AfterAFullDiskTheRunGoesOn) {
   write_file(folder_ / "scene.json", crash_scene("100"));
   ASSERT_EQ(polynya("run scene.json --out whole", start_).code, 0);

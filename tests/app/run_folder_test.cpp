@@ -1,4 +1,4 @@
-// What becomes of a run folder when polynya is killed, power fails, or others were there before.
+// State of a run folder after polynya is killed, after a power failure, and when the folder has other files in it.
 
 #include <cstdlib>
 #include <set>
@@ -204,7 +204,8 @@ TEST_F(RunFolderTrial, LinksInAForeignRunFolderAreNotFollowed) {
   EXPECT_EQ(read_file(folder_ / "precious"), "years of work");
 }
 
-/// What `polynya loads` and `management` made of a run is not of the next one; what others put there stays.
+/// Files that `polynya loads` and `management` made from a run are removed before the next run. Other files in the
+/// folder stay.
 TEST_F(RunFolderTrial, WhatCommandsMadeOfARunGoesWithIt) {
   for (const char* name : {"loads/loads.html", "loads/loads-peaks.csv", "management.csv", "notes.txt"}) {
     fs::create_directories(folder_ / "whole/loads");

@@ -149,8 +149,8 @@ TEST(BroadPhase, FindsWhatASearchOverAllPairsFinds) {
 
 constexpr int kColumns = 14;
 
-/// Steps two packs, one of which keeps less of what is known of its pairs; their contacts are the same to the
-/// bit. Gives how many there were.
+/// Steps two packs, one of which stores less about its pairs. Their contacts must be the same to the bit. Returns the
+/// number of contacts.
 std::size_t compare_contacts(FloePack& keeping, FloePack& making, bool are_bounds_the_same) {
   const auto of_contact = [](const Contact& c) {
     return std::tuple(c.a, c.b, c.width, c.depth, c.area, c.normal, c.ends[0], c.ends[1]);
@@ -245,7 +245,7 @@ TEST(BroadPhase, IceThatIsHeldIsPairedOnlyWithWhatMoves) {
   finder.find_contacts(bodies, 0.6, contacts);
   EXPECT_EQ(std::pair(only(contacts).a, contacts[0].b), std::pair(0, 3));
 
-  finder.remove(0);  // the plate breaks: what is left of it meets what moves, too
+  finder.remove(0);  // The plate breaks: its remainder is paired with moving bodies, too.
   const BodyIndex rest = add_held(bodies, rectangle(100, 100), {0.05, 0});
   finder.add(bodies, rest);
   wake(rest);

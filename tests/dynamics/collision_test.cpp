@@ -80,7 +80,7 @@ class Conserved {
   double scale_ = 0;
 };
 
-/// Of a body of a trial, with the arm of the same or of the other one.
+/// Returns the mobility of one body of a trial. The arm may belong to the same body or to the other body.
 Mobility mobility(const Trial& t, BodyIndex body, BodyIndex arm_of) {
   return {t.bodies.inverse_mass[body], t.bodies.inverse_moment[body],
           t.contacts[0].middle() - t.bodies.position[arm_of]};
@@ -171,7 +171,8 @@ struct Pinch {
 TEST(ContactsTogether, AFloePinchedBetweenAPrescribedShipAndAHeavyPlateFeelsBoth) {
   Pinch pinch;
   ContactSolver().solve(pinch.bodies, pinch.contacts, RestitutionLaw{.restitution = 0}, {20000});
-  // Plastic: both move on with the ship, and each contact carries what is accelerated beyond it.
+  // The impact is plastic: both floes move on with the ship, and each contact carries the force that accelerates the
+  // bodies beyond it.
   const Bodies& bodies = pinch.bodies;
   EXPECT_EQ(bodies.velocity[0], (Vector{1, 0}));
   EXPECT_NEAR(bodies.velocity[1].x, 1, 1e-3);
@@ -223,7 +224,7 @@ TEST(ContactsTogether, ARowOfTouchingFloesKeepsItsMomentumAndGainsNoEnergy) {
         energy = now;
       }
       conserved.check(row.bodies, 1e-12);
-      if (iterations < 3000) continue;  // in thirty the two ends of a line need not have evened out
+      if (iterations < 3000) continue;  // after thirty sweeps the two ends of a line may still differ
       for (const double spin : row.bodies.angular_velocity) EXPECT_NEAR(spin, 0, 1e-7);
     }
   }
@@ -389,8 +390,8 @@ std::vector<Contact> two_contacts(double first, double second) {
   return contacts;
 }
 
-/// Of what floes inherit, each contact takes the share of its area, wherever it is, also where a part of the overlap
-/// has no contact any more.
+/// Of the inherited paid overlap, each contact takes the share of its area. This holds wherever the contact is, also if
+/// a part of the overlap no longer has a contact.
 TEST(Tracker, ContactsOfFragmentsTakeTheShareThatWasPaid) {
   const Bodies bodies = two_floes(0, 3);
   for (const double second : {0.4, 0.2}) {

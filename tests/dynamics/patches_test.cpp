@@ -349,7 +349,8 @@ Pose turned(const Pose& pose, double by) {  // about the origin
   return {transform(turn, pose.position), {x.x, x.y}};
 }
 
-// The rule's gradient, over all patches of a pair: that of the overlap's area, shallow, deep and pierced.
+// The gradient of the rule over all patches of a pair equals the gradient of the overlap area, for shallow, deep and
+// pierced overlaps.
 TEST_F(RandomPatches, TheirWidthsAndNormalsAreTheGradientOfTheOverlapsArea) {
   constexpr double kShift = 1e-5;  // S is piecewise quadratic: central differences are exact but for corners
   int plain = 0, pierced = 0, corners = 0;

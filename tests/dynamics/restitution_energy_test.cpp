@@ -68,7 +68,7 @@ Bodies two_random_floes(Random& random) {
   return bodies;
 }
 
-/// Poisson's share is that of each end of a contact line: what compressed one end more is given back there.
+/// Poisson's restitution holds for each end of a contact line: the end that was compressed more gives more back.
 TEST(Restitution, EachEndGivesBackAShareOfItsOwnCompression) {
   const RestitutionLaw law{.restitution = 0.5};
   RestitutionLaw::State state{.record = nullptr, .crushing_impulse = 1e9, .stored_energy = 1e9};
