@@ -40,7 +40,7 @@ inline geometry::Polygon regular(int corners, double radius, geometry::Point cen
   return polygon;
 }
 
-/// The ring of a hole from that of a polygon, and back.
+/// Converts the ring of a polygon to the ring of a hole, and back.
 inline geometry::Ring reversed(const geometry::Ring& ring) {
   return {ring.rbegin(), ring.rend()};
 }

@@ -145,8 +145,8 @@ TEST(JamSolver, FrictionIsCoulombs) {
 }
 
 /// The kink of friction is as narrow as in the solver of whole steps, and the start is far from the solution. A solver
-/// that chooses branches by the speeds alone solves few of these jams. With friction bounds that are updated after each
-/// step it solves 17.
+/// that chooses branches by the speeds alone solves few of these jams, and one whose friction bounds are updated only
+/// after each step solves 17.
 TEST(JamSolver, SolvesJamsWithFrictionOfANarrowKink) {
   Random random(kSeed);
   for (int trial = 0; trial < 20; ++trial) {
@@ -158,8 +158,8 @@ TEST(JamSolver, SolvesJamsWithFrictionOfANarrowKink) {
 
 /// Brash between floes: half of the bodies are up to a hundred times lighter, and the start is far from the solution.
 /// If all contacts may leave their branches at once, each end by itself, the contacts of light bodies alternate for
-/// ever: 6 of these 40 jams are solved. If the solver does not reach the solution, either everything is as before to
-/// the bit, or the result is kept because it is better. In that case velocities and impulses are consistent.
+/// ever, and only 6 of these 40 jams are solved. If the solver does not reach the solution, either everything is as
+/// before to the bit, or the result is kept because it is better. In that case velocities and impulses are consistent.
 TEST(JamSolver, SolvesJamsOfFloesAndBrashOrKeepsWhatItCameToWhereThatIsBetter) {
   Random random(kSeed);
   int solved = 0;

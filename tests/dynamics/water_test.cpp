@@ -1,4 +1,5 @@
-// What water does: Eq. (6) of [Sawamura2017], relative to the water, against closed forms; and to ships.
+// Water forces: Eq. (6) of [Sawamura2017] relative to the water, against closed forms, and the forces of water on
+// ships.
 #include <algorithm>
 #include <cmath>
 
@@ -262,7 +263,7 @@ void expect_near(const Planar& found, const Planar& expected, const Planar& tole
   EXPECT_NEAR(found.yaw, expected.yaw, tolerance.yaw);
 }
 
-/// To port and starboard, and ahead and astern.
+/// Motions are mirrored between port and starboard, and between ahead and astern.
 TEST(Manoeuvring, MirroredMotionsHaveMirroredForces) {
   const auto force = [](const Planar& at) { return water_damping(hull(), at) * at; };
   const Planar here = force({4, 0.7, 0.02}), rounding{1e-9, 1e-9, 1e-7};

@@ -126,7 +126,8 @@ TEST(CrackPath, CountsTheIceAheadAndBeginsAndEndsBeyondTheEdges) {
   EXPECT_EQ(std::pair(sides.left, sides.right), std::pair(0.0, 0.0)) << "out of a hole it parts nothing";
 }
 
-/// From an edge through the middle, which sees every edge of a star, to the far side, or aside to the first edge.
+/// The crack starts at an edge and runs through the middle, which sees every edge of a star. It ends at the far side,
+/// or turns aside to the first edge.
 TEST(CrackPath, CutAlongItAFloeSeparatesWithoutLossOfAreaIntoPiecesOfItsAreas) {
   Random random(9);
   int pairs = 0;
@@ -182,8 +183,8 @@ TEST(CrackPath, ItsWidthIsTwiceTheIceOnItsNarrowerSide) {
 }
 
 TEST(CrackPath, OfTwoLegsHasTheAreasOfTheTwoPiecesThatItLeaves) {
-  // From the left side, 6 m above the lower edge, along it and then down to it; and likewise at the upper
-  // edge.
+  // The path starts at the left side, 6 m above the lower edge, runs along that edge and then down to it. A second path
+  // does the same at the upper edge.
   const Polygon plate = rectangle(100, 40);
   const Boundary boundary = make_outline(plate);
   for (const double side : {-1.0, 1.0}) {

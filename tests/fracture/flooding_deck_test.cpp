@@ -26,14 +26,14 @@ Deck rectangle(Beside sides, double older_far = kCuspDepth) {
   return deck_of(ice, kSea, kHullAngle, outline, std::vector{side, DeckEdge{}, side, side});
 }
 
-/// With nothing of the sheet beside its strips from one on.
+/// Removes the sheet beside the strips, from strip `first` on.
 Deck apart_from_sheet(Deck deck, std::size_t first = 0) {
   for (std::size_t i = first; i < deck.strips.size(); ++i) deck.strips[i].sheet = deck.strips[i].sheet_across = 0;
   return deck;
 }
 
-/// What the hull's force on the edge and the water that is missing before it do over a whole turn that takes that long,
-/// without friction [J].
+/// Work over a whole turn of a given duration without friction, done by the hull's force on the edge and by the missing
+/// water before the hull [J].
 struct Work {
   double down = 0, ahead = 0;
   double sum() const { return down - ahead; }
@@ -94,8 +94,8 @@ TEST(FloodingDeck, DryGivesBackWhatItTook) {
 }
 
 TEST(FloodingDeck, LiesAlongTheHullAtTheEndOfItsWay) {
-  // From the lower corner of its far edge h below the level, the upper corner at right angles to the deck is on the
-  // hull whose waterline is R - s from there.
+  // The lower corner of the far edge is h below the level. The upper corner, at right angles to the deck from there, is
+  // on the hull, whose waterline is R - s away.
   const Deck deck = rectangle(Beside::kSheet);
   const double waterline = kCuspDepth - distance_to_lie_along(deck);
   const double x = kThickness * std::cos(kHullAngle);
@@ -105,7 +105,8 @@ TEST(FloodingDeck, LiesAlongTheHullAtTheEndOfItsWay) {
 
 constexpr double kHasTurned = kCuspDepth - 3;  ///< where an older cusp ends that the hull has pressed farther down
 
-/// What falls into the pool is lost: nothing where no water comes in, nothing where it comes in from no height.
+/// The energy of water that falls into the pool is lost. It is zero if no water enters, or if the water enters without
+/// a fall.
 TEST(FloodingDeck, FloodsThroughWhatOpensTheSoonerTheSlowerTheHull) {
   const Deck deck = rectangle(Beside::kOlderCusp, kHasTurned);
   const Work dry = work(deck, 1e-3), fast = work(deck, 4), slow = work(deck, 4000);

@@ -8,8 +8,8 @@
 
 namespace polynya::geometry::trials {
 
-/// Decisions drawn from bytes, zero once they run out: the same bytes tell the same story to RapidCheck and
-/// to the fuzzer.
+/// Decisions drawn from bytes, zero once the bytes run out. The same bytes lead to the same decisions in RapidCheck and
+/// in the fuzzer.
 class Dice {
  public:
   explicit Dice(std::vector<std::uint8_t> bytes) : bytes_(std::move(bytes)) {}
@@ -23,7 +23,7 @@ class Dice {
   std::size_t next_ = 0;
 };
 
-/// What to cut with: a ring or a polyline.
+/// A tool for cutting: a ring or a polyline.
 struct Knife {
   bool is_ring = true;
   Ring points;

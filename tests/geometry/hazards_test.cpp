@@ -76,7 +76,7 @@ TEST(Hazards, NearCollinearCracks) {
   }
 }
 
-// What CGAL or the arithmetic refuses is a value, whatever is fed past the checks.
+// Input that CGAL or the arithmetic refuses gives an error value, even if it bypasses the checks.
 TEST(Hazards, GarbagePastTheChecksIsAValueNotACrash) {
   std::mt19937 random(26);
   for (int i = 0; i < 300; ++i) {
@@ -241,7 +241,7 @@ class Trial {
     return best;
   }
 
-  // By what is aimed in the world, where the floe has a new pose, or in its body from vertex to vertex.
+  // The tool is aimed in the world frame, in which the floe has a new pose, or in the body frame from vertex to vertex.
   CutOutcome cut(const Shape& floe) {
     const Pose world_from_body{{1000 * unit(), 1000 * unit()}, Rotation::by(2 * std::numbers::pi * unit())};
     const auto to_body = [&](Ring tool) {

@@ -173,7 +173,7 @@ TEST(Laws, PiecesPartitionTheirParentBeforeRounding) {
   });
 }
 
-// What two tools leave does not depend on which came first, and counting areas commutes with cutting.
+// The result of two tools does not depend on their order, and counting areas commutes with cutting.
 TEST(Laws, TheOrderOfTwoToolsDoesNotMatter) {
   check_dice("cut(A, B) = cut(B, A)", 60, [](Dice dice) {
     const Shape shape{{{{0, 0}, {8, 0}, {8, 8}, {0, 8}}, {}}};

@@ -116,7 +116,8 @@ TEST(FirstContact, OfTwoSquares) {
   EXPECT_TRUE(touch({3, 3}, {-0.5, -0.5})) << "corner on corner";
 }
 
-// Before the first touch nothing is shared, a little after it something is; where there is none the two pass.
+// Before the time of first contact the two do not overlap, and a little after it they do. If there is no contact, they
+// pass each other.
 TEST(FirstContact, IsWhereOverlapBegins) {
   scenery::Random random(7);
   const auto star = [&](double radius) { return scenery::random_star(random, 9, 0.3 * radius, radius).outer; };

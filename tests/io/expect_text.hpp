@@ -26,7 +26,7 @@ inline testing::AssertionResult begins_with(std::string_view text, std::string_v
   return testing::AssertionFailure() << '"' << part << "\" does not begin\n" << text;
 }
 
-/// What was expected; ends the test with the reason where it is refused.
+/// Returns the expected value. If the outcome is an error, the test ends with its reason.
 template <class Expected>
 Expected checked(Expected outcome) {
   if (outcome) return outcome;

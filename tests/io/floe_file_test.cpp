@@ -1,4 +1,4 @@
-// Floe files of scenes whose coordinates are no metres, or whose floes are those of a run.
+// Floe files of scenes whose coordinates are not in metres, or whose floes come from a run.
 #include <algorithm>
 
 #include "scene_text.hpp"
@@ -185,7 +185,7 @@ TEST_F(FloeFile, AnImportRepairsTrimsAndReports) {
   EXPECT_HAS(problems(floes, R"(, "import": {})"), "self-crossing", R"("repair": "non-zero")");
 }
 
-// ---- ice of their own: what it reads as, what it is drawn from, and what is refused
+// ---- ice properties of single floes: reading, drawing from distributions, and refused input
 
 SceneOutcome read_ice(const std::string& ice, int columns = 1, const std::string& members = "") {
   return read(fmt::format(
@@ -262,7 +262,7 @@ TEST_F(FloeFile, FeaturesGiveTheirIceBeforeTheEntryAndTheScene) {
   expect_reads_back(loaded);
 }
 
-/// Of each floe its ice; corners that round to one point far from the origin once.
+/// The file keeps the ice of each floe. Corners far from the origin that round to one point appear once.
 TEST_F(FloeFile, WhatARunWritesReadsBack) {
   const LoadedScene loaded =
       sound(collection({floe(0, 0, 400, R"("thickness_m":0.9,"density_kg_per_m3":870)"), floe(1000, 0, 400)}));

@@ -174,7 +174,8 @@ TEST(FloeShapes, ABiteOutOfALongBoundaryIsAFewEntries) {
   }
 }
 
-/// More boundary than is kept assembled (twelve million vertices of four), asked for from the end.
+/// The boundaries have twelve million vertices in all, of which four million are kept assembled. The test reads them
+/// from the end.
 TEST(FloeShapes, WhatWasAskedForLongAgoIsAssembledAgain) {
   Ring ring;
   for (int i = 0; i < 20000; ++i) ring.push_back({std::cos(3e-4 * i), std::sin(3e-4 * i)});

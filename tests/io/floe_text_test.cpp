@@ -231,7 +231,8 @@ TEST(FloeText, WhatCannotBeReadIsToldWithItsPlace) {
   EXPECT_EQ(floes_of(nested).entries.front().refusal, "syntax");
 }
 
-/// Whatever bytes stand there, reading ends and tells; every truncation and many corruptions of a good text.
+/// Whatever bytes the text has, reading ends and returns a result. The test uses every truncation and many corruptions
+/// of valid texts.
 TEST(FloeText, AnyDamageIsSurvived) {
   const std::vector<std::string> good{
       R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"floe_id":3},"geometry":)"

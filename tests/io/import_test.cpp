@@ -1,4 +1,4 @@
-// Floes of files from elsewhere: where they come to in the plane, what is repaired, trimmed and refused.
+// Floes of files from other sources: their positions in the plane, and the floes that are repaired, trimmed or refused.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -43,7 +43,7 @@ PlaneSettings about(double latitude, double longitude, double heading = 90) {
   return settings;
 }
 
-/// Where none of the floes is refused by itself.
+/// Brings the floes into the plane. No floe may be refused by itself.
 tl::expected<PlaneReport, PlaneError> bring(std::vector<SourceFloe>& floes, const std::string& crs,
                                             const PlaneSettings& settings) {
   auto report = bring_to_plane(floes, {crs, {}}, settings);

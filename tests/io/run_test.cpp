@@ -1,4 +1,4 @@
-// What a run writes reads back; what is damaged is refused with its line.
+// The files of a run are read back as they were written. Damaged files are refused with the number of the line.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -49,7 +49,7 @@ struct Recorded {
   std::vector<simulation::PanelSample> panels;
 };
 
-/// Runs the scene into a folder and keeps what it recorded.
+/// Runs the scene into a folder and returns its records.
 Recorded write_run(const LoadedScene& scene, const std::filesystem::path& folder) {
   Recorded recorded;
   simulation::Simulation simulation(scene.scene);
@@ -131,7 +131,7 @@ TEST(Run, AnEventOfASplitStatesAndReadsBackBothSides) {
   EXPECT_EQ(again("\"collision force > splitting force\""), 11e6);
 }
 
-/// Of which an arc is no number where there is no waterline.
+/// Returns the fields of a contact. Without a waterline the arc is not a number.
 std::vector<double> fields_of(const simulation::ContactState& state) {
   std::vector<double> fields{static_cast<double>(state.on.ship), static_cast<double>(state.on.floe),
                              static_cast<double>(state.by.ship), static_cast<double>(state.by.floe)};
@@ -459,7 +459,8 @@ TEST_F(RunFiles, TheSummaryHasItsKeys) {
 
 // ---- what causes the forces on a ship, against the columns of forces.csv
 
-/// What the parts of each direction add up to; a share counts in the column that contains it.
+/// Returns the sum of the parts in each direction. A cause that is a share of another column counts in that
+/// column.
 std::map<std::string_view, double> sums(const simulation::HullSample& row) {
   std::map<std::string_view, double> sums;
   for (const ForceCause& cause : force_causes())
@@ -516,9 +517,9 @@ TEST(ForceCauses, AreShownWhereAShipHasThem) {
   EXPECT_TRUE(has("surge_from_ships_N"));
 }
 
-// ---- ice that goes under a hull, read back: what is under, what came up, and thinned frames
+// ---- ice under a hull, read back: submerged pieces, surfaced pieces, and thinned frames
 
-/// 33 s into a small plate, in drifting water: what is under the hull moves.
+/// A run of 33 s into a small plate, in drifting water. Pieces under the hull move.
 class UnderHullRun : public testing::Test {
  protected:
   static void SetUpTestSuite() {

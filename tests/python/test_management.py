@@ -119,7 +119,7 @@ def test_the_managed_width_is_what_large_floes_leave():
                                      numpy.array([y for y, _ in floes]), numpy.array([size**2 for _, size in floes]), 1)
     assert managed_width(passage((0, 19)), gates) == 80
     assert managed_width(passage((0, 21)), gates) == 0
-    # From −40 to 25, less the bins that the floe's edge at 15 touches.
+    # The range is −40 to 25, without the bins that the edge of the floe at 15 touches.
     assert managed_width(passage((25, 20.0), (-3, 5)), gates) == pytest.approx(40 + 14, abs=2)
 
 

@@ -1,5 +1,5 @@
-// What a fracture keeps, by both laws: mass, momentum, angular momentum, area; who came from whom; and that
-// energy and momentum at the end are those of the accounts.
+// Quantities that a fracture conserves, with both laws: mass, momentum, angular momentum and area. Parents and children
+// are consistent, and energy and momentum at the end equal those of the accounts.
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -233,7 +233,8 @@ TEST(EveryAlarm, IsRaisedByTwiceItsToleranceAndNotByHalf) {
   }
 }
 
-/// What cancels counts: floes whose momenta do, and floes that only spin, meet and stop with no outer impulse at all.
+/// Momenta that cancel are accounted for. Floes whose momenta add up to zero, and floes that only spin, meet and stop
+/// without any outer impulse.
 TEST(EveryAlarm, IsNotRaisedByMomentaThatCancel) {
   for (const Laws laws : kBothLaws) {
     for (const double spin : {0.0, 0.1}) {

@@ -85,7 +85,7 @@ TEST(CrushLaw, TheErrorOfACornersStopHalvesWithTheStep) {
   EXPECT_LT(error(0.0025), 0.4 * error(0.01));
 }
 
-/// Nothing springs back: what the first brings, all share, and the rest of its energy has crushed ice.
+/// There is no rebound: all floes share the momentum of the first one, and the rest of its energy has crushed ice.
 TEST(CrushLaw, ALineOfFloesGoesOnTogether) {
   Build scene = Build().without_drag().grid({0, 0}, 5, 1, 10, 10.2);
   scene.floes[0].velocity = {1, 0};
@@ -112,7 +112,8 @@ TEST(CrushLaw, FrictionOnAPlaneIsCoulombs) {
                       .floe(rectangle(0.01, -3, 10.01, 3), {-1, 0.5});
     scene.ice.friction = friction;
     const FloeState state = run(scene, 0.1).simulation.floe_states()[0];
-    // It comes to rest, but for what it overlapped when it was found, at most a step's way: that is pushed apart.
+    // The floe comes to rest except for its initial overlap, which is at most the displacement of one step and is
+    // pushed apart.
     EXPECT_GE(state.velocity.x, -0.01) << friction;
     EXPECT_LE(state.velocity.x, 0.1) << friction;
     EXPECT_NEAR(state.velocity.y, 0.5 - friction * (1 + state.velocity.x), 0.02) << friction;
@@ -201,7 +202,7 @@ Scene corner_into_bow(double hull_angle, double speed, double density, double st
   return scene;
 }
 
-/// From first contact to the end of the approach [s].
+/// Returns the time from the first contact to the end of the approach [s].
 double time_of_compression(const Scene& scene) {
   Simulation simulation(scene);
   double start = -1;

@@ -169,7 +169,7 @@ TEST(Bending, TheCuspIsNotTheSteps) {
   for (const double step : {0.01, 0.02, 0.03, 0.05}) EXPECT_NEAR(radius(step) / fine, 1, 0.006) << step;
 }
 
-/// What the ice gives way does not change what a vertical wall, or a floe too small to break, takes.
+/// Whether the ice recedes does not change the load of a vertical wall, or of a floe that is too small to break.
 TEST(Bending, WhatCannotBendDoesNotRecede) {
   for (const bool is_small : {false, true}) {
     const auto speed = [&](bool follows) {
@@ -234,8 +234,8 @@ TEST(Regression, IceWithoutMassOrInertiaIsNoFloe) {
   EXPECT_FALSE(can_be_floe({1, {}, -1e-20}));
 }
 
-/// With a weak criterion the halves of a floe split again every step along the crack they had just left, and
-/// corners were pared: what a crack leaves on either side is no sliver.
+/// With a weak criterion the halves of a floe used to split again in every step along the crack that they had just
+/// left, and corners were cut off strip by strip. The ice on either side of a crack must not be a sliver.
 TEST(Regression, ACrackIsNotParedStripByStrip) {
   for (const auto model : {fracture::SplittingModel::kMichel, fracture::SplittingModel::kLefm}) {
     Scene scene = ship_against(icebreaker({0, 3}, ConstantSpeed{0.5}, 0.5), rectangle(0.5, -40, 70, 50), Laws::kPaper)

@@ -98,7 +98,7 @@ int expect_apart(const std::vector<Polygon>& floes, double gap) {
   return near;
 }
 
-/// Also that all are valid and in the region.
+/// Also checks that all floes are valid and in the region.
 int expect_sound(const FloeField& field, const std::vector<Polygon>& floes, std::size_t most_corners) {
   const geometry::Box region = bounding_box(field.region);
   for (const Polygon& floe : floes) {
@@ -109,7 +109,7 @@ int expect_sound(const FloeField& field, const std::vector<Polygon>& floes, std:
   return expect_apart(floes, field.gap);
 }
 
-/// Floes keep clear of what is to be kept clear of, and outlines hold them.
+/// Checks that floes do not overlap the areas that are kept clear, and that outlines contain all floes.
 void expect_kept_clear(const FloeField& field, const FloeFieldOutcome& outcome) {
   double inside = 0;
   for (const Polygon& floe : outcome.floes) {
@@ -164,7 +164,7 @@ TEST(FloeField, SizesAreLognormalAsAskedFor) {
 TEST(FloeField, KeepsObstaclesClear) {
   FloeField field = field_of(400, 0.7, 0.25);
   field.gap = 0.5;
-  // Not convex, and a small one inside a single floe's cell.
+  // One area is not convex. The other is small and lies inside the cell of a single floe.
   field.kept_clear = {{{{100, 100}, {200, 100}, {200, 200}, {150, 120}, {100, 200}}, {}},
                       shapes::square({300, 300}, 0.5)};
   const FloeFieldOutcome outcome = make_floe_field(field);

@@ -181,9 +181,10 @@ Scene scattering(std::uint64_t seed) {
   return scene;
 }
 
-/// Which strengths: exactly those drawn at the first touches. How they are distributed follows from the law only
-/// as far as a bound: of two places that one cusp takes the weaker breaks, so that the mean is between that of
-/// the lesser of two draws, 1 − s/√π for a small spread s, and that of one; by three standard errors of either.
+/// Each event states exactly the strength that was drawn at the first touch. The distribution of these strengths
+/// follows from the law only as a bound: the weaker of two places that one cusp takes breaks. The mean is therefore
+/// between the mean of the lesser of two draws, 1 − s/√π for a small spread s, and the mean of one draw. The tolerance
+/// is three standard errors of either.
 TEST(BendingScatter, EachEventStatesTheStrengthItBrokeAt) {
   constexpr double kSpread = 0.2;
   std::vector<double> factors;

@@ -214,7 +214,7 @@ TEST(Managing, TwoShipsShareAPatternWithoutMeeting) {
   second.partners = {{0, 0}};
   const Followed found = follow(managed({first, second}, {-0.4, 0}), 1500);
   EXPECT_GT(found.nearest, 400);
-  // Also where the second starts a quarter of a lap behind its phase.
+  // The same holds if the second vessel starts a quarter of a lap behind its phase.
   Build late = managed({first, second}, {-0.4, 0});
   ManagingPilot behind = second;
   behind.phase = 0.25;
@@ -267,7 +267,7 @@ TEST(Managing, GoesToTheLargestFloeThatWillPassAndOnToTheNext) {
     if (targets.empty() || targets.back() != target()) targets.push_back(target());
   }
   std::erase(targets, kNoFloe);
-  // What is left of the first is a floe of its own, and larger than the next.
+  // The rest of the first floe is a new floe and larger than the next one.
   ASSERT_GE(targets.size(), 2U);
   EXPECT_EQ(targets[0], 1);
   EXPECT_EQ(std::ranges::count(targets, 0), 1) << testing::PrintToString(targets);

@@ -71,7 +71,7 @@ TEST(Parts, ARunStopsWithinItsTicksAndGoesOnToTheSameState) {
   expect_resumes(in_level_ice(0.1, 4, 0.005), 217 * 0.005, 400 * 0.005, 3);
 }
 
-/// By hand from docs/theory/steps.md.
+/// The expected values are computed by hand from docs/theory/steps.md.
 TEST(Parts, ATickIsChosenBySpeedThicknessAndWhatIsRecorded) {
   const auto tick = [](double thickness, double speed, auto change) {
     Scene scene = in_level_ice(thickness, speed, 0.005).recorded_every(0.1);

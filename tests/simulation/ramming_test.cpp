@@ -186,9 +186,9 @@ Build before_ice(double thickness, double lever_rate) {
   return scene.floe(fast(rectangle(0, -100, 900, 100)));
 }
 
-/// Backs a length, stops, charges, and gains, again and again: a pilot that stays stuck has no charges or gains
-/// nothing, one that runs away backs farther and farther. In a channel of its own width the ship may once be stuck
-/// astern, too.
+/// The ship backs a length, stops, charges and gains, again and again. A pilot that stays stuck makes no charges or
+/// gains nothing. A pilot that runs away backs farther and farther. In a channel as wide as the ship, it may once be
+/// stuck astern, too.
 void expect_rams(double thickness, double lever_rate, double until) {
   const Trial done = run(before_ice(thickness, lever_rate).under_hulls(false), until);
   const std::vector<Ram> rams = rams_of(done.story.samples);

@@ -21,7 +21,7 @@ Build in_water(const Propulsion& propulsion, double speed, double step = 0.05) {
   return Build().step(step).ship(scenes::in_water(icebreaker({60, 0}, propulsion, speed))).recorded_each_step();
 }
 
-/// What a run of that ship recorded, with its accounts closed.
+/// Returns the samples that a run of that ship recorded, after checking that its accounts are closed.
 std::vector<HullSample> sail(const Scene& scene, double until) {
   const Trial done = run(scene, until);
   EXPECT_TRUE(done.simulation.audit().is_closed());
@@ -46,8 +46,8 @@ dynamics::Planar motion_of(const World& world) {
   return {v.x, v.y, b.angular_velocity[0]};
 }
 
-/// Of the ship and of the water that it sets in motion. Right after a step the ship has turned, the water has
-/// not: its motion is that in the axes of before.
+/// Returns the kinetic energy of the ship and of the water that it sets in motion. Right after a step the ship has
+/// turned but the water has not: the motion of the water is in the axes of before the step.
 double wet_energy(const World& world) {
   const dynamics::Bodies& b = world.population.bodies;
   const dynamics::Planar now = motion_of(world);
@@ -120,7 +120,7 @@ void expect_balance(Scene scene, double until) {
     const geometry::Vector in_ship = rotate_back(rotation, force);
     const double moment = b.moment[0] / scene.time.step * (b.angular_velocity[0] - omega);
     const dynamics::Planar& under = world.journal.samples.back().from_submerged;
-    // Cusps brake at the step's end, in axes that have turned. So have those of the later parts of a tick.
+    // Cusps brake at the end of the step, in axes that have turned. The later parts of a tick have turned as well.
     const bool has_parts = world.accounts.counts.steps_taken - steps > 1;
     const double turned =
         1e8 * std::abs(b.angle[0] - angle) * (std::hypot(under.surge, under.sway) + (has_parts ? length(force) : 0));

@@ -1,5 +1,5 @@
-// What may not change a run: to interrupt and resume it, threads, culling, and, within what the rest speed
-// explains, sleep.
+// Settings that must not change a run: interrupting and resuming it, the number of threads, culling, and sleep within
+// the effect of the rest speed.
 #include "simulation/state/state.hpp"
 
 #include <array>
@@ -47,7 +47,7 @@ TEST(State, AResumedRunContinuesBitByBitFromAnyStep) {
     for (int step = 0; step < 2500; ++step) {
       if (step % 250 == 37) {
         all.push_back(resumed(scene, whole));
-        // Not the bytes: read back, bodies' boxes are new, so that more pairs may be near each other.
+        // The bytes may differ: after reading, the boxes of bodies are new, so that more pairs may be near each other.
         ASSERT_EQ(all.back().state_hash(), whole.state_hash()) << "what is read back is what was written";
       }
       skip(whole);
@@ -88,7 +88,7 @@ TEST(State, DamageIsRefusedOrIsAnotherState) {
   EXPECT_GT(refused, 20);
 }
 
-/// A place or a velocity that no run comes to is refused, whichever of its two components it is.
+/// A position or velocity that no run can reach is refused, whichever of its two components is too large.
 TEST(State, ABodyBeyondTheWorldOrFasterThanAnyIsRefused) {
   const Scene scene = Build().floe(rectangle(0, 0, 10, 10), {0.123, 0.321}).floe(rectangle(50, 70, 62, 84));
   const Simulation whole(scene);

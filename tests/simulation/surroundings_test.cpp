@@ -1,4 +1,4 @@
-// What moves ice from outside: wind, skin drag, currents; what bounds it: walls, structures; and fast ice.
+// External actions on ice: wind, skin drag and currents; the boundaries of ice: walls and structures; and fast ice.
 #include <gtest/gtest.h>
 
 #include "dynamics/contact/crush_law.hpp"
@@ -363,7 +363,7 @@ TEST(FastIce, IsSavedWithItsPieces) {
   EXPECT_NE(fast_floe(again.simulation.world().population), 0) << "a piece of the scene's floe";
 }
 
-// Ships, structures and walls are hulls: what they have in common goes by their number.
+// Ships, structures and walls are hulls. Properties that they share are addressed by the number of the hull.
 
 TEST(Hulls, AreNumberedShipsFirstThenStructuresThenWallsAndFloesFollow) {
   Scene scene = Build()

@@ -1,5 +1,4 @@
-// Ice that goes under a hull: floes that tilt, submerged pieces that brake the ship, pieces that come up
-// behind it.
+// Ice under a hull: floes that tilt, submerged pieces that brake the ship, and pieces that surface behind it.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -131,7 +130,7 @@ TEST(UnderHull, WithoutScatterItComesUpInItsPlaceWhichGoesWithACurrent) {
 }
 
 TEST(UnderHull, APieceWithoutRoomWaitsAndThenStaysUnderTheIce) {
-  // A floe as large as the hull and more lies where the piece would come up, as soon as the ship has gone.
+  // A floe larger than the hull covers the place where the piece would surface, as soon as the ship has left it.
   Scene scene = one_tile(0).without_drag().floe(rectangle(-400, -60, -122, 60), {1.5, 0});
   scene.fracture.resurface.give_up = 10;
   scene.fracture.resurface.scatter = 0;
@@ -246,8 +245,8 @@ Build thick_ice(double stem_angle, double speed) {
   return scene;
 }
 
-/// Of five trials in which floes of 2.5 m, and one of 3 x 24 m across the stem, were all or for the most part in the
-/// hull.
+/// The scene of five trials in which floes of 2.5 m, and one of 3 x 24 m across the stem, were entirely or mostly
+/// inside the hull.
 Build floes_before_the_stem(double stem_angle) {
   return thick_ice(stem_angle, 1.5)
       .floe(rectangle(0.2, -1.25, 2.7, 1.25))

@@ -96,8 +96,8 @@ TEST(Plate, InfiniteConvergesUnderRefinement) {
                [&](int elements) { return std::abs(solve_infinite(0.2, elements).first / moment - 1); });
 }
 
-// Half-plane, point load on its edge: w0 for three ν. The mesh's inner radius stands for the point, with an
-// error proportional to it: halving it halves the error.
+// Deflection w0 of a half-plane under a point load on its edge, for three values of ν. The inner radius of the mesh
+// replaces the point. The error is proportional to this radius: half the radius gives half the error.
 TEST(Plate, HalfPlaneEdgeDeflection) {
   for (const auto& [nu, deflection] : {std::pair{0., .40825}, {.15, .43144}, {.3, .46198}}) {
     expect_falls({4e-3, 2e-3, 1e-3}, 0.6, [&, nu = nu, deflection = deflection](double inner) {
@@ -338,8 +338,8 @@ TEST(FloatingBeam, EndLoadIsTheClosedForm) {
   EXPECT_NEAR(beam.peak_distance, std::numbers::pi / 4 * std::numbers::sqrt2, 3e-4);
 }
 
-// The narrow wedge of docs/theory/bending.md. The expected forces are those of an earlier prototype, which
-// ours exceeds by 0.22 % at a/l = 0.1, less for longer patches; the radii agree.
+// The narrow wedge of docs/theory/bending.md. The expected forces come from an earlier prototype. The solver exceeds
+// them by 0.22 % at a/l = 0.1, and by less for longer patches. The radii agree.
 TEST(NarrowWedge, AgreesWithThePrototype) {
   for (const auto& [patch, force, radius] :
        {std::tuple{.1, 1.2527, .512}, {.2, 1.449, .679}, {.5, 2.101, 1.036}, {1., 3.700, 1.541}}) {
