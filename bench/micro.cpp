@@ -104,7 +104,7 @@ void CutCusp(benchmark::State& state) {
 }
 BENCHMARK(CutCusp)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
 
-/// A crack through the middle of the same plate.
+/// Cuts a crack through the middle of the same plate.
 void SplitPlate(benchmark::State& state) {
   geometry::Shape plate{{{{0, 0}, {110, 0}, {110, 200}, {0, 200}}, {}}};
   for (auto _ : state) benchmark::DoNotOptimize(geometry::cut_along(plate, {{-1, 90}, {111, 103}}));

@@ -25,8 +25,8 @@ struct Options {
   std::string csv;
   std::string only;
   double peer_seconds = 120;  ///< at most, for each peer's run of a case [s]
-  /// Of the ships from where their scenes have them, to port: such voyages are run once, for many of them say
-  /// more than the same one again [m].
+  /// Lateral distances of the ships from their places in the scenes, to port [m]. Such voyages are run once, because
+  /// many different voyages are more informative than repetitions of one.
   std::optional<double> lateral;
 };
 
@@ -74,7 +74,7 @@ Edit round_plate(int corners) {
   };
 }
 
-/// The scene by the law of crushing ice, with the tick of a scene that gives none.
+/// Switches the scene to the crushing law with the default tick.
 void by_crushing(simulation::Scene& scene) {
   scene.contact.law = simulation::ContactLaw::kCrush;
   scene.time.step = simulation::default_tick(scene);
@@ -93,7 +93,7 @@ Edit in_longer_ticks(const Edit& edit, int times) {
   };
 }
 
-/// An edit, and then the fine step: the given one [s], or the one that take_fine_step() chooses.
+/// Applies an edit, and then the fine step: the given one [s], or the one that take_fine_step() chooses.
 Edit in_fine_steps(const Edit& edit, double scene_step) {
   return [edit, scene_step](simulation::Scene& scene) {
     edit(scene);
@@ -102,7 +102,7 @@ Edit in_fine_steps(const Edit& edit, double scene_step) {
   };
 }
 
-/// The hulls some way to port: another voyage through the same ice.
+/// Moves the hulls by a lateral distance to port, which makes another voyage through the same ice.
 Edit moved_to_port(const Edit& edit, double lateral) {
   return [edit, lateral](simulation::Scene& scene) {
     if (edit) edit(scene);

@@ -51,7 +51,7 @@ struct FeedbackStudyRow {
 std::vector<FeedbackStudyRow> feedback_study(const BendingLoad& load, std::span<const double> speeds,
                                              const SolverSettings& settings);
 
-/// The database against a solution, at one point between its own.
+/// Comparison of the database with a solution, at one point between the points of the table.
 struct AccuracyRow {
   WedgeGroups groups;
   double force_error = 0;   ///< table / solution − 1

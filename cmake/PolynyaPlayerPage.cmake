@@ -8,7 +8,7 @@
 #
 # Called as a script, `cmake -DFOLDER=… -DOUTPUT=… -P PolynyaPlayerPage.cmake` writes OUTPUT.
 
-# In the order they stand in the page.
+# The files are listed in the order in which the page contains them.
 set(POLYNYA_PLAYER_STYLES vendor/uPlot.min.css player.css)
 set(POLYNYA_PLAYER_SCRIPTS numbers.js clock.js run_data.js motion.js map_view.js colours.js sizes.js draw_ice.js
   channel.js draw_marks.js ship_names.js ruler.js load_line.js floe_card.js ship_card.js plot_curves.js plot.js

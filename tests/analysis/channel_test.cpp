@@ -60,7 +60,7 @@ struct HandMadeRun {
     add(box({-50, 14}, {200, 40}));
     add(box({-50, -60}, {200, -19}));
   }
-  /// A piece that came up from under the hull.
+  /// Adds a piece that surfaced from under the hull.
   void add_brash(const Polygon& along_track) {
     add(along_track);
     run.floes.back().came_up = true;

@@ -109,7 +109,8 @@ void add_floe(io::Run& run, simulation::FloeId parent, double born, const Ring& 
   run.shapes.add({ring, {}});
 }
 
-/// A square of 4 m breaks at 1 s into two halves; beside it another square drifts by 0.5 m a second towards it.
+/// Returns a run in which a square of 4 m breaks at 1 s into two halves, while another square beside it drifts towards
+/// it at 0.5 m/s.
 io::Run small_run(const Ring& drifting = square(5, 1, 2), const Ring& second_half = {{0, 2}, {4, 2}, {4, 4}, {0, 4}}) {
   io::Run run;
   add_floe(run, simulation::kNoFloe, 0, square(0, 0, 4));
@@ -152,7 +153,7 @@ TEST(RunCheck, ASoundRunIsSoundAndItsOverlapIsMeasured) {
   EXPECT_EQ(check.fractures, 1U);
   EXPECT_EQ(check.siblings.area, 0);
   EXPECT_EQ(check.instants, 4U);
-  // At 3 s floe 1 has come 0.5 m into both halves, over one metre of each.
+  // At 3 s floe 1 overlaps both halves by 0.5 m, over one metre of each.
   EXPECT_EQ(check.overlapping_pairs, 2U);
   EXPECT_EQ(check.most_shared, 1.0);
   EXPECT_EQ(check.most_shared_time, 3);
@@ -262,7 +263,7 @@ class FinalPlacesOfARun : public testing::Test {
  protected:
   FinalPlacesOfARun() { run.folder = folder.path(); }
 
-  /// The motion in the last frame.
+  /// Returns the motion of a floe in the last frame.
   io::Motion& in_frame(simulation::FloeId floe) {
     return std::ranges::find(run.frames.back().floes, floe, &io::FloeMotion::floe)->motion;
   }
@@ -392,7 +393,7 @@ TEST_F(FinalPlacesOfARun, OnlyCornersAtOnePointMayBeOne) {
   EXPECT_HAS(only_misplaced().defect, "a ring of the floe has 4 vertices in final.geojson and 5 in floes.ndjson");
 }
 
-/// Runs that were stopped, are large or are old may have nothing to compare, and are checked as they always were.
+/// Runs that were stopped, are large or are old may have nothing to compare. They are checked without this comparison.
 TEST_F(FinalPlacesOfARun, AreNotComparedWhereThereIsNoFileOrNoFrame) {
   RunCheck check = check_run(run);
   EXPECT_TRUE(check.is_sound());

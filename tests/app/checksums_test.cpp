@@ -68,7 +68,7 @@ TEST_F(Checksums, FindAFlippedBitAnywhere) {
   EXPECT_TRUE(io::check_files(run).damaged.empty());
 }
 
-/// One place in each file; more with POLYNYA_FLIPPED_BITS.
+/// The test flips a bit at one place in each file. POLYNYA_FLIPPED_BITS sets a larger number of places.
 TEST_F(Checksums, HaveBothCommandsRefuseADamagedFolder) {
   const char* more = std::getenv("POLYNYA_FLIPPED_BITS");
   const std::size_t count = more ? std::strtoul(more, nullptr, 10) : files.size();

@@ -27,7 +27,7 @@ Dice roll(std::mt19937& random) {
   return Dice(std::move(bytes));
 }
 
-/// A floe of some awkward kind: needle, comb, spiral, star, tiny or far away.
+/// Returns a floe of a difficult kind: needle, comb, spiral, star, tiny or far away.
 Polygon roll_outline(std::mt19937& random) {
   for (;;) {
     Dice dice = roll(random);
@@ -36,7 +36,8 @@ Polygon roll_outline(std::mt19937& random) {
   }
 }
 
-/// Through vertices, beside them by an ulp, along edges: a crack, or polygons that cut off both sides.
+/// Returns a crack, or polygons that cut off both sides. They pass through vertices, beside vertices by an ulp, and
+/// along edges.
 io::CutOp roll_op(std::mt19937& random, const Polygon& polygon) {
   Dice dice = roll(random);
   const geometry::trials::ManyKnives knives = roll_knives(dice, polygon);
@@ -45,8 +46,8 @@ io::CutOp roll_op(std::mt19937& random, const Polygon& polygon) {
   return line ? io::CutOp{*line} : io::CutOp{io::CrackTool{polygon.outer.front(), 60}};
 }
 
-/// The distance to the next larger double. Half of it is the largest error of rounding to nearest; for the least
-/// doubles that half is none itself.
+/// Returns the distance to the next larger double. Half of it is the largest error of rounding to nearest; for the
+/// smallest doubles that half is not a double itself.
 double step_at(double value) {
   return std::nextafter(std::abs(value), std::numeric_limits<double>::infinity()) - std::abs(value);
 }
@@ -69,7 +70,7 @@ void expect_sound(const io::CutFloe& floe, const Polygon& parent) {
   EXPECT_LE(2 * std::abs(off), step_at(floe.area_slivers) + step_at(floe.rounding_defect));
 }
 
-/// A text of floes, cut again and again; what comes out of a cut goes back in as it was written.
+/// A text of floes that is cut again and again. The output of each cut is the input of the next one.
 class Chain {
  public:
   explicit Chain(unsigned seed) : random_(seed) { start(); }

@@ -23,7 +23,7 @@ class Database : public InFolder {
   const Words paper_wedge = "query --json --thickness 0.5 --wedge-angle 90 --hull-angle 60 --speed";
 };
 
-/// The number at that key of the answer's JSON, NaN for null.
+/// Returns the number at a key of the answer's JSON, or NaN for null.
 double number(const std::string& as_json, const std::string& key) {
   const std::size_t place = as_json.find('"' + key + "\": ");
   EXPECT_NE(place, std::string::npos) << key;

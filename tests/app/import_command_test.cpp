@@ -56,7 +56,7 @@ TEST_F(Import, DegreesBecomeAFloeFileThatAScenesReads) {
   EXPECT_TRUE(report.faults.empty()) << imported.out;
   EXPECT_EQ(report.root.find("floes")->find("trimmed")->number(), 1);
   EXPECT_EQ(checked(scene())->scene.floes.size(), 3U);
-  // Again: nothing is left to do.
+  // A second import has nothing left to repair.
   EXPECT_HAS(import(floes).err, "3 floes read; 3 written");
 }
 
@@ -158,8 +158,8 @@ TEST_F(Import, EveryFormatOfGdalGivesTheSameFloes) {
   std::filesystem::create_directory(folder / "shapes");
   ASSERT_TRUE(convert("shapes/flat.shp drawn.csv -nlt MULTIPOLYGON"));
   EXPECT_NEAR(area_of_file("shapes"), kFlat + kDisc, 0.3) << "a folder of shapefiles";
-  // In degrees: KML, whose coordinates are always degrees, in an archive, and a GeoPackage. GDAL projects arcs wrongly,
-  // so that lines are made of them first.
+  // Files in degrees: KML, whose coordinates are always degrees, in an archive, and a GeoPackage. GDAL projects arcs
+  // wrongly, so arcs are converted to lines first.
   ASSERT_TRUE(convert("linear.gpkg drawn.csv -nlt CONVERT_TO_LINEAR"));
   const std::string to_degrees = " linear.gpkg -s_srs '+proj=aeqd +lat_0=78 +lon_0=15 +datum=WGS84' -t_srs EPSG:4326";
   for (const std::string file : {"degrees.kml", "degrees.kmz", "degrees.gpkg"}) {

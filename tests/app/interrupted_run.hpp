@@ -16,8 +16,8 @@
 
 namespace polynya::tests {
 
-/// A ship under thrust in a random field and into a plate: bends, splits, ice that tilts, goes under
-/// and comes up, brash, sleeping and waking floes, in a third of a second. About 130 floes.
+/// A ship under thrust in a random field and into a plate. Within a third of a second there are bends, splits, ice that
+/// tilts, goes under and surfaces, brash, and sleeping and waking floes. The scene has about 130 floes.
 inline std::string crash_scene(const std::string& until) {
   return R"({"name": "crash", "time": {"step_s": 0.02, "until_s": )" + until +
          R"(},

@@ -137,8 +137,8 @@ class RoundTrip : public InFolder, public testing::WithParamInterface<std::size_
   }
 };
 
-/// Whatever the system, boundaries come back within a millimetre: edges that are straight in the file, and edges that
-/// are straight in the scene's plane.
+/// Boundaries return within a millimetre in every system, both for edges that are straight in the file and for edges
+/// that are straight in the scene's plane.
 TEST_P(RoundTrip, KeepsBoundariesWithinAMillimetre) {
   const Site& site = kSites[GetParam()];
   const simulation::GeographicOrigin origin = origin_at(site.latitude, site.longitude);
@@ -285,7 +285,7 @@ TEST_F(PlaceOnEarth, OfAFileIsToldWhereTheSceneHasNone) {
   EXPECT_HAS(expect_code(2, call("export run --geojson layers --crs EPSG:3413")).err, "no \"origin\"");
 }
 
-/// Neighbours that share a parallel keep touching, though one has a vertex where the other has none.
+/// Neighbours that share a parallel keep touching, although one has a vertex where the other has none.
 TEST_F(PlaceOnEarth, EdgesFollowTheirParallel) {
   write("chart.geojson", R"({"type": "FeatureCollection", "features": [
     {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates":
@@ -344,7 +344,7 @@ TEST_F(PlaceOnEarth, OverThePoleIsOneRing) {
     const auto [west, east] = std::ranges::minmax(drawn, {}, &Point::x);
     EXPECT_NEAR(east.x - west.x, 360, 1e-9);
     EXPECT_GT(geometry::signed_area(drawn), 0);
-    // A corner at the pole, and an edge through it.
+    // One floe has a corner at the pole, and another has an edge through it.
     write("scene.json",
           fmt::format(R"({{{} "time": {{"until_s": 0.1}}, "floes": [{{"polygon": {{"outer_m": [[0,0],[90,0],[0,90]]}}}},
         {{"polygon": {{"outer_m": [[-100,-50],[-10,-50],[-10,50],[-100,50]]}}}},

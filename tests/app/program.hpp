@@ -47,7 +47,7 @@ struct Start {
   std::filesystem::path folder;         ///< its working folder, where its output is kept too
   rlim_t largest_file = RLIM_INFINITY;  ///< [bytes]
   std::filesystem::path input = {};     ///< its stdin; none if empty
-  /// Replaces a descriptor last; the others go to files, or come from /dev/null.
+  /// Replaces a descriptor just before the program starts. Other descriptors go to files, or come from /dev/null.
   std::function<void()> arrange_streams = [] {};
   std::vector<std::string> under = {};  ///< a program, and its options, that starts polynya
 };
@@ -118,7 +118,7 @@ inline Outcome polynya(const Words& words, const TemporaryFolder& folder) {
   return polynya(words, Start{folder.path()});
 }
 
-/// The outcome of a command line that ends with that code.
+/// Checks that a command line ended with the given exit status, and returns its outcome.
 inline Outcome expect_code(int code, Outcome outcome) {
   EXPECT_EQ(outcome.code, code) << outcome.line << outcome.err;
   return outcome;
@@ -131,7 +131,7 @@ struct Refusal {
   std::string message = {};
 };
 
-/// Each line ends with its code and message, and prints nothing to stdout.
+/// Checks that each line ends with its exit status and message, and prints nothing to stdout.
 inline void expect_refusals(const std::vector<Refusal>& all, const Start& start) {
   for (const Refusal& one : all) {
     const Outcome outcome = expect_code(one.code, polynya(one.words, start));
@@ -141,7 +141,7 @@ inline void expect_refusals(const std::vector<Refusal>& all, const Start& start)
   }
 }
 
-/// The same code for all, and some message.
+/// Checks that all lines end with the same exit status and with some message.
 inline void expect_refusals(int code, const std::vector<Words>& lines, const Start& start) {
   for (const Words& words : lines) expect_refusals({{words, code}}, start);
 }

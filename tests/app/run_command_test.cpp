@@ -44,7 +44,7 @@ std::string line_with(const std::string& text, const std::string& words) {
   return text.substr(start, text.find('\n', at) - start);
 }
 
-/// "-565.3 kN" after "surge" in such a line [N].
+/// Returns the number after "surge" in a line such as "… surge -565.3 kN" [N].
 double surge_in(const std::string& line) {
   double value = 0;
   char unit[4] = "";

@@ -17,7 +17,7 @@ Words strace(const Words& options) {
   return Words("env ASAN_OPTIONS=detect_leaks=0 strace -f") + options;
 }
 
-/// Killed at the n-th call of that name.
+/// Returns a command line that kills the program at the n-th system call of the given name.
 Words killed_at(const std::string& call, int n) {
   return strace("-o /dev/null -e trace=" + call + " -e inject=" + call +
                 ":error=EIO:signal=KILL:when=" + std::to_string(n));
@@ -136,7 +136,7 @@ class Unsynced {
   std::set<std::string> paths_;  ///< of files with bytes, and folders with names, that are not on the disk
 };
 
-/// A checkpoint is what a run can be had again from: it goes only when all that was written before is on the disk.
+/// A checkpoint is removed only when all data written before it are on the disk, because a run is resumed from it.
 TEST_F(RunFolderTrial, EveryByteIsOnTheDiskBeforeACheckpointGoes) {
   if (!has_strace()) GTEST_SKIP() << "no strace that works here";
   expect_code(

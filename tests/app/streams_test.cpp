@@ -108,7 +108,7 @@ TEST_F(Streams, ANamedPipeIsNoFileToRead) {
   }
 }
 
-/// On stdout it is alone: the line about it goes to stderr, where a page that is a file would lose it.
+/// The page is the only output on stdout. The line about it goes to stderr.
 TEST_F(Streams, APageGoesIntoAPipeAndToStdout) {
   ASSERT_EQ(in_folder("view good --out page.html").code, 0);
   const std::string page = read_file(folder->path() / "page.html");
@@ -193,7 +193,7 @@ TEST_F(ProgressBar, FitsAnyTerminal) {
   }
 }
 
-/// A scene that comes late, as a field that takes long to make.
+/// The scene arrives late, like a field that takes long to generate.
 TEST_F(ProgressBar, IsThereWhileASceneIsReadAndGoesAway) {
   Start start{folder.path()};
   start.under = {"/bin/sh", "-c", "{ /bin/sleep 4; /bin/cat tiny.json; } | \"$@\"", "sh"};

@@ -26,7 +26,7 @@ message(STATUS "${output}")
 run(${WORK}/prefix/bin/polynya validate ${WORK}/prefix/share/polynya/scenes/sawamura2017-fig4b.json)
 message(STATUS "${output}")
 run(${WORK}/prefix/bin/polynya study plan --help)  # finds the Python package below the prefix
-# What comes with the program: its manual page, and its completion, which bash itself is asked for.
+# The installed program comes with its manual page and its completion, which is tried in bash.
 foreach(file share/man/man1/polynya.1 share/bash-completion/completions/polynya)
   if(NOT EXISTS ${WORK}/prefix/${file})
     message(FATAL_ERROR "${file} is not installed")

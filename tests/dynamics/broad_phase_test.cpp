@@ -206,7 +206,7 @@ TEST(BroadPhase, FindsTheSameToTheBitWhereEdgesThatAreNotYetNearAreForgotten) {
 }
 
 TEST(BroadPhase, AFastFloeIsNotMissed) {
-  // 40 m in a step: out of every margin at once.
+  // The body moves by 40 m in a step, which is more than every margin.
   Bodies bodies;
   add_floe(bodies, rectangle(40, 40), {0, 0});
   add_floe(bodies, rectangle(4, 4), {-221, 0.5}, {800, 0});
@@ -321,8 +321,8 @@ TEST(HashGrid, PiecesOfAPlateHaveCellsOfTheirSize) {
   EXPECT_EQ(near(grid, box(-2000, 300, 5)), (std::set<BodyIndex>{}));
 }
 
-/// A wedge of 90° in a notch of the same angle: the overlap is a thin band along both flanks, 2 m deep along the normal
-/// and 0.2 m thick on average.
+/// A wedge of 90° is in a notch of the same angle. The overlap is a thin band along both flanks, 2 m deep along the
+/// normal and 0.2 m thick on average.
 TEST(DepthOfAContact, InANotchIsTheMeanThicknessOfTheOverlap) {
   const geometry::Polygon notched{{{-6, -4}, {0, -4}, {0, -2}, {-2, 0}, {0, 2}, {0, 4}, {-6, 4}}, {}};
   const geometry::Polygon wedge{{{-2.2, 0}, {-0.4, -1.8}, {6, -1.8}, {6, 1.8}, {-0.4, 1.8}}, {}};

@@ -109,7 +109,8 @@ void set_body(Scene& scene, int i, double width, double height, Point position, 
   scene.bodies[i] = floe_body(scene.boxes[i], position, angle);
 }
 
-/// The right box's corner just inside the middle part of the left box's right face; everything turned about the origin.
+/// The corner of the right box is just inside the middle part of the left box's right face. Everything is turned about
+/// the origin.
 Scene corner_on_face(Random& random) {
   Scene scene;
   const double width = random.between(4, 20), height = random.between(6, 20);

@@ -1,5 +1,5 @@
-// Eq. (5) of [Sawamura2017], corrected: restitution, momentum and energy over random contacts, and contacts
-// together; what a contact that crushes carries; overlap that is taken away without speed.
+// Eq. (5) of [Sawamura2017], corrected. The tests cover restitution, momentum and energy for single random contacts and
+// for several contacts together, the force of a contact that crushes, and overlap that is removed without adding speed.
 #include <gtest/gtest.h>
 
 #include "dynamics/contact/contact_tracker.hpp"
@@ -61,7 +61,7 @@ Trial random_plates(Random& random, double width, double friction) {
   }
 }
 
-/// Momentum is kept and no energy gained, whatever happens between this and check().
+/// Checks that momentum is conserved and no energy is gained between construction and check().
 class Conserved {
  public:
   explicit Conserved(const Bodies& bodies)
@@ -277,7 +277,7 @@ TEST(CrushLimit, HoldsTogetherWithOthers) {
 }
 
 TEST(CrushLimit, ALimitedCollisionEndsAsEq5SaysOverManySteps) {
-  // Poisson: the contact gives back ε times what compressed it, however many steps both take.
+  // Poisson's hypothesis: the contact gives back ε times the impulse of compression, however many steps both take.
   for (const double restitution : {0.0, 0.1, 0.5, 1.0}) {
     for (const double offset : {0.0, 5.0}) {
       for (const double steps_of_compression : {0.3, 3.7, 40.2}) {
@@ -307,7 +307,7 @@ TEST(CrushLimit, ALimitedCollisionEndsAsEq5SaysOverManySteps) {
   }
 }
 
-/// At rest, face to face.
+/// Returns two bodies at rest, face to face.
 Bodies overlapping(double depth, double offset) {
   Bodies bodies = two_floes(0, offset);
   bodies.position[1].x -= depth;
@@ -412,8 +412,8 @@ TEST(Tracker, ContactsOfFragmentsTakeTheShareThatWasPaid) {
   }
 }
 
-/// The overlap of a floe that broke was there before, though nothing of it was paid: it is pressed apart, and no
-/// impulse was missed.
+/// The overlap of a broken floe existed before, although none of it was paid. It is pushed apart, and no impulse was
+/// missed.
 TEST(Tracker, ContactsOfFragmentsAreNotNewWhereTheirFloeOverlapped) {
   const Bodies bodies = two_floes(0, 3);
   for (const double area_before : {0.0, 0.5}) {

@@ -19,7 +19,7 @@ using namespace scenery;
 constexpr double kSlipSpeed = 0.02;  // [m/s]
 constexpr double kNarrow = 5e-5;     // [m/s]
 
-/// Floes of 10 m, side by side in columns and rows, between a wall that presses and one that stands.
+/// Floes of 10 m, side by side in columns and rows, between a moving wall and a fixed wall.
 struct Pack {
   Bodies bodies;
   std::vector<SolverBody> solver_bodies;
@@ -190,7 +190,7 @@ TEST(JamSolver, SolvesJamsOfFloesAndBrashOrKeepsWhatItCameToWhereThatIsBetter) {
   EXPECT_LT(solved, 40);
 }
 
-/// Impulses that are there before are no part of the problem: the answer is the same.
+/// Initial impulses are not part of the problem: the solution does not depend on them.
 TEST(JamSolver, StartsFromAnyImpulses) {
   Random random(kSeed);
   Pack pack = pack_of(random, 6, 6, 0), from_nothing = pack;

@@ -111,7 +111,7 @@ inline geometry::Vector momentum(const dynamics::Bodies& bodies) {
   return sum;
 }
 
-/// About the origin.
+/// Returns the angular momentum about the origin.
 inline double angular_momentum(const dynamics::Bodies& bodies) {
   double sum = 0;
   for (dynamics::BodyIndex i = 0; i < bodies.size(); ++i) {

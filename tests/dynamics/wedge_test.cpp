@@ -45,7 +45,7 @@ TEST(WedgeAngles, OfCornersAndEdgesAreMeasuredFromTheInwardDirection) {
 }
 
 TEST(WedgeAngles, OfAJaggedEdgeAreThoseOfWhereItLeads) {
-  // A straight edge roughened by teeth of 5 cm: seen over 3 m it is straight but for the teeth's angle, 0.05 / 3.
+  // A straight edge with teeth of 5 cm. Over 3 m it is straight within the angle of the teeth, 0.05 / 3.
   Polygon jagged{{{10, 20}, {-10, 20}}, {}};
   for (int i = 200; i >= 0; --i) jagged.outer.insert(jagged.outer.begin(), {-10 + 0.1 * i, i % 2 == 0 ? 0.0 : 0.05});
   const WedgeAngles angles = wedge_angles(edge_list(jagged), {100, jagged.outer[100]}, {0, 1}, 3);
@@ -94,7 +94,7 @@ TEST(WedgeAngles, OfAFloeSmallerThanTheLengthAreFinite) {
 
 TEST(CrackPath, CountsTheIceAheadAndBeginsAndEndsBeyondTheEdges) {
   const Polygon plate = rectangle(110, 200), holed{plate.outer, {shapes::reversed(rectangle(20, 20).outer)}};
-  // A slot from the bottom up to y = 40, and a hole ahead of it.
+  // The plate has a slot from the bottom up to y = 40, and a hole ahead of the slot.
   const Polygon slotted{{{-55, -50}, {5, -50}, {5, 40}, {15, 40}, {15, -50}, {55, -50}, {55, 50}, {-55, 50}},
                         {{{-35, -5}, {-35, 5}, {-25, 5}, {-25, -5}}}};
   constexpr CrackReach kFar = CrackReach::kFarSide, kFirst = CrackReach::kFirstEdge;

@@ -294,8 +294,8 @@ def check_accounts(summary, law, verdict):
     energy = summary["energy"]
     allowed = ENERGY_SHARE * energy["turnover_J"] + 1e-9
     created = summary["counts"]["energy_created_J"]
-    # Overlap that is not paid is pushed apart by law crush, which gives some energy (docs/theory/contact.md); by law
-    # impulse so do steps that are not solved to the end.
+    # Law crush pushes unpaid overlap apart, which adds some energy (docs/theory/contact.md). With law impulse, steps
+    # that are not solved to the end add energy as well.
     share = PUSHED_APART_SHARE if law == "crush" else UNSOLVED_SHARE
     verdict.add("energy gained", created, share * energy["turnover_J"] + 1e-9,
                 f"steps whose contacts gave more than they took: {created:.3g} J of {energy['turnover_J']:.3g} J")

@@ -184,7 +184,7 @@ TEST(CrushingShares, AFacetThatTheHullDrawsAwayFromTakesNoPart) {
 // ---- overlaps other than wedges, against closed forms
 
 TEST(CrushedOverlapArea, OfAStraightEdgeIsItsFlatForm) {
-  // S = w ξ: A_c = w [ξ − ⟨ξ − h tan θ⟩] / sin θ, the facet's own area once it spans the thickness.
+  // With S = w ξ, A_c = w [ξ − ⟨ξ − h tan θ⟩] / sin θ, which is the area of the facet once it spans the thickness.
   for (const double angle : {0.01, 0.67, 1.2}) {
     for (double depth = 1e-4; depth < 30; depth *= 2.3) {
       const double reach = 0.5 * std::tan(angle);
@@ -263,7 +263,7 @@ TEST(CrushedReceding, WithoutRecessionIsThePlainOverlap) {
   EXPECT_EQ(std::pair(found.crushed.area, found.crushed.slope), std::pair(plain.area, plain.slope));
 }
 
-/// dV/dξ = A_c cos θ_s: by the midpoint rule over the way to the overlap.
+/// Integrates dV/dξ = A_c cos θ_s up to the overlap by the midpoint rule.
 TEST(CrushedVolume, IsWhatTheFacetPassesOver) {
   constexpr double kIceThickness = 0.7;
   constexpr int kSteps = 4000;

@@ -15,8 +15,8 @@ const Water kSea;
 
 constexpr double kThickness = 0.5;
 
-/// A rectangle whose far edge is at the sheet's, its others beside `sides`; an older cusp is as deep, with its axis
-/// where this one begins to be beside it.
+/// A rectangle whose far edge is at the sheet's edge, and whose other edges are beside `sides`. An older cusp is
+/// equally deep, with its axis where this one begins.
 Deck rectangle(Beside sides, double older_far = kCuspDepth) {
   Ice ice;
   ice.thickness = kThickness;
@@ -156,7 +156,8 @@ TEST(FloodingDeck, DoesNotDependOnTheStepOfItsHull) {
 
 // ---- the numbers of docs/theory/bow.md, "Water on the deck of a turning cusp", by its closed forms
 
-/// The way of the hull at which a deck has turned by ψ: √(R² + h²) cos(ψ + θ_s − β) = x_w cos θ_s + h sin θ_s.
+/// Returns the distance that the hull has moved when a deck has turned by ψ: √(R² + h²) cos(ψ + θ_s − β) = x_w cos θ_s
+/// + h sin θ_s.
 double way_at_turn(const Deck& deck, double turn) {
   const double r = deck.depth, h = deck.thickness, theta = deck.hull_angle;
   return r - (std::hypot(r, h) * std::cos(turn + theta - std::atan2(h, r)) - h * std::sin(theta)) / std::cos(theta);
@@ -187,7 +188,7 @@ struct Turned {
   }
 };
 
-/// Inflow into a deck at that turn, measured over a time in which nothing else changes [m³/s].
+/// Returns the inflow into a deck at the given turn, measured over a time in which nothing else changes [m³/s].
 double inflow_at(const Deck& deck, double turn, double pool = 0) {
   constexpr double kShort = 1e-9;  // [s]
   DeckState state{way_at_turn(deck, turn), pool};

@@ -29,12 +29,12 @@ struct Knife {
   Ring points;
 };
 
-/// A floe of some awkward kind: needle, comb, spiral, star, holes touching the boundary, tiny or far away.
-/// May be invalid.
+/// Returns a floe of a difficult kind: needle, comb, spiral, star, holes touching the boundary, tiny or far away. It
+/// may be invalid.
 Polygon roll_floe(Dice& dice);
 
-/// A knife aimed at the floe's weak places: through vertices, tangent to edges, centred on vertices, along
-/// edges, one ulp beside them. May be invalid.
+/// Returns a knife aimed at the weak places of the floe: through vertices, tangent to edges, centred on vertices, along
+/// edges, or one ulp beside them. It may be invalid.
 Knife roll_knife(Dice& dice, const Polygon& floe);
 
 /// A tool that the general path cuts with: several polygons, which may overlap, touch and have holes, or a

@@ -25,7 +25,7 @@ const bool kSeeded = [] {
   return true;
 }();
 
-// Rolls a floe, perhaps cut before, so that knives also meet the vertices that earlier cuts made.
+// Returns a random floe, perhaps one that was cut before, so that knives also meet vertices of earlier cuts.
 Shape roll_shape(Dice& dice) {
   Shape shape{roll_floe(dice)};
   if (find_defect(shape.polygon)) return {};

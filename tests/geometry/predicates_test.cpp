@@ -226,7 +226,7 @@ TEST(Validity, IsNearLinear) {
 
 // ---- measures
 
-/// 6 × 4 m with a hole of 2 × 2 m.
+/// A rectangle of 6 × 4 m with a hole of 2 × 2 m.
 const Polygon kHoled{shapes::rectangle(0, 0, 6, 4).outer, {hole_square({1, 1}, 2)}};
 
 TEST(Measures, RectangleWithHoleHasItsClosedForms) {

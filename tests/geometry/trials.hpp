@@ -12,7 +12,7 @@
 
 namespace polynya::geometry::trials {
 
-/// The area of a piece as it stands, in rationals.
+/// Returns the area of a piece as stored, in rationals.
 exact::Rational exact_area_of(const Shape& shape);
 
 /// Checks the properties of every cut: exact balance, valid pieces, and a ledger that adds up to the last bit.

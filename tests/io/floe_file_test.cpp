@@ -17,7 +17,7 @@ using namespace tests;
 
 class FloeFile : public testing::Test {
  protected:
-  /// The scene of that floe file; with more members of the file's entry, and of the scene.
+  /// Reads a scene with the given floe file, optionally with further members of the file's entry and of the scene.
   SceneOutcome read_file(const std::string& geojson, const std::string& entry = "",
                          const std::string& more = "") const {
     write_file(folder / "floes.geojson", geojson);
@@ -36,7 +36,7 @@ class FloeFile : public testing::Test {
 
 const std::string kOrigin = R"("origin": {"latitude_deg": 78.2, "longitude_deg": 15.6}, )";
 
-/// A square floe; its side in the units of its corner.
+/// Returns a square floe. Its side is in the units of its corner.
 std::string floe(double x, double y, double side, const std::string& properties = "") {
   return fmt::format(R"({{"type":"Feature","properties":{{{}}},"geometry":{{"type":"Polygon","coordinates":)"
                      R"([[[{},{}],[{},{}],[{},{}],[{},{}],[{},{}]]]}}}})",

@@ -182,7 +182,7 @@ TEST(FloeText, ATextWithoutContentHasNoFloes) {
     EXPECT_TRUE(floes_of(to_floe_text(nothing, format)).entries.empty());
 }
 
-/// A feature's properties are kept as they are written, without blanks and comments; so is the crs.
+/// The properties of a feature are kept as they are written, without blanks and comments, and so is the crs.
 TEST(FloeText, PropertiesAndCrsAreKeptAsWritten) {
   const FloeText floes = floes_of(R"({"type": "FeatureCollection",
     "crs": {"type": "name", "properties": {"name": "EPSG:3413"}}, "features": [

@@ -88,7 +88,7 @@ TEST(RunLoop, AStoppedRunIsResumedToTheSameBytes) {
   expect_resumes_to(folder, small);
 }
 
-/// A run that ends early, or is stopped, goes on to a later end as if it had not ended.
+/// A run that ends early, or is stopped, continues to a later end as if it had not ended.
 TEST(RunLoop, AnEarlierEndLeavesNoTraceInALongerRun) {
   const TemporaryFolder folder;
   const LoadedScene longer = small_scene();

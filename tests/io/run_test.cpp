@@ -25,7 +25,7 @@ namespace {
 
 using namespace tests;
 
-// A ship that breaks a plate and pushes a floe, in drifting water: every file has something to say.
+// A ship breaks a plate and pushes a floe in drifting water, so that every file has content.
 const std::string kScene = R"({
   "name": "small", "time": {"step_s": 0.01, "until_s": 8}, "water": {"drift_m_per_s": [0.02, -0.01]},
   "record": {"forces_interval_s": 0.1, "frames_interval_s": 0.5, "contacts": "all"},
@@ -314,7 +314,7 @@ TEST(EventFields, OfWrongValuesAreRefusedByTheirNames) {
     EXPECT_EQ(refusal(from, to), message);
 }
 
-/// Who lives is known by births and events; where, by frames.
+/// Births and events state which floes exist. Frames state where they are.
 TEST_F(RunFiles, WhoLivesWhereAtEveryFrame) {
   const io::Run run = read();
   const MotionIndex motions(run);
@@ -397,7 +397,7 @@ TEST_F(RunFiles, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_HAS(refusal(run_file::kStates, "t_s,steps,state_hash\n0,0,00\n"), "states.csv:2: \"00\" is not a hash");
 }
 
-/// Version 1 wrote every shape whole, and no version.
+/// Version 1 wrote every shape whole, and did not write its version.
 TEST_F(RunFiles, OfVersionOneReadTheSameAndOfALaterOneNot) {
   std::string lines;
   for (const simulation::Birth& birth : recorded.births) append_birth(lines, birth, nullptr);
@@ -412,7 +412,7 @@ TEST_F(RunFiles, OfVersionOneReadTheSameAndOfALaterOneNot) {
              R"(summary.json:3:21: folder_version: found "3", allowed: a number)");
 }
 
-/// Level ice: every cusp leaves the same plate with a longer boundary. Later lines are as short as early ones.
+/// In level ice every cusp leaves the same plate with a longer boundary. Later lines must be as short as early ones.
 TEST(Run, FloesGrowWithTheIceThatIsNewNotWithThePlate) {
   const TemporaryFolder folder;
   const LoadedScene scene = load(

@@ -87,12 +87,12 @@ const std::string kSeventh = scene(
                     R"({"channel": {"centreline_m": [[0, 240], [60, 240]], "width_m": 30, "thickness_m": 0.8,
       "sizes": {"exponent": 1, "least_m": 2, "largest_m": 5}}})"})});
 
-/// A frozen channel.
+/// A scene with a frozen channel.
 const std::string kEighth =
     scene({list("floes", {R"({"channel": {"centreline_m": [[0, 0], [120, 0]], "width_m": 30, "thickness_m": 0.8,
       "consolidated_thickness_m": 0.2}})"})});
 
-/// One ship for each other pilot.
+/// Returns ships that together have all other pilots.
 std::string fleet() {
   std::vector<std::string> ships;
   for (const char* pilot :

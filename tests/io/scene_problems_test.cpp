@@ -149,7 +149,7 @@ std::string route(const std::string& waypoints) {
                 R"("structures": [{"name": "tower", "radius_m": 20, "position_m": [600, 0]}])"});
 }
 
-/// One ship or two that manage the ice about a tower, or another body.
+/// Returns a scene with one or two ships that manage the ice about a tower, or about another body.
 std::string fleet(const std::string& first, const std::string& second = "") {
   std::vector<std::string> ships;
   for (const std::string& pilot : {first, second}) {
@@ -348,7 +348,7 @@ TEST(SceneProblems, ALongKeyIsShortenedBetweenTwoCharacters) {
   EXPECT_HAS(to_string(problems[0]), "éé…: found an unknown key");
 }
 
-/// The scene.json of a run is the resolved scene: whatever is read must fit into what can be read again.
+/// The scene.json of a run is the resolved scene, so every accepted scene must be readable again after it was written.
 TEST(SceneProblems, ASceneThatCouldNotBeReadBackIsRefused) {
   const TemporaryFolder folder;
   write_file(folder / "f.geojson", R"({"type": "Polygon", "coordinates": [[[0,0],[1000,0],[0,1000],[0,0]]]})");
@@ -390,7 +390,7 @@ std::vector<Problem> hints_of(const Changes& changes) {
 
 const Change kTurned{"\"heading_deg\": 0", "\"heading_deg\": 180"};
 
-/// "LINE: severity: path: " and further words of the one hint.
+/// Returns "LINE: severity: path: " and further words of the only hint.
 TEST(SceneHints, HaveAPlaceASeverityAndNumbers) {
   struct Row {
     Changes changes;

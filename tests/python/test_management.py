@@ -53,7 +53,7 @@ def test_where_nobody_breaks_gates_pass_what_was_put_in(drifting):
     for passage in passages(drifting, gates_of(drifting, GATES)):
         assert numpy.array_equal(numpy.sort(passage.areas), areas)
         assert numpy.all(numpy.abs(passage.across) < 150)
-    # Through half of the width goes half of it, to counting error.
+    # Half of the floes pass through half of the width, within the counting error.
     for passage in passages(drifting, gates_of(drifting, {**GATES, "width_m": 150})):
         count = len(areas) / 2
         assert abs(len(passage.areas) - count) < 3 * math.sqrt(count)

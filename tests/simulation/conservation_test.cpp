@@ -18,7 +18,7 @@ namespace {
 using namespace scenes;
 using geometry::Vector;
 
-/// A moving, turning plate broken by a free ship, by bending and by splitting.
+/// Returns a moving, turning plate that a free ship breaks by bending and by splitting.
 Build breaking_scene(Laws laws, CuspFate fate) {
   Build scene = Build(laws)
                     .without_drag()
@@ -88,7 +88,8 @@ TEST(Fracture, PiecesMoveOnAsThePartsOfOneBody) {
   }
 }
 
-/// Every floe has the parent and the event that it came from, and the parts of a floe are all of it.
+/// Checks that every floe has the parent and the event that it came from, and that the parts of a floe add up to the
+/// whole.
 void expect_lineage(const Trial& run) {
   std::map<FloeId, Birth> births;
   for (const Birth& birth : run.story.births) ASSERT_TRUE(births.emplace(birth.floe, birth).second) << "born twice";

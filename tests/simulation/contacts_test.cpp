@@ -22,7 +22,7 @@ Scene pack(RecordedContacts contacts) {
   return scene;
 }
 
-/// A floe of 100 m comes onto a pile of 1 m radius at 1 m/s. Its energy crushes more ice than the pile is wide.
+/// A floe of 100 m drifts onto a pile of 1 m radius at 1 m/s. Its energy crushes more ice than the pile is wide.
 TEST(RigidImpulses, LetAFloePassThroughAPileAtAnyStepAndCountIt) {
   const auto passing_steps = [](Laws laws, double speed, double step) {
     Build scene = Build(laws).step(step).without_drag().unbreakable().pile({0, 0}, 1).floe(
@@ -36,8 +36,8 @@ TEST(RigidImpulses, LetAFloePassThroughAPileAtAnyStepAndCountIt) {
   EXPECT_EQ(passing_steps(Laws::kDefault, 1, 0.05), 0) << "what is crushed is cut off";
 }
 
-/// Two floes that spin, without friction: 1.2 % of energy came from their collision when restitution gave back impulses
-/// alone.
+/// Two floes spin and collide without friction. Their collision gained 1.2 % of energy when restitution gave back
+/// impulses alone.
 TEST(RigidImpulses, GiveBackNoMoreThanTheyTookAndCrushNoNegativeWork) {
   for (int k = 0; k < 60; ++k) {
     const double restitution = 0.5 * (k % 3);
@@ -202,7 +202,8 @@ TEST(ShipContacts, WithIceBetweenTheTwoLoadsAddUpToTheMotion) {
 }
 
 TEST(ShipContacts, OfPrescribedMotionsAreRecorded) {
-  // The pile stands off the course by this much: every step length and place finds the touch, none beside it.
+  // The pile is at this distance from the course. Every step length and place finds the touch, and none finds one
+  // beside it.
   for (const double step : {0.005, 0.013, 0.05}) {
     for (const double off : {-18.0, -16.9, -12.0, -3.7, 0.0, 5.0, 12.0, 16.9, 17.1, 30.0}) {
       const Story story =

@@ -70,8 +70,8 @@ TEST(TipCompliance, GrowsFromNothing) {
   }
 }
 
-/// The hull comes ξ + tan θ_s w before the wedge breaks: against the solution in which the two act on each
-/// other at every instant.
+/// The hull advances by ξ + tan θ_s w before the wedge breaks. The reference is the solution in which the two act on
+/// each other at every instant.
 TEST(Recession, LengthensThePushAsTheCoupledSolutionHasIt) {
   BendingLoad load;
   load.hull_angle = 38.2 * kDegree;

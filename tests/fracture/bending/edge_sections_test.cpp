@@ -260,7 +260,7 @@ TEST(EdgeSections, BreakWhenTheirPartsCrack) {
         << l << " " << thrust;
 }
 
-/// A fast push is held up by inertia too: the effective length gives the database's forces and radii, without thrust.
+/// Inertia also resists a fast push: the effective length gives the forces and radii of the database, without thrust.
 TEST(EdgeSections, FollowTheDatabaseWithSpeed) {
   BendingLoad load;
   load.front_half_angle = load.back_half_angle = 30 * kDegree;
