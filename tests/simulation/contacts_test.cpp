@@ -1,5 +1,5 @@
-// Contacts as they are recorded: with ice they explain the loads on ships and the motion of floes, with other
-// ships they are kept apart; and overlaps that no contact takes away are ground to brash.
+// Recorded contacts. Contacts with ice explain the loads on ships and the motion of floes, and contacts with other
+// ships are recorded separately. Overlaps that no contact removes are ground to brash.
 #include <algorithm>
 #include <map>
 #include <numbers>

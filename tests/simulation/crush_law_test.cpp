@@ -36,7 +36,7 @@ struct Stop {
   double mass = 0;        ///< [kg]
 };
 
-/// `gap`: before the floe touches [m].
+/// `gap` is the distance of the floe before it touches [m].
 Stop stop_of(const Scene& scene, double gap) {
   Simulation simulation(scene);
   Stop stop;
@@ -52,12 +52,11 @@ Stop stop_of(const Scene& scene, double gap) {
   return stop;
 }
 
-/// 2 σ_c h: of a right corner [N/m], and of a face of 2 m its force [N].
+/// 2 σ_c h: stiffness of a right corner [N/m]; for a face of 2 m, its force [N].
 constexpr double kStiffness = 2 * 2.8e6 * 0.5;
 
-/// A right corner: F = σ_c h dS/dξ = 2 σ_c h ξ, S = ξ², so it stops as half a swing of a spring:
-/// depth v √(m/2σ_c h), time π/2 √(m/2σ_c h), peak v √(2σ_c h m).
-/// A face of 2 m presses with a constant force.
+/// For a right corner F = σ_c h dS/dξ = 2 σ_c h ξ and S = ξ². It stops like half a swing of a spring: depth v √(m/2σ_c
+/// h), time π/2 √(m/2σ_c h), peak v √(2σ_c h m). A face of 2 m presses with a constant force.
 TEST(CrushLaw, ACornerAndAFlatFaceStopAsTheirClosedFormsSay) {
   for (const double gap : {0.0001, 0.0021, 0.0034}) {
     const Stop corner = stop_of(floe_against_wall(square_on_its_corner(gap), 0.005), gap);
@@ -102,8 +101,8 @@ TEST(CrushLaw, ALineOfFloesGoesOnTogether) {
   expect_closed(done.simulation);
 }
 
-/// A floe that meets a wall obliquely slides along it: as long as it slides, Coulomb's friction takes μ times
-/// what the wall takes of its speed across.
+/// A floe that meets a wall obliquely slides along it. While it slides, Coulomb's friction takes μ times the change of
+/// its speed normal to the wall.
 TEST(CrushLaw, FrictionOnAPlaneIsCoulombs) {
   for (const double friction : {0.05, 0.2, 0.4}) {
     Scene scene = Build()
@@ -120,7 +119,7 @@ TEST(CrushLaw, FrictionOnAPlaneIsCoulombs) {
   }
 }
 
-/// The reference ship presses 15 m floes into a basin without a way out.
+/// The reference ship presses 15 m floes into a closed basin.
 TEST(CrushLaw, AJamIsSolvedAndItsContactsCreateNoEnergy) {
   Build scene = Build().step(0.01).ship(icebreaker({-1, 0}, ConstantSpeed{1}));
   for (const auto& wall : {rectangle(100, -60, 110, 60), rectangle(-1, 60, 110, 70), rectangle(-1, -70, 110, -60)})
@@ -215,7 +214,7 @@ double time_of_compression(const Scene& scene) {
 }
 
 TEST(CrushingCollision, TakesMassToTheThirdOverSpeedToTheThirdAtAnInclinedHull) {
-  // F = k ξ²: the time of compression goes as (m / k v)^⅓.
+  // With F = k ξ² the time of compression is proportional to (m / k v)^⅓.
   const auto time = [](double speed, double density) {
     return time_of_compression(corner_into_bow(60 * kDegree, speed, density, 5e-4));
   };
@@ -272,9 +271,9 @@ TEST(CrushingCollision, LevelIceDependsOnTheRadiusALittle) {
 }
 
 TEST(CrushingCollision, ByCircleCentresIsFeltLaterByAShareOfTheRadius) {
-  // The paper's rule: a corner's circle keeps off its tip by a share of the radius, so that the first touch
-  // comes late by as much, and tends to the boundary's as the radius shrinks. Its normals do not: a row of
-  // circles is as bumpy at any radius.
+  // The paper's rule: the circle of a corner stays off its tip by a share of the radius. The first touch is therefore
+  // late by that share, and approaches the touch of the boundary as the radius shrinks. The normals do not converge,
+  // because a row of circles is equally bumpy at any radius.
   const auto depth_at_touch = [](double radius) {
     Scene scene = Build(Laws::kPaper)
                       .without_drag()
@@ -296,8 +295,8 @@ TEST(CrushingCollision, ByCircleCentresIsFeltLaterByAShareOfTheRadius) {
   EXPECT_NEAR(std::log(lags.front() / lags.back()) / std::log(32), 1, 0.3) << "its order";
 }
 
-/// A corner of 90° that comes onto a wall has F = 2 σ_c h ξ, so that it has given σ_c h ξ²/v at the depth ξ, wherever
-/// within a step it touches the wall.
+/// A corner of 90° that moves onto a wall has F = 2 σ_c h ξ. At the depth ξ it has given the impulse σ_c h ξ²/v,
+/// wherever within a step it touches the wall.
 TEST(CrushLaw, ACornerHasGivenTheImpulseOfItsDepthThoughItIsFoundLate) {
   const double speed = 0.5, step = 0.05, half = 60;
   for (const double share : {0.1, 0.5, 0.9}) {  // of the way of a step, at which the contact is found

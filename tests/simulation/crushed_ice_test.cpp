@@ -1,4 +1,4 @@
-// Hulls in fast ice, where nothing gives way: fast ice that drifts, or a ship that keeps its speed.
+// Hulls in fast ice, which does not give way: fast ice that drifts, or a ship that keeps its speed.
 #include <cmath>
 #include <numbers>
 
@@ -47,8 +47,8 @@ Trial over_the_way(const Scene& scene, double speed, double most) {
   return done;
 }
 
-/// The load is σ_c h 2r where all of the front half is in the ice, so that the work is σ_c h times the area
-/// of the channel: of a cylinder 2r (s − r) + ½ π r²; of a flat face 2r s, from the first touch on.
+/// The load is σ_c h 2r if the front half is entirely in the ice. The work is then σ_c h times the area of the channel.
+/// This area is 2r (s − r) + ½ π r² for a cylinder, and 2r s for a flat face, from the first touch on.
 TEST(Prescribed, ACylinderAndAFlatFaceCrushTheChannelsThatTheyLeave) {
   const double load = kLineLoad * 2 * kRadius;
   const double of_cylinder = 2 * kRadius * (kWay - kRadius) + 0.5 * std::numbers::pi * kRadius * kRadius;
@@ -132,7 +132,7 @@ TEST(Prescribed, ACylinderIsPushedAlongTheMotionOfTheIce) {
   EXPECT_NEAR(std::atan2(force.sway, force.surge), std::atan2(0.2, 0.5), half_edge + 0.01);
 }
 
-/// Across all of its plate: where the cylinder has come out, there are two floes, and the smaller is free.
+/// The cylinder crosses the whole plate. Where it has left the plate there are two floes, and the smaller one is free.
 TEST(Prescribed, APlateThatIsCutThroughIsTwo) {
   const Trial done =
       run(Build().without_splits().step(0.05).pile({0, 0}, 2).floe(fast(rectangle(-32, -10, -2, 15), {1, 0})), 40);
@@ -191,7 +191,7 @@ Scene floe_past_pile() {
       .floe(rectangle(4, 9.6, 34, 39.6), {-4, 0});
 }
 
-/// A floe of 8 x 4 m between a vertical bow and a pier.
+/// Returns a floe of 8 x 4 m between a vertical bow and a pier.
 Scene squeezed_floe(Laws laws = Laws::kDefault) {
   return Build(laws)
       .unbreakable()

@@ -34,8 +34,8 @@ TEST(Decision, AFloeSmallerThanTheBreakableSizeIsPushedNeverBroken) {
 }
 
 TEST(Decision, ThePapersPlateIsKnifeEdge) {
-  // A central hit at 1 m/s gives j/τ_c = 10.9 MN against F_s = 11 MN: a hit 2 % faster splits, one at 1 m/s
-  // does not.
+  // A central hit at 1 m/s gives j/τ_c = 10.9 MN, compared with F_s = 11 MN. A hit that is 2 % faster splits the floe;
+  // a hit at 1 m/s does not.
   for (const double speed : {1.0, 1.02}) {
     const auto [simulation, story] = run(
         ship_against(icebreaker({0, 0}, ConstantThrust{0}, speed), rectangle(0.001, -100, 110.001, 100), Laws::kPaper),
@@ -122,7 +122,7 @@ TEST(Decision, ARejectedCutIsRecordedCountedAndLeavesTheFloe) {
 
 constexpr double kHullAngle = 38.2 * kDegree, kHalfAngle = 45 * kDegree, kSpeed = 0.2;
 
-/// A flat inclined bow that comes on to a right corner of 80 000 m² of ice.
+/// Returns a flat inclined bow that approaches a right corner of 80 000 m² of ice.
 Scene corner_under_a_wall(bool follows_deflection) {
   Ship bow = barge({-0.001, 0}, ConstantSpeed{kSpeed}, kSpeed);
   set_hull_angle(bow, kHullAngle);

@@ -104,7 +104,7 @@ double mass_of(double length, double width) {
 
 const Polygon kPlate = rectangle(0, -150, 600, 150);
 
-/// A ship that comes with her stern, of 24 m.
+/// Returns a ship that moves astern into the ice, with a stern of 24 m.
 Impact stern_onto_edge(const Approach& a) {
   Ship ship = icebreaker({}, ConstantThrust{0}, -a.speed);
   const geometry::Pose pose = coming(a, 24);

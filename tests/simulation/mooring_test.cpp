@@ -111,7 +111,7 @@ TEST(Mooring, TheSameOverGroundInAnyDrift) {
   EXPECT_NEAR(size_of(after({}) - after({0.5, -0.2})), 0, 1e-9);
 }
 
-/// Energy never grows, of whatever stiffness: periods of 2 steps, and of far less than one.
+/// The energy never grows for any stiffness, with periods of two steps and of much less than a step.
 TEST(Mooring, OfAnyStiffnessNeitherGainsEnergyNorLeavesItsBounds) {
   for (const double period : {4.0, 1.0, 0.1, 1e-3, 1e-6}) {
     World world(off_its_place(0.5, stiffness_of(period)));
@@ -124,7 +124,7 @@ TEST(Mooring, OfAnyStiffnessNeitherGainsEnergyNorLeavesItsBounds) {
   }
 }
 
-/// The same with water around the hull and with a damper: both take energy, whatever the stiffness.
+/// This is the same test with water around the hull and with a damper. Both take energy for any stiffness.
 TEST(Mooring, OfAnyStiffnessLosesEnergyToWaterAndDampers) {
   for (const double period : {20.0, 4.0, 0.5, 1e-3}) {
     for (const double share : {0.0, 0.3}) {

@@ -1,4 +1,4 @@
-// The pilot that rams: its orders while a ship charges, stands and backs, and ships in ice that is too thick for them.
+// The ramming pilot: its orders while a ship charges, stands and backs, and ships in ice that is too thick for them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,7 +66,7 @@ TEST(RammingOrders, AreAsternWhenTheShipHasStoodForStuckS) {
   EXPECT_EQ(bridge.memory.rams, 0) << "the first charge is not counted";
 }
 
-/// The engine needs a minute from full ahead to full astern, and the ship stands meanwhile.
+/// The engine needs a minute from full ahead to full astern, and the ship stands still during this time.
 TEST(RammingOrders, StayAsternWhileTheLeverIsOnItsWay) {
   Bridge bridge;
   bridge.go(11, 0);

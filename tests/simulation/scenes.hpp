@@ -41,7 +41,7 @@ Ship steep_icebreaker(geometry::Point stem, const Propulsion& propulsion, double
 /// A box-shaped ship with vertical walls: it can only crush.
 Ship barge(geometry::Point middle_of_bow, const Propulsion& propulsion, double speed = 1);
 
-/// Gives a ship 6 m of draught, so that ice goes under her.
+/// Returns the ship with a draught of 6 m, so that ice goes under her.
 Ship with_draught(Ship ship);
 
 /// Returns the ship with the forces of the water switched on.
@@ -56,7 +56,7 @@ void set_hull_angle(PlacedHull& ship, double angle);
 MooringSettings moored(geometry::Point at, const dynamics::Planar& stiffness, const dynamics::Planar& damping = {},
                        double break_load = 0, double heading = 0);
 
-/// How a wall moves; one that stands by default.
+/// Motion of a wall. By default it stands still.
 struct WallMotion {
   geometry::Vector velocity;  ///< [m/s]
   std::optional<WallPressure> pressure;
@@ -64,14 +64,14 @@ struct WallMotion {
 WallMotion pressing(double line_load);         ///< [N/m]
 WallMotion moving(geometry::Vector velocity);  ///< [m/s]
 
-/// A scene in two or three lines: each call adds something and gives the scene back. By the default laws.
+/// Builds a scene in two or three lines: each call adds something and returns the scene. The default laws apply.
 class Build : public Scene {
  public:
   Build() = default;
   explicit Build(Laws laws);
   Build& step(double seconds) { return set(time.step, seconds); }
   Build& ship(const Ship& ship) { return add(ships, ship); }
-  /// A waterline that stands, about a point; its walls at an angle from the vertical [rad].
+  /// Adds a fixed waterline about a point. The angle of its walls is from the vertical [rad].
   Build& structure(const geometry::Ring& waterline, geometry::Point at = {}, double wall_angle = 0);
   Build& pile(geometry::Point at, double radius, double wall_angle = 0) {
     return structure(cylinder_waterline(radius), at, wall_angle);
@@ -91,7 +91,7 @@ class Build : public Scene {
   Build& unbreakable() { return set(fracture.breakable_size_factor, 1e9); }
   Build& thickness(double metres) { return set(ice.thickness, metres); }
   Build& splitting(fracture::SplittingModel model) { return set(fracture.splitting, model); }
-  /// For ice without end.
+  /// Switches splits off, for ice without end.
   Build& without_splits() { return splitting(fracture::SplittingModel::kNone); }
   Build& cusps(CuspFate fate) { return set(fracture.cusp_fate, fate); }
   /// Lets cusps and floes go under hulls and, if `come_up`, surface behind them.
@@ -158,7 +158,7 @@ void listen(Simulation& simulation, Story& story);
 Story run(Simulation& simulation, double until);
 Trial run(const Scene& scene, double until, Shortcuts shortcuts = {});
 
-/// The same; calls a function after each step.
+/// Does the same, and calls a function after each step.
 Trial run(const Scene& scene, double until, const std::function<void(const Simulation&)>& after_step);
 
 /// Steps until something holds after a step, or to a time.
@@ -170,7 +170,7 @@ Trial run_to_first_event(const Scene& scene, double until);
 /// Advances the simulation and discards its records.
 void skip(Simulation& simulation, int steps = 1);
 
-/// The first bend of a run; fails where nothing bends.
+/// Returns the first bend of a run. The test fails if nothing bends.
 Event first_bend(const Scene& scene, double until = 20);
 
 /// The mean of a load over a ship's samples from a time on.

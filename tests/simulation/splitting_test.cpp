@@ -23,7 +23,7 @@ using geometry::Vector;
 
 constexpr double kOpeningOfStem = 0.633;  // per force ahead, of the reference ship with μ 0.2
 
-/// Steps until something splits, or to a time; gives the largest force before that [N].
+/// Steps until something splits, or until a time. Returns the largest force before that [N].
 double largest_before_split(const Scene& scene, double until) {
   Simulation simulation(scene);
   double largest = 0;
@@ -65,7 +65,7 @@ TEST(Splitting, AFlatPushClosesTheMouthHoweverHard) {
   EXPECT_TRUE(run(scene, 3).story.splits().empty());
 }
 
-/// A floe of 60 × 30 m with a point of half-angle 30° at x = 0.
+/// Returns a floe of 60 × 30 m with a point of half-angle 30° at x = 0.
 geometry::Polygon pointed(bool points_ahead) {
   const double d = 15 / std::tan(30 * kDegree);
   geometry::Polygon floe{{{0, 0}, {-d, 15}, {-60, 15}, {-60, -15}, {-d, -15}}, {}};
@@ -187,7 +187,7 @@ TEST(Splitting, WhatPassesFloesOverIsNoLessThanTheirPushes) {
   EXPECT_GT(corners, 1000);
 }
 
-/// A floe of three to seven corners that drifts on two structures beside each other, piles or wedges.
+/// Returns a floe of three to seven corners that drifts onto two structures beside each other, piles or wedges.
 Scene on_two_structures(scenery::Random& random) {
   const double size = random.between(8, 60);
   Build scene = Build().without_drag().step(random.between(0.02, 0.1)).thickness(random.between(0.3, 1.5));

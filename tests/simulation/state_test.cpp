@@ -173,7 +173,7 @@ void add_field(Build& scene, const geometry::Polygon& region, double concentrati
   for (const auto& polygon : make_floe_field(field).floes) scene.floe(polygon);
 }
 
-/// A ship that breaks its way through a plate and pushes floes in a drift.
+/// Returns a ship that breaks its way through a plate and pushes floes in a drift.
 Scene voyage() {
   Build scene = Build(Laws::kPaper)
                     .step(0.01)
@@ -221,9 +221,9 @@ TEST(Shortcuts, FloesComeToRestOnceASecondWhereIceCrushesAndInEachStepOfTheImpul
 }
 
 TEST(Shortcuts, SleepMovesFloesByNoMoreThanTheRestSpeedDoes) {
-  // A floe put to rest would have gone on at less than the rest speed. While no collision has made something
-  // else of it, places differ by less than that speed's way, and every fracture is the same; later,
-  // collisions amplify any difference, and only means can be compared.
+  // A floe put to rest would have moved on at less than the rest speed. Until a collision changes the course of events,
+  // positions differ by less than the displacement at that speed, and every fracture is the same. Later, collisions
+  // amplify any difference, and only means can be compared.
   const Shortcuts all_awake{.culls = false, .sleeps = false};
   const double before_chaos = 20;
   const Trial with = run(voyage(), before_chaos), without = run(voyage(), before_chaos, all_awake);

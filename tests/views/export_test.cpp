@@ -58,7 +58,7 @@ TEST(Triangulation, HasTwoTrianglesLessThanCornersForStarsOfAnySize) {
   }
 }
 
-/// The n-th value of a column, from the file's text alone.
+/// Returns the n-th value of a column, from the text of the file alone.
 double value_at(const std::string& text, const std::string& name, std::size_t n) {
   const std::size_t tag = text.find("Name=\"" + name + "\"");
   const std::size_t start = text.find('>', tag) + 1;
@@ -219,7 +219,7 @@ TEST_F(SceneExport, IceUnderAHullStaysThere) {
       EXPECT_LT(distance(after[i].motion->position, before[i].motion->position), 2e-3);
     }
     if (time == 30.0) continue;
-    // The ice comes up behind the ship as in the run that went on, but for where it finds room.
+    // The ice surfaces behind the ship as in the uninterrupted run, except for the places where it finds room.
     const auto area_under = [](const io::Run& of, double at) {
       double area = 0;
       for (const io::PlacedFloe& floe : floes_under_hulls_at(of, io::MotionIndex(of), at)) area += floe.birth->area;

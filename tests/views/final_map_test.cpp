@@ -35,7 +35,7 @@ io::Run run_of_three(const std::string& name, const std::string& more = "") {
   return run;
 }
 
-/// The numbers of an attribute, in the order they stand.
+/// Returns the numbers of an attribute, in the order in which they occur.
 std::vector<double> numbers_of(const std::string& svg, const std::string& attribute) {
   std::vector<double> numbers;
   const std::string mark = " " + attribute + "='";
