@@ -141,8 +141,8 @@ TEST(Prescribed, APlateThatIsCutThroughIsTwo) {
   expect_closed(done.simulation);
 }
 
-/// A wall that closes flat crushes ice over all of its length at once. Its load is σ_c h w from the first step on, 588 MN
-/// for 300 m of 0.7 m, until the ice has taken its momentum, and is never larger
+/// A wall that closes flat crushes ice over all of its length at once. Its load is σ_c h w from the first step on, 588
+/// MN for 300 m of 0.7 m, until the ice has taken its momentum, and is never larger
 /// (docs/decisions/2026-11-23-flat-wall.md).
 TEST(Prescribed, AWallThatClosesFlatBearsOnAllOfTheIce) {
   constexpr double kChannelWidth = 300;  // [m]
