@@ -367,7 +367,7 @@ TEST(SubmergedIce, APieceHasRisenAndSlidAllTheWayHoweverItIsCutIntoSteps) {
 TEST(SubmergedIce, AHullCoveredWithIcePaysLindqvistsResistance) {
   const SubmersionPath path = submersion_path(kReference);
   const double mu = 0.2, speed = 1, dt = 0.01, piece = 0.5;  // a piece every half metre
-  const double weight = 100 * 9.81 * 0.5 * 24 * piece;       // of each [N]
+  const double weight = 100 * 9.81 * 0.5 * 24 * piece;       // weight of each piece [N]
   double work = 0;
   for (int step = 0; step < 50; ++step) {  // over one spacing of the pieces
     for (double s = step * dt * speed; s < 120; s += piece)

@@ -20,7 +20,7 @@ constexpr double kRadius = 5;              // [m]
 constexpr double kWay = 100;               // [m]
 
 struct Drift {
-  double speed = 0;  ///< of the ice against the hull [m/s]
+  double speed = 0;  ///< speed of the ice against the hull [m/s]
   double step = 0;   ///< [s]
 };
 constexpr Drift kDrifts[] = {{0.2, 0.05}, {0.2, 0.02}, {1, 0.05}, {1, 0.02}};
