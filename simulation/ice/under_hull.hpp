@@ -8,6 +8,7 @@ namespace polynya::simulation {
 struct FloeAtHull {
   FloeId floe = 0;
   int ship = 0;
+  bool has_deck = false;  ///< the hull carries the water that is missing on the floe's deck (SubmergedPiece)
 };
 
 /// Takes a floe out of the contact world and puts it under a ship's hull, where it rests in the water. Enters
