@@ -13,6 +13,7 @@ scale. The angles of the bow are doubtful, so both sets that are named for it ar
 forces over so many seconds, 0.1 if not given; --set: a key of the scene. Needs numpy.
 """
 import argparse
+import copy
 import json
 import math
 import pathlib
@@ -60,7 +61,7 @@ def at_places(scene_at, places, settings):
     same first ones."""
     scenes = []
     for place in range(places):
-        whole = scene_at(share=share_of(place), slant=slant_of(place)) | {"seed": place + 1}
+        whole = copy.deepcopy(scene_at(share=share_of(place), slant=slant_of(place))) | {"seed": place + 1}
         whole["fracture"]["bending"] = {"strength_spread": STRENGTH_SPREAD}
         for key, value in settings:
             set_key(whole, key, value)
@@ -100,7 +101,7 @@ def found_at(runs, label, scenes, average=level_tests.AVERAGE):
 def of_tests(runs, angles, average=level_tests.AVERAGE, settings=(), places=PLACES):
     """(the tests, {test's name: what was found}) by one set of angles."""
     tests = level_tests.read_tests(HERE / "uikku_tests.csv")
-    label = f"{angles}-{zlib.crc32(repr(settings).encode()):08x}" if settings else angles
+    label = f"{angles}-{zlib.crc32(repr(tuple(settings)).encode()):08x}" if settings else angles
     scenes = {test.name: scenes_of(test, ANGLES[angles], places, settings) for test in tests}
     return tests, found_at(runs, label, scenes, average)
 
