@@ -66,7 +66,7 @@ std::vector<geometry::Polygon> two_discs(const Split& split) {
 double seconds_to_cut_generally(int vertices) {
   const Split split = split_of_floe(vertices);
   const geometry::exact::Polygon floe = geometry::exact::exactly(geometry::Polygon{split.floe, {}});
-  return seconds_of([&] { return geometry::cut_along_generally(floe, {split.from, split.to}).has_value(); });
+  return seconds_of([&] { return geometry::cut_along_generally(floe, {{split.from, split.to}}).has_value(); });
 }
 
 double seconds_to_cut_by_two(int vertices) {

@@ -8,7 +8,7 @@
 
 #include "dynamics/water/water_drag.hpp"
 #include "fracture/bending/fsi_database_model.hpp"
-#include "geometry/contact/boundary.hpp"
+#include "geometry/contact/near_boundaries.hpp"
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/validity.hpp"
 #include "simulation/field/floe_field.hpp"

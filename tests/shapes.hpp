@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/contact/boundary.hpp"
+#include "geometry/contact/near_boundaries.hpp"
 #include "geometry/shape/polygon.hpp"
 
 /// Polygons that tests are made of. Lengths in metres.

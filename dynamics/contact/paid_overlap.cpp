@@ -11,9 +11,12 @@ namespace {
 /// a deep overlap would delay the cut forever. Smaller: ice is cut off that no work has paid.
 constexpr double kPaidShareOfCut = 0.9;
 
+/// Largest exponent p of the power law [-]. An overlap with a larger p is a crescent.
+constexpr double kLargestPower = 3;
+
 /// Returns the exponent p of the power law, within the limits that fracture::Overlap has for it [-].
 double power_of(const Contact& c) {
-  return std::clamp(c.depth * c.width / c.area, 1.0 / 3, 3.0);
+  return std::clamp(c.depth * c.width / c.area, 1.0 / 3, kLargestPower);
 }
 
 bool has_shape(const Contact& c) {
@@ -22,15 +25,21 @@ bool has_shape(const Contact& c) {
 
 }  // namespace
 
+bool is_crescent(const Contact& c) {
+  return c.depth * c.width > kLargestPower * c.area;
+}
+
 double depth_at(const Contact& c, double area) {
   if (!(area > 0) || !has_shape(c)) return 0;
   if (area == c.area) return c.depth;
+  if (is_crescent(c)) return c.depth + (area - c.area) / c.width;
   return c.depth * elementary::pow(area / c.area, 1 / power_of(c));
 }
 
 double area_at(const Contact& c, double depth) {
   if (!(depth > 0) || !has_shape(c)) return 0;
   if (depth == c.depth) return c.area;
+  if (is_crescent(c)) return std::max(0.0, c.area + c.width * (depth - c.depth));
   return c.area * elementary::pow(depth / c.depth, power_of(c));
 }
 

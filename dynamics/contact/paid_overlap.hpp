@@ -13,10 +13,15 @@ namespace polynya::dynamics {
 /// The relation between area S and depth ξ of an overlap is the power law of its measures, S(ξ') = S (ξ'/ξ)^p, with p =
 /// ξ w / S between 1/3 and 3, where w is the length of the contact line (fracture::Overlap).
 
-/// Returns the depth at which a contact's overlap would have an area [m²], by that power law [m].
+/// Returns true if a contact's overlap is a crescent: ξ w > 3 S. Such an overlap is left where a body has been cut out
+/// of the ice and has moved on since. It is a band along the outline of the body, much thinner than it is deep along
+/// the contact's normal, so that the power law does not describe it. It grows by dS = w dξ, as every overlap does.
+bool is_crescent(const Contact& contact);
+
+/// Returns the depth at which a contact's overlap would have an area [m²], by that power law or as a crescent [m].
 double depth_at(const Contact& contact, double area);
 
-/// Returns the area that a contact's overlap would have at a depth [m], by that power law [m²].
+/// Returns the area that a contact's overlap would have at a depth [m], by that power law or as a crescent [m²].
 double area_at(const Contact& contact, double depth);
 
 /// The force of crushing ice near a depth: F(ξ) = force (ξ/depth)^n.

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/contact/boundary.hpp"
+#include "geometry/contact/near_boundaries.hpp"
 
 namespace polynya::geometry {
 

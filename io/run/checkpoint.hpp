@@ -29,7 +29,7 @@ struct Checkpoint {
   std::string failure;  ///< of a dump: what went wrong in the step after it; empty in a checkpoint
 };
 
-inline constexpr std::uint32_t kCheckpointVersion = 24;
+inline constexpr std::uint32_t kCheckpointVersion = 25;
 
 /// The file around a payload: mark, version, checksum, length.
 std::string checkpoint_file_of(std::string_view payload);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dynamics/contact/paid_overlap.hpp"
 #include "elementary/elementary.hpp"
-
 #include "simulation/ice/pieces.hpp"
 #include "simulation/world/step.hpp"
 
@@ -27,10 +27,6 @@ constexpr double kOverloadFactor = 4;
 
 /// From here on a hull is inclined [rad].
 constexpr double kVertical = 1e-6;
-
-/// Of d w / S: an overlap of more is a crescent, whose depth along the normal is not its thickness (the power
-/// law of overlaps ends there).
-constexpr double kCrescent = 3;
 
 double tangent_of(const StepData& data, std::size_t i) {
   return i < data.slopes.size() ? std::max(0.0, data.slopes[i].tangent) : 0;
@@ -127,7 +123,7 @@ void press_prescribed(const Setup& setup, const Step& step, const Population& po
   if (!are_prescribed(population.bodies, c.a, c.b)) return;
   const double line = load.ice.thickness * c.width / elementary::cos(load.hull_angle);
   fracture::CrushedArea crushed{line, 0};
-  const bool is_crescent = c.depth * c.width > kCrescent * c.area;
+  const bool is_crescent = dynamics::is_crescent(c);
   const double facet = load.ice.thickness * elementary::tan(load.hull_angle);
   const bool spans_facet = is_crescent && c.area >= c.width * facet;  // as where ice was carved out
   if (load.hull_angle > kVertical && !spans_facet) {

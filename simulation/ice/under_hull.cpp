@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/contact/boundary.hpp"
+#include "geometry/contact/near_boundaries.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/validity.hpp"
 #include "simulation/field/portable_math.hpp"

@@ -72,7 +72,7 @@ void fields(auto& archive, Is<SubmergedLoads> auto& l) {
 }
 void fields(auto& archive, Is<ContactLoads> auto& l) {
   archive(l.impulse, l.largest, l.carried[0].impulse, l.carried[0].level, l.carried[1].impulse, l.carried[1].level,
-          l.carried[2].impulse, l.carried[2].level, l.contacts);
+          l.carried[2].impulse, l.carried[2].level, l.friction, l.contacts);
 }
 /// Of the contact of two ships.
 void fields(auto& archive, Is<Event> auto& e) {
@@ -86,7 +86,7 @@ void fields(auto& archive, Is<dynamics::Planar> auto& p) {
   archive(p.surge, p.sway, p.yaw);
 }
 void fields(auto& archive, Is<SailingLoads> auto& l) {
-  archive(l.water, l.engine, l.rudder, l.mooring, l.ice_friction);
+  archive(l.water, l.engine, l.rudder, l.mooring);
 }
 void fields(auto& archive, Is<PilotMemory> auto& m) {
   archive(m.heading, m.speed_integral, m.drift_angle, m.waypoint, m.from, m.is_backing, m.slow_since, m.stuck_at,

@@ -22,8 +22,8 @@ constexpr std::array kTickChoices{0.1, 0.05, 0.025, 0.02, 0.01, 0.005, 0.0025, 0
 constexpr double kPartsAtFullSpeed = 8;
 /// Speed in ice that is assumed of a ship under constant thrust [m/s], because the scene does not state it.
 constexpr double kUnderThrust = 4;
-/// Fraction of the scene's ice by area that is at least as thick as its "thin ice" [-]. Ticks get more parts where a
-/// hull meets the few thinner floes.
+/// Fraction of the scene's ice by area for which the tick is chosen [-]. Ticks get more parts where a hull meets the
+/// rest. Larger: a few thin or very thick floes make the tick short for the whole run.
 constexpr double kMostIce = 0.95;
 
 /// Returns the greatest speed of a ship [m/s]: the speed at the start, or the open-water speed of its engine or the
@@ -75,14 +75,15 @@ double fastest_rim(const Scene& scene) {
   return fastest;
 }
 
-/// Returns the thickness of the scene's "thin ice": the fraction kMostIce of the ice, by area, is at least as thick
-/// [m].
-double thin_ice(const Scene& scene) {
-  if (scene.own_ice.empty() || scene.floes.empty()) return scene.ice.thickness;
-  std::vector<std::pair<double, double>> ice;  // thickness [m] and area [m²] of each floe
+/// Returns the displacement of a hull in a part, most_way(), that the fraction kMostIce of the scene's ice allows, by
+/// area [m]. It is smaller for thin ice and for very thick ice.
+double way_in_most_ice(const Scene& scene) {
+  if (scene.own_ice.empty() || scene.floes.empty()) return most_way(scene.contact, scene.ice.thickness);
+  std::vector<std::pair<double, double>> ice;  // displacement [m] and area [m²] of each floe
   double rest = 0;
   for (const FloeSpec& floe : scene.floes) {
-    ice.emplace_back(ice_of(scene, floe.own_ice).thickness, geometry::measure(floe.polygon_in_world).area);
+    const double way = most_way(scene.contact, ice_of(scene, floe.own_ice).thickness);
+    ice.emplace_back(way, geometry::measure(floe.polygon_in_world).area);
     rest += (1 - kMostIce) * ice.back().second;
   }
   std::ranges::sort(ice);
@@ -93,7 +94,7 @@ double thin_ice(const Scene& scene) {
 /// Returns the longest tick in which no body moves too far [s].
 double longest_tick(const Scene& scene) {
   const double radius = scene.contact.circle_radius;
-  const double way = most_way(scene.contact, thin_ice(scene));
+  const double way = way_in_most_ice(scene);
   const double parts = scene.contact.law == ContactLaw::kCrush ? kPartsAtFullSpeed : 1;
   return std::min(
       {parts * way / fastest_meeting(scene), way / fastest_floe(scene), kWayOverCircle * radius / fastest_rim(scene)});

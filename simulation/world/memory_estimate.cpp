@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/contact/boundary.hpp"
+#include "geometry/contact/near_boundaries.hpp"
 #include "geometry/exact/measures.hpp"
 #include "simulation/world/world.hpp"
 

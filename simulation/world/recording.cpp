@@ -47,6 +47,7 @@ void add_step(ContactLoads& sum, const ContactLoads& step, double dt) {
                       sum.carried[1].book(steady.sway, missed.sway, dt),
                       sum.carried[2].book(steady.yaw, missed.yaw, dt)};
   sum.impulse += booked;
+  sum.friction += step.friction;
   sum.largest = larger(sum.largest, over(booked, dt));
   sum.contacts = step.contacts;
 }
@@ -60,12 +61,10 @@ void add_step(HullLoads& sum, const HullLoads& step, double dt) {
   sum.collision = larger(sum.collision, step.collision);
 }
 
-/// Enters the helm's state, and the mean loads of water, engine, rudder, mooring and ice friction over the interval
-/// [s].
+/// Enters the helm's state, and the mean loads of water, engine, rudder, and mooring over the interval [s].
 void add_sailing(const Setup& setup, const Helm& helm, const SailingLoads& loads, double interval, HullSample& sample) {
   HullSample& s = sample;
   const auto mean = [&](Planar impulse) { return (1 / interval) * impulse; };
-  s.friction_of_ice = mean(loads.ice_friction);
   s.from_water = mean(loads.water);
   s.from_engine = mean(loads.engine);
   s.from_rudder = mean(loads.rudder);
@@ -111,6 +110,7 @@ HullSample sample_of(const Setup& setup, const Clock& clock, const Population& p
   sample.time = clock.time();
   sample.ship = ship;
   sample.from_ice = over(loads.ice.impulse, interval);
+  sample.friction_of_ice = over(loads.ice.friction, interval);
   sample.carried = {loads.ice.carried[0].impulse, loads.ice.carried[1].impulse, loads.ice.carried[2].impulse};
   sample.from_ice_largest = loads.ice.largest;
   sample.collision = loads.collision;
@@ -141,11 +141,9 @@ void tally_loads(const Population& population, const std::vector<dynamics::Conta
   }
 }
 
-void sum_loads(const Setup& setup, const Step& step, const StepData& data, Accounts& accounts) {
+void sum_loads(const Step& step, const StepData& data, Accounts& accounts) {
   for (std::size_t hull = 0; hull < data.loads.size(); ++hull)
     add_step(accounts.loads[hull], data.loads[hull], step.length);
-  for (std::size_t ship = 0; ship < setup.sailing.size(); ++ship)
-    if (setup.sailing[ship].is_active) accounts.sailing[ship].ice_friction += data.loads[ship].ice.friction;
 }
 
 void sample_loads(const Setup& setup, const Clock& clock, const Population& population, Books books) {

@@ -269,7 +269,7 @@ constexpr Stage kComeUp{"come up", [](World& w, const Step& s) {
 constexpr Stage kHullContacts{"record ship events", [](World& w, const Step& s) {
                                 record_hull_contacts(w.setup, s, w.population, w.data, {w.accounts, w.journal});
                               }};
-constexpr Stage kSumLoads{"sum loads", [](World& w, const Step& s) { sum_loads(w.setup, s, w.data, w.accounts); }};
+constexpr Stage kSumLoads{"sum loads", [](World& w, const Step& s) { sum_loads(s, w.data, w.accounts); }};
 
 constexpr std::array kCrushStages{kFollowWater,  kSteer,          kPressWalls,
                                   kKeepMotion,   kForces,         kThrust,

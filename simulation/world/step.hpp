@@ -136,7 +136,7 @@ void record_hull_contacts(const Setup& setup, const Step& step, const Population
                           Books books);
 
 /// Adds the step's loads to those of the recording interval.
-void sum_loads(const Setup& setup, const Step& step, const StepData& data, Accounts& accounts);
+void sum_loads(const Step& step, const StepData& data, Accounts& accounts);
 
 /// Puts floes to sleep that are as good as at rest and touch nothing.
 void put_to_rest(const Setup& setup, const StepData& data, Population& population, AuditSums& audit);

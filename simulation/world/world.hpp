@@ -25,7 +25,7 @@ struct ContactLoads {
   dynamics::Planar impulse;         ///< on the ship [N s, N m s]
   dynamics::Planar steady_impulse;  ///< in the present step, without missed impulses; gives `largest` [N s, N m s]
   dynamics::Planar largest;         ///< largest mean force of a step, component by component [N, N m]
-  dynamics::Planar friction;        ///< part of the impulse that slip gave in the present step [N s, N m s]
+  dynamics::Planar friction;        ///< part of the impulse that the slip of contacts gave [N s, N m s]
   CarriedLoad carried[3];           ///< of impulse: surge, sway, yaw; kept from one recording interval to the next
   int contacts = 0;                 ///< number of contacts in the last step
 };
@@ -46,11 +46,10 @@ struct HullLoads {
 
 /// Impulses on a ship that sails, other than by ice and other hulls, over a recording interval, in the ship's frame.
 struct SailingLoads {
-  dynamics::Planar water;         ///< on the hull, with the inertia of the water around it [N s, N m s]
-  dynamics::Planar engine;        ///< [N s, N m s]
-  dynamics::Planar rudder;        ///< [N s, N m s]
-  dynamics::Planar mooring;       ///< [N s, N m s]
-  dynamics::Planar ice_friction;  ///< by the slip of contacts with ice [N s, N m s]
+  dynamics::Planar water;    ///< on the hull, with the inertia of the water around it [N s, N m s]
+  dynamics::Planar engine;   ///< [N s, N m s]
+  dynamics::Planar rudder;   ///< [N s, N m s]
+  dynamics::Planar mooring;  ///< [N s, N m s]
 };
 
 /// How a hull pushes the edge of a cusp that it breaks off.

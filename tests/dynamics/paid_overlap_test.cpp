@@ -27,6 +27,21 @@ TEST(PaidOverlap, AreaAndDepthOfAWedgeAreEachOthers) {
   EXPECT_EQ(depth_at(c, 0), 0);
 }
 
+/// A band of 2 cm along two flanks of a body that lie 1 m across and reach 0.5 m back: ξ w is 26 times S.
+TEST(PaidOverlap, ACrescentGrowsByItsWidth) {
+  Contact c;
+  c.width = 1;
+  c.depth = 0.52;
+  c.area = 0.02;
+  ASSERT_TRUE(is_crescent(c));
+  EXPECT_NEAR(area_at(c, 0.53), 0.03, 1e-15);
+  EXPECT_NEAR(area_at(c, 0.51), 0.01, 1e-15);
+  EXPECT_EQ(area_at(c, 0.4), 0);
+  for (const double area : {0.001, 0.02, 0.5}) EXPECT_NEAR(area_at(c, depth_at(c, area)), area, 1e-15);
+  EXPECT_EQ(depth_at(c, 0), 0);
+  EXPECT_FALSE(is_crescent(wedge(0.4, 1.5)));
+}
+
 /// F = a ξ^n: the work between two depths is known.
 TEST(PaidOverlap, WorkPaysAsFarAsItsIntegralReaches) {
   for (const double n : {0.0, 0.5, 1.0, 2.0}) {

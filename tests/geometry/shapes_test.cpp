@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/contact/boundary.hpp"
+#include "geometry/contact/near_boundaries.hpp"
 #include "geometry/cut/overlap.hpp"
 #include "geometry/exact/measures.hpp"
 #include "geometry/exact/predicates.hpp"

@@ -65,6 +65,31 @@ TEST(Prescribed, ACylinderAndAFlatFaceCrushTheChannelsThatTheyLeave) {
   }
 }
 
+/// A pile with a corner ahead is carved out of the ice again and again. Until the next carving the overlap is a band
+/// along its two flanks. After each step the volume on record has cost what it takes to crush it, but for the step in
+/// which the corner comes in.
+TEST(Prescribed, TheRecordOfACornersContactHasTheVolumeThatItsWorkCrushed) {
+  const geometry::Ring diamond{{0.5, 0}, {0, 0.5}, {-0.5, 0}, {0, -0.5}};
+  for (const double step : {0.1, 0.05}) {
+    const Drift drift{0.1, step};
+    double least = 1e9, most = 0;
+    const double stands_in_ice = 10;  // all of the corner is in the ice from then on [s]
+    const Trial done = run(drifting_onto(diamond, -0.5, drift), 60, [&](const Simulation& simulation) {
+      if (simulation.time() < stands_in_ice) return;
+      for (const dynamics::Contact& c : simulation.world().data.contacts) {
+        if (c.record->booked.volume < 1e-3) continue;  // just carved: rounding
+        const double takes = 2.8e6 * c.record->booked.volume;
+        least = std::min(least, c.record->booked.work / takes);
+        most = std::max(most, c.record->booked.work / takes);
+      }
+    });
+    EXPECT_GT(done.simulation.counts().ground, 50) << "carved often";
+    EXPECT_GT(least, 0.97) << step;
+    EXPECT_LT(most, 1.03) << step;
+    expect_closed(done.simulation);
+  }
+}
+
 TEST(Prescribed, AShipThatKeepsItsSpeedInFastIceDoesAsTheIceThatDriftsOntoIt) {
   const Scene scene = Build()
                           .without_splits()
@@ -74,6 +99,24 @@ TEST(Prescribed, AShipThatKeepsItsSpeedInFastIceDoesAsTheIceThatDriftsOntoIt) {
   const double beam = 24;
   const Trial done = over_the_way(scene, 1, kLineLoad * beam);
   EXPECT_NEAR(done.simulation.audit().sums.energy.crushing / (kLineLoad * beam * kWay), 1, 0.02);
+}
+
+/// The flank of a bow slides along the corner of fast ice. Friction is a part of the load, for a ship that keeps her
+/// speed as for one that sails.
+TEST(Prescribed, TheLoadOfAShipThatKeepsItsSpeedHasItsPartByFriction) {
+  for (const double friction : {0.0, 0.1}) {
+    Build build = Build().without_splits().step(0.02).ship(steep_icebreaker({-2, 0}, ConstantSpeed{1}));
+    Scene scene = build.floe(fast(rectangle(0, 3, 100, 60)));
+    scene.ice.friction = friction;
+    double load = 0, by_friction = 0;
+    for (const HullSample& sample : run(scene, 20).story.samples) {
+      load += sample.from_ice.surge;
+      by_friction += sample.friction_of_ice.surge;
+    }
+    EXPECT_LT(load, -1e5);
+    if (friction == 0) EXPECT_EQ(by_friction, 0);
+    if (friction > 0) EXPECT_TRUE(by_friction < 0.02 * load && by_friction > 0.9 * load) << by_friction / load;
+  }
 }
 
 /// Askew, nothing but the direction changes: the chord of the channel's head is across the motion, up to half

@@ -109,6 +109,16 @@ TEST(Parts, AFewThinFloesDoNotChooseTheTick) {
   EXPECT_LT(default_tick(scene), tick);
 }
 
+/// In ice of 3 m a hull may move less in a part than in ice of 0.5 m (kWayTimesThickness): 12.5 mm instead of 75 mm.
+TEST(Parts, MuchThickIceChoosesTheTickAsThinIceDoes) {
+  Build scene = in_level_ice(0.5, 8, 0.005).recorded_every(0.1);
+  const double tick = default_tick(scene);
+  scene.floe(rectangle(100, 0, 105, 5)).of({.thickness = 3});
+  EXPECT_EQ(default_tick(scene), tick);
+  scene.floes.back().polygon_in_world = rectangle(100, 0, 105, 100);
+  EXPECT_LT(default_tick(scene), 0.3 * tick);
+}
+
 TEST(Parts, AreNoneByRigidImpulses) {
   Scene scene = in_level_ice(0.1, 4, 0.005);
   scene.contact.law = ContactLaw::kImpulse;
