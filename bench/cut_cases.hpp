@@ -24,7 +24,7 @@ struct Split {
 };
 Split split_of_floe(int vertices = 2000);
 
-/// What a library made of a case: enough to see that all did the same work.
+/// Result of one library for one case, detailed enough to show that all libraries did the same work.
 struct Result {
   double area = 0;           ///< of the plate left, or of both halves [m²]
   std::size_t vertices = 0;  ///< of the plate left, or of both halves
@@ -36,7 +36,7 @@ geometry::Ring half_plane(const Split& split);
 namespace polynya_cuts {
 Result march(const March& march);
 Result split(const Split& split);
-/// Seconds that the exact check of a valid floe of so many vertices takes.
+/// Time that the exact check of a valid floe with `vertices` vertices takes [s].
 double seconds_to_validate(int vertices);
 /// Seconds for one crack across it by the overlay of the whole shape and by the local path, and for two
 /// discs, which only the overlay cuts.

@@ -1,4 +1,4 @@
-// The icebreaking database: one question, one direct solution, the whole table.
+// Benchmarks of the icebreaking database: one query, one direct solution, and the whole table.
 //   polynya_bench_database [--benchmark_filter=REGEX]
 #include "fracture/bending/database.hpp"
 
@@ -44,7 +44,7 @@ const std::array<BendingLoad, kLoads>& loads() {
   return made;
 }
 
-/// The table alone, asked in its own groups.
+/// A query of the table alone, by dimensionless groups.
 void LookUp(benchmark::State& state) {
   const fracture::BendingDatabase& database = fracture::default_database();
   static const std::array<fracture::WedgeGroups, kLoads> groups = [] {
@@ -57,7 +57,7 @@ void LookUp(benchmark::State& state) {
 }
 BENCHMARK(LookUp);
 
-/// One query of the simulation: from a physical load to newtons and metres.
+/// One query of the simulation, from a physical load to newtons and metres.
 void Query(benchmark::State& state) {
   const fracture::FsiDatabaseModel model;
   std::size_t i = 0;
@@ -73,13 +73,13 @@ void Forecast(benchmark::State& state) {
 }
 BENCHMARK(Forecast);
 
-/// What the table saves: the modes of one wedge …
+/// The work that the table saves: computing the modes of one wedge …
 void DirectModes(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(fracture::wedge_of(BendingLoad{}, {}));
 }
 BENCHMARK(DirectModes)->Unit(benchmark::kMillisecond);
 
-/// … and one march of them.
+/// … and one time integration with these modes.
 void DirectMarch(benchmark::State& state) {
   BendingLoad load;
   load.mean_approach_speed = 1;
@@ -88,7 +88,7 @@ void DirectMarch(benchmark::State& state) {
 }
 BENCHMARK(DirectMarch)->Unit(benchmark::kMillisecond);
 
-/// The whole shipped table, on as many threads as the argument says.
+/// Solving the whole shipped table, with the number of threads given by the argument.
 void BuildTable(benchmark::State& state) {
   for (auto _ : state) {
     const auto built = fracture::build_database({}, fracture::default_grid(), static_cast<int>(state.range(0)));

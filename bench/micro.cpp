@@ -42,8 +42,8 @@ std::unique_ptr<World> make_jam() {
   return world;
 }
 
-/// Times one stage of a world that is stepped on. Each tick is one step, and the other stages are not timed. Every
-/// stage is timed over the same 400 steps, so that all see the same contacts.
+/// Measures the time of one stage of a world that advances. Each tick is one step, and the other stages are not timed.
+/// Every stage is timed over the same 400 steps, so that all see the same contacts.
 void measure_stage(benchmark::State& state, std::string_view name) {
   const std::unique_ptr<World> jam = make_jam();
   World& world = *jam;
@@ -86,7 +86,7 @@ BENCHMARK(SolveImpulses)->Iterations(400)->Unit(benchmark::kMicrosecond);
 BENCHMARK(WaterDrag)->Iterations(400)->Unit(benchmark::kMicrosecond);
 BENCHMARK(Integrate)->Iterations(400)->Unit(benchmark::kMicrosecond);
 
-/// A cusp of 3 m off a round plate of so many vertices.
+/// Cuts a cusp of 3 m off a round plate. The argument is the number of vertices of the plate.
 void CutCusp(benchmark::State& state) {
   const auto corners = static_cast<int>(state.range(0));
   geometry::Shape plate;
@@ -104,7 +104,7 @@ void CutCusp(benchmark::State& state) {
 }
 BENCHMARK(CutCusp)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
 
-/// A crack through the middle of the same plate.
+/// Cuts a crack through the middle of the same plate.
 void SplitPlate(benchmark::State& state) {
   geometry::Shape plate{{{{0, 0}, {110, 0}, {110, 200}, {0, 200}}, {}}};
   for (auto _ : state) benchmark::DoNotOptimize(geometry::cut_along(plate, {{-1, 90}, {111, 103}}));

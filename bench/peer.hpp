@@ -37,19 +37,19 @@ struct PeerScene {
 /// The bodies a simulation starts with. Outlines must be convex and without holes.
 PeerScene peer_scene(const simulation::Simulation& simulation);
 
-/// What a step cost and what it had to do.
+/// Cost of a step, and the work that it did.
 struct StepReport {
   double seconds = 0;
   int awake = 0;     ///< bodies that moved
   int contacts = 0;  ///< pairs that touch; −1: not counted at this step
 };
 
-/// A convex ring in convex pieces of at most so many corners, cut along chords.
+/// Cuts a convex ring along chords into convex pieces of at most `most_corners` corners.
 std::vector<geometry::Ring> convex_pieces(const geometry::Ring& ring, std::size_t most_corners);
 
-/// Box2D 2.4.1, in floats: 8 velocity and 3 position iterations, as its manual recommends; sleeping on, with
-/// its own thresholds (1 cm/s, 2°/s, 0.5 s); continuous collision off. Bodies at rest start asleep. Drag as
-/// Eq. (6), put on from outside the clock.
+/// Box2D 2.4.1, in floats, with 8 velocity and 3 position iterations, as its manual recommends. Sleeping is on with its
+/// own thresholds (1 cm/s, 2°/s, 0.5 s); continuous collision is off. Bodies at rest start asleep. The drag of Eq. (6)
+/// is applied outside of the timed part.
 class Box2dWorld {
  public:
   explicit Box2dWorld(const PeerScene& scene);
@@ -61,10 +61,10 @@ class Box2dWorld {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Box2D 3.2, in floats: 4 substeps, as its manual recommends; one worker; sleeping on, with Box2D 2.4.1's
-/// threshold of 1 cm/s (its own would be 5 cm/s) and its own 0.5 s; continuous collision off. Bodies at rest
-/// start asleep. Drag as Eq. (6), put on from outside the clock. Its touching contacts include those it
-/// expects within 2 cm. Only where its sources are (CMakeLists.txt).
+/// Box2D 3.2, in floats, with 4 substeps, as its manual recommends, and one worker. Sleeping is on with Box2D 2.4.1's
+/// threshold of 1 cm/s (its own would be 5 cm/s) and its own 0.5 s; continuous collision is off. Bodies at rest start
+/// asleep. The drag of Eq. (6) is applied outside of the timed part. The number of touching contacts includes contacts
+/// that it expects within 2 cm. This engine is built only if its sources are present (CMakeLists.txt).
 class Box2d3World {
  public:
   explicit Box2d3World(const PeerScene& scene);
@@ -77,9 +77,9 @@ class Box2d3World {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Chipmunk 7.0.3, in doubles: 10 iterations, its default; sleeping on, with Box2D's thresholds (its own
-/// would be off); its default broad phase, a tree of boxes. Bodies at rest start asleep. Drag as Eq. (6) in
-/// its velocity callback, inside the clock.
+/// Chipmunk 7.0.3, in doubles, with 10 iterations, its default. Sleeping is on with Box2D's thresholds (it would be off
+/// by default). The broad phase is its default, a tree of boxes. Bodies at rest start asleep. The drag of Eq. (6) is
+/// applied in its velocity callback, inside the timed part.
 class ChipmunkWorld {
  public:
   explicit ChipmunkWorld(const PeerScene& scene);

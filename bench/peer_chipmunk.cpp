@@ -12,7 +12,7 @@ cpVect to_cp(geometry::Vector v) {
   return cpv(v.x, v.y);
 }
 
-/// What the velocity callback knows of its body.
+/// The data of a body that the velocity callback reads.
 struct Tag {
   const PeerBody* body = nullptr;
   const dynamics::ShearCurrent* current = nullptr;

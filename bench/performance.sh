@@ -28,7 +28,7 @@ mkdir -p "$out"
 tables=()
 is_asked() { case ",$only," in *",$1,"*) return 0 ;; *) return 1 ;; esac; }
 if is_asked voyages; then
-  # Chipmunk says on stdout that Debian builds it with its checks on.
+  # Chipmunk prints to stdout that Debian builds it with its checks switched on.
   "$bin/polynya_bench_voyages" "${quick[@]}" --peer-seconds 5 --csv "$out/voyages.csv" 2>"$out/voyages.log" |
     grep --line-buffered "^|" | tee "$out/voyages.md"
   tables+=(voyages="$out/voyages.md")

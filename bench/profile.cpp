@@ -21,7 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The stages that are timed: those of the law of crushing ice.
+/// Returns the stages that are timed: the stages of the crushing law.
 std::span<const simulation::Stage> stages() {
   return simulation::stages_of(simulation::ContactLaw::kCrush);
 }

@@ -36,7 +36,7 @@ std::vector<simulation::FloeSpec> field_floes(int count, double concentration) {
   return floes;
 }
 
-/// The voyage of field-10000 in a field of 2000 floes, with copies of the field beside it where nothing
+/// Returns the voyage of field-10000 in a field of 2000 floes, with copies of the field beside it in which nothing
 /// happens.
 simulation::Scene voyage_beside(int copies) {
   simulation::Scene scene = load("field-10000.json");

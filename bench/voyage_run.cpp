@@ -24,8 +24,8 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Linux keeps the process's peak memory, and forgets it when told so. What an earlier run left is given
-/// back.
+/// Linux keeps the peak memory of a process until it is told to reset it. Memory that an earlier run left allocated is
+/// returned to the system first.
 void forget_peak_memory() {
   malloc_trim(0);
   std::ofstream("/proc/self/clear_refs") << "5";
@@ -156,7 +156,7 @@ simulation::Scene load(const std::string& file, const Edit& edit) {
 }
 
 void take_fine_step(simulation::Scene& scene) {
-  // By the law of impulses ticks have no parts, so the tick that is chosen for it is the fine step.
+  // With the impulse law, ticks are not divided, so the tick chosen for this law is the fine step.
   const simulation::ContactLaw law = std::exchange(scene.contact.law, simulation::ContactLaw::kImpulse);
   scene.time.step = std::min(scene.time.step, simulation::default_tick(scene));
   scene.contact.law = law;

@@ -39,7 +39,7 @@ struct RunCost {
   double median_tick() const;                                ///< of the blocks' means [s]
 };
 
-/// Every engine takes the same steps each time, so a block's quietest run is what it costs undisturbed.
+/// Every engine takes the same steps in each repetition, so the fastest repetition of a block is its undisturbed cost.
 void keep_quieter(RunCost& cost, const RunCost& again);
 
 /// A scene of scenes/, with what a case changes about it.
@@ -66,7 +66,7 @@ struct Peer {
   RunCost (*run)(const Peer& peer, const PeerScene& scene, const Limits& limits);
   bool has_places = false;  ///< of its bodies at the end
 };
-/// Those that this build has.
+/// Returns the engines that were compiled into this build.
 const std::vector<Peer>& peers();
 
 }  // namespace polynya::bench

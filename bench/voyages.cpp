@@ -25,12 +25,12 @@ struct Options {
   std::string csv;
   std::string only;
   double peer_seconds = 120;  ///< at most, for each peer's run of a case [s]
-  /// Of the ships from where their scenes have them, to port: such voyages are run once, for many of them say
-  /// more than the same one again [m].
+  /// Lateral distances of the ships from their places in the scenes, to port [m]. Such voyages are run once, because
+  /// many different voyages are more informative than repetitions of one.
   std::optional<double> lateral;
 };
 
-/// Some rows of the table: a scene, and what is compared.
+/// A group of rows of the table: a scene, and the engines and settings that are compared.
 struct Case {
   std::string name;
   std::string scene;
@@ -43,7 +43,7 @@ struct Case {
   int repeats = 1;          ///< of all engines; of each kBlock ticks the quietest repeat counts
 };
 
-/// As many floes again, far away from the voyage.
+/// Adds the same number of floes again, far away from the voyage.
 void double_the_field(simulation::Scene& scene) {
   double low = INFINITY;
   double high = -INFINITY;
@@ -61,12 +61,12 @@ void double_the_field(simulation::Scene& scene) {
   }
 }
 
-/// A round plate of 300 m in level-plate's place, its outline drawn with so many corners.
+/// Replaces the plate of level-plate by a round plate of 300 m whose outline has `corners` corners.
 Edit round_plate(int corners) {
   return [corners](simulation::Scene& scene) {
     geometry::Ring ring;
     for (int i = 0; i < corners; ++i) {
-      // Not symmetric about the course, so that no corner lies just ahead of the stem.
+      // The corners are not symmetric about the course, so that no corner lies just ahead of the stem.
       const double angle = 2 * std::numbers::pi * (i + 0.3) / corners;
       ring.push_back({150 + 150 * std::cos(angle), 150 * std::sin(angle)});
     }
@@ -74,7 +74,7 @@ Edit round_plate(int corners) {
   };
 }
 
-/// The scene by the law of crushing ice, with the tick of a scene that gives none.
+/// Switches the scene to the crushing law with the default tick.
 void by_crushing(simulation::Scene& scene) {
   scene.contact.law = simulation::ContactLaw::kCrush;
   scene.time.step = simulation::default_tick(scene);
@@ -93,7 +93,7 @@ Edit in_longer_ticks(const Edit& edit, int times) {
   };
 }
 
-/// An edit, and then the fine step: the given one [s], or the one that take_fine_step() chooses.
+/// Applies an edit, and then the fine step: the given one [s], or the one that take_fine_step() chooses.
 Edit in_fine_steps(const Edit& edit, double scene_step) {
   return [edit, scene_step](simulation::Scene& scene) {
     edit(scene);
@@ -102,7 +102,7 @@ Edit in_fine_steps(const Edit& edit, double scene_step) {
   };
 }
 
-/// The hulls some way to port: another voyage through the same ice.
+/// Moves the hulls by a lateral distance to port, which makes another voyage through the same ice.
 Edit moved_to_port(const Edit& edit, double lateral) {
   return [edit, lateral](simulation::Scene& scene) {
     if (edit) edit(scene);
@@ -158,7 +158,7 @@ std::string times(double ratio) {
   return text;
 }
 
-/// Runs what is to be compared one after the other, and that so many times over.
+/// Executes the runs one after the other, and repeats the whole sequence `repeats` times.
 std::vector<RunCost> alternate(int repeats, const std::vector<std::function<RunCost()>>& runs) {
   std::vector<RunCost> costs;
   costs.reserve(runs.size());
@@ -186,7 +186,8 @@ double astray(const PeerScene& start, const RunCost& reference, const RunCost& r
   return std::max(of_ship, way > 0 ? off / way : 0);
 }
 
-/// The scene with the longest step with which a peer's bodies come to the places that they come to at the scene's.
+/// Returns the scene with the longest step with which the bodies of a peer reach the same places as with the scene's
+/// step.
 PeerScene with_longest_step(const Peer& peer, const PeerScene& scene, const Limits& limits) {
   constexpr double kAllowed = 0.1;
   PeerScene found = scene;
@@ -203,7 +204,7 @@ PeerScene with_longest_step(const Peer& peer, const PeerScene& scene, const Limi
   return found;
 }
 
-/// What a case compares: ours first.
+/// The runs that a case compares. The first run is that of Polynya.
 struct Runs {
   std::vector<std::function<RunCost()>> runs;
   std::vector<PeerScene> scenes;  ///< of the peers, for as long as they run

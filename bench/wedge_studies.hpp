@@ -32,7 +32,7 @@ WedgeSolver wedge_of(const BendingLoad& load, SolverSettings settings);
 std::optional<BendingForecast> direct_forecast(const WedgeSolver& solver, const BendingLoad& load,
                                                Feedback feedback = Feedback::kIgnored);
 
-/// What each fluid model makes of a load, in FluidModel's order; nothing where it does not break.
+/// Results of each fluid model for one load, in the order of FluidModel. An entry is empty if the ice does not break.
 struct FluidStudyRow {
   double speed = 0;  ///< v_n [m/s]
   std::array<std::optional<BendingForecast>, 4> by_fluid;
@@ -41,7 +41,7 @@ struct FluidStudyRow {
 std::vector<FluidStudyRow> fluid_study(const BendingLoad& load, std::span<const double> speeds,
                                        const SolverSettings& settings);
 
-/// What the ice's own deflection under the hull changes.
+/// Effect of the ice's own deflection under the hull.
 struct FeedbackStudyRow {
   double speed = 0;  ///< v_n [m/s]
   std::optional<BendingForecast> ignored;
@@ -51,7 +51,7 @@ struct FeedbackStudyRow {
 std::vector<FeedbackStudyRow> feedback_study(const BendingLoad& load, std::span<const double> speeds,
                                              const SolverSettings& settings);
 
-/// The database against a solution, at one point between its own.
+/// Comparison of the database with a solution, at one point between the points of the table.
 struct AccuracyRow {
   WedgeGroups groups;
   double force_error = 0;   ///< table / solution − 1

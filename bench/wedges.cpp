@@ -23,7 +23,7 @@ using fracture::BendingLoad;
 
 constexpr double kSpeeds[] = {0.05, 0.1, 0.2, 0.5, 1, 2, 4};  // v_n [m/s]
 
-/// The paper's ice, a 90° wedge, a hull 60° from the vertical.
+/// Returns a load of the paper's ice: a 90° wedge and a hull 60° from the vertical.
 BendingLoad paper_load(double thickness) {
   BendingLoad load;
   load.ice.thickness = thickness;

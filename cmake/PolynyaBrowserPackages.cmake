@@ -1,6 +1,6 @@
-# The packages of the native build, for WebAssembly: those that are headers alone, from where Debian puts them, and in
-# place of the others what browser/platform has. It stands before all other include folders, so that its headers take
-# the place of headers that a browser's C++ library lacks, or has without threads.
+# The packages of the native build, for WebAssembly. Packages that consist of headers alone are taken from where Debian
+# installs them; browser/platform replaces the others. Its folder precedes all other include folders, so that its
+# headers replace headers that a browser's C++ library lacks, or has without threads.
 set(platform ${PROJECT_SOURCE_DIR}/browser/platform/include)
 include_directories(BEFORE ${PROJECT_SOURCE_DIR}/browser/platform/overrides)
 set(headers ${PROJECT_BINARY_DIR}/headers)

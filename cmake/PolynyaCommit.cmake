@@ -1,5 +1,5 @@
-# The commit that a program is built of, for `polynya --version`, as a C++ source that is written when it changes. A
-# plus stands behind it where the tree has changes that are not committed; outside of git it is empty.
+# The commit from which a program is built, for `polynya --version`. It is written as a C++ source when it changes. A
+# plus follows the commit if the tree has uncommitted changes. Outside of git the text is empty.
 #
 #   polynya_commit(TARGET OUTPUT)
 function(polynya_commit target output)

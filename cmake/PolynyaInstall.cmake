@@ -1,4 +1,4 @@
-# Install and export, so that another CMake project can find_package(polynya).
+# Installation and export, so that another CMake project can call find_package(polynya).
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 

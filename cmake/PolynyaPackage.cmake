@@ -1,7 +1,8 @@
 # `cpack` in a build tree makes two Debian packages: polynya (the program, its manual page and completion, the package
 # in Python that it starts, scenes, examples, documentation) and polynya-python (the compiled module). Shared libraries
 # are found by dpkg-shlibdeps. .ci/package makes, checks and tries them.
-# As a script that cpack runs before it packs what it staged: what Debian's policy asks for.
+# cpack also runs this file as a script before it packs the staged files. The script then adds the files that Debian's
+# policy requires.
 if(CPACK_TEMPORARY_DIRECTORY)
   string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)
   file(GLOB stages ${CPACK_TEMPORARY_DIRECTORY}/*/usr)

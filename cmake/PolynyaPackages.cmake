@@ -1,4 +1,4 @@
-# What the native build needs of Debian's packages.
+# Debian packages that the native build requires.
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 find_package(CGAL 5.5 REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)

@@ -1,13 +1,14 @@
-# The player's pages (views/player), of one run and of two, as a C++ source: style sheets and scripts are put into their
-# HTML, and that into a constant each, when one of them changes. Building needs nothing but CMake.
+# The player's pages (views/player), of one run and of two, as a C++ source: style sheets and scripts are inserted into
+# their HTML, and each HTML page becomes a constant. This happens when one of the files changes. Building needs only
+# CMake.
 #
 #   polynya_player_page(FOLDER OUTPUT)
 #
 # The page of one run is also written as OUTPUT.html, for the page that holds the simulator (browser/page/join.py).
 #
-# As a script, `cmake -DFOLDER=… -DOUTPUT=… -P PolynyaPlayerPage.cmake` writes OUTPUT.
+# Called as a script, `cmake -DFOLDER=… -DOUTPUT=… -P PolynyaPlayerPage.cmake` writes OUTPUT.
 
-# In the order they stand in the page.
+# The files are listed in the order in which the page contains them.
 set(POLYNYA_PLAYER_STYLES vendor/uPlot.min.css player.css)
 set(POLYNYA_PLAYER_SCRIPTS numbers.js clock.js run_data.js motion.js map_view.js colours.js sizes.js draw_ice.js
   channel.js draw_marks.js ship_names.js ruler.js load_line.js floe_card.js ship_card.js plot_curves.js plot.js

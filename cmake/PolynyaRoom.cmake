@@ -6,7 +6,7 @@
 
 add_library(polynya_options INTERFACE)
 target_compile_features(polynya_options INTERFACE cxx_std_20)
-# No contraction: the same source gives the same bytes whether or not the machine has fused multiply-add.
+# Contraction is off, so that the same source gives the same bytes whether or not the machine has fused multiply-add.
 target_compile_options(polynya_options INTERFACE -ffp-contract=off)
 # Failed assertions name their source below the project's folder: no product has a path of the machine that built it.
 target_compile_options(polynya_options INTERFACE $<BUILD_INTERFACE:-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=>)

@@ -45,7 +45,7 @@ FLOORS = {
     "app": 19,
     "python/module": 19,
 }
-# Rooms that are blind to each other, whatever their floors.
+# Rooms that must not include each other, whatever their floors.
 APART = [{"dynamics", "fracture"}]
 # Folders that say what their files are about, and include each other: a stage of the step changes the world, and the
 # world holds what ships and ice remember.
@@ -66,8 +66,8 @@ PACKAGES = {
     r"pybind11/": ["python/module/"],
     r"tl/expected": [""],
 }
-# Headers of what a browser lacks -> the only folders, or files, that include them: files, programs, threads. Whatever
-# else needs a file is given its text, or a function that gives it (io/scene/floe_files.hpp).
+# Headers that a browser lacks (files, programs, threads) -> the only folders or files that may include them. Other code
+# that needs a file receives its text, or a function that reads it (io/scene/floe_files.hpp).
 SYSTEM = {
     r"(filesystem|fstream|(fcntl|unistd|dirent|spawn)\.h|sys/(stat|file|wait|resource)\.h)$":
         ["io/text/source_text", "io/text/output_file", "io/text/child_process", "io/import/", "io/scene/scene_file",

@@ -10,7 +10,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import check_layers  # noqa: E402
 
 SOURCE = pathlib.Path(sys.argv.pop() if len(sys.argv) > 1 else ".")
-# A file of the source, an include to plant there.
+# Each row is a source file and an include that the test adds to it.
 PLANTED = [
     ("geometry/shape/point.hpp", '"geometry/cut/cut.hpp"'),  # up, between sub-rooms
     ("geometry/cut/cut.cpp", '"geometry/contact/boundary.hpp"'),  # sideways

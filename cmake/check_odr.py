@@ -61,7 +61,8 @@ def reports_of_link(cxx, objects, work):
     """What a link of these objects reports of types that differ."""
     listed = work / "objects.txt"
     listed.write_text("\n".join(map(str, objects)))
-    # In one partition: GCC 12 ends with an internal error where it divides so large a relocatable link.
+    # A single partition is used, because GCC 12 ends with an internal error when it divides so large a relocatable
+    # link.
     command = [cxx, "-r", "-O0", "-flto", "-flto-partition=one", "-flinker-output=nolto-rel", "-Wodr"]
     command += [f"@{listed}", "-o", work / "all.o"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)

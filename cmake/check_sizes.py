@@ -16,7 +16,7 @@ SUFFIXES = {".cpp", ".hpp", ".js"}
 MOST_LINES_OF_FUNCTION = 50
 MANY_PARAMETERS = 6
 MOST_WITH_MANY_PARAMETERS = 15
-# "path: name of the function" -> why it is a table that reads best in one piece.
+# "path: name of the function" -> reason why the function is a table that is best read in one piece.
 TABLES = {}
 
 OF_STANDARD = re.compile("fmi2")  # functions whose parameters a standard has (cosim/fmi2.h)

@@ -11,7 +11,7 @@ import check_sizes  # noqa: E402
 
 SOURCE = pathlib.Path(sys.argv.pop() if len(sys.argv) > 1 else ".")
 BODY = "  x();\n"
-# What begins a function in each language, with its name and what ends it.
+# Each row is the line that begins a function, the name of the function, and the line that ends the function.
 CPP = [
     ("void plain(int a) {\n", "plain", "}\n"),
     ("tl::expected<int, Error> Class::member(const std::map<int, int>& a) const noexcept {\n", "Class::member", "}\n"),

@@ -6,7 +6,7 @@
 
 namespace polynya::tests {
 
-/// The only one of a list; fails the test where there are none or several.
+/// Returns the only element of a list. The test fails if there is none or more than one.
 template <class T>
 T only(const std::vector<T>& list) {
   if (list.size() != 1) throw std::length_error("one is expected, there are " + std::to_string(list.size()));

@@ -1,1 +1,1 @@
-// No code: what the tests have precompiled needs a source.
+// This file has no code, because the precompiled header of the tests needs a source.

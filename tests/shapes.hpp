@@ -30,7 +30,7 @@ inline geometry::Polygon diamond(geometry::Point tip, double half_diagonal) {
   return {{tip, {tip.x + d, tip.y - d}, {tip.x + 2 * d, tip.y}, {tip.x + d, tip.y + d}}, {}};
 }
 
-/// A regular polygon: corners on a circle.
+/// Returns a regular polygon whose corners lie on a circle.
 inline geometry::Polygon regular(int corners, double radius, geometry::Point centre = {}) {
   geometry::Polygon polygon;
   for (int i = 0; i < corners; ++i) {
@@ -40,7 +40,7 @@ inline geometry::Polygon regular(int corners, double radius, geometry::Point cen
   return polygon;
 }
 
-/// The ring of a hole from that of a polygon, and back.
+/// Converts the ring of a polygon to the ring of a hole, and back.
 inline geometry::Ring reversed(const geometry::Ring& ring) {
   return {ring.rbegin(), ring.rend()};
 }

@@ -254,7 +254,7 @@ def study_cracks(_):
         cells = [half.solve("whole"), half.solve("open"), half.solve("closing"), half.solve("whole", 1.9, 0.35 * h / l),
                  half.solve("closing", 1.9, 0.35 * h / l)]
         print(f"| {degrees}° | " + " | ".join(f"{c['V']:.3f} at {c['R']:.2f}" for c in cells) + " |")
-    # Linear elastic: ½ V² dC/da = K² h / E, C the tip's compliance: V in σ_f h².
+    # Linear elastic fracture: ½ V² dC/da = K² h / E, with the compliance C of the tip; V is in σ_f h².
     ends = (0.05, 0.1, 0.2, 0.4, 0.7, 1, 1.5, 2, 3)
     print(f"\nV [σ_f h²] that drives a radial crack of length a, K_IC {toughness / 1e3:g} kPa√m\n\n| 2α | "
           + " | ".join(f"a {math.sqrt(a * b):.2f} l" for a, b in zip(ends, ends[1:]))

@@ -15,7 +15,7 @@ from scipy.spatial import Delaunay, cKDTree
 
 NU = 0.3
 LAYERS = 1
-THINNEST = 0.15  # [h] of what is left below the facet
+THINNEST = 0.15  # thickness of the ice that is left below the facet [h]
 _a, _b = 0.445948490915965, 0.091576213509771
 TRIANGLE = np.array([np.roll([1 - 2 * p, p, p], k) for p in (_a, _b) for k in range(3)])
 TRIANGLE_WEIGHTS = np.array(3 * [0.223381589678011] + 3 * [0.109951743655322])

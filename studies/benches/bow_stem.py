@@ -20,7 +20,7 @@ import bow_edges
 from bow_solid import GAP, WEIBULL, Solid, chord, next_crack, sampled
 
 ALONG_CRACK = 1.2  # [l] where its faces may press on each other
-OF_HEIGHT = (2 / 3, 1 / 6)  # of a face, that of its middle and of its top; the bottom opens
+OF_HEIGHT = (2 / 3, 1 / 6)  # shares of a face: its middle and its top; the bottom opens
 
 
 def directions(edge, count):

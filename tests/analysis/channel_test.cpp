@@ -60,7 +60,7 @@ struct HandMadeRun {
     add(box({-50, 14}, {200, 40}));
     add(box({-50, -60}, {200, -19}));
   }
-  /// A piece that came up from under the hull.
+  /// Adds a piece that surfaced from under the hull.
   void add_brash(const Polygon& along_track) {
     add(along_track);
     run.floes.back().came_up = true;
@@ -261,7 +261,8 @@ TEST(Channel, RefusesTimesAndShipsThatAreNotThere) {
 
 const Polygon kSquare{{{0, 0}, {2, 0}, {2, 2}, {0, 2}}, {}};
 
-/// A valid floe is ice as it is, near where boxes meet; of one whose ring crosses itself what it winds around.
+/// The ice of a valid floe is exact, also near the edges of boxes. The ice of a floe whose ring crosses itself is the
+/// area around which the ring winds.
 TEST(PlacedIce, IsWhatItsFloeEncloses) {
   std::vector<analysis::PlacedIce> ice, crossed, none;
   ASSERT_TRUE(analysis::add_ice(ice, nullptr, kSquare));

@@ -41,9 +41,9 @@ Ring star(std::mt19937& dice, int vertices, double radius) {
   return ring;
 }
 
-/// The near part decides like the whole, and so does an edge that separates two: exact overlaps of long jagged floes
-/// with small ones, and of convex with jagged ones, in any pose, with and without a hole, agree to the last bit with
-/// those of the whole rings.
+/// The near part decides like the whole ring, and so does an edge that separates two floes. Exact overlaps of long
+/// jagged floes with small floes, and of convex floes with jagged floes, agree to the last bit with the overlaps of the
+/// whole rings, in any pose, with and without a hole.
 TEST(NearPart, SharesTheSameAreaAsTheWhole) {
   std::mt19937 dice(11);
   std::uniform_real_distribution<double> place(-14, 14), turn(-4, 4);
@@ -69,7 +69,8 @@ TEST(NearPart, SharesTheSameAreaAsTheWhole) {
   EXPECT_EQ(shared_area(left, {}, right, {}), 0);
 }
 
-/// What is drawn straight far from the box may cross the rest of the ring: geometry::overlap takes that.
+/// The edge that replaces the ring far from the box may cross the rest of the ring. geometry::overlap accepts such
+/// rings.
 TEST(NearPart, MayCrossItselfAndSharesTheSame) {
   std::mt19937 dice(29);
   std::uniform_real_distribution<double> place(-9, 9);
@@ -108,7 +109,8 @@ void add_floe(io::Run& run, simulation::FloeId parent, double born, const Ring& 
   run.shapes.add({ring, {}});
 }
 
-/// A square of 4 m breaks at 1 s into two halves; beside it another square drifts by 0.5 m a second towards it.
+/// Returns a run in which a square of 4 m breaks at 1 s into two halves, while another square beside it drifts towards
+/// it at 0.5 m/s.
 io::Run small_run(const Ring& drifting = square(5, 1, 2), const Ring& second_half = {{0, 2}, {4, 2}, {4, 4}, {0, 4}}) {
   io::Run run;
   add_floe(run, simulation::kNoFloe, 0, square(0, 0, 4));
@@ -151,7 +153,7 @@ TEST(RunCheck, ASoundRunIsSoundAndItsOverlapIsMeasured) {
   EXPECT_EQ(check.fractures, 1U);
   EXPECT_EQ(check.siblings.area, 0);
   EXPECT_EQ(check.instants, 4U);
-  // At 3 s floe 1 has come 0.5 m into both halves, over one metre of each.
+  // At 3 s floe 1 overlaps both halves by 0.5 m, over one metre of each.
   EXPECT_EQ(check.overlapping_pairs, 2U);
   EXPECT_EQ(check.most_shared, 1.0);
   EXPECT_EQ(check.most_shared_time, 3);
@@ -261,12 +263,12 @@ class FinalPlacesOfARun : public testing::Test {
  protected:
   FinalPlacesOfARun() { run.folder = folder.path(); }
 
-  /// The motion in the last frame.
+  /// Returns the motion of a floe in the last frame.
   io::Motion& in_frame(simulation::FloeId floe) {
     return std::ranges::find(run.frames.back().floes, floe, &io::FloeMotion::floe)->motion;
   }
 
-  /// Writes final.geojson, with the motions of the last frame and those that the test changed.
+  /// Writes final.geojson with the motions of the last frame, including the motions that the test changed.
   void write_final() {
     io::GeojsonLayer layer(run.end_time());
     for (const io::FloeMotion& floe : run.frames.back().floes) {
@@ -281,7 +283,7 @@ class FinalPlacesOfARun : public testing::Test {
   void write(const std::string& text) { tests::write_file(folder / "final.geojson", text); }
   std::string text() const { return tests::read_file(folder / "final.geojson"); }
 
-  /// Checks the run, which must not be sound because of one floe alone, and returns what is wrong with that floe.
+  /// Checks the run, in which exactly one floe must be wrong, and returns the defect of that floe.
   MisplacedFloe only_misplaced() {
     const RunCheck check = check_run(run);
     EXPECT_FALSE(check.is_sound());
@@ -391,7 +393,7 @@ TEST_F(FinalPlacesOfARun, OnlyCornersAtOnePointMayBeOne) {
   EXPECT_HAS(only_misplaced().defect, "a ring of the floe has 4 vertices in final.geojson and 5 in floes.ndjson");
 }
 
-/// Runs that were stopped, are large or are old may have nothing to compare, and are checked as they always were.
+/// Runs that were stopped, are large or are old may have nothing to compare. They are checked without this comparison.
 TEST_F(FinalPlacesOfARun, AreNotComparedWhereThereIsNoFileOrNoFrame) {
   RunCheck check = check_run(run);
   EXPECT_TRUE(check.is_sound());

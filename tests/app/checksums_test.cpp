@@ -68,7 +68,7 @@ TEST_F(Checksums, FindAFlippedBitAnywhere) {
   EXPECT_TRUE(io::check_files(run).damaged.empty());
 }
 
-/// One place in each file; more with POLYNYA_FLIPPED_BITS.
+/// The test flips a bit at one place in each file. POLYNYA_FLIPPED_BITS sets a larger number of places.
 TEST_F(Checksums, HaveBothCommandsRefuseADamagedFolder) {
   const char* more = std::getenv("POLYNYA_FLIPPED_BITS");
   const std::size_t count = more ? std::strtoul(more, nullptr, 10) : files.size();
@@ -111,7 +111,8 @@ TEST_F(Checksums, MayBeMissingOfOlderRunsAndOfThoseThatHaveNotFinished) {
   EXPECT_TRUE(io::check_files(folder->path() / "run").damaged.empty());
 }
 
-/// Where the last part of a file is cut off, a bit there is no damage; where it stays, it is.
+/// A flipped bit in the last part of a file is no damage if the resumed run cuts that part off. It is damage if the
+/// part stays.
 TEST_F(Checksums, OfACheckpointFindABitInWhatIsContinued) {
   const fs::path run = folder->path() / "run";
   for (const std::string_view name : {io::run_file::kFloes, io::run_file::kEvents, io::run_file::kFrames,

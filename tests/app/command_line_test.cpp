@@ -20,7 +20,7 @@ class CommandLine : public InFolder {
 };
 using ShipsCommand = InFolder;
 
-/// What a command prints as JSON.
+/// Returns the JSON that a command printed.
 nlohmann::json printed(const Outcome& outcome) {
   const auto json = nlohmann::json::parse(outcome.out, nullptr, false);
   EXPECT_FALSE(json.is_discarded()) << outcome.out;
@@ -86,7 +86,8 @@ TEST_F(CommandLine, ASceneComesFromStdin) {
   EXPECT_TRUE(std::filesystem::exists(folder / "runs/piped/scene.json"));
 }
 
-/// Nothing but ice acts on a ship, so the first scene a user runs must not accelerate through open water.
+/// Only ice acts on a ship by default, so the first scene of a user must not let the ship accelerate through open
+/// water.
 TEST_F(CommandLine, InitWritesAValidSceneWhoseShipDoesNotRunAway) {
   done("init new.json");
   EXPECT_EQ(call("init").out, read("new.json"));

@@ -1,6 +1,6 @@
-// What `polynya cut` writes it reads: long chains of cuts of awkward outlines, every piece written in one of
-// the formats and read back before the next cut. POLYNYA_CHAINED_CUTS sets how many; the ctest label
-// `endurance` runs 20 000.
+// `polynya cut` can read the files that it writes. The test makes long chains of cuts of awkward outlines. Every piece
+// is written in one of the formats and read back before the next cut. POLYNYA_CHAINED_CUTS sets the number of cuts; the
+// ctest label `endurance` runs 20 000.
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -27,7 +27,7 @@ Dice roll(std::mt19937& random) {
   return Dice(std::move(bytes));
 }
 
-/// A floe of some awkward kind: needle, comb, spiral, star, tiny or far away.
+/// Returns a floe of a difficult kind: needle, comb, spiral, star, tiny or far away.
 Polygon roll_outline(std::mt19937& random) {
   for (;;) {
     Dice dice = roll(random);
@@ -36,7 +36,8 @@ Polygon roll_outline(std::mt19937& random) {
   }
 }
 
-/// Through vertices, beside them by an ulp, along edges: a crack, or polygons that cut off both sides.
+/// Returns a crack, or polygons that cut off both sides. They pass through vertices, beside vertices by an ulp, and
+/// along edges.
 io::CutOp roll_op(std::mt19937& random, const Polygon& polygon) {
   Dice dice = roll(random);
   const geometry::trials::ManyKnives knives = roll_knives(dice, polygon);
@@ -45,14 +46,14 @@ io::CutOp roll_op(std::mt19937& random, const Polygon& polygon) {
   return line ? io::CutOp{*line} : io::CutOp{io::CrackTool{polygon.outer.front(), 60}};
 }
 
-/// The distance to the next larger double. Half of it is the largest error of rounding to nearest; for the least
-/// doubles that half is none itself.
+/// Returns the distance to the next larger double. Half of it is the largest error of rounding to nearest; for the
+/// smallest doubles that half is not a double itself.
 double step_at(double value) {
   return std::nextafter(std::abs(value), std::numeric_limits<double>::infinity()) - std::abs(value);
 }
 
-/// Nothing refused; every piece valid, and its area the nearest double; and areas that sum to
-/// the parent's, exactly: the two terms of the ledger are nearest doubles themselves.
+/// Checks that nothing is refused, that every piece is valid and has the nearest double of its area, and that the areas
+/// add up to the parent's area exactly. The two terms of the ledger are nearest doubles themselves.
 void expect_sound(const io::CutFloe& floe, const Polygon& parent) {
   ASSERT_FALSE(floe.rejected) << floe.rejected->reason << " " << floe.rejected->detail;
   EXPECT_EQ(floe.exact_defect, "0");
@@ -69,7 +70,7 @@ void expect_sound(const io::CutFloe& floe, const Polygon& parent) {
   EXPECT_LE(2 * std::abs(off), step_at(floe.area_slivers) + step_at(floe.rounding_defect));
 }
 
-/// A text of floes, cut again and again; what comes out of a cut goes back in as it was written.
+/// A text of floes that is cut again and again. The output of each cut is the input of the next one.
 class Chain {
  public:
   explicit Chain(unsigned seed) : random_(seed) { start(); }

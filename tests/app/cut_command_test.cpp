@@ -1,4 +1,5 @@
-// `polynya cut`: the ledger and the pieces of every tool, what is refused, and what is kept of a file's formats.
+// `polynya cut`: the ledger and the pieces of every tool, the inputs that are refused, and the properties of a file's
+// format that are kept.
 #include <cmath>
 #include <random>
 
@@ -59,7 +60,7 @@ class CutCommand : public InFolder {
     }
     return area;
   }
-  /// What an outcome's ledger holds, all of whose sums balance.
+  /// Returns the ledger of an outcome after checking that all its sums balance.
   static json ledger_of(const Outcome& outcome, int code = 0) {
     EXPECT_EQ(outcome.code, code) << outcome.err;
     json ledger = json::parse(outcome.out);
@@ -138,7 +139,7 @@ TEST_F(CutCommand, ACrackGoesThroughEveryFloeAndKeepsEverything) {
   for (const json& part : ledger["floes"][0]["parts"]) EXPECT_EQ(part["area_m2"], 50);
 }
 
-/// Along axes and diagonals a crack through vertices goes through them to the last bit, from any point on it.
+/// A crack through vertices along an axis or a diagonal passes through them to the last bit, from any point on it.
 TEST_F(CutCommand, ACrackAlongADiagonalHitsTheCorners) {
   write("floes.wkt", "POLYGON ((-1 -1, 1 -1, 1 1, -1 1))");
   for (const auto& [crack, vertices] : {std::pair{"0.1,0.1,45", 3},
@@ -181,7 +182,7 @@ TEST_F(CutCommand, OpsApplyInOrderToAllPieces) {
       << "the lower half is missed by the disc, so nothing of it is inside";
 }
 
-/// A cut that must cut is refused where it leaves a floe, or one of its pieces, as it was; the others are cut.
+/// A cut with `must_cut` is refused if it leaves a floe, or one of its pieces, unchanged. The other floes are cut.
 TEST_F(CutCommand, ACutThatMustCutRefusesWhatItLeavesWhole) {
   const std::string disc = R"([{"disc": [0, 0, 1], "keep": "both")";
   write("may.json", disc + "}]");
@@ -200,7 +201,7 @@ TEST_F(CutCommand, ACutThatMustCutRefusesWhatItLeavesWhole) {
   EXPECT_EQ(each["pieces"], 3);
 }
 
-/// By every name that tests/geometry/validity_peer_test.cpp does not reach through a text, and some that it does.
+/// Covers every defect that tests/geometry/validity_peer_test.cpp cannot express as text, and some that it can.
 TEST_F(CutCommand, DefectsAreRefusedByNameAndTheGoodAreCut) {
   const std::vector<std::pair<std::string, std::string>> all{
       {feature(""), "too-few-points"},
@@ -235,7 +236,8 @@ TEST_F(CutCommand, DefectsAreRefusedByNameAndTheGoodAreCut) {
 }
 
 TEST_F(CutCommand, WhatOgcAllowsIsCut) {
-  // Clockwise and open; a point twice and one straight; a hole at the shell's vertex; holes that touch.
+  // The floes have a clockwise open ring, a repeated point and a straight vertex, a hole at a vertex of the shell, and
+  // holes that touch.
   write("floes.geojson",
         collection({feature("[[0,0],[0,10],[10,10],[10,0]]"), feature("[[0,0],[5,0],[5,0],[10,0],[10,10],[0,10]]"),
                     feature(kSquare + ",[[0,0],[6,2],[2,6]]"),
@@ -245,7 +247,7 @@ TEST_F(CutCommand, WhatOgcAllowsIsCut) {
 }
 
 TEST_F(CutCommand, RepairIsOnRequestAndSaysWhatItChanged) {
-  // A bow-tie, and a pentagram: its middle is wound around twice.
+  // The floes are a bow-tie and a pentagram, around whose middle the ring winds twice.
   write("floes.geojson", collection({feature("[[0,0],[4,4],[4,0],[0,4]]"), feature("[[0,3],[8,3],[2,8],[4,0],[6,8]]"),
                                      feature(kFarSquare)}));
   EXPECT_EQ(cut("--crack 0,100,0").code, 4);
@@ -393,7 +395,7 @@ TEST_F(CutCommand, WhatCannotBeReadOrWrittenIsFive) {
                    {"cut floes.geojson --disc 0,0,1 --out no/such/folder.geojson", 5, "no/such/folder.geojson"},
                    {"cut broken.geojson --disc 0,0,1", 5, "broken.geojson:2:"}},
                   {folder.path()});
-  // A size limit stands for a full disk: nothing half-written is left, nor is what was there lost.
+  // A file size limit simulates a full disk. No incomplete file is left, and the previous file is not lost.
   EXPECT_HAS(expect_code(5, polynya("cut floes.geojson --disc 0,0,5 --out pieces.wkt", {folder.path(), 300})).err,
              "File too large");
   EXPECT_EQ(read("pieces.wkt"), "as it was");
@@ -403,7 +405,7 @@ TEST_F(CutCommand, WhatCannotBeReadOrWrittenIsFive) {
 
 using namespace simulation;
 
-/// A fracture as no contact would ask for it: its cusp misses the floe, or its crack ends inside.
+/// Returns a fracture that no contact would cause: its cusp misses the floe, or its crack ends inside the floe.
 PendingFracture misplaced(fracture::Failure failure, dynamics::PersistentContact& record) {
   PendingFracture pending;
   pending.failure = failure;
@@ -450,8 +452,8 @@ TEST(RejectedCut, IsAnInputOfPolynyaCutThatComesToTheSame) {
   EXPECT_FALSE(std::filesystem::exists(folder / "rejected-cuts/000101.geojson"));
 }
 
-/// A line that ends on another one was computed to do so: its end lies beside it by rounding. Whatever the order, it
-/// separates.
+/// A line that was computed to end on another line ends beside it because of rounding. It separates in any order of the
+/// lines.
 TEST_F(CutCommand, LinesThatEndOnEachOtherSeparateInAnyOrder) {
   std::mt19937 dice(3);
   std::uniform_real_distribution<double> draw(0.5, 9.5);

@@ -31,7 +31,7 @@ class DamagedRun : public InSharedFolder {
     folder.emplace();
     write_file(folder->path() / "tiny.json", kTinyScene);
     ASSERT_EQ(call("run tiny.json --out damaged").code, 0);
-    // Every shape whole: no other line then needs the vertices of one that is damaged.
+    // Every shape is stored whole, so that no other line needs the vertices of a damaged one.
     const auto run = checked(io::read_run(folder->path() / "damaged"));
     floes.clear();
     for (const io::RunFloe& floe : run->floes)
@@ -47,7 +47,7 @@ class DamagedRun : public InSharedFolder {
     text.replace(start, end - start, R"("ring_m":)" + ring + R"(,"holes_m":[)" + holes + "]}");
     write_file(file(), text);
   }
-  /// Every command ends with 5 and that place.
+  /// Checks that every command ends with exit status 5 and names the place.
   static void expect_named(const char* place) {
     for (const Words& words : kReading) EXPECT_HAS(expect_code(5, call(words)).err, place);
   }
@@ -76,7 +76,8 @@ TEST_F(DamagedRun, ADamagedSummaryIsNamedWithItsPlace) {
   write_file(summary, whole);
 }
 
-/// Rings that can be read but bound no valid area: the check finds them, and everything else says what it leaves out.
+/// Some rings can be read but bound no valid area. The check reports them, and every other command states which floes
+/// it leaves out.
 TEST_F(DamagedRun, ARingThatIsNotValidCrashesNoCommand) {
   for (const char* ring : {"[[0,0],[1,0],[2,0]]", "[[1,1],[1,1],[1,1]]", "[[0,0],[4,4],[4,0],[0,4]]",
                            "[[0,0],[9,0],[4,0],[4,9]]", "[[0,0],[1e300,0],[0,1e300]]", "[[0,0],[0,9],[9,9],[9,0]]"}) {
@@ -122,7 +123,7 @@ void miskeep(Simulation& simulation) {
 
 class BrokenAudit : public testing::Test {
  protected:
-  /// Leaves a run that was stopped after 4 s, by its own program, with such books in its checkpoint.
+  /// Leaves a run that its own program stopped after 4 s, with the given accounts in its checkpoint.
   void stop_run() {
     write_file(folder_ / "scene.json", kScene);
     leave_run(folder_ / "scene.json", folder_ / "run", 400, {400}, 100, [](Simulation& simulation) {

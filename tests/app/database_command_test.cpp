@@ -23,7 +23,7 @@ class Database : public InFolder {
   const Words paper_wedge = "query --json --thickness 0.5 --wedge-angle 90 --hull-angle 60 --speed";
 };
 
-/// The number at that key of the answer's JSON, NaN for null.
+/// Returns the number at a key of the answer's JSON, or NaN for null.
 double number(const std::string& as_json, const std::string& key) {
   const std::size_t place = as_json.find('"' + key + "\": ");
   EXPECT_NE(place, std::string::npos) << key;
@@ -62,7 +62,7 @@ TEST_F(Database, BuildMakesWhatIsAskedAndOverwritesOnlyWhenTold) {
   EXPECT_NE(number(of_small.out, "vertical_force_N"), number(database(paper_wedge + "1").out, "vertical_force_N"));
 }
 
-// Before the work: no wedge is solved, which --progress json would show.
+// The fault is found before the work: no wedge is solved, otherwise --progress json would report it.
 TEST_F(Database, NowhereToWriteIsFoundBeforeTheWork) {
   std::filesystem::create_directory(folder / "folder");
   for (const std::string& out : Words("missing/file.txt folder /dev/full")) {

@@ -56,7 +56,7 @@ TEST_F(Import, DegreesBecomeAFloeFileThatAScenesReads) {
   EXPECT_TRUE(report.faults.empty()) << imported.out;
   EXPECT_EQ(report.root.find("floes")->find("trimmed")->number(), 1);
   EXPECT_EQ(checked(scene())->scene.floes.size(), 3U);
-  // Again: nothing is left to do.
+  // A second import has nothing left to repair.
   EXPECT_HAS(import(floes).err, "3 floes read; 3 written");
 }
 
@@ -158,8 +158,8 @@ TEST_F(Import, EveryFormatOfGdalGivesTheSameFloes) {
   std::filesystem::create_directory(folder / "shapes");
   ASSERT_TRUE(convert("shapes/flat.shp drawn.csv -nlt MULTIPOLYGON"));
   EXPECT_NEAR(area_of_file("shapes"), kFlat + kDisc, 0.3) << "a folder of shapefiles";
-  // In degrees: KML, whose coordinates are always degrees, in an archive, and a GeoPackage. GDAL projects arcs wrongly,
-  // so that lines are made of them first.
+  // Files in degrees: KML, whose coordinates are always degrees, in an archive, and a GeoPackage. GDAL projects arcs
+  // wrongly, so arcs are converted to lines first.
   ASSERT_TRUE(convert("linear.gpkg drawn.csv -nlt CONVERT_TO_LINEAR"));
   const std::string to_degrees = " linear.gpkg -s_srs '+proj=aeqd +lat_0=78 +lon_0=15 +datum=WGS84' -t_srs EPSG:4326";
   for (const std::string file : {"degrees.kml", "degrees.kmz", "degrees.gpkg"}) {
@@ -225,7 +225,7 @@ TEST_F(Import, AnIceChartBecomesFloesByOneCommand) {
     EXPECT_HAS(imported.out, "\"notes\":[\"4 of 6 features were taken");
     EXPECT_HAS(read("floes.geojson"), R"("thickness_m":1.6,"POLY_TYPE":"I","CT":"92","SA":"93")");
   }
-  // The line of a feature that is taken is that of the file.
+  // The reported line of a selected feature is its line in the file.
   write("chart.geojson", chart() + "");
   EXPECT_HAS(
       expect_code(4, call({"import", "chart.geojson", "--where", "POLY_TYPE = 'I'", "--property", "thickness_m=AREA",
@@ -266,7 +266,7 @@ TEST_F(Import, NumbersThatAreTextsAreNumbers) {
     EXPECT_HAS(expect_code(4, import(floe(number))).err, "property thickness_m: found ");
 }
 
-/// An id that is no whole number of its own is kept under another key, and one line says so.
+/// An id that is not a unique integer is kept under another key, and one line of output reports this.
 TEST_F(Import, IdsThatCannotBeKeptAreKeptUnderAnotherKey) {
   const auto floes = [&](const std::string& first, const std::string& second, const std::string& more = "") {
     return collection_of(square(0, 0, 10, first) + "," + square(20, 0, 10, second) + more);
@@ -310,7 +310,7 @@ TEST_F(Import, IdsThatCannotBeKeptAreKeptUnderAnotherKey) {
   const auto loaded = checked(scene());
   for (const io::Problem& hint : loaded->hints) hints += to_string(hint);
   EXPECT_HAS(hints, "hint: floes[0].file: floe_id: 2 are text (\"A1\")");
-  // By another name, too.
+  // The property may also have another name.
   EXPECT_HAS(expect_code(0, import(floes(R"("FID":"A1")", R"("FID":"A2")"), "--property floe_id=FID")).err,
              "read; 2 written");
   EXPECT_HAS(read("floes.geojson"), R"("FID":"A1")");

@@ -144,7 +144,8 @@ TEST_F(InspectCommand, ReportsAreJsonOnRequest) {
   EXPECT_LT(check.find("final_places")->find("farthest_m")->number(), 0.01);
 }
 
-/// The accounts are those of summary.json: of ice, energy and momentum, and of moorings where there are any.
+/// The accounts of ice, energy and momentum equal the accounts in summary.json, and so do those of moorings if there
+/// are any.
 TEST(InspectAccounts, AreThoseOfTheSummaryMooringsIncluded) {
   const TemporaryFolder folder;
   write_file(folder / "moored.json", R"({"time": {"until_s": 30},

@@ -16,8 +16,8 @@
 
 namespace polynya::tests {
 
-/// A ship under thrust in a random field and into a plate: bends, splits, ice that tilts, goes under
-/// and comes up, brash, sleeping and waking floes, in a third of a second. About 130 floes.
+/// A ship under thrust in a random field and into a plate. Within a third of a second there are bends, splits, ice that
+/// tilts, goes under and surfaces, brash, and sleeping and waking floes. The scene has about 130 floes.
 inline std::string crash_scene(const std::string& until) {
   return R"({"name": "crash", "time": {"step_s": 0.02, "until_s": )" + until +
          R"(},
@@ -76,7 +76,8 @@ inline bool kill_at_checkpoints(const Words& words, const Start& start, const st
   return kill_after(child, start, {});
 }
 
-/// Leaves a run as a kill after so many steps does; its checkpoints are written at these steps, after `change`.
+/// Leaves a run folder in the state in which a kill after `end` steps leaves it. Checkpoints are written at the given
+/// steps, after `change`.
 inline void leave_run(
     const std::filesystem::path& scene_file, const std::filesystem::path& run, std::int64_t end,
     const std::vector<std::int64_t>& checkpoints, std::int64_t frame_every,

@@ -1,5 +1,5 @@
-// Where floes lie on the Earth: files in several coordinate systems become scenes, runs and files again, and a scene
-// and its files agree about the origin or are refused.
+// Positions of floes on the Earth. Files in several coordinate systems become scenes, runs and files again. A scene
+// whose files disagree with it about the origin is refused.
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -53,8 +53,8 @@ io::CoordinateFrame frame_of(const std::string& system) {
   return {.system = system, .is_in_degrees = crs->is_geographic, .is_metric = crs->is_metric};
 }
 
-/// A ring in the plane about an origin, whose edges follow those that it has in a system to a hundredth of a
-/// millimetre.
+/// Converts a ring of a coordinate system to a ring in the plane about an origin. Its edges follow the edges in that
+/// system to a hundredth of a millimetre.
 Ring in_plane(const Ring& ring, const std::string& system, const simulation::GeographicOrigin& origin) {
   const io::CoordinateFrame from = frame_of(system), to = io::frame_about(origin);
   std::vector<io::ProjectedLine> lines{io::line_in(from, ring, true)};
@@ -78,7 +78,7 @@ std::optional<Point> far_vertex(const Ring& from, const Ring& ring, double most)
   return {};
 }
 
-/// Whether the boundaries of two rings are within that of each other [m].
+/// Returns whether the boundaries of the two rings are within `most` of each other [m].
 testing::AssertionResult are_near(const Ring& a, const Ring& b, double most) {
   for (const auto& [one, other] : {std::pair{&a, &b}, {&b, &a}})
     if (const auto p = far_vertex(*one, *other, most))
@@ -121,7 +121,7 @@ const std::vector<Site> kSites{
 
 class RoundTrip : public InFolder, public testing::WithParamInterface<std::size_t> {
  protected:
-  /// What a file of these floes becomes by a scene, its run and its export in the same system at the start.
+  /// Returns the floes of a file after conversion to a scene, a run and an export at the start in the same system.
   std::vector<Polygon> there_and_back(const std::string& file, const Site& site, const std::string& system) {
     write("mapped.geojson", file);
     done(Words(fmt::format("import mapped.geojson --origin {},{} --out floes.geojson", site.latitude, site.longitude)));
@@ -137,8 +137,8 @@ class RoundTrip : public InFolder, public testing::WithParamInterface<std::size_
   }
 };
 
-/// Whatever the system, boundaries come back within a millimetre: edges that are straight in the file, and edges that
-/// are straight in the scene's plane.
+/// Boundaries return within a millimetre in every system, both for edges that are straight in the file and for edges
+/// that are straight in the scene's plane.
 TEST_P(RoundTrip, KeepsBoundariesWithinAMillimetre) {
   const Site& site = kSites[GetParam()];
   const simulation::GeographicOrigin origin = origin_at(site.latitude, site.longitude);
@@ -209,7 +209,8 @@ const std::string kMappedSquare =
     R"("coordinates":[[[15.6,78.2],[15.61,78.2],[15.61,78.202],[15.6,78.202],[15.6,78.2]]]})";
 constexpr Point kMiddle{15.605, 78.201};
 
-/// However a file came to metres, and wherever the scene's origin lies, what is exported lies where it was mapped.
+/// Exported floes lie where they were mapped, however the file was converted to metres and wherever the scene's origin
+/// is.
 TEST_F(PlaceOnEarth, OfAFileAndOfItsSceneAreOne) {
   write("square.geojson", kMappedSquare);
   for (const char* how : {"--origin 78.3,15", "--origin 78.3,15 --shift", "--origin 78.3,15,30 --shift", "",
@@ -284,7 +285,7 @@ TEST_F(PlaceOnEarth, OfAFileIsToldWhereTheSceneHasNone) {
   EXPECT_HAS(expect_code(2, call("export run --geojson layers --crs EPSG:3413")).err, "no \"origin\"");
 }
 
-/// Neighbours that share a parallel keep touching, though one has a vertex where the other has none.
+/// Neighbours that share a parallel keep touching, although one has a vertex where the other has none.
 TEST_F(PlaceOnEarth, EdgesFollowTheirParallel) {
   write("chart.geojson", R"({"type": "FeatureCollection", "features": [
     {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates":
@@ -343,7 +344,7 @@ TEST_F(PlaceOnEarth, OverThePoleIsOneRing) {
     const auto [west, east] = std::ranges::minmax(drawn, {}, &Point::x);
     EXPECT_NEAR(east.x - west.x, 360, 1e-9);
     EXPECT_GT(geometry::signed_area(drawn), 0);
-    // A corner at the pole, and an edge through it.
+    // One floe has a corner at the pole, and another has an edge through it.
     write("scene.json",
           fmt::format(R"({{{} "time": {{"until_s": 0.1}}, "floes": [{{"polygon": {{"outer_m": [[0,0],[90,0],[0,90]]}}}},
         {{"polygon": {{"outer_m": [[-100,-50],[-10,-50],[-10,50],[-100,50]]}}}},

@@ -47,23 +47,23 @@ struct Start {
   std::filesystem::path folder;         ///< its working folder, where its output is kept too
   rlim_t largest_file = RLIM_INFINITY;  ///< [bytes]
   std::filesystem::path input = {};     ///< its stdin; none if empty
-  /// Replaces a descriptor last; the others go to files, or come from /dev/null.
+  /// Replaces a descriptor just before the program starts. Other descriptors go to files, or come from /dev/null.
   std::function<void()> arrange_streams = [] {};
   std::vector<std::string> under = {};  ///< a program, and its options, that starts polynya
 };
 
-/// Without rsvg-convert, which takes seconds.
+/// Starts the program without rsvg-convert, which takes seconds.
 inline Start without_converter(const TemporaryFolder& folder) {
   return {.folder = folder.path(), .arrange_streams = [] { setenv("PATH", "/", 1); }};
 }
 
-/// With stdout or stderr a pipe without a reader.
+/// Makes stdout or stderr a pipe without a reader.
 inline void close_pipe_behind(int descriptor) {
   int ends[2];
   if (pipe(ends) != 0 || close(ends[0]) != 0 || dup2(ends[1], descriptor) < 0) _exit(126);
 }
 
-/// With stdout or stderr on a full disk.
+/// Makes stdout or stderr a file on a full disk.
 inline void fill_disk_of(int descriptor) {
   const int full = open("/dev/full", O_WRONLY);
   if (full < 0 || dup2(full, descriptor) < 0) _exit(126);
@@ -118,7 +118,7 @@ inline Outcome polynya(const Words& words, const TemporaryFolder& folder) {
   return polynya(words, Start{folder.path()});
 }
 
-/// The outcome of a command line that ends with that code.
+/// Checks that a command line ended with the given exit status, and returns its outcome.
 inline Outcome expect_code(int code, Outcome outcome) {
   EXPECT_EQ(outcome.code, code) << outcome.line << outcome.err;
   return outcome;
@@ -131,7 +131,7 @@ struct Refusal {
   std::string message = {};
 };
 
-/// Each line ends with its code and message, and prints nothing to stdout.
+/// Checks that each line ends with its exit status and message, and prints nothing to stdout.
 inline void expect_refusals(const std::vector<Refusal>& all, const Start& start) {
   for (const Refusal& one : all) {
     const Outcome outcome = expect_code(one.code, polynya(one.words, start));
@@ -141,7 +141,7 @@ inline void expect_refusals(const std::vector<Refusal>& all, const Start& start)
   }
 }
 
-/// The same code for all, and some message.
+/// Checks that all lines end with the same exit status and with some message.
 inline void expect_refusals(int code, const std::vector<Words>& lines, const Start& start) {
   for (const Words& words : lines) expect_refusals({{words, code}}, start);
 }
@@ -150,11 +150,11 @@ inline std::string scene_path(const std::string& name) {
   return std::string(POLYNYA_SOURCE_DIR) + "/scenes/" + name + ".json";
 }
 
-/// The folder of its own in which a test calls the program.
+/// Gives a test an empty folder in which it calls the program.
 class InFolder : public testing::Test {
  protected:
   Outcome call(const Words& words) const { return polynya(words, folder); }
-  /// Of a command that succeeds.
+  /// Returns the outcome of a command, which must succeed.
   Outcome done(const Words& words) const { return expect_code(0, call(words)); }
   void write(const std::string& name, const std::string& text) const { write_file(folder / name, text); }
   std::string read(const std::string& name) const { return read_file(folder / name); }

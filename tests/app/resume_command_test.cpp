@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 /// Runs in a folder, without rsvg-convert, which takes seconds.
 class Resume : public testing::Test {
  protected:
-  /// A run that was killed when it had two checkpoints, beside the same run uninterrupted; a copy of it is kept.
+  /// Makes a run that was killed when it had two checkpoints, and the same run uninterrupted. A copy of the killed run
+  /// is kept.
   void interrupt() {
     write_file(folder_ / "scene.json", crash_scene("100"));
     ASSERT_EQ(polynya("run scene.json --out whole", start_).code, 0);
@@ -54,7 +55,7 @@ TEST_F(Resume, GivesTheBytesOfTheRunNobodyInterrupted) {
   EXPECT_EQ(difference(), "");
   EXPECT_EQ(io::checkpoints_in(folder_ / "run").size(), 1U) << "a finished run keeps that of its end";
   EXPECT_HAS(expect_code(0, resume()).err, "finished");
-  // The map is drawn from the finished folder: a kill may come between.
+  // The map is drawn from the finished folder, so the run may be killed before it is drawn.
   const std::string map = read_file(folder_ / "run/final.svg");
   fs::remove(folder_ / "run/final.svg");
   EXPECT_EQ(resume().code, 0);
@@ -115,7 +116,7 @@ TEST_F(Resume, AFinishedRunGoesOnToALaterEnd) {
   }
   EXPECT_HAS(resume("--until 40").err, "the run has finished at 60.5 s");
   EXPECT_EQ(difference(), "");
-  // One of a version that kept no checkpoint.
+  // The folder is made like that of a version that kept no checkpoint.
   fs::remove(io::checkpoints_in(folder_ / "run").front());
   ASSERT_EQ(polynya("run scene.json --out whole --until 61 --overwrite", start_).code, 0);
   EXPECT_HAS(resume("--until 61").err, "starting from the beginning");
@@ -130,7 +131,7 @@ TEST_F(Resume, AKilledRunMayEndElsewhere) {
   EXPECT_EQ(difference(), "");
 }
 
-/// And leaves a folder that is whole and says that it is not finished.
+/// Also checks that the folder is complete and states that the run is not finished.
 TEST_F(Resume, ASignalStopsWithACheckpointAndNobodyElseMayWriteMeanwhile) {
   write_file(folder_ / "scene.json", crash_scene("100"));
   write_file(folder_ / "long.json", crash_scene("4500"));
@@ -158,7 +159,8 @@ TEST_F(Resume, ASignalStopsWithACheckpointAndNobodyElseMayWriteMeanwhile) {
   }
 }
 
-/// A size limit stands for a full disk, of 64 kB: forces.csv or floes.ndjson meets it. After it is lifted, all is well.
+/// A file size limit of 64 kB simulates a full disk: forces.csv or floes.ndjson reaches it. After the limit is removed,
+/// the run continues.
 TEST_F(Resume, AfterAFullDiskTheRunGoesOn) {
   write_file(folder_ / "scene.json", crash_scene("100"));
   ASSERT_EQ(polynya("run scene.json --out whole", start_).code, 0);
@@ -184,7 +186,7 @@ TEST_F(Resume, AFailureIsDumpedAndRepeated) {
   EXPECT_HAS(repeated.out, "\nreproduced\n");
   EXPECT_EQ(resume("--from-failure").out, repeated.out);
   EXPECT_EQ(read_file(folder_ / "run/states.csv"), states) << "nothing is written";
-  // The same dump comes of a run without any checkpoint.
+  // A run without any checkpoint leads to the same dump.
   ASSERT_EQ(polynya("run scene.json --out other", start_).code, 4);
   EXPECT_EQ(polynya("resume other --from-failure", start_).out, repeated.out);
 }

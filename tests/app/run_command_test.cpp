@@ -44,7 +44,7 @@ std::string line_with(const std::string& text, const std::string& words) {
   return text.substr(start, text.find('\n', at) - start);
 }
 
-/// "-565.3 kN" after "surge" in such a line [N].
+/// Returns the number after "surge" in a line such as "… surge -565.3 kN" [N].
 double surge_in(const std::string& line) {
   double value = 0;
   char unit[4] = "";
@@ -159,8 +159,8 @@ TEST_F(RunCommand, ProductsAreMadeOfARunAndRemovedWithIt) {
 
 // ---- a run that does not fit into memory: refused before it starts, or ended as one that was killed
 
-/// Floes in a square, at rest until the first step, in which all of them come to move: that takes more memory
-/// than they had before. Two steps.
+/// Returns a scene of floes in a square that are at rest until the first step. All of them start to move in that step,
+/// which takes more memory than before. The scene has two steps.
 std::string drifting_floes(int rows) {
   return R"({"name": "drifting", "time": {"step_s": 0.02, "until_s": 0.04}, "record": {"frames_interval_s": 0.02},
     "floes": [{"lattice": {"rows": )" +
@@ -181,7 +181,7 @@ Outcome run_within(rlim_t addresses, const Start& start, const Words& words) {
   return polynya(words, limited);
 }
 
-/// What a run that memory ended leaves is what kill -9 leaves: nothing yet, or a folder that goes on.
+/// A run that ends for lack of memory leaves the same as `kill -9` does: nothing, or a folder that can be resumed.
 TEST(Memory, RunsOutAndLeavesNothingOrARunThatGoesOn) {
   const TemporaryFolder folder;
   const Start start{folder.path()};

@@ -1,4 +1,4 @@
-// What becomes of a run folder when polynya is killed, power fails, or others were there before.
+// State of a run folder after polynya is killed, after a power failure, and when the folder has other files in it.
 
 #include <cstdlib>
 #include <set>
@@ -17,7 +17,7 @@ Words strace(const Words& options) {
   return Words("env ASAN_OPTIONS=detect_leaks=0 strace -f") + options;
 }
 
-/// Killed at the n-th call of that name.
+/// Returns a command line that kills the program at the n-th system call of the given name.
 Words killed_at(const std::string& call, int n) {
   return strace("-o /dev/null -e trace=" + call + " -e inject=" + call +
                 ":error=EIO:signal=KILL:when=" + std::to_string(n));
@@ -136,7 +136,7 @@ class Unsynced {
   std::set<std::string> paths_;  ///< of files with bytes, and folders with names, that are not on the disk
 };
 
-/// A checkpoint is what a run can be had again from: it goes only when all that was written before is on the disk.
+/// A checkpoint is removed only when all data written before it are on the disk, because a run is resumed from it.
 TEST_F(RunFolderTrial, EveryByteIsOnTheDiskBeforeACheckpointGoes) {
   if (!has_strace()) GTEST_SKIP() << "no strace that works here";
   expect_code(
@@ -204,7 +204,8 @@ TEST_F(RunFolderTrial, LinksInAForeignRunFolderAreNotFollowed) {
   EXPECT_EQ(read_file(folder_ / "precious"), "years of work");
 }
 
-/// What `polynya loads` and `management` made of a run is not of the next one; what others put there stays.
+/// Files that `polynya loads` and `management` made from a run are removed before the next run. Other files in the
+/// folder stay.
 TEST_F(RunFolderTrial, WhatCommandsMadeOfARunGoesWithIt) {
   for (const char* name : {"loads/loads.html", "loads/loads-peaks.csv", "management.csv", "notes.txt"}) {
     fs::create_directories(folder_ / "whole/loads");

@@ -60,7 +60,7 @@ TEST_F(Streams, TextThatAFullDiskRefusesNeverEndsInZero) {
   }
 }
 
-/// As with `polynya inspect RUN | head -1`.
+/// `polynya inspect RUN | head -1` closes the pipe in the same way.
 TEST_F(Streams, AClosedPipeIsQuietAndEndsAsShellsReportIt) {
   for (const auto& words : kPrinting) {
     const Outcome read = expect_code(0, in_folder(words));
@@ -108,7 +108,7 @@ TEST_F(Streams, ANamedPipeIsNoFileToRead) {
   }
 }
 
-/// On stdout it is alone: the line about it goes to stderr, where a page that is a file would lose it.
+/// The page is the only output on stdout. The line about it goes to stderr.
 TEST_F(Streams, APageGoesIntoAPipeAndToStdout) {
   ASSERT_EQ(in_folder("view good --out page.html").code, 0);
   const std::string page = read_file(folder->path() / "page.html");
@@ -128,7 +128,7 @@ TEST_F(Streams, APageGoesIntoAPipeAndToStdout) {
   EXPECT_HAS(outcome.err, "open it in a browser");
 }
 
-/// A run folder may come from elsewhere: what is linked there is not written to.
+/// A run folder may come from elsewhere, so polynya does not write to the target of a link in it.
 TEST_F(Streams, ProductsInARunFolderReplaceALink) {
   const auto mine = folder->path() / "mine.txt";
   std::filesystem::copy(folder->path() / "good", folder->path() / "foreign");
@@ -144,7 +144,7 @@ TEST_F(Streams, ProductsInARunFolderReplaceALink) {
 
 // ---- how far a run is
 
-/// What a program writes to stderr where that is a terminal of that many columns.
+/// Returns what a program writes to stderr if stderr is a terminal with `columns` columns.
 std::string on_terminal(const Words& words, const TemporaryFolder& folder, int columns) {
   int terminal = -1, stream = -1;
   const winsize size{.ws_row = 24, .ws_col = static_cast<unsigned short>(columns), .ws_xpixel = 0, .ws_ypixel = 0};
@@ -193,7 +193,7 @@ TEST_F(ProgressBar, FitsAnyTerminal) {
   }
 }
 
-/// A scene that comes late, as a field that takes long to make.
+/// The scene arrives late, like a field that takes long to generate.
 TEST_F(ProgressBar, IsThereWhileASceneIsReadAndGoesAway) {
   Start start{folder.path()};
   start.under = {"/bin/sh", "-c", "{ /bin/sleep 4; /bin/cat tiny.json; } | \"$@\"", "sh"};

@@ -1,4 +1,5 @@
-// Wrong words on the command line: each ends with 2, prints nothing to stdout and names what is wrong.
+// Wrong arguments on the command line: each ends with exit status 2, prints nothing to stdout and is named in the
+// message.
 #include <regex>
 #include <set>
 
@@ -94,7 +95,7 @@ TEST_F(Usage, AMissingPythonIsNamed) {
 class Guide : public InFolder {
  protected:
   std::string output_of(const Words& words) const { return done(words).out; }
-  /// What bash completes a line to.
+  /// Returns the words to which bash completes a line.
   std::string completed(const std::string& line) const {
     const std::string script = "source " POLYNYA_BINARY ".bash; COMP_WORDS=(" + line +
                                "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _polynya; echo \" ${COMPREPLY[*]} \"";
@@ -104,7 +105,7 @@ class Guide : public InFolder {
     EXPECT_EQ(pclose(pipe), 0);
     return text;
   }
-  /// What the build writes beside the program.
+  /// Returns the manual page, which the build writes beside the program.
   static std::string manual_page() {
     const auto file = std::filesystem::path(POLYNYA_BINARY).parent_path() / "polynya.1";
     return std::regex_replace(read_file(file), std::regex(R"(\\-)"), "-");

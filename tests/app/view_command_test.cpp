@@ -14,7 +14,7 @@
 namespace polynya::tests {
 namespace {
 
-/// What a page holds of its run, read from its text as a browser would.
+/// The data of a run in a page, read from the page's text as a browser reads it.
 struct Page {
   std::string text;
   io::JsonValue info;
@@ -68,7 +68,8 @@ class ViewCommand : public PlateRun {
   }
 };
 
-/// A floe's rings from the page's columns: whole, or assembled from those of its parent.
+/// Returns the rings of a floe from the page's columns. They are stored whole, or assembled from the rings of the
+/// floe's parent.
 std::vector<geometry::Ring> rings_in(const Page& held, std::size_t floe,
                                      const std::vector<std::vector<geometry::Ring>>& before, std::size_t& points_used) {
   const auto points = held.column<double>("points_m");
@@ -105,7 +106,8 @@ std::vector<geometry::Ring> rings_in(const Page& held, std::size_t floe,
   return rings;
 }
 
-/// To the bit, and each new vertex once: the page grows with what is new, as floes.ndjson does.
+/// The page's values equal the run's to the bit, and each new vertex is stored once: like floes.ndjson, the page grows
+/// with the new vertices only.
 TEST_F(ViewCommand, ThePageHoldsFramesAndShapesThemselves) {
   const Page held = page();
   EXPECT_EQ(held.text, page().text) << "the same bytes again";

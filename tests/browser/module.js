@@ -1,5 +1,5 @@
 "use strict";
-// The module under node: browser/page's scripts as the page joins them.
+// Loads the module under node from browser/page's scripts, joined as in the page.
 
 const fs = require("node:fs");
 const path = require("node:path");

@@ -1,6 +1,6 @@
 "use strict";
-// The page in Chromium: run, edit, steer, save, reload, and what it says of scenes that are wrong. PAGE names the page,
-// POLYNYA_BINARY the native program.
+// The page in Chromium: running, editing, steering, saving and reloading a scene, and its messages about wrong scenes.
+// PAGE is the path of the page, POLYNYA_BINARY the native program.
 const { test, after, before } = require("node:test");
 const assert = require("node:assert/strict");
 const { execFileSync } = require("node:child_process");

@@ -1,6 +1,7 @@
 "use strict";
-// node tests/browser/speed.js MODULE POLYNYA SCENE...: processor time of a scene's run in WebAssembly beside that of
-// the native program on one thread, both with all files of the run folder; run in turns, the least of three.
+// node tests/browser/speed.js MODULE POLYNYA SCENE...: compares the processor time of a scene's run in WebAssembly with
+// the time of the native program on one thread. Both write all files of the run folder. The runs alternate, and the
+// least of three times counts.
 const { execFileSync } = require("node:child_process");
 const fs = require("node:fs");
 const os = require("node:os");

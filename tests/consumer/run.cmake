@@ -1,4 +1,4 @@
-# Installs a build into a prefix of its own, then configures, builds and runs the consumer against nothing but that.
+# Installs a build into an empty prefix. Then it configures, builds and runs the consumer with nothing but that prefix.
 #   cmake -DBUILD=<polynya's build folder> -DWORK=<scratch folder> -DGENERATOR=<generator>
 #         [-DFLAGS=<compiler flags>] -P run.cmake
 foreach(needed BUILD WORK GENERATOR)
@@ -26,7 +26,7 @@ message(STATUS "${output}")
 run(${WORK}/prefix/bin/polynya validate ${WORK}/prefix/share/polynya/scenes/sawamura2017-fig4b.json)
 message(STATUS "${output}")
 run(${WORK}/prefix/bin/polynya study plan --help)  # finds the Python package below the prefix
-# What comes with the program: its manual page, and its completion, which bash itself is asked for.
+# The installed program comes with its manual page and its completion, which is tried in bash.
 foreach(file share/man/man1/polynya.1 share/bash-completion/completions/polynya)
   if(NOT EXISTS ${WORK}/prefix/${file})
     message(FATAL_ERROR "${file} is not installed")
@@ -38,8 +38,8 @@ run(bash -c "${complete}")
 if(NOT output MATCHES "completed:json")
   message(FATAL_ERROR "completing --progress j gives ${output}")
 endif()
-# Where the compiled module is built: Python finds package and module by the line that is installed for it, and type
-# checkers the stub.
+# If the compiled module is built, Python finds the package and the module by the installed .pth file, and type checkers
+# find the stub.
 file(GLOB line ${WORK}/prefix/lib/python3*/dist-packages/polynya.pth)
 file(GLOB module ${WORK}/prefix/lib/polynya/python_core/_core*.so)
 if(module)

@@ -1,4 +1,4 @@
-// What a coupled run does to a simulation: forces from outside, prescribed motion, cover ahead, steps that fail.
+// Effects of a coupled run on a simulation: external forces, prescribed motion, ice cover ahead, and steps that fail.
 #include "cosim/coupled_run.hpp"
 
 #include <cmath>

@@ -16,7 +16,8 @@ from unpacked import unpack
 PROGRAM, SCRATCH, SOURCE, BUILD = sys.argv[1], *map(pathlib.Path, sys.argv[2:5])
 SCENE = pathlib.Path(__file__).with_name("coupled.json")
 
-# causality -> variability -> what `initial` may be; the combinations that the standard's tables allow for what is here.
+# causality -> variability -> allowed values of `initial`: the combinations of the standard's tables that this unit
+# uses.
 ALLOWED = {
     ("parameter", "fixed"): {"exact"},
     ("calculatedParameter", "fixed"): {"calculated", "approx"},

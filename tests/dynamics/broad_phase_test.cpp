@@ -149,8 +149,8 @@ TEST(BroadPhase, FindsWhatASearchOverAllPairsFinds) {
 
 constexpr int kColumns = 14;
 
-/// Steps two packs, one of which keeps less of what is known of its pairs; their contacts are the same to the
-/// bit. Gives how many there were.
+/// Steps two packs, one of which stores less about its pairs. Their contacts must be the same to the bit. Returns the
+/// number of contacts.
 std::size_t compare_contacts(FloePack& keeping, FloePack& making, bool are_bounds_the_same) {
   const auto of_contact = [](const Contact& c) {
     return std::tuple(c.a, c.b, c.width, c.depth, c.area, c.normal, c.ends[0], c.ends[1]);
@@ -206,7 +206,7 @@ TEST(BroadPhase, FindsTheSameToTheBitWhereEdgesThatAreNotYetNearAreForgotten) {
 }
 
 TEST(BroadPhase, AFastFloeIsNotMissed) {
-  // 40 m in a step: out of every margin at once.
+  // The body moves by 40 m in a step, which is more than every margin.
   Bodies bodies;
   add_floe(bodies, rectangle(40, 40), {0, 0});
   add_floe(bodies, rectangle(4, 4), {-221, 0.5}, {800, 0});
@@ -245,7 +245,7 @@ TEST(BroadPhase, IceThatIsHeldIsPairedOnlyWithWhatMoves) {
   finder.find_contacts(bodies, 0.6, contacts);
   EXPECT_EQ(std::pair(only(contacts).a, contacts[0].b), std::pair(0, 3));
 
-  finder.remove(0);  // the plate breaks: what is left of it meets what moves, too
+  finder.remove(0);  // The plate breaks: its remainder is paired with moving bodies, too.
   const BodyIndex rest = add_held(bodies, rectangle(100, 100), {0.05, 0});
   finder.add(bodies, rest);
   wake(rest);
@@ -321,8 +321,8 @@ TEST(HashGrid, PiecesOfAPlateHaveCellsOfTheirSize) {
   EXPECT_EQ(near(grid, box(-2000, 300, 5)), (std::set<BodyIndex>{}));
 }
 
-/// A wedge of 90° in a notch of the same angle: the overlap is a thin band along both flanks, 2 m deep along the normal
-/// and 0.2 m thick on average.
+/// A wedge of 90° is in a notch of the same angle. The overlap is a thin band along both flanks, 2 m deep along the
+/// normal and 0.2 m thick on average.
 TEST(DepthOfAContact, InANotchIsTheMeanThicknessOfTheOverlap) {
   const geometry::Polygon notched{{{-6, -4}, {0, -4}, {0, -2}, {-2, 0}, {0, 2}, {0, 4}, {-6, 4}}, {}};
   const geometry::Polygon wedge{{{-2.2, 0}, {-0.4, -1.8}, {6, -1.8}, {6, 1.8}, {-0.4, 1.8}}, {}};

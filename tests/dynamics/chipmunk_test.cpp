@@ -1,10 +1,10 @@
 // The same collisions in Chipmunk 7 (double precision), an independent implementation of sequential impulses.
 //
-// What had to be made equal: Chipmunk pushes overlap apart by a velocity of its own (its bias is switched off
-// here), and it takes Newton's restitution at each contact point where ours is Poisson's. The two agree
-// without friction at a single point, for a plastic hit of any kind, and with friction where the contact
-// slides throughout; there they are compared. Its contact points lie on the two surfaces, ours on the line
-// between them: the overlap is made so small that this is beyond the tolerance.
+// Two differences had to be removed. Chipmunk separates overlapping bodies by a bias velocity, which is switched off
+// here. It uses Newton's restitution at each contact point, whereas Polynya uses Poisson's. The two agree without
+// friction at a single point, for a plastic impact of any kind, and with friction if the contact slides throughout;
+// these cases are compared. Contact points of Chipmunk lie on the two surfaces, those of Polynya on the line between
+// them. The overlap is made so small that this difference is below the tolerance.
 #include <algorithm>
 
 #include <chipmunk/chipmunk.h>
@@ -109,14 +109,15 @@ void set_body(Scene& scene, int i, double width, double height, Point position, 
   scene.bodies[i] = floe_body(scene.boxes[i], position, angle);
 }
 
-/// The right box's corner just inside the middle part of the left box's right face; everything turned about the origin.
+/// The corner of the right box is just inside the middle part of the left box's right face. Everything is turned about
+/// the origin.
 Scene corner_on_face(Random& random) {
   Scene scene;
   const double width = random.between(4, 20), height = random.between(6, 20);
   set_body(scene, 0, width, height, {-0.5 * width, 0}, 0);
   const double w = random.between(2, 15), h = random.between(2, 15), tilt = random.between(0.3, 1.2);
   set_body(scene, 1, w, h, {}, tilt);
-  // With a tilt in (0, π/2) the corner (−w/2, +h/2) is the leftmost.
+  // If the tilt is in (0, π/2), the corner (−w/2, +h/2) is the leftmost.
   const Vector to_corner = rotate(geometry::Rotation::by(tilt), Vector{-0.5 * w, 0.5 * h});
   const double along = random.between(-0.4, 0.4) * height;
   scene.bodies[1].position = Point{-kOverlap, along} - to_corner;

@@ -1,5 +1,5 @@
-// Eq. (5) of [Sawamura2017], corrected: restitution, momentum and energy over random contacts, and contacts
-// together; what a contact that crushes carries; overlap that is taken away without speed.
+// Eq. (5) of [Sawamura2017], corrected. The tests cover restitution, momentum and energy for single random contacts and
+// for several contacts together, the force of a contact that crushes, and overlap that is removed without adding speed.
 #include <gtest/gtest.h>
 
 #include "dynamics/contact/contact_tracker.hpp"
@@ -61,7 +61,7 @@ Trial random_plates(Random& random, double width, double friction) {
   }
 }
 
-/// Momentum is kept and no energy gained, whatever happens between this and check().
+/// Checks that momentum is conserved and no energy is gained between construction and check().
 class Conserved {
  public:
   explicit Conserved(const Bodies& bodies)
@@ -80,7 +80,7 @@ class Conserved {
   double scale_ = 0;
 };
 
-/// Of a body of a trial, with the arm of the same or of the other one.
+/// Returns the mobility of one body of a trial. The arm may belong to the same body or to the other body.
 Mobility mobility(const Trial& t, BodyIndex body, BodyIndex arm_of) {
   return {t.bodies.inverse_mass[body], t.bodies.inverse_moment[body],
           t.contacts[0].middle() - t.bodies.position[arm_of]};
@@ -171,7 +171,8 @@ struct Pinch {
 TEST(ContactsTogether, AFloePinchedBetweenAPrescribedShipAndAHeavyPlateFeelsBoth) {
   Pinch pinch;
   ContactSolver().solve(pinch.bodies, pinch.contacts, RestitutionLaw{.restitution = 0}, {20000});
-  // Plastic: both move on with the ship, and each contact carries what is accelerated beyond it.
+  // The impact is plastic: both floes move on with the ship, and each contact carries the force that accelerates the
+  // bodies beyond it.
   const Bodies& bodies = pinch.bodies;
   EXPECT_EQ(bodies.velocity[0], (Vector{1, 0}));
   EXPECT_NEAR(bodies.velocity[1].x, 1, 1e-3);
@@ -223,7 +224,7 @@ TEST(ContactsTogether, ARowOfTouchingFloesKeepsItsMomentumAndGainsNoEnergy) {
         energy = now;
       }
       conserved.check(row.bodies, 1e-12);
-      if (iterations < 3000) continue;  // in thirty the two ends of a line need not have evened out
+      if (iterations < 3000) continue;  // after thirty sweeps the two ends of a line may still differ
       for (const double spin : row.bodies.angular_velocity) EXPECT_NEAR(spin, 0, 1e-7);
     }
   }
@@ -276,7 +277,7 @@ TEST(CrushLimit, HoldsTogetherWithOthers) {
 }
 
 TEST(CrushLimit, ALimitedCollisionEndsAsEq5SaysOverManySteps) {
-  // Poisson: the contact gives back ε times what compressed it, however many steps both take.
+  // Poisson's hypothesis: the contact gives back ε times the impulse of compression, however many steps both take.
   for (const double restitution : {0.0, 0.1, 0.5, 1.0}) {
     for (const double offset : {0.0, 5.0}) {
       for (const double steps_of_compression : {0.3, 3.7, 40.2}) {
@@ -306,7 +307,7 @@ TEST(CrushLimit, ALimitedCollisionEndsAsEq5SaysOverManySteps) {
   }
 }
 
-/// At rest, face to face.
+/// Returns two bodies at rest, face to face.
 Bodies overlapping(double depth, double offset) {
   Bodies bodies = two_floes(0, offset);
   bodies.position[1].x -= depth;
@@ -389,8 +390,8 @@ std::vector<Contact> two_contacts(double first, double second) {
   return contacts;
 }
 
-/// Of what floes inherit, each contact takes the share of its area, wherever it is, also where a part of the overlap
-/// has no contact any more.
+/// Of the inherited paid overlap, each contact takes the share of its area. This holds wherever the contact is, also if
+/// a part of the overlap no longer has a contact.
 TEST(Tracker, ContactsOfFragmentsTakeTheShareThatWasPaid) {
   const Bodies bodies = two_floes(0, 3);
   for (const double second : {0.4, 0.2}) {
@@ -411,8 +412,8 @@ TEST(Tracker, ContactsOfFragmentsTakeTheShareThatWasPaid) {
   }
 }
 
-/// The overlap of a floe that broke was there before, though nothing of it was paid: it is pressed apart, and no
-/// impulse was missed.
+/// The overlap of a broken floe existed before, although none of it was paid. It is pushed apart, and no impulse was
+/// missed.
 TEST(Tracker, ContactsOfFragmentsAreNotNewWhereTheirFloeOverlapped) {
   const Bodies bodies = two_floes(0, 3);
   for (const double area_before : {0.0, 0.5}) {

@@ -54,7 +54,7 @@ TEST(CrushLaw, BothEndsObeyItTogether) {
     const std::array<double, 2> u{free[0] - k.at[0] * p[0] - k.between * p[1],
                                   free[1] - k.between * p[0] - k.at[1] * p[1]};
     for (std::size_t end = 0; end < 2; ++end) {
-      // As a speed: what the impulse misses the law by, as far as that moves its own end.
+      // The error of the impulse is expressed as the velocity change that it causes at its own end.
       const double missed =
           std::abs(p[end] - crush_impulse(ends[end], u[end])) / (1 / k.at[end] + creep_slope(ends[end]));
       EXPECT_LT(missed, 1e-9) << "case " << i << " end " << end;
@@ -183,8 +183,8 @@ TEST_P(ByBothLaws, BodiesThatPartAreLeftAlone) {
   }
 }
 
-/// An overlap of 1 mm becomes 20 mm deep in a step. Its force grows twentyfold by its measures at 1 mm, but the bodies
-/// have no ice that bears more than 30 kN.
+/// An overlap of 1 mm becomes 20 mm deep in a step. The force extrapolated from the dimensions at 1 mm grows
+/// twentyfold, but the ice of the bodies cannot transmit more than 30 kN.
 TEST(CrushLaw, NoImpulseExceedsWhatTheLongestLineBears) {
   for (const double most : {3e4, std::numeric_limits<double>::infinity()}) {
     Pair pair({-2, 0});
@@ -204,7 +204,7 @@ TEST(CrushLaw, NoImpulseExceedsWhatTheLongestLineBears) {
   }
 }
 
-/// What does not crush ends its approach, by either law.
+/// A contact that does not crush ends the approach, with either law.
 TEST_P(ByBothLaws, RigidBodiesStopEachOtherWhateverTheIceIs) {
   Pair pair({-1, 0});
   const auto* law = std::get_if<RestitutionLaw>(&GetParam());

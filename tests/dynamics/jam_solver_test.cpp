@@ -19,7 +19,7 @@ using namespace scenery;
 constexpr double kSlipSpeed = 0.02;  // [m/s]
 constexpr double kNarrow = 5e-5;     // [m/s]
 
-/// Floes of 10 m, side by side in columns and rows, between a wall that presses and one that stands.
+/// Floes of 10 m, side by side in columns and rows, between a moving wall and a fixed wall.
 struct Pack {
   Bodies bodies;
   std::vector<SolverBody> solver_bodies;
@@ -75,7 +75,7 @@ Pack pack_of(Random& random, int columns, int rows, double friction) {
   return pack;
 }
 
-/// Makes floes lighter, by up to so many decades; every second one or all of them.
+/// Makes every floe, or every second floe, lighter by up to `most_decades` decades.
 void lighten(Pack& pack, Random& random, double most_decades, bool every_second = false) {
   for (BodyIndex i = 2; i < pack.bodies.size(); ++i) {
     if (every_second && random.below(2) == 0) continue;
@@ -89,7 +89,7 @@ void lighten(Pack& pack, Random& random, double most_decades, bool every_second 
   }
 }
 
-/// By how much impulses and velocities of a pack miss the law, as speeds [m/s].
+/// Returns the largest deviation of the impulses and velocities of a pack from the law, as a speed [m/s].
 double largest_miss(const Pack& pack) {
   double largest = 0;
   for (std::size_t k = 0; k < pack.constraints.size(); ++k) {
@@ -144,8 +144,9 @@ TEST(JamSolver, FrictionIsCoulombs) {
   }
 }
 
-/// Where friction's kink is as narrow as the solver of whole steps has it, from a start far away: branches
-/// chosen by the speeds alone find few of these, bounds of friction that follow after each step 17.
+/// The kink of friction is as narrow as in the solver of whole steps, and the start is far from the solution. A solver
+/// that chooses branches by the speeds alone solves few of these jams, and one whose friction bounds are updated only
+/// after each step solves 17.
 TEST(JamSolver, SolvesJamsWithFrictionOfANarrowKink) {
   Random random(kSeed);
   for (int trial = 0; trial < 20; ++trial) {
@@ -155,10 +156,10 @@ TEST(JamSolver, SolvesJamsWithFrictionOfANarrowKink) {
   }
 }
 
-/// Brash between floes, half of the bodies up to a hundred times lighter, from a start far away. Where all
-/// contacts leave their branches at once, each end by itself, those of light bodies do so in turns for ever:
-/// 6 of these 40 are solved. Where it does not come to the solution, all is as before to the bit, or what it came to,
-/// if that is better, of which velocities and impulses fit each other.
+/// Brash between floes: half of the bodies are up to a hundred times lighter, and the start is far from the solution.
+/// If all contacts may leave their branches at once, each end by itself, the contacts of light bodies alternate for
+/// ever, and only 6 of these 40 jams are solved. If the solver does not reach the solution, either everything is as
+/// before to the bit, or the result is kept because it is better. In that case velocities and impulses are consistent.
 TEST(JamSolver, SolvesJamsOfFloesAndBrashOrKeepsWhatItCameToWhereThatIsBetter) {
   Random random(kSeed);
   int solved = 0;
@@ -189,7 +190,7 @@ TEST(JamSolver, SolvesJamsOfFloesAndBrashOrKeepsWhatItCameToWhereThatIsBetter) {
   EXPECT_LT(solved, 40);
 }
 
-/// Impulses that are there before are no part of the problem: the answer is the same.
+/// Initial impulses are not part of the problem: the solution does not depend on them.
 TEST(JamSolver, StartsFromAnyImpulses) {
   Random random(kSeed);
   Pack pack = pack_of(random, 6, 6, 0), from_nothing = pack;
@@ -203,7 +204,7 @@ TEST(JamSolver, StartsFromAnyImpulses) {
     EXPECT_LT(length(pack.solver_bodies[i].velocity - from_nothing.solver_bodies[i].velocity), 1e-9);
 }
 
-/// What memory keeps of other jams, between other bodies or the same, changes no bit.
+/// Memory of other jams, between other bodies or the same bodies, does not change a bit of the result.
 TEST(JamSolver, FindsTheSameWithTheMemoryOfOtherJams) {
   JamMemory memory;
   for (const int columns : {6, 4, 4, 6}) {
@@ -231,12 +232,12 @@ std::vector<PersistentContact> press(Pack& pack) {
   return records;
 }
 
-/// Of the whole solver; the pack stays as it is, but for its records.
+/// Returns the residual of the whole solver. The pack stays as it is except for its records.
 double residual_of(Pack pack, int sweeps, double tolerance) {
   return ContactSolver().solve(pack.bodies, pack.contacts, CrushLaw{.step = 0.01}, {sweeps, tolerance}).residual;
 }
 
-/// A pack that sweeps do not solve: the solver of whole steps comes to its tolerance all the same.
+/// Sweeps do not solve this pack, but the solver of whole steps reaches its tolerance.
 TEST(JamSolver, SolvesWhatSweepsDoNot) {
   Random random(kSeed);
   Pack pack = pack_of(random, 20, 8, 0);
@@ -320,7 +321,7 @@ Eigen::VectorXd flat(const JamVector& of_bodies) {
   return all;
 }
 
-/// Of −1 to 2.
+/// Returns a right-hand side with values from −1 to 2.
 JamVector right_side(int bodies) {
   JamVector right(static_cast<std::size_t>(bodies) + 1);
   for (int i = 0; i < 3 * bodies; ++i) unknown(right, i) = -1 + 3.0 * i / (3 * bodies);
@@ -374,7 +375,7 @@ TEST(JamMatrix, SolvesWhatADenseMatrixSolves) {
   }
 }
 
-/// Rows of bodies that no changed slope comes to are kept: the factors are those of a matrix that is all new, bit for
+/// Rows of bodies without a changed slope are kept. The factors equal the factors of a newly assembled matrix bit for
 /// bit.
 TEST(JamMatrix, KeepsRowsWithoutChangedSlopes) {
   Random random(kSeed);

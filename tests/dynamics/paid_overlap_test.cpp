@@ -9,7 +9,7 @@
 namespace polynya::dynamics {
 namespace {
 
-/// A wedge: p = 2.
+/// Returns the contact of a wedge, whose exponent p is 2.
 Contact wedge(double depth, double opening) {
   Contact c;
   c.depth = depth;
@@ -42,7 +42,7 @@ TEST(PaidOverlap, ACrescentGrowsByItsWidth) {
   EXPECT_FALSE(is_crescent(wedge(0.4, 1.5)));
 }
 
-/// F = a ξ^n: the work between two depths is known.
+/// For F = a ξ^n the work between two depths has a closed form.
 TEST(PaidOverlap, WorkPaysAsFarAsItsIntegralReaches) {
   for (const double n : {0.0, 0.5, 1.0, 2.0}) {
     const auto force = [&](double depth) { return 3e5 * std::pow(depth, n); };

@@ -197,8 +197,8 @@ Polygon wall() {
 TEST(Patch, OfACornerInAFlatEdgeIsItsTriangle) {
   for (const double tilt : {0.1, 0.5, 0.785, 1.2, 1.5}) {
     for (const double depth : {1e-7, 1e-4, 0.05, 0.3}) {
-      // The corner of a square at the origin of its frame, its sides along +x and +y; turned by tilt − 90°,
-      // so that they leave at `tilt` from the wall's normal on one side and at 90° − tilt on the other.
+      // A square with a corner at the origin of its frame and sides along +x and +y. It is turned by tilt − 90°, so
+      // that its sides are at `tilt` and at 90° − tilt from the wall's normal.
       const Polygon square = shapes::square({}, 10);
       const Pose pose{{-depth, 3}, Rotation::by(tilt - std::numbers::pi / 2)};
       const Found found = patches_of(wall(), square, pose);
@@ -268,7 +268,7 @@ TEST(Patch, BodiesThatDoNotOverlapHaveNone) {
   EXPECT_TRUE(patches_of(rectangle(30, 30), rectangle(4, 4), {{0, 0}, {}}).manifolds.empty()) << "one inside the other";
 }
 
-/// S by exact arithmetic: what the rule is checked against.
+/// Returns S by exact arithmetic, as the reference for the rule.
 double exact_area(const Polygon& a, const Polygon& b, const Pose& a_from_b) {
   const auto shared = overlap({a}, {}, {b}, a_from_b);
   EXPECT_TRUE(shared.has_value());
@@ -349,7 +349,8 @@ Pose turned(const Pose& pose, double by) {  // about the origin
   return {transform(turn, pose.position), {x.x, x.y}};
 }
 
-// The rule's gradient, over all patches of a pair: that of the overlap's area, shallow, deep and pierced.
+// The gradient of the rule over all patches of a pair equals the gradient of the overlap area, for shallow, deep and
+// pierced overlaps.
 TEST_F(RandomPatches, TheirWidthsAndNormalsAreTheGradientOfTheOverlapsArea) {
   constexpr double kShift = 1e-5;  // S is piecewise quadratic: central differences are exact but for corners
   int plain = 0, pierced = 0, corners = 0;
@@ -402,8 +403,8 @@ TEST_F(RandomPatches, ThePiercedOnesTurnAsTheOverlapsAreaDoes) {
 }
 
 TEST(Pierced, AWedgeThroughAPlankIsPushedBackAlongItsAxis) {
-  // A wedge along +x through a plank of 0.3 m from x = 0: it stands out of the far side. What its way grows
-  // by is the difference of its widths on both faces.
+  // A wedge along +x passes through a plank of 0.3 m from x = 0 and protrudes from the far side. Per distance
+  // of penetration, its overlap grows by the difference between its widths at both faces.
   const double half = 15 * std::numbers::pi / 180;
   const double reach = 4;
   const Polygon wedge{{{reach, 0}, {-20, (20 + reach) * std::tan(half)}, {-20, -(20 + reach) * std::tan(half)}}, {}};

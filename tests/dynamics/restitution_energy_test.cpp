@@ -1,5 +1,5 @@
-// Restitution over several steps, by the law of impulses: bodies turn while their contact presses, so that impulses do
-// other work than they took. No collision gains energy.
+// Restitution over several steps with the impulse law. Bodies turn while their contact presses, so that restitution
+// does other work than compression took. No collision may gain energy.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ NewBody random_floe(Random& random, geometry::Point place) {
   return floe;
 }
 
-/// A floe that comes on to another one, both spinning.
+/// Returns a floe that approaches another one, both spinning.
 Bodies two_random_floes(Random& random) {
   Bodies bodies;
   NewBody coming = random_floe(random, {-13, 0});
@@ -68,7 +68,7 @@ Bodies two_random_floes(Random& random) {
   return bodies;
 }
 
-/// Poisson's share is that of each end of a contact line: what compressed one end more is given back there.
+/// Poisson's restitution holds for each end of a contact line: the end that was compressed more gives more back.
 TEST(Restitution, EachEndGivesBackAShareOfItsOwnCompression) {
   const RestitutionLaw law{.restitution = 0.5};
   RestitutionLaw::State state{.record = nullptr, .crushing_impulse = 1e9, .stored_energy = 1e9};
@@ -105,7 +105,7 @@ TEST(Restitution, NoTwoFloesGainEnergyInACollision) {
   EXPECT_GT(met, 400) << "of 600 should collide";
 }
 
-/// Floes that run into each other from all sides, so that contacts pass on what others press.
+/// Floes collide from all sides, so that contacts transmit the pressure of others.
 TEST(Restitution, NoGroupOfFloesGainsEnergy) {
   Random random(kSeed);
   for (int trial = 0; trial < 40; ++trial) {

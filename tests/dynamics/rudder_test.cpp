@@ -48,7 +48,7 @@ TEST(RudderFoil, HasTheLiftAndDragOfPublishedRudders) {
       EXPECT_NEAR(found.drag, brix.drag, 0.05) << aspect_ratio << ", " << degrees;
     }
   EXPECT_NEAR(foil_in_endless_flow(1, 33.8 * kDegree).lift, 1.06, 0.06) << "NACA 0015, [Thieme1962], from memory";
-  // The normal force of [Fujii1960] over a blade's own aspect ratio, below a hull.
+  // Returns the normal force of [Fujii1960] with the aspect ratio of the blade below a hull.
   const Planar force =
       rudder_force({.area = 10, .wake_fraction = 0, .hull_factor = 0}, 0.05, {5, 0, 0}, 0, kSeaDensity);
   const double fujii = 0.5 * kSeaDensity * 10 * 25 * 6.13 * 1.5 / (1.5 + 2.25) * std::sin(0.05);
@@ -118,7 +118,7 @@ TEST(Race, HasTheMomentumOfTheThrust) {
   EXPECT_LT(race_behind(11.95, false, 1e3, -5, kSeaDensity).speed, 0) << "a ship that goes astern outruns a weak race";
 }
 
-/// The water never leaves the blade with more momentum than the race had, whatever the blade's form and angle.
+/// The race never leaves the blade with more momentum than it had, whatever the form and angle of the blade.
 TEST(Race, IsTurnedAndLosesMomentumButNeverGainsAny) {
   for (const double aspect_ratio : {0.05, 0.2, 0.5, 0.94, 1.5, 3.0, 20.0})
     for (double degrees = -180; degrees <= 180; degrees += 0.5) {
@@ -149,7 +149,7 @@ TEST(Rudder, TurnsAShipToTheSideItIsLaidTo) {
   EXPECT_LT(rudder_force(kRudder, 0.3, {-2, 0, 0}, 0, kSeaDensity).yaw, 0) << "astern it turns her the other way";
 }
 
-/// At rest thrust and rudder leave a ship with a force no larger than the thrust, and never astern.
+/// For a ship at rest the resultant of thrust and rudder force is at most the thrust, and never points astern.
 TEST(Rudder, AtRestTurnsTheThrustAtMost) {
   for (const double aspect_ratio : {0.1, 0.5, 1.5, 4.0})
     for (const double area : {2.0, 12.96, 40.0, 144.0})
@@ -166,7 +166,8 @@ TEST(Rudder, AtRestTurnsTheThrustAtMost) {
         }
 }
 
-/// The reference ship's at 35°: the race turns by e δ, with e = 3.6/(1.8 + √(Λ² + 4)) and Λ the blade's in the race.
+/// The reference ship's rudder at 35°: the race turns by e δ, with e = 3.6/(1.8 + √(Λ² + 4)), where Λ is the aspect
+/// ratio of the blade in the race.
 TEST(Rudder, AtRestTurnsTheRaceByAlmostItsAngle) {
   const double contracted = std::sqrt(4 / M_PI * 0.5 * 11.95), chord = std::sqrt(12.96 / 1.5);
   const double sine = 3.6 / (1.8 + std::hypot(contracted / chord, 2)) * std::sin(35 * kDegree);
@@ -228,7 +229,7 @@ TEST(Rudder, BehindAPropellerWithoutThrustIsAFoilInTheHullsFlow) {
   }
 }
 
-/// The force does not jump where the ship stops, or where a race becomes too weak to reach the rudder.
+/// The force is continuous where the ship stops, and where a race becomes too weak to reach the rudder.
 TEST(Rudder, HasNoJumps) {
   constexpr double kSmall = 1e-7;
   for (const double thrust : {-1e5, 0.0, 5e4, kThrust})

@@ -37,7 +37,7 @@ class Random {
   }
   std::uint64_t state_;
 };
-inline constexpr std::uint64_t kSeed = 20170611;  ///< where a test has none of its own
+inline constexpr std::uint64_t kSeed = 20170611;  ///< for tests that have no seed
 
 /// At a distance from the origin, turned.
 inline geometry::Pose random_pose(Random& random, double least, double most) {
@@ -56,7 +56,8 @@ inline geometry::Polygon random_star(Random& random, int corners, double least_r
   return polygon;
 }
 
-/// A floe as a body: mass and moment of its plate. `position` is that of the centre of mass.
+/// Makes a body of a floe with the mass and the moment of inertia of its plate. `position` is the position of the
+/// centre of mass.
 inline dynamics::NewBody floe_body(const geometry::Polygon& polygon, geometry::Point position, double angle = 0,
                                    double circle_radius = 1.0) {
   constexpr double kThickness = 0.5;
@@ -110,7 +111,7 @@ inline geometry::Vector momentum(const dynamics::Bodies& bodies) {
   return sum;
 }
 
-/// About the origin.
+/// Returns the angular momentum about the origin.
 inline double angular_momentum(const dynamics::Bodies& bodies) {
   double sum = 0;
   for (dynamics::BodyIndex i = 0; i < bodies.size(); ++i) {
@@ -159,7 +160,7 @@ inline dynamics::Contact contact_at(dynamics::BodyIndex a, dynamics::BodyIndex b
   return contact;
 }
 
-/// Of b as a sees it, in the middle of their contact.
+/// Returns the velocity of b relative to a in the middle of their contact.
 inline geometry::Vector relative_velocity(const dynamics::Bodies& bodies, const dynamics::Contact& c) {
   const auto velocity = [&](dynamics::BodyIndex i) { return velocity_at(bodies, i, c.middle() - bodies.position[i]); };
   return velocity(c.b) - velocity(c.a);

@@ -1,4 +1,5 @@
-// What water does: Eq. (6) of [Sawamura2017], relative to the water, against closed forms; and to ships.
+// Water forces: Eq. (6) of [Sawamura2017] relative to the water, against closed forms, and the forces of water on
+// ships.
 #include <algorithm>
 #include <cmath>
 
@@ -36,7 +37,8 @@ WaterWork brake(Bodies& bodies, double time_step, DragArea area = DragArea::kEdg
 }
 
 TEST(WaterDrag, AFloeThatMovesWithTheWaterFeelsNothing) {
-  // Velocities are relative to the water, so a drifting floe has none: nothing changes, to the last bit.
+  // Velocities are relative to the water. A floe that drifts with the water has none, so nothing changes, to the last
+  // bit.
   Bodies bodies = one_floe(rectangle(10, 6), 0.7);
   EXPECT_EQ(brake(bodies, 100).lost, 0);
   EXPECT_EQ(bodies.velocity[0], Vector{});
@@ -143,7 +145,7 @@ TEST(WaterDrag, BodiesOfPrescribedMotionKeepTheirVelocity) {
   EXPECT_EQ(std::pair(bodies.velocity[0], bodies.angular_velocity[0]), std::pair(Vector{1, 0}, 0.1));
 }
 
-/// ∫ r³ dA over a rectangle about a point.
+/// Returns ∫ r³ dA over a rectangle about a point.
 double third_moment_of_rectangle(Point low, Point high, Point about) {
   const auto integral = [](auto f, double from, double to) {
     return boost::math::quadrature::gauss_kronrod<double, 15>::integrate(f, from, to, 8, 1e-12);
@@ -262,7 +264,7 @@ void expect_near(const Planar& found, const Planar& expected, const Planar& tole
   EXPECT_NEAR(found.yaw, expected.yaw, tolerance.yaw);
 }
 
-/// To port and starboard, and ahead and astern.
+/// Motions are mirrored between port and starboard, and between ahead and astern.
 TEST(Manoeuvring, MirroredMotionsHaveMirroredForces) {
   const auto force = [](const Planar& at) { return water_damping(hull(), at) * at; };
   const Planar here = force({4, 0.7, 0.02}), rounding{1e-9, 1e-9, 1e-7};

@@ -45,7 +45,7 @@ TEST(WedgeAngles, OfCornersAndEdgesAreMeasuredFromTheInwardDirection) {
 }
 
 TEST(WedgeAngles, OfAJaggedEdgeAreThoseOfWhereItLeads) {
-  // A straight edge roughened by teeth of 5 cm: seen over 3 m it is straight but for the teeth's angle, 0.05 / 3.
+  // A straight edge with teeth of 5 cm. Over 3 m it is straight within the angle of the teeth, 0.05 / 3.
   Polygon jagged{{{10, 20}, {-10, 20}}, {}};
   for (int i = 200; i >= 0; --i) jagged.outer.insert(jagged.outer.begin(), {-10 + 0.1 * i, i % 2 == 0 ? 0.0 : 0.05});
   const WedgeAngles angles = wedge_angles(edge_list(jagged), {100, jagged.outer[100]}, {0, 1}, 3);
@@ -94,7 +94,7 @@ TEST(WedgeAngles, OfAFloeSmallerThanTheLengthAreFinite) {
 
 TEST(CrackPath, CountsTheIceAheadAndBeginsAndEndsBeyondTheEdges) {
   const Polygon plate = rectangle(110, 200), holed{plate.outer, {shapes::reversed(rectangle(20, 20).outer)}};
-  // A slot from the bottom up to y = 40, and a hole ahead of it.
+  // The plate has a slot from the bottom up to y = 40, and a hole ahead of the slot.
   const Polygon slotted{{{-55, -50}, {5, -50}, {5, 40}, {15, 40}, {15, -50}, {55, -50}, {55, 50}, {-55, 50}},
                         {{{-35, -5}, {-35, 5}, {-25, 5}, {-25, -5}}}};
   constexpr CrackReach kFar = CrackReach::kFarSide, kFirst = CrackReach::kFirstEdge;
@@ -126,7 +126,8 @@ TEST(CrackPath, CountsTheIceAheadAndBeginsAndEndsBeyondTheEdges) {
   EXPECT_EQ(std::pair(sides.left, sides.right), std::pair(0.0, 0.0)) << "out of a hole it parts nothing";
 }
 
-/// From an edge through the middle, which sees every edge of a star, to the far side, or aside to the first edge.
+/// The crack starts at an edge and runs through the middle, which sees every edge of a star. It ends at the far side,
+/// or turns aside to the first edge.
 TEST(CrackPath, CutAlongItAFloeSeparatesWithoutLossOfAreaIntoPiecesOfItsAreas) {
   Random random(9);
   int pairs = 0;
@@ -182,8 +183,8 @@ TEST(CrackPath, ItsWidthIsTwiceTheIceOnItsNarrowerSide) {
 }
 
 TEST(CrackPath, OfTwoLegsHasTheAreasOfTheTwoPiecesThatItLeaves) {
-  // From the left side, 6 m above the lower edge, along it and then down to it; and likewise at the upper
-  // edge.
+  // The path starts at the left side, 6 m above the lower edge, runs along that edge and then down to it. A second path
+  // does the same at the upper edge.
   const Polygon plate = rectangle(100, 40);
   const Boundary boundary = make_outline(plate);
   for (const double side : {-1.0, 1.0}) {

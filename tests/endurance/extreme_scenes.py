@@ -68,7 +68,7 @@ BASES = [{"ships": [ship], "floes": ICE} for ship in (SHIP, PUSHED, MOORED)] + [
     {"ships": [MANAGING], "structures": [{"name": "tower", "radius_m": 5}],
      "floes": [{"rectangle": {"corner_m": [8, 0], "size_m": 9}}]}]
 
-# Objects that a scene has though it does not give them.
+# Objects that a scene has even if its file does not state them.
 SETTINGS = ("time", "water", "ice", "contact", "fracture", "record")
 # Numbers of fields and lattices that may make a million floes of them.
 LARGE = {"columns", "rows", "extent_m", "floe_size_m", "size_m", "mean_m", "least_m", "largest_m", "gap_m"}

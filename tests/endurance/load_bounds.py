@@ -18,12 +18,12 @@ import math
 import pathlib
 import sys
 
-ROUNDING = 1e-6           # of comparisons of numbers of one file, which differ by rounding alone [-]
-MARGIN = 1.02             # of loads over what ice bears: places in files are 1 mm and 1e-5 rad wrong [-]
-MISSED = 2                # of a contact's whole step, which also has what it missed of the step before [-]
-ENERGY_SHARE = 1e-6       # of the turnover, as for the audit [-]
-PUSHED_APART_SHARE = 3e-3  # of the turnover: what steps may give that push bodies apart, by law crush [-]
-UNSOLVED_SHARE = 1e-3      # of the turnover: what steps may give that are not solved, by law impulse [-]
+ROUNDING = 1e-6           # tolerance between numbers of one file, which differ by rounding alone [-]
+MARGIN = 1.02             # factor on the strength of the ice: positions in files are wrong by 1 mm and 1e-5 rad [-]
+MISSED = 2                # factor for a contact's whole step, which includes the load missed in the step before [-]
+ENERGY_SHARE = 1e-6       # share of the turnover, as for the audit [-]
+PUSHED_APART_SHARE = 3e-3  # share of the turnover that steps may add when they push bodies apart, law crush [-]
+UNSOLVED_SHARE = 1e-3      # share of the turnover that unsolved steps may add, law impulse [-]
 COMPONENTS = ("surge", "sway", "yaw")
 DIRECTIONS = 16           # in which a floe's extent is measured
 
@@ -139,8 +139,8 @@ class Verdict:
     def __init__(self):
         self.faults = []   # (kind, text)
         self.checked = {"records": 0, "means": 0, "steps": 0, "contacts": 0, "peaks": 0, "floe contacts": 0}
-        self.loaded = {"means": 0, "steps": 0}  # of these, not zero
-        self.largest = {}  # share of what was allowed, by kind
+        self.loaded = {"means": 0, "steps": 0}  # numbers of these that are not zero
+        self.largest = {}  # share of the allowed value, by kind
 
     def add(self, kind, value, allowed, text):
         """Compares a value with what is allowed; tells of the first fault of its kind, and counts the others."""
@@ -294,8 +294,8 @@ def check_accounts(summary, law, verdict):
     energy = summary["energy"]
     allowed = ENERGY_SHARE * energy["turnover_J"] + 1e-9
     created = summary["counts"]["energy_created_J"]
-    # Overlap that is not paid is pushed apart by law crush, which gives some energy (docs/theory/contact.md); by law
-    # impulse so do steps that are not solved to the end.
+    # Law crush pushes unpaid overlap apart, which adds some energy (docs/theory/contact.md). With law impulse, steps
+    # that are not solved to the end add energy as well.
     share = PUSHED_APART_SHARE if law == "crush" else UNSOLVED_SHARE
     verdict.add("energy gained", created, share * energy["turnover_J"] + 1e-9,
                 f"steps whose contacts gave more than they took: {created:.3g} J of {energy['turnover_J']:.3g} J")

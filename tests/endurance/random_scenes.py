@@ -42,7 +42,7 @@ class Setting:
         self.run_up_m_per_s = 1.0
         self.files = {}            # of floes, by name
         self.room_m = []           # boxes in which hulls may stand
-        self.hulls, self.standing = [], []  # outlines of all, and of those that do not move
+        self.hulls, self.standing = [], []  # outlines of all hulls, and of those at rest
         self.structure_names = []
         self.routes = []           # ships with pilots, their places and how far they keep from hulls
         self.dice = dice

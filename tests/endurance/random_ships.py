@@ -46,7 +46,7 @@ def ship_of_size(dice, length):
     else:
         deep = None
         ship.update(mass_kg=mass, moment_of_inertia_kg_m2=mass * length**2 / 16)
-    if dice.chance(0.15):  # a mass and an inertia that are not those of draught and block coefficient
+    if dice.chance(0.15):  # mass and inertia differ from those of draught and block coefficient
         ship.update(moment_of_inertia_kg_m2=mass * length**2 / 16 * dice.between(0.5, 1.5),
                     mass_kg=mass * dice.between(0.6, 1.4))
     if dice.chance(0.2):

@@ -1,4 +1,4 @@
-// Floes as beams, beside closed forms.
+// Floes as beams, compared with closed forms.
 #include "fracture/beam.hpp"
 
 #include <cmath>
@@ -60,7 +60,8 @@ TEST(Beam, IsAsSlenderAsARectangleOfFourToOne) {
   EXPECT_NEAR(long_axis(turned), 0.3, 1e-12);
 }
 
-/// A free beam: ⅛ F Λ pressed at its middle, 4/27 F Λ at its end, a third of its length from there.
+/// A free beam has the moment ⅛ F Λ if it is pressed at its middle. Pressed at its end it has 4/27 F Λ, a third of its
+/// length from there.
 TEST(Beam, ThatIsFreeBendsAgainstItsInertia) {
   const SectionLoad middle = load_at(0, {{{0, 1.5}, {0, -kForce}, 0}});
   EXPECT_NEAR(middle.moment, -kForce * kLength / 8, 1e-6) << "it pulls on the side away from the force";
@@ -99,7 +100,7 @@ TEST(Beam, ThatIsPushedAtItsEndIsPressedAlongIt) {
   EXPECT_NEAR(load.tension, -kForce / 2, 1e-6);
   EXPECT_NEAR(load.moment, 0, 1e-6);
   EXPECT_NEAR(load_at(0, {{{-12, 0}, {-kForce, 0}, 0}}).tension, kForce / 2, 1e-6) << "pulled";
-  // Off its axis it is bent as well: F e at the pushed end, gone at the other.
+  // A force off the beam's axis also bends it: the moment is F e at the pushed end and zero at the other end.
   EXPECT_NEAR(load_at(-11.999, {{{-12, 1}, {kForce, 0}, 0}}).moment, -kForce, 0.01 * kForce);
 }
 

@@ -70,8 +70,8 @@ TEST(CrushingShares, OnlyAHullLessSteepThanFrictionPressesTheIceDown) {
 }
 
 TEST(CrushingShares, FrictionIsSharedBetweenDownAndAlongTheHull) {
-  // What is missing from V of the frictionless sin θ_s is μ s cos θ_s; the rest of the slip is along the
-  // hull. At pure normal approach that is μ down the facet beside 1 along its normal, √(1 + μ²) in all.
+  // V is smaller than the frictionless sin θ_s by μ s cos θ_s; the rest of the slip is along the hull. At pure normal
+  // approach the force has μ down the facet and 1 along its normal, √(1 + μ²) in all.
   const double friction = 0.2;
   for (const double degrees : {1.0, 5.0, 38.2, 60.0}) {
     const double angle = degrees * kDegree;
@@ -88,8 +88,8 @@ TEST(CrushingShares, FrictionIsSharedBetweenDownAndAlongTheHull) {
 }
 
 TEST(CrushingShares, PowerIsNeverFedIn) {
-  // What the hull does on the ice: H v_n + friction along the hull times the slip there. Never negative, and
-  // friction does not exceed μ F_n along the hull nor turn against the slip.
+  // Work of the hull on the ice: H v_n plus the friction along the hull times the slip there. It is never negative.
+  // Friction does not exceed μ F_n along the hull and does not act against the slip.
   for (double degrees = 0; degrees < 90; degrees += 3) {
     for (const double friction : {0.0, 0.2, 0.9}) {
       for (const double approach : {0.0, 1e-9, 0.3, 5.0}) {
@@ -184,7 +184,7 @@ TEST(CrushingShares, AFacetThatTheHullDrawsAwayFromTakesNoPart) {
 // ---- overlaps other than wedges, against closed forms
 
 TEST(CrushedOverlapArea, OfAStraightEdgeIsItsFlatForm) {
-  // S = w ξ: A_c = w [ξ − ⟨ξ − h tan θ⟩] / sin θ, the facet's own area once it spans the thickness.
+  // With S = w ξ, A_c = w [ξ − ⟨ξ − h tan θ⟩] / sin θ, which is the area of the facet once it spans the thickness.
   for (const double angle : {0.01, 0.67, 1.2}) {
     for (double depth = 1e-4; depth < 30; depth *= 2.3) {
       const double reach = 0.5 * std::tan(angle);
@@ -263,7 +263,7 @@ TEST(CrushedReceding, WithoutRecessionIsThePlainOverlap) {
   EXPECT_EQ(std::pair(found.crushed.area, found.crushed.slope), std::pair(plain.area, plain.slope));
 }
 
-/// dV/dξ = A_c cos θ_s: by the midpoint rule over the way to the overlap.
+/// Integrates dV/dξ = A_c cos θ_s up to the overlap by the midpoint rule.
 TEST(CrushedVolume, IsWhatTheFacetPassesOver) {
   constexpr double kIceThickness = 0.7;
   constexpr int kSteps = 4000;

@@ -15,8 +15,8 @@ const Water kSea;
 
 constexpr double kThickness = 0.5;
 
-/// A rectangle whose far edge is at the sheet's, its others beside `sides`; an older cusp is as deep, with its axis
-/// where this one begins to be beside it.
+/// A rectangle whose far edge is at the sheet's edge, and whose other edges are beside `sides`. An older cusp is
+/// equally deep, with its axis where this one begins.
 Deck rectangle(Beside sides, double older_far = kCuspDepth) {
   Ice ice;
   ice.thickness = kThickness;
@@ -26,14 +26,14 @@ Deck rectangle(Beside sides, double older_far = kCuspDepth) {
   return deck_of(ice, kSea, kHullAngle, outline, std::vector{side, DeckEdge{}, side, side});
 }
 
-/// With nothing of the sheet beside its strips from one on.
+/// Removes the sheet beside the strips, from strip `first` on.
 Deck apart_from_sheet(Deck deck, std::size_t first = 0) {
   for (std::size_t i = first; i < deck.strips.size(); ++i) deck.strips[i].sheet = deck.strips[i].sheet_across = 0;
   return deck;
 }
 
-/// What the hull's force on the edge and the water that is missing before it do over a whole turn that takes that long,
-/// without friction [J].
+/// Work over a whole turn of a given duration without friction, done by the hull's force on the edge and by the missing
+/// water before the hull [J].
 struct Work {
   double down = 0, ahead = 0;
   double sum() const { return down - ahead; }
@@ -94,8 +94,8 @@ TEST(FloodingDeck, DryGivesBackWhatItTook) {
 }
 
 TEST(FloodingDeck, LiesAlongTheHullAtTheEndOfItsWay) {
-  // From the lower corner of its far edge h below the level, the upper corner at right angles to the deck is on the
-  // hull whose waterline is R - s from there.
+  // The lower corner of the far edge is h below the level. The upper corner, at right angles to the deck from there, is
+  // on the hull, whose waterline is R - s away.
   const Deck deck = rectangle(Beside::kSheet);
   const double waterline = kCuspDepth - distance_to_lie_along(deck);
   const double x = kThickness * std::cos(kHullAngle);
@@ -105,7 +105,8 @@ TEST(FloodingDeck, LiesAlongTheHullAtTheEndOfItsWay) {
 
 constexpr double kHasTurned = kCuspDepth - 3;  ///< where an older cusp ends that the hull has pressed farther down
 
-/// What falls into the pool is lost: nothing where no water comes in, nothing where it comes in from no height.
+/// The energy of water that falls into the pool is lost. It is zero if no water enters, or if the water enters without
+/// a fall.
 TEST(FloodingDeck, FloodsThroughWhatOpensTheSoonerTheSlowerTheHull) {
   const Deck deck = rectangle(Beside::kOlderCusp, kHasTurned);
   const Work dry = work(deck, 1e-3), fast = work(deck, 4), slow = work(deck, 4000);
@@ -155,7 +156,8 @@ TEST(FloodingDeck, DoesNotDependOnTheStepOfItsHull) {
 
 // ---- the numbers of docs/theory/bow.md, "Water on the deck of a turning cusp", by its closed forms
 
-/// The way of the hull at which a deck has turned by ψ: √(R² + h²) cos(ψ + θ_s − β) = x_w cos θ_s + h sin θ_s.
+/// Returns the distance that the hull has moved when a deck has turned by ψ: √(R² + h²) cos(ψ + θ_s − β) = x_w cos θ_s
+/// + h sin θ_s.
 double way_at_turn(const Deck& deck, double turn) {
   const double r = deck.depth, h = deck.thickness, theta = deck.hull_angle;
   return r - (std::hypot(r, h) * std::cos(turn + theta - std::atan2(h, r)) - h * std::sin(theta)) / std::cos(theta);
@@ -186,7 +188,7 @@ struct Turned {
   }
 };
 
-/// Inflow into a deck at that turn, measured over a time in which nothing else changes [m³/s].
+/// Returns the inflow into a deck at the given turn, measured over a time in which nothing else changes [m³/s].
 double inflow_at(const Deck& deck, double turn, double pool = 0) {
   constexpr double kShort = 1e-9;  // [s]
   DeckState state{way_at_turn(deck, turn), pool};

@@ -68,8 +68,8 @@ TEST(Scatter, WithoutSpreadTheMeanIsDrawnToTheBit) {
   EXPECT_EQ(share_within_bounds({ScatterKind::kConstant, 2, 0, 3, 4}), 0) << "nothing can be drawn";
 }
 
-/// The distance of n draws from their own law is below 1.63/√n in 99 of 100 cases, and that of another law's
-/// is the distance of the laws.
+/// The distance of n draws from their own law is below 1.63/√n in 99 of 100 cases. Their distance from another law is
+/// the distance between the laws.
 TEST(Scatter, TheDistanceIsSmallForItsOwnLawAlone) {
   std::mt19937_64 dice(4);
   constexpr int kCount = 5000;

@@ -1,4 +1,4 @@
-// Eq. (4), the finite-element table of the edge crack (docs/theory/splitting.md), and what opens a crack.
+// Eq. (4), the finite-element table of the edge crack (docs/theory/splitting.md), and the forces that open a crack.
 #include "fracture/splitting.hpp"
 
 #include <cmath>
@@ -127,7 +127,7 @@ TEST(Opening, IsThatOfTheWeakerSideAndNoneWhereASideIsPushedAgainstTheOther) {
 }
 
 TEST(Opening, ASternsFaceThatLeavesTheIceDoesNotPress) {
-  // A stern's corner: its side presses to the left, its transom leaves the ice behind it.
+  // The corner of a stern: its side presses to the left, and its transom leaves the ice behind it.
   std::array<Face, 2> stern{{{{5, 0}, {0, 1}, 2, 0}, {{0, -5}, {-1, 0}, 0.3, 0}}};
   EXPECT_TRUE(wedge_pushes({-1, 1}, stern, 0.1)) << "at rest along its heading";
   stern[1].leaving = 2;

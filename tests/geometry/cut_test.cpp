@@ -154,7 +154,7 @@ TEST(Cut, ToolsMayLieAroundTheFloeBesideItAndInItsHole) {
   EXPECT_EQ(inside->pieces[0].part, Part::kInside);
   EXPECT_EQ(inside->pieces[0].shape.polygon, shape.polygon);
   EXPECT_EQ(cut_by_polygons(shape, {{small, {}}, {small, {}}}).error().reason, CutFailure::kMisses);
-  // In the hole of the tool, and a tool in the hole of the floe.
+  // First the floe is in the hole of the tool, then a tool is in the hole of the floe.
   Ring moat{{-1, -1}, {5, -1}, {5, 5}, {-1, 5}};
   std::reverse(moat.begin(), moat.end());
   EXPECT_EQ(cut_by_polygons(shape, {{around, {moat}}}).error().reason, CutFailure::kMisses);
@@ -169,7 +169,7 @@ struct Tally {
   int general = 0;
 };
 
-/// Cuts by both paths, compares, and gives the pieces of the public function's result.
+/// Cuts by both paths, compares the results, and returns the pieces of the public function.
 std::vector<Piece> compare(const Shape& shape, const Knife& knife, Tally& tally, bool may_cross_itself = false) {
   const CutOutcome result = cut(shape, knife);
   EXPECT_TRUE(is_sound(shape, result)) << to_code(shape.polygon) << to_code(knife);

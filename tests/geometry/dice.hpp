@@ -8,8 +8,8 @@
 
 namespace polynya::geometry::trials {
 
-/// Decisions drawn from bytes, zero once they run out: the same bytes tell the same story to RapidCheck and
-/// to the fuzzer.
+/// Decisions drawn from bytes, zero once the bytes run out. The same bytes lead to the same decisions in RapidCheck and
+/// in the fuzzer.
 class Dice {
  public:
   explicit Dice(std::vector<std::uint8_t> bytes) : bytes_(std::move(bytes)) {}
@@ -23,18 +23,18 @@ class Dice {
   std::size_t next_ = 0;
 };
 
-/// What to cut with: a ring or a polyline.
+/// A tool for cutting: a ring or a polyline.
 struct Knife {
   bool is_ring = true;
   Ring points;
 };
 
-/// A floe of some awkward kind: needle, comb, spiral, star, holes touching the boundary, tiny or far away.
-/// May be invalid.
+/// Returns a floe of a difficult kind: needle, comb, spiral, star, holes touching the boundary, tiny or far away. It
+/// may be invalid.
 Polygon roll_floe(Dice& dice);
 
-/// A knife aimed at the floe's weak places: through vertices, tangent to edges, centred on vertices, along
-/// edges, one ulp beside them. May be invalid.
+/// Returns a knife aimed at the weak places of the floe: through vertices, tangent to edges, centred on vertices, along
+/// edges, or one ulp beside them. It may be invalid.
 Knife roll_knife(Dice& dice, const Polygon& floe);
 
 /// A tool that the general path cuts with: several polygons, which may overlap, touch and have holes, or a

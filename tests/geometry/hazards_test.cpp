@@ -41,7 +41,7 @@ TEST(Hazards, PinchAtTheLeftmostVertex) {
   EXPECT_EQ(outcome->pieces.size(), 2u);
 }
 
-// Lazy sums overflow the stack at 50 000 vertices: ours are rationals, summed in pairs.
+// Lazy sums overflow the stack at 50 000 vertices. Polynya sums rationals in pairs instead.
 TEST(Hazards, FiftyThousandVerticesOnTheGeneralPath) {
   Shape shape{shapes::regular(50000, 100)};
   for (std::size_t i = 1; i < 50000; i += 2)
@@ -76,7 +76,7 @@ TEST(Hazards, NearCollinearCracks) {
   }
 }
 
-// What CGAL or the arithmetic refuses is a value, whatever is fed past the checks.
+// Input that CGAL or the arithmetic refuses gives an error value, even if it bypasses the checks.
 TEST(Hazards, GarbagePastTheChecksIsAValueNotACrash) {
   std::mt19937 random(26);
   for (int i = 0; i < 300; ++i) {
@@ -124,7 +124,7 @@ Polygon ragged_floe(int size, unsigned seed) {
 
 class Outlines : public testing::TestWithParam<unsigned> {};
 
-// Cut after cut into the largest piece, by everything: straight and wandering cracks, discs, several discs at
+// Cuts the largest piece again and again by all kinds of tools: straight and wandering cracks, discs, several discs at
 // once, and other floes.
 TEST_P(Outlines, AreCutSoundly) {
   const unsigned seed = GetParam();
@@ -231,7 +231,8 @@ class Trial {
  private:
   double unit() { return std::uniform_real_distribution<double>(0, 1)(random_); }
 
-  // The largest of a few: floes stay worth cutting, and one keeps its edges of many generations.
+  // Returns the largest of a few pieces, so that floes stay large enough to cut and one keeps edges of many
+  // generations.
   std::size_t pick() {
     std::size_t best = random_() % floes_.size();
     for (int k = 0; k < 3; ++k) {
@@ -241,7 +242,7 @@ class Trial {
     return best;
   }
 
-  // By what is aimed in the world, where the floe has a new pose, or in its body from vertex to vertex.
+  // The tool is aimed in the world frame, in which the floe has a new pose, or in the body frame from vertex to vertex.
   CutOutcome cut(const Shape& floe) {
     const Pose world_from_body{{1000 * unit(), 1000 * unit()}, Rotation::by(2 * std::numbers::pi * unit())};
     const auto to_body = [&](Ring tool) {

@@ -25,7 +25,7 @@ const bool kSeeded = [] {
   return true;
 }();
 
-// Rolls a floe, perhaps cut before, so that knives also meet the vertices that earlier cuts made.
+// Returns a random floe, perhaps one that was cut before, so that knives also meet vertices of earlier cuts.
 Shape roll_shape(Dice& dice) {
   Shape shape{roll_floe(dice)};
   if (find_defect(shape.polygon)) return {};
@@ -173,7 +173,7 @@ TEST(Laws, PiecesPartitionTheirParentBeforeRounding) {
   });
 }
 
-// What two tools leave does not depend on which came first, and counting areas commutes with cutting.
+// The result of two tools does not depend on their order, and counting areas commutes with cutting.
 TEST(Laws, TheOrderOfTwoToolsDoesNotMatter) {
   check_dice("cut(A, B) = cut(B, A)", 60, [](Dice dice) {
     const Shape shape{{{{0, 0}, {8, 0}, {8, 8}, {0, 8}}, {}}};

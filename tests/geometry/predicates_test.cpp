@@ -1,6 +1,6 @@
-// What is exact: the laws that geometry/exact/predicates.hpp numbers, and the test of a point in a
-// ring, for points of a coarse lattice, where nearly all is degenerate, and for points a rounding away from
-// it; validity; areas and moments.
+// Exact operations: the laws that geometry/exact/predicates.hpp numbers, and the test of a point in a ring. The points
+// come from a coarse lattice, where nearly all cases are degenerate, or lie a rounding error away from it. Also
+// validity, areas and moments.
 #include "geometry/exact/predicates.hpp"
 
 #include <algorithm>
@@ -200,7 +200,7 @@ TEST(Validity, RingsThatCrossInTheirVerticesCross) {
 }
 
 TEST(Validity, IsDecidedExactlyOneUlpApart) {
-  // A notch whose tip comes to the diagonal from below: clear of it by one ulp, on it, past it.
+  // The tip of a notch approaches the diagonal from below: it is clear of the diagonal by one ulp, on it, or past it.
   const auto with_tip_at = [](double y) { return Ring{{0, 0}, {3, -3}, {3, 0.4}, {0.5, y}, {3, 0.6}, {1, 1}}; };
   EXPECT_EQ(defect_of(with_tip_at(std::nextafter(0.5, 0.0))), "valid");
   EXPECT_EQ(defect_of(with_tip_at(0.5)), "self-crossing");
@@ -226,7 +226,7 @@ TEST(Validity, IsNearLinear) {
 
 // ---- measures
 
-/// 6 × 4 m with a hole of 2 × 2 m.
+/// A rectangle of 6 × 4 m with a hole of 2 × 2 m.
 const Polygon kHoled{shapes::rectangle(0, 0, 6, 4).outer, {hole_square({1, 1}, 2)}};
 
 TEST(Measures, RectangleWithHoleHasItsClosedForms) {
@@ -317,7 +317,7 @@ TEST(Measures, EveryAreaIsTheNearestDouble) {
     positive += nearest > 0 ? 1 : 0;
   }
   EXPECT_GT(positive, 5000);
-  // From a trial: plain doubles made this −3.5e-18 m².
+  // This sliver comes from a random trial. Plain doubles gave its area as −3.5e-18 m².
   const Ring sliver{{9.066274827191009, 9.741807508383557},
                     {10.151854324862311, 9.969288413081589},
                     {10.214251825832536, 9.982363678414115}};

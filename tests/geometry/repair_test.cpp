@@ -122,7 +122,7 @@ TEST(Overlap, TakesRingsThatCrossThemselvesByTheirWinding) {
   EXPECT_GT(shared_cells, 100);
 }
 
-// What of a tool is nowhere near the shape is left out before the cut, and changes nothing.
+// Parts of a tool that are nowhere near the shape are removed before the cut. This does not change the result.
 TEST(CutByPolygons, FarPartsOfToolsChangeNothing) {
   const Shape square{{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {}}};
   const Ring coast{{5, -90}, {95, -90}, {95, 90}, {5.3, 90}};

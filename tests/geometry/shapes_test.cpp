@@ -1,5 +1,5 @@
-// Shapes beside each other. In doubles: whether there is room, how much of a piece lies in a band, and when
-// two outlines that move in straight lines first touch.
+// Relations between neighbouring shapes, computed in doubles: whether there is room, how much of a piece lies in a
+// band, and when two outlines that move in straight lines first touch.
 #include "tests/shapes.hpp"
 
 #include <cmath>
@@ -52,8 +52,8 @@ TEST(Clearance, ABodyInsideAnotherIsNotClearButOneInAHoleIs) {
   EXPECT_FALSE(is_clear_at(frame(), square(-3, 3), {0, 0}, 0.785));
 }
 
-/// Through the tree of bounding circles no edge that matters is passed over: a plate with a channel in it,
-/// and a piece at places all over it and beside it.
+/// The search through the tree of bounding circles misses no edge that matters. The test places a piece all over and
+/// beside a plate with a channel in it.
 TEST(Clearance, AReadyBoundaryAnswersAsAnOutlineDoes) {
   Polygon plate{{{0, 0}, {600, 0}, {600, 200}, {0, 200}}, {}};
   for (int i = 0; i <= 200; ++i) plate.outer.push_back({0.5 * i, 112 + 0.7 * (i % 2)});
@@ -116,7 +116,8 @@ TEST(FirstContact, OfTwoSquares) {
   EXPECT_TRUE(touch({3, 3}, {-0.5, -0.5})) << "corner on corner";
 }
 
-// Before the first touch nothing is shared, a little after it something is; where there is none the two pass.
+// Before the time of first contact the two do not overlap, and a little after it they do. If there is no contact, they
+// pass each other.
 TEST(FirstContact, IsWhereOverlapBegins) {
   scenery::Random random(7);
   const auto star = [&](double radius) { return scenery::random_star(random, 9, 0.3 * radius, radius).outer; };

@@ -24,7 +24,7 @@ Corners canonical(const Ring& ring) {
   return corners;
 }
 
-// What it is part of, its outer ring, then its holes in order.
+// Returns the part that the piece belongs to, its outer ring, and its holes in order.
 std::tuple<Part, Corners, std::vector<Corners>> canonical(const Piece& piece) {
   std::vector<Corners> holes;
   for (const Ring& hole : piece.shape.polygon.holes) holes.push_back(canonical(hole));
@@ -32,7 +32,7 @@ std::tuple<Part, Corners, std::vector<Corners>> canonical(const Piece& piece) {
   return {piece.part, canonical(piece.shape.polygon.outer), holes};
 }
 
-// By how much a nearest double may be off.
+// Returns the largest error of a nearest double.
 exact::Rational half_step(double value) {
   const double far = std::numeric_limits<double>::infinity();
   return (exact::Rational(std::nextafter(std::abs(value), far)) - exact::Rational(std::abs(value))) / 2;
@@ -72,8 +72,8 @@ testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome)
     if (std::abs(apart) > 1e-14 * ledger.area_before + std::numeric_limits<double>::epsilon() * size * size)
       return testing::AssertionFailure() << "a part's area is off by " << apart << " m²";
   }
-  // The pieces and what was removed are the parent, exactly, but for what the ledger names: two nearest
-  // doubles.
+  // The pieces and the removed area add up to the parent exactly, except for the two nearest doubles that the ledger
+  // states.
   const exact::Rational off =
       sum - exact_area_of(shape) + exact::Rational(ledger.area_slivers) - exact::Rational(ledger.rounding_defect);
   if (abs(off) > half_step(ledger.rounding_defect) + half_step(ledger.area_slivers))

@@ -12,10 +12,10 @@
 
 namespace polynya::geometry::trials {
 
-/// The area of a piece as it stands, in rationals.
+/// Returns the area of a piece as stored, in rationals.
 exact::Rational exact_area_of(const Shape& shape);
 
-/// What must hold of any cut: exact balance, valid pieces, a ledger that adds up to the last bit.
+/// Checks the properties of every cut: exact balance, valid pieces, and a ledger that adds up to the last bit.
 testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome);
 
 /// Same failure, or the same pieces with the very same vertices (rings may start elsewhere).

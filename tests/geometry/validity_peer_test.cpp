@@ -33,7 +33,7 @@ bool is_valid_to_geos(GEOSContextHandle_t geos, const Polygon& polygon) {
   return is_valid;
 }
 
-// Polygons of any kind, a few of their vertices dragged onto other places of theirs.
+// Returns a polygon of any kind, some of whose vertices are moved onto other places of its boundary.
 Polygon roll_polygon(std::mt19937& random) {
   std::vector<std::uint8_t> bytes(160);
   for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());

@@ -1,6 +1,6 @@
-// The state at the end of a short run of every scene, by its hash. After a change that is meant to change results:
+// The state at the end of a short run of every scene, by its hash. After a change that is meant to change results, run
 //   tests/golden/renew
-// and the commit states why. The hashes are those of any build and any number of threads (docs/reliability.md).
+// and state the reason in the commit. The hashes hold for any build and any number of threads (docs/reliability.md).
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>

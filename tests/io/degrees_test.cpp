@@ -111,7 +111,7 @@ Polygon rectangle(double x0, double y0, double x1, double y1) {
 
 TEST(Join, HalvesBecomeOneAndOthersStay) {
   for (const double apart : {0.0, 1e-12, 3e-13, 0.004, -0.004}) {
-    // The right half has a vertex on the seam where the left has none.
+    // The right half has a vertex on the seam, and the left half has none there.
     Polygon right = rectangle(10 + apart, 0, 20, 10);
     right.outer.push_back({10 + apart, 4});
     const auto joined = join({rectangle(0, 0, 10, 10), right, rectangle(40, 0, 50, 10)}, {0, 0, 0}, 0.01);

@@ -11,7 +11,7 @@
 
 namespace polynya::tests {
 
-/// Whether all of the parts, or none of them, stand in a text.
+/// Returns whether all of the parts, or none of them, are in a text.
 inline testing::AssertionResult has_parts(std::string_view text, std::initializer_list<std::string_view> parts,
                                           bool are_wanted) {
   for (const std::string_view part : parts) {
@@ -26,7 +26,7 @@ inline testing::AssertionResult begins_with(std::string_view text, std::string_v
   return testing::AssertionFailure() << '"' << part << "\" does not begin\n" << text;
 }
 
-/// What was expected; ends the test with the reason where it is refused.
+/// Returns the expected value. If the outcome is an error, the test ends with its reason.
 template <class Expected>
 Expected checked(Expected outcome) {
   if (outcome) return outcome;
@@ -70,7 +70,7 @@ inline std::string replaced(std::string text, const std::string& from, const std
 
 }  // namespace polynya::tests
 
-/// EXPECT_HAS(text, part...): each part stands in the text. EXPECT_LACKS: none does.
+/// EXPECT_HAS(text, part...) checks that the text contains each part. EXPECT_LACKS checks that it contains none.
 #define EXPECT_HAS(text, ...) EXPECT_TRUE(::polynya::tests::has_parts(text, {__VA_ARGS__}, true))
 #define EXPECT_LACKS(text, ...) EXPECT_TRUE(::polynya::tests::has_parts(text, {__VA_ARGS__}, false))
 #define EXPECT_BEGINS(text, part) EXPECT_TRUE(::polynya::tests::begins_with(text, part))

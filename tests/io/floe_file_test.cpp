@@ -1,4 +1,4 @@
-// Floe files of scenes whose coordinates are no metres, or whose floes are those of a run.
+// Floe files of scenes whose coordinates are not in metres, or whose floes come from a run.
 #include <algorithm>
 
 #include "scene_text.hpp"
@@ -17,7 +17,7 @@ using namespace tests;
 
 class FloeFile : public testing::Test {
  protected:
-  /// The scene of that floe file; with more members of the file's entry, and of the scene.
+  /// Reads a scene with the given floe file, optionally with further members of the file's entry and of the scene.
   SceneOutcome read_file(const std::string& geojson, const std::string& entry = "",
                          const std::string& more = "") const {
     write_file(folder / "floes.geojson", geojson);
@@ -36,7 +36,7 @@ class FloeFile : public testing::Test {
 
 const std::string kOrigin = R"("origin": {"latitude_deg": 78.2, "longitude_deg": 15.6}, )";
 
-/// A square floe; its side in the units of its corner.
+/// Returns a square floe. Its side is in the units of its corner.
 std::string floe(double x, double y, double side, const std::string& properties = "") {
   return fmt::format(R"({{"type":"Feature","properties":{{{}}},"geometry":{{"type":"Polygon","coordinates":)"
                      R"([[[{},{}],[{},{}],[{},{}],[{},{}],[{},{}]]]}}}})",
@@ -185,7 +185,7 @@ TEST_F(FloeFile, AnImportRepairsTrimsAndReports) {
   EXPECT_HAS(problems(floes, R"(, "import": {})"), "self-crossing", R"("repair": "non-zero")");
 }
 
-// ---- ice of their own: what it reads as, what it is drawn from, and what is refused
+// ---- ice properties of single floes: reading, drawing from distributions, and refused input
 
 SceneOutcome read_ice(const std::string& ice, int columns = 1, const std::string& members = "") {
   return read(fmt::format(
@@ -262,7 +262,7 @@ TEST_F(FloeFile, FeaturesGiveTheirIceBeforeTheEntryAndTheScene) {
   expect_reads_back(loaded);
 }
 
-/// Of each floe its ice; corners that round to one point far from the origin once.
+/// The file keeps the ice of each floe. Corners far from the origin that round to one point appear once.
 TEST_F(FloeFile, WhatARunWritesReadsBack) {
   const LoadedScene loaded =
       sound(collection({floe(0, 0, 400, R"("thickness_m":0.9,"density_kg_per_m3":870)"), floe(1000, 0, 400)}));

@@ -87,7 +87,7 @@ tl::expected<FloeShapes, std::string> read_lines(const std::string& text) {
   return shapes;
 }
 
-/// Bit by bit; a text has one zero.
+/// Compares bit by bit, except that a text has only one zero.
 bool are_same(const Ring& a, const Ring& b) {
   return std::ranges::equal(a, b, [](Point p, Point q) {
     const double one[]{p.x + 0.0, p.y + 0.0};
@@ -124,7 +124,7 @@ TEST(FloeShapes, ReadBackToTheBitWhateverTheCuts) {
   EXPECT_GT(holed, 30);
 }
 
-/// A line has no vertex twice that the parent has once, and a vertex as new only if the parent has none left.
+/// A line repeats no vertex that the parent has once, and states a vertex as new only if the parent has none left.
 TEST(FloeShapes, ALineHoldsWhatIsNew) {
   std::mt19937 random(16);
   int lines = 0;
@@ -158,7 +158,7 @@ TEST(FloeShapes, ALineHoldsWhatIsNew) {
   EXPECT_GT(lines, 150);
 }
 
-/// A long boundary with a bite out of it costs the bite, wherever the rings start.
+/// A long boundary that loses a small part costs only the new vertices, wherever the rings start.
 TEST(FloeShapes, ABiteOutOfALongBoundaryIsAFewEntries) {
   Ring ring;
   for (int i = 0; i < 1000; ++i)
@@ -174,7 +174,8 @@ TEST(FloeShapes, ABiteOutOfALongBoundaryIsAFewEntries) {
   }
 }
 
-/// More boundary than is kept assembled (twelve million vertices of four), asked for from the end.
+/// The boundaries have twelve million vertices in all, of which four million are kept assembled. The test reads them
+/// from the end.
 TEST(FloeShapes, WhatWasAskedForLongAgoIsAssembledAgain) {
   Ring ring;
   for (int i = 0; i < 20000; ++i) ring.push_back({std::cos(3e-4 * i), std::sin(3e-4 * i)});

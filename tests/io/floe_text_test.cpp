@@ -182,7 +182,7 @@ TEST(FloeText, ATextWithoutContentHasNoFloes) {
     EXPECT_TRUE(floes_of(to_floe_text(nothing, format)).entries.empty());
 }
 
-/// A feature's properties are kept as they are written, without blanks and comments; so is the crs.
+/// The properties of a feature are kept as they are written, without blanks and comments, and so is the crs.
 TEST(FloeText, PropertiesAndCrsAreKeptAsWritten) {
   const FloeText floes = floes_of(R"({"type": "FeatureCollection",
     "crs": {"type": "name", "properties": {"name": "EPSG:3413"}}, "features": [
@@ -231,7 +231,8 @@ TEST(FloeText, WhatCannotBeReadIsToldWithItsPlace) {
   EXPECT_EQ(floes_of(nested).entries.front().refusal, "syntax");
 }
 
-/// Whatever bytes stand there, reading ends and tells; every truncation and many corruptions of a good text.
+/// Whatever bytes the text has, reading ends and returns a result. The test uses every truncation and many corruptions
+/// of valid texts.
 TEST(FloeText, AnyDamageIsSurvived) {
   const std::vector<std::string> good{
       R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"floe_id":3},"geometry":)"

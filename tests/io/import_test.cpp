@@ -1,4 +1,4 @@
-// Floes of files from elsewhere: where they come to in the plane, what is repaired, trimmed and refused.
+// Floes of files from other sources: their positions in the plane, and the floes that are repaired, trimmed or refused.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -43,7 +43,7 @@ PlaneSettings about(double latitude, double longitude, double heading = 90) {
   return settings;
 }
 
-/// Where none of the floes is refused by itself.
+/// Brings the floes into the plane. No floe may be refused by itself.
 tl::expected<PlaneReport, PlaneError> bring(std::vector<SourceFloe>& floes, const std::string& crs,
                                             const PlaneSettings& settings) {
   auto report = bring_to_plane(floes, {crs, {}}, settings);
@@ -217,7 +217,7 @@ TEST(Plane, AWrongNumberDoesNotMoveTheOriginThatIsChosen) {
   EXPECT_HAS(floes[2].refused, "With latitude and longitude exchanged");
 }
 
-/// A wrong number: of one vertex, or (the last two) of all of a floe.
+/// Number of kinds of damage. A kind is a wrong number in one vertex or, from kOtherHemisphere on, in all vertices.
 constexpr int kDamages = 8, kOtherHemisphere = 6;
 Point damaged(Point p, int kind) {
   const Point all[kDamages]{{p.x, 10 * p.y},     {p.x, p.y + 180},
@@ -227,8 +227,8 @@ Point damaged(Point p, int kind) {
   return all[kind];
 }
 
-/// Degrees, some of them wrong, never become metres: each floe is projected as it would be without the
-/// others, or refused by itself. A longitude and one turn more is the same meridian.
+/// Degrees, some of them wrong, never become metres. Each floe is projected as it would be without the others, or
+/// refused by itself. A longitude plus a full turn is the same meridian.
 TEST(FloeImport, WrongNumbersInDegreesRefuseTheirFloesAlone) {
   std::mt19937 dice(1);
   const auto draw = [&](int below) { return static_cast<int>(dice() % static_cast<unsigned>(below)); };

@@ -214,7 +214,8 @@ TEST(Checkpoints, RewindingRemovesWhatIsNewerAndTakesOneFromElsewhere) {
 
 // ---- files as they are written: whole, or with whole records, through no link that was put in their way
 
-/// Whether it holds in a process whose files may have 1000 bytes, which stands for a full disk.
+/// Returns whether the condition holds in a process whose files may have at most 1000 bytes, which simulates a full
+/// disk.
 bool on_full_disk(const std::function<bool()>& holds) {
   const pid_t child = fork();
   if (child == 0) {
@@ -256,7 +257,7 @@ TEST(OutputFile, ReplacesALinkOfARunFolderAndFollowsThoseThatAUserNamed) {
   EXPECT_FALSE(std::filesystem::is_symlink(folder / "link"));
   EXPECT_EQ(read_file(folder / "link"), "whole");
   EXPECT_EQ(read_file(folder / "target"), "named");
-  // Also to a file that is not there yet.
+  // The link may also point to a file that does not exist yet.
   write_file(folder / "elsewhere/other", "");
   std::filesystem::create_symlink("elsewhere/second", folder / "first");
   std::filesystem::create_symlink("target", folder / "elsewhere/second");

@@ -33,7 +33,7 @@ RunControl until(Holds holds) {
   return {.stop = [holds]() mutable { return holds() ? std::optional<std::string>("enough") : std::nullopt; }};
 }
 
-/// From its newest checkpoint the run in a folder ends as that in `whole`.
+/// Checks that the run in the folder, resumed from its newest checkpoint, ends like the run in `whole`.
 void expect_resumes_to(const TemporaryFolder& folder, const LoadedScene& scene) {
   const auto checkpoints = checkpoints_in(folder / "run");
   ASSERT_FALSE(checkpoints.empty());
@@ -88,7 +88,7 @@ TEST(RunLoop, AStoppedRunIsResumedToTheSameBytes) {
   expect_resumes_to(folder, small);
 }
 
-/// A run that ends early, or is stopped, goes on to a later end as if it had not ended.
+/// A run that ends early, or is stopped, continues to a later end as if it had not ended.
 TEST(RunLoop, AnEarlierEndLeavesNoTraceInALongerRun) {
   const TemporaryFolder folder;
   const LoadedScene longer = small_scene();
@@ -126,7 +126,7 @@ TEST(RunLoop, ANumericalFailureAndALostFolderAreResults) {
   EXPECT_HAS(displaced.reason, "removed, moved or replaced");
 }
 
-/// Of many floes final.geojson is written on request; how long the files become is known before.
+/// For many floes final.geojson is written on request only. The size of the files is predicted.
 TEST(RunLoop, ALargeFinalGeojsonIsWrittenOnRequestAlone) {
   const TemporaryFolder folder;
   const LoadedScene many = load(scene(

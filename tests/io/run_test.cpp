@@ -1,4 +1,4 @@
-// What a run writes reads back; what is damaged is refused with its line.
+// The files of a run are read back as they were written. Damaged files are refused with the number of the line.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -25,7 +25,7 @@ namespace {
 
 using namespace tests;
 
-// A ship that breaks a plate and pushes a floe, in drifting water: every file has something to say.
+// A ship breaks a plate and pushes a floe in drifting water, so that every file has content.
 const std::string kScene = R"({
   "name": "small", "time": {"step_s": 0.01, "until_s": 8}, "water": {"drift_m_per_s": [0.02, -0.01]},
   "record": {"forces_interval_s": 0.1, "frames_interval_s": 0.5, "contacts": "all"},
@@ -49,7 +49,7 @@ struct Recorded {
   std::vector<simulation::PanelSample> panels;
 };
 
-/// Runs the scene into a folder and keeps what it recorded.
+/// Runs the scene into a folder and returns its records.
 Recorded write_run(const LoadedScene& scene, const std::filesystem::path& folder) {
   Recorded recorded;
   simulation::Simulation simulation(scene.scene);
@@ -131,7 +131,7 @@ TEST(Run, AnEventOfASplitStatesAndReadsBackBothSides) {
   EXPECT_EQ(again("\"collision force > splitting force\""), 11e6);
 }
 
-/// Of which an arc is no number where there is no waterline.
+/// Returns the fields of a contact. Without a waterline the arc is not a number.
 std::vector<double> fields_of(const simulation::ContactState& state) {
   std::vector<double> fields{static_cast<double>(state.on.ship), static_cast<double>(state.on.floe),
                              static_cast<double>(state.by.ship), static_cast<double>(state.by.floe)};
@@ -314,7 +314,7 @@ TEST(EventFields, OfWrongValuesAreRefusedByTheirNames) {
     EXPECT_EQ(refusal(from, to), message);
 }
 
-/// Who lives is known by births and events; where, by frames.
+/// Births and events state which floes exist. Frames state where they are.
 TEST_F(RunFiles, WhoLivesWhereAtEveryFrame) {
   const io::Run run = read();
   const MotionIndex motions(run);
@@ -397,7 +397,7 @@ TEST_F(RunFiles, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_HAS(refusal(run_file::kStates, "t_s,steps,state_hash\n0,0,00\n"), "states.csv:2: \"00\" is not a hash");
 }
 
-/// Version 1 wrote every shape whole, and no version.
+/// Version 1 wrote every shape whole, and did not write its version.
 TEST_F(RunFiles, OfVersionOneReadTheSameAndOfALaterOneNot) {
   std::string lines;
   for (const simulation::Birth& birth : recorded.births) append_birth(lines, birth, nullptr);
@@ -412,7 +412,7 @@ TEST_F(RunFiles, OfVersionOneReadTheSameAndOfALaterOneNot) {
              R"(summary.json:3:21: folder_version: found "3", allowed: a number)");
 }
 
-/// Level ice: every cusp leaves the same plate with a longer boundary. Later lines are as short as early ones.
+/// In level ice every cusp leaves the same plate with a longer boundary. Later lines must be as short as early ones.
 TEST(Run, FloesGrowWithTheIceThatIsNewNotWithThePlate) {
   const TemporaryFolder folder;
   const LoadedScene scene = load(
@@ -459,7 +459,8 @@ TEST_F(RunFiles, TheSummaryHasItsKeys) {
 
 // ---- what causes the forces on a ship, against the columns of forces.csv
 
-/// What the parts of each direction add up to; a share counts in the column that contains it.
+/// Returns the sum of the parts in each direction. A cause that is a share of another column counts in that
+/// column.
 std::map<std::string_view, double> sums(const simulation::HullSample& row) {
   std::map<std::string_view, double> sums;
   for (const ForceCause& cause : force_causes())
@@ -516,9 +517,9 @@ TEST(ForceCauses, AreShownWhereAShipHasThem) {
   EXPECT_TRUE(has("surge_from_ships_N"));
 }
 
-// ---- ice that goes under a hull, read back: what is under, what came up, and thinned frames
+// ---- ice under a hull, read back: submerged pieces, surfaced pieces, and thinned frames
 
-/// 33 s into a small plate, in drifting water: what is under the hull moves.
+/// A run of 33 s into a small plate, in drifting water. Pieces under the hull move.
 class UnderHullRun : public testing::Test {
  protected:
   static void SetUpTestSuite() {

@@ -11,7 +11,7 @@ namespace {
 
 using namespace tests;
 
-// Between them these choose every alternative of the field table.
+// Together these texts choose every alternative of the field table.
 const std::string kFirst = scene(
     {list("ships", {ship(R"("position_m": [-500, 0], "sway_speed_m_per_s": 0.1, "yaw_rate_deg_per_s": 0.2)")}),
      list("floes", {R"({"lattice": {"columns": 2, "rows": 3, "pitch_m": 20, "size_m": 10}, "crushed_overlaps": true,
@@ -87,12 +87,12 @@ const std::string kSeventh = scene(
                     R"({"channel": {"centreline_m": [[0, 240], [60, 240]], "width_m": 30, "thickness_m": 0.8,
       "sizes": {"exponent": 1, "least_m": 2, "largest_m": 5}}})"})});
 
-/// A frozen channel.
+/// A scene with a frozen channel.
 const std::string kEighth =
     scene({list("floes", {R"({"channel": {"centreline_m": [[0, 0], [120, 0]], "width_m": 30, "thickness_m": 0.8,
       "consolidated_thickness_m": 0.2}})"})});
 
-/// One ship for each other pilot.
+/// Returns ships that together have all other pilots.
 std::string fleet() {
   std::vector<std::string> ships;
   for (const char* pilot :
@@ -233,7 +233,8 @@ TEST(SceneFields, DefaultsAreTheSimulations) {
   EXPECT_TRUE(settings == simulation::Scene{});
 }
 
-/// What is kept in radians and newtons is written as it was given: resolved scenes and their hashes rest on it.
+/// Values that are stored in radians and newtons are written as they were given, because resolved scenes and their
+/// hashes depend on it.
 TEST(SceneFields, NumbersInTheUnitsOfTheirKeysAreWrittenAsTheyWereGiven) {
   for (const std::string_view unit : {"°", "°/s", "kN", "MW", "m"})
     for (int i = -2000; i <= 2000; ++i) {

@@ -1,4 +1,4 @@
-// What is wrong with scenes: each problem at its place, with what was found and what would do.
+// Problems of scenes: each is reported at its place, with the value that was found and the values that are allowed.
 #include <functional>
 #include <map>
 
@@ -130,7 +130,7 @@ struct KindOfScene {
   std::string path;
 };
 
-/// Of one floe entry or one ship, what is given between two parts of its text.
+/// Makes a scene with one floe entry or one ship. The given members are inserted between the two parts of its text.
 KindOfScene floe_kind(const std::string& begin, const std::string& end, const std::string& path) {
   return {[=](const std::string& members) { return scene({list("floes", {begin + members + end})}); },
           "floes[0]" + path};
@@ -149,7 +149,7 @@ std::string route(const std::string& waypoints) {
                 R"("structures": [{"name": "tower", "radius_m": 20, "position_m": [600, 0]}])"});
 }
 
-/// One ship or two that manage the ice about a tower, or another body.
+/// Returns a scene with one or two ships that manage the ice about a tower, or about another body.
 std::string fleet(const std::string& first, const std::string& second = "") {
   std::vector<std::string> ships;
   for (const std::string& pilot : {first, second}) {
@@ -165,7 +165,7 @@ std::string fleet(const std::string& first, const std::string& second = "") {
                 R"("walls": [{"name": "quay", "from_m": [0, -3000], "to_m": [100, -3000]}])"});
 }
 
-/// What is given stands in a scene beside one thing.
+/// Makes a scene in which the given members are beside one other member.
 KindOfScene scene_kind(const std::string& begin, const std::string& end = "", const std::string& path = "") {
   return {[=](const std::string& members) { return "{" + begin + members + end + "}"; }, path};
 }
@@ -314,8 +314,8 @@ TEST(SceneProblems, OfFlowsOverTime) {
   load(with(R"("water": {"drift_table": )" + rows(60) + R"(}, "wind": {"table": )" + rows(60) + "}"));
 }
 
-/// A field of ice takes long to make: what is wrong without it is reported before, and what is wrong with the
-/// ice after that.
+/// Making a field of ice takes long. Problems that do not depend on the ice are therefore reported before, and problems
+/// of the ice after it.
 TEST(SceneProblems, WhatNeedsNoIceIsFoundBeforeAFieldIsMade) {
   const std::string ice = list("floes", {R"({"field": {"corner_m": [-100, -100], "extent_m": [200, 200],
       "concentration": 0.7, "floe_size_m": 20}})",
@@ -348,7 +348,7 @@ TEST(SceneProblems, ALongKeyIsShortenedBetweenTwoCharacters) {
   EXPECT_HAS(to_string(problems[0]), "éé…: found an unknown key");
 }
 
-/// The scene.json of a run is the resolved scene: whatever is read must fit into what can be read again.
+/// The scene.json of a run is the resolved scene, so every accepted scene must be readable again after it was written.
 TEST(SceneProblems, ASceneThatCouldNotBeReadBackIsRefused) {
   const TemporaryFolder folder;
   write_file(folder / "f.geojson", R"({"type": "Polygon", "coordinates": [[[0,0],[1000,0],[0,1000],[0,0]]]})");
@@ -371,7 +371,7 @@ struct Change {
 };
 using Changes = std::vector<Change>;
 
-// Nothing to remark. One line each, so that a hint's line is its ship's.
+// Returns the hints for a scene that has no fault. Each ship is on one line, so that a hint's line identifies its ship.
 std::vector<Problem> hints_of(const Changes& changes) {
   std::string text =
       R"({"time": {"until_s": 100}, "ice": {"thickness_m": 0.5}, "water": {"drift_m_per_s": [0.1, 0]},
@@ -390,7 +390,7 @@ std::vector<Problem> hints_of(const Changes& changes) {
 
 const Change kTurned{"\"heading_deg\": 0", "\"heading_deg\": 180"};
 
-/// "LINE: severity: path: " and further words of the one hint.
+/// Returns "LINE: severity: path: " and further words of the only hint.
 TEST(SceneHints, HaveAPlaceASeverityAndNumbers) {
   struct Row {
     Changes changes;
@@ -466,8 +466,8 @@ TEST(SceneHints, HaveAPlaceASeverityAndNumbers) {
   }
 }
 
-/// Where a hint could be wrong there is none: the ice drifts after the ship, or moves by itself; the
-/// structure stands beside the course, or after its end.
+/// No hint is given if it could be wrong: the ice drifts after the ship, or moves by itself, or the structure is beside
+/// the course or after its end.
 TEST(SceneHints, AreSilentWhereTheSceneMayMeanIt) {
   for (const Changes& changes :
        {Changes{}, Changes{{"[0.1, 0]", "[-2.5, 0]"}, kTurned},

@@ -1,4 +1,4 @@
-// What scenes read as: floes, files, fields, walls of ice, and values in place of the scene's own.
+// Reading scenes: floes, files, fields, walls of ice, and values that replace values of the scene.
 #include <cmath>
 #include <filesystem>
 
@@ -269,7 +269,8 @@ TEST(SceneAssign, SaysWhatJsonWantsInPlaceOfWhatIsNotJson) {
   EXPECT_EQ(checked(with_values({"description=.05"}))->description, ".05");
 }
 
-/// Of two options, the problem of the second is the second's; what the scene itself has stays the scene's.
+/// A problem of the second of two options is reported for the second option. A problem of the scene itself is reported
+/// for the scene.
 TEST(SceneAssign, KeepsThePlacesOfSceneOptionsAndCasesApart) {
   const auto problems = refused(with_values({"seed=1", "ice.friction=nine"}, "{\n  \"ice\": {\"thickness_m\": -1}\n}"));
   ASSERT_EQ(problems.size(), 2U);

@@ -15,7 +15,8 @@
 /// Scenes as texts, made of a base and what a test changes of it.
 namespace polynya::tests {
 
-/// Puts the members of a change into a base: objects are merged, but for kinds of propulsion; null removes.
+/// Merges the members of a change into a base. Objects are merged except for kinds of propulsion, and null removes a
+/// member.
 inline void merge(io::JsonValue& base, const io::JsonValue& change) {
   for (const io::JsonMember& member : change.members()) {
     io::JsonValue* old = base.find(member.key);
@@ -47,7 +48,7 @@ inline std::string ship(const std::string& members = "") {
               members);
 }
 
-/// An engine and a form whose displacement gives the mass.
+/// Returns a ship with an engine and a form whose displacement gives its mass.
 inline std::string sailing_ship(const std::string& members = "") {
   return with(ship(R"("mass_kg": null, "moment_of_inertia_kg_m2": null, "position_m": null,
     "hull": {"draught_m": 6, "block_coefficient": 0.58},
@@ -97,7 +98,7 @@ inline void expect_reads_back(const io::LoadedScene& loaded) {
   EXPECT_TRUE(again.scene == loaded.scene);
 }
 
-/// A scene with one thing wrong: the place of its first problem, and what its message has.
+/// A scene with one fault, the place of its first problem, and the expected parts of its message.
 struct WrongScene {
   std::string text, path, message;
   std::size_t problems = 1;

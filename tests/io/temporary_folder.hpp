@@ -9,7 +9,7 @@
 
 namespace polynya::tests {
 
-/// A folder of its own for one test, gone afterwards.
+/// A folder for a single test, which is removed afterwards.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -37,7 +37,7 @@ SWAPPED = {"+": ("-", "sign"), "-": ("+", "sign"), "+=": ("-=", "sign"), "-=": (
            "<": ("<=", "comparison"), "<=": ("<", "comparison"), ">": (">=", "comparison"), ">=": (">", "comparison"),
            "min": ("max", "bound"), "max": ("min", "bound")}
 REVERSED = {"<": ">", "<=": ">=", ">": "<", ">=": "<="}
-# Lines that are no code, or whose numbers count things that are there.
+# Lines without code, or whose numbers count existing things.
 SKIPPED = re.compile(r"^\s*(#|//|/\*|\*|namespace|using|template|static_assert|friend|enum|case|struct|class|inline "
                      r"constexpr std::(int|uint))|assert\(|reserve\(|std::get<|fmt::|\.fail\(|require\(")
 

@@ -1,5 +1,5 @@
-// No body passes through another: at the end of a run no two share more ice than what was crushed there, and
-// 1 % of the smaller floe's area.
+// No body passes through another. At the end of a run the overlap of two bodies is at most the ice that was crushed
+// there plus 1 % of the area of the smaller floe.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -32,7 +32,7 @@ using simulation::scenes::Build;
 
 constexpr double kRegion = 110;  ///< bodies are within half of it of the origin [m]
 
-/// Of a thickness t.
+/// Returns an arch of thickness t.
 Polygon arch(double width, double height, double t) {
   const double x = 0.5 * width;
   return {{{-x, 0}, {x, 0}, {x, height}, {x - t, height}, {x - t, t}, {t - x, t}, {t - x, height}, {-x, height}}, {}};
@@ -206,7 +206,7 @@ Passed measure(const Simulation& run) {
       // The contacts of a floe that was cut from another in this step are found in the next.
       if (!is_new(run, a.body) && !is_new(run, b.body) && !pressing.contains(pair_of(a.body, b.body)))
         passed.parted.take(shared / smaller.area, where);
-      // A contact is found, and what has pressed is known, a step late.
+      // A contact is found one step late, and so is the ice that it has crushed.
       const double late =
           run.scene().time.step * length(a.velocity - b.velocity) * length(smaller.box.high - smaller.box.low);
       if (a.body.ship >= 0) passed.covered.take((shared - late) / smaller.area, where);
@@ -234,7 +234,7 @@ int scene_count() {
   return given ? std::atoi(given) : 20;
 }
 
-/// And by the law of crushing ice none keeps what it crushed.
+/// With the crushing law no random scene ends with an overlap larger than the crushed ice.
 TEST(Passing, NoRandomSceneEndsWithMoreOverlapThanWasCrushed) {
   std::int64_t ground = 0;
   for (int seed = 0; seed < scene_count(); ++seed) {

@@ -25,7 +25,7 @@ ICE = {
     "fracture": {"cusp_fate": "float"},
     "floes": [{"rectangle": {"corner_m": [0, -40], "size_m": [120, 80]}}],
 }
-# Small, with ice that goes under it.
+# A small ship with ice that goes under it.
 TUG = {**BREAKER, "hull": {"length_m": 30, "beam_m": 12, "entrance_angle_deg": 30, "draught_m": 4,
                            "stem_angle_deg": 25},
        "mass_kg": 2e6, "moment_of_inertia_kg_m2": 2e8, "position_m": [-16, 1]}

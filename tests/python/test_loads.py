@@ -76,7 +76,7 @@ def test_a_refuted_fit_gives_no_return_value_and_says_why():
     assert found.used is None and len(found.fits) == 1 and "do not follow the fitted tail" in found.why
     for given in loads.estimate.returns(two_kinds, least=5e4):
         assert given.value_N is None and "refuted" in given.why
-        assert 8e5 < given.seen_low_N  # without a fit, from what was seen
+        assert 8e5 < given.seen_low_N  # read from the observed peaks, without a fit
     higher = loads.estimate.estimate(two_kinds)  # the refuted thresholds are kept beside the one that is used
     assert higher.fits[0].refuted and (higher.used is None or higher.used.tail.threshold > 1e5)
 

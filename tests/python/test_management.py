@@ -53,7 +53,7 @@ def test_where_nobody_breaks_gates_pass_what_was_put_in(drifting):
     for passage in passages(drifting, gates_of(drifting, GATES)):
         assert numpy.array_equal(numpy.sort(passage.areas), areas)
         assert numpy.all(numpy.abs(passage.across) < 150)
-    # Through half of the width goes half of it, to counting error.
+    # Half of the floes pass through half of the width, within the counting error.
     for passage in passages(drifting, gates_of(drifting, {**GATES, "width_m": 150})):
         count = len(areas) / 2
         assert abs(len(passage.areas) - count) < 3 * math.sqrt(count)
@@ -119,7 +119,7 @@ def test_the_managed_width_is_what_large_floes_leave():
                                      numpy.array([y for y, _ in floes]), numpy.array([size**2 for _, size in floes]), 1)
     assert managed_width(passage((0, 19)), gates) == 80
     assert managed_width(passage((0, 21)), gates) == 0
-    # From −40 to 25, less the bins that the floe's edge at 15 touches.
+    # The range is −40 to 25, without the bins that the edge of the floe at 15 touches.
     assert managed_width(passage((25, 20.0), (-3, 5)), gates) == pytest.approx(40 + 14, abs=2)
 
 

@@ -108,7 +108,7 @@ def test_a_case_whose_run_crashes_has_failed(folder):
 
 def test_workers_whose_parent_is_killed_stop_their_runs_also_in_the_background(folder):
     run = planned(folder, set=LONG | {"time.step_s": 0.0005}) / "cases/000000/run"
-    # As a batch script starts it: a background job of a shell, which ignores SIGINT.
+    # A batch script starts a study in this way: as a background job of a shell, which ignores SIGINT.
     command = f"{sys.executable} -m polynya.study run studies/s --jobs 1 2>/dev/null & echo $!; wait"
     shell = subprocess.Popen(["bash", "-c", command], stdout=subprocess.PIPE, text=True)
     parent = int(shell.stdout.readline())
@@ -227,7 +227,7 @@ def test_measures_are_those_of_the_run(folder):
     assert float(row["distance_m"]) == pytest.approx(25, abs=0.11)
     assert float(row["time_to_port_s"]) == pytest.approx(10, abs=0.11) and row["time_to_never_s"] == ""
     assert float(row["time_to_far_s"]) == pytest.approx(20, abs=0.11)
-    # What holds the ship to its speed is what the ice takes from it.
+    # The energy that keeps the ship at its speed equals the energy that the ice takes from it.
     assert float(row["energy_per_km_J"]) == pytest.approx(1000 * float(row["resistance_mean_N"]), rel=1e-6)
 
 

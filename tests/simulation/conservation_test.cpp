@@ -1,5 +1,5 @@
-// What a fracture keeps, by both laws: mass, momentum, angular momentum, area; who came from whom; and that
-// energy and momentum at the end are those of the accounts.
+// Quantities that a fracture conserves, with both laws: mass, momentum, angular momentum and area. Parents and children
+// are consistent, and energy and momentum at the end equal those of the accounts.
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -18,7 +18,7 @@ namespace {
 using namespace scenes;
 using geometry::Vector;
 
-/// A moving, turning plate broken by a free ship, by bending and by splitting.
+/// Returns a moving, turning plate that a free ship breaks by bending and by splitting.
 Build breaking_scene(Laws laws, CuspFate fate) {
   Build scene = Build(laws)
                     .without_drag()
@@ -88,7 +88,8 @@ TEST(Fracture, PiecesMoveOnAsThePartsOfOneBody) {
   }
 }
 
-/// Every floe has the parent and the event that it came from, and the parts of a floe are all of it.
+/// Checks that every floe has the parent and the event that it came from, and that the parts of a floe add up to the
+/// whole.
 void expect_lineage(const Trial& run) {
   std::map<FloeId, Birth> births;
   for (const Birth& birth : run.story.births) ASSERT_TRUE(births.emplace(birth.floe, birth).second) << "born twice";
@@ -233,7 +234,8 @@ TEST(EveryAlarm, IsRaisedByTwiceItsToleranceAndNotByHalf) {
   }
 }
 
-/// What cancels counts: floes whose momenta do, and floes that only spin, meet and stop with no outer impulse at all.
+/// Momenta that cancel are accounted for. Floes whose momenta add up to zero, and floes that only spin, meet and stop
+/// without any outer impulse.
 TEST(EveryAlarm, IsNotRaisedByMomentaThatCancel) {
   for (const Laws laws : kBothLaws) {
     for (const double spin : {0.0, 0.1}) {

@@ -1,5 +1,5 @@
-// Contacts as they are recorded: with ice they explain the loads on ships and the motion of floes, with other
-// ships they are kept apart; and overlaps that no contact takes away are ground to brash.
+// Recorded contacts. Contacts with ice explain the loads on ships and the motion of floes, and contacts with other
+// ships are recorded separately. Overlaps that no contact removes are ground to brash.
 #include <algorithm>
 #include <map>
 #include <numbers>
@@ -22,7 +22,7 @@ Scene pack(RecordedContacts contacts) {
   return scene;
 }
 
-/// A floe of 100 m comes onto a pile of 1 m radius at 1 m/s. Its energy crushes more ice than the pile is wide.
+/// A floe of 100 m drifts onto a pile of 1 m radius at 1 m/s. Its energy crushes more ice than the pile is wide.
 TEST(RigidImpulses, LetAFloePassThroughAPileAtAnyStepAndCountIt) {
   const auto passing_steps = [](Laws laws, double speed, double step) {
     Build scene = Build(laws).step(step).without_drag().unbreakable().pile({0, 0}, 1).floe(
@@ -36,8 +36,8 @@ TEST(RigidImpulses, LetAFloePassThroughAPileAtAnyStepAndCountIt) {
   EXPECT_EQ(passing_steps(Laws::kDefault, 1, 0.05), 0) << "what is crushed is cut off";
 }
 
-/// Two floes that spin, without friction: 1.2 % of energy came from their collision when restitution gave back impulses
-/// alone.
+/// Two floes spin and collide without friction. Their collision gained 1.2 % of energy when restitution gave back
+/// impulses alone.
 TEST(RigidImpulses, GiveBackNoMoreThanTheyTookAndCrushNoNegativeWork) {
   for (int k = 0; k < 60; ++k) {
     const double restitution = 0.5 * (k % 3);
@@ -100,7 +100,7 @@ TEST(Contacts, OfAShipAddUpToItsLoadInTheStep) {
   EXPECT_TRUE(has_crushed);
 }
 
-/// Nothing else pushes a floe where there is no drag: Newton's second law, floe by floe and step by step.
+/// Without drag, contacts are the only forces on a floe. The test checks Newton's second law for each floe and step.
 TEST(Contacts, BetweenFloesTooExplainHowEachFloeMoves) {
   Scene scene = pack(RecordedContacts::kAll);
   scene.fracture.breakable_size_factor = 1e6;
@@ -202,7 +202,8 @@ TEST(ShipContacts, WithIceBetweenTheTwoLoadsAddUpToTheMotion) {
 }
 
 TEST(ShipContacts, OfPrescribedMotionsAreRecorded) {
-  // The pile stands off the course by this much: every step length and place finds the touch, none beside it.
+  // The pile is at this distance from the course. Every step length and place finds the touch, and none finds one
+  // beside it.
   for (const double step : {0.005, 0.013, 0.05}) {
     for (const double off : {-18.0, -16.9, -12.0, -3.7, 0.0, 5.0, 12.0, 16.9, 17.1, 30.0}) {
       const Story story =
@@ -240,7 +241,8 @@ Trial after_one_step(const Scene& scene) {
   return run(scene, scene.time.step);
 }
 
-/// An outline that cuts is larger by this share about its centre, so that what is left does not touch it.
+/// Fraction by which an outline that cuts is enlarged about its centre, so that the remaining ice does not touch it
+/// [-].
 constexpr double kClearance = 1e-6;
 
 TEST(Grind, APlankThroughAStripBecomesTwoAndTheOverlapBrash) {
@@ -344,7 +346,7 @@ TEST(Waterline, ArcsAreFromTheStemToPort) {
   EXPECT_NEAR(arc_at(wedge, {30 - flank * std::cos(30 * kDegree), -7}), -flank, 1e-9);
   EXPECT_NEAR(arc_at(wedge, {-20, 7.3}), flank + 50 - flank * std::cos(30 * kDegree), 1e-9);
   EXPECT_NEAR(std::abs(arc_at(wedge, {-30, 0})), wedge.length / 2, 1e-9);
-  // Of a foremost edge the middle is the stem, wherever the ring begins.
+  // If the foremost part of a ring is an edge, the stem is the middle of that edge, wherever the ring begins.
   geometry::Ring box{{-10, -4}, {10, -4}, {10, 6}, {-10, 6}};
   for (int turn = 0; turn < 4; ++turn) {
     const Waterline line = waterline_of(box);
@@ -372,7 +374,7 @@ TEST(LoadPeaks, OfAnEdgeOnACylinderAreThoseOfTheClosedForm) {
       scene.record.peak_response = 0;
       const Trial done = run(scene, 0.5);
       const ContactState peak = only(done.story.peaks).state;
-      const double error = step > 2e-3 ? 0.03 : 0.01;  // F is that of the deepest overlap at a step's begin
+      const double error = step > 2e-3 ? 0.03 : 0.01;  // F belongs to the deepest overlap at a step's begin
       EXPECT_NEAR(length(peak.force) / 2.766e6, 1, error) << step << " " << circle_radius;
       EXPECT_NEAR(peak.width / (2 * std::sqrt(2 * 10 * 0.0488)), 1, error);
       EXPECT_NEAR(peak.pressure / scene.ice.compressive_strength, 1, error);
@@ -381,7 +383,7 @@ TEST(LoadPeaks, OfAnEdgeOnACylinderAreThoseOfTheClosedForm) {
       EXPECT_EQ(peak.height, scene.ice.thickness);
       EXPECT_EQ(peak.thickness, scene.ice.thickness);
       EXPECT_EQ(peak.ended_by, PeakEnd::kSlip);
-      // The panels from 14 to 17 m bear it: that in the middle all that its metre of ice carries.
+      // The panels from 14 to 17 m carry the load. The middle one carries the full strength of its metre of ice.
       double middle = 0;
       for (const PanelSample& panel : done.story.panels) {
         EXPECT_GE(panel.column, 14);
@@ -409,8 +411,8 @@ std::vector<std::size_t> peaks_of(const std::vector<double>& force) {
   return peaks;
 }
 
-/// Floes in a lane run onto a pile one after the other: the first of them bears all their blows. With a gauge of time
-/// constant τ that is between the contact and its record, dF/dt = (force - F)/τ.
+/// Floes in a lane run onto a pile one after the other, and the first of them transmits all impacts. If a gauge has the
+/// time constant τ, its reading F follows dF/dt = (force - F)/τ, and the record contains F.
 TEST(LoadPeaks, AreThoseBetweenTwoTimesBelowHalf) {
   for (const double time_constant : {0.0, 0.05}) {
     Build scene = Build().unbreakable().without_drag().step(0.01).pile({0, 0}, 3);
@@ -471,8 +473,9 @@ TEST(LoadPeaks, BelowTheScenesLeastAreCounted) {
             std::ssize(all.story.peaks) - std::ssize(expected));
 }
 
-/// Those above and below all rows included. Over the run: in a record they may differ by what was missed before
-/// contacts were found, which each panel and the hull book later (CarriedLoad).
+/// The sum includes the rows above and below all panels. It holds over the whole run. In a single record the sums may
+/// differ by the load that was missed before a contact was found, which each panel and the hull book later
+/// (CarriedLoad).
 TEST(Panels, AddUpToTheForceOfTheIce) {
   for (const Laws laws : kBothLaws) {
     const Trial done = run(pack(laws), 20);

@@ -36,7 +36,7 @@ struct Stop {
   double mass = 0;        ///< [kg]
 };
 
-/// `gap`: before the floe touches [m].
+/// `gap` is the distance of the floe before it touches [m].
 Stop stop_of(const Scene& scene, double gap) {
   Simulation simulation(scene);
   Stop stop;
@@ -52,12 +52,11 @@ Stop stop_of(const Scene& scene, double gap) {
   return stop;
 }
 
-/// 2 σ_c h: of a right corner [N/m], and of a face of 2 m its force [N].
+/// 2 σ_c h: stiffness of a right corner [N/m]; for a face of 2 m, its force [N].
 constexpr double kStiffness = 2 * 2.8e6 * 0.5;
 
-/// A right corner: F = σ_c h dS/dξ = 2 σ_c h ξ, S = ξ², so it stops as half a swing of a spring:
-/// depth v √(m/2σ_c h), time π/2 √(m/2σ_c h), peak v √(2σ_c h m).
-/// A face of 2 m presses with a constant force.
+/// For a right corner F = σ_c h dS/dξ = 2 σ_c h ξ and S = ξ². It stops like half a swing of a spring: depth v √(m/2σ_c
+/// h), time π/2 √(m/2σ_c h), peak v √(2σ_c h m). A face of 2 m presses with a constant force.
 TEST(CrushLaw, ACornerAndAFlatFaceStopAsTheirClosedFormsSay) {
   for (const double gap : {0.0001, 0.0021, 0.0034}) {
     const Stop corner = stop_of(floe_against_wall(square_on_its_corner(gap), 0.005), gap);
@@ -85,7 +84,7 @@ TEST(CrushLaw, TheErrorOfACornersStopHalvesWithTheStep) {
   EXPECT_LT(error(0.0025), 0.4 * error(0.01));
 }
 
-/// Nothing springs back: what the first brings, all share, and the rest of its energy has crushed ice.
+/// There is no rebound: all floes share the momentum of the first one, and the rest of its energy has crushed ice.
 TEST(CrushLaw, ALineOfFloesGoesOnTogether) {
   Build scene = Build().without_drag().grid({0, 0}, 5, 1, 10, 10.2);
   scene.floes[0].velocity = {1, 0};
@@ -102,8 +101,8 @@ TEST(CrushLaw, ALineOfFloesGoesOnTogether) {
   expect_closed(done.simulation);
 }
 
-/// A floe that meets a wall obliquely slides along it: as long as it slides, Coulomb's friction takes μ times
-/// what the wall takes of its speed across.
+/// A floe that meets a wall obliquely slides along it. While it slides, Coulomb's friction takes μ times the change of
+/// its speed normal to the wall.
 TEST(CrushLaw, FrictionOnAPlaneIsCoulombs) {
   for (const double friction : {0.05, 0.2, 0.4}) {
     Scene scene = Build()
@@ -112,14 +111,15 @@ TEST(CrushLaw, FrictionOnAPlaneIsCoulombs) {
                       .floe(rectangle(0.01, -3, 10.01, 3), {-1, 0.5});
     scene.ice.friction = friction;
     const FloeState state = run(scene, 0.1).simulation.floe_states()[0];
-    // It comes to rest, but for what it overlapped when it was found, at most a step's way: that is pushed apart.
+    // The floe comes to rest except for its initial overlap, which is at most the displacement of one step and is
+    // pushed apart.
     EXPECT_GE(state.velocity.x, -0.01) << friction;
     EXPECT_LE(state.velocity.x, 0.1) << friction;
     EXPECT_NEAR(state.velocity.y, 0.5 - friction * (1 + state.velocity.x), 0.02) << friction;
   }
 }
 
-/// The reference ship presses 15 m floes into a basin without a way out.
+/// The reference ship presses 15 m floes into a closed basin.
 TEST(CrushLaw, AJamIsSolvedAndItsContactsCreateNoEnergy) {
   Build scene = Build().step(0.01).ship(icebreaker({-1, 0}, ConstantSpeed{1}));
   for (const auto& wall : {rectangle(100, -60, 110, 60), rectangle(-1, 60, 110, 70), rectangle(-1, -70, 110, -60)})
@@ -201,7 +201,7 @@ Scene corner_into_bow(double hull_angle, double speed, double density, double st
   return scene;
 }
 
-/// From first contact to the end of the approach [s].
+/// Returns the time from the first contact to the end of the approach [s].
 double time_of_compression(const Scene& scene) {
   Simulation simulation(scene);
   double start = -1;
@@ -214,7 +214,7 @@ double time_of_compression(const Scene& scene) {
 }
 
 TEST(CrushingCollision, TakesMassToTheThirdOverSpeedToTheThirdAtAnInclinedHull) {
-  // F = k ξ²: the time of compression goes as (m / k v)^⅓.
+  // With F = k ξ² the time of compression is proportional to (m / k v)^⅓.
   const auto time = [](double speed, double density) {
     return time_of_compression(corner_into_bow(60 * kDegree, speed, density, 5e-4));
   };
@@ -271,9 +271,9 @@ TEST(CrushingCollision, LevelIceDependsOnTheRadiusALittle) {
 }
 
 TEST(CrushingCollision, ByCircleCentresIsFeltLaterByAShareOfTheRadius) {
-  // The paper's rule: a corner's circle keeps off its tip by a share of the radius, so that the first touch
-  // comes late by as much, and tends to the boundary's as the radius shrinks. Its normals do not: a row of
-  // circles is as bumpy at any radius.
+  // The paper's rule: the circle of a corner stays off its tip by a share of the radius. The first touch is therefore
+  // late by that share, and approaches the touch of the boundary as the radius shrinks. The normals do not converge,
+  // because a row of circles is equally bumpy at any radius.
   const auto depth_at_touch = [](double radius) {
     Scene scene = Build(Laws::kPaper)
                       .without_drag()
@@ -295,8 +295,8 @@ TEST(CrushingCollision, ByCircleCentresIsFeltLaterByAShareOfTheRadius) {
   EXPECT_NEAR(std::log(lags.front() / lags.back()) / std::log(32), 1, 0.3) << "its order";
 }
 
-/// A corner of 90° that comes onto a wall has F = 2 σ_c h ξ, so that it has given σ_c h ξ²/v at the depth ξ, wherever
-/// within a step it touches the wall.
+/// A corner of 90° that moves onto a wall has F = 2 σ_c h ξ. At the depth ξ it has given the impulse σ_c h ξ²/v,
+/// wherever within a step it touches the wall.
 TEST(CrushLaw, ACornerHasGivenTheImpulseOfItsDepthThoughItIsFoundLate) {
   const double speed = 0.5, step = 0.05, half = 60;
   for (const double share : {0.1, 0.5, 0.9}) {  // of the way of a step, at which the contact is found

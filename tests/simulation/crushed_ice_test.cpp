@@ -1,4 +1,4 @@
-// Hulls in fast ice, where nothing gives way: fast ice that drifts, or a ship that keeps its speed.
+// Hulls in fast ice, which does not give way: fast ice that drifts, or a ship that keeps its speed.
 #include <cmath>
 #include <numbers>
 
@@ -25,7 +25,7 @@ struct Drift {
 };
 constexpr Drift kDrifts[] = {{0.2, 0.05}, {0.2, 0.02}, {1, 0.05}, {1, 0.02}};
 
-/// A plate that comes to a structure about the origin, its edge at `edge`.
+/// Makes a plate that drifts onto a structure at the origin. The edge of the plate is at `edge`.
 Build drifting_onto(const geometry::Ring& hull, double edge, Drift drift) {
   return Build()
       .without_splits()
@@ -34,7 +34,7 @@ Build drifting_onto(const geometry::Ring& hull, double edge, Drift drift) {
       .floe(fast(rectangle(edge - 200, -40, edge, 40), {drift.speed, 0}));
 }
 
-/// What a run over the way gave, and whether no step pressed with more than `most` [N].
+/// Runs the scene over the distance kWay, and checks that no step presses with more than `most` [N].
 Trial over_the_way(const Scene& scene, double speed, double most) {
   Trial done = run(scene, kWay / speed, [&](const Simulation& simulation) {
     geometry::Vector force{};
@@ -47,8 +47,8 @@ Trial over_the_way(const Scene& scene, double speed, double most) {
   return done;
 }
 
-/// The load is σ_c h 2r where all of the front half is in the ice, so that the work is σ_c h times the area
-/// of the channel: of a cylinder 2r (s − r) + ½ π r²; of a flat face 2r s, from the first touch on.
+/// The load is σ_c h 2r if the front half is entirely in the ice. The work is then σ_c h times the area of the channel.
+/// This area is 2r (s − r) + ½ π r² for a cylinder, and 2r s for a flat face, from the first touch on.
 TEST(Prescribed, ACylinderAndAFlatFaceCrushTheChannelsThatTheyLeave) {
   const double load = kLineLoad * 2 * kRadius;
   const double of_cylinder = 2 * kRadius * (kWay - kRadius) + 0.5 * std::numbers::pi * kRadius * kRadius;
@@ -65,9 +65,9 @@ TEST(Prescribed, ACylinderAndAFlatFaceCrushTheChannelsThatTheyLeave) {
   }
 }
 
-/// A pile with a corner ahead is carved out of the ice again and again. Until the next carving the overlap is a band
-/// along its two flanks. After each step the volume on record has cost what it takes to crush it, but for the step in
-/// which the corner comes in.
+/// A pile with a corner ahead is carved out of the ice again and again. Between two carvings the overlap is a band
+/// along its two flanks. After each step, the volume on record matches the work that crushed it. The step in which the
+/// corner enters the ice is an exception.
 TEST(Prescribed, TheRecordOfACornersContactHasTheVolumeThatItsWorkCrushed) {
   const geometry::Ring diamond{{0.5, 0}, {0, 0.5}, {-0.5, 0}, {0, -0.5}};
   for (const double step : {0.1, 0.05}) {
@@ -119,8 +119,8 @@ TEST(Prescribed, TheLoadOfAShipThatKeepsItsSpeedHasItsPartByFriction) {
   }
 }
 
-/// Askew, nothing but the direction changes: the chord of the channel's head is across the motion, up to half
-/// of an edge of the polygon that stands for the cylinder.
+/// In an oblique drift only the direction changes. The chord of the channel's head is perpendicular to the motion, up
+/// to half an edge of the polygon that approximates the cylinder.
 TEST(Prescribed, ACylinderIsPushedAlongTheMotionOfTheIce) {
   Build scene = drifting_onto(cylinder_waterline(kRadius), -kRadius, {0.5, 0.05});
   scene.floes[0].velocity = {0.5, 0.2};
@@ -132,7 +132,7 @@ TEST(Prescribed, ACylinderIsPushedAlongTheMotionOfTheIce) {
   EXPECT_NEAR(std::atan2(force.sway, force.surge), std::atan2(0.2, 0.5), half_edge + 0.01);
 }
 
-/// Across all of its plate: where the cylinder has come out, there are two floes, and the smaller is free.
+/// The cylinder crosses the whole plate. Where it has left the plate there are two floes, and the smaller one is free.
 TEST(Prescribed, APlateThatIsCutThroughIsTwo) {
   const Trial done =
       run(Build().without_splits().step(0.05).pile({0, 0}, 2).floe(fast(rectangle(-32, -10, -2, 15), {1, 0})), 40);
@@ -191,7 +191,7 @@ Scene floe_past_pile() {
       .floe(rectangle(4, 9.6, 34, 39.6), {-4, 0});
 }
 
-/// A floe of 8 x 4 m between a vertical bow and a pier.
+/// Returns a floe of 8 x 4 m between a vertical bow and a pier.
 Scene squeezed_floe(Laws laws = Laws::kDefault) {
   return Build(laws)
       .unbreakable()

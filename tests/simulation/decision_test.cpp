@@ -34,8 +34,8 @@ TEST(Decision, AFloeSmallerThanTheBreakableSizeIsPushedNeverBroken) {
 }
 
 TEST(Decision, ThePapersPlateIsKnifeEdge) {
-  // A central hit at 1 m/s gives j/τ_c = 10.9 MN against F_s = 11 MN: a hit 2 % faster splits, one at 1 m/s
-  // does not.
+  // A central hit at 1 m/s gives j/τ_c = 10.9 MN, compared with F_s = 11 MN. A hit that is 2 % faster splits the floe;
+  // a hit at 1 m/s does not.
   for (const double speed : {1.0, 1.02}) {
     const auto [simulation, story] = run(
         ship_against(icebreaker({0, 0}, ConstantThrust{0}, speed), rectangle(0.001, -100, 110.001, 100), Laws::kPaper),
@@ -122,7 +122,7 @@ TEST(Decision, ARejectedCutIsRecordedCountedAndLeavesTheFloe) {
 
 constexpr double kHullAngle = 38.2 * kDegree, kHalfAngle = 45 * kDegree, kSpeed = 0.2;
 
-/// A flat inclined bow that comes on to a right corner of 80 000 m² of ice.
+/// Returns a flat inclined bow that approaches a right corner of 80 000 m² of ice.
 Scene corner_under_a_wall(bool follows_deflection) {
   Ship bow = barge({-0.001, 0}, ConstantSpeed{kSpeed}, kSpeed);
   set_hull_angle(bow, kHullAngle);
@@ -169,7 +169,7 @@ TEST(Bending, TheCuspIsNotTheSteps) {
   for (const double step : {0.01, 0.02, 0.03, 0.05}) EXPECT_NEAR(radius(step) / fine, 1, 0.006) << step;
 }
 
-/// What the ice gives way does not change what a vertical wall, or a floe too small to break, takes.
+/// Whether the ice recedes does not change the load of a vertical wall, or of a floe that is too small to break.
 TEST(Bending, WhatCannotBendDoesNotRecede) {
   for (const bool is_small : {false, true}) {
     const auto speed = [&](bool follows) {
@@ -234,8 +234,8 @@ TEST(Regression, IceWithoutMassOrInertiaIsNoFloe) {
   EXPECT_FALSE(can_be_floe({1, {}, -1e-20}));
 }
 
-/// With a weak criterion the halves of a floe split again every step along the crack they had just left, and
-/// corners were pared: what a crack leaves on either side is no sliver.
+/// With a weak criterion the halves of a floe used to split again in every step along the crack that they had just
+/// left, and corners were cut off strip by strip. The ice on either side of a crack must not be a sliver.
 TEST(Regression, ACrackIsNotParedStripByStrip) {
   for (const auto model : {fracture::SplittingModel::kMichel, fracture::SplittingModel::kLefm}) {
     Scene scene = ship_against(icebreaker({0, 3}, ConstantSpeed{0.5}, 0.5), rectangle(0.5, -40, 70, 50), Laws::kPaper)

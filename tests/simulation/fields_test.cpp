@@ -1,5 +1,5 @@
-// Random fields: cover, sizes, shapes, clearings and gaps as asked for, without overlap, the same on every
-// machine.
+// Random fields. Cover, sizes, shapes, clearings and gaps are as requested, floes do not overlap, and the result is the
+// same on every machine.
 #include <algorithm>
 #include <cstring>
 
@@ -22,8 +22,8 @@ using geometry::Polygon;
 using geometry::Ring;
 using geometry::Vector;
 
-/// A corner is cut off at the same distance on both of its edges, by less than half of the shorter one, so that the
-/// ring stays convex and keeps its other corners.
+/// A corner is cut off at the same distance on both of its edges, by less than half of the shorter edge. The ring
+/// therefore stays convex and keeps its other corners.
 TEST(Convex, CornersAreCutOffByAShareOfTheShorterEdge) {
   for (int least = 5; least <= 8; ++least) {
     Ring ring = shapes::rectangle(12, 1).outer;
@@ -82,8 +82,8 @@ bool share_area(const Polygon& a, const Polygon& b) {
          geometry::overlap({a}, {}, {b}, {})->exact_area != "0";
 }
 
-/// No two floes share area, found exactly, or come nearer to each other than the gap. Gives how many pairs
-/// come within a metre.
+/// Checks exactly that no two floes overlap or are closer to each other than the gap. Returns the number of pairs that
+/// are closer than a metre.
 int expect_apart(const std::vector<Polygon>& floes, double gap) {
   int near = 0;
   for (std::size_t i = 0; i < floes.size(); ++i) {
@@ -98,7 +98,7 @@ int expect_apart(const std::vector<Polygon>& floes, double gap) {
   return near;
 }
 
-/// Also that all are valid and in the region.
+/// Also checks that all floes are valid and in the region.
 int expect_sound(const FloeField& field, const std::vector<Polygon>& floes, std::size_t most_corners) {
   const geometry::Box region = bounding_box(field.region);
   for (const Polygon& floe : floes) {
@@ -109,7 +109,7 @@ int expect_sound(const FloeField& field, const std::vector<Polygon>& floes, std:
   return expect_apart(floes, field.gap);
 }
 
-/// Floes keep clear of what is to be kept clear of, and outlines hold them.
+/// Checks that floes do not overlap the areas that are kept clear, and that outlines contain all floes.
 void expect_kept_clear(const FloeField& field, const FloeFieldOutcome& outcome) {
   double inside = 0;
   for (const Polygon& floe : outcome.floes) {
@@ -164,7 +164,7 @@ TEST(FloeField, SizesAreLognormalAsAskedFor) {
 TEST(FloeField, KeepsObstaclesClear) {
   FloeField field = field_of(400, 0.7, 0.25);
   field.gap = 0.5;
-  // Not convex, and a small one inside a single floe's cell.
+  // One area is not convex. The other is small and lies inside the cell of a single floe.
   field.kept_clear = {{{{100, 100}, {200, 100}, {200, 200}, {150, 120}, {100, 200}}, {}},
                       shapes::square({300, 300}, 0.5)};
   const FloeFieldOutcome outcome = make_floe_field(field);
@@ -186,7 +186,7 @@ TEST(FloeField, StaysInsideAnOutline) {
 }
 
 TEST(SizeLaw, QuantilesAndSharesAgreeAndMeansAreThoseOfTheLaw) {
-  // PHYSICS-2 §5: a 1.87, 10 to 100 m has the mean 18.85 m and the mean square 508.8 m².
+  // PHYSICS-2 §5: sizes with a = 1.87 from 10 to 100 m have the mean 18.85 m and the mean square 508.8 m².
   const PowerLawSizes power{1.87, 10, 100};
   EXPECT_NEAR(mean_area(power), 508.8, 0.05);
   for (const SizeLaw& law : {SizeLaw(power), SizeLaw(PowerLawSizes{0, 0.5, 2}), SizeLaw(PowerLawSizes{-1, 1, 3}),
@@ -350,7 +350,7 @@ TEST(PackedField, ReportsWhatTheGapAndTheCornersAllow) {
   EXPECT_NEAR(outcome.concentration(), outcome.reachable_concentration, 1e-9);
 }
 
-/// Pinned: + − × ÷ √ alone made these bytes.
+/// These hashes are fixed, because only + − × ÷ √ made the bytes.
 TEST(FloeField, IsTheSameOnEveryMachineAndAnotherForAnotherSeed) {
   FloeField packed = field_of_law(PowerLawSizes{1.87, 10, 100}, 0.7, 400);
   packed.packing = 0.8;

@@ -1,4 +1,4 @@
-// Floes whose thickness, density and strengths are their own.
+// Floes with their own thickness, density and strengths.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -23,7 +23,7 @@ Build ship_in_ice(double speed = 1) {
   return scene;
 }
 
-/// The same, and ice that goes under it, by the database.
+/// Returns the same scene with ice that goes under the ship and bends by the database.
 Build ship_over_ice(double speed, bool comes_up = true) {
   return Build()
       .step(0.01)
@@ -44,7 +44,7 @@ TEST(FloeIce, BreaksAtTheLoadOfItsOwnStrengthAndThickness) {
   EXPECT_NEAR(bend_of_thick.criteria().bending_capacity / as_scene, 2.25, 1e-9) << "P goes with h²";
 }
 
-/// One floe: to give it the ice is to give the scene that ice, to the bit.
+/// In a scene with one floe, giving the ice to the floe is the same as giving it to the scene, to the bit.
 Trial expect_same(Build scene, const fracture::Ice& ice, double until) {
   Scene own = Build(scene).of(ice);
   scene.ice = ice;
@@ -181,9 +181,10 @@ Scene scattering(std::uint64_t seed) {
   return scene;
 }
 
-/// Which strengths: exactly those drawn at the first touches. How they are distributed follows from the law only
-/// as far as a bound: of two places that one cusp takes the weaker breaks, so that the mean is between that of
-/// the lesser of two draws, 1 − s/√π for a small spread s, and that of one; by three standard errors of either.
+/// Each event states exactly the strength that was drawn at the first touch. The distribution of these strengths
+/// follows from the law only as a bound: the weaker of two places that one cusp takes breaks. The mean is therefore
+/// between the mean of the lesser of two draws, 1 − s/√π for a small spread s, and the mean of one draw. The tolerance
+/// is three standard errors of either.
 TEST(BendingScatter, EachEventStatesTheStrengthItBrokeAt) {
   constexpr double kSpread = 0.2;
   std::vector<double> factors;

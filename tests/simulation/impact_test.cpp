@@ -1,5 +1,5 @@
-// Bodies that meet ice at any gap, down to none: no step presses with more than the ice bears, and the largest loads
-// are those of closed forms.
+// Bodies that meet ice at any gap, down to none. No step presses with more than the strength of the ice, and the
+// largest loads equal those of closed forms.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -35,7 +35,7 @@ struct Approach {
   }
 };
 
-/// A body that meets ice head on, and what the ice bears.
+/// A body that meets ice head on, and the largest force that the ice can transmit.
 struct Impact {
   Scene scene;
   double mass = 0;                         ///< of the body that comes [kg]
@@ -104,7 +104,7 @@ double mass_of(double length, double width) {
 
 const Polygon kPlate = rectangle(0, -150, 600, 150);
 
-/// A ship that comes with her stern, of 24 m.
+/// Returns a ship that moves astern into the ice, with a stern of 24 m.
 Impact stern_onto_edge(const Approach& a) {
   Ship ship = icebreaker({}, ConstantThrust{0}, -a.speed);
   const geometry::Pose pose = coming(a, 24);
@@ -167,11 +167,11 @@ using Make = Impact (*)(const Approach&);
 constexpr Make kFlat[] = {stern_onto_edge, box_onto_edge, floe_onto_box, floe_onto_edge};
 constexpr Make kCurved[] = {floe_onto_leaning_box, box_onto_round_ice, round_floe_onto_edge, floe_onto_pile};
 
-/// Where faces meet askew, sides of a notch press as well, whose friction is in the load on the hull but not in a
-/// contact's.
+/// If faces meet obliquely, the sides of a notch press as well. Their friction is part of the load on the hull but not
+/// of the load of a contact.
 Largest expect_within_what_ice_bears(const Impact& impact, const Approach& a) {
   const Largest most = largest_of(impact, a);
-  // Of faces that meet askew, the contact's line is longer by a side of the notch: by 0.2 % at most in 1000 trials.
+  // If faces meet obliquely, the line of the contact is longer by a side of the notch, at most 0.2 % in 1000 trials.
   const double of_notch = a.tilt == 0 ? 0 : 0.003;
   EXPECT_LE(most.contact, (1 + kAllowed + of_notch) * impact.most);
   if (a.tilt == 0) {

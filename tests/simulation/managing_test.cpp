@@ -98,8 +98,8 @@ TEST(Pattern, ALapGoesRoundOnceAndPlacesAreInOrder) {
   }
 }
 
-/// A ship that goes along a line for ever sweeps a band of its breadth. The share of the ice within the
-/// pattern's width, as it drifts past, that the band of laps of a period covers.
+/// A ship that follows a line for ever sweeps a band as wide as its beam. The function returns the share of the
+/// drifting ice within the pattern's width that the bands of all laps of a period cover.
 double swept_share(const PatternLine& line, double drift, double speed, double band) {
   const double period = line.lap() / speed;
   constexpr int kPlaces = 500, kCells = 30;
@@ -157,8 +157,8 @@ struct Followed {
   Vector reach;          ///< half extents about the pattern's middle [m]
 };
 
-/// Samples of ship 0 against the line of its pattern, over ground or in the ice, where the drift goes along −x, past
-/// (0, 0).
+/// Samples of ship 0 relative to the line of its pattern, over ground or in the ice. The drift is along −x, past (0,
+/// 0).
 Followed follow(const Scene& scene, double until) {
   const Story story = run(scene, until).story;
   const auto& pilot = std::get<ManagingPilot>(scene.ships[0].pilot);
@@ -214,7 +214,7 @@ TEST(Managing, TwoShipsShareAPatternWithoutMeeting) {
   second.partners = {{0, 0}};
   const Followed found = follow(managed({first, second}, {-0.4, 0}), 1500);
   EXPECT_GT(found.nearest, 400);
-  // Also where the second starts a quarter of a lap behind its phase.
+  // The same holds if the second vessel starts a quarter of a lap behind its phase.
   Build late = managed({first, second}, {-0.4, 0});
   ManagingPilot behind = second;
   behind.phase = 0.25;
@@ -267,7 +267,7 @@ TEST(Managing, GoesToTheLargestFloeThatWillPassAndOnToTheNext) {
     if (targets.empty() || targets.back() != target()) targets.push_back(target());
   }
   std::erase(targets, kNoFloe);
-  // What is left of the first is a floe of its own, and larger than the next.
+  // The rest of the first floe is a new floe and larger than the next one.
   ASSERT_GE(targets.size(), 2U);
   EXPECT_EQ(targets[0], 1);
   EXPECT_EQ(std::ranges::count(targets, 0), 1) << testing::PrintToString(targets);
@@ -297,7 +297,7 @@ TEST(ChangingDrift, PathsAreIntegralsOfVelocities) {
     EXPECT_NEAR(length(by_rows - path_of(rows, (i + 1) * kStep)), 0, 1e-6);
     EXPECT_NEAR(length(by_tide - tide.path((i + 1) * kStep)), 0, 1e-6);
   }
-  // An ellipse: its axes a quarter of a period apart, closed after one.
+  // The tide is an ellipse: its axes are a quarter of a period apart, and it closes after one period.
   const dynamics::Tide round{600, 0.5, 0.2, 0, 0};
   EXPECT_NEAR(round.velocity(0).x, 0.5, 1e-12);
   EXPECT_NEAR(round.velocity(150).y, 0.2, 1e-12);
@@ -325,8 +325,8 @@ TEST(ChangingDrift, FreeIceGoesWithTheWaterAndWhatStandsStays) {
 }
 
 TEST(ChangingDrift, AMooredShipRidesAsTheSpringOfItsMooringHasIt) {
-  // Slow against its own period, the ship lies where the mooring's pull is its resistance to the current, and what
-  // would speed it up with the water around it.
+  // The tide is slow compared with the ship's own period. The ship is therefore where the pull of the mooring balances
+  // the resistance to the current and the force that would accelerate the ship and the water around it.
   Ship ship = in_water(icebreaker({60, 0}, ConstantThrust{0}, 0));
   ship.mooring = moored({}, {2e5, 2e5, 1e9}, {8e5, 8e5, 1e9});
   Build scene = Build().step(0.1).ship(ship).recorded_every(1);

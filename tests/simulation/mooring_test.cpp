@@ -111,7 +111,7 @@ TEST(Mooring, TheSameOverGroundInAnyDrift) {
   EXPECT_NEAR(size_of(after({}) - after({0.5, -0.2})), 0, 1e-9);
 }
 
-/// Energy never grows, of whatever stiffness: periods of 2 steps, and of far less than one.
+/// The energy never grows for any stiffness, with periods of two steps and of much less than a step.
 TEST(Mooring, OfAnyStiffnessNeitherGainsEnergyNorLeavesItsBounds) {
   for (const double period : {4.0, 1.0, 0.1, 1e-3, 1e-6}) {
     World world(off_its_place(0.5, stiffness_of(period)));
@@ -124,7 +124,7 @@ TEST(Mooring, OfAnyStiffnessNeitherGainsEnergyNorLeavesItsBounds) {
   }
 }
 
-/// The same with water around the hull and with a damper: both take energy, whatever the stiffness.
+/// This is the same test with water around the hull and with a damper. Both take energy for any stiffness.
 TEST(Mooring, OfAnyStiffnessLosesEnergyToWaterAndDampers) {
   for (const double period : {20.0, 4.0, 0.5, 1e-3}) {
     for (const double share : {0.0, 0.3}) {
@@ -136,7 +136,7 @@ TEST(Mooring, OfAnyStiffnessLosesEnergyToWaterAndDampers) {
         step(world);
         ASSERT_LT(energy_of(world), energy * (1 + 1e-9)) << period << ' ' << share << ' ' << i;
       }
-      // Of far less than a step, a damped oscillation fades in some ωΔt/(2ζ) steps.
+      // If the period is much shorter than a step, a damped oscillation fades in about ωΔt/(2ζ) steps.
       const double left = share == 0 ? 0.9999 : period < 0.1 ? 0.8 : 0.01;
       EXPECT_LT(energy_of(world), left * energy) << period << ' ' << share;
     }
@@ -170,7 +170,8 @@ TEST(Mooring, AShipUnderAConstantForceStandsWhereTheSpringHasIt) {
 
 // ---- accounts
 
-/// What moorings hold is what they held at the start, with what came and without what went.
+/// Checks that the energy stored in moorings equals the energy at the start plus the energy that entered minus the
+/// energy that left.
 void expect_stored_is_accounted(const Simulation& simulation) {
   const Audit audit = simulation.audit();
   const MooringFlows& m = audit.sums.moorings;
@@ -220,7 +221,7 @@ TEST(MooringAccounts, AMooringThatBreaksLosesWhatItStored) {
   expect_stored_is_accounted(done.simulation);
 }
 
-/// The force that breaks it is that of spring and damper together, each in the axes of the moored heading.
+/// The force that breaks the mooring is the sum of spring and damper, each in the axes of the moored heading.
 TEST(Mooring, BreaksByItsSpringAndItsDamper) {
   Ship ship = icebreaker({60, 0}, ConstantThrust{0}, 2);
   const auto heading = geometry::Rotation::by(kMooredHeading);

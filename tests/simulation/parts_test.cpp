@@ -71,7 +71,7 @@ TEST(Parts, ARunStopsWithinItsTicksAndGoesOnToTheSameState) {
   expect_resumes(in_level_ice(0.1, 4, 0.005), 217 * 0.005, 400 * 0.005, 3);
 }
 
-/// By hand from docs/theory/steps.md.
+/// The expected values are computed by hand from docs/theory/steps.md.
 TEST(Parts, ATickIsChosenBySpeedThicknessAndWhatIsRecorded) {
   const auto tick = [](double thickness, double speed, auto change) {
     Scene scene = in_level_ice(thickness, speed, 0.005).recorded_every(0.1);
@@ -162,8 +162,8 @@ TEST(Parts, AreTheSameOnThreadsAndAfterAKill) {
   expect_closed(through);
 }
 
-/// A hull that is about to reach ice takes parts before it is there: it comes no deeper in its first step than in any
-/// other one.
+/// A hull that is about to reach ice takes parts before it arrives, so that it penetrates no deeper in its first step
+/// than in any other step.
 TEST(Parts, BeginBeforeAHullReachesTheIce) {
   Simulation simulation(in_level_ice(0.5, 8, 0.05));  // 0.4 m in a tick, of which ice of 0.5 m allows 0.075 m
   double deepest = 0;

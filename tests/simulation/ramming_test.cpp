@@ -1,4 +1,4 @@
-// The pilot that rams: its orders while a ship charges, stands and backs, and ships in ice that is too thick for them.
+// The ramming pilot: its orders while a ship charges, stands and backs, and ships in ice that is too thick for them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,7 +66,7 @@ TEST(RammingOrders, AreAsternWhenTheShipHasStoodForStuckS) {
   EXPECT_EQ(bridge.memory.rams, 0) << "the first charge is not counted";
 }
 
-/// The engine needs a minute from full ahead to full astern, and the ship stands meanwhile.
+/// The engine needs a minute from full ahead to full astern, and the ship stands still during this time.
 TEST(RammingOrders, StayAsternWhileTheLeverIsOnItsWay) {
   Bridge bridge;
   bridge.go(11, 0);
@@ -186,9 +186,9 @@ Build before_ice(double thickness, double lever_rate) {
   return scene.floe(fast(rectangle(0, -100, 900, 100)));
 }
 
-/// Backs a length, stops, charges, and gains, again and again: a pilot that stays stuck has no charges or gains
-/// nothing, one that runs away backs farther and farther. In a channel of its own width the ship may once be stuck
-/// astern, too.
+/// The ship backs a length, stops, charges and gains, again and again. A pilot that stays stuck makes no charges or
+/// gains nothing. A pilot that runs away backs farther and farther. In a channel as wide as the ship, it may once be
+/// stuck astern, too.
 void expect_rams(double thickness, double lever_rate, double until) {
   const Trial done = run(before_ice(thickness, lever_rate).under_hulls(false), until);
   const std::vector<Ram> rams = rams_of(done.story.samples);

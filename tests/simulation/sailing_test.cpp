@@ -1,5 +1,4 @@
-// A ship in water: engine, rudder, mooring, what the water does to its hull, and who works lever and
-// steering.
+// A ship in water: engine, rudder, mooring, the forces of water on the hull, and the control of lever and steering.
 #include <algorithm>
 #include <cmath>
 
@@ -16,12 +15,12 @@ using namespace scenes;
 
 constexpr double kLength = 120;
 
-/// The reference ship in water, alone.
+/// Returns the reference ship alone in water.
 Build in_water(const Propulsion& propulsion, double speed, double step = 0.05) {
   return Build().step(step).ship(scenes::in_water(icebreaker({60, 0}, propulsion, speed))).recorded_each_step();
 }
 
-/// What a run of that ship recorded, with its accounts closed.
+/// Returns the samples that a run of that ship recorded, after checking that its accounts are closed.
 std::vector<HullSample> sail(const Scene& scene, double until) {
   const Trial done = run(scene, until);
   EXPECT_TRUE(done.simulation.audit().is_closed());
@@ -46,8 +45,8 @@ dynamics::Planar motion_of(const World& world) {
   return {v.x, v.y, b.angular_velocity[0]};
 }
 
-/// Of the ship and of the water that it sets in motion. Right after a step the ship has turned, the water has
-/// not: its motion is that in the axes of before.
+/// Returns the kinetic energy of the ship and of the water that it sets in motion. Right after a step the ship has
+/// turned but the water has not: the motion of the water is in the axes of before the step.
 double wet_energy(const World& world) {
   const dynamics::Bodies& b = world.population.bodies;
   const dynamics::Planar now = motion_of(world);
@@ -90,7 +89,7 @@ TEST(Sailing, AnEngineComesToItsOpenWaterSpeed) {
   EXPECT_NEAR(samples.front().thrust, 1e6, 1e3);
 }
 
-/// A plate ahead of the ship, more of it to port.
+/// A plate ahead of the ship, with its larger part to port.
 const geometry::Polygon kPlateAhead = rectangle(61, -60, 250, 80);
 
 /// Σ of the forces on the ship by cause [N, N m], in the ship's axes.
@@ -120,7 +119,7 @@ void expect_balance(Scene scene, double until) {
     const geometry::Vector in_ship = rotate_back(rotation, force);
     const double moment = b.moment[0] / scene.time.step * (b.angular_velocity[0] - omega);
     const dynamics::Planar& under = world.journal.samples.back().from_submerged;
-    // Cusps brake at the step's end, in axes that have turned. So have those of the later parts of a tick.
+    // Cusps brake at the end of the step, in axes that have turned. The later parts of a tick have turned as well.
     const bool has_parts = world.accounts.counts.steps_taken - steps > 1;
     const double turned =
         1e8 * std::abs(b.angle[0] - angle) * (std::hypot(under.surge, under.sway) + (has_parts ? length(force) : 0));
@@ -258,7 +257,8 @@ TEST(Sailing, TurningCirclesAreThoseOfShips) {
   expect_within(full.speed_kept, 0.45, 0.55);
 }
 
-/// No steady lever ahead and rudder angle make a ship go astern, or faster than at full power straight on.
+/// With steady commands, lever ahead and any rudder angle, a ship neither goes astern nor is faster than straight ahead
+/// at full power.
 TEST(Sailing, NoSteadyCommandMakesAShipGoAsternOrTooFast) {
   const RudderSettings single{.area = 0.018 * kLength * 6, .most = M_PI / 2};
   const RudderSettings large{.area = 0.07 * kLength * 6, .most = M_PI / 2};
@@ -271,8 +271,9 @@ TEST(Sailing, NoSteadyCommandMakesAShipGoAsternOrTooFast) {
         scene.ships[0].steering = rudder;
         scene.ships[0].pilot = ConstantPilot{lever, degrees * kDegree};
         const std::vector<HullSample> samples = sail(scene, 900);
-        // Rudders of four times the usual area at 80 degrees leave her next to no thrust: she turns on the spot, about
-        // a point ahead of her centre, which the sway that goes with it takes astern at some decimetres a second.
+        // Rudders of four times the usual area at 80 degrees leave the ship almost no thrust. She turns on the spot,
+        // about a point ahead of her centre. The sway of this motion moves the centre astern at some decimetres a
+        // second.
         const double astern_by_turning = rudder.area > single.area ? -0.5 : -1e-3;
         const auto ahead = [](const HullSample& s) {
           return dot(s.velocity_in_world, geometry::Vector{std::cos(s.heading), std::sin(s.heading)});
@@ -441,7 +442,7 @@ TEST(ConstantSpeed, IsKeptExactlyAndTheForcesAreWhatItTakes) {
     ASSERT_EQ(sample.thrust, -sample.from_ice.surge);
     impulse += scene.record.forces_interval * geometry::Vector{sample.from_ice.surge, sample.from_ice.sway};
   }
-  // Newton's third law: what the ice did to the ship is what the ship gave the floes.
+  // Newton's third law: the impulse of the ice on the ship is opposite to the impulse of the ship on the floes.
   for (const FloeState& state : simulation.floe_states()) given += state.mass * state.velocity;
   EXPECT_GT(given.x, 1e4);
   EXPECT_NEAR(impulse.x / given.x, -1, 1e-9);
@@ -450,8 +451,8 @@ TEST(ConstantSpeed, IsKeptExactlyAndTheForcesAreWhatItTakes) {
 }
 
 TEST(Ships, SeveralDoNotDisturbOneAnother) {
-  // The same ship and ice, alone and with another ship at work 2 km away: the same numbers to the last bit. In steps of
-  // one length: parts of a tick are taken by the whole world.
+  // The same ship and ice, alone and with another ship at work 2 km away, give the same numbers to the last bit. The
+  // steps have one length, because parts of a tick are taken by the whole world.
   Build scene = Build().ship(icebreaker({0, 0}, ConstantThrust{2e4})).floe(rectangle(0.5, -40, 40.5, 40));
   const Story alone = run(scene, 8).story;
   const Story both =

@@ -41,10 +41,10 @@ Ship steep_icebreaker(geometry::Point stem, const Propulsion& propulsion, double
 /// A box-shaped ship with vertical walls: it can only crush.
 Ship barge(geometry::Point middle_of_bow, const Propulsion& propulsion, double speed = 1);
 
-/// Gives a ship 6 m of draught, so that ice goes under her.
+/// Returns the ship with a draught of 6 m, so that ice goes under her.
 Ship with_draught(Ship ship);
 
-/// And lets the water act on her.
+/// Returns the ship with the forces of the water switched on.
 Ship in_water(Ship ship);
 
 inline constexpr Engine kEngine{.bollard_pull = 1e6, .open_water_speed = 8, .power = 12e6, .propeller_area = 25};
@@ -56,7 +56,7 @@ void set_hull_angle(PlacedHull& ship, double angle);
 MooringSettings moored(geometry::Point at, const dynamics::Planar& stiffness, const dynamics::Planar& damping = {},
                        double break_load = 0, double heading = 0);
 
-/// How a wall moves; one that stands by default.
+/// Motion of a wall. By default it stands still.
 struct WallMotion {
   geometry::Vector velocity;  ///< [m/s]
   std::optional<WallPressure> pressure;
@@ -64,19 +64,19 @@ struct WallMotion {
 WallMotion pressing(double line_load);         ///< [N/m]
 WallMotion moving(geometry::Vector velocity);  ///< [m/s]
 
-/// A scene in two or three lines: each call adds something and gives the scene back. By the default laws.
+/// Builds a scene in two or three lines: each call adds something and returns the scene. The default laws apply.
 class Build : public Scene {
  public:
   Build() = default;
   explicit Build(Laws laws);
   Build& step(double seconds) { return set(time.step, seconds); }
   Build& ship(const Ship& ship) { return add(ships, ship); }
-  /// A waterline that stands, about a point; its walls at an angle from the vertical [rad].
+  /// Adds a fixed waterline about a point. The angle of its walls is from the vertical [rad].
   Build& structure(const geometry::Ring& waterline, geometry::Point at = {}, double wall_angle = 0);
   Build& pile(geometry::Point at, double radius, double wall_angle = 0) {
     return structure(cylinder_waterline(radius), at, wall_angle);
   }
-  /// With the ice to its left, 5 m deep.
+  /// Adds a wall with the ice to its left, 5 m deep.
   Build& wall(geometry::Point from, geometry::Point to, const WallMotion& motion = {});
   Build& floe(const FloeSpec& spec) { return add(floes, spec); }
   Build& floe(const geometry::Polygon& polygon, geometry::Vector velocity = {}, double spin = 0) {
@@ -84,17 +84,17 @@ class Build : public Scene {
   }
   /// Square floes of a side, their lower left corners `pitch` apart from `low` on.
   Build& grid(geometry::Point low, int columns, int rows, double side, double pitch);
-  /// The last floe has ice of its own.
+  /// Gives the last floe its own ice properties.
   Build& of(const fracture::Ice& own_ice);
-  /// Nothing but contacts changes a velocity.
+  /// Makes contacts the only cause of velocity changes.
   Build& without_drag() { return set(water.drag_coefficient, 0); }
   Build& unbreakable() { return set(fracture.breakable_size_factor, 1e9); }
   Build& thickness(double metres) { return set(ice.thickness, metres); }
   Build& splitting(fracture::SplittingModel model) { return set(fracture.splitting, model); }
-  /// For ice without end.
+  /// Switches splits off, for ice without end.
   Build& without_splits() { return splitting(fracture::SplittingModel::kNone); }
   Build& cusps(CuspFate fate) { return set(fracture.cusp_fate, fate); }
-  /// Cusps and floes go under hulls and, where they are to, come up behind them.
+  /// Lets cusps and floes go under hulls and, if `come_up`, surface behind them.
   Build& under_hulls(bool come_up = true);
   /// Steps of one length for all.
   Build& restitution(double share) { return set(contact.restitution, share); }
@@ -158,7 +158,7 @@ void listen(Simulation& simulation, Story& story);
 Story run(Simulation& simulation, double until);
 Trial run(const Scene& scene, double until, Shortcuts shortcuts = {});
 
-/// The same; calls a function after each step.
+/// Does the same, and calls a function after each step.
 Trial run(const Scene& scene, double until, const std::function<void(const Simulation&)>& after_step);
 
 /// Steps until something holds after a step, or to a time.
@@ -167,29 +167,29 @@ Trial run_until(const Scene& scene, double until, const std::function<bool(const
 /// Steps to the first event, or to a time.
 Trial run_to_first_event(const Scene& scene, double until);
 
-/// Steps and forgets what is recorded.
+/// Advances the simulation and discards its records.
 void skip(Simulation& simulation, int steps = 1);
 
-/// The first bend of a run; fails where nothing bends.
+/// Returns the first bend of a run. The test fails if nothing bends.
 Event first_bend(const Scene& scene, double until = 20);
 
 /// The mean of a load over a ship's samples from a time on.
 double mean(const Story& story, dynamics::Planar HullSample::*load, int ship = 0, double from = 0,
             double dynamics::Planar::*direction = &dynamics::Planar::surge);
-/// Of its surge, by magnitude.
+/// Returns the largest magnitude of a load's surge component.
 double largest(const Story& story, dynamics::Planar HullSample::*load, int ship = 0);
 
-/// Of all contacts in the last step [N].
+/// Returns the largest force of all contacts in the last step [N].
 double largest_contact_force(const Simulation& simulation);
 
-/// The least area of those that an event made [m²].
+/// Returns the smallest area of the floes that an event made [m²].
 double least_child(const Story& story, const Event& event);
 
 /// All accounts close: areas, masses, energy and momentum.
 void expect_closed(const Simulation& simulation);
 
-/// A run that is saved at `from` and resumed ends at `until` in the state of one that was not, to the bit.
-/// Gives the resumed run, with what it recorded from there on.
+/// Checks that a run that is saved at `from` and resumed ends at `until` in the state of an uninterrupted run, to the
+/// bit. Returns the resumed run with its records from there on.
 Trial expect_resumes(const Scene& scene, double from, double until, int threads = 1);
 Simulation resumed(const Scene& scene, const Simulation& simulation);
 

@@ -1,5 +1,5 @@
-// What splits floes, by the forces that contacts really carry (docs/theory/splitting.md), and slender floes that break
-// across (docs/theory/beams.md).
+// Splitting of floes by the actual forces of contacts (docs/theory/splitting.md), and slender floes that break across
+// (docs/theory/beams.md).
 #include "fracture/splitting.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using geometry::Vector;
 
 constexpr double kOpeningOfStem = 0.633;  // per force ahead, of the reference ship with μ 0.2
 
-/// Steps until something splits, or to a time; gives the largest force before that [N].
+/// Steps until something splits, or until a time. Returns the largest force before that [N].
 double largest_before_split(const Scene& scene, double until) {
   Simulation simulation(scene);
   double largest = 0;
@@ -65,7 +65,7 @@ TEST(Splitting, AFlatPushClosesTheMouthHoweverHard) {
   EXPECT_TRUE(run(scene, 3).story.splits().empty());
 }
 
-/// A floe of 60 × 30 m with a point of half-angle 30° at x = 0.
+/// Returns a floe of 60 × 30 m with a point of half-angle 30° at x = 0.
 geometry::Polygon pointed(bool points_ahead) {
   const double d = 15 / std::tan(30 * kDegree);
   geometry::Polygon floe{{{0, 0}, {-d, 15}, {-60, 15}, {-60, -15}, {-d, -15}}, {}};
@@ -187,7 +187,7 @@ TEST(Splitting, WhatPassesFloesOverIsNoLessThanTheirPushes) {
   EXPECT_GT(corners, 1000);
 }
 
-/// A floe of three to seven corners that drifts on two structures beside each other, piles or wedges.
+/// Returns a floe of three to seven corners that drifts onto two structures beside each other, piles or wedges.
 Scene on_two_structures(scenery::Random& random) {
   const double size = random.between(8, 60);
   Build scene = Build().without_drag().step(random.between(0.02, 0.1)).thickness(random.between(0.3, 1.5));
@@ -272,7 +272,8 @@ TEST(TurningCrack, NoSplitLeavesAStrip) {
 }
 
 TEST(Splitting, ACrackThroughAHoleBreaksEachStretchByACriterionOfItsOwn) {
-  // 20 m of ice, a hole of 10 m and 30 m of ice: F_max of 30 m, neither that of 20 m nor that of 50 m.
+  // Along the crack there are 20 m of ice, a hole of 10 m and 30 m of ice. F_max is that of 30 m, neither that of 20 m
+  // nor that of 50 m.
   Polygon plate = rectangle(0.001, -200, 60, 200);
   plate.holes = {{{20, -5}, {20, 5}, {30, 5}, {30, -5}}};
   const Story story =
@@ -294,8 +295,8 @@ TEST(Splitting, CracksBeginOutsideOfThePileThatOpensThem) {
 }
 
 TEST(Splitting, ASternsCornerOpensNoCrackWhileItsTransomLeavesTheIce) {
-  // A box's rear corner lies on an edge that rises by a tenth along its side; the floe drifts onto it. Under
-  // way the side bears.
+  // A rear corner of a box lies on an edge that rises by a tenth along the side of the box. The floe drifts onto it. If
+  // the box moves, its side carries the load.
   const Polygon ice{{{-220, 2.05}, {120, 36.05}, {80, 336}, {-260, 302}}, {}};
   const auto splits = [&](double speed) {
     return run(Build().ship(barge({0, 0}, ConstantSpeed{speed}, speed)).floe(ice, {0, -0.4}), 2).story.splits().size();
@@ -323,7 +324,7 @@ Ship steep_ship(double speed = 3) {
   return steep_icebreaker({0, 0}, ConstantSpeed{speed}, speed);
 }
 
-/// By which its middle section comes to σ_f, at a quarter or an eighth of F Λ [N].
+/// Returns the force at which the stress in the middle section reaches σ_f, if the bending moment is `share` · F Λ [N].
 double breaking_force(double share) {
   return fracture::Ice{}.flexural_strength * kThickness * kWidth * kWidth / 6 / (share * kBeamLength);
 }
@@ -346,7 +347,8 @@ TEST(Beams, ALongFloeAcrossAStemBreaksInTheMiddleAndAShortOneDoesNot) {
   }
 }
 
-/// M = F Λ/8 against σ_f h w²/6, where the hull presses nothing down; at the instant at which it comes to that.
+/// Compares M = F Λ/8 with σ_f h w²/6 for a hull that does not press down. The floe breaks at the instant at which both
+/// are equal.
 TEST(Beams, AFreeFloeBreaksAtTheForceOfTheClosedForm) {
   for (const double step : {0.001, 0.005, 0.02}) {
     const Trial trial = run_to_first_event(across(steep_ship(), kBeamLength, step), 1);
@@ -358,7 +360,7 @@ TEST(Beams, AFreeFloeBreaksAtTheForceOfTheClosedForm) {
   }
 }
 
-/// Between a stem and two floes that stand it takes half of that: M = F Λ/4.
+/// Between a stem and two floes at rest, half of that force breaks the floe: M = F Λ/4.
 TEST(Beams, AFloeBetweenThreeBreaksAtHalfOfThat) {
   Build scene = across(steep_ship(0.3));
   for (const double y : {-12.0, 11.9}) scene.floe(fast(rectangle(0.01 + kWidth, y, 20, y + 0.1)));
@@ -366,8 +368,8 @@ TEST(Beams, AFloeBetweenThreeBreaksAtHalfOfThat) {
   EXPECT_NEAR(c.contact_force / c.split_share() / breaking_force(1.0 / 4), 1, 0.05);
 }
 
-/// Where a face pushes at an edge, along the floe rather than across it, the force is off the floe's axis by half
-/// its width: it bends the end that it is at, and presses the rest. Each break is in the ice.
+/// If a face pushes at an edge along the floe rather than across it, the force is off the axis of the floe by half its
+/// width. It bends the near end and compresses the rest. Each break is in the ice.
 TEST(Beams, BreakWithinTheFloe) {
   const Story story = run(across(steep_ship(), kBeamLength, 0.001), 2).story;
   for (const Event& event : story.splits()) {

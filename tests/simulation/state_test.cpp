@@ -1,5 +1,5 @@
-// What may not change a run: to interrupt and resume it, threads, culling, and, within what the rest speed
-// explains, sleep.
+// Settings that must not change a run: interrupting and resuming it, the number of threads, culling, and sleep within
+// the effect of the rest speed.
 #include "simulation/state/state.hpp"
 
 #include <array>
@@ -47,7 +47,7 @@ TEST(State, AResumedRunContinuesBitByBitFromAnyStep) {
     for (int step = 0; step < 2500; ++step) {
       if (step % 250 == 37) {
         all.push_back(resumed(scene, whole));
-        // Not the bytes: read back, bodies' boxes are new, so that more pairs may be near each other.
+        // The bytes may differ: after reading, the boxes of bodies are new, so that more pairs may be near each other.
         ASSERT_EQ(all.back().state_hash(), whole.state_hash()) << "what is read back is what was written";
       }
       skip(whole);
@@ -88,7 +88,7 @@ TEST(State, DamageIsRefusedOrIsAnotherState) {
   EXPECT_GT(refused, 20);
 }
 
-/// A place or a velocity that no run comes to is refused, whichever of its two components it is.
+/// A position or velocity that no run can reach is refused, whichever of its two components is too large.
 TEST(State, ABodyBeyondTheWorldOrFasterThanAnyIsRefused) {
   const Scene scene = Build().floe(rectangle(0, 0, 10, 10), {0.123, 0.321}).floe(rectangle(50, 70, 62, 84));
   const Simulation whole(scene);
@@ -173,7 +173,7 @@ void add_field(Build& scene, const geometry::Polygon& region, double concentrati
   for (const auto& polygon : make_floe_field(field).floes) scene.floe(polygon);
 }
 
-/// A ship that breaks its way through a plate and pushes floes in a drift.
+/// Returns a ship that breaks its way through a plate and pushes floes in a drift.
 Scene voyage() {
   Build scene = Build(Laws::kPaper)
                     .step(0.01)
@@ -221,9 +221,9 @@ TEST(Shortcuts, FloesComeToRestOnceASecondWhereIceCrushesAndInEachStepOfTheImpul
 }
 
 TEST(Shortcuts, SleepMovesFloesByNoMoreThanTheRestSpeedDoes) {
-  // A floe put to rest would have gone on at less than the rest speed. While no collision has made something
-  // else of it, places differ by less than that speed's way, and every fracture is the same; later,
-  // collisions amplify any difference, and only means can be compared.
+  // A floe put to rest would have moved on at less than the rest speed. Until a collision changes the course of events,
+  // positions differ by less than the displacement at that speed, and every fracture is the same. Later, collisions
+  // amplify any difference, and only means can be compared.
   const Shortcuts all_awake{.culls = false, .sleeps = false};
   const double before_chaos = 20;
   const Trial with = run(voyage(), before_chaos), without = run(voyage(), before_chaos, all_awake);

@@ -53,7 +53,7 @@ TEST(SteepStems, LoadRisesWithoutAStep) {
   }
 }
 
-/// Where crushing along the beam is less than bending takes, ice only crushes, at σ_c h B (1 + μ tan θ).
+/// If crushing along the beam takes less force than bending, the ice only crushes, at σ_c h B (1 + μ tan θ).
 TEST(SteepStems, CrushWhatTheyCannotBend) {
   const Passage found = passage(89.95);
   EXPECT_EQ(found.bends, 0);

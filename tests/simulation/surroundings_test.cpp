@@ -1,4 +1,4 @@
-// What moves ice from outside: wind, skin drag, currents; what bounds it: walls, structures; and fast ice.
+// External actions on ice: wind, skin drag and currents; the boundaries of ice: walls and structures; and fast ice.
 #include <gtest/gtest.h>
 
 #include "dynamics/contact/crush_law.hpp"
@@ -12,7 +12,7 @@ using namespace scenes;
 using geometry::Point;
 using geometry::Vector;
 
-/// The one floe of a scene.
+/// Returns the only floe of a scene.
 FloeState only_floe(const Simulation& simulation) {
   return simulation.floe_states().front();
 }
@@ -63,7 +63,8 @@ TEST(SkinDrag, SlowsAndStopsASpinAsTheClosedFormSays) {
   const Trial done =
       run(skin_drag(Build().step(0.1).without_drag().floe(shapes::regular(256, 20), {0.5, 0}, 0.05), 0.005), 200);
   const FloeState state = only_floe(done.simulation);
-  // dv/dt = −k v², k = ½ C ρ_w / (ρ_i h); dω/dt = −½ C ρ_w ∫r³ dA ω² / (½ m R²), ∫r³ dA = ⅖ π R⁵.
+  // The closed form has dv/dt = −k v² with k = ½ C ρ_w / (ρ_i h), and dω/dt = −½ C ρ_w ∫r³ dA ω² / (½ m R²) with ∫r³ dA
+  // = ⅖ π R⁵.
   const double k = 0.5 * 0.005 * 1000 / (900 * 0.5);
   EXPECT_NEAR(state.velocity.x * (1 + k * 0.5 * 200) / 0.5, 1, 1e-6);
   EXPECT_NEAR(state.angular_velocity * (1 + 0.8 * k * 20 * 0.05 * 200) / 0.05, 1, 1e-4);
@@ -71,7 +72,7 @@ TEST(SkinDrag, SlowsAndStopsASpinAsTheClosedFormSays) {
 }
 
 TEST(Wind, PressesAPlateOnAStructureThatOtherwiseStopsForGood) {
-  // 600 × 400 m on a cylinder of 10 m.
+  // The plate has 600 × 400 m and meets a cylinder of 10 m.
   const geometry::Polygon plate = rectangle(10.01, -200, 610.01, 200);
   Build scene = Build().unbreakable().step(0.02).pile({}, 10).floe(plate, {-0.1, 0});
   EXPECT_NEAR(mean_surge(run(scene, 60).story, 0, 40), 0, 1);
@@ -89,7 +90,8 @@ TEST(Wind, PressesAPlateOnAStructureThatOtherwiseStopsForGood) {
 // ---- currents
 
 TEST(Shear, AFloeAloneGoesWithTheCurrentAndTurnsAtHalfTheVorticity) {
-  // u = s y along x: vorticity −s. Turned by 30° and drifting, the same; without shear, the drift alone.
+  // The current u = s y along x has the vorticity −s. It has the same vorticity if it is turned by 30° and drifts;
+  // without shear only the drift remains.
   for (const auto& [rate, direction] : {std::pair{0.01, 0.0}, {0.01, 30 * kDegree}, {0.0, 0.0}}) {
     const geometry::Rotation course = geometry::Rotation::by(direction);
     const Point at = Point{5, 7} + rotate(course, Vector{12, 40});
@@ -121,8 +123,8 @@ TEST(Shear, AFloeThatDoesNotGoWithItIsBroughtToItAsTheClosedFormSays) {
 }
 
 TEST(Shear, OnlyWhereTheWaterStandsStillDoesAFloeSleep) {
-  // All at rest in the water frame at the start. 1e-5 1/s: at the origin a floe of 10 m feels less than the
-  // rest speed, at 100 m more.
+  // All floes are at rest in the water frame at the start. With 1e-5 1/s the current at a floe of 10 m at the origin is
+  // below the rest speed, and at 100 m it is above.
   for (const double rate : {1e-5, 1e-2}) {
     Build scene = Build().shear(rate).floe(rectangle(-5, -5, 5, 5)).floe(rectangle(50, 100, 60, 110));
     Simulation simulation(scene.floe(rectangle(20, 20, 30, 30), {-rate * 25, 0}, 0.5 * rate));
@@ -136,8 +138,8 @@ TEST(Shear, OnlyWhereTheWaterStandsStillDoesAFloeSleep) {
   }
 }
 
-/// Drift along the course: relative to the water the ship is faster by as much. The same forces, cracks and
-/// tracks, in a sheared current too.
+/// If the drift is along the course, the ship is faster relative to the water by the drift. Forces, cracks and tracks
+/// are the same, also in a sheared current.
 TEST(Drift, IsTheSameSceneSeenFromAMovingFrame) {
   for (const double shear : {0.0, 2e-3}) {
     const auto seen_with = [&](double drift) {
@@ -196,8 +198,7 @@ TEST(Structure, InADriftHasTheLoadsOfAPrescribedShipMovingThroughStillIce) {
 
 // ---- walls
 
-/// A block of ice of 40 × 20 m between a wall that stands and one that presses with 50 kN/m, turned by an
-/// angle.
+/// Returns a block of ice of 40 × 20 m between a fixed wall and a wall that presses with 50 kN/m, turned by an angle.
 Build squeezed(double angle, bool has_ice = true) {
   const geometry::Pose pose{{7, -3}, geometry::Rotation::by(angle)};
   const auto at = [&](double x, double y) { return transform(pose, Point{x, y}); };
@@ -363,7 +364,7 @@ TEST(FastIce, IsSavedWithItsPieces) {
   EXPECT_NE(fast_floe(again.simulation.world().population), 0) << "a piece of the scene's floe";
 }
 
-// Ships, structures and walls are hulls: what they have in common goes by their number.
+// Ships, structures and walls are hulls. Properties that they share are addressed by the number of the hull.
 
 TEST(Hulls, AreNumberedShipsFirstThenStructuresThenWallsAndFloesFollow) {
   Scene scene = Build()

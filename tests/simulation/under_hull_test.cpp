@@ -1,5 +1,4 @@
-// Ice that goes under a hull: floes that tilt, submerged pieces that brake the ship, pieces that come up
-// behind it.
+// Ice under a hull: floes that tilt, submerged pieces that brake the ship, and pieces that surface behind it.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -17,7 +16,7 @@ namespace {
 
 using namespace scenes;
 
-/// The reference ship at constant speed, through ice that goes under it.
+/// Returns the reference ship at constant speed in ice that goes under it.
 Build under(double speed = 1) {
   return Build().ship(with_draught(icebreaker({-0.5, 0}, ConstantSpeed{speed}, speed))).under_hulls();
 }
@@ -31,7 +30,7 @@ Build pinned_floe() {
   return pinned(rectangle(0, -6, 12, 6), rectangle(12.01, -150, 400, 150));
 }
 
-/// A small piece, of 16 m², to port of the centre line by y.
+/// Returns a scene with a small piece of 16 m², to port of the centre line by y.
 Build one_tile(double y) {
   Build scene = pinned(rectangle(0, y - 2, 4, y + 2), rectangle(4.01, -150, 100, 150));
   scene.ships[0].hull.has_speed_factor = false;
@@ -131,7 +130,7 @@ TEST(UnderHull, WithoutScatterItComesUpInItsPlaceWhichGoesWithACurrent) {
 }
 
 TEST(UnderHull, APieceWithoutRoomWaitsAndThenStaysUnderTheIce) {
-  // A floe as large as the hull and more lies where the piece would come up, as soon as the ship has gone.
+  // A floe larger than the hull covers the place where the piece would surface, as soon as the ship has left it.
   Scene scene = one_tile(0).without_drag().floe(rectangle(-400, -60, -122, 60), {1.5, 0});
   scene.fracture.resurface.give_up = 10;
   scene.fracture.resurface.scatter = 0;
@@ -246,8 +245,8 @@ Build thick_ice(double stem_angle, double speed) {
   return scene;
 }
 
-/// Of five trials in which floes of 2.5 m, and one of 3 x 24 m across the stem, were all or for the most part in the
-/// hull.
+/// The scene of five trials in which floes of 2.5 m, and one of 3 x 24 m across the stem, were entirely or mostly
+/// inside the hull.
 Build floes_before_the_stem(double stem_angle) {
   return thick_ice(stem_angle, 1.5)
       .floe(rectangle(0.2, -1.25, 2.7, 1.25))
@@ -276,7 +275,7 @@ double most_covered(const Simulation& simulation) {
   return most;
 }
 
-/// The most floes that the ship's waterline would make of one.
+/// Returns the largest number of floes that the ship's waterline would make of one floe.
 int most_parts(const Simulation& simulation) {
   int most = 0;
   for (const FloeState& floe : simulation.floe_states()) {
@@ -375,8 +374,8 @@ TEST(Tilted, IsBookedAlikeWhereARunIsResumed) {
       expect_resumes(floes_before_the_stem(24.5 * kDegree), 0.7, 1.5, 2).simulation.crushed_overlaps().empty());
 }
 
-/// A light ship that sets a heavy cusp in motion slows down by what she gives: afterwards the edge moves as fast as the
-/// hull slides it down.
+/// A light ship that sets a heavy cusp in motion loses the momentum that she gives. Afterwards the edge moves as fast
+/// as the hull slides it down.
 TEST(TurningCusp, MovesOnWithTheHullThatItSlows) {
   const double speed = 2, slope = 0.8;
   Ship light = with_draught(icebreaker({0, 0}, ConstantThrust{0}, speed));

@@ -1,4 +1,4 @@
-// What every test of the player begins with: a folder and a browser of its own, which go when it ends.
+// Common start of all tests of the player: an empty folder and a browser, which are removed and closed at the end.
 "use strict";
 const { test, before, after } = require("node:test");
 const assert = require("node:assert/strict");

@@ -144,7 +144,7 @@ test("ice under the hull is drawn through it, counted, and known by a click; wha
     const time = 20;
     await page.act("goTo", time);
     await page.act("setFollow", 0);
-    // One that comes up, and that is on top where its centre is.
+    // A piece that surfaces, and that is visible on top at its centre.
     const came = [...up.values()].filter(({ floe, children, t_s: at }) => children.length > 0
       && went.get(floe).t_s < time && time < at);
     const onTop = await page.player(({ view, places, state, actions }, candidates) => candidates.find((floe) => {

@@ -1,4 +1,4 @@
-// What the picture means: the default colours by what became of a floe, and a ship that shows as one.
+// Meaning of the picture: the default colours by the history of a floe, and the drawing of a ship.
 "use strict";
 const { test, before, assert, fs, path, folder, open } = require("./bench.js");
 const vm = require("node:vm");
@@ -42,7 +42,8 @@ test("untouched floes, what is left of a plate, and cusps have the colours that 
 
 test("what became of a floe follows from its lineage and its area", () => {
   const { breakagesOf } = scripts("colours.js");
-  // Each row: parent, kind of the parent's fracture, area, what is expected. At the end a plate that loses 200 cusps.
+  // Each row: parent, kind of the parent's fracture, area, expected result. The last case is a plate that loses 200
+  // cusps.
   const rows = [[-1, "", 1000, 0],
     [0, "split", 600, 1], [0, "split", 300, 1], [0, "split", 100, 2],
     [1, "bend", 580, 1], [1, "bend", 20, 3],

@@ -39,7 +39,7 @@ test("the address follows the page, and a copy of it opens the same", async () =
   const viewOf = (of) => of.player(({ view: { x, y, scale } }) => [x, y, scale]);
   const [mine, its] = [await viewOf(page), await viewOf(other)];
   mine.forEach((value, k) => assert.ok(Math.abs(value - its[k]) < 0.01 * Math.max(1, Math.abs(value))));
-  // An address that is entered while the page is open goes there too.
+  // An address that is entered while the page is open changes its time, too.
   await other.evaluate(() => { location.hash = "#t=3&floe=0"; });
   await other.waitForFunction(() => window.polynyaPlayer.state.time === 3 && window.polynyaPlayer.state.selected === 0);
   await other.context().close();

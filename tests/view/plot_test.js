@@ -104,7 +104,7 @@ test("the wheel zooms about the pointer, a part can be chosen, a double click sh
   await page.keyboard.up("Shift");
   const chosen = await span();
   assert.ok(close(chosen[0], 2, 0.05) && close(chosen[1], 6, 0.05), `${chosen}`);
-  // In the part a drag goes to its times, and what is in view follows the present time.
+  // In the enlarged part, a drag goes to the times of that part, and the visible range follows the present time.
   await page.mouse.click(box.x + 0.5 * box.width, box.y + 30);
   assert.ok(close(await page.player(({ state }) => state.time), 4, 0.05));
   await page.act("goTo", 9);

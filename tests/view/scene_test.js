@@ -1,4 +1,4 @@
-// The page of a scene that has not run: what it shows, picks and renews.
+// The page of a scene that has not run: the contents that it shows, selects and renews.
 "use strict";
 const { spawn } = require("node:child_process");
 const os = require("node:os");

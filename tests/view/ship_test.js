@@ -1,4 +1,4 @@
-// Ships in the player: the card of the one that is clicked, names beside hulls, the ruler, and several plots.
+// Ships in the player: the card of the selected ship, names beside hulls, the ruler, and several plots.
 "use strict";
 const { test, before, assert, folder, open } = require("./bench.js");
 const { makeRun, makePage, readLines, smallScene, ship } = require("./runs.js");

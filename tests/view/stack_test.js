@@ -4,7 +4,7 @@ const { test, before, assert, folder, open } = require("./bench.js");
 const { makeRun, makePage, giveLoads, smallScene, ship } = require("./runs.js");
 
 let page, rows;
-// From 0 outwards, as the plot stacks them.
+// Causes from 0 outwards, in the order in which the plot stacks them.
 const causes = ["ice", "friction", "submerged", "water", "thrust", "rudder", "mooring"];
 
 /** Loads that change their signs, of row k. */

@@ -1,4 +1,4 @@
-// What is exported: triangles that cover a polygon, VTK's layout, scenes that continue a run.
+// Exported files: triangles that cover a polygon, VTK's layout, and scenes that continue a run.
 #include "views/export/export.hpp"
 
 #include <algorithm>
@@ -58,7 +58,7 @@ TEST(Triangulation, HasTwoTrianglesLessThanCornersForStarsOfAnySize) {
   }
 }
 
-/// The n-th value of a column, from the file's text alone.
+/// Returns the n-th value of a column, from the text of the file alone.
 double value_at(const std::string& text, const std::string& name, std::size_t n) {
   const std::size_t tag = text.find("Name=\"" + name + "\"");
   const std::size_t start = text.find('>', tag) + 1;
@@ -153,7 +153,7 @@ Miss miss_between(const io::Run& a, const io::Run& b) {
   return miss;
 }
 
-/// From the end of a shorter run, and from the frame before 8.6 s of the run itself.
+/// The exports are made at the end of a shorter run, and at the frame before 8.6 s of the run itself.
 TEST_F(SceneExport, ContinuingMovesAsAnUnbrokenRun) {
   const io::Run whole = run("whole", load(crowd(12)));
   EXPECT_GT(distance(io::MotionIndex(whole).ship_at(0, 12)->position, {-31, 1}), 5);
@@ -194,8 +194,8 @@ TEST_F(SceneExport, TheClockOfATablePilotGoesOn) {
   EXPECT_EQ(rows[2].time, 50);
 }
 
-/// A ship that presses a plate under, in drifting water; the way is that of the frames. No scene has the water that is
-/// missing on decks.
+/// A ship presses a plate under, in drifting water. The distance is that of the frames. A scene does not contain the
+/// water that is missing on decks.
 TEST_F(SceneExport, IceUnderAHullStaysThere) {
   const std::string text = R"({"time": {"step_s": 0.01, "until_s": 30}, "water": {"drift_m_per_s": [0, 0.1]},
     "fracture": {"bending": {"decks": "wet"}},
@@ -219,7 +219,7 @@ TEST_F(SceneExport, IceUnderAHullStaysThere) {
       EXPECT_LT(distance(after[i].motion->position, before[i].motion->position), 2e-3);
     }
     if (time == 30.0) continue;
-    // The ice comes up behind the ship as in the run that went on, but for where it finds room.
+    // The ice surfaces behind the ship as in the uninterrupted run, except for the places where it finds room.
     const auto area_under = [](const io::Run& of, double at) {
       double area = 0;
       for (const io::PlacedFloe& floe : floes_under_hulls_at(of, io::MotionIndex(of), at)) area += floe.birth->area;

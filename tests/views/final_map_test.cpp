@@ -35,7 +35,7 @@ io::Run run_of_three(const std::string& name, const std::string& more = "") {
   return run;
 }
 
-/// The numbers of an attribute, in the order they stand.
+/// Returns the numbers of an attribute, in the order in which they occur.
 std::vector<double> numbers_of(const std::string& svg, const std::string& attribute) {
   std::vector<double> numbers;
   const std::string mark = " " + attribute + "='";
@@ -44,7 +44,7 @@ std::vector<double> numbers_of(const std::string& svg, const std::string& attrib
   return numbers;
 }
 
-/// With five floes.
+/// Returns a run with five floes.
 io::Run run_with_floes(const std::string& name) {
   io::Run run = run_of_three(name);
   for (int i = 0; i < 5; ++i) {
@@ -57,7 +57,7 @@ io::Run run_with_floes(const std::string& name) {
   return run;
 }
 
-/// Of the five floes the first floats all the time, the second is under a hull from 5 s on, and the third came up.
+/// Of the five floes the first floats all the time, the second is under a hull from 5 s on, and the third has surfaced.
 io::Run run_with_ice_under_a_hull() {
   io::Run run = run_with_floes("level");
   run.scene.scene.ships[0].hull.draught = 6;

@@ -29,7 +29,7 @@ SKIPPED = 77
 
 def write(path, text):
     path.parent.mkdir(parents=True, exist_ok=True)
-    if not path.exists() or path.read_text() != text:  # Sphinx reads again only what has changed
+    if not path.exists() or path.read_text() != text:  # Sphinx reads changed files again
         path.write_text(text)
 
 

@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import urllib.parse
 
-# KaTeX reads every equation; what it cannot is named. stdin: [[page, tex, display], …]
+# KaTeX reads every equation, and equations that it cannot read are reported. stdin: [[page, tex, display], …]
 EQUATIONS = """
 const katex = require(process.argv[1]);
 for (const [page, tex, displayMode] of JSON.parse(require("fs").readFileSync(0, "utf8"))) {

@@ -16,7 +16,7 @@ project = "Polynya"
 version = release = os.environ["POLYNYA_VERSION"]
 copyright = "the Polynya authors, GPL-3.0-or-later"  # noqa: A001 (Sphinx's name)
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_copybutton"]
-# Of a block with prompts the commands alone are copied, not what they print.
+# In a block with prompts only the commands are copied, not their output.
 copybutton_prompt_text = r"\$ "
 copybutton_prompt_is_regexp = True
 exclude_patterns = ["images/*", "static"]

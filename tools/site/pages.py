@@ -2,7 +2,7 @@
 import os
 import re
 
-# Caption: pages in their order. Pages of docs/ that no part names are an error.
+# Caption -> pages in their order. A page of docs/ that no part names is an error.
 PARTS = {
     "Start": ["browser", "start", "tutorial", "gallery", "cite"],
     "How to": ["view", "figures", "loads", "movie", "channel", "brash", "inspect", "why-it-split", "export", "ships",
@@ -75,7 +75,7 @@ def linked(name, text, pages, places):
         return f"[\\[{match[1]}\\]]({os.path.relpath('references.md', here or '.')})"
 
     parts = FENCE.split(text)
-    # Quoted sections may stand in the next line, never across code.
+    # Quoted sections may be in the next line, but never across code.
     return "".join(of_code(part) if k % 2 else KEY.sub(of_key, MENTION.sub(of_mention, LINK.sub(of_link, part)))
                    for k, part in enumerate(parts))
 

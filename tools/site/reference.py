@@ -2,7 +2,7 @@
 import re
 import subprocess
 
-# Module: what of it is documented; without names, all that is public.
+# Module -> the documented names. Without names, all public ones are documented.
 PYTHON = {
     "polynya": ["Scene", "Simulation", "Ship", "SeenShip", "PilotView", "Floes", "FloeMemory", "cut", "Cut", "Run",
                 "Study", "Problem", "SceneError", "SimulationError", "FolderError", "require"],

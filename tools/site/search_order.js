@@ -1,4 +1,4 @@
-// How Sphinx's search ranks what it finds: guides first, then reference and theory, then what is for developers.
+// Order of the results of Sphinx's search: first guides, then reference and theory, then pages for developers.
 "use strict";
 
 /** What a page's part of the site adds to the score of a hit in it; a hit in a title has 15, in a text 5. */

@@ -1,5 +1,5 @@
-// The icebreaking database: its text, its accuracy, its trends, what it refuses and where it reports it is
-// outside.
+// The icebreaking database: its text, its accuracy, its trends, the input that it refuses, and the queries that it
+// reports as outside its range.
 #include "fracture/bending/database.hpp"
 
 #include <cmath>
@@ -78,9 +78,9 @@ TEST(DefaultDatabase, IsWhatTheSolverMakes) {
   }
 }
 
-// What docs/theory/bending.md promises: over the whole box, against solutions whose mesh starts four times
-// nearer the tip. Against the table's own mesh an inner radius that is too coarse would not show.
-// Of 200 points: polynya_bench_wedges accuracy.
+// Checks the accuracy that docs/theory/bending.md states, over the whole range of the table. The reference solutions
+// use a mesh whose inner radius is four times smaller. A comparison on the table's own mesh would not show an inner
+// radius that is too coarse. `polynya_bench_wedges accuracy` does the same for 200 points.
 TEST(DefaultDatabase, AgreesWithFinerSolutionsAtRandomPoints) {
   constexpr std::uint64_t kSeed = 20170611;
   const SolverSettings& own = default_database().settings();
@@ -183,7 +183,8 @@ TEST(DatabaseLookUp, NamesWhatIsOutside) {
   EXPECT_FALSE(database.look_up(groups).is_in_range());
 }
 
-// Below its least Froude number a wedge is at rest on its water: the edge is the limit, and counts as inside.
+// Below the least Froude number of the table, the water under a wedge acts as at rest. The answer is that of the
+// table's edge and counts as inside.
 TEST(DatabaseLookUp, RestIsInside) {
   const DatabaseAnswer slow = default_database().look_up({std::numbers::pi / 2, 0.05, 1e-3, 0});
   EXPECT_TRUE(slow.is_in_range());

@@ -70,8 +70,8 @@ TEST(TipCompliance, GrowsFromNothing) {
   }
 }
 
-/// The hull comes ξ + tan θ_s w before the wedge breaks: against the solution in which the two act on each
-/// other at every instant.
+/// The hull advances by ξ + tan θ_s w before the wedge breaks. The reference is the solution in which the two act on
+/// each other at every instant.
 TEST(Recession, LengthensThePushAsTheCoupledSolutionHasIt) {
   BendingLoad load;
   load.hull_angle = 38.2 * kDegree;
@@ -102,7 +102,7 @@ TEST(Recession, OfAWallThatDoesNotPressDownIsNothing) {
   EXPECT_EQ(recession_per_area(load, 0.1), 0);
 }
 
-// ---- what a wedge bears that radial cracks split, and loads whose force is known
+// ---- strength of a wedge that radial cracks split, and loads with a known force
 
 /// Half a metre of ice on which a slow hull presses: V as of a corner of Π 10⁻³ at its penetration.
 BendingLoad slow_load(double opening_angle_deg, double softness = 1e-3) {
@@ -125,7 +125,7 @@ TEST(RadialCracks, LeaveNarrowWedgesAsTheyAre) {
   }
 }
 
-/// The parts of 120° and 180° do not crack again; those of a notch of 220° do.
+/// The parts of 120° and 180° do not crack again. The parts of a notch of 220° do.
 TEST(RadialCracks, LeavePartsThatBearTheirShares) {
   for (const auto& [angle, parts] : {std::pair{120., 2}, {180., 2}, {220., 4}, {240., 4}}) {
     const BendingCapacity split = kSplit.capacity(slow_load(angle));
@@ -147,8 +147,8 @@ TEST(RadialCracks, WeakenWithoutAJump) {
   }
 }
 
-/// Where hull and ice are a flat facet and a wedge, the force of the contact gives the same push as its
-/// angles.
+/// If the contact is a flat facet on a wedge of ice, a load given by the force of the contact is the same as a load
+/// given by its angles.
 TEST(KnownForce, OfAWedgeIsThatOfItsAngles) {
   BendingLoad load;
   load.front_half_angle = 30 * kDegree;

@@ -1,4 +1,5 @@
-// Where an edge of ice breaks by the sections of its outline: the beam's table, closed forms, and what thrust does.
+// Breaking of an ice edge by the sections of its outline: the table of the beam, closed forms, and the effect of
+// thrust.
 #include "fracture/bending/edge_sections.hpp"
 
 #include <array>
@@ -38,7 +39,7 @@ EdgeOpenings wedge_of(double degrees) {
   return symmetric_edge(openings);
 }
 
-/// That ends at 6 λ.
+/// The reference beam ends at 6 λ.
 TEST(EdgeSections, MomentsAreThoseOfTheNarrowWedge) {
   const std::vector<double> by_force = solve_floating_beam(BeamShape::kWedge, {.force = 1}, 6).moments;
   const std::vector<double> by_moment = solve_floating_beam(BeamShape::kWedge, {.moment = 1}, 6).moments;
@@ -60,7 +61,8 @@ TEST(EdgeSections, OfANarrowWedgeAreTheFloatingBeams) {
   }
 }
 
-/// With neither water nor thrust a section bears σ_f h² θ r / 6 (r − x̄): the first one of a wedge far from the load.
+/// Without water and thrust, a section carries σ_f h² θ r / 6 (r − x̄). In a wedge far from the load, the first section
+/// breaks.
 TEST(EdgeSections, BreakAtTheNeck) {
   EdgeOpenings openings = wedge_of(80);
   const double l = 15;
@@ -84,13 +86,13 @@ TEST(EdgeSections, ThrustClosesWhatIsNear) {
     force = found.force;
     distance = found.distance;
   }
-  // Nothing opens, to first order, where the thrust's lever and pressure exceed what the water lets V bend: 6 · .87 l <
-  // 7 η l / l …
+  // To first order no section opens if the moment of the thrust's lever and pressure exceeds the bending moment of V
+  // that the water allows: 6 · 0.87 l < 7 η l / l …
   EXPECT_TRUE(std::isinf(weakest_section(wedge_of(80), {l, l, 0.2, 60, 0.4}).force));
 }
 
-/// To second order the thrust sinks with the tip: nothing changes without thrust, a little on a flank, and what it
-/// keeps closed to first order breaks.
+/// To second order the thrust sinks with the tip. Without thrust this changes nothing, and on a flank it changes
+/// little. A section that the thrust keeps closed to first order breaks.
 TEST(EdgeSections, SinkUnderTheirThrust) {
   const double l = 15;
   const auto force_of = [&](double thrust, double sinking) {
@@ -223,7 +225,8 @@ TEST(EdgeSections, OfCrackedEdgesAreTheElements) {
   EXPECT_LE(off_place, 1);
 }
 
-/// An edge that widens a little bears a little more or less, also where a side turns past the normal of the hull.
+/// The strength of an edge changes little if the edge becomes a little wider, also if a side turns past the normal of
+/// the hull.
 TEST(EdgeSections, ChangeLittleWithTheOutline) {
   const EdgeLoad push{15, 15, 0.2, 1.6, 0.4, 0.3};
   constexpr double kStep = 0.01;  // of a degree
@@ -257,7 +260,7 @@ TEST(EdgeSections, BreakWhenTheirPartsCrack) {
         << l << " " << thrust;
 }
 
-/// A fast push is held up by inertia too: the effective length gives the database's forces and radii, without thrust.
+/// Inertia also resists a fast push: the effective length gives the forces and radii of the database, without thrust.
 TEST(EdgeSections, FollowTheDatabaseWithSpeed) {
   BendingLoad load;
   load.front_half_angle = load.back_half_angle = 30 * kDegree;

@@ -109,8 +109,8 @@ TEST(Failure, ConvergesInTheInnerRadius) {
   }
 }
 
-// Time steps are exact for a load linear within them, so that few are enough: the error falls as their
-// square.
+// Time steps are exact for a load that is linear within them, so a few steps are enough. The error falls with the
+// square of the step.
 TEST(Failure, TimeStepsConvergeToSecondOrder) {
   const std::vector<double> froudes = {0.01, 0.02, 0.05, 0.1, 0.2};
   const auto forces = [&](int steps) {
@@ -197,7 +197,7 @@ TEST(Failure, RadialCrackOpensFirstInWideWedges) {
   }
 }
 
-// The ice bends away from the hull: the break comes later, at nearly the same force when slow.
+// The ice bends away from the hull, so the break comes later. At low speed its force is nearly the same.
 TEST(Failure, DeflectionFeedbackDelaysTheBreak) {
   const std::vector<double> speeds = {0.05, 0.5, 4};
   const auto rows = feedback_study(paper_load(1), speeds, {});

@@ -17,7 +17,7 @@ BeamResponse solve_floating_beam(BeamShape shape, const TipLoad& load, double le
   const bool is_wedge = shape == BeamShape::kWedge;
   const auto width = [&](double x) { return is_wedge ? x : 1; };
   const double slope = load.patch > 0 ? 2 / (load.patch * load.patch) : 0;  // of the line load under the patch
-  // Of each node w, then M.
+  // The unknowns are w of each node, followed by M.
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * (intervals + 1));
   for (int i = 1; i < intervals; ++i) {

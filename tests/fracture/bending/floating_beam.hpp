@@ -18,7 +18,7 @@ struct TipLoad {
 
 inline constexpr double kBeamStep = 1e-3;
 
-/// What a tip load does to a semi-infinite floating beam or narrow wedge. Lengths in l = (E h³ / 12 ρ_w g)^¼.
+/// Response of a semi-infinite floating beam or narrow wedge to a tip load. Lengths are in l = (E h³ / 12 ρ_w g)^¼.
 struct BeamResponse {
   double tip_deflection = 0;    ///< w(0), in P / (ρ_w g b l) for a beam, P / (ρ_w g b0 l²) for a wedge [-]
   double peak_curvature = 0;    ///< max of M / (EI/b or EI/b0 x): M_max / (P l) for a beam, σ b0 h² / 6P for a wedge

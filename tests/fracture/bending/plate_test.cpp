@@ -29,8 +29,8 @@ struct StaticPlate {
   PlateMatrices matrices;
 };
 
-/// Unit load at rest on the tip of a wedge (half_angle α) or, at π with one angular term, on the middle of a
-/// disc.
+/// Returns the response to a unit load at rest on the tip of a wedge (half_angle α), or on the middle of a disc
+/// (half_angle π with one angular term).
 StaticPlate rest(double half_angle, double patch, const SolverSettings& settings) {
   StaticPlate plate{make_plate_mesh(half_angle, settings), {}, {}};
   plate.matrices = assemble_plate(plate.mesh, settings.poisson_ratio);
@@ -47,7 +47,7 @@ Peak top_stress_peak(const StaticPlate& plate, const SolverSettings& settings) {
   return {find_flat_peak(moments.radii, {radial.data(), moments.radii.size()}), 6 * radial.maxCoeff()};
 }
 
-/// d/dx (ker x + i kei x) from K0(z) = ∫ exp(−z cosh t) dt, z = x e^{iπ/4}, by the trapezoidal rule.
+/// Returns d/dx (ker x + i kei x) from K0(z) = ∫ exp(−z cosh t) dt, z = x e^{iπ/4}, by the trapezoidal rule.
 std::complex<double> kelvin_derivative(double x) {
   const std::complex<double> direction = std::polar(1.0, kPi / 4);
   std::complex<double> sum = 0;
@@ -60,8 +60,9 @@ std::complex<double> kelvin_derivative(double x) {
   return sum * kStep;
 }
 
-/// Moment and deflection of our infinite plate: a disc of 8 l, axisymmetric, its moment at the middle from the mean of
-/// radial and hoop moment, which the mesh's small hole does not disturb, carried to r = 0 along its parabola.
+/// Returns the moment and deflection of the infinite plate, computed on an axisymmetric disc of 8 l. The moment at the
+/// middle is the mean of radial and hoop moment, which the small hole of the mesh does not disturb, extrapolated to r =
+/// 0 along its parabola.
 std::pair<double, double> solve_infinite(double patch, int elements = 72) {
   SolverSettings settings;
   settings.angular_terms = 1;
@@ -96,8 +97,8 @@ TEST(Plate, InfiniteConvergesUnderRefinement) {
                [&](int elements) { return std::abs(solve_infinite(0.2, elements).first / moment - 1); });
 }
 
-// Half-plane, point load on its edge: w0 for three ν. The mesh's inner radius stands for the point, with an
-// error proportional to it: halving it halves the error.
+// Deflection w0 of a half-plane under a point load on its edge, for three values of ν. The inner radius of the mesh
+// replaces the point. The error is proportional to this radius: half the radius gives half the error.
 TEST(Plate, HalfPlaneEdgeDeflection) {
   for (const auto& [nu, deflection] : {std::pair{0., .40825}, {.15, .43144}, {.3, .46198}}) {
     expect_falls({4e-3, 2e-3, 1e-3}, 0.6, [&, nu = nu, deflection = deflection](double inner) {
@@ -121,7 +122,7 @@ TEST(Plate, HalfPlaneTopStress) {
   const Peak patch = top_stress_peak(rest(kPi / 2, 0.05, settings), settings);
   EXPECT_NEAR(patch.value, 0.7269, 0.001);
   EXPECT_NEAR(patch.place, 0.862, 0.01);
-  // Under refinement: the deflection converges with the energy, the stress follows.
+  // With refinement the deflection converges like the energy, and the stress follows.
   SolverSettings fine = settings;
   fine.radial_elements = 72;
   const StaticPlate reference = rest(kPi / 2, 0.05, fine);
@@ -338,8 +339,8 @@ TEST(FloatingBeam, EndLoadIsTheClosedForm) {
   EXPECT_NEAR(beam.peak_distance, std::numbers::pi / 4 * std::numbers::sqrt2, 3e-4);
 }
 
-// The narrow wedge of docs/theory/bending.md. The expected forces are those of an earlier prototype, which
-// ours exceeds by 0.22 % at a/l = 0.1, less for longer patches; the radii agree.
+// The narrow wedge of docs/theory/bending.md. The expected forces come from an earlier prototype. The solver exceeds
+// them by 0.22 % at a/l = 0.1, and by less for longer patches. The radii agree.
 TEST(NarrowWedge, AgreesWithThePrototype) {
   for (const auto& [patch, force, radius] :
        {std::tuple{.1, 1.2527, .512}, {.2, 1.449, .679}, {.5, 2.101, 1.036}, {1., 3.700, 1.541}}) {
@@ -370,7 +371,7 @@ TEST(Nevel, RadiusTableIsTheBeamSolution) {
   }
 }
 
-// A short load: beyond the patch w'' = P (1 − 2a/3x) − w(0) x²/6, greatest at x³ = 2a / w(0).
+// For a short load, w'' beyond the patch is P (1 − 2a/3x) − w(0) x²/6, which is largest at x³ = 2a / w(0).
 TEST(Nevel, RadiusHasTheShortLoadLimit) {
   const double tip = solve_floating_beam(BeamShape::kWedge, {.patch = 0.01}).tip_deflection;
   EXPECT_NEAR(nevel_cusp_radius_over_l(1e-9) / 1e-3, std::cbrt(2 / tip), 3e-3);
