@@ -6,7 +6,7 @@
 
 namespace polynya::bench {
 
-/// A plate and the cusps that are cut off it one after the other.
+/// A plate, and the cusps that are cut off it one after the other.
 struct March {
   geometry::Ring plate;
   std::vector<geometry::Ring> cusps;

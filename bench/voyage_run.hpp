@@ -42,7 +42,7 @@ struct RunCost {
 /// Every engine takes the same steps in each repetition, so the fastest repetition of a block is its undisturbed cost.
 void keep_quieter(RunCost& cost, const RunCost& again);
 
-/// A scene of scenes/, with what a case changes about it.
+/// A scene of scenes/, and the changes that a case makes to it.
 using Edit = std::function<void(simulation::Scene&)>;
 simulation::Scene load(const std::string& file, const Edit& edit = {});
 
@@ -54,7 +54,7 @@ void take_fine_step(simulation::Scene& scene);
 /// Ticks without parts: each tick is one time step, as in the peers.
 inline constexpr simulation::Shortcuts kWithoutParts{.takes_parts = false};
 
-/// Runs a scene of scenes/; the time to load it is measured too.
+/// Runs a scene of scenes/ and measures the time, including the time to load the scene.
 RunCost run_polynya(const std::string& file, const Edit& edit, const Limits& limits,
                     simulation::Shortcuts shortcuts = {});
 /// Runs a scene that is loaded already.

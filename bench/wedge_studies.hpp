@@ -11,8 +11,9 @@
 
 namespace polynya::fracture {
 
-// Direct solutions of the wedge for physical loads, and the studies of docs/theory/bending.md that are made of
-// them (polynya_bench_wedges prints those). Tests take them as references; the product has the table alone.
+// Direct solutions of the wedge for physical loads, and the studies of docs/theory/bending.md that are computed from
+// them (polynya_bench_wedges prints these studies). Tests use the solutions as references; the product has only the
+// table.
 
 /// The same discretisation from another inner radius on: as many elements more or fewer as keep their
 /// spacing, and fluid panels in proportion. inner_radius in l, below the outer radius.

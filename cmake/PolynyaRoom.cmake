@@ -8,7 +8,8 @@ add_library(polynya_options INTERFACE)
 target_compile_features(polynya_options INTERFACE cxx_std_20)
 # Contraction is off, so that the same source gives the same bytes whether or not the machine has fused multiply-add.
 target_compile_options(polynya_options INTERFACE -ffp-contract=off)
-# Failed assertions name their source below the project's folder: no product has a path of the machine that built it.
+# Failed assertions name their source relative to the project's folder, so that no product contains a path of the build
+# machine.
 target_compile_options(polynya_options INTERFACE $<BUILD_INTERFACE:-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=>)
 
 add_library(polynya_warnings INTERFACE)
@@ -20,9 +21,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # The compiler collects its garbage from half a gigabyte on, not from 128 MB: a fourteenth of its time.
     "SHELL:--param ggc-min-heapsize=524288")
 endif()
-# For code that every step runs, and everywhere, because precompiled headers are of one set of options. None changes a
-# result: square roots set no errno, and both sides of a choice may be computed before it. GCC clears and copies small
-# objects by string instructions, whose start-up costs a contact 10 %.
+# Options for code that every step runs. They are used everywhere, because precompiled headers need one set of options.
+# None changes a result: square roots set no errno, and both sides of a conditional may be computed before it. GCC
+# clears and copies small objects by string instructions, whose start-up would cost a contact 10 %.
 target_compile_options(polynya_warnings INTERFACE -fno-math-errno -fno-trapping-math)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
   target_compile_options(polynya_warnings INTERFACE

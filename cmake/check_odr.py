@@ -18,7 +18,7 @@ import sys
 
 ROOMS = ["elementary", "geometry", "dynamics", "fracture", "simulation", "io", "analysis", "views", "cosim", "app",
          "python_module"]
-# Defines again, for programs without threads, what dynamics/parallel.cpp and thread_limit.cpp define.
+# Sources that define the functions of dynamics/parallel.cpp and thread_limit.cpp again, for programs without threads.
 OTHER_DEFINITIONS = "dynamics/no_threads.cpp"
 PLANTED = {
     "planted_a.cpp": "namespace polynya { struct Planted { int a; }; int use(Planted p) { return p.a; } }",

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A finished run with everything that a run may write, but what commands add later.
+/// A finished run with all files that a run may write, except for those that commands add later.
 class Checksums : public InSharedFolder {
  protected:
   static void SetUpTestSuite() {

@@ -484,7 +484,7 @@ TEST_F(CutCommand, LinesThatEndOnEachOtherSeparateInAnyOrder) {
 }
 
 TEST_F(CutCommand, LinesTogetherSeparateWhatNoOneOfThemDoes) {
-  // Three lines about a triangle, none of which reaches the edge.
+  // Three lines around a triangle, none of which reaches the edge of the floe.
   write("ops.json", R"([{"line":[2,2,8,2.5]},{"line":[7,2,5,8]},{"line":[5.5,8,2.5,1.5]}])");
   const json ledger = ledger_of(cut("--ops ops.json --out pieces.geojson"));
   EXPECT_EQ(ledger["floes"][0]["pieces"], 2);

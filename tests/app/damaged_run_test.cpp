@@ -107,14 +107,15 @@ TEST_F(DamagedRun, ASizeDistributionLeavesOutAreasThatAreNone) {
 
 // ---- a run whose account of energy does not close says so, leaves the state before, and repeats it
 
-/// Two floes that meet after some five seconds and stop each other, and a ship that nobody meets.
+/// Two floes meet after about five seconds and stop each other. A ship meets no floe.
 const std::string kScene = scene({R"("time": {"step_s": 0.01, "until_s": 15}, "record": {"frames_interval_s": 1})",
                                   list("ships", {ship(R"("position_m": [0, 900], "propulsion": {"thrust_N": 0})")}),
                                   list("floes", {square(500, 0, 40, R"("velocity_m_per_s": [1, 0])"),
                                                  square(550, 0, 40, R"("velocity_m_per_s": [-1, 0])")})});
 
-/// Books momentum that was never there, 2e-7 of what the floes have: within 1e-6 of the turnover while they move, also
-/// without what they had at the start. When they have stopped each other, all that is left of it is the water's part.
+/// Adds a false momentum to the accounts, 2e-7 of the momentum of the floes. It is within 1e-6 of the turnover while
+/// they move, even without the momentum at the start. After they have stopped each other, only the water's part of the
+/// turnover is left.
 void miskeep(Simulation& simulation) {
   auto& sums = const_cast<simulation::World&>(simulation.world()).accounts.audit;
   sums.initial_momentum.y += 2e-7 * sums.initial_momenta;

@@ -1,4 +1,4 @@
-// `polynya database` as people and scripts use it: the built program, its files and its exit codes.
+// `polynya database` as users and scripts call it: the built program, its files and its exit codes.
 #include <cmath>
 #include <csignal>
 #include <numbers>

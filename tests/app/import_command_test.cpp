@@ -200,7 +200,7 @@ TEST_F(Import, LayersAreListedAndNamed) {
   EXPECT_HAS(expect_code(2, call("import mapped.geojson --out floes.geojson --layer ice")).err, "have no layers");
 }
 
-/// An ice chart as national services publish it (SIGRID-3): codes are texts, -9 and "99" are none.
+/// An ice chart as national services publish it (SIGRID-3): codes are texts, and -9 and "99" mean missing values.
 std::string chart() {
   const auto polygon = [](double x, const std::string& type, const std::string& stage, const std::string& area) {
     return square(x, 78, 0.02, fmt::format(R"("POLY_TYPE":"{}","CT":"92","SA":{},"AREA":{})", type, stage, area));

@@ -30,7 +30,7 @@ inline std::string crash_scene(const std::string& until) {
       "concentration": 0.7}}, {"rectangle": {"corner_m": [222, 40], "size_m": [60, 120]}}]})";
 }
 
-/// The files whose bytes an interruption must not change, and one that it may only bring forth again.
+/// The files whose bytes an interruption must not change, and one file that it may only write again.
 inline constexpr std::array kComparedFiles{io::run_file::kScene,   io::run_file::kForces, io::run_file::kEvents,
                                            io::run_file::kFloes,   io::run_file::kFrames, io::run_file::kContacts,
                                            io::run_file::kCrushed, io::run_file::kStates, io::run_file::kFinalGeojson};
@@ -45,7 +45,7 @@ inline std::string without_wall_time(const std::string& summary) {
   return kept;
 }
 
-/// The first file in which two run folders differ; empty where none does.
+/// Returns the first file in which two run folders differ, or an empty text if none differs.
 inline std::string first_difference(const std::filesystem::path& a, const std::filesystem::path& b) {
   for (const auto name : kComparedFiles) {
     const bool are_there = std::filesystem::exists(a / name) && std::filesystem::exists(b / name);
@@ -67,7 +67,8 @@ inline bool kill_after(pid_t child, const Start& start, std::chrono::microsecond
   return wait_for(child, start).code == -SIGKILL;
 }
 
-/// Starts polynya and kills it when the run folder has that many checkpoints. False where it ended before.
+/// Starts polynya and kills it when the run folder has the given number of checkpoints. Returns false if the run ended
+/// before.
 inline bool kill_at_checkpoints(const Words& words, const Start& start, const std::filesystem::path& run,
                                 std::size_t count) {
   const pid_t child = start_polynya(words, start);

@@ -87,8 +87,8 @@ testing::AssertionResult are_near(const Ring& a, const Ring& b, double most) {
   return testing::AssertionSuccess();
 }
 
-/// Floes about a place, in its plane: ragged ones of some hundred metres, a long one, one with a hole, and one about
-/// the place itself.
+/// Floes around a place, in its plane: ragged floes of some hundred metres, a long floe, a floe with a hole, and a floe
+/// that contains the place.
 std::vector<Polygon> floes_about() {
   std::mt19937 dice(7);
   std::uniform_real_distribution<double> spread(0.7, 1.3);
@@ -317,8 +317,9 @@ TEST_F(PlaceOnEarth, EdgesFollowTheirParallel) {
   EXPECT_EQ(checked(io::read_floe_text(read("floes.geojson")))->entries[0].polygon.outer.size(), 5U);
 }
 
-/// A floe over a pole is written as one ring with a seam to it, and read back without it; on the boundary it has the
-/// pole as a vertex. Files of others draw such a ring with longitudes from -180 to 180.
+/// A floe over a pole is written as one ring with a seam to the pole, and is read back without the seam. A floe with
+/// the pole on its boundary has the pole as a vertex. Files of other programs draw such a ring with longitudes from
+/// -180 to 180.
 TEST_F(PlaceOnEarth, OverThePoleIsOneRing) {
   for (const double pole : {90.0, -90.0}) {
     const double lat = pole > 0 ? 89.998 : -89.998;

@@ -80,7 +80,7 @@ inline constexpr auto kTinyScene =
 inline pid_t start_polynya(const Words& words, const Start& start) {
   const pid_t child = fork();
   if (child != 0) return child;
-  // A shell's background job, nohup's too, passes on that it ignores these; the tests send them.
+  // The background job of a shell, also with nohup, inherits that these signals are ignored. The tests send them.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
   std::filesystem::current_path(start.folder);
   if (!freopen("stdout.txt", "w", stdout) || !freopen("stderr.txt", "w", stderr)) _exit(126);
@@ -124,7 +124,7 @@ inline Outcome expect_code(int code, Outcome outcome) {
   return outcome;
 }
 
-/// A command line that is refused: its exit code, and what the message has.
+/// A command line that must be refused, its exit status, and the expected parts of its message.
 struct Refusal {
   Words words;
   int code = 0;

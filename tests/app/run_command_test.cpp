@@ -36,7 +36,7 @@ TEST_F(RunCommand, WritesAFolderAndTellsTheResult) {
   EXPECT_GT(run.summary.find("counts")->find("bends")->number(), 0);
 }
 
-/// The line of a text that has some words; empty where none has.
+/// Returns the line of a text that contains the given words, or an empty text if there is none.
 std::string line_with(const std::string& text, const std::string& words) {
   const std::size_t at = text.find(words);
   if (at == std::string::npos) return "";
@@ -77,7 +77,7 @@ TEST_F(RunCommand, LeadsWithTheTrueForce) {
     for (const io::RunContact& contact : run.peaks) of_contact = std::max(of_contact, contact.state.normal_force());
     EXPECT_EQ(peaks.find("contact_peak_N")->find("value")->number(), of_contact);
     EXPECT_EQ(run.summary.find("forces_interval_s")->number(), 0.1);
-    // j/τ_c where it decides, and then behind the true force.
+    // The output has j/τ_c only if it decides splits, and then after the true force.
     EXPECT_EQ(last != std::string::npos, model == "michel") << outcome.out;
     EXPECT_EQ(peaks.find("surge_j_over_tau_c_N") != nullptr, model == "michel");
     if (last != std::string::npos) {

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// strace with options. LeakSanitizer, where polynya has it, cannot work under it.
+/// Returns a command line for strace with options. LeakSanitizer cannot work under strace, so it is switched off.
 Words strace(const Words& options) {
   return Words("env ASAN_OPTIONS=detect_leaks=0 strace -f") + options;
 }
@@ -45,8 +45,8 @@ class RunFolderTrial : public testing::Test {
   const TemporaryFolder folder_;
 };
 
-/// A kill at any call that changes the folder leaves what the next run takes, and what resume, where it takes
-/// it, brings to the end.
+/// A kill at any call that changes the folder leaves a folder that the next run accepts. If resume accepts it, resume
+/// brings the run to its end.
 TEST_F(RunFolderTrial, AKillWhileARunIsReplacedLeavesAFolderThatIsTaken) {
   if (!has_strace()) GTEST_SKIP() << "no strace that works here";
   for (const auto& [call, stride] : {std::pair<std::string, int>("unlink", 12), {"rename", 2}}) {
@@ -100,7 +100,7 @@ std::string path_in(const std::string& line, char open, char close) {
   return line.substr(start + 1, end - start - 1);
 }
 
-/// Follows a trace of calls: what of a run folder a power failure could take away.
+/// Follows a trace of system calls to find the files of a run folder that a power failure could lose.
 class Unsynced {
  public:
   explicit Unsynced(fs::path folder) : folder_(std::move(folder)) {}
@@ -163,7 +163,7 @@ TEST_F(RunFolderTrial, AResumeFromASavedCheckpointIsNotLostToAKill) {
   leave_run("run", 260, {200, 250});
   const std::string saved = "early/checkpoint-000000000050.bin";
   if (!has_strace()) GTEST_SKIP() << "no strace that works here";
-  // Killed when it would write its third checkpoint.
+  // The run is killed when it is about to write its third checkpoint.
   expect_code(-SIGKILL,
               call({"resume", "run", "--checkpoint", saved, "--checkpoint-every", "0.1"}, killed_at("rename", 4)));
   const auto left = io::checkpoints_in(folder_ / "run");
@@ -173,7 +173,7 @@ TEST_F(RunFolderTrial, AResumeFromASavedCheckpointIsNotLostToAKill) {
   EXPECT_EQ(difference("run"), "");
 }
 
-/// A run folder from elsewhere must not make polynya write outside it.
+/// A run folder from elsewhere must not make polynya write outside of the folder.
 TEST_F(RunFolderTrial, LinksInAForeignRunFolderAreNotFollowed) {
   write_file(folder_ / "precious", "years of work");
   fs::create_directory(folder_ / "elsewhere");

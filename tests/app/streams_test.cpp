@@ -28,7 +28,7 @@ class Streams : public InSharedFolder {
   }
 };
 
-/// Every command that prints to stdout, as a user calls it.
+/// Every command that prints to stdout, called as a user calls it.
 const std::vector<Words> kPrinting{"--help",
                                    "--version",
                                    "run --help",

@@ -47,7 +47,7 @@ TEST_F(Usage, ErrorsNameTheCommandTheFaultAndWhatWasMeant) {
   for (const char* name : {"x.html", "runs"}) EXPECT_FALSE(std::filesystem::exists(*folder / name)) << name;
 }
 
-/// CLI11's range accepts nan, and a checkpoint every nan seconds is none.
+/// The range check of CLI11 accepts nan, but an interval of nan seconds gives no checkpoints.
 TEST_F(Usage, EveryNumberMustBeFinite) {
   for (const Words& row : std::initializer_list<Words>{
            "run --until --checkpoint-every --checkpoint-every-wall",

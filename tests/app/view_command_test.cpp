@@ -49,7 +49,7 @@ struct Page {
   }
 };
 
-/// The value that a message advises for an option; empty where it does not.
+/// Returns the value that a message advises for an option, or an empty text if it advises none.
 std::string advised(const std::string& message, const std::string& option) {
   const std::size_t at = message.rfind(option + ' ');
   if (at == std::string::npos) return "";

@@ -22,7 +22,7 @@ constexpr double kStep = 0.05;
 
 using Found = std::tuple<BodyIndex, BodyIndex, double, double, double>;  ///< a, b, width, depth, area
 
-/// Every pair of which one at least is awake, from nothing.
+/// Returns every pair of which at least one body is awake, without any memory.
 std::vector<Found> over_all_pairs(const Bodies& bodies, const ContactRule& rule) {
   std::vector<Found> found;
   geometry::ManifoldScratch scratch;
@@ -222,8 +222,8 @@ TEST(BroadPhase, AFastFloeIsNotMissed) {
   EXPECT_GT(met, 0u);
 }
 
-/// A fast plate is awake while a ship breaks it, and had a pair with each piece of brash at rest in its box:
-/// a thousand, which each cusp entered again.
+/// A fast plate is awake while a ship breaks it. It used to have a pair with each of a thousand pieces of brash at rest
+/// in its box, and each cusp entered these pairs again.
 TEST(BroadPhase, IceThatIsHeldIsPairedOnlyWithWhatMoves) {
   Bodies bodies;
   add_held(bodies, rectangle(100, 100), {});
@@ -290,7 +290,7 @@ geometry::Box box(double x, double y, double side) {
   return {{x, y}, {x + side, y + side}};
 }
 
-/// A plate of 100 km among floes of 4 m took a cell for every 5 m of it, and all the memory there was.
+/// A plate of 100 km among floes of 4 m used to take a grid cell for every 5 m, and all of the memory.
 TEST(HashGrid, AVastBodyIsNearAllAndTakesNoCells) {
   HashGrid grid(5);
   const geometry::Box plate = box(0, 0, 1e5), floe = box(10, 10, 4), far = box(-1e4, 0, 4);

@@ -136,7 +136,7 @@ Scene corner_on_face(Random& random) {
   return scene;
 }
 
-/// Ours, where it is Chipmunk's.
+/// Returns Polynya's outcome after checking that it agrees with Chipmunk's.
 OurOutcome agreed(const Scene& scene) {
   OurOutcome ours = with_ours(scene);
   EXPECT_EQ(ours.contacts.size(), 1u);

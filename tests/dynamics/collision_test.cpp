@@ -103,7 +103,7 @@ TEST(RandomContacts, RestitutionIsExactAndMomentumKept) {
   }
 }
 
-/// The printed equation crosses the arms: body i with k's arm. It is what this project deviates from.
+/// The printed equation crosses the arms: body i with the arm of k. This project deviates from it.
 TEST(RandomContacts, TheEq5AsPrintedGainsEnergyWhereOursDoesNot) {
   Random random(kSeed);
   int gains = 0;
@@ -124,7 +124,7 @@ TEST(RandomContacts, TheEq5AsPrintedGainsEnergyWhereOursDoesNot) {
   EXPECT_GT(gains, 400) << "of 2000";
 }
 
-/// Momentum is kept, no energy gained; friction stops the slip, or is at its cone against it.
+/// Momentum is conserved and no energy is gained. Friction stops the slip, or acts against it at the limit of its cone.
 TEST(RandomContacts, WithFrictionKeepToItsCone) {
   Random random(kSeed);
   int sticking = 0, slipping = 0;
@@ -152,7 +152,7 @@ TEST(RandomContacts, WithFrictionKeepToItsCone) {
   EXPECT_GT(slipping, 500);
 }
 
-/// A ship of prescribed speed, a floe before it, a plate of 220 times the floe's mass before that, all
+/// A ship of prescribed speed, a floe ahead of it, and a plate of 220 times the floe's mass ahead of the floe, all
 /// touching.
 struct Pinch {
   Bodies bodies;
@@ -182,7 +182,8 @@ TEST(ContactsTogether, AFloePinchedBetweenAPrescribedShipAndAHeavyPlateFeelsBoth
   EXPECT_NEAR(pinch.contacts[0].total_normal_impulse() / (plate + bodies.mass[1] * bodies.velocity[1].x), 1, 1e-10);
 }
 
-/// In many calls of thirty iterations; with and without what contacts keep from one to the next.
+/// The pile-up is solved by many calls of thirty iterations, with and without the impulses that contacts keep from one
+/// call to the next.
 TEST(ContactsTogether, APinchedPlateComesToTheShipsSpeedFromBelow) {
   for (const double restitution : {0.0, 0.1}) {
     for (const bool has_records : {false, true}) {
@@ -360,7 +361,7 @@ TEST(Separation, LeavesWhatCrushingMadeAndNeverMovesABodyOfPrescribedMotion) {
 }
 
 TEST(Separation, CountsInWhatABodyHasTravelled) {
-  // `travel` bounds every point's displacement: what the pair finder culls by.
+  // `travel` bounds the displacement of every point. The pair finder culls pairs by it.
   Bodies bodies = overlapping(0.3, 3);
   std::vector<Contact> contacts{contact_at(0, 1, {-0.1, 4}, {1, 0}, 2)};
   contacts[0].depth = 0.3;

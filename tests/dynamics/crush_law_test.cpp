@@ -96,7 +96,7 @@ Jam jam_of(Random& random, int floes) {
   return jam;
 }
 
-/// Gives its contacts records, which are the caller's while the jam stays where it is.
+/// Gives the contacts of a jam records, which belong to the caller while the jam stays where it is.
 void keep_records(Jam& jam) {
   jam.records.assign(jam.contacts.size(), {});
   for (std::size_t i = 0; i < jam.contacts.size(); ++i) jam.contacts[i].record = &jam.records[i];

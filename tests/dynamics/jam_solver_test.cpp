@@ -247,8 +247,8 @@ TEST(JamSolver, SolvesWhatSweepsDoNot) {
   EXPECT_LE(residual_of(pack, 60, 1e-6), 1e-6);
 }
 
-/// Newton's solution ends the sweeps where no contact misses its law there. A further sweep adds up what single
-/// contacts miss: by its residual four of these are not solved.
+/// Newton's solution ends the sweeps if no contact deviates from its law there. A further sweep adds up the deviations
+/// of single contacts: by its residual four of these jams are not solved.
 TEST(JamSolver, WhatNewtonsMethodSolvesIsNotSweptAgain) {
   Random random(kSeed);
   for (int trial = 0; trial < 42; ++trial) {
@@ -259,7 +259,7 @@ TEST(JamSolver, WhatNewtonsMethodSolvesIsNotSweptAgain) {
   }
 }
 
-/// The step that repeats itself starts where it ends, friction included.
+/// A step that repeats itself starts where the previous one ended, friction included.
 TEST(JamSolver, AJamThatStaysIsSolvedByOneSweep) {
   Random random(kSeed);
   Pack pack = pack_of(random, 8, 6, 0.2);
@@ -288,8 +288,8 @@ auto& unknown(Unknowns& of_bodies, Eigen::Index i) {
   return of_bodies[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)];
 }
 
-/// Contacts between bodies drawn at random, some of prescribed motion, some that meet twice; a third of the
-/// contacts carries nothing.
+/// Contacts between randomly drawn bodies. Some bodies have prescribed motion, some pairs meet twice, and a third of
+/// the contacts carries no load.
 Problem problem_of(Random& random, int bodies, double friction) {
   Problem problem{.bodies = bodies, .mass = JamVector(static_cast<std::size_t>(bodies) + 1), .rows = {}, .loads = {}};
   for (int i = 0; i < 3 * bodies; ++i) unknown(problem.mass, i) = std::pow(10.0, random.between(0, 3));

@@ -88,8 +88,8 @@ TEST(PaidOverlap, WhatBreaksOrTiltsIsPaidButNotByWork) {
   }
 }
 
-/// A floe that tilts takes a fraction of the force that would crush it, and yields to that force as fast as ice would
-/// yield to all of it.
+/// A floe that tilts takes a fraction of the force that would crush it. It yields to that force as fast as ice would
+/// yield to the whole force.
 TEST(PaidOverlap, OfIceLetInByAFractionOfTheCrushingForceThatFractionIsCrushed) {
   PersistentContact record;
   Contact c = wedge(0.4, 1.5);

@@ -129,8 +129,8 @@ TEST(Race, IsTurnedAndLosesMomentumButNeverGainsAny) {
     }
 }
 
-/// A jet on an inclined plate far larger than itself presses it with the momentum across the plate, sin² and sin cos of
-/// it along and across.
+/// A jet on an inclined plate much larger than itself presses it with the momentum across the plate. The shares along
+/// and across the jet are sin² and sin cos of the angle.
 TEST(Race, ImpingesOnALargePlateAsAJetDoes) {
   const LiftAndDrag over = foil_in_race(0.05, 80 * kDegree);
   EXPECT_NEAR(over.drag, std::pow(std::sin(80 * kDegree), 2), 0.02);
@@ -177,7 +177,8 @@ TEST(Rudder, AtRestTurnsTheRaceByAlmostItsAngle) {
   EXPECT_NEAR(sine, 0.515, 0.001);
 }
 
-/// The table of docs/theory/ship.md: ahead and aside over the thrust, of the reference ship and of Oden.
+/// The table of docs/theory/ship.md: forces ahead and aside as shares of the thrust, for the reference ship and for
+/// Oden.
 TEST(Rudder, AtRestHasTheForcesThatItsPageStates) {
   const Rudder oden{.area = 56, .count = 2, .propeller_area = 15.9, .thrust_share = 0.5, .has_nozzle = true};
   for (const auto& [degrees, ahead, aside, oden_ahead, oden_aside] : {std::tuple{10, -0.01, 0.16, -0.01, 0.15},
@@ -217,7 +218,7 @@ TEST(Rudder, TwinRuddersShareThrustAndArea) {
   EXPECT_NEAR(both.sway, 2 * one.sway, 1e-6);
 }
 
-/// A race as slow as the water around it is none.
+/// A race as slow as the water around it has no effect.
 TEST(Rudder, BehindAPropellerWithoutThrustIsAFoilInTheHullsFlow) {
   for (const Planar& motion : {Planar{6, 0, 0}, {2, 0.5, 0.02}, {-3, 0.1, 0.01}}) {
     const Planar expected = rudder_force(without_race(), 0.3, motion, 0, kSeaDensity);

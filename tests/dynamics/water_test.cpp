@@ -131,8 +131,8 @@ TEST(WaterDrag, ATurnedFloeWithATurnedVelocityFeelsTheSameDragTurned) {
 
     const auto resistance = [](const Bodies& bodies) { return 1 / length(bodies.velocity[0]) - 0.5; };  // k t
     const double off = std::abs(resistance(drawn) / resistance(placed) - 1);
-    // A floe's width has a kink where it moves along an edge, and interpolation cuts it: by at most half the
-    // spacing of the known directions (1/16 rad) times the floe's aspect ratio.
+    // The width of a floe has a kink where the floe moves along an edge, and interpolation cuts this kink. The error is
+    // at most half the spacing of the known directions (1/16 rad) times the floe's aspect ratio.
     const double aspect = std::max(along, across) / std::min(along, across);
     ASSERT_LT(off, aspect / 32 + 1e-3) << aspect;
   }

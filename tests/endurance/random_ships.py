@@ -209,7 +209,7 @@ def stand(dice, setting, outline, is_round=False):
     """Finds and takes a place for a hull; None where there is none. A round one is not turned."""
     for x, y, heading, is_outside in places(dice, setting, outline, is_round):
         body = turned(outline, heading, (x, y))
-        # Outside it must not reach over the ice, inside it must stay within room for hulls.
+        # Outside it must not extend over the ice, and inside it must stay within the room for hulls.
         is_free = is_outside or any(all(x0 < px < x1 and y0 < py < y1 for px, py in body)
                                     for x0, y0, x1, y1 in setting.room_m)
         if is_free and all(are_apart(body, other, 1) for other in setting.hulls):

@@ -67,7 +67,7 @@ TEST(Beam, ThatIsFreeBendsAgainstItsInertia) {
   EXPECT_NEAR(middle.moment, -kForce * kLength / 8, 1e-6) << "it pulls on the side away from the force";
   EXPECT_NEAR(middle.tension, 0, 1e-6);
   EXPECT_NEAR(most_moment({{{0, 1.5}, {0, -kForce}, 0}}), kForce * kLength / 8, 1e-6);
-  // The closed form is of a slender beam; here the moment of inertia has the width in it, 1/64.
+  // The closed form is for a slender beam. Here the moment of inertia includes the width, a share of 1/64.
   const double at_third = std::abs(load_at(kLength / 6, {{{kLength / 2, 0}, {0, kForce}, 0}}).moment);
   EXPECT_NEAR(at_third / (kForce * kLength * 4 / 27), 1, 0.02);
   EXPECT_NEAR(most_moment({{{kLength / 2, 0}, {0, kForce}, 0}}) / at_third, 1, 0.005);

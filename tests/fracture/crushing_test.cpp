@@ -154,8 +154,9 @@ TEST(CrushingShares, OfAStemAreThoseOfItsTwoFlanks) {
   }
 }
 
-/// Ice slides down along a flank that it meets at more than the angle of friction from its normal, however steep: a
-/// stem's flanks press it down up to 90°. Head on, a facet steeper than 90° - atan μ holds it up.
+/// Ice slides down along a flank that it meets at more than the angle of friction from its normal, however steep the
+/// flank is. The flanks of a stem therefore press it down up to 90°. Head on, a facet steeper than 90° - atan μ holds
+/// it up.
 TEST(CrushingShares, AStemPressesDownWhereItsFlanksDo) {
   const double friction = 0.2;
   const double widest = std::atan(1 / friction);  // of a vertical flank from the centreline, at which ice sticks
@@ -198,7 +199,8 @@ TEST(CrushedOverlapArea, OfAStraightEdgeIsItsFlatForm) {
 }
 
 TEST(CrushedOverlapArea, TendsToThicknessTimesContactLineAtAVerticalWall) {
-  // h dS/dξ, reached without a jump: the distance to it shrinks in proportion to the angle, down to rounding.
+  // The limit h dS/dξ is reached without a jump: the distance to it shrinks in proportion to the angle, down to
+  // rounding.
   for (const double power : {1.0, 1.5, 2.0, 3.0}) {
     const double depth = 0.2;
     const Overlap overlap{3, depth, 3 * depth / power};  // S = c ξ^p: dS/dξ = p S / ξ

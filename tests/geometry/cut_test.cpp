@@ -1,4 +1,4 @@
-// Cuts: what they leave, by both paths, and what once went wrong.
+// Cuts: their results by both paths, and regressions.
 #include "geometry/cut/cut.hpp"
 
 #include <algorithm>
@@ -228,7 +228,7 @@ TEST(LocalCut, EqualsTheGeneralOneAcrossHoles) {
   for (int i = 0; i < 400 && !HasFailure(); ++i) {
     Ring crack;
     for (int k = 0; k < 2 + i % 3; ++k) crack.push_back({place(random), place(random)});
-    // In order of x it cannot cross itself, which the local path takes for granted.
+    // A line in the order of x cannot cross itself, which the local path requires.
     std::sort(crack.begin(), crack.end(), [](Point a, Point b) { return a.x < b.x; });
     compare(shape, {false, crack}, tally);
     compare(shape, {true, disc_polygon({place(random), place(random)}, 0.3 * (1 + i % 12), 0.02)}, tally);

@@ -109,7 +109,7 @@ TEST(Hazards, HugeCoordinatesAreRefusedByName) {
 
 // ---- floes as images of ice show them: outlines with bays, necks and ponds, thousands of vertices long
 
-/// The largest of what a crowd of discs covers, with its ponds, about its middle.
+/// Returns the largest connected area that a crowd of discs covers, with its ponds, placed about its middle.
 Polygon ragged_floe(int size, unsigned seed) {
   scenery::Random random(seed);
   const double largest = 0.06 * std::sqrt(60.0 * size);
@@ -195,7 +195,7 @@ class Trial {
  public:
   explicit Trial(unsigned seed) : random_(seed), floes_{Shape{shapes::rectangle(0, 0, 110, 200)}} {}
 
-  // One cut of one floe, with all that must hold of it.
+  // Makes one cut of one floe and checks all its properties.
   void step() {
     const std::size_t i = pick();
     const Shape floe = floes_[i];
@@ -224,7 +224,7 @@ class Trial {
     EXPECT_GT(cuts_, 1000);
     exact::Rational sum = brash_ - 110 * 200 - itemised_;
     for (const Shape& floe : floes_) sum += exact_area_of(floe);
-    // Each cut's defect is known to the nearest double of some 1e-15 m².
+    // The defect of each cut is known to the nearest double of about 1e-15 m².
     EXPECT_LT(std::abs(sum.get_d() + slivers_), 1e-28 * cuts_ + 1e-14 * slivers_);
   }
 

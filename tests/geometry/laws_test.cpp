@@ -139,8 +139,8 @@ TEST(Laws, MotionLeavesGenericCutsCongruent) {
   });
 }
 
-// On a grid of quarters with axis-parallel and diagonal tools every crossing is a double: nothing is rounded,
-// and what holds before rounding can be read off the result.
+// On a grid of quarters with axis-parallel and diagonal tools every crossing is a double. Nothing is rounded, so the
+// exact laws can be checked on the result.
 Ring grid_tool(Dice& dice) {
   const Point c{static_cast<double>(dice.below(9)), static_cast<double>(dice.below(9))};
   const double r = 0.5 * (1 + dice.below(6));

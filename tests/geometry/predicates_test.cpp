@@ -97,7 +97,7 @@ TEST(Predicates, APointIsInARingWhereItsRayCrossesItOnceMore) {
   }
 }
 
-/// Both orders of a tree find what comparing all finds.
+/// A tree finds the same pairs in both orders as a comparison of all pairs.
 TEST(BoxTree, FindsAllPairsAndAllNearABox) {
   Random random(5);
   for (int trial = 0; trial < 200; ++trial) {
@@ -265,8 +265,8 @@ TEST(Measures, DiscStaysWithinItsSagitta) {
   }
 }
 
-// Triangles whose third corner lies within some steps of the line through the other two, needles, and rings
-// of many vertices, near the origin and far from it, tiny and huge.
+// The rings are triangles whose third corner is within a few steps of the line through the other two, needles, and
+// rings of many vertices, near the origin and far from it, tiny and huge.
 class AwkwardRings {
  public:
   Ring roll() {
@@ -325,7 +325,8 @@ TEST(Measures, EveryAreaIsTheNearestDouble) {
 }
 
 TEST(Measures, HolesAreTakenOffBeforeTheAreaIsRounded) {
-  // The hole leaves a frame of some steps between doubles, which the difference of two rounded areas loses.
+  // The hole leaves a frame as wide as a few steps between doubles. The difference of two rounded areas loses this
+  // frame.
   const double wide = 1e4;
   const double step = std::nextafter(wide, 2e4) - wide;
   const Polygon frame{shapes::square({}, wide).outer,

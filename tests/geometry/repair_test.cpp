@@ -152,7 +152,7 @@ TEST(CutByPolygons, TakesWhatAnyToolCovers) {
 
 // ---- snap rounding: always valid on even lattices, and no area moved but along the edges
 
-// Valid polygons of rationals whose vertices lie near one line, at scales many decades apart: what closed
+// Valid polygons of rationals whose vertices are near one line, at scales many decades apart: the areas that closed
 // paths through such points enclose.
 class NearCollinear {
  public:
@@ -190,7 +190,7 @@ Rational area_of(const std::vector<Polygon>& parts) {
   return sum;
 }
 
-// An edge moves by a cell's width at most, at its ends and where it bends.
+// An edge moves by at most the width of a cell, at its ends and where it bends.
 double most_moved(const exact::Polygon& polygon, const Lattice& lattice) {
   const EdgeList edges = edge_list(exact::rounded(polygon));
   double sum = 0;
@@ -234,8 +234,8 @@ TEST(SnapRounding, EveryPolygonRoundsValidlyOnAnEvenLatticeAndItsPartsAreDisjoin
   EXPECT_LT(vanished, rounded / 2);
 }
 
-// Found by search, once in 65 000 of the polygons above: near the origin cells are so much smaller than at
-// the ends of an edge that rounding carries it across a vertex there.
+// This polygon was found by search, once in 65 000 of the polygons above. Near the origin cells are much smaller than
+// at the ends of an edge, so rounding carries the edge across a vertex there.
 TEST(SnapRounding, EvenCellsHoldWhereThoseOfDoublesDoNot) {
   std::ifstream numbers(POLYNYA_SOURCE_DIR "/tests/geometry/snap_rounding_across_a_vertex.txt");
   exact::Polygon polygon;
@@ -262,7 +262,7 @@ TEST(SnapRounding, ANeckNarrowerThanACellParts) {
 }
 
 TEST(SnapRounding, RingsThatTouchStayTogether) {
-  // The hole's corner lies on the edge from (0, 0) to (9, 1/3), at 1/3 of it, and is no double.
+  // The corner of the hole lies on the edge from (0, 0) to (9, 1/3), at 1/3 of it, and is not a double.
   const exact::Polygon polygon{{{0, 0}, {9, Rational(1, 3)}, {9, 9}, {0, 9}}, {{{3, Rational(1, 9)}, {2, 4}, {4, 4}}}};
   for (const Lattice& lattice : {Lattice::of_doubles(), Lattice::spanning(polygon)}) {
     const auto parts = exact::snapped(polygon, lattice);

@@ -190,7 +190,7 @@ TEST(Disjoint, AGapIsOpenedToTheSmaller) {
   for (const Point p : corner[1].pieces[0].outer) EXPECT_GE(distance(p, {10, 10}), 1);
 }
 
-/// Whatever overlaps what: nothing does afterwards, all is valid, and the areas add up.
+/// For any overlapping floes, nothing overlaps afterwards, all floes are valid, and the areas add up.
 TEST(Disjoint, RaggedCrowdsComeApartAndTheirAreasAddUp) {
   for (const double gap : {0.0, 0.5}) {
     Random random(7);
@@ -284,7 +284,7 @@ TEST(OverlappingPairs, AFloeMayLieInAnothersHoleOrBay) {
   EXPECT_EQ(find_overlapping_pairs({bay, box(3, 1, 4, 4)}, 100).size(), 1U);
 }
 
-/// The grid finds the pairs that looking at all pairs finds.
+/// The grid finds the same pairs as a comparison of all pairs.
 TEST(OverlappingPairs, AgreesWithAllPairs) {
   Random random(5);
   std::vector<Polygon> boxes;

@@ -66,8 +66,8 @@ testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome)
   }
   for (const double apart : {exact::Rational(of_part[0] - exact::Rational(ledger.area_outside)).get_d(),
                              exact::Rational(of_part[1] - exact::Rational(ledger.area_inside)).get_d()}) {
-    // A term of a shoelace sum about a vertex errs by up to 4ε of its two products, each at most (size/2)²: what
-    // thin pieces of long edges have, whose own area is far smaller.
+    // A term of a shoelace sum about a vertex has an error of up to 4ε of its two products, each at most (size/2)².
+    // Thin pieces with long edges have such errors, although their own area is much smaller.
     const double size = perimeter(shape.polygon);
     if (std::abs(apart) > 1e-14 * ledger.area_before + std::numeric_limits<double>::epsilon() * size * size)
       return testing::AssertionFailure() << "a part's area is off by " << apart << " m²";

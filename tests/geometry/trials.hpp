@@ -21,7 +21,7 @@ testing::AssertionResult is_sound(const Shape& shape, const CutOutcome& outcome)
 /// Same failure, or the same pieces with the very same vertices (rings may start elsewhere).
 testing::AssertionResult are_equal(const CutOutcome& one, const CutOutcome& other);
 
-/// The same cut as the product makes it, and by CGAL's arrangement of the whole shape.
+/// Makes the same cut as the product does, and by CGAL's arrangement of the whole shape.
 CutOutcome cut(const Shape& shape, const Knife& knife);
 CutOutcome cut(const Shape& shape, const ManyKnives& knives);
 CutOutcome cut_generally(const Shape& shape, const Knife& knife);

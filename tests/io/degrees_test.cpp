@@ -20,7 +20,7 @@ using geometry::Point;
 using geometry::Polygon;
 using geometry::Ring;
 
-/// A ragged ring of points [longitude, latitude] about a pole, counter-clockwise as seen from above it.
+/// Returns a ragged ring of points [longitude, latitude] about a pole, counter-clockwise as seen from above the pole.
 Ring about_pole(std::mt19937& dice, double pole, int corners) {
   std::uniform_real_distribution<double> draw(0.2, 1.0);
   Ring ring;

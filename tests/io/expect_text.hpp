@@ -38,15 +38,15 @@ Expected checked(Expected outcome) {
     throw std::runtime_error("refused");
 }
 
-/// Why something was refused; ends the test where it was not.
+/// Returns the reason of a refusal. The test ends if nothing was refused.
 template <class Expected>
 auto refused(const Expected& outcome) {
   if (outcome) throw std::runtime_error("not refused");
   return outcome.error();
 }
 
-/// The rows of a table in tests/: the cells of a line are parted by " | ", and may be empty. Lines that begin with "#"
-/// are none.
+/// Returns the rows of a table in tests/. The cells of a line are separated by " | ", and may be empty. Lines that
+/// begin with "#" are not rows.
 inline std::vector<std::vector<std::string>> table_of(const std::string& file) {
   std::ifstream lines(std::string(POLYNYA_SOURCE_DIR) + "/tests/" + file);
   std::vector<std::vector<std::string>> rows;

@@ -80,7 +80,7 @@ TEST_F(FloeFile, ACrsDecidesWhereThereIsOne) {
   EXPECT_NE(problems(R"({"crs":{"type":"EPSG","properties":{"code":4326}},)" + floe(0, 0, 9).substr(1)), "");
 }
 
-/// Small scenes in metres stay what they are: a tank, floes near the origin, what Polynya wrote itself.
+/// Small scenes in metres stay as they are: a tank, floes near the origin, and files that Polynya wrote.
 TEST_F(FloeFile, SmallScenesInMetresAreNotTakenForDegrees) {
   for (const std::string& metres :
        {collection({floe(0, 0, 10)}), collection({floe(1, 1, 1), floe(3, 1, 0.5)}),

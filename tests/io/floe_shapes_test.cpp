@@ -46,7 +46,8 @@ void add(Family& family, FloeId parent, const geometry::Shape& shape) {
   family.births.push_back(std::move(birth));
 }
 
-/// A floe of some awkward kind, cut again and again by awkward knives; each time one of the pieces there are.
+/// Cuts a floe of a difficult kind again and again by difficult knives. Each cut is applied to one of the present
+/// pieces.
 Family roll_family(std::mt19937& random, int cuts) {
   std::vector<std::uint8_t> bytes(2000);
   for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());

@@ -27,7 +27,7 @@ FloeText floes_of(const std::string& text) {
   return floes ? *std::move(floes) : FloeText{};
 }
 
-/// Doubles of every kind there is: random bits, and what printers get wrong.
+/// The doubles are of every kind: random bits, and values that printers often get wrong.
 std::vector<double> hard_doubles() {
   std::vector<double> values{
       0.1,   1.0 / 3, 5e-324, 2.2250738585072014e-308, 1e23, 9007199254740993.0, 1e-6, 123456.789e-300,

@@ -14,7 +14,7 @@
 namespace polynya::io {
 namespace {
 
-/// The text at a value's offset begins with what the value was written as.
+/// The text at the offset of a value begins with the value as it was written.
 void expect_text_at(const std::string& text, const JsonValue& value, std::string_view written) {
   EXPECT_EQ(std::string_view(text).substr(value.offset, written.size()), written);
 }
@@ -51,7 +51,8 @@ TEST(JsonParser, TellsASecondKeyAndKeepsTheFirst) {
   EXPECT_EQ(document.root.members().size(), 2U);
 }
 
-/// If each key were compared with all before it, this test would take half an hour, more than it is given.
+/// If each key were compared with all keys before it, this test would take half an hour, which is more than its time
+/// limit.
 TEST(JsonParser, ReadsHalfAMillionKeysOfOneObjectAndFindsASecondOneAmongThem) {
   std::string text = R"({"properties": {)";
   for (int i = 0; i < 500'000; ++i) text += "\"k" + std::to_string(i) + "\": " + std::to_string(i) + ", ";

@@ -1,4 +1,4 @@
-// Who owns a run folder, and what of it --overwrite removes.
+// Ownership of a run folder, and the files that --overwrite removes.
 #include "io/run/run_folder.hpp"
 
 #include <algorithm>
@@ -25,7 +25,8 @@ using tests::read_file;
 using tests::TemporaryFolder;
 using tests::write_file;
 
-/// Why a folder cannot be claimed; empty where it can. The claim ends at once, as at a kill.
+/// Returns the reason why a folder cannot be claimed, or an empty text if it can. The claim ends at once, as after a
+/// kill.
 std::string refusal(const fs::path& folder, bool overwrite) {
   const auto lock = claim_run_folder(folder, overwrite);
   return lock ? "" : lock.error();
@@ -113,7 +114,7 @@ TEST(RunFolder, WhatAKillLeavesIsTakenAndNamed) {
   EXPECT_FALSE(fs::exists(run / "scene.json"));
 }
 
-/// Processes that claim one fresh folder at the same time, and keep what they get until all have tried.
+/// Several processes claim one new folder at the same time, and keep their claims until all have tried.
 int owners_of(const fs::path& folder, int processes) {
   std::array<int, 2> start{}, result{}, end{};
   EXPECT_EQ(pipe(start.data()) + pipe(result.data()) + pipe(end.data()), 0);
@@ -293,7 +294,7 @@ TEST(OutputFile, WritesThroughNoLinkThatWasPutInItsWay) {
   EXPECT_EQ(read_file(folder / "precious"), "years of work");
 }
 
-/// The folder has that file alone.
+/// Checks that the folder contains only that file.
 void expect_alone(const TemporaryFolder& folder, const std::string& text) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
   EXPECT_TRUE(read_file(folder / "file") == text);

@@ -93,7 +93,7 @@ Recorded write_run(const LoadedScene& scene, const std::filesystem::path& folder
   return recorded;
 }
 
-/// An event with all that is kept of it.
+/// Returns an event with all the data that are kept of it.
 std::string line_of(const simulation::Event& event, const LoadedScene& scene) {
   std::string text;
   append_event(text, event, scene.scene);

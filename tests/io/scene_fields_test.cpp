@@ -72,7 +72,7 @@ const std::string kFifth = scene(
                     field_of_law(R"("centreline_m": [[-300, 0], [-200, 30]], "width_m": 40, "concentration": 0.7)",
                                  R"({"size_m": 5})")})});
 
-/// A floe by the law of the paper, which alone allows normals from circles.
+/// A floe with the law of the paper, which is the only law that allows normals from circles.
 const std::string kSixth =
     scene({R"("contact": {"law": "impulse", "restitution": 0.1})", list("floes", {square(100, 0, 10)})});
 
@@ -169,7 +169,7 @@ TEST(SceneFields, TheResolvedSceneReadsBackToTheSameSceneAndText) {
     expect_reads_back(load(text));
 }
 
-/// Whether another part of that scene does not let a field change alone.
+/// Returns whether another part of that scene prevents a field from changing alone.
 bool is_bound(const std::string& path, const LoadedScene& base, const std::string& text, const JsonValue& tree) {
   const std::set<std::string_view> of_ice_under_hulls{".fracture.cusp_fate", ".fracture.going_under.enabled",
                                                       ".fracture.resurface.enabled"};
@@ -189,7 +189,8 @@ bool is_bound(const std::string& path, const LoadedScene& base, const std::strin
   return path == ".ships.water.model" && !base.scene.ships[0].water.acts;  // it needs a draught
 }
 
-/// Every field of the table reaches the scene: changing it alone changes the scene, and survives the resolved text.
+/// Every field of the table reaches the scene. Changing it alone changes the scene, and the change survives in the
+/// resolved text.
 TEST(SceneFields, EveryFieldRoundTripsAndReachesTheScene) {
   std::set<std::string> seen;
   for (const std::string& base_text : {kFirst, kSecond, kThird, kFourth, kFifth, kSixth, kSeventh, kEighth, fleet()}) {

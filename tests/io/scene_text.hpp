@@ -12,7 +12,7 @@
 #include "io/text/json_parser.hpp"
 #include "io/text/json_writer.hpp"
 
-/// Scenes as texts, made of a base and what a test changes of it.
+/// Scenes as texts, made of a base and the changes of a test.
 namespace polynya::tests {
 
 /// Merges the members of a change into a base. Objects are merged except for kinds of propulsion, and null removes a
@@ -32,7 +32,7 @@ inline void merge(io::JsonValue& base, const io::JsonValue& change) {
   }
 }
 
-/// An object's text with these members ("\"a\": 1, \"b\": {…}") in it.
+/// Returns the text of an object with the given members ("\"a\": 1, \"b\": {…}").
 inline std::string with(const std::string& object, const std::string& members) {
   io::JsonValue base = io::parse_json(object).root;
   const io::JsonDocument change = io::parse_json("{" + members + "}");

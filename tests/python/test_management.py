@@ -95,7 +95,7 @@ class Broken:
 
 
 def test_a_floe_that_broke_passes_as_its_pieces_and_once():
-    # 0 is at 40 when it breaks at 2 to 3 s; at 3 s its pieces are at 45 and 25.
+    # Floe 0 is at 40 when it breaks at 2 to 3 s. At 3 s its pieces are at 45 and 25.
     upstream, near = passages(Broken, Gates("rig", 45.5, 30, 100, 20))
     assert upstream.floes.tolist() == [0]
     assert near.floes.tolist() == [1, 2] and near.areas.tolist() == [100, 200]

@@ -317,7 +317,7 @@ case $script in */array.sbatch) echo 71 ;; *) echo "$2" >"$0.words"; echo "72;cl
 def test_the_line_for_gnu_parallel_runs_all_chunks(folder):
     planned(folder, "s", "--chunk", 2, repetitions=4)
     line = study("parallel", "studies/s", "--jobs", 2)
-    # The line names the program that users start, `polynya study`; here it is Python that is started.
+    # The line names the program that users start, `polynya study`, whereas the test starts Python.
     wrapper = folder / "bin"
     wrapper.write_text(f'#!/bin/sh\nshift\nexec {sys.executable} -m polynya.study "$@"\n')
     wrapper.chmod(0o755)

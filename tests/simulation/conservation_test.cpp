@@ -151,7 +151,7 @@ TEST(Fracture, EveryFloeHasItsParentAndTheEventThatMadeItAndTheAreasBalanceAtEve
   }
 }
 
-/// A ship, or a structure like it, in two plates and small floes, all sinks at work.
+/// A scene with a ship, or a structure of the same form, in two plates and small floes, with all energy sinks active.
 Build busy_scene(Laws laws) {
   Build scene = Build(laws).floe(rectangle(0.5, -40, 70, 50), {-0.2, 0.05}, 1e-3).floe(rectangle(72, -40, 120, 60));
   for (int i = 0; i < 12; ++i) scene.floe(rectangle(-60 + 6 * i, -25, -55 + 6 * i, -18), {0.05 * i, 0.4});
@@ -198,7 +198,7 @@ TEST(EnergyAudit, FailsOnAChangeWithoutAnEntry) {
   EXPECT_FALSE(done.simulation.audit().is_closed()) << "a ship pushed aside by nothing";
 }
 
-/// An entry that is wrong by a share of what an account is compared with.
+/// An entry of an account that is wrong by a share of the reference value of that account.
 struct Planted {
   const char* account = "";
   std::function<void(Accounts&, double share, const Audit&)> plant;

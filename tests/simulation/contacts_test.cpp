@@ -196,7 +196,8 @@ TEST(ShipContacts, WithIceBetweenTheTwoLoadsAddUpToTheMotion) {
     EXPECT_LT(by_ice.surge, -1e4);
     EXPECT_LT(by_pile.surge, -1e6);
     EXPECT_NEAR((by_ice.yaw + by_pile.yaw) / (5e9 * end.angular_velocity), 1, 1e-9);
-    // The heading turns by less than a degree while the pile is touched: m Δv along it, to that.
+    // The heading turns by less than a degree while the pile is touched. The impulse is therefore m Δv along the
+    // heading within this accuracy.
     EXPECT_NEAR((by_ice.surge + by_pile.surge) / (1e7 * (end.velocity.x - 1)), 1, 1e-2);
   }
 }
@@ -215,7 +216,7 @@ TEST(ShipContacts, OfPrescribedMotionsAreRecorded) {
       }
       const Event met = only(story.of_kind<HullContact>());
       const auto& contact = std::get<HullContact>(met.what);
-      // The side of the bow that meets the pile is 20 m from it at most, 25 m where it meets the very edge.
+      // The side of the bow that meets the pile is at most 20 m from it, or 25 m if the pile meets the edge itself.
       EXPECT_GE(met.time, 10 - 1e-9);
       EXPECT_LE(met.time, (std::abs(off) < 11 ? 10 : 12.5) + 2 * step);
       EXPECT_EQ(contact.relative_speed, 2);
@@ -395,7 +396,8 @@ TEST(LoadPeaks, OfAnEdgeOnACylinderAreThoseOfTheClosedForm) {
   }
 }
 
-/// The peaks of a force step by step: the first largest of each stretch that is nowhere below half of it.
+/// Returns the peaks of a force given step by step: the first largest value of each interval in which the force is
+/// never below half of it.
 std::vector<std::size_t> peaks_of(const std::vector<double>& force) {
   std::vector<std::size_t> peaks;
   for (std::size_t i = 0; i < force.size(); ++i) {

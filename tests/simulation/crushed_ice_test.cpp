@@ -180,8 +180,7 @@ TEST(Prescribed, ARunIsResumedAmongItsCarvings) {
 
 // ---- what contacts have crushed leaves the floe
 
-/// A thin floe that runs onto a pile with its side, and past it: it crushes more than h², and less than .5 %
-/// of the pile.
+/// A thin floe runs onto a pile with its side, and past it. It crushes more than h², and less than 0.5 % of the pile.
 Scene floe_past_pile() {
   return Build()
       .without_drag()

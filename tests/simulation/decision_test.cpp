@@ -1,5 +1,5 @@
-// docs/theory/decision.md, exercised: which floes break under which hull, when and how; and what once
-// went wrong.
+// Tests of docs/theory/decision.md: the floes that break under each hull, the time and kind of the break, and
+// regressions.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -102,7 +102,7 @@ TEST(Decision, AnInclinedBowBendsWhenItsVerticalForceReachesTheCapacity) {
 }
 
 TEST(Decision, ARejectedCutIsRecordedCountedAndLeavesTheFloe) {
-  // A plate whose far edge crosses itself: no valid floe, and so no cut of it is either.
+  // The far edge of the plate crosses itself, so the floe is not valid, and neither is any cut of it.
   const geometry::Polygon crossed{{{0.5, -30}, {60, -30}, {60, 30}, {40, 30}, {45, 35}, {45, 29}, {0.5, 30}}, {}};
   const auto [simulation, story] = run(ship_against(icebreaker({0, 0}, ConstantSpeed{1}), crossed), 5);
   const Counts counts = simulation.counts();
@@ -186,8 +186,7 @@ TEST(Bending, WhatCannotBendDoesNotRecede) {
 
 // ---- what once went wrong: what must hold, not what the code gave
 
-/// A floe that starts in motion was woken before the floes behind it in the scene were there, and ran into
-/// them.
+/// A floe that starts in motion used to be woken before the floes behind it in the scene existed, and ran into them.
 TEST(Regression, AMovingFloeMeetsFloesThatTheSceneListsLater) {
   for (const bool is_mover_first : {true, false}) {
     Build scene = Build().without_drag();

@@ -288,7 +288,7 @@ TEST(PackedField, ClearingsAndOutlinesAreKeptAndTheRestIsCovered) {
   expect_kept_clear(field, outcome);
 }
 
-/// Mean of cos and sin of twice the angle of the floes' longer axes, weighted alike.
+/// Returns the mean of cos and sin of twice the angle of the floes' longer axes, with equal weights.
 Vector mean_doubled_direction(const std::vector<Polygon>& floes) {
   Vector sum;
   for (const Polygon& floe : floes) {

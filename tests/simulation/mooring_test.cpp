@@ -1,4 +1,4 @@
-// Moorings: their oscillation against its exact solution, at any stiffness and step, and what the accounts have of the
+// Moorings: their oscillation compared with its exact solution, at any stiffness and step, and the account of the
 // energy that they store.
 #include "simulation/ship/mooring.hpp"
 
@@ -33,7 +33,8 @@ Planar damping_of(double period, double share) {
   return {kMass * rate, kMass * rate, kMoment * rate};
 }
 
-/// A ship that is alone, at rest over ground, off its moored place by 1 m along, −2 m across and 0.1 rad about.
+/// Returns a ship alone, at rest over ground, displaced from its moored place by 1 m along, −2 m across and 0.1 rad in
+/// heading.
 constexpr Planar kOff{1, -2, 0.1};
 constexpr double kMooredHeading = 0.4;
 
@@ -143,7 +144,7 @@ TEST(Mooring, OfAnyStiffnessLosesEnergyToWaterAndDampers) {
   }
 }
 
-/// A damper that stops a ship in far less than a step stops it, and does not send it back.
+/// A damper that stops a ship in much less than a step stops it without sending it back.
 TEST(Mooring, AStiffDamperStopsAndDoesNotReverse) {
   for (const double factor : {1.0, 3.0, 1e3, 1e9}) {
     Ship ship = icebreaker({60, 0}, ConstantThrust{0}, 2);
@@ -158,7 +159,8 @@ TEST(Mooring, AStiffDamperStopsAndDoesNotReverse) {
   }
 }
 
-/// A steady force holds the ship where the spring's force is its size; between two steps it has −½Δt F/m.
+/// A steady force holds the ship where the spring's force has the same size. Between two steps the velocity is −½Δt
+/// F/m.
 TEST(Mooring, AShipUnderAConstantForceStandsWhereTheSpringHasIt) {
   Ship ship = icebreaker({60, 0}, ConstantThrust{1e6}, 0);
   ship.mooring = moored(ship.position_in_world, stiffness_of(20), damping_of(20, 1));
@@ -179,7 +181,7 @@ void expect_stored_is_accounted(const Simulation& simulation) {
   EXPECT_NEAR(audit.stored_energy, m.initial + m.taken_up - m.given_back + m.separation - m.breaking, 1e-10 * turnover);
 }
 
-/// A ship in water that is moored off its place in ice that drifts onto it.
+/// A ship in water that is moored away from its place, in ice that drifts onto it.
 Build in_drifting_ice(Laws laws) {
   Ship ship = scenes::in_water(icebreaker({60, 0}, ConstantThrust{0}, 0));
   ship.mooring = moored(ship.position_in_world - Vector{2, 1}, {1e6, 1e6, 5e9}, {2e5, 2e5, 1e9}, 0, 0.1);
@@ -246,7 +248,8 @@ TEST(MooringAccounts, GoOnFromASavedState) {
   expect_closed(resumed.simulation);
 }
 
-/// MJ go to and fro, and nothing remains of them: the imbalance is compared with what went, not with what remains.
+/// Energies of MJ go back and forth and add up to nothing. The imbalance is compared with the energy that was
+/// exchanged, not with the rest.
 TEST(MooringAccounts, AShipThatIsAloneForTenMinutesRaisesNoAlarm) {
   for (const double share : {0.0, 0.02}) {
     Simulation simulation(off_its_place(0.1, stiffness_of(20), damping_of(20, share)));

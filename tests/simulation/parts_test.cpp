@@ -12,7 +12,7 @@
 namespace polynya::simulation::scenes {
 namespace {
 
-/// A ship of 40 m by 8 m in fast ice of that thickness, 20 m of it.
+/// A ship of 40 m by 8 m in 20 m of fast ice of the given thickness.
 Build in_level_ice(double thickness, double speed, double step) {
   Ship ship = icebreaker({0, 0}, ConstantSpeed{speed}, speed);
   ship.hull.waterline = wedge_bow_waterline(40, 8, 25 * kDegree);
@@ -28,7 +28,7 @@ Build in_level_ice(double thickness, double speed, double step) {
       .floe(fast(rectangle(0, -12, 30, 12)));
 }
 
-/// Mean over 10 m of ice, once the bow is in it [N].
+/// Returns the mean load over 10 m of ice, once the bow is in it [N].
 double mean_surge(const Scene& scene, Shortcuts shortcuts = {}) {
   const double speed = scene.ships.front().speed;
   const Trial trial = run(scene, 20.5 / speed, shortcuts);
@@ -127,7 +127,7 @@ TEST(Parts, AreNoneByRigidImpulses) {
   EXPECT_EQ(simulation.counts().steps_taken, 200);
 }
 
-/// A ship into loose floes, and far from it floes that drift together and touch.
+/// Returns a ship that enters loose floes, and floes far from it that drift together and touch.
 Build voyage_and_drift() {
   return Build()
       .step(0.05)

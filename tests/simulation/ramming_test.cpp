@@ -124,7 +124,7 @@ TEST(RammingOrders, AreAheadAgainWhereTheShipIsStuckAsternToo) {
   EXPECT_EQ(bridge.ordered, -1);
 }
 
-/// Off its line the ship turns back to it when it charges, and keeps its heading when it backs.
+/// When the ship is off its line, it turns back to the line as it charges, and keeps its heading as it backs.
 TEST(RammingOrders, LeadBackToTheLineOfTheRam) {
   PilotView view;
   const std::array<SeenHull, 1> own{ship_at({0, 30})};

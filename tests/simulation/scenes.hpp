@@ -35,10 +35,10 @@ FloeSpec fast(const geometry::Polygon& polygon, geometry::Vector velocity = {});
 /// The paper's ship, its stem at `stem`, heading along x.
 Ship icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed = 1);
 
-/// The same with vertical walls: it crushes and splits ice, and does not bend it.
+/// The same ship with vertical walls: it crushes and splits ice but does not bend it.
 Ship steep_icebreaker(geometry::Point stem, const Propulsion& propulsion, double speed = 1);
 
-/// A box-shaped ship with vertical walls: it can only crush.
+/// A box-shaped ship with vertical walls, which can only crush ice.
 Ship barge(geometry::Point middle_of_bow, const Propulsion& propulsion, double speed = 1);
 
 /// Returns the ship with a draught of 6 m, so that ice goes under her.
@@ -146,13 +146,13 @@ struct Story {
   std::vector<PanelSample> panels;
 };
 
-/// A simulation and all that it has recorded.
+/// A simulation and all its records.
 struct Trial {
   Simulation simulation;
   Story story;
 };
 
-/// Takes what the simulation has recorded since last time.
+/// Takes the records that the simulation made since the last call.
 void listen(Simulation& simulation, Story& story);
 
 Story run(Simulation& simulation, double until);

@@ -39,7 +39,7 @@ double largest_before_split(const Scene& scene, double until) {
 const geometry::Polygon kFloeOfTwenty = rectangle(0.05, -10, 20.05, 10);
 
 TEST(Splitting, APlateOfTwentyKilometresSplitsWhenTheForceHasGrownToWhatItTakes) {
-  // F = 2 σ_c h ξ tan α ahead, of which 0.633 opens the crack: ξ = F_max / (0.633 · 2 σ_c h tan 27°) = 2.20
+  // Ahead F = 2 σ_c h ξ tan α, of which 0.633 opens the crack. Therefore ξ = F_max / (0.633 · 2 σ_c h tan 27°) = 2.20
   // m.
   const Scene scene = Build().ship(steep_icebreaker({0, 0}, ConstantSpeed{1})).floe(rectangle(0.001, -1e4, 2e4, 1e4));
   const double needed = fracture::lefm_splitting_force(scene.ice, 2e4, 2e4);
@@ -119,7 +119,7 @@ TEST(Splitting, TheFlanksOfABowOpenTheHeadOfTheSlotItIsIn) {
   EXPECT_EQ(event.ice()->children.size(), 2u);
 }
 
-/// A plate with its edge along x = 0 and an older channel, parallel to it, from `spacing` on.
+/// Returns a plate with its edge along x = 0 and an older channel parallel to it, from `spacing` on.
 geometry::Polygon between_channels(double spacing) {
   const double far = spacing + 10;
   const geometry::Point slot[] = {{spacing, -300}, {spacing, 250}, {far, 250}, {far, -300}};
@@ -137,7 +137,7 @@ TEST(Splitting, BetweenParallelChannelsALongCrackRunsWhereTheyAreNearerThanSMax)
   const fracture::FailureCriteria bend = far.bends()[0].criteria();
   ASSERT_GT(bend.opening_force, 0);
   EXPECT_LT(bend.opening_force, bend.opening_capacity);
-  // S_max = (F_b / 0.2105 h K)², F_b what opens the crack when the ice bends.
+  // S_max = (F_b / 0.2105 h K)², where F_b is the force that opens the crack when the ice bends.
   const double most = std::pow(bend.opening_force / (0.2105 * 0.5 * 150e3), 2);
   const Story near = first_at(0.85 * most);
   ASSERT_FALSE(near.splits().empty());
@@ -210,8 +210,8 @@ Scene on_two_structures(scenery::Random& random) {
   return scene;
 }
 
-/// A split runs at the force that it takes, within 5 %, also where several contacts press and some let go as others are
-/// stopped. Less than one of a hundred is not found.
+/// A split runs at the force of its criterion within 5 %, also if several contacts press and some let go as others are
+/// stopped. Less than one split in a hundred is not found.
 TEST(Splitting, OfAFloeOnTwoStructuresRunsAtTheForceThatItTakes) {
   scenery::Random random(20170611);
   std::int64_t splits = 0, unresolved = 0;
@@ -242,7 +242,7 @@ Story beside_edge(double distance) {
 }
 
 TEST(TurningCrack, EndsAtTheEdgeBesideItAndPartsACompactPiece) {
-  // Here what turns leaves no sliver, and no straight crack to the edge: each would leave one.
+  // In this test the turning crack leaves no sliver, and no straight crack to the edge runs; each would leave one.
   const double b = 1.03 * kCharacteristicLength;
   const Story story = beside_edge(b);
   const Event event = only(story.splits());
@@ -311,7 +311,7 @@ constexpr double kThickness = 1.6;  // [m]
 constexpr double kWidth = 3;        // [m]
 constexpr double kBeamLength = 24;  // [m]
 
-/// Ice that floats free ahead of a ship's stem, across it.
+/// Returns ice that floats freely ahead of a ship's stem, across it.
 Build across(const Ship& ship, double length = kBeamLength, double step = 0.002, Laws laws = Laws::kDefault) {
   return Build(laws)
       .thickness(kThickness)

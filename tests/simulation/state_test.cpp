@@ -67,7 +67,7 @@ TEST(State, AResumedRunContinuesBitByBitFromAnyStep) {
   }
 }
 
-/// Every byte of a state is either refused when it is changed, or read as another state: never half believed.
+/// A state with a changed byte is either refused, or read as another complete state.
 TEST(State, DamageIsRefusedOrIsAnotherState) {
   const Scene scene = broken_plate();
   Simulation whole(scene);
@@ -123,8 +123,8 @@ TEST(State, AStateOfAnotherSceneIsRefused) {
     EXPECT_FALSE(Simulation::resumed(other, whole.state()).has_value());
 }
 
-/// On several threads, on more than there are cores, the same bits. The scene is large enough to share out:
-/// more than 1024 awake floes (dynamics::kBodiesPerChunk), some of them colliding.
+/// The bits are the same on several threads, also on more threads than there are cores. The scene is large enough to be
+/// divided among threads: it has more than 1024 awake floes (dynamics::kBodiesPerChunk), some of which collide.
 TEST(State, TheHashIsTheSameOnAnyNumberOfThreads) {
   Build scene = Build().step(0.02).ship(icebreaker({-1, 400}, ConstantSpeed{2}, 2));
   for (int i = 0; i < 60; ++i) {

@@ -38,8 +38,8 @@ Passage passage(double stem_degrees) {
   return found;
 }
 
-/// V/H falls with 1/tan φ and is nowhere 0 before 90°: the load rises without a step, past 90° - atan μ = 78.7°, where
-/// friction up a stem that the ice met head on would hold it up.
+/// V/H falls with 1/tan φ and is never 0 below 90°. The load therefore rises without a step, also past 90° - atan μ =
+/// 78.7°, where friction would hold up ice that meets the stem head on.
 TEST(SteepStems, LoadRisesWithoutAStep) {
   double last = passage(72).mean;
   for (double stem = 74; stem <= 86; stem += 2) {

@@ -1,4 +1,4 @@
-// Scenes that are turned as a whole: what happens does not depend on the axes.
+// Scenes that are turned as a whole. The results must not depend on the axes.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -34,7 +34,7 @@ Scene into_level_ice(double turn, double slant = 0.02) {
       .floe(fast(turned(plate, turn)));
 }
 
-/// Until rounding has grown, every cusp is the same: when and where it breaks, under which load, and its shape.
+/// Until rounding errors have grown, every cusp has the same time, place, load and shape.
 TEST(TurnedScene, BreaksTheSameCusps) {
   constexpr double kUntil = 14;  // [s]
   const std::vector<Event> straight = run(into_level_ice(0), kUntil).story.bends();

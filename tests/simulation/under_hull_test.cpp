@@ -315,7 +315,7 @@ TEST(Tilted, TheOverlapOfAFloeThatTiltsIsNotBookedAsCrushed) {
   expect_closed(simulation);
 }
 
-/// Each with its wedge: what an inclined hull crushes is less than the overlap's area times the thickness.
+/// An inclined hull crushes a wedge of ice, which is less than the area of the overlap times the thickness.
 TEST(Tilted, CrushedIceIsWhatTheWorkCrushes) {
   for (const double angle : {0.0, 20 * kDegree, 50 * kDegree}) {
     const Simulation simulation =
@@ -334,7 +334,7 @@ TEST(Tilted, CrushedIceIsWhatTheWorkCrushes) {
   }
 }
 
-/// An edge that is too strong to break bends away from the hull: of the overlap less is crushed, and exactly what the
+/// An edge that is too strong to break bends away from the hull. Less of the overlap is crushed, exactly as much as the
 /// work crushes.
 TEST(Tilted, OfAnEdgeThatBendsTheIceIsCrushedThatTheHullHasPenetrated) {
   Build scene = Build().without_drag().without_splits().step(0.005).pile({0, 0}, 10, 45 * kDegree);

@@ -1,5 +1,5 @@
-// The controls, by mouse, keys and fingers, from a phone to a desk: what they cover, how large they are, what a drag
-// and Space do.
+// The controls, by mouse, keys and fingers, from a phone to a desktop: the area that they cover, their size, and the
+// effect of a drag and of the space bar.
 "use strict";
 const { test, before, assert, folder, open } = require("./bench.js");
 const { shippedRun, makePage } = require("./runs.js");

@@ -1,4 +1,4 @@
-// Runs of every kind, and a phone: the page opens without errors and shows what there is.
+// Runs of every kind, and a phone: the page opens without errors and shows all data of the run.
 "use strict";
 const { test, assert, fs, path, folder, open } = require("./bench.js");
 const { makeRun, shippedRun, makePage, readNdjson, polynya, smallScene, ship } = require("./runs.js");

@@ -112,7 +112,7 @@ for (const [width, height] of sizes) {
     const moved = await state();
     assert.ok(Math.abs((before.x - moved.x) * before.scale - 0.2 * map.width) < 2, "the map follows the pointer");
 
-    // Halfway the legend grows, and with it everything gets another place.
+    // The legend grows halfway, and all other elements move with it.
     const box = await drag("#plot .u-over", 0.2, 0.7, () => page.act("toggleLayer", "forces"));
     const { time } = await state();
     assert.ok(Math.abs(time - 0.7 * 10) < (2 * 10) / box.width, `the drag ends at ${time} s`);

@@ -77,7 +77,7 @@ std::size_t count_of(const std::string& text, const std::string& words) {
   return count;
 }
 
-/// The page is as wide as a journal's; its words have 7 to 9 pt there, end on it, and do not run into each other.
+/// The page is as wide as a page of a journal. Its words have 7 to 9 pt there, stay on the page, and do not overlap.
 void expect_readable(const std::string& svg) {
   EXPECT_NEAR(numbers_of(svg, "width").front(), 170, 0.01);
   const double pixels = std::stod(svg.substr(svg.find("viewBox='0 0 ") + 13));

@@ -57,8 +57,8 @@ TEST(DatabaseBuild, UnusableGridsAreErrors) {
   EXPECT_NE(too_soft.find("does not break"), std::string::npos);
 }
 
-// The shipped bytes are what today's solver makes: two wedges of it here, the whole by `polynya database
-// build`.
+// The shipped bytes are those that the present solver makes. The test solves two wedges; `polynya database build`
+// solves all of them.
 TEST(DefaultDatabase, IsWhatTheSolverMakes) {
   const BendingDatabase& shipped = default_database();
   EXPECT_EQ(shipped.settings(), SolverSettings{});

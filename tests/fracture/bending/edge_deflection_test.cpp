@@ -1,4 +1,4 @@
-// How far the tip of a wedge sinks, what that takes of a hull's advance, and what radial cracks leave of it.
+// Deflection of the tip of a wedge, its effect on the penetration of the hull, and the effect of radial cracks on both.
 #include "fracture/bending/edge_deflection.hpp"
 
 #include <cmath>

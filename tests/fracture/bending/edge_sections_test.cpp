@@ -210,8 +210,8 @@ const CrackedEdge kCrackedEdges[] = {{19.48,
                                       {76, 78, 79, 82, 79, 72, 69, 69, 72, 70, 69, 75},
                                       {28, 30, 32, 34, 38, 42, 47, 55, 65, 79, 70, 70}}};
 
-/// 90th percentiles of the error over the 120 edges of those runs are within 15 and 25 %: here all V_b are, and of ten
-/// R̄ one may be outside.
+/// The 90th percentiles of the error over the 120 edges of those runs are within 15 and 25 %. In this test all V_b are
+/// within their limit, and one of ten R̄ may be outside.
 TEST(EdgeSections, OfCrackedEdgesAreTheElements) {
   int off_place = 0;
   for (const CrackedEdge& edge : kCrackedEdges) {

@@ -57,7 +57,7 @@ TEST(Failure, GroupsAtThreeSpeeds) {
   }
 }
 
-// Each refinement alone, and all together, moves the answer less than the table's own tolerance; a coarser
+// Each refinement alone, and all together, change the result by less than the table's own tolerance. A coarser
 // discretisation is farther from the finest.
 TEST(Failure, ConvergesUnderRefinement) {
   SolverSettings elements, terms, panels, steps, all, coarse;

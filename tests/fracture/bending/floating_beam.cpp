@@ -31,7 +31,7 @@ BeamResponse solve_floating_beam(BeamShape shape, const TipLoad& load, double le
     entries.emplace_back(m, w, width(x));
     right[m] = slope * x * std::clamp((load.patch - x) / d + 0.5, 0.0, 1.0);
   }
-  // At the tip M and M' are given; the difference of M is M' with what q − b w adds to it over half a step.
+  // At the tip M and M' are given. The difference of M is M' plus the contribution of q − b w over half a step.
   entries.emplace_back(0, 1, 1);
   right[0] = load.moment;
   entries.emplace_back(1, 3, 1 / d);

@@ -150,9 +150,8 @@ TEST(Plate, StaticWedges) {
   }
 }
 
-// A load inside the mesh's inner radius acts with its force and with its moment: the stress it causes farther
-// out does not depend on where the mesh starts. With the force alone the shorter patch's peak lay 87 % too
-// far out.
+// A load inside the mesh's inner radius acts with its force and with its moment, so that the stress farther out does
+// not depend on where the mesh starts. With the force alone the peak of the shorter patch was 87 % too far out.
 TEST(Plate, PatchInsideTheInnerRadius) {
   for (const double angle : {20.0, 30.0, 60.0}) {
     SolverSettings coarse, fine;
@@ -393,7 +392,7 @@ TEST(Nevel, ModelAnswersInPhysicalUnits) {
   EXPECT_FALSE(NevelModel().capacity(load).is_in_range);
 }
 
-// His wedge is a beam: wide ones, whose tan α grows without bound, are outside of it. Up to the limit the
+// Nevel's wedge is a beam. Wide wedges, whose tan α grows without bound, are outside of its range. Up to the limit the
 // form stays near the plate at rest.
 TEST(Nevel, WideWedgesAreOutOfRange) {
   const auto capacity = [](double opening_angle, double penetration) {
