@@ -22,18 +22,19 @@ COVER, SIZE = "floes[0].channel.cover", "floes[0].channel.sizes.mean_m"
 SIDES = "floes[0].channel.side_thickness_m"
 SPEED, MU = 2.572, 0.1  # speed of the studies at constant speed [m/s], and their friction if it is not varied
 MEASURED = 14 * formulas.KNOT  # Polaris in an old channel of 1.74 m (Aker Arctic, newsletter of September 2017) [m/s]
-HULLS = {"reference": tables.REFERENCE,
-         "araon": formulas.Hull(95, 19, 6.8, math.radians(35), math.radians(30)),
+HULLS = {"reference": tables.REFERENCE, "araon": formulas.Hull(95, 19, 6.8, math.radians(35), math.radians(30)),
          "oden": formulas.Hull(95, 29.4, 8, math.radians(22), math.radians(40)),
          "polaris": formulas.Hull(100, 24, 8, math.radians(25), math.radians(30))}
 
 
 def loads(study, cases):
-    """Mean contact and mean ice under the hull, friction along the waterline, and sum with its error [kN]."""
+    """Mean contact, its friction along the waterline (of ships that sail), mean ice under the hull, and the sum with
+    its error [kN]."""
     of = lambda name: -1e-3 * study.table[name][cases]
     contact, under = of("surge_mean_N"), of("surge_from_submerged_ice_mean_N")
-    friction = of("surge_from_ice_friction_mean_N")
-    return contact.mean(), friction.mean(), under.mean(), *mean_and_error(contact + under)
+    name = "surge_from_ice_friction_mean_N"
+    friction = of(name).mean() if name in study.table else 0.0
+    return contact.mean(), friction, under.mean(), *mean_and_error(contact + under)
 
 
 def parts_under(hull, under, speed, mu, has_factor=True):
@@ -67,15 +68,14 @@ def resistance(runs):
 def parts(runs):
     study, rows = runs.study(STUDIES + "brash-channel.json"), []
     for (ship, thickness), cases in tables.groups(study, SHIP, THICKNESS).items():
-        contact, friction, under, _, _ = loads(study, cases)
+        contact, _, under, _, _ = loads(study, cases)
         down, sliding, growth = parts_under(HULLS[ship], under, SPEED, MU)
         rule = ice_class.channel_resistance(HULLS[ship], thickness)
-        rows.append([ship, f"{thickness:g}", f"{contact - friction:.0f}", f"{friction:.1f}", f"{down:.0f}",
+        rows.append([ship, f"{thickness:g}", f"{contact:.0f}", f"{down:.0f}",
                      f"{sliding:.0f}", f"{growth:.0f}", f"{1e-3 * rule.bow:.0f}", f"{1e-3 * rule.midbody:.0f}",
                      f"{1e-3 * rule.waterplane:.0f}"])
-    return Table(["ship", "H_M [m]", "pressure at the waterline", "friction at the waterline", "pressing ice down",
-                  "friction under the hull", "growth with speed", "rule: bow", "rule: midbody", "rule: waterplane"],
-                 rows)
+    return Table(["ship", "H_M [m]", "contact at the waterline", "pressing ice down", "friction under the hull",
+                  "growth with speed", "rule: bow", "rule: midbody", "rule: waterplane"], rows)
 
 
 def variations(runs):
@@ -98,12 +98,12 @@ def variations(runs):
 def polaris(runs):
     study, rows = runs.study(STUDIES + "brash-channel-polaris.json"), []
     for (mu, factor), cases in tables.groups(study, FRICTION, FACTOR).items():
-        contact, _, under, _, _ = loads(study, cases)
+        contact, friction, under, _, _ = loads(study, cases)
         speed, error = mean_and_error(study.table["mean_speed_m_per_s"][cases])
-        rows.append([f"{mu:g}", factor, f"{contact:.0f}", f"{under:.0f}", f"{speed:.2f} ± {error:.3f}",
-                     f"{speed / MEASURED:.2f}"])
-    return Table(["friction", "factor of speed", "contact [kN]", "under the hull [kN]", "speed [m/s]",
-                  "speed / measured"], rows)
+        rows.append([f"{mu:g}", factor, f"{contact:.0f}", f"{friction:.0f}", f"{under:.0f}",
+                     f"{speed:.2f} ± {error:.3f}", f"{speed / MEASURED:.2f}"])
+    return Table(["friction", "factor of speed", "contact [kN]", "of which friction [kN]", "under the hull [kN]",
+                  "speed [m/s]", "speed / measured"], rows)
 
 
 TABLES = {"resistance": resistance, "parts": parts, "polaris": polaris, "variations": variations}

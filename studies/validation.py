@@ -189,7 +189,8 @@ def thick_ice(runs):
     for i, (h, contact, error, total, error_of_total) in enumerate(points):
         slope = ""
         if 2 <= i < len(points) - 2:
-            slope = "{:.2f} ± {:.2f}".format(*slope_and_error([point[:3] for point in points[i - 2:i + 3]]))
+            of_five = slope_and_error([point[:3] for point in points[i - 2:i + 3]])
+            slope = "{:.2f} ± {:.2f}".format(*of_five).replace("-", "−")
         rows.append([f"{h:g}", f"{contact:.0f} ± {error:.0f}", slope, f"{total:.0f} ± {error_of_total:.0f}"])
     return Table(["h [m]", "crushing and bending [kN]", "slope over five thicknesses",
                   "sum with ice under the hull [kN]"], rows, within=0.1)

@@ -117,8 +117,7 @@ void replace_by_pieces(const Setup& setup, const Instant& now, Breakage breakage
     if (is_inside && breakage.inside == InsideFate::kUnderHull) {
       std::get<Bend>(breakage.event.what).under_hull_area += measures.area;
       submersions.push_back(submersion_event(now, population, {id, ship}));
-      go_under(setup, now, {id, ship}, population, books.accounts);
-      population.submerged.back().had_deck = breakage.has_decks;
+      go_under(setup, now, {id, ship, breakage.has_decks}, population, books.accounts);
       continue;
     }
     wake(population.body_of(id), population);

@@ -36,17 +36,16 @@ double weight_under(const Setup& setup, const Population& population, FloeId flo
 }  // namespace
 
 Event submersion_event(const Instant& now, const Population& population, const FloeAtHull& at) {
-  const auto [floe, ship] = at;
   Submerge submerge;
-  submerge.under_hull_area = population.floes[floe].area;
-  submerge.floe = floe;
-  const geometry::Point place = population.bodies.position[population.body_of(floe)] + now.drift;
-  return {now.time, ship, place, submerge};
+  submerge.under_hull_area = population.floes[at.floe].area;
+  submerge.floe = at.floe;
+  const geometry::Point place = population.bodies.position[population.body_of(at.floe)] + now.drift;
+  return {now.time, at.ship, place, submerge};
 }
 
 void go_under(const Setup& setup, const Instant& now, const FloeAtHull& at, Population& population,
               Accounts& accounts) {
-  const auto [floe, ship] = at;
+  const auto [floe, ship, has_deck] = at;
   const BodyIndex body = population.body_of(floe);
   leave_contacts(floe, population);
   stop(population.bodies, body, accounts.audit.energy.submersion, accounts.audit);
@@ -59,6 +58,7 @@ void go_under(const Setup& setup, const Instant& now, const FloeAtHull& at, Popu
                                   .weight = weight_under(setup, population, floe, ship),
                                   .next_try = now.time,
                                   .waited = 0,
+                                  .had_deck = has_deck,
                                   .area = population.floes[floe].area});
   ++accounts.counts.went_under;
 }

@@ -8,6 +8,7 @@ namespace polynya::simulation {
 struct FloeAtHull {
   FloeId floe = 0;
   int ship = 0;
+  bool has_deck = false;  ///< the hull carries the water that is missing on the floe's deck (SubmergedPiece)
 };
 
 /// Puts a floe under a ship's hull. The floe takes part in no contact any more and is at rest in the water. Its kinetic

@@ -13,6 +13,7 @@ scale. The angles of the bow are doubtful, so both sets that are named for it ar
 forces over so many seconds, 0.1 if not given; --set: a key of the scene. Needs numpy.
 """
 import argparse
+import copy
 import json
 import math
 import pathlib
@@ -60,7 +61,7 @@ def at_places(scene_at, places, settings):
     same first ones."""
     scenes = []
     for place in range(places):
-        whole = scene_at(share=share_of(place), slant=slant_of(place)) | {"seed": place + 1}
+        whole = copy.deepcopy(scene_at(share=share_of(place), slant=slant_of(place))) | {"seed": place + 1}
         whole["fracture"]["bending"] = {"strength_spread": STRENGTH_SPREAD}
         for key, value in settings:
             set_key(whole, key, value)
@@ -97,10 +98,15 @@ def found_at(runs, label, scenes, average=level_tests.AVERAGE):
     return results
 
 
+def with_error(of):
+    """A mean and its standard error as a cell; of one place the mean alone [kN]."""
+    return f"{of['mean']:.0f}" + ("" if math.isnan(of["error"]) else f" ± {of['error']:.0f}")
+
+
 def of_tests(runs, angles, average=level_tests.AVERAGE, settings=(), places=PLACES):
     """(the tests, {test's name: what was found}) by one set of angles."""
     tests = level_tests.read_tests(HERE / "uikku_tests.csv")
-    label = f"{angles}-{zlib.crc32(repr(settings).encode()):08x}" if settings else angles
+    label = f"{angles}-{zlib.crc32(repr(tuple(settings)).encode()):08x}" if settings else angles
     scenes = {test.name: scenes_of(test, ANGLES[angles], places, settings) for test in tests}
     return tests, found_at(runs, label, scenes, average)
 
@@ -116,7 +122,7 @@ def table(runs, angles, average=level_tests.AVERAGE, settings=(), places=PLACES)
         listed = lambda of: ", ".join(f"{of[key]:.0f}" for key in ("sd", "min", "max"))
         rows.append([test.name, f"{test.ice['thickness_m']:g}", f"{test.speed:g}",
                      f"{hers['mean']:.0f}, {listed(hers)}" if has_sd else f"{hers['mean']:.0f}",
-                     f"{ours['mean']:.0f} ± {ours['error']:.0f}", listed(ours), f"{ours['submerged']:.0f}",
+                     with_error(ours), listed(ours), f"{ours['submerged']:.0f}",
                      f"{ours['mean'] / hers['mean']:.2f}", f"{ours['sd'] / hers['sd']:.2f}" if has_sd else "",
                      f"{100 * ours['without_contact']:.0f} %"])
     return Table(["test", "h [m]", "v [m/s]", "measured: mean, sd, least, largest [kN]", "Polynya: mean [kN]",
@@ -203,7 +209,7 @@ def polaris(runs, settings=(), places=PLACES):
         thrust = 1e-3 * formulas.net_thrust(1e3 * engine["bollard_pull_kN"], engine["open_water_speed_m_per_s"], v)
         both = [found_at(runs, label, {test.name: at_places(scene_at, places, (*settings, *more))})[test.name]
                 for label, more in (("with", ()), ("without", (NO_FACTOR,)))]
-        rows.append([f"{h:g}", f"{v:.2f}", f"{thrust:.0f}", *(f"{of['mean']:.0f} ± {of['error']:.0f}" for of in both),
+        rows.append([f"{h:g}", f"{v:.2f}", f"{thrust:.0f}", *map(with_error, both),
                      ", ".join(f"{of['mean'] / thrust:.2f}" for of in both),
                      f"{100 * (both[0]['mean'] - both[1]['mean']) / both[0]['mean']:.0f} %"])
     return Table(["h [m]", "v [m/s]", "net thrust [kN]", "resistance with the factor [kN]", "without [kN]",
