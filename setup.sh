@@ -39,7 +39,7 @@ for group in "${@:-build}"; do
     is_installed "$package" || missing+=("$package")
   done
 done
-# What the group browser is for is built by one command more.
+# The group browser needs one more command, which configures its build.
 configure() {
   case " ${*:-build} " in *" browser "*) ;; *) return 0 ;; esac
   mkdir -p build
