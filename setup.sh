@@ -39,7 +39,7 @@ for group in "${@:-build}"; do
     is_installed "$package" || missing+=("$package")
   done
 done
-# What the group browser is for is built by one command more.
+# The group browser needs one more command, which configures its build.
 configure() {
   case " ${*:-build} " in *" browser "*) ;; *) return 0 ;; esac
   mkdir -p build
@@ -60,7 +60,7 @@ echo "Installing Debian packages: ${missing[*]}"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 run() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive "$@" >>"$log" 2>&1; }
-run apt-get update || true # an unreachable extra source must not stop us; the install below tells
+run apt-get update || true # an unreachable extra source is no error; the install below reports faults
 run apt-get install -y --no-install-recommends "${missing[@]}" || {
   tail -n 25 "$log" >&2; echo "setup.sh: the installation failed; its last lines are above" >&2; exit 1; }
 configure "$@"

@@ -26,8 +26,8 @@ Split split_of_floe(int vertices = 2000);
 
 /// Result of one library for one case, detailed enough to show that all libraries did the same work.
 struct Result {
-  double area = 0;           ///< of the plate left, or of both halves [m²]
-  std::size_t vertices = 0;  ///< of the plate left, or of both halves
+  double area = 0;           ///< area of the plate left, or of both halves [m²]
+  std::size_t vertices = 0;  ///< number of vertices of the plate left, or of both halves
 };
 
 /// The rectangle that holds all of the floe to the left of the split's line.

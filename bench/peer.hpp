@@ -12,14 +12,14 @@ namespace polynya::bench {
 /// velocities that Polynya starts with, in the water frame. Nothing in them breaks or crushes.
 struct PeerBody {
   geometry::Ring outline;  ///< convex, about the centre of mass, in the body's axes [m]
-  double radius = 0;       ///< of a cylinder, which the peers take as a circle [m]; 0: see outline
+  double radius = 0;       ///< radius of a cylinder, which the peers take as a circle [m]; 0: see outline
   double mass = 0;         ///< [kg]
   double moment = 0;       ///< [kg m²]
   geometry::Point position;
   double angle = 0;  ///< [rad]
   geometry::Vector velocity;
   double angular_velocity = 0;
-  bool is_prescribed = false;  ///< its velocity does not answer to impulses
+  bool is_prescribed = false;  ///< true if impulses do not change its velocity
   double thrust = 0;           ///< along its x axis [N]
   double drag = 0;             ///< ½ C_D ρ_w h [kg/m³]; 0: the water does not hold it back
   double rotational = 0;       ///< K of its drag shape [m⁴]

@@ -10,9 +10,9 @@ namespace polynya::bench {
 
 /// How long a run may take.
 struct Limits {
-  double wall = 1e9;  ///< of the steps [s]
+  double wall = 1e9;  ///< wall time of the steps [s]
   double time = 0;    ///< simulated, at most [s]
-  int threads = 1;    ///< of ours; the peers have one
+  int threads = 1;    ///< threads of Polynya; the peers have one
 };
 
 /// The cost of a run, and its results as far as they are compared.
@@ -20,7 +20,7 @@ struct RunCost {
   std::string engine;
   long ticks = 0;              ///< a tick of ours may have several parts; the peers have one time step in each
   double step = 0;             ///< length of a tick [s]
-  double load = 0;             ///< from the scene's text to before the first step; 0 for the peers [s]
+  double load = 0;             ///< time from the scene's text to the first step; 0 for the peers [s]
   double memory = 0;           ///< peak of the process during load and run [MiB]; 0: not measured
   std::vector<double> blocks;  ///< wall time of each kBlock ticks; the last has the rest of the run [s]
   double mean_awake = 0;       ///< bodies
@@ -28,15 +28,15 @@ struct RunCost {
   double mean_contacts = 0;  ///< over the steps at which they were counted
   int bends = 0, splits = 0;
   double surge = 0;                     ///< mean of the first ship's, by the ice [N]
-  std::vector<geometry::Point> places;  ///< of a peer's bodies at the end
+  std::vector<geometry::Point> places;  ///< places of a peer's bodies at the end
 
   static constexpr long kBlock = 100;
   double covered() const { return step * static_cast<double>(ticks); }  ///< [s]
-  double total() const;                                                 ///< of the steps [s]
+  double total() const;                                                 ///< total time of the steps [s]
   double total_of_first(double time) const;                             ///< wall time of so much simulated [s]
   double mean_tick() const { return total() / static_cast<double>(ticks); }
   double per_second() const { return total() / covered(); }  ///< wall time a simulated second [-]
-  double median_tick() const;                                ///< of the blocks' means [s]
+  double median_tick() const;                                ///< median of the blocks' means [s]
 };
 
 /// Every engine takes the same steps in each repetition, so the fastest repetition of a block is its undisturbed cost.
@@ -64,7 +64,7 @@ RunCost run_polynya(const simulation::Scene& scene, const Limits& limits, simula
 struct Peer {
   std::string name;
   RunCost (*run)(const Peer& peer, const PeerScene& scene, const Limits& limits);
-  bool has_places = false;  ///< of its bodies at the end
+  bool has_places = false;  ///< true if it states the places of its bodies at the end
 };
 /// Returns the engines that were compiled into this build.
 const std::vector<Peer>& peers();

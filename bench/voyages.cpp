@@ -24,7 +24,7 @@ struct Options {
   bool is_quick = false;
   std::string csv;
   std::string only;
-  double peer_seconds = 120;  ///< at most, for each peer's run of a case [s]
+  double peer_seconds = 120;  ///< time limit of each peer's run of a case [s]
   /// Lateral distances of the ships from their places in the scenes, to port [m]. Such voyages are run once, because
   /// many different voyages are more informative than repetitions of one.
   std::optional<double> lateral;
@@ -39,8 +39,8 @@ struct Case {
   bool has_peers = true;
   double scene_step = 0;    ///< the fine step, where the scene gives it [s]; 0: take_fine_step() chooses it
   std::string compared_to;  ///< the case whose cost is the yardstick; empty: none
-  int threads = 1;          ///< of ours
-  int repeats = 1;          ///< of all engines; of each kBlock ticks the quietest repeat counts
+  int threads = 1;          ///< threads of Polynya
+  int repeats = 1;          ///< repeats of all engines; the fastest repeat of each kBlock ticks counts
 };
 
 /// Adds the same number of floes again, far away from the voyage.
@@ -207,7 +207,7 @@ PeerScene with_longest_step(const Peer& peer, const PeerScene& scene, const Limi
 /// The runs that a case compares. The first run is that of Polynya.
 struct Runs {
   std::vector<std::function<RunCost()>> runs;
-  std::vector<PeerScene> scenes;  ///< of the peers, for as long as they run
+  std::vector<PeerScene> scenes;  ///< scenes of the peers, kept while they run
 };
 
 void add_peers(const simulation::Scene& scene, const Limits& limits, Runs& to) {

@@ -22,7 +22,7 @@ PLANTED = [
     ("io/scene/scene_check.cpp", '"geometry/cut/internal/cut_graph.hpp"'),  # another room's internals
     ("io/scene/scene_reader.cpp", "<nlohmann/json.hpp>"),  # foreign, elsewhere
     ("simulation/world/world.cpp", "<CGAL/Polygon_2.h>"),
-    ("geometry/cut/cut.hpp", "<CGAL/Polygon_2.h>"),  # in its room, but public
+    ("geometry/cut/cut.hpp", "<CGAL/Polygon_2.h>"),  # a header of its room, but a public one
     ("app/run/run.cpp", "<CLI/CLI.hpp>"),
     ("geometry/shape/point.hpp", "<Eigen/Dense>"),
     ("app/run/run.cpp", "<zlib.h>"),  # listed nowhere

@@ -12,7 +12,7 @@ import sys
 
 MOST_COLUMNS = 120
 SKIPPED_FOLDERS = {".git", "build", "node_modules", "__pycache__", "runs", "vendor", "images"}
-STUDIES_KEPT = {"benches", "scenes"}  # in studies/, where `polynya study` makes folders, too
+STUDIES_KEPT = {"benches", "scenes"}  # kept folders of studies/, where `polynya study` makes folders, too
 # Data files that are written by programs or kept unchanged.
 DATA = re.compile(r"\.(csv|geojson|svg|png|gif|ico)$|_corpus/|^tests/geometry/.*\.txt$|^tests/passing/.*\.json$|"
                   r"^tests/mutation/.*\.ndjson$|^fracture/bending/default_database\.txt$|"

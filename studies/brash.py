@@ -20,7 +20,7 @@ THICKNESS, WIDTH, POROSITY = "floes[0].channel.thickness_m", "floes[0].channel.w
 SHIP, FACTOR, FRICTION = "ships[0].ship", "ships[0].hull.submersion_speed_factor", "ice.friction"
 COVER, SIZE = "floes[0].channel.cover", "floes[0].channel.sizes.mean_m"
 SIDES = "floes[0].channel.side_thickness_m"
-SPEED, MU = 2.572, 0.1  # of the studies at constant speed [m/s], their friction if it is not varied
+SPEED, MU = 2.572, 0.1  # speed of the studies at constant speed [m/s], and their friction if it is not varied
 MEASURED = 14 * formulas.KNOT  # Polaris in an old channel of 1.74 m (Aker Arctic, newsletter of September 2017) [m/s]
 HULLS = {"reference": tables.REFERENCE, "araon": formulas.Hull(95, 19, 6.8, math.radians(35), math.radians(30)),
          "oden": formulas.Hull(95, 29.4, 8, math.radians(22), math.radians(40)),

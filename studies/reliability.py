@@ -15,7 +15,7 @@ from tables import Table
 
 PAGE = "docs/reliability.md"
 SHOWN = 5
-ALLOWED = 1e-8  # of the turnover; a run warns above 1e-6
+ALLOWED = 1e-8  # allowed share of the turnover; a run warns above 1e-6
 
 
 def accounts(runs):

@@ -8,7 +8,7 @@
 
 namespace polynya::geometry {
 
-// Which parts of two boundaries are near each other, and whether two bodies share a point at all.
+// Search for the parts of two boundaries that are near each other, and a test whether two bodies share a point at all.
 
 /// A pair of edges (or of bounding circles) of two boundaries that are near each other.
 struct NearPair {

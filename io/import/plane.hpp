@@ -30,7 +30,7 @@ struct SourceFloe {
   bool is_at_180 = false;
 };
 
-/// What a file states about its coordinate system.
+/// Statements of a file about its coordinate system.
 struct FilePlace {
   std::string system;  ///< coordinate system that the file names, as GDAL knows it; may be empty
   StatedPlace stated;  ///< place that a file of Polynya states

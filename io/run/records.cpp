@@ -56,7 +56,7 @@ struct Load {
   std::vector<Axis> axes = {kSurge, kSway, kYaw};
 };
 
-/// Where a number has its peak or its plot, and the title of the plot.
+/// Places of the peak and of the plot of a number, and the title of the plot.
 struct Shown {
   std::optional<ShownWhere> peak = {};
   std::optional<ShownWhere> plotted = {};

@@ -66,7 +66,7 @@ class RunRecorder {
   /// Writes a last checkpoint, and then a frame if none is due at the end. A run that is continued to a later end
   /// starts from the checkpoint, and so does not contain that extra frame.
   Result<> end();
-  /// Of the run so far, with earlier parts [s].
+  /// Returns the wall time of the run so far, with earlier parts [s].
   double wall_time() const { return wall_time_before_ + seconds_since(start_); }
   /// Wall time since the last checkpoint [s].
   double checkpoint_age() const { return seconds_since(last_checkpoint_); }

@@ -16,7 +16,7 @@
 
 namespace polynya::io {
 
-/// Which pieces of a cut by a disc or a polygon are kept. A cut by a crack or a line keeps all pieces.
+/// Selection of the pieces that a cut by a disc or a polygon keeps. A cut by a crack or a line keeps all pieces.
 enum class Keep { kOutside, kInside, kBoth };
 std::string_view name_of(Keep keep);
 
@@ -58,7 +58,8 @@ struct CutDefaults {
   std::optional<double> snap = {};  ///< distance within which ends of lines are extended [m]; none: default_snap()
 };
 
-/// Reason why there is no tool. The kind tells a list of cuts with a mistake from a polygon whose outline is not valid.
+/// Reason why there is no tool. The kind distinguishes a list of cuts with a mistake from a polygon with an invalid
+/// outline.
 struct ToolError {
   enum class Kind { kMalformed, kInvalidPolygon };
   Kind kind = Kind::kMalformed;

@@ -82,7 +82,7 @@ class OutputFile {
   Result<> status_;
 };
 
-/// What a finished write guarantees.
+/// Guarantee that a finished write gives.
 enum class Durability {
   kRenamed,  ///< the file is complete even if the program ends at any time
   kSynced,   ///< the file is complete and stored even if the machine fails

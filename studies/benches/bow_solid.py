@@ -309,7 +309,7 @@ def peak_along(r, stress, least, most):
     return y[top], math.exp(fine[np.argmax(fit(fine))])
 
 
-WEIBULL = 6  # m of ice whose strength scatters by .2
+WEIBULL = 6  # Weibull modulus of ice whose strength scatters by 0.2
 
 
 def sampled(solid, tensors, points):

@@ -117,7 +117,7 @@ def parts_of(run, way_in=32):
     sums = np.zeros(3 + len(DECKS))
     for e in sample:
         area, depth, ahead = e["submerged_area_m2"], e["cusp_radius_m"], e["normal"][0]
-        tilt = math.atan(math.tan(STEM) / ahead)  # of the hull from the horizontal, ψ
+        tilt = math.atan(math.tan(STEM) / ahead)  # inclination of the hull from the horizontal, ψ
         held = max(0.1, 1 - FRICTION * math.tan(tilt))  # beside a shoulder friction would hold the cusp up
         more = (math.tan(tilt) + FRICTION) / held / math.tan(tilt)
         w = v * math.tan(STEM)

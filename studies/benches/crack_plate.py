@@ -23,7 +23,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 from tables import Table  # noqa: E402
 
 NU = 0.3
-ELASTICITY = np.array([[1, NU, 0], [NU, 1, 0], [0, 0, (1 - NU) / 2]]) / (1 - NU ** 2)  # of E = 1
+ELASTICITY = np.array([[1, NU, 0], [NU, 1, 0], [0, 0, (1 - NU) / 2]]) / (1 - NU ** 2)  # plane stress with E = 1
 QUADRATURE = np.array([np.roll([a, b, b], k) for a, b in ((0.108103018, 0.445948491), (0.816847573, 0.091576214))
                        for k in range(3)])
 WEIGHTS = np.repeat([0.223381590, 0.109951744], 3)

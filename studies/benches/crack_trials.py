@@ -132,7 +132,7 @@ def judged(run):
     return found
 
 
-SHOWN = ("centre-1000-0.3", "centre-1000-0.7", "plate-2500", "turn-800-0.3", "turn-800-0.7")  # on the page
+SHOWN = ("centre-1000-0.3", "centre-1000-0.7", "plate-2500", "turn-800-0.3", "turn-800-0.7")  # cases shown on the page
 
 
 def table(runs, shown=SHOWN):

@@ -8,7 +8,7 @@ from polynya.errors import InputError
 from polynya.performance.level_ice import ENDLESS
 
 MEASURED = 100  # way over which the ice's force is measured, once the hull is full of ice [m]
-GAP = 2  # of water before the ice [m]
+GAP = 2  # width of the water before the ice [m]
 AVERAGE = 0.1  # over which forces are averaged [s]
 SLANT = 0.07  # of the ice's edge: along a straight one a bow breaks mirror images for a long way, as no ice does [rad]
 # Columns of a table of tests, with the least and the largest value of each; the first are required.

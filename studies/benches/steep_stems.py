@@ -8,7 +8,7 @@ import numpy as np
 
 from tables import Table
 
-SETTLED = 30  # of the stems' runs, the time until all of the bow is in the ice, which is left out [s]
+SETTLED = 30  # time until all of the bow is in the ice, left out of the stems' runs [s]
 SQUEEZED = 100  # the same of the shoulders' runs [s]
 ANGLES = (*range(60, 90, 2), 89, 89.5, 89.75, 89.95)  # [°]
 SHIP = {"length_m": 120, "beam_m": 24, "entrance_angle_deg": 27}

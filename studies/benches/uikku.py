@@ -34,7 +34,7 @@ ANGLES = {"stated": {"stem": 30, "entrance": 21, "friction": 0.05},
 # Deviation of the flexural strength of beams at one place over their mean (recall).
 STRENGTH_SPREAD = 0.2
 PLACES = 8
-SPEED_RANGE = 0.03  # how far the speed of a place may be from the test's, as a share of it [-]
+SPEED_RANGE = 0.03  # allowed difference between the speed of a place and that of the test, as a share of it [-]
 FORMULAS = {"Lindqvist": "lindqvist_kN", "Riska": "riska_kN", "Keinonen": "keinonen_kN", "Jeong": "jeong_kN"}
 # Polaris, Bay of Bothnia, March 2017: thickness [m] and speed [m/s] at full power. The strength of the ice is not
 # stated: 0.5 MPa, and friction 0.1, are assumed as for the design points of docs/validation.md.

@@ -39,14 +39,14 @@ struct Outcome {
   int code = -1;  ///< exit code; −signal where a signal ended it
   std::string out;
   std::string err;
-  std::string line = {};  ///< of the command
+  std::string line = {};  ///< command line
 };
 
 /// How a program is started.
 struct Start {
-  std::filesystem::path folder;         ///< its working folder, where its output is kept too
+  std::filesystem::path folder;         ///< working folder, where the output is kept too
   rlim_t largest_file = RLIM_INFINITY;  ///< [bytes]
-  std::filesystem::path input = {};     ///< its stdin; none if empty
+  std::filesystem::path input = {};     ///< file for stdin; no input if empty
   /// Replaces a descriptor just before the program starts. Other descriptors go to files, or come from /dev/null.
   std::function<void()> arrange_streams = [] {};
   std::vector<std::string> under = {};  ///< a program, and its options, that starts polynya

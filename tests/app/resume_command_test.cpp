@@ -209,10 +209,10 @@ TEST_F(Resume, TheBytesAreTheSameOnAnyNumberOfThreads) {
 
 struct CrashTally {
   int runs = 0;
-  int kills = 0;            ///< by SIGKILL, of runs and of resumed runs, at random times
-  int before_anything = 0;  ///< of them, before the run folder had its scene
+  int kills = 0;            ///< number of SIGKILLs of runs and of resumed runs, at random times
+  int before_anything = 0;  ///< number of kills before the run folder had its scene
   int resumed = 0;          ///< runs that ended after a resume from a checkpoint
-  int restarted = 0;        ///< and from the start, no checkpoint being there yet
+  int restarted = 0;        ///< number of restarts from the start, because no checkpoint existed
 };
 
 CrashTally crash_trials(int kills, unsigned seed) {

@@ -133,7 +133,7 @@ class Unsynced {
     if (path == folder_ || is_in_folder(path)) paths_.insert(path.parent_path());
   }
   fs::path folder_;
-  std::set<std::string> paths_;  ///< of files with bytes, and folders with names, that are not on the disk
+  std::set<std::string> paths_;  ///< files with bytes, and folders with names, that are not on the disk
 };
 
 /// A checkpoint is removed only when all data written before it are on the disk, because a run is resumed from it.

@@ -13,7 +13,7 @@
 namespace polynya::cosim {
 namespace {
 
-constexpr int kIcebreaker = 0, kBarge = 1;  ///< in coupled.json
+constexpr int kIcebreaker = 0, kBarge = 1;  ///< indices of the ships in coupled.json
 
 io::LoadedScene scene_with(const std::string& assignment = "seed=3") {
   io::SceneOverrides overrides;

@@ -15,12 +15,12 @@ import sys
 
 NOT_READ = ("docs/images/", "views/player/vendor/", "tests/docs/check_paths_test.py", "tests/docs/check_site_test.py",
             "tools/site/index.md")  # the last names pages that the site's build makes
-COMMENTS = {  # by suffix: what a person reads of a source
+COMMENTS = {  # suffix -> parts of a source that a person reads
     ".cpp": r"//[^\n]*|/\*.*?\*/", ".hpp": r"//[^\n]*|/\*.*?\*/", ".js": r"//[^\n]*|/\*.*?\*/",
     ".py": r'#[^\n]*|"""(?!\\).*?"""', ".txt": r"#[^\n]*", ".cmake": r"#[^\n]*", ".sh": r"#[^\n]*", "": r"#[^\n]*"}
 OF_SOURCE = r"cpp|hpp|py|js|cmake|sh|md"
 NAME = re.compile(rf"(?<![\w./-])([\w-]+(?:/[\w-]+)*\.(?:{OF_SOURCE}))\b(?![(/])")
-PROGRAMS = {"gdal_polygonize.py"}  # of other packages
+PROGRAMS = {"gdal_polygonize.py"}  # programs of other packages
 MADE = "studies"  # `polynya study` makes folders there, too: of this one only sources and pages are looked for
 ELSEWHERE = ("tl/", "boost/", "nlohmann/", "CLI/", "fmt/", "CGAL/", "polynya/")  # headers of libraries
 

@@ -56,8 +56,8 @@ struct FloePack {
   std::vector<BodyIndex> awake;
   BroadPhase finder;
   Random random{99};
-  bool has_covers;  ///< before another body comes near
-  int corners;      ///< of a body, at least
+  bool has_covers;  ///< true if covers exist before another body comes near
+  int corners;      ///< least number of corners of a body
 
   FloePack(const ContactRule& rule, int columns, bool are_covered = true, int least_corners = 5)
       : finder(rule, 15), has_covers(are_covered), corners(least_corners) {

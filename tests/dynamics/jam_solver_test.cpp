@@ -277,7 +277,7 @@ TEST(JamSolver, AJamThatStaysIsSolvedByOneSweep) {
 
 struct Problem {
   int bodies = 0;
-  JamVector mass;  // one more, for bodies of prescribed motion
+  JamVector mass;  // mass by body, with one entry more for bodies of prescribed motion
   std::vector<JamRows> rows;
   std::vector<JamLoad> loads;
 };

@@ -39,7 +39,7 @@ class Collisions {
   }
   bool has_met() const { return has_met_; }
   double kinetic() const { return kinetic_energy(bodies_); }  ///< [J]
-  double stored() const { return stored_; }                   ///< by all contacts [J]
+  double stored() const { return stored_; }                   ///< energy stored by all contacts [J]
 
  private:
   Bodies bodies_;

@@ -16,7 +16,7 @@ using shapes::kDegree;
 constexpr double kSeaDensity = 1000;
 constexpr double kThrust = 1.2e6;
 
-/// The rudder of the reference ship, behind a propeller of .65 of the draught.
+/// The rudder of the reference ship, behind a propeller whose diameter is 0.65 of the draught.
 constexpr Rudder kRudder{.area = 12.96, .position = -60, .propeller_area = 11.95};
 
 Rudder without_race() {

@@ -297,7 +297,7 @@ TEST(Propulsion, BollardPullFollowsFromPowerDiameterAndPropellers) {
   EXPECT_NEAR(bollard_pull(1e6, 1, 2), 98e3, 1e-6);
   EXPECT_NEAR(bollard_pull(1e6, 1, 3), 112e3, 1e-6);
   EXPECT_NEAR(bollard_pull(1e6, 1, 2, true), 1.4 * 98e3, 1e-6);
-  // The ice class rules have the same coefficient for a channel: K_e = (.8 K)^−1.5.
+  // The ice class rules have the same coefficient for a channel: K_e = (0.8 K)^−1.5.
   EXPECT_NEAR(std::pow(0.8 * 0.78, -1.5), 2.03, 5e-3);
   EXPECT_NEAR(std::pow(0.8 * 0.98, -1.5), 1.44, 5e-3);
   EXPECT_NEAR(std::pow(0.8 * 1.12, -1.5), 1.18, 5e-3);
@@ -367,7 +367,7 @@ TEST(SubmergedIce, APieceHasRisenAndSlidAllTheWayHoweverItIsCutIntoSteps) {
 TEST(SubmergedIce, AHullCoveredWithIcePaysLindqvistsResistance) {
   const SubmersionPath path = submersion_path(kReference);
   const double mu = 0.2, speed = 1, dt = 0.01, piece = 0.5;  // a piece every half metre
-  const double weight = 100 * 9.81 * 0.5 * 24 * piece;       // of each [N]
+  const double weight = 100 * 9.81 * 0.5 * 24 * piece;       // weight of each piece [N]
   double work = 0;
   for (int step = 0; step < 50; ++step) {  // over one spacing of the pieces
     for (double s = step * dt * speed; s < 120; s += piece)

@@ -19,9 +19,9 @@ import subprocess
 import sys
 import tempfile
 
-TICKS = 40         # of a run: what fails by its numbers alone fails early
-TIME_LIMIT = 600   # for one command, which then hangs [s]
-LEAST_SIZE = 1e-100  # of a number that is not 0: smaller ones are refused
+TICKS = 40         # ticks of a run: a scene that fails by its numbers alone fails early
+TIME_LIMIT = 600   # time after which a command counts as hanging [s]
+LEAST_SIZE = 1e-100  # least size of a number that is not 0; smaller ones are refused
 TRIED = ("runs", "is refused")
 
 SHIP = {"hull": {"length_m": 60, "beam_m": 12, "entrance_angle_deg": 30, "draught_m": 4, "block_coefficient": 0.6},

@@ -25,7 +25,7 @@ import time
 import random_scenes
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-DURATION = 0.5  # of random scenes, less than 1 to save time [-]
+DURATION = 0.5  # factor on the duration of random scenes, less than 1 to save time [-]
 CUTS = 5
 KILLS = 5
 THREADS = (2, 3, 8)

@@ -25,7 +25,7 @@ ENERGY_SHARE = 1e-6       # share of the turnover, as for the audit [-]
 PUSHED_APART_SHARE = 3e-3  # share of the turnover that steps may add when they push bodies apart, law crush [-]
 UNSOLVED_SHARE = 1e-3      # share of the turnover that unsolved steps may add, law impulse [-]
 COMPONENTS = ("surge", "sway", "yaw")
-DIRECTIONS = 16           # in which a floe's extent is measured
+DIRECTIONS = 16           # number of directions in which a floe's extent is measured
 
 
 def extent(points_m, angle):

@@ -18,7 +18,7 @@ COLUMNS = ["t_s", "ship"] + [f"{component}{source}{largest}_{'Nm' if component =
                              for component in load_bounds.COMPONENTS] + ["heading_deg"]
 CONTACT_COLUMNS = ["t_s", "ship", "floe_id", "by_ship", "by_floe_id", "fx_N", "fy_N", "width_m", "height_m",
                    "pressure_Pa", "ended_by"]
-STRENGTH_N_PER_M = 2e6 * 0.5  # of the floes below, sigma_c h
+STRENGTH_N_PER_M = 2e6 * 0.5  # sigma_c h of the floes below
 
 SCENE = {
     "ice": {"thickness_m": 0.5, "compressive_strength_Pa": 2e6, "friction": 0.2}, "contact": {"law": "crush"},

@@ -29,7 +29,7 @@ class Setting:
         self.plane = Plane(turn, (dice.between(-500, 500), dice.between(-500, 500)) if turn or dice.chance(0.1)
                            else (0.0, 0.0))
         self.width_m = dice.choice((60.0, 100.0, dice.between(30, 160)))
-        self.length_m = 0.0  # of all bands
+        self.length_m = 0.0  # length of all bands
         self.thickness_m = dice.choice((0.5, 1.0, dice.decades(0.05, 3), dice.decades(0.1, 1.5)))
         self.compressive_Pa = dice.choice((2.8e6, dice.between(1e6, 5e6)))
         self.fastest_m_per_s = dice.choice((3, 5, 10))
@@ -40,7 +40,7 @@ class Setting:
         self.exact_m_per_s, self.exact_step_s = 0.0, 0.0  # of scenes whose hulls reach edges exactly at a tick
         self.top_speed_m_per_s = 0.5
         self.run_up_m_per_s = 1.0
-        self.files = {}            # of floes, by name
+        self.files = {}            # floe files, by name
         self.room_m = []           # boxes in which hulls may stand
         self.hulls, self.standing = [], []  # outlines of all hulls, and of those at rest
         self.structure_names = []

@@ -24,8 +24,8 @@ import time
 import load_bounds
 import random_scenes
 
-SHORT = 0.4  # of all durations
-NOTED = "not sound: overlap not crushed"  # by law impulse no fault: rigid impulses crush nothing
+SHORT = 0.4  # factor on all durations
+NOTED = "not sound: overlap not crushed"  # with law impulse this is no fault: rigid impulses crush nothing
 
 
 def finish(command, timeout_s):

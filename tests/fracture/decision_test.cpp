@@ -69,7 +69,7 @@ TEST(CharacteristicLength, IsTheFourthRootOfRigidityOverFoundationAndAsPrintedIt
 
 // ---- a floe whose edge an inclined hull presses down
 
-constexpr double kArea = 225;  // of a floe of 15 m
+constexpr double kArea = 225;  // area of a floe of 15 m
 
 const TiltResistance kResistance = tilt_resistance({.thickness = 0.5}, {}, kArea, 1);
 

@@ -20,9 +20,9 @@ std::string channel(const std::string& members = "") {
 
 /// Sums over the pieces of a scene, and over its fast ice.
 struct Sums {
-  double volume = 0;       ///< of the pieces [m³]
-  double area = 0;         ///< of the pieces [m²]
-  double fast_volume = 0;  ///< of the fast ice [m³]
+  double volume = 0;       ///< volume of the pieces [m³]
+  double area = 0;         ///< area of the pieces [m²]
+  double fast_volume = 0;  ///< volume of the fast ice [m³]
 };
 
 Sums sums_of(const simulation::Scene& scene) {

@@ -27,7 +27,7 @@ using simulation::FloeId;
 struct Family {
   std::vector<simulation::Birth> births;
   std::string lines;
-  std::string whole_lines;  ///< as version 1 wrote them
+  std::string whole_lines;  ///< lines as version 1 wrote them
   int holed = 0;
   int of_parts = 0;
 };

@@ -170,9 +170,9 @@ struct Share {
 };
 
 struct Passed {
-  Share parted;     ///< that overlap and do not press
-  Share uncrushed;  ///< that overlap without having been crushed
-  Share covered;    ///< of which one is a hull
+  Share parted;     ///< pairs that overlap and do not press
+  Share uncrushed;  ///< pairs that overlap without having been crushed
+  Share covered;    ///< pairs of which one body is a hull
 };
 
 bool is_new(const Simulation& run, Body body) {

@@ -60,7 +60,7 @@ def test_where_nobody_breaks_gates_pass_what_was_put_in(drifting):
         low, high = (numpy.searchsorted(areas, numpy.sort(passage.areas)[k]) / len(areas)
                      for k in (len(passage.areas) // 4, 3 * len(passage.areas) // 4))
         assert abs(high - low - 0.5) < 3 * math.sqrt(0.25 / len(passage.areas))
-    # The field is 80 m of the drift, at .6.
+    # The field is 80 m long in the direction of the drift, with a cover of 0.6.
     assert passages(drifting, gates_of(drifting, {**GATES, "width_m": 300}))[0].cover == pytest.approx(0.6, rel=0.15)
 
 

@@ -31,7 +31,7 @@ geometry::Polygon with_flat_nose(double x) {
 
 struct Stop {
   double depth = 0;       ///< [m]
-  double time = 0;        ///< from first contact to rest [s]
+  double time = 0;        ///< time from first contact to rest [s]
   double peak_force = 0;  ///< [N]
   double mass = 0;        ///< [kg]
 };

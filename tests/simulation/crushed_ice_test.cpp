@@ -20,7 +20,7 @@ constexpr double kRadius = 5;              // [m]
 constexpr double kWay = 100;               // [m]
 
 struct Drift {
-  double speed = 0;  ///< of the ice against the hull [m/s]
+  double speed = 0;  ///< speed of the ice against the hull [m/s]
   double step = 0;   ///< [s]
 };
 constexpr Drift kDrifts[] = {{0.2, 0.05}, {0.2, 0.02}, {1, 0.05}, {1, 0.02}};
@@ -141,8 +141,8 @@ TEST(Prescribed, APlateThatIsCutThroughIsTwo) {
   expect_closed(done.simulation);
 }
 
-/// A wall that closes flat crushes ice over all of its length at once: σ_c h w from the first step on, 588 MN for
-/// 300 m of .7 m, until the ice has taken its momentum, and never more
+/// A wall that closes flat crushes ice over all of its length at once. Its load is σ_c h w from the first step on, 588
+/// MN for 300 m of 0.7 m, until the ice has taken its momentum, and is never larger
 /// (docs/decisions/2026-11-23-flat-wall.md).
 TEST(Prescribed, AWallThatClosesFlatBearsOnAllOfTheIce) {
   constexpr double kChannelWidth = 300;  // [m]

@@ -156,7 +156,7 @@ TEST(Bending, TheHullFollowsIceThatBendsAwayOrOnlyCrushesIt) {
   EXPECT_GT(event.time, 1.3 * crushed.time);
 }
 
-/// V_b and R follow the depth of the facet, which a step finds up to .026 m before or after the ice breaks.
+/// V_b and R follow the depth of the facet, which a step finds up to 0.026 m before or after the ice breaks.
 TEST(Bending, TheCuspIsNotTheSteps) {
   const auto radius = [](double step) {
     Ship bow = barge({-0.001, 0}, ConstantSpeed{1.5}, 1.5);

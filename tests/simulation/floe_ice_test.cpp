@@ -169,7 +169,7 @@ TEST(BendingScatter, DrawsFloesOneByOne) {
     strength.push_back(drawn_property(law, 3, floe, 2));
   }
   EXPECT_LT(measure(law, thickness).distance, 0.023);
-  double products = 0;  // of two properties: they are independent
+  double products = 0;  // sum of products of two properties, which are independent
   for (std::size_t i = 0; i < thickness.size(); ++i) products += (thickness[i] - 0.5) * (strength[i] - 0.5) / 5000;
   EXPECT_LT(std::abs(products), 3 * 0.01 / std::sqrt(5000));
 }

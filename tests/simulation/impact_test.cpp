@@ -26,9 +26,9 @@ constexpr double kAllowed =
 /// How a body meets ice.
 struct Approach {
   double speed = 0;  ///< [m/s]
-  double gap = 0;    ///< to the ice at the start [m]
+  double gap = 0;    ///< distance to the ice at the start [m]
   double step = 0;   ///< [s]
-  double tilt = 0;   ///< of the faces that meet, from parallel [rad]
+  double tilt = 0;   ///< angle between the faces that meet [rad]
 
   friend std::ostream& operator<<(std::ostream& out, const Approach& a) {
     return out << a.speed << " m/s, gap " << a.gap << " m, step " << a.step << " s, tilt " << a.tilt << " rad";
@@ -38,9 +38,9 @@ struct Approach {
 /// A body that meets ice head on, and the largest force that the ice can transmit.
 struct Impact {
   Scene scene;
-  double mass = 0;                         ///< of the body that comes [kg]
+  double mass = 0;                         ///< mass of the moving body [kg]
   std::function<double(double)> force_at;  ///< the force of crushing by the depth [N by m]
-  double most = 0;                         ///< at any depth [N]
+  double most = 0;                         ///< largest force at any depth [N]
 };
 
 /// The greatest force of an impact by its closed form: at the depth where ½ m v² = ∫ F dξ.
@@ -55,7 +55,7 @@ double closed_form(const Impact& impact, double speed) {
 /// The greatest loads of steps [N].
 struct Largest {
   double contact = 0;   ///< along the normal of one contact
-  double recorded = 0;  ///< on the hull, as rows of forces have it, and their means
+  double recorded = 0;  ///< largest load on the hull in rows of forces, and in their means
 };
 
 Largest largest_of(const Impact& impact, const Approach& a) {

@@ -17,7 +17,7 @@ using geometry::Point;
 using geometry::Vector;
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
-constexpr double kFar = 1500;        ///< of a pattern from the body [m]
+constexpr double kFar = 1500;        ///< distance of a pattern from the body [m]
 constexpr double kWide = 800;        ///< across the drift [m]
 constexpr double kPatternSpeed = 4;  ///< along the pattern [m/s]
 
@@ -132,7 +132,7 @@ TEST(Pattern, LeavesNoGapsWhileDriftTimesPeriodIsWithinTheBand) {
   for (const auto& [pattern, depth, drift, narrow, least, most] :
        {std::tuple{Form::kLinear, 0.0, 0.25, 0.5, 0.69, 0.81}, {Form::kCircular, kWide, 0.16, 0.2, 0.0, 0.95}}) {
     const PatternLine line = line_of(managing(pattern, depth));
-    const double spacing = drift * line.lap() / kPatternSpeed;  // of two passes at an end of the line: 100 m
+    const double spacing = drift * line.lap() / kPatternSpeed;  // distance of two passes at an end of the line: 100 m
     EXPECT_EQ(swept_share(line, drift, kPatternSpeed, 1.05 * spacing), 1) << depth;
     const double share = swept_share(line, drift, kPatternSpeed, narrow * spacing);
     EXPECT_GE(share, least) << depth;
@@ -153,7 +153,7 @@ TEST(Pattern, ShipsOfTwoPhasesComeAsNearAsTheFormsAllow) {
 struct Followed {
   double most_off = 0;  ///< the line, after the first quarter of a lap [m]
   double laps = 0;
-  double nearest = 1e9;  ///< of two ships [m]
+  double nearest = 1e9;  ///< least distance of two ships [m]
   Vector reach;          ///< half extents about the pattern's middle [m]
 };
 

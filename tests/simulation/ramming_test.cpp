@@ -33,7 +33,7 @@ struct Bridge {
   dynamics::Engine engine;  ///< unknown unless a test gives one
   double mass = 0;          ///< [kg]
   double time = 0;          ///< [s]
-  double lever = 1;         ///< where it is
+  double lever = 1;         ///< present position of the lever [-]
   double ordered = 1;
 
   /// Goes on for so long at a speed ahead [m/s].
@@ -144,10 +144,10 @@ TEST(RammingOrders, LeadBackToTheLineOfTheRam) {
 
 /// A charge that ended where the ship was stuck again.
 struct Ram {
-  double backed = 0;  ///< from where the ship was stuck before to the farthest astern [m]
+  double backed = 0;  ///< distance from where the ship was stuck to the farthest point astern [m]
   double least_lever = 0;
   double gained = 0;   ///< beyond where the ship was stuck before [m]
-  double seconds = 0;  ///< from being stuck to being stuck again
+  double seconds = 0;  ///< time from being stuck to being stuck again [s]
 };
 
 /// All finished charges after the first: from one turn of the lever astern to the next.

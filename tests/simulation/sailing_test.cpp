@@ -216,7 +216,7 @@ struct TurningCircle {
   double steady_diameter = 0;
   double tactical_diameter = 0;  ///< across the course at 180°
   double advance = 0;            ///< along it at 90°
-  double speed_kept = 0;         ///< of the first [-]
+  double speed_kept = 0;         ///< share of the first speed that is kept [-]
 };
 
 /// A turn at a rudder angle [°] from 6 m/s, at the thrust that holds that speed.

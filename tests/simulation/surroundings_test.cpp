@@ -262,7 +262,7 @@ TEST(Wall, GoesOnFromASavedStateAsItWould) {
 /// parallel to the hull: R = q [B + 2 μ (L_bow + L_par)].
 TEST(LinePressure, OnAShipsBowAndSidesIsThatOfTheClosedForm) {
   constexpr double kLoad = 5e4;
-  constexpr double kGap = 10;  // from hull to wall
+  constexpr double kGap = 10;  // distance from hull to wall [m]
   const Ship ship = steep_icebreaker({60, 0}, ConstantSpeed{0.005}, 0.005);
   const geometry::Ring& hull = ship.hull.waterline;
   Build scene = Build().unbreakable().step(0.01).ship(ship);

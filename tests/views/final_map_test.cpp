@@ -81,8 +81,8 @@ std::size_t count_of(const std::string& text, const std::string& words) {
 void expect_readable(const std::string& svg) {
   EXPECT_NEAR(numbers_of(svg, "width").front(), 170, 0.01);
   const double pixels = std::stod(svg.substr(svg.find("viewBox='0 0 ") + 13));
-  const double points = 170 / pixels / 25.4 * 72;  // of a pixel
-  std::map<double, double> ends;                   // of the words of a line, by its height
+  const double points = 170 / pixels / 25.4 * 72;  // size of a pixel [pt]
+  std::map<double, double> ends;                   // ends of the words of a line, by its height
   for (std::size_t at = svg.find("<text x='"); at != std::string::npos; at = svg.find("<text x='", at + 1)) {
     const std::size_t begin = svg.find('>', at) + 1, end = svg.find("</text>", begin);
     const std::string tag = " " + svg.substr(at, begin - at);

@@ -46,7 +46,7 @@ def parts_of_help(text):
     return parts
 
 
-COLUMN = 30  # where explanations begin in help texts
+COLUMN = 30  # column in which explanations begin in help texts
 
 
 def rows_of(lines):

@@ -142,7 +142,7 @@ std::vector<double> family_distances(const io::Run& run, const Box& box, const s
     for (const Point p : run.shape(birth.floe)->outer)
       reach[i] = std::max(reach[i], distance(p, birth.centroid_in_body));
   }
-  // By the oldest floe of a family.
+  // The index is the oldest floe of a family.
   std::vector<double> least(run.floes.size(), std::numeric_limits<double>::infinity());
   std::vector<std::optional<io::RecordedMotion>> last(run.floes.size());
   /// Extends the path of a floe from its last record to a time, at its velocity.

@@ -229,7 +229,7 @@ TEST(EdgeSections, OfCrackedEdgesAreTheElements) {
 /// the hull.
 TEST(EdgeSections, ChangeLittleWithTheOutline) {
   const EdgeLoad push{15, 15, 0.2, 1.6, 0.4, 0.3};
-  constexpr double kStep = 0.01;  // of a degree
+  constexpr double kStep = 0.01;  // step of the angle, in degrees
   const auto at = [&](double aside) {
     EdgeOpenings edge = wedge_of(130);
     for (std::size_t i = 4; i < kSectionCount; ++i) edge[i].front += aside * kDegree;

@@ -29,7 +29,7 @@ BendingLoad paper_load(double ship_speed) {
   return load;
 }
 
-// Ship speeds .1 … 4 m/s, against an independent prototype of the same model.
+// Ship speeds from 0.1 to 4 m/s are compared with an independent prototype of the same model.
 TEST(Failure, PapersIceAtFiveSpeeds) {
   const WedgeSolver solver = wedge_of(paper_load(1), {});
   for (const auto& [speed, force, time, radius] : {std::tuple{.1, 70.5, 1.893, 3.03},
