@@ -13,7 +13,8 @@ namespace polynya::dynamics {
 struct PairState {
   BodyIndex a = 0;
   BodyIndex b = 0;
-  double separation_bound = -1;  ///< the two cannot touch until they have travelled this far together [m]
+  /// Sum of Bodies::travel of a and b up to which the two are known not to touch; −1: not known [m].
+  double separation_bound = -1;
   std::vector<PersistentContact> records;
 };
 
@@ -151,7 +152,7 @@ class BroadPhase {
   static constexpr std::int32_t kNoMover = -1;
   struct ActivePair {
     BodyIndex a, b;
-    double separation_bound;  // the two cannot touch until their travel exceeds this [m]
+    double separation_bound;  // sum of Bodies::travel of a and b up to which the two cannot touch [m]
     std::uint32_t slot;
     friend bool operator<(const ActivePair& p, const ActivePair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; }
   };
@@ -164,11 +165,11 @@ class BroadPhase {
   void for_new_partners(const Bodies& bodies, BodyIndex body, Use use) const;
   bool are_pair(BodyIndex a, BodyIndex b) const;
   void add_pair(const Bodies& bodies, BodyIndex a, BodyIndex b);
-  void keep_cover(const Bodies& bodies, BodyIndex body);
+  void keep_cover(const Bodies& bodies, BodyIndex body);  // makes and keeps the cover of the body's boundary
   template <class Wanted>
   std::vector<PairState> states_where(Wanted is_wanted) const;
-  void drop_pair(std::uint32_t pair);
-  void mark_dropped(std::uint32_t pair);
+  void drop_pair(std::uint32_t pair);     // removes a pair from the lists of its bodies, and marks it as dropped
+  void mark_dropped(std::uint32_t pair);  // marks only; its slot is freed later by erase_dropped()
   void merge_new();
   void erase_dropped(std::vector<ActivePair>& list);
   struct Share;

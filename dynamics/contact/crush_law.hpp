@@ -18,17 +18,18 @@ inline constexpr double kCreepSpeed = 5e-3;  // [m/s]
 /// The law of a contact at which ice crushes (docs/theory/contact.md): the crushing force acts while the two bodies
 /// close, and no force acts while they separate.
 ///
-/// Over a time τ the bodies close with u⁺, their closing speed after all impulses have acted. The gap g is the paid
-/// depth of the overlap (paid_overlap.hpp) minus the depth of the overlap. A positive gap is closed first, without a
-/// force. A negative gap is overlap whose ice is not gone; it has to be pushed apart, or paid, within the time T,
-/// kDecayTime. The rest of the closing speed, x = u⁺ − v_g with v_g = g/τ if g ≥ 0 and g/T if g < 0, crushes ice. The
-/// force is F and grows with the stiffness k, so that the impulse is
+/// Over a time τ, the length of a substep, the bodies close with u⁺, their closing speed after all impulses have acted.
+/// The gap g is the paid depth of the overlap (paid_overlap.hpp) minus the depth of the overlap. A positive gap is
+/// closed first, without a force. A negative gap is overlap whose ice is not gone; it has to be pushed apart, or paid,
+/// within the time T, kDecayTime. The rest of the closing speed, x = u⁺ − v_g with v_g = g/τ if g ≥ 0 and g/T if g < 0,
+/// crushes ice. The force is F and grows with the stiffness k, so that the impulse is
 ///
 ///   λ(x) = 0                       x ≤ 0
 ///          (τF/u_c + ½ k τ²) x     0 < x ≤ u_c
 ///          τF + ½ k τ² x           u_c < x
 ///
-/// but never more than the impulse at which the ice breaks. The creep branch up to u_c makes λ continuous; λ never
+/// but never more than the cap, the smaller of two impulses: the one at which the ice breaks, and the largest one that
+/// the ice along the contact carries while it crushes. The creep branch up to u_c makes λ continuous; λ never
 /// decreases. With a positive semidefinite K the impulses of all contacts of a step, λ = λ(û − K λ), are therefore
 /// unique (docs/theory/solver.md): they solve a strictly monotone problem, whatever the start. Own law; crushing force
 /// by Eq. (2) of [Sawamura2017].
@@ -194,8 +195,8 @@ struct CrushLaw {
     double depth, paid;      ///< present depth of the overlap, and its paid depth [m]
     double paying_work;      ///< work that has paid so far in the step [J]
     double missed;           ///< impulse missed before the contact was found [N s]
-    double breaking_force;   ///< [N]
-    double most_force;       ///< largest force that the ice carries without breaking [N]
+    double breaking_force;   ///< force at which the ice breaks; infinite if it does not [N]
+    double most_force;       ///< largest force of crushing ice along the contact, however deep it becomes [N]
     EndLaws ends;            ///< laws of the ends in this substep
     std::array<CrushKinks, 2> kinks;
     ActiveBranches branches;       ///< branches of the ends, at the last solution
@@ -204,7 +205,9 @@ struct CrushLaw {
     double last_slip;              ///< [N s]
     bool is_rigid, is_broken;
     bool breaks_at_cap;  ///< the cap is the impulse at which the ice breaks, not the one that it carries as it crushes
-    bool is_new;         ///< the missed impulse replaces the force of overlap that is not paid
+    /// True if the overlap was found in this step for the first time. Then a negative gap counts as 0 (v_g = 0), and
+    /// `missed` is added to the impulse instead.
+    bool is_new;
   };
 };
 

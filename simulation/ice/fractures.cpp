@@ -99,9 +99,9 @@ Breakage breakage_of(const Setup& setup, const Instant& now, const PendingFractu
 }
 
 /// Assigns the other bends of a floe that has just bent to the pieces that contain their contacts. `first` is the id of
-/// the first piece. A hull may break more than one cusp off a plate in a step; if the second bend were put off to the
-/// next step, a bow in uniform ice would break it on one side first, which depends on the step. A piece that is too
-/// small to break takes no bend.
+/// the first piece. A hull may break more than one cusp off a plate in a step. If the second bend were put off to the
+/// next step, a bow in uniform ice would break the plate on one side first, and which side that is would depend on the
+/// length of the step. A piece that is too small to break takes no bend.
 void pass_bends(FloeId bent, FloeId first, std::span<PendingFracture> others, const Population& population) {
   for (PendingFracture& pending : others) {
     if (pending.floe != bent || !pending.passes_to_pieces) continue;
@@ -125,7 +125,7 @@ void apply_fractures(const Setup& setup, const Step& step, StepData& data, Popul
   for (std::size_t i = 0; i < fractures.size(); ++i) {
     PendingFracture& pending = fractures[i];
     if (!population.is_floating(pending.floe))
-      continue;  // it has already broken in this step; its pieces may break in the next step
+      continue;  // it has already broken in this step, and no piece has taken over this fracture (pass_bends)
     const geometry::Shape& shape = population.floes[pending.floe].shape;
     geometry::CutOutcome outcome = cut(setup, shape, pending);
     if (misses_its_cusp(outcome, pending)) {

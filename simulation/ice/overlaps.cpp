@@ -142,8 +142,8 @@ struct CrushedGrowth {
 };
 
 /// Returns the crushed part of the growth of a contact's paid area. `thickness` is that of the ice [m]. If the ice edge
-/// bends away from the hull, the crushed part of the overlap is as deep as the hull has penetrated the edge, and as
-/// narrow as the overlap is at that depth.
+/// bends or tilts away from the hull, only `penetration_share` of the depth so far is crushed, and `crushed_share` of
+/// the growth in the step. The crushed part of the overlap is as wide as the overlap is at the crushed depth.
 CrushedGrowth crushed_growth(double thickness, const HullSlope& hull, const Contact& c) {
   const double after = c.record->paid_area, before = after - c.paid_by_work - c.paid_by_giving_way;
   if (!(after > before)) return {hull.crushed_share, thickness};
@@ -253,7 +253,8 @@ namespace {
 
 /// Smallest crushed overlap that is cut off a floe while the contact lasts, as a fraction of the area of the smaller
 /// body [-]. After the contact has ended, h² is the limit if it is smaller. Smaller values replace floes by new ones at
-/// every touch. Larger values leave bodies with an overlap of more than 1 % of the smaller one when they separate.
+/// every touch. As much again may overlap without having pressed, so bodies that separate may be left with an overlap
+/// of twice this fraction, 1 %; larger values leave more.
 constexpr double kLeastCrushedShare = 0.005;
 
 /// Returns the smallest crushed overlap that is cut off after a contact has ended [m²].
@@ -300,9 +301,9 @@ void for_touching(const StepData& data, Use use) {
   }
 }
 
-/// Returns the relative poses at which the crushed ice of a pair is cut off: the pose at which the largest overlap
-/// pressed, and the present one unless the bodies press each other. In that case the overlap that the step adds stays
-/// their contact.
+/// Returns the relative poses at which the crushed ice of a pair is cut off. The first is the pose at which the largest
+/// overlap pressed. The second is the present pose, unless the bodies press each other: then the overlap that has grown
+/// since the first pose is kept, so that the bodies stay in contact.
 std::vector<geometry::Pose> poses_of(const dynamics::Bodies& bodies, const Touching& touching) {
   const Contact& c = touching.largest();
   std::vector<geometry::Pose> poses{c.record->crushed.a_from_b};

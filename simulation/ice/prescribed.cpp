@@ -93,8 +93,9 @@ Event event_of_carving(const Instant& now, const Carving& carving, Kind kind) {
 
 /// Returns the fraction of the full friction that acts at a contact between bodies of prescribed motion [-]. Nothing
 /// stops the slip of such bodies. Friction with its full value at any slip would change its sign with rounding errors.
-/// Therefore it grows with the slip speed as crushing does with the closing speed. Along the chord of a crescent, whose
-/// two flanks slip in opposite directions, it is the slip speed's fraction of the relative speed.
+/// Therefore it grows in proportion to the slip speed up to its full value at kCreepSpeed, as the crushing force grows
+/// with the closing speed. Along the chord of a crescent, whose two flanks slip in opposite directions, it is the slip
+/// speed's fraction of the relative speed.
 double share_of_friction(const Contact& c, bool is_crescent) {
   const double slip = std::abs(c.slip_speed);
   if (slip == 0) return 0;
@@ -127,11 +128,13 @@ double largest_ice_force(const Setup& setup, const Population& population, const
 void press_prescribed(const Setup& setup, const Step& step, const Population& population, HullContactLoad& load) {
   const Contact& c = load.contact;
   if (!are_prescribed(population.bodies, c.a, c.b)) return;
+  // Area of the facet that the hull cuts into the ice along the whole contact line, h w / cos θ_s [m²].
   const double line = load.ice.thickness * c.width / elementary::cos(load.hull_angle);
   fracture::CrushedArea crushed{line, 0};
   const bool is_crescent = dynamics::is_crescent(c);
   const double facet = load.ice.thickness * elementary::tan(load.hull_angle);
-  // The overlap of a hull in a notch that was carved out.
+  // True where the hull stands in a notch that was carved out and has advanced far enough to crush the whole facet,
+  // h tan θ_s. The force is then that of the whole facet, whatever the power law of the overlap gives.
   const bool spans_facet = is_crescent && c.area >= c.width * facet;
   if (load.hull_angle > kVertical && !spans_facet) {
     crushed.area = std::min(load.normal_force / load.ice.compressive_strength, line);

@@ -118,7 +118,7 @@ bool turn_to_edge(const Setup& setup, const Population& population, BodyIndex fl
   candidate.path_in_body = *path;
   candidate.criteria.crack_length = path->length_in_ice;
   const geometry::CrackSides sides = measure_sides(setup, population, floe, *path, candidate.criteria);
-  candidate.criteria.crack_width = 2 * arm->width;
+  candidate.criteria.crack_width = 2 * arm->width;  // W is twice the width of the ice on the narrower side
   candidate.criteria.opening_capacity = fracture::turning_crack_force(ice_of_body(setup, population, floe), arm->width);
   return !leaves_strip(*path, sides);
 }

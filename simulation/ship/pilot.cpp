@@ -20,8 +20,8 @@ constexpr double kHeadingDamping = 0.7;
 /// Smallest yaw acceleration per angle at which the steering is used [1/s²]. Below it the ship hardly moves, and the
 /// steering has no effect.
 constexpr double kLeastGain = 1e-6;
-/// Smallest speed over ground at which the course over ground is used [m/s]. At lower speeds its direction is
-/// arbitrary.
+/// Smallest speed ahead over ground at which the course over ground is used [m/s]. At lower speeds and astern its
+/// direction says nothing about the current.
 constexpr double kLeastWay = 0.3;
 /// Time constant with which the drift angle is smoothed [s]. Shorter: the heading follows single floes.
 constexpr double kDriftTime = 60;
@@ -148,7 +148,9 @@ Command steer(const RammingPilot& pilot, const PilotView& view, PilotMemory& mem
   return ram(pilot, chosen(pilot.heading, memory), view, memory);
 }
 
-/// Steers to the leader's stern. The speed is the leader's, corrected by the error of the distance.
+/// Steers to the leader's stern. The ordered speed through the water is the leader's speed over ground, corrected by
+/// the error of the distance. In a current c from ahead the distance therefore settles at c · kGapTime above the
+/// ordered one, and in a current from astern below it.
 Command steer(const FollowingPilot& pilot, const PilotView& view, PilotMemory& memory) {
   const SeenHull& own = view.own();
   const SeenHull& leader = view.hulls[static_cast<std::size_t>(pilot.leader)];

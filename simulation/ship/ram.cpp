@@ -8,8 +8,8 @@
 namespace polynya::simulation {
 namespace {
 
-/// Returns true if the ship has not moved for so long that another order is needed. A ship that still slows down
-/// from the order before moves, and is not stuck; nor is one whose lever is still on its way to the order.
+/// Returns true if the ship has stood still for so long, with its lever at the order, that another order is needed. A
+/// ship that still moves because of its previous order is not stuck, and neither is one whose lever is still moving.
 bool is_stuck(const RammingPilot& pilot, double ordered, const PilotView& view, PilotMemory& memory) {
   // Difference of the lever from its order that counts as none, because of rounding [-].
   constexpr double kAtOrder = 1e-6;

@@ -184,9 +184,9 @@ void break_mooring(const MooringSettings& mooring, const Step& step, const Offse
   breaks.push_back({helm.adrift_since, i, place, MooringBreak{offset.shift, force, mooring.break_load}});
 }
 
-/// Corrects the displacement of a moored ship in the step, so that it is the one of the mean velocity after integrate()
-/// has added the one of the new velocity: x⁺ = x + ½Δt (v + v⁺). With this displacement, the mooring stores exactly the
-/// energy that its work takes from the ship.
+/// Corrects the displacement of a moored ship in the step to the one of its mean velocity: x⁺ = x + ½Δt (v + v⁺).
+/// integrate(), which runs later, adds Δt v⁺, so this function adds ½Δt (v − v⁺). With this displacement, the mooring
+/// stores exactly the energy that its work takes from the ship.
 void move_by_mean(double dt, const ShipMotion& before, BodyIndex i, dynamics::Bodies& bodies) {
   move_body(bodies, i, 0.5 * dt * (before.velocity - bodies.velocity[i]),
             0.5 * dt * (before.angular_velocity - bodies.angular_velocity[i]));

@@ -50,6 +50,17 @@ double fastest_floe(const Scene& scene) {
   return fastest;
 }
 
+/// Returns the greatest speed of a floe at the start relative to ice that drifts with water and wind [m/s]. The
+/// velocity of fast ice is over ground, so the drift of the other ice counts.
+double fastest_in_drifting_ice(const Scene& scene) {
+  double fastest = 0;
+  for (const FloeSpec& floe : scene.floes) {
+    const double drift = floe.is_fast ? scene.water.fastest_drift() + wind_drift(scene) : 0;
+    fastest = std::max(fastest, length(floe.velocity) + drift);
+  }
+  return fastest;
+}
+
 /// Returns the greatest speed at which a hull and ice meet, or floes where there is no hull [m/s].
 double fastest_meeting(const Scene& scene) {
   const dynamics::ShearCurrent current = current_of(scene.water.shear);
@@ -96,7 +107,7 @@ double longest_tick(const Scene& scene) {
   const double radius = scene.contact.circle_radius;
   const double displacement = displacement_in_most_ice(scene);
   const double parts = scene.contact.law == ContactLaw::kCrush ? kPartsAtFullSpeed : 1;
-  return std::min({parts * displacement / fastest_meeting(scene), displacement / fastest_floe(scene),
+  return std::min({parts * displacement / fastest_meeting(scene), displacement / fastest_in_drifting_ice(scene),
                    kDisplacementOverRadius * radius / fastest_rim(scene)});
 }
 

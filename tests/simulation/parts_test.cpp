@@ -119,6 +119,15 @@ TEST(Parts, MuchThickIceChoosesTheTickAsThinIceDoes) {
   EXPECT_LT(default_tick(scene), 0.3 * tick);
 }
 
+/// Drifting floes meet fast ice at the speed of the drift, 2 m/s, and may move 75 mm towards it in a tick.
+TEST(Parts, FastIceInADriftChoosesTheTickAsMovingFloesDo) {
+  Build scene = in_level_ice(0.5, 0.5, 0.005).recorded_every(0.1);
+  scene.water.drift = {2, 0};
+  EXPECT_EQ(default_tick(scene), 0.025);
+  scene.floes.back().is_fast = false;
+  EXPECT_EQ(default_tick(scene), 0.1);
+}
+
 TEST(Parts, AreNoneByRigidImpulses) {
   Scene scene = in_level_ice(0.1, 4, 0.005);
   scene.contact.law = ContactLaw::kImpulse;
