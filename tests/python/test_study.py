@@ -350,3 +350,19 @@ def test_a_folder_without_a_plan_and_a_study_not_planned_are_named(folder):
     (folder / "full").mkdir()
     (folder / "full" / "x").touch()
     assert "not empty" in study("plan", path, "--out", "full", code=5)
+
+
+def test_a_file_that_changed_after_it_was_planned_is_not_run_by_the_old_plan(folder):
+    path = write_study(folder, set={"time.until_s": 0.1})
+    study("plan", path, "--repetitions", 2, "--trial-seconds", 0)
+    later = time.time() + 5
+    os.utime(path, (later, later))
+    study("run", path, "--quiet")  # the text is the same, and the plan may have other repetitions
+    write_study(folder, set={"time.until_s": 0.2})
+    os.utime(path, (later, later))
+    told = study("run", path, code=5)
+    assert "planned from an earlier text of" in told and "which now has other set" in told
+    write_study(folder, set={"time.until_s": 0.1}, grid={"ice.friction": [0.1, 0.2]})
+    os.utime(path, (later, later))
+    assert "now has other varied" in study("run", path, code=5)
+    study("run", "studies/s", "--quiet")  # the folder's own plan

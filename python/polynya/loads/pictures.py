@@ -36,7 +36,8 @@ def draw_fits(axes, found, lowest):
         rates, middle, _, _ = curve_of(fit.tail, lowest)
         axes.plot(middle, rates, **REFUTED)
     if refuted:
-        words_of_p = f"p {max(fit.goodness_p for fit in refuted):.2g}" + (" at most" if len(refuted) > 1 else "")
+        least_p = [min(fit.goodness_p, fit.events.counts_p, fit.events.sizes_p) for fit in refuted]
+        words_of_p = f"p {max(least_p):.2g}" + (" at most" if len(refuted) > 1 else "")
         words_of_all = "refuted fit" if len(refuted) == 1 else f"{len(refuted)} refuted fits"
         handles.append(Line2D([], [], label=f"{words_of_all} above {forces_of(refuted)}: {words_of_p}", **REFUTED))
     if found.used:

@@ -68,14 +68,19 @@ def run_one(study, options):
 
 
 def planned(options):
-    """Returns the study, after planning it if the study's file is given and it is not planned yet."""
+    """Returns the study. If the study's file is given, plans it if it is not planned yet, and refuses a plan that was
+    made from another text of the file."""
     given = pathlib.Path(options.study)
-    if given.is_file() and not (planned_folder(given) / PLAN).exists():
-        from . import plan
+    if not given.is_file():
+        return open_study(given)
+    from . import plan
 
-        defaults = command_line().parse_args(["plan", options.study, "--trial-seconds", "0"])
-        return plan.plan_study(given, defaults)
-    return open_study(given)
+    if (planned_folder(given) / PLAN).exists():
+        study = open_study(given)
+        plan.refuse_changed_file(given, study)
+        return study
+    defaults = command_line().parse_args(["plan", options.study, "--trial-seconds", "0"])
+    return plan.plan_study(given, defaults)
 
 
 def make_plan(options):

@@ -122,6 +122,26 @@ def refuse_other_cases(old, new, folder, text):
     shutil.rmtree(cases, ignore_errors=True)
 
 
+def refuse_changed_file(file, study):
+    """Refuses a plan that was made before its study's file changed what the cases set or collect. Only a file that is
+    newer than the plan is compared. The number of repetitions may differ: options of `plan` change it."""
+    if os.path.getmtime(file) <= os.path.getmtime(study.folder / PLAN):
+        return
+    definition = read_definition(file, None)
+    now = {"set": definition.fixed, "collect": definition.collect, "varied": varied_paths(definition)}
+    differs = [key for key, value in now.items() if json.loads(json.dumps(value)) != study.plan.get(key)]
+    lines = "".join(json.dumps({"scene": scene, "set": case}) + "\n" for scene, case in expand(definition))
+    planned = read_text(study.folder / CASES)
+    if not differs and (planned.startswith(lines) or lines.startswith(planned)):
+        return
+    what = f"other {', '.join(differs)}" if differs else "other cases"
+    raise StudyError(
+        f"{study.folder}: planned from an earlier text of {file}, which now has {what}; plan it again "
+        f"(polynya study plan {file}), into another folder (--out) if cases have run",
+        5,
+    )
+
+
 def chunk_size(given, old, count):
     """Number of cases per chunk. By default it is chosen so that one job array can run all chunks."""
     if given:
