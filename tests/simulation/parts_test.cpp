@@ -88,7 +88,7 @@ TEST(Parts, ATickIsChosenBySpeedThicknessAndWhatIsRecorded) {
   EXPECT_EQ(tick(0.5, 2, [](Scene& s) { s.contact.law = ContactLaw::kImpulse; }), 0.025);  // 0.075 / 2 = 0.0375
   EXPECT_EQ(tick(0.5, 2, [](Scene& s) { s.record.frames_interval = 0.03; }), 0.01);
   EXPECT_EQ(tick(0.5, 2, [](Scene& s) { s.time.until = 1e-3; }), 0.1);                     // it is the same run
-  EXPECT_EQ(tick(0.1, 2, [](Scene& s) { s.water.drift.x = -6; }), 0.01);                   // 8 × 0.015 / 8 = 0.015
+  EXPECT_EQ(tick(0.1, 2, [](Scene& s) { s.water.drift.x = -6; }), 0.0025);                 // fast ice: 0.015 / 6
   EXPECT_EQ(tick(0.5, 2, [&](Scene& s) { s.ships[0].propulsion = fast_engine; }), 0.025);  // 8 × 0.075 / 20 = 0.03
   EXPECT_EQ(tick(0.5, 2, [&](Scene& s) { s.floes.push_back(sliding); }), 0.025);           // 0.075 / 3
   EXPECT_EQ(tick(0.5, 2, [&](Scene& s) { s.floes.push_back(spinning); }), 0.01);           // 0.25 / (1 × 14.1) = 0.018
