@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dynamics/contact/contact_tracker.hpp"
+#include "dynamics/contact/paid_overlap.hpp"
 
 namespace polynya::dynamics {
 namespace {
@@ -19,14 +20,10 @@ constexpr double kNearMargin = 0.75;
 /// field and some of the next body. Fewer: covers are made again more often. Results do not change.
 constexpr std::size_t kKeptSecondCovers = 32;
 
-/// Largest exponent of the power law of an overlap, d w / S [-]. Beyond it the extent of the overlap describes the
-/// notch in which a body lies, and not the overlap, which is thin; its mean thickness is then taken as its depth.
-/// Larger values overestimate the force in notches.
-constexpr double kMostPower = 3;
-/// Returns the depth of an overlap: its extent along the normal, or its mean thickness if the extent describes the
-/// notch [m].
+/// Returns the depth of an overlap: its extent along the normal [m]. The extent of a crescent describes the notch in
+/// which a body lies, and not the overlap, which is thin; its mean thickness is then taken as its depth.
 double bounded_depth(const geometry::ContactManifold& m) {
-  return m.depth * m.width > kMostPower * m.area ? m.area / m.width : m.depth;
+  return is_crescent(m.depth, m.width, m.area) ? m.area / m.width : m.depth;
 }
 
 /// Depth up to which an overlap is treated as a rectangle on its contact line, with the law of crushing ice [m]. Its

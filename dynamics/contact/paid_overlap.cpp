@@ -11,7 +11,8 @@ namespace {
 /// a deep overlap would delay the cut forever. Smaller: ice is cut off that no work has paid.
 constexpr double kPaidShareOfCut = 0.9;
 
-/// Largest exponent p of the power law [-]. An overlap with a larger p is a crescent.
+/// Largest exponent p of the power law [-]. An overlap with a larger p is a crescent. Larger values overestimate the
+/// force of bodies in notches.
 constexpr double kLargestPower = 3;
 
 /// Returns the exponent p of the power law, within the limits that fracture::Overlap has for it [-].
@@ -26,8 +27,8 @@ bool has_shape(const Contact& c) {
 
 }  // namespace
 
-bool is_crescent(const Contact& c) {
-  return c.depth * c.width > kLargestPower * c.area;
+bool is_crescent(double depth, double width, double area) {
+  return depth * width > kLargestPower * area;
 }
 
 double depth_at(const Contact& c, double area) {

@@ -13,10 +13,16 @@ namespace polynya::dynamics {
 /// The relation between area S and depth ξ of an overlap is the power law of its measures, S(ξ') = S (ξ'/ξ)^p, with p =
 /// ξ w / S between 1/3 and 3, where w is the length of the contact line (fracture::Overlap).
 
-/// Returns true if a contact's overlap is a crescent: ξ w > 3 S. Such an overlap is left where a body has been cut out
-/// of the ice and has moved on since. It is a band along the outline of the body, much thinner than it is deep along
-/// the contact's normal, so that the power law does not describe it. It grows by dS = w dξ, as every overlap does.
-bool is_crescent(const Contact& contact);
+/// Returns true if an overlap is a crescent: ξ w > 3 S. Such an overlap is left where a body has been cut out of the
+/// ice and has moved on since. It is a band along the outline of the body, much thinner than it is deep along the
+/// contact's normal, so that the power law does not describe it. It grows by dS = w dξ, as every overlap does.
+///
+/// By the law of crushing ice the narrow phase takes the mean thickness of a crescent as its depth, unless both bodies
+/// have prescribed motion; so only contacts of such bodies are crescents.
+bool is_crescent(double depth, double width, double area);
+inline bool is_crescent(const Contact& contact) {
+  return is_crescent(contact.depth, contact.width, contact.area);
+}
 
 /// Returns the depth at which a contact's overlap would have an area [m²], by that power law or as a crescent [m].
 double depth_at(const Contact& contact, double area);
