@@ -18,11 +18,8 @@ double consolidated_density(const BrashLayer& brash, double thickness, const fra
 
 double distance_to_line(geometry::Point point, const std::vector<geometry::Point>& line) {
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    const geometry::Vector leg = line[i] - line[i - 1];
-    const double along = std::clamp(dot(point - line[i - 1], leg) / squared_length(leg), 0.0, 1.0);
-    least = std::min(least, distance(point, line[i - 1] + along * leg));
-  }
+  for (std::size_t i = 1; i < line.size(); ++i)
+    least = std::min(least, distance_to_segment(point, line[i - 1], line[i]));
   return least;
 }
 
