@@ -43,21 +43,12 @@ double wind_drift(const Scene& scene) {
   return fastest;
 }
 
-/// Returns the greatest speed of a floe through the water at the start [m/s].
-double fastest_floe(const Scene& scene) {
+/// Returns the greatest speed of a floe at the start [m/s], with `drift_of_others` [m/s] added to that of fast ice,
+/// whose velocity is over ground: ice that drifts meets it with both.
+double fastest_floe(const Scene& scene, double drift_of_others = 0) {
   double fastest = 0;
-  for (const FloeSpec& floe : scene.floes) fastest = std::max(fastest, length(floe.velocity));
-  return fastest;
-}
-
-/// Returns the greatest speed of a floe at the start relative to ice that drifts with water and wind [m/s]. The
-/// velocity of fast ice is over ground, so the drift of the other ice counts.
-double fastest_in_drifting_ice(const Scene& scene) {
-  double fastest = 0;
-  for (const FloeSpec& floe : scene.floes) {
-    const double drift = floe.is_fast ? scene.water.fastest_drift() + wind_drift(scene) : 0;
-    fastest = std::max(fastest, length(floe.velocity) + drift);
-  }
+  for (const FloeSpec& floe : scene.floes)
+    fastest = std::max(fastest, length(floe.velocity) + (floe.is_fast ? drift_of_others : 0));
   return fastest;
 }
 
@@ -107,7 +98,8 @@ double longest_tick(const Scene& scene) {
   const double radius = scene.contact.circle_radius;
   const double displacement = displacement_in_most_ice(scene);
   const double parts = scene.contact.law == ContactLaw::kCrush ? kPartsAtFullSpeed : 1;
-  return std::min({parts * displacement / fastest_meeting(scene), displacement / fastest_in_drifting_ice(scene),
+  const double drift = scene.water.fastest_drift() + wind_drift(scene);
+  return std::min({parts * displacement / fastest_meeting(scene), displacement / fastest_floe(scene, drift),
                    kDisplacementOverRadius * radius / fastest_rim(scene)});
 }
 
