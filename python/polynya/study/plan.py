@@ -102,21 +102,25 @@ def is_same(old, new, folder, text):
     return {**old, **same} == {**new, **same} and read_text(folder / CASES) == text
 
 
+def what_differs(plan, members):
+    """Says which members of a plan differ: "other set, collect"; "" if none."""
+    names = [key for key, value in members.items() if plan.get(key) != value]
+    return f"other {', '.join(names)}" if names else ""
+
+
 def refuse_other_cases(old, new, folder, text):
     """Refuses a changed plan if cases have ended by the old one; only further cases may be added. If none has ended,
     cases that were begun by the old plan are removed."""
     if old is None:
         return
-    kept = ("set", "scenes", "inputs", "collect", "chunk", "archive")
-    differs = [key for key in kept if old.get(key) != new[key]]
-    if not differs and text.startswith(read_text(folder / CASES)):
+    what = what_differs(old, {key: new[key] for key in ("set", "scenes", "inputs", "collect", "chunk", "archive")})
+    if not what and text.startswith(read_text(folder / CASES)):
         return
     cases = folder / "cases"
     if any(found for pattern in ("*/case.json", "*/*/case.json", "*.tar") for found in cases.glob(pattern)):
-        what = f"other {', '.join(differs)}" if differs else "other cases"
         raise StudyError(
-            f"{folder}: its cases have run by an earlier plan with {what}; plan into another folder (--out) or remove "
-            f"it",
+            f"{folder}: its cases have run by an earlier plan with {what or 'other cases'}; plan into another folder "
+            f"(--out) or remove it",
             5,
         )
     shutil.rmtree(cases, ignore_errors=True)
@@ -129,14 +133,13 @@ def refuse_changed_file(file, study):
         return
     definition = read_definition(file, None)
     now = {"set": definition.fixed, "collect": definition.collect, "varied": varied_paths(definition)}
-    differs = [key for key, value in now.items() if json.loads(json.dumps(value)) != study.plan.get(key)]
+    what = what_differs(study.plan, json.loads(json.dumps(now)))
     lines = "".join(json.dumps({"scene": scene, "set": case}) + "\n" for scene, case in expand(definition))
     planned = read_text(study.folder / CASES)
-    if not differs and (planned.startswith(lines) or lines.startswith(planned)):
+    if not what and (planned.startswith(lines) or lines.startswith(planned)):
         return
-    what = f"other {', '.join(differs)}" if differs else "other cases"
     raise StudyError(
-        f"{study.folder}: planned from an earlier text of {file}, which now has {what}; plan it again "
+        f"{study.folder}: planned from an earlier text of {file}, which now has {what or 'other cases'}; plan it again "
         f"(polynya study plan {file}), into another folder (--out) if cases have run",
         5,
     )
