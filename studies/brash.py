@@ -40,7 +40,7 @@ def loads(study, cases):
 def parts_under(hull, under, speed, mu, has_factor=True):
     """What pushes the ice down, its friction along the hull, and what Lindqvist's factor of speed adds to both, of a
     mean force of the ice under a hull: each piece goes all the way along it."""
-    factor = 1 + 9.4 * speed / math.sqrt(formulas.G * hull.length) if has_factor else 1
+    factor = 1 + formulas.submersion_growth(hull, speed) if has_factor else 1
     at_rest = under / factor
     down = at_rest * formulas.rise(hull) / (formulas.rise(hull) + mu * formulas.slide(hull))
     return down, at_rest - down, under - at_rest

@@ -31,6 +31,13 @@ class Hull:
         return self.length - self.bow
 
 
+def hull_of(ship):
+    """The main dimensions of a ship that has the keys of a scene's ship with a wedge bow."""
+    hull = ship["hull"]
+    angles = (math.radians(hull[key]) for key in ("stem_angle_deg", "entrance_angle_deg"))
+    return Hull(hull["length_m"], hull["beam_m"], hull["draught_m"], *angles)
+
+
 @dataclasses.dataclass(frozen=True)
 class Ice:
     """Level ice in water. Thickness [m], strength and Young's modulus [Pa], densities [kg/m³]."""
@@ -67,10 +74,19 @@ def lindqvist(hull, ice, speed):
         * (math.tan(psi) + mu * math.cos(stem) / (math.sin(entrance) * math.cos(psi)))
         * (1 + 1 / math.cos(psi))
     )
-    lighter = (ice.water_density - ice.density) * G * h * hull.beam
-    submersion = lighter * (rise(hull) + mu * slide(hull))
+    submersion = lift(hull, ice) * (rise(hull) + mu * slide(hull))
     factor = 1 + 1.4 * speed / math.sqrt(G * h)
-    return crushing * factor, bending * factor, submersion * (1 + 9.4 * speed / math.sqrt(G * hull.length))
+    return crushing * factor, bending * factor, submersion * (1 + submersion_growth(hull, speed))
+
+
+def lift(hull, ice):
+    """Force per metre of depth by which the buoyancy of ice under the hull resists [N/m]: (ρ_w − ρ_i) g h B."""
+    return (ice.water_density - ice.density) * G * ice.thickness * hull.beam
+
+
+def submersion_growth(hull, speed):
+    """Growth of Lindqvist's submersion with speed, 9.4 v/√(g L), by which its factor exceeds 1 [-]."""
+    return 9.4 * speed / math.sqrt(G * hull.length)
 
 
 def rise(hull):
@@ -95,10 +111,9 @@ def slide(hull):
 def formula_under_hull(hull, ice, speed, has_factor=True):
     """The part of the model's resistance in level ice that is Lindqvist's formula for ice under the hull [N]: R_s,
     which grows with speed behind the bow alone (docs/theory/under-hull.md). `has_factor`: whether it grows at all."""
-    lighter = (ice.water_density - ice.density) * G * ice.thickness * hull.beam
     behind_bow = max(0.0, slide(hull) - hull.draught / math.tan(hull.stem))
-    growth = ice.friction * behind_bow * 9.4 * speed / math.sqrt(G * hull.length) if has_factor else 0
-    return lighter * (rise(hull) + ice.friction * slide(hull) + growth)
+    growth = ice.friction * behind_bow * submersion_growth(hull, speed) if has_factor else 0
+    return lift(hull, ice) * (rise(hull) + ice.friction * slide(hull) + growth)
 
 
 def riska(hull, ice, speed, bow=None, parallel=None):

@@ -174,9 +174,8 @@ def growth_over_bow(test):
     form = formulas.Hull(hull["length_m"], hull["beam_m"], hull["draught_m"], *(
         math.radians(ANGLES["stated"][key]) for key in ("stem", "entrance")))
     ice = formulas.Ice(test.ice["thickness_m"], friction=ANGLES["stated"]["friction"])
-    lighter = (ice.water_density - ice.density) * formulas.G * ice.thickness * form.beam
-    of_bow = lighter * (formulas.rise(form) + ice.friction * form.draught / math.tan(form.stem))
-    return 1e-3 * of_bow * 9.4 * test.speed / math.sqrt(formulas.G * form.length)
+    of_bow = formulas.lift(form, ice) * (formulas.rise(form) + ice.friction * form.draught / math.tan(form.stem))
+    return 1e-3 * of_bow * formulas.submersion_growth(form, test.speed)
 
 
 WATER = {"once: decks, and the factor behind the bow (default)": (),

@@ -1,6 +1,5 @@
 """`polynya performance SHIP` (polynya.command starts it)."""
 import concurrent.futures
-import csv
 import json
 import math
 import os
@@ -8,14 +7,14 @@ import subprocess
 import sys
 
 from .. import formulas
-from ..files import writing
-from ..formulas import KNOT
+from ..formulas import KNOT, hull_of
 from ..program import program
 from ..runs_kept import RunFailed
 from ..study.case import DONE, FAILED, STOPPED
 from . import coefficients, sensitivity
 from .curve import BEYOND, THICKER, Curve, formula_words, mark_of
 from .options import FLEXURAL_STRENGTH, FRICTION, STEP, command_line
+from .tables import write_table
 
 INPUT_OUTPUT = 5  # exit code of app/command_line/console.hpp
 
@@ -33,17 +32,6 @@ def ship_of(name):
     if done.returncode != DONE:
         sys.exit(done.returncode)
     return json.loads(done.stdout)
-
-
-def hull_of(ship):
-    hull = ship["hull"]
-    return formulas.Hull(
-        hull["length_m"],
-        hull["beam_m"],
-        hull["draught_m"],
-        math.radians(hull["stem_angle_deg"]),
-        math.radians(hull["entrance_angle_deg"]),
-    )
 
 
 def ten_thicknesses(curve):
@@ -124,14 +112,6 @@ def print_formulas(curve, wanted):
     for h in wanted:
         speeds = curve.formula_speeds(h)
         print(f"{h:7g}{speeds['lindqvist']:11.2f}{speeds['riska']:8.2f}{speeds['spencer_jones']:15.2f}")
-
-
-def write_table(path, rows):
-    with writing(path, newline="") as file:
-        writer = csv.DictWriter(file, rows[0].keys())
-        writer.writeheader()
-        writer.writerows(rows)
-    print(f"table   {path}")
 
 
 def draw_figure(path, rows, found, ice):

@@ -10,6 +10,7 @@ from ..program import program
 from ..runs_kept import RunFailed
 from . import colbourne, ice_scenes, rules
 from .resistance import VALIDATED, Resistance, points_of
+from .tables import write_table
 
 COVERS = {ice_scenes.PACK: (0.5, 0.7, 0.85), ice_scenes.LEVEL: (1.0,), ice_scenes.CHANNEL: (0.8,)}
 SIZES = {ice_scenes.PACK: (20.0, 40.0), ice_scenes.LEVEL: (0.0,), ice_scenes.CHANNEL: (2.0,)}
@@ -78,20 +79,12 @@ def report_progress(done, total):
 
 
 def write_files(folder, name, rows, found, ice, fitted):
-    from .__main__ import write_table
-
     write_table(os.path.join(folder, f"{name}.csv"), rows)
     path = os.path.join(folder, f"{name}.json")
     with writing(path) as file:
         json.dump(described(name, found, ice, fitted, rows), file, indent=2)
         file.write("\n")
     print(f"fit     {path}")
-
-
-def write_rules(folder, asked):
-    from .__main__ import write_table
-
-    write_table(os.path.join(folder, "ice-class.csv"), asked)
 
 
 def main(arguments, found, ice, fail, codes):
@@ -126,5 +119,5 @@ def main(arguments, found, ice, fail, codes):
     if name == ice_scenes.CHANNEL:
         asked = rules.rows(found["ship"], rows)
         rules.print_table(asked, found["ship"])
-        write_rules(folder, asked)
+        write_table(os.path.join(folder, "ice-class.csv"), asked)
     return done

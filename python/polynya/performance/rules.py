@@ -2,7 +2,7 @@
 import math
 
 from .. import ice_class
-from ..formulas import Hull
+from ..formulas import hull_of
 from ..ice_class import KNOT, SPEED, SUPER, THICKNESS
 
 DIAMETER_OVER_DRAUGHT = 0.65  # of a propeller whose diameter nobody states (recall)
@@ -13,13 +13,6 @@ def propellers_of(ship):
     engine = ship.get("propulsion", {}).get("engine", {})
     diameter = engine.get("propeller_diameter_m") or DIAMETER_OVER_DRAUGHT * ship["hull"]["draught_m"]
     return min(engine.get("propellers", 1), 3), diameter
-
-
-def hull_of(ship):
-    """The main particulars that the formulas read."""
-    hull = ship["hull"]
-    angles = (math.radians(hull[key]) for key in ("stem_angle_deg", "entrance_angle_deg"))
-    return Hull(hull["length_m"], hull["beam_m"], hull["draught_m"], *angles)
 
 
 def computed_at(points, thickness):
