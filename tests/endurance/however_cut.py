@@ -64,7 +64,8 @@ def run_in_pieces(program, scene, until, run, dice):
 def run_with_kills(program, scene, until, run, dice, seconds):
     """Kills a run at random moments and resumes it. Returns how often it was killed before its end."""
     kills = 0
-    command = [program, "run", scene, "--until", repr(until), "--out", run]
+    begin = [program, "run", scene, "--until", repr(until), "--out", run]
+    command = begin
     for _ in range(KILLS):
         child = subprocess.Popen([*map(str, command), "--checkpoint-every-wall", "0.05", "--threads", "1", *QUIET],
                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -76,7 +77,7 @@ def run_with_kills(program, scene, until, run, dice, seconds):
             kills += 1
         child.wait()
         has_begun = any(run.glob("checkpoint-*")) if run.exists() else False
-        command = [program, "resume", run] if has_begun else [*command[:6], run, "--overwrite"]
+        command = [program, "resume", run] if has_begun else [*begin, "--overwrite"]
     finished(*command, "--threads", 1, *QUIET)
     return kills
 
