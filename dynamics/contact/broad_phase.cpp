@@ -378,7 +378,8 @@ std::int64_t BroadPhase::take_unpaired_stretches() {
   return unpaired;
 }
 
-/// Makes and keeps the cover of a body that another one approaches, unless too many covers are kept already.
+/// Makes and keeps the cover of a body that another one approaches. If too many covers are kept already, it does so
+/// only for covers that take long to make (kManyPieces).
 void BroadPhase::keep_cover(const Bodies& bodies, BodyIndex body) {
   geometry::Boundary& boundary = *bodies.boundary[body];
   if (boundary.is_ready()) return;

@@ -39,8 +39,8 @@ struct ContactMemory {
   std::vector<Outside> outside;  ///< ordered by the other body
 };
 
-/// Returns a box around a body at its present place: the tightest one for bodies with few edges, otherwise the box of
-/// its bounding circle.
+/// Returns a box around a body at its present place: the tightest one for bodies with up to 64 edges, otherwise the box
+/// of its bounding circle.
 geometry::Box box_in_water(const Bodies& bodies, BodyIndex i);
 
 /// Finds which bodies overlap. A grid finds the pairs whose grown boxes overlap. Each pair keeps the edges that are
@@ -48,6 +48,7 @@ geometry::Box box_in_water(const Bodies& bodies, BodyIndex i);
 /// bounds are conservative: culled pairs cannot touch, so the contacts are the same as in a search over everything.
 class BroadPhase {
  public:
+  /// `grid_cell` is the side of the grid's largest cells [m] (hash_grid.hpp).
   BroadPhase(const ContactRule& rule, double grid_cell);
 
   /// Reserves memory for this number of bodies in total.
@@ -69,6 +70,7 @@ class BroadPhase {
   /// therefore has pairs only with approaching bodies, although a fast plate may have a thousand resting pieces in its
   /// box.
   void wake(const Bodies& bodies, BodyIndex body);
+  /// Puts a body to sleep and removes its pairs with bodies that cannot move.
   void sleep(const Bodies& bodies, BodyIndex body);
 
   /// Updates the boxes and pairs of bodies that have left their grown boxes, or may leave them within the time `ahead`
@@ -98,8 +100,9 @@ class BroadPhase {
 
   /// Calls use(other) for each body that has a pair with this one, for which matters(other) is true, and whose box
   /// overlaps this body's box at their present places when it is grown by reach(other) [m]. The result does not depend
-  /// on which more distant pairs are kept, which may differ after a resume. `reach` must not exceed the margin of the
-  /// pairs' boxes (`ahead` of update()).
+  /// on which more distant pairs are kept, which may differ after a resume. `reach` must not exceed the margins that
+  /// update() leaves around both boxes, for each the body's rim speed times `ahead` and at most kBoxMargin; beyond it
+  /// there may be no pair.
   template <class Matters, class Reach, class Use>
   void for_bodies_at(const Bodies& bodies, BodyIndex body, Matters matters, Reach reach, Use use) const {
     std::optional<geometry::Box> box;
@@ -145,7 +148,7 @@ class BroadPhase {
   struct Entry {        // data of one body
     geometry::Box box;  // grown
     std::vector<std::uint32_t> pairs;
-    std::uint32_t kept_pieces = 0;  // pieces of its cover that are kept
+    std::uint32_t kept_pieces = 0;  // pieces of its cover (geometry::Cover), if that is kept
     bool is_in = false;
     std::int32_t mover = kNoMover;  // place in movers_
   };

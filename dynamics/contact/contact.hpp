@@ -7,12 +7,13 @@
 
 namespace polynya::dynamics {
 
-/// Memory of restitution from step to step (restitution_law.hpp). All values are 0 with the law of crushing ice.
+/// Memory of restitution from step to step, with the law of impulses (restitution_law.hpp). All values are 0 with the
+/// law of crushing ice.
 struct RestitutionMemory {
-  double owed_impulse = 0;   ///< impulse that crushing ice could not carry yet [N s]
-  double given_impulse = 0;  ///< impulse given since first contact [N s]
-  double limit = 0;          ///< largest given impulse, from the fastest approach so far of the two bodies alone [N s]
-  double start_impulse[2] = {0, 0};  ///< start of the next step, predicted from the compression of the last two [N s]
+  double owed_impulse = 0;   ///< restitution that has not acted yet, because F limits the impulse of a step [N s]
+  double given_impulse = 0;  ///< restitution given since first contact [N s]
+  double limit = 0;          ///< largest given_impulse, by the fastest approach so far without other contacts [N s]
+  double start_impulse[2] = {0, 0};  ///< compression at each end predicted for the next step, its start there [N s]
 };
 
 /// Account of the paid overlap of a contact, with the law of crushing ice.
@@ -20,7 +21,7 @@ struct Booked {
   double crushed = 0;  ///< area that work crushed [m²]
   double tilted = 0;   ///< area where the floe's edge gave way: it broke, tilted or bent down [m²]
   double volume = 0;   ///< volume of the ice that work crushed [m³]
-  double work = 0;     ///< work that crushed it [J]
+  double work = 0;     ///< work of the normal force that crushed it [J]
 
   friend Booked operator*(double share, const Booked& b) {
     return {share * b.crushed, share * b.tilted, share * b.volume, share * b.work};
@@ -46,20 +47,20 @@ struct PersistentContact {
   geometry::Point first_touch_in_b;  ///< point of b that was touched first [m]
   double age = 0;                    ///< time since first contact [s]
   double approach = 0;               ///< ∫ max(0, v_n) dt, the distance of approach [m]
-  double crushed_depth = 0;  ///< depth of overlap that crushing made: that ice is gone, and nothing separates it [m]
-  double last_impulse[2] = {0, 0};  ///< normal impulse of compression at each end, in the last substep solved [N s]
-  double last_slip_impulse = 0;     ///< impulse along the contact line in that substep [N s]
-  double last_substep = 0;          ///< length of that substep; 0 with restitution [s]
-  double paid_area = 0;             ///< part of the overlap's area whose ice is gone (paid_overlap.hpp) [m²]
-  double area = 0;                  ///< expected area of the overlap at the end of the last step [m²]
-  double reach = 0;                 ///< extent of the contact from last_point_in_b, at the last step [m]
-  std::int64_t load_track = 0;      ///< number of the track that follows its force over the steps; 0: none
+  double crushed_depth = 0;          ///< depth of overlap that crushing made; separate() does not reduce it [m]
+  double last_impulse[2] = {0, 0};   ///< normal impulse of compression at each end, in the last substep solved [N s]
+  double last_slip_impulse = 0;      ///< impulse along the contact line in that substep [N s]
+  double last_substep = 0;           ///< length of that substep; 0 with restitution [s]
+  double paid_area = 0;              ///< part of the overlap's area whose ice is gone (paid_overlap.hpp) [m²]
+  double area = 0;                   ///< expected area of the overlap at the end of the last step [m²]
+  double reach = 0;                  ///< extent of the contact from last_point_in_b, at the last step [m]
+  std::int64_t load_track = 0;       ///< number of the track that follows its force over the steps; 0: none
   RestitutionMemory restitution;
   double stored_energy =
       0;  ///< energy that compression took and restitution has not given back; with the law of impulses [J]
   CrushedIce crushed;
   Booked booked;
-  bool has_crushed = false;
+  bool has_crushed = false;   ///< ice was crushed here (is_at_limit) while the bodies approached; counted once
   bool is_pierced = false;    ///< one body pierced the other at the last step
   bool was_refused = false;   ///< geometry rejected a fracture here: it is not tried again
   bool is_inherited = false;  ///< record of the body that this one broke from: states only the paid area
@@ -75,14 +76,15 @@ struct Contact {
   geometry::Point tip_of_a;  ///< corner of a farthest inside b; the middle of the line if there is none [m]
   geometry::Vector normal;   ///< unit vector
   double width = 0;          ///< length of the contact line [m]
-  double depth = 0;          ///< extent of the overlap along the normal [m]
+  double depth = 0;          ///< extent of the overlap along the normal; mean thickness of a thin crescent [m]
   double area = 0;           ///< area of the overlap [m²]
   double paid_depth = 0;     ///< depth up to which the overlap is paid, at the start of the step [m]
   /// Length of the contact line after the two bodies have closed at approach_speed for the step, accurate to a
-  /// thousandth and at least `width`. It is 0 if they do not move beyond the paid overlap [m].
+  /// thousandth and at least `width`. It is 0 if they do not close beyond the paid overlap, and with the law of
+  /// impulses [m].
   double width_ahead = 0;
   double approach_speed = 0;            ///< v_n at the middle, positive when approaching [m/s]
-  double slip_speed = 0;                ///< speed along the contact line [m/s]
+  double slip_speed = 0;                ///< speed of b relative to a, along perpendicular(normal) [m/s]
   std::uint32_t tip_edge_of_b = 0;      ///< edge of b that starts at the tip or contains it
   std::uint32_t place = 0;              ///< number among the contacts of its two bodies
   bool is_new = false;                  ///< the overlap was found in this step for the first time
@@ -110,7 +112,7 @@ struct Contact {
   double paying_work = 0;             ///< part of the contact's work in the step that paid [J]
   double paid_by_work = 0;            ///< growth of the paid area in the step, for ice that this work crushed [m²]
   double paid_by_giving_way = 0;      ///< growth of the paid area in the step, for ice that broke or tilted [m²]
-  bool is_at_limit = false;           ///< the contact pressed with the full force of crushing ice
+  bool is_at_limit = false;           ///< ice crushed: the contact pressed (law of impulses: with all of F)
   bool is_broken = false;             ///< the force reached breaking_force
   double step_share = 1;       ///< fraction of the impulses that belongs to this step; the rest is missed_impulse [-]
   double prescribed_work = 0;  ///< work of a body with prescribed motion on the other one [J]
@@ -132,14 +134,14 @@ struct Contact {
   bool is_rigid() const { return crushing_force == std::numeric_limits<double>::infinity(); }
 };
 
-/// Two bodies that are inside each other while the gradient of the overlap's area does not show it. No contact can
-/// separate them.
+/// Two bodies with an overlap whose area hardly changes when they move apart, in any direction. No contact can separate
+/// them.
 struct InseparableOverlap {
   BodyIndex a = 0;
   BodyIndex b = 0;
   bool is_inside = false;  ///< one lies completely inside the other, without a crossing
   double area = 0;         ///< area of the pair's inseparable overlaps; 0 if is_inside [m²]
-  double width = 0;        ///< |R| of the largest of them [m]
+  double width = 0;        ///< length |R| of the contact line of the largest of them (docs/theory/contact.md) [m]
   double least_width = 0;  ///< width below which the overlap is inseparable [m]
   geometry::Point middle;  ///< middle of the largest, in the water frame [m]
 };

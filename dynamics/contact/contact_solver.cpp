@@ -18,8 +18,8 @@ constexpr int kPlainSweeps = 4;
 /// sticking contacts slip by more than the tolerance. Far smaller: Newton's method solves fewer jams.
 constexpr double kSlipShare = 0.5;
 
-/// Smallest number of contacts of an island whose memory of jams is kept for the next step. Fewer: finding the
-/// structure of a matrix again takes as long as finding the memory.
+/// Smallest number of contacts of an island whose memory of jams is kept for the next step. Smaller: finding the memory
+/// takes as long as finding the structure of a matrix again. Results do not depend on it.
 constexpr std::uint32_t kLeastKept = 24;
 
 /// Returns true if the friction of an island starts from its impulses of the last step. A jam that changes little then

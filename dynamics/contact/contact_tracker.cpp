@@ -124,7 +124,7 @@ void ContactTracker::take_parts(std::span<const Contact> contacts, std::size_t p
   const double area = contacts[part].area;
   for (PersistentContact& old : records_) {
     if (old.is_continued) continue;
-    if (old.area > 0) record.area = area;
+    if (old.area > 0) record.area = area;  // a part of an earlier overlap is not a new contact
     give_part(old.paid_area, area - record.paid_area, old, record);
     // This ice is cut off with the part that took it over, and not again when its own record ends.
     if (old.crushed.area > 0 && !old.is_inherited && record.crushed.area >= old.crushed.area) old.crushed = {};

@@ -62,7 +62,8 @@ class ContactTracker {
   std::vector<PersistentContact>& records_;
   std::vector<PersistentContact>& updated_;
   std::vector<PartedContact>& parted_;
-  // Distance that a contact may move in a step and still be the same one, in addition to its extent [m].
+  // Distance that a contact may move in a step and still be the same one, in addition to its extent [m]. Smaller: the
+  // record of a contact that slides fast ends, and a new one begins. Larger: a record may pass to another contact.
   double tolerance_;
   double dt_;
 };

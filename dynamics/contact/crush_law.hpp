@@ -21,8 +21,9 @@ inline constexpr double kCreepSpeed = 5e-3;  // [m/s]
 /// Over a time τ, the length of a substep, the bodies close with u⁺, their closing speed after all impulses have acted.
 /// The gap g is the paid depth of the overlap (paid_overlap.hpp) minus the depth of the overlap. A positive gap is
 /// closed first, without a force. A negative gap is overlap whose ice is not gone; it has to be pushed apart, or paid,
-/// within the time T, kDecayTime. The rest of the closing speed, x = u⁺ − v_g with v_g = g/τ if g ≥ 0 and g/T if g < 0,
-/// crushes ice. The force is F and grows with the stiffness k, so that the impulse is
+/// within the time T, kDecayTime or the whole step if that is longer. The rest of the closing speed, x = u⁺ − v_g with
+/// v_g = g/τ if g ≥ 0 and g/T if g < 0, crushes ice. The force is F and grows with the stiffness k, so that the impulse
+/// is
 ///
 ///   λ(x) = 0                       x ≤ 0
 ///          (τF/u_c + ½ k τ²) x     0 < x ≤ u_c
@@ -32,12 +33,12 @@ inline constexpr double kCreepSpeed = 5e-3;  // [m/s]
 /// the ice along the contact carries while it crushes. The creep branch up to u_c makes λ continuous; λ never
 /// decreases. With a positive semidefinite K the impulses of all contacts of a step, λ = λ(û − K λ), are therefore
 /// unique (docs/theory/solver.md): they solve a strictly monotone problem, whatever the start. Own law; crushing force
-/// by Eq. (2) of [Sawamura2017].
+/// by Eq. (2) of [Sawamura2017]. This struct is the law of one end of a contact line, with half of F, k and cap.
 struct CrushResponse {
   double impulse_of_force = 0;       ///< τF of this end of the contact line, ≥ 0 [N s]
-  double slope = 0;                  ///< ½ k τ², ≥ 0 [N s per m/s]
+  double slope = 0;                  ///< ½ k τ² of this end, ≥ 0 [N s per m/s]
   double gap_speed = 0;              ///< v_g; negative: overlap that is not paid [m/s]
-  double cap = 0;                    ///< largest impulse, ≥ 0 [N s]
+  double cap = 0;                    ///< largest impulse of this end, ≥ 0 [N s]
   double creep_speed = kCreepSpeed;  ///< u_c, > 0 [m/s]
 };
 

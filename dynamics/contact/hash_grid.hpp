@@ -16,6 +16,7 @@ namespace polynya::dynamics {
 /// plate would be in the one cell that the plate had.
 class HashGrid {
  public:
+  /// `cell` is the side of the cells of the coarsest grid [m].
   explicit HashGrid(double cell) {
     for (Level& level : levels_) {
       level.cell = cell;
@@ -65,7 +66,7 @@ class HashGrid {
     std::unordered_map<std::int64_t, std::vector<BodyIndex>> cells;
   };
   static constexpr double kFiner = 8;          ///< side of the cells of the next level over the side of these [-]
-  static constexpr double kFewCells = 64;      ///< number of cells up to which each is looked up
+  static constexpr double kFewCells = 64;      ///< cells of a box up to which each is looked up, even if fewer are used
   static constexpr double kMostCells = 65536;  ///< a body that spans more cells is in none, and near all bodies
 
   /// Column and row of a point's cell.
@@ -106,7 +107,8 @@ class HashGrid {
   }
   bool is_wide(const geometry::Box& box) const { return cells_of(levels_.front().cell, box) > kMostCells; }
 
-  /// Returns the finest level whose cells are not smaller than the box; the box is then in at most four cells.
+  /// Returns the finest level whose cells are not smaller than the box, which is then in at most four cells. For larger
+  /// boxes it is the coarsest level.
   Level& level_of(const geometry::Box& box) {
     const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
     std::size_t i = 0;

@@ -45,10 +45,11 @@ class JamMemory {
 /// the step: this is the exact derivative of Coulomb's law, and it is not symmetric [Alart1991]. The method starts from
 /// the constraints' impulses and the bodies' velocities.
 ///
-/// Returns true if no contact would leave its branches; impulses and velocities are then entered into the constraints
-/// and the bodies. Otherwise it returns false. Its last result is then entered if it deviates from its speeds by less
-/// than `residual` [m/s], the residual of the sweeps before, so that sweeps can continue from there; if not,
-/// constraints and bodies keep their values. Bodies with prescribed motion are never changed. The result does not
+/// Returns true if no contact would leave its branches, the friction bounds change no more, and the impulses give the
+/// speeds for which they were computed to within `slip_speed`; impulses and velocities are then entered into the
+/// constraints and the bodies. Otherwise it returns false. Its last result is then entered if it deviates from its
+/// speeds by less than `residual` [m/s], the residual of the sweeps before, so that sweeps can continue from there; if
+/// not, constraints and bodies keep their values. Bodies with prescribed motion are never changed. The result does not
 /// depend on the number of threads.
 bool solve_jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws, std::span<SolverBody> bodies,
                double slip_speed, double residual, JamMemory& memory, int threads = 1);

@@ -28,6 +28,7 @@ double bounded_depth(const geometry::ContactManifold& m) {
 
 /// Depth up to which an overlap is treated as a rectangle on its contact line, with the law of crushing ice [m]. Its
 /// measures are differences of coordinates that are rounded at about 1e-12 m, so its shape would be rounding error.
+/// Larger values give deeper overlaps too the wrong area.
 constexpr double kShapeless = 1e-6;
 
 /// Returns true if the depth is limited by bounded_depth(). It is not limited if both motions are prescribed, because
@@ -54,6 +55,8 @@ double near_parts(const Bodies& bodies, const Pair& pair, const Pose& a_from_b, 
   return distance;
 }
 
+/// Finds the near circles and edges of a pair and keeps them with it, and how far the bodies may move until others may
+/// be near.
 void find_near(const Bodies& bodies, Pair& pair, const Pose& pose, const ContactRule& rule, PairScratch& scratch) {
   const Pose a_from_b = dynamics::a_from_b(bodies, pair.a, pair.b, pose);
   const double distance = near_parts(bodies, pair, a_from_b, rule, scratch);

@@ -55,7 +55,9 @@ inline constexpr double kManyPieces = 512;
 
 /// Settings for finding contacts.
 struct ContactRule {
-  double circle_radius = 1.0;       ///< radius of the contact circles [m]
+  /// Radius of the contact circles, and largest length of the pieces of boundary in a cover [m]. Smaller values take
+  /// more memory; a contact may also move less in a step and still be the same one (ContactTracker).
+  double circle_radius = 1.0;
   bool is_circle_centres = false;   ///< the paper's normals instead of the boundary's
   bool is_culling = true;           ///< false: every step collides all pairs with one awake body (for tests)
   bool presses_prescribed = false;  ///< a hull presses ice even if both motions are prescribed
@@ -66,7 +68,7 @@ struct ContactRule {
   /// Number of pairs up to which all near edges (about half a kilobyte per pair) are kept. With more pairs they are
   /// kept only if the bodies are within `kept_gap`, and found again otherwise, with the same contacts.
   double most_pairs_with_edges = 1'048'576;
-  double kept_gap = 0.1;  ///< [m]
+  double kept_gap = 0.1;  ///< distance of two bodies [m]
 };
 
 /// Returns true if the near parts of two bodies are found by their covers. If there are few edges, they are compared
@@ -75,7 +77,7 @@ inline bool need_covers(const Bodies& bodies, BodyIndex a, BodyIndex b, const Co
   return rule.is_circle_centres || !have_few_edges(bodies.boundary[a]->edges, bodies.boundary[b]->edges);
 }
 
-/// Covers of boundaries that do not keep their own, made as they are needed. The last few are kept.
+/// Covers (geometry::Cover) of boundaries that do not keep their own, made as they are needed. The last few are kept.
 class CoverCache {
  public:
   /// Returns the boundaries of two bodies with their covers, valid until the next call.

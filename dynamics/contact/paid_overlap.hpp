@@ -60,7 +60,8 @@ Payment pay(const CrushingForce& law, double paid_depth, double depth_reached, d
 void enter_paid_depth(Contact& contact);
 
 /// Settles a contact after the solver, with the law of crushing ice. It sets the record's paid area and expected area
-/// at the end of the step, and the contact's growth of paid area by work and by breaking and tilting.
+/// at the end of the step, and the contact's growth of paid area by work and by breaking and tilting. `are_prescribed`
+/// is true if both motions are prescribed: all overlap that presses is then paid.
 void settle(bool are_prescribed, Contact& contact);
 
 /// Settles a contact after the solver, with the law of impulses, which does not count work: all overlap that presses is

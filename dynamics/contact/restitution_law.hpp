@@ -31,10 +31,10 @@ inline double collision_impulse(double approach_speed, double restitution, doubl
 ///      push continues, a blow does not).
 ///   2. Restitution, as Poisson's share of the compression: ε times the impulse that compressed the contact. A contact
 ///      that is not limited separates with v⁺ = −ε v⁻ in one step, as Eq. (5) states. A contact that crushes takes as
-///      many steps as the ice needs. Restitution never exceeds twice ε times the impulse that would end the approach of
-///      the two bodies alone, so that pressure from elsewhere does not charge it. It never gives more energy than
-///      compression took from the bodies of the island: over several steps the bodies turn, and the same impulse with
-///      other lever arms does different work.
+///      many steps as the ice needs. Restitution never exceeds twice ε times the impulse that would end the fastest
+///      approach so far of the two bodies alone, so that pressure from elsewhere does not charge it. It never gives
+///      more energy than compression took from the bodies of the island: over several steps the bodies turn, and the
+///      same impulse with other lever arms does different work.
 ///   3. Compression again, of contacts that restitution pushed together.
 struct RestitutionLaw {
   double restitution = 0.1;  ///< ε of Eq. (5) [-]
@@ -90,9 +90,10 @@ inline void write_back(const RestitutionLaw& /*law*/, const RestitutionLaw::Stat
   if (state.record != nullptr) state.record->stored_energy = state.stored_energy;
 }
 
+/// Settings of separate().
 struct SeparationSettings {
-  double time = 1.0;   ///< decay time of overlap that no force presses together any more [s]
-  double slop = 1e-4;  ///< overlap that is allowed [m]
+  double time = 1.0;   ///< decay time of overlap that crushing did not make; longer: bodies move apart more slowly [s]
+  double slop = 1e-4;  ///< depth up to which overlap is left [m]
 };
 
 /// Separates overlapping bodies without giving them speed (split impulse). The overlap beyond what crushing made decays
