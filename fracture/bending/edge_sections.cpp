@@ -36,8 +36,9 @@ constexpr std::array<double, 21> kRelativeSinking = {0,       0.16033, 0.30268, 
 constexpr double kRimOfForce = 0.87, kGrowthWithLength = 0.18, kGrowthWithOpening = -0.04, kGrowthWithTurn = 0.19;
 constexpr double kRimOfLever = 0.31, kRimOfThrust = 0.93;
 constexpr std::size_t kTurnReach = 2;
-/// Exponent m of the Weibull distribution of ice whose strength scatters by 0.2 of its mean. Larger values move the
-/// break of cracked edges towards the section with the largest stress.
+/// Exponent m of the Weibull distribution of ice whose strength scatters by 0.2 of its mean. It weights a section that
+/// is partly within kGap of the facet. expected_place() computes σ^m for m = 6, so both must be changed together;
+/// larger values then move the break of cracked edges towards the section with the largest stress.
 constexpr double kWeibull = 6;
 
 /// Returns a value of a table at ρ, by linear interpolation.
@@ -118,7 +119,8 @@ double crack_share(double widest) {
 /// once, so it limits the force of a cracked edge. In a notch, which is wider than 180°, the edge carries more until
 /// the third crack. The thrust, which compresses the sections, has no influence.
 double force_at_next_cracks(double widest) {
-  /// Force at which the halves crack [-], from finite elements of edges wider than 150°.
+  /// Force at which the halves crack [-], from finite elements of edges wider than 150°. Larger: cracked edges may
+  /// carry more.
   constexpr double kSecondCracks = 0.585;
   return kSecondCracks * (1 + std::max(0.0, widest - 180 * geometry::kRadiansPerDegree));
 }
@@ -192,7 +194,7 @@ double moment_of_moment(double distance) {
 double whole_edge_factor(double opening) {
   /// Opening below which a wedge bends as a beam, without the factor [rad].
   constexpr double kBeam = 45 * geometry::kRadiansPerDegree;
-  constexpr double kGrowth = 0.18;  ///< growth of the factor with the opening [1/rad]
+  constexpr double kGrowth = 0.18;  ///< growth of the factor with the opening; larger: wide edges carry more [1/rad]
   return 1 + kGrowth * std::max(0.0, opening - kBeam);
 }
 

@@ -58,17 +58,19 @@ double whole_edge_factor(double opening);
 /// breaks").
 ///
 /// If the edge has no radial crack, the stress in the top fibre of a section of width w is
-///   σ h² / V = {6 [λ m_V(r/λ) − (x̄ + η e) m_M(r/λ)] − η} h / w.
-/// The terms are: bending under V; the lever of the thrust, which bends the edge up; and compression by the thrust. The
-/// edge breaks off where the stress is largest. That is the narrowest section that is far enough from the load.
+///   σ h² / V = {6 [λ m_V(r/λ) − (x̄ + η e) m_M(r/λ)] − η} h / (f w),
+/// with λ, x̄ and e in units of h and f = whole_edge_factor(). The terms are: bending under V; the lever of the thrust,
+/// which bends the edge up; and compression by the thrust. The edge breaks off where the stress is largest. That is the
+/// narrowest section that is far enough from the load.
 ///
 /// If a radial crack has opened in the bottom of the ice, the stress is largest at the two ends (rims) of a section:
 ///   σ h² / V = {6 [A (λ m_V − x̄ m_M) − 0.31 η e m_M] − 0.93 η} h / w,
-///   A = 0.87 + 0.18 (l/15h − 1) − 0.04 (θ − 2) + 0.19 |Δφ|,
-/// where Δφ is the change of direction of the section's middle up to 1.56 r. This stress changes little with r.
-/// Therefore R is the mean place of the break for ice whose strength scatters by 0.2 from section to section. Such an
-/// edge carries at most 0.585 (1 + ⟨θ − π⟩), with the widest opening θ within 0.5 l, because the next radial cracks
-/// open at that force.
+///   A = 0.87 + 0.18 (l/(15 h) − 1) − 0.04 (θ − 2) + 0.19 |Δφ|,
+/// where θ [rad] is the opening of the section and Δφ [rad] the change of direction of its middle up to 1.56 r. This
+/// stress changes little with r. Therefore R is the mean place of the break for ice whose strength scatters by 0.2 from
+/// section to section. Such an edge carries at most 0.585 (1 + ⟨θ − π⟩), with the widest opening θ within 0.5 l and the
+/// positive part ⟨·⟩, because the next radial cracks open at that force. An edge counts as cracked if that opening is
+/// 105° or more, and as whole up to 90°; between, the stresses are interpolated.
 ///
 /// Compared with finite elements of 120 other edges, V deviates by at most 12 % and R by at most 24 % (90th
 /// percentiles) in the range l/h 10 to 21 and η 1.3 to 3.9. At the stem, which is outside of that range, V is 0.57 to

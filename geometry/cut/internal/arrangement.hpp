@@ -24,7 +24,8 @@ struct Winding {
   int tool = 0;
 };
 
-/// A maximal connected region of one class: a valid polygon by OGC (pinches retraced), not yet rounded.
+/// A maximal connected region of one class: a valid polygon by OGC, not yet rounded. Where its boundary touches itself
+/// in a point, it is divided into rings there.
 struct Region {
   Polygon polygon;
   int label = 0;  ///< label from the classifier
@@ -51,8 +52,9 @@ struct OverlayFailure : std::runtime_error {
 };
 
 /// Returns the exact overlay of all segments by CGAL's arrangement. It is used by the general path, and as the
-/// reference for tests of the local path. Segments may cross, touch, overlap and repeat. Open polylines separate
-/// nothing and wind around nothing. Throws OverlayFailure if CGAL refuses the segments or no regions follow from them.
+/// reference for tests of the local path. Segments may cross, touch, overlap and repeat. An open polyline separates
+/// only where it divides a face, and with Seams::kDissolve nowhere. It has no winding number, so `classify` must not
+/// use Winding::tool for it. Throws OverlayFailure if CGAL refuses the segments or no regions follow from them.
 Overlay overlay(const std::vector<SourceSegment>& segments, const Classifier& classify, Seams seams);
 
 }  // namespace polynya::geometry::exact

@@ -49,8 +49,8 @@ struct Tool {
 /// The local path. It finds where the tool touches or crosses the boundary by exact predicates, rebuilds only the
 /// chains between these nodes, rounds only the nodes, and validates only the edges that end in a rounded node. Its
 /// result equals the result of the general path. Returns nullopt if it does not handle the case (rings that touch each
-/// other where they are cut, or in a floe of which several rings are cut). The shape must be valid; the tool must be a
-/// simple counter-clockwise ring or a simple open polyline.
+/// other where they are cut, or in a floe of which several rings are cut; rounded nodes so near a ring that its place
+/// is in doubt). The shape must be valid; the tool must be a simple counter-clockwise ring or a simple open polyline.
 std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool);
 
 }  // namespace polynya::geometry

@@ -54,7 +54,7 @@ struct ExactPiece {
 
 /// Checks Σ pieces = parent in rationals, and rounds every piece to valid polygons of doubles: each vertex once, to
 /// nearest, if the result is valid; otherwise by snap rounding. Slivers are removed and recorded in the ledger. Fails
-/// (kInternal) only if a piece is invalid before rounding.
+/// (kInternal) only if the sum is not exact or a piece is invalid before rounding.
 CutOutcome rounded_pieces(const Rational& area_before, const std::vector<ExactPiece>& pieces);
 
 /// Sorts pieces into the order that results have: by part, then by lowest vertex.
