@@ -299,7 +299,7 @@ void BroadPhase::collide(const Bodies& bodies, ActivePair& active, double dt, Pa
 
 /// Returns all pairs that may touch now, ordered by (a, b). Valid until the next call.
 std::span<BroadPhase::ActivePair* const> BroadPhase::find_all_pending(const Bodies& bodies, int threads) {
-  constexpr std::size_t chunk = 4096;
+  constexpr std::size_t chunk = 4096;  // number of pairs that a thread takes at a time; does not change results
   const std::size_t chunks = std::max<std::size_t>(1, chunk_count(active_.size(), chunk));
   if (pending_.size() < chunks) pending_.resize(chunks);
   const auto find = [&](std::size_t k, std::size_t begin, std::size_t end) {

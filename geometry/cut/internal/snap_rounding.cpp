@@ -180,6 +180,7 @@ geometry::Polygon without_spikes(const geometry::Polygon& polygon) {
 }  // namespace
 
 Lattice Lattice::spanning(const Polygon& polygon) {
+  // Exponent of the smallest double above 0: a finer lattice would have points that are no doubles.
   constexpr int kFinest = std::numeric_limits<double>::min_exponent - std::numeric_limits<double>::digits;
   const double size = farthest(polygon);
   if (size == 0) return Lattice(false, kFinest);
