@@ -480,7 +480,8 @@ Command add_cut(CommandLine& app) {
                  between(0, 1e6));
   command.option("--out", &options->out, "FILE",
                  "File for the pieces; the extension gives the format, otherwise it is that of FLOES; - for stdout");
-  command.option("--ledger", &options->ledger, "FILE", "File for the ledger, JSON; stdout if not given");
+  command.option("--ledger", &options->ledger, "FILE",
+                 "File for the ledger, JSON; stdout if not given, unless the pieces are written there");
   command.choice<geometry::FillRule>(
       "--repair", options->repair,
       "Repair polygons that are not valid by this fill rule, exactly; if not given, they are refused",

@@ -25,8 +25,8 @@ void enter_prescribed_work(const dynamics::Bodies& bodies, const dynamics::Conta
   audit.impulses += length(on_free);
 }
 
-/// Adds the work of all contacts to the accounts. A contact that pressed with the full force of crushing ice while its
-/// bodies approached each other is marked as crushed.
+/// Adds the work of all contacts to the accounts. A contact whose ice crushed (Contact::is_at_limit) while its bodies
+/// approached each other is marked as crushed.
 void enter_contacts(const dynamics::Bodies& bodies, std::vector<dynamics::Contact>& contacts, Accounts& accounts) {
   EnergyFlows& energy = accounts.audit.energy;
   double given = 0;
