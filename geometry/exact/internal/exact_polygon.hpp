@@ -114,11 +114,6 @@ inline Rational shoelace_term(const Point& a, const Point& b) {
   return a.x * b.y - a.y * b.x;
 }
 
-/// Returns the sign of (b − a) × (c − a): +1 if a, b, c turn left.
-inline int orientation(const Point& a, const Point& b, const Point& c) {
-  return sign(Rational((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)));
-}
-
 using Ring = std::vector<Point>;
 
 /// A polygon with rational vertices: the outer ring counter-clockwise, holes clockwise.
