@@ -332,7 +332,8 @@ void write_ships(io::JsonWriter& json, const simulation::Scene& scene) {
   json.close(']');
 }
 
-/// Writes the drift of the water over time: t, x and y of its path, and the free drift of ice.
+/// Writes the drift of the water over time: t [s], x and y of its path [m], and the velocity of free drift of ice in x
+/// and y [m/s]. The duration of the scene is divided into kSamples intervals; steady drift needs only one.
 void write_drift(io::JsonWriter& json, const simulation::Scene& scene) {
   constexpr int kSamples = 400;
   const int samples = scene.water.is_steady() && scene.wind.rows.empty() ? 1 : kSamples;

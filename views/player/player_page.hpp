@@ -64,8 +64,7 @@ struct PlayerData {
   std::size_t floe_bytes = 0;   ///< bytes in `columns` for shapes and properties of floes
   std::size_t frame_bytes = 0;  ///< bytes in `columns` for positions over time
   double start = 0;             ///< time of the first frame [s]
-  /// Time of the last frame [s].
-  double end = 0;
+  double end = 0;               ///< time of the last frame [s]
 };
 
 /// Selects the part of a run that a page contains.
@@ -78,8 +77,8 @@ struct PlayerSelection {
 /// Collects the data of the selected part of a run.
 PlayerData player_data(const io::Run& run, const PlayerSelection& selection);
 
-/// The pages of views/player with their style sheets and scripts, which cmake/PolynyaPlayerPage.cmake assembles. The
-/// marks {{title}}, {{info}} and {{columns}} are replaced by data of a run.
+/// The pages of views/player with their style sheets and scripts, which cmake/PolynyaPlayerPage.cmake assembles. Marks
+/// in double braces, such as {{title}}, {{info}} and {{columns}}, are replaced by data of a run.
 extern const std::string_view kPlayerTemplate;
 extern const std::string_view kPairTemplate;
 
