@@ -68,9 +68,10 @@ DatabaseAnswer with_radial_cracks(const BendingDatabase& database, const WedgeGr
   }
 }
 
-/// Returns the length over which a push is supported, in l: by the water alone at rest, and also by the inertia of ice
-/// and water if the push is fast. It is the length with which a narrow wedge has the database's R. R ∝ λ^½, between the
-/// load at the tip and λ, gives it within 10 % up to 3 m/s (test FollowTheDatabaseWithSpeed).
+/// Returns the length λ over which a push is supported, in l. At rest the water alone supports it and λ is 1; in a fast
+/// push the inertia of ice and water supports it too. λ follows from the R of a narrow wedge in the database, with and
+/// without speed, by R ∝ λ^½. The radii of sections with this λ then change with the speed as those of the database,
+/// within 10 % up to 3 m/s (test FollowTheDatabaseWithSpeed).
 double effective_length(const BendingDatabase& database, const WedgeGroups& whole) {
   constexpr double kNarrow = 60 * geometry::kRadiansPerDegree;  // parts this narrow do not crack
   WedgeGroups part = whole;
