@@ -45,8 +45,9 @@ function posesUpTo(run, motions, ship, time) {
   return poses;
 }
 
-/** Selects poses at distances at which the drawn outlines overlap. Poses are interpolated between distant ones, and
- * left out where the ship hardly moves. */
+/** Selects poses at distances of at most `spacing` [m], at which the drawn outlines overlap. Poses are interpolated
+ * between distant ones, and left out where the ship moves by less than an eighth of it and turns by less than 0.01 rad.
+ * Distances are those of the poses carried with the water to `time`. */
 function evenly(poses, spacing, carry, time) {
   const placed = ([x, y, , at]) => carry(x, y, at, time);
   const even = [];

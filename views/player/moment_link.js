@@ -1,8 +1,8 @@
-// A link to an instant of the run: #t=330&floe=42. It contains the settings of the page that differ from those at its
-// opening (docs/view.md).
+// A link to an instant of the run: #t=330&floe=42. It contains the time and, of the settings that docs/view.md lists
+// under "A link", all that differ from the opening of the page.
 
-/** Returns the parameters of a link for the present state of the page. A setting that is as at the opening has none.
- * `width` [m] is the width of a map that follows a ship; `map` is the centre and width of any other [m]. */
+/** Returns the parameters of a link for the present state of the page. `width` [m] is the width of a map that follows a
+ * ship; `map` is the centre and width of any other [m]. */
 function momentOf(player) {
   const { state, view, plot, run } = player;
   const words = { t: Number(state.time.toFixed(4)) };

@@ -158,7 +158,8 @@ function makePlayer(canvases, source) {
     name: options.label ?? run.info.scene, state, view: makeMapView(byId("stage"), canvases), places, motions,
     box: extentOf(run, motions, places, range), colours: themeColours(), colourings, extremes, cardIsStale: false,
     loadLine: makeLoadLine(run), drawn: 0, drawTimes: [],
-    forceScale: 40 / (typicalForce(run) || 1), // an arrow of 40 px is a typical large force [px/N]
+    // An arrow of 40 px is a large force (typicalForce()), or the speed at which the highest class of colours begins.
+    forceScale: 40 / (typicalForce(run) || 1), // [px/N]
     arrowScale: 40 / (colourings.speed.edges.at(-1) || 1), // [px/(m/s)]
     /** Sets the classes of colours for other extremes, such as those of another run. */
     colourUpTo: (most) => Object.assign(colourings, makeColourings(run, places, most)),

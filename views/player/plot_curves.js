@@ -145,9 +145,9 @@ function rowsInColumn(plot) {
 
 const meanOf = (values) => values.reduce((sum, value) => sum + value / values.length, 0);
 
-/** Visible rows combined into columns: for each cause that is shown the mean, its upper and lower limit in the stack,
- * the sum, and the times between which each column lies [s]. Columns begin at multiples of their number of rows, so
- * that they do not change when the plot moves. */
+/** Visible rows combined into columns: the means of each cause that is shown, the line of the sum, the upper and lower
+ * limit of the whole stack, and the times between which each column lies [s]. Columns begin at multiples of their
+ * number of rows, so that they do not change when the plot moves. */
 function stackOf(plot) {
   const { ship } = plot.shownQuantity();
   const rows = plot.run.forces[ship];
