@@ -17,7 +17,7 @@ namespace polynya::fracture {
 namespace {
 
 /// Returns the groups to look up if the contact's force at its penetration is known. The softness belongs to the push κ
-/// ξ² with this force there. The hull need not be flat at the contact, nor the ice as wide as its wedge.
+/// ξ² with this force at this penetration, whatever the shapes of hull and ice there.
 WedgeGroups measured_groups(const ScaledLoad& scaled_load, const BendingLoad& load) {
   WedgeGroups groups = scaled_load.groups;
   const double depth = load.penetration / scaled_load.length_scale;

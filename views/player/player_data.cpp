@@ -209,8 +209,8 @@ void add_peaks(ColumnWriter& columns, const io::Run& run, const std::vector<io::
 /// Adds, for each ship, the stations that are a channel, at frames spread evenly over the run and at the last one.
 /// Stations that geometry fails to measure are left out.
 void add_channels(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames) {
-  // More instants make pages larger and take longer: 80 bytes per station, and a millisecond per instant with 500
-  // floes.
+  // Largest number of instants at which the channels are measured. More make pages larger and take longer: 80 bytes per
+  // station, and a millisecond per instant with 500 floes.
   constexpr std::size_t kMostInstants = 200;
   struct Row {
     int ship;

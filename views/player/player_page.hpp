@@ -30,7 +30,7 @@ class ColumnWriter {
   void add(const std::string& name, const std::vector<double>& values) { add_raw(name, "f64", values); }
   void add(const std::string& name, const std::vector<std::int32_t>& values) { add_raw(name, "i32", values); }
   void add(const std::string& name, std::string_view bytes) { add_raw(name, "u8", bytes); }
-  /// Adds a column with one value of each item. Doubles are stored as such, all other types as 32-bit integers.
+  /// Adds a column with one value of each item. Doubles remain doubles; all other types become 32-bit integers.
   template <class Items, class Read>
   void add(const std::string& name, const Items& items, Read read) {
     using Found = std::remove_cvref_t<std::invoke_result_t<Read, const typename Items::value_type&>>;
@@ -95,8 +95,8 @@ struct ShownRun {
 /// Returns one HTML file that shows two runs side by side with a common clock (docs/view.md).
 std::string pair_page(const std::array<ShownRun, 2>& runs);
 
-/// Returns, as options of the page of a scene that has not run, what it shows in addition to ice and hulls: routes of
-/// ships, wind, and the warnings of `polynya validate`.
+/// Returns the options of the page of a scene that has not run, as JSON: the routes of ships, the wind, and the
+/// warnings of `polynya validate`. scene_page() explains `stamp` and `stamp_file`.
 std::string scene_plan(const io::LoadedScene& scene, const std::string& stamp, const std::string& stamp_file);
 
 /// Returns one HTML file that shows a scene that has not run (docs/view.md). For `--watch`, `stamp` identifies this
