@@ -77,8 +77,8 @@ double elastic_share(const Ice& ice, const Water& water, double length);
 /// Returns the largest tensile stress at a corner of the section, N/(h w) + 6 |M|/(h w²) + 6 |M_v|/(w h²) [Pa].
 double section_stress(const Ice& ice, double width, const SectionLoad& load);
 
-/// Returns an upper bound of the stress in any section of a floe with this length and at least this width [m], for
-/// horizontal and vertical forces with these sums [N]: no load bends a free beam by more than ¼ F Λ [Pa].
+/// Returns an upper bound of the stress [Pa] in any section of a floe with this length Λ and at least this width [m],
+/// for horizontal and vertical forces with these sums F [N]: the moment in a free beam is at most ¼ F Λ [N m].
 double most_section_stress(const Ice& ice, double least_width, double length, double force, double down);
 
 }  // namespace polynya::fracture

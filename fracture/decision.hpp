@@ -38,8 +38,9 @@ struct FailureCriteria {
   }
 };
 
-/// Decides what happens at a contact. Small floes are pushed away. Otherwise a strong enough hit splits the floe;
-/// otherwise ice that is pressed down strongly enough breaks off a cusp; otherwise the contact crushes.
+/// Decides what happens at a contact. Small floes are pushed away. Otherwise a strong enough hit splits the floe by the
+/// paper's rule; otherwise ice that is pressed down strongly enough breaks off a cusp; otherwise the contact crushes.
+/// Splits by the true forces are found elsewhere, after the solver; without the paper's rule `crack_length` is 0 here.
 constexpr Failure decide(const FailureCriteria& c) {
   if (c.floe_size < c.breakable_size) return Failure::kNone;
   const bool can_crack = c.crack_length > 0 && !c.leaves_sliver;

@@ -48,7 +48,7 @@ inline bool leaves_strip(double length, double left_area, double right_area) {
 struct TurningCrack {
   double peak = 0.35;      ///< length of the crack at which the force is largest, over b [-]
   double straight = 0.63;  ///< first leg, along the free edge, over b [-]
-  double turn = 1.1817;    ///< of the second leg, towards the free edge; it ends 1.04 b farther on [rad]
+  double turn = 1.1817;    ///< from the first leg to the second, which ends 1.04 b from the mouth along the edge [rad]
   double most_on = 2.2;    ///< longest second leg, over b: twice its length to an edge along the first leg [-]
   double force = 0.293;    ///< F_max / (h K_IC √b) [-]
 };

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kDischarge = 0.6;  ///< C_d of openings with sharp edges [-] (recall)
 constexpr int kHalvings = 14;       ///< bisections to find the pool's surface, within 1e-4 of its depth
-constexpr int kStepsOfATurn = 40;
+constexpr int kStepsOfATurn = 40;   ///< steps in which the hull moves by the depth of the cusp; also most in a call
 constexpr double kLeastLever =
     0.1;  ///< smallest lever over the depth of the cusp, where it jams between sheet and hull [-]
 

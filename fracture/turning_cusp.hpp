@@ -59,6 +59,7 @@ struct DeckStrip {
 
 /// A cusp that turns, divided into strips of equal depth; the first one lies at the axis.
 struct Deck {
+  /// Number of strips. More follow the outline more closely and take more time.
   static constexpr int kStrips = 8;
   double depth = 0;       ///< R, distance from the axis to the farthest point of the cusp [m]
   double thickness = 0;   ///< h [m]

@@ -35,8 +35,8 @@ struct BendingCapacity {
   double vertical_force = 0;  ///< V_b [N]
   double cusp_radius = 0;     ///< R [m]
   bool is_in_range = true;    ///< false if a tabulated model had to limit the load to its table
-  bool radial_crack_first =
-      false;  ///< a radial crack opens before the cusp breaks, if the model includes radial cracks
+  /// True if a radial crack opens before the cusp breaks. Only the tabulated model finds it, whatever its RadialCracks.
+  bool radial_crack_first = false;
 };
 
 /// The effect of the radial crack that opens in the bottom fibre, along the bisector, before the cusp breaks off.

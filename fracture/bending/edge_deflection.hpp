@@ -15,9 +15,9 @@ namespace polynya::fracture {
 double tip_compliance(double opening_angle, double duration);
 
 /// Returns by how much the edge that a hull presses down recedes from the hull, per crushed area: tan θ_s w = r A_c
-/// with r = tan θ_s C σ_c c_V / (ρ_w g l²) [m/m²]; 0 if the hull does not press it down. `travel` is the distance that
-/// the hull has moved since it touched the undeflected ice [m], at the load's mean speed; the force on a wedge has
-/// grown as the square of the time since then.
+/// with r = tan θ_s C σ_c c_V / (ρ_w g l²) [m/m²] and C = tip_compliance(); 0 if the hull does not press it down.
+/// `travel` is the distance that the hull has moved since it touched the undeflected ice [m], at the load's mean speed;
+/// the force on a wedge has grown as the square of the time since then.
 double recession_per_area(const BendingLoad& load, double travel);
 
 }  // namespace polynya::fracture

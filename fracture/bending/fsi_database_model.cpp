@@ -17,7 +17,7 @@ namespace polynya::fracture {
 namespace {
 
 /// Returns the groups to look up if the contact's force at its penetration is known. The softness belongs to the push κ
-/// ξ² with this force there. The hull need not be flat at the contact, nor the ice as wide as its wedge.
+/// ξ² with this force at this penetration, whatever the shapes of hull and ice there.
 WedgeGroups measured_groups(const ScaledLoad& scaled_load, const BendingLoad& load) {
   WedgeGroups groups = scaled_load.groups;
   const double depth = load.penetration / scaled_load.length_scale;
@@ -68,9 +68,10 @@ DatabaseAnswer with_radial_cracks(const BendingDatabase& database, const WedgeGr
   }
 }
 
-/// Returns the length over which a push is supported, in l: by the water alone at rest, and also by the inertia of ice
-/// and water if the push is fast. It is the length with which a narrow wedge has the database's R. R ∝ λ^½, between the
-/// load at the tip and λ, gives it within 10 % up to 3 m/s (test FollowTheDatabaseWithSpeed).
+/// Returns the length λ over which a push is supported, in l. At rest the water alone supports it and λ is 1; in a fast
+/// push the inertia of ice and water supports it too. λ follows from the R of a narrow wedge in the database, with and
+/// without speed, by R ∝ λ^½. The radii of sections with this λ then follow the radii of the database with the speed,
+/// within 10 % up to 3 m/s (test FollowTheDatabaseWithSpeed).
 double effective_length(const BendingDatabase& database, const WedgeGroups& whole) {
   constexpr double kNarrow = 60 * geometry::kRadiansPerDegree;  // parts this narrow do not crack
   WedgeGroups part = whole;

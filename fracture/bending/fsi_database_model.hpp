@@ -11,7 +11,7 @@ namespace polynya::fracture {
 
 /// A physical load as the dimensionless problem of the wedge solver, with the scales of the result. With l = (D / ρ_w
 /// g)^¼ and t0 = √(l/g):
-///   2α = θ_wf + θ_wb, m̂ = ρ_i h / (ρ_w l), Fr = v_n / √(g l), Π = σ_f h² / (κ l²)
+///   2α = θ_wf + θ_wb or the load's own, m̂ = ρ_i h / (ρ_w l), Fr = v_n / √(g l), Π = σ_f h² / (κ l²)
 ///   κ = σ_c c_V T / (2 sin θ_s), T = tan θ_wf + tan θ_wb: V = κ [ξ² − ⟨ξ − h tan θ_s⟩²], Eqs. (1), (2) of
 ///   [Sawamura2017]
 /// Edges of unequal angles crush as they are, through T, and bend as the symmetric wedge of the same opening 2α.
@@ -52,6 +52,7 @@ class FsiDatabaseModel final : public BendingModel {
  public:
   /// Uses the shipped database.
   explicit FsiDatabaseModel(RadialCracks radial_cracks = RadialCracks::kIgnored);
+  /// Uses another database, and ignores radial cracks.
   explicit FsiDatabaseModel(std::shared_ptr<const BendingDatabase> database);
 
   BendingCapacity capacity(const BendingLoad& load) const override;

@@ -17,7 +17,7 @@ Peak find_peak(std::span<const double> places, std::span<const double> values);
 /// Returns the place of a flat maximum under slightly uneven samples. It is the maximum of the polynomial of fourth
 /// degree in ln(place) that fits the samples around it best, by least squares with weights that taper to zero at a
 /// factor kFlatPeakReach on either side and are centred on the result. `places` is ascending and positive. Uses
-/// find_peak() if the polynomial has no maximum inside its reach.
+/// find_peak() if the polynomial has no maximum inside its reach, or if fewer than seven samples lie there.
 double find_flat_peak(std::span<const double> places, std::span<const double> values);
 
 /// Factor on either side of a flat maximum within which samples are fitted [-]. Smaller: the unevenness of samples

@@ -18,11 +18,12 @@ constexpr std::array<double, 16> kRadiusOverRoot = {0.97064, 0.99147, 1.01525, 1
                                                     1.16793, 1.23077, 1.31008, 1.41128, 1.54147, 1.70922,
                                                     1.92252, 2.18336, 2.48096, 2.79479};
 
-/// Returns the factor 1 + C_v v of Kashtelyan's radius, with a lower limit. Without the limit R is negative from 7 m/s
-/// on.
+/// Returns the factor 1 + C_v v of Kashtelyan's radius [-] at a speed [m/s]. It is negative from 7 m/s on.
 double radius_factor(double approach_speed) {
   return 1 - 0.144 * approach_speed;
 }
+
+/// Lower limit of that factor, so that R stays positive [-].
 constexpr double kSmallestRadiusFactor = 0.2;
 
 }  // namespace

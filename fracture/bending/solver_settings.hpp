@@ -12,7 +12,9 @@ enum class FluidModel : std::uint8_t {
   kFreeSurface,  ///< linear potential flow with gravity waves, φ_t + g η = 0 on the open water
 };
 
-/// The discretisation of a wedge of floating ice. Lengths are divided by the characteristic length l.
+/// The discretisation of a wedge of floating ice. Lengths are divided by the characteristic length l. More elements,
+/// terms, panels or steps, and a smaller inner or larger outer radius, reduce the error and take more time. The shipped
+/// database has these values; docs/theory/bending.md, "Accuracy", states its errors.
 struct SolverSettings {
   FluidModel fluid = FluidModel::kPotential;
   double poisson_ratio = 0.3;     ///< ν [-]

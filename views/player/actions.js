@@ -17,11 +17,14 @@ function makeActions(player) {
 function eventActions({ run, state, view }, actions) {
   const { frames: { times }, info: { events } } = run;
   return {
+    /** Moves by a number of frames; backwards from between two frames, the first step reaches the earlier of them. */
     stepFrames(count) {
       const at = lastAtMost(times, state.time + 1e-9);
       const next = count < 0 && state.time - times[at] > 1e-9 ? at + 1 + count : at + count;
       actions.goTo(times[Math.min(times.length - 1, Math.max(0, next))] ?? 0);
     },
+    /** Selects an event and moves to its time. If its place is outside of the map, or within 20 px of its edge, the map
+     * is centred on it. */
     goToEvent(index) {
       const event = events[index];
       if (!event) return;
@@ -41,6 +44,8 @@ function eventActions({ run, state, view }, actions) {
       const isBeyond = (event) => isMarked(event) && (step > 0 ? event.t_s > time + 1e-9 : event.t_s < time - 1e-9);
       return step > 0 ? events.findIndex(isBeyond) : events.findLastIndex(isBeyond);
     },
+    /** Goes to the next marked event (`step` 1) or the one before (−1), from the selected event if the time is still
+     * that of the event, otherwise from the present time. */
     stepEvent(step) {
       const marked = Array.from(events.keys()).filter((index) => isMarked(events[index]));
       let at = marked.indexOf(state.event);
@@ -72,7 +77,10 @@ function mapActions(player, actions) {
       view.fit(player.box);
       state.isFitted = true;
     },
+    /** Follows the next ship; after the last one none. */
     follow: () => actions.setFollow(state.follow + 1 < ships.length ? state.follow + 1 : -1),
+    /** Keeps a ship in the middle of the map; −1: none. If the whole run was in view, the map is zoomed in until its
+     * shorter side shows 2.2 lengths of the ship. */
     setFollow(ship) {
       if (ship >= ships.length) return;
       state.follow = ship;
@@ -166,6 +174,7 @@ function floeActions(player, actions) {
 function pageActions(player, actions) {
   const { run, state, axis, plot } = player;
   return {
+    /** Does the first of these that applies: closes the help, ends the ruler, or deselects ship, event and floe. */
     letGo() {
       if (byId("help").open) return byId("help").close();
       if (state.isMeasuring) return actions.toggleRuler(false);

@@ -1,8 +1,8 @@
 // The channel behind each ship (docs/channel.md): the widths that analysis/channel.cpp measured, and the band that the
 // hull swept. Both are carried with the water to the time that is shown.
 
-/** Drift of the water at a time: its displacement x, y [m] and the velocity of free drift of ice [m/s], interpolated.
- * */
+/** Drift of the water at a time: its displacement in x and y since the start of the scene [m], and the velocity of free
+ * drift of ice in x and y [m/s], interpolated between samples. */
 function driftAt(samples, time) {
   const after = samples.findIndex(([t]) => t > time);
   const k = Math.max(1, after < 0 ? samples.length - 1 : after);
@@ -11,7 +11,8 @@ function driftAt(samples, time) {
   return [1, 2, 3, 4].map((column) => from[column] + share * (to[column] - from[column]));
 }
 
-/** Returns a function that computes where a point of the water moves from one time to another [s]. */
+/** Returns a function that computes where a point of the water moves from one time to another [s]: with the drift, and
+ * along `shear_direction_rad` by the shear rate [1/s] times its distance to port of the origin, which drifts too. */
 function makeCarrier({ drift, shear_per_s: shear, shear_direction_rad: direction, shear_origin_m: [ox, oy] }) {
   const [cx, cy] = [Math.cos(direction), Math.sin(direction)];
   return (x, y, from, to) => {
@@ -44,8 +45,9 @@ function posesUpTo(run, motions, ship, time) {
   return poses;
 }
 
-/** Selects poses at distances at which the drawn outlines overlap. Poses are interpolated between distant ones, and
- * left out where the ship hardly moves. */
+/** Selects poses at distances of at most `spacing` [m], at which the drawn outlines overlap. Poses are interpolated
+ * between distant ones, and left out where the ship moves by less than an eighth of it and turns by less than 0.01 rad.
+ * Distances are those of the poses carried with the water to `time`. */
 function evenly(poses, spacing, carry, time) {
   const placed = ([x, y, , at]) => carry(x, y, at, time);
   const even = [];

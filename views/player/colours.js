@@ -11,8 +11,9 @@ const cutShare = 0.2;
 /**
  * Returns one of `breakages` for each floe. `whole`: it has not broken since the start of the scene. `cut`: it is the
  * remaining part of a floe of the scene, which is the largest piece of each bend, and every piece with a fifth of the
- * area. `split` and `bend`: any other piece, by the fracture that freed it; the largest piece of a piece that broke
- * off keeps its kind. `cameUp`: it surfaced from under a hull, or broke from such a floe.
+ * area. `split` and `bend`: any other piece, by the fracture that freed it, where everything but a split counts as
+ * bending; the largest piece of a piece that broke off keeps its kind. `cameUp`: it surfaced from under a hull, or
+ * broke from such a floe.
  */
 function breakagesOf({ floes, info, breakOf }) {
   const of = new Uint8Array(floes.count);
@@ -78,7 +79,7 @@ function extremesOf({ floes, frames }) {
 }
 
 /** Ways of colouring floes, in classes up to the extremes: the value of a floe, limits, colours, and words for the
- * legend. */
+ * legend. The classes of generations are fixed unless a lineage has more than 20 fractures. */
 function makeColourings(run, places, most) {
   const { floes } = run;
   const classes = (edges) => [`below ${edges[0]}`,

@@ -19,7 +19,8 @@ function makeOutlines({ floes }) {
   };
 }
 
-/** The floes that float at the present time, those that are under hulls or wait behind them, and their places. */
+/** The floes that float at the present time (`living`, of which the first `count` are valid), those that are under
+ * hulls or wait behind them (`under`), and their poses and velocities. A floe `isAlive` while it floats. */
 function makePlaces(run, motions) {
   const { floes } = run;
   const column = () => new Float64Array(floes.count);
@@ -96,7 +97,8 @@ function drawFloes(context, view, run, places, ids, look) {
   }));
 }
 
-/** Draws the floes of the scene at their initial places, so that open water shows where ice was. */
+/** Draws the floes of the scene at their initial places, so that open water shows where ice was. A floe that has moved
+ * by less than 0.3 px is left out, because it covers its place. */
 function drawStartIce(context, view, run, start, places, time, colours) {
   context.fillStyle = colours["start-ice"];
   const { floes } = run;
@@ -141,6 +143,8 @@ function makeStillIce(run, places, motions) {
     return { until, still, loose };
   }
 
+  /** Makes the picture for the next `ahead` seconds, or for a tenth of them, at most until the next frame, if too many
+   * floes would move in that time. */
   function rebuild(view, time, ahead, draw) {
     const soon = Math.min(time + ahead / 10, times[motions.frame + 1] ?? Infinity);
     let parts = part(view, time, time + ahead);

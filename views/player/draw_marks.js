@@ -19,7 +19,8 @@ function typicalForce({ columns: { contact_fx_N: fx, contact_fy_N: fy } }) {
   return sizes[Math.floor(0.95 * (sizes.length - 1))] ?? 0;
 }
 
-/** Returns a function that moves a point with a body since a frame; null for a floe that has broken since. */
+/** Returns a function that moves a point with a body since a frame; null for a floe that has broken or gone under
+ * since. Floes move it at their velocity without their rotation. */
 function moveSince(run, motions, places, frame, ship, floe, time) {
   if (ship < 0) {
     const duration = time - run.frames.times[frame];

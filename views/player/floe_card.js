@@ -6,8 +6,10 @@ function floeAt(run, places, x, y) {
   return found >= 0 ? found : floeAmong(run, places, places.under, x, y);
 }
 
+// A canvas that is not shown; it tests whether a point is inside an outline.
 const probe = make("canvas").getContext("2d");
 
+/** Id of the smallest of some floes that contain a point of the world; −1 if none does. */
 function floeAmong({ floes, outline }, places, ids, x, y) {
   let best = -1;
   for (const id of ids) {
@@ -43,7 +45,7 @@ function standIn(run, places, id, time) {
   return best;
 }
 
-/** Data of a floe: text, and the exact number of the run. */
+/** Data of a floe: for each name the text, the exact number of the run, and its unit if it has one. */
 function floeFacts(run, places, motions, id) {
   const { floes } = run;
   const speed = motions.isRecorded(id) ? Math.hypot(places.vx[id], places.vy[id]) : null;
@@ -81,7 +83,8 @@ function showFloeCard(host, run, places, motions, chosen, id, time, actions) {
   host.replaceChildren(list, make("h3", {}, "Fracture lineage"), lineageList(run, id, actions));
 }
 
-// Number of ancestors that the card lists; a longer list would hide the rest of the panel.
+// Number of floes of a lineage that the card lists, with the floe itself; of a longer one the first and the last are
+// listed, because the list would hide the rest of the panel.
 const longestLineage = 8;
 
 /** Links to the ancestors of a floe, each with the fracture that ended it, to the floe itself, and to its pieces. */
@@ -127,8 +130,8 @@ function eventValue(key, value, unit) {
   return unit ? valueWords(value, unit) : String(value) || "\u2013";
 }
 
-/** Returns the fields of an event that have labels, including those of its criterion. Its load and capacity have the
- * names of the rule. */
+/** Returns the fields of an event that have labels, including those of its criterion. If the criterion is a rule such
+ * as "load >= capacity", the two sides of the rule are the labels of its load and its capacity. */
 function eventRows({ event_labels: labels }, { criterion = {}, ...event }) {
   const { kind: rule = "", ...sides } = criterion;
   const [, load, capacity] = /^(.+) >=? (.+)$/.exec(rule) ?? [];

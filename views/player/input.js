@@ -11,16 +11,17 @@ function pointIn(element, { clientX, clientY }) {
   return [clientX - box.left, clientY - box.top];
 }
 
-/** Rotation of a wheel, as the logarithm of the zoom factor. */
+/** Rotation of a wheel, as the logarithm of the zoom factor. Some browsers give it in lines, here of 33 px; pinching on
+ * a touchpad has ctrlKey and smaller turns. */
 function wheelTurn({ deltaY, deltaMode, ctrlKey }) {
   return (deltaMode === 1 ? 33 * deltaY : deltaY) * (ctrlKey ? 0.01 : 0.0015);
 }
 
 /**
  * Tracks the pointers that are pressed on an element. Positions `at` are in pixels. It calls `start(event, at, count)`
- * when a pointer is pressed, `drag(at, before)` when a single pressed pointer moves, `pinch(after, before)` when one of
- * two moves, and `end(event, at)` when the last is lifted or the browser cancels it. `hover(event, at)` is called for
- * every move, pressed or not.
+ * when a pointer is pressed, as one of `count`, `drag(at, before)` when a single pressed pointer moves, `pinch(after,
+ * before)` when one of two moves, and `end(event, at)` when the last is lifted or the browser cancels it. `hover(event,
+ * at)` is called for every move, pressed or not.
  */
 function watchPointers(element, { start, drag, pinch, hover, end }) {
   const pressed = new Map(); // pointer id → [x, y]

@@ -1,6 +1,7 @@
 // Colours the waterlines by the ice loads up to the present time, from the peaks of contacts.csv.
 
-const loadPanel = 2.5; // length of the panels into which a waterline is divided [m]
+// Length of the panels into which a waterline is divided [m]. Longer panels collect more peaks and show less detail.
+const loadPanel = 2.5;
 const loadSteps = 5; // number of colours of the scale
 
 /** Colour for q from 0 to 1, from yellow to dark red in steps. */
@@ -21,8 +22,10 @@ function waterlineOf(ring) {
   return { ring, length: sumOf(sides), stem: sumOf(sides.slice(0, first)) + (isEdge ? sides[first] / 2 : 0) };
 }
 
-/** Returns a function that gives the largest peak, and the sum and number of all peaks, for each panel of each ship up
- * to a time. It continues from the previous time if time advances. */
+/** Makes the loads along the hulls. panelsAt() gives the largest peak [N], and the sum [N] and number of all peaks, for
+ * each panel of each ship up to a time; it continues from the previous time if time advances. A ship has `sides` panels
+ * on each side of its stem, in ascending order of the arc length from the stem, which is positive to port. `most` is
+ * the largest peak of all ships [N]. */
 function makeLoadLine({ info, columns }) {
   const lines = info.ships.map(({ waterline_m: ring }) => waterlineOf(ring));
   const sides = lines.map(({ length }) => Math.ceil(length / 2 / loadPanel));
@@ -48,7 +51,8 @@ function makeLoadLine({ info, columns }) {
   };
 }
 
-/** Draws the loads along the hulls. Returns a notice if the run has no peaks. */
+/** Draws the largest load of each panel along the hulls, or with `isMean` the mean of its peaks. Returns a notice if
+ * the run has no peaks. */
 function drawLoadLine(context, view, loadLine, motions, time, isMean) {
   if (loadLine.most === 0) return "This run recorded no peaks of loads.";
   loadLine.panelsAt(time).forEach((panels, ship) => {

@@ -1,5 +1,8 @@
 // The camera of the map. y points up in the world and down on the screen.
 
+/** Makes the camera of an element, `stage`, in which `canvases` lie. (x, y) is the point of the world in the middle
+ * [m], `scale` the size of a metre [px], within 0.001 and 400; `width` and `height` are those of the element [px];
+ * `ratio` is the number of the canvas's own pixels per pixel of the page. */
 function makeMapView(stage, canvases) {
   const view = { x: 0, y: 0, scale: 1, width: 1, height: 1, ratio: 1 };
 
@@ -21,10 +24,12 @@ function makeMapView(stage, canvases) {
     view.x += x - newX;
     view.y += y - newY;
   };
+  /** Moves the map by a distance on the screen [px]. */
   view.panBy = (dx, dy) => {
     view.x -= dx / view.scale;
     view.y += dy / view.scale;
   };
+  /** Shows a box of the world [m] with a margin. */
   view.fit = (box) => {
     const margin = 1.04;
     view.x = (box.left + box.right) / 2;
@@ -39,6 +44,7 @@ function makeMapView(stage, canvases) {
   return view;
 }
 
+/** Extends a box so that it contains a point. */
 function includePoint(box, x, y) {
   box.left = Math.min(box.left, x);
   box.right = Math.max(box.right, x);
@@ -46,7 +52,8 @@ function includePoint(box, x, y) {
   box.top = Math.max(box.top, y);
 }
 
-/** Box around the bodies of a run at its start and end and around the ships' tracks. */
+/** Box around the floating floes of a run at the times of `range`, its start and end, and around the ships' tracks in
+ * all frames [m]. */
 function extentOf(run, motions, places, range) {
   const { floes, info, frames } = run;
   const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };

@@ -1,7 +1,8 @@
-// A link to an instant of the run: #t=330&floe=42. It contains the settings of the page that differ from those at its
-// opening (docs/view.md).
+// A link to an instant of the run: #t=330&floe=42. It contains the time and, of the settings that docs/view.md lists
+// under "A link", all that differ from the opening of the page.
 
-/** Returns the parameters of a link for the present state of the page. */
+/** Returns the parameters of a link for the present state of the page. `width` [m] is the width of a map that follows a
+ * ship; `map` is the centre and width of any other [m]. */
 function momentOf(player) {
   const { state, view, plot, run } = player;
   const words = { t: Number(state.time.toFixed(4)) };
@@ -24,14 +25,15 @@ const written = (value) => encodeURIComponent(value).replaceAll("%2C", ",");
 const linkOf = (words) => `#${Object.entries(words).flatMap(([key, value]) => [value].flat().map((one) =>
   `${key}=${written(one)}`)).join("&")}`;
 
-/** Sets the width of the map [m]. */
+/** Sets the width of the map [m], within the limits of zooming in map_view.js. */
 function showWidth({ state, view }, width) {
   view.scale = Math.min(400, Math.max(1e-3, view.width / width));
   state.isFitted = false;
   state.iceDirty = true;
 }
 
-/** Applies each parameter of a link. Returns a message about a wrong value, or nothing. */
+/** For each parameter of a link, a function that applies its text. It returns a message about a wrong value, or
+ * nothing. */
 const momentWords = {
   t(player, text) {
     const { actions, axis } = player;
@@ -85,7 +87,8 @@ const momentWords = {
   },
 };
 
-/** Goes to the instant of a link. Returns messages about parts that were not understood. */
+/** Goes to the instant of a link. Returns messages about parts that were not understood. Further plots are removed
+ * first, because each `below` adds one; all other settings that the link does not name stay. */
 function goToMoment(player, link) {
   const problems = [];
   player.actions.showPlots([]);

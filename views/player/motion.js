@@ -2,7 +2,8 @@
 
 // Motion of floes and ships at a time, by the rules of docs/run-folder.md (as in io/run/frames.cpp).
 
-/** Last index whose value is at most x, or −1. Values are in ascending order. */
+/** Last index from `from` to before `end` whose value is at most x; from − 1 if there is none. Values are in ascending
+ * order. */
 function lastAtMost(values, x, from = 0, end = values.length) {
   while (from < end) {
     const middle = (from + end) >> 1;
@@ -18,12 +19,14 @@ function placedBy([x, y, angle]) {
   return (px, py) => [x + c * px - s * py, y + s * px + c * py];
 }
 
+/** Motion of any body at the time that setTime() has set. The functions for floes return `motion`, which the next call
+ * overwrites. */
 class Motions {
   constructor({ frames, floes }) {
     this.frames = frames;
     this.floes = floes;
     this.reference = floeReferences({ frames, floes });
-    this.motion = new Float64Array(6); // x, y, angle, velocity in x and y, angular velocity
+    this.motion = new Float64Array(6); // x, y [m], angle [rad], velocity in x and y [m/s], angular velocity [rad/s]
     this.recorded = new Float64Array(6);
     this.time = 0;
     this.frame = 0; // the last frame that is not after the time
@@ -51,7 +54,8 @@ class Motions {
     return Math.max(recordsOf[floe], lastAtMost(recordFrame, this.frame, recordsOf[floe], recordsOf[floe + 1]));
   }
 
-  /** Motion of a floe that frames record. */
+  /** Motion of a floe that frames record. If the next frame records it too, the motion is interpolated up to that
+   * record; otherwise the last record is extrapolated at its velocity. */
   ofRecorded(floe) {
     const { times, doubles, recordsOf, recordFrame, recordAt } = this.frames;
     const { motion, recorded, time, frame, part } = this;
@@ -76,11 +80,13 @@ class Motions {
     return motion;
   }
 
+  /** Pose and velocity of a ship in a frame, in the order of `motion`. */
   shipInFrame(ship, frame) {
     const at = this.frames.shipAt[frame] + 6 * ship;
     return this.frames.doubles.subarray(at, at + 6);
   }
 
+  /** The same at the present time, interpolated between frames; null if there are no frames. */
   ship(index) {
     const { times } = this.frames;
     if (times.length === 0) return null;
@@ -90,7 +96,7 @@ class Motions {
     return a.map((value, k) => value + this.part * (b[k] - value));
   }
 
-  /** Returns true if no frame after the present one, before `endFrame`, records the floe. */
+  /** Returns true if no frame after the present one, up to and including `endFrame`, records the floe. */
   isSteady(id, endFrame) {
     const { recordsOf, recordFrame } = this.frames;
     const by = this.reference[id];

@@ -13,14 +13,15 @@ function make(tag, attributes = {}, ...children) {
 /** A count with its noun: "1 floe", "2 floes". */
 const counted = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
 
+/** A number as text with a true minus sign. */
 const minus = (text) => text.replace(/^-/, "\u2212");
 
 // Numbers for people: four digits, in a unit that suits the value, with spaces between thousands. A value that is so
 // small that it can only be rounding is shown as 0.
 
 const prefixed = (base) => [[1e9, `G${base}`], [1e6, `M${base}`], [1e3, `k${base}`]];
-/** For each base unit, the larger units with their sizes, and the smallest value that is not rounding, in the base
- * unit. */
+/** For each base unit, the larger units, largest first, and the smallest value that is not rounding, in the base unit.
+ * A larger unit has the value from which it is used, its name, and its size if that is another value. */
 const unitScales = {
   N: { larger: prefixed("N"), least: 0.1 }, "N\u00b7m": { larger: prefixed("N\u00b7m"), least: 0.1 },
   Pa: { larger: prefixed("Pa"), least: 0.1 }, W: { larger: prefixed("W"), least: 0.1 },
@@ -30,7 +31,8 @@ const unitScales = {
 };
 const otherScale = { larger: [], least: 1e-4 };
 
-/** Unit in which a value is shown: its name, and the factor from the base unit. */
+/** Unit in which a value is shown: its name, and the factor from the base unit. A value that four digits round up to
+ * the next unit has that unit. */
 function unitFor(value, base) {
   const { larger } = unitScales[base] ?? otherScale;
   const [, name, size] = larger.map(([from, word, step = from]) => [from, word, step])
@@ -71,7 +73,8 @@ function roundBelow(room) {
 
 const shortNumber = (value) => String(Number(value.toPrecision(3)));
 
-/** Sets the size of a canvas [px] and clears it. Returns the number of its own pixels per pixel of the page. */
+/** Sets the size of a canvas [px] and clears it. Returns the number of its own pixels per pixel of the page, at most 2
+ * to limit the time that drawing takes. */
 function sizeCanvas(canvas, width, height) {
   const ratio = Math.min(window.devicePixelRatio || 1, 2);
   canvas.width = Math.round(width * ratio);
@@ -79,7 +82,7 @@ function sizeCanvas(canvas, width, height) {
   return ratio;
 }
 
-/** Does the same. Returns a context that is scaled to pixels of the page. */
+/** Does the same as sizeCanvas(). Returns a context that is scaled to pixels of the page. */
 function clearedCanvas(canvas, width, height) {
   const ratio = sizeCanvas(canvas, width, height);
   const context = canvas.getContext("2d");

@@ -69,7 +69,8 @@ function showPlotAs({ plot, plotPanel, actions }, { quantity, hidden, isFull, sp
   plot.show(...span);
 }
 
-/** Settings that both players share: how each is read from one player and applied to another. */
+/** Settings that both players share: `of` reads one from a player, `give` applies it to another. It is shared while
+ * `isOn` returns true, or always without it. */
 const common = {
   colours: { of: ({ state }) => state.colourBy, give: ({ actions }, by) => actions.colourBy(by) },
   layers: { of: ({ state }) => state.layers, give: ({ actions }, layers) =>
@@ -91,9 +92,10 @@ const common = {
   },
 };
 
-/** Applies settings that changed in one player to the other. It is called at each refresh of the screen. */
+/** Returns functions for the common settings, which are first those of the first player. share() applies settings that
+ * have changed in one player to the other; it is called at each refresh of the screen. */
 function makeCommon(players) {
-  const known = {};
+  const known = {}; // the setting of both players when it was last shared, as JSON
   const wordsOf = ({ of }) => players.map((player) => JSON.stringify(of(player)));
   // Makes each plot use the scale of the other.
   const show = () => players.forEach(({ plot }) => plot.show(...plot.span));
@@ -157,7 +159,7 @@ function toggleThemes(players) {
   for (const player of players) player.refreshTheme();
 }
 
-/** Handles the controls of the bar, and keys that are pressed there. */
+/** Handles the controls of the common bar, and keys that are pressed there. */
 function watchBar(players, clock, shared, address) {
   const common = { toggleTheme: () => toggleThemes(players), copyLink: () => copyLink(address()),
     stepEvent: (step) => stepEvent(players, clock, step) };

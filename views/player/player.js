@@ -2,6 +2,7 @@
 
 // Text and controls of the page.
 
+/** Kinds of events that the panel counts, by the words for them. */
 const eventCounts = { bends: "bend", splits: "split", ground: "grind", "rejected cuts": "rejected_cut",
   "went under": "submerge", "came up": "resurface", "stayed under": "stay_under", "moorings broken": "mooring_break" };
 
@@ -36,6 +37,8 @@ function quantityGroups(quantities) {
   });
 }
 
+/** Fills the page and connects its controls. Playback starts at the first speed of the list at which the run takes at
+ * most 40 s. */
 function fillPage(player) {
   const { run: { info, frames }, range, name, isOneOfTwo, axis, state, actions } = player;
   byId("scene").textContent = name;
@@ -106,7 +109,8 @@ function startDrawing(player, canvases) {
 
 // Assembly of the player.
 
-/** Reads the run, and adds data that several parts use. */
+/** Reads the run, and adds data that several parts use. `breakOf` has, for each floe, the index of the event that ended
+ * it. */
 function readPlayedRun(source) {
   const run = readRun(source);
   run.breakOf = new Map();
@@ -154,6 +158,7 @@ function makePlayer(canvases, source) {
     name: options.label ?? run.info.scene, state, view: makeMapView(byId("stage"), canvases), places, motions,
     box: extentOf(run, motions, places, range), colours: themeColours(), colourings, extremes, cardIsStale: false,
     loadLine: makeLoadLine(run), drawn: 0, drawTimes: [],
+    // An arrow of 40 px is a large force (typicalForce()), or the speed at which the highest class of colours begins.
     forceScale: 40 / (typicalForce(run) || 1), // [px/N]
     arrowScale: 40 / (colourings.speed.edges.at(-1) || 1), // [px/(m/s)]
     /** Sets the classes of colours for other extremes, such as those of another run. */

@@ -209,8 +209,8 @@ void add_peaks(ColumnWriter& columns, const io::Run& run, const std::vector<io::
 /// Adds, for each ship, the stations that are a channel, at frames spread evenly over the run and at the last one.
 /// Stations that geometry fails to measure are left out.
 void add_channels(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames) {
-  // More instants make pages larger and take longer: 80 bytes per station, and a millisecond per instant with 500
-  // floes.
+  // Largest number of instants at which the channels are measured. More make pages larger and take longer: 80 bytes per
+  // station, and a millisecond per instant with 500 floes.
   constexpr std::size_t kMostInstants = 200;
   struct Row {
     int ship;
@@ -332,7 +332,8 @@ void write_ships(io::JsonWriter& json, const simulation::Scene& scene) {
   json.close(']');
 }
 
-/// Writes the drift of the water over time: t, x and y of its path, and the free drift of ice.
+/// Writes the drift of the water over time: t [s], x and y of its path [m], and the velocity of free drift of ice in x
+/// and y [m/s]. The duration of the scene is divided into kSamples intervals; steady drift needs only one.
 void write_drift(io::JsonWriter& json, const simulation::Scene& scene) {
   constexpr int kSamples = 400;
   const int samples = scene.water.is_steady() && scene.wind.rows.empty() ? 1 : kSamples;

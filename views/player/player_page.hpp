@@ -30,7 +30,7 @@ class ColumnWriter {
   void add(const std::string& name, const std::vector<double>& values) { add_raw(name, "f64", values); }
   void add(const std::string& name, const std::vector<std::int32_t>& values) { add_raw(name, "i32", values); }
   void add(const std::string& name, std::string_view bytes) { add_raw(name, "u8", bytes); }
-  /// Adds a column with one value of each item. Doubles are stored as such, all other types as 32-bit integers.
+  /// Adds a column with one value of each item. Doubles remain doubles; all other types become 32-bit integers.
   template <class Items, class Read>
   void add(const std::string& name, const Items& items, Read read) {
     using Found = std::remove_cvref_t<std::invoke_result_t<Read, const typename Items::value_type&>>;
@@ -64,8 +64,7 @@ struct PlayerData {
   std::size_t floe_bytes = 0;   ///< bytes in `columns` for shapes and properties of floes
   std::size_t frame_bytes = 0;  ///< bytes in `columns` for positions over time
   double start = 0;             ///< time of the first frame [s]
-  /// Time of the last frame [s].
-  double end = 0;
+  double end = 0;               ///< time of the last frame [s]
 };
 
 /// Selects the part of a run that a page contains.
@@ -78,8 +77,8 @@ struct PlayerSelection {
 /// Collects the data of the selected part of a run.
 PlayerData player_data(const io::Run& run, const PlayerSelection& selection);
 
-/// The pages of views/player with their style sheets and scripts, which cmake/PolynyaPlayerPage.cmake assembles. The
-/// marks {{title}}, {{info}} and {{columns}} are replaced by data of a run.
+/// The pages of views/player with their style sheets and scripts, which cmake/PolynyaPlayerPage.cmake assembles. Marks
+/// in double braces, such as {{title}}, {{info}} and {{columns}}, are replaced by data of a run.
 extern const std::string_view kPlayerTemplate;
 extern const std::string_view kPairTemplate;
 
@@ -96,8 +95,8 @@ struct ShownRun {
 /// Returns one HTML file that shows two runs side by side with a common clock (docs/view.md).
 std::string pair_page(const std::array<ShownRun, 2>& runs);
 
-/// Returns, as options of the page of a scene that has not run, what it shows in addition to ice and hulls: routes of
-/// ships, wind, and the warnings of `polynya validate`.
+/// Returns the options of the page of a scene that has not run, as JSON: the routes of ships, the wind, and the
+/// warnings of `polynya validate`. scene_page() explains `stamp` and `stamp_file`.
 std::string scene_plan(const io::LoadedScene& scene, const std::string& stamp, const std::string& stamp_file);
 
 /// Returns one HTML file that shows a scene that has not run (docs/view.md). For `--watch`, `stamp` identifies this

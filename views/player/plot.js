@@ -83,6 +83,7 @@ function chartAxis({ colours }, scale, label, extra) {
     font, labelFont: font, label, labelSize: 16, gap: 3, ...extra };
 }
 
+/** Axis of a scale on a side of the chart: 3 is left, 1 is right. */
 function valueAxis(plot, scale, side) {
   const base = plot.shownCurves().find((curve) => curve.scale === scale)?.base ?? "";
   const unit = (chart) =>
@@ -155,6 +156,7 @@ function pinchPlot(plot, after, before) {
 function scrollOrZoomPlot(plot, range, event) {
   const length = plot.span[1] - plot.span[0];
   if (Math.abs(event.deltaX) > Math.abs(event.deltaY) || event.shiftKey) {
+    // Some browsers give the turn of the wheel in lines, here of 33 px.
     const turned = (event.deltaX || event.deltaY) * (event.deltaMode === 1 ? 33 : 1);
     const way = (turned * length) / plot.chart.over.clientWidth;
     const move = Math.min(range[1] - plot.span[1], Math.max(range[0] - plot.span[0], way));

@@ -5,11 +5,11 @@
 
 // Least fraction of the rows with a load that the scale shows [-]; smaller: more spikes are cut off.
 const common = 0.99;
-const beyondCommon = 1.25; // the scale extends to this multiple of that value [-]
+const beyondCommon = 1.25; // the scale extends to this multiple of the value that `common` determines [-]
 const spike = 2; // a value above this multiple of the scale is a spike; without spikes the scale shows everything [-]
 
 /** The value below which the fraction `common` of a column's rows that are not 0 lies, and the largest value, as
- * magnitudes. */
+ * magnitudes. The first is estimated from at most 5000 rows, so that sorting stays fast. */
 function sizesOf(values) {
   const stride = Math.ceil(values.length / 5000);
   const sizes = [];
@@ -44,13 +44,14 @@ function loadRange(columns, isFull) {
   return [Math.max(low, -limit), Math.min(high, limit)];
 }
 
-/** Range of an axis for columns that are not loads. */
+/** Range of an axis for columns that are not loads: from their smallest to their largest value. */
 function wholeRange(columns) {
   const [low, high] = extentOfColumns(columns, Infinity, -Infinity);
   return low <= high ? [low, high] : [0, 1];
 }
 
-/** Ranges with a margin, extended so that 0 is at the same height in all of them. */
+/** Ranges with a margin of 6 %, extended so that 0 is at the same height in all of them. They extend below 0 by at
+ * least 4 % of their largest magnitude, and above it by at least 10 %, so that a curve at 0 is visible. */
 function alignedRanges(ranges) {
   const size = ([low, high]) => Math.max(high, -low) || 1;
   const below = Math.max(...ranges.map((range) => -range[0] / size(range)));
@@ -97,8 +98,8 @@ function stackedQuantities({ info: { force_causes: causes, ships }, forces }) {
 // Quantities of the plot, each with its curves, which are columns of forces.csv. True loads come first. The paper's
 // j/τ_c, which is much larger, has its own name and axis.
 
-/** Quantities that a run can show, by the first of their columns. Those that not every run has come last, and only if
- * they are not 0. */
+/** Quantities that a run can show; each has the name of the first of its columns. Optional quantities, which not every
+ * run has, are listed last, and only if one of their values is not 0. */
 function plotQuantities({ info, forces }) {
   const labels = { mean: `${info.forces_interval_s} s mean`, max: "step maximum (depends on the step)",
     paper: "j/\u03c4c (paper)" };
@@ -112,9 +113,11 @@ function plotQuantities({ info, forces }) {
         scale: curve === "paper" ? "paper" : "y" })) }]));
 }
 
+/** Returns true for forces and moments, whose units are N and N·m. */
 const isLoad = (curve) => curve.base.startsWith("N");
 
-/** Index of the row of forces.csv whose interval contains a time; null before the first. */
+/** Index of the row of forces.csv whose interval contains a time: of the first row for earlier times, of the last for
+ * later ones; null if there are no rows. */
 function rowAt(rows, time) {
   const times = rows.force_t_s;
   return times.length === 0 ? null : Math.min(times.length - 1, lastAtMost(times, time - 1e-9) + 1);
@@ -142,9 +145,9 @@ function rowsInColumn(plot) {
 
 const meanOf = (values) => values.reduce((sum, value) => sum + value / values.length, 0);
 
-/** Visible rows combined into columns: for each cause that is shown the mean, its upper and lower limit in the stack,
- * the sum, and the times between which each column lies [s]. Columns begin at multiples of their number of rows, so
- * that they do not change when the plot moves. */
+/** Visible rows combined into columns: the means of each cause that is shown, the line of the sum, the upper and lower
+ * limit of the whole stack, and the times between which each column lies [s]. Columns begin at multiples of their
+ * number of rows, so that they do not change when the plot moves. */
 function stackOf(plot) {
   const { ship } = plot.shownQuantity();
   const rows = plot.run.forces[ship];

@@ -59,6 +59,7 @@ const bytesOfBase64 = (text) => Uint8Array.fromBase64?.(text) ?? Uint8Array.from
 
 const columnTypes = { f64: Float64Array, i32: Int32Array, u8: Uint8Array };
 
+/** Columns with one value for each floe. */
 const floeRows = ["parent", "generation", "born_s", "died_s", "went_under_s", "came_up", "area_m2", "mass_kg",
   "thickness_m", "flexural_strength_Pa", "centroid_x_m", "centroid_y_m", "reach_m"];
 
@@ -104,8 +105,8 @@ function readRun(source) {
 }
 
 /** Columns of floes, named without units: died_s becomes `died`, went_under_s `wentUnder`. `reach` is the distance of
- * the farthest vertex from the centroid. `cameUp` is true for floes that surfaced from under a hull, and for their
- * pieces. */
+ * the farthest vertex from the centroid. `floatsUntil` is the time at which it broke or went under. `cameUp` is true
+ * for floes that surfaced from under a hull, and for their pieces. */
 function readFloes(columns) {
   const capital = (_, letter) => letter.toUpperCase();
   const nameOf = (column) => column.replace(/_(s|m|m2|kg|Pa)$/, "").replace(/_(.)/g, capital);
@@ -125,7 +126,9 @@ function readFloes(columns) {
   return floes;
 }
 
-/** Reads frames.bin (docs/run-folder.md) and sorts its records by floe. */
+/** Reads frames.bin (docs/run-folder.md) and sorts its records by floe. The records of a floe are those from
+ * recordsOf[floe] to before recordsOf[floe + 1], in ascending order of time: `recordFrame` is the frame of each, and
+ * `recordAt` the index in `doubles` of its six numbers, which motion.js names. */
 function readFrames(bytes, floeCount, shipCount) {
   const words = new Uint32Array(bytes.buffer, bytes.byteOffset, bytes.length >> 2);
   const doubles = new Float64Array(bytes.buffer, bytes.byteOffset, bytes.length >> 3);

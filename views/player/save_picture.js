@@ -2,7 +2,8 @@
 
 // The map has two pictures: the ice, and everything above it.
 
-/** Returns a function that draws the ice and the channels. */
+/** Returns a function that draws the ice and the channels. The picture of ice that hardly moves (draw_ice.js) is made
+ * for the next second of playback, but at least for 5 s of the run. */
 function makeIcePicture(player, canvas) {
   const { run, state, view, places, motions, colourings, range } = player;
   const start = startPlaces(run, motions, range[0]);

@@ -20,6 +20,7 @@ function shipAt({ info: { ships } }, motions, x, y) {
   });
 }
 
+/** An angle in degrees as text with one decimal. */
 const degreeWords = (degrees) => `${minus((Math.abs(degrees) < 0.05 ? 0 : degrees).toFixed(1))}\u00b0`;
 
 /** An angle [rad] as text in degrees from −180 to 180. */
@@ -57,7 +58,8 @@ function shipFacts(run, motions, index, time) {
   return facts;
 }
 
-/** Forces on a ship by cause: a row for each cause that acts in this run, a column for each direction, and sums. */
+/** Forces on a ship by cause at a time: a row for each cause that acts in this run, a column for each direction, and
+ * the sum of each column. A cell is null if the cause does not act in that direction. */
 function shipForces({ info: { force_causes: causes }, forces }, index, time) {
   const rows = forces[index];
   const row = rowAt(rows, time);
@@ -73,8 +75,8 @@ function shipForces({ info: { force_causes: causes }, forces }, index, time) {
   return { directions, table, sums };
 }
 
-/** A number as text in the unit of its column, with as many decimals as give the column's largest value three digits.
- * */
+/** A number as text in the unit of its column, which `factor` converts to. It has as many decimals as give the column's
+ * largest value three digits, at most three. */
 function cellWords(value, largest, factor) {
   const digits = Math.max(0, 2 - Math.floor(Math.log10(largest * factor || 1)));
   const text = (value * factor).toFixed(Math.min(3, digits));
@@ -135,7 +137,8 @@ function makeShownShip({ run, state, motions }) {
   };
 }
 
-/** Returns a function for the time at which the mooring of a ship broke; Infinity if it did not. */
+/** Returns an object whose `brokeAt` gives the time at which the mooring of a ship broke [s]; Infinity if it did
+ * not. */
 const readMoorings = (events) => ({
   brokeAt: (name) => events.find(({ kind, ship }) => kind === "mooring_break" && ship === name)?.t_s ?? Infinity,
 });

@@ -2,6 +2,7 @@
 
 // Sizes √area in classes with round limits, ten per decade.
 
+/** Lower limits of the classes of one decade [m]. */
 const roundSizes = [1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.3, 8];
 const leastClasses = 6; // least number of classes of the histogram
 
@@ -61,7 +62,8 @@ const sizeRangeWords = ({ from, below }) =>
 
 const paleness = 0.72; // fraction of the water's colour in floes outside the selected range
 
-/** Returns a colouring in which floes outside a range of sizes are pale. */
+/** Returns a colouring in which floes outside a range of sizes are pale: the bucket of a floe, the colour of each
+ * bucket, and the colour of its edge. A pale bucket precedes the others. */
 function paleOutOfSizes(colouring, floes, range, colours) {
   const bucketOf = (id) => classOf(colouring.value(id), colouring.edges);
   const edge = colours["ice-edge"];
@@ -82,8 +84,8 @@ const labelGap = 6; // least distance between labels below the histogram [px]
 const amountWords = (value, isArea) =>
   (isArea ? valueWords(value, "m\u00b2") : counted(value, "floe"));
 
-/** Adds a bar for each class to the histogram and returns the bars. As many round sizes as fit are shown below; they
- * are chosen again when the width changes. */
+/** Adds a bar for each class to the histogram and returns the bars. Sizes of 1, 2 and 5 × 10ⁿ are shown below, as far
+ * as they fit; they are chosen again when the width changes. */
 function fillHistogram(host, { edges }) {
   const bars = edges.slice(1).map(() => make("i"));
   const labels = edges.map((edge, k) => make("span", { style: `left: ${(100 * k) / bars.length}%` },

@@ -3,7 +3,7 @@
 
 const nearMark = 5; // largest distance between the pointer and a mark that is hit [px]
 const markedHeight = 23; // marks are in this part of the timeline, measured from its top [px]
-/** Height of the mark of each kind of event, from the top [px]. */
+/** Distance of the centre of the mark of each kind of event from the top of the timeline [px]. */
 const markHeights = { split: 7, bend: 18, grind: 18, rejected_cut: 18, mooring_break: 7 };
 
 /** Returns true if an event has a mark. Ice that goes under a hull or surfaces has none, because there is one for each
@@ -64,7 +64,8 @@ function drawTimeline(track, { width, pixelOf }, events, colours) {
     drawEventMark(context, pixelOf(event.t_s), markHeights[event.kind], event.kind, 4.5, colours);
 }
 
-/** Index of the event whose mark is nearest to a point. Marks of splits are above those of bends. */
+/** Index of the event whose mark is within `nearMark` of a point and nearest to it; null if there is none. The
+ * distance is measured along the timeline. A mark more than 9 px above or below the point counts as 3 px farther. */
 function eventAt(events, { pixelOf }, px, py) {
   let best = null;
   let least = nearMark;

@@ -34,8 +34,9 @@ std::vector<double> rays_towards_edge(double from, double edge, int columns);
 Eigen::MatrixXd surface_flux(const PanelMesh& mesh);
 
 /// Returns the added mass of the water under the panels, in ρ_w l³: the kinetic energy of the flow that moves the water
-/// surface of each panel at the velocity u_i is ½ uᵀ S N⁻¹ S u. One-sided potential flow with φ = 0 on z = 0 outside of
-/// the panels. Empty if N is not positive definite, for example for an unusable mesh.
+/// surface of each panel at the velocity u_i is ½ uᵀ S N⁻¹ S u, with the diagonal matrix S of the areas. One-sided
+/// potential flow with φ = 0 on z = 0 outside of the panels. Empty if N is not positive definite, for example for an
+/// unusable mesh.
 Eigen::MatrixXd added_mass(const PanelMesh& mesh);
 
 }  // namespace polynya::fracture

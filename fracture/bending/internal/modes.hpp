@@ -43,9 +43,10 @@ struct WedgeMatrices {
   Eigen::MatrixXd stiffness;
 };
 
-/// Assembles the matrices. `half_angle` is α in (0, π] [rad], `mass_ratio` is m̂ = ρ_i h / (ρ_w l) > 0.
+/// Assembles the matrices. `mass_ratio` is m̂ = ρ_i h / (ρ_w l) > 0.
 WedgeMatrices assemble_wedge(const PlateMesh& mesh, double mass_ratio, const SolverSettings& settings);
 
+/// Returns the modes of a wedge. `half_angle` is α in (0, π] [rad], `mass_ratio` is m̂.
 WedgeModes wedge_modes(double half_angle, double mass_ratio, const SolverSettings& settings);
 
 /// Returns the modal amplitudes of the static solution for a unit load on the tip.
