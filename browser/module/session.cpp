@@ -47,7 +47,6 @@ std::string words_of(const io::LoadedScene& scene) {
   json.key("floes").value(scene.scene.floes.size()).key("memory_bytes").value(memory.all_moving);
   json.key("limit_bytes").value(io::memory_available().bytes).key("ships").value(scene.scene.ships.size());
   json.key("memory_at_start_bytes").value(memory.at_start).key("hash").value(scene.hash);
-  json.key("circle_radius_m").value(scene.scene.contact.circle_radius);
   write_ships(json, scene.scene);
   json.close('}');
   text.pop_back();

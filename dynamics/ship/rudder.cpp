@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "elementary/elementary.hpp"
-
 #include "geometry/shape/point.hpp"
 
 namespace polynya::dynamics {

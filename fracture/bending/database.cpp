@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "elementary/elementary.hpp"
-
 #include "fracture/bending/wedge_solver.hpp"
 #include "geometry/shape/angle.hpp"
 

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "elementary/elementary.hpp"
-
 #include "fracture/characteristic_length.hpp"
 #include "geometry/shape/angle.hpp"
 

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "elementary/elementary.hpp"
-
 #include "geometry/cut/internal/arrangement.hpp"
 #include "geometry/cut/internal/cut_paths.hpp"
 #include "geometry/cut/internal/snap_rounding.hpp"

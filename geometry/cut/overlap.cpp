@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "elementary/elementary.hpp"
-
 #include "geometry/cut/internal/arrangement.hpp"
 #include "geometry/cut/internal/cut_paths.hpp"
 #include "geometry/exact/measures.hpp"

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "elementary/elementary.hpp"
-
 #include "fracture/bending/fsi_database_model.hpp"
 #include "fracture/bending/published_forms.hpp"
 #include "fracture/characteristic_length.hpp"

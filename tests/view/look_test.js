@@ -37,7 +37,8 @@ test("untouched floes, what is left of a plate, and cusps have the colours that 
   const breakage = await page.player(({ colourings }, ids) => ids.map((id) => colourings.breakage.value(id)), left);
   assert.deepEqual([...new Set(breakage.slice(1))], [3], "all others are broken off by bending");
   assert.equal(breakage[0], 1);
-  assert.deepEqual(Object.keys(legend), ["whole", "cut", "broken off by bending"], "nothing was split here");
+  assert.deepEqual(Object.keys(legend), ["whole", "cut", "broken off by bending or grinding"],
+    "nothing was split here");
 });
 
 test("what became of a floe follows from its lineage and its area", () => {

@@ -1,7 +1,7 @@
 // Colours of the ice: the history of each floe, the palette, and the legend below the map.
 
-// History of a floe, from its lineage and area: whole, cut, split off, broken off by bending, or surfaced from under a
-// hull.
+// History of a floe, from its lineage and area: whole, cut, split off, broken off by bending or grinding, or surfaced
+// from under a hull.
 
 const breakages = { whole: 0, cut: 1, split: 2, bend: 3, cameUp: 4 };
 // A piece with at least this fraction of the area of the scene's floe counts as the cut floe, not as a piece broken off
@@ -92,7 +92,7 @@ function makeColourings(run, places, most) {
     ({ title, edges, colours: ramps[name], value, words, isUsed: () => true });
   return {
     breakage: { ...colouring("breakage", "Ice", [1, 2, 3, 4], (id) => breakageOf[id], ["whole",
-      "cut: what is left of a floe", "split off", "broken off by bending", "came up from under the hull"]),
+      "cut: what is left of a floe", "split off", "broken off by bending or grinding", "came up from under the hull"]),
     isUsed: (k) => breakageOf.includes(k) },
     generation: colouring("generation", "Fractures since the scene", generations, (id) => floes.generation[id],
       ["none", ...generations.map((edge, k) => countWords(edge, generations[k + 1]))]),

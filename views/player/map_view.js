@@ -69,12 +69,10 @@ function extentOf(run, motions, places, range) {
   }
   info.ships.forEach((ship, index) => {
     const reach = Math.max(...ship.waterline_m.map(([x, y]) => Math.hypot(x, y)));
-    const width = Math.max(...ship.waterline_m.map(([, y]) => Math.abs(y)));
     for (let f = 0; f < frames.times.length; ++f) {
-      const [x, y, heading] = motions.shipInFrame(index, f);
-      const along = [Math.cos(heading) * reach, Math.sin(heading) * reach];
-      include(x - along[0], y - along[1] - width);
-      include(x + along[0], y + along[1] + width);
+      const [x, y] = motions.shipInFrame(index, f);
+      include(x - reach, y - reach);
+      include(x + reach, y + reach);
     }
   });
   if (!(box.right > box.left)) return { left: -50, right: 50, bottom: -50, top: 50 };

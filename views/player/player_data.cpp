@@ -383,7 +383,6 @@ std::string info_of(const io::Run& run, const PlayerData& data, const PlayerSele
   json.key("floes").value(data.floes).key("floes_of_run").value(run.floes.size());
   if (const auto& area = selection.area)
     json.key("area_m").list(std::array{area->low.x, area->low.y, area->high.x, area->high.y});
-  json.key("circle_radius_m").value(scene.contact.circle_radius);
   json.key("forces_interval_s").value(recording_interval(scene));
   json.key("splits_by_j_over_tau_c").value(splits_by_j_over_tau_c(scene));
   write_summary(json, run);
