@@ -102,8 +102,9 @@ void push_ships(const Setup& setup, const Step& step, std::span<const dynamics::
 void pull_of_submerged_ice(const Setup& setup, const Step& step, Population& population, std::vector<HullLoads>& loads,
                            AuditSums& audit);
 
-/// Moves ships by water, engine, steering and mooring (ship/sailing.hpp). It must be the last stage that gives impulses
-/// to ships, because the added mass of the water takes its part of all other impulses.
+/// Moves ships by water, engine, steering and mooring (ship/sailing.hpp). The stages before it give their impulses to
+/// ships without added mass, and the added mass takes its part of them here. It takes no part of later impulses, those
+/// by which apply_fractures() brakes ships.
 void sail(const Setup& setup, const Step& step, StepData& data, Population& population, Accounts& accounts);
 
 /// Law of impulses: pushes overlaps apart, over several steps. Adds the work that this does on moorings to the
