@@ -365,11 +365,11 @@ class Obstacles {
   std::vector<Box> boxes_;
 };
 
-/// Rules by which floes shrink where they are forbidden.
+/// Rules by which floes shrink where they are forbidden (Obstacles::forbid).
 struct GivingWay {
   int tries = 1;        ///< number of sizes in which a floe is tried, each 3 % shorter, before it is left out
   int rounds = 1;       ///< number of rounds in which the other floes grow to replace the lost area
-  double rounding = 0;  ///< distance by which floes may be nearer than the gap, because of rounding [m]
+  double rounding = 0;  ///< distance by which floes may be nearer to areas kept clear than the gap [m]
 };
 
 /// Returns the rules of a field. With a law, cells are cut along boundaries, and rounding may place their edges across
@@ -379,7 +379,8 @@ GivingWay giving_way_of(const FloeField& field) {
   return field.law ? GivingWay{12, 4, 1e-9} : GivingWay{};
 }
 
-/// Returns the factor λ with Σ min(λ wanted, room) = total, found by bisection [-].
+/// Returns the factor λ with Σ min(λ wanted, room) = total, found by bisection between 0 and 64 [-]. It is 64 if the
+/// candidates have too little room for the total.
 double common_factor(const std::vector<Candidate>& candidates, double total) {
   double low = 0;
   double high = 64;

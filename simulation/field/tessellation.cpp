@@ -160,7 +160,8 @@ constexpr int kMostExtras = 6;
 /// Number of conjugate-gradient iterations in each of these passes. Fewer leave errors of the areas above 1 %.
 constexpr int kIterations = 12;
 
-/// Returns at least `count` points in the free area: one at random in each cell of a grid.
+/// Returns at least `count` points in the free area: one at random in each cell of a grid. Returns fewer if a grid of
+/// 1e9 cells over the bounding box would not be fine enough.
 std::vector<Point> scatter_points(const FreeArea& free, double count, Random& random) {
   const Box box = bounding_box(free.hull());
   const Vector extent = box.high - box.low;
@@ -410,7 +411,8 @@ class Relaxation {
   }
 
   /// Moves the sites to the centroids of their cells, and changes each weight by the error of its own cell alone. This
-  /// is stable far from the solution.
+  /// is stable far from the solution. The growth of a cell per unit of weight counts as at least 0.5, so that the
+  /// weights of cells with short common edges do not jump.
   void move() {
     // Factor on the change of a weight [-]; above 1, the weights of neighbours overshoot in turn, and cells vanish.
     constexpr double kDamping = 0.6;
@@ -433,8 +435,9 @@ class Relaxation {
     }
   }
 
-  /// Moves sites without a cell to the farthest corners of cells that are too large. Returns false if all sites have
-  /// cells.
+  /// Moves sites without a cell to the farthest corners of cells that are too large. The weight makes a site's power at
+  /// that corner smaller than its host's by half of the squared radius of a disc with its area, so that it gets a cell
+  /// there. Returns false if all sites have cells.
   bool move_lost_sites() {
     std::vector<std::size_t> lost;
     for (std::size_t i = 0; i < sites_.size(); ++i) {

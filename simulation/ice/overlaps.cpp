@@ -198,7 +198,8 @@ namespace {
 /// more overlap that nothing removes. Smaller values cut floes for overlaps that separate soon by themselves.
 constexpr double kLeastInseparableShare = 0.005;
 
-/// Returns the criterion by which an inseparable overlap is ground.
+/// Returns the criterion by which an inseparable overlap is ground. For a body that lies wholly inside the other, the
+/// overlap is the smaller body itself, and kInseparableShare applies to its mean width, area / (2 × bounding radius).
 GrindCriterion criterion_of(const Population& population, const InseparableOverlap& overlap) {
   const dynamics::Bodies& bodies = population.bodies;
   const double smaller = smaller_area(population, overlap.a, overlap.b);
@@ -253,8 +254,8 @@ namespace {
 
 /// Smallest crushed overlap that is cut off a floe while the contact lasts, as a fraction of the area of the smaller
 /// body [-]. After the contact has ended, h² is the limit if it is smaller. Smaller values replace floes by new ones at
-/// every touch. As much again may overlap without having pressed, so bodies that separate may be left with an overlap
-/// of twice this fraction, 1 %; larger values leave more.
+/// every touch; larger values leave more overlap. As much again may overlap without having pressed, so bodies that
+/// separate may be left with an overlap of twice this fraction, 1 %.
 constexpr double kLeastCrushedShare = 0.005;
 
 /// Returns the smallest crushed overlap that is cut off after a contact has ended [m²].

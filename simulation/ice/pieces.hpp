@@ -17,7 +17,7 @@ struct Breakage {
   /// Flow to which the kinetic energy of ice that leaves the floe list is added.
   double EnergyFlows::*energy_sink = nullptr;
   std::int64_t Counts::*count = nullptr;
-  bool has_decks = false;  ///< the hull carries the water that is missing on submerged ice (add_decks)
+  bool has_decks = false;  ///< true if pieces that go under the hull have a PressedDeck (add_decks)
 };
 
 /// Replaces a floe by the pieces of its cut: floes, ice under a hull, submerged ice and brash. Floes move on as parts

@@ -17,7 +17,8 @@ namespace {
 using dynamics::Contact;
 using geometry::Vector;
 
-/// A crack that a body may open in a floe, with its opening force and capacity.
+/// A crack that a body may open in a floe, with its opening force and capacity. Its share is the opening force divided
+/// by the capacity [-]; the crack runs from 1 on.
 struct CrackCandidate {
   CrackMouth mouth;
   /// Place at which the crack begins: the edge of the ice that the body has not crushed, in the water frame [m].
@@ -40,7 +41,8 @@ struct StraightCrack {
 };
 
 /// Returns the straight crack from a mouth. A crack begins where the body that opens it ends, at ice that is not
-/// crushed. Returns nullopt if there is no ice in its direction, or if the crack would lead into that body.
+/// crushed. Returns nullopt if there is no ice in its direction, if the path would begin behind that body, or if the
+/// crack would lead into the body again farther on.
 std::optional<StraightCrack> straight_crack(const dynamics::Bodies& bodies, BodyIndex floe, const CrackMouth& mouth) {
   const Vector direction = mouth.direction;
   const BodyIndex by = other_of(*mouth.contact, floe);
@@ -176,9 +178,10 @@ std::optional<CrackCandidate> crack_candidate(const Setup& setup, const Populati
   return candidate;
 }
 
-/// Number of directions on either side of a contact's normal in which cracks are tried, besides the normal itself, and
-/// the angle between them: 15° [rad]. More directions find the weakest crack more closely and cost time in proportion.
+/// Number of directions on either side of a mouth's own direction in which cracks are tried. With more directions the
+/// weakest crack is found more closely; the time grows in proportion.
 constexpr int kDirectionsASide = 5;
+/// Angle between these directions, 15° [rad], so that cracks are tried up to 75° to either side.
 constexpr double kBetweenDirections = std::numbers::pi / 12;
 
 /// Copies the measures and forces of a crack.

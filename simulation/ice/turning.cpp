@@ -76,9 +76,9 @@ FloeId submerged_below(const Population& population, Point p) {
 /// Smaller values find no neighbour behind gaps from rounding. Larger values may miss narrow neighbours.
 constexpr double kBeside = 0.01;
 
-/// Returns the neighbour of the edge of a cusp from a to b: the ice sheet, an older cusp, or open water. The outline of
-/// the cusp is counter-clockwise in its floe's body frame. The x axis of the result's frame is the direction in which
-/// the hull pushes the cusp (ahead_of).
+/// Returns the neighbour of the edge of a cusp from a to b: the ice sheet for an edge on the cusp's circle, and for the
+/// others an older cusp or open water. The outline of the cusp is counter-clockwise in its floe's body frame. The x
+/// axis of the result's frame is the direction in which the hull pushes the cusp (ahead_of).
 fracture::DeckEdge deck_edge(const Setup& setup, const Population& population, const PendingFracture& bend, Point a,
                              Point b) {
   const Vector ahead = ahead_of(population, bend);
@@ -112,7 +112,7 @@ fracture::Deck deck_of(const Setup& setup, const Population& population, const P
 }
 
 /// Turns a cusp further by the displacement of its hull in the step, and applies the force of the missing water to the
-/// hull.
+/// hull: its part along the normal pushes the hull ahead, and its part down on the edge brakes the hull.
 void press(const Setup& setup, const Step& step, PressedDeck& pressed, dynamics::Bodies& bodies, HullBooks books) {
   const BodyIndex ship = pressed.ship;
   const Vector arm = rotate(bodies.rotation[ship], pressed.arm_in_ship);

@@ -106,7 +106,8 @@ double distance_to_port(const Setup& setup, const dynamics::Bodies& bodies, cons
   return std::clamp(rotate_back(bodies.rotation[piece.ship], from_ship).y, -half_beam, half_beam);
 }
 
-/// Adds the work on one piece in a step of length dt [s], and its area.
+/// Adds the work on one piece in a step of length dt [s], and its area. The work presses the piece down under the bow
+/// and overcomes friction along the hull; both grow with speed by Lindqvist's factor.
 void add_piece(const Setup& setup, double dt, const Population& population, const SubmergedPiece& piece, Pull& pull) {
   const dynamics::SubmersionPath& path = setup.underwater[piece.ship].path;
   if (piece.path >= std::max(path.bow, path.sliding)) return;  // behind the hull
@@ -115,7 +116,8 @@ void add_piece(const Setup& setup, double dt, const Population& population, cons
   const double to = piece.path + pull.speed * dt;
   const double friction = setup.scene.ice.friction;
   const double steady = path.risen_over(piece.path, to) + friction * path.slid_over(piece.path, to);
-  // The decks of cusps have given the bow's part of the growth with speed; the friction behind the bow is left.
+  // The force on a deck (PressedDeck) contains the growth with speed under the bow, so that only the growth of the
+  // friction behind the bow is added here.
   const double growing = piece.had_deck ? friction * path.slid_behind_bow_over(piece.path, to) : steady;
   const double work = piece.weight * (steady + (pull.factor - 1) * growing);
   if (work == 0) return;
@@ -247,8 +249,8 @@ bool has_room(const Population& population, const geometry::Boundary& piece, con
   return has_room;
 }
 
-/// Returns true if the place of a piece overlaps another piece that has not surfaced yet and has the right to its
-/// place. `centre` is the centre of mass of the piece at the place.
+/// Returns true if the place of a piece overlaps another piece that has not surfaced yet, and so needs its own place
+/// above itself. `centre` is the centre of mass of the piece at the place.
 bool is_over_another(const Population& population, const SubmergedPiece& submerged, const geometry::Boundary& piece,
                      const Pose& water_from_piece, Point centre) {
   const dynamics::Bodies& bodies = population.bodies;
@@ -314,6 +316,7 @@ class Resurfacing {
     const geometry::Boundary boundary = geometry::make_outline(polygon);
     const Pose in_place = dynamics::water_from_body(population_.bodies, body);
     if (is_under_hull(population_, boundary, in_place)) return;  // the piece is still below a hull
+    // The draws depend on nothing but the scene's seed, the floe and the tick, so a resumed run makes the same draws.
     Random random(setup_.scene.seed ^ (static_cast<std::uint64_t>(submerged.floe) << 32U) ^
                   static_cast<std::uint64_t>(whole_ticks_));
     for (int i = 0; i < kPlaces; ++i) {
@@ -321,6 +324,7 @@ class Resurfacing {
       const Place place = scattered(population_.bodies, body, std::sqrt(floe.area), share * settings_.scatter, random);
       if (!has_room(population_, boundary, place.water_from_body)) continue;
       const Point centre = transform(place.water_from_body, population_.bodies.centroid[body]);
+      // At its own place, with share 0, a piece surfaces even if another one lies below it.
       if (share > 0 && is_over_another(population_, submerged, boundary, place.water_from_body, centre)) continue;
       return surface(submerged, polygon, place);
     }

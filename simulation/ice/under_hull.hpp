@@ -8,7 +8,7 @@ namespace polynya::simulation {
 struct FloeAtHull {
   FloeId floe = 0;
   int ship = 0;
-  bool has_deck = false;  ///< the hull carries the water that is missing on the floe's deck (SubmergedPiece)
+  bool has_deck = false;  ///< true for a cusp with a PressedDeck (SubmergedPiece::had_deck)
 };
 
 /// Puts a floe under a ship's hull. The floe takes part in no contact any more and is at rest in the water. Its kinetic

@@ -116,7 +116,7 @@ namespace {
 /// line. Larger: it cuts corners.
 constexpr double kLookAhead = 1.5;
 /// Distance before a sharp corner at which a ship begins to turn, in ship lengths [-]. Larger: it cuts the corner.
-/// Smaller: it overshoots the corner.
+/// Smaller: it overshoots the corner. Within the same distance of the floe to which it sails, the floe is reached.
 constexpr double kTurnBefore = 0.5;
 /// Smallest drift of the ice from which the upstream direction is computed [m/s]. With a slower drift the last
 /// direction is kept.
@@ -195,7 +195,8 @@ Point point_ahead(const PatternLine& line, double place, double ahead) {
   return line.corners[line.next(leg)] + (ahead - left) * line.direction(leg);
 }
 
-/// Returns the factor on the speed of a ship that keeps its phase relative to the other ships of its pattern [-].
+/// Returns the factor on the speed of a ship that keeps its phase relative to the other ships of its pattern [-]. It is
+/// above 1 if the others are ahead of their phases on average.
 double pace(const ManagingPilot& pilot, const PilotView& view, double own_place) {
   double error = 0;
   for (const PatternPartner& partner : pilot.partners) {
@@ -302,7 +303,7 @@ Vector clear_of(const SeenHull& other, bool stands, double distance, const Pilot
 }
 
 /// Returns a velocity over ground that keeps clear of all ships, of all structures and of the protected body, which is
-/// considered last.
+/// considered last and has therefore priority. Distances are between centres (ManagingPilot::safety_radius).
 Vector clear_of_all(const ManagingPilot& pilot, const PilotView& view, Vector velocity) {
   const auto distance_to = [&](const SeenHull& other) {
     return pilot.safety_radius > 0 ? pilot.safety_radius : view.own().length + other.length;

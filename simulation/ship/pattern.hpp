@@ -27,7 +27,8 @@ struct PatternLine {
   bool is_sharp_after(std::size_t leg) const;
 };
 
-/// Returns the line of a pattern. The pattern kLargestFloe has none; its result is not used.
+/// Returns the line of a pattern. The pattern kLargestFloe has no line; it gets the ellipse of kCircular, which no ship
+/// follows.
 PatternLine line_of(const ManagingPilot& pilot);
 
 /// Returns the smallest distance between two ships that sail round a pattern together, one of them ahead by a fraction

@@ -25,8 +25,8 @@ struct ShipInStep {
   double moment = 0;  ///< moment of inertia of the ship [kg m²]
   Planar now;         ///< velocity ν after the step's other impulses, in the water frame [m/s, rad/s]
   Planar start;       ///< velocity at the start of the step, before these impulses [m/s, rad/s]
-  /// Velocity at the start, in the ship's axes of the previous step, in which the momentum of the added mass was
-  /// computed [m/s, rad/s].
+  /// Velocity at the start, in the ship's axes of the previous step. The momentum of the added mass at the end of that
+  /// step was computed in those axes [m/s, rad/s].
   Planar before_turn;
   Planar of_current;  ///< velocity of the current around the ship [m/s, rad/s]
   Planar of_ground;   ///< velocity of the ground in the water frame [m/s, rad/s]
@@ -170,8 +170,8 @@ double horizontal_force(const MooringSettings& mooring, const Offset& offset, Pl
                            in_mooring.y - mooring.sway_stiffness * offset.shift.y);
 }
 
-/// Breaks a mooring at the end of the step if its force exceeds its break load. The energy that it stores is added to
-/// `lost`, and the event to `breaks`.
+/// Breaks a mooring at the end of the step if its force exceeds its break load; one with the break load 0 never breaks.
+/// The energy that it stores is added to `lost`, and the event to `breaks`.
 void break_mooring(const MooringSettings& mooring, const Step& step, const Offset& offset, double force, BodyIndex i,
                    Population& population, double& lost, std::vector<Event>& breaks) {
   if (mooring.break_load <= 0 || force <= mooring.break_load) return;

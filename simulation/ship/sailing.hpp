@@ -15,7 +15,7 @@ struct Sailing {
   dynamics::HullInWater hull;  ///< hull in the water; without any force if no water acts on it
   std::optional<dynamics::Engine> engine;
   std::optional<dynamics::Rudder> rudder;
-  double stern = 0;          ///< x of rudder or thrusters from the centre of gravity [m]
+  double stern = 0;          ///< x of rudder or thrusters in the ship's frame: the aft end of the waterline [m]
   double steering_rate = 0;  ///< rate at which rudder or thrusters turn [rad/s]
   double steering_most = 0;  ///< largest angle to either side; 0 for a ship that cannot be steered [rad]
   /// True if the ship has thrusters that turn instead of rudders.

@@ -6,7 +6,9 @@
 
 namespace polynya::simulation {
 
-/// An instant of a run, and the position of the water frame at that time.
+/// An instant of a run, and the position of the water frame at that time. Positions and velocities of bodies are in the
+/// water frame. The frame moves over ground with the drift and tide of the water, without the sheared current; it never
+/// turns.
 struct Instant {
   double time = 0;         ///< time since the start of the run [s]
   geometry::Vector drift;  ///< displacement of the water frame over ground since the start [m]
@@ -34,7 +36,7 @@ struct Clock {
 
 /// Returns true if a multiple of an interval [s] lies in the tick that the clock has just completed. An instant that a
 /// scene asks for, for example of a frame, is therefore rounded up to the end of a tick; no step is made shorter for
-/// it.
+/// it. An interval that is shorter than a tick is due in every tick.
 bool is_due(const Clock& clock, double interval);
 
 }  // namespace polynya::simulation

@@ -16,8 +16,9 @@ namespace {
 
 /// Round tick lengths from which default_tick() chooses, the longest first [s].
 constexpr std::array kTickChoices{0.1, 0.05, 0.025, 0.02, 0.01, 0.005, 0.0025, 0.002, 0.001, 0.0005};
-/// Number of parts that a tick needs for the fastest hull at its full speed [-]. More would leave too few parts for ice
-/// that breaks faster than that; fewer would make ticks short where a ship is slower than she can be.
+/// Number of parts that a tick may need for the fastest hull at its full speed [-], a quarter of kMostParts. The other
+/// parts are left for ice in which a hull must move less, and for ticks with many bends (Pace::finer). A larger value
+/// leaves too few parts for these; a smaller one makes ticks shorter than a ship below her full speed needs.
 constexpr double kPartsAtFullSpeed = 8;
 /// Speed in ice that is assumed of a ship with a constant thrust [m/s], because the scene does not give it. A larger
 /// value makes ticks shorter; with a smaller one, ticks of faster ships need more parts.
@@ -43,8 +44,8 @@ double wind_drift(const Scene& scene) {
   return fastest;
 }
 
-/// Returns the greatest speed of a floe at the start [m/s], with `drift_of_others` [m/s] added to that of fast ice,
-/// whose velocity is over ground: ice that drifts meets it with both.
+/// Returns the greatest speed of a floe at the start [m/s]. The speed of fast ice is over ground, and drifting ice may
+/// move towards it: `drift_of_others` [m/s] is therefore added to the speed of fast ice.
 double fastest_floe(const Scene& scene, double drift_of_others = 0) {
   double fastest = 0;
   for (const FloeSpec& floe : scene.floes)
@@ -93,7 +94,7 @@ double displacement_in_most_ice(const Scene& scene) {
   return found == ice.end() ? ice.back().first : found->first;
 }
 
-/// Returns the longest tick in which no body moves too far [s].
+/// Returns the longest tick that satisfies the conditions on the motion of bodies (default_tick.hpp) [s].
 double longest_tick(const Scene& scene) {
   const double radius = scene.contact.circle_radius;
   const double displacement = displacement_in_most_ice(scene);
@@ -103,8 +104,8 @@ double longest_tick(const Scene& scene) {
                    kDisplacementOverRadius * radius / fastest_rim(scene)});
 }
 
-/// Returns the longest of the choices that is no longer than a time and goes whole into each interval [s]; where none
-/// does, the longest that is no longer than that time, or the shortest choice.
+/// Returns the longest of the choices that is no longer than a time and divides each interval [s]. If no choice does,
+/// the intervals are ignored. If all choices are longer than the time, returns the shortest one.
 double chosen_tick(double longest, std::initializer_list<double> intervals) {
   const auto goes_into = [](double tick, double interval) {
     const double times = std::round(interval / tick);

@@ -5,10 +5,12 @@
 namespace polynya::simulation {
 
 /// Returns the tick of a scene that does not give one [s]. It is the longest of a list of round numbers that satisfies
-/// three conditions. It divides the intervals of the records into whole numbers of ticks. No hull at full speed in the
-/// thinnest ice needs more than a quarter of kMostParts parts; with the law of impulses, which has no parts, a hull
-/// stays within allowed_displacement() (parts.hpp) in a tick. No floe moves too far in a step at its initial speed. The
-/// tick does not depend on the end of the run, so that a run that is ended early and resumed is the same run.
+/// three conditions. It divides the intervals of the records into whole numbers of ticks. No hull at full speed needs
+/// more than a quarter of kMostParts parts in 95 % of the ice by area; with the law of impulses, which has no parts, a
+/// hull stays within allowed_displacement() (parts.hpp) of that ice in a tick. No floe at its initial speed moves
+/// farther in a tick than that displacement, and no point of its rim farther than a quarter of the contact circles'
+/// radius. The tick does not depend on the end of the run, so that a run that is ended early and resumed is the same
+/// run.
 double default_tick(const Scene& scene);
 
 /// Returns the tick without the condition on the intervals of the records [s]. It is longer than default_tick() only if

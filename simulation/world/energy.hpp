@@ -9,8 +9,9 @@ namespace polynya::simulation {
 /// happens. Whether all flows together explain the kinetic energy is checked by audit(); no entry is computed from the
 /// others.
 struct EnergyFlows {
-  /// Inflow: work of propellers and of bodies of prescribed motion, fast ice included. That of moorings is in
-  /// MooringFlows.
+  /// Inflow: work of propellers, of constant thrust, of forces from outside (World::external_forces) and of bodies of
+  /// prescribed motion, fast ice included; and the kinetic energy of pieces that break off fast ice. The work of
+  /// moorings is in MooringFlows.
   double thrust = 0;
   /// Inflow: work of a sheared current that carries ice along.
   double current = 0;
@@ -40,7 +41,7 @@ struct EnergyFlows {
 
 /// External impulses on all bodies whose motion is not prescribed, in the water frame, summed over all steps [N s].
 struct MomentumFlows {
-  /// Impulse of the propellers and of constant thrust on ships [N s].
+  /// Impulse of the propellers, of constant thrust and of forces from outside on ships [N s].
   geometry::Vector thrust;
   /// Impulse of moorings, of contacts with bodies of prescribed motion, and the momentum of pieces that break off fast
   /// ice [N s].
@@ -73,7 +74,7 @@ struct MooringFlows {
   double ground = 0;      ///< inflow: work of the ground, which moves in the water frame, through moorings on ships
   double damping = 0;     ///< outflow: work of ships on the dampers of moorings
   double breaking = 0;    ///< outflow: energy that moorings stored when they broke
-  double separation = 0;  ///< inflow: work on springs where the law of impulses pushes overlaps apart
+  double separation = 0;  ///< inflow: change of the stored energy when separate_overlaps() moves ships
 };
 
 /// Sums from which an audit is made: the state at the start and all flows since then.

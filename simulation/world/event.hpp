@@ -39,7 +39,7 @@ struct GrindCriterion {
 /// off, and for a floe that the scene puts under a hull at the start.
 struct TiltCriterion {
   double deflection = 0;        ///< downward deflection w of the floe's edge [m]
-  double least_deflection = 0;  ///< deflection c_g h at which the floe goes under [m]
+  double least_deflection = 0;  ///< deflection at which it goes under, TiltSettings::edge_deflection × thickness [m]
   double vertical_force = 0;    ///< downward force V of the hull on the edge, mean of the step [N]
   double capacity = 0;          ///< largest vertical force V_rot that the floe resists [N]
   double covered_share = 0;     ///< fraction of the floe's area inside the hull; above 0.5 the floe goes under [-]
@@ -122,7 +122,8 @@ struct Resurface : IceEvent {
   ResurfaceCriterion criterion = {};
 };
 
-/// Event: a piece of ice from under a hull found no space to surface, or may not, and stays under the ice for good.
+/// Event: a piece of ice from under a hull stays under the ice for good, because it found no space to surface or
+/// because the scene lets no ice surface (ResurfaceSettings::is_enabled).
 struct StayUnder : IceEvent {
   static constexpr std::string_view kName = "stay_under";
   ResurfaceCriterion criterion = {};
@@ -187,7 +188,9 @@ struct DecidingLoad {
   double load = 0;                 ///< value of the load [N]
   double capacity = 0;             ///< value of the capacity [N]
 };
-/// Returns the deciding load of a bend, or of a split if `is_split` is true.
+/// Returns the deciding load of a bend, or of a split if `is_split` is true. That of a split is the collision force if
+/// the paper's rule decides splits, the contact force if the floe broke as a beam, and otherwise the opening force of
+/// the crack.
 DecidingLoad deciding_load(const fracture::FailureCriteria& criteria, bool is_split);
 
 }  // namespace polynya::simulation

@@ -43,8 +43,8 @@ struct HullSample {
   double time = 0;            ///< end of the interval [s]
   int ship = 0;               ///< number of the hull in the scene
   dynamics::Planar from_ice;  ///< force of the ice around the hull: impulse / interval [N, N m]
-  /// Impulse of that ice that was missed before contacts were found and is booked in later intervals (CarriedLoad) [N
-  /// s, N m s].
+  /// Impulse of that ice that contacts missed before they were found and that is not booked yet at the end of the
+  /// interval (CarriedLoad). `from_ice` of later intervals contains it [N s, N m s].
   dynamics::Planar carried;
   /// Largest force of the ice around the hull in a single step, by magnitude and for each component [N, N m].
   dynamics::Planar from_ice_largest;
@@ -143,7 +143,8 @@ struct PanelSample {
 /// Records of a run since the journal was last cleared. The caller writes them and clears the journal.
 struct Journal {
   /// Number of births above which clear() frees the memory of the births. A scene may add a million floes at once,
-  /// while one step breaks off far fewer. Smaller values free and allocate memory in every step.
+  /// while one step breaks off far fewer. Smaller values free and allocate memory in every step; larger ones keep
+  /// memory that is not needed again.
   static constexpr std::size_t kManyBirths = 1000;
   std::vector<Event> events;
   std::vector<Birth> births;
@@ -211,7 +212,9 @@ struct Counts {
   std::int64_t rejected_cuts = 0;   ///< number of cuts that geometry refused
   std::int64_t floated_cusps = 0;   ///< number of pieces of cusps that float as floes (CuspFate::kFloat)
   std::int64_t brash_pieces = 0;    ///< number of pieces that became brash
-  std::int64_t snap_rounded = 0;    ///< number of pieces whose nearest doubles did not form a valid polygon
+  /// Number of pieces whose vertices, rounded to the nearest doubles, did not form a valid polygon. They are rounded
+  /// to a lattice (docs/geometry.md, "Rounding that stays valid").
+  std::int64_t snap_rounded = 0;
   /// Number of cusps that broke under a load outside the range of the bending model's data. Loads that did not reach
   /// V_b are not counted.
   std::int64_t database_out_of_range = 0;
@@ -230,7 +233,8 @@ struct Counts {
   double largest_residual = 0;
   /// Energy that contacts created by error [J]: the sum of their net work over all steps in which it was positive.
   double energy_created = 0;
-  /// Number of overlap stretches that had no contact in a step because rounding left their boundary crossings unpaired.
+  /// Number of overlaps, summed over all steps, that had no contact because rounding left a crossing of the two
+  /// boundaries without its partner.
   std::int64_t unpaired_stretches = 0;
   std::int64_t steps = 0;          ///< number of whole ticks
   std::int64_t steps_taken = 0;    ///< number of time steps: the parts of all ticks

@@ -57,8 +57,9 @@ double moving() {
   return block(sizeof(dynamics::DragShape)) + kPairs * (sizeof(dynamics::Pair) + near);
 }
 
-/// Memory of the covers of boundaries that are kept, which have one piece for each contact circle. Floes with few edges
-/// have no cover. The estimate leaves out the covers that such floes get beside a plate with many edges.
+/// Memory of the covers of boundaries that are kept, which have one piece for each contact circle. Two floes with at
+/// most kFewEdges edges together need no cover. The estimate therefore leaves out floes with at most half of that, also
+/// where they lie beside a plate with many edges and get a cover.
 class KeptCovers {
  public:
   explicit KeptCovers(const ContactSettings& contact)
@@ -81,7 +82,8 @@ class KeptCovers {
  private:
   double radius_;
   bool has_circles_;
-  double always_ = 0, others_ = 0;  ///< numbers of pieces: in covers that are always kept, and in others
+  /// Numbers of pieces: in covers that are always kept, and in others, which are kept up to most_kept_pieces.
+  double always_ = 0, others_ = 0;
 };
 
 /// Factor for further pairs, contacts and unused heap memory [-]. It was measured with drifting lattices of floes

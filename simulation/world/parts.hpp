@@ -6,7 +6,7 @@ namespace polynya::simulation {
 
 // Division of a tick (Scene::time.step) into equal parts, where a single step of that length would be too long for the
 // events in it. All awake bodies take the same parts, so all of them are at the same instant after each part. With the
-// law of impulses a tick is always one step.
+// law of impulses a tick is always one step (step.cpp).
 
 /// Largest number of parts of a tick. If the ice would need more, the tick is counted (Counts::crowded_ticks) and a
 /// warning is given. A larger number would make ticks slower to compute that are chosen too long for their ship.
@@ -20,8 +20,9 @@ inline constexpr double kDisplacementOverThickness = 0.15;
 /// for ice thicker than 0.5 m. Thick ice breaks in a few large cusps, and the order in which they break determines
 /// where the next ones form. Larger values change that order.
 inline constexpr double kDisplacementTimesThickness = 0.0375;
-/// Largest displacement of a hull relative to ice in one step, as a fraction of the radius of contact circles [-].
-/// Larger values lose contacts from one step to the next.
+/// Largest displacement of a hull relative to ice in one step, as a fraction of ContactSettings::circle_radius [-]. It
+/// matters for radii below 0.3 m. Larger values lose contacts from one step to the next, because a contact that moved
+/// farther is not recognized.
 inline constexpr double kDisplacementOverRadius = 0.25;
 /// Factor by which a hull may exceed the allowed displacement before a tick is divided further [-]. With 1, a ship
 /// whose displacement in a tick is just the allowed one would need two parts wherever ice moves towards it.
@@ -31,9 +32,10 @@ inline constexpr double kToleratedExcess = 1.1;
 /// steps, and some are not solved.
 inline constexpr double kStepUnderPressure = 0.025;
 
-/// Mean number of bends in a step above which ticks are divided into twice as many parts [-]. A contact can bend its
-/// ice only once in a step. If a hull advances by more than one cusp in a step, overlaps along it join, and the hull
-/// passes through ice without breaking it. Larger values make loads depend on the step; smaller values cost time.
+/// Mean number of bends in a step above which ticks are divided into twice as many parts [-]. Here and below, the bends
+/// of the whole scene count together. A contact can bend its ice only once in a step. If a hull advances by more than
+/// one cusp in a step, overlaps along it join, and the hull passes through ice without breaking it. Larger values make
+/// loads depend on the step; smaller values cost time.
 inline constexpr double kManyBends = 0.75;
 /// Mean number of bends in a step below which the number of parts is halved again [-]. It must be less than half of
 /// kManyBends; otherwise the number of parts would change in every other tick.

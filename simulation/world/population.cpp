@@ -18,8 +18,9 @@ using geometry::Vector;
 /// rounding, and finite because the solver of jams divides by its inverse (jam_solver.cpp).
 constexpr double kNeverTurns = 1e30;
 
-/// Returns the cell size of the broad phase's grid [m]: 1.5 times the median floe size, at least 5 m, and 20 m without
-/// floes. Most floes with their margins then lie in one to four cells.
+/// Returns the cell size of the broad phase's grid [m]: 1.5 times the median of the longer sides of the floes' bounding
+/// boxes, at least 5 m, and 20 m without floes. Most floes with their margins then lie in one to four cells. Results do
+/// not depend on it.
 double grid_cell(std::span<const FloeSpec> floes) {
   std::vector<double> sizes;
   for (const FloeSpec& floe : floes) {

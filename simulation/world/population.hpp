@@ -41,13 +41,15 @@ struct TiltedFloe {
 /// A piece of ice under a ship's hull, or behind the hull under other ice.
 struct SubmergedPiece {
   FloeId floe = 0;
-  int ship = 0;           ///< ship under whose hull the piece went
-  double path = 0;        ///< distance s that the ship has moved over the piece; negative if the ship backed off it [m]
-  double weight = 0;      ///< net buoyancy w_t of the part within the ship's beam when the piece went under [N]
-  double next_try = 0;    ///< time from which the piece may try to surface again [s]
-  double waited = 0;      ///< time that the piece, clear of the hull, has waited for space to surface [s]
-  bool had_deck = false;  ///< the hull carries the water that is missing on its deck while it turns (PressedDeck)
-  double area = 0;        ///< copy of Floe::area, kept here for fast access and not stored in saved states [m²]
+  int ship = 0;         ///< ship under whose hull the piece went
+  double path = 0;      ///< distance s that the ship has moved over the piece; negative if the ship backed off it [m]
+  double weight = 0;    ///< net buoyancy w_t of the part within the ship's beam when the piece went under [N]
+  double next_try = 0;  ///< time from which the piece may try to surface again [s]
+  double waited = 0;    ///< time that the piece, clear of the hull, has waited for space to surface [s]
+  /// True for a cusp that had a PressedDeck. The force on its deck contains the bow's part of the growth with speed
+  /// (Lindqvist's factor), which is therefore not added to the force of the piece again.
+  bool had_deck = false;
+  double area = 0;  ///< copy of Floe::area, kept here for fast access and not stored in saved states [m²]
 };
 
 /// A cusp that broke off under a ship's hull and whose edge has not reached the speed yet that the slope of the hull
@@ -171,7 +173,7 @@ bool stays_at_rest(BodyIndex body, const Setup& setup, const dynamics::Bodies& b
 dynamics::NewBody new_body_of(const Scene& scene, std::size_t hull);
 
 /// Returns the body of a floe without its position and motion. The thickness of the ice is copied to the body, because
-/// the drag of the water uses it.
+/// each step needs it for the drag of the water, the length of the step and the crushed volume.
 dynamics::NewBody new_body_of(const geometry::Polygon& polygon_in_body, const geometry::Measures& measures,
                               const fracture::Ice& ice, bool is_fast);
 

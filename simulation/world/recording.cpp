@@ -23,7 +23,8 @@ Planar over(Planar impulse, double time) {
 }
 
 /// Adds the impulses of a contact to the loads of one of its two bodies, which is a hull. `sign` is +1 if the hull is
-/// the contact's body b, on which its impulses act, and −1 if it is body a.
+/// the contact's body b, on which its impulses act, and −1 if it is body a. The fraction Contact::step_share of the
+/// impulses belongs to the step; the rest makes up for the time before the contact was found.
 void add_contact(const Population& population, const dynamics::Contact& c, BodyIndex ship, double sign,
                  HullLoads& hull_loads) {
   const bool is_with_ship = population.is_hull(ship == c.a ? c.b : c.a);
@@ -39,7 +40,8 @@ void add_contact(const Population& population, const dynamics::Contact& c, BodyI
   ++loads.contacts;
 }
 
-/// Adds the loads of a step of length dt [s] to the sums of a recording interval.
+/// Adds the loads of a step of length dt [s] to the sums of a recording interval. The missed part of the impulse is
+/// booked in this and later steps, so that it does not increase the largest force of a single step (CarriedLoad).
 void add_step(ContactLoads& sum, const ContactLoads& step, double dt) {
   const Planar of_step = step.step_impulse;
   const Planar missed = step.impulse - of_step;

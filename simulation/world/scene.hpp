@@ -22,7 +22,8 @@
 namespace polynya::simulation {
 
 // A scene in the form that the simulation reads: all defaults are filled in, and all floes are listed. Units are SI and
-// angles are in radians. Module io reads the JSON form; docs/scene.md lists its fields.
+// angles are in radians. Module io reads the JSON form; docs/scene.md lists its fields. "The paper" is [Sawamura2017];
+// equations have the paper's numbers.
 
 /// Time step and duration of a run.
 struct StepSettings {
@@ -64,10 +65,10 @@ struct WaterSettings {
   double fastest_drift() const;
 };
 
-/// Rule for the normal of a contact.
+/// Rule for the normal of a contact (docs/theory/contact.md, "One contact for each overlap").
 enum class ContactNormal {
-  kBoundary,       ///< the normal follows from the boundary pieces that the touching circles represent
-  kCircleCentres,  ///< the normal is the line between the circles' centres, the paper's rule
+  kBoundary,       ///< the normal is the direction in which the overlap's area decreases fastest
+  kCircleCentres,  ///< the normal is the line between the centres of two contact circles, the paper's rule
 };
 
 /// Law of the normal force between two bodies in contact (docs/theory/contact.md).
@@ -160,7 +161,8 @@ struct FractureSettings {
   CuspFate cusp_fate = CuspFate::kSubmerge;
   GoingUnderSettings going_under;
   ResurfaceSettings resurface;
-  double cusp_sagitta = 0.02;       ///< largest distance of a cusp's polygon from its circle [m]
+  /// Largest distance of a cusp's polygon from its circle [m]. Smaller values give cusps more corners, which cost time.
+  double cusp_sagitta = 0.02;
   double smallest_floe_area = 0.1;  ///< area below which a piece becomes brash instead of a floe [m²]
   friend bool operator==(const FractureSettings&, const FractureSettings&) = default;
 };

@@ -28,7 +28,9 @@ struct IceLimits {
   double breakable_size = 0;  ///< κ l: floes with a smaller √area do not break [m]
   /// Opening capacity of a crack that is as long and as wide as the ice is thick; smaller forces split no floe [N].
   double least_splitting_force = 0;
-  bool breaks_beams = false;  ///< true if κ l ≤ l: slender floes that are smaller break across as beams
+  /// True if κ l does not exceed the characteristic length (D/ρ_w g)^¼. Slender floes with a smaller √area than κ l
+  /// then break across as beams.
+  bool breaks_beams = false;
 };
 
 /// The settings of a run, and all data that follow from them alone. It is constant during the run.

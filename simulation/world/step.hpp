@@ -11,7 +11,9 @@ namespace polynya::simulation {
 // world that it needs: a parameter that is a reference to const is only read, and any other reference is changed. The
 // stages before integrate_motion() see the bodies at step.begin, the later ones at step.end. Only the stages from
 // apply_fractures() to surface_ice() create and remove floes; they run on one thread, in an order that does not depend
-// on the number of threads.
+// on the number of threads. The functions are grouped by subject; stages_of() has the order in which they run. With the
+// law of crushing ice, apply_forces() and push_ships() come before find_pairs(). end_tick(), and not a step, calls
+// cut_through_floes(), put_to_rest() and sample_loads().
 
 // ---- before the contacts
 
@@ -100,8 +102,9 @@ void push_ships(const Setup& setup, const Step& step, std::span<const dynamics::
 void pull_of_submerged_ice(const Setup& setup, const Step& step, Population& population, std::vector<HullLoads>& loads,
                            AuditSums& audit);
 
-/// Moves ships by water, engine, steering and mooring (ship/sailing.hpp). It must be the last stage that gives impulses
-/// to ships, because the added mass of the water takes its part of all other impulses.
+/// Moves ships by water, engine, steering and mooring (ship/sailing.hpp). The stages before it give their impulses to
+/// ships without added mass, and the added mass takes its part of them here. It takes no part of later impulses, those
+/// by which apply_fractures() brakes ships.
 void sail(const Setup& setup, const Step& step, StepData& data, Population& population, Accounts& accounts);
 
 /// Law of impulses: pushes overlaps apart, over several steps. Adds the work that this does on moorings to the
@@ -150,7 +153,8 @@ void sum_loads(const Step& step, const StepData& data, Accounts& accounts);
 /// Puts floes to sleep whose fastest point is slower than kRestSpeed and that touch nothing.
 void put_to_rest(const Setup& setup, const StepData& data, Population& population, AuditSums& audit);
 
-/// Adds a sample for each hull and panel to the journal, and starts new sums.
+/// Adds a sample for each hull and each loaded panel to the journal, and starts new sums. Impulses that are not booked
+/// yet (CarriedLoad) are kept for the next interval.
 void sample_loads(const Setup& setup, const Clock& clock, const Population& population, Books books);
 
 /// A stage of a step: its name, and a function that calls it with the parts of the world that it needs.

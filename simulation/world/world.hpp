@@ -156,7 +156,7 @@ struct Accounts {
   std::vector<Event> hull_contacts;   ///< first contact of each two hulls that have touched
   LoadPeaks load_peaks;
   std::vector<HullPanels> panels;  ///< loads on the panels of each hull since the last sample
-  /// Pairs of bodies that geometry refused to cut by each other.
+  /// Pairs of bodies (a, b) that geometry refused to cut by each other. They are not cut again.
   std::vector<std::pair<std::int64_t, std::int64_t>> refused_grinds;
   std::int64_t sampled_at = 0;  ///< number of ticks at the last sample
 };
