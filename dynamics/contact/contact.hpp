@@ -50,14 +50,13 @@ struct PersistentContact {
   double crushed_depth = 0;          ///< depth of overlap that crushing made; separate() does not reduce it [m]
   double last_impulse[2] = {0, 0};   ///< normal impulse of compression at each end, in the last substep solved [N s]
   double last_slip_impulse = 0;      ///< impulse along the contact line in that substep [N s]
-  double last_substep = 0;           ///< length of that substep; 0 with restitution [s]
   double paid_area = 0;              ///< part of the overlap's area whose ice is gone (paid_overlap.hpp) [m²]
   double area = 0;                   ///< expected area of the overlap at the end of the last step [m²]
   double reach = 0;                  ///< extent of the contact from last_point_in_b, at the last step [m]
   std::int64_t load_track = 0;       ///< number of the track that follows its force over the steps; 0: none
   RestitutionMemory restitution;
-  double stored_energy =
-      0;  ///< energy that compression took and restitution has not given back; with the law of impulses [J]
+  /// Law of impulses: energy that compression took and restitution has not given back [J].
+  double stored_energy = 0;
   CrushedIce crushed;
   Booked booked;
   bool has_crushed = false;   ///< ice was crushed here (is_at_limit) while the bodies approached; counted once

@@ -279,7 +279,6 @@ void write_back(const CrushLaw& law, const CrushLaw::State& state, const Contact
                 Contact& contact) {
   for (int end = 0; end < 2; ++end) contact.record->last_impulse[end] = constraint.normal_impulse[end];
   contact.record->last_slip_impulse = constraint.slip_impulse;
-  contact.record->last_substep = law.step / law.substeps;
   contact.is_broken = state.is_broken;
   contact.is_at_limit = !state.is_rigid && contact.total_normal_impulse() > 0;  // all of it crushes
   contact.depth_after = state.depth;

@@ -32,7 +32,7 @@ struct Checkpoint {
 };
 
 /// Version of the format. It is raised whenever the layout changes; files of other versions are refused.
-inline constexpr std::uint32_t kCheckpointVersion = 26;
+inline constexpr std::uint32_t kCheckpointVersion = 27;
 
 /// Returns the bytes of a checkpoint file with this payload: mark, version, checksum, length and payload.
 std::string checkpoint_file_of(std::string_view payload);

@@ -132,8 +132,8 @@ void fields(auto& archive, Is<AuditSums> auto& a) {
 void fields(auto& archive, Is<dynamics::PersistentContact> auto& r) {
   archive(r.last_point_in_b, r.first_touch_in_b, r.age, r.approach, r.crushed_depth, r.restitution.owed_impulse,
           r.restitution.given_impulse, r.restitution.limit, r.restitution.start_impulse[0],
-          r.restitution.start_impulse[1], r.last_impulse[0], r.last_impulse[1], r.last_slip_impulse, r.last_substep,
-          r.paid_area, r.area, r.reach, r.has_crushed, r.is_pierced, r.is_inherited, r.was_refused, r.is_continued);
+          r.restitution.start_impulse[1], r.last_impulse[0], r.last_impulse[1], r.last_slip_impulse, r.paid_area,
+          r.area, r.reach, r.has_crushed, r.is_pierced, r.is_inherited, r.was_refused, r.is_continued);
 }
 void fields(auto& archive, Is<geometry::Pose> auto& p) {
   archive(p.position, p.rotation);

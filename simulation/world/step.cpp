@@ -383,10 +383,10 @@ void step(World& world) {
     counts.body_steps += static_cast<std::int64_t>(world.population.awake.size());
     const AuditSums before = world.accounts.audit;
     for (const Stage& stage : stages_of(law)) stage.run(world, world.last_step);
+    ++counts.steps_taken;
     enter_exchange(before, world.accounts.audit);
   }
   ++world.clock.ticks;
-  counts.steps_taken += parts;
   counts.most_parts = std::max<std::int64_t>(counts.most_parts, parts);
   end_tick(world);
   if (takes_parts(world.setup)) counts.crowded_ticks += follow_bends(parts, counts.bends - bends, world.pace) ? 1 : 0;

@@ -281,9 +281,6 @@ TEST(Sailing, NoSteadyCommandMakesAShipGoAsternOrTooFast) {
         SCOPED_TRACE(testing::Message() << engine.propellers << " propellers, " << rudder.area << " m², lever " << lever
                                         << ", " << degrees << "°");
         for (const HullSample& s : samples) {
-          if (degrees == 80 && lever < 0.5)
-            std::fprintf(stderr, "%g %g %g r %g th %g rud %g wat %g\n", s.time, ahead(s), rudder.area, s.yaw_rate,
-                         s.thrust, s.from_rudder.surge, s.from_water.surge);
           ASSERT_GE(ahead(s), astern_by_turning) << s.time << " s";
           ASSERT_GE(s.thrust + s.from_rudder.surge, 0) << s.time << " s";
           ASSERT_LT(length(s.velocity_in_world), 8) << s.time << " s";
