@@ -3,7 +3,7 @@ from matplotlib.lines import Line2D
 
 from ..figures.page import Sheet, plain
 from ..naming import UNITS
-from . import ranking
+from . import cautions, ranking
 from .figure import COLOURS
 from .study import MEASURES, UNMANAGED
 
@@ -11,15 +11,20 @@ LINES = [{"color": colour, "marker": mark, "linestyle": dash}
          for dash, mark in (("-", "o"), ("--", "s")) for colour in COLOURS]
 SHOWN = {
     "management_ice_load_mean_N": "mean load of the ice",
-    "management_ice_load_q99_N": "load exceeded 1 % of the time",
+    "management_ice_load_q99_N": "load of the ice exceeded 1 % of the time",
+    "management_mooring_load_mean_N": "mean load of the mooring",
+    "management_mooring_load_q99_N": "load of the mooring exceeded 1 % of the time",
     "management_largest_at_body_m": "largest floe that arrives",
     "management_mean_size_at_body_m": "mean floe size at the body, by area",
     "management_hit_s": "time with floes of the size on the body",
     "management_managed_width_m": "managed width",
 }
+MOST_NOTES = 4  # largest number of warnings below a figure
 MOST_PATTERNS = 24  # largest number of patterns in a panel of the ranking
 MANY = 12  # with more points on the x axis, intervals are drawn as bands
 ROW = 5.2  # height of a pattern in the ranking [mm]
+HIT = "#d55e00"  # colour of a pattern whose ship hit the protected body
+WIDEST = 4  # the axis of a ranking ends at this multiple of the largest mean; wider intervals end in an arrow
 
 
 def scaled(measure, most):
@@ -30,15 +35,27 @@ def scaled(measure, most):
     return 1, unit
 
 
-def draw_place(axes, place, y, factor, page):
-    """Draws mean and interval of a pattern, with its name above."""
-    colour = "0.45" if place.name == UNMANAGED else COLOURS[0]
-    half = 0 if place.mean.half is None else place.mean.half / factor
-    scale = page.style.scale
-    axes.errorbar(place.mean.value / factor, y + 0.2, xerr=half, fmt="o", markersize=3 * scale, capsize=2 * scale,
-                  color=colour, linewidth=scale)
-    axes.text(0.01, y - 0.25, plain(place.name), fontsize=page.style.small, transform=axes.get_yaxis_transform(),
-              verticalalignment="center")
+def end_of_axis(places, factor):
+    """End of the axis of a ranking: near the largest end of an interval, but no farther than WIDEST times the largest
+    mean, so that means stay apart beside intervals that are far wider."""
+    means = [place.mean.value / factor for place in places]
+    ends = [mean + (place.mean.half or 0) / factor for mean, place in zip(means, places)]
+    return min(1.05 * max(ends), WIDEST * max(means)) or 1
+
+
+def draw_place(axes, place, y, factor, page, hits):
+    """Draws mean and interval of a pattern, with its name above, and with its hits of a ship if it has some. An
+    interval ends at 0, below which none of the measures lies, or at the end of the axis, with an arrow."""
+    is_hit, most = bool(hits and hits.hit), axes.get_xlim()[1]
+    colour = HIT if is_hit else "0.45" if place.name == UNMANAGED else COLOURS[0]
+    mean, half, scale = place.mean.value / factor, (place.mean.half or 0) / factor, page.style.scale
+    axes.errorbar(mean, y + 0.2, xerr=[[min(half, mean)], [min(half, most - mean)]], fmt="X" if is_hit else "o",
+                  markersize=3 * scale, capsize=2 * scale, color=colour, linewidth=scale)
+    if mean + half > most:
+        axes.plot(most, y + 0.2, ">", color=colour, markersize=3.5 * scale, clip_on=False)
+    words = plain(place.name) + (f" (hit by a ship in {hits.hit} of {hits.fields})" if is_hit else "")
+    axes.text(0.01, y - 0.25, words, fontsize=page.style.small, transform=axes.get_yaxis_transform(),
+              verticalalignment="center", color=HIT if is_hit else "black")
 
 
 def bracket_alike(axes, places):
@@ -60,9 +77,9 @@ def draw_places(sheet, axes, measure, condition, width):
     every = condition.ranked(measure)
     places = every[:MOST_PATTERNS]
     factor, unit = scaled(measure, max((abs(place.mean.value) for place in places), default=0))
+    axes.set_xlim(0, end_of_axis(places, factor) if places else 1)
     for y, place in enumerate(places):
-        draw_place(axes, place, y, factor, page)
-    axes.set_xlim(min(0, axes.get_xlim()[0]), axes.get_xlim()[1])
+        draw_place(axes, place, y, factor, page, cautions.hits_of(condition, place.name))
     bracket_alike(axes, places)
     axes.set(ylim=(max(len(places), 1) - 0.4, -0.6), yticks=[])
     axes.set_xlabel("\n".join(sheet.wrapped(f"{SHOWN[measure]}, {unit}", page.style.text, width)))
@@ -74,8 +91,8 @@ def draw_places(sheet, axes, measure, condition, width):
 def draw_ranking(found, page):
     """Draws, for each condition and measure, the patterns with their intervals, best first. Bars join patterns that do
     not differ significantly."""
-    measures = [name for name in MEASURES if any(condition.values.get(name) for condition in found.conditions)]
-    every = [condition for condition in found.conditions if any(condition.values.get(name) for name in measures)]
+    measures = [name for name in MEASURES if any(condition.ranked(name) for condition in found.conditions)]
+    every = [condition for condition in found.conditions if any(condition.ranked(name) for name in measures)]
     if not every:
         return None
     columns = page.columns_for(len(measures))
@@ -83,19 +100,21 @@ def draw_ranking(found, page):
     height = (14 + ROW * max(2, min(len(found.patterns), MOST_PATTERNS))) * page.style.scale
     drawn = every[:max(1, int((page.style.tallest - 30 * page.style.scale) / (height * lines)))]
     caption = "Means over fields of ice with Student's 95 % intervals; a bar joins what is not distinguishable"
+    serious = [*cautions.contacts(found), *cautions.few_fields(found)]
     width = page.width / columns - 8 * page.style.scale
     with Sheet(page, f"Patterns ranked: {plain(found.name)}", caption) as sheet:
         grid = sheet.panels(lines * len(drawn), columns)
         hidden = 0
         for k, condition in enumerate(drawn):
-            panels = grid[k * lines:(k + 1) * lines].flat
+            panels = list(grid[k * lines:(k + 1) * lines].flat)
             for axes, measure in zip(panels, measures):
                 hidden = max(hidden, draw_places(sheet, axes, measure, condition, width))
-            for axes in list(panels)[len(measures):]:
+            for axes in panels[len(measures):]:
                 axes.axis("off")
             grid[k * lines, 0].set_title(plain(condition.name), loc="left", fontsize=page.style.text, fontweight="bold")
         missing = [(len(every) - len(drawn), "conditions"), (hidden, "patterns")]
         note = [f"{count} more {what} are in management-ranking.csv." for count, what in missing if count > 0]
+        note += [plain(sentence) for sentence in serious[:MOST_NOTES]]
         return sheet.finish(height * lines * len(drawn), notes=note)
 
 
