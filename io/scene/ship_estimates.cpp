@@ -152,9 +152,8 @@ void report_for_level_ice(const JsonValue& ship, const ReportAt& report_at) {
   const auto require = [&](std::string_view path, std::string_view allowed) {
     if (!has(path)) report_at(path, "nothing", std::string(allowed));
   };
-  const bool has_displacement = has("hull.block_coefficient") || has("mass_kg");
-  const bool has_form =
-      has("hull.length_m") && has("hull.beam_m") && has("hull.draught_m") && has_displacement && may_hold(ship, "hull");
+  const bool has_dimensions = has("hull.length_m") && has("hull.beam_m") && has("hull.draught_m");
+  const bool has_form = has_dimensions && has("hull.block_coefficient");
   if (has("hull.waterline_m")) {
     report_at("hull.waterline_m", "a waterline point by point",
               "length_m, beam_m and entrance_angle_deg, which the formulas and the course need");
@@ -165,14 +164,17 @@ void report_for_level_ice(const JsonValue& ship, const ReportAt& report_at) {
   }
   if (may_hold(ship, "hull")) {
     require("hull.draught_m", "a number > 0, ≤ 1000 [m]: the formulas and the course in level ice need it");
-    if (!has_displacement && !has("propulsion.engine.open_water_speed_m_per_s"))
-      report_at("hull.block_coefficient", "nothing",
-                "one of three particulars: hull.block_coefficient (≥ 0.2, ≤ 1), mass_kg, or "
-                "propulsion.engine.open_water_speed_m_per_s (> 0, ≤ 30 m/s); each of them suffices to estimate what "
-                "else is missing");
-    else if (!has_displacement)
+    if (!has("mass_kg") && !has("propulsion.engine.open_water_speed_m_per_s"))
+      require("hull.block_coefficient",
+              "one of three particulars: hull.block_coefficient (≥ 0.2, ≤ 1), mass_kg, or "
+              "propulsion.engine.open_water_speed_m_per_s (> 0, ≤ 30 m/s); each of them suffices to estimate what else "
+              "is missing");
+    else if (!has("mass_kg") && has_dimensions)
       require("hull.block_coefficient",
               "a number ≥ 0.2, ≤ 1, or mass_kg; the estimate from the open-water speed does not cover this hull");
+    else if (const JsonValue* mass = ship.find("mass_kg", JsonKind::kNumber); mass && has_dimensions && !has_form)
+      report_at("mass_kg", fmt::format("{:g}", mass->number()),
+                "a mass that gives a block coefficient of 0.2 to 1 with length, beam and draught");
   }
   if (has("mooring")) report_at("mooring", "a mooring", "none: the ship sails");
   const JsonValue* propulsion = ship.find("propulsion", JsonKind::kObject);
