@@ -339,7 +339,7 @@ def test_a_pattern_whose_ship_hits_the_protected_ship_is_warned_of_first_and_is_
     assert {row["fields_hit_by_a_ship"] for row in table if row["pattern"] == "circular"} == {"1"}
     drawn = study_figure.draw_ranking(study.read(made.folder), Page())
     texts = [text.get_text() for axes in drawn.axes for text in axes.texts]
-    assert "circular (hit by a ship in 1 of 6)" in texts
+    assert "circular (hit in 1 of 6)" in texts
 
 
 def test_results_of_a_version_that_did_not_measure_contacts_say_so(tmp_path):

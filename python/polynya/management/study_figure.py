@@ -2,7 +2,7 @@
 from matplotlib.lines import Line2D
 
 from ..figures.page import Sheet, plain
-from ..naming import UNITS
+from ..naming import UNITS, short
 from . import cautions, ranking
 from .figure import COLOURS
 from .study import MEASURES, UNMANAGED
@@ -20,7 +20,8 @@ SHOWN = {
     "management_managed_width_m": "managed width",
 }
 MOST_NOTES = 4  # largest number of warnings below a figure
-MOST_PATTERNS = 24  # largest number of patterns in a panel of the ranking
+FEWEST_PATTERNS, MOST_PATTERNS = 8, 24  # limits of the number of patterns in a panel of the ranking
+OF_PANEL = 14  # height of a panel of the ranking without its patterns [mm]
 MANY = 12  # with more points on the x axis, intervals are drawn as bands
 ROW = 5.2  # height of a pattern in the ranking [mm]
 HIT = "#d55e00"  # colour of a pattern whose ship hit the protected body
@@ -43,8 +44,17 @@ def end_of_axis(places, factor):
     return min(1.05 * max(ends), WIDEST * max(means)) or 1
 
 
-def draw_place(axes, place, y, factor, page, hits):
-    """Draws mean and interval of a pattern, with its name above, and with its hits of a ship if it has some. An
+def fitted(sheet, name, ending, width):
+    """A name with its ending, with the name shortened in the middle until both are at most `width` wide [mm]."""
+    most, words = len(name), plain(name) + ending
+    while sheet.width_of(words, sheet.page.style.small) > width and most > 5:
+        most -= 1
+        words = plain(short(name, most)) + ending
+    return words
+
+
+def draw_place(axes, place, y, factor, page, hits, words):
+    """Draws mean and interval of a pattern, with `words` above: its name, and its hits of a ship if it has some. An
     interval ends at 0, below which none of the measures lies, or at the end of the axis, with an arrow."""
     is_hit, most = bool(hits and hits.hit), axes.get_xlim()[1]
     colour = HIT if is_hit else "0.45" if place.name == UNMANAGED else COLOURS[0]
@@ -53,12 +63,11 @@ def draw_place(axes, place, y, factor, page, hits):
                   markersize=3 * scale, capsize=2 * scale, color=colour, linewidth=scale)
     if mean + half > most:
         axes.plot(most, y + 0.2, ">", color=colour, markersize=3.5 * scale, clip_on=False)
-    words = plain(place.name) + (f" (hit by a ship in {hits.hit} of {hits.fields})" if is_hit else "")
     axes.text(0.01, y - 0.25, words, fontsize=page.style.small, transform=axes.get_yaxis_transform(),
-              verticalalignment="center", color=HIT if is_hit else "black")
+              verticalalignment="center", color=HIT if is_hit else "black", in_layout=False)
 
 
-def bracket_alike(axes, places):
+def bracket_alike(axes, places, scale):
     """Draws a bar beside each group of patterns that do not differ significantly."""
     names = [place.name for place in places]
     groups = ranking.alike(places)
@@ -68,19 +77,28 @@ def bracket_alike(axes, places):
         ends = names.index(group[0]), names.index(group[-1])
         x = 1 - 0.03 * (k + 1) / (1 + 0.04 * (len(groups) + 1))
         axes.plot((x, x), (ends[0] - 0.05, ends[1] + 0.45), transform=axes.get_yaxis_transform(), color="0.35",
-                  linewidth=1.6, solid_capstyle="butt")
+                  linewidth=1.6 * scale, solid_capstyle="butt")
 
 
-def draw_places(sheet, axes, measure, condition, width):
-    """Draws the patterns of one condition by one measure, best first."""
+def most_places(page, lines):
+    """Largest number of patterns in a panel, so that `lines` rows of panels fit onto a page if possible."""
+    room = (page.style.tallest / page.style.scale - 30) / lines - OF_PANEL
+    return max(FEWEST_PATTERNS, min(MOST_PATTERNS, int(room / ROW)))
+
+
+def draw_places(sheet, axes, measure, condition, width, most):
+    """Draws at most `most` patterns of one condition by one measure, best first. Returns the number of the others."""
     page = sheet.page
     every = condition.ranked(measure)
-    places = every[:MOST_PATTERNS]
+    places = every[:most]
     factor, unit = scaled(measure, max((abs(place.mean.value) for place in places), default=0))
     axes.set_xlim(0, end_of_axis(places, factor) if places else 1)
     for y, place in enumerate(places):
-        draw_place(axes, place, y, factor, page, cautions.hits_of(condition, place.name))
-    bracket_alike(axes, places)
+        hits = cautions.hits_of(condition, place.name)
+        ending = f" (hit in {hits.hit} of {hits.fields})" if hits and hits.hit else ""
+        words = fitted(sheet, place.name, ending, width - 2 * page.style.scale)
+        draw_place(axes, place, y, factor, page, hits, words)
+    bracket_alike(axes, places, page.style.scale)
     axes.set(ylim=(max(len(places), 1) - 0.4, -0.6), yticks=[])
     axes.set_xlabel("\n".join(sheet.wrapped(f"{SHOWN[measure]}, {unit}", page.style.text, width)))
     axes.grid(axis="x", linewidth=0.4, color="0.9")
@@ -97,10 +115,13 @@ def draw_ranking(found, page):
         return None
     columns = page.columns_for(len(measures))
     lines = -(-len(measures) // columns)
-    height = (14 + ROW * max(2, min(len(found.patterns), MOST_PATTERNS))) * page.style.scale
+    most = most_places(page, lines)
+    height = (OF_PANEL + ROW * max(2, min(len(found.patterns), most))) * page.style.scale
     drawn = every[:max(1, int((page.style.tallest - 30 * page.style.scale) / (height * lines)))]
     caption = "Means over fields of ice with Student's 95 % intervals; a bar joins what is not distinguishable"
-    serious = [*cautions.contacts(found), *cautions.few_fields(found)]
+    if cautions.contacts(found):
+        caption += f"; cross: a ship hit {found.body}"
+    serious = [*cautions.few_fields(found), *cautions.contacts(found)]
     width = page.width / columns - 8 * page.style.scale
     with Sheet(page, f"Patterns ranked: {plain(found.name)}", caption) as sheet:
         grid = sheet.panels(lines * len(drawn), columns)
@@ -108,7 +129,7 @@ def draw_ranking(found, page):
         for k, condition in enumerate(drawn):
             panels = list(grid[k * lines:(k + 1) * lines].flat)
             for axes, measure in zip(panels, measures):
-                hidden = max(hidden, draw_places(sheet, axes, measure, condition, width))
+                hidden = max(hidden, draw_places(sheet, axes, measure, condition, width, most))
             for axes in panels[len(measures):]:
                 axes.axis("off")
             grid[k * lines, 0].set_title(plain(condition.name), loc="left", fontsize=page.style.text, fontweight="bold")
@@ -156,7 +177,8 @@ def draw_study(found, page):
                           for x, mean in zip(xs, means[name]) if mean]
                 if points:
                     draw_line(axes, points, LINES[k], is_dense)
-            axes.set(xlabel=words_of(found.against), ylim=(0, None))
+            highest = max((mean.value + (mean.half or 0) for of in means.values() for mean in of if mean), default=0)
+            axes.set(xlabel=words_of(found.against), ylim=(0, 1.08 * highest / factor or 1))
             sheet.label_y(axes, f"{SHOWN[measure]}, {unit}", page.row_height(rows, 48))
         for axes in list(grid.flat)[len(shown):]:
             axes.axis("off")
