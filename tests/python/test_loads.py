@@ -119,7 +119,7 @@ def test_a_tail_of_infinite_variance_gives_no_return_value():
 def test_every_reason_says_what_to_do():
     draws = numpy.random.default_rng(2)
     few = loads.estimate.estimate(made(draws.exponential(size=10)), least=1e-3)
-    assert few.why.endswith("record longer or a smaller --least")
+    assert few.why.endswith("record longer, or give a smaller --least")
     mixed = made(draws.permutation([*draws.normal(1e5, 2e3, 300), *draws.normal(9e5, 1e4, 30)]), hours=10)
     assert "record longer, or fit the large peaks alone (--least)" in loads.estimate.estimate(mixed, least=5e4).why
     near = loads.estimate.returns(made(1e5 + 2e5 * draws.exponential(size=100)), [0.001])[0]

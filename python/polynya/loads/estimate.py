@@ -128,7 +128,7 @@ def too_few(record, least):
     """Says that there are too few peaks for a fit, and what to do."""
     count = int(numpy.count_nonzero(record.forces > (least or 0)))
     above = f" above {least:g} N" if least else ""
-    lower = " or a smaller --least" if least else ""
+    lower = ", or give a smaller --least" if least else ""
     return (f"a fit needs {extremes.LEAST_PEAKS} independent peaks above a threshold, and {count} peaks{above} make "
             f"fewer: record longer{lower}")
 
